@@ -31,9 +31,6 @@ struct GridFrame {
     glm::ivec3 sectors() const { return (size + kSectorSize - 1) / kSectorSize; }
 };
 
-/// What a surface voxel holds besides its place; see the three surfaces in design.md.
-enum class Surface : uint32_t { cubes = 0, smooth = 1, exact = 2 };
-
 /// Values of BrickGrid::slots for a brick that is not stored.
 inline constexpr uint32_t kBrickOutside = 0xFFFFFFFFu;  ///< empty space
 inline constexpr uint32_t kBrickInside = 0xFFFFFFFEu;   ///< wholly inside a solid, without surface
