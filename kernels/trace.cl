@@ -6,6 +6,7 @@
 #include "lib/smooth.h"
 #include "lib/triangle.h"
 #include "lib/work_item.h"
+#include "shared/scene.h"
 #include "shared/voxel.h"
 
 typedef struct {
@@ -24,6 +25,13 @@ typedef struct {
     lane_uint leaf, voxel, primitive;
     lane_float level;  // shift of smooth surfaces for rays that began on one, see hit_smooth
 } Found;
+
+/// Takes a hit at `t` on a cube or field in the `accepted` lanes, unless a primitive is hit before.
+static inline void take_voxel_hit(Found* found, lane_float t, lane_int accepted) {
+    const lane_int closer = accepted & LANE_MASK(t < found->t);
+    found->t = LANES_SELECT(closer, t, found->t);
+    found->primitive = LANES_SELECT(closer, (lane_uint)VXL_NO_PRIMITIVE, found->primitive);
+}
 
 /// Tests the primitives of the `tested` lanes' voxels. A hit counts once the walk can't find a closer one:
 /// within the voxel at once, else when the walk gets there.
@@ -66,10 +74,13 @@ static inline lane_int test_surfaces(const PyramidView* p, const SurfaceView* s,
     const lane_int beginning = from_surface & LANE_MASK(w->axis == 3);
     cubes &= ~beginning;
     lane_int accepted = cubes;
-    if (VXL_CUBES) found->t = LANES_SELECT(cubes, w->t, found->t);
+    if (VXL_CUBES) take_voxel_hit(found, w->t, cubes);
     if (VXL_SMOOTH && lanes_any(smooth)) {
         const Field field = read_field(s->fields, voxel, s->half_curvature);
-        accepted |= hit_smooth(&field, w, smooth, beginning, &found->level, &found->t);
+        lane_float t = (lane_float)INFINITY;
+        const lane_int met = hit_smooth(&field, w, smooth, beginning, &found->level, &t);
+        take_voxel_hit(found, t, met);
+        accepted |= met;
     }
     if (VXL_EXACT && lanes_any(exact)) accepted |= hit_exact(s, w, exact, source, found);
     return accepted;
@@ -82,7 +93,8 @@ static inline Found find_first(const PyramidView* p, const SurfaceView* s, Walk*
     Found found;
     found.hit = (lane_int)0;
     found.t = (lane_float)INFINITY;
-    found.leaf = found.voxel = found.primitive = (lane_uint)0;
+    found.leaf = found.voxel = (lane_uint)0;
+    found.primitive = (lane_uint)VXL_NO_PRIMITIVE;
     found.level = (lane_float)0.0f;
     lane_int walking = active & in_grid(p, w);
     while (lanes_any(walking)) {
@@ -114,9 +126,84 @@ static inline Found find_first(const PyramidView* p, const SurfaceView* s, Walk*
     return found;
 }
 
-#define VXL_PYRAMID_ARGUMENTS                                                                     \
-    global const uint *restrict sectors, global const uint *restrict bricks,                      \
+static inline PyramidView pyramid_view(PyramidShape shape, global const uint* restrict sectors,
+                                       global const uint* restrict bricks,
+                                       global const uint* restrict leaves,
+                                       global const uint* restrict leaf_voxels) {
+    PyramidView p = {sectors,         bricks,          leaves,
+                     leaf_voxels,     shape.size_x,    shape.size_y,
+                     shape.size_z,    shape.sectors_x, shape.sectors_y,
+                     shape.plane_bound, shape.fixed_point};
+    return p;
+}
+
+static inline Walk load_walk(global const float* restrict rays, uint stride, uint first) {
+    return begin_walk(LANES_LOAD(rays, VXL_RAY_OX * stride + first),
+                      LANES_LOAD(rays, VXL_RAY_OY * stride + first),
+                      LANES_LOAD(rays, VXL_RAY_OZ * stride + first),
+                      LANES_LOAD(rays, VXL_RAY_DX * stride + first),
+                      LANES_LOAD(rays, VXL_RAY_DY * stride + first),
+                      LANES_LOAD(rays, VXL_RAY_DZ * stride + first));
+}
+
+#define VXL_WORLD_ARGUMENTS                                                                       \
+    PyramidShape shape, global const uint *restrict sectors, global const uint *restrict bricks,  \
         global const uint *restrict leaves, global const uint *restrict leaf_voxels,              \
         global const uint *restrict attributes, global const uint *restrict fields,               \
         global const uint *restrict primitive_first, global const uint *restrict primitives,      \
-        global const float *restrict triangles, PyramidShape shape
+        global const float *restrict triangles
+
+#define VXL_WORLD_VIEWS                                                                           \
+    const PyramidView pyramid = pyramid_view(shape, sectors, bricks, leaves, leaf_voxels);        \
+    const SurfaceView surface = {attributes, fields, primitive_first, primitives, triangles,      \
+                                 shape.half_curvature}
+
+/// The closest hit of rays 0 .. count-1. Arrays hold a multiple of 16 rays.
+kernel void trace_closest(VXL_WORLD_ARGUMENTS, global const float* restrict rays, uint count,
+                          uint stride, global uint* restrict hits) {
+    const uint first = work_item() * VXL_LANES;
+    if (first >= count) return;
+    VXL_WORLD_VIEWS;
+    Walk walk = load_walk(rays, stride, first);
+    const lane_float t_end = LANES_LOAD(rays, VXL_RAY_END * stride + first);
+    const Found found = find_first(&pyramid, &surface, &walk, t_end, LANE_MASK(t_end >= 0.0f),
+                                   (lane_int)0, (lane_uint)VXL_NO_PRIMITIVE);
+    const lane_uint voxel = LANES_SELECT(found.hit, found.voxel, (lane_uint)VXL_NO_VOXEL);
+    LANES_STORE(LANES_AS_UINT(found.t), hits, VXL_HIT_T * stride + first);
+    LANES_STORE(voxel, hits, VXL_HIT_VOXEL * stride + first);
+    LANES_STORE(LANES_AS_UINT(walk.x | (walk.y << 16)), hits, VXL_HIT_CELL * stride + first);
+    LANES_STORE(LANES_AS_UINT(walk.z | (walk.axis << 16)), hits, VXL_HIT_FACE * stride + first);
+    if (VXL_EXACT) LANES_STORE(found.primitive, hits, VXL_HIT_PRIMITIVE * stride + first);
+}
+
+/// Traces a queue of shadow rays that begin on surfaces; what reaches its light adds its share of
+/// light, `shares` (three components `stride` apart), to the radiance of the ray it was sent for.
+///
+/// Every target stands in the queue at most once, so no two work-items add to the same place.
+kernel void trace_shadows(VXL_WORLD_ARGUMENTS, global const float* restrict rays,
+                          global const uint* restrict count, uint stride,
+                          global const uint* restrict targets, global const uint* restrict sources,
+                          global const float* restrict shares, global float* restrict radiance) {
+    const uint first = work_item() * VXL_LANES;
+    const uint queued = *count;
+    if (first >= queued) return;
+    VXL_WORLD_VIEWS;
+    Walk walk = load_walk(rays, stride, first);
+    const lane_float t_end = LANES_LOAD(rays, VXL_RAY_END * stride + first);
+    const lane_int active = LANE_MASK(LANES_AS_INT(LANES_NUMBERS + (int)first) < (int)queued);
+    const lane_uint source =
+        VXL_EXACT ? LANES_LOAD(sources, first) : (lane_uint)VXL_NO_PRIMITIVE;
+    const Found found =
+        find_first(&pyramid, &surface, &walk, t_end, active, (lane_int)-1, source);
+    uint target[VXL_LANES];
+    float share[3 * VXL_LANES];
+    int lit[VXL_LANES];
+    LANES_STORE(LANES_LOAD(targets, first), target, 0);
+    LANES_STORE(active & ~found.hit, lit, 0);
+    for (int channel = 0; channel < 3; ++channel)
+        LANES_STORE(LANES_LOAD(shares, channel * stride + first), share, channel * VXL_LANES);
+    for (int lane = 0; lane < VXL_LANES; ++lane)
+        for (int channel = 0; channel < 3; ++channel)
+            if (lit[lane])
+                radiance[channel * stride + target[lane]] += share[channel * VXL_LANES + lane];
+}

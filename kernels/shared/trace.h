@@ -21,13 +21,14 @@
 //   VXL_HIT_VOXEL  the voxel's number in the pyramid, VXL_NO_VOXEL for a miss
 //   VXL_HIT_CELL   x | y << 16
 //   VXL_HIT_FACE   z | axis << 16: the axis (0, 1, 2) across which the ray entered the cell; 3: it began there
-//   VXL_HIT_PRIMITIVE  the triangle or solid, exact surfaces only
+//   VXL_HIT_PRIMITIVE  the triangle or solid that was hit, VXL_NO_PRIMITIVE for other surfaces
 #define VXL_HIT_T 0
 #define VXL_HIT_VOXEL 1
 #define VXL_HIT_CELL 2
 #define VXL_HIT_FACE 3
 #define VXL_HIT_PRIMITIVE 4
 #define VXL_HIT_COMPONENTS 5
+#define VXL_NO_PRIMITIVE 0xFFFFFFFFu
 #define VXL_NO_VOXEL 0xFFFFFFFFu
 
 #endif
