@@ -132,6 +132,8 @@ struct Animation {
     double fps = 24;
 };
 
+inline constexpr int kMaxImageSide = 65536;
+
 struct RenderSettings {
     glm::ivec2 size{640, 480};  ///< pixels
     int samples = 1;            ///< per pixel, 1..4096

@@ -41,7 +41,7 @@ struct Solid {
     glm::dvec3 radii{0};   ///< ellipsoid: half axes. > 0
     glm::dvec3 size{0};    ///< box: whole edges. > 0
 
-    glm::dmat4 parent_from_solid{1};  ///< affine; at the root: the model's space from the solid's
+    glm::dmat4 parent_from_solid{1};  ///< affine; identity at the root
     std::vector<Solid> parts;         ///< of a combination; empty for a shape
 };
 
