@@ -14,6 +14,7 @@
 
 #include "runtime/assets.hpp"
 #include "runtime/solid.hpp"
+#include "runtime/surface.hpp"
 
 namespace voxelume {
 
@@ -52,9 +53,6 @@ struct Material {
     glm::vec3 absorption{0};  ///< inside, per metre, >= 0
     glm::vec3 emission{0};    ///< radiance, >= 0
 };
-
-enum class Surface : uint8_t { cubes, smooth, exact };
-enum class VoxelSet : uint8_t { supercover, thin, solid };
 
 /// O_i before it is placed: a mesh file or a solid, with the lattice that it is voxelized on.
 struct Model {
