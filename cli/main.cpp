@@ -1,3 +1,133 @@
-int main() {
+// The program `voxelume`: finds the command in its table, reads the options, runs it and turns
+// failures into exit codes.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <new>
+
+#include "cli/commands.hpp"
+#include "cli/nearest_name.hpp"
+#include "runtime/error.hpp"
+#include "runtime/version.hpp"
+
+namespace voxelume::cli {
+
+namespace {
+
+/// In the order in which a user meets them.
+constexpr std::array kCommands = {
+    Command{"info", "say what is in a file: image, volume, model or mesh", add_info},
+    Command{"diff", "measure how far two images are from each other", add_diff},
+};
+
+constexpr const char* kExitCodes =
+    "Exit codes:\n"
+    "  0  done                               5  output that can't be written\n"
+    "  1  rendering or a comparison failed   6  no device, or not the one asked for\n"
+    "  2  wrong command line                 7  a kernel doesn't compile on the device\n"
+    "  3  invalid scene                      8  memory, or a documented limit\n"
+    "  4  input that is missing, unreadable or damaged\n";
+
+int print_help() {
+    fmt::print("voxelume {}: images of voxel worlds, flat and volumetric\n\n", version());
+    fmt::print("Usage: voxelume COMMAND [OPTIONS], options in any order\n\nCommands:\n");
+    for (const Command& command : kCommands) fmt::print("  {:<10}{}\n", command.name, command.help);
+    fmt::print("  {:<10}{}\n\n", "help", "say this, or `help COMMAND` for a command's options");
+    fmt::print("{}", kExitCodes);
     return 0;
+}
+
+const Command& find_command(const std::string& name) {
+    std::vector<std::string> names = {"help"};
+    for (const Command& command : kCommands) {
+        if (name == command.name) return command;
+        names.emplace_back(command.name);
+    }
+    const std::string nearest = nearest_name(name, names);
+    if (nearest.empty())
+        throw Error(ErrorKind::usage, "no command named \"{}\"; `voxelume help` lists them", name);
+    throw Error(ErrorKind::usage, "no command named \"{}\"; did you mean \"{}\"?", name, nearest);
+}
+
+/// The option of `app` that `typed` was meant to be, as part of a sentence; empty when there is
+/// none.
+std::string suggest_option(const CLI::App& app, const std::string& typed) {
+    std::vector<std::string> names;
+    for (const CLI::Option* option : app.get_options())
+        for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+    const std::string nearest = nearest_name(typed.substr(0, typed.find('=')), names);
+    return nearest.empty() ? "" : fmt::format("; did you mean \"{}\"?", nearest);
+}
+
+int run_command(const Command& command, std::vector<std::string> arguments) {
+    CLI::App app(command.help, fmt::format("voxelume {}", command.name));
+    const Action action = command.add(app);
+    try {
+        std::reverse(arguments.begin(), arguments.end());  // CLI11 takes them from the back
+        app.parse(std::move(arguments));
+    } catch (const CLI::CallForHelp&) {
+        fmt::print("{}", app.help());
+        return 0;
+    } catch (const CLI::ExtrasError&) {
+        const std::string extra = app.remaining().front();
+        throw Error(ErrorKind::usage, "{}: unexpected \"{}\"{}", command.name, extra,
+                    suggest_option(app, extra));
+    } catch (const CLI::ParseError& error) {
+        throw Error(ErrorKind::usage, "{}: {}; see `voxelume help {}`", command.name, error.what(),
+                    command.name);
+    }
+    return action();
+}
+
+int run(std::vector<std::string> arguments) {
+    if (arguments.empty())
+        throw Error(ErrorKind::usage, "a command is missing; `voxelume help` lists them");
+    const std::string first = arguments.front();
+    arguments.erase(arguments.begin());
+    if (first == "--version") {
+        fmt::print("voxelume {}\n", version());
+        return 0;
+    }
+    const bool asks_for_help = first == "help" || first == "--help" || first == "-h";
+    if (asks_for_help && arguments.empty()) return print_help();
+    if (asks_for_help) return run_command(find_command(arguments.front()), {"--help"});
+    if (first.starts_with('-'))
+        throw Error(ErrorKind::usage, "the command comes before its options: voxelume COMMAND {}",
+                    first);
+    return run_command(find_command(first), std::move(arguments));
+}
+
+/// What was printed has to have arrived: `voxelume info x >/dev/full` has failed.
+void flush_stdout() {
+    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
+        throw Error(ErrorKind::output, "can't write to standard output: {}", std::strerror(errno));
+}
+
+int complain(const char* sentence, ErrorKind kind) {
+    fmt::print(stderr, "voxelume: {}\n", sentence);
+    return static_cast<int>(kind);
+}
+
+}  // namespace
+
+}  // namespace voxelume::cli
+
+int main(int count, char** arguments) {
+    using voxelume::ErrorKind;
+    namespace cli = voxelume::cli;
+    try {
+        const int code = cli::run({arguments + (count > 0 ? 1 : 0), arguments + count});
+        cli::flush_stdout();
+        return code;
+    } catch (const voxelume::Error& error) {
+        return cli::complain(error.what(), error.kind());
+    } catch (const std::bad_alloc&) {
+        return cli::complain("out of memory: use fewer or larger voxels, or a smaller picture",
+                             ErrorKind::limit);
+    } catch (const std::exception& error) {
+        return cli::complain(error.what(), ErrorKind::render);
+    }
 }

@@ -31,9 +31,6 @@ struct GridFrame {
     glm::ivec3 sectors() const { return (size + kSectorSize - 1) / kSectorSize; }
 };
 
-/// What a surface voxel holds besides its place; see the three surfaces in design.md.
-enum class Surface : uint32_t { cubes = 0, smooth = 1, exact = 2 };
-
 /// Values of BrickGrid::slots for a brick that is not stored.
 inline constexpr uint32_t kBrickOutside = 0xFFFFFFFFu;  ///< empty space
 inline constexpr uint32_t kBrickInside = 0xFFFFFFFEu;   ///< wholly inside a solid, without surface
@@ -54,6 +51,7 @@ struct BrickGrid {
     Buffer<uint64_t> occupancy;    ///< 64 per slot: masks of the leaves; cubes and exact voxels
     Buffer<int16_t> distance;      ///< 4096 per slot: at nodes (voxels' minimum corners), x fastest
     Buffer<uint32_t> attributes;   ///< 4096 per slot: shared/voxel.h's word of each voxel
+    uint32_t attribute = 0;        ///< the word of every voxel when `attributes` is empty
     Buffer<uint32_t> colors;  ///< 4096 per slot: 0xBBGGRR, sRGB, multiplies the material's colour
 
     // exact surfaces: voxel v of slot s lists primitives[first[s*4096+v] .. first[s*4096+v+1])
@@ -73,14 +71,16 @@ struct Pyramid {
     GridFrame frame;
     uint32_t leaf_count = 0;
     uint32_t voxel_count = 0;
-    Buffer<uint32_t> sectors;  ///< number of the sector's 64 brick records; or 1<<31 | log2 of the
-                               ///< empty cube around it: 6 its own 64³, 8 its aligned 256³
-    Buffer<uint32_t>
-        bricks;  ///< 4 per record: mask low, mask high (of leaves), first leaf, log2 of
-                 ///< the empty cube when the mask is 0 (4 its own, 5 its aligned 32³)
-    Buffer<uint32_t> leaves;       ///< 2 per leaf: mask low, mask high (of voxels)
+    Buffer<uint32_t> sectors;  ///< n: its brick records are 64n .. 64n+63, in the order of mask
+                               ///< bits; or 1<<31 | log2 of the empty cube around it: 6 its own
+                               ///< 64³, 8 its aligned 256³
+    Buffer<uint32_t> bricks;   ///< 4 per record: mask low, mask high (of leaves), first leaf, log2
+                               ///< of the empty cube when the mask is 0 (4 its own, 5 its aligned
+                               ///< 32³)
+    Buffer<uint32_t> leaves;   ///< 2 per leaf: mask low, mask high (of voxels)
     Buffer<uint32_t> leaf_voxels;  ///< first voxel of each leaf
-    Buffer<uint32_t> attributes;   ///< one per voxel, shared/voxel.h; empty: the word 0 for all
+    Buffer<uint32_t> attributes;   ///< one per voxel, shared/voxel.h; see `attribute`
+    uint32_t attribute = 0;        ///< the word of every voxel when `attributes` is empty
     Buffer<uint32_t> colors;       ///< one per voxel
     Buffer<uint32_t> fields;       ///< 8 per voxel, shared/voxel.h; empty without smooth surfaces
     int curvature_exponent = 0;  ///< unit of the fields' second differences: 2^this distance units

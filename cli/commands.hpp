@@ -1,0 +1,32 @@
+// The commands of `voxelume`: one file each, plugged into the table in main.cpp.
+#pragma once
+
+#include <functional>
+
+namespace CLI {
+class App;
+}
+
+namespace voxelume::cli {
+
+/// What a command does once its options have been read; returns the exit code.
+using Action = std::function<int()>;
+
+/// Declares a command's options on `app` and returns its action.
+///
+/// The options live in the action (a shared pointer that both capture): `app` fills them before it
+/// runs. A failure is thrown as `voxelume::Error`; `main` prints its sentence and exits with its
+/// code. Results go to stdout, everything said to a person goes to stderr.
+using AddCommand = Action (*)(CLI::App& app);
+
+/// A line of the table in main.cpp.
+struct Command {
+    const char* name;
+    const char* help;  ///< one line, for `voxelume help`
+    AddCommand add;
+};
+
+Action add_diff(CLI::App& app);
+Action add_info(CLI::App& app);
+
+}  // namespace voxelume::cli
