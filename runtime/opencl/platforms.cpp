@@ -93,6 +93,22 @@ void append_devices(const cl::Platform& platform, std::vector<Candidate>& found)
     }
 }
 
+void append_platforms(std::vector<Candidate>& found) {
+    std::vector<cl::Platform> platforms;
+    try {
+        cl::Platform::get(&platforms);
+    } catch (const cl::Error&) {
+        return;  // no driver installed at all (CL_PLATFORM_NOT_FOUND_KHR)
+    }
+    for (const cl::Platform& platform : platforms) {
+        try {
+            append_devices(platform, found);
+        } catch (const cl::Error&) {
+            continue;  // a broken or empty platform must not end the program
+        }
+    }
+}
+
 bool matches(const DeviceInfo& info, const std::string& selector) {
     if (selector == "auto") return true;
     if (selector == "cpu") return info.kind == DeviceKind::cpu;
@@ -131,21 +147,8 @@ bool better(const DeviceInfo& a, const DeviceInfo& b) {
 }  // namespace
 
 std::vector<Candidate> find_candidates() {
-    PoclFolder::instance();  // before the first OpenCL call
     std::vector<Candidate> found;
-    std::vector<cl::Platform> platforms;
-    try {
-        cl::Platform::get(&platforms);
-    } catch (const cl::Error&) {
-        return found;  // no driver installed at all (CL_PLATFORM_NOT_FOUND_KHR)
-    }
-    for (const cl::Platform& platform : platforms) {
-        try {
-            append_devices(platform, found);
-        } catch (const cl::Error&) {
-            continue;  // a broken or empty platform must not end the program
-        }
-    }
+    PoclFolder::instance().announce([&found] { append_platforms(found); });
     for (size_t i = 0; i < found.size(); ++i) found[i].info.index = static_cast<int>(i);
     return found;
 }

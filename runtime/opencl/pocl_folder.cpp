@@ -115,7 +115,13 @@ PoclFolder::PoclFolder() : process_(getpid()) {
     if (folder_.empty()) return;
     lock_ = open((folder_ / kLock).c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600);
     if (lock_ >= 0) flock(lock_, LOCK_EX | LOCK_NB);
+}
+
+void PoclFolder::announce(const std::function<void()>& first_call) const {
+    if (folder_.empty()) return first_call();
     setenv("POCL_CACHE_DIR", folder_.c_str(), 1);
+    first_call();
+    unsetenv("POCL_CACHE_DIR");  // a child process shall not take it for its user's wish
 }
 
 PoclFolder::~PoclFolder() {

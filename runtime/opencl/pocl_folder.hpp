@@ -21,9 +21,11 @@ namespace voxelume {
 /// gets PoCL's own behaviour.
 class PoclFolder {
   public:
-    /// The process's folder. The first call comes before the first OpenCL call, since PoCL reads
-    /// POCL_CACHE_DIR, which this sets, only once.
+    /// The process's folder.
     static PoclFolder& instance();
+
+    /// Runs `first_call`, which has PoCL start up, with POCL_CACHE_DIR set: PoCL reads it once.
+    void announce(const std::function<void()>& first_call) const;
 
     /// Runs `build`, which has PoCL build one program, with the program's files in place.
     /// True when there were any, from an earlier run or an earlier build.
