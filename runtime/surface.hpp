@@ -12,7 +12,12 @@ enum class Surface : uint8_t {
     exact = 2,   ///< the source's own triangles or solid
 };
 
-/// Which voxels belong to a `cubes` model.
-enum class VoxelSet : uint8_t { supercover, thin, solid };
+/// Which voxels stand for an object made of cubes; the definitions are those of
+/// Cohen-Or & Kaufman 1995 and Laine 2013.
+enum class VoxelSet : uint8_t {
+    supercover,  ///< every voxel that the surface touches: no ray passes, even through corners
+    thin,        ///< 6-separating: a path of voxels that share faces can't pass
+    solid,       ///< every voxel whose centre is inside
+};
 
 }  // namespace voxelume
