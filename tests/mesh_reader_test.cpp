@@ -28,8 +28,7 @@ using testing::StartsWith;
 /// A folder of its own, gone at the end of the test.
 class MeshFile : public testing::Test {
   protected:
-    MeshFile()
-        : folder_(fs::temp_directory_path() / ("voxelume_mesh_" + std::to_string(getpid()))) {
+    MeshFile() : folder_(fs::temp_directory_path() / fmt::format("voxelume_mesh_{}", getpid())) {
         fs::create_directories(folder_);
     }
     ~MeshFile() override { fs::remove_all(folder_); }
