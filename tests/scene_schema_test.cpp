@@ -245,33 +245,10 @@ TEST_F(SceneVerdicts, AgreeOnScenesWithEveryKey) {
 }
 
 TEST_F(SceneVerdicts, AgreeWhenAnyValueIsReplaced) {
-    const json replacements[] = {nullptr,
-                                 true,
-                                 -1,
-                                 0,
-                                 0.5,
-                                 3,
-                                 1'000'000,
-                                 1e7,
-                                 2e9,
-                                 -2e9,
-                                 179,
-                                 180,
-                                 361,
-                                 "",
-                                 "a",
-                                 "nothing",
-                                 "cubes",
-                                 "box",
-                                 json::array(),
-                                 json::object(),
-                                 {1, 2},
-                                 {1, 2, 3},
-                                 {0, 0, 0},
-                                 {-1, 2, 3},
-                                 {1, 2, 3, 4},
-                                 {{"x", 1}},
-                                 {{"", "a"}}};
+    const json replacements = json::parse(
+        R"([null, true, -1, 0, 0.5, 3, 1000000, 10000000, 2e9, -2e9, 179, 180, 361, "", "a", "nothing",
+            "cubes", "box", [], {}, [1, 2], [1, 2, 3], [0, 0, 0], [-1, 2, 3], [1, 2, 3, 4], {"x": 1},
+            {"": "a"}])");
     for (const json& scene : full_scenes()) {
         for (const auto& at : places_in(scene)) {
             for (const json& replacement : replacements) {
@@ -305,35 +282,20 @@ TEST_F(SceneVerdicts, AgreeWhenAnyKeyOrItemIsTakenOutOrTwice) {
 }
 
 TEST_F(SceneVerdicts, AgreeWhenAnyKeyIsAddedToAnyObject) {
-    const std::map<std::string, json> values = {
-        {"position", {1, 2, 3}},
-        {"turn", {1, 2, 3}},
-        {"look_at", {4, 5, 6}},
-        {"up", {1, 3, 2}},
-        {"scale", 2},
-        {"direction", {1, 2, 3}},
-        {"matrix", {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}},
-        {"mesh", "m.obj"},
-        {"shape", "sphere"},
-        {"voxel_size", 1},
-        {"resolution", 5},
-        {"surface", "smooth"},
-        {"set", "solid"},
-        {"angles", {10, 20}},
-        {"angle", 30},
-        {"size", {1, 2, 3}},
-        {"name", "fresh"},
-        {"material", "default"}};
+    const json values = json::parse(
+        R"({"position": [1, 2, 3], "turn": [1, 2, 3], "look_at": [4, 5, 6], "up": [1, 3, 2], "scale": 2,
+            "direction": [1, 2, 3], "matrix": [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0]],
+            "mesh": "m.obj", "shape": "sphere", "voxel_size": 1, "resolution": 5, "surface": "smooth",
+            "set": "solid", "angles": [10, 20], "angle": 30, "size": [1, 2, 3], "name": "fresh",
+            "material": "default"})");
     for (const json& scene : full_scenes()) {
         for (const auto& at : places_in(scene)) {
             if (!scene[at].is_object()) continue;
             for (const KeyTable& table : scene_key_tables()) {
                 for (const std::string_view key : table.keys) {
                     if (scene[at].contains(key)) continue;
-                    const auto value = values.find(std::string(key));
                     json changed = scene;
-                    changed[at][std::string(key)] =
-                        value == values.end() ? json(0.5) : value->second;
+                    changed[at][std::string(key)] = values.value(std::string(key), json(0.5));
                     expect_same_verdict(changed, "with " + (at / std::string(key)).to_string());
                 }
             }
