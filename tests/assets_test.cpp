@@ -7,8 +7,8 @@
 #include <filesystem>
 #include <fstream>
 
-#include "runtime/error.hpp"
 #include "runtime/scene.hpp"
+#include "tests/file_fixture.hpp"
 
 namespace voxelume {
 namespace {
@@ -17,19 +17,17 @@ namespace fs = std::filesystem;
 using testing::HasSubstr;
 
 /// Two asset folders beside the scene's, and a secret outside of all.
-class SceneAssets : public testing::Test {
+class SceneAssets : public FileTest {
   protected:
     void SetUp() override {
-        root_ = fs::path(testing::TempDir()) / "voxelume_scene_test";
-        fs::remove_all(root_);
-        for (const char* folder : {"scene/sub", "first", "second"})
-            fs::create_directories(root_ / folder);
+        FileTest::SetUp();
+        for (const char* name : {"scene/sub", "first", "second"})
+            fs::create_directories(folder / name);
         for (const char* file : {"scene/here.obj", "scene/sub/deep.obj", "first/a.obj",
                                  "second/a.obj", "second/b.obj", "secret.obj"}) {
-            std::ofstream(root_ / file) << "v 0 0 0\n";
+            put_bytes(folder / file, "v 0 0 0\n");
         }
     }
-    void TearDown() override { fs::remove_all(root_); }
 
     Scene parse_with_mesh(const std::string& mesh) {
         return parse_scene(R"({"voxelume": 1,
@@ -38,10 +36,10 @@ class SceneAssets : public testing::Test {
                                R"("}},
 "objects": [{"model": "m", "materials": {"lid": "default"}}],
 "observer": {"position": [0, 0, 0], "display": {"shape": "pyramid"}}})",
-                           root_ / "scene" / "s.json", {root_ / "first", root_ / "second"});
+                           folder / "scene" / "s.json", {folder / "first", folder / "second"});
     }
     void expect_found(const std::string& mesh, const std::string& file) {
-        EXPECT_EQ(parse_with_mesh(mesh).models[0].mesh, fs::canonical(root_ / file));
+        EXPECT_EQ(parse_with_mesh(mesh).models[0].mesh, fs::canonical(folder / file));
     }
     std::string refusal(const std::string& mesh, ErrorKind kind) {
         try {
@@ -52,8 +50,6 @@ class SceneAssets : public testing::Test {
         }
         return "no error";
     }
-
-    fs::path root_;
 };
 
 }  // namespace
@@ -69,27 +65,27 @@ TEST_F(SceneAssets, AMissingOneListsTheFoldersSearched) {
     const std::string said = refusal("c.obj", ErrorKind::input);
     EXPECT_THAT(said,
                 HasSubstr("s.json:3:26: models.m.mesh: there is no file \"c.obj\"; searched "));
-    for (const char* folder : {"scene", "first", "second"})
-        EXPECT_THAT(said, HasSubstr((root_ / folder).string()));
+    for (const char* name : {"scene", "first", "second"})
+        EXPECT_THAT(said, HasSubstr((folder / name).string()));
 }
 
 TEST_F(SceneAssets, NeverLieOutsideTheFolders) {
-    EXPECT_THAT(refusal((root_ / "secret.obj").string(), ErrorKind::scene),
+    EXPECT_THAT(refusal((folder / "secret.obj").string(), ErrorKind::scene),
                 HasSubstr("is an absolute path"));
     EXPECT_THAT(refusal("../secret.obj", ErrorKind::scene), HasSubstr("leads out"));
     EXPECT_THAT(refusal("sub/../here.obj", ErrorKind::scene), HasSubstr("leads out"));
-    fs::create_symlink("../secret.obj", root_ / "scene" / "link.obj");
+    fs::create_symlink("../secret.obj", folder / "scene" / "link.obj");
     EXPECT_THAT(refusal("link.obj", ErrorKind::scene), HasSubstr("is a link that leads out of"));
-    fs::create_directory_symlink(root_, root_ / "scene" / "up");
+    fs::create_directory_symlink(folder, folder / "scene" / "up");
     EXPECT_THAT(refusal("up/secret.obj", ErrorKind::scene),
                 HasSubstr("is a link that leads out of"));
-    fs::create_symlink("here.obj", root_ / "scene" / "inner.obj");
+    fs::create_symlink("here.obj", folder / "scene" / "inner.obj");
     expect_found("inner.obj", "scene/here.obj");
 }
 
 TEST_F(SceneAssets, AreFiles) {
     EXPECT_THAT(refusal("sub", ErrorKind::input), HasSubstr("is not a file"));
-    fs::create_symlink("loop.obj", root_ / "scene" / "loop.obj");
+    fs::create_symlink("loop.obj", folder / "scene" / "loop.obj");
     EXPECT_THAT(refusal("loop.obj", ErrorKind::input), HasSubstr("can't be looked at"));
 }
 
@@ -121,18 +117,13 @@ TEST_F(SceneAssets, GroupsOfFacesGetTheirMaterialsByName) {
 
 TEST_F(SceneAssets, ASceneThatIsMissingOrTooLargeHasItsOwnKindOfError) {
     const auto kind_of_reading = [](const fs::path& file) {
-        try {
-            read_scene(file, {});
-        } catch (const Error& error) {
-            return error.kind();
-        }
-        return ErrorKind::render;
+        return error_of([&] { read_scene(file, {}); }).kind();
     };
-    EXPECT_EQ(kind_of_reading(root_ / "none.json"), ErrorKind::input);
-    EXPECT_EQ(kind_of_reading(root_ / "scene"), ErrorKind::input);
-    std::ofstream(root_ / "large.json") << "{";
-    fs::resize_file(root_ / "large.json", (64 << 20) + 1);
-    EXPECT_EQ(kind_of_reading(root_ / "large.json"), ErrorKind::limit);
+    EXPECT_EQ(kind_of_reading(folder / "none.json"), ErrorKind::input);
+    EXPECT_EQ(kind_of_reading(folder / "scene"), ErrorKind::input);
+    std::ofstream(folder / "large.json") << "{";
+    fs::resize_file(folder / "large.json", (64 << 20) + 1);
+    EXPECT_EQ(kind_of_reading(folder / "large.json"), ErrorKind::limit);
 }
 
 }  // namespace voxelume

@@ -16,9 +16,9 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "runtime/error.hpp"
 #include "runtime/scene.hpp"
 #include "runtime/scene_keys.hpp"
+#include "tests/file_fixture.hpp"
 
 namespace voxelume {
 namespace {
@@ -51,27 +51,24 @@ class Schema {
     valijson::Schema schema_;
 };
 
-/// A folder with one mesh in it, and beside it every file that the shipped scenes name.
-class SceneSchema : public testing::Test {
+/// A folder with the meshes that the scenes name.
+class SceneSchema : public FileTest {
   protected:
-    SceneSchema() {
-        folder_ = std::filesystem::path(testing::TempDir()) / "voxelume_scene_schema_test";
-        std::filesystem::create_directories(folder_);
-        std::ofstream(folder_ / "bunny.obj") << "v 0 0 0\n";
-        std::ofstream(folder_ / "m.obj") << "v 0 0 0\n";
+    void SetUp() override {
+        FileTest::SetUp();
+        for (const char* mesh : {"bunny.obj", "m.obj"}) put_bytes(folder / mesh, "v 0 0 0\n");
     }
 
     /// The parser's objection, or nothing.
     std::string objection(const json& document) {
         try {
-            parse_scene(document.dump(), "s.json", {folder_});
+            parse_scene(document.dump(), "s.json", {folder});
             return "";
         } catch (const Error& error) {
             return error.what();
         }
     }
 
-    std::filesystem::path folder_;
     Schema schema_;
 };
 
@@ -118,7 +115,7 @@ TEST_F(SceneSchema, AcceptsEveryShippedSceneAsTheParserDoes) {
             continue;
         SCOPED_TRACE(entry.path());
         EXPECT_TRUE(schema_.accepts(read_file(entry.path())));
-        EXPECT_NO_THROW(read_scene(entry.path(), {folder_}));
+        EXPECT_NO_THROW(read_scene(entry.path(), {folder}));
         ++count;
     }
     EXPECT_GE(count, 3);
