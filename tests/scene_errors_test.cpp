@@ -56,23 +56,23 @@ TEST(SceneErrors, TellLineColumnKeyPathAndTheNearestName) {
 
 TEST(SceneErrors, PointAtUnknownKeysThemselves) {
     EXPECT_EQ(message(scene_with(R"(   "ligths": [],)")),
-              "room.json:5:4: there is no key \"ligths\" in a scene; did you mean \"lights\"?");
+              "room.json:5:4: unknown key \"ligths\"; did you mean \"lights\"?");
     EXPECT_EQ(message(scene_with(R"("render": {"depth": 1, "Samples": 4},)")),
-              "room.json:5:24: render: there is no key \"Samples\" in a render; did you mean "
+              "room.json:5:24: render: unknown key \"Samples\"; did you mean "
               "\"samples\"?");
     EXPECT_THAT(
         message(scene_with(R"("lights": [{"type": "point", "position": [0,1,2], "angle": 9}],)")),
-        HasSubstr("no key \"angle\" in a point; known are \"name\", \"type\""));
+        HasSubstr("unknown key \"angle\"; known are \"name\", \"type\""));
 }
 
 TEST(SceneErrors, CountColumnsInCharactersAndSkipCommentsAndTheByteOrderMark) {
     EXPECT_THAT(message("\xEF\xBB\xBF{ // {\"\n /* \xC3\xA4\xC3\xB6 , */ \"voxelume\": "
                         "\"\xC3\xA9\\\"\", \"worl\": 1}"),
-                StartsWith("room.json:2:32: there is no key \"worl\""));
+                StartsWith("room.json:2:32: unknown key \"worl\""));
     EXPECT_THAT(message("{\"voxelume\"/*:*/:1// :\n,/**/\"x\":2}"),
-                StartsWith("room.json:2:6: there is no key \"x\""));
+                StartsWith("room.json:2:6: unknown key \"x\""));
     EXPECT_THAT(message("{\"voxelume\": 1,\r\n\t\"x\": 2}"),
-                StartsWith("room.json:2:2: there is no key \"x\""));
+                StartsWith("room.json:2:2: unknown key \"x\""));
 }
 
 TEST(SceneErrors, TellWhereTextStopsBeingJson) {
