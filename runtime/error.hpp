@@ -21,14 +21,16 @@ enum class ErrorKind : int {
     limit = 8,   ///< memory, or a documented limit
 };
 
-/// A finished sentence for the user (where, what, what to do), thrown anywhere, caught once in `main`.
+/// A finished sentence for the user (where, what, what to do), thrown anywhere, caught once in
+/// `main`.
 class Error : public std::runtime_error {
   public:
-    Error(ErrorKind kind, const std::string& sentence) : std::runtime_error(sentence), kind_(kind) {}
+    Error(ErrorKind kind, const std::string& sentence)
+        : std::runtime_error(sentence), kind_(kind) {}
 
     template <class... Args>
-    Error(ErrorKind kind, fmt::format_string<Args...> format, Args&&... args)
-        requires(sizeof...(Args) > 0)
+    Error(ErrorKind kind, fmt::format_string<Args...> format,
+          Args&&... args) requires(sizeof...(Args) > 0)
         : Error(kind, fmt::format(format, std::forward<Args>(args)...)) {}
 
     ErrorKind kind() const noexcept { return kind_; }

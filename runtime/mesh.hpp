@@ -11,13 +11,18 @@ namespace voxelume {
 
 /// Triangles with optional colours at the vertices and named groups of faces.
 ///
-/// Every index is below `positions.size()` and every coordinate is finite: readers refuse anything else.
+/// Every index is below `positions.size()` and every coordinate is finite: readers refuse anything
+/// else.
 struct Mesh {
-    std::vector<glm::vec3> positions;      ///< object space, metres
-    std::vector<glm::uvec3> triangles;     ///< indices into `positions`, counter-clockwise from outside
-    std::vector<glm::vec3> vertex_colors;  ///< linear Rec. 709, one per position; empty when there are none
-    std::vector<uint32_t> triangle_group;  ///< index into `group_names`, one per triangle; empty: all group 0
-    std::vector<std::string> group_names;  ///< material groups in order of appearance; empty: one unnamed group
+    std::vector<glm::vec3> positions;  ///< object space, metres
+    std::vector<glm::uvec3>
+        triangles;  ///< indices into `positions`, counter-clockwise from outside
+    std::vector<glm::vec3>
+        vertex_colors;  ///< linear Rec. 709, one per position; empty when there are none
+    std::vector<uint32_t>
+        triangle_group;  ///< index into `group_names`, one per triangle; empty: all group 0
+    std::vector<std::string>
+        group_names;  ///< material groups in order of appearance; empty: one unnamed group
 };
 
 }  // namespace voxelume

@@ -1,0 +1,43 @@
+// Snapping rays to the fixed point in which the walk is exact (shared/trace.h).
+#ifndef VXL_FIXED_POINT_H
+#define VXL_FIXED_POINT_H
+
+#include "lib/exact_float.h"
+#include "shared/trace.h"
+
+/// The power of two that brings the largest of |x|, |y|, |z| into [1/2, 1). At least one is normal.
+static inline lane_float power_of_two_scale(lane_float x, lane_float y, lane_float z) {
+    const lane_float largest = fmax(fabs(x), fmax(fabs(y), fabs(z)));
+    const lane_int exponent = (LANES_AS_INT(largest) >> 23) & 255;
+    return LANES_AS_FLOAT((253 - exponent) << 23);
+}
+
+/// A direction component in [-1, 1], rounded to a multiple of 2^-22.
+static inline lane_float snap_direction(lane_float d) {
+    return rint(d * (float)(1 << VXL_DIRECTION_BITS)) * (1.0f / (float)(1 << VXL_DIRECTION_BITS));
+}
+
+/// A coordinate rounded to the fixed point: to the nearest where `side` is 0, else towards its sign.
+static inline lane_float snap_position(lane_float o, lane_float side, float fixed_point) {
+    const lane_float scaled = o * fixed_point;
+    const lane_float nearest = rint(scaled);
+    const lane_float up = nearest - LANES_FLOAT(LANE_MASK(nearest < scaled));
+    const lane_float down = nearest + LANES_FLOAT(LANE_MASK(nearest > scaled));
+    const lane_float snapped = LANES_SELECT(
+        LANE_MASK(side > 0.0f), up, LANES_SELECT(LANE_MASK(side < 0.0f), down, nearest));
+    return snapped * (1.0f / fixed_point);
+}
+
+/// Limits [t_first, t_last] of a ray to what lies between two planes of one axis.
+static inline void clip_axis(lane_float o, lane_float d, float size, lane_float* t_first,
+                             lane_float* t_last) {
+    const lane_float inverse = exact_reciprocal(d);
+    const lane_float a = -o * inverse, b = (size - o) * inverse;
+    const lane_int moves = LANE_MASK(d != 0.0f);
+    const lane_int outside = LANE_MASK(o < 0.0f) | LANE_MASK(o > size);
+    const lane_float none = LANES_SELECT(outside, (lane_float)-INFINITY, (lane_float)INFINITY);
+    *t_first = fmax(*t_first, LANES_SELECT(moves, fmin(a, b), (lane_float)-INFINITY));
+    *t_last = fmin(*t_last, LANES_SELECT(moves, fmax(a, b), none));
+}
+
+#endif

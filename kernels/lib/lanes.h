@@ -1,0 +1,98 @@
+// Lane types: a kernel is written once and carries VXL_LANES rays in each work-item.
+//
+// With 16, 8 or 4 lanes a lane_float is a vector register of a CPU; with 1 it is a plain float, which
+// is what a GPU runs. A mask is a lane_int of 0 (no) or -1 (yes) in every width.
+//   LANE_MASK(a < b)            the mask of a comparison
+//   LANES_SELECT(mask, a, b)    a where the mask says yes, else b
+//   LANES_GATHER_UINT(p, index) p[index] lane by lane, likewise _FLOAT; every index must be in range
+//   LANES_LOAD(p, first)        p[first .. first + VXL_LANES)
+//   LANES_STORE(value, p, first)
+//   LANES_INT, LANES_FLOAT, ... conversions (to int: towards zero)
+#ifndef VXL_LANES_H
+#define VXL_LANES_H
+
+#pragma OPENCL FP_CONTRACT OFF
+
+#define VXL_JOIN_(a, b) a##b
+#define VXL_JOIN(a, b) VXL_JOIN_(a, b)
+
+#if VXL_LANES == 1
+
+typedef float lane_float;
+typedef int lane_int;
+typedef uint lane_uint;
+typedef long lane_long;
+#define LANE_MASK(condition) (-(int)(condition))
+#define LANE_LONG_MASK(condition) LANE_MASK(condition)
+#define LANES_SELECT(mask, yes, no) ((mask) ? (yes) : (no))
+#define LANES_GATHER_UINT(p, index) ((p)[index])
+#define LANES_GATHER_FLOAT(p, index) ((p)[index])
+#define LANES_LOAD(p, first) ((p)[first])
+#define LANES_STORE(value, p, first) ((p)[first] = (value))
+#define LANES_INT(v) ((int)(v))
+#define LANES_UINT(v) ((uint)(v))
+#define LANES_FLOAT(v) ((float)(v))
+#define LANES_LONG(v) ((long)(v))
+#define LANES_AS_INT(v) as_int(v)
+#define LANES_AS_UINT(v) as_uint(v)
+#define LANES_AS_FLOAT(v) as_float(v)
+#define LANES_NUMBERS 0
+
+static inline int lanes_any(lane_int mask) { return mask; }
+
+#else
+
+typedef VXL_JOIN(float, VXL_LANES) lane_float;
+typedef VXL_JOIN(int, VXL_LANES) lane_int;
+typedef VXL_JOIN(uint, VXL_LANES) lane_uint;
+typedef VXL_JOIN(long, VXL_LANES) lane_long;
+#define LANE_MASK(condition) (condition)
+#define LANE_LONG_MASK(condition) VXL_JOIN(convert_int, VXL_LANES)(condition)
+#define LANES_SELECT(mask, yes, no) select(no, yes, mask)
+#define LANES_LOAD(p, first) VXL_JOIN(vload, VXL_LANES)(0, (p) + (first))
+#define LANES_STORE(value, p, first) VXL_JOIN(vstore, VXL_LANES)(value, 0, (p) + (first))
+#define LANES_INT(v) VXL_JOIN(convert_int, VXL_LANES)(v)
+#define LANES_UINT(v) VXL_JOIN(convert_uint, VXL_LANES)(v)
+#define LANES_FLOAT(v) VXL_JOIN(convert_float, VXL_LANES)(v)
+#define LANES_LONG(v) VXL_JOIN(convert_long, VXL_LANES)(v)
+#define LANES_AS_INT(v) VXL_JOIN(as_int, VXL_LANES)(v)
+#define LANES_AS_UINT(v) VXL_JOIN(as_uint, VXL_LANES)(v)
+#define LANES_AS_FLOAT(v) VXL_JOIN(as_float, VXL_LANES)(v)
+
+// Indexed loads in this form become one gather instruction. `any` on a vector would compile to a
+// ladder of branches; folding halves does not.
+#if VXL_LANES == 4
+#define VXL_INDEXED(p, i) (p)[(i).s0], (p)[(i).s1], (p)[(i).s2], (p)[(i).s3]
+#define LANES_NUMBERS ((int4)(0, 1, 2, 3))
+static inline int lanes_any(int4 mask) {
+    int2 q = mask.lo | mask.hi;
+    return q.x | q.y;
+}
+#elif VXL_LANES == 8
+#define VXL_INDEXED(p, i)                                                                     \
+    (p)[(i).s0], (p)[(i).s1], (p)[(i).s2], (p)[(i).s3], (p)[(i).s4], (p)[(i).s5], (p)[(i).s6], \
+        (p)[(i).s7]
+#define LANES_NUMBERS ((int8)(0, 1, 2, 3, 4, 5, 6, 7))
+static inline int lanes_any(int8 mask) {
+    int4 h = mask.lo | mask.hi;
+    int2 q = h.lo | h.hi;
+    return q.x | q.y;
+}
+#else
+#define VXL_INDEXED(p, i)                                                                      \
+    (p)[(i).s0], (p)[(i).s1], (p)[(i).s2], (p)[(i).s3], (p)[(i).s4], (p)[(i).s5], (p)[(i).s6], \
+        (p)[(i).s7], (p)[(i).s8], (p)[(i).s9], (p)[(i).sa], (p)[(i).sb], (p)[(i).sc],          \
+        (p)[(i).sd], (p)[(i).se], (p)[(i).sf]
+#define LANES_NUMBERS ((int16)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15))
+static inline int lanes_any(int16 mask) {
+    int8 e = mask.lo | mask.hi;
+    int4 h = e.lo | e.hi;
+    int2 q = h.lo | h.hi;
+    return q.x | q.y;
+}
+#endif
+#define LANES_GATHER_UINT(p, i) ((lane_uint)(VXL_INDEXED(p, i)))
+#define LANES_GATHER_FLOAT(p, i) ((lane_float)(VXL_INDEXED(p, i)))
+#endif
+
+#endif

@@ -1,0 +1,89 @@
+// samples -> pixels: the mean of a pixel's samples, and the geometry of its first sample that hit.
+#include "lib/exact_exp.h"
+#include "lib/work_item.h"
+#include "shared/scene.h"
+#include "shared/trace.h"
+#include "shared/voxel.h"
+
+/// Gives each ray's radiance what the world's medium does to it between the ray's start and its end.
+kernel void absorb_sight(PyramidShape shape, Space space, global const float* restrict rays,
+                         global const uint* restrict hits, uint count, uint stride,
+                         global float* restrict radiance) {
+    const uint first = work_item() * VXL_LANES;
+    if (first >= count) return;
+    const lane_int hit =
+        LANE_MASK(LANES_LOAD(hits, VXL_HIT_VOXEL * stride + first) != VXL_NO_VOXEL);
+    const lane_float t_hit = LANES_AS_FLOAT(LANES_LOAD(hits, VXL_HIT_T * stride + first));
+    const lane_float t_end = fmax(LANES_LOAD(rays, VXL_RAY_END * stride + first), 0.0f);
+    const lane_float dx = LANES_LOAD(rays, VXL_RAY_DX * stride + first) * shape.edge.x;
+    const lane_float dy = LANES_LOAD(rays, VXL_RAY_DY * stride + first) * shape.edge.y;
+    const lane_float dz = LANES_LOAD(rays, VXL_RAY_DZ * stride + first) * shape.edge.z;
+    const lane_float metres = exact_sqrt(fma(dx, dx, fma(dy, dy, dz * dz)));
+    const lane_float path = LANES_SELECT(hit, t_hit, t_end) * metres;
+    const float absorption[3] = {space.absorption.x, space.absorption.y, space.absorption.z};
+    const float color[3] = {space.color.x, space.color.y, space.color.z};
+    for (int channel = 0; channel < 3; ++channel) {
+        const lane_float passed = exact_exp(-absorption[channel] * path);
+        const uint place = (uint)channel * stride + first;
+        const lane_float behind = LANES_LOAD(radiance, place);
+        LANES_STORE(fma(passed, behind - color[channel], (lane_float)color[channel]), radiance, place);
+    }
+}
+
+/// One work-item makes one pixel. `image` holds, `pixels` apart: R G B A Z P.X P.Y P.Z N.X N.Y N.Z;
+/// `objects` the number of the object plus 1, 0 for none. Counts values that are not finite, as 0.
+kernel void resolve_pixels(Sight sight, PyramidShape shape, float4 world_origin,
+                           global const uint* restrict hits,
+                           global const float* restrict positions,
+                           global const float* restrict normals, global const uint* restrict words,
+                           global const float* restrict radiance, uint first_tile, uint tile_count,
+                           uint stride, global float* restrict image,
+                           global uint* restrict objects, global uint* restrict not_finite) {
+    const uint item = work_item();
+    if (item >= tile_count * 16u) return;
+    const uint tiles_x = ((uint)sight.width + 3u) / 4u;
+    const uint tile = first_tile + item / 16u;
+    const uint column = tile % tiles_x * 4u + (item & 3u);
+    const uint row = tile / tiles_x * 4u + ((item >> 2) & 3u);
+    if (column >= (uint)sight.width || row >= (uint)sight.height) return;
+    const uint pixels = (uint)sight.width * (uint)sight.height;
+    const uint pixel = row * (uint)sight.width + column;
+    const uint first_ray = item / 16u * (uint)sight.samples * 16u + item % 16u;
+
+    float color[3] = {0.0f, 0.0f, 0.0f};
+    uint covered = 0, shown = VXL_NO_VOXEL;
+    for (uint sample = 0; sample < (uint)sight.samples; ++sample) {
+        const uint ray = first_ray + sample * 16u;
+        for (uint channel = 0; channel < 3; ++channel)
+            color[channel] += radiance[channel * stride + ray];
+        if (hits[VXL_HIT_VOXEL * stride + ray] == VXL_NO_VOXEL) continue;
+        ++covered;
+        if (shown == VXL_NO_VOXEL) shown = ray;
+    }
+    const float share = sight.sample_share;
+    for (uint channel = 0; channel < 3; ++channel) {
+        const float value = color[channel] * share;
+        const bool finite = isfinite(value);
+        if (!finite) atomic_inc(not_finite);
+        image[channel * pixels + pixel] = finite ? value : 0.0f;
+    }
+    image[3 * pixels + pixel] = (float)covered * share;
+    const bool hit = shown != VXL_NO_VOXEL;
+    const uint ray = hit ? shown : 0;
+    const float edge[3] = {shape.edge.x, shape.edge.y, shape.edge.z};
+    const float origin[3] = {world_origin.x, world_origin.y, world_origin.z};
+    const float eye[3] = {sight.origin.x, sight.origin.y, sight.origin.z};
+    const float eye_low[3] = {sight.origin_low.x, sight.origin_low.y, sight.origin_low.z};
+    // Z_E in voxels per metre; times the edge twice it measures voxels along Z_E in metres.
+    const float ahead[3] = {sight.axis_z.x, sight.axis_z.y, sight.axis_z.z};
+    float depth = 0.0f;
+    for (uint a = 0; a < 3; ++a) {
+        const float p = positions[a * stride + ray];
+        const float from_eye = (p - eye[a] - eye_low[a]) * edge[a];
+        depth = fma(from_eye, ahead[a] * edge[a], depth);
+        image[(5 + a) * pixels + pixel] = hit ? fma(p, edge[a], origin[a]) : 0.0f;
+        image[(8 + a) * pixels + pixel] = hit ? normals[a * stride + ray] : 0.0f;
+    }
+    image[4 * pixels + pixel] = hit ? depth : INFINITY;
+    objects[pixel] = hit ? (words[ray] & VXL_OBJECT_MASK) + 1u : 0u;
+}

@@ -1,0 +1,72 @@
+// An analytic solid as rays and voxelizers read it: a list of shapes with the operations between them.
+//
+// A solid is a run of `shape_count` records. Evaluating it goes through them in order with a stack:
+// each shape pushes its signed distance, positive outside and negated for a complement, and then
+// `operations` combines the two on top, two bits at a time from the low end until they are 0:
+//   1 union         the smaller of the two
+//   2 intersection  the larger of the two
+// A difference is an intersection with complements. The operations leave one value.
+//
+//   (box without cylinder) united with sphere:
+//   record   kind                     operations
+//   0        box                      0
+//   1        cylinder | complement    10         intersection
+//   2        sphere                   01         union
+//
+// A solid's number is the index of its first record in the buffer, so two buffers are joined by
+// appending one and adding its offset to the numbers.
+//
+// Shape space. A point x of the grid (in voxels) is carried into the shape's own space by
+//   p = shape_from_grid * ((x - cell) - fraction)
+// where x - cell is exact for x on the lattice. The origin is the shape's centre, Y its axis, and a
+// distance there is, in units of the grid's shortest voxel edge, the distance to the shape; where
+// the map has stretched the shape out of its kind, it is scaled so that it never exceeds that.
+#ifndef VXL_SHARED_SOLID_H
+#define VXL_SHARED_SOLID_H
+
+#define VXL_SOLID_SPHERE 0u
+#define VXL_SOLID_ELLIPSOID 1u
+#define VXL_SOLID_BOX 2u
+#define VXL_SOLID_CYLINDER 3u
+#define VXL_SOLID_CONE 4u
+#define VXL_SOLID_TORUS 5u
+#define VXL_SOLID_CAPSULE 6u
+#define VXL_SOLID_SLAB 7u
+#define VXL_SOLID_KIND_MASK 0xFFu
+#define VXL_SOLID_COMPLEMENT 0x100u  // set in `kind`: everything outside the shape
+
+#define VXL_SOLID_UNION 1u
+#define VXL_SOLID_INTERSECTION 2u
+#define VXL_SOLID_OPERATION_BITS 2
+#define VXL_SOLID_OPERATION_MASK 3u
+#define VXL_SOLID_STACK 16  // values that evaluation holds at most
+#define VXL_SOLID_WORDS 32  // 32-bit words of a record
+
+// One shape. `size` holds, in shape space:
+//   sphere     radius
+//   ellipsoid  half axes x, y, z
+//   box        half edges x, y, z
+//   cylinder   radius, half height
+//   cone       radius at y = -half height, half height, radius at y = +half height
+//   torus      radius of the ring, radius of the tube
+//   capsule    radius, half height of the part between the caps
+//   slab       half thickness
+typedef struct SolidShape {
+    unsigned int kind;         // VXL_SOLID_*, and VXL_SOLID_COMPLEMENT
+    unsigned int operations;   // done after pushing this shape
+    unsigned int shape_count;  // of the solid, in its first record; 0 in the others
+    unsigned int attribute;    // shared/voxel.h's word of the solid, in its first record
+    int cell[3];               // the centre's voxel, at most 2^24 from the grid's origin
+    float fraction[3];         // the centre in that voxel, 0..1
+    float shape_from_grid[9];  // by rows
+    float size[4];
+    float rounding[2];  // |error of the distance at q| <= rounding[0] * (|q.x|+|q.y|+|q.z|) +
+                        // rounding[1], with q = x - centre in voxels
+    float side[2];      // cone: the unit normal of its side, (outwards, along Y)
+    float unused[5];    // 0
+} SolidShape;
+
+// Fails to compile, in both languages, when the record has another size than the text above says.
+typedef char SolidShapeHas32Words[sizeof(SolidShape) == VXL_SOLID_WORDS * 4 ? 1 : -1];
+
+#endif

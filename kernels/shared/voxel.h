@@ -1,0 +1,33 @@
+// The words that a surface voxel carries, for kernels and host alike.
+#ifndef VXL_SHARED_VOXEL_H
+#define VXL_SHARED_VOXEL_H
+
+// Attribute word of a voxel:
+//   31 30 | 29 ........ 16 | 15 ......... 0
+//   kind  | material       | object
+// kind: 0 cubes, 1 smooth, 2 exact (the numbers of voxelume::Surface). `material` and `object` index the
+// scene's lists; in an object's own grid, before placement, `material` is the mesh's face group.
+#define VXL_KIND_SHIFT 30
+#define VXL_MATERIAL_SHIFT 16
+#define VXL_MATERIAL_MASK 0x3FFFu
+#define VXL_OBJECT_MASK 0xFFFFu
+#define VXL_KIND_CUBES 0u
+#define VXL_KIND_SMOOTH 1u
+#define VXL_KIND_EXACT 2u
+
+// Field record of a smooth voxel, 8 words (32 bytes, aligned). The distance inside the voxel at
+// s = (x,y,z) in [0,1]³ is half-Taylor interpolation (Kraaijpoel & van Leeuwen 2010), which with
+// gradients from central differences becomes
+//   F(s) = Σ w_i f_i + ½ x(1-x) Σ w_yz D_x + ½ y(1-y) Σ w_xz D_y + ½ z(1-z) Σ w_xy D_z
+// where D_a of an edge along axis a from node 0 to node 1 is (f(1) - f(-1) - f(2) + f(0)) / 2.
+//   words 0..3: two f each, low half x=0, high half x=1, int16 in 1/8192 voxel; word = y | z<<1
+//   words 4..7: edge e of each axis, 10-bit signed in 2^curvature_exponent / 8192 voxel:
+//     bits 0-9 D_x of the edge at y=e&1, z=e>>1;  10-19 D_y at x=e&1, z=e>>1;  20-29 D_z at x=e&1, y=e>>1
+#define VXL_FIELD_WORDS 8
+#define VXL_DISTANCE_UNITS 8192
+
+// Values of a brick table for bricks that are not stored.
+#define VXL_BRICK_OUTSIDE 0xFFFFFFFFu
+#define VXL_BRICK_INSIDE 0xFFFFFFFEu
+
+#endif

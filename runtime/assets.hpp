@@ -1,0 +1,25 @@
+// Files that a scene names: where they are looked for, and that they never lie elsewhere.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace voxelume {
+
+/// Folders to look in after the scene's own, in order.
+using AssetFolders = std::vector<std::filesystem::path>;
+
+/// The folders of `--assets`, followed by those of the environment variable VOXELUME_ASSETS
+/// (separated by colons; empty ones are skipped).
+AssetFolders asset_folders(const std::vector<std::filesystem::path>& from_command_line);
+
+/// The canonical path of a regular file below the scene's folder or one of `assets`.
+///
+/// `where` opens the messages. Throws Error::scene for an absolute name, for `..` and for a link
+/// that leads out of its folder, Error::input with the folders searched when there is no such file.
+std::filesystem::path find_asset(std::string_view name, const std::filesystem::path& scene_folder,
+                                 const AssetFolders& assets, const std::string& where);
+
+}  // namespace voxelume

@@ -1,0 +1,22 @@
+// Colours of mesh files -> linear Rec. 709.
+#pragma once
+
+#include <glm/vec3.hpp>
+
+#include <cmath>
+
+namespace voxelume {
+
+/// The linear value of an sRGB value in [0, 1] (IEC 61966-2-1), rounded once from double.
+inline float linear_from_srgb(double value) {
+    return static_cast<float>(value <= 0.04045 ? value / 12.92
+                                               : std::pow((value + 0.055) / 1.055, 2.4));
+}
+
+/// The linear Rec. 709 colour of an sRGB colour. Mesh formats don't say what their colours mean;
+/// what scanners and modellers write is what a screen shows, so every reader takes them as sRGB.
+inline glm::vec3 linear_from_srgb(const glm::dvec3& color) {
+    return {linear_from_srgb(color.x), linear_from_srgb(color.y), linear_from_srgb(color.z)};
+}
+
+}  // namespace voxelume

@@ -1,0 +1,66 @@
+#include "runtime/opencl/buffer.hpp"
+
+#include <algorithm>
+
+#include "runtime/error.hpp"
+
+namespace voxelume {
+namespace {
+
+std::string megabytes(uint64_t bytes) {
+    return fmt::format("{:.1f} MB", double(bytes) / 1e6);
+}
+
+}  // namespace
+
+BufferStorage::BufferStorage(Device device, std::string name, size_t bytes)
+    : device_(std::move(device)), name_(std::move(name)), bytes_(bytes) {
+    const DeviceInfo& info = device_.info();
+    DeviceCounters& counters = device_.counters();
+    if (bytes > info.max_allocation)
+        throw Error(ErrorKind::limit,
+                    "the {} buffer needs {} in one piece, \"{}\" allows {}: use larger voxels",
+                    name_, megabytes(bytes), info.name, megabytes(info.max_allocation));
+    if (counters.bytes_in_use + bytes > info.memory)
+        throw Error(ErrorKind::limit,
+                    "the {} buffer needs {} on \"{}\", which has {} left: use larger voxels", name_,
+                    megabytes(bytes), info.name, megabytes(info.memory - counters.bytes_in_use));
+    try {
+        buffer_ = cl::Buffer(device_.context(), CL_MEM_READ_WRITE, bytes);
+    } catch (const cl::Error& error) {
+        throw_device_error(error, info, fmt::format("allocating the {} buffer", name_));
+    }
+    counters.allocated_bytes[name_] += bytes;
+    counters.bytes_in_use += bytes;
+    counters.peak_bytes = std::max(counters.peak_bytes, counters.bytes_in_use);
+}
+
+BufferStorage::~BufferStorage() {
+    device_.counters().bytes_in_use -= bytes_;
+}
+
+void BufferStorage::write(size_t offset, const void* data, size_t bytes) {
+    try {
+        device_.queue().enqueueWriteBuffer(buffer_, CL_TRUE, offset, bytes, data);
+    } catch (const cl::Error& error) {
+        throw_device_error(error, device_.info(), fmt::format("writing the {} buffer", name_));
+    }
+}
+
+void BufferStorage::read(size_t offset, void* data, size_t bytes) const {
+    try {
+        device_.queue().enqueueReadBuffer(buffer_, CL_TRUE, offset, bytes, data);
+    } catch (const cl::Error& error) {
+        throw_device_error(error, device_.info(), fmt::format("reading the {} buffer", name_));
+    }
+}
+
+void BufferStorage::fill(const void* pattern, size_t pattern_bytes, size_t bytes) {
+    const cl_int status = clEnqueueFillBuffer(device_.queue()(), buffer_(), pattern, pattern_bytes,
+                                              0, bytes, 0, nullptr, nullptr);
+    if (status != CL_SUCCESS)
+        throw_device_error(cl::Error(status, "clEnqueueFillBuffer"), device_.info(),
+                           fmt::format("filling the {} buffer", name_));
+}
+
+}  // namespace voxelume

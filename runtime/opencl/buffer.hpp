@@ -1,0 +1,82 @@
+// Typed arrays in a device's memory.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "runtime/opencl/device.hpp"
+
+namespace voxelume {
+
+/// Bytes on a device. Freed with its last owner. `name` appears in the counters and in messages.
+class BufferStorage {
+  public:
+    BufferStorage(Device device, std::string name, size_t bytes);
+    ~BufferStorage();
+    BufferStorage(const BufferStorage&) = delete;
+    BufferStorage& operator=(const BufferStorage&) = delete;
+
+    void write(size_t offset, const void* data, size_t bytes);
+    void read(size_t offset, void* data, size_t bytes) const;
+    void fill(const void* pattern, size_t pattern_bytes, size_t bytes);
+    const cl::Buffer& handle() const { return buffer_; }
+
+  private:
+    Device device_;
+    std::string name_;
+    size_t bytes_;
+    cl::Buffer buffer_;
+};
+
+/// `size()` values of type T on a device; a cheap handle, copies share the memory.
+///
+/// A default-constructed buffer is empty and is passed to kernels as a null pointer. Reading waits
+/// for the queue; writing and filling are ordered with the kernels. Throws Error::limit when the
+/// device has not enough memory.
+template <class T>
+class Buffer {
+    static_assert(std::is_trivially_copyable_v<T>);
+
+  public:
+    Buffer() = default;
+    Buffer(const Device& device, std::string name, size_t size)
+        : size_(size),
+          storage_(size == 0 ? nullptr
+                             : std::make_shared<BufferStorage>(device, std::move(name),
+                                                               size * sizeof(T))) {}
+    Buffer(const Device& device, std::string name, std::span<const T> values)
+        : Buffer(device, std::move(name), values.size()) {
+        write(values);
+    }
+
+    size_t size() const { return size_; }
+    bool empty() const { return size_ == 0; }
+
+    void write(std::span<const T> values, size_t first = 0) {
+        if (!values.empty()) storage_->write(first * sizeof(T), values.data(), values.size_bytes());
+    }
+    void fill(const T& value) {
+        if (storage_) storage_->fill(&value, sizeof(T), size_ * sizeof(T));
+    }
+    std::vector<T> read() const { return read(0, size_); }
+    std::vector<T> read(size_t first, size_t count) const {
+        std::vector<T> values(count);
+        if (count) storage_->read(first * sizeof(T), values.data(), count * sizeof(T));
+        return values;
+    }
+    T read_one(size_t index) const { return read(index, 1).front(); }
+    const cl::Buffer& handle() const {
+        static const cl::Buffer none;
+        return storage_ ? storage_->handle() : none;
+    }
+
+  private:
+    size_t size_ = 0;
+    std::shared_ptr<BufferStorage> storage_;
+};
+
+}  // namespace voxelume

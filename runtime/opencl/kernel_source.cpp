@@ -1,0 +1,61 @@
+#include "runtime/opencl/kernel_source.hpp"
+
+#include <set>
+
+#include "runtime/error.hpp"
+
+namespace voxelume {
+namespace {
+
+std::string_view file_text(const std::string& file) {
+    const auto& files = embedded_kernels();
+    const auto found = files.find(file);
+    if (found == files.end())
+        throw Error(ErrorKind::build, "kernels/{}: no such kernel file in this program", file);
+    return found->second;
+}
+
+/// The path in `#include "path"`, or empty when the line is something else.
+std::string included_path(std::string_view line) {
+    constexpr std::string_view kDirective = "#include \"";
+    if (!line.starts_with(kDirective)) return {};
+    line.remove_prefix(kDirective.size());
+    return std::string(line.substr(0, line.find('"')));
+}
+
+void append_text(const std::string& label, std::string_view rest, std::set<std::string>& seen,
+                 std::string& source) {
+    source += fmt::format("#line 1 \"{}\"\n", label);
+    for (int number = 1; !rest.empty(); ++number) {
+        const size_t end = rest.find('\n');
+        const std::string_view line = rest.substr(0, end);
+        rest.remove_prefix(end == std::string_view::npos ? rest.size() : end + 1);
+        const std::string path = included_path(line);
+        if (path.empty()) {
+            source.append(line).append("\n");
+        } else if (seen.insert(path).second) {
+            append_text("kernels/" + path, file_text(path), seen, source);
+            source += fmt::format("#line {} \"{}\"\n", number + 1, label);
+        } else {
+            source += "\n";
+        }
+    }
+}
+
+}  // namespace
+
+std::string kernel_source(const std::string& file) {
+    std::string source;
+    std::set<std::string> seen = {file};
+    append_text("kernels/" + file, file_text(file), seen, source);
+    return source;
+}
+
+std::string expand_includes(std::string_view text) {
+    std::string source;
+    std::set<std::string> seen;
+    append_text("text", text, seen, source);
+    return source;
+}
+
+}  // namespace voxelume

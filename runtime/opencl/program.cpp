@@ -1,0 +1,68 @@
+#include "runtime/opencl/program.hpp"
+
+#include <algorithm>
+
+#include "runtime/error.hpp"
+#include "runtime/opencl/kernel_source.hpp"
+#include "runtime/opencl/program_cache.hpp"
+#include "runtime/opencl/status.hpp"
+
+namespace voxelume {
+namespace {
+
+std::string build_options(const Device& device, const Defines& defines) {
+    std::string options = "-cl-std=CL1.2";
+    bool has_lanes = false;
+    for (const auto& [name, value] : defines) {
+        options += fmt::format(" -D{}={}", name, value);
+        has_lanes |= name == "VXL_LANES";
+    }
+    if (!has_lanes) options += fmt::format(" -DVXL_LANES={}", device.lanes());
+    return options;
+}
+
+}  // namespace
+
+void Kernel::set_bytes(cl_uint index, size_t bytes, const void* value) {
+    const cl_int status = clSetKernelArg(kernel_(), index, bytes, value);
+    if (status != CL_SUCCESS)
+        throw Error(ErrorKind::render, "kernel {}: argument {} of {} bytes refused with {}", name_,
+                    index, bytes, status_name(status));
+}
+
+void Kernel::enqueue(WorkItem work, size_t count) {
+    if (count == 0) return;
+    // A fixed local size per kernel and two dimensions below 65535: PoCL builds a kernel again for
+    // every other local size, and for any larger dimension.
+    const size_t local = device_.is_cpu() ? (work == WorkItem::heavy ? 1 : 16) : 64;
+    constexpr size_t kRow = 16384;
+    const size_t groups = (count + local - 1) / local;
+    const size_t columns = std::min(groups * local, kRow);
+    const size_t rows = (groups * local + columns - 1) / columns;
+    device_.enqueue(kernel_, name_, cl::NDRange(columns, rows), cl::NDRange(local, 1));
+}
+
+Program::Program(const Device& device, const std::string& file, const Defines& defines)
+    : Program(device, "kernels/" + file, kernel_source(file), defines) {}
+
+Program Program::from_text(const Device& device, const std::string& source,
+                           const Defines& defines) {
+    return Program(device, "a test's kernel", expand_includes(source), defines);
+}
+
+Program::Program(const Device& device, const std::string& label, const std::string& source,
+                 const Defines& defines)
+    : device_(device), label_(label) {
+    program_ = build_program(device, label, source, build_options(device, defines));
+}
+
+Kernel Program::kernel(const std::string& name) const {
+    try {
+        return Kernel(device_, cl::Kernel(program_, name.c_str()), name);
+    } catch (const cl::Error& error) {
+        throw Error(ErrorKind::build, "{} has no kernel {} on \"{}\" ({})", label_, name,
+                    device_.info().name, status_name(error.err()));
+    }
+}
+
+}  // namespace voxelume

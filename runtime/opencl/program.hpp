@@ -1,0 +1,88 @@
+// Kernels compiled for a device, and their launches.
+#pragma once
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <map>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "runtime/opencl/buffer.hpp"
+#include "runtime/opencl/device.hpp"
+
+namespace voxelume {
+
+/// What changes the machine code of a program: names and values of its -D constants.
+using Defines = std::vector<std::pair<std::string, int>>;
+
+/// How much one work-item does, which decides the work-group size.
+enum class WorkItem {
+    light,  ///< up to a few hundred operations: grouped, so that a CPU's launch cost is shared
+    heavy,  ///< a packet of rays, a brick: one work-item is a work-group on a CPU
+};
+
+/// One kernel of a program. `launch` enqueues; it does not wait.
+class Kernel {
+  public:
+    Kernel(Device device, cl::Kernel kernel, std::string name)
+        : device_(std::move(device)), kernel_(std::move(kernel)), name_(std::move(name)) {}
+
+    /// Runs `count` work-items, numbered by `work_item()` of lib/work_item.h, on these arguments.
+    ///
+    /// The kernel must return at once when its number is `count` or more; pass the count to it.
+    /// Arguments are buffers, and values of exactly the kernel's parameter types.
+    template <class... Args>
+    void launch(WorkItem work, size_t count, const Args&... args) {
+        cl_uint index = 0;
+        (set_argument(index++, args), ...);
+        enqueue(work, count);
+    }
+
+    /// Runs packets of the device's lanes for `rays` rays: the work-items of a packet kernel.
+    template <class... Args>
+    void launch_packets(size_t rays, const Args&... args) {
+        const size_t lanes = static_cast<size_t>(device_.lanes());
+        launch(WorkItem::heavy, (rays + lanes - 1) / lanes, args...);
+    }
+
+  private:
+    template <class T>
+    void set_argument(cl_uint index, const Buffer<T>& buffer) {
+        const cl_mem memory = buffer.handle()();
+        set_bytes(index, sizeof(cl_mem), &memory);
+    }
+    template <class T>
+    requires std::is_trivially_copyable_v<T>
+    void set_argument(cl_uint index, const T& value) { set_bytes(index, sizeof(T), &value); }
+    void set_bytes(cl_uint index, size_t bytes, const void* value);
+    void enqueue(WorkItem work, size_t count);
+
+    Device device_;
+    cl::Kernel kernel_;
+    std::string name_;
+};
+
+/// A kernel file compiled for a device with its constants; VXL_LANES is always among them.
+class Program {
+  public:
+    /// Compiles kernels/`file` (e.g. "trace.cl"). Throws Error::build with the compiler's log.
+    Program(const Device& device, const std::string& file, const Defines& defines = {});
+
+    /// Compiles `source`, a text that may include kernels/ files. For tests of device functions.
+    static Program from_text(const Device& device, const std::string& source,
+                             const Defines& defines = {});
+
+    Kernel kernel(const std::string& name) const;
+
+  private:
+    Program(const Device& device, const std::string& label, const std::string& source,
+            const Defines& defines);
+
+    Device device_;
+    std::string label_;
+    cl::Program program_;
+};
+
+}  // namespace voxelume

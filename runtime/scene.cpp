@@ -1,0 +1,136 @@
+// scene.json -> Scene: the order in which its parts are read, and what joins them.
+#include "runtime/scene.hpp"
+
+#include <algorithm>
+#include <fstream>
+#include <glm/common.hpp>
+#include <glm/matrix.hpp>
+
+#include "runtime/error.hpp"
+#include "runtime/scene_parts.hpp"
+
+namespace voxelume {
+namespace {
+
+constexpr size_t kMaxSceneBytes = size_t{64} << 20;
+
+std::string read_text(const std::filesystem::path& file) {
+    std::error_code error;
+    if (std::filesystem::is_directory(file, error)) {
+        throw Error(ErrorKind::input, "{}: this is a folder, not a scene file", file.string());
+    }
+    std::ifstream stream(file, std::ios::binary);
+    if (!stream) {
+        throw Error(
+            ErrorKind::input, "{}: the scene can't be opened: {}", file.string(),
+            std::filesystem::exists(file, error) ? "no permission to read it" : "no such file");
+    }
+    std::string text;
+    std::vector<char> block(size_t{1} << 16);
+    while (stream.read(block.data(), static_cast<std::streamsize>(block.size())),
+           stream.gcount() > 0) {
+        text.append(block.data(), static_cast<size_t>(stream.gcount()));
+        if (text.size() > kMaxSceneBytes) {
+            throw Error(ErrorKind::limit,
+                        "{}: a scene file has at most 64 MiB; keep meshes in files of their own",
+                        file.string());
+        }
+    }
+    if (stream.bad()) throw Error(ErrorKind::input, "{}: reading the scene failed", file.string());
+    return text;
+}
+
+void check_version(const SceneFields& fields) {
+    const SceneValue version = fields.get("voxelume");
+    if (version.integer(1, 1'000'000) != 1) {
+        version.fail("this program reads version 1 of the format; write \"voxelume\": 1");
+    }
+}
+
+/// Sets where each model can be seen: the world's box carried into the space of every object that
+/// shows it.
+void find_reaches(Scene& scene) {
+    const Bounds world = lattice_bounds(scene.world);
+    std::vector<bool> is_used(scene.models.size(), false);
+    for (const Object& object : scene.objects) {
+        const glm::dmat4 object_from_world = glm::inverse(object.world_from_object);
+        Bounds& reach = scene.models[object.model].reach;
+        for (int i = 0; i < 8; ++i) {
+            const glm::dvec3 p(object_from_world * glm::dvec4(corner(world, i), 1));
+            const bool is_first = !is_used[object.model];
+            reach.min = is_first ? p : glm::min(reach.min, p);
+            reach.max = is_first ? p : glm::max(reach.max, p);
+            is_used[object.model] = true;
+        }
+    }
+}
+
+}  // namespace
+
+int NameTable::find(const SceneValue& value) const {
+    const std::string& name = value.text();
+    if (const auto found = indices_.find(name); found != indices_.end()) return found->second;
+    std::vector<std::string_view> names;
+    for (const auto& [known, index] : indices_) names.push_back(known);
+    std::sort(names.begin(), names.end());
+    value.fail(fmt::format("no {} named {}{}", kind_, quote(name), suggest(name, names)));
+}
+
+Scene parse_scene(std::string_view text, const std::filesystem::path& file,
+                  const AssetFolders& assets) {
+    const std::string file_name = file.string();
+    const JsonValue document = parse_json(text, file_name);
+    const SceneValue root(document, "", file_name);
+    const SceneFields fields(root, "scene");
+    check_version(fields);
+    if (const auto schema = fields.find("$schema")) schema->text();
+
+    Scene scene;
+    scene.file = file;
+    scene.materials.emplace_back().name = "default";
+    scene.world = read_world(fields.get("world"));
+    if (const auto value = fields.find("materials")) scene.materials = read_materials(*value);
+    if (const auto value = fields.find("models")) {
+        scene.models = read_models(*value, {file.parent_path(), assets, scene.world.voxel_size});
+    }
+    if (const auto value = fields.find("objects")) scene.objects = read_objects(*value, scene);
+    if (const auto value = fields.find("lights")) scene.lights = read_lights(*value);
+    if (const auto value = fields.find("render")) scene.render = read_render(*value);
+    if (const auto value = fields.find("animation")) scene.animation = read_animation(*value);
+    scene.observer = read_observer(fields.get("observer"), scene);
+    find_reaches(scene);
+    return scene;
+}
+
+Scene read_scene(const std::filesystem::path& file, const AssetFolders& assets) {
+    return parse_scene(read_text(file), file, assets);
+}
+
+void resize(Scene& scene, glm::ivec2 size) {
+    if (size.x < 1 || size.y < 1 || size.x > kMaxImageSide || size.y > kMaxImageSide) {
+        throw Error(ErrorKind::usage, "an image has from 1 to {} pixels on a side, not {}x{}",
+                    kMaxImageSide, size.x, size.y);
+    }
+    scene.render.size = size;
+    Display& display = scene.observer.display;
+    if (display.square_pixels) {
+        display.half_angles.y = square_pixel_half_angle(display.half_angles.x, size);
+    }
+}
+
+std::vector<int> materials_of_groups(const Object& object,
+                                     const std::vector<std::string>& group_names) {
+    const std::vector<std::string_view> known(group_names.begin(), group_names.end());
+    std::vector<int> materials(std::max<size_t>(known.size(), 1), object.material);
+    for (const GroupMaterial& entry : object.groups) {
+        const auto found = std::find(known.begin(), known.end(), entry.group);
+        if (found == known.end()) {
+            throw Error(ErrorKind::scene, "{}: the mesh has no group of faces named {}{}",
+                        entry.where, quote(entry.group), suggest(entry.group, known));
+        }
+        materials[found - known.begin()] = entry.material;
+    }
+    return materials;
+}
+
+}  // namespace voxelume

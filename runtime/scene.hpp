@@ -1,0 +1,179 @@
+// The scene as plain values: names are indices, angles are radians, placements are matrices.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <glm/mat3x3.hpp>
+#include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "runtime/assets.hpp"
+#include "runtime/solid.hpp"
+#include "runtime/surface.hpp"
+
+namespace voxelume {
+
+/// An axis-aligned box; `min < max` on every axis unless said otherwise.
+struct Bounds {
+    glm::dvec3 min{0};
+    glm::dvec3 max{0};
+};
+
+/// What fills the space between the objects.
+struct Medium {
+    glm::vec3 absorption{0};  ///< per metre, >= 0
+    glm::vec3 color{0};       ///< radiance that an infinitely deep medium shows, >= 0
+};
+
+/// S: its lattice starts at `bounds.min`; the last voxels may reach past `bounds.max`.
+struct World {
+    glm::dvec3 voxel_size{0};  ///< metres per axis, > 0
+    Bounds bounds;             ///< metres
+    glm::ivec3 voxels{0};      ///< per axis: bounds over voxel_size, rounded up
+    glm::vec3 background{0};   ///< radiance where a ray leaves the world
+    glm::vec3 ambient{0};      ///< light that reaches every surface
+    Medium medium;
+    std::string where;  ///< "file:line:column: world", to open a message with
+};
+
+struct Material {
+    std::string name;
+    glm::vec3 color{0.8f};    ///< linear Rec. 709, 0..1
+    float diffuse = 1;        ///< 0..1
+    float specular = 0;       ///< 0..1
+    float shininess = 50;     ///< Blinn-Phong exponent, 1..1e6
+    float reflection = 0;     ///< R_i, 0..1
+    float refraction = 0;     ///< F_i, 0..1
+    float ior = 1.5f;         ///< 0.1..10
+    glm::vec3 absorption{0};  ///< inside, per metre, >= 0
+    glm::vec3 emission{0};    ///< radiance, >= 0
+};
+
+/// O_i before it is placed: a mesh file or a solid, with the lattice that it is voxelized on.
+struct Model {
+    std::string name;
+    std::filesystem::path mesh;  ///< a regular file inside the asset folders; empty for a solid
+    std::optional<Solid> solid;  ///< has a value exactly when `mesh` is empty
+    glm::dvec3 voxel_size{0};    ///< metres in object space, > 0; 0 when `resolution` decides
+    int resolution = 0;  ///< voxels along the longest side, 1..65536; 0 when `voxel_size` decides
+    Surface surface = Surface::smooth;
+    VoxelSet set = VoxelSet::supercover;  ///< for `cubes`
+    /// Box in object space outside of which no object shows the model: the world's bounds as seen
+    /// from all objects that use it. An infinite solid ends there. Empty (min = max) for a model
+    /// not used.
+    Bounds reach;
+    std::string where;
+};
+
+/// The material of one group of faces of an object's mesh.
+struct GroupMaterial {
+    std::string group;  ///< as named in the mesh file
+    int material = 0;
+    std::string where;
+};
+
+struct Object {
+    std::string name;
+    int model = 0;     ///< index into Scene::models
+    int material = 0;  ///< index into Scene::materials, for all faces that `groups` does not name
+    std::vector<GroupMaterial> groups;
+    int priority = 0;  ///< where objects overlap: the higher wins, then the earlier in the list
+    glm::dmat4 world_from_object{
+        1};  ///< affine and safely invertible; mirrors and shears are allowed
+    std::string where;
+};
+
+enum class LightKind : uint8_t { point, spot, directional };
+
+struct Light {
+    std::string name;
+    LightKind kind = LightKind::point;
+    glm::dvec3 position{0};   ///< metres; point and spot
+    glm::dvec3 direction{0};  ///< unit vector along which the light travels; spot and directional
+    glm::vec3 energy{1};      ///< colour times intensity: at 1 m, or everywhere for directional
+    double inner_half_angle = 0;  ///< radians; spot: full light up to here, ...
+    double outer_half_angle = 0;  ///< ... none from here, between them smoothstep of the cosine
+    std::string where;
+};
+
+enum class DisplayShape : uint8_t { pyramid, sector, ball, box };
+
+/// VD_E, in the observer's coordinates. A ball is centred at the observer, the others lie around
+/// Z_E.
+struct Display {
+    DisplayShape shape = DisplayShape::pyramid;
+    glm::dvec2 half_angles{
+        0};  ///< radians; pyramid: horizontal, vertical; sector: both the same, up to pi
+    glm::dvec2 half_size{0};  ///< metres; box: half of its edges along X_E and Y_E
+    double near = 0;  ///< metres, >= 0; pyramid and box: along Z_E; sector and ball: along the ray
+    double far = 0;   ///< metres, > near; ball: its radius
+    glm::ivec3 voxels{0};  ///< u, v, k
+    bool square_pixels =
+        false;  ///< pyramid given by one angle: the vertical one follows the image's size
+};
+
+/// E: looks along +Z_E with Y_E up, so the right-hand side of the image is -X_E.
+struct Observer {
+    glm::dvec3 position{0};             ///< metres
+    glm::dmat3 world_from_observer{1};  ///< rotation; its columns are X_E, Y_E, Z_E in the world
+    Display display;
+    std::string where;
+};
+
+struct Animation {
+    int frames = 1;
+    double fps = 24;
+};
+
+inline constexpr int kMaxImageSide = 65536;
+
+struct RenderSettings {
+    glm::ivec2 size{640, 480};  ///< pixels
+    int samples = 1;            ///< per pixel, 1..4096
+    int depth = 5;              ///< reflections and refractions in a row, 0..64
+    bool shadows = true;
+};
+
+/// Everything that a scene file says. Indices are in range, numbers finite and in their documented
+/// ranges.
+struct Scene {
+    std::filesystem::path file;
+    World world;
+    std::vector<Material>
+        materials;  ///< number 0 is `default`, whether the scene defines it or not
+    std::vector<Model> models;
+    std::vector<Object> objects;
+    std::vector<Light> lights;
+    Observer observer;
+    Animation animation;
+    RenderSettings render;
+};
+
+/// Reads and checks a scene. The format is described in scenes/README.md.
+///
+/// Throws Error::scene, "file:line:column: key path: sentence", for text or values that are wrong,
+/// Error::input for a scene or asset that is missing, Error::limit for a file of more than 64 MiB.
+Scene read_scene(const std::filesystem::path& file, const AssetFolders& assets);
+
+/// The same for text that is at hand; `file` names it in messages and gives the folder of its
+/// assets.
+Scene parse_scene(std::string_view text, const std::filesystem::path& file,
+                  const AssetFolders& assets);
+
+/// Changes the size of the image and with it the angles of a display with square pixels.
+void resize(Scene& scene, glm::ivec2 size);
+
+/// One material per group of a mesh, or one in all for a mesh without groups. Throws Error::scene
+/// when the object names a group that the mesh does not have.
+std::vector<int> materials_of_groups(const Object& object,
+                                     const std::vector<std::string>& group_names);
+
+/// What the scene holds, in lines for people: world, models, objects, lights, observer.
+std::string describe(const Scene& scene);
+
+}  // namespace voxelume

@@ -1,0 +1,24 @@
+// Affine maps from the factors that scene files give: positions, turns in degrees, scales.
+#pragma once
+
+#include <glm/mat3x3.hpp>
+#include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
+
+namespace voxelume {
+
+/// R = R_y(psi) * R_x(theta) * R_z(gamma) for turn = (psi, theta, gamma) in degrees, right-handed.
+/// Turns by multiples of 90 degrees give exactly 0 and +-1.
+glm::dmat3 rotation_from_turn(glm::dvec3 turn);
+
+/// Moves a point that is first scaled, then turned, then shifted.
+glm::dmat4 affine_from_factors(glm::dvec3 position, glm::dvec3 turn, glm::dvec3 scale);
+
+/// Smallest and largest length of the images of unit vectors: the singular values of a map.
+struct Stretch {
+    double min;
+    double max;
+};
+Stretch stretch_of(const glm::dmat3& linear);
+
+}  // namespace voxelume

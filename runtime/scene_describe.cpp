@@ -1,0 +1,74 @@
+// Scene -> lines for people.
+#include <fmt/format.h>
+
+#include <array>
+#include <glm/trigonometric.hpp>
+
+#include "runtime/scene.hpp"
+
+namespace voxelume {
+namespace {
+
+std::string vector_text(glm::dvec3 v) {
+    return fmt::format("{:.6g} {:.6g} {:.6g}", v.x, v.y, v.z);
+}
+
+std::string solid_text(const Solid& solid) {
+    static constexpr std::array names = {"sphere", "ellipsoid",    "box",       "cylinder",
+                                         "cone",   "torus",        "capsule",   "slab",
+                                         "union",  "intersection", "difference"};
+    std::string text = names[static_cast<size_t>(solid.kind)];
+    if (is_combination(solid.kind)) text += fmt::format(" of {} parts", solid.parts.size());
+    return text;
+}
+
+std::string model_text(const Model& model) {
+    static constexpr std::array surfaces = {"cubes", "smooth", "exact"};
+    const std::string source =
+        model.solid ? solid_text(*model.solid) : model.mesh.filename().string();
+    const std::string pitch =
+        model.resolution > 0 ? fmt::format("{} voxels along the longest side", model.resolution)
+                             : fmt::format("voxels of {} m", vector_text(model.voxel_size));
+    return fmt::format("model \"{}\": {}, {}, {}", model.name, source,
+                       surfaces[static_cast<size_t>(model.surface)], pitch);
+}
+
+std::string light_text(const Light& light) {
+    static constexpr std::array kinds = {"point", "spot", "directional"};
+    const bool has_place = light.kind != LightKind::directional;
+    return fmt::format("light \"{}\": {}, {} {}, energy {}", light.name,
+                       kinds[static_cast<size_t>(light.kind)], has_place ? "at" : "along",
+                       vector_text(has_place ? light.position : light.direction),
+                       vector_text(light.energy));
+}
+
+std::string observer_text(const Observer& observer) {
+    static constexpr std::array shapes = {"pyramid", "sector", "ball", "box"};
+    const Display& d = observer.display;
+    return fmt::format(
+        "observer: at {}, looking along {}, {} display of {}x{}x{} voxels, from {:.6g} to {:.6g} m",
+        vector_text(observer.position), vector_text(observer.world_from_observer[2]),
+        shapes[static_cast<size_t>(d.shape)], d.voxels.x, d.voxels.y, d.voxels.z, d.near, d.far);
+}
+
+}  // namespace
+
+std::string describe(const Scene& scene) {
+    const World& world = scene.world;
+    std::string text = fmt::format("world: {}x{}x{} voxels of {} m\n", world.voxels.x,
+                                   world.voxels.y, world.voxels.z, vector_text(world.voxel_size));
+    for (const Model& model : scene.models) text += model_text(model) + "\n";
+    for (const Object& object : scene.objects) {
+        text += fmt::format("object \"{}\": model \"{}\", material \"{}\", at {}\n", object.name,
+                            scene.models[object.model].name, scene.materials[object.material].name,
+                            vector_text(object.world_from_object[3]));
+    }
+    for (const Light& light : scene.lights) text += light_text(light) + "\n";
+    text += observer_text(scene.observer) + "\n";
+    text += fmt::format("image: {}x{} pixels, {} samples each, depth {}, shadows {}\n",
+                        scene.render.size.x, scene.render.size.y, scene.render.samples,
+                        scene.render.depth, scene.render.shadows ? "on" : "off");
+    return text;
+}
+
+}  // namespace voxelume

@@ -1,0 +1,47 @@
+// JSON text -> a tree of values that know their line and column.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace voxelume {
+
+/// Place in a text; both count from 1, and the column counts characters, not bytes.
+struct TextPosition {
+    int line = 1;
+    int column = 1;
+};
+
+enum class JsonType : uint8_t { null, boolean, number, string, array, object };
+
+struct JsonMember;
+
+/// A JSON value; only what belongs to its `type` is filled.
+struct JsonValue {
+    JsonType type = JsonType::null;
+    bool boolean = false;
+    TextPosition at;
+    double number = 0;
+    std::string text;
+    std::vector<JsonValue> items;
+    std::vector<JsonMember> members;  ///< in the order of the text; no key twice
+};
+
+struct JsonMember {
+    std::string key;
+    TextPosition at;  ///< of the key
+    JsonValue value;
+};
+
+inline constexpr int kMaxJsonDepth = 64;
+inline constexpr int kMaxJsonValues = 2'000'000;
+
+/// Parses JSON with `//` and `/* */` comments; `file` opens the messages.
+///
+/// Throws Error::scene, "file:line:column: sentence", for text that is not JSON, a key that stands
+/// twice in one object, and more levels or values than the limits above.
+JsonValue parse_json(std::string_view text, const std::string& file);
+
+}  // namespace voxelume

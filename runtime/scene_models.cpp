@@ -1,0 +1,129 @@
+// The scene's models and the objects that place them in the world.
+#include <fmt/format.h>
+
+#include <glm/common.hpp>
+#include <glm/matrix.hpp>
+#include <unordered_set>
+
+#include "runtime/scene_affine.hpp"
+#include "runtime/scene_parts.hpp"
+
+namespace voxelume {
+namespace {
+
+using Names = std::vector<std::string_view>;
+
+/// The pitch, surface and set of a model, whose source is already read.
+void read_lattice(const SceneFields& fields, glm::dvec3 world_voxel_size, Model& model) {
+    fields.refuse_both("voxel_size", "resolution");
+    if (const auto resolution = fields.find("resolution")) {
+        if (model.solid && is_infinite(*model.solid)) {
+            resolution->fail(
+                "an infinite solid has no longest side; give a \"voxel_size\" instead");
+        }
+        model.resolution = resolution->integer(1, 65536);
+    } else {
+        const auto size = fields.find("voxel_size");
+        model.voxel_size = size ? size->number_or_vector(kLength) : world_voxel_size;
+    }
+    if (const auto surface = fields.find("surface")) {
+        model.surface = static_cast<Surface>(surface->choice(Names{"cubes", "smooth", "exact"}));
+    }
+    if (const auto set = fields.find("set")) {
+        model.set = static_cast<VoxelSet>(set->choice(Names{"supercover", "thin", "solid"}));
+        if (model.surface != Surface::cubes) {
+            set->fail("only a model with \"surface\": \"cubes\" has a set; leave it out");
+        }
+    }
+}
+
+Model read_model(const std::string& name, const SceneValue& value, const ModelContext& context) {
+    Model model;
+    model.name = name;
+    model.where = value.where();
+    bool has_mesh = false;
+    bool has_shape = false;
+    for (const JsonMember& member : value.json().members) {
+        has_mesh = has_mesh || member.key == "mesh";
+        has_shape = has_shape || member.key == "shape";
+    }
+    if (has_mesh && has_shape) value.fail("has a \"mesh\" and a \"shape\"; leave one of them out");
+    if (!has_mesh && !has_shape && value.is(JsonType::object)) {
+        value.fail("needs a \"mesh\" (a file) or a \"shape\" (sphere, box, ...)");
+    }
+    if (has_shape) {
+        model.solid = read_solid(value);
+        const std::string_view shape = scene_kinds("part")[kind_of(value, "shape", "part")];
+        read_lattice(SceneFields(value, fmt::format("model:{}", shape)), context.world_voxel_size,
+                     model);
+    } else {
+        const SceneFields fields(value, "model:mesh");
+        const SceneValue mesh = fields.get("mesh");
+        model.mesh = find_asset(mesh.text(), context.scene_folder, context.assets, mesh.where());
+        read_lattice(fields, context.world_voxel_size, model);
+    }
+    return model;
+}
+
+struct ObjectNames {
+    NameTable models{"model"};
+    NameTable materials{"material"};
+    std::unordered_set<std::string> taken;
+};
+
+void read_materials_of(const SceneFields& fields, const NameTable& materials, Object& object) {
+    if (const auto material = fields.find("material")) object.material = materials.find(*material);
+    if (const auto groups = fields.find("materials")) {
+        for (const auto& [group, member] : groups->named_members()) {
+            object.groups.push_back({group, materials.find(member), member.where()});
+        }
+    }
+}
+
+Object read_object(const SceneValue& value, size_t number, ObjectNames& names) {
+    const SceneFields fields(value, "object");
+    Object object;
+    object.where = value.where();
+    object.name = fmt::format("objects[{}]", number);
+    if (const auto name = fields.find("name")) {
+        object.name = name->text();
+        if (!names.taken.insert(object.name).second) {
+            name->fail(fmt::format("another object is named {} already", quote(object.name)));
+        }
+    }
+    object.model = names.models.find(fields.get("model"));
+    read_materials_of(fields, names.materials, object);
+    object.priority = fields.integer("priority", -1'000'000, 1'000'000, 0);
+    object.world_from_object = read_placement(fields);
+    return object;
+}
+
+}  // namespace
+
+std::vector<Model> read_models(const SceneValue& value, const ModelContext& context) {
+    std::vector<Model> models;
+    for (const auto& [name, member] : value.named_members()) {
+        models.push_back(read_model(name, member, context));
+    }
+    return models;
+}
+
+std::vector<Object> read_objects(const SceneValue& value, const Scene& scene) {
+    ObjectNames names;
+    for (const Model& model : scene.models) names.models.add(model.name);
+    for (const Material& material : scene.materials) names.materials.add(material.name);
+
+    std::vector<Object> objects;
+    for (const SceneValue& item : value.items()) {
+        objects.push_back(read_object(item, objects.size(), names));
+        const Object& object = objects.back();
+        if (!object.groups.empty() && scene.models[object.model].solid) {
+            SceneFields(item, "object")
+                .get("materials")
+                .fail("only a mesh has groups of faces; give this object one \"material\"");
+        }
+    }
+    return objects;
+}
+
+}  // namespace voxelume

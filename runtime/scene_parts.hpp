@@ -1,0 +1,59 @@
+// The readers of the scene's parts, one per subject. Each takes the value of its key and throws
+// Error::scene.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+#include "runtime/scene.hpp"
+#include "runtime/scene_fields.hpp"
+
+namespace voxelume {
+
+/// Names that other parts of the scene refer to, with their indices.
+class NameTable {
+  public:
+    /// `kind` is what messages call them: "material".
+    explicit NameTable(std::string kind) : kind_(std::move(kind)) {}
+
+    void add(const std::string& name) { indices_.emplace(name, static_cast<int>(indices_.size())); }
+    /// Index of the name that the value gives. Throws Error::scene with the nearest one if there is
+    /// none.
+    int find(const SceneValue& value) const;
+
+  private:
+    std::string kind_;
+    std::unordered_map<std::string, int> indices_;
+};
+
+/// Where models find their files, and the pitch that they take from the world.
+struct ModelContext {
+    std::filesystem::path scene_folder;
+    const AssetFolders& assets;
+    glm::dvec3 world_voxel_size;
+};
+
+World read_world(const SceneValue& value);
+std::vector<Material> read_materials(const SceneValue& value);
+std::vector<Model> read_models(const SceneValue& value, const ModelContext& context);
+Solid read_solid(const SceneValue& value);  ///< of a model; see scene_solids.cpp for its parts
+std::vector<Object> read_objects(const SceneValue& value, const Scene& scene);
+std::vector<Light> read_lights(const SceneValue& value);
+Observer read_observer(const SceneValue& value, const Scene& scene);
+Animation read_animation(const SceneValue& value);
+RenderSettings read_render(const SceneValue& value);
+
+/// The map that `position`, `turn` and `scale`, or `matrix`, give. Refuses singular ones.
+glm::dmat4 read_placement(const SceneFields& fields);
+
+/// The vertical half angle at which pixels of an image of this size are square.
+double square_pixel_half_angle(double horizontal_half_angle, glm::ivec2 size);
+
+/// The box that the world's whole voxels fill.
+Bounds lattice_bounds(const World& world);
+glm::dvec3 corner(const Bounds& bounds,
+                  int number);  ///< number 0..7: bits choose max over min on x, y, z
+
+}  // namespace voxelume

@@ -1,0 +1,135 @@
+// The parts of a scene that stand alone: world, materials, animation, render settings.
+#include <cmath>
+
+#include "runtime/error.hpp"
+#include "runtime/scene_parts.hpp"
+
+namespace voxelume {
+namespace {
+
+constexpr int kMaxVoxelsPerAxis = 65536;
+
+Bounds read_bounds(const SceneValue& value) {
+    const SceneFields fields(value, "bounds");
+    const Bounds bounds{fields.get("min").vector(kCoordinate),
+                        fields.get("max").vector(kCoordinate)};
+    for (int axis = 0; axis < 3; ++axis) {
+        if (bounds.min[axis] >= bounds.max[axis]) {
+            value.fail(fmt::format("empty along {}: min is {} and max is {}; max must be larger",
+                                   "xyz"[axis], bounds.min[axis], bounds.max[axis]));
+        }
+    }
+    return bounds;
+}
+
+Medium read_medium(const SceneValue& value) {
+    const SceneFields fields(value, "medium");
+    return {fields.color("absorption", kMaxLength, {}), fields.color("color", kMaxLength, {})};
+}
+
+/// Voxels that cover a length. Decimal fractions have no exact binary form, so a quotient within a
+/// billionth of a whole number is that number: 0.6 / 0.2 gives 3 voxels, and 0.9 / 0.3 does too.
+double voxels_along(double length, double voxel) {
+    const double quotient = length / voxel;
+    const double whole = std::round(quotient);
+    return whole >= 1 && std::abs(quotient - whole) <= 1e-9 * whole ? whole : std::ceil(quotient);
+}
+
+glm::ivec3 count_voxels(const SceneValue& value, const World& world) {
+    glm::ivec3 voxels;
+    for (int axis = 0; axis < 3; ++axis) {
+        const double length = world.bounds.max[axis] - world.bounds.min[axis];
+        const double count = voxels_along(length, world.voxel_size[axis]);
+        if (count > kMaxVoxelsPerAxis) {
+            throw Error(
+                ErrorKind::limit,
+                "{}: {:.0f} voxels along {} are more than {}; use voxels of at least {:.3g} m",
+                value.where(), count, "xyz"[axis], kMaxVoxelsPerAxis, length / kMaxVoxelsPerAxis);
+        }
+        voxels[axis] = static_cast<int>(count);
+    }
+    return voxels;
+}
+
+Material read_material(const std::string& name, const SceneValue& value) {
+    const SceneFields fields(value, "material");
+    const auto ratio = [&](std::string_view key, float fallback) {
+        return static_cast<float>(fields.number(key, kRatio, fallback));
+    };
+    Material m;
+    m.name = name;
+    m.color = fields.color("color", 1, m.color);
+    m.diffuse = ratio("diffuse", m.diffuse);
+    m.specular = ratio("specular", m.specular);
+    m.shininess = static_cast<float>(fields.number("shininess", {1, 1e6}, m.shininess));
+    m.reflection = ratio("reflection", m.reflection);
+    m.refraction = ratio("refraction", m.refraction);
+    m.ior = static_cast<float>(fields.number("ior", {0.1, 10}, m.ior));
+    m.absorption = fields.color("absorption", kMaxLength, m.absorption);
+    m.emission = fields.color("emission", kMaxLength, m.emission);
+    return m;
+}
+
+}  // namespace
+
+World read_world(const SceneValue& value) {
+    const SceneFields fields(value, "world");
+    World world;
+    world.voxel_size = fields.get("voxel_size").number_or_vector(kLength);
+    world.bounds = read_bounds(fields.get("bounds"));
+    world.voxels = count_voxels(value, world);
+    world.background = fields.color("background", kMaxLength, {});
+    world.ambient = fields.color("ambient", kMaxLength, {});
+    if (const auto medium = fields.find("medium")) world.medium = read_medium(*medium);
+    world.where = value.where();
+    return world;
+}
+
+std::vector<Material> read_materials(const SceneValue& value) {
+    std::vector<Material> materials(1);
+    materials[0].name = "default";
+    for (const auto& [name, member] : value.named_members()) {
+        if (name == "default") {
+            materials[0] = read_material(name, member);
+        } else {
+            materials.push_back(read_material(name, member));
+        }
+    }
+    return materials;
+}
+
+Animation read_animation(const SceneValue& value) {
+    const SceneFields fields(value, "animation");
+    Animation animation;
+    animation.frames = fields.integer("frames", 1, 1'000'000, animation.frames);
+    animation.fps = fields.number("fps", {0, 1000, true}, animation.fps);
+    if (const auto tracks = fields.find("tracks"); tracks && !tracks->items().empty()) {
+        tracks->fail("must be an empty list: this version renders worlds that stand still");
+    }
+    return animation;
+}
+
+RenderSettings read_render(const SceneValue& value) {
+    const SceneFields fields(value, "render");
+    RenderSettings render;
+    if (const auto size = fields.find("size")) {
+        const auto parts = size->items();
+        if (parts.size() != 2) size->fail(fmt::format("needs 2 numbers, not {}", parts.size()));
+        render.size = {parts[0].integer(1, kMaxImageSide), parts[1].integer(1, kMaxImageSide)};
+    }
+    render.samples = fields.integer("samples", 1, 4096, render.samples);
+    render.depth = fields.integer("depth", 0, 64, render.depth);
+    if (const auto shadows = fields.find("shadows")) render.shadows = shadows->boolean();
+    return render;
+}
+
+Bounds lattice_bounds(const World& world) {
+    return {world.bounds.min, world.bounds.min + glm::dvec3(world.voxels) * world.voxel_size};
+}
+
+glm::dvec3 corner(const Bounds& bounds, int number) {
+    return {(number & 1 ? bounds.max : bounds.min).x, (number & 2 ? bounds.max : bounds.min).y,
+            (number & 4 ? bounds.max : bounds.min).z};
+}
+
+}  // namespace voxelume

@@ -1,0 +1,44 @@
+#include "runtime/opencl/program.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <numeric>
+
+#include "tests/test_device.hpp"
+
+namespace voxelume {
+namespace {
+
+TEST(Program, NumbersEveryWorkItemOnceAcrossRows) {
+    const Device device = test_device();
+    const Program program = Program::from_text(device, R"(
+#include "lib/work_item.h"
+kernel void write_number(uint count, global uint* numbers) {
+    if (work_item() >= count) return;
+    numbers[work_item()] += work_item();
+}
+)");
+    const uint32_t count = 40007;  // more than one row of the launch
+    Buffer<uint32_t> numbers(device, "numbers", count);
+    numbers.fill(0);
+    program.kernel("write_number").launch(WorkItem::light, count, count, numbers);
+    std::vector<uint32_t> expected(count);
+    std::iota(expected.begin(), expected.end(), 0u);
+    EXPECT_EQ(numbers.read(), expected);
+    EXPECT_EQ(device.counters().launches.at("write_number"), 1u);
+}
+
+TEST(Program, NamesTheKernelFileAndLineOfAnError) {
+    try {
+        Program::from_text(test_device(),
+                           "#include \"lib/work_item.h\"\nkernel void f() { y = 1; }\n");
+        FAIL() << "compiled";
+    } catch (const Error& error) {
+        EXPECT_EQ(error.kind(), ErrorKind::build);
+        EXPECT_NE(std::string(error.what()).find("text:2"), std::string::npos) << error.what();
+    }
+}
+
+}  // namespace
+}  // namespace voxelume
