@@ -16,6 +16,7 @@ static inline BrickRange reached_bricks(const LatticeTriangle* t, int3 reach, in
     BrickRange r;
     r.first = max((low - extent + (LATTICE_BRICK - 1)) >> 16, (int3)(-1, 0, 0));
     r.last = min(high >> 16, (int3)(bins.x - 2, bins.y - 1, bins.z - 1));
+    r.last.x = max(r.last.x, -1);
     return r;
 }
 

@@ -58,6 +58,7 @@ int benchmark_mesh(const char* path, int argc, char** argv) {
             fmt::format("{}/{}", c.name, c.resolution).c_str(),
             [&, c](benchmark::State& state) { run(state, voxelizer, device, mesh, c); })
             ->Unit(benchmark::kMillisecond)
+            ->MeasureProcessCPUTime()
             ->UseRealTime();
     benchmark::Initialize(&argc, argv);
     benchmark::RunSpecifiedBenchmarks();
