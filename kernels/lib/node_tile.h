@@ -39,6 +39,23 @@ static inline void store_tile(lane_int values, global short* restrict first) {
 #endif
 }
 
+/// The same for 32-bit words.
+static inline void store_tile_words(lane_uint values, global uint* restrict first) {
+#if VXL_LANES == 1
+    first[0] = values;
+#elif VXL_LANES == 4
+    vstore4(values, 0, first);
+#elif VXL_LANES == 8
+    vstore4(values.lo, 0, first);
+    vstore4(values.hi, 0, first + 16);
+#else
+    vstore4(values.s0123, 0, first);
+    vstore4(values.s4567, 0, first + 16);
+    vstore4(values.s89ab, 0, first + 32);
+    vstore4(values.scdef, 0, first + 48);
+#endif
+}
+
 /// The mask of a tile's nodes whose bits are set; bit x of rows[y], the tile's corner at (x, 0).
 static inline lane_int tile_mask(const ushort* rows, int x) {
     uint bits = 0;
