@@ -6,7 +6,7 @@
 #include "shared/voxel.h"
 
 /// Gives each ray's radiance what the world's medium does to it between the ray's start and its end.
-kernel void absorb_sight(Space space, float4 edge, global const float* restrict rays,
+kernel void absorb_sight(PyramidShape shape, Space space, global const float* restrict rays,
                          global const uint* restrict hits, uint count, uint stride,
                          global float* restrict radiance) {
     const uint first = work_item() * VXL_LANES;
@@ -15,9 +15,9 @@ kernel void absorb_sight(Space space, float4 edge, global const float* restrict 
         LANE_MASK(LANES_LOAD(hits, VXL_HIT_VOXEL * stride + first) != VXL_NO_VOXEL);
     const lane_float t_hit = LANES_AS_FLOAT(LANES_LOAD(hits, VXL_HIT_T * stride + first));
     const lane_float t_end = fmax(LANES_LOAD(rays, VXL_RAY_END * stride + first), 0.0f);
-    const lane_float dx = LANES_LOAD(rays, VXL_RAY_DX * stride + first) * edge.x;
-    const lane_float dy = LANES_LOAD(rays, VXL_RAY_DY * stride + first) * edge.y;
-    const lane_float dz = LANES_LOAD(rays, VXL_RAY_DZ * stride + first) * edge.z;
+    const lane_float dx = LANES_LOAD(rays, VXL_RAY_DX * stride + first) * shape.edge.x;
+    const lane_float dy = LANES_LOAD(rays, VXL_RAY_DY * stride + first) * shape.edge.y;
+    const lane_float dz = LANES_LOAD(rays, VXL_RAY_DZ * stride + first) * shape.edge.z;
     const lane_float metres = exact_sqrt(fma(dx, dx, fma(dy, dy, dz * dz)));
     const lane_float path = LANES_SELECT(hit, t_hit, t_end) * metres;
     const float absorption[3] = {space.absorption.x, space.absorption.y, space.absorption.z};
@@ -32,7 +32,8 @@ kernel void absorb_sight(Space space, float4 edge, global const float* restrict 
 
 /// One work-item makes one pixel. `image` holds, `pixels` apart: R G B A Z P.X P.Y P.Z N.X N.Y N.Z;
 /// `objects` the number of the object plus 1, 0 for none. Counts values that are not finite, as 0.
-kernel void resolve_pixels(Sight sight, float4 world_origin, global const uint* restrict hits,
+kernel void resolve_pixels(Sight sight, PyramidShape shape, float4 world_origin,
+                           global const uint* restrict hits,
                            global const float* restrict positions,
                            global const float* restrict normals, global const uint* restrict words,
                            global const float* restrict radiance, uint first_tile, uint tile_count,
@@ -59,7 +60,7 @@ kernel void resolve_pixels(Sight sight, float4 world_origin, global const uint* 
         ++covered;
         if (shown == VXL_NO_VOXEL) shown = ray;
     }
-    const float share = 1.0f / (float)sight.samples;
+    const float share = sight.sample_share;
     for (uint channel = 0; channel < 3; ++channel) {
         const float value = color[channel] * share;
         const bool finite = isfinite(value);
@@ -69,7 +70,7 @@ kernel void resolve_pixels(Sight sight, float4 world_origin, global const uint* 
     image[3 * pixels + pixel] = (float)covered * share;
     const bool hit = shown != VXL_NO_VOXEL;
     const uint ray = hit ? shown : 0;
-    const float edge[3] = {sight.edge.x, sight.edge.y, sight.edge.z};
+    const float edge[3] = {shape.edge.x, shape.edge.y, shape.edge.z};
     const float origin[3] = {world_origin.x, world_origin.y, world_origin.z};
     const float eye[3] = {sight.origin.x, sight.origin.y, sight.origin.z};
     const float eye_low[3] = {sight.origin_low.x, sight.origin_low.y, sight.origin_low.z};

@@ -78,7 +78,7 @@ static inline lane_float surface_color(global const float* restrict materials, l
 
 /// Finds the point and normal of every hit, and starts its radiance with ambient light and emission;
 /// rays that hit nothing take the background. `words` keeps each hit's attribute word.
-kernel void shade_surface(PyramidShape shape, Space space, float4 edge,
+kernel void shade_surface(PyramidShape shape, Space space,
                           global const float* restrict materials,
                           global const uint* restrict attributes, uint constant_attribute,
                           global const uint* restrict colors, global const uint* restrict fields,
@@ -90,6 +90,7 @@ kernel void shade_surface(PyramidShape shape, Space space, float4 edge,
                           global float* restrict radiance) {
     const uint first = work_item() * VXL_LANES;
     if (first >= count) return;
+    const float4 edge = shape.edge;
     const lane_float t = LANES_AS_FLOAT(LANES_LOAD(hits, VXL_HIT_T * stride + first));
     const lane_uint number = LANES_LOAD(hits, VXL_HIT_VOXEL * stride + first);
     const lane_uint cell_xy = LANES_LOAD(hits, VXL_HIT_CELL * stride + first);
@@ -136,7 +137,7 @@ kernel void shade_surface(PyramidShape shape, Space space, float4 edge,
             read_field(fields, voxel & LANES_AS_UINT(smooth), shape.half_curvature);
         Vector g;
         field_gradient(&field, s.x, s.y, s.z, &g.x, &g.y, &g.z);
-        g.x *= 1.0f / edge.x, g.y *= 1.0f / edge.y, g.z *= 1.0f / edge.z;
+        g.x *= shape.inverse_edge.x, g.y *= shape.inverse_edge.y, g.z *= shape.inverse_edge.z;
         normal = select_vector(smooth, unit(g), normal);
     }
     if (VXL_EXACT && lanes_any(exact)) {
@@ -173,7 +174,7 @@ kernel void shade_surface(PyramidShape shape, Space space, float4 edge,
 }
 
 /// The part of a spot's light that goes along the unit vector `to_surface`: smoothstep of the cosine.
-static inline lane_float spot_share(Light light, Vector to_surface) {
+static inline lane_float spot_share(LightRecord light, Vector to_surface) {
     const Vector along = {(lane_float)light.direction.x, (lane_float)light.direction.y,
                           (lane_float)light.direction.z};
     const lane_float cosine = dot_product(along, to_surface);
@@ -185,7 +186,7 @@ static inline lane_float spot_share(Light light, Vector to_surface) {
 
 /// Adds one light: every surface point that faces it, and to which it gives any light, gets a place in
 /// the queue of shadow rays with the light's share. Without shadows the share is added at once.
-kernel void shade_light(PyramidShape shape, Space space, float4 edge, Light light,
+kernel void shade_light(PyramidShape shape, Space space, LightRecord light,
                         global const float* restrict materials, global const uint* restrict colors,
                         global const float* restrict rays, global const uint* restrict hits,
                         uint count, uint stride, global const float* restrict positions,
@@ -195,6 +196,7 @@ kernel void shade_light(PyramidShape shape, Space space, float4 edge, Light ligh
                         global uint* restrict sources, global float* restrict shares) {
     const uint first = work_item() * VXL_LANES;
     if (first >= count) return;
+    const float4 edge = shape.edge;
     const lane_uint number = LANES_LOAD(hits, VXL_HIT_VOXEL * stride + first);
     lane_int lit = LANE_MASK(number != VXL_NO_VOXEL);
     if (!lanes_any(lit)) return;
@@ -205,9 +207,9 @@ kernel void shade_light(PyramidShape shape, Space space, float4 edge, Light ligh
     Vector to_light = {light.position.x - position.x, light.position.y - position.y,
                        light.position.z - position.z};
     if (light.kind == VXL_LIGHT_DIRECTIONAL) {
-        to_light.x = (lane_float)(-light.direction.x / edge.x);
-        to_light.y = (lane_float)(-light.direction.y / edge.y);
-        to_light.z = (lane_float)(-light.direction.z / edge.z);
+        to_light.x = (lane_float)light.position.x;
+        to_light.y = (lane_float)light.position.y;
+        to_light.z = (lane_float)light.position.z;
     }
     const Vector metric = {to_light.x * edge.x, to_light.y * edge.y, to_light.z * edge.z};
     const lane_float squared = dot_product(metric, metric);

@@ -13,6 +13,7 @@
 #include <cstdint>
 
 #include "runtime/opencl/buffer.hpp"
+#include "runtime/surface.hpp"
 
 namespace voxelume {
 

@@ -15,13 +15,15 @@ struct float4 {
 
 // The pyramid's shape, and the numbers of its fixed point.
 typedef struct PyramidShape {
+    float4 edge;          // xyz: a voxel's edges in metres; w unused
+    float4 inverse_edge;  // 1 / edge
     int size_x, size_y, size_z;  // voxels
     int sectors_x, sectors_y;
     float plane_bound;     // voxels: how far a computed crossing can lie from the true one
     float fixed_point;     // 2^fraction_bits: one voxel in the rays' fixed point
     float half_curvature;  // half of 2^curvature_exponent, in distance units
 } PyramidShape;
-VXL_SIZE_IS(PyramidShape, 32);
+VXL_SIZE_IS(PyramidShape, 64);
 
 // Values of Sight::shape.
 #define VXL_SHAPE_PYRAMID 0
@@ -36,7 +38,6 @@ typedef struct Sight {
     float4 axis_x;      // X_E, Y_E, Z_E: voxels per metre along each
     float4 axis_y;
     float4 axis_z;
-    float4 edge;      // xyz: a voxel's edges in metres
     float half_x;     // pyramid: tangent of the half angle; sector, ball: half angle, radians; box: metres
     float half_y;
     float near_plane;  // metres; along Z_E for pyramid and box, along the ray for sector and ball
@@ -44,10 +45,12 @@ typedef struct Sight {
     int width, height;  // pixels
     int samples;        // per pixel
     int shape;
+    float sample_share;  // 1 / samples
+    float unused[3];
 } Sight;
 VXL_SIZE_IS(Sight, 128);
 
-typedef struct Material {
+typedef struct MaterialRecord {
     float color[3];
     float diffuse;
     float absorption[3];  // per metre
@@ -58,8 +61,8 @@ typedef struct Material {
     float reflection;
     float refraction;
     float unused;
-} Material;
-VXL_SIZE_IS(Material, 64);
+} MaterialRecord;
+VXL_SIZE_IS(MaterialRecord, 64);
 #define VXL_MATERIAL_COLOR 0
 #define VXL_MATERIAL_DIFFUSE 3
 #define VXL_MATERIAL_EMISSION 8
@@ -67,21 +70,21 @@ VXL_SIZE_IS(Material, 64);
 #define VXL_MATERIAL_SHININESS 12
 #define VXL_MATERIAL_FLOATS 16
 
-// Values of Light::kind.
+// Values of LightRecord::kind.
 #define VXL_LIGHT_POINT 0
 #define VXL_LIGHT_SPOT 1
 #define VXL_LIGHT_DIRECTIONAL 2
 
-typedef struct Light {
-    float4 position;   // point and spot; w unused
-    float4 direction;  // unit, metric: along which the light travels; w unused
+typedef struct LightRecord {
+    float4 position;   // point and spot: where; directional: the way towards it; w unused
+    float4 direction;  // spot: unit vector in metres' space along which the light travels; w unused
     float4 energy;     // rgb at 1 m, or everywhere for directional; w unused
     float inner_cosine;  // spot: full light up to this angle's cosine, none from outer_cosine on
     float outer_cosine;
     int kind;
     int unused;
-} Light;
-VXL_SIZE_IS(Light, 64);
+} LightRecord;
+VXL_SIZE_IS(LightRecord, 64);
 
 // The space of S and what surrounds it.
 typedef struct Space {

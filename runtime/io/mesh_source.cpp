@@ -38,6 +38,9 @@ std::string quoted_token(const char* at) {
 }
 
 float require_number(const MeshSource& source, const char*& p, char also_end) {
+    if (*p == '\n' || *p == '\0') {
+        source.fail_at_line(p, "the line ends where a number should stand");
+    }
     const Decimal number = scan_decimal(p);
     const bool complete = ends_token(*number.end) || *number.end == also_end;
     if (number.status == DecimalStatus::not_a_number || !complete) {

@@ -1,124 +1,31 @@
 #include "runtime/opencl/device.hpp"
 
-#include <algorithm>
-#include <charconv>
 #include <cstdlib>
+#include <utility>
 
 #include "runtime/error.hpp"
+#include "runtime/opencl/platforms.hpp"
+#include "runtime/opencl/program_cache.hpp"
+#include "runtime/opencl/status.hpp"
 
 namespace voxelume {
 namespace {
 
-struct Candidate {
-    cl::Device device;
-    DeviceInfo info;
-};
+constexpr size_t kTimesKept = 256;  // events waiting to be read; each holds driver memory
 
-std::string lower(std::string_view text) {
-    std::string result(text);
-    std::ranges::transform(result, result.begin(),
-                           [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return result;
+std::string environment(const char* name) {
+    const char* value = std::getenv(name);
+    return value ? value : "";
 }
 
-std::string trimmed(std::string text) {
-    while (!text.empty() && (text.back() == '\0' || text.back() == ' ')) text.pop_back();
-    return text;
-}
-
-/// Lanes that one work-item carries: a CPU's vector registers hold 16, 8 or 4 floats; a GPU gives
-/// every ray a work-item of its own.
-int lanes_of(const cl::Device& device, DeviceKind kind) {
-    if (kind != DeviceKind::cpu) return 1;
-    const cl_uint width = device.getInfo<CL_DEVICE_NATIVE_VECTOR_WIDTH_FLOAT>();
-    return width >= 16 ? 16 : width >= 8 ? 8 : width >= 4 ? 4 : 1;
-}
-
-std::string reason_unusable(const cl::Device& device) {
-    if (!device.getInfo<CL_DEVICE_AVAILABLE>()) return "the driver says it is not available";
-    if (!device.getInfo<CL_DEVICE_COMPILER_AVAILABLE>()) return "it has no kernel compiler";
-    if (!device.getInfo<CL_DEVICE_ENDIAN_LITTLE>()) return "it is big-endian";
-    if (device.getInfo<CL_DEVICE_PROFILE>().starts_with("EMBEDDED"))
-        return "it offers the embedded profile only, without 64-bit integers";
-    return {};
-}
-
-DeviceInfo describe(const cl::Platform& platform, const cl::Device& device) {
-    DeviceInfo info;
-    const cl_device_type type = device.getInfo<CL_DEVICE_TYPE>();
-    info.kind = type & CL_DEVICE_TYPE_GPU   ? DeviceKind::gpu
-                : type & CL_DEVICE_TYPE_CPU ? DeviceKind::cpu
-                                            : DeviceKind::other;
-    info.name = trimmed(device.getInfo<CL_DEVICE_NAME>());
-    info.vendor = trimmed(device.getInfo<CL_DEVICE_VENDOR>());
-    info.platform = trimmed(platform.getInfo<CL_PLATFORM_NAME>());
-    info.version = trimmed(device.getInfo<CL_DEVICE_VERSION>());
-    info.driver = trimmed(device.getInfo<CL_DRIVER_VERSION>());
-    info.memory = device.getInfo<CL_DEVICE_GLOBAL_MEM_SIZE>();
-    info.max_allocation = device.getInfo<CL_DEVICE_MAX_MEM_ALLOC_SIZE>();
-    info.compute_units = static_cast<int>(device.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>());
-    info.lanes = lanes_of(device, info.kind);
-    info.unusable = reason_unusable(device);
-    return info;
-}
-
-std::vector<Candidate> find_candidates() {
-    std::vector<Candidate> found;
-    std::vector<cl::Platform> platforms;
-    try {
-        cl::Platform::get(&platforms);
-    } catch (const cl::Error&) {
-        return found;  // no driver installed at all (CL_PLATFORM_NOT_FOUND_KHR)
-    }
-    for (const cl::Platform& platform : platforms) {
-        try {
-            std::vector<cl::Device> devices;
-            platform.getDevices(CL_DEVICE_TYPE_ALL, &devices);
-            for (const cl::Device& device : devices)
-                found.push_back({device, describe(platform, device)});
-        } catch (const cl::Error&) {
-            continue;  // a broken or empty platform must not end the program
-        }
-    }
-    for (size_t i = 0; i < found.size(); ++i) found[i].info.index = static_cast<int>(i);
-    return found;
-}
-
-bool matches(const DeviceInfo& info, const std::string& selector) {
-    if (selector == "cpu") return info.kind == DeviceKind::cpu;
-    if (selector == "gpu") return info.kind == DeviceKind::gpu;
-    int index = -1;
-    const auto [end, error] =
-        std::from_chars(selector.data(), selector.data() + selector.size(), index);
-    if (error == std::errc() && end == selector.data() + selector.size())
-        return info.index == index;
-    return lower(info.name).find(selector) != std::string::npos ||
-           lower(info.platform).find(selector) != std::string::npos;
-}
-
-/// `auto` takes the device that most likely renders fastest: a GPU before a CPU, then compute
-/// units.
-bool better(const DeviceInfo& a, const DeviceInfo& b) {
-    if ((a.kind == DeviceKind::gpu) != (b.kind == DeviceKind::gpu))
-        return a.kind == DeviceKind::gpu;
-    return a.compute_units > b.compute_units;
-}
-
-[[noreturn]] void throw_no_match(const std::vector<Candidate>& candidates,
-                                 std::string_view selector) {
-    if (candidates.empty())
-        throw Error(ErrorKind::device,
-                    "no OpenCL device found: install a driver, for a CPU the package "
-                    "pocl-opencl-icd, or set OCL_ICD_VENDORS to the folder that names yours");
-    std::string names;
-    for (const Candidate& candidate : candidates) {
-        names += fmt::format("{}[{}] {}", names.empty() ? "" : ", ", candidate.info.index,
-                             candidate.info.name);
-        if (!candidate.info.unusable.empty())
-            names += fmt::format(" (not usable: {})", candidate.info.unusable);
-    }
-    throw Error(ErrorKind::device, "no usable device matches \"{}\"; there are: {}", selector,
-                names);
+/// The lanes asked for by the caller, else by VOXELUME_LANES, else the device's own.
+int lanes_for(const DeviceInfo& info, int asked) {
+    const std::string text = asked != 0 ? std::to_string(asked) : environment("VOXELUME_LANES");
+    if (text.empty()) return info.lanes;
+    for (const int lanes : {1, 4, 8, 16})
+        if (text == std::to_string(lanes)) return lanes;
+    throw Error(ErrorKind::usage, "{} lanes per work-item: there are kernels for 1, 4, 8 and 16",
+                text);
 }
 
 }  // namespace
@@ -129,7 +36,29 @@ struct Device::State {
     cl::Context context;
     cl::CommandQueue queue;
     DeviceCounters counters;
+    bool timing = false;
+    std::vector<std::pair<std::string, cl::Event>> timed;  ///< launches whose time isn't added yet
+
+    State() = default;
+    State(const State&) = delete;
+    State& operator=(const State&) = delete;
+    ~State();
+    void add_times();
 };
+
+/// Kernels are kept once nothing runs any more: PoCL compiles them at their first launch.
+Device::State::~State() {
+    if (queue() && clFinish(queue()) == CL_SUCCESS) keep_compiled_kernels(info);
+}
+
+void Device::State::add_times() {
+    for (const auto& [kernel, event] : timed) {
+        const cl_ulong start = event.getProfilingInfo<CL_PROFILING_COMMAND_START>();
+        const cl_ulong end = event.getProfilingInfo<CL_PROFILING_COMMAND_END>();
+        counters.kernel_ms[kernel] += double(end - start) / 1e6;
+    }
+    timed.clear();
+}
 
 std::vector<DeviceInfo> list_devices() {
     std::vector<DeviceInfo> infos;
@@ -138,20 +67,16 @@ std::vector<DeviceInfo> list_devices() {
 }
 
 Device Device::open(std::string_view selector, int lanes) {
+    const std::string by_default = environment("VOXELUME_DEVICE");
+    if (selector.empty()) selector = by_default;
+    if (selector.empty()) selector = "auto";
     const std::vector<Candidate> candidates = find_candidates();
-    const std::string wanted = lower(selector);
-    const Candidate* chosen = nullptr;
-    for (const Candidate& candidate : candidates) {
-        if (!candidate.info.unusable.empty()) continue;
-        if (wanted != "auto" && !wanted.empty() && !matches(candidate.info, wanted)) continue;
-        if (!chosen || better(candidate.info, chosen->info)) chosen = &candidate;
-    }
-    if (!chosen) throw_no_match(candidates, selector);
+    const Candidate& chosen = choose(candidates, selector);
 
     auto state = std::make_shared<State>();
-    state->device = chosen->device;
-    state->info = chosen->info;
-    if (lanes != 0) state->info.lanes = lanes;
+    state->device = chosen.device;
+    state->info = chosen.info;
+    state->info.lanes = lanes_for(chosen.info, lanes);
     try {
         state->context = cl::Context(state->device);
         state->queue = cl::CommandQueue(state->context, state->device);
@@ -180,22 +105,45 @@ DeviceCounters& Device::counters() const {
 void Device::finish() const {
     try {
         state_->queue.finish();
+        state_->add_times();
     } catch (const cl::Error& error) {
         throw_device_error(error, state_->info, "waiting for its kernels");
     }
 }
 
+void Device::time_kernels(bool on) const {
+    finish();
+    try {
+        state_->queue =
+            cl::CommandQueue(state_->context, state_->device, on ? CL_QUEUE_PROFILING_ENABLE : 0);
+    } catch (const cl::Error& error) {
+        throw_device_error(error, state_->info, "opening a queue");
+    }
+    state_->timing = on;
+}
+
+void Device::enqueue(const cl::Kernel& kernel, const std::string& name, const cl::NDRange& items,
+                     const cl::NDRange& group) const {
+    try {
+        cl::Event event;
+        state_->queue.enqueueNDRangeKernel(kernel, cl::NullRange, items, group, nullptr,
+                                           state_->timing ? &event : nullptr);
+        if (state_->timing) state_->timed.emplace_back(name, std::move(event));
+    } catch (const cl::Error& error) {
+        throw_device_error(error, state_->info, "launching " + name);
+    }
+    ++state_->counters.launches[name];
+    if (state_->timed.size() >= kTimesKept) finish();
+}
+
 void throw_device_error(const cl::Error& error, const DeviceInfo& info, std::string_view what) {
-    const bool memory =
-        error.err() == CL_MEM_OBJECT_ALLOCATION_FAILURE || error.err() == CL_OUT_OF_RESOURCES ||
-        error.err() == CL_OUT_OF_HOST_MEMORY || error.err() == CL_INVALID_BUFFER_SIZE;
-    if (memory)
+    if (is_out_of_memory(error.err()))
         throw Error(ErrorKind::limit,
-                    "\"{}\" ran out of memory while {} ({} failed with {}): use larger voxels or a "
+                    "\"{}\" ran out of memory while {} ({} returned {}): use larger voxels or a "
                     "smaller image",
-                    info.name, what, error.what(), error.err());
+                    info.name, what, error.what(), status_name(error.err()));
     throw Error(ErrorKind::render, "\"{}\" failed while {}: {} returned {}", info.name, what,
-                error.what(), error.err());
+                error.what(), status_name(error.err()));
 }
 
 }  // namespace voxelume

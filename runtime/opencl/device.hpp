@@ -19,6 +19,7 @@ struct DeviceInfo {
     int index = 0;  ///< position in `list_devices()`, which `--device N` takes
     DeviceKind kind = DeviceKind::other;
     std::string name, vendor, platform;
+    std::string platform_version;
     std::string version;  ///< OpenCL version text
     std::string driver;
     uint64_t memory = 0;          ///< bytes
@@ -26,7 +27,11 @@ struct DeviceInfo {
     int compute_units = 0;
     int lanes = 1;         ///< rays that one work-item of a packet kernel carries
     std::string unusable;  ///< why it can't render here; empty when it can
+    std::string note;      ///< what its user should know; mostly empty
 };
+
+/// The name of PoCL's platform, the one for CPUs.
+inline constexpr std::string_view kPoclPlatform = "Portable Computing Language";
 
 /// Every device of every platform; a platform that fails is passed over.
 std::vector<DeviceInfo> list_devices();
@@ -34,22 +39,29 @@ std::vector<DeviceInfo> list_devices();
 /// What was done on a device since it was opened: the tests read it, and so does `--stats-json`.
 struct DeviceCounters {
     std::map<std::string, uint64_t> launches;  ///< by kernel name
+    std::map<std::string, double> kernel_ms;   ///< by kernel name, while `time_kernels` is on
     std::map<std::string, uint64_t>
         allocated_bytes;  ///< by buffer name, summed over all allocations
     uint64_t bytes_in_use = 0;
     uint64_t peak_bytes = 0;
-    uint64_t programs_built = 0;
+    uint64_t programs_built = 0;       ///< made ready, compiled or not
+    uint64_t programs_from_cache = 0;  ///< of these, not compiled again
+    double build_ms = 0;               ///< making programs ready; PoCL does most at first launch
 };
 
 /// An open device: one context and one in-order queue. Shared by the buffers and programs made on
 /// it.
 class Device {
   public:
-    /// Opens the device that `selector` names: auto, cpu, gpu, an index, or part of a name.
+    /// Opens the device that `selector` names: auto, cpu, gpu, an index of `list_devices()`, or
+    /// part of the name of a device or its platform. An empty one (no --device was given) stands
+    /// for VOXELUME_DEVICE, and without that for auto.
     ///
-    /// `lanes` overrides the number of lanes (1, 4, 8 or 16); 0 keeps the device's own.
+    /// Where several devices match, a GPU goes before a CPU, then the most compute units, then the
+    /// lowest index. `lanes` overrides the lanes per work-item (1, 4, 8 or 16); 0 takes
+    /// VOXELUME_LANES, else the device's own.
     /// Throws Error::device when nothing fits, naming what is there or the package to install.
-    static Device open(std::string_view selector = "auto", int lanes = 0);
+    static Device open(std::string_view selector = {}, int lanes = 0);
 
     const DeviceInfo& info() const;
     int lanes() const { return info().lanes; }
@@ -62,6 +74,13 @@ class Device {
 
     /// Waits until everything enqueued so far is done. Throws Error::render when the device failed.
     void finish() const;
+
+    /// Measures every launch from here on into `counters().kernel_ms`, complete after `finish`.
+    void time_kernels(bool on) const;
+
+    /// Puts a launch of `kernel`, named `name` in the counters, into the queue.
+    void enqueue(const cl::Kernel& kernel, const std::string& name, const cl::NDRange& items,
+                 const cl::NDRange& group) const;
 
   private:
     struct State;

@@ -4,6 +4,8 @@
 
 #include "runtime/error.hpp"
 #include "runtime/opencl/kernel_source.hpp"
+#include "runtime/opencl/program_cache.hpp"
+#include "runtime/opencl/status.hpp"
 
 namespace voxelume {
 namespace {
@@ -25,7 +27,7 @@ void Kernel::set_bytes(cl_uint index, size_t bytes, const void* value) {
     const cl_int status = clSetKernelArg(kernel_(), index, bytes, value);
     if (status != CL_SUCCESS)
         throw Error(ErrorKind::render, "kernel {}: argument {} of {} bytes refused with {}", name_,
-                    index, bytes, status);
+                    index, bytes, status_name(status));
 }
 
 void Kernel::enqueue(WorkItem work, size_t count) {
@@ -37,13 +39,7 @@ void Kernel::enqueue(WorkItem work, size_t count) {
     const size_t groups = (count + local - 1) / local;
     const size_t columns = std::min(groups * local, kRow);
     const size_t rows = (groups * local + columns - 1) / columns;
-    try {
-        device_.queue().enqueueNDRangeKernel(kernel_, cl::NullRange, cl::NDRange(columns, rows),
-                                             cl::NDRange(local, 1));
-    } catch (const cl::Error& error) {
-        throw_device_error(error, device_.info(), "launching " + name_);
-    }
-    ++device_.counters().launches[name_];
+    device_.enqueue(kernel_, name_, cl::NDRange(columns, rows), cl::NDRange(local, 1));
 }
 
 Program::Program(const Device& device, const std::string& file, const Defines& defines)
@@ -57,17 +53,7 @@ Program Program::from_text(const Device& device, const std::string& source,
 Program::Program(const Device& device, const std::string& label, const std::string& source,
                  const Defines& defines)
     : device_(device), label_(label) {
-    const std::string options = build_options(device, defines);
-    try {
-        program_ = cl::Program(device.context(), source);
-        program_.build(device.handle(), options.c_str());
-    } catch (const cl::Error& error) {
-        std::string log;
-        if (program_()) log = program_.getBuildInfo<CL_PROGRAM_BUILD_LOG>(device.handle());
-        throw Error(ErrorKind::build, "{} does not compile on \"{}\" with {} ({}):\n{}", label,
-                    device.info().name, options, error.err(), log);
-    }
-    ++device.counters().programs_built;
+    program_ = build_program(device, label, source, build_options(device, defines));
 }
 
 Kernel Program::kernel(const std::string& name) const {
@@ -75,7 +61,7 @@ Kernel Program::kernel(const std::string& name) const {
         return Kernel(device_, cl::Kernel(program_, name.c_str()), name);
     } catch (const cl::Error& error) {
         throw Error(ErrorKind::build, "{} has no kernel {} on \"{}\" ({})", label_, name,
-                    device_.info().name, error.err());
+                    device_.info().name, status_name(error.err()));
     }
 }
 

@@ -40,6 +40,13 @@ class Kernel {
         enqueue(work, count);
     }
 
+    /// Runs packets of the device's lanes for `rays` rays: the work-items of a packet kernel.
+    template <class... Args>
+    void launch_packets(size_t rays, const Args&... args) {
+        const size_t lanes = static_cast<size_t>(device_.lanes());
+        launch(WorkItem::heavy, (rays + lanes - 1) / lanes, args...);
+    }
+
   private:
     template <class T>
     void set_argument(cl_uint index, const Buffer<T>& buffer) {

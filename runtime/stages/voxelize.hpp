@@ -8,15 +8,9 @@
 #include "runtime/grid.hpp"
 #include "runtime/mesh.hpp"
 #include "runtime/opencl/program.hpp"
-#include "runtime/surface.hpp"
+#include "runtime/stages/voxelize_options.hpp"
 
 namespace voxelume {
-
-struct VoxelizeOptions {
-    Surface surface = Surface::cubes;
-    VoxelSet set = VoxelSet::supercover;  ///< of `cubes`; `exact` is always SUPERCOVER
-    double band = 2.8;  ///< `smooth`: exact distances up to here, in shortest voxel edges, at most 4
-};
 
 /// Voxelizes meshes on one device and keeps the compiled kernels between calls.
 class Voxelizer {
@@ -34,13 +28,14 @@ class Voxelizer {
     ///           are not all on one side. Distances are exact to their rounding within the band and
     ///           saturated (±32767) beyond.
     ///   exact   as cubes, with the triangles of each voxel in ascending order.
-    /// A mesh with one group and no colours leaves `attributes` and `colors` empty. Otherwise a
-    /// voxel has the group, and at its centre's closest point the colour, of the lowest-numbered
-    /// triangle that covers it.
+    /// `attributes` is empty for a mesh with one group, `colors` for one without. Otherwise a voxel
+    /// has the group of the triangle closest to its centre, of equally close ones that with the
+    /// lowest number, and the colour of that triangle's closest point; voxels that no surface
+    /// concerns have group 0 and white. Materials are face groups, object is 0.
     /// Throws Error::input for a mesh that has no triangles, NaNs or bad indices, Error::limit for
     /// more than 16384 voxels along an axis or too little memory.
     BrickGrid voxelize(const Mesh& mesh, const glm::dmat4& frame_from_mesh, const GridFrame& frame,
-                       const VoxelizeOptions& options = {});
+                       const VoxelizeOptions& options);
 
   private:
     const Program& program(const std::string& file, const Defines& defines);

@@ -1,0 +1,141 @@
+// BrickGrid -> Pyramid: which voxels a ray must see, and their words in the pyramid's order.
+//
+// Two passes over the stored bricks, one brick a work-item: `mark_voxels` finds each brick's voxels
+// and counts them, the host numbers them by prefix sums, `write_voxels` fills the pyramid.
+//
+// Build constants: VXL_OCCUPANCY, VXL_SMOOTH, VXL_ATTRIBUTES, VXL_WRITE_ATTRIBUTES, VXL_COLORS,
+// VXL_PRIMITIVES say which of the grid's buffers exist.
+#include "lib/brick_field.h"
+#include "lib/brick_nodes.h"
+#include "lib/work_item.h"
+
+// Voxels of a leaf that lie below `room` voxels along each axis from the leaf's minimum corner.
+static inline ulong mask_within(int4 room) {
+    const int4 n = clamp(room, 0, 4);
+    if (n.x == 0 || n.y == 0 || n.z == 0) return 0;
+    const ulong x = 0x1111111111111111ul * ((1ul << n.x) - 1);
+    const ulong y = 0x0001000100010001ul * (n.y == 4 ? 0xFFFFul : (1ul << 4 * n.y) - 1);
+    const ulong z = n.z == 4 ? ~0ul : (1ul << 16 * n.z) - 1;
+    return x & y & z;
+}
+
+static inline int4 leaf_origin(int leaf) {
+    return (int4)((leaf & 3) << 2, leaf & 12, leaf >> 2 & 12, 0);
+}
+
+// The voxel's place in a brick's 4096 values, from its leaf and its bit there.
+static inline int voxel_in_brick(int leaf, int bit) {
+    const int4 first = leaf_origin(leaf);
+    return (first.x + (bit & 3)) | (first.y + (bit >> 2 & 3)) << 4 | (first.z + (bit >> 4)) << 8;
+}
+
+static inline int lowest_bit(ulong mask) {
+    return (int)popcount((mask & -mask) - 1);
+}
+
+// One brick: masks of its voxels, mask of its leaves, and three counts: voxels, primitives, and the
+// largest twice-|D| of its smooth cells. `size` is the grid's, `bricks` the brick table's.
+kernel void mark_voxels(const uint count, const int4 size, const int4 bricks,
+                        global const uint* restrict slots, global const uint* restrict coordinates,
+                        global const ulong* restrict occupancy,
+                        global const short* restrict distance,
+                        global const uint* restrict primitive_first, global ulong* restrict masks,
+                        global ulong* restrict leaf_masks, global uint* restrict counts) {
+    const uint slot = work_item();
+    if (slot >= count) return;
+    const int4 brick = brick_at(coordinates[slot], bricks);
+    ulong kept[64];
+    for (int leaf = 0; leaf < 64; ++leaf)
+        kept[leaf] = VXL_OCCUPANCY ? occupancy[(size_t)slot * 64 + leaf] : 0;
+    uint largest = 0;
+    if (VXL_SMOOTH) {
+        short nodes[VXL_NODE_COUNT];
+        gather_nodes(slots, bricks, distance, brick, nodes);
+        largest = keep_smooth_cells(nodes, kept);
+    }
+    const int4 room = size - brick * 16;
+    const bool whole = room.x >= 16 && room.y >= 16 && room.z >= 16;
+    ulong leaf_mask = 0;
+    uint voxels = 0, primitives = 0;
+    for (int leaf = 0; leaf < 64; ++leaf) {
+        ulong mask = kept[leaf];
+        if (!whole) mask &= mask_within(room - leaf_origin(leaf));
+        masks[(size_t)slot * 64 + leaf] = mask;
+        if (mask != 0) leaf_mask |= 1ul << leaf;
+        voxels += (uint)popcount(mask);
+        if (VXL_PRIMITIVES)
+            for (; mask != 0; mask &= mask - 1) {
+                const size_t voxel =
+                    (size_t)slot * VXL_BRICK_VOXELS + voxel_in_brick(leaf, lowest_bit(mask));
+                primitives += primitive_first[voxel + 1] - primitive_first[voxel];
+            }
+    }
+    leaf_masks[slot] = leaf_mask;
+    vstore3((uint3)(voxels, primitives, largest), slot, counts);
+}
+
+// One brick: its leaves and voxels, from the numbers in `starts` (first leaf, voxel, primitive of
+// each slot) on. `kinds` holds the kind bits of voxels in the occupancy masks (x) and of the others
+// (y), `exponent` the unit of second differences. The last voxel's end in `voxel_primitive_first`
+// is the host's to write.
+kernel void write_voxels(const uint count, const uint2 kinds, const uint attribute,
+                         const int exponent, const int4 bricks, global const uint* restrict slots,
+                         global const uint* restrict coordinates,
+                         global const ulong* restrict occupancy,
+                         global const short* restrict distance,
+                         global const uint* restrict attributes, global const uint* restrict colors,
+                         global const uint* restrict primitive_first,
+                         global const uint* restrict primitives, global const ulong* restrict masks,
+                         global const uint* restrict starts, global uint* restrict leaves,
+                         global uint* restrict leaf_voxels, global uint* restrict voxel_attributes,
+                         global uint* restrict voxel_colors, global uint* restrict voxel_fields,
+                         global uint* restrict voxel_primitive_first,
+                         global uint* restrict voxel_primitives) {
+    const uint slot = work_item();
+    if (slot >= count) return;
+    const uint3 start = vload3(slot, starts);
+    uint leaf_number = start.x, number = start.y, primitive = start.z;
+    short nodes[VXL_SMOOTH ? VXL_NODE_COUNT : 1];
+    bool gathered = false;
+    for (int leaf = 0; leaf < 64; ++leaf) {
+        ulong mask = masks[(size_t)slot * 64 + leaf];
+        if (mask == 0) continue;
+        vstore2(as_uint2(mask), leaf_number, leaves);
+        leaf_voxels[leaf_number++] = number;
+        const ulong occupied = VXL_OCCUPANCY ? occupancy[(size_t)slot * 64 + leaf] : 0;
+        if (VXL_SMOOTH && !gathered) {
+            gather_nodes(slots, bricks, distance, brick_at(coordinates[slot], bricks), nodes);
+            gathered = true;
+        }
+        if (!(VXL_WRITE_ATTRIBUTES | VXL_COLORS | VXL_SMOOTH | VXL_PRIMITIVES)) {
+            number += (uint)popcount(mask);
+            continue;
+        }
+        for (; mask != 0; mask &= mask - 1, ++number) {
+            const int bit = lowest_bit(mask);
+            const int place = voxel_in_brick(leaf, bit);
+            const size_t voxel = (size_t)slot * VXL_BRICK_VOXELS + place;
+            const bool smooth = VXL_SMOOTH && !(occupied >> bit & 1);
+            if (VXL_WRITE_ATTRIBUTES) {
+                const uint word = VXL_ATTRIBUTES ? attributes[voxel] : attribute;
+                const uint without_kind =
+                    word & (VXL_MATERIAL_MASK << VXL_MATERIAL_SHIFT | VXL_OBJECT_MASK);
+                // An occupied voxel of a grid with attributes says itself whether it is exact.
+                voxel_attributes[number] = smooth           ? without_kind | kinds.y
+                                           : VXL_ATTRIBUTES ? word
+                                                            : without_kind | kinds.x;
+            }
+            if (VXL_COLORS) voxel_colors[number] = colors[voxel];
+            if (VXL_SMOOTH) {
+                const int4 cell = (int4)(place & 15, place >> 4 & 15, place >> 8, 0);
+                vstore8(smooth ? field_record(nodes, cell, exponent) : (uint8)(0), number,
+                        voxel_fields);
+            }
+            if (VXL_PRIMITIVES) {
+                voxel_primitive_first[number] = primitive;
+                for (uint i = primitive_first[voxel]; i < primitive_first[voxel + 1]; ++i)
+                    voxel_primitives[primitive++] = primitives[i];
+            }
+        }
+    }
+}

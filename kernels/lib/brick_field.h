@@ -1,0 +1,159 @@
+// Cells of a brick's distance field: which ones its half-Taylor interpolant can cross, and their
+// records. Works on nodes gathered by lib/brick_nodes.h.
+#ifndef VXL_BRICK_FIELD_H
+#define VXL_BRICK_FIELD_H
+
+#include "lib/brick_nodes.h"
+
+// A cell is kept when min f - m <= 0 <= max f + m, with m = 1/8 Σ_a max|D_a| + kMargin over the
+// three axes and each axis' four edges. That misses no zero of the interpolant F in voxel.h:
+//   min f <= Σ w_i f_i <= max f, since the weights are positive and sum to 1; ½ x(1-x) <= 1/8 on
+//   [0,1]; |Σ w_yz D_x| <= max|D_x|; so |F - Σ w_i f_i| <= 1/8 Σ_a max|D_a|.
+// The margin covers the records' rounding: D is off by at most half its unit 2^8, which is 128, and
+// 3/8 of that is 48 (1/171 voxel). It leaves the kept set independent of the unit that is chosen.
+#define VXL_KEEP_MARGIN 48
+
+// Twice D of the edge from `node` to node[step]; 0 where a node in it is saturated.
+static inline int twice_curvature(const short* node, int step) {
+    const int before = node[-step], first = node[0], second = node[step], after = node[2 * step];
+    const int high = max(max(before, first), max(second, after));
+    const int low = min(min(before, first), min(second, after));
+    const bool saturated = high >= VXL_SATURATED || low <= -VXL_SATURATED;
+    return saturated ? 0 : second - before - after + first;
+}
+
+// |2D| of sixteen neighbouring edges.
+static inline int16 curvature_sizes(const short* node, int step) {
+    const int16 before = convert_int16(vload16(0, node - step));
+    const int16 first = convert_int16(vload16(0, node));
+    const int16 second = convert_int16(vload16(0, node + step));
+    const int16 after = convert_int16(vload16(0, node + 2 * step));
+    const int16 high = max(max(before, first), max(second, after));
+    const int16 low = min(min(before, first), min(second, after));
+    const int16 saturated = high >= VXL_SATURATED | low <= -VXL_SATURATED;
+    const int16 twice = second - before - after + first;
+    return max(twice, -twice) & ~saturated;
+}
+
+// The largest |2D| of each cell's four edges along the axis of `step`, across the other two.
+static inline int16 largest_of_edges(const short* node, int step, int across, int over) {
+    return max(
+        max(curvature_sizes(node, step), curvature_sizes(node + across, step)),
+        max(curvature_sizes(node + over, step), curvature_sizes(node + across + over, step)));
+}
+
+static inline bool any_lane(short16 mask) {
+    const ulong4 words = as_ulong4(mask);
+    return (words.x | words.y | words.z | words.w) != 0;
+}
+
+static inline uint lanes_to_bits(int16 mask) {
+    const int16 bits =
+        mask & (int16)(1, 2, 4, 8, 16, 32, 64, 128, 256, 512, 1024, 2048, 4096, 8192, 16384, 32768);
+    const int8 eight = bits.lo | bits.hi;
+    const int4 four = eight.lo | eight.hi;
+    return (uint)(four.x | four.y | four.z | four.w);
+}
+
+static inline ushort largest_lane(ushort16 values) {
+    const ushort8 eight = max(values.lo, values.hi);
+    const ushort4 four = max(eight.lo, eight.hi);
+    return max(max(four.x, four.y), max(four.z, four.w));
+}
+
+static inline uint largest_lane_int(int16 values) {
+    const int8 eight = max(values.lo, values.hi);
+    const int4 four = max(eight.lo, eight.hi);
+    return (uint)max(max(four.x, four.y), max(four.z, four.w));
+}
+
+// The largest difference of two neighbouring nodes, over all gathered nodes.
+static inline int largest_step(const short* nodes) {
+    ushort16 largest = 0;
+    for (int z = 0; z < VXL_NODES; ++z)
+        for (int y = 0; y < VXL_NODES; ++y) {
+            const short* row = nodes + y * VXL_NODE_ROW + z * VXL_NODE_LAYER;
+            for (int x = 0; x <= 3; x += 3) {  // two overlapping sixteens cover nineteen
+                const short16 here = vload16(0, row + x);
+                if (y + 1 < VXL_NODES)
+                    largest = max(largest, abs_diff(here, vload16(0, row + x + VXL_NODE_ROW)));
+                if (z + 1 < VXL_NODES)
+                    largest = max(largest, abs_diff(here, vload16(0, row + x + VXL_NODE_LAYER)));
+            }
+            largest = max(largest, abs_diff(vload16(0, row), vload16(0, row + 1)));
+            largest = max(largest, abs_diff(vload16(0, row + 2), vload16(0, row + 3)));
+        }
+    return (int)largest_lane(largest);
+}
+
+// Sixteen cells along x from the one at `node`: bits of those to keep. `reach` bounds m in the
+// brick; `largest` collects |2D| of kept cells.
+static inline uint keep_row(const short* node, short reach, int16* largest) {
+    short16 low = VXL_SATURATED, high = -VXL_SATURATED;
+    for (int corner = 0; corner < 8; ++corner) {
+        const short16 f = vload16(0, node + (corner & 1) + (corner >> 1 & 1) * VXL_NODE_ROW +
+                                         (corner >> 2) * VXL_NODE_LAYER);
+        low = min(low, f);
+        high = max(high, f);
+    }
+    if (!any_lane(low <= reach & high >= (short)(-reach))) return 0;
+    short16 nearest = VXL_SATURATED;
+    for (int corner = 0; corner < 8; ++corner) {
+        const short16 f = vload16(0, node + (corner & 1) + (corner >> 1 & 1) * VXL_NODE_ROW +
+                                         (corner >> 2) * VXL_NODE_LAYER);
+        nearest = min(nearest, max(f, -f));
+    }
+    const int16 x = largest_of_edges(node, 1, VXL_NODE_ROW, VXL_NODE_LAYER);
+    const int16 y = largest_of_edges(node, VXL_NODE_ROW, 1, VXL_NODE_LAYER);
+    const int16 z = largest_of_edges(node, VXL_NODE_LAYER, 1, VXL_NODE_ROW);
+    const int16 reach16 = x + y + z + 16 * VXL_KEEP_MARGIN;  // 16 m
+    const int16 kept = convert_int16(low) * 16 <= reach16 & convert_int16(high) * 16 >= -reach16 &
+                       convert_int16(nearest) < VXL_SATURATED;
+    *largest = max(*largest, max(max(x, y), z) & kept);
+    return lanes_to_bits(kept);
+}
+
+// Adds the cells that the interpolant can cross to the 64 leaf masks; returns their largest |2D|.
+static inline uint keep_smooth_cells(const short* nodes, ulong* kept) {
+    // |2D| is at most two steps, so m at most 3/8 of the largest step.
+    const short reach = (short)(largest_step(nodes) * 3 / 8 + 1 + VXL_KEEP_MARGIN);
+    int16 largest = 0;
+    for (int z = 0; z < 16; ++z)
+        for (int y = 0; y < 16; ++y) {
+            const ulong bits = keep_row(nodes + node_place(0, y, z), reach, &largest);
+            if (bits == 0) continue;
+            const int leaf = (y & 12) | (z & 12) << 2;
+            const int shift = (y & 3) << 2 | (z & 3) << 4;
+            for (int x = 0; x < 4; ++x) kept[leaf | x] |= (bits >> 4 * x & 15) << shift;
+        }
+    return largest_lane_int(largest);
+}
+
+// D in units of 2^exponent from twice D: to nearest, ties to even, within ten bits.
+static inline uint curvature_bits(int twice, int exponent) {
+    const int shift = exponent + 1;
+    const int middle = 1 << exponent;
+    const int rest = twice & (2 * middle - 1);
+    const int floored = twice >> shift;
+    const int rounded = floored + (rest > middle || (rest == middle && (floored & 1)));
+    return (uint)clamp(rounded, -511, 511) & 0x3FFu;
+}
+
+// The eight words of a cell as shared/voxel.h describes them.
+static inline uint8 field_record(const short* nodes, int4 cell, int exponent) {
+    const short* node = nodes + node_place(cell.x, cell.y, cell.z);
+    uint words[8];
+    for (int i = 0; i < 4; ++i) {
+        const int low = i & 1, high = i >> 1;
+        const short* pair = node + low * VXL_NODE_ROW + high * VXL_NODE_LAYER;
+        words[i] = (uint)(ushort)pair[0] | (uint)(ushort)pair[1] << 16;
+        const int x = twice_curvature(pair, 1);
+        const int y = twice_curvature(node + low + high * VXL_NODE_LAYER, VXL_NODE_ROW);
+        const int z = twice_curvature(node + low + high * VXL_NODE_ROW, VXL_NODE_LAYER);
+        words[4 + i] = curvature_bits(x, exponent) | curvature_bits(y, exponent) << 10 |
+                       curvature_bits(z, exponent) << 20;
+    }
+    return vload8(0, words);
+}
+
+#endif

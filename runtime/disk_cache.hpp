@@ -1,0 +1,44 @@
+// What was computed once, kept on disk under a hash of everything that it was computed from.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace voxelume {
+
+/// The user's folder for what may be computed again: VOXELUME_CACHE_DIR, else
+/// XDG_CACHE_HOME/voxelume, else ~/.cache/voxelume. Empty when there is none; an empty
+/// VOXELUME_CACHE_DIR asks for none.
+std::filesystem::path cache_folder();
+
+/// A 128-bit hash (XXH3) of all `parts`, with their lengths, as 32 hexadecimal digits.
+std::string cache_key(std::span<const std::string_view> parts);
+
+/// A folder of files named by `cache_key`, shared by any number of processes.
+///
+/// An entry is a header with a checksum, then the bytes. It appears by a rename, so it is whole or
+/// absent; one that is damaged later fails its checksum, is removed and counts as absent. The
+/// entries used longest ago go first when the folder grows past `max_bytes`. Nothing here throws:
+/// a folder that can't be written keeps nothing.
+class DiskCache {
+  public:
+    DiskCache(std::filesystem::path folder, uint64_t max_bytes)
+        : folder_(std::move(folder)), max_bytes_(max_bytes) {}
+
+    std::optional<std::string> read(const std::string& key) const noexcept;
+    void write(const std::string& key, std::string_view bytes) const noexcept;
+
+  private:
+    void trim() const;
+
+    std::filesystem::path folder_;  ///< empty: keeps nothing
+    uint64_t max_bytes_;
+};
+
+}  // namespace voxelume

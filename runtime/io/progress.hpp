@@ -1,0 +1,61 @@
+// The progress bar: only where a person watches.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <cstdio>
+#include <functional>
+#include <string>
+
+namespace voxelume {
+
+/// What decides whether and how a bar is drawn, apart from the processes that it is taken from.
+struct Terminal {
+    bool draws_bars = false;  ///< a terminal, TERM neither missing nor "dumb", no CI
+    bool has_color = false;   ///< and NO_COLOR is unset or empty
+    int columns = 80;
+};
+
+/// Looks up an environment variable; null when it isn't set.
+using Environment = std::function<const char*(const char*)>;
+
+/// The rule by itself.
+Terminal describe_terminal(bool is_terminal, const Environment& environment);
+
+/// The rule applied to a stream of this process, with its true width.
+Terminal describe_terminal(std::FILE* stream);
+
+/// What a bar shows.
+struct ProgressState {
+    std::string label;
+    uint64_t done = 0;
+    uint64_t total = 0;    ///< 0: nothing to do, shown as complete
+    double seconds = 0.0;  ///< since the start
+};
+
+/// One line without its end, never wider than the terminal: label, bar, per cent, time passed or
+/// left.
+std::string progress_line(const ProgressState& state, const Terminal& terminal);
+
+/// Redraws a line on `stream` at most ten times a second; silent where no bar is to be drawn.
+class Progress {
+  public:
+    Progress(std::string label, uint64_t total, std::FILE* stream, bool quiet = false);
+    /// Clears the line, so that what is printed next starts in a clean one.
+    ~Progress();
+    Progress(const Progress&) = delete;
+    Progress& operator=(const Progress&) = delete;
+
+    void advance(uint64_t count = 1);
+
+  private:
+    using Clock = std::chrono::steady_clock;
+
+    ProgressState state_;
+    std::FILE* stream_;
+    Terminal terminal_;
+    Clock::time_point start_ = Clock::now();
+    Clock::time_point drawn_{};
+};
+
+}  // namespace voxelume

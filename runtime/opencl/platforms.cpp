@@ -1,0 +1,167 @@
+#include "runtime/opencl/platforms.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+
+#include "runtime/error.hpp"
+#include "runtime/opencl/pocl_folder.hpp"
+#include "runtime/opencl/status.hpp"
+
+namespace voxelume {
+namespace {
+
+std::string lower(std::string_view text) {
+    std::string result(text);
+    std::ranges::transform(result, result.begin(),
+                           [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return result;
+}
+
+std::string trimmed(std::string text) {
+    while (!text.empty() && (text.back() == '\0' || text.back() == ' ')) text.pop_back();
+    return text;
+}
+
+DeviceKind kind_of(const cl::Device& device) {
+    const cl_device_type type = device.getInfo<CL_DEVICE_TYPE>();
+    if (type & CL_DEVICE_TYPE_GPU) return DeviceKind::gpu;
+    return type & CL_DEVICE_TYPE_CPU ? DeviceKind::cpu : DeviceKind::other;
+}
+
+/// Lanes that one work-item carries: a CPU's vector registers hold 16, 8 or 4 floats; a GPU gives
+/// every ray a work-item of its own.
+int lanes_of(const cl::Device& device, DeviceKind kind) {
+    if (kind != DeviceKind::cpu) return 1;
+    const cl_uint width = device.getInfo<CL_DEVICE_NATIVE_VECTOR_WIDTH_FLOAT>();
+    return width >= 16 ? 16 : width >= 8 ? 8 : width >= 4 ? 4 : 1;
+}
+
+std::string reason_unusable(const cl::Device& device) {
+    if (!device.getInfo<CL_DEVICE_AVAILABLE>()) return "the driver says it is not available";
+    if (!device.getInfo<CL_DEVICE_COMPILER_AVAILABLE>()) return "it has no kernel compiler";
+    if (!device.getInfo<CL_DEVICE_ENDIAN_LITTLE>()) return "it is big-endian";
+    if (device.getInfo<CL_DEVICE_PROFILE>().starts_with("EMBEDDED"))
+        return "it offers the embedded profile only, without 64-bit integers";
+    return {};
+}
+
+/// PoCL names a CPU "pthread-<processor as LLVM knows it>-<processor>".
+std::string note_on(const DeviceInfo& info) {
+    if (info.platform == kPoclPlatform && info.name.find("-generic-") != std::string::npos)
+        return "PoCL doesn't know this processor and compiles for a generic one, which is slow: "
+               "use a newer PoCL";
+    return {};
+}
+
+DeviceInfo describe(const cl::Platform& platform, const cl::Device& device) {
+    DeviceInfo info;
+    info.kind = kind_of(device);
+    info.name = trimmed(device.getInfo<CL_DEVICE_NAME>());
+    info.vendor = trimmed(device.getInfo<CL_DEVICE_VENDOR>());
+    info.platform = trimmed(platform.getInfo<CL_PLATFORM_NAME>());
+    info.platform_version = trimmed(platform.getInfo<CL_PLATFORM_VERSION>());
+    info.version = trimmed(device.getInfo<CL_DEVICE_VERSION>());
+    info.driver = trimmed(device.getInfo<CL_DRIVER_VERSION>());
+    info.memory = device.getInfo<CL_DEVICE_GLOBAL_MEM_SIZE>();
+    info.max_allocation = device.getInfo<CL_DEVICE_MAX_MEM_ALLOC_SIZE>();
+    info.compute_units = static_cast<int>(device.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>());
+    info.lanes = lanes_of(device, info.kind);
+    info.unusable = reason_unusable(device);
+    info.note = note_on(info);
+    return info;
+}
+
+/// What a device that doesn't even answer questions is listed as.
+DeviceInfo silent_device(const cl::Platform& platform, const cl::Error& error) {
+    DeviceInfo info;
+    info.name = "a device that does not answer";
+    info.platform = trimmed(platform.getInfo<CL_PLATFORM_NAME>());
+    info.unusable = fmt::format("{} returned {}", error.what(), status_name(error.err()));
+    return info;
+}
+
+void append_devices(const cl::Platform& platform, std::vector<Candidate>& found) {
+    std::vector<cl::Device> devices;
+    platform.getDevices(CL_DEVICE_TYPE_ALL, &devices);
+    for (const cl::Device& device : devices) {
+        try {
+            found.push_back({device, describe(platform, device)});
+        } catch (const cl::Error& error) {
+            found.push_back({device, silent_device(platform, error)});
+        }
+    }
+}
+
+void append_platforms(std::vector<Candidate>& found) {
+    std::vector<cl::Platform> platforms;
+    try {
+        cl::Platform::get(&platforms);
+    } catch (const cl::Error&) {
+        return;  // no driver installed at all (CL_PLATFORM_NOT_FOUND_KHR)
+    }
+    for (const cl::Platform& platform : platforms) {
+        try {
+            append_devices(platform, found);
+        } catch (const cl::Error&) {
+            continue;  // a broken or empty platform must not end the program
+        }
+    }
+}
+
+bool matches(const DeviceInfo& info, const std::string& selector) {
+    if (selector == "auto") return true;
+    if (selector == "cpu") return info.kind == DeviceKind::cpu;
+    if (selector == "gpu") return info.kind == DeviceKind::gpu;
+    int index = -1;
+    const char* end = selector.data() + selector.size();
+    if (std::from_chars(selector.data(), end, index).ptr == end) return info.index == index;
+    return lower(info.name).find(selector) != std::string::npos ||
+           lower(info.platform).find(selector) != std::string::npos;
+}
+
+/// Which of two devices most likely renders faster: a GPU before a CPU, then compute units.
+bool better(const DeviceInfo& a, const DeviceInfo& b) {
+    if ((a.kind == DeviceKind::gpu) != (b.kind == DeviceKind::gpu))
+        return a.kind == DeviceKind::gpu;
+    return a.compute_units > b.compute_units;
+}
+
+[[noreturn]] void throw_no_match(const std::vector<Candidate>& candidates,
+                                 std::string_view selector) {
+    if (candidates.empty())
+        throw Error(ErrorKind::device,
+                    "no OpenCL device found: install a driver, for a CPU the package "
+                    "pocl-opencl-icd, or set OCL_ICD_VENDORS to the folder that names yours");
+    std::string names;
+    for (const Candidate& candidate : candidates) {
+        names += fmt::format("{}[{}] {}", names.empty() ? "" : ", ", candidate.info.index,
+                             candidate.info.name);
+        if (!candidate.info.unusable.empty())
+            names += fmt::format(" (not usable: {})", candidate.info.unusable);
+    }
+    throw Error(ErrorKind::device, "no usable device matches \"{}\"; there are: {}", selector,
+                names);
+}
+
+}  // namespace
+
+std::vector<Candidate> find_candidates() {
+    std::vector<Candidate> found;
+    PoclFolder::instance().announce([&found] { append_platforms(found); });
+    for (size_t i = 0; i < found.size(); ++i) found[i].info.index = static_cast<int>(i);
+    return found;
+}
+
+const Candidate& choose(const std::vector<Candidate>& candidates, std::string_view selector) {
+    const std::string wanted = lower(selector);
+    const Candidate* best = nullptr;
+    for (const Candidate& candidate : candidates) {
+        if (!candidate.info.unusable.empty() || !matches(candidate.info, wanted)) continue;
+        if (!best || better(candidate.info, best->info)) best = &candidate;
+    }
+    if (!best) throw_no_match(candidates, selector);
+    return *best;
+}
+
+}  // namespace voxelume

@@ -1,0 +1,23 @@
+// The devices of all OpenCL platforms, for device.cpp to choose from.
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include "runtime/opencl/device.hpp"
+
+namespace voxelume {
+
+struct Candidate {
+    cl::Device device;
+    DeviceInfo info;
+};
+
+/// Every device that answers. A platform that is broken or empty is passed over.
+std::vector<Candidate> find_candidates();
+
+/// The best usable candidate that `selector` (auto, cpu, gpu, an index, part of a name) names.
+/// Throws Error::device when there is none, naming what is there or the package to install.
+const Candidate& choose(const std::vector<Candidate>& candidates, std::string_view selector);
+
+}  // namespace voxelume

@@ -1,0 +1,188 @@
+#include "runtime/opencl/pocl_folder.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <set>
+#include <system_error>
+#include <vector>
+
+namespace voxelume {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kPrefix = "pocl-";
+constexpr const char* kLock = "lock";
+
+/// Removes the folders that killed processes left: those whose lock nobody holds. A young one may
+/// belong to a process that has not locked it yet.
+void remove_stale_folders(const fs::path& parent) {
+    std::error_code error;
+    const auto now = fs::file_time_type::clock::now();
+    for (const fs::directory_entry& entry : fs::directory_iterator(parent, error)) {
+        if (!entry.path().filename().string().starts_with(kPrefix)) continue;
+        if (now - entry.last_write_time(error) < std::chrono::minutes(1) || error) continue;
+        const int lock = open((entry.path() / kLock).c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600);
+        if (lock < 0) continue;
+        if (flock(lock, LOCK_EX | LOCK_NB) == 0) fs::remove_all(entry.path(), error);
+        close(lock);
+    }
+}
+
+/// A new folder in `parent`, readable by this user alone; empty when that fails.
+fs::path make_folder(const fs::path& parent) {
+    std::error_code error;
+    fs::create_directories(parent, error);
+    std::string name = (parent / fmt::format("{}{}-XXXXXX", kPrefix, getpid())).string();
+    return mkdtemp(name.data()) ? fs::path(name) : fs::path();
+}
+
+/// The files of a program that a later run needs, by path from `root`: its bitcode, its kernels and
+/// the compiler's messages.
+std::vector<fs::path> files_worth_keeping(const fs::path& root, const fs::path& folder) {
+    std::set<fs::path> files;  // sorted, so that equal contents make equal entries
+    std::error_code error;
+    for (const fs::directory_entry& entry :
+         fs::recursive_directory_iterator(root / folder, error)) {
+        const fs::path& path = entry.path();
+        if (path.filename() == "program.bc" || path.filename() == "build.log" ||
+            path.extension() == ".so")
+            files.insert(path.lexically_relative(root));
+    }
+    return {files.begin(), files.end()};
+}
+
+std::string packed(const fs::path& root, const std::vector<fs::path>& files) {
+    std::string bytes;
+    for (const fs::path& path : files) {
+        std::ifstream file(root / path, std::ios::binary);
+        const std::string text(std::istreambuf_iterator<char>(file), {});
+        bytes += fmt::format("{} {}\n{}", text.size(), path.string(), text);
+    }
+    return bytes;
+}
+
+void write_whole(const fs::path& path, std::string_view text) {
+    std::ofstream file(path, std::ios::binary);
+    file.write(text.data(), static_cast<std::streamsize>(text.size()));
+    file.close();
+    if (file) return fs::permissions(path, fs::perms::owner_all);
+    fs::remove(path);
+    throw fs::filesystem_error("not written", path, std::make_error_code(std::errc::io_error));
+}
+
+/// Writes the files of `packed` below `root`; returns their paths from there.
+std::vector<fs::path> unpack(const fs::path& root, std::string_view bytes) {
+    std::vector<fs::path> files;
+    while (!bytes.empty()) {
+        const size_t space = bytes.find(' ');
+        const size_t end = bytes.find('\n');
+        const size_t size = std::stoull(std::string(bytes.substr(0, space)));
+        files.emplace_back(bytes.substr(space + 1, end - space - 1));
+        const fs::path path = root / files.back();
+        fs::create_directories(path.parent_path());
+        write_whole(path, bytes.substr(end + 1, size));
+        bytes.remove_prefix(end + 1 + size);
+    }
+    return files;
+}
+
+}  // namespace
+
+PoclFolder& PoclFolder::instance() {
+    static PoclFolder folder;
+    return folder;
+}
+
+PoclFolder::PoclFolder() : process_(getpid()) {
+    if (std::getenv("POCL_CACHE_DIR")) return;
+    // PoCL loads compiled kernels from here, and systems that forbid programs in the temporary
+    // folder allow them at home: that comes second.
+    std::error_code error;
+    for (const fs::path& parent : {cache_folder(), fs::temp_directory_path(error)}) {
+        if (parent.empty()) continue;
+        remove_stale_folders(parent);
+        folder_ = make_folder(parent);
+        if (!folder_.empty()) break;
+    }
+    if (folder_.empty()) return;
+    lock_ = open((folder_ / kLock).c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600);
+    if (lock_ >= 0) flock(lock_, LOCK_EX | LOCK_NB);
+}
+
+void PoclFolder::announce(const std::function<void()>& first_call) const {
+    if (folder_.empty()) return first_call();
+    setenv("POCL_CACHE_DIR", folder_.c_str(), 1);
+    first_call();
+    unsetenv("POCL_CACHE_DIR");  // a child process shall not take it for its user's wish
+}
+
+PoclFolder::~PoclFolder() {
+    if (folder_.empty() || getpid() != process_) return;
+    std::error_code ignored;
+    fs::remove_all(folder_, ignored);
+    if (lock_ >= 0) close(lock_);
+}
+
+/// The folder that PoCL touched in the build that just ended, when it is not another program's.
+/// PoCL names it by a hash of its own, two letters and the rest, and leaves `last_accessed` in it.
+fs::path PoclFolder::new_program_folder() const {
+    std::set<fs::path> known;
+    for (const auto& [key, files] : programs_) known.insert(files.folder);
+    std::error_code error;
+    for (const fs::directory_entry& letters : fs::directory_iterator(folder_, error))
+        for (const fs::directory_entry& rest : fs::directory_iterator(letters.path(), error)) {
+            const fs::path folder = rest.path().lexically_relative(folder_);
+            if (fs::exists(rest.path() / "last_accessed", error) && !known.contains(folder))
+                return folder;
+        }
+    return {};
+}
+
+bool PoclFolder::build_with_files(const DiskCache& cache, const std::string& key,
+                                  const std::function<void()>& build) {
+    // One at a time, to know whose folder is new. PoCL's compiler has a global lock anyway.
+    const std::lock_guard guard(mutex_);
+    if (folder_.empty()) {
+        build();
+        return false;
+    }
+    const auto known = programs_.find(key);
+    if (known != programs_.end()) {
+        build();
+        return true;
+    }
+    std::vector<fs::path> unpacked;
+    try {
+        if (const auto bytes = cache.read(key)) unpacked = unpack(folder_, *bytes);
+    } catch (const std::exception&) {
+        unpacked.clear();  // a full disk: PoCL compiles what is not there
+    }
+    build();
+    // An entry for another folder than PoCL's is of no use, and is replaced.
+    const fs::path folder = new_program_folder();
+    if (!unpacked.empty() && !unpacked[0].string().starts_with(folder.string() + "/"))
+        unpacked.clear();
+    programs_[key] = {folder, unpacked.size()};
+    return !unpacked.empty();
+}
+
+void PoclFolder::publish(const DiskCache& cache) {
+    const std::lock_guard guard(mutex_);
+    for (auto& [key, program] : programs_) {
+        if (program.folder.empty()) continue;
+        const std::vector<fs::path> files = files_worth_keeping(folder_, program.folder);
+        if (files.size() <= program.published) continue;
+        cache.write(key, packed(folder_, files));
+        program.published = files.size();
+    }
+}
+
+}  // namespace voxelume

@@ -1,0 +1,30 @@
+// The arrays that a batch of sight rays fills on its way through the stages.
+#pragma once
+
+#include "kernels/shared/trace.h"
+#include "runtime/opencl/buffer.hpp"
+
+namespace voxelume {
+
+/// Rays and what they met; shared/trace.h has the components, `stride` values apart.
+struct RayBatch {
+    uint32_t stride = 0;    ///< places for rays, a multiple of 16
+    Buffer<float> rays;     ///< VXL_RAY_COMPONENTS
+    Buffer<uint32_t> hits;  ///< VXL_HIT_COMPONENTS
+
+    Buffer<float> positions;  ///< 3: of the hits, voxels
+    Buffer<float> normals;    ///< 3: unit, in metres' space, towards the ray's start
+    Buffer<uint32_t> words;   ///< the attribute word of each hit
+    Buffer<float> radiance;   ///< 3
+};
+
+/// Shadow rays waiting to be traced, left-packed. Not allocated in a scene without shadows.
+struct ShadowQueue {
+    Buffer<uint32_t> count;    ///< one value, kept on the device
+    Buffer<float> rays;        ///< VXL_RAY_COMPONENTS, the batch's stride apart
+    Buffer<uint32_t> targets;  ///< the sight ray whose radiance each would add to
+    Buffer<uint32_t> sources;  ///< the primitive that each begins on; exact surfaces only
+    Buffer<float> shares;      ///< 3: the light that arrives if nothing is in the way
+};
+
+}  // namespace voxelume

@@ -1,0 +1,40 @@
+// samples -> pixels: the flat image.
+#pragma once
+
+#include "kernels/shared/scene.h"
+#include "runtime/grid.hpp"
+#include "runtime/image.hpp"
+#include "runtime/opencl/program.hpp"
+#include "runtime/stages/features.hpp"
+#include "runtime/stages/ray_batch.hpp"
+
+namespace voxelume {
+
+/// Kernels of resolve.cl and the image they fill, batch by batch.
+class ResolveStage {
+  public:
+    ResolveStage(const Device& device, const Features& features, const Sight& sight);
+
+    /// Lets the world's medium take its part of the radiance of rays 0 .. count-1.
+    void absorb(const Pyramid& pyramid, const Space& space, RayBatch& batch, uint32_t count);
+
+    /// Makes the pixels of `tiles` tiles from `first_tile` on.
+    void pixels(const Pyramid& pyramid, const RayBatch& batch, uint32_t first_tile,
+                uint32_t tiles);
+
+    /// The image, once every tile is made. Waits for the device.
+    Image image() const;
+
+    /// Values that were not finite and became 0; anything but 0 is a fault of ours.
+    uint32_t not_finite() const { return not_finite_.read_one(0); }
+
+  private:
+    Sight sight_;
+    Buffer<float> planes_;      ///< R G B A Z P.X P.Y P.Z N.X N.Y N.Z, one after another
+    Buffer<uint32_t> objects_;  ///< number of the object plus 1
+    Buffer<uint32_t> not_finite_;
+    Program program_;
+    Kernel absorb_, pixels_;
+};
+
+}  // namespace voxelume

@@ -1,0 +1,89 @@
+#include "runtime/stages/sight.hpp"
+
+#include <cmath>
+#include <glm/trigonometric.hpp>
+
+namespace voxelume {
+namespace {
+
+float4 to_float4(const glm::dvec3& v) { return {float(v.x), float(v.y), float(v.z), 0}; }
+
+int shape_number(DisplayShape shape) {
+    switch (shape) {
+        case DisplayShape::pyramid: return VXL_SHAPE_PYRAMID;
+        case DisplayShape::sector: return VXL_SHAPE_SECTOR;
+        case DisplayShape::ball: return VXL_SHAPE_BALL;
+        case DisplayShape::box: return VXL_SHAPE_BOX;
+    }
+    return VXL_SHAPE_PYRAMID;
+}
+
+/// What half of the image spans: tangents, angles or metres, as the shape has it.
+glm::dvec2 half_extent(const Display& display) {
+    constexpr double kPi = 3.141592653589793;
+    switch (display.shape) {
+        case DisplayShape::pyramid: return glm::tan(display.half_angles);
+        case DisplayShape::sector: return display.half_angles;
+        case DisplayShape::ball: return {kPi, kPi / 2};
+        case DisplayShape::box: return display.half_size;
+    }
+    return {};
+}
+
+}  // namespace
+
+Sight sight_of(const Scene& scene, const GridFrame& world) {
+    const Observer& observer = scene.observer;
+    const glm::dvec3 origin = (observer.position - world.origin) / world.voxel_edge;
+    const glm::dmat3& axes = observer.world_from_observer;
+    const glm::dvec2 half = half_extent(observer.display);
+    Sight sight{};
+    sight.origin = to_float4(origin);
+    sight.origin_low =
+        to_float4(origin - glm::dvec3(sight.origin.x, sight.origin.y, sight.origin.z));
+    sight.axis_x = to_float4(axes[0] / world.voxel_edge);
+    sight.axis_y = to_float4(axes[1] / world.voxel_edge);
+    sight.axis_z = to_float4(axes[2] / world.voxel_edge);
+    sight.half_x = float(half.x);
+    sight.half_y = float(half.y);
+    sight.near_plane = float(observer.display.near);
+    sight.far_plane = float(observer.display.far);
+    sight.width = scene.render.size.x;
+    sight.height = scene.render.size.y;
+    sight.samples = scene.render.samples;
+    sight.shape = shape_number(observer.display.shape);
+    sight.sample_share = 1.0f / float(scene.render.samples);
+    return sight;
+}
+
+std::vector<float> sample_offsets(int samples) {
+    constexpr double kPlastic = 1.32471795724474602596;
+    std::vector<float> offsets;
+    for (int i = 0; i < samples; ++i) {
+        for (const double step : {1 / kPlastic, 1 / (kPlastic * kPlastic)}) {
+            const double x = 0.5 + i * step;
+            offsets.push_back(float(x - std::floor(x)));
+        }
+    }
+    return offsets;
+}
+
+uint32_t tile_count(int width, int height) {
+    return uint32_t((width + 3) / 4) * uint32_t((height + 3) / 4);
+}
+
+SightStage::SightStage(const Device& device, const Features& features, const Sight& sight)
+    : sight_(sight),
+      offsets_(device, "sample offsets", std::span<const float>(sample_offsets(sight.samples))),
+      program_(device, "sight.cl", features.defines(device)),
+      cast_(program_.kernel("cast_sight")) {}
+
+uint32_t SightStage::cast(const PyramidShape& world, uint32_t first_tile, uint32_t tiles,
+                          RayBatch& batch) {
+    const uint32_t count = tiles * 16u * uint32_t(sight_.samples);
+    cast_.launch_packets(count, sight_, world, offsets_,
+                 first_tile, count, batch.stride, batch.rays);
+    return count;
+}
+
+}  // namespace voxelume

@@ -1,0 +1,66 @@
+#include "runtime/stages/trace.hpp"
+
+#include <bit>
+#include <cmath>
+
+#include "kernels/shared/voxel.h"
+
+namespace voxelume {
+
+PyramidShape shape_of(const Pyramid& pyramid) {
+    const GridFrame& frame = pyramid.frame;
+    const int longest = std::max({frame.size.x, frame.size.y, frame.size.z});
+    // Coordinates 0 .. longest need integer_bits; the rest of a float's 24 bits is fraction, so that
+    // every coordinate is an exact float and its fixed-point integer an exact float too.
+    const int integer_bits = std::bit_width(static_cast<unsigned>(longest));
+    PyramidShape shape{};
+    const glm::dvec3& edge = frame.voxel_edge;
+    shape.edge = {float(edge.x), float(edge.y), float(edge.z), 0};
+    shape.inverse_edge = {float(1 / edge.x), float(1 / edge.y), float(1 / edge.z), 0};
+    shape.size_x = frame.size.x;
+    shape.size_y = frame.size.y;
+    shape.size_z = frame.size.z;
+    shape.sectors_x = frame.sectors().x;
+    shape.sectors_y = frame.sectors().y;
+    // t = (K - o) (1/d) has two roundings of half a unit, o + d t one more: together less than
+    // 2.5 * 2^-24 of the longest side; 4 units leave room for the comparison's own rounding.
+    shape.plane_bound = std::ldexp(1.0f, integer_bits + 2 - 24);
+    shape.fixed_point = std::ldexp(1.0f, 24 - integer_bits);
+    shape.half_curvature = std::ldexp(0.5f, pyramid.curvature_exponent);
+    return shape;
+}
+
+Features features_of(const Pyramid& pyramid) {
+    Features features;
+    features.attributes = !pyramid.attributes.empty();
+    features.colors = !pyramid.colors.empty();
+    features.smooth = !pyramid.fields.empty();
+    features.exact = !pyramid.primitives.empty();
+    const uint32_t kind = pyramid.attribute >> VXL_KIND_SHIFT;
+    features.cubes = features.attributes || kind == VXL_KIND_CUBES;
+    return features;
+}
+
+TraceStage::TraceStage(const Device& device, const Features& features)
+    : program_(device, "trace.cl", features.defines(device)),
+      closest_(program_.kernel("trace_closest")),
+      shadows_(program_.kernel("trace_shadows")) {}
+
+void TraceStage::closest(const Pyramid& pyramid, RayBatch& batch, uint32_t count) {
+    closest_.launch_packets(count, shape_of(pyramid),
+                    pyramid.sectors, pyramid.bricks, pyramid.leaves, pyramid.leaf_voxels,
+                    pyramid.attributes, pyramid.fields, pyramid.primitive_first,
+                    pyramid.primitives, pyramid.triangles, batch.rays, count, batch.stride,
+                    batch.hits);
+}
+
+void TraceStage::shadows(const Pyramid& pyramid, const ShadowQueue& queue, uint32_t most,
+                         uint32_t stride, Buffer<float>& radiance) {
+    shadows_.launch_packets(most, shape_of(pyramid),
+                    pyramid.sectors, pyramid.bricks, pyramid.leaves, pyramid.leaf_voxels,
+                    pyramid.attributes, pyramid.fields, pyramid.primitive_first,
+                    pyramid.primitives, pyramid.triangles, queue.rays, queue.count, stride,
+                    queue.targets, queue.sources, queue.shares, radiance);
+}
+
+}  // namespace voxelume

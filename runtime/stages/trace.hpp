@@ -1,0 +1,35 @@
+// rays -> hits: the discrete walk of every ray to the first surface it meets.
+#pragma once
+
+#include "kernels/shared/scene.h"
+#include "runtime/grid.hpp"
+#include "runtime/opencl/program.hpp"
+#include "runtime/stages/features.hpp"
+#include "runtime/stages/ray_batch.hpp"
+
+namespace voxelume {
+
+/// The pyramid's shape as kernels take it: its size, edges, and the fixed point of rays through it.
+PyramidShape shape_of(const Pyramid& pyramid);
+
+/// The numbers of a hit's feature set that the pyramid decides.
+Features features_of(const Pyramid& pyramid);
+
+/// Kernels of trace.cl for one feature set. The paper's blocks 2, 3 and 4.2.
+class TraceStage {
+  public:
+    TraceStage(const Device& device, const Features& features);
+
+    /// Finds the first hit of rays 0 .. count-1 of the batch.
+    void closest(const Pyramid& pyramid, RayBatch& batch, uint32_t count);
+
+    /// Traces the queue, at most `most` rays of it; lights that are seen add their share to `radiance`.
+    void shadows(const Pyramid& pyramid, const ShadowQueue& queue, uint32_t most, uint32_t stride,
+                 Buffer<float>& radiance);
+
+  private:
+    Program program_;
+    Kernel closest_, shadows_;
+};
+
+}  // namespace voxelume

@@ -1,0 +1,26 @@
+// libFuzzer: any bytes under a mesh's name give a valid Mesh or a sentence. Built once per format.
+#include "runtime/error.hpp"
+#include "runtime/io/mesh_reader.hpp"
+#include "tests/mesh_invariants.hpp"
+
+#include <cstdio>
+#include <cstdlib>
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+    using namespace voxelume;
+    const std::string bytes(reinterpret_cast<const char*>(data), size);
+    try {
+        const std::string broken = broken_invariant(parse_mesh(bytes, VXL_FUZZ_NAME));
+        if (!broken.empty()) {
+            std::fprintf(stderr, "invalid mesh: %s\n", broken.c_str());
+            std::abort();
+        }
+    } catch (const Error& error) {
+        const std::string sentence = error.what();
+        if (!sentence.starts_with(VXL_FUZZ_NAME)) {
+            std::fprintf(stderr, "no file in front of: %s\n", sentence.c_str());
+            std::abort();
+        }
+    }
+    return 0;
+}

@@ -1,0 +1,122 @@
+// The compiled kernels on disk, with real processes: this program starts itself.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <thread>
+
+#include "runtime/opencl/program.hpp"
+#include "tests/temporary_folder.hpp"
+#include "tests/test_device.hpp"
+
+namespace voxelume {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What a process of these tests does: four programs, one kernel launched of each. It returns how
+/// many were compiled.
+int build_and_run() {
+    const Device device = test_device();
+    const uint32_t count = 37;
+    for (int factor = 3; factor < 7; ++factor) {
+        const Program program =
+            Program::from_text(device,
+                               "#include \"lib/work_item.h\"\n"
+                               "kernel void scale(uint count, global uint* numbers) {\n"
+                               "    if (work_item() >= count) return;\n"
+                               "    numbers[work_item()] = FACTOR * work_item();\n"
+                               "}\n",
+                               {{"FACTOR", factor}});
+        Buffer<uint32_t> numbers(device, "numbers", count);
+        program.kernel("scale").launch(WorkItem::light, count, count, numbers);
+        const std::vector<uint32_t> result = numbers.read();
+        for (uint32_t i = 0; i < count; ++i) EXPECT_EQ(result[i], i * uint32_t(factor));
+    }
+    return int(device.counters().programs_built - device.counters().programs_from_cache);
+}
+
+/// Run in a process of its own by the tests below; its exit code is 10 + the programs compiled.
+TEST(ProgramCacheProcess, DISABLED_BuildsAndRuns) {
+    const int compiled = build_and_run();
+    if (!HasFailure()) std::exit(10 + compiled);
+}
+
+/// Starts `processes` at once on one cache folder; returns what each compiled, -1 for a failure.
+std::vector<int> compiled_by_processes(int processes, const std::string& environment) {
+    const std::string self = fs::read_symlink("/proc/self/exe").string();
+    const std::string command = fmt::format(
+        "env {} \"{}\" --gtest_also_run_disabled_tests "
+        "--gtest_filter=ProgramCacheProcess.DISABLED_BuildsAndRuns >/dev/null",
+        environment, self);
+    std::vector<int> results(size_t(processes), -1);
+    std::vector<std::thread> threads;
+    for (int& result : results)
+        threads.emplace_back([&command, &result] {
+            const int status = std::system(command.c_str());
+            const int code = WIFEXITED(status) ? WEXITSTATUS(status) : 0;
+            result = code < 10 ? -1 : code - 10;
+        });
+    for (std::thread& thread : threads) thread.join();
+    return results;
+}
+
+bool device_keeps_programs() {
+    return test_device().info().platform != "Oclgrind";
+}
+
+TEST(ProgramCache, ASecondRunCompilesNothing) {
+    if (!device_keeps_programs()) GTEST_SKIP() << "this device's programs are not kept";
+    const TemporaryFolder folder;
+    const std::string environment = "VOXELUME_CACHE_DIR=" + folder.path().string();
+    EXPECT_EQ(compiled_by_processes(1, environment), std::vector<int>{4});
+    EXPECT_EQ(compiled_by_processes(1, environment), std::vector<int>{0});
+}
+
+/// VXL_STRESS_ROUNDS=12 makes the 96 processes that PoCL's own folder fails with.
+TEST(ProgramCache, EightProcessesShareAColdFolder) {
+    const char* text = std::getenv("VXL_STRESS_ROUNDS");
+    const int rounds = text ? std::atoi(text) : 1;
+    for (int round = 0; round < rounds; ++round) {
+        const TemporaryFolder folder;
+        const std::string environment = "VOXELUME_CACHE_DIR=" + folder.path().string();
+        for (const int compiled : compiled_by_processes(8, environment))
+            EXPECT_GE(compiled, 0) << "round " << round;
+        if (!device_keeps_programs()) continue;
+        EXPECT_EQ(compiled_by_processes(1, environment), std::vector<int>{0});
+    }
+}
+
+TEST(ProgramCache, DamagedEntriesAreCompiledAgain) {
+    if (!device_keeps_programs()) GTEST_SKIP() << "this device's programs are not kept";
+    const TemporaryFolder folder;
+    const std::string environment = "VOXELUME_CACHE_DIR=" + folder.path().string();
+    ASSERT_EQ(compiled_by_processes(1, environment), std::vector<int>{4});
+    for (const double kept : {0.0, 0.001, 0.5, 0.999}) {
+        int entries = 0;
+        for (const fs::directory_entry& entry :
+             fs::directory_iterator(folder.path() / "programs")) {
+            fs::resize_file(entry.path(), uintmax_t(double(entry.file_size()) * kept));
+            ++entries;
+        }
+        ASSERT_EQ(entries, 4);
+        EXPECT_EQ(compiled_by_processes(1, environment), std::vector<int>{4}) << kept;
+        EXPECT_EQ(compiled_by_processes(1, environment), std::vector<int>{0}) << kept;
+    }
+}
+
+TEST(ProgramCache, WithoutAFolderEveryRunCompiles) {
+    EXPECT_EQ(compiled_by_processes(1, "VOXELUME_CACHE_DIR="), std::vector<int>{4});
+    EXPECT_EQ(compiled_by_processes(1, "VOXELUME_CACHE_DIR=/proc/none"), std::vector<int>{4});
+}
+
+TEST(ProgramCache, LeavesNoFolderOfPoclBehind) {
+    const TemporaryFolder folder;
+    compiled_by_processes(2, "VOXELUME_CACHE_DIR=" + folder.path().string());
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder.path()))
+        EXPECT_EQ(entry.path().filename(), "programs");
+}
+
+}  // namespace
+}  // namespace voxelume
