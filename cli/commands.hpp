@@ -26,6 +26,7 @@ struct Command {
     AddCommand add;
 };
 
+Action add_devices(CLI::App& app);
 Action add_diff(CLI::App& app);
 Action add_info(CLI::App& app);
 

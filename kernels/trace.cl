@@ -116,8 +116,8 @@ static inline Found find_first(const PyramidView* p, const SurfaceView* s, Walk*
         const lane_int accepted =
             test_surfaces(p, s, w, waiting, from_surface, source, &found) & waiting;
         found.hit |= accepted;
-        if (!VXL_SMOOTH && !VXL_EXACT && !VXL_FROM_SURFACE) break;
         walking = waiting & ~accepted;
+        if (!lanes_any(walking)) break;
         advance(p, w, (lane_int)0, walking);
         walking &= in_grid(p, w) & LANE_MASK(w->t <= t_end);
     }

@@ -28,8 +28,7 @@ using testing::StartsWith;
 /// A folder of its own, gone at the end of the test.
 class MeshFile : public testing::Test {
   protected:
-    MeshFile()
-        : folder_(fs::temp_directory_path() / ("voxelume_mesh_" + std::to_string(getpid()))) {
+    MeshFile() : folder_(fs::temp_directory_path() / fmt::format("voxelume_mesh_{}", getpid())) {
         fs::create_directories(folder_);
     }
     ~MeshFile() override { fs::remove_all(folder_); }
@@ -112,20 +111,13 @@ TEST(MeshReader, TheSameMeshComesFromEveryFormat) {
             }
             EXPECT_THAT(mesh.group_names, IsEmpty()) << name;
             if (with_colors && !name.ends_with(".stl")) {
-                EXPECT_THAT(
-                    mesh.vertex_colors,
-                    ElementsAre(vec3(1, 0, 0), vec3(0, 0.033104766f, 0), vec3(0, 0, 0.13286832f),
-                                vec3(1, 1, 1), vec3(0.00303526991f, 0.00699541019f, 0.0129830325f)))
-                    << name;
-            } else {
                 ASSERT_EQ(mesh.vertex_colors.size(), 5u) << name;
                 for (size_t i = 0; i < 5; ++i) {  // 20/255 isn't the same number in text and bytes
                     for (int k = 0; k < 3; ++k) {
                         EXPECT_FLOAT_EQ(mesh.vertex_colors[i][k], kLinearColors[i][k]) << name;
                     }
                 }
-            }
-            else {
+            } else {
                 EXPECT_THAT(mesh.vertex_colors, IsEmpty()) << name;
             }
         }

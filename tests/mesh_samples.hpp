@@ -2,10 +2,10 @@
 // readers.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <bit>
 #include <cstdint>
-#include <filesystem>
-#include <fstream>
 #include <string>
 #include <vector>
 
@@ -23,29 +23,23 @@ struct Pyramid {
     int colors[5][3] = {{255, 0, 0}, {0, 51, 0}, {0, 0, 102}, {255, 255, 255}, {10, 20, 30}};
 };
 
-inline std::string number(double value) {
-    return std::to_string(value);
-}
-
 inline std::string obj(bool with_colors) {
     const Pyramid pyramid;
     std::string text = "# a pyramid\n";
     for (int i = 0; i < 5; ++i) {
         text += "v";
         for (const double value : pyramid.positions[i]) {
-            text += " " + number(value);
+            text += fmt::format(" {:f}", value);
         }
         for (int k = 0; with_colors && k < 3; ++k) {
-            char buffer[32];
-            std::snprintf(buffer, sizeof buffer, " %.17g", pyramid.colors[i][k] / 255.0);
-            text += buffer;
+            text += fmt::format(" {:.17g}", pyramid.colors[i][k] / 255.0);
         }
         text += "\n";
     }
     for (const auto& triangle : pyramid.triangles) {
         text += "f";
         for (const uint32_t corner : triangle) {
-            text += " " + std::to_string(corner + 1);
+            text += fmt::format(" {}", corner + 1);
         }
         text += "\n";
     }
@@ -63,11 +57,12 @@ void append(std::string& bytes, T value, bool big_endian) {
 }
 
 inline std::string ply_header(const std::string& format, bool with_colors) {
-    return "ply\nformat " + format +
-           " 1.0\ncomment a pyramid\nelement vertex 5\nproperty float x\nproperty double y\n"
-           "property float z\n" +
-           (with_colors ? "property uchar red\nproperty uchar green\nproperty uchar blue\n" : "") +
-           "element face 6\nproperty list uchar int vertex_indices\nend_header\n";
+    return fmt::format(
+        "ply\nformat {} 1.0\ncomment a pyramid\nelement vertex 5\nproperty float x\n"
+        "property double y\nproperty float z\n{}element face 6\n"
+        "property list uchar int vertex_indices\nend_header\n",
+        format,
+        with_colors ? "property uchar red\nproperty uchar green\nproperty uchar blue\n" : "");
 }
 
 inline std::string ply_ascii(bool with_colors) {
@@ -75,17 +70,17 @@ inline std::string ply_ascii(bool with_colors) {
     std::string text = ply_header("ascii", with_colors);
     for (int i = 0; i < 5; ++i) {
         for (const double value : pyramid.positions[i]) {
-            text += number(value) + " ";
+            text += fmt::format("{:f} ", value);
         }
         for (int k = 0; with_colors && k < 3; ++k) {
-            text += std::to_string(pyramid.colors[i][k]) + " ";
+            text += fmt::format("{} ", pyramid.colors[i][k]);
         }
         text += "\n";
     }
     for (const auto& triangle : pyramid.triangles) {
         text += "3";
         for (const uint32_t corner : triangle) {
-            text += " " + std::to_string(corner);
+            text += fmt::format(" {}", corner);
         }
         text += "\n";
     }
@@ -121,7 +116,7 @@ inline std::string stl_ascii() {
         for (const uint32_t corner : triangle) {
             text += "   vertex";
             for (const double value : pyramid.positions[corner]) {
-                text += " " + number(value);
+                text += fmt::format(" {:f}", value);
             }
             text += "\n";
         }

@@ -5,7 +5,8 @@
 
 namespace voxelume {
 
-/// Every feature that is false does not exist in the machine code, and its buffers are not allocated.
+/// Every feature that is false does not exist in the machine code, and its buffers are not
+/// allocated.
 struct Features {
     bool cubes = false;       ///< some voxel is its own surface
     bool smooth = false;      ///< some voxel has a distance field
@@ -16,14 +17,10 @@ struct Features {
     bool shadows = false;     ///< lights can be hidden
 
     Defines defines(const Device& device) const {
-        return {{"VXL_CUBES", cubes},
-                {"VXL_SMOOTH", smooth},
-                {"VXL_EXACT", exact},
-                {"VXL_ATTRIBUTES", attributes},
-                {"VXL_COLORS", colors},
-                {"VXL_MEDIUM", medium},
-                {"VXL_SHADOWS", shadows},
-                {"VXL_NATIVE_DIVIDE", device.is_cpu()}};
+        return {{"VXL_CUBES", cubes},     {"VXL_SMOOTH", smooth},
+                {"VXL_EXACT", exact},     {"VXL_ATTRIBUTES", attributes},
+                {"VXL_COLORS", colors},   {"VXL_MEDIUM", medium},
+                {"VXL_SHADOWS", shadows}, {"VXL_NATIVE_DIVIDE", device.is_cpu()}};
     }
 };
 

@@ -9,7 +9,9 @@
 namespace voxelume {
 namespace {
 
-float4 to_float4(const glm::dvec3& v) { return {float(v.x), float(v.y), float(v.z), 0}; }
+float4 to_float4(const glm::dvec3& v) {
+    return {float(v.x), float(v.y), float(v.z), 0};
+}
 
 void copy(const glm::vec3& from, float (&to)[3]) {
     for (int i = 0; i < 3; ++i) to[i] = from[i];
@@ -32,9 +34,9 @@ LightRecord light_record(const Light& light, const GridFrame& world) {
     record.energy = to_float4(glm::dvec3(light.energy));
     record.inner_cosine = float(std::cos(light.inner_half_angle));
     record.outer_cosine = float(std::cos(light.outer_half_angle));
-    record.kind = directional                        ? VXL_LIGHT_DIRECTIONAL
+    record.kind = directional                     ? VXL_LIGHT_DIRECTIONAL
                   : light.kind == LightKind::spot ? VXL_LIGHT_SPOT
-                                                     : VXL_LIGHT_POINT;
+                                                  : VXL_LIGHT_POINT;
     return record;
 }
 

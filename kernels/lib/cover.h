@@ -1,0 +1,103 @@
+// Which voxels of a brick's row a triangle covers, exactly.
+#ifndef VXL_COVER_H
+#define VXL_COVER_H
+
+#include "lib/lattice.h"
+
+/// The place of brick `index` of a grid of `bricks`.
+static inline int3 brick_of(uint index, int4 bricks) {
+    const uint row = index / (uint)bricks.x;
+    return (int3)((int)(index % (uint)bricks.x), (int)(row % (uint)bricks.y),
+                  (int)(row / (uint)bricks.y));
+}
+
+/// Voxels of a brick, both ends included; none where first > last.
+typedef struct {
+    int3 first, last;
+} CoverBox;
+
+/// The voxels up to `last` whose closed cubes the triangle's bounding box meets.
+static inline CoverBox cover_box(const LatticeTriangle* t, int3 last) {
+    CoverBox box;
+    box.first = max((lowest_corner(t) - 1) >> LATTICE_BITS, 0);
+    box.last = min(highest_corner(t) >> LATTICE_BITS, last);
+    return box;
+}
+
+/// A triangle prepared for tests of rows of voxels along x.
+typedef struct {
+    CoverBox box;
+    long3 n;
+    long low, high;       // SUPERCOVER: bounds on n·v for the plane to meet voxel v
+    Silhouette xy, yz, zx;  // seen along z, x, y
+    Crossing x, y, z;       // THIN: of the plane with lines along each axis
+    ushort xy_rows[16];     // SUPERCOVER: the silhouette seen along z, bit x of row y
+} Cover;
+
+static inline void prepare_supercover(Cover* c, const LatticeTriangle* t) {
+    const int3 *p = t->corner;
+    const long3 n = c->n;
+    const Wide at = wide_dot(n, p[0]);
+    const long3 positive = max(n, 0L), negative = min(n, 0L);
+    c->low = wide_ceil(at, LATTICE_BITS) - (positive.x + positive.y + positive.z);
+    c->high = wide_floor(at, LATTICE_BITS) - (negative.x + negative.y + negative.z);
+    c->xy = silhouette_of_cells(p[0].xy, p[1].xy, p[2].xy, n.z);
+    c->yz = silhouette_of_cells(p[0].yz, p[1].yz, p[2].yz, n.x);
+    c->zx = silhouette_of_cells(p[0].zx, p[1].zx, p[2].zx, n.y);
+    for (int y = c->box.first.y; y <= c->box.last.y; ++y)
+        c->xy_rows[y] = (ushort)silhouette_row(&c->xy, y, c->box.first.x, c->box.last.x);
+}
+
+static inline void prepare_thin(Cover* c, const LatticeTriangle* t) {
+    const int3 *p = t->corner;
+    const long3 n = c->n;
+    const int center = LATTICE_VOXEL / 2;
+    c->xy = silhouette_of_points(p[0].xy, p[1].xy, p[2].xy, n.z, center, true);
+    c->yz = silhouette_of_points(p[0].yz, p[1].yz, p[2].yz, n.x, center, true);
+    c->zx = silhouette_of_points(p[0].zx, p[1].zx, p[2].zx, n.y, center, false);
+    c->x = plane_crossing(n, p[0], n.y, n.z, n.x);
+    c->y = plane_crossing(n, p[0], n.z, n.x, n.y);
+    c->z = plane_crossing(n, p[0], n.x, n.y, n.z);
+}
+
+static inline void prepare_cover(Cover* c, const LatticeTriangle* t, const CoverBox* box, bool thin) {
+    c->box = *box;
+    c->n = area_vector(t);
+    if (thin)
+        prepare_thin(c, t);
+    else
+        prepare_supercover(c, t);
+}
+
+/// The voxels of row (y, z) whose closed cubes the closed triangle meets, bit x each.
+static inline uint supercover_row(const Cover* c, int y, int z) {
+    if (!c->xy_rows[y] || !cell_in_silhouette(&c->yz, y, z)) return 0u;
+    const long row_at = c->n.y * y + c->n.z * z;
+    uint row = 0;
+    for (int x = c->box.first.x; x <= c->box.last.x; ++x) {
+        const long at = row_at + c->n.x * x;
+        const bool inside = (at >= c->low) & (at <= c->high) & cell_in_silhouette(&c->zx, z, x);
+        row |= (uint)inside << x;
+    }
+    return row & c->xy_rows[y];
+}
+
+/// The voxels of row (y, z) whose crosshairs (the three segments through the centre, half-open)
+/// the triangle meets, bit x each. A centre line on an edge is moved by (e, e², e³) along x, y, z.
+static inline uint thin_row(const Cover* c, int y, int z) {
+    uint row = 0;
+    if (c->n.x != 0 && point_in_silhouette(&c->yz, y, z)) {
+        const long x = crossed_voxel(&c->x, 2 * y + 1, 2 * z + 1);
+        if (x >= c->box.first.x && x <= c->box.last.x) row |= 1u << x;
+    }
+    for (int x = c->box.first.x; x <= c->box.last.x; ++x) {
+        const bool along_y = c->n.y != 0 && point_in_silhouette(&c->zx, z, x) &&
+                             crossed_voxel(&c->y, 2 * z + 1, 2 * x + 1) == y;
+        const bool along_z = c->n.z != 0 && point_in_silhouette(&c->xy, x, y) &&
+                             crossed_voxel(&c->z, 2 * x + 1, 2 * y + 1) == z;
+        row |= (uint)(along_y | along_z) << x;
+    }
+    return row;
+}
+
+#endif

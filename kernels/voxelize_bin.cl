@@ -1,0 +1,106 @@
+// triangles -> the bricks that each of them reaches: counted, then listed.
+//
+// Bins are the frame's bricks and one more column at x = -1, which stands for all space left of the
+// frame: crossings there count for the winding numbers to their right.
+#include "lib/lattice.h"
+
+/// The bricks of one triangle by its bounding box.
+typedef struct {
+    int3 first, last;
+} BrickRange;
+
+/// `reach` is the distance in lattice units from which a triangle concerns a brick; `extent` is the
+/// edge of a brick's closed box: 16 voxels, or 15 when only nodes count.
+static inline BrickRange reached_bricks(const LatticeTriangle* t, int3 reach, int extent, int4 bins) {
+    const int3 low = lowest_corner(t) - reach, high = highest_corner(t) + reach;
+    BrickRange r;
+    r.first = max((low - extent + (LATTICE_BRICK - 1)) >> 16, (int3)(-1, 0, 0));
+    r.last = min(high >> 16, (int3)(bins.x - 2, bins.y - 1, bins.z - 1));
+    r.last.x = max(r.last.x, -1);
+    return r;
+}
+
+/// Whether the triangle's plane passes within the brick's box widened by the reach.
+///
+/// In floats, and conservative: `slack` is above the sum's rounding error.
+static inline bool plane_reaches(float3 n, float3 to_corner, float3 half_box) {
+    const float3 size = fabs(n);
+    const float distance = fabs(n.x * to_corner.x + n.y * to_corner.y + n.z * to_corner.z);
+    const float slack = 1e-6f * (size.x * fabs(to_corner.x) + size.y * fabs(to_corner.y) +
+                                 size.z * fabs(to_corner.z));
+    return distance <= size.x * half_box.x + size.y * half_box.y + size.z * half_box.z + slack;
+}
+
+/// One edge seen along an axis, against the same box; likewise conservative.
+static inline bool edge_reaches(float2 edge, float2 to_corner, float2 to_opposite, float2 half_box) {
+    const float at = edge.x * to_corner.y - edge.y * to_corner.x;
+    const float opposite = edge.x * to_opposite.y - edge.y * to_opposite.x;
+    const float radius = fabs(edge.x) * half_box.y + fabs(edge.y) * half_box.x;
+    const float slack = 1e-6f * (fabs(edge.x) * (fabs(to_corner.y) + fabs(to_opposite.y)) +
+                                 fabs(edge.y) * (fabs(to_corner.x) + fabs(to_opposite.x)));
+    return min(at, opposite) <= radius + slack && max(at, opposite) >= -radius - slack;
+}
+
+static inline bool triangle_reaches(const LatticeTriangle* t, float3 n, int3 brick, int3 reach,
+                                    int extent) {
+    const float3 half_box = (convert_float3(reach) + 0.5f * (float)extent) * (1.0f + 1e-6f);
+    const int3 center = brick * LATTICE_BRICK + extent / 2;
+    const float3 p[3] = {convert_float3(t->corner[0] - center), convert_float3(t->corner[1] - center),
+                         convert_float3(t->corner[2] - center)};
+    if (!plane_reaches(n, p[0], half_box)) return false;
+    for (int i = 0; i < 3; ++i) {
+        const float3 a = p[i], opposite = p[(i + 2) % 3], edge = p[(i + 1) % 3] - a;
+        if (!edge_reaches(edge.xy, a.xy, opposite.xy, half_box.xy)) return false;
+        if (!edge_reaches(edge.yz, a.yz, opposite.yz, half_box.yz)) return false;
+        if (!edge_reaches(edge.zx, a.zx, opposite.zx, half_box.zx)) return false;
+    }
+    return true;
+}
+
+/// Calls for each bin that triangle `number` reaches: counts it, or writes the triangle to its list.
+static inline void visit_bins(uint number, int4 bins, int4 reach, int extent,
+                              global const int* restrict vertices,
+                              global const uint* restrict triangles, bool fill,
+                              global uint* restrict cursors, global uint* restrict lists) {
+    const LatticeTriangle t = load_triangle(vertices, triangles, number, (int3)(0, 0, 0));
+    const BrickRange r = reached_bricks(&t, reach.xyz, extent, bins);
+    const float3 n = convert_float3(area_vector(&t));
+    const bool several = any(r.first != r.last);
+    int3 b;
+    for (b.z = r.first.z; b.z <= r.last.z; ++b.z)
+        for (b.y = r.first.y; b.y <= r.last.y; ++b.y)
+            for (b.x = r.first.x; b.x <= r.last.x; ++b.x) {
+                if (several && b.x >= 0 && !triangle_reaches(&t, n, b, reach.xyz, extent)) continue;
+                const uint bin = (uint)((b.z * bins.y + b.y) * bins.x + b.x + 1);
+                const uint at = atomic_inc(&cursors[bin]);
+                if (fill) lists[at] = number;
+            }
+}
+
+/// One work-item: one triangle. Adds 1 to `counts` of each bin that it reaches.
+kernel void count_pairs(uint count, int4 bins, int4 reach, int extent,
+                        global const int* restrict vertices, global const uint* restrict triangles,
+                        global uint* restrict counts) {
+    if (work_item() >= count) return;
+    visit_bins(work_item(), bins, reach, extent, vertices, triangles, false, counts, counts);
+}
+
+/// One work-item: one triangle. Writes its number at the cursor of each bin that it reaches.
+///
+/// The order within a list depends on the device: every reader gives the same result for any order.
+kernel void list_pairs(uint count, int4 bins, int4 reach, int extent,
+                       global const int* restrict vertices, global const uint* restrict triangles,
+                       global uint* restrict cursors, global uint* restrict lists) {
+    if (work_item() >= count) return;
+    visit_bins(work_item(), bins, reach, extent, vertices, triangles, true, cursors, lists);
+}
+
+/// One work-item: one row of bricks along x. Gives each brick its slot, or marks it as outside.
+kernel void mark_outside(uint count, int4 bins, global const uint* restrict number_of_bin,
+                         global uint* restrict slots) {
+    const uint row = work_item();
+    if (row >= count) return;
+    for (int x = 1; x < bins.x; ++x)
+        slots[row * (uint)(bins.x - 1) + (uint)(x - 1)] =
+            number_of_bin[row * (uint)bins.x + (uint)x];
+}

@@ -1,0 +1,150 @@
+// triangles of each brick -> the attribute word and colour of its voxels.
+//
+// Both come from the triangle closest to the voxel's centre, of equally close ones from that with
+// the lowest number: a rule that no order of work changes. Used only for meshes that have several
+// groups or colours.
+#include "lib/cover.h"
+#include "lib/node_tile.h"
+#include "lib/point_triangle.h"
+#include "shared/voxel.h"
+
+#ifndef VXL_SLICES
+#define VXL_SLICES 16
+#endif
+#define TILE_COLUMNS (TILES_X * TILES_Y)
+#define BRICK_CENTER (LATTICE_BRICK / 2)
+#define NO_TRIANGLE 0xFFFFFFFFu
+
+typedef struct {
+    lane_float squared;
+    lane_uint number;
+} Nearest;
+
+static inline void compare_nearest(Nearest* best, lane_float squared, uint number) {
+    const lane_int closer = LANE_MASK(squared < best->squared) |
+                            (LANE_MASK(squared == best->squared) & LANE_MASK(number < best->number));
+    best->squared = LANES_SELECT(closer, squared, best->squared);
+    best->number = LANES_SELECT(closer, (lane_uint)(number), best->number);
+}
+
+/// One work-item: VXL_SLICES slices of one brick. Writes the triangle closest to each voxel's centre;
+/// voxels farther than `reach` lattice units from all may get NO_TRIANGLE.
+///
+/// The lists are of bins that may be more than the stored bricks: `bins` and `number_of_bin`.
+kernel void find_nearest(uint count, int4 bins, int4 bricks, int4 reach, float4 scale,
+                         global const int* restrict vertices, global const uint* restrict triangles,
+                         global const float* restrict shapes,
+                         global const uint* restrict coordinates,
+                         global const uint* restrict number_of_bin, global const uint* restrict first,
+                         global const uint* restrict lists, global uint* restrict nearest) {
+    if (work_item() >= count * (16 / VXL_SLICES)) return;
+    const uint slot = work_item() / (16 / VXL_SLICES);
+    const int first_slice = (int)(work_item() % (16 / VXL_SLICES)) * VXL_SLICES;
+    const int3 brick = brick_of(coordinates[slot], bricks);
+    const uint bin = number_of_bin[(brick.z * bins.y + brick.y) * bins.x + brick.x + 1];
+    Nearest best[TILE_COLUMNS * VXL_SLICES];
+    for (int i = 0; i < TILE_COLUMNS * VXL_SLICES; ++i) {
+        best[i].squared = (lane_float)(1e30f);
+        best[i].number = (lane_uint)(NO_TRIANGLE);
+    }
+    for (uint i = first[bin]; i < first[bin + 1]; ++i) {
+        const LatticeTriangle t =
+            load_triangle(vertices, triangles, lists[i], brick * LATTICE_BRICK + BRICK_CENTER);
+        const int3 low = lowest_corner(&t) + BRICK_CENTER - reach.xyz;
+        const int3 high = highest_corner(&t) + BRICK_CENTER + reach.xyz;
+        const int3 from = max(low >> LATTICE_BITS, (int3)(0, 0, first_slice));
+        const int3 to = min(high >> LATTICE_BITS, (int3)(15, 15, first_slice + VXL_SLICES - 1));
+        if (any(from > to)) continue;
+        const TriangleFrame f =
+            frame_triangle(&t, shapes + (size_t)SHAPE_FLOATS * lists[i], scale.xyz);
+        for (int j = from.y / TILE_Y; j <= to.y / TILE_Y; ++j)
+            for (int k = from.x / TILE_X; k <= to.x / TILE_X; ++k) {
+                const TileFrame tile = tile_frame(&f, TILE_LANE_X + (float)(k * TILE_X) - 7.5f,
+                                                  TILE_LANE_Y + (float)(j * TILE_Y) - 7.5f);
+                Nearest* column = best + (j * TILES_X + k) * VXL_SLICES - first_slice;
+                for (int z = from.z; z <= to.z; ++z)
+                    compare_nearest(&column[z], squared_distance(&f, &tile, (float)z - 7.5f),
+                                    lists[i]);
+            }
+    }
+    for (int z = 0; z < VXL_SLICES; ++z)
+        for (int j = 0; j < TILES_Y; ++j)
+            for (int k = 0; k < TILES_X; ++k)
+                store_tile_words(best[(j * TILES_X + k) * VXL_SLICES + z].number,
+                                 nearest + 4096u * slot + 256u * (uint)(first_slice + z) +
+                                     16u * (uint)(j * TILE_Y) + (uint)(k * TILE_X));
+}
+
+/// One work-item: one voxel. Its word is that of its closest triangle; `word` where there is none.
+kernel void label_voxels(uint count, uint word, global const uint* restrict nearest,
+                         global const uint* restrict triangle_attributes,
+                         global uint* restrict attributes) {
+    if (work_item() >= count) return;
+    const uint number = nearest[work_item()];
+    attributes[work_item()] = number == NO_TRIANGLE ? word : triangle_attributes[number];
+}
+
+/// Weights of a triangle's corners at the point closest to the origin.
+static inline float3 closest_weights(float3 a, float3 b, float3 c) {
+    const float3 n = cross_product(b - a, c - a);
+    const float area = dot_product(n, n);
+    float3 w = (float3)(dot_product(n, cross_product(b, c)), dot_product(n, cross_product(c, a)),
+                        dot_product(n, cross_product(a, b)));
+    if (area > 0.0f && w.x >= 0.0f && w.y >= 0.0f && w.z >= 0.0f)
+        return w * scalar_reciprocal(w.x + w.y + w.z);
+    const float3 p[3] = {a, b, c};
+    float nearest = 1e30f;
+    for (int i = 0; i < 3; ++i) {
+        const float3 from = p[i], edge = p[(i + 1) % 3] - from;
+        const float squared = dot_product(edge, edge);
+        const float t = squared > 0.0f
+                            ? clamp(-dot_product(from, edge) * scalar_reciprocal(squared), 0.0f, 1.0f)
+                            : 0.0f;
+        const float3 foot = from + edge * t;
+        const float distance = dot_product(foot, foot);
+        if (distance >= nearest) continue;
+        nearest = distance;
+        w = (float3)(i == 0 ? 1.0f - t : i == 2 ? t : 0.0f, i == 1 ? 1.0f - t : i == 0 ? t : 0.0f,
+                     i == 2 ? 1.0f - t : i == 1 ? t : 0.0f);
+    }
+    return w;
+}
+
+/// The sRGB code 0..255 of a linear value: how many of the 255 ascending thresholds are at most it.
+static inline uint encode(float value, global const float* restrict thresholds) {
+    uint code = 0;
+    for (uint step = 128; step > 0; step >>= 1)
+        if (value >= thresholds[code + step - 1]) code += step;
+    return code;
+}
+
+/// One work-item: one voxel. Its colour is its closest triangle's at the point closest to the centre.
+kernel void color_voxels(uint count, int4 bricks, float4 scale, global const int* restrict vertices,
+                         global const uint* restrict triangles,
+                         global const uint* restrict coordinates,
+                         global const uint* restrict nearest,
+                         global const float* restrict vertex_colors,
+                         global const float* restrict thresholds, global uint* restrict colors) {
+    const uint number = work_item();
+    if (number >= count) return;
+    const uint triangle = nearest[number];
+    if (triangle == NO_TRIANGLE) {
+        colors[number] = 0xFFFFFFu;
+        return;
+    }
+    const int3 brick = brick_of(coordinates[number >> 12], bricks);
+    const int3 within = (int3)((int)(number & 15u), (int)(number >> 4 & 15u), (int)(number >> 8 & 15u));
+    const LatticeTriangle t =
+        load_triangle(vertices, triangles, triangle,
+                      brick * LATTICE_BRICK + within * LATTICE_VOXEL + LATTICE_VOXEL / 2);
+    const float3 to_metric = scale.xyz * (1.0f / LATTICE_VOXEL);
+    const float3 weights =
+        closest_weights(convert_float3(t.corner[0]) * to_metric,
+                        convert_float3(t.corner[1]) * to_metric,
+                        convert_float3(t.corner[2]) * to_metric);
+    const float3 color = vload3(triangles[3u * triangle], vertex_colors) * weights.x +
+                         vload3(triangles[3u * triangle + 1u], vertex_colors) * weights.y +
+                         vload3(triangles[3u * triangle + 2u], vertex_colors) * weights.z;
+    colors[number] = encode(color.x, thresholds) | encode(color.y, thresholds) << 8 |
+                     encode(color.z, thresholds) << 16;
+}

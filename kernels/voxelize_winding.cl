@@ -1,0 +1,134 @@
+// triangles of each brick -> winding numbers at voxels' corners or centres, exact for closed meshes.
+//
+// The winding number of a point is the signed number of crossings left of it on its row along x.
+// Points on edges, and crossings on points, are decided as if each point were moved by (e, e², e³).
+#include "lib/cover.h"
+#include "shared/voxel.h"
+
+/// VXL_CENTERS 1: points are voxels' centres, else their minimum corners.
+#ifndef VXL_CENTERS
+#define VXL_CENTERS 0
+#endif
+#define POINT_OFFSET (VXL_CENTERS * LATTICE_VOXEL / 2)
+
+#define COLUMN_NUMBERS ((short16)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15))
+
+/// Adds one triangle's crossings to the rows of a brick: `winding` at 16 points a row, and `totals`.
+///
+/// Each crossing is counted in the brick that holds it; `left` is the column of all space x < 0.
+static inline void add_crossings(const LatticeTriangle* t, bool left, short16* winding,
+                                 short* totals) {
+    const long3 n = area_vector(t);
+    if (n.x == 0) return;
+    const int3 low = lowest_corner(t), high = highest_corner(t);
+    if (left ? low.x >= 0 : (high.x < 0 || low.x >= LATTICE_BRICK)) return;
+    // Rows whose points lie in the bounding box: ceil of its start, floor of its end.
+    const int2 first = max((low.yz - POINT_OFFSET + (LATTICE_VOXEL - 1)) >> LATTICE_BITS, 0);
+    const int2 last = min((high.yz - POINT_OFFSET) >> LATTICE_BITS, 15);
+    if (any(first > last)) return;
+    const Silhouette s = silhouette_of_points(t->corner[0].yz, t->corner[1].yz, t->corner[2].yz,
+                                              n.x, POINT_OFFSET, true);
+    const Crossing plane = plane_crossing(n, t->corner[0], n.y, n.z, n.x);
+    const short turn = n.x < 0 ? 1 : -1;
+    for (int z = first.y; z <= last.y; ++z)
+        for (int y = first.x; y <= last.x; ++y) {
+            if (!point_in_silhouette(&s, y, z)) continue;
+            const long u = 2 * y + VXL_CENTERS, w = 2 * z + VXL_CENTERS;
+            const long voxel = crossed_voxel(&plane, u, w);
+            if (left ? voxel >= 0 : (voxel < 0 || voxel > 15)) continue;
+            totals[16 * z + y] += turn;
+            if (left) continue;
+            const short before = (short)points_before(&plane, u, w, VXL_CENTERS);
+            winding[16 * z + y] += select((short16)(0), (short16)(turn), COLUMN_NUMBERS >= before);
+        }
+}
+
+/// One work-item: one bin with triangles. Bins below `stored` are bricks that get winding numbers
+/// counted from their own left face; all get the totals of their 256 rows.
+kernel void count_crossings(uint count, uint stored, int4 bins, global const int* restrict vertices,
+                            global const uint* restrict triangles,
+                            global const uint* restrict occupied, global const uint* restrict first,
+                            global const uint* restrict lists, global short* restrict winding,
+                            global short* restrict totals) {
+    const uint number = work_item();
+    if (number >= count) return;
+    const int3 bin = brick_of(occupied[number], bins);
+    const bool left = bin.x == 0;
+    const int3 origin = (int3)(max(bin.x - 1, 0), bin.y, bin.z) * LATTICE_BRICK;
+    short16 rows[256];
+    short row_totals[256];
+    for (int i = 0; i < 256; ++i) {
+        rows[i] = (short16)(0);
+        row_totals[i] = 0;
+    }
+    for (uint i = first[number]; i < first[number + 1]; ++i) {
+        const LatticeTriangle t = load_triangle(vertices, triangles, lists[i], origin);
+        add_crossings(&t, left, rows, row_totals);
+    }
+    for (uint i = 0; i < 256u; ++i) {
+        totals[256u * number + i] = row_totals[i];
+        if (number < stored) vstore16(rows[i], 256u * number + i, winding);
+    }
+}
+
+/// One work-item: one row of bricks along x. Turns the totals into each brick's winding numbers at
+/// its left face, and marks bricks without surface as inside or outside.
+kernel void carry_rows(uint count, int4 bins, global const uint* restrict number_of_bin,
+                       global short* restrict totals, global uint* restrict slots) {
+    const uint row = work_item();
+    if (row >= count) return;
+    short16 running[16];
+    for (int i = 0; i < 16; ++i) running[i] = (short16)(0);
+    for (int x = 0; x < bins.x; ++x) {
+        const uint number = number_of_bin[row * (uint)bins.x + (uint)x];
+        const uint brick = row * (uint)(bins.x - 1) + (uint)(x - 1);
+        if (number == VXL_BRICK_OUTSIDE) {
+            if (x > 0) slots[brick] = running[0].s0 > 0 ? VXL_BRICK_INSIDE : VXL_BRICK_OUTSIDE;
+            continue;
+        }
+        if (x > 0) slots[brick] = number;
+        for (uint i = 0; i < 16u; ++i) {
+            const short16 total = vload16(16u * number + i, totals);
+            vstore16(running[i], 16u * number + i, totals);
+            running[i] += total;
+        }
+    }
+}
+
+/// One work-item: one brick. Bit x of inside[16 z + y] says whether the winding number of point
+/// (x, y, z) is above 1/2.
+kernel void find_inside(uint count, global const short* restrict winding,
+                        global const short* restrict carried, global ushort* restrict inside) {
+    const uint slot = work_item();
+    if (slot >= count) return;
+    const short16 bits = (short16)(1, 2, 4, 8, 16, 32, 64, 128, 256, 512, 1024, 2048, 4096, 8192,
+                                   16384, (short)-32768);
+    for (uint i = 0; i < 256u; ++i) {
+        const short16 w = vload16(256u * slot + i, winding) + carried[256u * slot + i];
+        const short16 set = select((short16)(0), bits, w > (short16)(0));
+        const short8 h8 = set.lo | set.hi;
+        const short4 h4 = h8.lo | h8.hi;
+        const short2 h2 = h4.lo | h4.hi;
+        inside[256u * slot + i] = as_ushort((short)(h2.x | h2.y));
+    }
+}
+
+/// One work-item: one brick. SOLID occupancy from the rows of `inside`, within the frame's size.
+kernel void fill_solid(uint count, int4 size, int4 bricks, global const uint* restrict coordinates,
+                       global const ushort* restrict inside, global ulong* restrict occupancy) {
+    const uint slot = work_item();
+    if (slot >= count) return;
+    const int3 within = min(size.xyz - brick_of(coordinates[slot], bricks) * 16, 16);
+    const uint row_mask = within.x <= 0 ? 0u : (1u << within.x) - 1u;
+    for (int leaf = 0; leaf < 64; ++leaf) {
+        const int x = 4 * (leaf & 3), y = 4 * ((leaf >> 2) & 3), z = 4 * (leaf >> 4);
+        ulong mask = 0;
+        for (int i = 0; i < 16; ++i) {
+            const int row_y = y + (i & 3), row_z = z + (i >> 2);
+            if (row_y >= within.y || row_z >= within.z) continue;
+            const uint row = inside[256u * slot + 16u * (uint)row_z + (uint)row_y] & row_mask;
+            mask |= (ulong)((row >> x) & 15u) << (4 * i);
+        }
+        occupancy[64u * slot + (uint)leaf] = mask;
+    }
+}

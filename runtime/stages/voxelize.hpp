@@ -1,0 +1,51 @@
+// mesh -> object grid: the voxels that a triangle mesh covers, or fills, or its distance field.
+#pragma once
+
+#include <glm/mat4x4.hpp>
+#include <map>
+#include <string>
+
+#include "runtime/grid.hpp"
+#include "runtime/mesh.hpp"
+#include "runtime/opencl/program.hpp"
+#include "runtime/stages/voxelize_options.hpp"
+
+namespace voxelume {
+
+/// Voxelizes meshes on one device and keeps the compiled kernels between calls.
+class Voxelizer {
+  public:
+    explicit Voxelizer(const Device& device) : device_(device) {}
+
+    /// The voxels of `mesh` in `frame`; what lies outside of the frame is left out.
+    ///
+    /// `frame_from_mesh` maps the mesh's space to the frame's. Open meshes are inside where their
+    /// generalized winding number (Jacobson et al. 2013) is above 1/2, so small holes close, and a
+    /// shell turned inside out is empty. Stored bricks:
+    ///   cubes   every brick that holds a triangle. For SOLID these have their full occupancy, and
+    ///           bricks marked kBrickInside are full.
+    ///   smooth  every brick with a node within `band` of the surface, and every brick whose nodes
+    ///           are not all on one side. Distances are exact to their rounding within the band and
+    ///           saturated (±32767) beyond.
+    ///   exact   as cubes, with the triangles of each voxel in ascending order.
+    /// `attributes` is empty for a mesh with one group, `colors` for one without. Otherwise a voxel
+    /// has the group of the triangle closest to its centre, of equally close ones that with the
+    /// lowest number, and the colour of that triangle's closest point; voxels that no surface
+    /// concerns have group 0 and white. Materials are face groups, object is 0.
+    /// Throws Error::input for a mesh that has no triangles, NaNs or bad indices, Error::limit for
+    /// more than 16384 voxels along an axis or too little memory.
+    BrickGrid voxelize(const Mesh& mesh, const glm::dmat4& frame_from_mesh, const GridFrame& frame,
+                       const VoxelizeOptions& options);
+
+  private:
+    const Program& program(const std::string& file, const Defines& defines);
+
+    Device device_;
+    std::map<std::string, Program> programs_;
+};
+
+/// The frame of voxels of `voxel_edge` (metres) that holds the mesh in its own space, plus
+/// `margin` voxels on every side. Four keep all distances of `smooth` inside.
+GridFrame frame_around(const Mesh& mesh, const glm::dvec3& voxel_edge, int margin = 4);
+
+}  // namespace voxelume

@@ -1,0 +1,25 @@
+// Exact answers about triangles and voxels, in 128-bit and rational arithmetic.
+#pragma once
+
+#include <glm/vec3.hpp>
+
+#include <array>
+#include <vector>
+
+namespace voxelume::oracle {
+
+/// Corners on the lattice of 1/4096 voxel.
+using LatticeCorners = std::array<glm::ivec3, 3>;
+
+/// Whether the closed triangle meets the closed cube of voxel `v`: 13 separating axes.
+bool cube_meets_triangle(const glm::ivec3& v, const LatticeCorners& triangle);
+
+/// Whether the triangle meets the crosshair of voxel `v`: its three centre segments, each from its
+/// start to before its end, their lines moved by (e, e², e³) with e = 2^-80.
+bool crosshair_meets_triangle(const glm::ivec3& v, const LatticeCorners& triangle);
+
+/// The winding number of a closed mesh around a lattice point moved by (e, e², e³): crossings of the
+/// ray along +z, found with rationals.
+int winding_number(const glm::ivec3& point, const std::vector<LatticeCorners>& mesh);
+
+}  // namespace voxelume::oracle
