@@ -77,7 +77,7 @@ void ShadeStage::surface(const Pyramid& pyramid, RayBatch& batch, uint32_t count
 
 void ShadeStage::light(const Pyramid& pyramid, const LightRecord& light, RayBatch& batch,
                        uint32_t count, ShadowQueue& queue) {
-    queue.count.fill(0);
+    if (!queue.count.empty()) queue.count.fill(0);
     light_.launch_packets(count, shape_of(pyramid), space_, light, materials_, pyramid.colors,
                           batch.rays, batch.hits, count, batch.stride, batch.positions,
                           batch.normals, batch.words, batch.radiance, queue.count, queue.rays,
