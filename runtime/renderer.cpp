@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <chrono>
+#include <optional>
 
+#include "runtime/stages/light.hpp"
 #include "runtime/stages/resolve.hpp"
 #include "runtime/stages/shade.hpp"
 #include "runtime/stages/sight.hpp"
@@ -15,9 +17,14 @@ namespace {
 /// CPU's caches on their way (measured with bench_frame; 2^16 to 2^19 differ by less than 5 %).
 constexpr uint32_t kBatchRays = 1u << 18;
 
+bool has_light(const Scene& scene) {
+    return std::ranges::any_of(scene.lights,
+                               [](const Light& light) { return light.energy != glm::vec3(0); });
+}
+
 Features features_of(const Scene& scene, const Pyramid& world) {
     Features features = features_of(world);
-    features.shadows = scene.render.shadows && !scene.lights.empty();
+    features.shadows = scene.render.shadows && has_light(scene);
     features.medium = scene.world.medium.absorption != glm::vec3(0);
     return features;
 }
@@ -66,6 +73,8 @@ Image render(const Device& device, const Scene& scene, RenderReport& report,
     SightStage sight(device, features, observer);
     TraceStage trace(device, features);
     ShadeStage shade(device, features, scene);
+    std::optional<LightStage> lighting;  // not even compiled in a scene without lights
+    if (!lights.empty()) lighting.emplace(device, features, shade.space(), shade.materials());
     ResolveStage resolve(device, features, observer);
 
     const uint32_t tiles = tile_count(observer.width, observer.height);
@@ -80,10 +89,10 @@ Image render(const Device& device, const Scene& scene, RenderReport& report,
         trace.closest(world, batch, rays);
         shade.surface(world, batch, rays);
         for (const LightRecord& light : lights) {
-            shade.light(world, light, batch, rays, queue);
+            lighting->add(world, light, batch, rays, queue);
             if (features.shadows) trace.shadows(world, queue, rays, batch.stride, batch.radiance);
         }
-        if (features.medium) resolve.absorb(world, space_of(scene.world), batch, rays);
+        if (features.medium) resolve.absorb(world, shade.space(), batch, rays);
         resolve.pixels(world, batch, first, now);
         report.sight_rays += rays;
         if (progress) {
