@@ -77,22 +77,23 @@ static inline void visit_bins(uint number, int4 bins, int4 reach, int extent,
             }
 }
 
-/// One work-item: one triangle. Adds 1 to `counts` of each bin that it reaches.
-kernel void count_pairs(uint count, int4 bins, int4 reach, int extent,
+/// One work-item: one of the triangles from number `first`. Adds 1 to `counts` of each bin that it
+/// reaches.
+kernel void count_pairs(uint first, uint count, int4 bins, int4 reach, int extent,
                         global const int* restrict vertices, global const uint* restrict triangles,
                         global uint* restrict counts) {
     if (work_item() >= count) return;
-    visit_bins(work_item(), bins, reach, extent, vertices, triangles, false, counts, counts);
+    visit_bins(first + work_item(), bins, reach, extent, vertices, triangles, false, counts, counts);
 }
 
-/// One work-item: one triangle. Writes its number at the cursor of each bin that it reaches.
+/// One work-item: the same triangles. Writes its number at the cursor of each bin that it reaches.
 ///
 /// The order within a list depends on the device: every reader gives the same result for any order.
-kernel void list_pairs(uint count, int4 bins, int4 reach, int extent,
+kernel void list_pairs(uint first, uint count, int4 bins, int4 reach, int extent,
                        global const int* restrict vertices, global const uint* restrict triangles,
                        global uint* restrict cursors, global uint* restrict lists) {
     if (work_item() >= count) return;
-    visit_bins(work_item(), bins, reach, extent, vertices, triangles, true, cursors, lists);
+    visit_bins(first + work_item(), bins, reach, extent, vertices, triangles, true, cursors, lists);
 }
 
 /// One work-item: one row of bricks along x. Gives each brick its slot, or marks it as outside.

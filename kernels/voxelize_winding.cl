@@ -72,9 +72,11 @@ kernel void count_crossings(uint count, uint stored, int4 bins, global const int
 }
 
 /// One work-item: one row of bricks along x. Turns the totals into each brick's winding numbers at
-/// its left face, and marks bricks without surface as inside or outside.
+/// its left face, and marks bricks without triangles as inside or outside; `passing` is the winding
+/// number of all their points.
 kernel void carry_rows(uint count, int4 bins, global const uint* restrict number_of_bin,
-                       global short* restrict totals, global uint* restrict slots) {
+                       global short* restrict totals, global uint* restrict slots,
+                       global short* restrict passing) {
     const uint row = work_item();
     if (row >= count) return;
     short16 running[16];
@@ -83,7 +85,9 @@ kernel void carry_rows(uint count, int4 bins, global const uint* restrict number
         const uint number = number_of_bin[row * (uint)bins.x + (uint)x];
         const uint brick = row * (uint)(bins.x - 1) + (uint)(x - 1);
         if (number == VXL_BRICK_OUTSIDE) {
-            if (x > 0) slots[brick] = running[0].s0 > 0 ? VXL_BRICK_INSIDE : VXL_BRICK_OUTSIDE;
+            if (x == 0) continue;
+            slots[brick] = running[0].s0 > 0 ? VXL_BRICK_INSIDE : VXL_BRICK_OUTSIDE;
+            passing[brick] = running[0].s0;
             continue;
         }
         if (x > 0) slots[brick] = number;
