@@ -1,8 +1,8 @@
 // winding numbers of a mesh closed by caps -> which points are inside the open mesh.
 //
-// The generalized winding number (Jacobson et al. 2013) of the open mesh is the integer of the closed
-// one less the caps' solid angle. Away from the mesh it changes slowly and smoothly, even through the
-// caps, so most bricks are decided by one point and a bound on the slope.
+// The generalized winding number (Jacobson et al. 2013) of the open mesh is the integer of the
+// closed one less the caps' solid angle. Away from the mesh it changes slowly and smoothly, even
+// through the caps, so most bricks are decided by one point and a bound on the slope.
 #include "lib/cover.h"
 #include "lib/node_tile.h"
 #include "lib/solid_angle.h"
@@ -24,15 +24,16 @@
 #define STATE_CLOSED 2u  // stored: caps change nothing, the closed mesh's winding numbers decide
 #define STATE_OPEN 3u    // stored: every point needs the caps' solid angle
 
-/// An upper bound on the slope of the caps' winding number within `radius` of the points: by the law of
-/// Biot and Savart their outline, each cap's first edge, makes it.
+/// An upper bound on the slope of the caps' winding number within `radius` of the points: by the
+/// law of Biot and Savart their outline, each cap's first edge, makes it.
 static inline lane_float slope_bound(const Cap* cap, const LanePoints* p, float radius,
                                      float3 to_metric) {
     const int3 first = cap->lattice.corner[0], second = cap->lattice.corner[1];
     const float3 edge = convert_float3(second - first) * to_metric;
     const float length = sqrt(edge.x * edge.x + edge.y * edge.y + edge.z * edge.z) * 1.001f;
     const LaneVector middle = vector_to(first + (second - first) / 2, p, to_metric);
-    const lane_float gap = fmax(middle.length * 0.999f - 0.5f * length - radius, (lane_float)(1e-6f));
+    const lane_float gap =
+        fmax(middle.length * 0.999f - 0.5f * length - radius, (lane_float)(1e-6f));
     return (0.0796f * length) / (gap * gap);
 }
 
@@ -76,8 +77,7 @@ kernel void classify_bricks(uint count, int4 bricks, float4 scale, float radius,
     const float3 to_metric = scale.xyz * (1.0f / LATTICE_VOXEL);
     lane_float caps = (lane_float)(0.0f), slope = (lane_float)(0.0f);
     for (uint i = cap_first; i < cap_first + cap_count; ++i) {
-        const Cap cap =
-            make_cap(load_triangle(vertices, triangles, i, (int3)(0, 0, 0)), scale.xyz);
+        const Cap cap = make_cap(load_triangle(vertices, triangles, i, (int3)(0, 0, 0)), scale.xyz);
         caps += half_solid_angle(&cap, &p, to_metric);
         slope += slope_bound(&cap, &p, radius, to_metric);
     }
@@ -96,8 +96,8 @@ kernel void classify_bricks(uint count, int4 bricks, float4 scale, float radius,
     }
 }
 
-/// One work-item: VXL_SLICES slices of one stored brick. Bit x of inside[16 z + y] says whether the open
-/// mesh's winding number is above 1/2.
+/// One work-item: VXL_SLICES slices of one stored brick. Bit x of inside[16 z + y] says whether the
+/// open mesh's winding number is above 1/2.
 ///
 /// `numbers` gives each slot's number among bins with winding numbers, or VXL_BRICK_OUTSIDE.
 kernel void find_inside_open(uint count, int4 bricks, float4 scale, uint cap_first, uint cap_count,
@@ -123,8 +123,10 @@ kernel void find_inside_open(uint count, int4 bricks, float4 scale, uint cap_fir
         for (int k = 0; k < TILE_COLUMNS * VXL_SLICES; ++k) {
             const int column = k / VXL_SLICES, z = first_slice + k % VXL_SLICES;
             LanePoints p;
-            p.x = LATTICE_VOXEL * (LANES_INT(TILE_LANE_X) + column % TILES_X * TILE_X) + POINT_OFFSET;
-            p.y = LATTICE_VOXEL * (LANES_INT(TILE_LANE_Y) + column / TILES_X * TILE_Y) + POINT_OFFSET;
+            p.x =
+                LATTICE_VOXEL * (LANES_INT(TILE_LANE_X) + column % TILES_X * TILE_X) + POINT_OFFSET;
+            p.y =
+                LATTICE_VOXEL * (LANES_INT(TILE_LANE_Y) + column / TILES_X * TILE_Y) + POINT_OFFSET;
             p.z = (lane_int)(LATTICE_VOXEL * z + POINT_OFFSET);
             caps[k] += half_solid_angle(&cap, &p, to_metric);
         }
@@ -134,12 +136,14 @@ kernel void find_inside_open(uint count, int4 bricks, float4 scale, uint cap_fir
             uint row = 0;
             for (uint x = 0; x < 16u; ++x) {
                 const uint node = 256u * z + 16u * y + x;
-                const int closed = number == VXL_BRICK_OUTSIDE
-                                       ? passing[brick]
-                                       : winding[4096u * number + node] + carried[256u * number + node / 16u];
+                const int closed =
+                    number == VXL_BRICK_OUTSIDE
+                        ? passing[brick]
+                        : winding[4096u * number + node] + carried[256u * number + node / 16u];
                 const uint column = y / TILE_Y * TILES_X + x / TILE_X;
                 const uint lane = y % TILE_Y * TILE_X + x % TILE_X;
-                const float* sums = (const float*)&caps[column * VXL_SLICES + z - (uint)first_slice];
+                const float* sums =
+                    (const float*)&caps[column * VXL_SLICES + z - (uint)first_slice];
                 row |= (uint)((float)closed - sums[lane] * TURNS > 0.5f) << x;
             }
             inside[256u * slot + 16u * z + y] = (ushort)row;

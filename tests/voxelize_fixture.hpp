@@ -23,10 +23,11 @@ struct VoxelLess {
 };
 using VoxelSetOf = std::set<glm::ivec3, VoxelLess>;
 
-/// One voxelizer for all tests, so that each kernel is built once.
+/// One voxelizer for all tests, so that each kernel is built once. Never freed: a platform may be
+/// gone before static objects are.
 inline Voxelizer& shared_voxelizer() {
-    static Voxelizer voxelizer(test_device());
-    return voxelizer;
+    static Voxelizer* const voxelizer = new Voxelizer(test_device());
+    return *voxelizer;
 }
 
 /// A frame whose voxels are the units of the mesh.

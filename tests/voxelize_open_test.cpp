@@ -65,7 +65,7 @@ TEST(OpenMesh, HemisphereIsClosedByTheSurfaceOfHalfAWinding) {
     // Its outline lies in the plane z = 13, in which no centre lies, and then in one full of them.
     for (const float z : {13.0f, 12.5f}) {
         const size_t size = expect_solid(ball_mesh({18.3f, 17.1f, z}, 10, 24, 14, 0, 7));
-        EXPECT_NEAR(double(size), 2094.4, 150.0);
+        EXPECT_NEAR(double(size), 2094.4, 250.0);  // the lid's own layer is 314 voxels, in or out
     }
 }
 

@@ -69,8 +69,8 @@ static inline lane_float lane_dot(const LaneVector* a, const LaneVector* b) {
     return fma(a->x, b->x, fma(a->y, b->y, a->z * b->z));
 }
 
-/// On which side of the cap's plane each lane's point is, exactly: 1 behind it, -1 in front. Points on
-/// it are moved by (e, e², e³), as those of crossings are.
+/// On which side of the cap's plane each lane's point is, exactly: 1 behind it, -1 in front. Points
+/// on it are moved by (e, e², e³), as those of crossings are.
 static inline lane_float exact_sides(const Cap* cap, const LanePoints* p) {
     lane_float sides;
     for (int i = 0; i < VXL_LANES; ++i) {
@@ -86,8 +86,8 @@ static inline lane_float exact_sides(const Cap* cap, const LanePoints* p) {
 }
 
 /// Half the solid angle of the cap seen from each point, positive from behind (van Oosterom and
-/// Strackee 1983). Beside the cap the angle jumps; there its side is decided in integers, so that it
-/// agrees with the crossings.
+/// Strackee 1983). Beside the cap the angle jumps; there its side is decided in integers, so that
+/// it agrees with the crossings.
 static inline lane_float half_solid_angle(const Cap* cap, const LanePoints* p, float3 to_metric) {
     const LaneVector a = vector_to(cap->lattice.corner[0], p, to_metric);
     const LaneVector b = vector_to(cap->lattice.corner[1], p, to_metric);
@@ -96,10 +96,9 @@ static inline lane_float half_solid_angle(const Cap* cap, const LanePoints* p, f
     lane_float height = fma((lane_float)(n.x), a.x, fma((lane_float)(n.y), a.y, n.z * a.z));
     const lane_float bound =
         4e-7f * (fabs(n.x) * fabs(a.x) + fabs(n.y) * fabs(a.y) + fabs(n.z) * fabs(a.z));
-    const lane_float reach =
-        fma(a.length * b.length, c.length,
-            fma(lane_dot(&a, &b), c.length,
-                fma(lane_dot(&b, &c), a.length, lane_dot(&c, &a) * b.length)));
+    const lane_float reach = fma(a.length * b.length, c.length,
+                                 fma(lane_dot(&a, &b), c.length,
+                                     fma(lane_dot(&b, &c), a.length, lane_dot(&c, &a) * b.length)));
     if (lanes_any(LANE_MASK(fabs(height) <= bound) & LANE_MASK(reach <= 0.0f)))
         height = LANES_SELECT(LANE_MASK(fabs(height) <= bound),
                               take_sign(height, exact_sides(cap, p)), height);
