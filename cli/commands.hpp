@@ -26,7 +26,9 @@ struct Command {
     AddCommand add;
 };
 
+Action add_devices(CLI::App& app);
 Action add_diff(CLI::App& app);
+Action add_render(CLI::App& app);
 Action add_info(CLI::App& app);
 
 }  // namespace voxelume::cli

@@ -1,16 +1,168 @@
 // voxelume info FILE: what is in a file.
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
 
 #include "cli/commands.hpp"
+#include "cli/report.hpp"
 #include "runtime/error.hpp"
+#include "runtime/io/exr.hpp"
+#include "runtime/io/input_file.hpp"
+#include "runtime/io/mesh_reader.hpp"
+#include "runtime/io/model_file.hpp"
+#include "runtime/io/png.hpp"
+#include "runtime/io/vdb.hpp"
 
 namespace voxelume::cli {
 
+namespace {
+
+namespace fs = std::filesystem;
+
+template <class Vector>
+Report numbers(const Vector& v) {
+    return {v.x, v.y, v.z};
+}
+
+template <class Value>
+Report describe_plane(const std::string& name, const std::string& type,
+                      const std::vector<Value>& plane) {
+    double smallest = 0.0, largest = 0.0, sum = 0.0;
+    size_t finite = 0;
+    for (const Value value : plane) {
+        const double v = value;
+        if (!std::isfinite(v)) continue;
+        smallest = finite == 0 ? v : std::min(smallest, v);
+        largest = finite == 0 ? v : std::max(largest, v);
+        sum += v;
+        ++finite;
+    }
+    Report row = {{"channel", name}, {"type", type}, {"min", nullptr}, {"max", nullptr}};
+    row["mean"] = nullptr;
+    row["not finite"] = plane.size() - finite;
+    if (finite == 0) return row;
+    row["min"] = smallest;
+    row["max"] = largest;
+    row["mean"] = sum / static_cast<double>(finite);
+    return row;
+}
+
+Report describe_exr(const fs::path& path) {
+    const ExrHeader header = read_exr_header(path);
+    Report report = {{"kind", "OpenEXR image"},
+                     {"size", {header.width, header.height}},
+                     {"layout", header.layout},
+                     {"compression", header.compression}};
+    for (const auto& [name, text] : header.attributes) report["attributes"][name] = text;
+    report["channels"] = Report::array();
+    if (header.layout.starts_with("deep")) {
+        for (const auto& [name, type] : header.channels)
+            report["channels"].push_back({{"channel", name}, {"type", type}});
+        return report;
+    }
+    const Image image = read_exr(path);
+    for (const auto& [name, plane] : image.planes)
+        report["channels"].push_back(describe_plane(name, header.channels.at(name), plane));
+    for (const auto& [name, plane] : image.id_planes)
+        report["channels"].push_back(describe_plane(name, header.channels.at(name), plane));
+    return report;
+}
+
+Report describe_png(const fs::path& path) {
+    const Picture picture = read_png(path);
+    constexpr std::array kNames = {"R", "G", "B", "A"};
+    Report report = {{"kind", "PNG picture"}, {"size", {picture.width, picture.height}}};
+    for (size_t channel = 0; channel < kNames.size(); ++channel) {
+        std::vector<uint8_t> plane;
+        for (const auto& pixel : picture.pixels) plane.push_back(pixel[channel]);
+        report["channels"].push_back(describe_plane(kNames[channel], "8 bit", plane));
+    }
+    return report;
+}
+
+Report describe_vdb(const fs::path& path) {
+    Report report = {{"kind", "OpenVDB volume"}, {"grids", Report::array()}};
+    for (const VdbSummary& grid : read_vdb_summary(path))
+        report["grids"].push_back({{"grid", grid.name},
+                                   {"type", grid.value_type},
+                                   {"class", grid.grid_class},
+                                   {"voxels", grid.active_voxels},
+                                   {"min", numbers(grid.min)},
+                                   {"max", numbers(grid.max)},
+                                   {"voxel edges", numbers(grid.voxel_edges)}});
+    return report;
+}
+
+Report describe_model(const fs::path& path) {
+    const ModelSummary model = read_model_summary(path);
+    Report report = {{"kind", "voxelized model"}, {"arrays", Report::array()}};
+    for (const auto& [key, value] : model.header) report["header"][key] = value;
+    for (const auto& [name, array] : model.arrays)
+        report["arrays"].push_back({{"array", name},
+                                    {"type", element_name(array.type)},
+                                    {"count", array.count},
+                                    {"bytes", array.count * element_bytes(array.type)},
+                                    {"compressed", array.compressed_bytes}});
+    return report;
+}
+
+Report describe_mesh(const fs::path& path) {
+    const Mesh mesh = read_mesh(path);
+    glm::vec3 low(std::numeric_limits<float>::infinity()), high = -low;
+    for (const glm::vec3& p : mesh.positions) {
+        low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+        high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+    }
+    Report report = {{"kind", "triangle mesh"},
+                     {"triangles", mesh.triangles.size()},
+                     {"vertices", mesh.positions.size()},
+                     {"vertex colors", !mesh.vertex_colors.empty()},
+                     {"groups", mesh.group_names}};
+    report["min"] = numbers(low);
+    report["max"] = numbers(high);
+    return report;
+}
+
+using Describe = Report (*)(const fs::path&);
+
+/// By what the file begins with; meshes have no mark of their own, so they are what is left.
+Describe find_description(const fs::path& path) {
+    constexpr std::array<std::pair<std::string_view, Describe>, 4> kKinds = {
+        {{{"\x76\x2f\x31\x01", 4}, describe_exr},
+         {{"\x89PNG\r\n\x1a\n", 8}, describe_png},
+         {{" BDV\0\0\0\0", 8}, describe_vdb},
+         {{"\x89VXM\r\n\x1a\n", 8}, describe_model}}};
+    const InputFile file(path);
+    std::string start(std::min<uint64_t>(8, file.size()), '\0');
+    file.read(0, start.data(), start.size());
+    for (const auto& [mark, describe] : kKinds)
+        if (start.starts_with(mark)) return describe;
+    if (path.extension() == ".json")
+        file.refuse("is a scene or a report; `voxelume check` says what is in a scene");
+    return describe_mesh;
+}
+
+}  // namespace
+
 Action add_info(CLI::App& app) {
-    auto path = std::make_shared<std::string>();
-    app.add_option("FILE", *path, "an image, volume, model or mesh")->required();
-    return [path]() -> int {
-        throw Error(ErrorKind::input, "{}: not a file that voxelume knows", *path);
+    struct Options {
+        std::string path;
+        bool json = false;
+    };
+    auto options = std::make_shared<Options>();
+    app.add_option("FILE", options->path,
+                   "OpenEXR image, PNG, OpenVDB volume, voxelized model (.vxm) or mesh")
+        ->required();
+    app.add_flag("--json", options->json, "print JSON");
+    return [options] {
+        const fs::path path = options->path;
+        Report report = {{"file", options->path}, {"bytes", 0}};
+        report.update(find_description(path)(path));
+        report["bytes"] = fs::file_size(path);
+        print_report(report, options->json);
+        return 0;
     };
 }
 

@@ -4,13 +4,14 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <csignal>
 #include <cstdio>
 #include <cstring>
 #include <new>
 
 #include "cli/commands.hpp"
-#include "cli/nearest_name.hpp"
 #include "runtime/error.hpp"
+#include "runtime/scene_fields.hpp"
 #include "runtime/version.hpp"
 
 namespace voxelume::cli {
@@ -19,6 +20,8 @@ namespace {
 
 /// In the order in which a user meets them.
 constexpr std::array kCommands = {
+    Command{"devices", "list what can render here, and why not otherwise", add_devices},
+    Command{"render", "render the image of a scene", add_render},
     Command{"info", "say what is in a file: image, volume, model or mesh", add_info},
     Command{"diff", "measure how far two images are from each other", add_diff},
 };
@@ -41,25 +44,23 @@ int print_help() {
 }
 
 const Command& find_command(const std::string& name) {
-    std::vector<std::string> names = {"help"};
+    std::vector<std::string_view> names = {"help"};
     for (const Command& command : kCommands) {
         if (name == command.name) return command;
         names.emplace_back(command.name);
     }
-    const std::string nearest = nearest_name(name, names);
-    if (nearest.empty())
-        throw Error(ErrorKind::usage, "no command named \"{}\"; `voxelume help` lists them", name);
-    throw Error(ErrorKind::usage, "no command named \"{}\"; did you mean \"{}\"?", name, nearest);
+    throw Error(ErrorKind::usage, "no command named {}{}", quote(name), suggest(name, names));
 }
 
-/// The option of `app` that `typed` was meant to be, as part of a sentence; empty when there is
-/// none.
-std::string suggest_option(const CLI::App& app, const std::string& typed) {
+/// The first option or argument that `app` doesn't know, as part of a sentence.
+std::string describe_extra(const CLI::App& app) {
+    const std::string extra = app.remaining().front();
+    if (!extra.starts_with('-')) return fmt::format("one argument too many: {}", quote(extra));
     std::vector<std::string> names;
     for (const CLI::Option* option : app.get_options())
         for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
-    const std::string nearest = nearest_name(typed.substr(0, typed.find('=')), names);
-    return nearest.empty() ? "" : fmt::format("; did you mean \"{}\"?", nearest);
+    return fmt::format("no option named {}{}", quote(extra),
+                       suggest(extra, std::vector<std::string_view>(names.begin(), names.end())));
 }
 
 int run_command(const Command& command, std::vector<std::string> arguments) {
@@ -72,9 +73,7 @@ int run_command(const Command& command, std::vector<std::string> arguments) {
         fmt::print("{}", app.help());
         return 0;
     } catch (const CLI::ExtrasError&) {
-        const std::string extra = app.remaining().front();
-        throw Error(ErrorKind::usage, "{}: unexpected \"{}\"{}", command.name, extra,
-                    suggest_option(app, extra));
+        throw Error(ErrorKind::usage, "{}: {}", command.name, describe_extra(app));
     } catch (const CLI::ParseError& error) {
         throw Error(ErrorKind::usage, "{}: {}; see `voxelume help {}`", command.name, error.what(),
                     command.name);
@@ -118,6 +117,8 @@ int complain(const char* sentence, ErrorKind kind) {
 int main(int count, char** arguments) {
     using voxelume::ErrorKind;
     namespace cli = voxelume::cli;
+    // A file that reaches `ulimit -f` is a failed write like any other, not the end of the process.
+    std::signal(SIGXFSZ, SIG_IGN);
     try {
         const int code = cli::run({arguments + (count > 0 ? 1 : 0), arguments + count});
         cli::flush_stdout();

@@ -156,8 +156,7 @@ SceneFields::SceneFields(SceneValue value, std::string_view table)
     }
     for (const JsonMember& m : value_.json().members) {
         if (std::find(keys.begin(), keys.end(), m.key) != keys.end()) continue;
-        throw Error(ErrorKind::scene, "{}: there is no key {} in a {}{}", value_.where(m.at),
-                    quote(m.key), table_->name.substr(table_->name.find(':') + 1),
+        throw Error(ErrorKind::scene, "{}: unknown key {}{}", value_.where(m.at), quote(m.key),
                     suggest(m.key, keys));
     }
 }

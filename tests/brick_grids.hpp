@@ -122,4 +122,44 @@ inline int16_t stored_distance(double voxels) {
     return int16_t(std::lround(std::clamp(voxels * 8192.0, -32767.0, 32767.0)));
 }
 
+/// A BrickGrid's voxels and distances read back.
+struct ReadBricks {
+    explicit ReadBricks(const BrickGrid& grid) : host(grid.frame), attribute(grid.attribute) {
+        host.slots = grid.slots.read();
+        host.coordinates = grid.coordinates.read();
+        host.occupancy = grid.occupancy.read();
+        host.distance = grid.distance.read();
+        host.attributes = grid.attributes.read();
+        host.colors = grid.colors.read();
+    }
+    uint32_t slot(const glm::ivec3& v) const { return host.slots[host.brick_index(v)]; }
+    bool is_set(const glm::ivec3& v) const {
+        if (slot(v) >= kBrickInside) return slot(v) == kBrickInside;
+        const glm::ivec3 leaf = v % 16 / 4, in = v % 4;
+        return host.occupancy[host.place(v) / 4096 * 64 +
+                              size_t(leaf.x + 4 * leaf.y + 16 * leaf.z)] >>
+                   (in.x + 4 * in.y + 16 * in.z) &
+               1;
+    }
+    int distance_at(const glm::ivec3& node) const {
+        if (slot(node) >= kBrickInside) return slot(node) == kBrickInside ? -32767 : 32767;
+        return host.distance[host.place(node)];
+    }
+    uint32_t word(const glm::ivec3& v) const {
+        return host.attributes.empty() ? attribute : host.attributes[host.place(v)];
+    }
+    /// Every set voxel, with its word unless its brick is full.
+    VoxelMap voxels() const {
+        VoxelMap set;
+        for (glm::ivec3 v{0}; v.z < host.frame.size.z; ++v.z)
+            for (v.y = 0; v.y < host.frame.size.y; ++v.y)
+                for (v.x = 0; v.x < host.frame.size.x; ++v.x)
+                    if (is_set(v)) set[v] = slot(v) < kBrickInside ? word(v) : attribute;
+        return set;
+    }
+
+    HostBricks host;
+    uint32_t attribute;
+};
+
 }  // namespace voxelume

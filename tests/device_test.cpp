@@ -6,11 +6,13 @@
 
 #include "runtime/opencl/program.hpp"
 #include "runtime/opencl/status.hpp"
-#include "tests/temporary_folder.hpp"
+#include "tests/file_fixture.hpp"
 #include "tests/test_device.hpp"
 
 namespace voxelume {
 namespace {
+
+using DriverFilesDeathTest = FileTest;
 
 /// An environment variable for the time of a test.
 class Environment {
@@ -118,20 +120,18 @@ void open_with_drivers(const std::filesystem::path& folder) {
     std::exit(code);
 }
 
-TEST(DeviceDeathTest, WithoutAnyDriverThePackageToInstallIsNamed) {
+TEST_F(DriverFilesDeathTest, WithoutAnyDriverThePackageToInstallIsNamed) {
     GTEST_FLAG_SET(death_test_style, "threadsafe");
-    const TemporaryFolder none;
-    EXPECT_EXIT(open_with_drivers(none.path()), testing::ExitedWithCode(6), "pocl-opencl-icd");
+    EXPECT_EXIT(open_with_drivers(folder), testing::ExitedWithCode(6), "pocl-opencl-icd");
 }
 
-TEST(DeviceDeathTest, ADriverThatIsMissingIsPassedOver) {
+TEST_F(DriverFilesDeathTest, ADriverThatIsMissingIsPassedOver) {
     GTEST_FLAG_SET(death_test_style, "threadsafe");
-    const TemporaryFolder folder;
-    std::ofstream(folder.path() / "bogus.icd") << "libno-such-driver.so.1\n";
-    EXPECT_EXIT(open_with_drivers(folder.path()), testing::ExitedWithCode(6), "pocl-opencl-icd");
+    std::ofstream(folder / "bogus.icd") << "libno-such-driver.so.1\n";
+    EXPECT_EXIT(open_with_drivers(folder), testing::ExitedWithCode(6), "pocl-opencl-icd");
     if (std::filesystem::exists("/etc/OpenCL/vendors/pocl.icd")) {
-        std::filesystem::copy("/etc/OpenCL/vendors/pocl.icd", folder.path() / "pocl.icd");
-        EXPECT_EXIT(open_with_drivers(folder.path()), testing::ExitedWithCode(0), "opened");
+        std::filesystem::copy("/etc/OpenCL/vendors/pocl.icd", folder / "pocl.icd");
+        EXPECT_EXIT(open_with_drivers(folder), testing::ExitedWithCode(0), "opened");
     }
 }
 

@@ -5,10 +5,12 @@
 #include <cstdlib>
 #include <fstream>
 
-#include "tests/temporary_folder.hpp"
+#include "tests/file_fixture.hpp"
 
 namespace voxelume {
 namespace {
+
+using DiskCacheFiles = FileTest;
 
 namespace fs = std::filesystem;
 
@@ -17,9 +19,8 @@ std::string key_of(std::string_view text) {
     return cache_key(parts);
 }
 
-TEST(DiskCache, GivesBackWhatWasWritten) {
-    const TemporaryFolder folder;
-    const DiskCache cache(folder.path() / "new" / "deep", 1000);
+TEST_F(DiskCacheFiles, GivesBackWhatWasWritten) {
+    const DiskCache cache(folder / "new" / "deep", 1000);
     const std::string bytes("a\0b\n\xff", 5);
     cache.write(key_of("one"), bytes);
     EXPECT_EQ(cache.read(key_of("one")), bytes);
@@ -32,11 +33,10 @@ TEST(DiskCache, AKeyDependsOnWhereItsPartsEnd) {
     EXPECT_EQ(cache_key(left).size(), 32u);
 }
 
-TEST(DiskCache, AnEntryDamagedAnywhereIsAbsentAndRemoved) {
-    const TemporaryFolder folder;
-    const DiskCache cache(folder.path(), 100000);
+TEST_F(DiskCacheFiles, AnEntryDamagedAnywhereIsAbsentAndRemoved) {
+    const DiskCache cache(folder, 100000);
     const std::string key = key_of("program");
-    const fs::path path = folder.path() / key;
+    const fs::path path = folder / key;
     const std::string bytes(300, 'x');
     cache.write(key, bytes);
     const auto whole_size = fs::file_size(path);
@@ -58,22 +58,20 @@ TEST(DiskCache, AnEntryDamagedAnywhereIsAbsentAndRemoved) {
     }
 }
 
-TEST(DiskCache, AnEntryUnderAnotherNameIsAbsent) {
-    const TemporaryFolder folder;
-    const DiskCache cache(folder.path(), 1000);
+TEST_F(DiskCacheFiles, AnEntryUnderAnotherNameIsAbsent) {
+    const DiskCache cache(folder, 1000);
     cache.write(key_of("one"), "bytes of one");
-    fs::rename(folder.path() / key_of("one"), folder.path() / key_of("two"));
+    fs::rename(folder / key_of("one"), folder / key_of("two"));
     EXPECT_EQ(cache.read(key_of("two")), std::nullopt);
 }
 
-TEST(DiskCache, WhatWasUsedLongestAgoGoesFirst) {
-    const TemporaryFolder folder;
-    const DiskCache cache(folder.path(), 3 * 1056 + 100);  // three entries of 1000 bytes
+TEST_F(DiskCacheFiles, WhatWasUsedLongestAgoGoesFirst) {
+    const DiskCache cache(folder, 3 * 1056 + 100);  // three entries of 1000 bytes
     const auto now = fs::file_time_type::clock::now();
     int age = 30;
     for (const char* name : {"a", "b", "c"}) {
         cache.write(key_of(name), std::string(1000, *name));
-        fs::last_write_time(folder.path() / key_of(name), now - std::chrono::seconds(age--));
+        fs::last_write_time(folder / key_of(name), now - std::chrono::seconds(age--));
     }
     EXPECT_TRUE(cache.read(key_of("a")));  // used just now
     cache.write(key_of("d"), std::string(1000, 'd'));
@@ -83,10 +81,9 @@ TEST(DiskCache, WhatWasUsedLongestAgoGoesFirst) {
     EXPECT_TRUE(cache.read(key_of("d")));
 }
 
-TEST(DiskCache, AFolderThatCannotBeMadeKeepsNothing) {
-    const TemporaryFolder folder;
-    std::ofstream(folder.path() / "file") << "in the way";
-    const DiskCache cache(folder.path() / "file" / "cache", 1000);
+TEST_F(DiskCacheFiles, AFolderThatCannotBeMadeKeepsNothing) {
+    std::ofstream(folder / "file") << "in the way";
+    const DiskCache cache(folder / "file" / "cache", 1000);
     cache.write(key_of("one"), "bytes");
     EXPECT_EQ(cache.read(key_of("one")), std::nullopt);
 }

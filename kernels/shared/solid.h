@@ -44,7 +44,7 @@
 
 // One shape. `size` holds, in shape space:
 //   sphere     radius
-//   ellipsoid  half axes x, y, z
+//   ellipsoid  half axes x, y, z, the shortest of them
 //   box        half edges x, y, z
 //   cylinder   radius, half height
 //   cone       radius at y = -half height, half height, radius at y = +half height
@@ -62,8 +62,11 @@ typedef struct SolidShape {
     float size[4];
     float rounding[2];  // |error of the distance at q| <= rounding[0] * (|q.x|+|q.y|+|q.z|) +
                         // rounding[1], with q = x - centre in voxels
-    float side[2];      // cone: the unit normal of its side, (outwards, along Y)
-    float unused[5];    // 0
+    float derived[5];   // cone: the unit normal of its side (outwards, along Y), then its side's
+                        // direction from the lower rim divided by its squared length, likewise,
+                        // then the growth of its radius along Y;
+                        // ellipsoid: half axes divided by the shortest, and 1 / the shortest
+    float unused[2];    // 0
 } SolidShape;
 
 // Fails to compile, in both languages, when the record has another size than the text above says.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <memory>
 #include <string>
 
@@ -141,7 +142,8 @@ Picture read_png(const std::filesystem::path& path) {
     if (file.size() > 9 * kMostPixels) file.refuse("is too large for a PNG that voxelume reads");
     std::vector<uint8_t> bytes(file.size());
     file.read(0, bytes.data(), bytes.size());
-    // libspng is content when the pixels are there; only the last chunk shows that nothing is missing.
+    // libspng is content when the pixels are there; only the last chunk shows that nothing is
+    // missing.
     constexpr std::array<uint8_t, 8> kEnd = {'I', 'E', 'N', 'D', 0xae, 0x42, 0x60, 0x82};
     if (std::search(bytes.begin(), bytes.end(), kEnd.begin(), kEnd.end()) == bytes.end())
         file.refuse("not a whole PNG: its end is missing");

@@ -7,10 +7,11 @@
 namespace voxelume {
 namespace {
 
-constexpr std::array kPlanes = {"R",   "G",   "B",   "A",   "Z",  "P.X",
-                                "P.Y", "P.Z", "N.X", "N.Y", "N.Z"};
+constexpr std::array kPlanes = {"R", "G", "B", "A", "Z", "P.X", "P.Y", "P.Z", "N.X", "N.Y", "N.Z"};
 
-size_t pixel_count(const Sight& sight) { return size_t(sight.width) * size_t(sight.height); }
+size_t pixel_count(const Sight& sight) {
+    return size_t(sight.width) * size_t(sight.height);
+}
 
 }  // namespace
 

@@ -19,8 +19,7 @@ class ResolveStage {
     void absorb(const Pyramid& pyramid, const Space& space, RayBatch& batch, uint32_t count);
 
     /// Makes the pixels of `tiles` tiles from `first_tile` on.
-    void pixels(const Pyramid& pyramid, const RayBatch& batch, uint32_t first_tile,
-                uint32_t tiles);
+    void pixels(const Pyramid& pyramid, const RayBatch& batch, uint32_t first_tile, uint32_t tiles);
 
     /// The image, once every tile is made. Waits for the device.
     Image image() const;

@@ -9,7 +9,9 @@
 namespace voxelume {
 namespace {
 
-float4 to_float4(const glm::dvec3& v) { return {float(v.x), float(v.y), float(v.z), 0}; }
+float4 to_float4(const glm::dvec3& v) {
+    return {float(v.x), float(v.y), float(v.z), 0};
+}
 
 void copy(const glm::vec3& from, float (&to)[3]) {
     for (int i = 0; i < 3; ++i) to[i] = from[i];
@@ -32,9 +34,9 @@ LightRecord light_record(const Light& light, const GridFrame& world) {
     record.energy = to_float4(glm::dvec3(light.energy));
     record.inner_cosine = float(std::cos(light.inner_half_angle));
     record.outer_cosine = float(std::cos(light.outer_half_angle));
-    record.kind = directional                        ? VXL_LIGHT_DIRECTIONAL
+    record.kind = directional                     ? VXL_LIGHT_DIRECTIONAL
                   : light.kind == LightKind::spot ? VXL_LIGHT_SPOT
-                                                     : VXL_LIGHT_POINT;
+                                                  : VXL_LIGHT_POINT;
     return record;
 }
 
@@ -68,14 +70,14 @@ ShadeStage::ShadeStage(const Device& device, const Features& features, const Sce
 void ShadeStage::surface(const Pyramid& pyramid, RayBatch& batch, uint32_t count) {
     surface_.launch_packets(count, shape_of(pyramid), space_, materials_, pyramid.attributes,
                             pyramid.attribute, pyramid.colors, pyramid.fields, pyramid.triangles,
-                            pyramid.triangle_attributes, batch.rays, batch.hits, count,
-                            batch.stride, batch.positions, batch.normals, batch.words,
+                            pyramid.triangle_attributes, pyramid.solids, batch.rays, batch.hits,
+                            count, batch.stride, batch.positions, batch.normals, batch.words,
                             batch.radiance);
 }
 
 void ShadeStage::light(const Pyramid& pyramid, const LightRecord& light, RayBatch& batch,
                        uint32_t count, ShadowQueue& queue) {
-    queue.count.fill(0);
+    if (!queue.count.empty()) queue.count.fill(0);
     light_.launch_packets(count, shape_of(pyramid), space_, light, materials_, pyramid.colors,
                           batch.rays, batch.hits, count, batch.stride, batch.positions,
                           batch.normals, batch.words, batch.radiance, queue.count, queue.rays,

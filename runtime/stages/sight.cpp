@@ -6,14 +6,20 @@
 namespace voxelume {
 namespace {
 
-float4 to_float4(const glm::dvec3& v) { return {float(v.x), float(v.y), float(v.z), 0}; }
+float4 to_float4(const glm::dvec3& v) {
+    return {float(v.x), float(v.y), float(v.z), 0};
+}
 
 int shape_number(DisplayShape shape) {
     switch (shape) {
-        case DisplayShape::pyramid: return VXL_SHAPE_PYRAMID;
-        case DisplayShape::sector: return VXL_SHAPE_SECTOR;
-        case DisplayShape::ball: return VXL_SHAPE_BALL;
-        case DisplayShape::box: return VXL_SHAPE_BOX;
+        case DisplayShape::pyramid:
+            return VXL_SHAPE_PYRAMID;
+        case DisplayShape::sector:
+            return VXL_SHAPE_SECTOR;
+        case DisplayShape::ball:
+            return VXL_SHAPE_BALL;
+        case DisplayShape::box:
+            return VXL_SHAPE_BOX;
     }
     return VXL_SHAPE_PYRAMID;
 }
@@ -22,10 +28,14 @@ int shape_number(DisplayShape shape) {
 glm::dvec2 half_extent(const Display& display) {
     constexpr double kPi = 3.141592653589793;
     switch (display.shape) {
-        case DisplayShape::pyramid: return glm::tan(display.half_angles);
-        case DisplayShape::sector: return display.half_angles;
-        case DisplayShape::ball: return {kPi, kPi / 2};
-        case DisplayShape::box: return display.half_size;
+        case DisplayShape::pyramid:
+            return glm::tan(display.half_angles);
+        case DisplayShape::sector:
+            return display.half_angles;
+        case DisplayShape::ball:
+            return {kPi, kPi / 2};
+        case DisplayShape::box:
+            return display.half_size;
     }
     return {};
 }
@@ -81,8 +91,8 @@ SightStage::SightStage(const Device& device, const Features& features, const Sig
 uint32_t SightStage::cast(const PyramidShape& world, uint32_t first_tile, uint32_t tiles,
                           RayBatch& batch) {
     const uint32_t count = tiles * 16u * uint32_t(sight_.samples);
-    cast_.launch_packets(count, sight_, world, offsets_,
-                 first_tile, count, batch.stride, batch.rays);
+    cast_.launch_packets(count, sight_, world, offsets_, first_tile, count, batch.stride,
+                         batch.rays);
     return count;
 }
 

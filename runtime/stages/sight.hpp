@@ -25,7 +25,8 @@ class SightStage {
   public:
     SightStage(const Device& device, const Features& features, const Sight& sight);
 
-    /// Casts the rays of `tiles` tiles from `first_tile` on, 16 * samples each; returns their number.
+    /// Casts the rays of `tiles` tiles from `first_tile` on, 16 * samples each; returns their
+    /// number.
     uint32_t cast(const PyramidShape& world, uint32_t first_tile, uint32_t tiles, RayBatch& batch);
 
   private:

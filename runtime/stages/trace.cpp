@@ -10,8 +10,8 @@ namespace voxelume {
 PyramidShape shape_of(const Pyramid& pyramid) {
     const GridFrame& frame = pyramid.frame;
     const int longest = std::max({frame.size.x, frame.size.y, frame.size.z});
-    // Coordinates 0 .. longest need integer_bits; the rest of a float's 24 bits is fraction, so that
-    // every coordinate is an exact float and its fixed-point integer an exact float too.
+    // Coordinates 0 .. longest need integer_bits; the rest of a float's 24 bits is fraction, so
+    // that every coordinate is an exact float and its fixed-point integer an exact float too.
     const int integer_bits = std::bit_width(static_cast<unsigned>(longest));
     PyramidShape shape{};
     const glm::dvec3& edge = frame.voxel_edge;
@@ -35,7 +35,8 @@ Features features_of(const Pyramid& pyramid) {
     features.attributes = !pyramid.attributes.empty();
     features.colors = !pyramid.colors.empty();
     features.smooth = !pyramid.fields.empty();
-    features.exact = !pyramid.primitives.empty();
+    features.triangles = !pyramid.triangles.empty();
+    features.solids = !pyramid.solids.empty();
     const uint32_t kind = pyramid.attribute >> VXL_KIND_SHIFT;
     features.cubes = features.attributes || kind == VXL_KIND_CUBES;
     return features;
@@ -47,20 +48,20 @@ TraceStage::TraceStage(const Device& device, const Features& features)
       shadows_(program_.kernel("trace_shadows")) {}
 
 void TraceStage::closest(const Pyramid& pyramid, RayBatch& batch, uint32_t count) {
-    closest_.launch_packets(count, shape_of(pyramid),
-                    pyramid.sectors, pyramid.bricks, pyramid.leaves, pyramid.leaf_voxels,
-                    pyramid.attributes, pyramid.fields, pyramid.primitive_first,
-                    pyramid.primitives, pyramid.triangles, batch.rays, count, batch.stride,
-                    batch.hits);
+    if (pyramid.voxel_count == 0) return batch.hits.fill(VXL_NO_VOXEL);
+    closest_.launch_packets(count, shape_of(pyramid), pyramid.sectors, pyramid.bricks,
+                            pyramid.leaves, pyramid.leaf_voxels, pyramid.attributes, pyramid.fields,
+                            pyramid.primitive_first, pyramid.primitives, pyramid.triangles,
+                            pyramid.solids, batch.rays, count, batch.stride, batch.hits);
 }
 
 void TraceStage::shadows(const Pyramid& pyramid, const ShadowQueue& queue, uint32_t most,
                          uint32_t stride, Buffer<float>& radiance) {
-    shadows_.launch_packets(most, shape_of(pyramid),
-                    pyramid.sectors, pyramid.bricks, pyramid.leaves, pyramid.leaf_voxels,
-                    pyramid.attributes, pyramid.fields, pyramid.primitive_first,
-                    pyramid.primitives, pyramid.triangles, queue.rays, queue.count, stride,
-                    queue.targets, queue.sources, queue.shares, radiance);
+    shadows_.launch_packets(most, shape_of(pyramid), pyramid.sectors, pyramid.bricks,
+                            pyramid.leaves, pyramid.leaf_voxels, pyramid.attributes, pyramid.fields,
+                            pyramid.primitive_first, pyramid.primitives, pyramid.triangles,
+                            pyramid.solids, queue.rays, queue.count, stride, queue.targets,
+                            queue.sources, queue.shares, radiance);
 }
 
 }  // namespace voxelume

@@ -23,7 +23,8 @@ class TraceStage {
     /// Finds the first hit of rays 0 .. count-1 of the batch.
     void closest(const Pyramid& pyramid, RayBatch& batch, uint32_t count);
 
-    /// Traces the queue, at most `most` rays of it; lights that are seen add their share to `radiance`.
+    /// Traces the queue, at most `most` rays of it; lights that are seen add their share to
+    /// `radiance`.
     void shadows(const Pyramid& pyramid, const ShadowQueue& queue, uint32_t most, uint32_t stride,
                  Buffer<float>& radiance);
 

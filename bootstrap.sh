@@ -1,0 +1,96 @@
+#!/usr/bin/env bash
+# From a bare Debian 12 to a picture (./bootstrap.sh demo) or to tested code (./bootstrap.sh test).
+set -euo pipefail
+cd "$(dirname "$0")"
+
+preset=release
+build=build/$preset
+
+usage() {
+    cat <<'TEXT'
+Usage: ./bootstrap.sh COMMAND
+
+  demo    render scenes/bunny.json to out/bunny.exr and out/bunny.png
+  test    run every test
+  build   build the program, build/release/voxelume
+  lint    check the format of the code, the host code and each kernel
+
+Each installs the Debian packages that are missing (as root, or with sudo) and builds first.
+TEXT
+}
+
+say() { printf '\n== %s\n' "$*"; }
+
+# install_packages FILE...: every package named in the files, when one is missing.
+install_packages() {
+    local wanted missing
+    wanted=$(sed 's/#.*//' "$@" | tr -s ' \n' '\n' | sed '/^$/d')
+    missing=$(comm -23 <(sort -u <<<"$wanted") \
+        <(dpkg-query -W -f '${db:Status-Status} ${Package}\n' 2>/dev/null |
+            sed -n 's/^installed //p' | sort -u))
+    [ -n "$missing" ] || return 0
+    local root=()
+    if [ "$(id -u)" -ne 0 ]; then
+        if ! command -v sudo >/dev/null; then
+            echo "bootstrap.sh: these packages are missing; install them as root:" $missing >&2
+            exit 1
+        fi
+        root=(sudo)
+    fi
+    say "Installing" $missing
+    "${root[@]}" apt-get update -q
+    "${root[@]}" env DEBIAN_FRONTEND=noninteractive \
+        apt-get install -q -y --no-install-recommends $missing
+}
+
+# Configures once; afterwards ninja itself notices changed CMake files and new sources.
+configure() {
+    [ -f "$build/build.ninja" ] && return
+    say "Configuring $build"
+    cmake --preset "$preset" -DVXL_WERROR="${VXL_WERROR:-OFF}"
+}
+
+build_targets() {
+    configure
+    ninja -C "$build" "$@"
+}
+
+demo() {
+    build_targets voxelume
+    mkdir -p out
+    "$build/voxelume" render scenes/bunny.json --assets /usr/share/glmark2/models \
+        -o out/bunny.exr -o out/bunny.png
+    echo "The pictures are out/bunny.exr and out/bunny.png."
+}
+
+run_tests() {
+    build_targets
+    say "Testing"
+    ctest --test-dir "$build" --output-on-failure -j "$(nproc)"
+}
+
+case "${1:-}" in
+    demo | build | test | lint) install_packages packages.txt ;;
+    help | -h | --help)
+        usage
+        exit 0
+        ;;
+    *)
+        usage >&2
+        exit 2
+        ;;
+esac
+
+case "$1" in
+    demo) demo ;;
+    build)
+        build_targets voxelume
+        echo "The program is $build/voxelume."
+        ;;
+    test) run_tests ;;
+    lint)
+        install_packages .ci/packages.txt
+        build_targets voxelume # the generated sources and compile_commands.json
+        .ci/lint "$build"
+        ;;
+esac

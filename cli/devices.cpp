@@ -1,0 +1,110 @@
+// voxelume devices: what can render here, and why not otherwise.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "cli/commands.hpp"
+#include "runtime/error.hpp"
+#include "runtime/opencl/device.hpp"
+
+namespace voxelume::cli {
+namespace {
+
+const char* kind_name(DeviceKind kind) {
+    switch (kind) {
+        case DeviceKind::cpu:
+            return "cpu";
+        case DeviceKind::gpu:
+            return "gpu";
+        case DeviceKind::other:
+            break;
+    }
+    return "other";
+}
+
+std::string gigabytes(uint64_t bytes) {
+    return fmt::format("{:.1f} GB", double(bytes) / 1e9);
+}
+
+void print_json(const std::vector<DeviceInfo>& devices, int chosen) {
+    nlohmann::ordered_json list = nlohmann::ordered_json::array();
+    for (const DeviceInfo& info : devices)
+        list.push_back({{"index", info.index},
+                        {"kind", kind_name(info.kind)},
+                        {"name", info.name},
+                        {"vendor", info.vendor},
+                        {"platform", info.platform},
+                        {"platform_version", info.platform_version},
+                        {"version", info.version},
+                        {"driver", info.driver},
+                        {"memory_bytes", info.memory},
+                        {"max_allocation_bytes", info.max_allocation},
+                        {"compute_units", info.compute_units},
+                        {"lanes", info.lanes},
+                        {"usable", info.unusable.empty()},
+                        {"chosen", info.index == chosen},
+                        {"unusable_because", info.unusable},
+                        {"note", info.note}});
+    const auto keep = nlohmann::ordered_json::error_handler_t::replace;  // names in any encoding
+    fmt::print("{}\n", list.dump(2, ' ', false, keep));
+}
+
+void print_table(const std::vector<DeviceInfo>& devices, int chosen) {
+    using Row = std::vector<std::string>;
+    std::vector<Row> rows = {{"", "index", "kind", "name", "platform", "memory", "one buffer",
+                              "units", "lanes", "driver"}};
+    for (const DeviceInfo& info : devices)
+        rows.push_back({info.index == chosen ? "*" : "", std::to_string(info.index),
+                        kind_name(info.kind), info.name, info.platform, gigabytes(info.memory),
+                        gigabytes(info.max_allocation), std::to_string(info.compute_units),
+                        std::to_string(info.lanes), info.driver});
+    std::vector<size_t> widths(rows[0].size(), 0);
+    for (const Row& row : rows)
+        for (size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
+    for (size_t number = 0; number < rows.size(); ++number) {
+        std::string line;
+        for (size_t i = 0; i < widths.size(); ++i)
+            line += fmt::format("{:<{}}  ", rows[number][i], std::max<size_t>(widths[i], 1));
+        line.erase(line.find_last_not_of(' ') + 1);
+        fmt::print("{}\n", line);
+        if (number == 0) continue;
+        const DeviceInfo& info = devices[number - 1];
+        if (!info.unusable.empty()) fmt::print("   not usable: {}\n", info.unusable);
+        if (!info.note.empty()) fmt::print("   {}\n", info.note);
+    }
+    if (chosen >= 0)
+        fmt::print(
+            "\n* renders unless --device or VOXELUME_DEVICE names another by auto, cpu, "
+            "gpu, index or part of a name.\n");
+}
+
+/// The device that renders without --device; -1 when what VOXELUME_DEVICE names is not there.
+int chosen_index(const std::vector<DeviceInfo>& devices) {
+    try {
+        return Device::open().info().index;
+    } catch (const Error& error) {
+        if (devices.empty() || error.kind() != ErrorKind::device) throw;
+        return -1;
+    }
+}
+
+}  // namespace
+
+Action add_devices(CLI::App& app) {
+    auto json = std::make_shared<bool>(false);
+    app.add_flag("--json", *json, "all that is known of each device, as a JSON array");
+    return [json]() -> int {
+        const std::vector<DeviceInfo> devices = list_devices();
+        const int chosen = chosen_index(devices);
+        if (*json)
+            print_json(devices, chosen);
+        else
+            print_table(devices, chosen);
+        return 0;
+    };
+}
+
+}  // namespace voxelume::cli

@@ -1,0 +1,190 @@
+// object grids -> S: every object's bricks, resampled into the world's by the inverse map.
+//
+// Objects are painted one after another, the winner of an overlap last, each by one launch over the
+// world's leaves, so no two work-items write the same voxel. Which voxel is set is decided in
+// integers alone.
+//
+// Build constants: VXL_SMOOTH: the object has distances, else occupancy. VXL_ATTRIBUTES,
+// VXL_COLORS: the world has them. VXL_OBJECT_ATTRIBUTES, VXL_OBJECT_COLORS: the object has them.
+// VXL_WORLD_OCCUPANCY: the world has cubes or exact voxels as well. VXL_REACH: the reach is not 0.
+#include "lib/placed_attributes.h"
+#include "lib/placed_field.h"
+#include "lib/work_item.h"
+
+// One brick of an object: which of its leaves hold voxels, or distances below `threshold`.
+kernel void mark_near_leaves(const uint count, const int threshold,
+                             global const ulong* restrict occupancy,
+                             global const short* restrict distance, global ulong* restrict near) {
+    const uint slot = work_item();
+    if (slot >= count) return;
+    ulong mask = 0;
+    for (int layer = 0; layer < 16; ++layer) {  // of leaves: four rows of nodes in y, four in z
+        const int first = (layer & 3) << 2, leaf = layer << 2;
+        if (VXL_SMOOTH) {
+            global const short* nodes =
+                distance + (size_t)slot * VXL_BRICK_VOXELS + (first << 4) + (layer >> 2 << 10);
+            short16 nearest = VXL_SATURATED;
+            for (int row = 0; row < 16; ++row) {
+                const short16 f = vload16(0, nodes + ((row & 3) << 4) + (row >> 2 << 8));
+                nearest = min(nearest, max(f, -f));
+            }
+            const short8 two = min(nearest.even, nearest.odd);
+            const short4 four = min(two.even, two.odd);
+            mask |= (ulong)((four.x < threshold) | (four.y < threshold) << 1 |
+                            (four.z < threshold) << 2 | (four.w < threshold) << 3)
+                    << leaf;
+        } else {
+            for (int x = 0; x < 4; ++x)
+                if (occupancy[(size_t)slot * 64 + leaf + x] != 0) mask |= 1ul << (leaf + x);
+        }
+    }
+    near[slot] = mask;
+}
+
+// One brick of the world: raises its state to what the object has there. A brick is full only if
+// the voxels around it are too, since a brick beside an empty voxel must be stored.
+kernel void classify_bricks(const uint count, const int4 world_bricks, const int fraction_bits,
+                            constant long* rows, const int4 object_bricks,
+                            global const uint* restrict slots, global const ulong* restrict near,
+                            global const short* restrict distance, global uchar* restrict states) {
+    const uint index = work_item();
+    if (index >= count || states[index] == VXL_SURFACE) return;
+    const PlacedObject object = {rows, fraction_bits, object_bricks, slots};
+    const int4 low = (brick_at(index, world_bricks) << 5) - (int4)(2, 2, 2, 0);
+    const CellBox box = map_box(&object, low, 36, true);
+    uint state = state_of_bricks(&object, box);
+    if (state == VXL_SURFACE && VXL_SMOOTH && !touches_near_leaf(&object, near, box)) {
+        const int4 middle = (box.first + box.last) >> 1;
+        state = is_inside_field(&object, distance, middle) ? VXL_FULL : VXL_NOTHING;
+    }
+    states[index] = (uchar)max((uint)states[index], state);
+}
+
+// One leaf of the world: the smaller of its distances and the object's. `scale` turns the object's
+// units into the world's.
+kernel void paint_distances(const uint count, const int4 world_bricks, const int fraction_bits,
+                            constant long* rows, const int4 object_bricks,
+                            global const uint* restrict slots, global const ulong* restrict near,
+                            global const short* restrict distance, const float scale,
+                            global const uint* restrict coordinates,
+                            global short* restrict world_distance) {
+    const uint leaf = work_item();
+    if (leaf >= count) return;
+    const PlacedObject object = {rows, fraction_bits, object_bricks, slots};
+    const int4 low = leaf_in_world(leaf, coordinates, world_bricks);
+    global short* out = world_distance + (size_t)(leaf >> 6) * VXL_BRICK_VOXELS + leaf_place(leaf);
+    const CellBox cells = map_box(&object, low, 6, false);
+    const CellBox nodes = {cells.first, cells.last + 1};
+    const bool is_near = touches_near_leaf(&object, near, nodes);
+    if (!is_near) {
+        if (!is_inside_field(&object, distance, cells.first)) return;
+        for (int row = 0; row < 16; ++row)
+            vstore4((short4)(-VXL_SATURATED), 0, out + ((row & 3) << 4) + (row >> 2 << 8));
+        return;
+    }
+    short block[VXL_BLOCK_NODES];
+    CellBox gathered = nodes_of_cells(cells);
+    const bool at_once = fits_block(gathered);
+    if (at_once) gather_block(&object, distance, gathered, block);
+    for (int i = 0; i < 64; ++i) {
+        const int4 node = (int4)(i & 3, i >> 2 & 3, i >> 4, 0);
+        const FixedPoint p = map_half_steps(&object, low + node * 2);
+        if (!at_once) {
+            const int4 cell = cell_at(p, fraction_bits);
+            const CellBox one = {cell, cell};
+            gathered = nodes_of_cells(one);
+            gather_block(&object, distance, gathered, block);
+        }
+        const short value = stored_distance(scale * distance_at(&object, block, gathered.first, p));
+        global short* place = out + node.x + (node.y << 4) + (node.z << 8);
+        *place = min(*place, value);
+    }
+}
+
+// One leaf of the world: the words and colours of its smooth voxels, where this object's surface is
+// the nearest to the voxel's centre so far. A voxel that the surface crosses is no longer a cube.
+kernel void paint_smooth_voxels(
+    const uint count, const int4 world_bricks, const int fraction_bits, constant long* rows,
+    const int4 object_bricks, global const uint* restrict slots, global const ulong* restrict near,
+    global const short* restrict distance, const float scale, const int crossing,
+    const WordMap words, global const uint* restrict materials,
+    global const uint* restrict attributes, global const uint* restrict colors,
+    global const uint* restrict coordinates, global short* restrict nearest,
+    global ulong* restrict occupancy, global uint* restrict world_attributes,
+    global uint* restrict world_colors) {
+    const uint leaf = work_item();
+    if (leaf >= count) return;
+    const PlacedObject object = {rows, fraction_bits, object_bricks, slots};
+    const int4 low = leaf_in_world(leaf, coordinates, world_bricks);
+    const CellBox cells = map_box(&object, low, 8, false);
+    const CellBox nodes = {cells.first, cells.last + 1};
+    if (!touches_near_leaf(&object, near, nodes)) return;
+    short block[VXL_BLOCK_NODES];
+    CellBox gathered = nodes_of_cells(cells);
+    const bool at_once = fits_block(gathered);
+    if (at_once) gather_block(&object, distance, gathered, block);
+    ulong crossed = 0;
+    for (int i = 0; i < 64; ++i) {
+        const int4 voxel = (int4)(i & 3, i >> 2 & 3, i >> 4, 0);
+        const FixedPoint centre = map_half_steps(&object, low + voxel * 2 + (int4)(1, 1, 1, 0));
+        const int4 cell = cell_at(centre, fraction_bits);
+        if (!at_once) {
+            const CellBox one = {cell, cell};
+            gathered = nodes_of_cells(one);
+            gather_block(&object, distance, gathered, block);
+        }
+        const short value =
+            stored_distance(scale * distance_at(&object, block, gathered.first, centre));
+        // `crossing` is half a voxel's diagonal; the bend of a distance field adds less than that.
+        if ((int)abs(value) > 2 * crossing) continue;
+        const int place = leaf_place(leaf) + voxel.x + (voxel.y << 4) + (voxel.z << 8);
+        const size_t number = (size_t)(leaf >> 6) * VXL_BRICK_VOXELS + place;
+        if ((int)abs(value) <= crossing) crossed |= 1ul << i;
+        if (value > nearest[number]) continue;
+        nearest[number] = value;
+        const int4 at = cell - gathered.first;
+        const int4 source =
+            cell_on_surface(block + at.x + at.y * VXL_BLOCK_ROW + at.z * VXL_BLOCK_LAYER, cell);
+        const long from = place_of_voxel(&object, source);
+        if (VXL_ATTRIBUTES) world_attributes[number] = word_of(words, materials, attributes, from);
+        if (VXL_COLORS) world_colors[number] = color_of(colors, from);
+    }
+    if (VXL_WORLD_OCCUPANCY) occupancy[leaf] &= ~crossed;
+}
+
+// One leaf of the world: voxels whose centre's image lies in an occupied voxel of the object, or
+// has one within the reach.
+kernel void paint_cubes(const uint count, const int4 world_bricks, const int fraction_bits,
+                        constant long* rows, const int4 object_bricks,
+                        global const uint* restrict slots, global const ulong* restrict near,
+                        global const ulong* restrict object_occupancy, const WordMap words,
+                        global const uint* restrict materials,
+                        global const uint* restrict attributes, global const uint* restrict colors,
+                        const int4 world_size, global const uint* restrict coordinates,
+                        global ulong* restrict occupancy, global uint* restrict world_attributes,
+                        global uint* restrict world_colors) {
+    const uint leaf = work_item();
+    if (leaf >= count) return;
+    const PlacedObject object = {rows, fraction_bits, object_bricks, slots};
+    const int4 low = leaf_in_world(leaf, coordinates, world_bricks);
+    const CellBox box = map_box(&object, low + (int4)(1, 1, 1, 0), 6, true);
+    if (!touches_near_leaf(&object, near, box) && !touches_full_brick(&object, box)) return;
+    ulong set = 0;
+    for (int i = 0; i < 64; ++i) {
+        const int4 voxel = (int4)(i & 3, i >> 2 & 3, i >> 4, 0);
+        if (any((low / 2 + voxel >= world_size).xyz)) continue;
+        const FixedPoint centre = map_half_steps(&object, low + voxel * 2 + (int4)(1, 1, 1, 0));
+        long from;
+        bool found = is_occupied(&object, object_occupancy, cell_at(centre, fraction_bits), &from);
+        if (!found && VXL_REACH)
+            found =
+                find_in_box(&object, object_occupancy, near, cells_around(&object, centre), &from);
+        if (!found) continue;
+        set |= 1ul << i;
+        const size_t number = (size_t)(leaf >> 6) * VXL_BRICK_VOXELS + leaf_place(leaf) + voxel.x +
+                              (voxel.y << 4) + (voxel.z << 8);
+        if (VXL_ATTRIBUTES) world_attributes[number] = word_of(words, materials, attributes, from);
+        if (VXL_COLORS) world_colors[number] = color_of(colors, from);
+    }
+    occupancy[leaf] |= set;
+}

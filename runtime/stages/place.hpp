@@ -1,0 +1,63 @@
+// object grids -> S: the world as the list of its objects defines it.
+#pragma once
+
+#include <cstdint>
+#include <glm/mat4x4.hpp>
+#include <span>
+#include <vector>
+
+#include "runtime/grid.hpp"
+#include "runtime/opencl/device.hpp"
+#include "runtime/surface.hpp"
+
+namespace voxelume {
+
+/// An object's voxels and where they stand in the world.
+struct PlacedObject {
+    const BrickGrid* grid = nullptr;          ///< in its own frame; not owned
+    glm::dmat4 world_from_object{1.0};        ///< metres to metres; mirrors and shears are welcome
+    uint32_t object = 0;                      ///< its number in the scene, at most 65535
+    int priority = 0;                         ///< the larger wins where objects overlap
+    std::vector<uint32_t> material_of_group;  ///< of the grid's groups; the last serves all further
+                                              ///< groups; empty: the group is the material
+    VoxelSet set = VoxelSet::supercover;      ///< what its cubes are; `thin` widens turned sheets
+    bool in_world_frame = false;  ///< `grid` has the world's frame already, the map is not used
+};
+
+/// Resamples every object into one grid of the world by the inverse of its map, in one step from
+/// its own voxels, so nothing drifts and no holes open.
+///
+/// Cubes. A world voxel is set when its centre's image lies in a set voxel of the object, or a set
+/// voxel touches the box around the image that reaches r = max(0, (max_j |A_aj| - 1) / 2) along
+/// each object axis a, A being the map of world voxels to object voxels. That keeps a SUPERCOVER
+/// shell or a SOLID tight against paths of voxels that share faces: two voxels that such a set
+/// separates differ by at least 2 in some index, the boxes of face neighbours come within one
+/// voxel of each other along every axis, and a box without set voxels lies on one side. At equal
+/// or finer world voxels r is 0, and shrunk objects are covered block by block. A THIN set needs
+/// r = max_j |A_aj| / 2, so turned sheets of it get up to two voxels thick.
+///
+/// Smooth. A world node gets the object's half-Taylor distance there, times the map's smallest
+/// stretch, so an unevenly stretched field has the right surface and never overestimates. Within
+/// 2.8 world voxels of the surface this is right as far as the object's own band reaches, beyond
+/// which it is saturated with the right sign; one more object voxel is extrapolated linearly.
+/// World voxels up to 1.4 times as large as the object's thus lose nothing. Up to 2.2 times, curved
+/// cells are trilinear; beyond, the surface is only right to about a voxel, and objects should be
+/// voxelized more coarsely. Several objects are united: the smallest distance counts.
+///
+/// Exact objects must be in the world's frame. Their lists are joined per voxel, in the order of
+/// `objects`.
+///
+/// Overlaps: a voxel shows the object with the larger priority, and of equals the one earlier in
+/// `objects`; between smooth surfaces the one nearest to the voxel's centre, ties by that rule. A
+/// smooth object that wins takes the voxels its surface passes through away from cubes and exact
+/// surfaces. The result does not depend on the order of work.
+///
+/// `attributes` are stored only when the objects have more than one word together. A world whose
+/// only object is in its frame shares that object's buffers. Bricks are stored wherever an object
+/// may have surface, and a brick is kBrickInside only if the voxels around it are full, too.
+///
+/// Throws Error::scene for a placement that can't be inverted, Error::limit for too little memory.
+BrickGrid place(const Device& device, std::span<const PlacedObject> objects,
+                const GridFrame& world);
+
+}  // namespace voxelume

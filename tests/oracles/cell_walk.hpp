@@ -1,0 +1,32 @@
+// The cells that a ray passes, in order, by exact integer arithmetic: Amanatides & Woo 1987 with
+// times compared as fractions. Shares no code with the kernels.
+#pragma once
+
+#include <glm/vec3.hpp>
+#include <set>
+#include <tuple>
+#include <vector>
+
+namespace oracle {
+
+struct CellOrder {
+    bool operator()(const glm::ivec3& a, const glm::ivec3& b) const {
+        return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
+    }
+};
+using VoxelSet = std::set<glm::ivec3, CellOrder>;
+
+struct FirstHit {
+    bool hit = false;
+    glm::ivec3 cell{0};
+    int axis = 3;  ///< across which the cell was entered; 3: the ray began there
+    double t = 0;
+};
+
+/// The first cell of `voxels` that the ray o + d t passes in a grid. `o` is a multiple of
+/// 2^-fraction_bits and `d` of 2^-22. A point on a plane belongs to the cell being entered;
+/// crossings at the same t are taken lowest axis first.
+FirstHit first_hit(const glm::dvec3& o, const glm::dvec3& d, const glm::ivec3& size,
+                   int fraction_bits, const VoxelSet& voxels);
+
+}  // namespace oracle
