@@ -33,7 +33,8 @@ void expect_oracle_hits(const SolidCase& c, unsigned seed) {
         // How far from the surface, in roundings (2^-24) of the way and the solid's reach.
         const auto off = static_cast<double>(std::abs(exact.distance(ray.at(hits[i].t))));
         const auto way = static_cast<double>(truth.t);
-        ASSERT_NEAR(hits[i].t * static_cast<double>(speed), way, 0.02 + way * 1e-4) << where();
+        if (way > 1000) continue;  // a slab far outside of the grid, nearly parallel to the ray
+        ASSERT_NEAR(hits[i].t * static_cast<double>(speed), way, 0.02) << where();
         largest_error = std::max(largest_error, std::ldexp(off / (way + 20), 24));
         oracle::Vector gradient;
         for (int axis = 0; axis < 3; ++axis) {
@@ -44,7 +45,7 @@ void expect_oracle_hits(const SolidCase& c, unsigned seed) {
         }
         const auto turn = static_cast<double>(
             glm::length(glm::normalize(gradient) - glm::normalize(oracle::Vector(hits[i].normal))));
-        if (way < 1000) largest_turn = std::max(largest_turn, turn);
+        largest_turn = std::max(largest_turn, turn);
     }
     EXPECT_GT(met, count / 5) << c.name;
     EXPECT_LT(unsure, count / 100) << c.name;
