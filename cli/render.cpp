@@ -83,12 +83,10 @@ nlohmann::ordered_json statistics(const Device& device, const RenderReport& repo
     json["sight_rays"] = report.sight_rays;
     json["not_finite"] = report.not_finite;
     json["peak_device_bytes"] = counters.peak_bytes;
-    json["seconds"] = {{"load", report.world.load_seconds},
-                       {"voxelize", report.world.voxelize_seconds},
-                       {"place", report.world.place_seconds},
-                       {"index", report.world.index_seconds},
-                       {"image", report.image_seconds},
-                       {"total", seconds}};
+    json["seconds"] = {
+        {"load", report.world.load_seconds},   {"voxelize", report.world.voxelize_seconds},
+        {"place", report.world.place_seconds}, {"index", report.world.index_seconds},
+        {"image", report.image_seconds},       {"total", seconds}};
     json["launches"] = counters.launches;
     json["allocated_bytes"] = counters.allocated_bytes;
     json["programs_built"] = counters.programs_built;

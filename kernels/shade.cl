@@ -4,6 +4,7 @@
 #include "lib/exact_exp.h"
 #include "lib/field.h"
 #include "lib/fixed_point.h"
+#include "lib/solid_surface.h"
 #include "lib/work_item.h"
 #include "shared/scene.h"
 #include "shared/trace.h"
@@ -60,6 +61,12 @@ static inline Vector triangle_normal(global const float* restrict triangles, lan
     return n;
 }
 
+/// The attribute words of solids: the fourth word of each one's first record.
+static inline lane_uint solid_attributes(global const SolidShape* restrict solids,
+                                         lane_uint number) {
+    return LANES_GATHER_UINT((global const uint*)solids, number * VXL_SOLID_WORDS + 3u);
+}
+
 /// 8-bit sRGB to linear, one channel of a packed colour.
 static inline lane_float linear_channel(lane_uint color, int shift) {
     const lane_float s = LANES_FLOAT((color >> shift) & 255u) * (1.0f / 255.0f);
@@ -84,6 +91,7 @@ kernel void shade_surface(PyramidShape shape, Space space,
                           global const uint* restrict colors, global const uint* restrict fields,
                           global const float* restrict triangles,
                           global const uint* restrict triangle_attributes,
+                          global const SolidShape* restrict solids,
                           global const float* restrict rays, global const uint* restrict hits,
                           uint count, uint stride, global float* restrict positions,
                           global float* restrict normals, global uint* restrict words,
@@ -141,9 +149,24 @@ kernel void shade_surface(PyramidShape shape, Space space,
         normal = select_vector(smooth, unit(g), normal);
     }
     if (VXL_EXACT && lanes_any(exact)) {
-        const lane_uint triangle = primitive & LANES_AS_UINT(exact);
-        normal = select_vector(exact, unit(triangle_normal(triangles, triangle, edge)), normal);
-        word = LANES_SELECT(exact, LANES_GATHER_UINT(triangle_attributes, triangle), word);
+        const lane_int is_solid = LANE_MASK((primitive & VXL_SOLID_PRIMITIVE) != 0u) & exact;
+        const lane_int is_triangle = exact & ~is_solid;
+        if (VXL_TRIANGLES) {
+            const lane_uint triangle = primitive & LANES_AS_UINT(is_triangle);
+            normal = select_vector(is_triangle, unit(triangle_normal(triangles, triangle, edge)),
+                                   normal);
+            word = LANES_SELECT(is_triangle, LANES_GATHER_UINT(triangle_attributes, triangle), word);
+        }
+        if (VXL_SOLIDS && lanes_any(is_solid)) {
+            const lane_uint solid =
+                (primitive & ~VXL_SOLID_PRIMITIVE) & LANES_AS_UINT(is_solid);
+            const SolidRay ray = {o.x, o.y, o.z, d.x, d.y, d.z};
+            const SolidPoint g = solid_normals(solids, solid, &ray, at, is_solid);
+            const Vector gradient = {g.x * shape.inverse_edge.x, g.y * shape.inverse_edge.y,
+                                     g.z * shape.inverse_edge.z};
+            normal = select_vector(is_solid, unit(gradient), normal);
+            word = LANES_SELECT(is_solid, solid_attributes(solids, solid), word);
+        }
         const Vector along = {fma(d.x, at, o.x - cx), fma(d.y, at, o.y - cy), fma(d.z, at, o.z - cz)};
         s = select_vector(exact, along, s);
     }

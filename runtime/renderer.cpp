@@ -26,7 +26,7 @@ RayBatch allocate_batch(const Device& device, const Features& features, uint32_t
     RayBatch batch;
     batch.stride = stride;
     batch.rays = Buffer<float>(device, "rays", size_t(stride) * VXL_RAY_COMPONENTS);
-    const size_t hit_components = features.exact ? VXL_HIT_COMPONENTS : VXL_HIT_PRIMITIVE;
+    const size_t hit_components = features.exact() ? VXL_HIT_COMPONENTS : VXL_HIT_PRIMITIVE;
     batch.hits = Buffer<uint32_t>(device, "hits", stride * hit_components);
     batch.positions = Buffer<float>(device, "positions", size_t(stride) * 3);
     batch.normals = Buffer<float>(device, "normals", size_t(stride) * 3);
@@ -41,7 +41,7 @@ ShadowQueue allocate_queue(const Device& device, const Features& features, uint3
     queue.count = Buffer<uint32_t>(device, "shadow queue", 1);
     queue.rays = Buffer<float>(device, "shadow queue", size_t(stride) * VXL_RAY_COMPONENTS);
     queue.targets = Buffer<uint32_t>(device, "shadow queue", stride);
-    if (features.exact) queue.sources = Buffer<uint32_t>(device, "shadow queue", stride);
+    if (features.exact()) queue.sources = Buffer<uint32_t>(device, "shadow queue", stride);
     queue.shares = Buffer<float>(device, "shadow queue", size_t(stride) * 3);
     return queue;
 }

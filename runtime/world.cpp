@@ -38,8 +38,10 @@ glm::dvec3 voxel_edge(const Model& model, const glm::dvec3& extent) {
     if (model.resolution == 0) return model.voxel_size;
     const double longest = std::max({extent.x, extent.y, extent.z});
     if (!(longest > 0))
-        throw Error(ErrorKind::input, "{}: the model has no extent, so `resolution` can't give a "
-                                      "voxel size: give `voxel_size` instead", model.where);
+        throw Error(ErrorKind::input,
+                    "{}: the model has no extent, so `resolution` can't give a "
+                    "voxel size: give `voxel_size` instead",
+                    model.where);
     return glm::dvec3(longest / model.resolution);
 }
 
@@ -140,10 +142,12 @@ class ObjectMaker {
     std::vector<std::unique_ptr<BrickGrid>> exact_grids_;
 };
 
-/// Whether any part of the object can lie inside the world: its model's reach isn't empty.
+/// Whether any part of the object can lie inside the world, as far as can be told without its mesh.
 bool is_in_reach(const Scene& scene, const Object& object) {
-    const Bounds& reach = scene.models[size_t(object.model)].reach;
-    return reach.min.x < reach.max.x && reach.min.y < reach.max.y && reach.min.z < reach.max.z;
+    const Model& model = scene.models[size_t(object.model)];
+    const SolidBounds reach = {model.reach.min, model.reach.max};
+    if (reach.is_empty()) return false;
+    return !model.solid || !bounds(*model.solid, glm::dmat4(1), reach).is_empty();
 }
 
 }  // namespace

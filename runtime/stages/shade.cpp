@@ -70,8 +70,8 @@ ShadeStage::ShadeStage(const Device& device, const Features& features, const Sce
 void ShadeStage::surface(const Pyramid& pyramid, RayBatch& batch, uint32_t count) {
     surface_.launch_packets(count, shape_of(pyramid), space_, materials_, pyramid.attributes,
                             pyramid.attribute, pyramid.colors, pyramid.fields, pyramid.triangles,
-                            pyramid.triangle_attributes, batch.rays, batch.hits, count,
-                            batch.stride, batch.positions, batch.normals, batch.words,
+                            pyramid.triangle_attributes, pyramid.solids, batch.rays, batch.hits,
+                            count, batch.stride, batch.positions, batch.normals, batch.words,
                             batch.radiance);
 }
 

@@ -28,12 +28,10 @@ void check_frame(const GridFrame& frame) {
 DeviceTriangles upload(const Device& device, const MeshLattice& mesh) {
     DeviceTriangles d;
     d.count = static_cast<uint32_t>(mesh.triangles.size());
-    d.vertices = Buffer<int32_t>(
-        device, "lattice vertices",
-        std::span(&mesh.vertices.front().x, 3 * mesh.vertices.size()));
-    d.triangles = Buffer<uint32_t>(
-        device, "lattice triangles",
-        std::span(&mesh.triangles.front().x, 3 * mesh.triangles.size()));
+    d.vertices = Buffer<int32_t>(device, "lattice vertices",
+                                 std::span(&mesh.vertices.front().x, 3 * mesh.vertices.size()));
+    d.triangles = Buffer<uint32_t>(device, "lattice triangles",
+                                   std::span(&mesh.triangles.front().x, 3 * mesh.triangles.size()));
     return d;
 }
 
@@ -72,7 +70,8 @@ void keep_triangles(VoxelizeJob& job, const Mesh& mesh, const glm::dmat4& frame_
     for (const glm::uvec3& t : mesh.triangles)
         for (int i = 0; i < 3; ++i)
             corners.insert(corners.end(), {voxels[t[i]].x, voxels[t[i]].y, voxels[t[i]].z});
-    job.grid.triangles = Buffer<float>(job.device, "source triangles", std::span<const float>(corners));
+    job.grid.triangles =
+        Buffer<float>(job.device, "source triangles", std::span<const float>(corners));
     std::vector<uint32_t> words = labels.triangle_attributes;
     words.resize(mesh.triangles.size(), labels.word);
     job.grid.triangle_attributes =
@@ -94,8 +93,12 @@ BrickGrid Voxelizer::voxelize(const Mesh& mesh, const glm::dmat4& frame_from_mes
     check_frame(frame);
     const MeshLabels labels = labels_of(mesh, options.surface);
     const MeshLattice lattice = snap_to_lattice(mesh, frame_from_mesh, frame);
-    VoxelizeJob job{device_, upload(device_, lattice), {}, glm::ivec4(frame.size, 0),
-                    glm::ivec4(frame.bricks(), 0), {}};
+    VoxelizeJob job{device_,
+                    upload(device_, lattice),
+                    {},
+                    glm::ivec4(frame.size, 0),
+                    glm::ivec4(frame.bricks(), 0),
+                    {}};
     job.grid.frame = frame;
     job.grid.attribute = labels.word;
     if (options.surface == Surface::smooth)
@@ -120,7 +123,8 @@ TriangleBins Voxelizer::bin(const VoxelizeJob& job, const glm::ivec3& reach, int
 
 void Voxelizer::voxelize_smooth(VoxelizeJob& job, double band) {
     // Only nodes count, and the last of a brick is at 15.
-    store_bins(job, bin(job, band_reach(job.grid.frame, band), kLatticePerBrick - kLatticePerVoxel));
+    store_bins(job,
+               bin(job, band_reach(job.grid.frame, band), kLatticePerBrick - kLatticePerVoxel));
     const Buffer<uint16_t> inside =
         find_inside(job, program("voxelize_winding.cl", {{"VXL_CENTERS", 0}}));
     measure_distances(job, program("voxelize_distance.cl", slice_defines(device_)), inside, band);
@@ -155,10 +159,11 @@ GridFrame frame_around(const Mesh& mesh, const glm::dvec3& voxel_edge, int margi
     const glm::dvec3 size = glm::ceil((high - low) / voxel_edge);
     for (int a = 0; a < 3; ++a)
         if (!(size[a] + 2 * margin <= kLatticeReach))
-            throw Error(ErrorKind::limit,
-                        "the mesh is {:g} m long, {:.0f} voxels of {:g} m: at most {} are possible, "
-                        "use larger voxels",
-                        high[a] - low[a], size[a], voxel_edge[a], kLatticeReach);
+            throw Error(
+                ErrorKind::limit,
+                "the mesh is {:g} m long, {:.0f} voxels of {:g} m: at most {} are possible, "
+                "use larger voxels",
+                high[a] - low[a], size[a], voxel_edge[a], kLatticeReach);
     GridFrame frame;
     frame.voxel_edge = voxel_edge;
     frame.size = glm::max(glm::ivec3(size), glm::ivec3(1)) + 2 * margin;

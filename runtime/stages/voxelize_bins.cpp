@@ -46,7 +46,8 @@ BinLayout lay_out_bins(const std::vector<uint32_t>& counts, uint32_t columns) {
     return layout;
 }
 
-Buffer<uint32_t> upload(const Device& device, const char* name, const std::vector<uint32_t>& values) {
+Buffer<uint32_t> upload(const Device& device, const char* name,
+                        const std::vector<uint32_t>& values) {
     return Buffer<uint32_t>(device, name, std::span<const uint32_t>(values));
 }
 

@@ -41,8 +41,8 @@ void cover_bricks(VoxelizeJob& job, const Program& cover);
 /// Marks the bricks that are not stored as outside.
 void mark_outside(VoxelizeJob& job, const Program& bin);
 
-/// Finds which points (voxels' centres or corners, as `winding` was built) are inside, and marks the
-/// bricks that are not stored.
+/// Finds which points (voxels' centres or corners, as `winding` was built) are inside, and marks
+/// the bricks that are not stored.
 Buffer<uint16_t> find_inside(VoxelizeJob& job, const Program& winding);
 
 /// SOLID occupancy.
@@ -57,9 +57,9 @@ void list_primitives(VoxelizeJob& job, const Program& exact);
 
 /// What voxels take from the mesh's groups and colours.
 struct MeshLabels {
-    uint32_t word = 0;                         ///< of a voxel that has no triangle
-    std::vector<uint32_t> triangle_attributes; ///< empty: one word for all
-    std::vector<glm::vec3> vertex_colors;      ///< linear; empty: none
+    uint32_t word = 0;                          ///< of a voxel that has no triangle
+    std::vector<uint32_t> triangle_attributes;  ///< empty: one word for all
+    std::vector<glm::vec3> vertex_colors;       ///< linear; empty: none
 };
 
 /// `attributes` and `colors` by each voxel's closest triangle. `lists` holds the triangles within

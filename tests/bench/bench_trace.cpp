@@ -1,11 +1,12 @@
-// Rays a second through a mesh's pyramid: closest hits of the sight rays that hit, of shadow rays and of
-// incoherent bounces, for each surface and number of lanes.
+// Rays a second through a mesh's pyramid: closest hits of the sight rays that hit, of shadow rays
+// and of incoherent bounces, for each surface and number of lanes.
 //
 //   bench_trace MESH [voxels along the longest side, 512] [lanes ...]
 //
 // The set-up of RESULTS.md: longest side 1, eye at normalize(0.5, 0.35, 1) * 1.8, vertical angle 40
-// degrees, 1024 x 1024, point light at (1.5, 2.5, 2). Ray lists are made beforehand. Times are the process's CPU
-// time over all threads, so a figure is per core; set POCL_MAX_PTHREAD_COUNT=1 to compare packets alone.
+// degrees, 1024 x 1024, point light at (1.5, 2.5, 2). Ray lists are made beforehand. Times are the
+// process's CPU time over all threads, so a figure is per core; set POCL_MAX_PTHREAD_COUNT=1 to
+// compare packets alone.
 #include <fmt/format.h>
 #include <sys/resource.h>
 
@@ -32,7 +33,9 @@ constexpr int kRuns = 7;
 double cpu_seconds() {
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);
-    const auto seconds = [](const timeval& t) { return double(t.tv_sec) + 1e-6 * double(t.tv_usec); };
+    const auto seconds = [](const timeval& t) {
+        return double(t.tv_sec) + 1e-6 * double(t.tv_usec);
+    };
     return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
@@ -96,9 +99,9 @@ class RayList {
             hits[i].met = words[VXL_HIT_VOXEL * batch_.stride + i] != VXL_NO_VOXEL;
             std::memcpy(&hits[i].t, &words[VXL_HIT_T * batch_.stride + i], 4);
             for (uint32_t a = 0; a < 3; ++a)
-                hits[i].at[int(a)] = double(rays[(VXL_RAY_OX + a) * batch_.stride + i]) +
-                                     double(rays[(VXL_RAY_DX + a) * batch_.stride + i]) *
-                                         double(hits[i].t);
+                hits[i].at[int(a)] =
+                    double(rays[(VXL_RAY_OX + a) * batch_.stride + i]) +
+                    double(rays[(VXL_RAY_DX + a) * batch_.stride + i]) * double(hits[i].t);
         }
         return hits;
     }
