@@ -26,7 +26,8 @@ kernel void mark_near_leaves(const uint count, const int threshold,
             short16 nearest = VXL_SATURATED;
             for (int row = 0; row < 16; ++row) {
                 const short16 f = vload16(0, nodes + ((row & 3) << 4) + (row >> 2 << 8));
-                nearest = min(nearest, max(f, -f));
+                const short16 size = LARGER(f, -f);
+                nearest = SMALLER(nearest, size);
             }
             const short8 two = min(nearest.even, nearest.odd);
             const short4 four = min(two.even, two.odd);
