@@ -33,11 +33,11 @@ static inline int16 curvature_sizes(const short* node, int step) {
     const int16 first = convert_int16(vload16(0, node));
     const int16 second = convert_int16(vload16(0, node + step));
     const int16 after = convert_int16(vload16(0, node + 2 * step));
-    const int16 high = max(max(before, first), max(second, after));
-    const int16 low = min(min(before, first), min(second, after));
+    const int16 high = LARGER(LARGER(before, first), LARGER(second, after));
+    const int16 low = SMALLER(SMALLER(before, first), SMALLER(second, after));
     const int16 saturated = high >= VXL_SATURATED | low <= -VXL_SATURATED;
     const int16 twice = second - before - after + first;
-    return max(twice, -twice) & ~saturated;
+    return LARGER(twice, -twice) & ~saturated;
 }
 
 // The largest |2D| of each cell's four edges along the axis of `step`, across the other two.
