@@ -8,7 +8,7 @@
 #include "runtime/scene_affine.hpp"
 #include "runtime/stages/index.hpp"
 #include "runtime/stages/place.hpp"
-#include "tests/brick_grids.hpp"
+#include "tests/placing.hpp"
 #include "tests/pyramid_reader.hpp"
 #include "tests/test_device.hpp"
 
@@ -16,10 +16,6 @@ namespace voxelume {
 namespace {
 
 constexpr double kBand = 2.8;  // voxels to which the objects' fields are exact, as voxelizers leave
-
-GridFrame frame_at(const glm::dvec3& origin, const glm::dvec3& edge, const glm::ivec3& size) {
-    return {.origin = origin, .voxel_edge = edge, .size = size};
-}
 
 int16_t banded(double voxels) {
     return std::abs(voxels) <= kBand ? stored_distance(voxels)
