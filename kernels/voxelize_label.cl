@@ -28,10 +28,11 @@ static inline void compare_nearest(Nearest* best, lane_float squared, uint numbe
 }
 
 /// One work-item: VXL_SLICES slices of one brick. Writes the triangle closest to each voxel's centre;
-/// voxels farther than `reach` lattice units from all may get NO_TRIANGLE.
+/// voxels farther than `band` from all get NO_TRIANGLE. `band` is in shortest edges, `reach` the same in
+/// lattice units, rounded up.
 ///
 /// The lists are of bins that may be more than the stored bricks: `bins` and `number_of_bin`.
-kernel void find_nearest(uint count, int4 bins, int4 bricks, int4 reach, float4 scale,
+kernel void find_nearest(uint count, int4 bins, int4 bricks, int4 reach, float4 scale, float band,
                          global const int* restrict vertices, global const uint* restrict triangles,
                          global const float* restrict shapes,
                          global const uint* restrict coordinates,
@@ -44,10 +45,12 @@ kernel void find_nearest(uint count, int4 bins, int4 bricks, int4 reach, float4 
     const uint bin = number_of_bin[(brick.z * bins.y + brick.y) * bins.x + brick.x + 1];
     Nearest best[TILE_COLUMNS * VXL_SLICES];
     for (int i = 0; i < TILE_COLUMNS * VXL_SLICES; ++i) {
-        best[i].squared = (lane_float)(1e30f);
+        best[i].squared = (lane_float)(band * band);
         best[i].number = (lane_uint)(NO_TRIANGLE);
     }
-    for (uint i = first[bin]; i < first[bin + 1]; ++i) {
+    const bool has_list = bin != VXL_BRICK_OUTSIDE;
+    const uint end = has_list ? first[bin + 1] : 0;
+    for (uint i = has_list ? first[bin] : 0; i < end; ++i) {
         const LatticeTriangle t =
             load_triangle(vertices, triangles, lists[i], brick * LATTICE_BRICK + BRICK_CENTER);
         const int3 low = lowest_corner(&t) + BRICK_CENTER - reach.xyz;

@@ -148,11 +148,16 @@ inline VoxelSetOf occupied_voxels(const BrickGrid& grid) {
     return voxels;
 }
 
+inline VoxelizeOptions cubes(VoxelSet set) {
+    VoxelizeOptions options;
+    options.surface = Surface::cubes;
+    options.set = set;
+    return options;
+}
+
 inline VoxelSetOf voxels_of(const Mesh& mesh, const glm::ivec3& size, VoxelSet set,
                             Voxelizer& voxelizer = shared_voxelizer()) {
-    VoxelizeOptions options;
-    options.set = set;
-    return occupied_voxels(voxelizer.voxelize(mesh, glm::dmat4(1), unit_frame(size), options));
+    return occupied_voxels(voxelizer.voxelize(mesh, glm::dmat4(1), unit_frame(size), cubes(set)));
 }
 
 /// The voxels of the frame for which `is_set` says so.

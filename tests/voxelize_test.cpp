@@ -177,7 +177,7 @@ TEST(Voxelize, AMapMovesVoxelsAlongAndMirrorsAxes) {
     frame.voxel_edge = glm::dvec3(2);
     VoxelSetOf back;
     for (const ivec3& v :
-         occupied_voxels(shared_voxelizer().voxelize(mesh, map, frame, VoxelizeOptions{})))
+         occupied_voxels(shared_voxelizer().voxelize(mesh, map, frame, cubes(VoxelSet::supercover))))
         back.insert({v.y, v.z, 39 - v.x});
     EXPECT_EQ(difference(back, expected), "");
 }
@@ -232,10 +232,8 @@ TEST(Solid, TwoBallsWithAGapNeverMerge) {
         GridFrame frame;
         frame.voxel_edge = glm::dvec3(edge);
         frame.size = ivec3(glm::ceil(glm::dvec3(4.5, 2.4, 2.4) / edge));
-        VoxelizeOptions options;
-        options.set = VoxelSet::solid;
-        const VoxelSetOf voxels =
-            occupied_voxels(shared_voxelizer().voxelize(both, glm::dmat4(1), frame, options));
+        const VoxelSetOf voxels = occupied_voxels(
+            shared_voxelizer().voxelize(both, glm::dmat4(1), frame, cubes(VoxelSet::solid)));
         for (const ivec3& v : voxels) {
             const double x = (v.x + 0.5) * edge;
             EXPECT_TRUE(x < 2.2001 || x > 2.2999) << x;
@@ -269,7 +267,7 @@ TEST(Thin, OfAClosedMeshStopsA6ConnectedFlood) {
 
 void expect_error(const Mesh& mesh, ErrorKind kind, const char* words) {
     try {
-        shared_voxelizer().voxelize(mesh, glm::dmat4(1), unit_frame({8, 7, 6}));
+        shared_voxelizer().voxelize(mesh, glm::dmat4(1), unit_frame({8, 7, 6}), VoxelizeOptions{});
         FAIL() << "no error";
     } catch (const Error& error) {
         EXPECT_EQ(error.kind(), kind);

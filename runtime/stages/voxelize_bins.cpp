@@ -12,16 +12,20 @@ struct BinLayout {
     uint32_t stored = 0;
 };
 
+void check_total(uint64_t total) {
+    if (total > UINT32_MAX)
+        throw Error(ErrorKind::limit,
+                    "the mesh's triangles and the grid meet more than 4 billion times: use larger "
+                    "voxels");
+}
+
 void add_bin(BinLayout& layout, uint32_t bin, uint32_t count, uint64_t& total) {
     layout.number_of_bin[bin] = static_cast<uint32_t>(layout.occupied.size());
     layout.occupied.push_back(bin);
     layout.cursors[bin] = static_cast<uint32_t>(total);
     layout.first.push_back(static_cast<uint32_t>(total));
     total += count;
-    if (total > UINT32_MAX)
-        throw Error(ErrorKind::limit,
-                    "the mesh's triangles meet more than 4 billion times with the grid's bricks: "
-                    "use larger voxels");
+    check_total(total);
 }
 
 BinLayout lay_out_bins(const std::vector<uint32_t>& counts, uint32_t columns) {
@@ -47,6 +51,17 @@ Buffer<uint32_t> upload(const Device& device, const char* name, const std::vecto
 }
 
 }  // namespace
+
+uint64_t starts_of_counts(std::vector<uint32_t>& counts) {
+    uint64_t total = 0;
+    for (uint32_t& count : counts) {
+        const uint32_t own = count;
+        count = static_cast<uint32_t>(total);
+        total += own;
+        check_total(total);
+    }
+    return total;
+}
 
 TriangleBins bin_triangles(const Device& device, const Program& program,
                            const DeviceTriangles& triangles, const glm::ivec3& bricks,

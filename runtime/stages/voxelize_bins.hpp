@@ -2,6 +2,7 @@
 #pragma once
 
 #include <glm/vec4.hpp>
+#include <vector>
 
 #include "runtime/opencl/buffer.hpp"
 #include "runtime/opencl/program.hpp"
@@ -26,6 +27,9 @@ struct TriangleBins {
     Buffer<uint32_t> first;         ///< count + 1: where each one's triangles start in `lists`
     Buffer<uint32_t> lists;         ///< triangles' numbers, in no particular order
 };
+
+/// Turns counts into where each one's share starts; returns the total. Throws Error::limit for 2^32.
+uint64_t starts_of_counts(std::vector<uint32_t>& counts);
 
 /// Sorts triangles into the bricks of `bricks` whose closed boxes of `extent` lattice units they come
 /// within `reach` (lattice units along each axis) of.
