@@ -54,10 +54,17 @@ inline Observer observer_at(const glm::dvec3& position, const glm::dvec3& target
     return observer;
 }
 
+/// A way to show a mesh.
+struct SurfaceChoice {
+    const char* name;
+    Surface surface;
+    VoxelSet set = VoxelSet::supercover;  ///< for cubes
+};
+
 /// The mesh in `file`, `resolution` voxels along its longest side, where it is, and an observer 1.8
 /// longest sides from its centre. There are no lights.
-inline Scene mesh_scene(const std::filesystem::path& file, const Mesh& mesh, Surface surface,
-                        int resolution, const glm::ivec2& size) {
+inline Scene mesh_scene(const std::filesystem::path& file, const Mesh& mesh,
+                        const SurfaceChoice& choice, int resolution, const glm::ivec2& size) {
     constexpr int kMargin = 8;  // voxels of air around the mesh
     const Bounds bounds = bounds_of(mesh);
     const double longest = longest_side(bounds), edge = longest / resolution;
@@ -72,7 +79,8 @@ inline Scene mesh_scene(const std::filesystem::path& file, const Mesh& mesh, Sur
     Model model;
     model.mesh = file;
     model.resolution = resolution;
-    model.surface = surface;
+    model.surface = choice.surface;
+    model.set = choice.set;
     model.reach = scene.world.bounds;
     scene.models.push_back(model);
     scene.objects.emplace_back();

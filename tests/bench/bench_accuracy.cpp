@@ -11,6 +11,12 @@
 namespace voxelume {
 namespace {
 
+constexpr SurfaceChoice kChoices[] = {{"cubes, supercover", Surface::cubes, VoxelSet::supercover},
+                                      {"cubes, thin", Surface::cubes, VoxelSet::thin},
+                                      {"cubes, solid", Surface::cubes, VoxelSet::solid},
+                                      {"smooth", Surface::smooth},
+                                      {"exact", Surface::exact}};
+
 struct Arguments {
     std::filesystem::path file = "/usr/share/glmark2/models/bunny.obj";
     int resolution = 512;
@@ -26,7 +32,7 @@ Arguments parse(int argc, char** argv) {
 }
 
 void print(const char* name, const SurfaceErrors& e) {
-    fmt::print("{:<7} {:>7.5f} {:>8.5f}   {:>8.6f} {:>8.5f} {:>9.4f}   {:>6} {:>8.5f} % {:>6} {:>6}\n",
+    fmt::print("{:<17} {:>7.5f} {:>8.5f}   {:>8.6f} {:>8.5f} {:>9.4f}   {:>6} {:>8.5f} % {:>6} {:>6}\n",
                name, e.distance_rms, e.distance_max, e.along_median, e.along_99, e.along_max,
                e.mask_differs, 100 * e.mask_share(), e.holes, e.mask_differs_clear);
     std::fflush(stdout);
@@ -39,16 +45,14 @@ void measure(const Arguments& a) {
     fmt::print("{}: {} triangles, {} voxels along the longest side, {} x {} pixels, {} lanes on {}\n"
                "in voxels: distance of P to the mesh, difference along the ray; pixels whose mask "
                "differs,\nof these holes, and those farther than 0.001 voxel from a silhouette edge\n"
-               "{:<7} {:>7} {:>8}   {:>8} {:>8} {:>9}   {:>6} {:>10} {:>6} {:>6}\n",
+               "{:<17} {:>7} {:>8}   {:>8} {:>8} {:>9}   {:>6} {:>10} {:>6} {:>6}\n",
                a.file.filename().string(), mesh.triangles.size(), a.resolution, a.size.x, a.size.y,
                device.lanes(), device.info().name, "surface", "rms", "max", "median", "99 %", "max",
                "mask", "share", "holes", "clear");
-    for (const auto& [name, surface] : {std::pair("cubes", Surface::cubes),
-                                        std::pair("smooth", Surface::smooth),
-                                        std::pair("exact", Surface::exact)}) {
-        const Scene scene = mesh_scene(a.file, mesh, surface, a.resolution, a.size);
+    for (const SurfaceChoice& choice : kChoices) {
+        const Scene scene = mesh_scene(a.file, mesh, choice, a.resolution, a.size);
         RenderReport report;
-        print(name, measure_surface(scene, render(device, scene, report), tree));
+        print(choice.name, measure_surface(scene, render(device, scene, report), tree));
     }
 }
 
