@@ -59,7 +59,7 @@ void TraceStage::shadows(const Pyramid& pyramid, const ShadowQueue& queue, uint3
                             pyramid.leaves, pyramid.leaf_voxels, pyramid.attributes, pyramid.fields,
                             pyramid.primitive_first, pyramid.primitives, pyramid.triangles,
                             queue.rays, queue.count, stride, queue.targets, queue.sources,
-                            queue.shares, radiance);
+                            queue.shares, queue.traced, radiance);
 }
 
 }  // namespace voxelume
