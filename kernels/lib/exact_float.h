@@ -35,8 +35,8 @@ static inline lane_float exact_divide(lane_float a, lane_float b) {
 
 /// The square root of x >= 0, correctly rounded, for x = 0 or far from underflow.
 ///
-/// A corrected root is within one unit of it; Tuckerman's test, y (y - unit) < x <= y (y + unit), then
-/// finds the one. (The correction alone gives 1 for the float below 1.)
+/// A corrected root is within one unit of it; Tuckerman's test, y (y - unit) < x <= y (y + unit),
+/// then finds the one. (The correction alone gives 1 for the float below 1.)
 static inline lane_float exact_sqrt(lane_float x) {
     lane_float root = sqrt(x);
     if (!VXL_NATIVE_DIVIDE) {
