@@ -74,8 +74,10 @@ GridFrame model_frame(const Model& model, const Mesh* mesh) {
 }
 
 bool is_in_reach(const Scene& scene, const Object& object) {
-    const Bounds& reach = scene.models[size_t(object.model)].reach;
-    return reach.min.x < reach.max.x && reach.min.y < reach.max.y && reach.min.z < reach.max.z;
+    const Model& model = scene.models[size_t(object.model)];
+    const SolidBounds reach = {model.reach.min, model.reach.max};
+    if (reach.is_empty()) return false;
+    return !model.solid || !bounds(*model.solid, glm::dmat4(1), reach).is_empty();
 }
 
 }  // namespace voxelume

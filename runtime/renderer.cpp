@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <chrono>
+#include <optional>
 
+#include "runtime/stages/light.hpp"
 #include "runtime/stages/resolve.hpp"
 #include "runtime/stages/shade.hpp"
 #include "runtime/stages/sight.hpp"
@@ -11,9 +13,14 @@
 namespace voxelume {
 namespace {
 
+bool has_light(const Scene& scene) {
+    return std::ranges::any_of(scene.lights,
+                               [](const Light& light) { return light.energy != glm::vec3(0); });
+}
+
 Features features_of(const Scene& scene, const Pyramid& world) {
     Features features = features_of(world);
-    features.shadows = scene.render.shadows && !scene.lights.empty();
+    features.shadows = scene.render.shadows && has_light(scene);
     features.medium = scene.world.medium.absorption != glm::vec3(0);
     return features;
 }
@@ -22,7 +29,7 @@ RayBatch allocate_batch(const Device& device, const Features& features, uint32_t
     RayBatch batch;
     batch.stride = stride;
     batch.rays = Buffer<float>(device, "rays", size_t(stride) * VXL_RAY_COMPONENTS);
-    const size_t hit_components = features.exact ? VXL_HIT_COMPONENTS : VXL_HIT_PRIMITIVE;
+    const size_t hit_components = features.exact() ? VXL_HIT_COMPONENTS : VXL_HIT_PRIMITIVE;
     batch.hits = Buffer<uint32_t>(device, "hits", stride * hit_components);
     batch.positions = Buffer<float>(device, "positions", size_t(stride) * 3);
     batch.normals = Buffer<float>(device, "normals", size_t(stride) * 3);
@@ -39,7 +46,7 @@ ShadowQueue allocate_queue(const Device& device, const Features& features, uint3
     queue.traced.fill(0);
     queue.rays = Buffer<float>(device, "shadow queue", size_t(stride) * VXL_RAY_COMPONENTS);
     queue.targets = Buffer<uint32_t>(device, "shadow queue", stride);
-    if (features.exact) queue.sources = Buffer<uint32_t>(device, "shadow queue", stride);
+    if (features.exact()) queue.sources = Buffer<uint32_t>(device, "shadow queue", stride);
     queue.shares = Buffer<float>(device, "shadow queue", size_t(stride) * 3);
     return queue;
 }
@@ -75,6 +82,8 @@ Image render(const Device& device, const Scene& scene, RenderReport& report,
     SightStage sight(device, features, observer);
     TraceStage trace(device, features);
     ShadeStage shade(device, features, scene);
+    std::optional<LightStage> lighting;  // not even compiled in a scene without lights
+    if (!lights.empty()) lighting.emplace(device, features, shade.space(), shade.materials());
     ResolveStage resolve(device, features, observer);
 
     const uint32_t tiles = tile_count(observer.width, observer.height);
@@ -89,10 +98,10 @@ Image render(const Device& device, const Scene& scene, RenderReport& report,
         trace.closest(world, batch, rays);
         shade.surface(world, batch, rays);
         for (const LightRecord& light : lights) {
-            shade.light(world, light, batch, rays, queue);
+            lighting->add(world, light, batch, rays, queue);
             if (features.shadows) trace.shadows(world, queue, rays, batch.stride, batch.radiance);
         }
-        if (features.medium) resolve.absorb(world, space_of(scene.world), batch, rays);
+        if (features.medium) resolve.absorb(world, shade.space(), batch, rays);
         resolve.pixels(world, batch, first, now);
         report.sight_rays += rays;
         if (progress) {
