@@ -72,7 +72,7 @@ Report at_resolution(const std::filesystem::path& path, const Mesh& mesh, int re
             {"voxel edge", plan.frame.voxel_edge.x},
             {"voxels", fmt::format("{}x{}x{}", size.x, size.y, size.z)},
             {"surface voxels, about", uint64_t(std::llround(plan.voxels))},
-            {"MB smooth, about", std::round(plan.kept_bytes / 1e5) / 10}};
+            {"MB smooth, about", std::stod(fmt::format("{:.3g}", plan.kept_bytes / 1e6))}};
 }
 
 }  // namespace

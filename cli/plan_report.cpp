@@ -13,9 +13,13 @@ std::string size_text(const glm::ivec3& size) {
     return fmt::format("{}x{}x{}", size.x, size.y, size.z);
 }
 
-/// Whole megabytes to one digit behind the point: what an estimate is good for.
+/// Three digits are what an estimate is good for.
+double three_digits(double value) {
+    return std::stod(fmt::format("{:.3g}", value));
+}
+
 double megabytes(double bytes) {
-    return std::round(bytes / 1e5) / 10;
+    return three_digits(bytes / 1e6);
 }
 
 uint64_t count(double estimate) {
@@ -51,7 +55,7 @@ Report plan_report(const Scene& scene, const ScenePlan& plan, const Device& devi
         report["stages"].push_back(
             {{"stage", stage},
              {"MB", megabytes(bytes)},
-             {"% of device", std::round(bytes / double(device.info().memory) * 1e4) / 100}});
+             {"% of device", three_digits(bytes / double(device.info().memory) * 100)}});
     };
     add("voxelize", plan.voxelize_bytes);
     add("place", plan.place_bytes);

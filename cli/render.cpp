@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "cli/checks.hpp"
 #include "cli/commands.hpp"
-#include "cli/outputs.hpp"
 #include "cli/scene_options.hpp"
 #include "runtime/error.hpp"
 #include "runtime/io/atomic_file.hpp"
@@ -114,16 +114,23 @@ void write_statistics(const std::string& path, const nlohmann::ordered_json& jso
     file.commit();
 }
 
+/// "845", "84.5 k", "8.45 M"
+std::string count_text(uint64_t count) {
+    const double n = double(count);
+    if (n < 1e4) return fmt::format("{}", count);
+    return n < 1e6 ? fmt::format("{:.1f} k", n / 1e3) : fmt::format("{:.2f} M", n / 1e6);
+}
+
 void print_summary(const Outcome& outcome) {
     const RenderReport& report = outcome.report;
     fmt::print(stderr,
-               "{}x{} in {:.2f} s on \"{}\": {} voxels, {:.2f} M sight and {:.2f} M shadow rays; "
+               "{}x{} in {:.2f} s on \"{}\": {} voxels, {} sight and {} shadow rays; "
                "load {:.0f} ms, voxelize {:.0f}, place {:.0f}, index {:.0f}, image {:.0f}\n",
                outcome.size.x, outcome.size.y, outcome.seconds, outcome.device.info().name,
-               report.voxels, double(report.sight_rays) / 1e6, double(report.shadow_rays) / 1e6,
-               report.world.load_seconds * 1e3, report.world.voxelize_seconds * 1e3,
-               report.world.place_seconds * 1e3, report.world.index_seconds * 1e3,
-               report.image_seconds * 1e3);
+               count_text(report.voxels), count_text(report.sight_rays),
+               count_text(report.shadow_rays), report.world.load_seconds * 1e3,
+               report.world.voxelize_seconds * 1e3, report.world.place_seconds * 1e3,
+               report.world.index_seconds * 1e3, report.image_seconds * 1e3);
 }
 
 void print_details(const Outcome& outcome) {
@@ -188,7 +195,7 @@ Action add_render(CLI::App& app) {
         ->allow_extra_args(false);
     app.add_option("--frames", options->frames,
                    "frames like 1-10,20,30-60x5; #### in an output's name is the number");
-    app.add_option("--exposure", options->exposure, "of .png, in stops");
+    app.add_option("--exposure", options->exposure, "of .png, in stops")->check(in_range(-64, 64));
     app.add_flag("--float", options->float_color, "colour of .exr as 32-bit floats, not halves");
     app.add_option("--stats-json", options->stats, "file for counts and times");
     app.add_flag("--dry-run", options->plan_only, "say what it takes, as `check` does, and stop");

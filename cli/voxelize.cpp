@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "cli/checks.hpp"
 #include "cli/commands.hpp"
-#include "cli/outputs.hpp"
 #include "runtime/error.hpp"
 #include "runtime/io/mesh_reader.hpp"
 #include "runtime/opencl/device.hpp"
@@ -23,11 +23,18 @@ struct VoxelizeCommand {
     std::vector<std::string> outputs;
     double voxel_size = 0;
     int resolution = 0;
-    Surface surface = Surface::smooth;
-    VoxelSet set = VoxelSet::supercover;
+    std::string surface = "smooth";
+    std::string set = "supercover";
     std::string device;
     bool quiet = false;
 };
+
+constexpr std::array kSurfaces = {std::pair{std::string_view("smooth"), Surface::smooth},
+                                  std::pair{std::string_view("cubes"), Surface::cubes},
+                                  std::pair{std::string_view("exact"), Surface::exact}};
+constexpr std::array kSets = {std::pair{std::string_view("supercover"), VoxelSet::supercover},
+                              std::pair{std::string_view("thin"), VoxelSet::thin},
+                              std::pair{std::string_view("solid"), VoxelSet::solid}};
 
 /// What a scene would say of the mesh.
 Model model_of(const VoxelizeCommand& command) {
@@ -38,17 +45,12 @@ Model model_of(const VoxelizeCommand& command) {
     model.voxel_size = glm::dvec3(command.voxel_size);
     model.resolution =
         command.voxel_size > 0 ? 0 : (command.resolution > 0 ? command.resolution : 256);
-    model.surface = command.surface;
-    model.set = command.set;
+    model.surface = choose(command.surface, kSurfaces, "voxelize: --surface");
+    model.set = choose(command.set, kSets, "voxelize: --set");
+    if (model.surface != Surface::cubes && command.set != "supercover")
+        throw Error(ErrorKind::usage,
+                    "voxelize: --set {}: only cubes have sets: add --surface cubes", command.set);
     return model;
-}
-
-VoxelizeOptions stage_options(const VoxelizeCommand& command) {
-    VoxelizeOptions options;
-    options.surface = command.surface;
-    options.set = command.set;
-    options.band = kExportBand;
-    return options;
 }
 
 int run(const VoxelizeCommand& command) {
@@ -57,18 +59,18 @@ int run(const VoxelizeCommand& command) {
     for (const std::string& path : command.outputs)
         check_output(path, {".vxm", ".vdb"}, "voxelize");
     const Model model = model_of(command);
+    const VoxelizeOptions options{model.surface, model.set, kExportBand};
     const Mesh mesh = read_mesh(command.mesh);
     const Device device = Device::open(command.device);
     const GridPlan plan = plan_model(model, mesh);
     check_model(model, plan, device.info());
 
     const auto start = std::chrono::steady_clock::now();
-    const BrickGrid grid =
-        Voxelizer(device).voxelize(mesh, glm::dmat4(1), plan.frame, stage_options(command));
+    const BrickGrid grid = Voxelizer(device).voxelize(mesh, glm::dmat4(1), plan.frame, options);
     device.finish();
     const double seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    const VoxelExport voxels(grid, mesh, command.surface, command.set);
+    const VoxelExport voxels(grid, mesh, model.surface, model.set);
     for (const std::string& path : command.outputs) {
         if (std::filesystem::path(path).extension() == ".vdb")
             voxels.write_vdb(path);
@@ -92,20 +94,14 @@ Action add_voxelize(CLI::App& app) {
                    "model .vxm, or OpenVDB volume .vdb; may be given again")
         ->allow_extra_args(false);
     const auto size = app.add_option("--voxel-size", command->voxel_size, "edge of a voxel, metres")
-                          ->check(CLI::PositiveNumber);
+                          ->check(in_range(1e-9, 1e9));
     app.add_option("--resolution", command->resolution,
                    "voxels along the longest side, 256 without either")
-        ->check(CLI::Range(1, 16384))
+        ->check(in_range(1, 16384))
         ->excludes(size);
     app.add_option("--surface", command->surface,
-                   "smooth (a distance field; the default), cubes, or exact (triangles' lists)")
-        ->transform(CLI::CheckedTransformer(std::map<std::string, Surface>{
-            {"smooth", Surface::smooth}, {"cubes", Surface::cubes}, {"exact", Surface::exact}}));
-    app.add_option("--set", command->set, "of cubes: supercover (the default), thin or solid")
-        ->transform(CLI::CheckedTransformer(
-            std::map<std::string, VoxelSet>{{"supercover", VoxelSet::supercover},
-                                            {"thin", VoxelSet::thin},
-                                            {"solid", VoxelSet::solid}}));
+                   "smooth (a distance field; the default), cubes, or exact (triangles' lists)");
+    app.add_option("--set", command->set, "of cubes: supercover (the default), thin or solid");
     app.add_option("--device", command->device, "auto, cpu, gpu, a number, or part of a name");
     app.add_flag("-q,--quiet", command->quiet, "print errors only");
     return [command] { return run(*command); };

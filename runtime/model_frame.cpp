@@ -18,9 +18,9 @@ glm::dvec3 voxel_edge(const Model& model, const glm::dvec3& extent) {
     if (model.resolution == 0) return model.voxel_size;
     const double longest = std::max({extent.x, extent.y, extent.z});
     if (!(longest > 0))
-        throw Error(ErrorKind::scene,
-                    "the model has no extent, so \"resolution\" can't give a "
-                    "voxel size: give \"voxel_size\" instead");
+        throw Error(ErrorKind::input,
+                    "the model is a single point, so no resolution gives it a "
+                    "voxel size: give the voxel size instead");
     return glm::dvec3(longest / model.resolution);
 }
 

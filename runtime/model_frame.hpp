@@ -35,7 +35,7 @@ Bounds mesh_bounds(const Mesh& mesh);
 
 /// The lattice of a model in its own space, with kModelMargin. `mesh` is null for a solid.
 ///
-/// Throws Error::scene for a model without extent whose voxels `resolution` decides, Error::limit
+/// Throws Error::input for a model without extent whose voxels `resolution` decides, Error::limit
 /// for more voxels than can be numbered; the sentence begins with the model's place.
 GridFrame model_frame(const Model& model, const Mesh* mesh);
 

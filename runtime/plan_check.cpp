@@ -90,11 +90,11 @@ void check_tables(const Scene& scene, const DeviceInfo& device) {
     const double bricks = brick_count(frame), bytes = 4 * bricks;
     const double there = double(std::min(device.memory, device.max_allocation));
     if (bytes > there) {
-        const std::string where = fmt::format("on \"{}\" for its table of bricks", device.name);
         throw Error(ErrorKind::limit,
-                    "{}: a world of {} voxels needs {} {}, which allows {}: use {}", world.where,
-                    size_text(world.voxels), bytes_text(bytes), where, bytes_text(there),
-                    larger_voxels(world.voxel_size, table_factor(bytes, there)));
+                    "{}: a world of {} voxels needs a table of {}, and \"{}\" allows {} in one "
+                    "piece: use {}",
+                    world.where, size_text(world.voxels), bytes_text(bytes), device.name,
+                    bytes_text(there), larger_voxels(world.voxel_size, table_factor(bytes, there)));
     }
     if (bricks > kMostBricks)
         throw Error(ErrorKind::limit,

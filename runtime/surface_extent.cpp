@@ -95,12 +95,12 @@ SurfaceExtent surface_extent(const SurfaceArea& area, const glm::dmat4& frame_fr
     const glm::dmat3 cofactors = std::abs(glm::determinant(voxels_from_surface)) *
                                  glm::transpose(glm::inverse(voxels_from_surface));
     glm::dvec3 shadows(0);
-    double squares = 0;
+    double largest = 0;
     for (int column = 0; column < 3; ++column) {
         shadows += glm::abs(cofactors[column]) * area.shadows[column];
-        squares += glm::dot(cofactors[column], cofactors[column]);
+        largest = std::max(largest, glm::length(cofactors[column]));
     }
-    const double mean = kMeanShadow * area.total * std::sqrt(squares / 3);
+    const double mean = kMeanShadow * area.total * largest;
     SurfaceExtent extent;
     extent.voxels = std::min(shadows.x + shadows.y + shadows.z, mean);
     const double thickness = kBrickSize + 2 * band / kMeanShadow;

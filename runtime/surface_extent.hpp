@@ -3,7 +3,8 @@
 // A flat patch whose area vector is (ax, ay, az), in voxels, passes through |ax| + |ay| + |az|
 // voxels: as many as its three shadows on the lattice's planes have squares. Cells of edge e count
 // the same way, over e²; those within a distance b of the patch are 2 b area / e³ more. Curvature
-// and edges add lower terms, which are left out.
+// and edges add lower terms, which are left out, and so is that cubes on both sides of a patch that
+// runs exactly between them belong to it.
 #pragma once
 
 #include <glm/mat4x4.hpp>

@@ -1,6 +1,7 @@
 // Runs the built program and takes what it says.
 #pragma once
 
+#include <fmt/format.h>
 #include <sys/wait.h>
 
 #include <cstdlib>
@@ -21,9 +22,9 @@ class ProgramTest : public FileTest {
   protected:
     /// `arguments` are a shell's words.
     ProgramResult run(const std::string& arguments) const {
-        const std::string quoted = "'" + folder.string() + "'";
-        const std::string line = "cd " + quoted + " && '" VXL_BINARY "' " + arguments +
-                                 " >stdout.txt 2>stderr.txt </dev/null";
+        const std::string line =
+            fmt::format("cd '{}' && '{}' {} >stdout.txt 2>stderr.txt </dev/null", folder.string(),
+                        VXL_BINARY, arguments);
         const int status = std::system(line.c_str());
         return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, bytes_of(folder / "stdout.txt"),
                 bytes_of(folder / "stderr.txt")};

@@ -1,9 +1,9 @@
-#include "cli/outputs.hpp"
+#include "cli/checks.hpp"
 
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 
-#include "runtime/error.hpp"
 #include "runtime/io/atomic_file.hpp"
 
 namespace voxelume::cli {
@@ -19,6 +19,15 @@ void check_output(const std::string& path, std::initializer_list<const char*> ex
                     list);
     }
     const AtomicFile trial(path);  // leaves nothing behind without commit()
+}
+
+std::function<std::string(const std::string&)> in_range(double least, double most) {
+    return [=](const std::string& text) -> std::string {
+        char* end = nullptr;
+        const double number = std::strtod(text.c_str(), &end);
+        if (!text.empty() && *end == '\0' && number >= least && number <= most) return {};
+        return fmt::format("{} isn't a number from {:g} to {:g}", quote(text), least, most);
+    };
 }
 
 }  // namespace voxelume::cli
