@@ -70,8 +70,8 @@ TEST_F(Accuracy, EverySurfaceKeepsItsOwnInAWorldOfThreeKinds) {
     // Three rings, one behind the other and overlapping on the screen.
     Scene scene = mesh_scene(file, mesh, {"exact", Surface::exact}, kResolution, kImage);
     const double edge = scene.world.voxel_size.x;
-    scene.world.bounds.min.z -= 40 * edge;
-    scene.world.voxels += glm::ivec3(24, 12, 80);
+    scene.world.bounds.min -= edge * glm::dvec3(32, 24, 40);
+    scene.world.voxels += glm::ivec3(64, 48, 80);
     scene.world.bounds.max = scene.world.bounds.min + glm::dvec3(scene.world.voxels) * edge;
     scene.models.front().reach = scene.world.bounds;
     for (const Surface surface : {Surface::smooth, Surface::cubes}) {
@@ -81,7 +81,7 @@ TEST_F(Accuracy, EverySurfaceKeepsItsOwnInAWorldOfThreeKinds) {
         scene.objects.emplace_back();
         scene.objects.back().model = int(scene.models.size() - 1);
     }
-    const glm::dvec3 shifts[] = {{0.7, 0.3, 0}, {17, 9, 36}, {5, -2, -31}};
+    const glm::dvec3 shifts[] = {{0.7, 0.3, 0}, {29, 17, 33}, {-27, -19, -31}};
     for (size_t i = 0; i < 3; ++i)
         scene.objects[i].world_from_object[3] = glm::dvec4(shifts[i] * edge, 1);
     RenderReport report;

@@ -33,14 +33,20 @@ static inline lane_float exact_divide(lane_float a, lane_float b) {
 }
 
 /// The square root of x >= 0, correctly rounded, for x = 0 or far from underflow.
+///
+/// Correction alone can end beside a root that lies almost halfway between two numbers. Tuckerman's
+/// test decides: r is the root exactly when r * (the number below r) < x <= r * (the number above r).
 static inline lane_float exact_sqrt(lane_float x) {
     lane_float root = sqrt(x);
     if (!VXL_NATIVE_DIVIDE) {
-        lane_float half_inverse = 0.5f / root;
-        lane_float better = fma(fma(-root, root, x), half_inverse, root);
-        half_inverse = 0.5f / better;
-        better = fma(fma(-better, better, x), half_inverse, better);
-        root = LANES_SELECT(LANE_MASK(x > 0.0f), better, x);
+        const lane_float half_inverse = 0.5f / root;
+        const lane_float better = fma(fma(-root, root, x), half_inverse, root);
+        const lane_float below = LANES_AS_FLOAT(LANES_AS_INT(better) - 1);
+        const lane_float above = LANES_AS_FLOAT(LANES_AS_INT(better) + 1);
+        const lane_int too_large = LANE_MASK(fma(-better, below, x) <= 0.0f);
+        const lane_int too_small = LANE_MASK(fma(-better, above, x) > 0.0f);
+        const lane_float right = LANES_SELECT(too_large, below, LANES_SELECT(too_small, above, better));
+        root = LANES_SELECT(LANE_MASK(x > 0.0f), right, x);
     }
     return root;
 }
