@@ -16,13 +16,14 @@ const glm::dvec3 kCenter(0.03, 0.31, -0.02);       // of the ball, metres
 
 enum Part : uint32_t { kNothing = 0, kBall = 1, kGround = 2 };
 
-/// A ball above a flat box, lit from `elevation` radians above the horizon.
+/// A ball above a ground that ends outside of the world, where no rounded edge throws a shadow on
+/// it, lit from `elevation` radians above the horizon.
 class Shadows : public FileTest, public testing::WithParamInterface<Surface> {
   protected:
     void SetUp() override {
         FileTest::SetUp();
         write_obj(folder / "ball.obj", ball(kCenter, kRadius, 128, 64));
-        write_obj(folder / "ground.obj", box({-0.7f, -0.03f, -0.6f}, {0.7f, float(kFloor), 0.6f}));
+        write_obj(folder / "ground.obj", box({-1.5f, -0.03f, -1.3f}, {1.5f, float(kFloor), 1.3f}));
     }
 
     Scene scene(double elevation) const {
