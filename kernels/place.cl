@@ -26,7 +26,8 @@ kernel void mark_near_leaves(const uint count, const int threshold,
             short16 nearest = VXL_SATURATED;
             for (int row = 0; row < 16; ++row) {
                 const short16 f = vload16(0, nodes + ((row & 3) << 4) + (row >> 2 << 8));
-                nearest = min(nearest, max(f, -f));
+                const short16 size = LARGER(f, -f);
+                nearest = SMALLER(nearest, size);
             }
             const short8 two = min(nearest.even, nearest.odd);
             const short4 four = min(two.even, two.odd);
@@ -53,9 +54,12 @@ kernel void classify_bricks(const uint count, const int4 world_bricks, const int
     const int4 low = (brick_at(index, world_bricks) << 5) - (int4)(2, 2, 2, 0);
     const CellBox box = map_box(&object, low, 36, true);
     uint state = state_of_bricks(&object, box);
-    if (state == VXL_SURFACE && VXL_SMOOTH && !touches_near_leaf(&object, near, box)) {
+    if (state == VXL_SURFACE && !touches_near_leaf(&object, near, box)) {
         const int4 middle = (box.first + box.last) >> 1;
-        state = is_inside_field(&object, distance, middle) ? VXL_FULL : VXL_NOTHING;
+        if (VXL_SMOOTH)
+            state = is_inside_field(&object, distance, middle) ? VXL_FULL : VXL_NOTHING;
+        else if (!touches_full_brick(&object, box))
+            state = VXL_NOTHING;
     }
     states[index] = (uchar)max((uint)states[index], state);
 }

@@ -197,14 +197,20 @@ kernel void trace_closest(VXL_WORLD_ARGUMENTS, global const float* restrict rays
 /// Traces a queue of shadow rays that begin on surfaces; what reaches its light adds its share of
 /// light, `shares` (three components `stride` apart), to the radiance of the ray it was sent for.
 ///
-/// Every target stands in the queue at most once, so no two work-items add to the same place.
+/// Every target stands in the queue at most once, so no two work-items add to the same place. The
+/// first work-item alone adds the queue's length to `traced`, low word and high word.
 kernel void trace_shadows(VXL_WORLD_ARGUMENTS, global const float* restrict rays,
                           global const uint* restrict count, uint stride,
                           global const uint* restrict targets, global const uint* restrict sources,
-                          global const float* restrict shares, global float* restrict radiance) {
+                          global const float* restrict shares, global uint* restrict traced,
+                          global float* restrict radiance) {
     const uint first = work_item() * VXL_LANES;
     const uint queued = *count;
     if (first >= queued) return;
+    if (first == 0) {
+        traced[0] += queued;
+        traced[1] += traced[0] < queued;
+    }
     VXL_WORLD_VIEWS;
     Walk walk = load_walk(rays, stride, first);
     const lane_float t_end = LANES_LOAD(rays, VXL_RAY_END * stride + first);

@@ -152,7 +152,7 @@ TEST(Render, AShadowFallsWhereTheLightIsHidden) {
 
 TEST(Render, WhatASceneDoesNotHaveIsNotAllocatedOrLaunched) {
     const Rendered plain = rendered(scene_of(box_scene("cubes", "")));
-    for (const char* kernel : {"shade_light", "trace_shadows", "absorb_sight"})
+    for (const char* kernel : {"add_light", "trace_shadows", "absorb_sight"})
         EXPECT_THAT(plain.counters.launches, Not(Contains(Key(std::string(kernel))))) << kernel;
     EXPECT_THAT(plain.counters.allocated_bytes, Not(Contains(Key(std::string("shadow queue")))));
 
@@ -161,7 +161,7 @@ TEST(Render, WhatASceneDoesNotHaveIsNotAllocatedOrLaunched) {
         R"({"type": "directional", "direction": [0, 0, 1], "color": [1, 1, 1], "intensity": 1})");
     unshadowed.replace(unshadowed.find("\"render\": {"), 11, "\"render\": {\"shadows\": false, ");
     const Rendered lit = rendered(scene_of(unshadowed));
-    EXPECT_THAT(lit.counters.launches, Contains(Key(std::string("shade_light"))));
+    EXPECT_THAT(lit.counters.launches, Contains(Key(std::string("add_light"))));
     EXPECT_THAT(lit.counters.launches, Not(Contains(Key(std::string("trace_shadows")))));
     EXPECT_THAT(lit.counters.allocated_bytes, Not(Contains(Key(std::string("shadow queue")))));
 }
@@ -170,7 +170,7 @@ TEST(Render, ALightWithoutEnergyIsNotShaded) {
     const Rendered r = rendered(scene_of(box_scene(
         "cubes",
         R"({"type": "point", "position": [0, 0, -2], "color": [1, 1, 1], "intensity": 0})")));
-    EXPECT_THAT(r.counters.launches, Not(Contains(Key(std::string("shade_light")))));
+    EXPECT_THAT(r.counters.launches, Not(Contains(Key(std::string("add_light")))));
 }
 
 TEST(Render, AnEmptyWorldIsItsBackground) {
@@ -193,7 +193,8 @@ TEST(Render, SamplesCoverAPixelEvenly) {
     resize(scene, {5, 3});  // pixels straddle the box's edges
     scene.render.samples = 64;
     double covered = 0;
-    for (const float a : rendered(scene).image.planes.at("A")) covered += double(a);
+    const Rendered r = rendered(scene);
+    for (const float a : r.image.planes.at("A")) covered += double(a);
     EXPECT_NEAR(covered / 15, 0.7 * 0.5 / (1.6 * 1.2), 0.01);
 }
 

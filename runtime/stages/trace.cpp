@@ -61,7 +61,7 @@ void TraceStage::shadows(const Pyramid& pyramid, const ShadowQueue& queue, uint3
                             pyramid.leaves, pyramid.leaf_voxels, pyramid.attributes, pyramid.fields,
                             pyramid.primitive_first, pyramid.primitives, pyramid.triangles,
                             pyramid.solids, queue.rays, queue.count, stride, queue.targets,
-                            queue.sources, queue.shares, radiance);
+                            queue.sources, queue.shares, queue.traced, radiance);
 }
 
 }  // namespace voxelume

@@ -9,9 +9,9 @@
 
 namespace voxelume {
 
-/// A mesh's lattice on a device.
+/// Triangles first .. first + count - 1 of a mesh's lattice on a device.
 struct DeviceTriangles {
-    uint32_t count = 0;
+    uint32_t first = 0, count = 0;
     Buffer<int32_t> vertices;    ///< 3 per vertex
     Buffer<uint32_t> triangles;  ///< 3 per triangle
 };

@@ -15,6 +15,7 @@ namespace voxelume {
 struct VoxelizeJob {
     const Device& device;
     DeviceTriangles triangles;  ///< the mesh's own
+    DeviceTriangles caps;       ///< those that close its open outlines
     TriangleBins bins;          ///< of the stored bricks
     glm::ivec4 size, bricks;    ///< of the frame
     BrickGrid grid;             ///< what is being made
@@ -44,6 +45,12 @@ void mark_outside(VoxelizeJob& job, const Program& bin);
 /// Finds which points (voxels' centres or corners, as `winding` was built) are inside, and marks
 /// the bricks that are not stored.
 Buffer<uint16_t> find_inside(VoxelizeJob& job, const Program& winding);
+
+/// The same for a mesh whose open outlines are closed by the job's caps: inside is where the
+/// generalized winding number is above 1/2. Stores also the bricks that it crosses far from any
+/// triangle. `cap_bins` holds the caps, `all_bins` caps and triangles.
+Buffer<uint16_t> find_inside_open(VoxelizeJob& job, const Program& winding, const Program& caps,
+                                  const TriangleBins& cap_bins, const TriangleBins& all_bins);
 
 /// SOLID occupancy.
 void fill_solid(VoxelizeJob& job, const Program& winding, const Buffer<uint16_t>& inside);
