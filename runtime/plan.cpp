@@ -44,7 +44,7 @@ struct Extras {
 };
 
 Extras extras_of(const Model& model, const Mesh* mesh) {
-    if (model.solid) return {.words = true};
+    if (model.solid) return {};
     return {.words = mesh->group_names.size() > 1, .colors = !mesh->vertex_colors.empty()};
 }
 
@@ -151,7 +151,7 @@ class Planner {
         smooth_ |= model.surface == Surface::smooth;
         occupied_ |= model.surface != Surface::smooth;
         colors_ |= extras.colors;
-        words_ |= objects_++ > 0 || (mesh && extras.words);
+        words_ |= objects_++ > 0 || extras.words;
         if (model.surface == Surface::exact) {
             exact_voxels_ += in_world.voxels;
             plan_.grids.push_back(plan_grid(model, mesh, plan_.world, in_world));
