@@ -86,7 +86,7 @@ static inline lane_int test_surfaces(const PyramidView* p, const SurfaceView* s,
     if (VXL_CUBES + VXL_SMOOTH + VXL_EXACT > 1) {
         const lane_uint kind = LANES_GATHER_UINT(s->attributes, voxel) >> VXL_KIND_SHIFT;
         cubes &= LANE_MASK(kind == VXL_KIND_CUBES);
-        smooth &= LANE_MASK(kind == VXL_KIND_SMOOTH);
+        smooth &= LANE_MASK(kind != VXL_KIND_CUBES);  // an exact voxel may hold both
         exact &= LANE_MASK(kind == VXL_KIND_EXACT);
     }
     const lane_int beginning = from_surface & LANE_MASK(w->axis == 3);

@@ -27,7 +27,7 @@ typedef struct {
 } ShapePath;
 
 /// The ray as a shape sees it, from where it passes the shape's centre closest.
-static inline ShapePath shape_path(global const SolidShape* restrict s, const SolidRay* ray) {
+static inline ShapePath shape_path(global const SolidShape* s, const SolidRay* ray) {
     const lane_float x = (ray->ox - (float)s->cell[0]) - s->fraction[0];
     const lane_float y = (ray->oy - (float)s->cell[1]) - s->fraction[1];
     const lane_float z = (ray->oz - (float)s->cell[2]) - s->fraction[2];
@@ -41,7 +41,7 @@ static inline ShapePath shape_path(global const SolidShape* restrict s, const So
 }
 
 /// The intervals of t in which the ray is inside the shape, not regarding complements.
-static inline TorusSpans shape_spans(global const SolidShape* restrict s, const ShapePath* path) {
+static inline TorusSpans shape_spans(global const SolidShape* s, const ShapePath* path) {
     const ShapeRay r = path->ray;
     TorusSpans spans;
     spans.second = span_where((lane_int)0);
@@ -100,14 +100,14 @@ static inline lane_int combine_top(lane_int stack, uint operation) {
     return operation == VXL_SOLID_UNION ? below | top : below & (top | ~1);
 }
 
-static inline SolidEvent event_at(global const SolidShape* restrict solids, uint number,
-                                  const SolidRay* ray, lane_float t) {
+static inline SolidEvent event_at(global const SolidShape* solids, uint number, const SolidRay* ray,
+                                  lane_float t) {
     const uint count = solids[number].shape_count;
     lane_int before = (lane_int)0, after = (lane_int)0;
     SolidEvent event;
     event.next = (lane_float)INFINITY;
     for (uint i = number; i < number + count; ++i) {
-        global const SolidShape* restrict s = solids + i;
+        global const SolidShape* s = solids + i;
         const ShapePath path = shape_path(s, ray);
         const TorusSpans spans = shape_spans(s, &path);
         event.before = event.after = (lane_int)0;
@@ -127,9 +127,8 @@ static inline SolidEvent event_at(global const SolidShape* restrict solids, uint
 }
 
 /// The solid of one shape: its ends in order, without asking for events.
-static inline lane_float first_end_of_shape(global const SolidShape* restrict s,
-                                            const SolidRay* ray, lane_int from_surface,
-                                            lane_int inside) {
+static inline lane_float first_end_of_shape(global const SolidShape* s, const SolidRay* ray,
+                                            lane_int from_surface, lane_int inside) {
     const ShapePath path = shape_path(s, ray);
     const TorusSpans spans = shape_spans(s, &path);
     const lane_float a0 = spans.first.enter, a1 = spans.first.leave;
@@ -149,7 +148,7 @@ static inline lane_float first_end_of_shape(global const SolidShape* restrict s,
 ///
 /// In the lanes of `from_surface` the ray starts on the solid's surface and travels on `inside`
 /// (mask) or outside of it, see goes_inside; in the others the origin itself tells.
-static inline lane_float solid_crossing(global const SolidShape* restrict solids, uint number,
+static inline lane_float solid_crossing(global const SolidShape* solids, uint number,
                                         const SolidRay* ray, lane_int from_surface, lane_int inside,
                                         lane_int tested) {
     const lane_float far = (lane_float)INFINITY;

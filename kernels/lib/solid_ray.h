@@ -99,7 +99,7 @@ static inline ShapeSpan tube_span(ShapeRay r, float radius) {
     return select_span(moves, across, span_where(LANE_MASK(outside <= 0.0f)));
 }
 
-static inline ShapeSpan ellipsoid_span(ShapeRay r, global const SolidShape* restrict s) {
+static inline ShapeSpan ellipsoid_span(ShapeRay r, global const SolidShape* s) {
     ShapeRay unit;  // the space in which the ellipsoid is the unit ball
     unit.p.x = exact_divide(r.p.x, (lane_float)s->size[0]);
     unit.p.y = exact_divide(r.p.y, (lane_float)s->size[1]);
@@ -110,7 +110,7 @@ static inline ShapeSpan ellipsoid_span(ShapeRay r, global const SolidShape* rest
     return ball_span(unit, 1.0f);
 }
 
-static inline ShapeSpan box_span(ShapeRay r, global const SolidShape* restrict s) {
+static inline ShapeSpan box_span(ShapeRay r, global const SolidShape* s) {
     const ShapeSpan x = slab_span(r.p.x, r.v.x, s->size[0]);
     const ShapeSpan xy = common_span(x, slab_span(r.p.y, r.v.y, s->size[1]));
     return common_span(xy, slab_span(r.p.z, r.v.z, s->size[2]));
@@ -162,7 +162,7 @@ static inline ShapeSpan double_cone_span(ShapeRay r, float mean, float growth) {
 
 /// A frustum: its double cone and its slab. The cone's equation is taken from the point of the slab
 /// that is closest to the axis, where squares are no larger than the solid.
-static inline ShapeSpan cone_span(ShapeRay r, global const SolidShape* restrict s) {
+static inline ShapeSpan cone_span(ShapeRay r, global const SolidShape* s) {
     const float half_height = s->size[1];
     const ShapeSpan caps = slab_span(r.p.y, r.v.y, half_height);
     const lane_float aa = fma(r.v.x, r.v.x, r.v.z * r.v.z);

@@ -6,7 +6,7 @@
 #include "lib/solid_hit.h"
 
 /// The outward gradient of a shape's distance at p, near its surface, not of unit length.
-static inline SolidPoint shape_gradient(global const SolidShape* restrict s, SolidPoint p) {
+static inline SolidPoint shape_gradient(global const SolidShape* s, SolidPoint p) {
     SolidPoint n = p;
     const lane_float none = (lane_float)0.0f, up = copysign((lane_float)1.0f, p.y);
     switch (s->kind & VXL_SOLID_KIND_MASK) {
@@ -64,7 +64,7 @@ typedef struct {
     SolidPoint gradient;
 } SolidSlope;
 
-static inline SolidSlope shape_slope(global const SolidShape* restrict s, const SolidRay* ray,
+static inline SolidSlope shape_slope(global const SolidShape* s, const SolidRay* ray,
                                      lane_float t) {
     const ShapePath path = shape_path(s, ray);
     const lane_float along = t - path.from;
@@ -73,7 +73,7 @@ static inline SolidSlope shape_slope(global const SolidShape* restrict s, const 
     p.y = fma(along, path.ray.v.y, path.ray.p.y);
     p.z = fma(along, path.ray.v.z, path.ray.p.z);
     const SolidPoint n = shape_gradient(s, p);
-    global const float* restrict m = s->shape_from_grid;
+    global const float* m = s->shape_from_grid;
     const float outwards = (s->kind & VXL_SOLID_COMPLEMENT) ? -1.0f : 1.0f;
     SolidSlope slope;
     slope.distance = outwards * shape_distance(s, p);
@@ -89,7 +89,7 @@ static inline SolidSlope shape_slope(global const SolidShape* restrict s, const 
 /// The outward normal of the solid's surface where the ray meets it at `t`: the gradient along the
 /// grid's axes in voxels, not of unit length; each component divided by the voxel's edge there
 /// gives the normal in metres. On an edge it is one of those that meet there.
-static inline SolidPoint solid_normal(global const SolidShape* restrict solids, uint number,
+static inline SolidPoint solid_normal(global const SolidShape* solids, uint number,
                                       const SolidRay* ray, lane_float t) {
     SolidSlope top = shape_slope(solids + number, ray, t), stack[VXL_SOLID_STACK];
     int depth = 0;
@@ -112,7 +112,7 @@ static inline SolidPoint solid_normal(global const SolidShape* restrict solids, 
 }
 
 /// Mask: a ray that starts on the solid's surface goes into it.
-static inline lane_int goes_inside(global const SolidShape* restrict solids, uint number,
+static inline lane_int goes_inside(global const SolidShape* solids, uint number,
                                    const SolidRay* ray) {
     const SolidPoint n = solid_normal(solids, number, ray, (lane_float)0.0f);
     return LANE_MASK(fma(n.x, ray->dx, fma(n.y, ray->dy, n.z * ray->dz)) < 0.0f);
@@ -124,7 +124,7 @@ static inline lane_int goes_inside(global const SolidShape* restrict solids, uin
 ///
 /// The hit is the first of the whole ray, wherever the voxel that lists the solid lies. A ray that
 /// starts on the solid's own surface says so in `from_solid`; then that point is not met again.
-static inline lane_int hit_solids(global const SolidShape* restrict solids, lane_uint number,
+static inline lane_int hit_solids(global const SolidShape* solids, lane_uint number,
                                   const SolidRay* ray, lane_int from_solid, lane_int tested,
                                   lane_float* t) {
     lane_int closer = (lane_int)0, left = tested;
@@ -143,7 +143,7 @@ static inline lane_int hit_solids(global const SolidShape* restrict solids, lane
 }
 
 /// solid_normal for the solid of each lane in `wanted`; 0 in the others.
-static inline SolidPoint solid_normals(global const SolidShape* restrict solids, lane_uint number,
+static inline SolidPoint solid_normals(global const SolidShape* solids, lane_uint number,
                                        const SolidRay* ray, lane_float t, lane_int wanted) {
     SolidPoint normal = {(lane_float)0.0f, (lane_float)0.0f, (lane_float)0.0f};
     lane_int left = wanted;

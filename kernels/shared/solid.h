@@ -1,4 +1,5 @@
-// An analytic solid as rays and voxelizers read it: a list of shapes with the operations between them.
+// An analytic solid as rays and voxelizers read it: a list of shapes and the operations between
+// them.
 //
 // A solid is a run of `shape_count` records. Evaluating it goes through them in order with a stack:
 // each shape pushes its signed distance, positive outside and negated for a complement, and then

@@ -51,8 +51,10 @@ struct PlacedObject {
 ///
 /// Overlaps: a voxel shows the object with the larger priority, and of equals the one earlier in
 /// `objects`; between smooth surfaces the one nearest to the voxel's centre, ties by that rule. A
-/// smooth object that wins takes the voxels its surface passes through away from cubes and exact
-/// surfaces. The result does not depend on the order of work.
+/// smooth object that wins takes the voxels its surface passes through away from cubes. An exact
+/// and a smooth surface share a voxel: it is exact, with the smooth surface's word, for primitives
+/// have their own; of an exact and a cube the cube wins. The result does not depend on the order
+/// of work. Solids end at the world's bounds, and the cut is surface.
 ///
 /// `attributes` are stored only when the objects have more than one word together. A world whose
 /// only object is in its frame shares that object's buffers. Bricks are stored wherever an object
