@@ -131,7 +131,7 @@ kernel void shade_surface(PyramidShape shape, Space space,
         s = select_vector(cubes, on_face, s);
         normal = select_vector(cubes, face, normal);
     }
-    const lane_int smooth = LANE_MASK(kind == VXL_KIND_SMOOTH) & hit & ~exact;
+    const lane_int smooth = LANE_MASK(kind != VXL_KIND_CUBES) & hit & ~exact;
     if (VXL_SMOOTH && lanes_any(smooth)) {
         const Field field =
             read_field(fields, voxel & LANES_AS_UINT(smooth), shape.half_curvature);

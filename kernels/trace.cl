@@ -66,10 +66,12 @@ static inline lane_int test_surfaces(const PyramidView* p, const SurfaceView* s,
     lane_int smooth = VXL_SMOOTH ? tested : (lane_int)0;
     lane_int exact = VXL_EXACT ? tested : (lane_int)0;
     if (VXL_CUBES + VXL_SMOOTH + VXL_EXACT > 1) {
+        // A voxel that a field and primitives share has both, whatever its kind says.
         const lane_uint kind = LANES_GATHER_UINT(s->attributes, voxel) >> VXL_KIND_SHIFT;
-        cubes &= LANE_MASK(kind == VXL_KIND_CUBES);
-        smooth &= LANE_MASK(kind == VXL_KIND_SMOOTH);
-        exact &= LANE_MASK(kind == VXL_KIND_EXACT);
+        const lane_int filled = LANE_MASK(kind == VXL_KIND_CUBES);
+        cubes &= filled;
+        smooth &= ~filled;
+        exact &= ~filled;
     }
     const lane_int beginning = from_surface & LANE_MASK(w->axis == 3);
     cubes &= ~beginning;

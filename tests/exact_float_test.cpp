@@ -1,4 +1,5 @@
-// lib/exact_float.h and lib/exact_exp.h: the same bits as IEEE arithmetic, and bounds against double.
+// lib/exact_float.h and lib/exact_exp.h: the same bits as IEEE arithmetic, and bounds against
+// double.
 #include <gtest/gtest.h>
 
 #include <bit>
@@ -94,8 +95,8 @@ TEST_P(ExactFloat, DividesAndTakesRootsToTheBitsOfIeee) {
 }
 
 TEST_P(ExactFloat, KeepsTheLimits) {
-    const std::vector<float> x = {0, 0x1p-24f, 0x1p24f, 1, 3, -7, 0x1.fffffep0f, 16,
-                                  0, 4,        9,       2, 5, 6,  10,            12};
+    const std::vector<float> x = {0, 0x1p-24f, 0x1p24f, 1, 3,  -7, 0x1.fffffep0f, 16, 0, 4,
+                                  9, 2,        5,       6, 10, 12};
     const auto inverse = results("exact_reciprocal(x)", x, x);
     const auto root = results("exact_sqrt(fabs(x))", x, x);
     EXPECT_EQ(inverse[0], INFINITY);
@@ -146,7 +147,8 @@ TEST_P(ExactFunctions, ExponentialAndLogarithmAreRightWithinUnitsInTheLastPlace)
     EXPECT_LT(worst_ulps("exact_exp(x)", between(-87, 88, kSeed), exp), 1.5);
     EXPECT_LT(worst_ulps("exact_exp(x)", between(-1, 1, kSeed), exp), 1.5);
     EXPECT_LT(worst_ulps("exact_log(x)", between(0.5f, 2, kSeed), log), 2.5);
-    EXPECT_LT(worst_ulps("exact_log(x)", spread_numbers(kCount, -126, 127, false, kSeed), log), 2.5);
+    EXPECT_LT(worst_ulps("exact_log(x)", spread_numbers(kCount, -126, 127, false, kSeed), log),
+              2.5);
 }
 
 TEST_P(ExactFunctions, ExponentialVanishesBelowTheNormalNumbers) {

@@ -109,8 +109,8 @@ TEST_P(Shadows, TheLitSideOfABallIsLit) {
     if (GetParam() == Surface::cubes) GTEST_SKIP() << "stairs of cubes do shadow one another";
     for (const double elevation : {0.02, 0.9})
         expect_no_acne(
-            elevation, [](Part part, const glm::dvec3&, const glm::dvec3&) { return part == kBall; },
-            800);
+            elevation,
+            [](Part part, const glm::dvec3&, const glm::dvec3&) { return part == kBall; }, 800);
 }
 
 INSTANTIATE_TEST_SUITE_P(Surfaces, Shadows,

@@ -139,6 +139,16 @@ static inline uint curvature_bits(int twice, int exponent) {
     return (uint)clamp(rounded, -511, 511) & 0x3FFu;
 }
 
+// Whether any corner of a cell is outside of the surface or on it.
+static inline bool has_outside(const short* nodes, int4 cell) {
+    const short* node = nodes + node_place(cell.x, cell.y, cell.z);
+    short highest = -VXL_SATURATED;
+    for (int corner = 0; corner < 8; ++corner)
+        highest = max(highest, node[(corner & 1) + (corner >> 1 & 1) * VXL_NODE_ROW +
+                                    (corner >> 2) * VXL_NODE_LAYER]);
+    return highest >= 0;
+}
+
 // The eight words of a cell as shared/voxel.h describes them.
 static inline uint8 field_record(const short* nodes, int4 cell, int exponent) {
     const short* node = nodes + node_place(cell.x, cell.y, cell.z);
