@@ -26,9 +26,11 @@ struct Command {
     AddCommand add;
 };
 
+Action add_check(CLI::App& app);
 Action add_devices(CLI::App& app);
 Action add_diff(CLI::App& app);
 Action add_render(CLI::App& app);
 Action add_info(CLI::App& app);
+Action add_voxelize(CLI::App& app);
 
 }  // namespace voxelume::cli

@@ -1,15 +1,15 @@
 // voxelume info FILE: what is in a file.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
 
 #include "cli/commands.hpp"
+#include "cli/mesh_report.hpp"
 #include "cli/report.hpp"
 #include "runtime/error.hpp"
 #include "runtime/io/exr.hpp"
 #include "runtime/io/input_file.hpp"
-#include "runtime/io/mesh_reader.hpp"
 #include "runtime/io/model_file.hpp"
 #include "runtime/io/png.hpp"
 #include "runtime/io/vdb.hpp"
@@ -104,23 +104,6 @@ Report describe_model(const fs::path& path) {
                                     {"count", array.count},
                                     {"bytes", array.count * element_bytes(array.type)},
                                     {"compressed", array.compressed_bytes}});
-    return report;
-}
-
-Report describe_mesh(const fs::path& path) {
-    const Mesh mesh = read_mesh(path);
-    glm::vec3 low(std::numeric_limits<float>::infinity()), high = -low;
-    for (const glm::vec3& p : mesh.positions) {
-        low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-        high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-    }
-    Report report = {{"kind", "triangle mesh"},
-                     {"triangles", mesh.triangles.size()},
-                     {"vertices", mesh.positions.size()},
-                     {"vertex colors", !mesh.vertex_colors.empty()},
-                     {"groups", mesh.group_names}};
-    report["min"] = numbers(low);
-    report["max"] = numbers(high);
     return report;
 }
 

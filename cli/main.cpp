@@ -22,6 +22,8 @@ namespace {
 constexpr std::array kCommands = {
     Command{"devices", "list what can render here, and why not otherwise", add_devices},
     Command{"render", "render the image of a scene", add_render},
+    Command{"check", "check a scene, and say what rendering it takes", add_check},
+    Command{"voxelize", "turn a mesh into voxels: a model file or an OpenVDB volume", add_voxelize},
     Command{"info", "say what is in a file: image, volume, model or mesh", add_info},
     Command{"diff", "measure how far two images are from each other", add_diff},
 };
@@ -105,7 +107,12 @@ void flush_stdout() {
         throw Error(ErrorKind::output, "can't write to standard output: {}", std::strerror(errno));
 }
 
-int complain(const char* sentence, ErrorKind kind) {
+/// One line that can't steer the terminal, whatever is in a file's name; a compiler's log has more.
+int complain(std::string sentence, ErrorKind kind) {
+    for (char& c : sentence) {
+        const bool is_control = static_cast<unsigned char>(c) < 0x20 || c == 0x7f;
+        if (is_control && !(c == '\n' && kind == ErrorKind::build)) c = '?';
+    }
     fmt::print(stderr, "voxelume: {}\n", sentence);
     return static_cast<int>(kind);
 }

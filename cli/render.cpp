@@ -2,16 +2,18 @@
 #include <CLI/CLI.hpp>
 #include <chrono>
 #include <filesystem>
-#include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
+#include "cli/checks.hpp"
 #include "cli/commands.hpp"
+#include "cli/scene_options.hpp"
 #include "runtime/error.hpp"
 #include "runtime/io/atomic_file.hpp"
 #include "runtime/io/exr.hpp"
+#include "runtime/io/frame_list.hpp"
 #include "runtime/io/frame_path.hpp"
 #include "runtime/io/png.hpp"
 #include "runtime/io/progress.hpp"
@@ -22,47 +24,49 @@ namespace voxelume::cli {
 namespace {
 
 struct RenderOptions {
-    std::string scene;
+    SceneOptions scene;
     std::vector<std::string> outputs;
-    std::vector<std::filesystem::path> assets;
-    std::string size;
-    int samples = 0;
-    std::string device;
+    std::string frames;
     float exposure = 0;
     bool float_color = false;
     std::string stats;
+    bool plan_only = false;
+    bool verbose = false;
     bool quiet = false;
 };
 
-enum class OutputKind { exr, png };
+/// What a render came to, for the summary line and --stats-json.
+struct Outcome {
+    const Device& device;
+    const RenderReport& report;
+    glm::ivec2 size;
+    size_t files;
+    double seconds;
+};
 
-/// The format that an output's name asks for.
-OutputKind output_kind(const std::string& path) {
-    const std::string extension = std::filesystem::path(path).extension();
-    if (extension == ".exr") return OutputKind::exr;
-    if (extension == ".png") return OutputKind::png;
-    throw Error(ErrorKind::usage, "render: {}: an image's name ends in .exr or .png", path);
+/// The files of one frame, or of all that --frames names. Nothing moves yet, so they are all alike.
+std::vector<std::string> output_files(const RenderOptions& options) {
+    if (options.outputs.empty() && !options.plan_only)
+        throw Error(ErrorKind::usage, "render: say where the image goes: -o image.exr");
+    const bool animation = !options.frames.empty();
+    const std::vector<int> frames = animation ? parse_frame_list(options.frames) : std::vector{1};
+    std::vector<std::string> files;
+    for (const int frame : frames)
+        for (const std::string& pattern : options.outputs)
+            files.push_back(frame_path(pattern, frame, animation));
+    return files;
 }
 
-glm::ivec2 parse_size(const std::string& text) {
-    glm::ivec2 size{0};
-    char rest = 0;
-    if (std::sscanf(text.c_str(), "%dx%d%c", &size.x, &size.y, &rest) != 2 || size.x < 1 ||
-        size.y < 1 || size.x > kMaxImageSide || size.y > kMaxImageSide)
-        throw Error(ErrorKind::usage, "render: --size {}: give WIDTHxHEIGHT, 1 to {} each", text,
-                    kMaxImageSide);
-    return size;
-}
-
-Scene read_with(const RenderOptions& options) {
-    Scene scene = read_scene(options.scene, asset_folders(options.assets));
-    if (!options.size.empty()) resize(scene, parse_size(options.size));
-    if (options.samples != 0) scene.render.samples = options.samples;
-    return scene;
+/// A disk that can't take the image should say so before the work, not after. All frames of a
+/// pattern are in one folder, so the first ones stand for all.
+void check_outputs(const std::vector<std::string>& files, const RenderOptions& options) {
+    for (size_t i = 0; i < options.outputs.size() && i < files.size(); ++i)
+        check_output(files[i], {".exr", ".png"}, "render");
+    if (!options.stats.empty()) check_output(options.stats, {}, "render");
 }
 
 void write(const Image& image, const std::string& path, const RenderOptions& options) {
-    if (output_kind(path) == OutputKind::png) {
+    if (std::filesystem::path(path).extension() == ".png") {
         PngOptions png;
         png.exposure = options.exposure;
         write_png(path, image, png);
@@ -71,73 +75,114 @@ void write(const Image& image, const std::string& path, const RenderOptions& opt
     }
 }
 
-nlohmann::ordered_json statistics(const Device& device, const RenderReport& report,
-                                  double seconds) {
-    const DeviceCounters& counters = device.counters();
+nlohmann::ordered_json statistics(const Outcome& outcome) {
+    const DeviceCounters& counters = outcome.device.counters();
+    const RenderReport& report = outcome.report;
     nlohmann::ordered_json json;
     json["version"] = version();
-    json["device"] = device.info().name;
-    json["lanes"] = device.lanes();
+    json["device"] = outcome.device.info().name;
+    json["driver"] = outcome.device.info().driver;
+    json["lanes"] = outcome.device.lanes();
+    json["size"] = {outcome.size.x, outcome.size.y};
+    json["files"] = outcome.files;
     json["voxels"] = report.voxels;
     json["triangles"] = report.world.triangles;
     json["sight_rays"] = report.sight_rays;
+    json["shadow_rays"] = report.shadow_rays;
     json["not_finite"] = report.not_finite;
+    json["world_bytes"] = report.world_bytes;
     json["peak_device_bytes"] = counters.peak_bytes;
-    json["seconds"] = {{"load", report.world.load_seconds},
-                       {"voxelize", report.world.voxelize_seconds},
-                       {"place", report.world.place_seconds},
-                       {"index", report.world.index_seconds},
-                       {"image", report.image_seconds},
-                       {"total", seconds}};
+    json["seconds"] = {
+        {"load", report.world.load_seconds},   {"voxelize", report.world.voxelize_seconds},
+        {"place", report.world.place_seconds}, {"index", report.world.index_seconds},
+        {"image", report.image_seconds},       {"total", outcome.seconds}};
+    json["kernel_ms"] = counters.kernel_ms;
     json["launches"] = counters.launches;
     json["allocated_bytes"] = counters.allocated_bytes;
-    json["programs_built"] = counters.programs_built;
+    json["programs"] = {{"made", counters.programs_built},
+                        {"from_cache", counters.programs_from_cache},
+                        {"ms", counters.build_ms}};
     return json;
 }
 
 void write_statistics(const std::string& path, const nlohmann::ordered_json& json) {
     AtomicFile file(path);
-    const std::string text = json.dump(2) + "\n";
+    // The device's name may be in any encoding.
+    const std::string text =
+        json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
     file.write(text.data(), text.size());
     file.commit();
 }
 
-int run(const RenderOptions& options) {
-    const auto start = std::chrono::steady_clock::now();
-    if (options.outputs.empty())
-        throw Error(ErrorKind::usage, "render: say where the image goes: -o image.exr");
-    for (const std::string& path : options.outputs) output_kind(path);
-    const Scene scene = read_with(options);
-    const Device device = Device::open(options.device);
+/// "845", "84.5 k", "8.45 M"
+std::string count_text(uint64_t count) {
+    const double n = double(count);
+    if (n < 1e4) return fmt::format("{}", count);
+    return n < 1e6 ? fmt::format("{:.1f} k", n / 1e3) : fmt::format("{:.2f} M", n / 1e6);
+}
 
-    RenderReport report;
-    Progress bar("rendering", 100, stderr, options.quiet);
+void print_summary(const Outcome& outcome) {
+    const RenderReport& report = outcome.report;
+    fmt::print(stderr,
+               "{}x{} in {:.2f} s on \"{}\": {} voxels, {} sight and {} shadow rays; "
+               "load {:.0f} ms, voxelize {:.0f}, place {:.0f}, index {:.0f}, image {:.0f}\n",
+               outcome.size.x, outcome.size.y, outcome.seconds, outcome.device.info().name,
+               count_text(report.voxels), count_text(report.sight_rays),
+               count_text(report.shadow_rays), report.world.load_seconds * 1e3,
+               report.world.voxelize_seconds * 1e3, report.world.place_seconds * 1e3,
+               report.world.index_seconds * 1e3, report.image_seconds * 1e3);
+}
+
+void print_details(const Outcome& outcome) {
+    const DeviceCounters& counters = outcome.device.counters();
+    fmt::print(stderr, "  {} lanes, driver {}; {} triangles; world {:.1f} MB, at most {:.1f} MB\n",
+               outcome.device.lanes(), outcome.device.info().driver, outcome.report.world.triangles,
+               double(outcome.report.world_bytes) / 1e6, double(counters.peak_bytes) / 1e6);
+    fmt::print(stderr, "  {} programs in {:.0f} ms, {} of them compiled before\n",
+               counters.programs_built, counters.build_ms, counters.programs_from_cache);
+    for (const auto& [kernel, ms] : counters.kernel_ms)
+        fmt::print(stderr, "  {:<24}{:>10.2f} ms {:>6} launches\n", kernel, ms,
+                   counters.launches.at(kernel));
+}
+
+Image render_with_bar(const Device& device, const Scene& scene, RenderReport& report, bool quiet) {
+    Progress bar("rendering", 100, stderr, quiet);
     uint64_t shown = 0;
-    Image image = render(device, scene, report, [&](uint32_t done, uint32_t total) {
+    return render(device, scene, report, [&](uint32_t done, uint32_t total) {
         const uint64_t percent = uint64_t(done) * 100 / total;
         bar.advance(percent - shown);
         shown = percent;
     });
-    image.attributes = {{"scene", scene.file.filename().string()},
-                        {"software", "voxelume " + std::string(version())}};
-    for (const std::string& path : options.outputs)
-        write(image, frame_path(path, 1, false), options);
-    const double seconds =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    if (!options.stats.empty())
-        write_statistics(options.stats, statistics(device, report, seconds));
+}
+
+int run(const RenderOptions& options) {
+    const auto start = std::chrono::steady_clock::now();
+    const std::vector<std::string> files = output_files(options);
+    check_outputs(files, options);
+    const Scene scene = read_with(options.scene, "render");
+    const Device device = Device::open(options.scene.device);
+    if (options.plan_only) {
+        print_plan(scene, device, false);
+        return 0;
+    }
+    if (options.verbose || !options.stats.empty()) device.time_kernels(true);
+
+    RenderReport report;
+    Image image = render_with_bar(device, scene, report, options.quiet);
     if (report.not_finite != 0)
         throw Error(ErrorKind::render,
                     "{} values of the image were not finite and became 0: please report this scene",
                     report.not_finite);
-    if (!options.quiet)
-        fmt::print(stderr,
-                   "{}x{} in {:.2f} s on \"{}\": {} voxels, {:.2f} M sight rays; load {:.0f} ms, "
-                   "voxelize {:.0f}, place {:.0f}, index {:.0f}, image {:.0f}\n",
-                   image.width, image.height, seconds, device.info().name, report.voxels,
-                   double(report.sight_rays) / 1e6, report.world.load_seconds * 1e3,
-                   report.world.voxelize_seconds * 1e3, report.world.place_seconds * 1e3,
-                   report.world.index_seconds * 1e3, report.image_seconds * 1e3);
+    image.attributes = {{"scene", scene.file.filename().string()},
+                        {"software", "voxelume " + std::string(version())}};
+    for (const std::string& path : files) write(image, path, options);
+    const double seconds =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    const Outcome outcome{device, report, {image.width, image.height}, files.size(), seconds};
+    if (!options.stats.empty()) write_statistics(options.stats, statistics(outcome));
+    if (options.quiet) return 0;
+    print_summary(outcome);
+    if (options.verbose) print_details(outcome);
     return 0;
 }
 
@@ -145,16 +190,16 @@ int run(const RenderOptions& options) {
 
 Action add_render(CLI::App& app) {
     const auto options = std::make_shared<RenderOptions>();
-    app.add_option("scene", options->scene, "the scene, JSON (see scenes/README.md)")->required();
-    app.add_option("-o,--output", options->outputs, "image: .exr or .png; may be given again");
-    app.add_option("--assets", options->assets, "folder of models that the scene names");
-    app.add_option("--size", options->size, "WIDTHxHEIGHT in pixels, instead of the scene's");
-    app.add_option("--samples", options->samples, "samples per pixel, instead of the scene's")
-        ->check(CLI::Range(1, 4096));
-    app.add_option("--device", options->device, "auto, cpu, gpu, a number, or part of a name");
-    app.add_option("--exposure", options->exposure, "of .png, in stops");
+    add_scene_options(app, options->scene);
+    app.add_option("-o,--output", options->outputs, "image: .exr or .png; may be given again")
+        ->allow_extra_args(false);
+    app.add_option("--frames", options->frames,
+                   "frames like 1-10,20,30-60x5; #### in an output's name is the number");
+    app.add_option("--exposure", options->exposure, "of .png, in stops")->check(in_range(-64, 64));
     app.add_flag("--float", options->float_color, "colour of .exr as 32-bit floats, not halves");
     app.add_option("--stats-json", options->stats, "file for counts and times");
+    app.add_flag("--dry-run", options->plan_only, "say what it takes, as `check` does, and stop");
+    app.add_flag("-v,--verbose", options->verbose, "say more: kernels' times, memory");
     app.add_flag("-q,--quiet", options->quiet, "print errors only");
     return [options] { return run(*options); };
 }

@@ -127,12 +127,11 @@ kernel void write_voxels(const uint count, const uint2 kinds, const uint attribu
             }
             if (VXL_COLORS) voxel_colors[number] = colors[voxel];
             if (VXL_SMOOTH) {
-                // Primitives leave a voxel its field, so that no ray comes through where they end in
-                // it; a record of 0 is never crossed.
                 const int4 cell = (int4)(place & 15, place >> 4 & 15, place >> 8, 0);
-                const bool keeps_field = smooth || (VXL_PRIMITIVES && has_outside(nodes, cell));
-                vstore8(keeps_field ? field_record(nodes, cell, exponent) : (uint8)(0), number,
-                        voxel_fields);
+                const bool has_list =
+                    VXL_PRIMITIVES && primitive_first[voxel] != primitive_first[voxel + 1];
+                vstore8(smooth || has_list ? field_record(nodes, cell, exponent) : (uint8)(0),
+                        number, voxel_fields);
             }
             if (VXL_PRIMITIVES) {
                 voxel_primitive_first[number] = primitive;

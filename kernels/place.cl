@@ -10,6 +10,7 @@
 #include "lib/placed_attributes.h"
 #include "lib/placed_field.h"
 #include "lib/work_item.h"
+#include "lib/world_bounds.h"
 
 // One brick of an object: which of its leaves hold voxels, or distances below `threshold`.
 kernel void mark_near_leaves(const uint count, const int threshold,
@@ -26,7 +27,8 @@ kernel void mark_near_leaves(const uint count, const int threshold,
             short16 nearest = VXL_SATURATED;
             for (int row = 0; row < 16; ++row) {
                 const short16 f = vload16(0, nodes + ((row & 3) << 4) + (row >> 2 << 8));
-                nearest = min(nearest, max(f, -f));
+                const short16 size = LARGER(f, -f);
+                nearest = SMALLER(nearest, size);
             }
             const short8 two = min(nearest.even, nearest.odd);
             const short4 four = min(two.even, two.odd);
@@ -42,8 +44,10 @@ kernel void mark_near_leaves(const uint count, const int threshold,
 }
 
 // One brick of the world: raises its state to what the object has there. A brick is full only if
-// the voxels around it are too, since a brick beside an empty voxel must be stored.
-kernel void classify_bricks(const uint count, const int4 world_bricks, const int fraction_bits,
+// the voxels around it are too, since a brick beside an empty voxel, or the world's end, must be
+// stored.
+kernel void classify_bricks(const uint count, const int4 world_bricks, const WorldBounds bounds,
+                            const int fraction_bits,
                             constant long* rows, const int4 object_bricks,
                             global const uint* restrict slots, global const ulong* restrict near,
                             global const short* restrict distance, global uchar* restrict states) {
@@ -53,9 +57,12 @@ kernel void classify_bricks(const uint count, const int4 world_bricks, const int
     const int4 low = (brick_at(index, world_bricks) << 5) - (int4)(2, 2, 2, 0);
     const CellBox box = map_box(&object, low, 36, true);
     uint state = state_of_bricks(&object, box);
-    if (state == VXL_SURFACE && VXL_SMOOTH && !touches_near_leaf(&object, near, box)) {
+    if (state == VXL_SURFACE && !touches_near_leaf(&object, near, box)) {
         const int4 middle = (box.first + box.last) >> 1;
-        state = is_inside_field(&object, distance, middle) ? VXL_FULL : VXL_NOTHING;
+        if (VXL_SMOOTH)
+            state = is_inside_field(&object, distance, middle) ? VXL_FULL : VXL_NOTHING;
+        else if (!touches_full_brick(&object, box))
+            state = VXL_NOTHING;
     }
     states[index] = (uchar)max((uint)states[index], state);
 }
@@ -101,10 +108,27 @@ kernel void paint_distances(const uint count, const int4 world_bricks, const int
     }
 }
 
+// One leaf of the world: ends its distances at the world's bounds.
+kernel void close_distances(const uint count, const int4 world_bricks, const WorldBounds bounds,
+                            global const uint* restrict coordinates,
+                            global short* restrict world_distance) {
+    const uint leaf = work_item();
+    if (leaf >= count) return;
+    const int4 low = leaf_in_world(leaf, coordinates, world_bricks);
+    if (!is_at_bounds(bounds, low / 2 - 4, 12)) return;
+    global short* out = world_distance + (size_t)(leaf >> 6) * VXL_BRICK_VOXELS + leaf_place(leaf);
+    for (int i = 0; i < 64; ++i) {
+        const int4 node = (int4)(i & 3, i >> 2 & 3, i >> 4, 0);
+        global short* place = out + node.x + (node.y << 4) + (node.z << 8);
+        *place = (short)max((int)*place, -depth_in_world(bounds, low + node * 2));
+    }
+}
+
 // One leaf of the world: the words and colours of its smooth voxels, where this object's surface is
-// the nearest to the voxel's centre so far. A voxel that the surface crosses is no longer a cube.
+// the nearest to the voxel's centre so far. A voxel that the surface crosses is no longer a cube; an
+// exact one stays exact, with the smooth surface's word: its primitives have their own.
 kernel void paint_smooth_voxels(
-    const uint count, const int4 world_bricks, const int fraction_bits, constant long* rows,
+    const uint count, const int4 world_bricks, const WorldBounds bounds, const int fraction_bits, constant long* rows,
     const int4 object_bricks, global const uint* restrict slots, global const ulong* restrict near,
     global const short* restrict distance, const float scale, const int crossing,
     const WordMap words, global const uint* restrict materials,
@@ -118,7 +142,7 @@ kernel void paint_smooth_voxels(
     const int4 low = leaf_in_world(leaf, coordinates, world_bricks);
     const CellBox cells = map_box(&object, low, 8, false);
     const CellBox nodes = {cells.first, cells.last + 1};
-    if (!touches_near_leaf(&object, near, nodes)) return;
+    if (!touches_near_leaf(&object, near, nodes) && !is_at_bounds(bounds, low / 2, 4)) return;
     short block[VXL_BLOCK_NODES];
     CellBox gathered = nodes_of_cells(cells);
     const bool at_once = fits_block(gathered);
@@ -133,20 +157,28 @@ kernel void paint_smooth_voxels(
             gathered = nodes_of_cells(one);
             gather_block(&object, distance, gathered, block);
         }
-        const short value =
+        const short own =
             stored_distance(scale * distance_at(&object, block, gathered.first, centre));
+        const int4 half_steps = low + voxel * 2 + (int4)(1, 1, 1, 0);
+        const short value = (short)max((int)own, -depth_in_world(bounds, half_steps));
         // `crossing` is half a voxel's diagonal; the bend of a distance field adds less than that.
         if ((int)abs(value) > 2 * crossing) continue;
         const int place = leaf_place(leaf) + voxel.x + (voxel.y << 4) + (voxel.z << 8);
         const size_t number = (size_t)(leaf >> 6) * VXL_BRICK_VOXELS + place;
-        if ((int)abs(value) <= crossing) crossed |= 1ul << i;
+        const uint kind =
+            VXL_ATTRIBUTES ? world_attributes[number] & VXL_KIND_EXACT << VXL_KIND_SHIFT : 0u;
+        if ((int)abs(value) <= crossing && kind == 0u) crossed |= 1ul << i;
         if (value > nearest[number]) continue;
         nearest[number] = value;
         const int4 at = cell - gathered.first;
         const int4 source =
             cell_on_surface(block + at.x + at.y * VXL_BLOCK_ROW + at.z * VXL_BLOCK_LAYER, cell);
         const long from = place_of_voxel(&object, source);
-        if (VXL_ATTRIBUTES) world_attributes[number] = word_of(words, materials, attributes, from);
+        if (VXL_ATTRIBUTES) {
+            const uint word = word_of(words, materials, attributes, from);
+            world_attributes[number] =
+                kind == 0u ? word : (word & ~(3u << VXL_KIND_SHIFT)) | kind;
+        }
         if (VXL_COLORS) world_colors[number] = color_of(colors, from);
     }
     if (VXL_WORLD_OCCUPANCY) occupancy[leaf] &= ~crossed;

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <chrono>
+#include <optional>
 
+#include "runtime/stages/light.hpp"
 #include "runtime/stages/resolve.hpp"
 #include "runtime/stages/shade.hpp"
 #include "runtime/stages/sight.hpp"
@@ -11,13 +13,14 @@
 namespace voxelume {
 namespace {
 
-/// Rays that go through the stages together: enough to fill any device, few enough to stay in a
-/// CPU's caches on their way (measured with bench_frame; 2^16 to 2^19 differ by less than 5 %).
-constexpr uint32_t kBatchRays = 1u << 18;
+bool has_light(const Scene& scene) {
+    return std::ranges::any_of(scene.lights,
+                               [](const Light& light) { return light.energy != glm::vec3(0); });
+}
 
 Features features_of(const Scene& scene, const Pyramid& world) {
     Features features = features_of(world);
-    features.shadows = scene.render.shadows && !scene.lights.empty();
+    features.shadows = scene.render.shadows && has_light(scene);
     features.medium = scene.world.medium.absorption != glm::vec3(0);
     return features;
 }
@@ -26,7 +29,7 @@ RayBatch allocate_batch(const Device& device, const Features& features, uint32_t
     RayBatch batch;
     batch.stride = stride;
     batch.rays = Buffer<float>(device, "rays", size_t(stride) * VXL_RAY_COMPONENTS);
-    const size_t hit_components = features.exact ? VXL_HIT_COMPONENTS : VXL_HIT_PRIMITIVE;
+    const size_t hit_components = features.exact() ? VXL_HIT_COMPONENTS : VXL_HIT_PRIMITIVE;
     batch.hits = Buffer<uint32_t>(device, "hits", stride * hit_components);
     batch.positions = Buffer<float>(device, "positions", size_t(stride) * 3);
     batch.normals = Buffer<float>(device, "normals", size_t(stride) * 3);
@@ -39,11 +42,24 @@ ShadowQueue allocate_queue(const Device& device, const Features& features, uint3
     ShadowQueue queue;
     if (!features.shadows) return queue;
     queue.count = Buffer<uint32_t>(device, "shadow queue", 1);
+    queue.traced = Buffer<uint32_t>(device, "shadow rays", 2);
+    queue.traced.fill(0);
     queue.rays = Buffer<float>(device, "shadow queue", size_t(stride) * VXL_RAY_COMPONENTS);
     queue.targets = Buffer<uint32_t>(device, "shadow queue", stride);
-    if (features.exact) queue.sources = Buffer<uint32_t>(device, "shadow queue", stride);
+    if (features.exact()) queue.sources = Buffer<uint32_t>(device, "shadow queue", stride);
     queue.shares = Buffer<float>(device, "shadow queue", size_t(stride) * 3);
     return queue;
+}
+
+template <class... T>
+uint64_t sum_of_bytes(const Buffer<T>&... buffers) {
+    return (uint64_t(buffers.size() * sizeof(T)) + ...);
+}
+
+uint64_t bytes_of(const Pyramid& p) {
+    return sum_of_bytes(p.sectors, p.bricks, p.leaves, p.leaf_voxels, p.attributes, p.colors,
+                        p.fields, p.primitive_first, p.primitives, p.triangles,
+                        p.triangle_attributes, p.solids);
 }
 
 std::vector<LightRecord> light_records(const Scene& scene, const GridFrame& world) {
@@ -66,6 +82,8 @@ Image render(const Device& device, const Scene& scene, RenderReport& report,
     SightStage sight(device, features, observer);
     TraceStage trace(device, features);
     ShadeStage shade(device, features, scene);
+    std::optional<LightStage> lighting;  // not even compiled in a scene without lights
+    if (!lights.empty()) lighting.emplace(device, features, shade.space(), shade.materials());
     ResolveStage resolve(device, features, observer);
 
     const uint32_t tiles = tile_count(observer.width, observer.height);
@@ -80,10 +98,10 @@ Image render(const Device& device, const Scene& scene, RenderReport& report,
         trace.closest(world, batch, rays);
         shade.surface(world, batch, rays);
         for (const LightRecord& light : lights) {
-            shade.light(world, light, batch, rays, queue);
+            lighting->add(world, light, batch, rays, queue);
             if (features.shadows) trace.shadows(world, queue, rays, batch.stride, batch.radiance);
         }
-        if (features.medium) resolve.absorb(world, space_of(scene.world), batch, rays);
+        if (features.medium) resolve.absorb(world, shade.space(), batch, rays);
         resolve.pixels(world, batch, first, now);
         report.sight_rays += rays;
         if (progress) {
@@ -93,7 +111,10 @@ Image render(const Device& device, const Scene& scene, RenderReport& report,
     }
     Image image = resolve.image();
     report.not_finite = resolve.not_finite();
+    if (features.shadows)
+        report.shadow_rays = queue.traced.read_one(0) | uint64_t(queue.traced.read_one(1)) << 32;
     report.voxels = world.voxel_count;
+    report.world_bytes = bytes_of(world);
     report.image_seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return image;

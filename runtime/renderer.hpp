@@ -23,7 +23,8 @@ struct RenderReport {
 
 /// Renders the flat image of a scene's observer on a device.
 ///
-/// `progress` is called with the tiles done and their number. Throws Error as its stages do.
+/// `progress` is called with the tiles done and their number. Throws Error::limit before memory is
+/// taken when the scene's plan doesn't fit the device, and Error as its stages do.
 Image render(const Device& device, const Scene& scene, RenderReport& report,
              const std::function<void(uint32_t done, uint32_t total)>& progress = {});
 

@@ -1,17 +1,13 @@
 #include "runtime/world.hpp"
 
-#include <algorithm>
 #include <chrono>
-#include <cmath>
-#include <glm/common.hpp>
 #include <map>
 #include <memory>
 
 #include "runtime/error.hpp"
-#include "runtime/io/mesh_reader.hpp"
+#include "runtime/plan.hpp"
 #include "runtime/stages/index.hpp"
 #include "runtime/stages/place.hpp"
-#include "runtime/stages/solid_bounds.hpp"
 #include "runtime/stages/voxelize.hpp"
 #include "runtime/stages/voxelize_solid.hpp"
 
@@ -33,32 +29,11 @@ class Stopwatch {
     Clock::time_point start_ = Clock::now();
 };
 
-/// The voxel edges of a model whose bounds are `extent`, metres.
-glm::dvec3 voxel_edge(const Model& model, const glm::dvec3& extent) {
-    if (model.resolution == 0) return model.voxel_size;
-    const double longest = std::max({extent.x, extent.y, extent.z});
-    if (!(longest > 0))
-        throw Error(ErrorKind::input, "{}: the model has no extent, so `resolution` can't give a "
-                                      "voxel size: give `voxel_size` instead", model.where);
-    return glm::dvec3(longest / model.resolution);
-}
-
-glm::dvec3 extent_of(const Mesh& mesh) {
-    glm::dvec3 low(INFINITY), high(-INFINITY);
-    for (const glm::uvec3& triangle : mesh.triangles) {
-        for (int corner = 0; corner < 3; ++corner) {
-            low = glm::min(low, glm::dvec3(mesh.positions[triangle[corner]]));
-            high = glm::max(high, glm::dvec3(mesh.positions[triangle[corner]]));
-        }
-    }
-    return high - low;
-}
-
 /// Voxelizes models once each, and exact objects one by one in the world's frame.
 class ObjectMaker {
   public:
-    ObjectMaker(const Device& device, const Scene& scene, WorldReport& report)
-        : device_(device), scene_(scene), report_(report), voxelizer_(device) {}
+    ObjectMaker(const Device& device, const Scene& scene, MeshStore& meshes, WorldReport& report)
+        : device_(device), scene_(scene), meshes_(meshes), report_(report), voxelizer_(device) {}
 
     PlacedObject make(uint32_t number) {
         const Object& object = scene_.objects[number];
@@ -78,95 +53,87 @@ class ObjectMaker {
   private:
     const std::vector<std::string>& group_names(const Model& model) {
         static const std::vector<std::string> none;
-        return model.solid ? none : mesh_of(model).group_names;
+        return model.solid ? none : mesh_of(model)->group_names;
     }
 
-    const Mesh& mesh_of(const Model& model) {
-        const auto [entry, added] = meshes_.try_emplace(model.mesh);
-        if (added) {
-            Stopwatch watch(report_.load_seconds);
-            entry->second = read_mesh(model.mesh);
-            report_.triangles += entry->second.triangles.size();
-            watch.stop();
-        }
-        return entry->second;
+    const Mesh* mesh_of(const Model& model) {
+        return model.solid ? nullptr : &meshes_.mesh(model.mesh);
     }
 
     const BrickGrid* grid_of(const Model& model) {
         const auto found = grids_.find(&model);
         if (found != grids_.end()) return &found->second;
-        const Mesh* mesh = model.solid ? nullptr : &mesh_of(model);
         Stopwatch watch(report_.voxelize_seconds);
-        BrickGrid grid = mesh ? voxelized(*mesh, model) : voxelized(*model.solid, model);
-        device_.finish();
+        const GridFrame frame = model_frame(model, mesh_of(model));
+        BrickGrid grid = voxelized(model, glm::dmat4(1), frame, model.where);
         watch.stop();
         return &grids_.emplace(&model, std::move(grid)).first->second;
     }
 
-    BrickGrid voxelized(const Mesh& mesh, const Model& model) {
-        const GridFrame frame = frame_around(mesh, voxel_edge(model, extent_of(mesh)));
-        return voxelizer_.voxelize(mesh, glm::dmat4(1), frame, {model.surface, model.set});
-    }
-
-    BrickGrid voxelized(const Solid& solid, const Model& model) {
-        const SolidBounds reach = {model.reach.min, model.reach.max};
-        const glm::dmat4 identity(1);
-        const SolidBounds box = bounds(solid, identity, reach);
-        const GridFrame frame =
-            frame_around(solid, identity, voxel_edge(model, box.max - box.min), 4, reach);
-        return voxelize_solid(device_, solid, identity, frame, {model.surface, model.set});
-    }
-
     const BrickGrid* exact_grid(const Object& object, const Model& model) {
-        const Mesh* mesh = model.solid ? nullptr : &mesh_of(model);
         Stopwatch watch(report_.voxelize_seconds);
-        const GridFrame frame = world_frame(scene_.world);
-        const VoxelizeOptions options = {model.surface, model.set};
-        BrickGrid grid =
-            mesh ? voxelizer_.voxelize(*mesh, object.world_from_object, frame, options)
-                 : voxelize_solid(device_, *model.solid, object.world_from_object, frame, options);
-        device_.finish();
+        exact_grids_.push_back(std::make_unique<BrickGrid>(
+            voxelized(model, object.world_from_object, world_frame(scene_.world), object.where)));
         watch.stop();
-        exact_grids_.push_back(std::make_unique<BrickGrid>(std::move(grid)));
         return exact_grids_.back().get();
+    }
+
+    /// A model in a frame; `where` in the scene opens the message if that fails.
+    BrickGrid voxelized(const Model& model, const glm::dmat4& frame_from_model,
+                        const GridFrame& frame, const std::string& where) {
+        const VoxelizeOptions options = {model.surface, model.set};
+        try {
+            BrickGrid grid =
+                model.solid
+                    ? voxelize_solid(device_, *model.solid, frame_from_model, frame, options)
+                    : voxelizer_.voxelize(*mesh_of(model), frame_from_model, frame, options);
+            device_.finish();
+            return grid;
+        } catch (const Error& error) {
+            const bool is_users =
+                error.kind() == ErrorKind::input || error.kind() == ErrorKind::limit;
+            if (!is_users) throw;
+            throw Error(error.kind(), "{}: {}", where, error.what());
+        }
     }
 
     const Device& device_;
     const Scene& scene_;
+    MeshStore& meshes_;
     WorldReport& report_;
     Voxelizer voxelizer_;
-    std::map<std::filesystem::path, Mesh> meshes_;
     std::map<const Model*, BrickGrid> grids_;
     std::vector<std::unique_ptr<BrickGrid>> exact_grids_;
 };
 
-/// Whether any part of the object can lie inside the world: its model's reach isn't empty.
-bool is_in_reach(const Scene& scene, const Object& object) {
-    const Bounds& reach = scene.models[size_t(object.model)].reach;
-    return reach.min.x < reach.max.x && reach.min.y < reach.max.y && reach.min.z < reach.max.z;
+/// The world's bricks. The models' own grids go when it returns.
+BrickGrid place_objects(const Device& device, const Scene& scene, MeshStore& meshes,
+                        WorldReport& report) {
+    ObjectMaker maker(device, scene, meshes, report);
+    std::vector<PlacedObject> placed;
+    for (uint32_t number = 0; number < scene.objects.size(); ++number)
+        if (is_in_reach(scene, scene.objects[number])) placed.push_back(maker.make(number));
+    Stopwatch watch(report.place_seconds);
+    BrickGrid world = place(device, placed, world_frame(scene.world));
+    device.finish();
+    watch.stop();
+    return world;
 }
 
 }  // namespace
 
-GridFrame world_frame(const World& world) {
-    return {world.bounds.min, world.voxel_size, world.voxels};
-}
-
 Pyramid form_world(const Device& device, const Scene& scene, WorldReport& report) {
-    ObjectMaker maker(device, scene, report);
-    std::vector<PlacedObject> placed;
-    for (uint32_t number = 0; number < scene.objects.size(); ++number)
-        if (is_in_reach(scene, scene.objects[number])) placed.push_back(maker.make(number));
+    check_tables(scene, device.info());
+    MeshStore meshes;
+    check_memory(scene, plan_scene(scene, meshes), device.info());
+    report.load_seconds = meshes.load_seconds();
+    report.triangles = meshes.triangles();
+    const BrickGrid world = place_objects(device, scene, meshes, report);
 
-    Stopwatch place_watch(report.place_seconds);
-    const BrickGrid world = place(device, placed, world_frame(scene.world));
-    device.finish();
-    place_watch.stop();
-
-    Stopwatch index_watch(report.index_seconds);
+    Stopwatch watch(report.index_seconds);
     Pyramid pyramid = build_index(device, world);
     device.finish();
-    index_watch.stop();
+    watch.stop();
     return pyramid;
 }
 

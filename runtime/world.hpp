@@ -7,9 +7,6 @@
 
 namespace voxelume {
 
-/// The world's lattice: its first voxel starts at the bounds' minimum corner.
-GridFrame world_frame(const World& world);
-
 /// What forming the world took, for people and tests.
 struct WorldReport {
     double load_seconds = 0;      ///< reading model files
@@ -21,8 +18,9 @@ struct WorldReport {
 
 /// Forms S from the scene's objects. Models that no object shows inside the world are not read.
 ///
-/// Throws Error::input for a damaged model, Error::scene for a placement or group name that doesn't
-/// fit, Error::limit for a world that the device has no memory for.
+/// The plan is made and checked first (runtime/plan.hpp), so a world that doesn't fit costs
+/// nothing. Throws Error::input for a damaged model, Error::scene for a placement or group name
+/// that doesn't fit, Error::limit for a world that the device has no memory for.
 Pyramid form_world(const Device& device, const Scene& scene, WorldReport& report);
 
 }  // namespace voxelume

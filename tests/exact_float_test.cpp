@@ -81,17 +81,25 @@ class ExactFloat : public testing::TestWithParam<Way> {
 };
 
 TEST_P(ExactFloat, DividesAndTakesRootsToTheBitsOfIeee) {
-    const auto x = spread_numbers(kCount, -24, 24, true, kSeed);
+    auto x = spread_numbers(kCount, -24, 24, true, kSeed);
+    for (uint32_t i = 0; i < kCount; i += 4093) x[i] = i % 2 ? 0.0f : -0.0f;
     const auto y = spread_numbers(kCount, -24, 24, true, kSeed + 1);
     const auto positive = spread_numbers(kCount, -60, 60, false, kSeed + 2);
     const auto inverse = results("exact_reciprocal(x)", x, y);
     const auto quotient = results("exact_divide(x, y)", x, y);
     const auto root = results("exact_sqrt(x)", positive, y);
+    const auto bits = [](float v) { return std::bit_cast<uint32_t>(v); };
     for (uint32_t i = 0; i < kCount; ++i) {
-        ASSERT_EQ(inverse[i], 1.0f / x[i]) << std::hexfloat << x[i] << " seed " << kSeed;
-        ASSERT_EQ(quotient[i], x[i] / y[i]) << std::hexfloat << x[i] << " / " << y[i];
-        ASSERT_EQ(root[i], std::sqrt(positive[i])) << std::hexfloat << positive[i];
+        ASSERT_EQ(bits(inverse[i]), bits(1.0f / x[i]))
+            << std::hexfloat << x[i] << " seed " << kSeed;
+        ASSERT_EQ(bits(quotient[i]), bits(x[i] / y[i])) << std::hexfloat << x[i] << " / " << y[i];
+        ASSERT_EQ(bits(root[i]), bits(std::sqrt(positive[i]))) << std::hexfloat << positive[i];
     }
+}
+
+TEST_P(ExactFloat, TakesTheRootOfTheFloatBelowOneToBeItself) {
+    const std::vector<float> below(16, std::nextafter(1.0f, 0.0f));
+    EXPECT_EQ(results("exact_sqrt(x)", below, below), below);
 }
 
 TEST_P(ExactFloat, KeepsTheLimits) {

@@ -69,8 +69,8 @@ TEST(ExactVoxels, KeepTheSourceTrianglesInVoxels) {
     const BrickGrid grid =
         shared_voxelizer().voxelize(mesh, glm::dmat4(1), frame, surface(Surface::exact));
     EXPECT_THAT(grid.triangles.read(),
-                testing::Pointwise(testing::FloatNear(1e-6f), {0.2f, 2.2f, 13.2f, 6.8f, 2.5f, 14.4f,
-                                                               1.4f, 5.8f, 15.6f}));
+                testing::Pointwise(testing::FloatNear(1e-6f),
+                                   {0.2f, 2.2f, 13.2f, 6.8f, 2.5f, 14.4f, 1.4f, 5.8f, 15.6f}));
     EXPECT_THAT(grid.triangle_attributes.read(), testing::ElementsAre(2u << 30 | 2u << 16));
 }
 
@@ -105,7 +105,8 @@ TEST(Labels, AreOfTheTriangleClosestToTheCentre) {
                             of_group, oracle::distance_to_triangle(dvec3(x, y, z) + 0.5, corner(0),
                                                                    corner(1), corner(2)));
                     }
-                    const auto group = static_cast<uint32_t>(std::min_element(best, best + 3) - best);
+                    const auto group =
+                        static_cast<uint32_t>(std::min_element(best, best + 3) - best);
                     std::sort(best, best + 3);
                     if (best[0] > 1.2 || best[1] - best[0] < 1e-4) continue;
                     ASSERT_EQ(words.at(size_t(place.slot) * 4096 + place.number),
@@ -150,8 +151,8 @@ TEST(Labels, AreTheSameForEveryNumberOfLanes) {
     std::vector<uint32_t> words, colors, primitives;
     for (const int lanes : {16, 8, 4, 1}) {
         Voxelizer voxelizer(test_device(lanes));
-        const BrickGrid grid = voxelizer.voxelize(mesh, glm::dmat4(1), unit_frame(kSize),
-                                                  surface(Surface::exact));
+        const BrickGrid grid =
+            voxelizer.voxelize(mesh, glm::dmat4(1), unit_frame(kSize), surface(Surface::exact));
         if (words.empty()) {
             words = grid.attributes.read();
             colors = grid.colors.read();

@@ -13,6 +13,11 @@
 // 3/8 of that is 48 (1/171 voxel). It leaves the kept set independent of the unit that is chosen.
 #define VXL_KEEP_MARGIN 48
 
+// Of vectors of shorts: PoCL's min, max and abs_diff of these go lane by lane (107 against 39 ms of
+// CPU time for the bunny at 512 voxels).
+#define SMALLER(a, b) ((a) < (b) ? (a) : (b))
+#define LARGER(a, b) ((a) > (b) ? (a) : (b))
+
 // Twice D of the edge from `node` to node[step]; 0 where a node in it is saturated.
 static inline int twice_curvature(const short* node, int step) {
     const int before = node[-step], first = node[0], second = node[step], after = node[2 * step];
@@ -28,11 +33,11 @@ static inline int16 curvature_sizes(const short* node, int step) {
     const int16 first = convert_int16(vload16(0, node));
     const int16 second = convert_int16(vload16(0, node + step));
     const int16 after = convert_int16(vload16(0, node + 2 * step));
-    const int16 high = max(max(before, first), max(second, after));
-    const int16 low = min(min(before, first), min(second, after));
+    const int16 high = LARGER(LARGER(before, first), LARGER(second, after));
+    const int16 low = SMALLER(SMALLER(before, first), SMALLER(second, after));
     const int16 saturated = high >= VXL_SATURATED | low <= -VXL_SATURATED;
     const int16 twice = second - before - after + first;
-    return max(twice, -twice) & ~saturated;
+    return LARGER(twice, -twice) & ~saturated;
 }
 
 // The largest |2D| of each cell's four edges along the axis of `step`, across the other two.
@@ -67,6 +72,11 @@ static inline uint largest_lane_int(int16 values) {
     return (uint)max(max(four.x, four.y), max(four.z, four.w));
 }
 
+static inline ushort16 larger_step(ushort16 largest, short16 a, short16 b) {
+    const ushort16 step = as_ushort16(LARGER(a, b) - SMALLER(a, b));
+    return LARGER(largest, step);
+}
+
 // The largest difference of two neighbouring nodes, over all gathered nodes.
 static inline int largest_step(const short* nodes) {
     ushort16 largest = 0;
@@ -76,12 +86,12 @@ static inline int largest_step(const short* nodes) {
             for (int x = 0; x <= 3; x += 3) {  // two overlapping sixteens cover nineteen
                 const short16 here = vload16(0, row + x);
                 if (y + 1 < VXL_NODES)
-                    largest = max(largest, abs_diff(here, vload16(0, row + x + VXL_NODE_ROW)));
+                    largest = larger_step(largest, here, vload16(0, row + x + VXL_NODE_ROW));
                 if (z + 1 < VXL_NODES)
-                    largest = max(largest, abs_diff(here, vload16(0, row + x + VXL_NODE_LAYER)));
+                    largest = larger_step(largest, here, vload16(0, row + x + VXL_NODE_LAYER));
             }
-            largest = max(largest, abs_diff(vload16(0, row), vload16(0, row + 1)));
-            largest = max(largest, abs_diff(vload16(0, row + 2), vload16(0, row + 3)));
+            largest = larger_step(largest, vload16(0, row), vload16(0, row + 1));
+            largest = larger_step(largest, vload16(0, row + 2), vload16(0, row + 3));
         }
     return (int)largest_lane(largest);
 }
@@ -93,15 +103,16 @@ static inline uint keep_row(const short* node, short reach, int16* largest) {
     for (int corner = 0; corner < 8; ++corner) {
         const short16 f = vload16(0, node + (corner & 1) + (corner >> 1 & 1) * VXL_NODE_ROW +
                                          (corner >> 2) * VXL_NODE_LAYER);
-        low = min(low, f);
-        high = max(high, f);
+        low = SMALLER(low, f);
+        high = LARGER(high, f);
     }
     if (!any_lane(low <= reach & high >= (short)(-reach))) return 0;
     short16 nearest = VXL_SATURATED;
     for (int corner = 0; corner < 8; ++corner) {
         const short16 f = vload16(0, node + (corner & 1) + (corner >> 1 & 1) * VXL_NODE_ROW +
                                          (corner >> 2) * VXL_NODE_LAYER);
-        nearest = min(nearest, max(f, -f));
+        const short16 size = LARGER(f, -f);
+        nearest = SMALLER(nearest, size);
     }
     const int16 x = largest_of_edges(node, 1, VXL_NODE_ROW, VXL_NODE_LAYER);
     const int16 y = largest_of_edges(node, VXL_NODE_ROW, 1, VXL_NODE_LAYER);
@@ -137,16 +148,6 @@ static inline uint curvature_bits(int twice, int exponent) {
     const int floored = twice >> shift;
     const int rounded = floored + (rest > middle || (rest == middle && (floored & 1)));
     return (uint)clamp(rounded, -511, 511) & 0x3FFu;
-}
-
-// Whether any corner of a cell is outside of the surface or on it.
-static inline bool has_outside(const short* nodes, int4 cell) {
-    const short* node = nodes + node_place(cell.x, cell.y, cell.z);
-    short highest = -VXL_SATURATED;
-    for (int corner = 0; corner < 8; ++corner)
-        highest = max(highest, node[(corner & 1) + (corner >> 1 & 1) * VXL_NODE_ROW +
-                                    (corner >> 2) * VXL_NODE_LAYER]);
-    return highest >= 0;
 }
 
 // The eight words of a cell as shared/voxel.h describes them.

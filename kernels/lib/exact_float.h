@@ -23,30 +23,29 @@ static inline lane_float exact_reciprocal(lane_float x) {
     return r;
 }
 
-/// a / b, correctly rounded, for b != 0 and a, b, a/b far from overflow and underflow.
+/// a / b, correctly rounded, for b != 0 and a, b, a/b far from overflow and underflow; or a = 0.
 static inline lane_float exact_divide(lane_float a, lane_float b) {
     if (VXL_NATIVE_DIVIDE) return a / b;
     lane_float r = exact_reciprocal(b);
-    lane_float q = a * r;
+    const lane_float first = a * r;
+    lane_float q = fma(fma(-b, first, a), r, first);
     q = fma(fma(-b, q, a), r, q);
-    return fma(fma(-b, q, a), r, q);
+    return LANES_SELECT(LANE_MASK(a == 0.0f), first, q);  // the correction would lose the sign of 0
 }
 
 /// The square root of x >= 0, correctly rounded, for x = 0 or far from underflow.
 ///
-/// Correction alone can end beside a root that lies almost halfway between two numbers. Tuckerman's
-/// test decides: r is the root exactly when r * (the number below r) < x <= r * (the number above r).
+/// A corrected root is within one unit of it; Tuckerman's test, y (y - unit) < x <= y (y + unit),
+/// then finds the one. (The correction alone gives 1 for the float below 1.)
 static inline lane_float exact_sqrt(lane_float x) {
     lane_float root = sqrt(x);
     if (!VXL_NATIVE_DIVIDE) {
-        const lane_float half_inverse = 0.5f / root;
-        const lane_float better = fma(fma(-root, root, x), half_inverse, root);
-        const lane_float below = LANES_AS_FLOAT(LANES_AS_INT(better) - 1);
-        const lane_float above = LANES_AS_FLOAT(LANES_AS_INT(better) + 1);
-        const lane_int too_large = LANE_MASK(fma(-better, below, x) <= 0.0f);
-        const lane_int too_small = LANE_MASK(fma(-better, above, x) > 0.0f);
-        const lane_float right = LANES_SELECT(too_large, below, LANES_SELECT(too_small, above, better));
-        root = LANES_SELECT(LANE_MASK(x > 0.0f), right, x);
+        const lane_float y = fma(fma(-root, root, x), 0.5f / root, root);
+        const lane_float below = LANES_AS_FLOAT(LANES_AS_INT(y) - 1);
+        const lane_float above = LANES_AS_FLOAT(LANES_AS_INT(y) + 1);
+        root = LANES_SELECT(LANE_MASK(fma(-y, below, x) <= 0.0f), below, y);
+        root = LANES_SELECT(LANE_MASK(fma(-y, above, x) > 0.0f), above, root);
+        root = LANES_SELECT(LANE_MASK(x > 0.0f), root, x);
     }
     return root;
 }

@@ -1,7 +1,7 @@
 // The sub-voxel surface of a smooth voxel: half-Taylor interpolation of its corners' distances.
 //
-// shared/voxel.h has the record and the formula. Values are in distance units (1/8192 voxel), positive
-// outside. Neighbouring voxels hold the same bits for the nodes and edges they share.
+// shared/voxel.h has the record and the formula. Values are in distance units (1/8192 voxel),
+// positive outside. Neighbouring voxels hold the same bits for the nodes and edges they share.
 #ifndef VXL_FIELD_H
 #define VXL_FIELD_H
 
@@ -16,8 +16,12 @@ typedef struct {
     lane_float z00, z10, z01, z11;  // ½ D_z at (x,y)
 } Field;
 
-static inline lane_float low_half(lane_uint word) { return LANES_FLOAT(LANES_AS_INT(word << 16) >> 16); }
-static inline lane_float high_half(lane_uint word) { return LANES_FLOAT(LANES_AS_INT(word) >> 16); }
+static inline lane_float low_half(lane_uint word) {
+    return LANES_FLOAT(LANES_AS_INT(word << 16) >> 16);
+}
+static inline lane_float high_half(lane_uint word) {
+    return LANES_FLOAT(LANES_AS_INT(word) >> 16);
+}
 static inline lane_float ten_bits(lane_uint word, int first) {
     return LANES_FLOAT(LANES_AS_INT(word << (22 - first)) >> 22);
 }
@@ -81,18 +85,21 @@ static inline void field_gradient(const Field* f, lane_float x, lane_float y, la
     const lane_float dx = bilinear(f->x00, f->x10, f->x01, f->x11, y, z);
     const lane_float dy = bilinear(f->y00, f->y10, f->y01, f->y11, x, z);
     const lane_float dz = bilinear(f->z00, f->z10, f->z01, f->z11, x, y);
-    *gx = bilinear(f->f100 - f->f000, f->f110 - f->f010, f->f101 - f->f001, f->f111 - f->f011, y, z) +
-          fma(fma(-2.0f, x, 1.0f), dx,
-              fma(by, blend(f->y10 - f->y00, f->y11 - f->y01, z),
-                  bz * blend(f->z10 - f->z00, f->z11 - f->z01, y)));
-    *gy = bilinear(f->f010 - f->f000, f->f110 - f->f100, f->f011 - f->f001, f->f111 - f->f101, x, z) +
-          fma(fma(-2.0f, y, 1.0f), dy,
-              fma(bx, blend(f->x10 - f->x00, f->x11 - f->x01, z),
-                  bz * blend(f->z01 - f->z00, f->z11 - f->z10, x)));
-    *gz = bilinear(f->f001 - f->f000, f->f101 - f->f100, f->f011 - f->f010, f->f111 - f->f110, x, y) +
-          fma(fma(-2.0f, z, 1.0f), dz,
-              fma(bx, blend(f->x01 - f->x00, f->x11 - f->x10, y),
-                  by * blend(f->y01 - f->y00, f->y11 - f->y10, x)));
+    *gx =
+        bilinear(f->f100 - f->f000, f->f110 - f->f010, f->f101 - f->f001, f->f111 - f->f011, y, z) +
+        fma(fma(-2.0f, x, 1.0f), dx,
+            fma(by, blend(f->y10 - f->y00, f->y11 - f->y01, z),
+                bz * blend(f->z10 - f->z00, f->z11 - f->z01, y)));
+    *gy =
+        bilinear(f->f010 - f->f000, f->f110 - f->f100, f->f011 - f->f001, f->f111 - f->f101, x, z) +
+        fma(fma(-2.0f, y, 1.0f), dy,
+            fma(bx, blend(f->x10 - f->x00, f->x11 - f->x01, z),
+                bz * blend(f->z01 - f->z00, f->z11 - f->z10, x)));
+    *gz =
+        bilinear(f->f001 - f->f000, f->f101 - f->f100, f->f011 - f->f010, f->f111 - f->f110, x, y) +
+        fma(fma(-2.0f, z, 1.0f), dz,
+            fma(bx, blend(f->x01 - f->x00, f->x11 - f->x10, y),
+                by * blend(f->y01 - f->y00, f->y11 - f->y10, x)));
 }
 
 #endif

@@ -45,8 +45,8 @@ static inline void gather_block(const PlacedObject* object, global const short* 
 
 // Twice D of four edges from their nodes -1, 0, 1, 2; 0 where a node is saturated.
 static inline float4 twice_curvatures(int4 before, int4 first, int4 second, int4 after) {
-    const int4 high = max(max(before, first), max(second, after));
-    const int4 low = min(min(before, first), min(second, after));
+    const int4 high = LARGER(LARGER(before, first), LARGER(second, after));
+    const int4 low = SMALLER(SMALLER(before, first), SMALLER(second, after));
     const int4 saturated = high >= VXL_SATURATED | low <= -VXL_SATURATED;
     return convert_float4((second - before - after + first) & ~saturated);
 }
@@ -95,10 +95,11 @@ static inline float interpolate(const short* node, float4 s) {
     const short4 a01 = vload4(0, node - 1 + VXL_BLOCK_LAYER);
     const short4 a11 = vload4(0, node - 1 + VXL_BLOCK_ROW + VXL_BLOCK_LAYER);
     const int4 x0 = (int4)(a00.y, a10.y, a01.y, a11.y), x1 = (int4)(a00.z, a10.z, a01.z, a11.z);
-    const int4 high = max(x0, x1), low = min(x0, x1);
-    const int2 high2 = max(high.lo, high.hi), low2 = min(low.lo, low.hi);
-    if (max(high2.x, high2.y) >= VXL_SATURATED || min(low2.x, low2.y) <= -VXL_SATURATED)
-        return extrapolate(node, s);
+    const int4 high = LARGER(x0, x1), low = SMALLER(x0, x1);
+    const int2 high2 = LARGER(high.lo, high.hi), low2 = SMALLER(low.lo, low.hi);
+    const int highest = max(high2.x, high2.y), lowest = min(low2.x, low2.y);
+    if (lowest >= VXL_SATURATED || highest <= -VXL_SATURATED) return lowest;  // beyond the band
+    if (highest >= VXL_SATURATED || lowest <= -VXL_SATURATED) return extrapolate(node, s);
     const float4 twice_x = twice_curvatures((int4)(a00.x, a10.x, a01.x, a11.x), x0, x1,
                                             (int4)(a00.w, a10.w, a01.w, a11.w));
     // Edges along y at (x,z), then along z at (x,y), both in the order 00, 10, 01, 11.

@@ -15,8 +15,7 @@ typedef struct {
     lane_float rounding;  // |error| of it
 } SolidDistance;
 
-static inline SolidPoint to_shape(global const float* restrict m, lane_float x, lane_float y,
-                                  lane_float z) {
+static inline SolidPoint to_shape(global const float* m, lane_float x, lane_float y, lane_float z) {
     SolidPoint p;
     p.x = fma((lane_float)m[0], x, fma((lane_float)m[1], y, m[2] * z));
     p.y = fma((lane_float)m[3], x, fma((lane_float)m[4], y, m[5] * z));
@@ -24,8 +23,7 @@ static inline SolidPoint to_shape(global const float* restrict m, lane_float x, 
     return p;
 }
 
-static inline SolidDistance shape_distance_at(global const SolidShape* restrict s,
-                                              LatticePoint at) {
+static inline SolidDistance shape_distance_at(global const SolidShape* s, LatticePoint at) {
     const lane_float x = LANES_FLOAT(at.x - s->cell[0]) + (at.offset_x - s->fraction[0]);
     const lane_float y = LANES_FLOAT(at.y - s->cell[1]) + (at.offset_y - s->fraction[1]);
     const lane_float z = LANES_FLOAT(at.z - s->cell[2]) + (at.offset_z - s->fraction[2]);
@@ -39,7 +37,7 @@ static inline SolidDistance shape_distance_at(global const SolidShape* restrict 
 
 /// The distance to the solid that starts at record `number`; never more than the true one to a
 /// combination's surface, and 0 exactly on it.
-static inline SolidDistance solid_distance(global const SolidShape* restrict solids, uint number,
+static inline SolidDistance solid_distance(global const SolidShape* solids, uint number,
                                            LatticePoint at) {
     lane_float stack[VXL_SOLID_STACK];
     int depth = 0;

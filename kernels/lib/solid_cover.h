@@ -9,7 +9,7 @@
 #define VXL_SET_SOLID 2u
 
 /// The point at quarters of a voxel, 0..4 along each axis; 2 is the voxel's middle.
-static inline SolidDistance distance_in_voxel(global const SolidShape* restrict solids, lane_int x,
+static inline SolidDistance distance_in_voxel(global const SolidShape* solids, lane_int x,
                                               lane_int y, lane_int z, float3 quarter) {
     LatticePoint at;
     at.x = x, at.y = y, at.z = z;
@@ -27,7 +27,7 @@ static inline lane_int is_inside(SolidDistance d, lane_int* is_open) {
 
 /// THIN: the voxel's middle and one of the middles of its faces are on different sides. A path of
 /// voxels that share faces crosses such a voxel wherever it passes from outside to inside.
-static inline lane_int thin_voxels(global const SolidShape* restrict solids, lane_int x, lane_int y,
+static inline lane_int thin_voxels(global const SolidShape* solids, lane_int x, lane_int y,
                                    lane_int z, lane_int* is_open) {
     const lane_int middle =
         is_inside(distance_in_voxel(solids, x, y, z, (float3)(2.0f, 2.0f, 2.0f)), is_open);
@@ -45,7 +45,7 @@ static inline lane_int thin_voxels(global const SolidShape* restrict solids, lan
 /// voxel from that eighth's middle. Leaves out no voxel that the surface touches, since the
 /// distance changes by no more than the way; the surface comes within 0.44 voxel of every voxel in
 /// it.
-static inline lane_int surface_voxels(global const SolidShape* restrict solids, float voxel_reach,
+static inline lane_int surface_voxels(global const SolidShape* solids, float voxel_reach,
                                       lane_int x, lane_int y, lane_int z) {
     const SolidDistance middle = distance_in_voxel(solids, x, y, z, (float3)(2.0f, 2.0f, 2.0f));
     const lane_int near = LANE_MASK(fabs(middle.distance) <= voxel_reach + middle.rounding);
@@ -68,9 +68,8 @@ static inline lane_int surface_voxels(global const SolidShape* restrict solids, 
 }
 
 /// Mask of the voxels that belong to `set`; adds to *is_open those that float can't decide.
-static inline lane_int covered_voxels(global const SolidShape* restrict solids, uint set,
-                                      float voxel_reach, lane_int x, lane_int y, lane_int z,
-                                      lane_int* is_open) {
+static inline lane_int covered_voxels(global const SolidShape* solids, uint set, float voxel_reach,
+                                      lane_int x, lane_int y, lane_int z, lane_int* is_open) {
     if (set == VXL_SET_SOLID)
         return is_inside(distance_in_voxel(solids, x, y, z, (float3)(2.0f, 2.0f, 2.0f)), is_open);
     if (set == VXL_SET_THIN) return thin_voxels(solids, x, y, z, is_open);

@@ -35,7 +35,7 @@ static inline lane_float cylinder_distance(SolidPoint p, float radius, float hal
 
 /// In the half plane of (distance from the axis, y) the frustum is a quadrangle. Inside, the side's
 /// line or a cap is closest; outside, the side's segment or a cap's.
-static inline lane_float cone_distance(SolidPoint p, global const SolidShape* restrict s) {
+static inline lane_float cone_distance(SolidPoint p, global const SolidShape* s) {
     const float bottom = s->size[0], half_height = s->size[1], top = s->size[2];
     const lane_float across = solid_length2(p.x, p.z);
     const lane_float x = across - bottom, y = p.y + half_height;  // from the bottom's rim
@@ -77,7 +77,7 @@ static inline lane_float ellipsoid_step(lane_float t, lane_float reach, lane_flo
 /// inside, where the term of the shortest axis is 0/0 on the plane across it, that term is taken
 /// from |s| = 1 instead. Measured in roundings of the longest half axis: 4 within 3 voxels of the
 /// surface for axes up to 1:5, 15 elsewhere (163 at the centre); 500 within 3 voxels at 1:300.
-static inline lane_float ellipsoid_distance(SolidPoint p, global const SolidShape* restrict s) {
+static inline lane_float ellipsoid_distance(SolidPoint p, global const SolidShape* s) {
     // in units of the shortest half axis, so that r >= 1 and a = r² >= 1
     const float rx = s->derived[0], ry = s->derived[1], rz = s->derived[2];
     const float ax = rx * rx, ay = ry * ry, az = rz * rz;
@@ -119,7 +119,7 @@ static inline lane_float ellipsoid_distance(SolidPoint p, global const SolidShap
 }
 
 /// The distance to one shape, in its space.
-static inline lane_float shape_distance(global const SolidShape* restrict s, SolidPoint p) {
+static inline lane_float shape_distance(global const SolidShape* s, SolidPoint p) {
     switch (s->kind & VXL_SOLID_KIND_MASK) {
         case VXL_SOLID_ELLIPSOID:
             return ellipsoid_distance(p, s);

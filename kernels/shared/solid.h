@@ -1,4 +1,5 @@
-// An analytic solid as rays and voxelizers read it: a list of shapes with the operations between them.
+// An analytic solid as rays and voxelizers read it: a list of shapes and the operations between
+// them.
 //
 // A solid is a run of `shape_count` records. Evaluating it goes through them in order with a stack:
 // each shape pushes its signed distance, positive outside and negated for a complement, and then
@@ -62,10 +63,11 @@ typedef struct SolidShape {
     float size[4];
     float rounding[2];  // |error of the distance at q| <= rounding[0] * (|q.x|+|q.y|+|q.z|) +
                         // rounding[1], with q = x - centre in voxels
-    float derived[4];   // cone: the unit normal of its side (outwards, along Y), then its side's
-                        // direction from the lower rim divided by its squared length, likewise;
+    float derived[5];   // cone: the unit normal of its side (outwards, along Y), then its side's
+                        // direction from the lower rim divided by its squared length, likewise,
+                        // then the growth of its radius along Y;
                         // ellipsoid: half axes divided by the shortest, and 1 / the shortest
-    float unused[3];    // 0
+    float unused[2];    // 0
 } SolidShape;
 
 // Fails to compile, in both languages, when the record has another size than the text above says.

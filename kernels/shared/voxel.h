@@ -5,7 +5,8 @@
 // Attribute word of a voxel:
 //   31 30 | 29 ........ 16 | 15 ......... 0
 //   kind  | material       | object
-// kind: 0 cubes, 1 smooth, 2 exact (the numbers of voxelume::Surface). `material` and `object` index the
+// kind: 0 cubes, 1 smooth, 2 exact (the numbers of voxelume::Surface). An exact voxel may hold a smooth
+// surface too: then the word is that surface's, and the primitives have their own. `material` and `object` index the
 // scene's lists; in an object's own grid, before placement, `material` is the mesh's face group.
 #define VXL_KIND_SHIFT 30
 #define VXL_MATERIAL_SHIFT 16

@@ -4,6 +4,7 @@
 
 #include <openvdb/io/Stream.h>
 #include <openvdb/openvdb.h>
+#include <openvdb/tools/SignedFloodFill.h>
 #include <xxhash.h>
 
 #include <array>
@@ -96,6 +97,8 @@ typename Grid::Ptr make_grid(const VdbVolume& volume, std::span<const Value> val
 openvdb::GridCPtrVec make_grids(const VdbVolume& volume) {
     auto values = make_grid<openvdb::FloatGrid>(volume, volume.values, volume.background,
                                                 [](float value) { return value; });
+    if (volume.grid_class == VdbClass::level_set)  // what lies inside has no value yet
+        openvdb::tools::signedFloodFill(values->tree());
     values->setName(volume.name);
     values->setGridClass(volume.grid_class == VdbClass::level_set ? openvdb::GRID_LEVEL_SET
                                                                   : openvdb::GRID_FOG_VOLUME);

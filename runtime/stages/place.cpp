@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/vec4.hpp>
 #include <numeric>
@@ -75,12 +76,27 @@ WorldParts parts_of(std::span<const PlacedObject> objects) {
     return parts;
 }
 
-/// The objects with the loser of every overlap before its winner.
+/// The objects with the loser of every overlap before its winner; exact ones first of all, since
+/// they share their voxels with smooth surfaces and lose them to cubes.
 std::vector<const PlacedObject*> painting_order(std::span<const PlacedObject> objects) {
     std::vector<const PlacedObject*> order;
     for (size_t i = objects.size(); i-- > 0;) order.push_back(&objects[i]);
     std::ranges::stable_sort(order, {}, &PlacedObject::priority);
+    std::ranges::stable_partition(order, [](const PlacedObject* object) {
+        return surface_of(*object->grid) == Surface::exact;
+    });
     return order;
+}
+
+/// WorldBounds of lib/world_bounds.h.
+struct WorldBounds {
+    glm::ivec4 size, half_voxel;
+};
+
+WorldBounds bounds_of(const GridFrame& frame) {
+    const glm::dvec3& e = frame.voxel_edge;
+    const glm::dvec3 units = e / std::min({e.x, e.y, e.z}) * (kDistanceUnitsPerVoxel / 2.0);
+    return {glm::ivec4(frame.size, 0), glm::ivec4(glm::round(units), 0)};
 }
 
 PlacementMap map_of(const PlacedObject& object, const GridFrame& world, Surface surface) {
@@ -124,12 +140,14 @@ Painter prepare(const Device& device, const PlacedObject& object, const GridFram
 void number_bricks(const Device& device, std::span<Painter> painters, BrickGrid& world) {
     const glm::ivec3 table = world.frame.bricks();
     const auto count = static_cast<uint32_t>(table.x * table.y * table.z);
+    const WorldBounds bounds = bounds_of(world.frame);
     Buffer<uint8_t> states(device, "brick states", count);
     states.fill(0);
     for (Painter& painter : painters) {
         const BrickGrid& grid = *painter.placed->grid;
         painter.program.kernel("classify_bricks")
-            .launch(WorkItem::light, count, count, glm::ivec4(table, 0), painter.map.fraction_bits,
+            .launch(WorkItem::light, count, count, glm::ivec4(table, 0), bounds,
+                    painter.map.fraction_bits,
                     painter.rows, glm::ivec4(grid.frame.bricks(), 0), grid.slots, painter.near,
                     grid.distance, states);
     }
@@ -169,6 +187,14 @@ void allocate(const Device& device, const WorldParts& parts, BrickGrid& world) {
     }
 }
 
+/// Ends the world's distances at its bounds, by the program of any smooth object's painter.
+void close_distances(Painter& painter, BrickGrid& world) {
+    const uint32_t leaves = world.brick_count * 64;
+    painter.program.kernel("close_distances")
+        .launch(WorkItem::light, leaves, leaves, glm::ivec4(world.frame.bricks(), 0),
+                bounds_of(world.frame), world.coordinates, world.distance);
+}
+
 /// Half a voxel's diagonal, in distance units of the grid.
 int half_diagonal(const GridFrame& frame) {
     const glm::dvec3 e = frame.voxel_edge;
@@ -187,9 +213,9 @@ void paint_smooth(Painter& painter, BrickGrid& world, const Buffer<int16_t>& nea
                 world.distance);
     if (nearest.empty()) return;
     painter.program.kernel("paint_smooth_voxels")
-        .launch(WorkItem::heavy, leaves, leaves, table, painter.map.fraction_bits, painter.rows,
-                object_table, grid.slots, painter.near, grid.distance, scale,
-                half_diagonal(world.frame), painter.words.map, painter.words.materials,
+        .launch(WorkItem::heavy, leaves, leaves, table, bounds_of(world.frame),
+                painter.map.fraction_bits, painter.rows, object_table, grid.slots, painter.near,
+                grid.distance, scale, half_diagonal(world.frame), painter.words.map, painter.words.materials,
                 grid.attributes, grid.colors, world.coordinates, nearest, world.occupancy,
                 world.attributes, world.colors);
 }
@@ -242,6 +268,8 @@ BrickGrid place(const Device& device, std::span<const PlacedObject> objects,
         else
             paint_cubes(painter, result);
     }
+    const auto smooth = std::ranges::find(painters, Surface::smooth, &Painter::surface);
+    if (smooth != painters.end()) close_distances(*smooth, result);
     join_exact_surfaces(device, objects, result);
     return result;
 }

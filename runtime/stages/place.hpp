@@ -14,13 +14,14 @@ namespace voxelume {
 
 /// An object's voxels and where they stand in the world.
 struct PlacedObject {
-    const BrickGrid* grid = nullptr;          ///< in its own frame; not owned
-    glm::dmat4 world_from_object{1.0};        ///< metres to metres; mirrors and shears are welcome
-    uint32_t object = 0;                      ///< its number in the scene, at most 65535
-    int priority = 0;                         ///< the larger wins where objects overlap
-    std::vector<uint32_t> material_of_group;  ///< of the grid's groups; the last serves all further
-                                              ///< groups; empty: the group is the material
-    VoxelSet set = VoxelSet::supercover;      ///< what its cubes are; `thin` widens turned sheets
+    const BrickGrid* grid = nullptr;    ///< in its own frame; not owned
+    glm::dmat4 world_from_object{1.0};  ///< metres to metres; mirrors and shears are welcome
+    uint32_t object = 0;                ///< its number in the scene, at most 65535
+    int priority = 0;                   ///< the larger wins where objects overlap
+    std::vector<uint32_t> material_of_group =
+        {};                               ///< of the grid's groups; the last serves all further
+                                          ///< groups; empty: the group is the material
+    VoxelSet set = VoxelSet::supercover;  ///< what its cubes are; `thin` widens turned sheets
     bool in_world_frame = false;  ///< `grid` has the world's frame already, the map is not used
 };
 
@@ -37,11 +38,12 @@ struct PlacedObject {
 /// r = max_j |A_aj| / 2, so turned sheets of it get up to two voxels thick.
 ///
 /// Smooth. A world node gets the object's half-Taylor distance there, times the map's smallest
-/// stretch, so an unevenly stretched field has the right surface and never overestimates. Within
-/// 2.8 world voxels of the surface this is right as far as the object's own band reaches, beyond
-/// which it is saturated with the right sign; one more object voxel is extrapolated linearly.
-/// World voxels up to 1.4 times as large as the object's thus lose nothing. Up to 2.2 times, curved
-/// cells are trilinear; beyond, the surface is only right to about a voxel, and objects should be
+/// stretch, so an unevenly stretched field has the right surface and never overestimates. It is
+/// right within 2.8 world voxels of the surface as far as the object's own band reaches; in cells
+/// at the band's end the distance is extrapolated linearly, beyond it is saturated with the right
+/// sign. World voxels that are q times as large as the object's, q <= 1.4, need a band of 2.8 q
+/// object voxels for full accuracy: with 2.8, cells keep their corners but some lose second
+/// differences. From q = 2 on the surface is right to about a voxel only: such objects should be
 /// voxelized more coarsely. Several objects are united: the smallest distance counts.
 ///
 /// Exact objects must be in the world's frame. Their lists are joined per voxel, in the order of
@@ -49,8 +51,10 @@ struct PlacedObject {
 ///
 /// Overlaps: a voxel shows the object with the larger priority, and of equals the one earlier in
 /// `objects`; between smooth surfaces the one nearest to the voxel's centre, ties by that rule. A
-/// smooth object that wins takes the voxels its surface passes through away from cubes and exact
-/// surfaces. The result does not depend on the order of work.
+/// smooth object that wins takes the voxels its surface passes through away from cubes. An exact
+/// and a smooth surface share a voxel: it is exact, with the smooth surface's word, for primitives
+/// have their own; of an exact and a cube the cube wins. The result does not depend on the order
+/// of work. Solids end at the world's bounds, and the cut is surface.
 ///
 /// `attributes` are stored only when the objects have more than one word together. A world whose
 /// only object is in its frame shares that object's buffers. Bricks are stored wherever an object

@@ -6,6 +6,10 @@
 
 namespace voxelume {
 
+/// Rays that go through the stages together: enough to fill any device, few enough to stay in a
+/// CPU's caches on their way (measured with bench_frame; 2^16 to 2^19 differ by less than 5 %).
+inline constexpr uint32_t kBatchRays = 1u << 18;
+
 /// Rays and what they met; shared/trace.h has the components, `stride` values apart.
 struct RayBatch {
     uint32_t stride = 0;    ///< places for rays, a multiple of 16
@@ -21,6 +25,7 @@ struct RayBatch {
 /// Shadow rays waiting to be traced, left-packed. Not allocated in a scene without shadows.
 struct ShadowQueue {
     Buffer<uint32_t> count;    ///< one value, kept on the device
+    Buffer<uint32_t> traced;   ///< rays traced since the frame began: low word, high word
     Buffer<float> rays;        ///< VXL_RAY_COMPONENTS, the batch's stride apart
     Buffer<uint32_t> targets;  ///< the sight ray whose radiance each would add to
     Buffer<uint32_t> sources;  ///< the primitive that each begins on; exact surfaces only

@@ -27,14 +27,19 @@ void check_frame(const GridFrame& frame) {
 
 DeviceTriangles upload(const Device& device, const MeshLattice& mesh) {
     DeviceTriangles d;
-    d.count = static_cast<uint32_t>(mesh.triangles.size());
-    d.vertices = Buffer<int32_t>(
-        device, "lattice vertices",
-        std::span(&mesh.vertices.front().x, 3 * mesh.vertices.size()));
-    d.triangles = Buffer<uint32_t>(
-        device, "lattice triangles",
-        std::span(&mesh.triangles.front().x, 3 * mesh.triangles.size()));
+    d.count = static_cast<uint32_t>(mesh.surface_triangles);
+    d.vertices = Buffer<int32_t>(device, "lattice vertices",
+                                 std::span(&mesh.vertices.front().x, 3 * mesh.vertices.size()));
+    d.triangles = Buffer<uint32_t>(device, "lattice triangles",
+                                   std::span(&mesh.triangles.front().x, 3 * mesh.triangles.size()));
     return d;
+}
+
+/// Those of `all` from number `first` on.
+DeviceTriangles part_of(DeviceTriangles all, size_t first, size_t count) {
+    all.first = static_cast<uint32_t>(first);
+    all.count = static_cast<uint32_t>(count);
+    return all;
 }
 
 /// Takes the bricks that hold triangles as those to store.
@@ -44,6 +49,12 @@ void store_bins(VoxelizeJob& job, TriangleBins bins) {
     job.grid.coordinates = job.bins.coordinates;
     const glm::ivec4& b = job.bricks;
     job.grid.slots = Buffer<uint32_t>(job.device, "brick slots", size_t(b.x) * b.y * b.z);
+}
+
+/// Whether the options ask where a mesh's inside is.
+bool needs_inside(const VoxelizeOptions& options) {
+    return options.surface == Surface::smooth ||
+           (options.surface == Surface::cubes && options.set == VoxelSet::solid);
 }
 
 /// What the mesh's groups and colours give to voxels; shared/voxel.h's words.
@@ -72,7 +83,8 @@ void keep_triangles(VoxelizeJob& job, const Mesh& mesh, const glm::dmat4& frame_
     for (const glm::uvec3& t : mesh.triangles)
         for (int i = 0; i < 3; ++i)
             corners.insert(corners.end(), {voxels[t[i]].x, voxels[t[i]].y, voxels[t[i]].z});
-    job.grid.triangles = Buffer<float>(job.device, "source triangles", std::span<const float>(corners));
+    job.grid.triangles =
+        Buffer<float>(job.device, "source triangles", std::span<const float>(corners));
     std::vector<uint32_t> words = labels.triangle_attributes;
     words.resize(mesh.triangles.size(), labels.word);
     job.grid.triangle_attributes =
@@ -93,9 +105,17 @@ BrickGrid Voxelizer::voxelize(const Mesh& mesh, const glm::dmat4& frame_from_mes
                               const GridFrame& frame, const VoxelizeOptions& options) {
     check_frame(frame);
     const MeshLabels labels = labels_of(mesh, options.surface);
-    const MeshLattice lattice = snap_to_lattice(mesh, frame_from_mesh, frame);
-    VoxelizeJob job{device_, upload(device_, lattice), {}, glm::ivec4(frame.size, 0),
-                    glm::ivec4(frame.bricks(), 0), {}};
+    MeshLattice lattice = snap_to_lattice(mesh, frame_from_mesh, frame);
+    if (needs_inside(options)) cap_open_outlines(lattice);
+    const DeviceTriangles triangles = upload(device_, lattice);
+    VoxelizeJob job{device_,
+                    triangles,
+                    part_of(triangles, lattice.surface_triangles,
+                            lattice.triangles.size() - lattice.surface_triangles),
+                    {},
+                    glm::ivec4(frame.size, 0),
+                    glm::ivec4(frame.bricks(), 0),
+                    {}};
     job.grid.frame = frame;
     job.grid.attribute = labels.word;
     if (options.surface == Surface::smooth)
@@ -109,28 +129,40 @@ BrickGrid Voxelizer::voxelize(const Mesh& mesh, const glm::dmat4& frame_from_mes
     if (!labels.triangle_attributes.empty() || !labels.vertex_colors.empty())
         label_voxels(job, program("voxelize_label.cl", slice_defines(device_)),
                      program("voxelize_distance.cl", slice_defines(device_)),
-                     bin(job, label_reach(frame), kLatticePerBrick), labels);
+                     bin(job, job.triangles, label_reach(frame), kLatticePerBrick), labels);
     return job.grid;
 }
 
-TriangleBins Voxelizer::bin(const VoxelizeJob& job, const glm::ivec3& reach, int extent) {
-    return bin_triangles(device_, program("voxelize_bin.cl", {}), job.triangles,
+TriangleBins Voxelizer::bin(const VoxelizeJob& job, const DeviceTriangles& triangles,
+                            const glm::ivec3& reach, int extent) {
+    return bin_triangles(device_, program("voxelize_bin.cl", {}), triangles,
                          job.grid.frame.bricks(), reach, extent);
+}
+
+Buffer<uint16_t> Voxelizer::inside(VoxelizeJob& job, bool centers, const glm::ivec3& reach) {
+    const Program& winding = program("voxelize_winding.cl", {{"VXL_CENTERS", centers}});
+    if (job.caps.count == 0) return find_inside(job, winding);
+    Defines defines = slice_defines(device_);
+    defines.emplace_back("VXL_CENTERS", centers);
+    const DeviceTriangles all = part_of(job.triangles, 0, job.triangles.count + job.caps.count);
+    return find_inside_open(job, winding, program("voxelize_caps.cl", defines),
+                            bin(job, job.caps, glm::ivec3(0), kLatticePerBrick),
+                            bin(job, all, reach, kLatticePerBrick));
 }
 
 void Voxelizer::voxelize_smooth(VoxelizeJob& job, double band) {
     // Only nodes count, and the last of a brick is at 15.
-    store_bins(job, bin(job, band_reach(job.grid.frame, band), kLatticePerBrick - kLatticePerVoxel));
-    const Buffer<uint16_t> inside =
-        find_inside(job, program("voxelize_winding.cl", {{"VXL_CENTERS", 0}}));
-    measure_distances(job, program("voxelize_distance.cl", slice_defines(device_)), inside, band);
+    const glm::ivec3 reach = band_reach(job.grid.frame, band);
+    store_bins(job, bin(job, job.triangles, reach, kLatticePerBrick - kLatticePerVoxel));
+    const Buffer<uint16_t> rows = inside(job, false, reach);
+    measure_distances(job, program("voxelize_distance.cl", slice_defines(device_)), rows, band);
 }
 
 void Voxelizer::voxelize_cubes(VoxelizeJob& job, VoxelSet set) {
-    store_bins(job, bin(job, glm::ivec3(0), kLatticePerBrick));
+    store_bins(job, bin(job, job.triangles, glm::ivec3(0), kLatticePerBrick));
     if (set == VoxelSet::solid) {
-        const Program& winding = program("voxelize_winding.cl", {{"VXL_CENTERS", 1}});
-        fill_solid(job, winding, find_inside(job, winding));
+        const Buffer<uint16_t> rows = inside(job, true, glm::ivec3(0));
+        fill_solid(job, program("voxelize_winding.cl", {{"VXL_CENTERS", 1}}), rows);
         return;
     }
     Defines defines = slice_defines(device_);
@@ -156,9 +188,10 @@ GridFrame frame_around(const Mesh& mesh, const glm::dvec3& voxel_edge, int margi
     for (int a = 0; a < 3; ++a)
         if (!(size[a] + 2 * margin <= kLatticeReach))
             throw Error(ErrorKind::limit,
-                        "the mesh is {:g} m long, {:.0f} voxels of {:g} m: at most {} are possible, "
-                        "use larger voxels",
-                        high[a] - low[a], size[a], voxel_edge[a], kLatticeReach);
+                        "the mesh is {:.4g} m long, {:.5g} voxels of {:.4g} m: at most {} are "
+                        "possible, use voxels of at least {:.2g} m",
+                        high[a] - low[a], size[a], voxel_edge[a], kLatticeReach - 2 * margin,
+                        1.05 * (high[a] - low[a]) / (kLatticeReach - 2 * margin));
     GridFrame frame;
     frame.voxel_edge = voxel_edge;
     frame.size = glm::max(glm::ivec3(size), glm::ivec3(1)) + 2 * margin;

@@ -12,6 +12,7 @@
 
 namespace voxelume {
 
+struct DeviceTriangles;
 struct TriangleBins;
 struct VoxelizeJob;
 
@@ -41,7 +42,9 @@ class Voxelizer {
                        const VoxelizeOptions& options);
 
   private:
-    TriangleBins bin(const VoxelizeJob& job, const glm::ivec3& reach, int extent);
+    TriangleBins bin(const VoxelizeJob& job, const DeviceTriangles& triangles,
+                     const glm::ivec3& reach, int extent);
+    Buffer<uint16_t> inside(VoxelizeJob& job, bool centers, const glm::ivec3& reach);
     void voxelize_smooth(VoxelizeJob& job, double band);
     void voxelize_cubes(VoxelizeJob& job, VoxelSet set);
     const Program& program(const std::string& file, const Defines& defines);

@@ -46,7 +46,8 @@ BinLayout lay_out_bins(const std::vector<uint32_t>& counts, uint32_t columns) {
     return layout;
 }
 
-Buffer<uint32_t> upload(const Device& device, const char* name, const std::vector<uint32_t>& values) {
+Buffer<uint32_t> upload(const Device& device, const char* name,
+                        const std::vector<uint32_t>& values) {
     return Buffer<uint32_t>(device, name, std::span<const uint32_t>(values));
 }
 
@@ -73,8 +74,8 @@ TriangleBins bin_triangles(const Device& device, const Program& program,
     cursors.fill(0);
     const glm::ivec4 reach4(reach, 0);
     program.kernel("count_pairs")
-        .launch(WorkItem::light, triangles.count, triangles.count, bins.size, reach4, extent,
-                triangles.vertices, triangles.triangles, cursors);
+        .launch(WorkItem::light, triangles.count, triangles.first, triangles.count, bins.size,
+                reach4, extent, triangles.vertices, triangles.triangles, cursors);
     const BinLayout layout = lay_out_bins(cursors.read(), static_cast<uint32_t>(bins.size.x));
     bins.count = static_cast<uint32_t>(layout.occupied.size());
     bins.stored = layout.stored;
@@ -84,9 +85,10 @@ TriangleBins bin_triangles(const Device& device, const Program& program,
     bins.first = upload(device, "bin starts", layout.first);
     cursors.write(layout.cursors);
     bins.lists = Buffer<uint32_t>(device, "bin lists", layout.first.back());
+    if (layout.first.back() == 0) return bins;
     program.kernel("list_pairs")
-        .launch(WorkItem::light, triangles.count, triangles.count, bins.size, reach4, extent,
-                triangles.vertices, triangles.triangles, cursors, bins.lists);
+        .launch(WorkItem::light, triangles.count, triangles.first, triangles.count, bins.size,
+                reach4, extent, triangles.vertices, triangles.triangles, cursors, bins.lists);
     return bins;
 }
 

@@ -36,7 +36,8 @@ Buffer<float> shape_triangles(const VoxelizeJob& job, const Program& distance) {
     Buffer<float> shapes(job.device, "triangle shapes", kShapeFloats * job.triangles.count);
     distance.kernel("shape_triangles")
         .launch(WorkItem::light, job.triangles.count, job.triangles.count,
-                edge_scale(job.grid.frame), job.triangles.vertices, job.triangles.triangles, shapes);
+                edge_scale(job.grid.frame), job.triangles.vertices, job.triangles.triangles,
+                shapes);
     return shapes;
 }
 

@@ -15,6 +15,7 @@ namespace voxelume {
 struct VoxelizeJob {
     const Device& device;
     DeviceTriangles triangles;  ///< the mesh's own
+    DeviceTriangles caps;       ///< those that close its open outlines
     TriangleBins bins;          ///< of the stored bricks
     glm::ivec4 size, bricks;    ///< of the frame
     BrickGrid grid;             ///< what is being made
@@ -41,9 +42,15 @@ void cover_bricks(VoxelizeJob& job, const Program& cover);
 /// Marks the bricks that are not stored as outside.
 void mark_outside(VoxelizeJob& job, const Program& bin);
 
-/// Finds which points (voxels' centres or corners, as `winding` was built) are inside, and marks the
-/// bricks that are not stored.
+/// Finds which points (voxels' centres or corners, as `winding` was built) are inside, and marks
+/// the bricks that are not stored.
 Buffer<uint16_t> find_inside(VoxelizeJob& job, const Program& winding);
+
+/// The same for a mesh whose open outlines are closed by the job's caps: inside is where the
+/// generalized winding number is above 1/2. Stores also the bricks that it crosses far from any
+/// triangle. `cap_bins` holds the caps, `all_bins` caps and triangles.
+Buffer<uint16_t> find_inside_open(VoxelizeJob& job, const Program& winding, const Program& caps,
+                                  const TriangleBins& cap_bins, const TriangleBins& all_bins);
 
 /// SOLID occupancy.
 void fill_solid(VoxelizeJob& job, const Program& winding, const Buffer<uint16_t>& inside);
@@ -57,9 +64,9 @@ void list_primitives(VoxelizeJob& job, const Program& exact);
 
 /// What voxels take from the mesh's groups and colours.
 struct MeshLabels {
-    uint32_t word = 0;                         ///< of a voxel that has no triangle
-    std::vector<uint32_t> triangle_attributes; ///< empty: one word for all
-    std::vector<glm::vec3> vertex_colors;      ///< linear; empty: none
+    uint32_t word = 0;                          ///< of a voxel that has no triangle
+    std::vector<uint32_t> triangle_attributes;  ///< empty: one word for all
+    std::vector<glm::vec3> vertex_colors;       ///< linear; empty: none
 };
 
 /// `attributes` and `colors` by each voxel's closest triangle. `lists` holds the triangles within

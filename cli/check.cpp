@@ -1,0 +1,25 @@
+// voxelume check SCENE: whether a scene is right, and what rendering it takes.
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "cli/commands.hpp"
+#include "cli/scene_options.hpp"
+
+namespace voxelume::cli {
+
+Action add_check(CLI::App& app) {
+    struct Options {
+        SceneOptions scene;
+        bool json = false;
+    };
+    const auto options = std::make_shared<Options>();
+    add_scene_options(app, options->scene);
+    app.add_flag("--json", options->json, "print the plan as JSON");
+    return [options] {
+        const Scene scene = read_with(options->scene, "check");
+        print_plan(scene, Device::open(options->scene.device), options->json);
+        return 0;
+    };
+}
+
+}  // namespace voxelume::cli

@@ -1,0 +1,33 @@
+#include "cli/checks.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+
+#include "runtime/io/atomic_file.hpp"
+
+namespace voxelume::cli {
+
+void check_output(const std::string& path, std::initializer_list<const char*> extensions,
+                  const char* command) {
+    const std::string extension = std::filesystem::path(path).extension();
+    if (extensions.size() > 0 && std::ranges::find(extensions, extension) == extensions.end()) {
+        std::string list;
+        for (const char* known : extensions)
+            list += (list.empty() ? "" : " or ") + std::string(known);
+        throw Error(ErrorKind::usage, "{}: {}: the name of an output ends in {}", command, path,
+                    list);
+    }
+    const AtomicFile trial(path);  // leaves nothing behind without commit()
+}
+
+std::function<std::string(const std::string&)> in_range(double least, double most) {
+    return [=](const std::string& text) -> std::string {
+        char* end = nullptr;
+        const double number = std::strtod(text.c_str(), &end);
+        if (!text.empty() && *end == '\0' && number >= least && number <= most) return {};
+        return fmt::format("{} isn't a number from {:g} to {:g}", quote(text), least, most);
+    };
+}
+
+}  // namespace voxelume::cli

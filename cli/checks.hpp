@@ -1,0 +1,40 @@
+// What commands check of their options before they work: names of outputs, numbers, choices.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <array>
+#include <functional>
+#include <initializer_list>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "runtime/error.hpp"
+#include "runtime/scene_fields.hpp"
+
+namespace voxelume::cli {
+
+/// Throws Error::usage when the name has none of the extensions (any will do if there are none),
+/// Error::output when no file can be made there. `command` opens the message about the name.
+void check_output(const std::string& path, std::initializer_list<const char*> extensions,
+                  const char* command);
+
+/// For CLI::Option::check: numbers from `least` to `most`.
+std::function<std::string(const std::string&)> in_range(double least, double most);
+
+/// The value that an option's text names. Throws Error::usage with the nearest name.
+template <class Value, size_t count>
+Value choose(const std::string& text,
+             const std::array<std::pair<std::string_view, Value>, count>& choices,
+             const char* option) {
+    std::array<std::string_view, count> names;
+    for (size_t i = 0; i < count; ++i) {
+        if (text == choices[i].first) return choices[i].second;
+        names[i] = choices[i].first;
+    }
+    throw Error(ErrorKind::usage, "{}: there is no {}{}", option, quote(text),
+                suggest(text, names));
+}
+
+}  // namespace voxelume::cli

@@ -1,0 +1,82 @@
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "cli/report.hpp"
+#include "cli/scene_options.hpp"
+#include "runtime/plan.hpp"
+
+namespace voxelume::cli {
+namespace {
+
+std::string size_text(const glm::ivec3& size) {
+    return fmt::format("{}x{}x{}", size.x, size.y, size.z);
+}
+
+/// Three digits are what an estimate is good for.
+double three_digits(double value) {
+    return std::stod(fmt::format("{:.3g}", value));
+}
+
+double megabytes(double bytes) {
+    return three_digits(bytes / 1e6);
+}
+
+uint64_t count(double estimate) {
+    return uint64_t(std::llround(estimate));
+}
+
+Report grid_row(const Scene& scene, const GridPlan& grid) {
+    const std::string& name = grid.object < 0 ? scene.models[size_t(grid.model)].name
+                                              : scene.objects[size_t(grid.object)].name;
+    return {{"grid", fmt::format("{} {}", grid.object < 0 ? "model" : "object", name)},
+            {"voxels", size_text(grid.frame.size)},
+            {"triangles", grid.triangles},
+            {"surface voxels", count(grid.voxels)},
+            {"bricks", count(grid.bricks)},
+            {"MB while made", megabytes(grid.made_bytes)},
+            {"MB kept", megabytes(grid.kept_bytes)}};
+}
+
+Report plan_report(const Scene& scene, const ScenePlan& plan, const Device& device) {
+    Report report;
+    report["grids"] = Report::array();
+    for (const GridPlan& grid : plan.grids) report["grids"].push_back(grid_row(scene, grid));
+    report["grids"].push_back({{"grid", "world"},
+                               {"voxels", size_text(plan.world.size)},
+                               {"triangles", nullptr},
+                               {"surface voxels", count(plan.voxels)},
+                               {"bricks", count(plan.bricks)},
+                               {"MB while made", megabytes(plan.index_bytes)},
+                               {"MB kept", megabytes(plan.world_bytes)}});
+    report["device"] = device.info().name;
+    report["stages"] = Report::array();
+    const auto add = [&](const char* stage, double bytes) {
+        report["stages"].push_back(
+            {{"stage", stage},
+             {"MB", megabytes(bytes)},
+             {"% of device", three_digits(bytes / double(device.info().memory) * 100)}});
+    };
+    add("voxelize", plan.voxelize_bytes);
+    add("place", plan.place_bytes);
+    add("index", plan.index_bytes);
+    add("image", plan.image_bytes);
+    report["main memory"] = bytes_text(plan.host_bytes);
+    return report;
+}
+
+}  // namespace
+
+void print_plan(const Scene& scene, const Device& device, bool as_json) {
+    if (!as_json) fmt::print("{}\n", describe(scene));
+    check_tables(scene, device.info());
+    MeshStore meshes;
+    const ScenePlan plan = plan_scene(scene, meshes);
+    print_report(plan_report(scene, plan, device), as_json);
+    check_memory(scene, plan, device.info());
+    if (!as_json)
+        fmt::print("\nfits: at most {} of {} are needed; counts and memory are estimates\n",
+                   bytes_text(plan.peak_bytes()), bytes_text(double(device.info().memory)));
+}
+
+}  // namespace voxelume::cli

@@ -1,0 +1,35 @@
+// The options that every command on a scene has: which scene, on what device, how large an image.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "runtime/opencl/device.hpp"
+#include "runtime/scene.hpp"
+
+namespace CLI {
+class App;
+}
+
+namespace voxelume::cli {
+
+struct SceneOptions {
+    std::string scene;
+    std::vector<std::filesystem::path> assets;
+    std::string size;
+    int samples = 0;  ///< 0: the scene's
+    std::string device;
+};
+
+void add_scene_options(CLI::App& app, SceneOptions& options);
+
+/// The scene with the options applied. `command` opens the messages about options.
+Scene read_with(const SceneOptions& options, const char* command);
+
+/// Says what a scene holds and what rendering it takes on a device, on stdout, and whether it fits.
+///
+/// Throws Error::limit when it doesn't, after saying why.
+void print_plan(const Scene& scene, const Device& device, bool as_json);
+
+}  // namespace voxelume::cli

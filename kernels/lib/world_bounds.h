@@ -1,0 +1,23 @@
+// The world ends at its bounds: solids that reach further are cut off there, and the cut is surface.
+#ifndef VXL_WORLD_BOUNDS_H
+#define VXL_WORLD_BOUNDS_H
+
+// S's size in voxels, and the distance units in half a voxel along each axis.
+typedef struct {
+    int4 size, half_voxel;
+} WorldBounds;
+
+// How deep a point, given in half voxels, lies inside the bounds: distance units to the nearest of
+// their planes, at most 32767; negative outside.
+static inline int depth_in_world(WorldBounds bounds, int4 half_steps) {
+    const int4 steps = min(half_steps, bounds.size * 2 - half_steps);
+    const int4 depth = clamp(steps, (int4)(-16), (int4)(16)) * bounds.half_voxel;
+    return min(min(depth.x, depth.y), min(depth.z, 32767));
+}
+
+// A block of `edge` voxels from `first` on comes within two voxels of the bounds, or beyond.
+static inline bool is_at_bounds(WorldBounds bounds, int4 first, int edge) {
+    return any((first < 2).xyz) || any((first + (edge + 2) > bounds.size).xyz);
+}
+
+#endif

@@ -1,0 +1,83 @@
+#include "runtime/model_frame.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <glm/common.hpp>
+
+#include "runtime/error.hpp"
+#include "runtime/io/mesh_reader.hpp"
+#include "runtime/stages/solid_bounds.hpp"
+#include "runtime/stages/voxelize.hpp"
+
+namespace voxelume {
+namespace {
+
+/// The voxel edges of a model whose bounds are `extent`, metres.
+glm::dvec3 voxel_edge(const Model& model, const glm::dvec3& extent) {
+    if (model.resolution == 0) return model.voxel_size;
+    const double longest = std::max({extent.x, extent.y, extent.z});
+    if (!(longest > 0))
+        throw Error(ErrorKind::input,
+                    "the model is a single point, so no resolution gives it a "
+                    "voxel size: give the voxel size instead");
+    return glm::dvec3(longest / model.resolution);
+}
+
+GridFrame solid_frame(const Model& model) {
+    const SolidBounds reach = {model.reach.min, model.reach.max};
+    const glm::dmat4 identity(1);
+    const SolidBounds box = bounds(*model.solid, identity, reach);
+    const glm::dvec3 edge = voxel_edge(model, box.max - box.min);
+    return frame_around(*model.solid, identity, edge, kModelMargin, reach);
+}
+
+GridFrame mesh_frame(const Model& model, const Mesh& mesh) {
+    const Bounds box = mesh_bounds(mesh);
+    return frame_around(mesh, voxel_edge(model, box.max - box.min), kModelMargin);
+}
+
+}  // namespace
+
+const Mesh& MeshStore::mesh(const std::filesystem::path& file) {
+    const auto found = meshes_.find(file);
+    if (found != meshes_.end()) return found->second;
+    const auto start = std::chrono::steady_clock::now();
+    const Mesh& mesh = meshes_.emplace(file, read_mesh(file)).first->second;
+    load_seconds_ +=
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    triangles_ += mesh.triangles.size();
+    return mesh;
+}
+
+GridFrame world_frame(const World& world) {
+    return {world.bounds.min, world.voxel_size, world.voxels};
+}
+
+Bounds mesh_bounds(const Mesh& mesh) {
+    Bounds box{glm::dvec3(INFINITY), glm::dvec3(-INFINITY)};
+    for (const glm::uvec3& triangle : mesh.triangles) {
+        for (int corner = 0; corner < 3; ++corner) {
+            box.min = glm::min(box.min, glm::dvec3(mesh.positions[triangle[corner]]));
+            box.max = glm::max(box.max, glm::dvec3(mesh.positions[triangle[corner]]));
+        }
+    }
+    return box;
+}
+
+GridFrame model_frame(const Model& model, const Mesh* mesh) {
+    try {
+        return mesh ? mesh_frame(model, *mesh) : solid_frame(model);
+    } catch (const Error& error) {
+        throw Error(error.kind(), "{}: {}", model.where, error.what());
+    }
+}
+
+bool is_in_reach(const Scene& scene, const Object& object) {
+    const Model& model = scene.models[size_t(object.model)];
+    const SolidBounds reach = {model.reach.min, model.reach.max};
+    if (reach.is_empty()) return false;
+    return !model.solid || !bounds(*model.solid, glm::dmat4(1), reach).is_empty();
+}
+
+}  // namespace voxelume

@@ -1,0 +1,45 @@
+// The lattices that a scene asks for: of the world, and of each model in its own space.
+#pragma once
+
+#include <map>
+
+#include "runtime/grid.hpp"
+#include "runtime/mesh.hpp"
+#include "runtime/scene.hpp"
+
+namespace voxelume {
+
+/// Margin of empty voxels around a model, so that the differences of a smooth surface lie inside.
+inline constexpr int kModelMargin = 4;
+
+/// The meshes of a scene, each file read once, when it is first asked for.
+class MeshStore {
+  public:
+    /// Throws Error::input as read_mesh does.
+    const Mesh& mesh(const std::filesystem::path& file);
+
+    double load_seconds() const { return load_seconds_; }
+    uint64_t triangles() const { return triangles_; }
+
+  private:
+    std::map<std::filesystem::path, Mesh> meshes_;
+    double load_seconds_ = 0;
+    uint64_t triangles_ = 0;
+};
+
+/// The world's lattice: its first voxel starts at the bounds' minimum corner.
+GridFrame world_frame(const World& world);
+
+/// The box around the triangles of a mesh.
+Bounds mesh_bounds(const Mesh& mesh);
+
+/// The lattice of a model in its own space, with kModelMargin. `mesh` is null for a solid.
+///
+/// Throws Error::input for a model without extent whose voxels `resolution` decides, Error::limit
+/// for more voxels than can be numbered; the sentence begins with the model's place.
+GridFrame model_frame(const Model& model, const Mesh* mesh);
+
+/// Whether any part of the object can lie inside the world; models that aren't are not read.
+bool is_in_reach(const Scene& scene, const Object& object);
+
+}  // namespace voxelume

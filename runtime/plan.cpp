@@ -1,0 +1,233 @@
+#include "runtime/plan.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "runtime/stages/ray_batch.hpp"
+#include "runtime/surface_extent.hpp"
+
+namespace voxelume {
+namespace {
+
+// Bytes that a stored brick of 16³ voxels takes.
+constexpr double kOccupancy = 512;   // a bit for each voxel
+constexpr double kDistance = 8192;   // 2 bytes for each node
+constexpr double kWords = 16384;     // 4 bytes for each voxel: attributes, colours, list starts
+constexpr double kWinding = 9216;    // winding numbers, their totals and signs, while voxelizing
+constexpr double kIndexMarks = 544;  // masks, counts and starts, while indexing
+constexpr double kBand = 2.8;        // voxels around a smooth surface with stored distances
+
+// Bytes for each brick of a lattice, stored or not.
+constexpr double kModelTable = 12;  // slots, bins' numbers and cursors
+constexpr double kWorldTable = 5;   // slots and states
+
+// Bytes for each triangle while voxelizing: corners, shape, places in the lists of two bricks.
+constexpr double kTriangle = 112;
+
+// Bytes for each voxel of the pyramid, and for each primitive in an exact one.
+constexpr double kField = 32, kWord = 4, kPrimitive = 8;
+constexpr double kVoxelsPerLeaf = 16, kLeaf = 12;
+constexpr double kVoxelsPerSector = 4096, kSectorRecords = 1024;
+
+// Bytes for each ray of a batch with its shadow ray, and for each pixel.
+constexpr double kRay = 136, kPixel = 48;
+
+double brick_table(const GridFrame& frame) {
+    const glm::dvec3 bricks(frame.bricks());
+    return bricks.x * bricks.y * bricks.z;
+}
+
+/// What the voxels of a model carry besides their place.
+struct Extras {
+    bool words = false, colors = false;
+};
+
+Extras extras_of(const Model& model, const Mesh* mesh) {
+    if (model.solid) return {.words = true};
+    return {.words = mesh->group_names.size() > 1, .colors = !mesh->vertex_colors.empty()};
+}
+
+double band_of(const Model& model) {
+    return model.surface == Surface::smooth ? kBand : 0;
+}
+
+/// In the model's own space.
+SurfaceArea model_area(const Model& model, const Mesh* mesh) {
+    if (mesh) return mesh_area(*mesh);
+    return solid_area(*model.solid, glm::dmat4(1), {model.reach.min, model.reach.max});
+}
+
+/// The memory of a grid whose surface is as large as `extent`.
+GridPlan plan_grid(const Model& model, const Mesh* mesh, const GridFrame& frame,
+                   const SurfaceExtent& extent) {
+    GridPlan grid{.frame = frame,
+                  .triangles = mesh ? mesh->triangles.size() : 0,
+                  .voxels = extent.voxels,
+                  .bricks = extent.bricks};
+    const Extras extras = extras_of(model, mesh);
+    const bool smooth = model.surface == Surface::smooth, exact = model.surface == Surface::exact;
+    const bool counts_windings = mesh && (smooth || model.set == VoxelSet::solid);
+    const double brick = (smooth ? kDistance : kOccupancy) +
+                         kWords * (int(extras.words) + int(extras.colors) + int(exact));
+    grid.kept_bytes =
+        brick_table(frame) * 4 + extent.bricks * brick + (exact ? extent.voxels * kPrimitive : 0);
+    grid.made_bytes = grid.kept_bytes + brick_table(frame) * (kModelTable - 4) +
+                      double(grid.triangles) * kTriangle +
+                      extent.bricks * (counts_windings ? kWinding : kOccupancy);
+    return grid;
+}
+
+GridPlan plan_model_of(const Model& model, const Mesh* mesh, const SurfaceArea& area) {
+    const GridFrame frame = model_frame(model, mesh);
+    return plan_grid(model, mesh, frame,
+                     surface_extent(area, glm::dmat4(1), frame, band_of(model)));
+}
+
+class Planner {
+  public:
+    Planner(const Scene& scene, MeshStore& meshes) : scene_(scene), meshes_(meshes) {
+        plan_.world = world_frame(scene.world);
+        world_box_ = {
+            scene.world.bounds.min,
+            scene.world.bounds.min + glm::dvec3(scene.world.voxels) * scene.world.voxel_size};
+    }
+
+    ScenePlan run() {
+        for (size_t number = 0; number < scene_.objects.size(); ++number)
+            if (is_in_reach(scene_, scene_.objects[number])) add_object(int(number));
+        add_stages();
+        return plan_;
+    }
+
+  private:
+    const Mesh* mesh_of(const Model& model) {
+        return model.solid ? nullptr : &meshes_.mesh(model.mesh);
+    }
+
+    const SurfaceArea& area_of(int model_number) {
+        const auto [entry, added] = areas_.try_emplace(model_number);
+        const Model& model = scene_.models[size_t(model_number)];
+        if (added) entry->second = model_area(model, mesh_of(model));
+        return entry->second;
+    }
+
+    /// What an object's surface takes of the world.
+    SurfaceExtent world_extent(const Object& object, double band) {
+        const Model& model = scene_.models[size_t(object.model)];
+        const glm::dmat4& map = object.world_from_object;
+        if (model.solid)
+            return surface_extent(solid_area(*model.solid, map, world_box_), glm::dmat4(1),
+                                  plan_.world, band);
+        SurfaceExtent extent = surface_extent(area_of(object.model), map, plan_.world, band);
+        const double inside = part_in_world(object.model, map);
+        return {extent.voxels * inside, extent.bricks * inside};
+    }
+
+    double part_in_world(int model_number, const glm::dmat4& map) {
+        const Mesh& mesh = *mesh_of(scene_.models[size_t(model_number)]);
+        const auto [entry, added] = boxes_.try_emplace(model_number);
+        if (added) entry->second = mesh_bounds(mesh);
+        const Bounds& box = entry->second;
+        for (int corner = 0; corner < 8; ++corner) {
+            const glm::dvec3 p(map * glm::dvec4(corner & 1 ? box.max.x : box.min.x,
+                                                corner & 2 ? box.max.y : box.min.y,
+                                                corner & 4 ? box.max.z : box.min.z, 1.0));
+            if (glm::any(glm::lessThan(p, world_box_.min)) ||
+                glm::any(glm::greaterThan(p, world_box_.max)))
+                return part_inside(mesh, map, world_box_);
+        }
+        return 1;
+    }
+
+    void add_object(int number) {
+        const Object& object = scene_.objects[size_t(number)];
+        const Model& model = scene_.models[size_t(object.model)];
+        const Mesh* mesh = mesh_of(model);
+        const Extras extras = extras_of(model, mesh);
+        const SurfaceExtent in_world = world_extent(object, band_of(model));
+        plan_.voxels += in_world.voxels;
+        plan_.bricks += in_world.bricks;
+        smooth_ |= model.surface == Surface::smooth;
+        occupied_ |= model.surface != Surface::smooth;
+        colors_ |= extras.colors;
+        words_ |= objects_++ > 0 || (mesh && extras.words);
+        if (model.surface == Surface::exact) {
+            exact_voxels_ += in_world.voxels;
+            plan_.grids.push_back(plan_grid(model, mesh, plan_.world, in_world));
+            plan_.grids.back().object = number;
+        } else if (made_.insert(object.model).second) {
+            plan_.grids.push_back(plan_model_of(model, mesh, area_of(object.model)));
+        } else {
+            return;
+        }
+        plan_.grids.back().model = object.model;
+    }
+
+    void add_stages() {
+        double kept = 0;
+        for (const GridPlan& grid : plan_.grids) {
+            plan_.voxelize_bytes = std::max(plan_.voxelize_bytes, kept + grid.made_bytes);
+            kept += grid.kept_bytes;
+        }
+        const double table = brick_table(plan_.world);
+        plan_.bricks = std::min(plan_.bricks, table);
+        double brick = 0;
+        if (occupied_) brick += kOccupancy;
+        if (smooth_) brick += kDistance;
+        if (words_) brick += kWords;
+        if (colors_) brick += kWords;
+        if (exact_voxels_ > 0) brick += kWords;
+        const bool measures_nearest = smooth_ && (words_ || colors_ || occupied_);
+        const double world = 4 * table + plan_.bricks * brick + exact_voxels_ * kPrimitive;
+        plan_.place_bytes = kept + world + (kWorldTable - 4) * table +
+                            (measures_nearest ? plan_.bricks * kDistance : 0);
+        plan_.world_bytes = pyramid_bytes();
+        plan_.index_bytes = world + plan_.bricks * kIndexMarks + plan_.world_bytes;
+        const glm::dvec2 size(scene_.render.size);
+        const double pixels = size.x * size.y;
+        plan_.image_bytes = plan_.world_bytes + kPixel * pixels +
+                            kRay * std::min(double(kBatchRays), pixels * scene_.render.samples);
+        plan_.host_bytes = kWorldTable * table + 2 * kPixel * pixels;
+        for (const GridPlan& grid : plan_.grids)
+            plan_.host_bytes += double(grid.triangles) * 36 + kModelTable * brick_table(grid.frame);
+    }
+
+    double pyramid_bytes() const {
+        const glm::dvec3 sectors(plan_.world.sectors());
+        const double table = sectors.x * sectors.y * sectors.z;
+        double voxel = kLeaf / kVoxelsPerLeaf;
+        if (smooth_) voxel += kField;
+        if (words_ || (smooth_ && occupied_)) voxel += kWord;
+        if (colors_) voxel += kWord;
+        return 4 * table + plan_.voxels * voxel + exact_voxels_ * (kWord + kPrimitive) +
+               std::min(table, 8 + plan_.voxels / kVoxelsPerSector) * kSectorRecords;
+    }
+
+    const Scene& scene_;
+    MeshStore& meshes_;
+    ScenePlan plan_;
+    SolidBounds world_box_;
+    std::map<int, SurfaceArea> areas_;
+    std::map<int, Bounds> boxes_;
+    std::set<int> made_;
+    int objects_ = 0;
+    double exact_voxels_ = 0;
+    bool smooth_ = false, occupied_ = false, words_ = false, colors_ = false;
+};
+
+}  // namespace
+
+double ScenePlan::peak_bytes() const {
+    return std::max({voxelize_bytes, place_bytes, index_bytes, image_bytes});
+}
+
+GridPlan plan_model(const Model& model, const Mesh& mesh) {
+    return plan_model_of(model, &mesh, mesh_area(mesh));
+}
+
+ScenePlan plan_scene(const Scene& scene, MeshStore& meshes) {
+    return Planner(scene, meshes).run();
+}
+
+}  // namespace voxelume

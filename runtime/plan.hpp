@@ -1,0 +1,70 @@
+// scene -> what rendering it takes: the grids of every step and their memory, before any is taken.
+//
+// An estimate: surfaces are counted by runtime/surface_extent.hpp, bytes by what the stages store
+// for each brick, voxel, triangle and pixel (listed in plan.cpp).
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "runtime/grid.hpp"
+#include "runtime/model_frame.hpp"
+#include "runtime/opencl/device.hpp"
+#include "runtime/scene.hpp"
+
+namespace voxelume {
+
+/// One grid that is voxelized: a model's, or an exact object's in the world's lattice.
+struct GridPlan {
+    int model = 0;
+    int object = -1;  ///< whose grid it is alone; -1 for a model's, which objects share
+    GridFrame frame;
+    uint64_t triangles = 0;
+    double voxels = 0;      ///< surface voxels
+    double bricks = 0;      ///< stored
+    double made_bytes = 0;  ///< device memory while it is made, its own included
+    double kept_bytes = 0;  ///< device memory that it keeps until the world is formed
+};
+
+struct ScenePlan {
+    std::vector<GridPlan> grids;
+    GridFrame world;
+    double voxels = 0;  ///< surface voxels of the world
+    double bricks = 0;
+
+    // device memory at the height of each stage
+    double voxelize_bytes = 0;
+    double place_bytes = 0;
+    double index_bytes = 0;
+    double image_bytes = 0;
+
+    double world_bytes = 0;  ///< the pyramid's, part of the last two
+    double host_bytes = 0;   ///< tables, meshes and the image in main memory
+
+    double peak_bytes() const;
+};
+
+/// Plans the voxelization of one mesh. Throws as model_frame does.
+GridPlan plan_model(const Model& model, const Mesh& mesh);
+
+/// Throws Error::limit, opened by the model's place, when a plan for it doesn't fit.
+void check_model(const Model& model, const GridPlan& plan, const DeviceInfo& device);
+
+/// Plans a scene; reads the meshes that the world shows.
+///
+/// Throws as MeshStore and model_frame do, and Error::limit for a lattice with more bricks than can
+/// be numbered.
+ScenePlan plan_scene(const Scene& scene, MeshStore& meshes);
+
+/// Refuses lattices whose tables can't be numbered, or are larger than the device's memory, before
+/// any mesh is read. Throws Error::limit.
+void check_tables(const Scene& scene, const DeviceInfo& device);
+
+/// Throws Error::limit, saying what is too large and what to do, when a plan doesn't fit.
+void check_memory(const Scene& scene, const ScenePlan& plan, const DeviceInfo& device);
+
+/// "1.5 GB", three digits at most.
+std::string bytes_text(double bytes);
+
+}  // namespace voxelume

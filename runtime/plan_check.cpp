@@ -1,0 +1,121 @@
+// Whether a plan fits into a device, and what to do if not.
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "runtime/error.hpp"
+#include "runtime/plan.hpp"
+
+namespace voxelume {
+namespace {
+
+/// Bricks of a lattice are numbered by signed 32-bit integers.
+constexpr double kMostBricks = 2147483647.0;
+
+double brick_count(const GridFrame& frame) {
+    const glm::dvec3 bricks(frame.bricks());
+    return bricks.x * bricks.y * bricks.z;
+}
+
+std::string size_text(const glm::ivec3& size) {
+    return fmt::format("{}x{}x{}", size.x, size.y, size.z);
+}
+
+/// Voxels `factor` times as large: "voxels larger than 0.002 m".
+std::string larger_voxels(const glm::dvec3& edge, double factor) {
+    const glm::dvec3 e = edge * factor;
+    if (edge.x == edge.y && edge.y == edge.z)
+        return fmt::format("voxels larger than {:.2g} m", e.x);
+    return fmt::format("voxels larger than {:.2g} x {:.2g} x {:.2g} m", e.x, e.y, e.z);
+}
+
+[[noreturn]] void refuse_world(const World& world, double bytes, const std::string& where,
+                               double there, double factor) {
+    throw Error(ErrorKind::limit, "{}: a world of {} voxels needs {} {}, which has {}: use {}",
+                world.where, size_text(world.voxels), bytes_text(bytes), where, bytes_text(there),
+                larger_voxels(world.voxel_size, factor));
+}
+
+/// Tables grow with the cube of the voxels along an edge, surfaces with the square.
+double table_factor(double bytes, double there) {
+    return 1.05 * std::cbrt(bytes / there);
+}
+double surface_factor(double bytes, double there) {
+    return 1.05 * std::sqrt(bytes / there);
+}
+
+double main_memory() {
+    return double(sysconf(_SC_PHYS_PAGES)) * double(sysconf(_SC_PAGE_SIZE));
+}
+
+void check_image(const Scene& scene, const ScenePlan& plan, const DeviceInfo& device) {
+    const double image = plan.image_bytes - plan.world_bytes;
+    const double there = std::min(double(device.memory), main_memory() / 2);
+    if (image > there)
+        throw Error(ErrorKind::limit,
+                    "an image of {}x{} pixels needs {} on \"{}\", where {} can be used: render a "
+                    "smaller one",
+                    scene.render.size.x, scene.render.size.y, bytes_text(image), device.name,
+                    bytes_text(there));
+}
+
+}  // namespace
+
+std::string bytes_text(double bytes) {
+    if (bytes >= 1e9) return fmt::format("{:.{}f} GB", bytes / 1e9, bytes < 1e11 ? 1 : 0);
+    if (bytes >= 1e6) return fmt::format("{:.{}f} MB", bytes / 1e6, bytes < 1e8 ? 1 : 0);
+    return fmt::format("{:.1f} kB", bytes / 1e3);
+}
+
+void check_model(const Model& model, const GridPlan& plan, const DeviceInfo& device) {
+    const double bricks = brick_count(plan.frame), memory = double(device.memory);
+    if (bricks > kMostBricks)
+        throw Error(ErrorKind::limit,
+                    "{}: a model of {} voxels has more than 2^31 bricks of 16x16x16: use {}",
+                    model.where, size_text(plan.frame.size),
+                    larger_voxels(plan.frame.voxel_edge, table_factor(bricks, kMostBricks)));
+    if (plan.made_bytes > memory)
+        throw Error(ErrorKind::limit,
+                    "{}: this model of {} voxels needs {} on \"{}\", which has {}: use {}",
+                    model.where, size_text(plan.frame.size), bytes_text(plan.made_bytes),
+                    device.name, bytes_text(memory),
+                    larger_voxels(plan.frame.voxel_edge, surface_factor(plan.made_bytes, memory)));
+}
+
+void check_tables(const Scene& scene, const DeviceInfo& device) {
+    const World& world = scene.world;
+    const GridFrame frame = world_frame(world);
+    // 4 bytes for each brick, in one buffer, and again in main memory with what is made of them.
+    const double bricks = brick_count(frame), bytes = 4 * bricks;
+    const double there = double(std::min(device.memory, device.max_allocation));
+    if (bytes > there) {
+        throw Error(ErrorKind::limit,
+                    "{}: a world of {} voxels needs a table of {}, and \"{}\" allows {} in one "
+                    "piece: use {}",
+                    world.where, size_text(world.voxels), bytes_text(bytes), device.name,
+                    bytes_text(there), larger_voxels(world.voxel_size, table_factor(bytes, there)));
+    }
+    if (bricks > kMostBricks)
+        throw Error(ErrorKind::limit,
+                    "{}: a world of {} voxels has more than 2^31 bricks of 16x16x16: use {}",
+                    world.where, size_text(world.voxels),
+                    larger_voxels(world.voxel_size, table_factor(bricks, kMostBricks)));
+}
+
+void check_memory(const Scene& scene, const ScenePlan& plan, const DeviceInfo& device) {
+    for (const GridPlan& grid : plan.grids)
+        if (grid.object < 0) check_model(scene.models[size_t(grid.model)], grid, device);
+    check_image(scene, plan, device);
+    const double memory = double(device.memory), peak = plan.peak_bytes();
+    if (peak > memory)
+        refuse_world(scene.world, peak, fmt::format("on \"{}\"", device.name), memory,
+                     surface_factor(peak, memory));
+    // A CPU's device memory is main memory, too.
+    const double host = plan.host_bytes + (device.kind == DeviceKind::cpu ? peak : 0);
+    if (host > main_memory())
+        refuse_world(scene.world, host, "of this machine's main memory", main_memory(),
+                     surface_factor(host, main_memory()));
+}
+
+}  // namespace voxelume

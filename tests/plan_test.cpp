@@ -1,0 +1,145 @@
+// Estimates against surfaces whose extent is known, and plans against devices that are too small.
+#include "runtime/plan.hpp"
+
+#include <gmock/gmock.h>
+
+#include <glm/gtc/constants.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "runtime/surface_extent.hpp"
+#include "runtime/world.hpp"
+#include "tests/file_fixture.hpp"
+#include "tests/test_device.hpp"
+
+namespace voxelume {
+namespace {
+
+using testing::HasSubstr;
+
+GridFrame frame_of(const glm::dvec3& edge, const glm::ivec3& size) {
+    return {glm::dvec3(0), edge, size};
+}
+
+/// A rectangle of 3 x 2 m in the plane z = 0.
+Mesh rectangle() {
+    Mesh mesh;
+    mesh.positions = {{0, 0, 0}, {3, 0, 0}, {3, 2, 0}, {0, 2, 0}};
+    mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+    return mesh;
+}
+
+TEST(SurfaceExtent, AFlatPatchTakesItsShadowsVoxels) {
+    const SurfaceArea area = mesh_area(rectangle());
+    EXPECT_EQ(area.total, 6);
+    EXPECT_EQ(area.shadows, glm::dvec3(0, 0, 6));
+    const GridFrame frame = frame_of({0.01, 0.02, 0.05}, {300, 100, 40});
+    const SurfaceExtent flat = surface_extent(area, glm::dmat4(1), frame, 0);
+    EXPECT_NEAR(flat.voxels, 300 * 100, 1e-6);
+    EXPECT_NEAR(flat.bricks, 300 * 100 / 256.0 + 8, 1e-6);
+    // Stood up by swapping y and z: 3 m / 0.01 times 2 m / 0.05.
+    const glm::dmat4 upright(glm::dmat3({1, 0, 0}, {0, 0, 1}, {0, 1, 0}));
+    EXPECT_NEAR(surface_extent(area, upright, frame, 0).voxels, 300 * 40, 1e-6);
+}
+
+TEST(SurfaceExtent, ATurnedPatchCrossesMoreVoxels) {
+    const SurfaceArea area = mesh_area(rectangle());
+    const glm::dmat4 turn =
+        glm::rotate(glm::dmat4(1), glm::quarter_pi<double>(), glm::dvec3(1, 0, 0));
+    const GridFrame frame = frame_of(glm::dvec3(0.01), {300, 200, 200});
+    const double voxels = surface_extent(area, turn, frame, 0).voxels;
+    EXPECT_NEAR(voxels, std::sqrt(2.0) * 300 * 200, 1e-6);
+}
+
+TEST(SurfaceExtent, OnlyThePartInsideTheWorldCounts) {
+    const SolidBounds box = {glm::dvec3(-1, 0.5, -1), glm::dvec3(9, 1, 1)};
+    EXPECT_NEAR(part_inside(rectangle(), glm::dmat4(1), box), 0.25, 1e-12);
+    const SolidBounds below = {glm::dvec3(-1, -1, -2), glm::dvec3(9, 9, -1)};
+    EXPECT_EQ(part_inside(rectangle(), glm::dmat4(1), below), 0);
+}
+
+TEST(SurfaceExtent, FacesThatTheWorldCutsAreNoSurface) {
+    Solid slab;
+    slab.kind = SolidKind::slab;
+    slab.thickness = 0.5;
+    const SolidBounds world = {glm::dvec3(-2, -1, -3), glm::dvec3(2, 1, 3)};
+    const SurfaceArea area = solid_area(slab, glm::dmat4(1), world);
+    EXPECT_EQ(area.shadows, glm::dvec3(0, 2 * 4 * 6, 0));
+}
+
+}  // namespace
+
+class PlanTest : public FileTest {
+  protected:
+    Scene scene_of(const std::string& model, double voxel) {
+        const std::string text = fmt::format(R"({{
+            "voxelume": 1,
+            "world": {{"voxel_size": {}, "bounds": {{"min": [0,0,0], "max": [1,0.9,0.8]}}}},
+            "models": {{"thing": {}}},
+            "objects": [{{"name": "thing", "model": "thing", "position": [0.5011,0.4007,0.4013]}}],
+            "observer": {{"position": [0.5,0.4,3], "look_at": [0.5,0.4,0.4],
+                "display": {{"shape": "pyramid", "angles": [40,30], "near": 0.1, "far": 8,
+                            "voxels": [8,6,4]}}}},
+            "render": {{"size": [8, 6]}}}})",
+                                             voxel, model);
+        return parse_scene(text, folder / "scene.json", {});
+    }
+    ScenePlan plan_of(const Scene& scene) {
+        MeshStore meshes;
+        return plan_scene(scene, meshes);
+    }
+};
+
+TEST_F(PlanTest, EstimatesAreWithinAHalfOfWhatFormingTheWorldTakes) {
+    for (const char* model :
+         {R"({"shape": "sphere", "radius": 0.35})",
+          R"({"shape": "box", "size": [0.803,0.302,0.507], "surface": "cubes"})",
+          R"({"shape": "torus", "radius": 0.3, "tube": 0.09})"}) {
+        const Scene scene = scene_of(model, 1.0 / 200);
+        const ScenePlan plan = plan_of(scene);
+        const Device device = test_device();
+        WorldReport report;
+        const Pyramid world = form_world(device, scene, report);
+        const double voxels = world.voxel_count;
+        EXPECT_GT(plan.voxels, voxels / 1.5) << model;
+        EXPECT_LT(plan.voxels, voxels * 1.5) << model;
+        const double formed = std::max({plan.voxelize_bytes, plan.place_bytes, plan.index_bytes});
+        const auto peak = double(device.counters().peak_bytes);
+        EXPECT_GT(formed, peak / 1.5) << model;
+        EXPECT_LT(formed, peak * 1.5) << model;
+    }
+}
+
+TEST_F(PlanTest, APlanBeyondADevicesMemoryNamesBothAndTheWayOut) {
+    DeviceInfo device;
+    device.name = "Small One";
+    device.memory = 20'000'000;
+    device.max_allocation = 5'000'000;
+    const Scene scene = scene_of(R"({"shape": "sphere", "radius": 0.35})", 1.0 / 400);
+    const Error error = error_of([&] { check_memory(scene, plan_of(scene), device); });
+    EXPECT_EQ(error.kind(), ErrorKind::limit);
+    EXPECT_THAT(error.what(), HasSubstr("on \"Small One\", which has 20.0 MB: use voxels larger"));
+    device.memory = 8'000'000'000;
+    EXPECT_NO_THROW(check_memory(scene, plan_of(scene), device));
+}
+
+TEST_F(PlanTest, TablesAreCheckedBeforeAnyMeshIsRead) {
+    DeviceInfo device;
+    device.name = "Small One";
+    device.memory = device.max_allocation = 1'000'000;
+    const Scene scene = scene_of(R"({"shape": "sphere", "radius": 0.35})", 1.0 / 2000);
+    const Error error = error_of([&] { check_tables(scene, device); });
+    EXPECT_EQ(error.kind(), ErrorKind::limit);
+    // 126 x 113 x 101 bricks of 4 bytes
+    EXPECT_THAT(error.what(), HasSubstr("a table of 5.8 MB, and \"Small One\" allows 1.0 MB"));
+    device.memory = device.max_allocation = uint64_t{1} << 60;
+    const Scene largest = scene_of(R"({"shape": "sphere", "radius": 0.35})", 1.0 / 65536);
+    EXPECT_THAT(error_of([&] { check_tables(largest, device); }).what(), HasSubstr("2^31 bricks"));
+}
+
+TEST(BytesText, HasAboutThreeDigits) {
+    EXPECT_EQ(bytes_text(1234), "1.2 kB");
+    EXPECT_EQ(bytes_text(31.25e6), "31.2 MB");
+    EXPECT_EQ(bytes_text(275e9), "275 GB");
+}
+
+}  // namespace voxelume
