@@ -85,8 +85,7 @@ inline Scene mesh_scene(const std::filesystem::path& file, const Mesh& mesh,
     scene.models.push_back(model);
     scene.objects.emplace_back();
     const glm::dvec3 center = (bounds.min + bounds.max) / 2.0;
-    const glm::dvec3 eye =
-        center + longest * 1.8 * glm::normalize(glm::dvec3(0.5, 0.35, 1));
+    const glm::dvec3 eye = center + longest * 1.8 * glm::normalize(glm::dvec3(0.5, 0.35, 1));
     scene.observer = observer_at(eye, center, 40 * std::numbers::pi / 180, size);
     scene.render.size = size;
     return scene;
@@ -103,12 +102,12 @@ inline glm::dvec3 pixel_direction(const Scene& scene, int column, int row) {
 
 /// Errors of an image of a mesh, in voxels.
 struct SurfaceErrors {
-    size_t pixels = 0, hits = 0, both = 0;  ///< both: hit in the image and by the ideal ray
+    size_t pixels = 0, hits = 0, both = 0;      ///< both: hit in the image and by the ideal ray
     double distance_rms = 0, distance_max = 0;  ///< of P to the mesh
     double along_median = 0, along_99 = 0, along_max = 0;  ///< between the hits along the ray
-    size_t mask_differs = 0;        ///< pixels hit by only one of the two
+    size_t mask_differs = 0;                               ///< pixels hit by only one of the two
     size_t mask_differs_clear = 0;  ///< of these, farther than 0.001 voxel from a silhouette edge
-    size_t holes = 0;  ///< of these, hit by the ideal ray only
+    size_t holes = 0;               ///< of these, hit by the ideal ray only
 
     double mask_share() const { return double(mask_differs) / double(std::max<size_t>(pixels, 1)); }
 };
@@ -128,7 +127,7 @@ inline SurfaceErrors measure_surface(const Scene& scene, const Image& image,
     const glm::dvec3 eye = scene.observer.position;
     const std::vector<oracle::Edge> silhouette = oracle::silhouette_edges(tree.triangles(), eye);
     const std::vector<float>&px = image.planes.at("P.X"), &py = image.planes.at("P.Y"),
-                            &pz = image.planes.at("P.Z"), &alpha = image.planes.at("A");
+          &pz = image.planes.at("P.Z"), &alpha = image.planes.at("A");
     SurfaceErrors errors;
     std::vector<double> along;
     double squares = 0;
@@ -146,7 +145,8 @@ inline SurfaceErrors measure_surface(const Scene& scene, const Image& image,
                 squares += distance * distance;
                 errors.distance_max = std::max(errors.distance_max, distance);
             }
-            if (hit && ideal) along.push_back(std::abs(glm::dot(p - eye, direction) - *ideal) / edge);
+            if (hit && ideal)
+                along.push_back(std::abs(glm::dot(p - eye, direction) - *ideal) / edge);
             if (hit == ideal.has_value()) continue;
             ++errors.mask_differs;
             if (ideal) ++errors.holes;

@@ -52,10 +52,11 @@ double uniform(std::mt19937& random) {
 
 /// From a face of the grid towards a point near the middle of the tube.
 CrackRay ray_from_outside(const Ring& ring, double unit, std::mt19937& random) {
-    const glm::dvec3 target = ring.point(2 * kPi * uniform(random), 2 * kPi * uniform(random),
-                                         0.8 * uniform(random));
+    const glm::dvec3 target =
+        ring.point(2 * kPi * uniform(random), 2 * kPi * uniform(random), 0.8 * uniform(random));
     CrackRay ray;
-    for (int a = 0; a < 3; ++a) ray.origin[a] = std::round(uniform(random) * kSize[a] / unit) * unit;
+    for (int a = 0; a < 3; ++a)
+        ray.origin[a] = std::round(uniform(random) * kSize[a] / unit) * unit;
     const int face = int(random() % 3);
     ray.origin[face] = random() % 2 ? kSize[face] : 0;
     const glm::dvec3 way = target - ray.origin, size = glm::abs(way);
@@ -66,11 +67,11 @@ CrackRay ray_from_outside(const Ring& ring, double unit, std::mt19937& random) {
     return ray;
 }
 
-/// Through lattice points or edges: from a lattice point deep inside, backwards along a direction of
-/// few bits to half-integer places, until outside.
+/// Through lattice points or edges: from a lattice point deep inside, backwards along a direction
+/// of few bits to half-integer places, until outside.
 std::optional<CrackRay> ray_through_corners(const Ring& ring, std::mt19937& random) {
-    glm::dvec3 target = glm::round(ring.point(2 * kPi * uniform(random), 2 * kPi * uniform(random),
-                                              0.7 * uniform(random)));
+    glm::dvec3 target = glm::round(
+        ring.point(2 * kPi * uniform(random), 2 * kPi * uniform(random), 0.7 * uniform(random)));
     target[int(random() % 3)] += random() % 3 ? 0 : 0.5;
     glm::dvec3 d;
     for (int a = 0; a < 3; ++a) d[a] = double(int(random() % 9) - 4) / 4;

@@ -17,7 +17,7 @@ constexpr unsigned kSeed = 20261121;
 
 /// Decoded record: distances at corners, second differences of edges, as integers of their units.
 struct Record {
-    std::array<int, 8> f{};                  ///< number x | y << 1 | z << 2
+    std::array<int, 8> f{};                 ///< number x | y << 1 | z << 2
     std::array<std::array<int, 4>, 3> d{};  ///< per axis and edge: first other axis | second << 1
 };
 
@@ -92,7 +92,8 @@ kernel void evaluate(uint count, float half_curvature, global const uint* fields
     program.kernel("evaluate")
         .launch_packets(count, count, 0.5f * unit,
                         Buffer<uint32_t>(device, "fields", std::span<const uint32_t>(words)),
-                        Buffer<float>(device, "points", std::span<const float>(coordinates)), results);
+                        Buffer<float>(device, "points", std::span<const float>(coordinates)),
+                        results);
     const std::vector<float> values = results.read();
     std::vector<Result> all(count);
     for (uint32_t i = 0; i < count; ++i)

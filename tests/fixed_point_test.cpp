@@ -97,7 +97,8 @@ TEST_P(FixedPoint, SnapsPositionsTowardsTheirSide) {
             const double expected = side[i] > 0   ? std::ceil(scaled)
                                     : side[i] < 0 ? std::floor(scaled)
                                                   : std::nearbyint(scaled);
-            ASSERT_EQ(snapped[i], expected / double(fixed_point)) << "seed " << kSeed << " number " << i;
+            ASSERT_EQ(snapped[i], expected / double(fixed_point))
+                << "seed " << kSeed << " number " << i;
         }
     }
 }
@@ -107,9 +108,11 @@ TEST_P(FixedPoint, ClipsRaysToASlab) {
     Values o = uniform(-20, 60, kSeed), d = uniform(-1, 1, kSeed + 1);
     for (uint32_t i = 0; i < kCount; i += 5) d[i] = 0;
     o[0] = 0, o[5] = 37, o[10] = -0.01f, o[15] = 37.01f;  // d is 0 in these
-    const Values first = evaluate("t_first", kSize, o, d, o), last = evaluate("t_last", kSize, o, d, o);
+    const Values first = evaluate("t_first", kSize, o, d, o),
+                 last = evaluate("t_last", kSize, o, d, o);
     for (uint32_t i = 0; i < kCount; ++i) {
-        const double a = (0 - double(o[i])) / double(d[i]), b = (double(kSize) - double(o[i])) / double(d[i]);
+        const double a = (0 - double(o[i])) / double(d[i]),
+                     b = (double(kSize) - double(o[i])) / double(d[i]);
         if (d[i] == 0) {
             const bool inside = o[i] >= 0 && o[i] <= kSize;
             ASSERT_EQ(first[i] <= last[i], inside) << "ray " << i;

@@ -3,29 +3,38 @@
 
 #include <array>
 #include <bit>
+#include <type_traits>
 
 #include "kernels/shared/scene.h"
 #include "kernels/shared/solid.h"
 #include "runtime/opencl/program.hpp"
 #include "tests/test_device.hpp"
 
-// The fields of each struct: F float, V float4, I int, and with a length arrays FA, IA. The kernel reads
-// the text of a list, the host what the list stands for.
-#define PYRAMID_SHAPE_FIELDS                                                                   \
-    V(edge) V(inverse_edge) I(size_x) I(size_y) I(size_z) I(sectors_x) I(sectors_y)            \
-    F(plane_bound) F(fixed_point) F(half_curvature)
-#define SIGHT_FIELDS                                                                           \
-    V(origin) V(origin_low) V(axis_x) V(axis_y) V(axis_z) F(half_x) F(half_y) F(near_plane)    \
-    F(far_plane) I(width) I(height) I(samples) I(shape) F(sample_share) FA(unused, 3)
-#define MATERIAL_RECORD_FIELDS                                                                 \
-    FA(color, 3) F(diffuse) FA(absorption, 3) F(ior) FA(emission, 3) F(specular) F(shininess)  \
-    F(reflection) F(refraction) F(unused)
-#define LIGHT_RECORD_FIELDS                                                                    \
+// The fields of each struct: F float, V float4, I int, and with a length arrays FA, IA. The kernel
+// reads the text of a list, the host what the list stands for.
+#define PYRAMID_SHAPE_FIELDS                                                              \
+    V(edge)                                                                               \
+    V(inverse_edge)                                                                       \
+    I(size_x) I(size_y) I(size_z) I(sectors_x) I(sectors_y) F(plane_bound) F(fixed_point) \
+        F(half_curvature)
+#define SIGHT_FIELDS                                                                      \
+    V(origin)                                                                             \
+    V(origin_low)                                                                         \
+    V(axis_x) V(axis_y) V(axis_z) F(half_x) F(half_y) F(near_plane) F(far_plane) I(width) \
+        I(height) I(samples) I(shape) F(sample_share) FA(unused, 3)
+#define MATERIAL_RECORD_FIELDS                                                                    \
+    FA(color, 3)                                                                                  \
+    F(diffuse)                                                                                    \
+    FA(absorption, 3) F(ior) FA(emission, 3) F(specular) F(shininess) F(reflection) F(refraction) \
+        F(unused)
+#define LIGHT_RECORD_FIELDS \
     V(position) V(direction) V(energy) F(inner_cosine) F(outer_cosine) I(kind) I(unused)
 #define SPACE_FIELDS V(background) V(ambient) V(absorption) V(color)
 #define SOLID_SHAPE_FIELDS                                                                     \
-    I(kind) I(operations) I(shape_count) I(attribute) IA(cell, 3) FA(fraction, 3)              \
-    FA(shape_from_grid, 9) FA(size, 4) FA(rounding, 2) FA(derived, 4) FA(unused, 3)
+    I(kind)                                                                                    \
+    I(operations)                                                                              \
+    I(shape_count) I(attribute) IA(cell, 3) FA(fraction, 3) FA(shape_from_grid, 9) FA(size, 4) \
+        FA(rounding, 2) FA(derived, 5) FA(unused, 2)
 
 #define TEXT_OF(fields) TEXT_OF_(fields)
 #define TEXT_OF_(fields) #fields
@@ -63,7 +72,8 @@ Words read_by_kernel(const T& value, const std::string& type, const std::string&
 #define I(n) *words++ = (uint)value.n;
 #define FA(n, count) for (int i = 0; i < count; ++i) F(n[i])
 #define IA(n, count) for (int i = 0; i < count; ++i) I(n[i])
-kernel void read_fields()" + type + R"( value, global uint* words) {
+kernel void read_fields()" + type +
+                               R"( value, global uint* words) {
     if (work_item() > 0) return;
 )" + fields + "\n}\n";
     Buffer<uint32_t> words(device, "words", sizeof(T) / 4);
@@ -81,14 +91,20 @@ uint32_t bits(float v) {
 #define F(n) words.push_back(bits(value.n));
 #define V(n) F(n.x) F(n.y) F(n.z) F(n.w)
 #define I(n) words.push_back(static_cast<uint32_t>(value.n));
-#define FA(n, count) for (int i = 0; i < count; ++i) F(n[i])
-#define IA(n, count) for (int i = 0; i < count; ++i) I(n[i])
-#define CROSSES(type, fields, text)                                     \
-    TEST(Layout, type##CrossesWithEveryField) {                         \
-        const auto value = numbered_words<type>();                      \
-        Words words;                                                    \
-        fields ASSERT_EQ(words.size(), sizeof(type) / 4);               \
-        EXPECT_EQ(read_by_kernel(value, #type, text), words);           \
+#define FA(n, count)                                            \
+    static_assert(std::extent_v<decltype(value.n)> == (count)); \
+    for (int i = 0; i < count; ++i) F(n[i])
+for (int i = 0; i < count; ++i) F(n[i])
+#define IA(n, count)                                            \
+    static_assert(std::extent_v<decltype(value.n)> == (count)); \
+    for (int i = 0; i < count; ++i) I(n[i])
+for (int i = 0; i < count; ++i) I(n[i])
+#define CROSSES(type, fields, text)                           \
+    TEST(Layout, type##CrossesWithEveryField) {               \
+        const auto value = numbered_words<type>();            \
+        Words words;                                          \
+        fields ASSERT_EQ(words.size(), sizeof(type) / 4);     \
+        EXPECT_EQ(read_by_kernel(value, #type, text), words); \
     }
 
 CROSSES(PyramidShape, PYRAMID_SHAPE_FIELDS, kPyramidShapeText)

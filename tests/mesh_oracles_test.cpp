@@ -105,8 +105,10 @@ TEST(MeshRay, MeasuresTheDistanceToASilhouette) {
     ASSERT_EQ(edges.size(), 3u);
     EXPECT_DOUBLE_EQ(oracle::distance_to_edges(edges, {2, -0.25, 5}, {0, 0, -3}), 0.25);
     EXPECT_DOUBLE_EQ(oracle::distance_to_edges(edges, {-3, -4, 5}, {0, 0, -1}), 5);
-    EXPECT_DOUBLE_EQ(oracle::distance_to_edges(edges, {2, -0.25, 5}, {0, 0, 1}), std::hypot(5, 0.25));
-    EXPECT_DOUBLE_EQ(oracle::distance_to_edges(edges, {2, -0.5, -1}, {1, 0, 0}), std::hypot(1, 0.5));
+    EXPECT_DOUBLE_EQ(oracle::distance_to_edges(edges, {2, -0.25, 5}, {0, 0, 1}),
+                     std::hypot(5, 0.25));
+    EXPECT_DOUBLE_EQ(oracle::distance_to_edges(edges, {2, -0.5, -1}, {1, 0, 0}),
+                     std::hypot(1, 0.5));
 }
 
 TEST(MeshRay, CountsOpenEdgesAsSilhouette) {

@@ -59,8 +59,10 @@ inline Mesh ball(const glm::dvec3& center, double radius, int columns, int rows)
     for (int column = 0; column < columns; ++column) {
         mesh.triangles.emplace_back(0, at(1, column), at(1, column + 1));
         for (int row = 1; row + 1 < rows; ++row) {
-            mesh.triangles.emplace_back(at(row, column), at(row + 1, column), at(row + 1, column + 1));
-            mesh.triangles.emplace_back(at(row, column), at(row + 1, column + 1), at(row, column + 1));
+            mesh.triangles.emplace_back(at(row, column), at(row + 1, column),
+                                        at(row + 1, column + 1));
+            mesh.triangles.emplace_back(at(row, column), at(row + 1, column + 1),
+                                        at(row, column + 1));
         }
         mesh.triangles.emplace_back(last, at(rows - 1, column + 1), at(rows - 1, column));
     }
@@ -81,7 +83,8 @@ inline Mesh box(const glm::vec3& low, const glm::vec3& high) {
 /// Writes an OBJ file that gives back the very same coordinates.
 inline void write_obj(const std::filesystem::path& path, const Mesh& mesh) {
     std::ofstream file(path);
-    for (const glm::vec3& p : mesh.positions) file << fmt::format("v {:.9g} {:.9g} {:.9g}\n", p.x, p.y, p.z);
+    for (const glm::vec3& p : mesh.positions)
+        file << fmt::format("v {:.9g} {:.9g} {:.9g}\n", p.x, p.y, p.z);
     for (const glm::uvec3& t : mesh.triangles)
         file << fmt::format("f {} {} {}\n", t.x + 1, t.y + 1, t.z + 1);
 }

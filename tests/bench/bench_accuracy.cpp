@@ -1,4 +1,5 @@
-// How far rendered surfaces lie from their mesh: bench_accuracy [MESH-FILE [VOXELS [WIDTH HEIGHT]]].
+// How far rendered surfaces lie from their mesh: bench_accuracy [MESH-FILE [VOXELS [WIDTH
+// HEIGHT]]].
 #include <fmt/format.h>
 
 #include <cstdio>
@@ -32,9 +33,10 @@ Arguments parse(int argc, char** argv) {
 }
 
 void print(const char* name, const SurfaceErrors& e) {
-    fmt::print("{:<17} {:>7.5f} {:>8.5f}   {:>8.6f} {:>8.5f} {:>9.4f}   {:>6} {:>8.5f} % {:>6} {:>6}\n",
-               name, e.distance_rms, e.distance_max, e.along_median, e.along_99, e.along_max,
-               e.mask_differs, 100 * e.mask_share(), e.holes, e.mask_differs_clear);
+    fmt::print(
+        "{:<17} {:>7.5f} {:>8.5f}   {:>8.6f} {:>8.5f} {:>9.4f}   {:>6} {:>8.5f} % {:>6} {:>6}\n",
+        name, e.distance_rms, e.distance_max, e.along_median, e.along_99, e.along_max,
+        e.mask_differs, 100 * e.mask_share(), e.holes, e.mask_differs_clear);
     std::fflush(stdout);
 }
 
@@ -42,13 +44,14 @@ void measure(const Arguments& a) {
     const Device device = Device::open();
     const Mesh mesh = read_mesh(a.file);
     const oracle::MeshTree tree(triangles_of(mesh));
-    fmt::print("{}: {} triangles, {} voxels along the longest side, {} x {} pixels, {} lanes on {}\n"
-               "in voxels: distance of P to the mesh, difference along the ray; pixels whose mask "
-               "differs,\nof these holes, and those farther than 0.001 voxel from a silhouette edge\n"
-               "{:<17} {:>7} {:>8}   {:>8} {:>8} {:>9}   {:>6} {:>10} {:>6} {:>6}\n",
-               a.file.filename().string(), mesh.triangles.size(), a.resolution, a.size.x, a.size.y,
-               device.lanes(), device.info().name, "surface", "rms", "max", "median", "99 %", "max",
-               "mask", "share", "holes", "clear");
+    fmt::print(
+        "{}: {} triangles, {} voxels along the longest side, {} x {} pixels, {} lanes on {}\n"
+        "in voxels: distance of P to the mesh, difference along the ray; pixels whose mask "
+        "differs,\nof these holes, and those farther than 0.001 voxel from a silhouette edge\n"
+        "{:<17} {:>7} {:>8}   {:>8} {:>8} {:>9}   {:>6} {:>10} {:>6} {:>6}\n",
+        a.file.filename().string(), mesh.triangles.size(), a.resolution, a.size.x, a.size.y,
+        device.lanes(), device.info().name, "surface", "rms", "max", "median", "99 %", "max",
+        "mask", "share", "holes", "clear");
     for (const SurfaceChoice& choice : kChoices) {
         const Scene scene = mesh_scene(a.file, mesh, choice, a.resolution, a.size);
         RenderReport report;

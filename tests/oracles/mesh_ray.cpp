@@ -77,7 +77,8 @@ double distance_to_edge(const Edge& edge, const glm::dvec3& origin, const glm::d
         return glm::length(p - d * std::max(glm::dot(p, d) / dd, 0.0L));
     };
     long double nearest = std::min(at(0), at(1));
-    if (common > 0) nearest = std::min(nearest, at((glm::dot(r, d) * de - glm::dot(r, e) * dd) / common));
+    if (common > 0)
+        nearest = std::min(nearest, at((glm::dot(r, d) * de - glm::dot(r, e) * dd) / common));
     if (ee > 0) nearest = std::min(nearest, at(-glm::dot(r, e) / ee));
     return static_cast<double>(nearest);
 }
@@ -125,7 +126,8 @@ std::vector<Edge> silhouette_edges(const std::vector<Triangle>& triangles, const
     for (const Triangle& t : triangles) {
         std::array<uint32_t, 3> corner;
         for (size_t i = 0; i < 3; ++i)
-            corner[i] = numbers.try_emplace(t[i], static_cast<uint32_t>(numbers.size())).first->second;
+            corner[i] =
+                numbers.try_emplace(t[i], static_cast<uint32_t>(numbers.size())).first->second;
         const Vector a(t[0]), normal = glm::cross(Vector(t[1]) - a, Vector(t[2]) - a);
         const long double facing = glm::dot(normal, Vector(eye) - a);
         for (size_t i = 0; i < 3; ++i) {
