@@ -94,11 +94,9 @@ uint32_t bits(float v) {
 #define FA(n, count)                                            \
     static_assert(std::extent_v<decltype(value.n)> == (count)); \
     for (int i = 0; i < count; ++i) F(n[i])
-for (int i = 0; i < count; ++i) F(n[i])
 #define IA(n, count)                                            \
     static_assert(std::extent_v<decltype(value.n)> == (count)); \
     for (int i = 0; i < count; ++i) I(n[i])
-for (int i = 0; i < count; ++i) I(n[i])
 #define CROSSES(type, fields, text)                           \
     TEST(Layout, type##CrossesWithEveryField) {               \
         const auto value = numbered_words<type>();            \
