@@ -8,7 +8,8 @@
 #include "shared/scene.h"
 #include "shared/trace.h"
 
-/// The part of a spot's light that goes along the unit vector `to_surface`: smoothstep of the cosine.
+/// The part of a spot's light that goes along the unit vector `to_surface`: smoothstep of the
+/// cosine.
 static inline lane_float spot_share(LightRecord light, Vector to_surface) {
     const Vector along = {(lane_float)light.direction.x, (lane_float)light.direction.y,
                           (lane_float)light.direction.z};
@@ -19,16 +20,16 @@ static inline lane_float spot_share(LightRecord light, Vector to_surface) {
     return s * s * fma(-2.0f, s, 3.0f);
 }
 
-/// Adds one light: every surface point that faces it, and to which it gives any light, gets a place in
-/// the queue of shadow rays with the light's share. Without shadows the share is added at once.
+/// Adds one light: every surface point that faces it, and to which it gives any light, gets a place
+/// in the queue of shadow rays with the light's share. Without shadows the share is added at once.
 kernel void add_light(PyramidShape shape, Space space, LightRecord light,
-                        global const float* restrict materials, global const uint* restrict colors,
-                        global const float* restrict rays, global const uint* restrict hits,
-                        uint count, uint stride, global const float* restrict positions,
-                        global const float* restrict normals, global const uint* restrict words,
-                        global float* restrict radiance, global uint* restrict queue_count,
-                        global float* restrict queue_rays, global uint* restrict targets,
-                        global uint* restrict sources, global float* restrict shares) {
+                      global const float* restrict materials, global const uint* restrict colors,
+                      global const float* restrict rays, global const uint* restrict hits,
+                      uint count, uint stride, global const float* restrict positions,
+                      global const float* restrict normals, global const uint* restrict words,
+                      global float* restrict radiance, global uint* restrict queue_count,
+                      global float* restrict queue_rays, global uint* restrict targets,
+                      global uint* restrict sources, global float* restrict shares) {
     const uint first = work_item() * VXL_LANES;
     if (first >= count) return;
     const float4 edge = shape.edge;
@@ -76,8 +77,8 @@ kernel void add_light(PyramidShape shape, Space space, LightRecord light,
         LANES_GATHER_FLOAT(materials, material + VXL_MATERIAL_SPECULAR) *
         exact_power(highlight, LANES_GATHER_FLOAT(materials, material + VXL_MATERIAL_SHININESS));
 
-    const lane_float scale = power_of_two_scale(
-        LANES_SELECT(lit, to_light.x, (lane_float)1.0f), to_light.y, to_light.z);
+    const lane_float scale =
+        power_of_two_scale(LANES_SELECT(lit, to_light.x, (lane_float)1.0f), to_light.y, to_light.z);
     const Vector direction = {snap_direction(to_light.x * scale),
                               snap_direction(to_light.y * scale),
                               snap_direction(to_light.z * scale)};

@@ -47,8 +47,7 @@ kernel void mark_near_leaves(const uint count, const int threshold,
 // the voxels around it are too, since a brick beside an empty voxel, or the world's end, must be
 // stored.
 kernel void classify_bricks(const uint count, const int4 world_bricks, const WorldBounds bounds,
-                            const int fraction_bits,
-                            constant long* rows, const int4 object_bricks,
+                            const int fraction_bits, constant long* rows, const int4 object_bricks,
                             global const uint* restrict slots, global const ulong* restrict near,
                             global const short* restrict distance, global uchar* restrict states) {
     const uint index = work_item();
@@ -125,18 +124,17 @@ kernel void close_distances(const uint count, const int4 world_bricks, const Wor
 }
 
 // One leaf of the world: the words and colours of its smooth voxels, where this object's surface is
-// the nearest to the voxel's centre so far. A voxel that the surface crosses is no longer a cube; an
-// exact one stays exact, with the smooth surface's word: its primitives have their own.
+// the nearest to the voxel's centre so far. A voxel that the surface crosses is no longer a cube;
+// an exact one stays exact, with the smooth surface's word: its primitives have their own.
 kernel void paint_smooth_voxels(
-    const uint count, const int4 world_bricks, const WorldBounds bounds, const int fraction_bits, constant long* rows,
-    const int4 object_bricks, global const uint* restrict slots, global const ulong* restrict near,
-    global const short* restrict distance, const float scale, const int crossing,
-    const WordMap words, global const uint* restrict materials,
+    const uint count, const int4 world_bricks, const WorldBounds bounds, const int fraction_bits,
+    constant long* rows, const int4 object_bricks, global const uint* restrict slots,
+    global const ulong* restrict near, global const short* restrict distance, const float scale,
+    const int crossing, const WordMap words, global const uint* restrict materials,
     global const uint* restrict attributes, global const uint* restrict colors,
     global const uint* restrict coordinates, global const short* restrict world_distance,
-    global short* restrict nearest,
-    global ulong* restrict occupancy, global uint* restrict world_attributes,
-    global uint* restrict world_colors) {
+    global short* restrict nearest, global ulong* restrict occupancy,
+    global uint* restrict world_attributes, global uint* restrict world_colors) {
     const uint leaf = work_item();
     if (leaf >= count) return;
     const PlacedObject object = {rows, fraction_bits, object_bricks, slots};
@@ -180,8 +178,7 @@ kernel void paint_smooth_voxels(
         const long from = place_of_voxel(&object, source);
         if (VXL_ATTRIBUTES) {
             const uint word = word_of(words, materials, attributes, from);
-            world_attributes[number] =
-                kind == 0u ? word : (word & ~(3u << VXL_KIND_SHIFT)) | kind;
+            world_attributes[number] = kind == 0u ? word : (word & ~(3u << VXL_KIND_SHIFT)) | kind;
         }
         if (VXL_COLORS) world_colors[number] = color_of(colors, from);
     }

@@ -5,7 +5,8 @@
 #include "shared/trace.h"
 #include "shared/voxel.h"
 
-/// Gives each ray's radiance what the world's medium does to it between the ray's start and its end.
+/// Gives each ray's radiance what the world's medium does to it between the ray's start and its
+/// end.
 kernel void absorb_sight(PyramidShape shape, Space space, global const float* restrict rays,
                          global const uint* restrict hits, uint count, uint stride,
                          global float* restrict radiance) {
@@ -26,19 +27,19 @@ kernel void absorb_sight(PyramidShape shape, Space space, global const float* re
         const lane_float passed = exact_exp(-absorption[channel] * path);
         const uint place = (uint)channel * stride + first;
         const lane_float behind = LANES_LOAD(radiance, place);
-        LANES_STORE(fma(passed, behind - color[channel], (lane_float)color[channel]), radiance, place);
+        LANES_STORE(fma(passed, behind - color[channel], (lane_float)color[channel]), radiance,
+                    place);
     }
 }
 
 /// One work-item makes one pixel. `image` holds, `pixels` apart: R G B A Z P.X P.Y P.Z N.X N.Y N.Z;
 /// `objects` the number of the object plus 1, 0 for none. Counts values that are not finite, as 0.
 kernel void resolve_pixels(Sight sight, PyramidShape shape, float4 world_origin,
-                           global const uint* restrict hits,
-                           global const float* restrict positions,
+                           global const uint* restrict hits, global const float* restrict positions,
                            global const float* restrict normals, global const uint* restrict words,
                            global const float* restrict radiance, uint first_tile, uint tile_count,
-                           uint stride, global float* restrict image,
-                           global uint* restrict objects, global uint* restrict not_finite) {
+                           uint stride, global float* restrict image, global uint* restrict objects,
+                           global uint* restrict not_finite) {
     const uint item = work_item();
     if (item >= tile_count * 16u) return;
     const uint tiles_x = ((uint)sight.width + 3u) / 4u;

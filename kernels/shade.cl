@@ -1,4 +1,5 @@
-// hits -> surface points: where each ray met what, facing which way, and what shines there without lights.
+// hits -> surface points: where each ray met what, facing which way, and what shines there without
+// lights.
 #include "lib/field.h"
 #include "lib/solid_surface.h"
 #include "lib/surface_color.h"
@@ -30,10 +31,9 @@ static inline lane_uint solid_attributes(global const SolidShape* restrict solid
     return LANES_GATHER_UINT((global const uint*)solids, number * VXL_SOLID_WORDS + 3u);
 }
 
-/// Finds the point and normal of every hit, and starts its radiance with ambient light and emission;
-/// rays that hit nothing take the background. `words` keeps each hit's attribute word.
-kernel void shade_surface(PyramidShape shape, Space space,
-                          global const float* restrict materials,
+/// Finds the point and normal of every hit, and starts its radiance with ambient light and
+/// emission; rays that hit nothing take the background. `words` keeps each hit's attribute word.
+kernel void shade_surface(PyramidShape shape, Space space, global const float* restrict materials,
                           global const uint* restrict attributes, uint constant_attribute,
                           global const uint* restrict colors, global const uint* restrict fields,
                           global const float* restrict triangles,
@@ -59,7 +59,8 @@ kernel void shade_surface(PyramidShape shape, Space space,
     const Vector d = load_vector(rays + VXL_RAY_DX * stride, stride, first);
     const lane_float at = LANES_SELECT(hit, t, (lane_float)0.0f);
     // The position inside the voxel: a cube's on the face that was crossed, exactly.
-    Vector s = {clamp(fma(d.x, at, o.x - cx), 0.0f, 1.0f), clamp(fma(d.y, at, o.y - cy), 0.0f, 1.0f),
+    Vector s = {clamp(fma(d.x, at, o.x - cx), 0.0f, 1.0f),
+                clamp(fma(d.y, at, o.y - cy), 0.0f, 1.0f),
                 clamp(fma(d.z, at, o.z - cz), 0.0f, 1.0f)};
 
     lane_uint word = (lane_uint)constant_attribute;
@@ -88,8 +89,7 @@ kernel void shade_surface(PyramidShape shape, Space space,
     }
     const lane_int smooth = LANE_MASK(kind != VXL_KIND_CUBES) & hit & ~exact;
     if (VXL_SMOOTH && lanes_any(smooth)) {
-        const Field field =
-            read_field(fields, voxel & LANES_AS_UINT(smooth), shape.half_curvature);
+        const Field field = read_field(fields, voxel & LANES_AS_UINT(smooth), shape.half_curvature);
         Vector g;
         field_gradient(&field, s.x, s.y, s.z, &g.x, &g.y, &g.z);
         g.x *= shape.inverse_edge.x, g.y *= shape.inverse_edge.y, g.z *= shape.inverse_edge.z;
@@ -102,11 +102,11 @@ kernel void shade_surface(PyramidShape shape, Space space,
             const lane_uint triangle = primitive & LANES_AS_UINT(is_triangle);
             normal = select_vector(is_triangle, unit(triangle_normal(triangles, triangle, edge)),
                                    normal);
-            word = LANES_SELECT(is_triangle, LANES_GATHER_UINT(triangle_attributes, triangle), word);
+            word =
+                LANES_SELECT(is_triangle, LANES_GATHER_UINT(triangle_attributes, triangle), word);
         }
         if (VXL_SOLIDS && lanes_any(is_solid)) {
-            const lane_uint solid =
-                (primitive & ~VXL_SOLID_PRIMITIVE) & LANES_AS_UINT(is_solid);
+            const lane_uint solid = (primitive & ~VXL_SOLID_PRIMITIVE) & LANES_AS_UINT(is_solid);
             const SolidRay ray = {o.x, o.y, o.z, d.x, d.y, d.z};
             const SolidPoint g = solid_normals(solids, solid, &ray, at, is_solid);
             const Vector gradient = {g.x * shape.inverse_edge.x, g.y * shape.inverse_edge.y,
@@ -114,7 +114,8 @@ kernel void shade_surface(PyramidShape shape, Space space,
             normal = select_vector(is_solid, unit(gradient), normal);
             word = LANES_SELECT(is_solid, solid_attributes(solids, solid), word);
         }
-        const Vector along = {fma(d.x, at, o.x - cx), fma(d.y, at, o.y - cy), fma(d.z, at, o.z - cz)};
+        const Vector along = {fma(d.x, at, o.x - cx), fma(d.y, at, o.y - cy),
+                              fma(d.z, at, o.z - cz)};
         s = select_vector(exact, along, s);
     }
     // Surfaces without an inside, and insides that a ray began in, face the ray.

@@ -37,8 +37,8 @@ static inline SightRay sight_ray(const Sight* sight, lane_float u, lane_float v,
         const lane_float radius = exact_sqrt(fma(u, u, v * v));
         lane_float sine, cosine;
         exact_sincos(radius * sight->half_x, &sine, &cosine);
-        const lane_float by = exact_divide(
-            sine, LANES_SELECT(LANE_MASK(radius > 0.0f), radius, (lane_float)1.0f));
+        const lane_float by =
+            exact_divide(sine, LANES_SELECT(LANE_MASK(radius > 0.0f), radius, (lane_float)1.0f));
         ray.direction.x = -u * by, ray.direction.y = -v * by, ray.direction.z = cosine;
         *seen &= LANE_MASK(radius <= 1.0f);
     }
@@ -75,11 +75,15 @@ kernel void cast_sight(Sight sight, PyramidShape shape, global const float* rest
     lane_float dz = along(sight.axis_x.z, sight.axis_y.z, sight.axis_z.z, ray.direction);
     const lane_float scale = power_of_two_scale(dx, dy, dz);
     const lane_float per_metre = exact_reciprocal(scale);
-    dx = snap_direction(dx * scale), dy = snap_direction(dy * scale), dz = snap_direction(dz * scale);
+    dx = snap_direction(dx * scale), dy = snap_direction(dy * scale),
+    dz = snap_direction(dz * scale);
 
-    const lane_float lx = sight.origin_low.x + along(sight.axis_x.x, sight.axis_y.x, sight.axis_z.x, ray.start);
-    const lane_float ly = sight.origin_low.y + along(sight.axis_x.y, sight.axis_y.y, sight.axis_z.y, ray.start);
-    const lane_float lz = sight.origin_low.z + along(sight.axis_x.z, sight.axis_y.z, sight.axis_z.z, ray.start);
+    const lane_float lx =
+        sight.origin_low.x + along(sight.axis_x.x, sight.axis_y.x, sight.axis_z.x, ray.start);
+    const lane_float ly =
+        sight.origin_low.y + along(sight.axis_x.y, sight.axis_y.y, sight.axis_z.y, ray.start);
+    const lane_float lz =
+        sight.origin_low.z + along(sight.axis_x.z, sight.axis_y.z, sight.axis_z.z, ray.start);
     lane_float t_first = sight.near_plane * per_metre, t_last = sight.far_plane * per_metre;
     clip_axis(sight.origin.x + lx, dx, (float)shape.size_x, &t_first, &t_last);
     clip_axis(sight.origin.y + ly, dy, (float)shape.size_y, &t_first, &t_last);

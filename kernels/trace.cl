@@ -1,8 +1,8 @@
 // rays -> hits: the discrete walk of every ray through the world to the first surface it meets.
 //
-// One work-item carries VXL_LANES rays. Lanes that reach an occupied voxel wait until no lane of the
-// packet is walking; then the surfaces inside those voxels are tested together, and lanes that missed
-// them walk on.
+// One work-item carries VXL_LANES rays. Lanes that reach an occupied voxel wait until no lane of
+// the packet is walking; then the surfaces inside those voxels are tested together, and lanes that
+// missed them walk on.
 #include "lib/smooth.h"
 #include "lib/solid_surface.h"
 #include "lib/triangle.h"
@@ -37,7 +37,8 @@ static inline void take_voxel_hit(Found* found, lane_float t, lane_int accepted)
 }
 
 /// Tests the primitives that the `tested` lanes' voxels list; `source` is the one a ray began on. A
-/// primitive may be hit outside of the voxel that lists it: the hit counts once the walk is that far.
+/// primitive may be hit outside of the voxel that lists it: the hit counts once the walk is that
+/// far.
 static inline lane_int hit_exact(const SurfaceView* s, const Walk* w, lane_int tested,
                                  lane_uint source, Found* found) {
     const RayShear shear = ray_shear(w);
@@ -48,7 +49,8 @@ static inline lane_int hit_exact(const SurfaceView* s, const Walk* w, lane_int t
     lane_int listing = tested & LANE_MASK(next < end);
     while (lanes_any(listing)) {
         const lane_uint primitive =
-            LANES_GATHER_UINT(s->primitives, next & LANES_AS_UINT(listing)) & LANES_AS_UINT(listing);
+            LANES_GATHER_UINT(s->primitives, next & LANES_AS_UINT(listing)) &
+            LANES_AS_UINT(listing);
         const lane_int of_source = LANE_MASK(primitive == source);
         const lane_int is_solid = LANE_MASK((primitive & VXL_SOLID_PRIMITIVE) != 0u);
         lane_int closer = (lane_int)0;
@@ -76,9 +78,9 @@ static inline lane_int hit_exact(const SurfaceView* s, const Walk* w, lane_int t
 static inline lane_int test_surfaces(const PyramidView* p, const SurfaceView* s, const Walk* w,
                                      lane_int tested, lane_int from_surface, lane_uint source,
                                      Found* found) {
-    const lane_uint voxel =
-        voxel_number(p, found->leaf & LANES_AS_UINT(tested), w->x & tested, w->y & tested,
-                     w->z & tested) & LANES_AS_UINT(tested);
+    const lane_uint voxel = voxel_number(p, found->leaf & LANES_AS_UINT(tested), w->x & tested,
+                                         w->y & tested, w->z & tested) &
+                            LANES_AS_UINT(tested);
     found->voxel = LANES_SELECT(tested, voxel, found->voxel);
     lane_int cubes = VXL_CUBES ? tested : (lane_int)0;
     lane_int smooth = VXL_SMOOTH ? tested : (lane_int)0;
@@ -148,9 +150,9 @@ static inline PyramidView pyramid_view(PyramidShape shape, global const uint* re
                                        global const uint* restrict bricks,
                                        global const uint* restrict leaves,
                                        global const uint* restrict leaf_voxels) {
-    PyramidView p = {sectors,         bricks,          leaves,
-                     leaf_voxels,     shape.size_x,    shape.size_y,
-                     shape.size_z,    shape.sectors_x, shape.sectors_y,
+    PyramidView p = {sectors,           bricks,           leaves,
+                     leaf_voxels,       shape.size_x,     shape.size_y,
+                     shape.size_z,      shape.sectors_x,  shape.sectors_y,
                      shape.plane_bound, shape.fixed_point};
     return p;
 }
@@ -164,17 +166,17 @@ static inline Walk load_walk(global const float* restrict rays, uint stride, uin
                       LANES_LOAD(rays, VXL_RAY_DZ * stride + first));
 }
 
-#define VXL_WORLD_ARGUMENTS                                                                       \
-    PyramidShape shape, global const uint *restrict sectors, global const uint *restrict bricks,  \
-        global const uint *restrict leaves, global const uint *restrict leaf_voxels,              \
-        global const uint *restrict attributes, global const uint *restrict fields,               \
-        global const uint *restrict primitive_first, global const uint *restrict primitives,      \
+#define VXL_WORLD_ARGUMENTS                                                                      \
+    PyramidShape shape, global const uint *restrict sectors, global const uint *restrict bricks, \
+        global const uint *restrict leaves, global const uint *restrict leaf_voxels,             \
+        global const uint *restrict attributes, global const uint *restrict fields,              \
+        global const uint *restrict primitive_first, global const uint *restrict primitives,     \
         global const float *restrict triangles, global const SolidShape *restrict solids
 
-#define VXL_WORLD_VIEWS                                                                           \
-    const PyramidView pyramid = pyramid_view(shape, sectors, bricks, leaves, leaf_voxels);        \
-    const SurfaceView surface = {attributes, fields, primitive_first, primitives, triangles,      \
-                                 solids, shape.half_curvature}
+#define VXL_WORLD_VIEWS                                                                    \
+    const PyramidView pyramid = pyramid_view(shape, sectors, bricks, leaves, leaf_voxels); \
+    const SurfaceView surface = {attributes, fields, primitive_first,     primitives,      \
+                                 triangles,  solids, shape.half_curvature}
 
 /// The closest hit of rays 0 .. count-1. Arrays hold a multiple of 16 rays.
 kernel void trace_closest(VXL_WORLD_ARGUMENTS, global const float* restrict rays, uint count,
@@ -215,10 +217,8 @@ kernel void trace_shadows(VXL_WORLD_ARGUMENTS, global const float* restrict rays
     Walk walk = load_walk(rays, stride, first);
     const lane_float t_end = LANES_LOAD(rays, VXL_RAY_END * stride + first);
     const lane_int active = LANE_MASK(LANES_AS_INT(LANES_NUMBERS + (int)first) < (int)queued);
-    const lane_uint source =
-        VXL_EXACT ? LANES_LOAD(sources, first) : (lane_uint)VXL_NO_PRIMITIVE;
-    const Found found =
-        find_first(&pyramid, &surface, &walk, t_end, active, (lane_int)-1, source);
+    const lane_uint source = VXL_EXACT ? LANES_LOAD(sources, first) : (lane_uint)VXL_NO_PRIMITIVE;
+    const Found found = find_first(&pyramid, &surface, &walk, t_end, active, (lane_int)-1, source);
     uint target[VXL_LANES];
     float share[3 * VXL_LANES];
     int lit[VXL_LANES];

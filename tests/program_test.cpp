@@ -33,8 +33,7 @@ TEST(Program, NamesTheKernelFileAndLineOfAnError) {
     const Device device = test_device();
     if (device.info().platform == "Oclgrind") GTEST_SKIP() << "its compiler ignores #line";
     try {
-        Program::from_text(device,
-                           "#include \"lib/work_item.h\"\nkernel void f() { y = 1; }\n");
+        Program::from_text(device, "#include \"lib/work_item.h\"\nkernel void f() { y = 1; }\n");
         FAIL() << "compiled";
     } catch (const Error& error) {
         EXPECT_EQ(error.kind(), ErrorKind::build);

@@ -1,5 +1,6 @@
-// Exponential, logarithm, power, sine and cosine from correctly rounded operations only, so that every
-// device gives the same bits. Errors: about one unit in the last place; `exact_power` about |y| of them.
+// Exponential, logarithm, power, sine and cosine from correctly rounded operations only, so that
+// every device gives the same bits. Errors: about one unit in the last place; `exact_power` about
+// |y| of them.
 #ifndef VXL_EXACT_EXP_H
 #define VXL_EXACT_EXP_H
 

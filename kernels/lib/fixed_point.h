@@ -17,14 +17,15 @@ static inline lane_float snap_direction(lane_float d) {
     return rint(d * (float)(1 << VXL_DIRECTION_BITS)) * (1.0f / (float)(1 << VXL_DIRECTION_BITS));
 }
 
-/// A coordinate rounded to the fixed point: to the nearest where `side` is 0, else towards its sign.
+/// A coordinate rounded to the fixed point: to the nearest where `side` is 0, else towards its
+/// sign.
 static inline lane_float snap_position(lane_float o, lane_float side, float fixed_point) {
     const lane_float scaled = o * fixed_point;
     const lane_float nearest = rint(scaled);
     const lane_float up = nearest - LANES_FLOAT(LANE_MASK(nearest < scaled));
     const lane_float down = nearest + LANES_FLOAT(LANE_MASK(nearest > scaled));
-    const lane_float snapped = LANES_SELECT(
-        LANE_MASK(side > 0.0f), up, LANES_SELECT(LANE_MASK(side < 0.0f), down, nearest));
+    const lane_float snapped = LANES_SELECT(LANE_MASK(side > 0.0f), up,
+                                            LANES_SELECT(LANE_MASK(side < 0.0f), down, nearest));
     return snapped * (1.0f / fixed_point);
 }
 

@@ -1,12 +1,11 @@
 // Lane types: a kernel is written once and carries VXL_LANES rays in each work-item.
 //
-// With 16, 8 or 4 lanes a lane_float is a vector register of a CPU; with 1 it is a plain float, which
-// is what a GPU runs. A mask is a lane_int of 0 (no) or -1 (yes) in every width.
+// With 16, 8 or 4 lanes a lane_float is a vector register of a CPU; with 1 it is a plain float,
+// which is what a GPU runs. A mask is a lane_int of 0 (no) or -1 (yes) in every width.
 //   LANE_MASK(a < b)            the mask of a comparison
 //   LANES_SELECT(mask, a, b)    a where the mask says yes, else b
-//   LANES_GATHER_UINT(p, index) p[index] lane by lane, likewise _FLOAT; every index must be in range
-//   LANES_LOAD(p, first)        p[first .. first + VXL_LANES)
-//   LANES_STORE(value, p, first)
+//   LANES_GATHER_UINT(p, index) p[index] lane by lane, likewise _FLOAT; every index must be in
+//   range LANES_LOAD(p, first)        p[first .. first + VXL_LANES) LANES_STORE(value, p, first)
 //   lanes_any(mask)             not 0 if any lane says yes; all lanes or-ed
 //   lanes_least(v)              the smallest of the lanes' numbers
 //   LANES_INT, LANES_FLOAT, ... conversions (to int: towards zero)
@@ -41,8 +40,12 @@ typedef long lane_long;
 #define LANES_AS_FLOAT(v) as_float(v)
 #define LANES_NUMBERS 0
 
-static inline int lanes_any(lane_int mask) { return mask; }
-static inline uint lanes_least(lane_uint v) { return v; }
+static inline int lanes_any(lane_int mask) {
+    return mask;
+}
+static inline uint lanes_least(lane_uint v) {
+    return v;
+}
 
 #else
 
@@ -78,7 +81,7 @@ static inline uint lanes_least(uint4 v) {
     return min(q.x, q.y);
 }
 #elif VXL_LANES == 8
-#define VXL_INDEXED(p, i)                                                                     \
+#define VXL_INDEXED(p, i)                                                                      \
     (p)[(i).s0], (p)[(i).s1], (p)[(i).s2], (p)[(i).s3], (p)[(i).s4], (p)[(i).s5], (p)[(i).s6], \
         (p)[(i).s7]
 #define LANES_NUMBERS ((int8)(0, 1, 2, 3, 4, 5, 6, 7))
@@ -93,10 +96,10 @@ static inline uint lanes_least(uint8 v) {
     return min(q.x, q.y);
 }
 #else
-#define VXL_INDEXED(p, i)                                                                      \
-    (p)[(i).s0], (p)[(i).s1], (p)[(i).s2], (p)[(i).s3], (p)[(i).s4], (p)[(i).s5], (p)[(i).s6], \
-        (p)[(i).s7], (p)[(i).s8], (p)[(i).s9], (p)[(i).sa], (p)[(i).sb], (p)[(i).sc],          \
-        (p)[(i).sd], (p)[(i).se], (p)[(i).sf]
+#define VXL_INDEXED(p, i)                                                                          \
+    (p)[(i).s0], (p)[(i).s1], (p)[(i).s2], (p)[(i).s3], (p)[(i).s4], (p)[(i).s5], (p)[(i).s6],     \
+        (p)[(i).s7], (p)[(i).s8], (p)[(i).s9], (p)[(i).sa], (p)[(i).sb], (p)[(i).sc], (p)[(i).sd], \
+        (p)[(i).se], (p)[(i).sf]
 #define LANES_NUMBERS ((int16)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15))
 static inline int lanes_any(int16 mask) {
     int8 e = mask.lo | mask.hi;

@@ -17,10 +17,10 @@ typedef struct {
     global const uint* restrict bricks;
     global const uint* restrict leaves;
     global const uint* restrict leaf_voxels;
-    int size_x, size_y, size_z;     // voxels
+    int size_x, size_y, size_z;  // voxels
     int sectors_x, sectors_y;
-    float plane_bound;              // how far a computed crossing can lie from the true one, voxels
-    float fixed_point;              // 2^fraction_bits: one voxel in the rays' fixed point
+    float plane_bound;  // how far a computed crossing can lie from the true one, voxels
+    float fixed_point;  // 2^fraction_bits: one voxel in the rays' fixed point
 } PyramidView;
 
 /// What the pyramid knows of a cell: the empty block around it, or the leaf that holds its voxel.
@@ -32,7 +32,8 @@ typedef struct {
 
 /// Bit number, within its half of the mask, of the child of size 1 << shift that holds the cell.
 static inline lane_uint child_bit(lane_int x, lane_int y, lane_int z, int shift) {
-    return LANES_AS_UINT(((x >> shift) & 3) | (((y >> shift) & 3) << 2) | (((z >> shift) & 1) << 4));
+    return LANES_AS_UINT(((x >> shift) & 3) | (((y >> shift) & 3) << 2) |
+                         (((z >> shift) & 1) << 4));
 }
 
 static inline lane_int group_is_empty(lane_uint mask, lane_uint bit) {

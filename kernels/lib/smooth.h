@@ -35,12 +35,12 @@ static inline lane_float field_along(const Field* f, const LocalRay* r, lane_flo
 
 /// Tests the voxels that the `tested` lanes stand in; the mask of those hit, their t in `t_hit`.
 ///
-/// A ray comes from outside the surface and hits where F turns negative: at the entry point if it is
-/// negative there already, so that no ray slips through between two voxels. A ray that began on the
-/// surface in this very voxel (`beginning`) sees the level of its own origin instead: `level` is set so
-/// that F + level is not negative there, and stays with the ray.
-static inline lane_int hit_smooth(const Field* f, const Walk* w, lane_int tested, lane_int beginning,
-                                  lane_float* level, lane_float* t_hit) {
+/// A ray comes from outside the surface and hits where F turns negative: at the entry point if it
+/// is negative there already, so that no ray slips through between two voxels. A ray that began on
+/// the surface in this very voxel (`beginning`) sees the level of its own origin instead: `level`
+/// is set so that F + level is not negative there, and stays with the ray.
+static inline lane_int hit_smooth(const Field* f, const Walk* w, lane_int tested,
+                                  lane_int beginning, lane_float* level, lane_float* t_hit) {
     const LocalRay ray = local_ray(w);
     const lane_float u_exit = fmax(exit_time(w) - w->t, 0.0f);
     lane_float a = (lane_float)0.0f, b = u_exit;
@@ -51,14 +51,19 @@ static inline lane_int hit_smooth(const Field* f, const Walk* w, lane_int tested
     const lane_float middle = 0.5f * u_exit;
     const lane_float fm = field_along(f, &ray, middle) + *level;
 
-    // Both ends outside: the ray may still dip below the surface. Look at the parabola's lowest point.
+    // Both ends outside: the ray may still dip below the surface. Look at the parabola's lowest
+    // point.
     const lane_float bend = fa - 2.0f * fm + fb;
     const lane_float slope = fb - fa;
     const lane_int dips = LANE_MASK(fm >= 0.0f) & LANE_MASK(fb >= 0.0f) &
                           LANE_MASK(fabs(slope) < 2.0f * bend) & tested;
     lane_float lowest = middle, f_lowest = fm;
     if (lanes_any(dips)) {
-        lowest = LANES_SELECT(dips, u_exit * (0.5f - 0.25f * exact_divide(slope, LANES_SELECT(dips, bend, (lane_float)1.0f))), lowest);
+        lowest = LANES_SELECT(
+            dips,
+            u_exit *
+                (0.5f - 0.25f * exact_divide(slope, LANES_SELECT(dips, bend, (lane_float)1.0f))),
+            lowest);
         f_lowest = LANES_SELECT(dips, field_along(f, &ray, lowest) + *level, f_lowest);
     }
     const lane_int entered = LANE_MASK(fa < 0.0f) & ~beginning;
@@ -85,7 +90,8 @@ static inline lane_int hit_smooth(const Field* f, const Walk* w, lane_int tested
         }
     }
     const lane_float gap = LANES_SELECT(bracketed, fa - fb, (lane_float)1.0f);
-    const lane_float u = LANES_SELECT(bracketed, fma(exact_divide(fa, gap), b - a, a), (lane_float)0.0f);
+    const lane_float u =
+        LANES_SELECT(bracketed, fma(exact_divide(fa, gap), b - a, a), (lane_float)0.0f);
     *t_hit = LANES_SELECT(crossed, w->t + u, *t_hit);
     return crossed;
 }

@@ -1,8 +1,9 @@
 // Where a ray meets the source triangles that an exact voxel lists.
 //
-// The watertight test of Woop, Benthin and Wald 2013: the ray becomes the z axis by a shear, and the
-// signs of three edge functions decide. Two triangles evaluate a shared edge to opposite bits, so a
-// ray cannot pass between them. Corners are taken from the ray's own origin, whatever voxel lists them.
+// The watertight test of Woop, Benthin and Wald 2013: the ray becomes the z axis by a shear, and
+// the signs of three edge functions decide. Two triangles evaluate a shared edge to opposite bits,
+// so a ray cannot pass between them. Corners are taken from the ray's own origin, whatever voxel
+// lists them.
 #ifndef VXL_TRIANGLE_H
 #define VXL_TRIANGLE_H
 
@@ -52,7 +53,8 @@ static inline lane_float edge_function(ShearedCorner a, ShearedCorner b) {
     return left - right;
 }
 
-/// Tests triangle `number` of each lane in `tested`; closer hits than *t beyond the origin replace it.
+/// Tests triangle `number` of each lane in `tested`; closer hits than *t beyond the origin replace
+/// it.
 static inline lane_int hit_triangle(global const float* restrict triangles, lane_uint number,
                                     const Walk* w, const RayShear* s, lane_int tested,
                                     lane_float* t) {
@@ -69,7 +71,8 @@ static inline lane_int hit_triangle(global const float* restrict triangles, lane
     const lane_int solid = LANE_MASK(determinant != 0.0f) & one_side & tested;
     if (!lanes_any(solid)) return solid;
     const lane_float weighted = fma(u, a.z, fma(v, b.z, e * c.z));
-    const lane_float at = exact_divide(weighted, LANES_SELECT(solid, determinant, (lane_float)1.0f));
+    const lane_float at =
+        exact_divide(weighted, LANES_SELECT(solid, determinant, (lane_float)1.0f));
     const lane_int closer = solid & LANE_MASK(at > 0.0f) & LANE_MASK(at < *t);
     *t = LANES_SELECT(closer, at, *t);
     return closer;

@@ -1,10 +1,11 @@
 // A discrete walk along a ray from cell to cell: floats propose, integers arbitrate.
 //
 // The cells visited are exactly those of the snapped ray, in order: 6-connected, a point on a plane
-// belonging to the cell being entered, crossings at one t taken lowest axis first. Crossing times are
-// computed from the integer cell each time, never accumulated. A time (K - o) / d is right within
-// 2 units, so a computed position is right within plane_bound voxels; only when it lies closer than
-// that to a plane that it may or may not have crossed does an exact 64-bit comparison decide.
+// belonging to the cell being entered, crossings at one t taken lowest axis first. Crossing times
+// are computed from the integer cell each time, never accumulated. A time (K - o) / d is right
+// within 2 units, so a computed position is right within plane_bound voxels; only when it lies
+// closer than that to a plane that it may or may not have crossed does an exact 64-bit comparison
+// decide.
 #ifndef VXL_WALK_H
 #define VXL_WALK_H
 
@@ -56,8 +57,8 @@ static inline lane_long plane_distance(lane_int plane, lane_float o, lane_int po
     return distance * sign;
 }
 
-/// What one axis contributes to an exact crossing: its exit plane, the plane nearest to the computed
-/// position, both as distances A and B, and the fixed-point direction D. t(A) = A / D.
+/// What one axis contributes to an exact crossing: its exit plane, the plane nearest to the
+/// computed position, both as distances A and B, and the fixed-point direction D. t(A) = A / D.
 typedef struct {
     lane_long exit, nearest, direction;
 } AxisCrossing;
@@ -76,13 +77,14 @@ static inline lane_int cell_beside(lane_int plane, lane_int crossed, lane_int po
     return plane + (crossed ^ positive);
 }
 
-/// The walk's next cell beyond the block of 1 << log2_size cells around it, before it is arbitrated.
+/// The walk's next cell beyond the block of 1 << log2_size cells around it, before it is
+/// arbitrated.
 typedef struct {
-    lane_int kx, ky, kz;     // planes through which the block is left
-    lane_int rx, ry, rz;     // planes nearest to the computed exit position
-    lane_float tx, ty, tz;   // times of kx, ky, kz
-    lane_int ex, ey;         // mask: left across x; across y; neither: across z
-    lane_int x, y, z;        // the cell entered
+    lane_int kx, ky, kz;    // planes through which the block is left
+    lane_int rx, ry, rz;    // planes nearest to the computed exit position
+    lane_float tx, ty, tz;  // times of kx, ky, kz
+    lane_int ex, ey;        // mask: left across x; across y; neither: across z
+    lane_int x, y, z;       // the cell entered
 } Crossing;
 
 /// Decides a crossing in exact arithmetic, for all lanes.
@@ -98,7 +100,8 @@ static inline void arbitrate(const PyramidView* p, const Walk* w, Crossing* c) {
     const lane_long ex = LANES_LONG(c->ex), ey = LANES_LONG(c->ey), ez_long = LANES_LONG(ez);
     const lane_long exit = (x.exit & ex) | (y.exit & ey) | (z.exit & ez_long);
     const lane_long direction = (x.direction & ex) | (y.direction & ey) | (z.direction & ez_long);
-    // A plane met at the same time as the exit is crossed when its axis comes first, or is the exit's.
+    // A plane met at the same time as the exit is crossed when its axis comes first, or is the
+    // exit's.
     const lane_long ax = x.nearest * direction, bx = exit * x.direction;
     const lane_long ay = y.nearest * direction, by = exit * y.direction;
     const lane_long az = z.nearest * direction, bz = exit * z.direction;
@@ -111,7 +114,9 @@ static inline void arbitrate(const PyramidView* p, const Walk* w, Crossing* c) {
 }
 
 /// The first coordinate beyond plane `k` in the ray's direction.
-static inline lane_int beyond(lane_int k, lane_int positive) { return k + ~positive; }
+static inline lane_int beyond(lane_int k, lane_int positive) {
+    return k + ~positive;
+}
 
 static inline lane_int near_plane(lane_int plane, lane_float position, float bound) {
     return LANE_MASK(fabs(LANES_FLOAT(plane) - position) <= bound);

@@ -1,4 +1,5 @@
-// The world ends at its bounds: solids that reach further are cut off there, and the cut is surface.
+// The world ends at its bounds: solids that reach further are cut off there, and the cut is
+// surface.
 #ifndef VXL_WORLD_BOUNDS_H
 #define VXL_WORLD_BOUNDS_H
 

@@ -1,4 +1,5 @@
-// The scene as the kernels see it: lengths in the world's voxels unless said otherwise, colours linear.
+// The scene as the kernels see it: lengths in the world's voxels unless said otherwise, colours
+// linear.
 #ifndef VXL_SHARED_SCENE_H
 #define VXL_SHARED_SCENE_H
 
@@ -15,8 +16,8 @@ struct float4 {
 
 // The pyramid's shape, and the numbers of its fixed point.
 typedef struct PyramidShape {
-    float4 edge;          // xyz: a voxel's edges in metres; w unused
-    float4 inverse_edge;  // 1 / edge
+    float4 edge;                 // xyz: a voxel's edges in metres; w unused
+    float4 inverse_edge;         // 1 / edge
     int size_x, size_y, size_z;  // voxels
     int sectors_x, sectors_y;
     float plane_bound;     // voxels: how far a computed crossing can lie from the true one
@@ -38,7 +39,8 @@ typedef struct Sight {
     float4 axis_x;      // X_E, Y_E, Z_E: voxels per metre along each
     float4 axis_y;
     float4 axis_z;
-    float half_x;     // pyramid: tangent of the half angle; sector, ball: half angle, radians; box: metres
+    float half_x;  // pyramid: tangent of the half angle; sector, ball: half angle, radians; box:
+                   // metres
     float half_y;
     float near_plane;  // metres; along Z_E for pyramid and box, along the ray for sector and ball
     float far_plane;

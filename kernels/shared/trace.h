@@ -2,9 +2,9 @@
 #ifndef VXL_SHARED_TRACE_H
 #define VXL_SHARED_TRACE_H
 
-// A ray p(t) = o + d t in a grid's voxels. Every o is a multiple of 2^-fraction_bits in [0, size], every
-// d of 2^-22 with the largest |d| in [1/2, 1]: both are exact floats and exact integers (fixed point).
-// t_end < 0 marks an idle place.
+// A ray p(t) = o + d t in a grid's voxels. Every o is a multiple of 2^-fraction_bits in [0, size],
+// every d of 2^-22 with the largest |d| in [1/2, 1]: both are exact floats and exact integers
+// (fixed point). t_end < 0 marks an idle place.
 #define VXL_RAY_OX 0
 #define VXL_RAY_OY 1
 #define VXL_RAY_OZ 2
@@ -20,8 +20,9 @@
 //   VXL_HIT_T      float: where, as the ray's t
 //   VXL_HIT_VOXEL  the voxel's number in the pyramid, VXL_NO_VOXEL for a miss
 //   VXL_HIT_CELL   x | y << 16
-//   VXL_HIT_FACE   z | axis << 16: the axis (0, 1, 2) across which the ray entered the cell; 3: it began there
-//   VXL_HIT_PRIMITIVE  the triangle or solid that was hit, VXL_NO_PRIMITIVE for other surfaces
+//   VXL_HIT_FACE   z | axis << 16: the axis (0, 1, 2) across which the ray entered the cell; 3: it
+//   began there VXL_HIT_PRIMITIVE  the triangle or solid that was hit, VXL_NO_PRIMITIVE for other
+//   surfaces
 #define VXL_HIT_T 0
 #define VXL_HIT_VOXEL 1
 #define VXL_HIT_CELL 2

@@ -5,9 +5,10 @@
 // Attribute word of a voxel:
 //   31 30 | 29 ........ 16 | 15 ......... 0
 //   kind  | material       | object
-// kind: 0 cubes, 1 smooth, 2 exact (the numbers of voxelume::Surface). An exact voxel may hold a smooth
-// surface too: then the word is that surface's, and the primitives have their own. `material` and `object` index the
-// scene's lists; in an object's own grid, before placement, `material` is the mesh's face group.
+// kind: 0 cubes, 1 smooth, 2 exact (the numbers of voxelume::Surface). An exact voxel may hold a
+// smooth surface too: then the word is that surface's, and the primitives have their own.
+// `material` and `object` index the scene's lists; in an object's own grid, before placement,
+// `material` is the mesh's face group.
 #define VXL_KIND_SHIFT 30
 #define VXL_MATERIAL_SHIFT 16
 #define VXL_MATERIAL_MASK 0x3FFFu
@@ -23,7 +24,8 @@
 // where D_a of an edge along axis a from node 0 to node 1 is (f(1) - f(-1) - f(2) + f(0)) / 2.
 //   words 0..3: two f each, low half x=0, high half x=1, int16 in 1/8192 voxel; word = y | z<<1
 //   words 4..7: edge e of each axis, 10-bit signed in 2^curvature_exponent / 8192 voxel:
-//     bits 0-9 D_x of the edge at y=e&1, z=e>>1;  10-19 D_y at x=e&1, z=e>>1;  20-29 D_z at x=e&1, y=e>>1
+//     bits 0-9 D_x of the edge at y=e&1, z=e>>1;  10-19 D_y at x=e&1, z=e>>1;  20-29 D_z at x=e&1,
+//     y=e>>1
 #define VXL_FIELD_WORDS 8
 #define VXL_DISTANCE_UNITS 8192
 

@@ -147,9 +147,8 @@ void number_bricks(const Device& device, std::span<Painter> painters, BrickGrid&
         const BrickGrid& grid = *painter.placed->grid;
         painter.program.kernel("classify_bricks")
             .launch(WorkItem::light, count, count, glm::ivec4(table, 0), bounds,
-                    painter.map.fraction_bits,
-                    painter.rows, glm::ivec4(grid.frame.bricks(), 0), grid.slots, painter.near,
-                    grid.distance, states);
+                    painter.map.fraction_bits, painter.rows, glm::ivec4(grid.frame.bricks(), 0),
+                    grid.slots, painter.near, grid.distance, states);
     }
     constexpr uint8_t kFull = 1, kSurface = 2;  // lib/placed.h
     std::vector<uint32_t> slots(count, kBrickOutside), coordinates;
@@ -215,10 +214,9 @@ void paint_smooth(Painter& painter, BrickGrid& world, const Buffer<int16_t>& nea
     painter.program.kernel("paint_smooth_voxels")
         .launch(WorkItem::heavy, leaves, leaves, table, bounds_of(world.frame),
                 painter.map.fraction_bits, painter.rows, object_table, grid.slots, painter.near,
-                grid.distance, scale, half_diagonal(world.frame), painter.words.map, painter.words.materials,
-                grid.attributes, grid.colors, world.coordinates, world.distance, nearest,
-                world.occupancy,
-                world.attributes, world.colors);
+                grid.distance, scale, half_diagonal(world.frame), painter.words.map,
+                painter.words.materials, grid.attributes, grid.colors, world.coordinates,
+                world.distance, nearest, world.occupancy, world.attributes, world.colors);
 }
 
 void paint_cubes(Painter& painter, BrickGrid& world) {
