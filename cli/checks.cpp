@@ -21,12 +21,15 @@ void check_output(const std::string& path, std::initializer_list<const char*> ex
     const AtomicFile trial(path);  // leaves nothing behind without commit()
 }
 
-std::function<std::string(const std::string&)> in_range(double least, double most) {
+std::function<std::string(const std::string&)> in_range(double least, double most, Number number) {
     return [=](const std::string& text) -> std::string {
         char* end = nullptr;
-        const double number = std::strtod(text.c_str(), &end);
-        if (!text.empty() && *end == '\0' && number >= least && number <= most) return {};
-        return fmt::format("{} isn't a number from {:g} to {:g}", quote(text), least, most);
+        const double value = std::strtod(text.c_str(), &end);
+        const bool is_whole = text.find_first_not_of("+-0123456789") == std::string::npos;
+        const bool is_number = !text.empty() && *end == '\0' && value >= least && value <= most;
+        if (is_number && (is_whole || number == Number::any)) return {};
+        return fmt::format("{} isn't a {}number from {:g} to {:g}", quote(text),
+                           number == Number::whole ? "whole " : "", least, most);
     };
 }
 

@@ -20,8 +20,11 @@ namespace voxelume::cli {
 void check_output(const std::string& path, std::initializer_list<const char*> extensions,
                   const char* command);
 
+enum class Number { whole, any };
+
 /// For CLI::Option::check: numbers from `least` to `most`.
-std::function<std::string(const std::string&)> in_range(double least, double most);
+std::function<std::string(const std::string&)> in_range(double least, double most,
+                                                        Number number = Number::any);
 
 /// The value that an option's text names. Throws Error::usage with the nearest name.
 template <class Value, size_t count>

@@ -27,7 +27,7 @@ void add_scene_options(CLI::App& app, SceneOptions& options) {
         ->allow_extra_args(false);
     app.add_option("--size", options.size, "WIDTHxHEIGHT in pixels, instead of the scene's");
     app.add_option("--samples", options.samples, "samples per pixel, instead of the scene's")
-        ->check(in_range(1, 4096));
+        ->check(in_range(1, 4096, Number::whole));
     app.add_option("--device", options.device, "auto, cpu, gpu, a number, or part of a name");
 }
 

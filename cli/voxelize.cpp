@@ -97,7 +97,7 @@ Action add_voxelize(CLI::App& app) {
                           ->check(in_range(1e-9, 1e9));
     app.add_option("--resolution", command->resolution,
                    "voxels along the longest side, 256 without either")
-        ->check(in_range(1, 16384))
+        ->check(in_range(1, 16384, Number::whole))
         ->excludes(size);
     app.add_option("--surface", command->surface,
                    "smooth (a distance field; the default), cubes, or exact (triangles' lists)");

@@ -133,7 +133,8 @@ kernel void paint_smooth_voxels(
     global const short* restrict distance, const float scale, const int crossing,
     const WordMap words, global const uint* restrict materials,
     global const uint* restrict attributes, global const uint* restrict colors,
-    global const uint* restrict coordinates, global short* restrict nearest,
+    global const uint* restrict coordinates, global const short* restrict world_distance,
+    global short* restrict nearest,
     global ulong* restrict occupancy, global uint* restrict world_attributes,
     global uint* restrict world_colors) {
     const uint leaf = work_item();
@@ -150,6 +151,11 @@ kernel void paint_smooth_voxels(
     ulong crossed = 0;
     for (int i = 0; i < 64; ++i) {
         const int4 voxel = (int4)(i & 3, i >> 2 & 3, i >> 4, 0);
+        const int place = leaf_place(leaf) + voxel.x + (voxel.y << 4) + (voxel.z << 8);
+        const size_t number = (size_t)(leaf >> 6) * VXL_BRICK_VOXELS + place;
+        // Where this object's surface crosses, the corners' distances, which are no larger than its
+        // own, are within a voxel's diagonal: most voxels near it need no more than this look.
+        if (world_distance[number] > 3 * crossing) continue;
         const FixedPoint centre = map_half_steps(&object, low + voxel * 2 + (int4)(1, 1, 1, 0));
         const int4 cell = cell_at(centre, fraction_bits);
         if (!at_once) {
@@ -163,8 +169,6 @@ kernel void paint_smooth_voxels(
         const short value = (short)max((int)own, -depth_in_world(bounds, half_steps));
         // `crossing` is half a voxel's diagonal; the bend of a distance field adds less than that.
         if ((int)abs(value) > 2 * crossing) continue;
-        const int place = leaf_place(leaf) + voxel.x + (voxel.y << 4) + (voxel.z << 8);
-        const size_t number = (size_t)(leaf >> 6) * VXL_BRICK_VOXELS + place;
         const uint kind =
             VXL_ATTRIBUTES ? world_attributes[number] & VXL_KIND_EXACT << VXL_KIND_SHIFT : 0u;
         if ((int)abs(value) <= crossing && kind == 0u) crossed |= 1ul << i;

@@ -17,16 +17,20 @@ constexpr double kWords = 16384;     // 4 bytes for each voxel: attributes, colo
 constexpr double kWinding = 9216;    // winding numbers, their totals and signs, while voxelizing
 constexpr double kIndexMarks = 544;  // masks, counts and starts, while indexing
 constexpr double kBand = 2.8;        // voxels around a smooth surface with stored distances
+constexpr double kPlacedBand = 5;    // around cubes: placing looks at whole leaves of them
 
 // Bytes for each brick of a lattice, stored or not.
 constexpr double kModelTable = 12;  // slots, bins' numbers and cursors
 constexpr double kWorldTable = 5;   // slots and states
 
+// Bytes for each triangle of an exact surface, as long as it is there.
+constexpr double kExactTriangle = 40;
+
 // Bytes for each triangle while voxelizing: corners, shape, places in the lists of two bricks.
 constexpr double kTriangle = 112;
 
-// Bytes for each voxel of the pyramid, and for each primitive in an exact one.
-constexpr double kField = 32, kWord = 4, kPrimitive = 8;
+// Bytes for each voxel of the pyramid, and for the list of triangles of an exact one.
+constexpr double kField = 32, kWord = 4, kPrimitives = 10;
 constexpr double kVoxelsPerLeaf = 16, kLeaf = 12;
 constexpr double kVoxelsPerSector = 4096, kSectorRecords = 1024;
 
@@ -44,7 +48,7 @@ struct Extras {
 };
 
 Extras extras_of(const Model& model, const Mesh* mesh) {
-    if (model.solid) return {.words = true};
+    if (model.solid) return {};
     return {.words = mesh->group_names.size() > 1, .colors = !mesh->vertex_colors.empty()};
 }
 
@@ -70,11 +74,12 @@ GridPlan plan_grid(const Model& model, const Mesh* mesh, const GridFrame& frame,
     const bool counts_windings = mesh && (smooth || model.set == VoxelSet::solid);
     const double brick = (smooth ? kDistance : kOccupancy) +
                          kWords * (int(extras.words) + int(extras.colors) + int(exact));
-    grid.kept_bytes =
-        brick_table(frame) * 4 + extent.bricks * brick + (exact ? extent.voxels * kPrimitive : 0);
+    const double lists = extent.voxels * kPrimitives + double(grid.triangles) * kExactTriangle;
+    grid.kept_bytes = brick_table(frame) * 4 + extent.bricks * brick + (exact ? lists : 0);
     grid.made_bytes = grid.kept_bytes + brick_table(frame) * (kModelTable - 4) +
                       double(grid.triangles) * kTriangle +
-                      extent.bricks * (counts_windings ? kWinding : kOccupancy);
+                      extent.bricks * (counts_windings ? kWinding : kOccupancy) +
+                      (extras.words || extras.colors ? extent.bricks * kWords : 0);
     return grid;
 }
 
@@ -145,16 +150,19 @@ class Planner {
         const Model& model = scene_.models[size_t(object.model)];
         const Mesh* mesh = mesh_of(model);
         const Extras extras = extras_of(model, mesh);
-        const SurfaceExtent in_world = world_extent(object, band_of(model));
+        const SurfaceExtent in_world =
+            world_extent(object, model.surface == Surface::smooth ? kBand : kPlacedBand);
         plan_.voxels += in_world.voxels;
         plan_.bricks += in_world.bricks;
         smooth_ |= model.surface == Surface::smooth;
         occupied_ |= model.surface != Surface::smooth;
         colors_ |= extras.colors;
-        words_ |= objects_++ > 0 || (mesh && extras.words);
+        words_ |= objects_++ > 0 || extras.words;
         if (model.surface == Surface::exact) {
             exact_voxels_ += in_world.voxels;
-            plan_.grids.push_back(plan_grid(model, mesh, plan_.world, in_world));
+            exact_bytes_ += in_world.voxels * kPrimitives;
+            if (mesh) exact_bytes_ += double(mesh->triangles.size()) * kExactTriangle;
+            plan_.grids.push_back(plan_grid(model, mesh, plan_.world, world_extent(object, 0)));
             plan_.grids.back().object = number;
         } else if (made_.insert(object.model).second) {
             plan_.grids.push_back(plan_model_of(model, mesh, area_of(object.model)));
@@ -179,9 +187,10 @@ class Planner {
         if (colors_) brick += kWords;
         if (exact_voxels_ > 0) brick += kWords;
         const bool measures_nearest = smooth_ && (words_ || colors_ || occupied_);
-        const double world = 4 * table + plan_.bricks * brick + exact_voxels_ * kPrimitive;
+        const double world = 4 * table + plan_.bricks * brick + exact_bytes_;
         plan_.place_bytes = kept + world + (kWorldTable - 4) * table +
-                            (measures_nearest ? plan_.bricks * kDistance : 0);
+                            (measures_nearest ? plan_.bricks * kDistance : 0) +
+                            (exact_voxels_ > 0 ? plan_.bricks * kWords : 0);
         plan_.world_bytes = pyramid_bytes();
         plan_.index_bytes = world + plan_.bricks * kIndexMarks + plan_.world_bytes;
         const glm::dvec2 size(scene_.render.size);
@@ -200,7 +209,7 @@ class Planner {
         if (smooth_) voxel += kField;
         if (words_ || (smooth_ && occupied_)) voxel += kWord;
         if (colors_) voxel += kWord;
-        return 4 * table + plan_.voxels * voxel + exact_voxels_ * (kWord + kPrimitive) +
+        return 4 * table + plan_.voxels * voxel + exact_voxels_ * kWord + exact_bytes_ +
                std::min(table, 8 + plan_.voxels / kVoxelsPerSector) * kSectorRecords;
     }
 
@@ -212,7 +221,7 @@ class Planner {
     std::map<int, Bounds> boxes_;
     std::set<int> made_;
     int objects_ = 0;
-    double exact_voxels_ = 0;
+    double exact_voxels_ = 0, exact_bytes_ = 0;
     bool smooth_ = false, occupied_ = false, words_ = false, colors_ = false;
 };
 

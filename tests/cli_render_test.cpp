@@ -1,94 +1,20 @@
-// The commands render, check and voxelize: what they make of good input, and of bad.
+// The commands render, check and voxelize on good input; cli_bad_input_test has the other.
 #include <gmock/gmock.h>
 
-#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "runtime/io/exr.hpp"
 #include "runtime/io/png.hpp"
 #include "runtime/io/vdb.hpp"
-#include "tests/program_runner.hpp"
+#include "tests/scene_program.hpp"
 
 namespace voxelume {
 
 using testing::HasSubstr;
 using testing::IsEmpty;
-using testing::MatchesRegex;
 using testing::StartsWith;
 
-namespace {
-
-using Json = nlohmann::json;
-
-constexpr const char* kScene = R"({
-  "voxelume": 1,
-  "world": {"voxel_size": 0.1, "bounds": {"min": [0, 0, 0], "max": [3, 2, 1]},
-            "ambient": [0.3, 0.3, 0.3]},
-  "materials": {"brick": {"color": [0.7, 0.3, 0.2]}},
-  "models": {"thing": {"shape": "box", "size": [1.2, 0.8, 0.4], "surface": "cubes"}},
-  "objects": [{"name": "thing", "model": "thing", "material": "brick", "position": [1.5, 1, 0.5]}],
-  "lights": [{"name": "sun", "type": "directional", "direction": [0.2, -0.5, -1]}],
-  "observer": {"position": [1.5, 1, 4], "look_at": [1.5, 1, 0.5],
-               "display": {"shape": "pyramid", "angles": [45, 34], "near": 0.1, "far": 8,
-                           "voxels": [16, 12, 9]}},
-  "render": {"size": [20, 12]}
-})";
-
-constexpr const char* kTriangle = "v 0 0 0\nv 1 0 0\nv 0 0.7 0\nf 1 2 3\n";
-
-constexpr const char* kTetrahedron =
-    "v 0 0 0\nv 1 0 0\nv 0 0.7 0\nv 0 0 0.5\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
-
-}  // namespace
-
-class CliRenderTest : public ProgramTest {
-  protected:
-    void SetUp() override {
-        ProgramTest::SetUp();
-        ASSERT_FALSE(HasFatalFailure());
-        write_scene([](Json&) {});
-    }
-
-    /// The good scene after a change, as scene.json.
-    template <class Change>
-    void write_scene(const Change& change) {
-        Json scene = Json::parse(kScene);
-        change(scene);
-        put_bytes(folder / "scene.json", scene.dump(1));
-    }
-
-    void write_mesh_scene(const std::string& mesh, const std::string& bytes) {
-        put_bytes(folder / mesh, bytes);
-        write_scene([&](Json& scene) {
-            scene["models"]["thing"] = {{"mesh", mesh}, {"surface", "cubes"}};
-        });
-    }
-
-    /// Everything in the folder but what the runner itself puts there.
-    std::vector<std::string> names() const {
-        std::vector<std::string> found;
-        for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-            const std::string name = entry.path().filename();
-            if (name != "stdout.txt" && name != "stderr.txt") found.push_back(name);
-        }
-        std::ranges::sort(found);
-        return found;
-    }
-
-    /// A failure is told in one line, with this code, and leaves no file behind.
-    std::string expect_failure(int code, const std::string& arguments) const {
-        const std::vector<std::string> before = names();
-        const ProgramResult result = run(arguments);
-        EXPECT_EQ(result.exit_code, code) << arguments << "\n" << result.err;
-        EXPECT_THAT(result.err, MatchesRegex("voxelume: [^\n]+\n")) << arguments;
-        EXPECT_THAT(result.out, IsEmpty()) << arguments;
-        EXPECT_EQ(names(), before) << arguments;
-        return result.err;
-    }
-    std::string expect_render_failure(int code) const {
-        return expect_failure(code, "render scene.json -o out.exr -o out.png");
-    }
-};
+class CliRenderTest : public SceneProgramTest {};
 
 TEST_F(CliRenderTest, OneSceneRendersToBothFormatsAtOnce) {
     const ProgramResult result = run("render scene.json -o out.exr -o out.png");
@@ -201,100 +127,6 @@ TEST_F(CliRenderTest, CheckAndADryRunSayThePlanAndWriteNothing) {
     EXPECT_EQ(plan["grids"][0]["grid"], "model thing");
     EXPECT_EQ(plan["grids"].back()["voxels"], "30x20x10");
     EXPECT_EQ(plan["stages"].size(), 4u);
-}
-
-TEST_F(CliRenderTest, DamagedMeshesAreInputErrors) {
-    write_mesh_scene("empty.obj", "");
-    EXPECT_THAT(expect_render_failure(4), HasSubstr("empty.obj: the file is empty"));
-    write_mesh_scene("bare.obj", "v 0 0 0\n");
-    EXPECT_THAT(expect_render_failure(4), HasSubstr("bare.obj"));
-    write_mesh_scene("nan.obj", "v 0 0 0\nv nan 0 0\nv 0 1 0\nf 1 2 3\n");
-    EXPECT_THAT(expect_render_failure(4), HasSubstr("nan.obj:2: "));
-    write_mesh_scene("range.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n");
-    EXPECT_THAT(expect_render_failure(4), HasSubstr("range.obj:4: the face names vertex 9"));
-    write_mesh_scene("cut.ply",
-                     "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
-                     "property float z\nelement face 1\nproperty list uchar int vertex_indices\n"
-                     "end_header\n0 0 0\n1 0 0\n");
-    EXPECT_THAT(expect_render_failure(4), HasSubstr("cut.ply"));
-    write_mesh_scene("gone.obj", "");
-    std::filesystem::remove(folder / "gone.obj");
-    EXPECT_THAT(expect_render_failure(4), HasSubstr("there is no file \"gone.obj\""));
-    EXPECT_THAT(expect_failure(4, "render gone.json -o out.exr"), HasSubstr("gone.json"));
-}
-
-TEST_F(CliRenderTest, WrongScenesNamePlaceAndNearestName) {
-    write_scene([](Json& scene) { scene["world"]["voxel_size"] = -0.1; });
-    EXPECT_THAT(expect_render_failure(3), HasSubstr("world.voxel_size: must be above 0"));
-    write_scene([](Json& scene) { scene["world"]["voxelsize"] = 0.1; });
-    EXPECT_THAT(expect_render_failure(3), HasSubstr("did you mean \"voxel_size\"?"));
-    write_scene([](Json& scene) { scene["objects"][0]["material"] = "brik"; });
-    const std::string error = expect_render_failure(3);
-    EXPECT_THAT(error, MatchesRegex("voxelume: scene.json:[0-9]+:[0-9]+: objects.*\n"));
-    EXPECT_THAT(error, HasSubstr("no material named \"brik\"; did you mean \"brick\"?"));
-    put_bytes(folder / "scene.json", "{\"voxelume\": 1,,}");
-    expect_render_failure(3);
-}
-
-TEST_F(CliRenderTest, WorldsBeyondMemoryAreRefusedBeforeItIsTaken) {
-    const auto world_of = [&](int voxels) {
-        write_scene([&](Json& scene) {
-            scene["world"]["bounds"] = {{"min", {0, 0, 0}}, {"max", {1, 1, 1}}};
-            scene["world"]["voxel_size"] = 1.0 / voxels;
-            scene["models"]["thing"] = {{"shape", "sphere"}, {"radius", 0.49}};
-            scene["objects"][0]["position"] = {0.5, 0.5, 0.5};
-        });
-    };
-    world_of(65536);  // the table of bricks alone
-    EXPECT_THAT(expect_render_failure(8), HasSubstr("use voxels larger than"));
-    world_of(65537);  // the scene's limit
-    EXPECT_THAT(expect_render_failure(8), HasSubstr("65536"));
-    world_of(15000);  // the surface
-    EXPECT_THAT(expect_render_failure(8), HasSubstr("use voxels larger than"));
-    EXPECT_EQ(run("check scene.json").exit_code, 8);
-    world_of(100);
-    EXPECT_THAT(expect_failure(8, "render scene.json --size 65536x65536 -o out.exr"),
-                HasSubstr("render a smaller one"));
-}
-
-TEST_F(CliRenderTest, ModelsWithMoreVoxelsThanCanBeNumberedAreRefused) {
-    write_mesh_scene("long.obj", "v 0 0 0\nv 1e30 0 0\nv 0 1 0\nf 1 2 3\n");
-    EXPECT_THAT(expect_render_failure(8), HasSubstr("models.thing: the mesh is 1e+30 m long"));
-}
-
-TEST_F(CliRenderTest, OutputsThatCantBeWrittenAreSaidBeforeTheWork) {
-    put_bytes(folder / "broken.json", "{");  // it isn't even read
-    EXPECT_THAT(expect_failure(5, "render broken.json -o nowhere/out.exr"),
-                HasSubstr("there is no folder nowhere; create it first"));
-    EXPECT_THAT(expect_failure(5, "render broken.json -o out.exr --stats-json nowhere/stats.json"),
-                HasSubstr("nowhere"));
-    expect_failure(5, "render broken.json -o scene.json/out.exr");
-    if (std::filesystem::exists("/sys/kernel"))  // not even root makes files here
-        expect_failure(5, "render broken.json -o /sys/kernel/out.exr");
-    EXPECT_THAT(expect_failure(2, "render scene.json -o out.jpg"), HasSubstr(".exr or .png"));
-    EXPECT_THAT(expect_failure(2, "render scene.json"), HasSubstr("-o image.exr"));
-}
-
-TEST_F(CliRenderTest, WrongOptionsAreUsageErrors) {
-    EXPECT_THAT(expect_failure(2, "render scene.json -o out.exr --asets x"),
-                HasSubstr("did you mean \"--assets\"?"));
-    for (const char* options :
-         {"--size 3", "--size 0x4", "--size 9x9x9", "--samples 0", "--samples many",
-          "--exposure bright", "more.json", "--frames 1-", "-o"})
-        expect_failure(2, fmt::format("render scene.json -o out.exr {}", options));
-    put_bytes(folder / "triangle.obj", kTriangle);
-    for (const char* options :
-         {"", "-o a.obj", "-o a.vdb --voxel-size -1", "-o a.vdb --surface blocks",
-          "-o a.vdb --resolution 9 --voxel-size 1", "-o a.vdb --set solid"})
-        expect_failure(2, fmt::format("voxelize triangle.obj {}", options));
-    EXPECT_THAT(expect_failure(2, "voxelize triangle.obj -o a.vdb --surface cube"),
-                HasSubstr("did you mean \"cubes\"?"));
-}
-
-TEST_F(CliRenderTest, AFileNameCantSteerTheTerminal) {
-    const std::string error =
-        expect_failure(4, "render \"$(printf 'a\\033[2J\\nb').json\" -o o.exr");
-    EXPECT_THAT(error, HasSubstr("a?[2J?b.json"));
 }
 
 TEST_F(CliRenderTest, AMeshBecomesAModelAndAVolumeAtOnce) {

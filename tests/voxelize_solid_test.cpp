@@ -32,10 +32,9 @@ struct HostGrid {
         const glm::ivec3 b = p / 16, n = frame.size / 16 + 1;
         return slots[static_cast<size_t>((b.z * n.y + b.y) * n.x + b.x)];
     }
-    /// A brick that is not stored has all its voxels in a SOLID set, and none in the others.
-    bool has_voxel(const glm::ivec3& p, bool of_inside = true) const {
+    bool has_voxel(const glm::ivec3& p) const {
         const uint32_t s = slot(p);
-        if (s >= kBrickInside) return of_inside && s == kBrickInside;
+        if (s >= kBrickInside) return s == kBrickInside;
         const int leaf = p.x % 16 / 4 + p.y % 16 / 4 * 4 + p.z % 16 / 4 * 16;
         const int bit = p.x % 4 + p.y % 4 * 4 + p.z % 4 * 16;
         return occupancy[s * size_t{64} + leaf] >> bit & 1;
@@ -144,11 +143,24 @@ TEST(VoxelizeSolid, ThinSetsLetNoPathOfFacesThrough) {
             for (int axis = 0; axis < 3; ++axis) {
                 glm::ivec3 next = p;
                 ++next[axis];
-                if (grid.has_voxel(p, false) || grid.has_voxel(next, false)) continue;
+                if (grid.has_voxel(p) || grid.has_voxel(next)) continue;
                 ASSERT_EQ(is_inside(p), is_inside(next)) << c.name;
             }
         });
     }
+}
+
+TEST(VoxelizeSolid, AShellAroundWholeBricksIsHollow) {
+    Solid box;
+    box.kind = SolidKind::box;
+    box.size = {89.5, 57.5, 71.5};  // voxels; faces a quarter away from the lattice
+    const GridFrame frame = frame_around(box, glm::dmat4(1), glm::dvec3(1));
+    const HostGrid thin(
+        voxelize_solid(test_device(), box, glm::dmat4(1), frame, {Surface::cubes, VoxelSet::thin}));
+    EXPECT_TRUE(std::ranges::find(thin.slots, kBrickInside) == thin.slots.end());
+    size_t count = 0;
+    for_each(frame.size, [&](const glm::ivec3& p) { count += thin.has_voxel(p); });
+    EXPECT_EQ(count, 90u * 58 * 72 - 88u * 56 * 70);
 }
 
 TEST(VoxelizeSolid, TheSupercoverMissesNoVoxelOfTheSurface) {
@@ -167,7 +179,7 @@ TEST(VoxelizeSolid, TheSupercoverMissesNoVoxelOfTheSurface) {
                 inside += exact.distance(grid.point(glm::dvec3(p) + in_voxel / 3.0)) <= 0;
             }
             const bool is_crossed = inside > 0 && inside < 64;
-            const bool is_covered = grid.has_voxel(p, false);
+            const bool is_covered = grid.has_voxel(p);
             ASSERT_TRUE(is_covered || !is_crossed) << c.name;
             // at a corner, 0.44 voxel from the surface, the middle is half a diagonal farther
             ASSERT_TRUE(!is_covered || d <= 0.76 * glm::length(frame.voxel_edge)) << c.name;

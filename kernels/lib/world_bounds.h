@@ -15,9 +15,9 @@ static inline int depth_in_world(WorldBounds bounds, int4 half_steps) {
     return min(min(depth.x, depth.y), min(depth.z, 32767));
 }
 
-// A block of `edge` voxels from `first` on comes within two voxels of the bounds, or beyond.
+// A block of `edge` voxels from `first` on has a side on the bounds, or lies beyond.
 static inline bool is_at_bounds(WorldBounds bounds, int4 first, int edge) {
-    return any((first < 2).xyz) || any((first + (edge + 2) > bounds.size).xyz);
+    return any((first <= 0).xyz) || any((first + edge >= bounds.size).xyz);
 }
 
 #endif

@@ -216,7 +216,8 @@ void paint_smooth(Painter& painter, BrickGrid& world, const Buffer<int16_t>& nea
         .launch(WorkItem::heavy, leaves, leaves, table, bounds_of(world.frame),
                 painter.map.fraction_bits, painter.rows, object_table, grid.slots, painter.near,
                 grid.distance, scale, half_diagonal(world.frame), painter.words.map, painter.words.materials,
-                grid.attributes, grid.colors, world.coordinates, nearest, world.occupancy,
+                grid.attributes, grid.colors, world.coordinates, world.distance, nearest,
+                world.occupancy,
                 world.attributes, world.colors);
 }
 

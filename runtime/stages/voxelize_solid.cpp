@@ -86,6 +86,8 @@ class SolidVoxelizer {
 
         std::vector<uint32_t> slots = states.read(0, count), coordinates;
         for (uint32_t brick = 0; brick < count; ++brick) {
+            if (!of_nodes && !is_solid_set && slots[brick] == kBrickInside)
+                slots[brick] = kBrickOutside;  // a shell is empty inside
             if (!of_nodes && (is_solid_set || slots[brick] == 0))
                 slots[brick] = state_at_end(brick, slots[brick]);
             if (slots[brick] != 0) continue;
