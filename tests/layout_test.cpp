@@ -12,31 +12,23 @@
 
 // The fields of each struct: F float, V float4, I int, and with a length arrays FA, IA. The kernel
 // reads the text of a list, the host what the list stands for.
+// clang-format off
 #define PYRAMID_SHAPE_FIELDS \
-    V(edge)                  \
-    V(inverse_edge)          \
-    I(size_x)                \
-    I(size_y) I(size_z) I(sectors_x) I(sectors_y) F(plane_bound) F(fixed_point) F(half_curvature)
-#define SIGHT_FIELDS                                                                      \
-    V(origin)                                                                             \
-    V(origin_low)                                                                         \
-    V(axis_x)                                                                             \
-    V(axis_y) V(axis_z) F(half_x) F(half_y) F(near_plane) F(far_plane) I(width) I(height) \
-        I(samples) I(shape) F(sample_share) FA(unused, 3)
+    V(edge) V(inverse_edge) I(size_x) I(size_y) I(size_z) I(sectors_x) I(sectors_y) \
+    F(plane_bound) F(fixed_point) F(half_curvature)
+#define SIGHT_FIELDS \
+    V(origin) V(origin_low) V(axis_x) V(axis_y) V(axis_z) F(half_x) F(half_y) F(near_plane) \
+    F(far_plane) I(width) I(height) I(samples) I(shape) F(sample_share) FA(unused, 3)
 #define MATERIAL_RECORD_FIELDS \
-    FA(color, 3)               \
-    F(diffuse)                 \
-    FA(absorption, 3)          \
-    F(ior) FA(emission, 3) F(specular) F(shininess) F(reflection) F(refraction) F(unused)
+    FA(color, 3) F(diffuse) FA(absorption, 3) F(ior) FA(emission, 3) F(specular) F(shininess) \
+    F(reflection) F(refraction) F(unused)
 #define LIGHT_RECORD_FIELDS \
     V(position) V(direction) V(energy) F(inner_cosine) F(outer_cosine) I(kind) I(unused)
 #define SPACE_FIELDS V(background) V(ambient) V(absorption) V(color)
-#define SOLID_SHAPE_FIELDS                                                                      \
-    I(kind)                                                                                     \
-    I(operations)                                                                               \
-    I(shape_count)                                                                              \
-    I(attribute) IA(cell, 3) FA(fraction, 3) FA(shape_from_grid, 9) FA(size, 4) FA(rounding, 2) \
-        FA(derived, 5) FA(unused, 2)
+#define SOLID_SHAPE_FIELDS \
+    I(kind) I(operations) I(shape_count) I(attribute) IA(cell, 3) FA(fraction, 3) \
+    FA(shape_from_grid, 9) FA(size, 4) FA(rounding, 2) FA(derived, 5) FA(unused, 2)
+// clang-format on
 
 #define TEXT_OF(fields) TEXT_OF_(fields)
 #define TEXT_OF_(fields) #fields

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 
 #include "tests/oracles/image_hash.hpp"
 #include "tests/test_device.hpp"
@@ -208,6 +209,22 @@ TEST_P(ShippedScene, HasTheSameBitsForEveryNumberOfLanes) {
         EXPECT_EQ(oracle::image_hash(r.image), expected) << lanes << " lanes";
         EXPECT_EQ(r.report.not_finite, 0u);
     }
+}
+
+/// The hash of a scene's image in tests/golden/hashes.txt: lines of a scene's name and its hash.
+std::string golden_hash(const std::string& scene) {
+    std::ifstream file(std::filesystem::path(VXL_SOURCE_DIR) / "tests/golden/hashes.txt");
+    std::string name, hash;
+    while (file >> name >> hash)
+        if (name == scene) return hash;
+    return "none";
+}
+
+TEST_P(ShippedScene, IsItsGoldenImageToTheBit) {
+    const std::string hash =
+        fmt::format("{:016x}", oracle::image_hash(rendered(shipped_scene(GetParam())).image));
+    EXPECT_EQ(hash, golden_hash(GetParam())) << "if the image was meant to change, look at it and "
+                                                "write the hash to tests/golden/hashes.txt";
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, ShippedScene, testing::Values("solids.json", "cubes.json"));
