@@ -26,8 +26,9 @@ static inline void add_crossings(const LatticeTriangle* t, bool left, short16* w
     const int3 low = lowest_corner(t), high = highest_corner(t);
     if (left ? low.x >= 0 : (high.x < 0 || low.x >= LATTICE_BRICK)) return;
     // Rows whose points lie in the bounding box: ceil of its start, floor of its end.
-    const int2 first = max((low.yz - POINT_OFFSET + (LATTICE_VOXEL - 1)) >> LATTICE_BITS, 0);
-    const int2 last = min((high.yz - POINT_OFFSET) >> LATTICE_BITS, 15);
+    const int2 first =
+        max((low.yz - POINT_OFFSET + (LATTICE_VOXEL - 1)) >> LATTICE_BITS, (int2)(0));
+    const int2 last = min((high.yz - POINT_OFFSET) >> LATTICE_BITS, (int2)(15));
     if (any(first > last)) return;
     const Silhouette s = silhouette_of_points(t->corner[0].yz, t->corner[1].yz, t->corner[2].yz,
                                               n.x, POINT_OFFSET, true);
