@@ -50,13 +50,16 @@ Look look(const Scene& s, int column, int row) {
     const double kPi = std::acos(-1.0);
     switch (display.shape) {
         case DisplayShape::pyramid:
-            return {{}, {-u * std::tan(display.half_angles.x), -v * std::tan(display.half_angles.y), 1}};
+            return {
+                {},
+                {-u * std::tan(display.half_angles.x), -v * std::tan(display.half_angles.y), 1}};
         case DisplayShape::box:
             return {{-u * display.half_size.x, -v * display.half_size.y, 0}, {0, 0, 1}};
         case DisplayShape::ball: {
             const double longitude = -u * kPi, latitude = -v * kPi / 2;
-            return {{}, {std::sin(longitude) * std::cos(latitude), std::sin(latitude),
-                         std::cos(longitude) * std::cos(latitude)}};
+            return {{},
+                    {std::sin(longitude) * std::cos(latitude), std::sin(latitude),
+                     std::cos(longitude) * std::cos(latitude)}};
         }
         case DisplayShape::sector: {
             const double radius = std::hypot(u, v), angle = radius * display.half_angles.x;
