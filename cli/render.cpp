@@ -1,5 +1,6 @@
 // voxelume render: the image of a scene.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <memory>
@@ -62,7 +63,11 @@ std::vector<std::string> output_files(const RenderOptions& options) {
 void check_outputs(const std::vector<std::string>& files, const RenderOptions& options) {
     for (size_t i = 0; i < options.outputs.size() && i < files.size(); ++i)
         check_output(files[i], {".exr", ".png"}, "render");
-    if (!options.stats.empty()) check_output(options.stats, {}, "render");
+    if (options.stats.empty()) return;
+    check_output(options.stats, {}, "render");
+    if (std::ranges::find(files, options.stats) != files.end())
+        throw Error(ErrorKind::usage, "render: {}: the image and the statistics have one name",
+                    options.stats);
 }
 
 void write(const Image& image, const std::string& path, const RenderOptions& options) {

@@ -169,7 +169,7 @@ kernel void paint_smooth_voxels(
         if ((int)abs(value) > 2 * crossing) continue;
         const uint kind =
             VXL_ATTRIBUTES ? world_attributes[number] & VXL_KIND_EXACT << VXL_KIND_SHIFT : 0u;
-        if ((int)abs(value) <= crossing && kind == 0u) crossed |= 1ul << i;
+        if (kind == 0u && (int)abs(value) <= crossing) crossed |= 1ul << i;
         if (value > nearest[number]) continue;
         nearest[number] = value;
         const int4 at = cell - gathered.first;

@@ -47,8 +47,8 @@ kernel void resolve_pixels(Sight sight, PyramidShape shape, float4 world_origin,
     const uint column = tile % tiles_x * 4u + (item & 3u);
     const uint row = tile / tiles_x * 4u + ((item >> 2) & 3u);
     if (column >= (uint)sight.width || row >= (uint)sight.height) return;
-    const uint pixels = (uint)sight.width * (uint)sight.height;
-    const uint pixel = row * (uint)sight.width + column;
+    const size_t pixels = (size_t)sight.width * (size_t)sight.height;
+    const size_t pixel = row * (size_t)sight.width + column;
     const uint first_ray = item / 16u * (uint)sight.samples * 16u + item % 16u;
 
     float color[3] = {0.0f, 0.0f, 0.0f};

@@ -50,6 +50,15 @@ static inline lane_float along(float ax, float ay, float az, Vector v) {
     return fma(v.x, ax, fma(v.y, ay, v.z * az));
 }
 
+/// A coordinate of the ray o + low + d t at t_first: exactly the world's side where it comes in.
+static inline lane_float start_coordinate(float o, lane_float low, lane_float d, float size,
+                                          lane_float t_first) {
+    const lane_float side = LANES_SELECT(LANE_MASK(d < 0.0f), (lane_float)size, (lane_float)0.0f);
+    const lane_float t_side = (side - (o + low)) * exact_reciprocal(d);  // as clip_axis has it
+    const lane_float at_start = clamp(fma(d, t_first, o) + low, 0.0f, size);
+    return LANES_SELECT(LANE_MASK(t_side == t_first), side, at_start);
+}
+
 /// Writes the rays of one packet. `offsets` holds x and y in [0, 1) of each sample in its pixel.
 kernel void cast_sight(Sight sight, PyramidShape shape, global const float* restrict offsets,
                        uint first_tile, uint count, uint stride, global float* restrict rays) {
@@ -92,9 +101,9 @@ kernel void cast_sight(Sight sight, PyramidShape shape, global const float* rest
     t_first = LANES_SELECT(seen, t_first, (lane_float)0.0f);
 
     const lane_float zero = (lane_float)0.0f;
-    const lane_float ox = clamp(fma(dx, t_first, sight.origin.x) + lx, 0.0f, (float)shape.size_x);
-    const lane_float oy = clamp(fma(dy, t_first, sight.origin.y) + ly, 0.0f, (float)shape.size_y);
-    const lane_float oz = clamp(fma(dz, t_first, sight.origin.z) + lz, 0.0f, (float)shape.size_z);
+    const lane_float ox = start_coordinate(sight.origin.x, lx, dx, (float)shape.size_x, t_first);
+    const lane_float oy = start_coordinate(sight.origin.y, ly, dy, (float)shape.size_y, t_first);
+    const lane_float oz = start_coordinate(sight.origin.z, lz, dz, (float)shape.size_z, t_first);
     LANES_STORE(snap_position(ox, zero, shape.fixed_point), rays, VXL_RAY_OX * stride + first);
     LANES_STORE(snap_position(oy, zero, shape.fixed_point), rays, VXL_RAY_OY * stride + first);
     LANES_STORE(snap_position(oz, zero, shape.fixed_point), rays, VXL_RAY_OZ * stride + first);

@@ -166,6 +166,22 @@ static inline Walk load_walk(global const float* restrict rays, uint stride, uin
                       LANES_LOAD(rays, VXL_RAY_DZ * stride + first));
 }
 
+/// Mask: a coordinate of a ray's origin lies on the side of the world across which it comes in.
+static inline lane_int on_entry_side(lane_float o, lane_float d, int size) {
+    return (LANE_MASK(o == 0.0f) & LANE_MASK(d > 0.0f)) |
+           (LANE_MASK(o == (float)size) & LANE_MASK(d < 0.0f));
+}
+
+/// Lets walks that begin on a side of the world have come in across it.
+static inline void enter_world(const PyramidView* p, Walk* w) {
+    const lane_int x = on_entry_side(w->ox, w->dx, p->size_x);
+    const lane_int y = on_entry_side(w->oy, w->dy, p->size_y);
+    const lane_int z = on_entry_side(w->oz, w->dz, p->size_z);
+    w->axis = LANES_SELECT(z, (lane_int)2, w->axis);
+    w->axis = LANES_SELECT(y, (lane_int)1, w->axis);
+    w->axis = LANES_SELECT(x, (lane_int)0, w->axis);
+}
+
 #define VXL_WORLD_ARGUMENTS                                                                      \
     PyramidShape shape, global const uint *restrict sectors, global const uint *restrict bricks, \
         global const uint *restrict leaves, global const uint *restrict leaf_voxels,             \
@@ -185,6 +201,7 @@ kernel void trace_closest(VXL_WORLD_ARGUMENTS, global const float* restrict rays
     if (first >= count) return;
     VXL_WORLD_VIEWS;
     Walk walk = load_walk(rays, stride, first);
+    enter_world(&pyramid, &walk);
     const lane_float t_end = LANES_LOAD(rays, VXL_RAY_END * stride + first);
     const Found found = find_first(&pyramid, &surface, &walk, t_end, LANE_MASK(t_end >= 0.0f),
                                    (lane_int)0, (lane_uint)VXL_NO_PRIMITIVE);

@@ -13,6 +13,9 @@ namespace {
 /// Bricks of a lattice are numbered by signed 32-bit integers.
 constexpr double kMostBricks = 2147483647.0;
 
+/// Bytes of a pixel's eleven floats, which lie in one buffer for the whole image.
+constexpr double kPlanes = 44;
+
 double brick_count(const GridFrame& frame) {
     const glm::dvec3 bricks(frame.bricks());
     return bricks.x * bricks.y * bricks.z;
@@ -58,6 +61,14 @@ void check_image(const Scene& scene, const ScenePlan& plan, const DeviceInfo& de
                     "smaller one",
                     scene.render.size.x, scene.render.size.y, bytes_text(image), device.name,
                     bytes_text(there));
+    const glm::dvec2 size(scene.render.size);
+    const double planes = kPlanes * size.x * size.y, piece = double(device.max_allocation);
+    if (planes > piece)
+        throw Error(ErrorKind::limit,
+                    "an image of {}x{} pixels needs a buffer of {}, and \"{}\" allows {} in one "
+                    "piece: render a smaller one",
+                    scene.render.size.x, scene.render.size.y, bytes_text(planes), device.name,
+                    bytes_text(piece));
 }
 
 }  // namespace

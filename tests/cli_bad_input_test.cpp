@@ -87,7 +87,7 @@ TEST_F(CliBadInputTest, WrongOptionsAreUsageErrors) {
                 HasSubstr("did you mean \"--assets\"?"));
     for (const char* options :
          {"--size 3", "--size 0x4", "--size 9x9x9", "--samples 0", "--samples many",
-          "--exposure bright", "more.json", "--frames 1-", "-o"})
+          "--exposure bright", "more.json", "--frames 1-", "-o", "--stats-json out.exr"})
         expect_failure(2, fmt::format("render scene.json -o out.exr {}", options));
     put_bytes(folder / "triangle.obj", kTriangle);
     for (const char* options :

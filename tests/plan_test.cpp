@@ -122,6 +122,20 @@ TEST_F(PlanTest, APlanBeyondADevicesMemoryNamesBothAndTheWayOut) {
     EXPECT_NO_THROW(check_memory(scene, plan_of(scene), device));
 }
 
+TEST_F(PlanTest, AnImageBeyondOneBufferIsToBeSmaller) {
+    DeviceInfo device;
+    device.name = "Small One";
+    device.memory = 8'000'000'000;
+    device.max_allocation = 40'000'000;
+    Scene scene = scene_of(R"({"shape": "sphere", "radius": 0.35})", 1.0 / 50);
+    scene.render.size = {1000, 900};
+    EXPECT_NO_THROW(check_memory(scene, plan_of(scene), device));
+    scene.render.size = {1000, 1000};
+    const Error error = error_of([&] { check_memory(scene, plan_of(scene), device); });
+    EXPECT_EQ(error.kind(), ErrorKind::limit);
+    EXPECT_THAT(error.what(), HasSubstr("a buffer of 44.0 MB, and \"Small One\" allows 40.0 MB"));
+}
+
 TEST_F(PlanTest, TablesAreCheckedBeforeAnyMeshIsRead) {
     DeviceInfo device;
     device.name = "Small One";

@@ -79,6 +79,18 @@ TEST(Render, GivesDepthPositionNormalAndObjectOfAFace) {
     }
 }
 
+TEST(Render, AFaceOnTheSideOfTheWorldIsAFaceLikeAnyOther) {
+    // The world begins at the box's front face: sight rays begin on it.
+    std::string text = box_scene("cubes", R"({"type": "directional", "direction": [0, 0, 1]})");
+    const std::string whole = R"("min": [-1, -1, -1])";
+    text.replace(text.find(whole), whole.size(), R"("min": [-1, -1, -0.1])");
+    const Rendered r = rendered(scene_of(text));
+    EXPECT_EQ(r.at("N.Z", 8, 6), -1.0f);
+    EXPECT_EQ(r.at("N.X", 8, 6), 0.0f);
+    EXPECT_NEAR(r.at("P.Z", 8, 6), -0.1f, 1e-6f);
+    EXPECT_GT(r.at("R", 8, 6), 0.4f) << "color * diffuse at least, beside ambient light of 0.2";
+}
+
 TEST(Render, CoversThePixelsThatTheBoxCovers) {
     // Pixels are 0.1 m: x from 0.8 down to -0.8. The box covers 0.4..-0.3: columns 4 to 10, and
     // rows for y 0.2..-0.3: 4 to 8.

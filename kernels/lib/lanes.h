@@ -4,8 +4,9 @@
 // which is what a GPU runs. A mask is a lane_int of 0 (no) or -1 (yes) in every width.
 //   LANE_MASK(a < b)            the mask of a comparison
 //   LANES_SELECT(mask, a, b)    a where the mask says yes, else b
-//   LANES_GATHER_UINT(p, index) p[index] lane by lane, likewise _FLOAT; every index must be in
-//   range LANES_LOAD(p, first)        p[first .. first + VXL_LANES) LANES_STORE(value, p, first)
+//   LANES_GATHER_UINT(p, index) p[index] lane by lane, likewise _FLOAT; all indices in range
+//   LANES_LOAD(p, first)        p[first .. first + VXL_LANES)
+//   LANES_STORE(value, p, first)
 //   lanes_any(mask)             not 0 if any lane says yes; all lanes or-ed
 //   lanes_least(v)              the smallest of the lanes' numbers
 //   LANES_INT, LANES_FLOAT, ... conversions (to int: towards zero)

@@ -20,9 +20,9 @@
 //   VXL_HIT_T      float: where, as the ray's t
 //   VXL_HIT_VOXEL  the voxel's number in the pyramid, VXL_NO_VOXEL for a miss
 //   VXL_HIT_CELL   x | y << 16
-//   VXL_HIT_FACE   z | axis << 16: the axis (0, 1, 2) across which the ray entered the cell; 3: it
-//   began there VXL_HIT_PRIMITIVE  the triangle or solid that was hit, VXL_NO_PRIMITIVE for other
-//   surfaces
+//   VXL_HIT_FACE   z | axis << 16: the axis (0, 1, 2) across which the ray entered the cell, or
+//                  came into the world; 3: it began there
+//   VXL_HIT_PRIMITIVE  the triangle or solid hit, VXL_NO_PRIMITIVE for other surfaces
 #define VXL_HIT_T 0
 #define VXL_HIT_VOXEL 1
 #define VXL_HIT_CELL 2

@@ -120,11 +120,4 @@ PlacementMap placement_map(const GridFrame& object_frame, const GridFrame& world
     return map;
 }
 
-bool is_identity(const PlacementMap& map) {
-    const int64_t one = int64_t{1} << map.fraction_bits;
-    for (size_t i = 0; i < 12; ++i)
-        if (map.rows[i] != (i % 5 == 0 ? one : 0)) return false;
-    return true;
-}
-
 }  // namespace voxelume

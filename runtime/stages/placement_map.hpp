@@ -38,7 +38,4 @@ enum class Reach {
 PlacementMap placement_map(const GridFrame& object_frame, const GridFrame& world_frame,
                            const glm::dmat4& world_from_object, Reach reach, uint32_t object);
 
-/// Whether the map takes each world voxel to the object voxel with the same indices.
-bool is_identity(const PlacementMap& map);
-
 }  // namespace voxelume
