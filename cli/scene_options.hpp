@@ -8,6 +8,7 @@
 #include "runtime/opencl/device.hpp"
 #include "runtime/scene.hpp"
 
+// NOLINTNEXTLINE(readability-identifier-naming): the library's own name
 namespace CLI {
 class App;
 }

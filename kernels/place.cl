@@ -63,6 +63,8 @@ kernel void classify_bricks(const uint count, const int4 world_bricks, const Wor
         else if (!touches_full_brick(&object, box))
             state = VXL_NOTHING;
     }
+    if (state == VXL_FULL && is_at_bounds(bounds, brick_at(index, world_bricks) * 16, 16))
+        state = VXL_SURFACE;
     states[index] = (uchar)max((uint)states[index], state);
 }
 

@@ -5,8 +5,7 @@
 #include "lib/placed_attributes.h"
 #include "lib/work_item.h"
 #include "shared/solid.h"
-
-#define VXL_SOLID_PRIMITIVE 0x80000000u
+#include "shared/trace.h"
 
 // One brick of the world: adds the lengths of the object's lists to its voxels' counts.
 kernel void count_primitives(const uint count, global const uint* restrict coordinates,

@@ -1,5 +1,6 @@
 // samples -> pixels: the mean of a pixel's samples, and the geometry of its first sample that hit.
 #include "lib/exact_exp.h"
+#include "lib/fixed_point.h"
 #include "lib/work_item.h"
 #include "shared/scene.h"
 #include "shared/trace.h"
@@ -15,12 +16,20 @@ kernel void absorb_sight(PyramidShape shape, Space space, global const float* re
     const lane_int hit =
         LANE_MASK(LANES_LOAD(hits, VXL_HIT_VOXEL * stride + first) != VXL_NO_VOXEL);
     const lane_float t_hit = LANES_AS_FLOAT(LANES_LOAD(hits, VXL_HIT_T * stride + first));
-    const lane_float t_end = fmax(LANES_LOAD(rays, VXL_RAY_END * stride + first), 0.0f);
-    const lane_float dx = LANES_LOAD(rays, VXL_RAY_DX * stride + first) * shape.edge.x;
-    const lane_float dy = LANES_LOAD(rays, VXL_RAY_DY * stride + first) * shape.edge.y;
-    const lane_float dz = LANES_LOAD(rays, VXL_RAY_DZ * stride + first) * shape.edge.z;
-    const lane_float metres = exact_sqrt(fma(dx, dx, fma(dy, dy, dz * dz)));
-    const lane_float path = LANES_SELECT(hit, t_hit, t_end) * metres;
+    // A ray that met nothing goes on to the far surface, or to the world's end.
+    lane_float t_first = (lane_float)0.0f;
+    lane_float t_last = LANES_LOAD(rays, VXL_RAY_END * stride + first);
+    lane_float metres = (lane_float)0.0f;
+    const float edges[3] = {shape.edge.x, shape.edge.y, shape.edge.z};
+    const int sizes[3] = {shape.size_x, shape.size_y, shape.size_z};
+    for (uint a = 0; a < 3; ++a) {
+        const lane_float o = LANES_LOAD(rays, (VXL_RAY_OX + a) * stride + first);
+        const lane_float d = LANES_LOAD(rays, (VXL_RAY_DX + a) * stride + first);
+        clip_axis(o, d, (float)sizes[a], &t_first, &t_last);
+        metres = fma(d * edges[a], d * edges[a], metres);
+    }
+    metres = exact_sqrt(metres);
+    const lane_float path = fmax(LANES_SELECT(hit, t_hit, t_last), 0.0f) * metres;
     const float absorption[3] = {space.absorption.x, space.absorption.y, space.absorption.z};
     const float color[3] = {space.color.x, space.color.y, space.color.z};
     for (int channel = 0; channel < 3; ++channel) {
@@ -77,7 +86,7 @@ kernel void resolve_pixels(Sight sight, PyramidShape shape, float4 world_origin,
     const float eye_low[3] = {sight.origin_low.x, sight.origin_low.y, sight.origin_low.z};
     // Z_E in voxels per metre; times the edge twice it measures voxels along Z_E in metres.
     const float ahead[3] = {sight.axis_z.x, sight.axis_z.y, sight.axis_z.z};
-    float depth = 0.0f;
+    float depth = sight.lead;
     for (uint a = 0; a < 3; ++a) {
         const float p = positions[a * stride + ray];
         const float from_eye = (p - eye[a] - eye_low[a]) * edge[a];

@@ -24,6 +24,7 @@ static inline SightRay sight_ray(const Sight* sight, lane_float u, lane_float v,
     const lane_float x = -u * sight->half_x, y = -v * sight->half_y;
     ray.start.x = ray.start.y = ray.start.z = zero;
     if (sight->shape == VXL_SHAPE_PYRAMID) {
+        ray.start.x = x * sight->lead, ray.start.y = y * sight->lead;
         ray.direction.x = x, ray.direction.y = y, ray.direction.z = (lane_float)1.0f;
     } else if (sight->shape == VXL_SHAPE_BOX) {
         ray.start.x = x, ray.start.y = y;
@@ -93,7 +94,8 @@ kernel void cast_sight(Sight sight, PyramidShape shape, global const float* rest
         sight.origin_low.y + along(sight.axis_x.y, sight.axis_y.y, sight.axis_z.y, ray.start);
     const lane_float lz =
         sight.origin_low.z + along(sight.axis_x.z, sight.axis_y.z, sight.axis_z.z, ray.start);
-    lane_float t_first = sight.near_plane * per_metre, t_last = sight.far_plane * per_metre;
+    const lane_float t_far = sight.far_plane * per_metre;
+    lane_float t_first = sight.near_plane * per_metre, t_last = t_far;
     clip_axis(sight.origin.x + lx, dx, (float)shape.size_x, &t_first, &t_last);
     clip_axis(sight.origin.y + ly, dy, (float)shape.size_y, &t_first, &t_last);
     clip_axis(sight.origin.z + lz, dz, (float)shape.size_z, &t_first, &t_last);
@@ -110,6 +112,7 @@ kernel void cast_sight(Sight sight, PyramidShape shape, global const float* rest
     LANES_STORE(dx, rays, VXL_RAY_DX * stride + first);
     LANES_STORE(dy, rays, VXL_RAY_DY * stride + first);
     LANES_STORE(dz, rays, VXL_RAY_DZ * stride + first);
-    const lane_float t_end = LANES_SELECT(seen, t_last - t_first, (lane_float)-1.0f);
+    // The ray ends at the far surface; that it leaves the world the walk finds by itself, exactly.
+    const lane_float t_end = LANES_SELECT(seen, t_far - t_first, (lane_float)-1.0f);
     LANES_STORE(t_end, rays, VXL_RAY_END * stride + first);
 }

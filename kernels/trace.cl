@@ -36,13 +36,42 @@ static inline void take_voxel_hit(Found* found, lane_float t, lane_int accepted)
     found->primitive = LANES_SELECT(closer, (lane_uint)VXL_NO_PRIMITIVE, found->primitive);
 }
 
+/// Tests solid `number` of each lane in `tested`: closer hits in the world than *t replace it.
+/// `entering` lanes look from one unit of t before their origin first.
+static inline lane_int hit_solids_in_world(const PyramidView* p, const SurfaceView* s,
+                                           const Walk* w, lane_uint number, lane_int tested,
+                                           lane_int from_solid, lane_int entering, lane_float* t) {
+    lane_int closer = (lane_int)0;
+    const lane_int early = tested & entering;
+    if (lanes_any(early)) {
+        const SolidRay ray = {w->ox - w->dx, w->oy - w->dy, w->oz - w->dz, w->dx, w->dy, w->dz};
+        lane_float from_before = (lane_float)INFINITY;
+        const lane_int met = hit_solids(s->solids, number, &ray, (lane_int)0, early, &from_before);
+        const lane_float at = LANES_SELECT(met, from_before - 1.0f, (lane_float)0.0f);
+        closer = met & is_in_world(p, w, at) & LANE_MASK(at < *t);
+        *t = LANES_SELECT(closer, at, *t);
+    }
+    const SolidRay ray = {w->ox, w->oy, w->oz, w->dx, w->dy, w->dz};
+    const lane_int left = tested & ~closer;
+    lane_float at = *t;
+    lane_int met = (lane_int)0;
+    if (lanes_any(left)) met = hit_solids(s->solids, number, &ray, from_solid, left, &at);
+    met &= is_in_world(p, w, LANES_SELECT(met, at, (lane_float)0.0f));
+    *t = LANES_SELECT(met, at, *t);
+    return closer | met;
+}
+
 /// Tests the primitives that the `tested` lanes' voxels list; `source` is the one a ray began on. A
 /// primitive may be hit outside of the voxel that lists it: the hit counts once the walk is that
 /// far.
-static inline lane_int hit_exact(const SurfaceView* s, const Walk* w, lane_int tested,
-                                 lane_uint source, Found* found) {
+///
+/// Where a ray comes into the world, a surface on the world's very side may be met just before the
+/// ray's rounded origin: there, hits count from behind it as well, as far as the world reaches.
+static inline lane_int hit_exact(const PyramidView* p, const SurfaceView* s, const Walk* w,
+                                 lane_int tested, lane_uint source, Found* found) {
+    const lane_int entering = LANE_MASK(w->t == 0.0f) & LANE_MASK(w->axis != 3);
+    const lane_float t_least = LANES_SELECT(entering, (lane_float)-INFINITY, (lane_float)0.0f);
     const RayShear shear = ray_shear(w);
-    const SolidRay ray = {w->ox, w->oy, w->oz, w->dx, w->dy, w->dz};
     const lane_uint voxel = found->voxel & LANES_AS_UINT(tested);
     lane_uint next = LANES_GATHER_UINT(s->primitive_first, voxel);
     const lane_uint end = LANES_GATHER_UINT(s->primitive_first, voxel + 1u);
@@ -57,15 +86,16 @@ static inline lane_int hit_exact(const SurfaceView* s, const Walk* w, lane_int t
         if (VXL_TRIANGLES) {
             const lane_int triangle = listing & ~(is_solid | of_source);
             if (!VXL_SOLIDS || lanes_any(triangle))
-                closer |= hit_triangle(s->triangles, primitive & LANES_AS_UINT(triangle), w, &shear,
-                                       triangle, &found->t);
+                closer |=
+                    hit_triangle(p, t_least, s->triangles, primitive & LANES_AS_UINT(triangle), w,
+                                 &shear, triangle, &found->t);
         }
         if (VXL_SOLIDS) {  // a solid is met by the whole ray at once: once is enough
             const lane_int solid = listing & is_solid & LANE_MASK(primitive != found->solid);
             found->solid = LANES_SELECT(solid, primitive, found->solid);
             if (lanes_any(solid))
-                closer |= hit_solids(s->solids, primitive & ~VXL_SOLID_PRIMITIVE, &ray, of_source,
-                                     solid, &found->t);
+                closer |= hit_solids_in_world(p, s, w, primitive & ~VXL_SOLID_PRIMITIVE, solid,
+                                              of_source, entering, &found->t);
         }
         found->primitive = LANES_SELECT(closer, primitive, found->primitive);
         next += 1u;
@@ -102,7 +132,7 @@ static inline lane_int test_surfaces(const PyramidView* p, const SurfaceView* s,
         take_voxel_hit(found, t, met);
         accepted |= met;
     }
-    if (VXL_EXACT && lanes_any(exact)) accepted |= hit_exact(s, w, exact, source, found);
+    if (VXL_EXACT && lanes_any(exact)) accepted |= hit_exact(p, s, w, exact, source, found);
     return accepted;
 }
 

@@ -70,7 +70,7 @@ fs::path find_asset(std::string_view name, const fs::path& scene_folder, const A
             throw Error(ErrorKind::input, "{}: {} can't be looked at: {}", where,
                         candidate.string(), error.message());
         }
-        const fs::path file = fs::canonical(candidate, error);
+        fs::path file = fs::canonical(candidate, error);
         const fs::path root = error ? fs::path() : fs::canonical(folder, error);
         if (error || !lies_below(file, root)) {
             throw Error(

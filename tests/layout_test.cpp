@@ -18,7 +18,7 @@
     F(plane_bound) F(fixed_point) F(half_curvature)
 #define SIGHT_FIELDS \
     V(origin) V(origin_low) V(axis_x) V(axis_y) V(axis_z) F(half_x) F(half_y) F(near_plane) \
-    F(far_plane) I(width) I(height) I(samples) I(shape) F(sample_share) FA(unused, 3)
+    F(far_plane) I(width) I(height) I(samples) I(shape) F(sample_share) F(lead) FA(unused, 2)
 #define MATERIAL_RECORD_FIELDS \
     FA(color, 3) F(diffuse) FA(absorption, 3) F(ior) FA(emission, 3) F(specular) F(shininess) \
     F(reflection) F(refraction) F(unused)

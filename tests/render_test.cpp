@@ -163,6 +163,57 @@ TEST(Render, AShadowFallsWhereTheLightIsHidden) {
     EXPECT_GT(r.at("R", 1, 9), 1.2f * r.at("R", 8, 9)) << "beside the shadow";
 }
 
+TEST(Render, AnExactSurfaceOnTheWorldsBoundsHasNoHoles) {
+    // The box is the world: rays meet its faces where they come in, before or behind their rounded
+    // start.
+    std::string text = box_scene("exact", "");
+    const auto replace = [&text](const std::string& from, const std::string& to) {
+        text.replace(text.find(from), from.size(), to);
+    };
+    replace(R"({"min": [-1, -1, -1], "max": [1, 1, 1]})",
+            R"({"min": [-0.3, -0.3, -0.1], "max": [0.4, 0.2, 0.2]})");
+    replace(R"("position": [0, 0, -3], "look_at": [0, 0, 0])",
+            R"("position": [-2, 1.3, -3], "look_at": [0.05, -0.05, 0.05])");
+    Scene scene = scene_of(text);
+    resize(scene, {160, 120});
+    const Rendered exact = rendered(scene);
+    const glm::dmat3& axes = scene.observer.world_from_observer;
+    for (int y = 0; y < 120; ++y) {
+        for (int x = 0; x < 160; ++x) {
+            const glm::dvec3 start = scene.observer.position +
+                                     axes[0] * (0.8 - 1.6 * (x + 0.5) / 160) +
+                                     axes[1] * (0.6 - 1.2 * (y + 0.5) / 120);
+            double first = -1e9, last = 1e9;
+            for (int a = 0; a < 3; ++a) {
+                const double low = a == 0 ? -0.3 : a == 1 ? -0.3 : -0.1;
+                const double high = a == 0 ? 0.4 : 0.2;
+                const double p = (low - start[a]) / axes[2][a], q = (high - start[a]) / axes[2][a];
+                first = std::max(first, std::min(p, q));
+                last = std::min(last, std::max(p, q));
+            }
+            if (std::abs(last - first) < 1e-5) continue;  // along an edge
+            ASSERT_EQ(exact.at("A", x, y), first < last ? 1.0f : 0.0f) << x << "," << y;
+        }
+    }
+}
+
+TEST(Render, ADistantObserverSeesWhatANearOneDoesWithTheSameAngle) {
+    Scene scene = scene_of(box_scene("exact", ""));
+    scene.observer.display.shape = DisplayShape::pyramid;
+    scene.observer.display.far = 1e9;
+    resize(scene, {64, 48});
+    const auto seen_from = [&scene](double distance) {
+        scene.observer.position = {0, 0, -distance};
+        scene.observer.display.half_angles = {std::atan(0.6 / distance),
+                                              std::atan(0.45 / distance)};
+        return rendered(scene);
+    };
+    const Rendered near = seen_from(1e3), far = seen_from(1e7);
+    EXPECT_EQ(near.image.planes.at("A"), far.image.planes.at("A"));
+    for (size_t i = 0; i < near.image.planes.at("P.X").size(); ++i)
+        ASSERT_NEAR(near.image.planes.at("P.X")[i], far.image.planes.at("P.X")[i], 5e-4);
+}
+
 TEST(Render, WhatASceneDoesNotHaveIsNotAllocatedOrLaunched) {
     const Rendered plain = rendered(scene_of(box_scene("cubes", "")));
     for (const char* kernel : {"add_light", "trace_shadows", "absorb_sight"})

@@ -53,11 +53,11 @@ static inline lane_float edge_function(ShearedCorner a, ShearedCorner b) {
     return left - right;
 }
 
-/// Tests triangle `number` of each lane in `tested`; closer hits than *t beyond the origin replace
-/// it.
-static inline lane_int hit_triangle(global const float* restrict triangles, lane_uint number,
-                                    const Walk* w, const RayShear* s, lane_int tested,
-                                    lane_float* t) {
+/// Tests triangle `number` of each lane in `tested`; hits in the world beyond t_least that are
+/// closer than *t replace it.
+static inline lane_int hit_triangle(const PyramidView* p, lane_float t_least,
+                                    global const float* triangles, lane_uint number, const Walk* w,
+                                    const RayShear* s, lane_int tested, lane_float* t) {
     const lane_uint first = number * 9u;
     const ShearedCorner a = shear_corner(triangles, first, w, s);
     const ShearedCorner b = shear_corner(triangles, first + 3u, w, s);
@@ -73,7 +73,8 @@ static inline lane_int hit_triangle(global const float* restrict triangles, lane
     const lane_float weighted = fma(u, a.z, fma(v, b.z, e * c.z));
     const lane_float at =
         exact_divide(weighted, LANES_SELECT(solid, determinant, (lane_float)1.0f));
-    const lane_int closer = solid & LANE_MASK(at > 0.0f) & LANE_MASK(at < *t);
+    const lane_int closer =
+        solid & LANE_MASK(at > t_least) & LANE_MASK(at < *t) & is_in_world(p, w, at);
     *t = LANES_SELECT(closer, at, *t);
     return closer;
 }

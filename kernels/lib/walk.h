@@ -49,6 +49,14 @@ static inline lane_int in_grid(const PyramidView* p, const Walk* w) {
            LANE_MASK(w->y < p->size_y) & LANE_MASK(w->z < p->size_z);
 }
 
+/// Mask: the ray's point at `t` is in the world, or beyond it by no more than rounding puts it.
+static inline lane_int is_in_world(const PyramidView* p, const Walk* w, lane_float t) {
+    const lane_float x = fma(w->dx, t, w->ox), y = fma(w->dy, t, w->oy), z = fma(w->dz, t, w->oz);
+    const float bound = p->plane_bound;
+    return LANE_MASK(fmin(x, fmin(y, z)) >= -bound) & LANE_MASK(x <= (float)p->size_x + bound) &
+           LANE_MASK(y <= (float)p->size_y + bound) & LANE_MASK(z <= (float)p->size_z + bound);
+}
+
 /// Distance from the origin to a plane along one axis, in fixed point, positive ahead.
 static inline lane_long plane_distance(lane_int plane, lane_float o, lane_int positive,
                                        float fixed_point) {

@@ -34,7 +34,7 @@ VXL_SIZE_IS(PyramidShape, 64);
 
 // E: where sight rays start and what they span.
 typedef struct Sight {
-    float4 origin;      // E; w unused
+    float4 origin;      // E, or the point `lead` before it; w unused
     float4 origin_low;  // what `origin` rounded off
     float4 axis_x;      // X_E, Y_E, Z_E: voxels per metre along each
     float4 axis_y;
@@ -48,7 +48,9 @@ typedef struct Sight {
     int samples;        // per pixel
     int shape;
     float sample_share;  // 1 / samples
-    float unused[3];
+    float lead;          // metres along Z_E from the observer to `origin`, where a pyramid's rays are
+                         // spread out already; near_plane and far_plane count from there
+    float unused[2];
 } Sight;
 VXL_SIZE_IS(Sight, 128);
 

@@ -65,10 +65,10 @@ ExrHeader HeaderReader::read() const {
         throw Error(ErrorKind::input, "{}: has no pixels", path_.string());
     header.width = static_cast<int>(width);
     header.height = static_cast<int>(height);
-    exr_storage_t storage;
+    exr_storage_t storage = EXR_STORAGE_SCANLINE;
     check(exr_get_storage(context_, 0, &storage));
     header.layout = layout_name(storage);
-    exr_compression_t compression;
+    exr_compression_t compression = EXR_COMPRESSION_NONE;
     check(exr_get_compression(context_, 0, &compression));
     header.compression = compression_name(compression);
     const exr_attr_chlist_t* channels = nullptr;

@@ -20,7 +20,7 @@ bool is_set(const Environment& environment, const char* name) {
 }
 
 std::string clock_text(double seconds) {
-    const auto whole = static_cast<int64_t>(std::min(seconds, 359999.0) + 0.5);
+    const auto whole = std::lround(std::min(seconds, 359999.0));
     if (whole < 3600) return fmt::format("{}:{:02}", whole / 60, whole % 60);
     return fmt::format("{}:{:02}:{:02}", whole / 3600, whole / 60 % 60, whole % 60);
 }

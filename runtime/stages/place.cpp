@@ -82,7 +82,7 @@ std::vector<const PlacedObject*> painting_order(std::span<const PlacedObject> ob
     std::vector<const PlacedObject*> order;
     for (size_t i = objects.size(); i-- > 0;) order.push_back(&objects[i]);
     std::ranges::stable_sort(order, {}, &PlacedObject::priority);
-    std::ranges::stable_partition(order, [](const PlacedObject* object) {
+    std::stable_partition(order.begin(), order.end(), [](const PlacedObject* object) {
         return surface_of(*object->grid) == Surface::exact;
     });
     return order;

@@ -102,15 +102,15 @@ PlacementMap placement_map(const GridFrame& object_frame, const GridFrame& world
     for (int axis = 0; axis < 3; ++axis) {
         for (int column = 0; column < 3; ++column) {
             const int64_t even = fixed(linear[column][axis], map.fraction_bits - 1);
-            map.rows[size_t(4 * axis + column)] = even;
+            map.rows[4 * size_t(axis) + size_t(column)] = even;
             rounded[column][axis] = std::ldexp(double(even), -map.fraction_bits);
         }
-        map.rows[size_t(4 * axis + 3)] = fixed(offset[axis], kOffsetBits);
+        map.rows[4 * size_t(axis) + 3] = fixed(offset[axis], kOffsetBits);
     }
     const glm::dvec3 reaches = reach_of(rounded, reach);
     for (int axis = 0; axis < 3; ++axis) {
         const int64_t value = fixed(reaches[axis], map.fraction_bits);
-        map.rows[size_t(12 + axis)] = value;
+        map.rows[12 + size_t(axis)] = value;
         map.has_reach = map.has_reach || value != 0;
     }
     map.distance_scale = stretch_of(glm::dmat3(world_from_object)).min *

@@ -7,7 +7,7 @@
 namespace voxelume {
 
 /// Rays that go through the stages together: enough to fill any device, few enough to stay in a
-/// CPU's caches on their way (measured with bench_frame; 2^16 to 2^19 differ by less than 5 %).
+/// CPU's caches on their way.
 inline constexpr uint32_t kBatchRays = 1u << 18;
 
 /// Rays and what they met; shared/trace.h has the components, `stride` values apart.

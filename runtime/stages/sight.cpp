@@ -1,7 +1,10 @@
 #include "runtime/stages/sight.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
+#include <limits>
 
 namespace voxelume {
 namespace {
@@ -40,12 +43,30 @@ glm::dvec2 half_extent(const Display& display) {
     return {};
 }
 
+/// How far the world's nearest corner is ahead of the observer along Z_E, metres; 0 if it is not.
+double depth_of_world(const Observer& observer, const GridFrame& world) {
+    double least = std::numeric_limits<double>::infinity();
+    for (int corner = 0; corner < 8; ++corner) {
+        const glm::dvec3 step(corner & 1, corner >> 1 & 1, corner >> 2);
+        const glm::dvec3 point = world.origin + world.voxel_edge * glm::dvec3(world.size) * step;
+        least =
+            std::min(least, glm::dot(point - observer.position, observer.world_from_observer[2]));
+    }
+    return std::max(least, 0.0);
+}
+
 }  // namespace
 
 Sight sight_of(const Scene& scene, const GridFrame& world) {
     const Observer& observer = scene.observer;
-    const glm::dvec3 origin = (observer.position - world.origin) / world.voxel_edge;
     const glm::dmat3& axes = observer.world_from_observer;
+    // Rays of a distant pyramid or box start at the world's depth: float would lose them on the
+    // way.
+    const bool along_z = observer.display.shape == DisplayShape::pyramid ||
+                         observer.display.shape == DisplayShape::box;
+    const double lead = along_z ? depth_of_world(observer, world) : 0.0;
+    const glm::dvec3 origin =
+        (observer.position + axes[2] * lead - world.origin) / world.voxel_edge;
     const glm::dvec2 half = half_extent(observer.display);
     Sight sight{};
     sight.origin = to_float4(origin);
@@ -56,8 +77,9 @@ Sight sight_of(const Scene& scene, const GridFrame& world) {
     sight.axis_z = to_float4(axes[2] / world.voxel_edge);
     sight.half_x = float(half.x);
     sight.half_y = float(half.y);
-    sight.near_plane = float(observer.display.near);
-    sight.far_plane = float(observer.display.far);
+    sight.near_plane = float(observer.display.near - lead);
+    sight.far_plane = float(observer.display.far - lead);
+    sight.lead = float(lead);
     sight.width = scene.render.size.x;
     sight.height = scene.render.size.y;
     sight.samples = scene.render.samples;
