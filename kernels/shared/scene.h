@@ -48,8 +48,8 @@ typedef struct Sight {
     int samples;        // per pixel
     int shape;
     float sample_share;  // 1 / samples
-    float lead;          // metres along Z_E from the observer to `origin`, where a pyramid's rays are
-                         // spread out already; near_plane and far_plane count from there
+    float lead;  // metres along Z_E from the observer to `origin`, where a pyramid's rays are
+                 // spread out already; near_plane and far_plane count from there
     float unused[2];
 } Sight;
 VXL_SIZE_IS(Sight, 128);
