@@ -11,7 +11,7 @@
 
 // Voxels of a leaf that lie below `room` voxels along each axis from the leaf's minimum corner.
 static inline ulong mask_within(int4 room) {
-    const int4 n = clamp(room, 0, 4);
+    const int4 n = clamp(room, (int4)(0), (int4)(4));
     if (n.x == 0 || n.y == 0 || n.z == 0) return 0;
     const ulong x = 0x1111111111111111ul * ((1ul << n.x) - 1);
     const ulong y = 0x0001000100010001ul * (n.y == 4 ? 0xFFFFul : (1ul << 4 * n.y) - 1);

@@ -70,7 +70,7 @@ static inline CellBox map_box(const PlacedObject* object, int4 low, int edge, bo
 
 // Looks at the brick table only.
 static inline uint state_of_bricks(const PlacedObject* object, CellBox box) {
-    const int4 first = max(box.first >> 4, -1), last = min(box.last >> 4, object->bricks);
+    const int4 first = max(box.first >> 4, (int4)(-1)), last = min(box.last >> 4, object->bricks);
     bool inside = false, outside = false;
     for (int z = first.z; z <= last.z; ++z)
         for (int y = first.y; y <= last.y; ++y)
@@ -86,7 +86,8 @@ static inline uint state_of_bricks(const PlacedObject* object, CellBox box) {
 // Whether one of the box's leaves is marked in `near`, 64 bits of each slot.
 static inline bool touches_near_leaf(const PlacedObject* object, global const ulong* near,
                                      CellBox box) {
-    const int4 first = max(box.first >> 2, 0), last = min(box.last >> 2, object->bricks * 4 - 1);
+    const int4 first = max(box.first >> 2, (int4)(0)),
+               last = min(box.last >> 2, object->bricks * 4 - 1);
     for (int z = first.z; z <= last.z; ++z)
         for (int y = first.y; y <= last.y; ++y)
             for (int x = first.x; x <= last.x; ++x) {
@@ -125,7 +126,8 @@ static inline bool is_occupied(const PlacedObject* object, global const ulong* o
 }
 
 static inline bool touches_full_brick(const PlacedObject* object, CellBox box) {
-    const int4 first = max(box.first >> 4, 0), last = min(box.last >> 4, object->bricks - 1);
+    const int4 first = max(box.first >> 4, (int4)(0)),
+               last = min(box.last >> 4, object->bricks - 1);
     for (int z = first.z; z <= last.z; ++z)
         for (int y = first.y; y <= last.y; ++y)
             for (int x = first.x; x <= last.x; ++x)
@@ -149,7 +151,7 @@ static inline CellBox cells_around(const PlacedObject* object, FixedPoint p) {
 // without voxels are passed over.
 static inline bool find_in_box(const PlacedObject* object, global const ulong* occupancy,
                                global const ulong* near, CellBox box, long* place) {
-    const int4 first = max(box.first, 0), last = min(box.last, object->bricks * 16 - 1);
+    const int4 first = max(box.first, (int4)(0)), last = min(box.last, object->bricks * 16 - 1);
     for (int z = first.z; z <= last.z; ++z)
         for (int y = first.y; y <= last.y; ++y)
             for (int x = first.x; x <= last.x; ++x) {
