@@ -1,8 +1,9 @@
 // voxelume info FILE: what is in a file.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
+#include <limits>
 
 #include "cli/commands.hpp"
 #include "cli/report.hpp"

@@ -21,6 +21,7 @@ namespace {
 /// In the order in which a user meets them.
 constexpr std::array kCommands = {
     Command{"devices", "list what can render here, and why not otherwise", add_devices},
+    Command{"render", "render the image of a scene", add_render},
     Command{"info", "say what is in a file: image, volume, model or mesh", add_info},
     Command{"diff", "measure how far two images are from each other", add_diff},
 };

@@ -4,6 +4,7 @@
 // packet is walking; then the surfaces inside those voxels are tested together, and lanes that missed
 // them walk on.
 #include "lib/smooth.h"
+#include "lib/solid_surface.h"
 #include "lib/triangle.h"
 #include "lib/work_item.h"
 #include "shared/scene.h"
@@ -15,6 +16,7 @@ typedef struct {
     global const uint* restrict primitive_first;
     global const uint* restrict primitives;
     global const float* restrict triangles;
+    global const SolidShape* restrict solids;
     float half_curvature;
 } SurfaceView;
 
@@ -23,6 +25,7 @@ typedef struct {
     lane_int hit;  // mask
     lane_float t;
     lane_uint leaf, voxel, primitive;
+    lane_uint solid;   // the last one tested
     lane_float level;  // shift of smooth surfaces for rays that began on one, see hit_smooth
 } Found;
 
@@ -33,20 +36,35 @@ static inline void take_voxel_hit(Found* found, lane_float t, lane_int accepted)
     found->primitive = LANES_SELECT(closer, (lane_uint)VXL_NO_PRIMITIVE, found->primitive);
 }
 
-/// Tests the primitives of the `tested` lanes' voxels. A hit counts once the walk can't find a closer one:
-/// within the voxel at once, else when the walk gets there.
+/// Tests the primitives that the `tested` lanes' voxels list; `source` is the one a ray began on. A
+/// primitive may be hit outside of the voxel that lists it: the hit counts once the walk is that far.
 static inline lane_int hit_exact(const SurfaceView* s, const Walk* w, lane_int tested,
                                  lane_uint source, Found* found) {
     const RayShear shear = ray_shear(w);
-    lane_uint next = LANES_GATHER_UINT(s->primitive_first, found->voxel & LANES_AS_UINT(tested));
-    const lane_uint end =
-        LANES_GATHER_UINT(s->primitive_first, (found->voxel & LANES_AS_UINT(tested)) + 1u);
+    const SolidRay ray = {w->ox, w->oy, w->oz, w->dx, w->dy, w->dz};
+    const lane_uint voxel = found->voxel & LANES_AS_UINT(tested);
+    lane_uint next = LANES_GATHER_UINT(s->primitive_first, voxel);
+    const lane_uint end = LANES_GATHER_UINT(s->primitive_first, voxel + 1u);
     lane_int listing = tested & LANE_MASK(next < end);
     while (lanes_any(listing)) {
         const lane_uint primitive =
             LANES_GATHER_UINT(s->primitives, next & LANES_AS_UINT(listing)) & LANES_AS_UINT(listing);
-        const lane_int other = listing & LANE_MASK(primitive != source);
-        const lane_int closer = hit_triangle(s->triangles, primitive, w, &shear, other, &found->t);
+        const lane_int of_source = LANE_MASK(primitive == source);
+        const lane_int is_solid = LANE_MASK((primitive & VXL_SOLID_PRIMITIVE) != 0u);
+        lane_int closer = (lane_int)0;
+        if (VXL_TRIANGLES) {
+            const lane_int triangle = listing & ~(is_solid | of_source);
+            if (!VXL_SOLIDS || lanes_any(triangle))
+                closer |= hit_triangle(s->triangles, primitive & LANES_AS_UINT(triangle), w, &shear,
+                                       triangle, &found->t);
+        }
+        if (VXL_SOLIDS) {  // a solid is met by the whole ray at once: once is enough
+            const lane_int solid = listing & is_solid & LANE_MASK(primitive != found->solid);
+            found->solid = LANES_SELECT(solid, primitive, found->solid);
+            if (lanes_any(solid))
+                closer |= hit_solids(s->solids, primitive & ~VXL_SOLID_PRIMITIVE, &ray, of_source,
+                                     solid, &found->t);
+        }
         found->primitive = LANES_SELECT(closer, primitive, found->primitive);
         next += 1u;
         listing &= LANE_MASK(next < end);
@@ -94,7 +112,7 @@ static inline Found find_first(const PyramidView* p, const SurfaceView* s, Walk*
     found.hit = (lane_int)0;
     found.t = (lane_float)INFINITY;
     found.leaf = found.voxel = (lane_uint)0;
-    found.primitive = (lane_uint)VXL_NO_PRIMITIVE;
+    found.primitive = found.solid = (lane_uint)VXL_NO_PRIMITIVE;
     found.level = (lane_float)0.0f;
     lane_int walking = active & in_grid(p, w);
     while (lanes_any(walking)) {
@@ -151,12 +169,12 @@ static inline Walk load_walk(global const float* restrict rays, uint stride, uin
         global const uint *restrict leaves, global const uint *restrict leaf_voxels,              \
         global const uint *restrict attributes, global const uint *restrict fields,               \
         global const uint *restrict primitive_first, global const uint *restrict primitives,      \
-        global const float *restrict triangles
+        global const float *restrict triangles, global const SolidShape *restrict solids
 
 #define VXL_WORLD_VIEWS                                                                           \
     const PyramidView pyramid = pyramid_view(shape, sectors, bricks, leaves, leaf_voxels);        \
     const SurfaceView surface = {attributes, fields, primitive_first, primitives, triangles,      \
-                                 shape.half_curvature}
+                                 solids, shape.half_curvature}
 
 /// The closest hit of rays 0 .. count-1. Arrays hold a multiple of 16 rays.
 kernel void trace_closest(VXL_WORLD_ARGUMENTS, global const float* restrict rays, uint count,

@@ -11,7 +11,8 @@ typedef struct {
 
 /// `reach` is the distance in lattice units from which a triangle concerns a brick; `extent` is the
 /// edge of a brick's closed box: 16 voxels, or 15 when only nodes count.
-static inline BrickRange reached_bricks(const LatticeTriangle* t, int3 reach, int extent, int4 bins) {
+static inline BrickRange reached_bricks(const LatticeTriangle* t, int3 reach, int extent,
+                                        int4 bins) {
     const int3 low = lowest_corner(t) - reach, high = highest_corner(t) + reach;
     BrickRange r;
     r.first = max((low - extent + (LATTICE_BRICK - 1)) >> 16, (int3)(-1, 0, 0));
@@ -32,7 +33,8 @@ static inline bool plane_reaches(float3 n, float3 to_corner, float3 half_box) {
 }
 
 /// One edge seen along an axis, against the same box; likewise conservative.
-static inline bool edge_reaches(float2 edge, float2 to_corner, float2 to_opposite, float2 half_box) {
+static inline bool edge_reaches(float2 edge, float2 to_corner, float2 to_opposite,
+                                float2 half_box) {
     const float at = edge.x * to_corner.y - edge.y * to_corner.x;
     const float opposite = edge.x * to_opposite.y - edge.y * to_opposite.x;
     const float radius = fabs(edge.x) * half_box.y + fabs(edge.y) * half_box.x;
@@ -45,7 +47,8 @@ static inline bool triangle_reaches(const LatticeTriangle* t, float3 n, int3 bri
                                     int extent) {
     const float3 half_box = (convert_float3(reach) + 0.5f * (float)extent) * (1.0f + 1e-6f);
     const int3 center = brick * LATTICE_BRICK + extent / 2;
-    const float3 p[3] = {convert_float3(t->corner[0] - center), convert_float3(t->corner[1] - center),
+    const float3 p[3] = {convert_float3(t->corner[0] - center),
+                         convert_float3(t->corner[1] - center),
                          convert_float3(t->corner[2] - center)};
     if (!plane_reaches(n, p[0], half_box)) return false;
     for (int i = 0; i < 3; ++i) {
@@ -57,11 +60,11 @@ static inline bool triangle_reaches(const LatticeTriangle* t, float3 n, int3 bri
     return true;
 }
 
-/// Calls for each bin that triangle `number` reaches: counts it, or writes the triangle to its list.
+/// Calls for each bin that triangle `number` reaches: counts it, or writes the triangle to its
+/// list.
 static inline void visit_bins(uint number, int4 bins, int4 reach, int extent,
-                              global const int* restrict vertices,
-                              global const uint* restrict triangles, bool fill,
-                              global uint* restrict cursors, global uint* restrict lists) {
+                              global const int* vertices, global const uint* triangles, bool fill,
+                              global uint* cursors, global uint* lists) {
     const LatticeTriangle t = load_triangle(vertices, triangles, number, (int3)(0, 0, 0));
     const BrickRange r = reached_bricks(&t, reach.xyz, extent, bins);
     const float3 n = convert_float3(area_vector(&t));
@@ -77,22 +80,24 @@ static inline void visit_bins(uint number, int4 bins, int4 reach, int extent,
             }
 }
 
-/// One work-item: one triangle. Adds 1 to `counts` of each bin that it reaches.
-kernel void count_pairs(uint count, int4 bins, int4 reach, int extent,
+/// One work-item: one of the triangles from number `first`. Adds 1 to `counts` of each bin that it
+/// reaches.
+kernel void count_pairs(uint first, uint count, int4 bins, int4 reach, int extent,
                         global const int* restrict vertices, global const uint* restrict triangles,
                         global uint* restrict counts) {
     if (work_item() >= count) return;
-    visit_bins(work_item(), bins, reach, extent, vertices, triangles, false, counts, counts);
+    visit_bins(first + work_item(), bins, reach, extent, vertices, triangles, false, counts,
+               counts);
 }
 
-/// One work-item: one triangle. Writes its number at the cursor of each bin that it reaches.
+/// One work-item: the same triangles. Writes its number at the cursor of each bin that it reaches.
 ///
 /// The order within a list depends on the device: every reader gives the same result for any order.
-kernel void list_pairs(uint count, int4 bins, int4 reach, int extent,
+kernel void list_pairs(uint first, uint count, int4 bins, int4 reach, int extent,
                        global const int* restrict vertices, global const uint* restrict triangles,
                        global uint* restrict cursors, global uint* restrict lists) {
     if (work_item() >= count) return;
-    visit_bins(work_item(), bins, reach, extent, vertices, triangles, true, cursors, lists);
+    visit_bins(first + work_item(), bins, reach, extent, vertices, triangles, true, cursors, lists);
 }
 
 /// One work-item: one row of bricks along x. Gives each brick its slot, or marks it as outside.

@@ -20,7 +20,8 @@ static inline void add_row(ulong* masks, uint row, int y, int z) {
 
 /// One work-item: VXL_SLICES slices of one brick, gathered over the brick's triangles.
 ///
-/// `size` is the frame's, in voxels: those beyond stay empty. Lists are lists[first[i] .. first[i+1]).
+/// `size` is the frame's, in voxels: those beyond stay empty. Lists are lists[first[i] ..
+/// first[i+1]).
 kernel void cover_bricks(uint count, int4 size, int4 bricks, global const int* restrict vertices,
                          global const uint* restrict triangles,
                          global const uint* restrict coordinates, global const uint* restrict first,
@@ -29,7 +30,7 @@ kernel void cover_bricks(uint count, int4 size, int4 bricks, global const int* r
     const uint slot = work_item() / (16 / VXL_SLICES);
     const int first_slice = (int)(work_item() % (16 / VXL_SLICES)) * VXL_SLICES;
     const int3 brick = brick_of(coordinates[slot], bricks);
-    const int3 last = min(size.xyz - brick * 16, 16) - 1;
+    const int3 last = min(size.xyz - brick * 16, (int3)(16)) - 1;
     ulong masks[4 * VXL_SLICES];
     for (int i = 0; i < 4 * VXL_SLICES; ++i) masks[i] = 0;
     for (uint i = first[slot]; i < first[slot + 1]; ++i) {

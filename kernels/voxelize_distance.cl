@@ -40,8 +40,9 @@ static inline void narrow(SliceRange* range, float at, float slope, float limit)
         range->first = fmax(range->first, bound);
 }
 
-/// The slices whose tile at (x, y) can have a node within `band` of the triangle. Only what is surely
-/// farther is left out (the margin is far above rounding), so the result has no part in any value.
+/// The slices whose tile at (x, y) can have a node within `band` of the triangle. Only what is
+/// surely farther is left out (the margin is far above rounding), so the result has no part in any
+/// value.
 static inline SliceRange concerned_slices(const TriangleFrame* f, float x, float y, float band,
                                           SliceRange range) {
     const float half_x = 0.5f * (TILE_X - 1), half_y = 0.5f * (TILE_Y - 1), margin = 0.01f;
@@ -70,8 +71,8 @@ static inline void lower_distances(const TriangleFrame* f, NodeBox box, int firs
     for (int j = box.first.y / TILE_Y; j <= box.last.y / TILE_Y; ++j)
         for (int i = box.first.x / TILE_X; i <= box.last.x / TILE_X; ++i) {
             const float x = (float)(i * TILE_X) - 7.5f, y = (float)(j * TILE_Y) - 7.5f;
-            const SliceRange range = concerned_slices(f, x + 0.5f * (TILE_X - 1),
-                                                      y + 0.5f * (TILE_Y - 1), band, slices);
+            const SliceRange range =
+                concerned_slices(f, x + 0.5f * (TILE_X - 1), y + 0.5f * (TILE_Y - 1), band, slices);
             if (!(range.first <= range.last)) continue;
             const int first = (int)(range.first + 7.5f), last = (int)(range.last + 7.5f);
             const TileFrame tile = tile_frame(f, TILE_LANE_X + x, TILE_LANE_Y + y);
@@ -93,15 +94,16 @@ static inline lane_int distance_units(lane_float squared, lane_int inside, float
 
 /// One work-item: VXL_SLICES slices of one brick.
 ///
-/// `scale` is each voxel edge in the shortest; `band` is in shortest edges, at most 4, and `reach` the
-/// same in lattice units along each axis, rounded up. Bit x of inside[16 z + y] is set inside.
+/// `scale` is each voxel edge in the shortest; `band` is in shortest edges, at most 4, and `reach`
+/// the same in lattice units along each axis, rounded up. Bit x of inside[16 z + y] is set inside.
 kernel void measure_distances(uint count, int4 bricks, int4 reach, float4 scale, float band,
                               global const int* restrict vertices,
                               global const uint* restrict triangles,
                               global const float* restrict shapes,
                               global const uint* restrict coordinates,
                               global const uint* restrict first, global const uint* restrict lists,
-                              global const ushort* restrict inside, global short* restrict distance) {
+                              global const ushort* restrict inside,
+                              global short* restrict distance) {
     if (work_item() >= count * (16 / VXL_SLICES)) return;
     const uint slot = work_item() / (16 / VXL_SLICES);
     const int first_slice = (int)(work_item() % (16 / VXL_SLICES)) * VXL_SLICES;
@@ -109,7 +111,8 @@ kernel void measure_distances(uint count, int4 bricks, int4 reach, float4 scale,
     lane_float best[TILE_COLUMNS * VXL_SLICES];
     for (int i = 0; i < TILE_COLUMNS * VXL_SLICES; ++i) best[i] = (lane_float)(1000.0f);
     for (uint i = first[slot]; i < first[slot + 1]; ++i) {
-        const LatticeTriangle t = load_triangle(vertices, triangles, lists[i], origin + BRICK_CENTER);
+        const LatticeTriangle t =
+            load_triangle(vertices, triangles, lists[i], origin + BRICK_CENTER);
         NodeBox box;
         const int3 low = lowest_corner(&t) + BRICK_CENTER - reach.xyz;
         box.first = max((low + (LATTICE_VOXEL - 1)) >> LATTICE_BITS, (int3)(0, 0, first_slice));

@@ -3,7 +3,9 @@
 // A voxel lists the triangles that its closed cube meets, the SUPERCOVER. Counted, summed, written.
 #include "lib/cover.h"
 
-static inline uint voxel_index(int x, int y, int z) { return (uint)(x | y << 4 | z << 8); }
+static inline uint voxel_index(int x, int y, int z) {
+    return (uint)(x | y << 4 | z << 8);
+}
 
 /// Writes `number` to a voxel's list of `count` ascending numbers.
 static inline void insert_ascending(global uint* list, uint count, uint number) {
@@ -14,8 +16,7 @@ static inline void insert_ascending(global uint* list, uint count, uint number) 
 
 /// Adds one triangle to the counts of a brick's voxels, and with `fill` to their lists.
 static inline void list_triangle(uint number, const LatticeTriangle* t, int3 last, uint* counts,
-                                 bool fill, global const uint* restrict starts,
-                                 global uint* restrict primitives) {
+                                 bool fill, global const uint* starts, global uint* primitives) {
     const CoverBox box = cover_box(t, last);
     if (any(box.first > box.last)) return;
     Cover cover;
@@ -41,11 +42,12 @@ kernel void count_primitives(uint count, int4 size, int4 bricks,
     const uint slot = work_item();
     if (slot >= count) return;
     const int3 brick = brick_of(coordinates[slot], bricks);
-    const int3 last = min(size.xyz - brick * 16, 16) - 1;
+    const int3 last = min(size.xyz - brick * 16, (int3)(16)) - 1;
     uint own[4096];
     for (int v = 0; v < 4096; ++v) own[v] = 0;
     for (uint i = first[slot]; i < first[slot + 1]; ++i) {
-        const LatticeTriangle t = load_triangle(vertices, triangles, lists[i], brick * LATTICE_BRICK);
+        const LatticeTriangle t =
+            load_triangle(vertices, triangles, lists[i], brick * LATTICE_BRICK);
         list_triangle(lists[i], &t, last, own, false, counts, counts);
     }
     uint total = 0;
@@ -58,8 +60,7 @@ kernel void count_primitives(uint count, int4 size, int4 bricks,
 
 /// One work-item: one brick. Turns the counts into starts, from the brick's start in `bases`, and
 /// writes the lists.
-kernel void list_primitives(uint count, int4 size, int4 bricks,
-                            global const int* restrict vertices,
+kernel void list_primitives(uint count, int4 size, int4 bricks, global const int* restrict vertices,
                             global const uint* restrict triangles,
                             global const uint* restrict coordinates,
                             global const uint* restrict first, global const uint* restrict lists,
@@ -75,11 +76,12 @@ kernel void list_primitives(uint count, int4 size, int4 bricks,
     }
     if (slot == count - 1u) starts[4096u * count] = start;
     const int3 brick = brick_of(coordinates[slot], bricks);
-    const int3 last = min(size.xyz - brick * 16, 16) - 1;
+    const int3 last = min(size.xyz - brick * 16, (int3)(16)) - 1;
     uint own[4096];
     for (int v = 0; v < 4096; ++v) own[v] = 0;
     for (uint i = first[slot]; i < first[slot + 1]; ++i) {
-        const LatticeTriangle t = load_triangle(vertices, triangles, lists[i], brick * LATTICE_BRICK);
+        const LatticeTriangle t =
+            load_triangle(vertices, triangles, lists[i], brick * LATTICE_BRICK);
         list_triangle(lists[i], &t, last, own, true, starts + 4096u * slot, primitives);
     }
 }

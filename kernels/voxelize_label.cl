@@ -21,22 +21,25 @@ typedef struct {
 } Nearest;
 
 static inline void compare_nearest(Nearest* best, lane_float squared, uint number) {
-    const lane_int closer = LANE_MASK(squared < best->squared) |
-                            (LANE_MASK(squared == best->squared) & LANE_MASK(number < best->number));
+    const lane_int closer =
+        LANE_MASK(squared < best->squared) |
+        (LANE_MASK(squared == best->squared) & LANE_MASK(number < best->number));
     best->squared = LANES_SELECT(closer, squared, best->squared);
     best->number = LANES_SELECT(closer, (lane_uint)(number), best->number);
 }
 
-/// One work-item: VXL_SLICES slices of one brick. Writes the triangle closest to each voxel's centre;
-/// voxels farther than `reach` lattice units from all may get NO_TRIANGLE.
+/// One work-item: VXL_SLICES slices of one brick. Writes the triangle closest to each voxel's
+/// centre; voxels farther than `band` from all get NO_TRIANGLE. `band` is in shortest edges,
+/// `reach` the same in lattice units, rounded up.
 ///
 /// The lists are of bins that may be more than the stored bricks: `bins` and `number_of_bin`.
-kernel void find_nearest(uint count, int4 bins, int4 bricks, int4 reach, float4 scale,
+kernel void find_nearest(uint count, int4 bins, int4 bricks, int4 reach, float4 scale, float band,
                          global const int* restrict vertices, global const uint* restrict triangles,
                          global const float* restrict shapes,
                          global const uint* restrict coordinates,
-                         global const uint* restrict number_of_bin, global const uint* restrict first,
-                         global const uint* restrict lists, global uint* restrict nearest) {
+                         global const uint* restrict number_of_bin,
+                         global const uint* restrict first, global const uint* restrict lists,
+                         global uint* restrict nearest) {
     if (work_item() >= count * (16 / VXL_SLICES)) return;
     const uint slot = work_item() / (16 / VXL_SLICES);
     const int first_slice = (int)(work_item() % (16 / VXL_SLICES)) * VXL_SLICES;
@@ -44,10 +47,12 @@ kernel void find_nearest(uint count, int4 bins, int4 bricks, int4 reach, float4 
     const uint bin = number_of_bin[(brick.z * bins.y + brick.y) * bins.x + brick.x + 1];
     Nearest best[TILE_COLUMNS * VXL_SLICES];
     for (int i = 0; i < TILE_COLUMNS * VXL_SLICES; ++i) {
-        best[i].squared = (lane_float)(1e30f);
+        best[i].squared = (lane_float)(band * band);
         best[i].number = (lane_uint)(NO_TRIANGLE);
     }
-    for (uint i = first[bin]; i < first[bin + 1]; ++i) {
+    const bool has_list = bin != VXL_BRICK_OUTSIDE;
+    const uint end = has_list ? first[bin + 1] : 0;
+    for (uint i = has_list ? first[bin] : 0; i < end; ++i) {
         const LatticeTriangle t =
             load_triangle(vertices, triangles, lists[i], brick * LATTICE_BRICK + BRICK_CENTER);
         const int3 low = lowest_corner(&t) + BRICK_CENTER - reach.xyz;
@@ -97,28 +102,37 @@ static inline float3 closest_weights(float3 a, float3 b, float3 c) {
     for (int i = 0; i < 3; ++i) {
         const float3 from = p[i], edge = p[(i + 1) % 3] - from;
         const float squared = dot_product(edge, edge);
-        const float t = squared > 0.0f
-                            ? clamp(-dot_product(from, edge) * scalar_reciprocal(squared), 0.0f, 1.0f)
-                            : 0.0f;
+        const float t =
+            squared > 0.0f
+                ? clamp(-dot_product(from, edge) * scalar_reciprocal(squared), 0.0f, 1.0f)
+                : 0.0f;
         const float3 foot = from + edge * t;
         const float distance = dot_product(foot, foot);
         if (distance >= nearest) continue;
         nearest = distance;
-        w = (float3)(i == 0 ? 1.0f - t : i == 2 ? t : 0.0f, i == 1 ? 1.0f - t : i == 0 ? t : 0.0f,
-                     i == 2 ? 1.0f - t : i == 1 ? t : 0.0f);
+        w = (float3)(i == 0   ? 1.0f - t
+                     : i == 2 ? t
+                              : 0.0f,
+                     i == 1   ? 1.0f - t
+                     : i == 0 ? t
+                              : 0.0f,
+                     i == 2   ? 1.0f - t
+                     : i == 1 ? t
+                              : 0.0f);
     }
     return w;
 }
 
 /// The sRGB code 0..255 of a linear value: how many of the 255 ascending thresholds are at most it.
-static inline uint encode(float value, global const float* restrict thresholds) {
+static inline uint encode(float value, global const float* thresholds) {
     uint code = 0;
     for (uint step = 128; step > 0; step >>= 1)
         if (value >= thresholds[code + step - 1]) code += step;
     return code;
 }
 
-/// One work-item: one voxel. Its colour is its closest triangle's at the point closest to the centre.
+/// One work-item: one voxel. Its colour is its closest triangle's at the point closest to the
+/// centre.
 kernel void color_voxels(uint count, int4 bricks, float4 scale, global const int* restrict vertices,
                          global const uint* restrict triangles,
                          global const uint* restrict coordinates,
@@ -133,15 +147,15 @@ kernel void color_voxels(uint count, int4 bricks, float4 scale, global const int
         return;
     }
     const int3 brick = brick_of(coordinates[number >> 12], bricks);
-    const int3 within = (int3)((int)(number & 15u), (int)(number >> 4 & 15u), (int)(number >> 8 & 15u));
+    const int3 within =
+        (int3)((int)(number & 15u), (int)(number >> 4 & 15u), (int)(number >> 8 & 15u));
     const LatticeTriangle t =
         load_triangle(vertices, triangles, triangle,
                       brick * LATTICE_BRICK + within * LATTICE_VOXEL + LATTICE_VOXEL / 2);
     const float3 to_metric = scale.xyz * (1.0f / LATTICE_VOXEL);
-    const float3 weights =
-        closest_weights(convert_float3(t.corner[0]) * to_metric,
-                        convert_float3(t.corner[1]) * to_metric,
-                        convert_float3(t.corner[2]) * to_metric);
+    const float3 weights = closest_weights(convert_float3(t.corner[0]) * to_metric,
+                                           convert_float3(t.corner[1]) * to_metric,
+                                           convert_float3(t.corner[2]) * to_metric);
     const float3 color = vload3(triangles[3u * triangle], vertex_colors) * weights.x +
                          vload3(triangles[3u * triangle + 1u], vertex_colors) * weights.y +
                          vload3(triangles[3u * triangle + 2u], vertex_colors) * weights.z;

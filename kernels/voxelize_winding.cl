@@ -1,7 +1,9 @@
-// triangles of each brick -> winding numbers at voxels' corners or centres, exact for closed meshes.
+// triangles of each brick -> winding numbers at voxels' corners or centres, exact for closed
+// meshes.
 //
 // The winding number of a point is the signed number of crossings left of it on its row along x.
-// Points on edges, and crossings on points, are decided as if each point were moved by (e, e², e³).
+// Points on edges, and crossings on points, are decided as if each point were moved by
+// (e, e², e³) for an infinitesimal e.
 #include "lib/cover.h"
 #include "shared/voxel.h"
 
@@ -13,7 +15,8 @@
 
 #define COLUMN_NUMBERS ((short16)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15))
 
-/// Adds one triangle's crossings to the rows of a brick: `winding` at 16 points a row, and `totals`.
+/// Adds one triangle's crossings to the rows of a brick: `winding` at 16 points a row, and
+/// `totals`.
 ///
 /// Each crossing is counted in the brick that holds it; `left` is the column of all space x < 0.
 static inline void add_crossings(const LatticeTriangle* t, bool left, short16* winding,
@@ -72,9 +75,11 @@ kernel void count_crossings(uint count, uint stored, int4 bins, global const int
 }
 
 /// One work-item: one row of bricks along x. Turns the totals into each brick's winding numbers at
-/// its left face, and marks bricks without surface as inside or outside.
+/// its left face, and marks bricks without triangles as inside or outside; `passing` is the winding
+/// number of all their points.
 kernel void carry_rows(uint count, int4 bins, global const uint* restrict number_of_bin,
-                       global short* restrict totals, global uint* restrict slots) {
+                       global short* restrict totals, global uint* restrict slots,
+                       global short* restrict passing) {
     const uint row = work_item();
     if (row >= count) return;
     short16 running[16];
@@ -83,7 +88,9 @@ kernel void carry_rows(uint count, int4 bins, global const uint* restrict number
         const uint number = number_of_bin[row * (uint)bins.x + (uint)x];
         const uint brick = row * (uint)(bins.x - 1) + (uint)(x - 1);
         if (number == VXL_BRICK_OUTSIDE) {
-            if (x > 0) slots[brick] = running[0].s0 > 0 ? VXL_BRICK_INSIDE : VXL_BRICK_OUTSIDE;
+            if (x == 0) continue;
+            slots[brick] = running[0].s0 > 0 ? VXL_BRICK_INSIDE : VXL_BRICK_OUTSIDE;
+            passing[brick] = running[0].s0;
             continue;
         }
         if (x > 0) slots[brick] = number;
@@ -118,7 +125,7 @@ kernel void fill_solid(uint count, int4 size, int4 bricks, global const uint* re
                        global const ushort* restrict inside, global ulong* restrict occupancy) {
     const uint slot = work_item();
     if (slot >= count) return;
-    const int3 within = min(size.xyz - brick_of(coordinates[slot], bricks) * 16, 16);
+    const int3 within = min(size.xyz - brick_of(coordinates[slot], bricks) * 16, (int3)(16));
     const uint row_mask = within.x <= 0 ? 0u : (1u << within.x) - 1u;
     for (int leaf = 0; leaf < 64; ++leaf) {
         const int x = 4 * (leaf & 3), y = 4 * ((leaf >> 2) & 3), z = 4 * (leaf >> 4);

@@ -147,8 +147,8 @@ kernel void copy_fields(global const SolidShape* s, global uint* out) {
     for (int i = 0; i < 9; ++i) out[10 + i] = as_uint(s->shape_from_grid[i]);
     for (int i = 0; i < 4; ++i) out[19 + i] = as_uint(s->size[i]);
     for (int i = 0; i < 2; ++i) out[23 + i] = as_uint(s->rounding[i]);
-    for (int i = 0; i < 4; ++i) out[25 + i] = as_uint(s->derived[i]);
-    for (int i = 0; i < 3; ++i) out[29 + i] = as_uint(s->unused[i]);
+    for (int i = 0; i < 5; ++i) out[25 + i] = as_uint(s->derived[i]);
+    for (int i = 0; i < 2; ++i) out[30 + i] = as_uint(s->unused[i]);
 }
 )");
     const Buffer<uint32_t> in(device, "in", words), out(device, "out", words.size());

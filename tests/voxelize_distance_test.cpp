@@ -53,7 +53,8 @@ std::vector<std::array<dvec3, 3>> metric_triangles(const Mesh& mesh, const GridF
     return all;
 }
 
-/// Whether the triangle's bounding box is farther than the band from p: spares the oracle most work.
+/// Whether the triangle's bounding box is farther than the band from p: spares the oracle most
+/// work.
 bool is_beyond(const dvec3& p, const std::array<dvec3, 3>& t, double band) {
     const dvec3 low = glm::min(glm::min(t[0], t[1]), t[2]) - band - 0.001;
     const dvec3 high = glm::max(glm::max(t[0], t[1]), t[2]) + band + 0.001;
@@ -76,11 +77,13 @@ void expect_field(const Mesh& mesh, const GridFrame& frame, double band, Sign si
                 double distance = 1e9;
                 for (const auto& t : triangles) {
                     if (is_beyond(p, t, band)) continue;
-                    distance = std::min(distance, oracle::distance_to_triangle(p, t[0], t[1], t[2]));
+                    distance =
+                        std::min(distance, oracle::distance_to_triangle(p, t[0], t[1], t[2]));
                 }
                 const int units = field.units({x, y, z});
                 const int expected_sign = sign(ivec3(x, y, z));
-                if (expected_sign != 0 && units != 0) wrong_signs += (units < 0) != (expected_sign < 0);
+                if (expected_sign != 0 && units != 0)
+                    wrong_signs += (units < 0) != (expected_sign < 0);
                 if (distance > band + 1e-5) {
                     unsaturated += std::abs(units) != 32767;
                 } else if (distance < std::min(band - 1e-5, 3.9998)) {
@@ -103,7 +106,8 @@ auto winding_sign(const Mesh& mesh) {
 const auto unknown_sign = [](const ivec3&) { return 0; };
 
 TEST(Distance, OfABoxIsItsFacesDistance) {
-    const BrickGrid grid = smooth_grid(box_mesh({6, 6, 6}, {26, 15.5f, 14}), unit_frame({33, 22, 20}));
+    const BrickGrid grid =
+        smooth_grid(box_mesh({6, 6, 6}, {26, 15.5f, 14}), unit_frame({33, 22, 20}));
     const Field field(grid);
     EXPECT_EQ(field.units({6, 10, 10}), 0);
     EXPECT_EQ(field.units({7, 10, 10}), -8192);
@@ -143,7 +147,8 @@ TEST(Distance, OfSliversSegmentsAndPointsMatchesDoubles) {
         };
         const vec3 middle = vec3(17, 13, 11) + vector(3), along = vector(9);
         Mesh mesh = single_triangle(middle - along, middle + along, middle + vector(3e-3f));
-        add_triangle(mesh, middle + vec3(1, 2, 1), middle + vec3(3, 2, 4), middle + vec3(2, 2, 2.5f));
+        add_triangle(mesh, middle + vec3(1, 2, 1), middle + vec3(3, 2, 4),
+                     middle + vec3(2, 2, 2.5f));
         add_triangle(mesh, {3, 4, 5}, {3, 4, 5}, {3, 4, 5});
         add_triangle(mesh, {30, 4, 5}, {33, 9, 5}, {30, 4, 5});
         SCOPED_TRACE(fmt::format("seed {}", seed));

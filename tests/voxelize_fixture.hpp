@@ -23,10 +23,11 @@ struct VoxelLess {
 };
 using VoxelSetOf = std::set<glm::ivec3, VoxelLess>;
 
-/// One voxelizer for all tests, so that each kernel is built once.
+/// One voxelizer for all tests, so that each kernel is built once. Never freed: a platform may be
+/// gone before static objects are.
 inline Voxelizer& shared_voxelizer() {
-    static Voxelizer voxelizer(test_device());
-    return voxelizer;
+    static Voxelizer* const voxelizer = new Voxelizer(test_device());
+    return *voxelizer;
 }
 
 /// A frame whose voxels are the units of the mesh.
@@ -67,8 +68,8 @@ inline Mesh torus_mesh(const glm::vec3& center, float major, float minor, int ar
         for (int j = 0; j < across; ++j) {
             const double u = angle(i, around), v = angle(j, across);
             const double r = major + minor * std::cos(v);
-            mesh.positions.push_back(center + glm::vec3(r * std::cos(u), r * std::sin(u),
-                                                        minor * std::sin(v)));
+            mesh.positions.push_back(
+                center + glm::vec3(r * std::cos(u), r * std::sin(u), minor * std::sin(v)));
         }
     const auto at = [&](int i, int j) {
         return static_cast<uint32_t>((i % around) * across + j % across);
@@ -96,7 +97,6 @@ inline Mesh ball_mesh(const glm::vec3& center, float radius, int columns, int ro
                             c = point(row + 1, column + 1), d = point(row + 1, column);
             if (row > 0) add_triangle(mesh, a, b, c);
             if (row + 1 < rows) add_triangle(mesh, a, c, d);
-            if (row == 0) add_triangle(mesh, a, c, d);
         }
     return mesh;
 }
@@ -148,11 +148,16 @@ inline VoxelSetOf occupied_voxels(const BrickGrid& grid) {
     return voxels;
 }
 
+inline VoxelizeOptions cubes(VoxelSet set) {
+    VoxelizeOptions options;
+    options.surface = Surface::cubes;
+    options.set = set;
+    return options;
+}
+
 inline VoxelSetOf voxels_of(const Mesh& mesh, const glm::ivec3& size, VoxelSet set,
                             Voxelizer& voxelizer = shared_voxelizer()) {
-    VoxelizeOptions options;
-    options.set = set;
-    return occupied_voxels(voxelizer.voxelize(mesh, glm::dmat4(1), unit_frame(size), options));
+    return occupied_voxels(voxelizer.voxelize(mesh, glm::dmat4(1), unit_frame(size), cubes(set)));
 }
 
 /// The voxels of the frame for which `is_set` says so.
@@ -169,18 +174,16 @@ VoxelSetOf voxels_where(const glm::ivec3& size, Predicate is_set) {
 inline VoxelSetOf exact_supercover(const Mesh& mesh, const glm::ivec3& size) {
     const auto triangles = lattice_mesh(mesh);
     return voxels_where(size, [&](const glm::ivec3& v) {
-        return std::any_of(triangles.begin(), triangles.end(), [&](const auto& t) {
-            return oracle::cube_meets_triangle(v, t);
-        });
+        return std::any_of(triangles.begin(), triangles.end(),
+                           [&](const auto& t) { return oracle::cube_meets_triangle(v, t); });
     });
 }
 
 inline VoxelSetOf exact_thin(const Mesh& mesh, const glm::ivec3& size) {
     const auto triangles = lattice_mesh(mesh);
     return voxels_where(size, [&](const glm::ivec3& v) {
-        return std::any_of(triangles.begin(), triangles.end(), [&](const auto& t) {
-            return oracle::crosshair_meets_triangle(v, t);
-        });
+        return std::any_of(triangles.begin(), triangles.end(),
+                           [&](const auto& t) { return oracle::crosshair_meets_triangle(v, t); });
     });
 }
 

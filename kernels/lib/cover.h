@@ -19,7 +19,7 @@ typedef struct {
 /// The voxels up to `last` whose closed cubes the triangle's bounding box meets.
 static inline CoverBox cover_box(const LatticeTriangle* t, int3 last) {
     CoverBox box;
-    box.first = max((lowest_corner(t) - 1) >> LATTICE_BITS, 0);
+    box.first = max((lowest_corner(t) - 1) >> LATTICE_BITS, (int3)(0));
     box.last = min(highest_corner(t) >> LATTICE_BITS, last);
     return box;
 }
@@ -28,17 +28,17 @@ static inline CoverBox cover_box(const LatticeTriangle* t, int3 last) {
 typedef struct {
     CoverBox box;
     long3 n;
-    long low, high;       // SUPERCOVER: bounds on n·v for the plane to meet voxel v
+    long low, high;         // SUPERCOVER: bounds on n·v for the plane to meet voxel v
     Silhouette xy, yz, zx;  // seen along z, x, y
     Crossing x, y, z;       // THIN: of the plane with lines along each axis
     ushort xy_rows[16];     // SUPERCOVER: the silhouette seen along z, bit x of row y
 } Cover;
 
 static inline void prepare_supercover(Cover* c, const LatticeTriangle* t) {
-    const int3 *p = t->corner;
+    const int3* p = t->corner;
     const long3 n = c->n;
     const Wide at = wide_dot(n, p[0]);
-    const long3 positive = max(n, 0L), negative = min(n, 0L);
+    const long3 positive = max(n, (long3)(0)), negative = min(n, (long3)(0));
     c->low = wide_ceil(at, LATTICE_BITS) - (positive.x + positive.y + positive.z);
     c->high = wide_floor(at, LATTICE_BITS) - (negative.x + negative.y + negative.z);
     c->xy = silhouette_of_cells(p[0].xy, p[1].xy, p[2].xy, n.z);
@@ -49,7 +49,7 @@ static inline void prepare_supercover(Cover* c, const LatticeTriangle* t) {
 }
 
 static inline void prepare_thin(Cover* c, const LatticeTriangle* t) {
-    const int3 *p = t->corner;
+    const int3* p = t->corner;
     const long3 n = c->n;
     const int center = LATTICE_VOXEL / 2;
     c->xy = silhouette_of_points(p[0].xy, p[1].xy, p[2].xy, n.z, center, true);
@@ -60,7 +60,8 @@ static inline void prepare_thin(Cover* c, const LatticeTriangle* t) {
     c->z = plane_crossing(n, p[0], n.x, n.y, n.z);
 }
 
-static inline void prepare_cover(Cover* c, const LatticeTriangle* t, const CoverBox* box, bool thin) {
+static inline void prepare_cover(Cover* c, const LatticeTriangle* t, const CoverBox* box,
+                                 bool thin) {
     c->box = *box;
     c->n = area_vector(t);
     if (thin)
@@ -83,7 +84,7 @@ static inline uint supercover_row(const Cover* c, int y, int z) {
 }
 
 /// The voxels of row (y, z) whose crosshairs (the three segments through the centre, half-open)
-/// the triangle meets, bit x each. A centre line on an edge is moved by (e, e², e³) along x, y, z.
+/// the triangle meets, bit x each. A centre line on an edge is moved by (e, e², e³).
 static inline uint thin_row(const Cover* c, int y, int z) {
     uint row = 0;
     if (c->n.x != 0 && point_in_silhouette(&c->yz, y, z)) {

@@ -7,6 +7,8 @@
 //   LANES_GATHER_UINT(p, index) p[index] lane by lane, likewise _FLOAT; every index must be in range
 //   LANES_LOAD(p, first)        p[first .. first + VXL_LANES)
 //   LANES_STORE(value, p, first)
+//   lanes_any(mask)             not 0 if any lane says yes; all lanes or-ed
+//   lanes_least(v)              the smallest of the lanes' numbers
 //   LANES_INT, LANES_FLOAT, ... conversions (to int: towards zero)
 #ifndef VXL_LANES_H
 #define VXL_LANES_H
@@ -40,6 +42,7 @@ typedef long lane_long;
 #define LANES_NUMBERS 0
 
 static inline int lanes_any(lane_int mask) { return mask; }
+static inline uint lanes_least(lane_uint v) { return v; }
 
 #else
 
@@ -70,6 +73,10 @@ static inline int lanes_any(int4 mask) {
     int2 q = mask.lo | mask.hi;
     return q.x | q.y;
 }
+static inline uint lanes_least(uint4 v) {
+    uint2 q = min(v.lo, v.hi);
+    return min(q.x, q.y);
+}
 #elif VXL_LANES == 8
 #define VXL_INDEXED(p, i)                                                                     \
     (p)[(i).s0], (p)[(i).s1], (p)[(i).s2], (p)[(i).s3], (p)[(i).s4], (p)[(i).s5], (p)[(i).s6], \
@@ -79,6 +86,11 @@ static inline int lanes_any(int8 mask) {
     int4 h = mask.lo | mask.hi;
     int2 q = h.lo | h.hi;
     return q.x | q.y;
+}
+static inline uint lanes_least(uint8 v) {
+    uint4 h = min(v.lo, v.hi);
+    uint2 q = min(h.lo, h.hi);
+    return min(q.x, q.y);
 }
 #else
 #define VXL_INDEXED(p, i)                                                                      \
@@ -91,6 +103,12 @@ static inline int lanes_any(int16 mask) {
     int4 h = e.lo | e.hi;
     int2 q = h.lo | h.hi;
     return q.x | q.y;
+}
+static inline uint lanes_least(uint16 v) {
+    uint8 e = min(v.lo, v.hi);
+    uint4 h = min(e.lo, e.hi);
+    uint2 q = min(h.lo, h.hi);
+    return min(q.x, q.y);
 }
 #endif
 #define LANES_GATHER_UINT(p, i) ((lane_uint)(VXL_INDEXED(p, i)))

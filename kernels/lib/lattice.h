@@ -18,12 +18,11 @@ typedef struct {
     int3 corner[3];
 } LatticeTriangle;
 
-static inline LatticeTriangle load_triangle(global const int* restrict vertices,
-                                            global const uint* restrict triangles, uint number,
+static inline LatticeTriangle load_triangle(global const int* vertices,
+                                            global const uint* triangles, uint number,
                                             int3 origin) {
     LatticeTriangle t;
-    for (int i = 0; i < 3; ++i)
-        t.corner[i] = vload3(triangles[3u * number + i], vertices) - origin;
+    for (int i = 0; i < 3; ++i) t.corner[i] = vload3(triangles[3u * number + i], vertices) - origin;
     return t;
 }
 
@@ -93,8 +92,8 @@ static inline long floor_quotient(long a, long b) {
     return q - (a - q * b < 0 ? 1 : 0);
 }
 
-/// The three edges of a triangle seen along an axis, as bounds low <= u U + w W <= high on a cell or
-/// point (U, W) in voxels.
+/// The three edges of a triangle seen along an axis, as bounds low <= u U + w W <= high on a cell
+/// or point (U, W) in voxels.
 typedef struct {
     long u[3], w[3], low[3], high[3];
 } Silhouette;
@@ -108,10 +107,11 @@ static inline void silhouette_edges(Silhouette* s, int2 a, int2 b, int2 c) {
     }
 }
 
-/// The closed cells [U,U+1] x [W,W+1] that may meet the closed triangle; `area` is twice its signed area.
+/// The closed cells [U,U+1] x [W,W+1] that may meet the closed triangle; `area` is twice its signed
+/// area.
 ///
-/// Each edge is tested from both sides (a separating axis), so triangles without area are exact too.
-/// What it lacks of an exact test are the axes of the cell itself: the bounding box.
+/// Each edge is tested from both sides (a separating axis), so triangles without area are exact
+/// too. What it lacks of an exact test are the axes of the cell itself: the bounding box.
 static inline Silhouette silhouette_of_cells(int2 a, int2 b, int2 c, long area) {
     Silhouette s;
     silhouette_edges(&s, a, b, c);
@@ -119,7 +119,8 @@ static inline Silhouette silhouette_of_cells(int2 a, int2 b, int2 c, long area) 
     for (int i = 0; i < 3; ++i) {
         const long at = s.u[i] * p[i].x + s.w[i] * p[i].y;
         const long first = at + min(area, 0L), last = at + max(area, 0L);
-        s.low[i] = ((first + (LATTICE_VOXEL - 1)) >> LATTICE_BITS) - max(s.u[i], 0L) - max(s.w[i], 0L);
+        s.low[i] =
+            ((first + (LATTICE_VOXEL - 1)) >> LATTICE_BITS) - max(s.u[i], 0L) - max(s.w[i], 0L);
         s.high[i] = (last >> LATTICE_BITS) - min(s.u[i], 0L) - min(s.w[i], 0L);
     }
     return s;
@@ -141,7 +142,8 @@ static inline Silhouette silhouette_of_points(int2 a, int2 b, int2 c, long area,
         s.w[i] *= sign;
         const long major = u_first ? s.u[i] : s.w[i], minor = u_first ? s.w[i] : s.u[i];
         const bool tie_is_inside = major > 0 || (major == 0 && minor > 0);
-        const long least = s.u[i] * (p[i].x - offset) + s.w[i] * (p[i].y - offset) + (tie_is_inside ? 0 : 1);
+        const long least =
+            s.u[i] * (p[i].x - offset) + s.w[i] * (p[i].y - offset) + (tie_is_inside ? 0 : 1);
         s.low[i] = (least + (LATTICE_VOXEL - 1)) >> LATTICE_BITS;
     }
     return s;

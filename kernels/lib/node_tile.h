@@ -21,7 +21,7 @@
 #define TILES_Y (16 / TILE_Y)
 
 /// Writes a tile's values to 16-bit nodes of a slice, x fastest, 16 a row; `first` is its corner.
-static inline void store_tile(lane_int values, global short* restrict first) {
+static inline void store_tile(lane_int values, global short* first) {
 #if VXL_LANES == 1
     first[0] = (short)values;
 #elif VXL_LANES == 4
@@ -40,7 +40,7 @@ static inline void store_tile(lane_int values, global short* restrict first) {
 }
 
 /// The same for 32-bit words.
-static inline void store_tile_words(lane_uint values, global uint* restrict first) {
+static inline void store_tile_words(lane_uint values, global uint* first) {
 #if VXL_LANES == 1
     first[0] = values;
 #elif VXL_LANES == 4

@@ -9,11 +9,16 @@
 #include "lib/exact_float.h"
 #include "lib/lattice.h"
 
-/// floats of `shapes` per triangle: normal, plane scale; 3 x (edge direction, length); 3 x 1/length.
+/// floats of `shapes` per triangle: normal, plane scale; 3 x (edge direction, length); 3 x
+/// 1/length.
 #define SHAPE_FLOATS 20
 
-static inline float first_lane(lane_float v) { return ((const float*)&v)[0]; }
-static inline float scalar_root(float x) { return first_lane(exact_sqrt((lane_float)(x))); }
+static inline float first_lane(lane_float v) {
+    return ((const float*)&v)[0];
+}
+static inline float scalar_root(float x) {
+    return first_lane(exact_sqrt((lane_float)(x)));
+}
 static inline float scalar_reciprocal(float x) {
     return first_lane(exact_reciprocal((lane_float)(x)));
 }
@@ -54,8 +59,8 @@ static inline float3 any_perpendicular(float3 e) {
     return p * scalar_reciprocal(scalar_root(dot_product(p, p)));
 }
 
-/// Writes what is the same for all bricks: unit vectors, in metric space; `scale` is each voxel edge
-/// in the shortest. The plane scale is 0 for a triangle without area, whose normal is any one
+/// Writes what is the same for all bricks: unit vectors, in metric space; `scale` is each voxel
+/// edge in the shortest. The plane scale is 0 for a triangle without area, whose normal is any one
 /// perpendicular to its longest edge.
 static inline void shape_of_triangle(const LatticeTriangle* t, float3 scale, global float* shape) {
     const float to_voxels = 1.0f / LATTICE_VOXEL, shrink = 1.0f / 1048576.0f;
@@ -80,8 +85,8 @@ static inline void shape_of_triangle(const LatticeTriangle* t, float3 scale, glo
         return;
     }
     // Shrunk by a power of two, so that squares of 2^56 stay within floats.
-    const float3 area =
-        convert_float3(n) * shrink * (float3)(scale.y * scale.z, scale.z * scale.x, scale.x * scale.y);
+    const float3 area = convert_float3(n) * shrink *
+                        (float3)(scale.y * scale.z, scale.z * scale.x, scale.x * scale.y);
     const float inverse = scalar_reciprocal(scalar_root(dot_product(area, area)));
     const float volume = scale.x * scale.y * scale.z;
     vstore4((float4)(area * inverse, inverse * volume * shrink * to_voxels), 0, shape);
@@ -143,7 +148,8 @@ typedef struct {
 } TileFrame;
 
 static inline lane_float affine_at(const Affine* f, lane_float x, lane_float y) {
-    return fma((lane_float)(f->gradient.y), y, fma((lane_float)(f->gradient.x), x, (lane_float)(f->at)));
+    return fma((lane_float)(f->gradient.y), y,
+               fma((lane_float)(f->gradient.x), x, (lane_float)(f->at)));
 }
 
 static inline TileFrame tile_frame(const TriangleFrame* f, lane_float x, lane_float y) {

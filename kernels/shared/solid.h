@@ -62,10 +62,11 @@ typedef struct SolidShape {
     float size[4];
     float rounding[2];  // |error of the distance at q| <= rounding[0] * (|q.x|+|q.y|+|q.z|) +
                         // rounding[1], with q = x - centre in voxels
-    float derived[4];   // cone: the unit normal of its side (outwards, along Y), then its side's
-                        // direction from the lower rim divided by its squared length, likewise;
+    float derived[5];   // cone: the unit normal of its side (outwards, along Y), then its side's
+                        // direction from the lower rim divided by its squared length, likewise,
+                        // then the growth of its radius along Y;
                         // ellipsoid: half axes divided by the shortest, and 1 / the shortest
-    float unused[3];    // 0
+    float unused[2];    // 0
 } SolidShape;
 
 // Fails to compile, in both languages, when the record has another size than the text above says.

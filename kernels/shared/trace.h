@@ -28,6 +28,8 @@
 #define VXL_HIT_FACE 3
 #define VXL_HIT_PRIMITIVE 4
 #define VXL_HIT_COMPONENTS 5
+// A primitive is a triangle's number, or this bit and a solid's.
+#define VXL_SOLID_PRIMITIVE 0x80000000u
 #define VXL_NO_PRIMITIVE 0xFFFFFFFFu
 #define VXL_NO_VOXEL 0xFFFFFFFFu
 

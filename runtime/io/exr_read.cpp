@@ -1,15 +1,10 @@
 // OpenEXR -> Image and header.
 #include <ImfChannelList.h>
-#include <ImfChromaticitiesAttribute.h>
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
 #include <ImfInputFile.h>
-#include <ImfStandardAttributes.h>
 #include <ImfStringAttribute.h>
-#include <ImfVersion.h>
 #include <openexr.h>
-
-#include <memory>
 
 #include "runtime/error.hpp"
 #include "runtime/io/exr.hpp"

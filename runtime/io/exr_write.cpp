@@ -1,6 +1,5 @@
 // Image -> scanline OpenEXR, through a stream of our own: OpenEXR 3.1.5 truncates small files
 // silently on a full disk.
-#include <ImfArray.h>
 #include <ImfChannelList.h>
 #include <ImfChromaticitiesAttribute.h>
 #include <ImfFrameBuffer.h>

@@ -1,5 +1,6 @@
 #include "runtime/io/frame_list.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <regex>
 #include <unordered_set>

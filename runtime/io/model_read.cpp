@@ -3,7 +3,6 @@
 #include <zstd.h>
 
 #include <cstring>
-#include <memory>
 
 #include "runtime/io/input_file.hpp"
 #include "runtime/io/model_file.hpp"

@@ -2,8 +2,6 @@
 #include <xxhash.h>
 #include <zstd.h>
 
-#include <cstring>
-
 #include "runtime/io/atomic_file.hpp"
 #include "runtime/io/model_file.hpp"
 #include "runtime/io/model_format.hpp"

@@ -139,7 +139,7 @@ fs::path PoclFolder::new_program_folder() const {
     std::error_code error;
     for (const fs::directory_entry& letters : fs::directory_iterator(folder_, error))
         for (const fs::directory_entry& rest : fs::directory_iterator(letters.path(), error)) {
-            const fs::path folder = rest.path().lexically_relative(folder_);
+            fs::path folder = rest.path().lexically_relative(folder_);
             if (fs::exists(rest.path() / "last_accessed", error) && !known.contains(folder))
                 return folder;
         }

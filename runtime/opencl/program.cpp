@@ -18,6 +18,8 @@ std::string build_options(const Device& device, const Defines& defines) {
         has_lanes |= name == "VXL_LANES";
     }
     if (!has_lanes) options += fmt::format(" -DVXL_LANES={}", device.lanes());
+    // Oclgrind 21.10 interprets LLVM code, but not the alias hints that its optimizer leaves.
+    if (device.info().platform == "Oclgrind") options += " -cl-opt-disable";
     return options;
 }
 

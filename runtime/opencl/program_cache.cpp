@@ -3,6 +3,7 @@
 #include <array>
 #include <chrono>
 #include <optional>
+#include <utility>
 
 #include "runtime/disk_cache.hpp"
 #include "runtime/error.hpp"
@@ -66,11 +67,11 @@ cl::Program build_with_binary(const Device& device, const std::string& source,
     const DiskCache store = program_store();
     const std::string key = key_of(device.info(), source, options);
     if (const auto bytes = store.read(key))
-        if (const auto program = from_binary(device, *bytes, options)) {
+        if (auto program = from_binary(device, *bytes, options)) {
             ++device.counters().programs_from_cache;
-            return *program;
+            return std::move(*program);
         }
-    const cl::Program program = compile(device, source, options);
+    cl::Program program = compile(device, source, options);
     try {
         const auto binaries = program.getInfo<CL_PROGRAM_BINARIES>();
         if (binaries.size() == 1 && !binaries[0].empty())

@@ -10,15 +10,19 @@ namespace voxelume {
 struct Features {
     bool cubes = false;       ///< some voxel is its own surface
     bool smooth = false;      ///< some voxel has a distance field
-    bool exact = false;       ///< some voxel lists primitives
+    bool triangles = false;   ///< some voxel lists triangles
+    bool solids = false;      ///< some voxel lists analytic solids
     bool attributes = false;  ///< voxels differ in object, material or kind
     bool colors = false;      ///< voxels have colours of their own
     bool medium = false;      ///< the space absorbs light
     bool shadows = false;     ///< lights can be hidden
 
+    bool exact() const { return triangles || solids; }
+
     Defines defines(const Device& device) const {
         return {{"VXL_CUBES", cubes},     {"VXL_SMOOTH", smooth},
-                {"VXL_EXACT", exact},     {"VXL_ATTRIBUTES", attributes},
+                {"VXL_EXACT", exact()},   {"VXL_TRIANGLES", triangles},
+                {"VXL_SOLIDS", solids},   {"VXL_ATTRIBUTES", attributes},
                 {"VXL_COLORS", colors},   {"VXL_MEDIUM", medium},
                 {"VXL_SHADOWS", shadows}, {"VXL_NATIVE_DIVIDE", device.is_cpu()}};
     }

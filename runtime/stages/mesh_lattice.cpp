@@ -2,9 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
-#include <numeric>
-#include <unordered_map>
 
 #include "runtime/error.hpp"
 

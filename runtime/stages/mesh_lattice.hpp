@@ -25,9 +25,9 @@ struct MeshLattice {
 
 /// Rounds the mesh's vertices once, ties to even, to the lattice of `frame`.
 ///
-/// `frame_from_mesh` maps the mesh's space to the space of the frame, in double. Throws Error::input
-/// for a mesh without triangles, an index out of range and a vertex that is not finite, Error::limit
-/// for one that is more than kLatticeReach voxels from the frame's origin.
+/// `frame_from_mesh` maps the mesh's space to the space of the frame, in double. Throws
+/// Error::input for a mesh without triangles, an index out of range and a vertex that is not
+/// finite, Error::limit for one that is more than kLatticeReach voxels from the frame's origin.
 MeshLattice snap_to_lattice(const Mesh& mesh, const glm::dmat4& frame_from_mesh,
                             const GridFrame& frame);
 

@@ -1,9 +1,5 @@
 #include "runtime/stages/shade.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <glm/geometric.hpp>
-
 #include "runtime/stages/trace.hpp"
 
 namespace voxelume {
@@ -24,21 +20,6 @@ std::vector<MaterialRecord> material_records(const Scene& scene) {
 }
 
 }  // namespace
-
-LightRecord light_record(const Light& light, const GridFrame& world) {
-    LightRecord record{};
-    const bool directional = light.kind == LightKind::directional;
-    record.position = to_float4(directional ? -light.direction / world.voxel_edge
-                                            : (light.position - world.origin) / world.voxel_edge);
-    record.direction = to_float4(light.direction);
-    record.energy = to_float4(glm::dvec3(light.energy));
-    record.inner_cosine = float(std::cos(light.inner_half_angle));
-    record.outer_cosine = float(std::cos(light.outer_half_angle));
-    record.kind = directional                     ? VXL_LIGHT_DIRECTIONAL
-                  : light.kind == LightKind::spot ? VXL_LIGHT_SPOT
-                                                  : VXL_LIGHT_POINT;
-    return record;
-}
 
 MaterialRecord material_record(const Material& material) {
     MaterialRecord record{};
@@ -64,24 +45,14 @@ ShadeStage::ShadeStage(const Device& device, const Features& features, const Sce
     : space_(space_of(scene.world)),
       materials_(device, "materials", std::span<const MaterialRecord>(material_records(scene))),
       program_(device, "shade.cl", features.defines(device)),
-      surface_(program_.kernel("shade_surface")),
-      light_(program_.kernel("shade_light")) {}
+      surface_(program_.kernel("shade_surface")) {}
 
 void ShadeStage::surface(const Pyramid& pyramid, RayBatch& batch, uint32_t count) {
     surface_.launch_packets(count, shape_of(pyramid), space_, materials_, pyramid.attributes,
                             pyramid.attribute, pyramid.colors, pyramid.fields, pyramid.triangles,
-                            pyramid.triangle_attributes, batch.rays, batch.hits, count,
-                            batch.stride, batch.positions, batch.normals, batch.words,
+                            pyramid.triangle_attributes, pyramid.solids, batch.rays, batch.hits,
+                            count, batch.stride, batch.positions, batch.normals, batch.words,
                             batch.radiance);
-}
-
-void ShadeStage::light(const Pyramid& pyramid, const LightRecord& light, RayBatch& batch,
-                       uint32_t count, ShadowQueue& queue) {
-    queue.count.fill(0);
-    light_.launch_packets(count, shape_of(pyramid), space_, light, materials_, pyramid.colors,
-                          batch.rays, batch.hits, count, batch.stride, batch.positions,
-                          batch.normals, batch.words, batch.radiance, queue.count, queue.rays,
-                          queue.targets, queue.sources, queue.shares);
 }
 
 }  // namespace voxelume

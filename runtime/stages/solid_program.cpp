@@ -59,6 +59,7 @@ void store_derived(SolidShape& record, const ShapeMap& map) {
         const double length = std::hypot(height, inwards);
         derived = {height / length, inwards / length, -inwards / (length * length),
                    height / (length * length)};
+        record.derived[4] = static_cast<float>(-inwards / height);
     } else if (map.kind == SolidKind::ellipsoid) {
         const double shortest = std::min({map.size[0], map.size[1], map.size[2]});
         derived = glm::dvec4(map.size, 1) / shortest;

@@ -35,7 +35,8 @@ Features features_of(const Pyramid& pyramid) {
     features.attributes = !pyramid.attributes.empty();
     features.colors = !pyramid.colors.empty();
     features.smooth = !pyramid.fields.empty();
-    features.exact = !pyramid.primitives.empty();
+    features.triangles = !pyramid.triangles.empty();
+    features.solids = !pyramid.solids.empty();
     const uint32_t kind = pyramid.attribute >> VXL_KIND_SHIFT;
     features.cubes = features.attributes || kind == VXL_KIND_CUBES;
     return features;
@@ -47,10 +48,11 @@ TraceStage::TraceStage(const Device& device, const Features& features)
       shadows_(program_.kernel("trace_shadows")) {}
 
 void TraceStage::closest(const Pyramid& pyramid, RayBatch& batch, uint32_t count) {
+    if (pyramid.voxel_count == 0) return batch.hits.fill(VXL_NO_VOXEL);
     closest_.launch_packets(count, shape_of(pyramid), pyramid.sectors, pyramid.bricks,
                             pyramid.leaves, pyramid.leaf_voxels, pyramid.attributes, pyramid.fields,
                             pyramid.primitive_first, pyramid.primitives, pyramid.triangles,
-                            batch.rays, count, batch.stride, batch.hits);
+                            pyramid.solids, batch.rays, count, batch.stride, batch.hits);
 }
 
 void TraceStage::shadows(const Pyramid& pyramid, const ShadowQueue& queue, uint32_t most,
@@ -58,8 +60,8 @@ void TraceStage::shadows(const Pyramid& pyramid, const ShadowQueue& queue, uint3
     shadows_.launch_packets(most, shape_of(pyramid), pyramid.sectors, pyramid.bricks,
                             pyramid.leaves, pyramid.leaf_voxels, pyramid.attributes, pyramid.fields,
                             pyramid.primitive_first, pyramid.primitives, pyramid.triangles,
-                            queue.rays, queue.count, stride, queue.targets, queue.sources,
-                            queue.shares, radiance);
+                            pyramid.solids, queue.rays, queue.count, stride, queue.targets,
+                            queue.sources, queue.shares, radiance);
 }
 
 }  // namespace voxelume

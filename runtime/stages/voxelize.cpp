@@ -3,9 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kernels/shared/voxel.h"
 #include "runtime/error.hpp"
 #include "runtime/stages/mesh_lattice.hpp"
-#include "runtime/stages/voxelize_bins.hpp"
+#include "runtime/stages/voxelize_steps.hpp"
 
 namespace voxelume {
 namespace {
@@ -26,33 +27,23 @@ void check_frame(const GridFrame& frame) {
 
 DeviceTriangles upload(const Device& device, const MeshLattice& mesh) {
     DeviceTriangles d;
-    d.count = static_cast<uint32_t>(mesh.triangles.size());
-    d.vertices = Buffer<int32_t>(
-        device, "lattice vertices",
-        std::span(&mesh.vertices.front().x, 3 * mesh.vertices.size()));
-    d.triangles = Buffer<uint32_t>(
-        device, "lattice triangles",
-        std::span(&mesh.triangles.front().x, 3 * mesh.triangles.size()));
+    d.count = static_cast<uint32_t>(mesh.surface_triangles);
+    d.vertices = Buffer<int32_t>(device, "lattice vertices",
+                                 std::span(&mesh.vertices.front().x, 3 * mesh.vertices.size()));
+    d.triangles = Buffer<uint32_t>(device, "lattice triangles",
+                                   std::span(&mesh.triangles.front().x, 3 * mesh.triangles.size()));
     return d;
 }
 
-/// Slices of a brick that one work-item handles: all where cores are few, else one layer of leaves.
-int slices_per_item(const Device& device) {
-    return device.is_cpu() ? kBrickSize : kLeafSize;
+/// Those of `all` from number `first` on.
+DeviceTriangles part_of(DeviceTriangles all, size_t first, size_t count) {
+    all.first = static_cast<uint32_t>(first);
+    all.count = static_cast<uint32_t>(count);
+    return all;
 }
 
-/// Everything that the kernels of one call share.
-struct Job {
-    const Device& device;
-    DeviceTriangles triangles;
-    TriangleBins bins;
-    glm::ivec4 size, bricks;
-    BrickGrid grid;
-
-    size_t items() const { return size_t(bins.stored) * (kBrickSize / slices_per_item(device)); }
-};
-
-void use_bins(Job& job, TriangleBins bins) {
+/// Takes the bricks that hold triangles as those to store.
+void store_bins(VoxelizeJob& job, TriangleBins bins) {
     job.bins = std::move(bins);
     job.grid.brick_count = job.bins.stored;
     job.grid.coordinates = job.bins.coordinates;
@@ -60,70 +51,44 @@ void use_bins(Job& job, TriangleBins bins) {
     job.grid.slots = Buffer<uint32_t>(job.device, "brick slots", size_t(b.x) * b.y * b.z);
 }
 
-void cover_bricks(Job& job, const Program& program) {
-    job.grid.occupancy = Buffer<uint64_t>(job.device, "occupancy", size_t(64) * job.bins.stored);
-    program.kernel("cover_bricks")
-        .launch(WorkItem::heavy, job.items(), job.bins.stored, job.size, job.bricks,
-                job.triangles.vertices, job.triangles.triangles, job.bins.coordinates,
-                job.bins.first, job.bins.lists, job.grid.occupancy);
+/// Whether the options ask where a mesh's inside is.
+bool needs_inside(const VoxelizeOptions& options) {
+    return options.surface == Surface::smooth ||
+           (options.surface == Surface::cubes && options.set == VoxelSet::solid);
 }
 
-/// Marks the bricks that are not stored as outside, without looking at winding numbers.
-void mark_outside(Job& job, const Program& program) {
-    const uint32_t rows = uint32_t(job.bricks.y * job.bricks.z);
-    program.kernel("mark_outside")
-        .launch(WorkItem::light, rows, rows, job.bins.size, job.bins.number_of_bin, job.grid.slots);
+/// What the mesh's groups and colours give to voxels; shared/voxel.h's words.
+MeshLabels labels_of(const Mesh& mesh, Surface surface) {
+    MeshLabels labels;
+    labels.word = static_cast<uint32_t>(surface) << VXL_KIND_SHIFT;
+    labels.vertex_colors = mesh.vertex_colors;
+    const std::vector<uint32_t>& groups = mesh.triangle_group;
+    if (std::all_of(groups.begin(), groups.end(), [](uint32_t g) { return g == 0; })) return labels;
+    if (*std::max_element(groups.begin(), groups.end()) > VXL_MATERIAL_MASK)
+        throw Error(ErrorKind::limit, "the mesh has more than {} face groups",
+                    VXL_MATERIAL_MASK + 1);
+    for (const uint32_t group : groups)
+        labels.triangle_attributes.push_back(labels.word | group << VXL_MATERIAL_SHIFT);
+    return labels;
 }
 
-/// Finds which points (voxels' centres or corners, as `program` was built) are inside.
-Buffer<uint16_t> find_inside(Job& job, const Program& program) {
-    Buffer<int16_t> winding(job.device, "winding numbers", size_t(4096) * job.bins.stored);
-    Buffer<int16_t> totals(job.device, "crossing totals", size_t(256) * job.bins.count);
-    program.kernel("count_crossings")
-        .launch(WorkItem::heavy, job.bins.count, job.bins.count, job.bins.stored, job.bins.size,
-                job.triangles.vertices, job.triangles.triangles, job.bins.occupied, job.bins.first,
-                job.bins.lists, winding, totals);
-    const uint32_t rows = uint32_t(job.bricks.y * job.bricks.z);
-    program.kernel("carry_rows")
-        .launch(WorkItem::heavy, rows, rows, job.bins.size, job.bins.number_of_bin, totals,
-                job.grid.slots);
-    Buffer<uint16_t> inside(job.device, "inside rows", size_t(256) * job.bins.stored);
-    program.kernel("find_inside")
-        .launch(WorkItem::heavy, job.bins.stored, job.bins.stored, winding, totals, inside);
-    return inside;
-}
-
-void fill_solid(Job& job, const Program& program, const Buffer<uint16_t>& inside) {
-    job.grid.occupancy = Buffer<uint64_t>(job.device, "occupancy", size_t(64) * job.bins.stored);
-    program.kernel("fill_solid")
-        .launch(WorkItem::heavy, job.bins.stored, job.bins.stored, job.size, job.bricks,
-                job.bins.coordinates, inside, job.grid.occupancy);
-}
-
-/// Voxel edges in the shortest one.
-glm::vec4 edge_scale(const GridFrame& frame) {
-    const glm::dvec3& e = frame.voxel_edge;
-    return glm::vec4(e / std::min({e.x, e.y, e.z}), 0);
-}
-
-glm::ivec3 band_reach(const GridFrame& frame, double band) {
-    const glm::dvec3& e = frame.voxel_edge;
-    return glm::ivec3(glm::ceil(band * std::min({e.x, e.y, e.z}) / e * double(kLatticePerVoxel))) + 1;
-}
-
-void measure_distances(Job& job, const Program& program, const Buffer<uint16_t>& inside,
-                       double band) {
-    const glm::vec4 scale = edge_scale(job.grid.frame);
-    const glm::ivec4 reach(band_reach(job.grid.frame, band), 0);
-    Buffer<float> shapes(job.device, "triangle shapes", size_t(20) * job.triangles.count);
-    program.kernel("shape_triangles")
-        .launch(WorkItem::light, job.triangles.count, job.triangles.count, scale,
-                job.triangles.vertices, job.triangles.triangles, shapes);
-    job.grid.distance = Buffer<int16_t>(job.device, "distances", size_t(4096) * job.bins.stored);
-    program.kernel("measure_distances")
-        .launch(WorkItem::heavy, job.items(), job.bins.stored, job.bricks, reach, scale,
-                static_cast<float>(band), job.triangles.vertices, job.triangles.triangles, shapes,
-                job.bins.coordinates, job.bins.first, job.bins.lists, inside, job.grid.distance);
+/// The triangles that `exact` voxels list, for rays: corners in voxels, not rounded.
+void keep_triangles(VoxelizeJob& job, const Mesh& mesh, const glm::dmat4& frame_from_mesh,
+                    const MeshLabels& labels) {
+    std::vector<glm::vec3> voxels;
+    for (const glm::vec3& p : mesh.positions)
+        voxels.emplace_back(to_voxels(p, frame_from_mesh, job.grid.frame));
+    std::vector<float> corners;
+    corners.reserve(9 * mesh.triangles.size());
+    for (const glm::uvec3& t : mesh.triangles)
+        for (int i = 0; i < 3; ++i)
+            corners.insert(corners.end(), {voxels[t[i]].x, voxels[t[i]].y, voxels[t[i]].z});
+    job.grid.triangles =
+        Buffer<float>(job.device, "source triangles", std::span<const float>(corners));
+    std::vector<uint32_t> words = labels.triangle_attributes;
+    words.resize(mesh.triangles.size(), labels.word);
+    job.grid.triangle_attributes =
+        Buffer<uint32_t>(job.device, "source attributes", std::span<const uint32_t>(words));
 }
 
 }  // namespace
@@ -139,30 +104,76 @@ const Program& Voxelizer::program(const std::string& file, const Defines& define
 BrickGrid Voxelizer::voxelize(const Mesh& mesh, const glm::dmat4& frame_from_mesh,
                               const GridFrame& frame, const VoxelizeOptions& options) {
     check_frame(frame);
-    const bool smooth = options.surface == Surface::smooth;
-    const double band = std::min(options.band, 4.0);
-    const MeshLattice lattice = snap_to_lattice(mesh, frame_from_mesh, frame);
-    Job job{device_, upload(device_, lattice), {}, glm::ivec4(frame.size, 0),
-            glm::ivec4(frame.bricks(), 0), {}};
+    const MeshLabels labels = labels_of(mesh, options.surface);
+    MeshLattice lattice = snap_to_lattice(mesh, frame_from_mesh, frame);
+    if (needs_inside(options)) cap_open_outlines(lattice);
+    const DeviceTriangles triangles = upload(device_, lattice);
+    VoxelizeJob job{device_,
+                    triangles,
+                    part_of(triangles, lattice.surface_triangles,
+                            lattice.triangles.size() - lattice.surface_triangles),
+                    {},
+                    glm::ivec4(frame.size, 0),
+                    glm::ivec4(frame.bricks(), 0),
+                    {}};
     job.grid.frame = frame;
-    use_bins(job, bin_triangles(device_, program("voxelize_bin.cl", {}), job.triangles,
-                                frame.bricks(), smooth ? band_reach(frame, band) : glm::ivec3(0),
-                                smooth ? kLatticePerBrick - kLatticePerVoxel : kLatticePerBrick));
-    const Defines slices{{"VXL_SLICES", slices_per_item(device_)}};
-    if (smooth) {
-        const Buffer<uint16_t> inside =
-            find_inside(job, program("voxelize_winding.cl", {{"VXL_CENTERS", 0}}));
-        measure_distances(job, program("voxelize_distance.cl", slices), inside, band);
-    } else if (options.set == VoxelSet::solid && options.surface == Surface::cubes) {
-        const Program& winding = program("voxelize_winding.cl", {{"VXL_CENTERS", 1}});
-        fill_solid(job, winding, find_inside(job, winding));
-    } else {
-        const bool thin = options.set == VoxelSet::thin && options.surface == Surface::cubes;
-        cover_bricks(job, program("voxelize_cover.cl",
-                                  {{"VXL_SLICES", slices_per_item(device_)}, {"VXL_THIN", thin}}));
-        mark_outside(job, program("voxelize_bin.cl", {}));
+    job.grid.attribute = labels.word;
+    if (options.surface == Surface::smooth)
+        voxelize_smooth(job, std::min(options.band, 4.0));
+    else
+        voxelize_cubes(job, options.surface == Surface::exact ? VoxelSet::supercover : options.set);
+    if (options.surface == Surface::exact) {
+        list_primitives(job, program("voxelize_exact.cl", {}));
+        keep_triangles(job, mesh, frame_from_mesh, labels);
     }
+    if (!labels.triangle_attributes.empty() || !labels.vertex_colors.empty())
+        label_voxels(job, program("voxelize_label.cl", slice_defines(device_)),
+                     program("voxelize_distance.cl", slice_defines(device_)),
+                     bin(job, job.triangles, label_reach(frame), kLatticePerBrick), labels);
     return job.grid;
+}
+
+TriangleBins Voxelizer::bin(const VoxelizeJob& job, const DeviceTriangles& triangles,
+                            const glm::ivec3& reach, int extent) {
+    return bin_triangles(device_, program("voxelize_bin.cl", {}), triangles,
+                         job.grid.frame.bricks(), reach, extent);
+}
+
+Buffer<uint16_t> Voxelizer::inside(VoxelizeJob& job, bool centers, const glm::ivec3& reach) {
+    const Program& winding = program("voxelize_winding.cl", {{"VXL_CENTERS", centers}});
+    if (job.caps.count == 0) return find_inside(job, winding);
+    Defines defines = slice_defines(device_);
+    defines.emplace_back("VXL_CENTERS", centers);
+    const DeviceTriangles all = part_of(job.triangles, 0, job.triangles.count + job.caps.count);
+    return find_inside_open(job, winding, program("voxelize_caps.cl", defines),
+                            bin(job, job.caps, glm::ivec3(0), kLatticePerBrick),
+                            bin(job, all, reach, kLatticePerBrick));
+}
+
+void Voxelizer::voxelize_smooth(VoxelizeJob& job, double band) {
+    // Only nodes count, and the last of a brick is at 15.
+    const glm::ivec3 reach = band_reach(job.grid.frame, band);
+    store_bins(job, bin(job, job.triangles, reach, kLatticePerBrick - kLatticePerVoxel));
+    const Buffer<uint16_t> rows = inside(job, false, reach);
+    measure_distances(job, program("voxelize_distance.cl", slice_defines(device_)), rows, band);
+}
+
+void Voxelizer::voxelize_cubes(VoxelizeJob& job, VoxelSet set) {
+    store_bins(job, bin(job, job.triangles, glm::ivec3(0), kLatticePerBrick));
+    if (set == VoxelSet::solid) {
+        const Buffer<uint16_t> rows = inside(job, true, glm::ivec3(0));
+        fill_solid(job, program("voxelize_winding.cl", {{"VXL_CENTERS", 1}}), rows);
+        return;
+    }
+    Defines defines = slice_defines(device_);
+    defines.emplace_back("VXL_THIN", set == VoxelSet::thin);
+    cover_bricks(job, program("voxelize_cover.cl", defines));
+    mark_outside(job, program("voxelize_bin.cl", {}));
+}
+
+BrickGrid voxelize_mesh(const Device& device, const Mesh& mesh, const glm::dmat4& frame_from_mesh,
+                        const GridFrame& frame, const VoxelizeOptions& options) {
+    return Voxelizer(device).voxelize(mesh, frame_from_mesh, frame, options);
 }
 
 GridFrame frame_around(const Mesh& mesh, const glm::dvec3& voxel_edge, int margin) {
@@ -176,10 +187,11 @@ GridFrame frame_around(const Mesh& mesh, const glm::dvec3& voxel_edge, int margi
     const glm::dvec3 size = glm::ceil((high - low) / voxel_edge);
     for (int a = 0; a < 3; ++a)
         if (!(size[a] + 2 * margin <= kLatticeReach))
-            throw Error(ErrorKind::limit,
-                        "the mesh is {:g} m long, {:.0f} voxels of {:g} m: at most {} are possible, "
-                        "use larger voxels",
-                        high[a] - low[a], size[a], voxel_edge[a], kLatticeReach);
+            throw Error(
+                ErrorKind::limit,
+                "the mesh is {:g} m long, {:.0f} voxels of {:g} m: at most {} are possible, "
+                "use larger voxels",
+                high[a] - low[a], size[a], voxel_edge[a], kLatticeReach);
     GridFrame frame;
     frame.voxel_edge = voxel_edge;
     frame.size = glm::max(glm::ivec3(size), glm::ivec3(1)) + 2 * margin;

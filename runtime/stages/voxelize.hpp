@@ -12,6 +12,10 @@
 
 namespace voxelume {
 
+struct DeviceTriangles;
+struct TriangleBins;
+struct VoxelizeJob;
+
 /// Voxelizes meshes on one device and keeps the compiled kernels between calls.
 class Voxelizer {
   public:
@@ -38,11 +42,20 @@ class Voxelizer {
                        const VoxelizeOptions& options);
 
   private:
+    TriangleBins bin(const VoxelizeJob& job, const DeviceTriangles& triangles,
+                     const glm::ivec3& reach, int extent);
+    Buffer<uint16_t> inside(VoxelizeJob& job, bool centers, const glm::ivec3& reach);
+    void voxelize_smooth(VoxelizeJob& job, double band);
+    void voxelize_cubes(VoxelizeJob& job, VoxelSet set);
     const Program& program(const std::string& file, const Defines& defines);
 
     Device device_;
     std::map<std::string, Program> programs_;
 };
+
+/// The same for a single mesh, with a voxelizer of its own.
+BrickGrid voxelize_mesh(const Device& device, const Mesh& mesh, const glm::dmat4& frame_from_mesh,
+                        const GridFrame& frame, const VoxelizeOptions& options);
 
 /// The frame of voxels of `voxel_edge` (metres) that holds the mesh in its own space, plus
 /// `margin` voxels on every side. Four keep all distances of `smooth` inside.

@@ -12,16 +12,20 @@ struct BinLayout {
     uint32_t stored = 0;
 };
 
+void check_total(uint64_t total) {
+    if (total > UINT32_MAX)
+        throw Error(ErrorKind::limit,
+                    "the mesh's triangles and the grid meet more than 4 billion times: use larger "
+                    "voxels");
+}
+
 void add_bin(BinLayout& layout, uint32_t bin, uint32_t count, uint64_t& total) {
     layout.number_of_bin[bin] = static_cast<uint32_t>(layout.occupied.size());
     layout.occupied.push_back(bin);
     layout.cursors[bin] = static_cast<uint32_t>(total);
     layout.first.push_back(static_cast<uint32_t>(total));
     total += count;
-    if (total > UINT32_MAX)
-        throw Error(ErrorKind::limit,
-                    "the mesh's triangles meet more than 4 billion times with the grid's bricks: "
-                    "use larger voxels");
+    check_total(total);
 }
 
 BinLayout lay_out_bins(const std::vector<uint32_t>& counts, uint32_t columns) {
@@ -42,11 +46,23 @@ BinLayout lay_out_bins(const std::vector<uint32_t>& counts, uint32_t columns) {
     return layout;
 }
 
-Buffer<uint32_t> upload(const Device& device, const char* name, const std::vector<uint32_t>& values) {
+Buffer<uint32_t> upload(const Device& device, const char* name,
+                        const std::vector<uint32_t>& values) {
     return Buffer<uint32_t>(device, name, std::span<const uint32_t>(values));
 }
 
 }  // namespace
+
+uint64_t starts_of_counts(std::vector<uint32_t>& counts) {
+    uint64_t total = 0;
+    for (uint32_t& count : counts) {
+        const uint32_t own = count;
+        count = static_cast<uint32_t>(total);
+        total += own;
+        check_total(total);
+    }
+    return total;
+}
 
 TriangleBins bin_triangles(const Device& device, const Program& program,
                            const DeviceTriangles& triangles, const glm::ivec3& bricks,
@@ -58,8 +74,8 @@ TriangleBins bin_triangles(const Device& device, const Program& program,
     cursors.fill(0);
     const glm::ivec4 reach4(reach, 0);
     program.kernel("count_pairs")
-        .launch(WorkItem::light, triangles.count, triangles.count, bins.size, reach4, extent,
-                triangles.vertices, triangles.triangles, cursors);
+        .launch(WorkItem::light, triangles.count, triangles.first, triangles.count, bins.size,
+                reach4, extent, triangles.vertices, triangles.triangles, cursors);
     const BinLayout layout = lay_out_bins(cursors.read(), static_cast<uint32_t>(bins.size.x));
     bins.count = static_cast<uint32_t>(layout.occupied.size());
     bins.stored = layout.stored;
@@ -69,9 +85,10 @@ TriangleBins bin_triangles(const Device& device, const Program& program,
     bins.first = upload(device, "bin starts", layout.first);
     cursors.write(layout.cursors);
     bins.lists = Buffer<uint32_t>(device, "bin lists", layout.first.back());
+    if (layout.first.back() == 0) return bins;
     program.kernel("list_pairs")
-        .launch(WorkItem::light, triangles.count, triangles.count, bins.size, reach4, extent,
-                triangles.vertices, triangles.triangles, cursors, bins.lists);
+        .launch(WorkItem::light, triangles.count, triangles.first, triangles.count, bins.size,
+                reach4, extent, triangles.vertices, triangles.triangles, cursors, bins.lists);
     return bins;
 }
 

@@ -37,7 +37,7 @@ class SolidVoxelizer {
   public:
     SolidVoxelizer(const Device& device, SolidProgram program, const GridFrame& frame)
         : device_(device),
-          code_(device, "voxelize_solid.cl"),
+          code_(device, "voxelize_solid.cl", {{"VXL_NATIVE_DIVIDE", device.is_cpu()}}),
           program_(std::move(program)),
           solids_(device, "solids", program_.words()) {
         grid_.frame = frame;
@@ -54,9 +54,6 @@ class SolidVoxelizer {
         else
             occupy(set);
         if (options.surface == Surface::exact) list_primitives();
-        grid_.attributes =
-            Buffer<uint32_t>(device_, "attributes", grid_.brick_count * kVoxelsPerBrick);
-        grid_.attributes.fill(static_cast<uint32_t>(options.surface) << VXL_KIND_SHIFT);
         return std::move(grid_);
     }
 

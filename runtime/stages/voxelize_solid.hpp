@@ -22,7 +22,7 @@ namespace voxelume {
 ///           SUPERCOVER leaves out no voxel that the surface touches, and the surface comes within
 ///           0.44 voxel of each voxel in it
 ///   exact   SUPERCOVER, each voxel listing the solid itself, number 0 of BrickGrid::solids
-/// Attribute words hold the surface's kind, material 0 and object 0. The grid is the same, bit for
+/// `attributes` and `colors` stay empty: material 0, object 0, white. The grid is the same, bit for
 /// bit, for every device and number of lanes. Throws Error::limit as make_solid_program does, and
 /// when the device has not enough memory.
 BrickGrid voxelize_solid(const Device& device, const Solid& solid,

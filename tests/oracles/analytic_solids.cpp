@@ -163,6 +163,8 @@ AnalyticSolid::Crossing AnalyticSolid::first_crossing(const Vector& origin, cons
                                                       long double uncertainty) const {
     Crossing found;
     search(origin, direction, first, last, uncertainty, found);
+    found.is_certain =
+        found.graze < 0 || (found.is_hit && found.t - found.graze < 1000 * uncertainty);
     return found;
 }
 
@@ -181,7 +183,7 @@ void AnalyticSolid::search(const Vector& origin, const Vector& direction, long d
     }
     const bool before = at(first) <= 0;
     if (before == (at(last) <= 0)) {
-        found.is_certain = false;
+        found.graze = last;
         return;
     }
     for (int i = 0; i < 80; ++i) {

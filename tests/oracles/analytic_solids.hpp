@@ -23,12 +23,14 @@ class AnalyticSolid {
 
     struct Crossing {
         long double t = 0;
-        bool is_certain =
-            true;  ///< false: an earlier graze within `uncertainty` might be a crossing
         bool is_hit = false;
+        bool is_certain = true;  ///< false: before t the ray grazes the surface so closely that two
+                                 ///< crossings less than `uncertainty` apart may have been missed
+        long double graze = -1;  ///< t of the last such place, -1 for none
     };
 
     /// The first t in (first, last) where a ray with unit `direction` (metres) changes sides.
+    /// Places within 1000 `uncertainty` before the crossing belong to it.
     Crossing first_crossing(const Vector& origin, const Vector& direction, long double first,
                             long double last, long double uncertainty) const;
 

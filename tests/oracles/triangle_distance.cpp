@@ -19,8 +19,8 @@ long double distance_to_segment(const Vector& p, const Vector& a, const Vector& 
 double distance_to_triangle(const glm::dvec3& p_, const glm::dvec3& a_, const glm::dvec3& b_,
                             const glm::dvec3& c_) {
     const Vector p(p_), a(a_), b(b_), c(c_);
-    const long double edges = std::min({distance_to_segment(p, a, b), distance_to_segment(p, b, c),
-                                        distance_to_segment(p, c, a)});
+    const long double edges = std::min(
+        {distance_to_segment(p, a, b), distance_to_segment(p, b, c), distance_to_segment(p, c, a)});
     const Vector n = glm::cross(b - a, c - a);
     const long double area = glm::length(n);
     if (area == 0) return static_cast<double>(edges);

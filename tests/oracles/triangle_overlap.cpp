@@ -66,8 +66,8 @@ bool passes_box(const glm::ivec3& p, int axis, const LatticeCorners& t) {
     return true;
 }
 
-/// Whether the line through p along `axis` crosses the triangle: 0, or the sign of the crossing, and
-/// then where.
+/// Whether the line through p along `axis` crosses the triangle: 0, or the sign of the crossing,
+/// and then where.
 int line_crossing(const Point& p, int axis, const LatticeCorners& triangle, Rational& at) {
     const int u = (axis + 1) % 3, w = (axis + 2) % 3;
     const Point a = to_point(triangle[0]), b = to_point(triangle[1]), c = to_point(triangle[2]);

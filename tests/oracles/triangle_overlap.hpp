@@ -18,8 +18,8 @@ bool cube_meets_triangle(const glm::ivec3& v, const LatticeCorners& triangle);
 /// start to before its end, their lines moved by (e, e², e³) with e = 2^-80.
 bool crosshair_meets_triangle(const glm::ivec3& v, const LatticeCorners& triangle);
 
-/// The winding number of a closed mesh around a lattice point moved by (e, e², e³): crossings of the
-/// ray along +z, found with rationals.
+/// The winding number of a closed mesh around a lattice point moved by (e, e², e³): crossings of
+/// the ray along +z, found with rationals.
 int winding_number(const glm::ivec3& point, const std::vector<LatticeCorners>& mesh);
 
 }  // namespace voxelume::oracle

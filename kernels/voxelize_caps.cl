@@ -1,0 +1,151 @@
+// winding numbers of a mesh closed by caps -> which points are inside the open mesh.
+//
+// The generalized winding number (Jacobson et al. 2013) of the open mesh is the integer of the
+// closed one less the caps' solid angle. Away from the mesh it changes slowly and smoothly, even
+// through the caps, so most bricks are decided by one point and a bound on the slope.
+#include "lib/cover.h"
+#include "lib/node_tile.h"
+#include "lib/solid_angle.h"
+#include "shared/voxel.h"
+
+#ifndef VXL_CENTERS
+#define VXL_CENTERS 0
+#endif
+#ifndef VXL_SLICES
+#define VXL_SLICES 16
+#endif
+#define POINT_OFFSET (VXL_CENTERS * LATTICE_VOXEL / 2)
+#define TILE_COLUMNS (TILES_X * TILES_Y)
+#define TURNS 0.15915494f  // 1 / 2 pi: from half a solid angle to a winding number
+
+// States of bricks.
+#define STATE_OUTSIDE 0u
+#define STATE_INSIDE 1u
+#define STATE_CLOSED 2u  // stored: caps change nothing, the closed mesh's winding numbers decide
+#define STATE_OPEN 3u    // stored: every point needs the caps' solid angle
+
+/// An upper bound on the slope of the caps' winding number within `radius` of the points: by the
+/// law of Biot and Savart their outline, each cap's first edge, makes it.
+static inline lane_float slope_bound(const Cap* cap, const LanePoints* p, float radius,
+                                     float3 to_metric) {
+    const int3 first = cap->lattice.corner[0], second = cap->lattice.corner[1];
+    const float3 edge = convert_float3(second - first) * to_metric;
+    const float length = sqrt(edge.x * edge.x + edge.y * edge.y + edge.z * edge.z) * 1.001f;
+    const LaneVector middle = vector_to(first + (second - first) / 2, p, to_metric);
+    const lane_float gap =
+        fmax(middle.length * 0.999f - 0.5f * length - radius, (lane_float)(1e-6f));
+    return (0.0796f * length) / (gap * gap);
+}
+
+/// What decides a brick's state besides the caps.
+typedef struct {
+    bool has_surface, has_caps;
+    float closed;  // winding number of the closed mesh at the middle point
+} BrickFacts;
+
+static inline uint brick_state(BrickFacts f, float caps, float change) {
+    const float margin = 1e-3f + change;
+    if (f.has_surface) return !f.has_caps && fabs(caps) + margin < 0.5f ? STATE_CLOSED : STATE_OPEN;
+    const float winding = f.closed - caps;
+    if (fabs(winding - 0.5f) < margin) return STATE_OPEN;
+    return winding > 0.5f ? STATE_INSIDE : STATE_OUTSIDE;
+}
+
+/// One work-item: VXL_LANES bricks. Writes their states.
+///
+/// Triangles cap_first .. cap_first + cap_count - 1 are the caps. The three tables give each bin's
+/// number among those with surface, with caps, and with either; the latter have winding numbers.
+kernel void classify_bricks(uint count, int4 bricks, float4 scale, float radius, uint cap_first,
+                            uint cap_count, global const int* restrict vertices,
+                            global const uint* restrict triangles,
+                            global const uint* restrict surface_bins,
+                            global const uint* restrict cap_bins,
+                            global const uint* restrict any_bins,
+                            global const short* restrict winding,
+                            global const short* restrict carried,
+                            global const short* restrict passing, global uint* restrict states) {
+    const uint first = work_item() * VXL_LANES;
+    if (first >= count) return;
+    LanePoints p;
+    for (uint i = 0; i < VXL_LANES; ++i) {
+        const int3 at = brick_of(min(first + i, count - 1u), bricks) * LATTICE_BRICK +
+                        LATTICE_BRICK / 2 + POINT_OFFSET;
+        ((int*)&p.x)[i] = at.x;
+        ((int*)&p.y)[i] = at.y;
+        ((int*)&p.z)[i] = at.z;
+    }
+    const float3 to_metric = scale.xyz * (1.0f / LATTICE_VOXEL);
+    lane_float caps = (lane_float)(0.0f), slope = (lane_float)(0.0f);
+    for (uint i = cap_first; i < cap_first + cap_count; ++i) {
+        const Cap cap = make_cap(load_triangle(vertices, triangles, i, (int3)(0, 0, 0)), scale.xyz);
+        caps += half_solid_angle(&cap, &p, to_metric);
+        slope += slope_bound(&cap, &p, radius, to_metric);
+    }
+    for (uint i = 0; i < VXL_LANES && first + i < count; ++i) {
+        const int3 brick = brick_of(first + i, bricks);
+        const uint bin = (uint)((brick.z * bricks.y + brick.y) * (bricks.x + 1) + brick.x + 1);
+        const uint number = any_bins[bin];
+        BrickFacts f;
+        f.has_surface = surface_bins[bin] != VXL_BRICK_OUTSIDE;
+        f.has_caps = cap_bins[bin] != VXL_BRICK_OUTSIDE;
+        f.closed = number == VXL_BRICK_OUTSIDE
+                       ? (float)passing[first + i]
+                       : (float)(winding[4096u * number + 2184u] + carried[256u * number + 136u]);
+        states[first + i] =
+            brick_state(f, ((const float*)&caps)[i] * TURNS, ((const float*)&slope)[i] * radius);
+    }
+}
+
+/// One work-item: VXL_SLICES slices of one stored brick. Bit x of inside[16 z + y] says whether the
+/// open mesh's winding number is above 1/2.
+///
+/// `numbers` gives each slot's number among bins with winding numbers, or VXL_BRICK_OUTSIDE.
+kernel void find_inside_open(uint count, int4 bricks, float4 scale, uint cap_first, uint cap_count,
+                             global const int* restrict vertices,
+                             global const uint* restrict triangles,
+                             global const uint* restrict coordinates,
+                             global const uint* restrict states,
+                             global const uint* restrict numbers,
+                             global const short* restrict winding,
+                             global const short* restrict carried,
+                             global const short* restrict passing, global ushort* restrict inside) {
+    if (work_item() >= count * (16 / VXL_SLICES)) return;
+    const uint slot = work_item() / (16 / VXL_SLICES);
+    const int first_slice = (int)(work_item() % (16 / VXL_SLICES)) * VXL_SLICES;
+    const uint brick = coordinates[slot], number = numbers[slot];
+    const int3 origin = brick_of(brick, bricks) * LATTICE_BRICK;
+    const float3 to_metric = scale.xyz * (1.0f / LATTICE_VOXEL);
+    lane_float caps[TILE_COLUMNS * VXL_SLICES];
+    for (int i = 0; i < TILE_COLUMNS * VXL_SLICES; ++i) caps[i] = (lane_float)(0.0f);
+    const uint end = states[brick] == STATE_OPEN ? cap_first + cap_count : cap_first;
+    for (uint i = cap_first; i < end; ++i) {
+        const Cap cap = make_cap(load_triangle(vertices, triangles, i, origin), scale.xyz);
+        for (int k = 0; k < TILE_COLUMNS * VXL_SLICES; ++k) {
+            const int column = k / VXL_SLICES, z = first_slice + k % VXL_SLICES;
+            LanePoints p;
+            p.x =
+                LATTICE_VOXEL * (LANES_INT(TILE_LANE_X) + column % TILES_X * TILE_X) + POINT_OFFSET;
+            p.y =
+                LATTICE_VOXEL * (LANES_INT(TILE_LANE_Y) + column / TILES_X * TILE_Y) + POINT_OFFSET;
+            p.z = (lane_int)(LATTICE_VOXEL * z + POINT_OFFSET);
+            caps[k] += half_solid_angle(&cap, &p, to_metric);
+        }
+    }
+    for (uint z = (uint)first_slice; z < (uint)first_slice + VXL_SLICES; ++z)
+        for (uint y = 0; y < 16u; ++y) {
+            uint row = 0;
+            for (uint x = 0; x < 16u; ++x) {
+                const uint node = 256u * z + 16u * y + x;
+                const int closed =
+                    number == VXL_BRICK_OUTSIDE
+                        ? passing[brick]
+                        : winding[4096u * number + node] + carried[256u * number + node / 16u];
+                const uint column = y / TILE_Y * TILES_X + x / TILE_X;
+                const uint lane = y % TILE_Y * TILE_X + x % TILE_X;
+                const float* sums =
+                    (const float*)&caps[column * VXL_SLICES + z - (uint)first_slice];
+                row |= (uint)((float)closed - sums[lane] * TURNS > 0.5f) << x;
+            }
+            inside[256u * slot + 16u * z + y] = (ushort)row;
+        }
+}

@@ -1,0 +1,174 @@
+// The frame of the program and the commands info and diff.
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+
+#include "runtime/io/exr.hpp"
+#include "runtime/io/model_file.hpp"
+#include "runtime/io/png.hpp"
+#include "runtime/io/vdb.hpp"
+#include "tests/program_runner.hpp"
+
+namespace voxelume {
+
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+using testing::StartsWith;
+
+namespace {
+
+Image grey_row(float first) {
+    const std::vector<float> plane = {first, 0.5f, 1.0f};
+    return {3,
+            1,
+            {{"R", plane}, {"G", plane}, {"B", plane}},
+            {{"objectId", {0, 2, 9}}},
+            {{"scene", "room.json"}}};
+}
+
+}  // namespace
+
+class CliTest : public ProgramTest {};
+
+TEST_F(CliTest, HelpListsCommandsAndExitCodesOnStdout) {
+    for (const char* arguments : {"help", "--help", "-h"}) {
+        const ProgramResult result = run(arguments);
+        EXPECT_EQ(result.exit_code, 0);
+        EXPECT_THAT(result.out, HasSubstr("\n  diff "));
+        EXPECT_THAT(result.out, HasSubstr("5  output that can't be written"));
+        EXPECT_THAT(result.err, IsEmpty());
+    }
+}
+
+TEST_F(CliTest, ACommandsHelpNamesItsOptions) {
+    for (const char* arguments : {"help diff", "diff --help"})
+        EXPECT_THAT(run(arguments).out, HasSubstr("--fail"));
+}
+
+TEST_F(CliTest, VersionIsOneLine) {
+    EXPECT_THAT(run("--version").out, testing::MatchesRegex("voxelume [0-9]+\\.[0-9]+\\.[0-9]+\n"));
+}
+
+TEST_F(CliTest, AMistypedCommandSuggestsTheNearest) {
+    const ProgramResult result = run("inof a.exr");
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_EQ(result.err, "voxelume: no command named \"inof\"; did you mean \"info\"?\n");
+    EXPECT_THAT(result.out, IsEmpty());
+}
+
+TEST_F(CliTest, UsageErrorsExitWithTwo) {
+    for (const char* arguments : {"", "info", "info a b", "info --jsn a", "--json info a", "diff a",
+                                  "diff a b --fail much", "help nothing"}) {
+        const ProgramResult result = run(arguments);
+        EXPECT_EQ(result.exit_code, 2) << arguments;
+        EXPECT_THAT(result.err, StartsWith("voxelume: ")) << arguments;
+    }
+    EXPECT_THAT(run("info --jsn a").err, HasSubstr("did you mean \"--json\"?"));
+}
+
+TEST_F(CliTest, AFullStdoutIsAnOutputError) {
+    if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
+    const std::string line = "'" VXL_BINARY "' help >/dev/full 2>/dev/null";
+    EXPECT_EQ(WEXITSTATUS(std::system(line.c_str())), 5);
+}
+
+TEST_F(CliTest, InfoDescribesAnExr) {
+    write_exr(folder / "a.exr", grey_row(0.25f));
+    const ProgramResult result = run("info a.exr --json");
+    EXPECT_EQ(result.exit_code, 0);
+    const auto report = nlohmann::json::parse(result.out);
+    EXPECT_EQ(report["kind"], "OpenEXR image");
+    EXPECT_EQ(report["size"], nlohmann::json({3, 1}));
+    EXPECT_EQ(report["attributes"]["scene"], "room.json");
+    EXPECT_EQ(report["channels"][0]["channel"], "B");
+    EXPECT_EQ(report["channels"][0]["type"], "half");
+    EXPECT_EQ(report["channels"][0]["min"], 0.25);
+    EXPECT_EQ(report["channels"][3]["max"], 9);
+    EXPECT_THAT(run("info a.exr").out, HasSubstr("compression     ZIP\n"));
+}
+
+TEST_F(CliTest, InfoDescribesPngModelVolumeAndMesh) {
+    write_png(folder / "a.png", grey_row(0.25f));
+    EXPECT_THAT(run("info a.png").out, HasSubstr("size            3 1\n"));
+    ModelFile model;
+    model.header["format"] = "cubes 1";
+    model.arrays["masks"] = std::vector<uint64_t>{1, 2, 3};
+    write_model_file(folder / "a.vxm", model);
+    EXPECT_THAT(run("info a.vxm").out, testing::ContainsRegex("masks +u64 +3 +24"));
+    const std::vector<glm::ivec3> cells = {{1, 2, 3}, {4, 5, 6}};
+    const std::vector<float> values = {1.0f, 2.0f};
+    VdbVolume volume;
+    volume.cells = cells;
+    volume.values = values;
+    write_vdb(folder / "a.vdb", volume);
+    EXPECT_THAT(run("info a.vdb").out,
+                testing::ContainsRegex("density +float +fog volume +2 +1 2 3 +4 5 6"));
+    put_bytes(folder / "a.obj", "v 0 0 0\nv 1 0 0\nv 0 2 0\nf 1 2 3\n");
+    EXPECT_THAT(run("info a.obj").out, HasSubstr("triangles       1\n"));
+}
+
+TEST_F(CliTest, InfoOfWhatItCantReadExitsWithFour) {
+    EXPECT_THAT(run("info a.exr").err, HasSubstr("a.exr: no such file"));
+    EXPECT_EQ(run("info a.exr").exit_code, 4);
+    put_bytes(folder / "a.exr", "\x76\x2f\x31\x01");
+    EXPECT_EQ(run("info a.exr").exit_code, 4);
+    put_bytes(folder / "notes.txt", "voxels");
+    EXPECT_EQ(run("info notes.txt").exit_code, 4);
+    EXPECT_EQ(run("info .").exit_code, 4);
+}
+
+TEST_F(CliTest, InfoDoesNotLetAFileSteerTheTerminal) {
+    Image image = grey_row(0.0f);
+    image.attributes["scene"] = "\x1b[2Jgone";
+    write_exr(folder / "a.exr", image);
+    EXPECT_THAT(run("info a.exr").out, Not(HasSubstr("\x1b")));
+}
+
+TEST_F(CliTest, DiffMeasuresEachChannel) {
+    write_exr(folder / "a.exr", grey_row(0.75f), ColorDepth::float32);
+    write_exr(folder / "b.exr", grey_row(0.0f), ColorDepth::float32);
+    const ProgramResult result = run("diff a.exr --json --channels R,objectId b.exr");
+    EXPECT_EQ(result.exit_code, 0);
+    const auto report = nlohmann::json::parse(result.out);
+    ASSERT_EQ(report["channels"].size(), 2u);
+    EXPECT_EQ(report["channels"][0]["max"], 0.75);
+    EXPECT_NEAR(report["channels"][0]["rmse"], 0.4330127018922193, 1e-15);
+    EXPECT_EQ(report["channels"][0]["mae"], 0.25);
+    EXPECT_EQ(report["channels"][0]["differing"], 1);
+    EXPECT_EQ(report["channels"][1]["differing"], 0);
+}
+
+TEST_F(CliTest, DiffFailsOnlyAboveTheLimit) {
+    write_exr(folder / "a.exr", grey_row(0.75f), ColorDepth::float32);
+    write_exr(folder / "b.exr", grey_row(0.0f), ColorDepth::float32);
+    EXPECT_EQ(run("diff a.exr b.exr --fail 0.44").exit_code, 0);
+    const ProgramResult above = run("diff --fail 0.43 a.exr b.exr");
+    EXPECT_EQ(above.exit_code, 1);
+    EXPECT_THAT(above.err, HasSubstr("the RMSE of B is 0.433013, above 0.43"));
+    EXPECT_EQ(run("diff a.exr a.exr --fail 0").exit_code, 0);
+}
+
+TEST_F(CliTest, DiffComparesPictures) {
+    write_png(folder / "a.png", grey_row(1.0f));
+    write_png(folder / "b.png", grey_row(0.0f));
+    EXPECT_EQ(run("diff a.png a.png --fail 0").exit_code, 0);
+    EXPECT_EQ(run("diff a.png b.png --fail 0.5").exit_code, 1);
+}
+
+TEST_F(CliTest, DiffRefusesWhatCantBeCompared) {
+    write_exr(folder / "a.exr", grey_row(0.0f));
+    write_png(folder / "a.png", grey_row(0.0f));
+    write_exr(folder / "wide.exr", Image{2, 1, {{"R", {1, 2}}}, {}, {}});
+    write_exr(folder / "red.exr", Image{3, 1, {{"R", {0, 0.5f, 1}}}, {}, {}});
+    EXPECT_EQ(run("diff a.exr a.png").exit_code, 2);
+    EXPECT_EQ(run("diff a.exr wide.exr").exit_code, 1);
+    EXPECT_EQ(run("diff a.exr missing.exr").exit_code, 4);
+    EXPECT_EQ(run("diff a.exr red.exr").exit_code, 0);
+    EXPECT_THAT(run("diff a.exr red.exr --fail 0").err, HasSubstr("only A has channel B"));
+    EXPECT_EQ(run("diff a.exr red.exr --fail 0 --channels R").exit_code, 0);
+    EXPECT_THAT(run("diff a.exr a.exr --channels objectid").err,
+                HasSubstr("no channel named \"objectid\"; did you mean \"objectId\"?"));
+}
+
+}  // namespace voxelume

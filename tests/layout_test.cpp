@@ -1,0 +1,102 @@
+// Every struct that host and kernels share crosses once: written by the host, read field by field.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <bit>
+
+#include "kernels/shared/scene.h"
+#include "kernels/shared/solid.h"
+#include "runtime/opencl/program.hpp"
+#include "tests/test_device.hpp"
+
+// The fields of each struct: F float, V float4, I int, and with a length arrays FA, IA. The kernel reads
+// the text of a list, the host what the list stands for.
+#define PYRAMID_SHAPE_FIELDS                                                                   \
+    V(edge) V(inverse_edge) I(size_x) I(size_y) I(size_z) I(sectors_x) I(sectors_y)            \
+    F(plane_bound) F(fixed_point) F(half_curvature)
+#define SIGHT_FIELDS                                                                           \
+    V(origin) V(origin_low) V(axis_x) V(axis_y) V(axis_z) F(half_x) F(half_y) F(near_plane)    \
+    F(far_plane) I(width) I(height) I(samples) I(shape) F(sample_share) FA(unused, 3)
+#define MATERIAL_RECORD_FIELDS                                                                 \
+    FA(color, 3) F(diffuse) FA(absorption, 3) F(ior) FA(emission, 3) F(specular) F(shininess)  \
+    F(reflection) F(refraction) F(unused)
+#define LIGHT_RECORD_FIELDS                                                                    \
+    V(position) V(direction) V(energy) F(inner_cosine) F(outer_cosine) I(kind) I(unused)
+#define SPACE_FIELDS V(background) V(ambient) V(absorption) V(color)
+#define SOLID_SHAPE_FIELDS                                                                     \
+    I(kind) I(operations) I(shape_count) I(attribute) IA(cell, 3) FA(fraction, 3)              \
+    FA(shape_from_grid, 9) FA(size, 4) FA(rounding, 2) FA(derived, 4) FA(unused, 3)
+
+#define TEXT_OF(fields) TEXT_OF_(fields)
+#define TEXT_OF_(fields) #fields
+
+namespace voxelume {
+namespace {
+
+constexpr const char* kPyramidShapeText = TEXT_OF(PYRAMID_SHAPE_FIELDS);
+constexpr const char* kSightText = TEXT_OF(SIGHT_FIELDS);
+constexpr const char* kMaterialRecordText = TEXT_OF(MATERIAL_RECORD_FIELDS);
+constexpr const char* kLightRecordText = TEXT_OF(LIGHT_RECORD_FIELDS);
+constexpr const char* kSpaceText = TEXT_OF(SPACE_FIELDS);
+constexpr const char* kSolidShapeText = TEXT_OF(SOLID_SHAPE_FIELDS);
+
+using Words = std::vector<uint32_t>;
+
+/// A value whose words are all different floats between 1 and 2.
+template <class T>
+T numbered_words() {
+    std::array<uint32_t, sizeof(T) / 4> words;
+    for (uint32_t i = 0; i < words.size(); ++i) words[i] = 0x3F800000u + 7919u * (i + 1);
+    return std::bit_cast<T>(words);
+}
+
+/// What a kernel reads from the fields of a value that it is given as its argument.
+template <class T>
+Words read_by_kernel(const T& value, const std::string& type, const std::string& fields) {
+    const Device device = test_device();
+    const std::string source = R"(
+#include "lib/work_item.h"
+#include "shared/scene.h"
+#include "shared/solid.h"
+#define F(n) *words++ = as_uint(value.n);
+#define V(n) F(n.x) F(n.y) F(n.z) F(n.w)
+#define I(n) *words++ = (uint)value.n;
+#define FA(n, count) for (int i = 0; i < count; ++i) F(n[i])
+#define IA(n, count) for (int i = 0; i < count; ++i) I(n[i])
+kernel void read_fields()" + type + R"( value, global uint* words) {
+    if (work_item() > 0) return;
+)" + fields + "\n}\n";
+    Buffer<uint32_t> words(device, "words", sizeof(T) / 4);
+    words.fill(0);
+    Program::from_text(device, source)
+        .kernel("read_fields")
+        .launch(WorkItem::light, 1, value, words);
+    return words.read();
+}
+
+uint32_t bits(float v) {
+    return std::bit_cast<uint32_t>(v);
+}
+
+#define F(n) words.push_back(bits(value.n));
+#define V(n) F(n.x) F(n.y) F(n.z) F(n.w)
+#define I(n) words.push_back(static_cast<uint32_t>(value.n));
+#define FA(n, count) for (int i = 0; i < count; ++i) F(n[i])
+#define IA(n, count) for (int i = 0; i < count; ++i) I(n[i])
+#define CROSSES(type, fields, text)                                     \
+    TEST(Layout, type##CrossesWithEveryField) {                         \
+        const auto value = numbered_words<type>();                      \
+        Words words;                                                    \
+        fields ASSERT_EQ(words.size(), sizeof(type) / 4);               \
+        EXPECT_EQ(read_by_kernel(value, #type, text), words);           \
+    }
+
+CROSSES(PyramidShape, PYRAMID_SHAPE_FIELDS, kPyramidShapeText)
+CROSSES(Sight, SIGHT_FIELDS, kSightText)
+CROSSES(MaterialRecord, MATERIAL_RECORD_FIELDS, kMaterialRecordText)
+CROSSES(LightRecord, LIGHT_RECORD_FIELDS, kLightRecordText)
+CROSSES(Space, SPACE_FIELDS, kSpaceText)
+CROSSES(SolidShape, SOLID_SHAPE_FIELDS, kSolidShapeText)
+
+}  // namespace
+}  // namespace voxelume

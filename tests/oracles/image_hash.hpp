@@ -1,0 +1,13 @@
+// A number that changes when any bit of an image does.
+#pragma once
+
+#include <cstdint>
+
+#include "runtime/image.hpp"
+
+namespace oracle {
+
+/// FNV-1a over the size, and every plane's name and bits in the order of names.
+uint64_t image_hash(const voxelume::Image& image);
+
+}  // namespace oracle

@@ -1,0 +1,216 @@
+#include "runtime/renderer.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+
+#include "tests/oracles/image_hash.hpp"
+#include "tests/test_device.hpp"
+
+namespace voxelume {
+namespace {
+
+using testing::Contains;
+using testing::Key;
+using testing::Not;
+
+/// A scene text with one unit-sized box, 7 x 5 x 3 voxels, seen along +Z from in front of it.
+std::string box_scene(const std::string& surface, const std::string& lights,
+                      const std::string& more_world = "") {
+    return R"({"voxelume": 1,
+"world": {"voxel_size": 0.1, "bounds": {"min": [-1, -1, -1], "max": [1, 1, 1]},
+          "background": [0.25, 0.5, 0.75], "ambient": [0.5, 0.25, 0.125])" +
+           more_world + R"(},
+"materials": {"paint": {"color": [0.8, 0.4, 0.2], "diffuse": 0.5, "specular": 0.25, "shininess": 8}},
+"models": {"box": {"shape": "box", "size": [0.7, 0.5, 0.3], "voxel_size": 0.1, "surface": ")" +
+           surface + (surface == "cubes" ? R"(", "set": "solid"}},)" : R"("}},)") + R"(
+"objects": [{"name": "b", "model": "box", "material": "paint", "position": [0.05, -0.05, 0.05]}],
+"lights": [)" +
+           lights + R"(],
+"observer": {"position": [0, 0, -3], "look_at": [0, 0, 0],
+             "display": {"shape": "box", "size": [1.6, 1.2, 4], "near": 0.5, "voxels": [8, 6, 4]}},
+"render": {"size": [16, 12]}})";
+}
+
+Scene scene_of(const std::string& text) {
+    return parse_scene(text, "test.json", {});
+}
+
+Scene shipped_scene(const char* name) {
+    return read_scene(std::filesystem::path(VXL_SOURCE_DIR) / "scenes" / name, {});
+}
+
+struct Rendered {
+    Image image;
+    RenderReport report;
+    DeviceCounters counters;
+
+    float at(const char* plane, int x, int y) const {
+        return image.planes.at(plane)[size_t(y * image.width + x)];
+    }
+};
+
+Rendered rendered(const Scene& scene, int lanes = 0) {
+    const Device device = test_device(lanes);
+    Rendered result;
+    result.image = render(device, scene, result.report);
+    result.counters = device.counters();
+    return result;
+}
+
+TEST(Render, GivesDepthPositionNormalAndObjectOfAFace) {
+    for (const char* surface : {"cubes", "exact"}) {
+        const Rendered r = rendered(scene_of(box_scene(surface, "")));
+        // The box spans x -0.3..0.4, y -0.3..0.2, z -0.1..0.2; image right is -X_E, which is -x
+        // here.
+        EXPECT_NEAR(r.at("Z", 8, 6), 2.9f, 1e-6f) << surface;
+        EXPECT_NEAR(r.at("P.Z", 8, 6), -0.1f, 1e-6f) << surface;
+        EXPECT_NEAR(r.at("P.X", 8, 6), -0.05f, 1e-6f) << surface;
+        EXPECT_NEAR(r.at("P.Y", 8, 6), -0.05f, 1e-6f) << surface;
+        EXPECT_FLOAT_EQ(r.at("N.Z", 8, 6), -1.0f) << surface;
+        EXPECT_FLOAT_EQ(r.at("A", 8, 6), 1.0f) << surface;
+        EXPECT_EQ(r.image.id_planes.at("objectId")[6 * 16 + 8], 1u) << surface;
+        EXPECT_FLOAT_EQ(r.at("A", 0, 0), 0.0f) << surface;
+        EXPECT_TRUE(std::isinf(r.at("Z", 0, 0))) << surface;
+        EXPECT_FLOAT_EQ(r.at("B", 0, 0), 0.75f) << surface;
+    }
+}
+
+TEST(Render, CoversThePixelsThatTheBoxCovers) {
+    // Pixels are 0.1 m: x from 0.8 down to -0.8. The box covers 0.4..-0.3: columns 4 to 10, and
+    // rows for y 0.2..-0.3: 4 to 8.
+    const Rendered r = rendered(scene_of(box_scene("exact", "")));
+    for (int y = 0; y < 12; ++y)
+        for (int x = 0; x < 16; ++x)
+            EXPECT_EQ(r.at("A", x, y), x >= 4 && x <= 10 && y >= 4 && y <= 8 ? 1.0f : 0.0f)
+                << x << "," << y;
+}
+
+TEST(Render, AddsAmbientDiffuseAndHighlightByHand) {
+    // A point light 2 m in front of the point (-0.05, -0.05, -0.1), 1 m up: to it (0, 1,
+    // -2)/sqrt 5.
+    const Rendered r = rendered(scene_of(box_scene(
+        "exact",
+        R"({"type": "point", "position": [-0.05, 0.95, -2.1], "color": [1, 0.5, 0.25], "intensity": 10})")));
+    const double cosine = 2 / std::sqrt(5.0), falloff = 10 / 5.0;
+    // The viewer is at (0, 0, -1): half vector of (0, 1/sqrt 5, -2/sqrt 5) and it.
+    const double hy = 1 / std::sqrt(5.0), hz = -2 / std::sqrt(5.0) - 1;
+    const double highlight = std::pow(-hz / std::hypot(hy, hz), 8);
+    const double color[3] = {0.8, 0.4, 0.2}, ambient[3] = {0.5, 0.25, 0.125},
+                 light[3] = {1, 0.5, 0.25};
+    const char* planes[3] = {"R", "G", "B"};
+    for (int c = 0; c < 3; ++c) {
+        const double expected = color[c] * 0.5 * ambient[c] +
+                                falloff * light[c] * (color[c] * 0.5 * cosine + 0.25 * highlight);
+        EXPECT_NEAR(r.at(planes[c], 8, 6), expected, 2e-6 * expected) << planes[c];
+    }
+}
+
+TEST(Render, AbsorbsLightOnTheWayToTheSurfaceAndToTheObserver) {
+    // The medium fills the world, z -1..1. Sight goes 0.9 m through it; light from
+    // (-0.05,-0.05,-2.1), too.
+    const char* lamp =
+        R"({"type": "point", "position": [-0.05, -0.05, -2.1], "color": [1, 1, 1], "intensity": 4})";
+    const Rendered clear = rendered(scene_of(box_scene("exact", lamp)));
+    const Rendered foggy = rendered(scene_of(box_scene(
+        "exact", lamp, R"(, "medium": {"absorption": [0.5, 1, 2], "color": [0.1, 0.2, 0.3]})")));
+    const double absorption[3] = {0.5, 1, 2}, fog[3] = {0.1, 0.2, 0.3};
+    const double ambient[3] = {0.8 * 0.5 * 0.5, 0.4 * 0.5 * 0.25, 0.2 * 0.5 * 0.125};
+    const char* planes[3] = {"R", "G", "B"};
+    for (int c = 0; c < 3; ++c) {
+        const double lit = double(clear.at(planes[c], 8, 6)) - ambient[c];
+        const double passed = std::exp(-absorption[c] * 0.9);
+        const double expected = (ambient[c] + lit * passed) * passed + fog[c] * (1 - passed);
+        EXPECT_NEAR(foggy.at(planes[c], 8, 6), expected, 3e-6) << planes[c];
+        // A ray that meets nothing goes 2 m through the medium.
+        const double behind = std::exp(-absorption[c] * 2);
+        EXPECT_NEAR(foggy.at(planes[c], 0, 0),
+                    double(clear.at(planes[c], 0, 0)) * behind + fog[c] * (1 - behind), 3e-6);
+    }
+}
+
+TEST(Render, AShadowFallsWhereTheLightIsHidden) {
+    // A wall at z = 0.5 behind the box, lit from the front: the box's shadow on it is larger.
+    std::string text = box_scene(
+        "cubes",
+        R"({"type": "directional", "direction": [0, -1, 1], "color": [1, 1, 1], "intensity": 1})");
+    const std::string wall =
+        R"(, "wall": {"shape": "box", "size": [2, 2, 0.2], "voxel_size": 0.1, "set": "solid", "surface": "cubes"}},)";
+    text.replace(text.find("},\n\"objects\""), 2, wall);
+    text.replace(
+        text.find("\"objects\": ["), 12,
+        R"("objects": [{"name": "w", "model": "wall", "material": "paint", "position": [0, 0, 0.6]}, )");
+    const Rendered r = rendered(scene_of(text));
+    // Light travels down at 45 degrees; the wall is 0.4 m behind the box's front face (z -0.1) at z
+    // 0.5: shadow over y from 0.2 - 0.6 = -0.4 (front top edge) up to the box, and below to -0.6
+    // (its back).
+    EXPECT_GT(r.at("R", 8, 2), 1.2f * r.at("R", 8, 9)) << "row 2 is lit, row 9 (y -0.35) in shade";
+    EXPECT_GT(r.at("R", 1, 9), 1.2f * r.at("R", 8, 9)) << "beside the shadow";
+}
+
+TEST(Render, WhatASceneDoesNotHaveIsNotAllocatedOrLaunched) {
+    const Rendered plain = rendered(scene_of(box_scene("cubes", "")));
+    for (const char* kernel : {"add_light", "trace_shadows", "absorb_sight"})
+        EXPECT_THAT(plain.counters.launches, Not(Contains(Key(std::string(kernel))))) << kernel;
+    EXPECT_THAT(plain.counters.allocated_bytes, Not(Contains(Key(std::string("shadow queue")))));
+
+    std::string unshadowed = box_scene(
+        "cubes",
+        R"({"type": "directional", "direction": [0, 0, 1], "color": [1, 1, 1], "intensity": 1})");
+    unshadowed.replace(unshadowed.find("\"render\": {"), 11, "\"render\": {\"shadows\": false, ");
+    const Rendered lit = rendered(scene_of(unshadowed));
+    EXPECT_THAT(lit.counters.launches, Contains(Key(std::string("add_light"))));
+    EXPECT_THAT(lit.counters.launches, Not(Contains(Key(std::string("trace_shadows")))));
+    EXPECT_THAT(lit.counters.allocated_bytes, Not(Contains(Key(std::string("shadow queue")))));
+}
+
+TEST(Render, ALightWithoutEnergyIsNotShaded) {
+    const Rendered r = rendered(scene_of(box_scene(
+        "cubes",
+        R"({"type": "point", "position": [0, 0, -2], "color": [1, 1, 1], "intensity": 0})")));
+    EXPECT_THAT(r.counters.launches, Not(Contains(Key(std::string("add_light")))));
+}
+
+TEST(Render, AnEmptyWorldIsItsBackground) {
+    std::string text = box_scene("cubes", "");
+    text.replace(text.find("\"position\": [0.05, -0.05, 0.05]"), 31,
+                 "\"position\": [9, 9, 9]         ");
+    const Rendered r = rendered(scene_of(text));
+    EXPECT_EQ(r.report.voxels, 0u);
+    for (const float green : r.image.planes.at("G")) EXPECT_EQ(green, 0.5f);
+}
+
+TEST(Render, OnePixelIsAnImage) {
+    Scene scene = scene_of(box_scene("smooth", ""));
+    resize(scene, {1, 1});
+    EXPECT_EQ(rendered(scene).image.planes.at("R").size(), 1u);
+}
+
+TEST(Render, SamplesCoverAPixelEvenly) {
+    Scene scene = scene_of(box_scene("exact", ""));
+    resize(scene, {5, 3});  // pixels straddle the box's edges
+    scene.render.samples = 64;
+    double covered = 0;
+    const Rendered r = rendered(scene);
+    for (const float a : r.image.planes.at("A")) covered += double(a);
+    EXPECT_NEAR(covered / 15, 0.7 * 0.5 / (1.6 * 1.2), 0.01);
+}
+
+class ShippedScene : public testing::TestWithParam<const char*> {};
+
+TEST_P(ShippedScene, HasTheSameBitsForEveryNumberOfLanes) {
+    const Scene scene = shipped_scene(GetParam());
+    const uint64_t expected = oracle::image_hash(rendered(scene, 16).image);
+    for (const int lanes : {1, 4, 8}) {
+        const Rendered r = rendered(scene, lanes);
+        EXPECT_EQ(oracle::image_hash(r.image), expected) << lanes << " lanes";
+        EXPECT_EQ(r.report.not_finite, 0u);
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, ShippedScene, testing::Values("solids.json", "cubes.json"));
+
+}  // namespace
+}  // namespace voxelume
