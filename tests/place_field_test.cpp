@@ -10,7 +10,6 @@
 #include "runtime/stages/place.hpp"
 #include "tests/placing.hpp"
 #include "tests/pyramid_reader.hpp"
-#include "tests/test_device.hpp"
 
 namespace voxelume {
 namespace {
@@ -36,7 +35,7 @@ BrickGrid place_one(const BrickGrid& grid, const glm::dmat4& world_from_object,
                     const GridFrame& world) {
     const std::vector<PlacedObject> objects = {
         {.grid = &grid, .world_from_object = world_from_object, .material_of_group = {0}}};
-    return place(test_device(), objects, world);
+    return place(shared_device(), objects, world);
 }
 
 /// Calls visit(node, distance in world voxels) for the nodes of the world's voxels.
@@ -70,7 +69,7 @@ Accuracy accuracy_of(const BrickGrid& world, const std::function<double(glm::dve
 }
 
 TEST(PlaceField, ATurnedMovedAndScaledSphereHasItsAnalyticDistances) {
-    const BrickGrid sphere = sphere_bricks(2.0, 0.1).upload(test_device());
+    const BrickGrid sphere = sphere_bricks(2.0, 0.1).upload(shared_device());
     const glm::dvec3 centre{0.317, -0.211, 0.533};
     for (const double scale : {0.75, 1.0, 1.4, 3.0}) {
         const glm::dmat4 map = affine_from_factors(centre, {34, -21, 77}, glm::dvec3(scale));
@@ -94,7 +93,7 @@ TEST(PlaceField, WholeVoxelMovesTurnsAndMirrorsCopyTheDistances) {
     const BrickGrid grid = distance_bricks(frame, [&](const glm::ivec3& n) {
                                const glm::dvec3 p = glm::dvec3(n) - centre;
                                return banded(std::hypot(std::hypot(p.x, p.y) - 10, p.z) - 4);
-                           }).upload(test_device());
+                           }).upload(shared_device());
     const ReadBricks source(grid);
     const GridFrame world = frame_at({-8, -8, -8}, glm::dvec3(0.1), {161, 162, 163});
     for (const glm::dmat4& map : {affine_from_factors({0.5, -0.3, 1.1}, {0, 0, 0}, {1, 1, 1}),
@@ -117,7 +116,7 @@ TEST(PlaceField, WholeVoxelMovesTurnsAndMirrorsCopyTheDistances) {
 }
 
 TEST(PlaceField, AnUnevenlyStretchedSphereKeepsItsSurfaceAndNeverOverestimates) {
-    const BrickGrid sphere = sphere_bricks(2.0, 0.1).upload(test_device());
+    const BrickGrid sphere = sphere_bricks(2.0, 0.1).upload(shared_device());
     const glm::dvec3 scale{1.0, 2.0, 1.3};
     const BrickGrid world =
         place_one(sphere, affine_from_factors({0, 0, 0}, {0, 0, 0}, scale),
@@ -133,7 +132,7 @@ TEST(PlaceField, AnUnevenlyStretchedSphereKeepsItsSurfaceAndNeverOverestimates) 
 }
 
 TEST(PlaceField, WorldVoxelsMuchLargerThanTheObjectsKeepTheRightSides) {
-    const BrickGrid sphere = sphere_bricks(2.0, 0.1).upload(test_device());
+    const BrickGrid sphere = sphere_bricks(2.0, 0.1).upload(shared_device());
     for (const double edge : {0.2, 0.33, 0.61}) {
         const BrickGrid world =
             place_one(sphere, affine_from_factors({0, 0, 0}, {10, 20, 30}, {1, 1, 1}),
@@ -141,12 +140,12 @@ TEST(PlaceField, WorldVoxelsMuchLargerThanTheObjectsKeepTheRightSides) {
         const Accuracy accuracy =
             accuracy_of(world, [](const glm::dvec3& p) { return glm::length(p) - 2.0; });
         EXPECT_EQ(accuracy.wrong_sides, 0) << edge;
-        EXPECT_GT(build_index(test_device(), world).voxel_count, 200u) << edge;
+        EXPECT_GT(build_index(shared_device(), world).voxel_count, 200u) << edge;
     }
 }
 
 TEST(PlaceField, UnitesObjectsByTheSmallestDistance) {
-    const Device device = test_device();
+    const Device& device = shared_device();
     const BrickGrid sphere = sphere_bricks(2.0, 0.1).upload(device);
     const glm::dvec3 centres[] = {{-1.23, 0.1, 0}, {1.31, 0, 0.17}};
     std::vector<PlacedObject> objects;
@@ -188,7 +187,7 @@ TEST(PlaceField, UnitesObjectsByTheSmallestDistance) {
 
 TEST(PlaceField, TakesTheGroupOfTheCellThatTheSurfaceCrosses) {
     // Group 1 above the sphere's equator, 0 below; words stand only where the surface passes.
-    const Device device = test_device();
+    const Device& device = shared_device();
     HostBricks bricks = sphere_bricks(2.0, 0.1);
     bricks.attributes.assign(bricks.distance.size(), 2u << 16);
     const glm::ivec3 size = bricks.frame.size;
@@ -225,7 +224,7 @@ TEST(PlaceField, TakesTheGroupOfTheCellThatTheSurfaceCrosses) {
 }
 
 TEST(PlaceField, ASmoothWinnerTakesItsVoxelsFromCubesAndALoserLeavesThem) {
-    const Device device = test_device();
+    const Device& device = shared_device();
     const BrickGrid sphere = sphere_bricks(1.0, 0.1).upload(device);
     VoxelMap slab;
     for (int z = 0; z < 31; ++z)
@@ -249,7 +248,7 @@ TEST(PlaceField, ASmoothWinnerTakesItsVoxelsFromCubesAndALoserLeavesThem) {
 }
 
 TEST(PlaceField, OneWordForAllNeedsNoAttributes) {
-    const Device device = test_device();
+    const Device& device = shared_device();
     const BrickGrid sphere = sphere_bricks(1.0, 0.1).upload(device);
     const std::vector<PlacedObject> objects = {
         {.grid = &sphere, .object = 9, .material_of_group = {4}}};

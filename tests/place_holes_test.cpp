@@ -7,7 +7,6 @@
 #include "runtime/scene_affine.hpp"
 #include "runtime/stages/place.hpp"
 #include "tests/placing.hpp"
-#include "tests/test_device.hpp"
 
 namespace voxelume {
 namespace {
@@ -58,7 +57,7 @@ HostBricks box_bricks(const glm::ivec3& size, bool hollow) {
 }
 
 TEST(PlaceHoles, TurnedSolidBoxesHaveNoHoles) {
-    const BrickGrid box = box_bricks({14, 9, 11}, false).upload(test_device());
+    const BrickGrid box = box_bricks({14, 9, 11}, false).upload(shared_device());
     const GridFrame world = frame_at(glm::dvec3(-12.3), glm::dvec3(1), {25, 25, 25});
     for (int angle = 0; angle <= 90; ++angle) {
         const VoxelMap placed = place_cubes(
@@ -70,7 +69,7 @@ TEST(PlaceHoles, TurnedSolidBoxesHaveNoHoles) {
 }
 
 TEST(PlaceHoles, TurnedShrunkAndStretchedShellsLetNoPathThroughFacesIn) {
-    const BrickGrid shell = box_bricks({34, 29, 31}, true).upload(test_device());
+    const BrickGrid shell = box_bricks({34, 29, 31}, true).upload(shared_device());
     const GridFrame world = frame_at(glm::dvec3(-30.3), glm::dvec3(1), {61, 62, 63});
     for (const glm::dvec3 scale : {glm::dvec3(1), glm::dvec3(0.77), glm::dvec3(0.31),
                                    glm::dvec3(0.9, 0.4, 1.3), glm::dvec3(-0.6, 1.2, 1)})
@@ -93,7 +92,7 @@ TEST(PlaceHoles, TurnedThinShellsLetNoPathThroughFacesIn) {
     HostBricks bricks =
         occupied_bricks(frame_at(glm::dvec3(-12.5), glm::dvec3(1), {25, 25, 25}), voxels);
     bricks.attributes.clear();
-    const BrickGrid shell = bricks.upload(test_device());
+    const BrickGrid shell = bricks.upload(shared_device());
     const GridFrame world = frame_at(glm::dvec3(-15.3), glm::dvec3(1), {31, 31, 31});
     for (int angle = 3; angle <= 90; angle += 6) {
         const VoxelMap placed =
@@ -134,7 +133,7 @@ TEST(PlaceHoles, StoresEveryBrickOfASolidWithAVoxelBesideAnEmptyOne) {
     ASSERT_LT(sparse.coordinates.size(), bricks.coordinates.size());
     const glm::dmat4 map = affine_from_factors({1, 2, 3}, {4, 3, 2}, {1, 1, 1});
     const GridFrame world = frame_at(glm::dvec3(-60), glm::dvec3(1), {121, 122, 123});
-    const Device device = test_device();
+    const Device& device = shared_device();
     const BrickGrid grid = sparse.upload(device);
     const std::vector<PlacedObject> objects = {
         {.grid = &grid, .world_from_object = map, .material_of_group = {0}}};

@@ -11,7 +11,6 @@
 #include "runtime/error.hpp"
 #include "runtime/scene_affine.hpp"
 #include "tests/placing.hpp"
-#include "tests/test_device.hpp"
 
 namespace voxelume {
 namespace {
@@ -20,7 +19,7 @@ using ::testing::HasSubstr;
 
 BrickGrid tricube() {
     const VoxelMap voxels = voxels_of({{1, 2, 3}, {2, 2, 3}, {1, 3, 3}});
-    return occupied_bricks(frame_of({4, 5, 6}), voxels).upload(test_device());
+    return occupied_bricks(frame_of({4, 5, 6}), voxels).upload(shared_device());
 }
 
 const GridFrame kAround = frame_at(glm::dvec3(-8), glm::dvec3(1), {17, 18, 19});
@@ -76,7 +75,7 @@ TEST(Place, MovesByWholeVoxelsExactlyEvenFarFromTheOrigin) {
     HostBricks bricks =
         occupied_bricks(frame_at({0.3, -0.7, 0.1}, glm::dvec3(0.1), {21, 13, 18}), lump);
     bricks.attributes.clear();
-    const BrickGrid grid = bricks.upload(test_device());
+    const BrickGrid grid = bricks.upload(shared_device());
     for (const double far : {0.0, 1e4, 1e5}) {
         const GridFrame world =
             frame_at(glm::dvec3(far) + glm::dvec3{-0.3, -1.9, 0.6}, glm::dvec3(0.1), {40, 30, 35});
@@ -92,7 +91,7 @@ TEST(Place, AFullTurnInTenthsIsTheIdentity) {
     const VoxelMap lump = random_lump(12, {13, 14, 15});
     HostBricks bricks = occupied_bricks(frame_at({-6, -7, -7}, glm::dvec3(1), {13, 14, 15}), lump);
     bricks.attributes.clear();
-    const BrickGrid grid = bricks.upload(test_device());
+    const BrickGrid grid = bricks.upload(shared_device());
     glm::dmat3 turn(1.0);
     for (int i = 0; i < 36; ++i) turn = rotation_from_turn({10, 0, 0}) * turn;
     EXPECT_EQ(place_cubes(grid, glm::dmat4(turn), grid.frame), lump);
@@ -104,7 +103,7 @@ TEST(Place, SamplesTheVoxelThatTheCentreFallsInForAGeneralMap) {
     const VoxelMap lump = random_lump(kSeed, size);
     HostBricks bricks = occupied_bricks(frame_at({-1.5, -1, -1.2}, {0.1, 0.1, 0.1}, size), lump);
     bricks.attributes.clear();
-    const BrickGrid grid = bricks.upload(test_device());
+    const BrickGrid grid = bricks.upload(shared_device());
     glm::dmat4 map = affine_from_factors({0.13, -0.21, 0.34}, {33, -21, 57}, {1.3, -1.1, 1.9});
     map[1] += 0.2 * map[0];  // a shear
     const GridFrame world = frame_at({-3.01, -3.02, -3.03}, {0.05, 0.06, 0.07}, {127, 98, 85});
@@ -151,7 +150,7 @@ TEST(Place, RefusesMapsThatCanNotBeInverted) {
 }
 
 TEST(Place, OverlapsShowThePriorityThenTheEarlierObjectInAnyOrderOfTheList) {
-    const Device device = test_device();
+    const Device& device = shared_device();
     const glm::ivec3 size{20, 18, 7};
     std::vector<BrickGrid> grids;
     std::vector<VoxelMap> lumps;

@@ -1,6 +1,9 @@
 // Placing one object of cubes, as several tests do.
 #pragma once
 
+#include <gtest/gtest.h>
+
+#include <optional>
 #include <vector>
 
 #include "runtime/stages/place.hpp"
@@ -8,6 +11,22 @@
 #include "tests/test_device.hpp"
 
 namespace voxelume {
+
+/// Opens one device for all tests of a program and closes it before the driver's own end.
+class SharedDevice : public ::testing::Environment {
+  public:
+    void SetUp() override { device = test_device(); }
+    void TearDown() override { device.reset(); }
+    inline static std::optional<Device> device;
+};
+
+inline ::testing::Environment* const kSharedDevice =
+    ::testing::AddGlobalTestEnvironment(new SharedDevice);
+
+/// The device of all placing tests: buffers of one can't be read by kernels of another.
+inline const Device& shared_device() {
+    return SharedDevice::device.value();
+}
 
 inline GridFrame frame_at(const glm::dvec3& origin, const glm::dvec3& edge,
                           const glm::ivec3& size) {
@@ -21,7 +40,7 @@ inline VoxelMap place_cubes(const BrickGrid& grid, const glm::dmat4& world_from_
                                                 .world_from_object = world_from_object,
                                                 .material_of_group = {0},
                                                 .set = set}};
-    return ReadBricks(place(test_device(), objects, world)).voxels();
+    return ReadBricks(place(shared_device(), objects, world)).voxels();
 }
 
 inline VoxelMap voxels_of(std::initializer_list<glm::ivec3> voxels) {
