@@ -52,7 +52,9 @@ static inline bool triangle_reaches(const LatticeTriangle* t, float3 n, int3 bri
                          convert_float3(t->corner[2] - center)};
     if (!plane_reaches(n, p[0], half_box)) return false;
     for (int i = 0; i < 3; ++i) {
-        const float3 a = p[i], opposite = p[(i + 2) % 3], edge = p[(i + 1) % 3] - a;
+        // From the integers: corners beyond 2^24 are rounded, and a short edge between two is not.
+        const float3 edge = convert_float3(t->corner[(i + 1) % 3] - t->corner[i]);
+        const float3 a = p[i], opposite = p[(i + 2) % 3];
         if (!edge_reaches(edge.xy, a.xy, opposite.xy, half_box.xy)) return false;
         if (!edge_reaches(edge.yz, a.yz, opposite.yz, half_box.yz)) return false;
         if (!edge_reaches(edge.zx, a.zx, opposite.zx, half_box.zx)) return false;
