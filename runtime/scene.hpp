@@ -41,6 +41,13 @@ struct World {
     std::string where;  ///< "file:line:column: world", to open a message with
 };
 
+/// A second colour in every other block of a lattice that stands still in the world.
+struct Checker {
+    glm::vec3 color{0};    ///< linear Rec. 709, 0..1
+    glm::dvec3 size{0};    ///< edges of a block, metres; 0: no change along that axis
+    glm::dvec3 origin{0};  ///< a corner of a block of the material's own colour, metres
+};
+
 struct Material {
     std::string name;
     glm::vec3 color{0.8f};    ///< linear Rec. 709, 0..1
@@ -50,8 +57,11 @@ struct Material {
     float reflection = 0;     ///< R_i, 0..1
     float refraction = 0;     ///< F_i, 0..1
     float ior = 1.5f;         ///< 0.1..10
+    bool fresnel = false;     ///< the exact unpolarised reflectance scales the two ratios
+    float opacity = 1;        ///< share of the light behind that the surface covers, 0..1
     glm::vec3 absorption{0};  ///< inside, per metre, >= 0
     glm::vec3 emission{0};    ///< radiance, >= 0
+    std::optional<Checker> checker;
 };
 
 /// O_i before it is placed: a mesh file or a solid, with the lattice that it is voxelized on.
@@ -137,6 +147,8 @@ struct RenderSettings {
     int samples = 1;            ///< per pixel, 1..4096
     int depth = 5;              ///< reflections and refractions in a row, 0..64
     bool shadows = true;
+    bool filtered_shadows = false;  ///< refracting objects tint and dim light instead of hiding it
+    double least_weight = 1.0 / 4096;  ///< paths that would add less than this share of a pixel end
 };
 
 /// Everything that a scene file says. Indices are in range, numbers finite and in their documented

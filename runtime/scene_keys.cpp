@@ -39,8 +39,9 @@ std::vector<KeyTable> make_tables() {
         {"bounds", {"min", "max"}},
         {"medium", {"absorption", "color"}},
         {"material",
-         {"color", "diffuse", "specular", "shininess", "reflection", "refraction", "ior",
-          "absorption", "emission"}},
+         {"color", "diffuse", "specular", "shininess", "reflection", "refraction", "ior", "fresnel",
+          "opacity", "absorption", "emission", "checker"}},
+        {"checker", {"color", "size", "origin"}},
         {"model:mesh", Keys{"mesh"} + lattice},
     };
     for (const KeyTable& shape : shapes)
@@ -59,7 +60,7 @@ std::vector<KeyTable> make_tables() {
     tables.push_back({"display:ball", {"shape", "radius", "voxels"}});
     tables.push_back({"display:box", {"shape", "size", "near", "voxels"}});
     tables.push_back({"animation", {"frames", "fps", "tracks"}});
-    tables.push_back({"render", {"size", "samples", "depth", "shadows"}});
+    tables.push_back({"render", {"size", "samples", "depth", "shadows", "shadow", "least_weight"}});
     return tables;
 }
 

@@ -1,4 +1,5 @@
 // The parts of a scene that stand alone: world, materials, animation, render settings.
+#include <array>
 #include <cmath>
 
 #include "runtime/error.hpp"
@@ -8,6 +9,7 @@ namespace voxelume {
 namespace {
 
 constexpr int kMaxVoxelsPerAxis = 65536;
+constexpr std::array<std::string_view, 2> kShadowNames = {"opaque", "filtered"};
 
 Bounds read_bounds(const SceneValue& value) {
     const SceneFields fields(value, "bounds");
@@ -51,6 +53,15 @@ glm::ivec3 count_voxels(const SceneValue& value, const World& world) {
     return voxels;
 }
 
+Checker read_checker(const SceneValue& value) {
+    const SceneFields fields(value, "checker");
+    const Checker checker{fields.color("color", 1, {}),
+                          fields.get("size").number_or_vector({0, kMaxLength}),
+                          fields.vector("origin", kCoordinate, {})};
+    if (checker.size == glm::dvec3(0)) value.fail("needs a size above 0 along some axis");
+    return checker;
+}
+
 Material read_material(const std::string& name, const SceneValue& value) {
     const SceneFields fields(value, "material");
     const auto ratio = [&](std::string_view key, float fallback) {
@@ -65,8 +76,11 @@ Material read_material(const std::string& name, const SceneValue& value) {
     m.reflection = ratio("reflection", m.reflection);
     m.refraction = ratio("refraction", m.refraction);
     m.ior = static_cast<float>(fields.number("ior", {0.1, 10}, m.ior));
+    if (const auto fresnel = fields.find("fresnel")) m.fresnel = fresnel->boolean();
+    m.opacity = ratio("opacity", m.opacity);
     m.absorption = fields.color("absorption", kMaxLength, m.absorption);
     m.emission = fields.color("emission", kMaxLength, m.emission);
+    if (const auto checker = fields.find("checker")) m.checker = read_checker(*checker);
     return m;
 }
 
@@ -120,6 +134,9 @@ RenderSettings read_render(const SceneValue& value) {
     render.samples = fields.integer("samples", 1, 4096, render.samples);
     render.depth = fields.integer("depth", 0, 64, render.depth);
     if (const auto shadows = fields.find("shadows")) render.shadows = shadows->boolean();
+    if (const auto shadow = fields.find("shadow"))
+        render.filtered_shadows = shadow->choice(kShadowNames) == 1;
+    render.least_weight = fields.number("least_weight", kRatio, render.least_weight);
     return render;
 }
 

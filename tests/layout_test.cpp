@@ -21,7 +21,8 @@
     F(far_plane) I(width) I(height) I(samples) I(shape) F(sample_share) F(lead) FA(unused, 2)
 #define MATERIAL_RECORD_FIELDS \
     FA(color, 3) F(diffuse) FA(absorption, 3) F(ior) FA(emission, 3) F(specular) F(shininess) \
-    F(reflection) F(refraction) F(unused)
+    F(reflection) F(refraction) F(opacity) F(fresnel) FA(checker_color, 3) \
+    FA(checker_scale, 3) FA(checker_shift, 3) FA(unused, 6)
 #define LIGHT_RECORD_FIELDS \
     V(position) V(direction) V(energy) F(inner_cosine) F(outer_cosine) I(kind) I(unused)
 #define SPACE_FIELDS V(background) V(ambient) V(absorption) V(color)

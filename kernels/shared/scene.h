@@ -64,15 +64,29 @@ typedef struct MaterialRecord {
     float shininess;
     float reflection;
     float refraction;
-    float unused;
+    float opacity;
+    float fresnel;           // 1: the Fresnel reflectance scales reflection and refraction
+    float checker_color[3];  // of every other block ...
+    float checker_scale[3];  // ... that is 1 / scale voxels wide; all 0: no blocks
+    float checker_shift[3];  // block coordinate of the world's origin
+    float unused[6];
 } MaterialRecord;
-VXL_SIZE_IS(MaterialRecord, 64);
+VXL_SIZE_IS(MaterialRecord, 128);
 #define VXL_MATERIAL_COLOR 0
 #define VXL_MATERIAL_DIFFUSE 3
+#define VXL_MATERIAL_ABSORPTION 4
+#define VXL_MATERIAL_IOR 7
 #define VXL_MATERIAL_EMISSION 8
 #define VXL_MATERIAL_SPECULAR 11
 #define VXL_MATERIAL_SHININESS 12
-#define VXL_MATERIAL_FLOATS 16
+#define VXL_MATERIAL_REFLECTION 13
+#define VXL_MATERIAL_REFRACTION 14
+#define VXL_MATERIAL_OPACITY 15
+#define VXL_MATERIAL_FRESNEL 16
+#define VXL_MATERIAL_CHECKER_COLOR 17
+#define VXL_MATERIAL_CHECKER_SCALE 20
+#define VXL_MATERIAL_CHECKER_SHIFT 23
+#define VXL_MATERIAL_FLOATS 32
 
 // Values of LightRecord::kind.
 #define VXL_LIGHT_POINT 0

@@ -21,15 +21,8 @@ ResolveStage::ResolveStage(const Device& device, const Features& features, const
       objects_(device, "object numbers", pixel_count(sight)),
       not_finite_(device, "not finite", 1),
       program_(device, "resolve.cl", features.defines(device)),
-      absorb_(program_.kernel("absorb_sight")),
       pixels_(program_.kernel("resolve_pixels")) {
     not_finite_.fill(0);
-}
-
-void ResolveStage::absorb(const Pyramid& pyramid, const Space& space, RayBatch& batch,
-                          uint32_t count) {
-    absorb_.launch_packets(count, shape_of(pyramid), space, batch.rays, batch.hits, count,
-                           batch.stride, batch.radiance);
 }
 
 void ResolveStage::pixels(const Pyramid& pyramid, const RayBatch& batch, uint32_t first_tile,

@@ -15,9 +15,6 @@ class ResolveStage {
   public:
     ResolveStage(const Device& device, const Features& features, const Sight& sight);
 
-    /// Lets the world's medium take its part of the radiance of rays 0 .. count-1.
-    void absorb(const Pyramid& pyramid, const Space& space, RayBatch& batch, uint32_t count);
-
     /// Makes the pixels of `tiles` tiles from `first_tile` on.
     void pixels(const Pyramid& pyramid, const RayBatch& batch, uint32_t first_tile, uint32_t tiles);
 
@@ -33,7 +30,7 @@ class ResolveStage {
     Buffer<uint32_t> objects_;  ///< number of the object plus 1
     Buffer<uint32_t> not_finite_;
     Program program_;
-    Kernel absorb_, pixels_;
+    Kernel pixels_;
 };
 
 }  // namespace voxelume

@@ -32,6 +32,8 @@ MaterialRecord material_record(const Material& material) {
     record.reflection = material.reflection;
     record.refraction = material.refraction;
     record.ior = material.ior;
+    record.opacity = material.opacity;
+    record.fresnel = material.fresnel ? 1.0f : 0.0f;
     return record;
 }
 
