@@ -20,6 +20,11 @@ struct RayBatch {
     Buffer<float> normals;    ///< 3: unit, in metres' space, towards the ray's start
     Buffer<uint32_t> words;   ///< the attribute word of each hit
     Buffer<float> radiance;   ///< 3
+
+    // Of scenes with paths only.
+    Buffer<float> starts;     ///< t where the ray's segment begins
+    Buffer<uint32_t> inside;  ///< 0: open space; else 1 + the material it goes through
+    Buffer<float> passed;     ///< 3: the part of the light that comes through the segment
 };
 
 /// Shadow rays waiting to be traced, left-packed. Not allocated in a scene without shadows.
