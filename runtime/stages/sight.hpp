@@ -10,6 +10,9 @@
 
 namespace voxelume {
 
+/// The shape's VXL_SHAPE_* of shared/scene.h.
+int shape_number(DisplayShape shape);
+
 /// The observer as kernels take it: in the voxels of the world.
 Sight sight_of(const Scene& scene, const GridFrame& world);
 
