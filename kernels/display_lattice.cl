@@ -285,15 +285,17 @@ kernel void choose_points(DisplayLattice lattice, global const float* restrict p
     }
 }
 
-/// Takes the light of rays 0 .. count-1, each aimed at the point of voxel first_voxel + n, to its
-/// voxel. The medium between the ray's start and the surface counts as air.
+/// Takes the light of rays 0 .. count-1 to their voxels: ray n was aimed at the point of voxel
+/// targets[first_voxel + n], or of voxel first_voxel + n when it is not `listed`. Where a ray passes
+/// by its surface, the voxel gets object 0. The medium between the ray's start and the surface
+/// counts as air.
 kernel void keep_light(Sight sight, PyramidShape shape, Space space,
                        global const float* restrict rays, global const uint* restrict hits,
                        global const float* restrict positions, global const uint* restrict words,
-                       global const float* restrict radiance, uint first_voxel, uint count,
-                       uint stride, global float* restrict colors, global float* restrict opacities,
-                       global float* restrict depths, global uint* restrict objects,
-                       global uint* restrict missed) {
+                       global const float* restrict radiance, global const uint* restrict targets,
+                       uint listed, uint first_voxel, uint count, uint stride,
+                       global float* restrict colors, global float* restrict opacities,
+                       global float* restrict depths, global uint* restrict objects) {
     const uint first = work_item() * VXL_LANES;
     if (first >= count) return;
     const lane_int hit =
@@ -330,8 +332,8 @@ kernel void keep_light(Sight sight, PyramidShape shape, Space space,
     uint object[VXL_LANES];
     LANES_STORE(((LANES_LOAD(words, first) & VXL_OBJECT_MASK) + 1u) & LANES_AS_UINT(hit), object, 0);
     for (uint i = 0; i < VXL_LANES && first + i < count; ++i) {
-        const size_t voxel = first_voxel + first + i;
-        if (object[i] == 0u) atomic_inc(missed);
+        const size_t voxel =
+            listed ? targets[first_voxel + first + i] : first_voxel + first + i;
         objects[voxel] = object[i];
         opacities[voxel] = 1.0f;
         depths[voxel] = shown[3 * VXL_LANES + i];

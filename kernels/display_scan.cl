@@ -57,7 +57,7 @@ static inline void cross_field(const Field* f, const Walk* w, const LocalRay* ra
     for (int step = 0; step <= VXL_SECANT_STEPS; ++step) {  // regula falsi, as in hit_smooth
         const lane_float gap = LANES_SELECT(crossed, fa - fb, (lane_float)1.0f);
         u = clamp(fma(exact_divide(fa, gap), b - a, a), a, b);
-        const lane_float fu = field_along(f, ray, u);
+        const lane_float fu = field_along(f, ray, (lane_float)1.0f, u);
         const lane_int at_b = LANE_MASK(fu < 0.0f) ^ LANE_MASK(fa < 0.0f);
         fb = LANES_SELECT(at_b, fu, 0.5f * fb);
         b = LANES_SELECT(at_b, u, b);
@@ -71,11 +71,11 @@ static inline void scan_smooth(const ScannedSurfaces* s, const Walk* w, lane_uin
                                lane_int tested, ScanResult* r) {
     const Field field = read_field(s->fields, voxel, s->half_curvature);
     const LocalRay ray = local_ray(w);
-    const lane_float zero = (lane_float)0.0f;
+    const lane_float zero = (lane_float)0.0f, outside = (lane_float)1.0f;
     const lane_float end = fmax(exit_time(w) - w->t, 0.0f), middle = 0.5f * end;
-    const lane_float at_entry = field_along(&field, &ray, zero);
-    const lane_float at_middle = field_along(&field, &ray, middle);
-    const lane_float at_exit = field_along(&field, &ray, end);
+    const lane_float at_entry = field_along(&field, &ray, outside, zero);
+    const lane_float at_middle = field_along(&field, &ray, outside, middle);
+    const lane_float at_exit = field_along(&field, &ray, outside, end);
     cross_field(&field, w, &ray, tested, zero, middle, at_entry, at_middle, r);
     cross_field(&field, w, &ray, tested, middle, end, at_middle, at_exit, r);
 }
@@ -84,15 +84,12 @@ static inline void scan_smooth(const ScannedSurfaces* s, const Walk* w, lane_uin
 static inline void scan_solid(const PyramidView* p, const ScannedSurfaces* s, const Walk* w,
                               lane_uint number, lane_int tested, lane_float t, lane_float t_exit,
                               ScanResult* r) {
+    const SolidRay ray = {w->ox, w->oy, w->oz, w->dx, w->dy, w->dz};
     for (int i = 0; i < VXL_SOLID_CROSSINGS && lanes_any(tested); ++i) {
-        const SolidRay ray = {fma(w->dx, t, w->ox), fma(w->dy, t, w->oy), fma(w->dz, t, w->oz),
-                              w->dx, w->dy, w->dz};
-        lane_float ahead = fmax(t_exit - t, 0.0f);
-        tested &= hit_solids(s->solids, number, &ray, (lane_int)0, tested, &ahead);
-        const lane_float at = t + ahead;
+        lane_float at = t_exit;
+        tested &= hit_solids(s->solids, number, &ray, t, (lane_int)0, (lane_int)0, tested, &at);
         keep_crossings(r, w, tested & is_in_world(p, w, at), at);
-        t = at + p->plane_bound;
-        tested &= LANE_MASK(t < t_exit);
+        t = LANES_SELECT(tested, at, t);
     }
 }
 
@@ -114,8 +111,9 @@ static inline void scan_primitives(const PyramidView* p, const ScannedSurfaces* 
             const lane_int triangle = listing & ~is_solid;
             lane_float t = t_exit;
             const lane_int crossed =
-                hit_triangle(p, t_first, s->triangles, primitive & LANES_AS_UINT(triangle), w,
-                             &shear, triangle, &t);
+                hit_triangle(p, t_first, (lane_int)-1, s->triangles,
+                             primitive & LANES_AS_UINT(triangle), w, &shear, (lane_int)0, triangle,
+                             &t);
             keep_crossings(r, w, crossed, t);
         }
         if (VXL_SOLIDS)

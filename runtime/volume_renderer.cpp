@@ -42,10 +42,16 @@ void check_rays(const VolumeFrame& frame) {
                     frame.size.x, frame.size.y);
 }
 
+void count_rays(const Illumination& illumination, RenderReport& report) {
+    report.shadow_rays = illumination.shadow_rays();
+    report.secondary_rays = illumination.secondary_rays();
+    report.ended_paths = illumination.ended_paths();
+}
+
 VoxelArrays render_rays(Work& work) {
     check_rays(work.frame);
     const uint32_t tiles = tile_count(work.sight.width, work.sight.height);
-    const uint32_t batch_tiles = std::clamp(kBatchRays / 16, 1u, tiles);
+    const uint32_t batch_tiles = std::clamp(batch_rays(work.features) / 16, 1u, tiles);
     RayBatch batch = allocate_batch(work.device, work.features, batch_tiles * 16);
     SightStage sight(work.device, work.features, work.sight);
     Illumination illumination(work.device, work.features, work.scene, work.world, batch.stride);
@@ -62,13 +68,15 @@ VoxelArrays render_rays(Work& work) {
             work.progress(first + now, tiles);
         }
     }
-    work.report.shadow_rays = illumination.shadow_rays();
+    count_rays(illumination, work.report);
     return display.voxels();
 }
 
 VoxelArrays render_lattice(Work& work) {
-    RayBatch batch = allocate_batch(work.device, work.features, kBatchRays);
-    DisplayScanStage scan(work.device, work.features, work.frame, work.world.frame);
+    RayBatch batch = allocate_batch(work.device, work.features, batch_rays(work.features));
+    // Finding surfaces asks for no more than their geometry.
+    const Features geometry = features_of(work.world);
+    DisplayScanStage scan(work.device, geometry, work.frame, work.world.frame);
     DisplayLatticeStage display(work.device, work.features, work.sight, work.frame, work.world);
     const auto report_progress = [&work](uint32_t done) {
         if (!work.progress) return;
@@ -77,16 +85,16 @@ VoxelArrays render_lattice(Work& work) {
     };
     std::vector<ProbePoints> pieces = scan.scan(work.world, batch);
     report_progress(1);
-    TraceStage trace(work.device, work.features);
+    TraceStage trace(work.device, geometry);
     display.find_views(trace, batch, pieces);
     ShownVoxels shown = display.choose(pieces);
     report_progress(2);
     pieces.clear();
     Illumination illumination(work.device, work.features, work.scene, work.world, batch.stride);
-    display.light(illumination, space_of(work.scene.world), batch, shown);
+    display.light(trace, illumination, space_of(work.scene.world), batch, shown);
     report_progress(3);
     work.report.sight_rays += scan.lines() + display.rays();
-    work.report.shadow_rays = illumination.shadow_rays();
+    count_rays(illumination, work.report);
     return shown.voxels;
 }
 

@@ -135,21 +135,71 @@ ShownVoxels DisplayLatticeStage::choose(const std::vector<ProbePoints>& pieces) 
     return shown;
 }
 
-uint32_t DisplayLatticeStage::light(Illumination& illumination, const Space& space,
-                                    RayBatch& batch, ShownVoxels& shown) {
-    Buffer<uint32_t> missed(device_, "display misses", 1);
-    missed.fill(0);
-    VoxelArrays& voxels = shown.voxels;
-    for (uint32_t first = 0; first < shown.points.count; first += batch.stride) {
-        const uint32_t count = std::min(batch.stride, shown.points.count - first);
-        aim(shown.points, 0, first, count, batch);
+void DisplayLatticeStage::light_points(Illumination& illumination, const Space& space,
+                                       RayBatch& batch, const LightTask& task,
+                                       VoxelArrays& voxels) {
+    for (uint32_t first = 0; first < task.points.count; first += batch.stride) {
+        const uint32_t count = std::min(batch.stride, task.points.count - first);
+        aim(task.points, 0, first, count, batch);
         illumination.light(batch, count);
         keep_.launch_packets(count, sight_, shape_of(world_), space, batch.rays, batch.hits,
-                             batch.positions, batch.words, batch.radiance, first, count,
-                             batch.stride, voxels.colors, voxels.opacities, voxels.depths,
-                             voxels.objects, missed);
+                             batch.positions, batch.words, batch.radiance, task.targets,
+                             uint32_t(!task.targets.empty()), first, count, batch.stride,
+                             voxels.colors, voxels.opacities, voxels.depths, voxels.objects);
     }
-    return missed.read_one(0);
+}
+
+/// The points of voxels that have no light yet, moved a little.
+DisplayLatticeStage::LightTask DisplayLatticeStage::missed_points(const ShownVoxels& shown,
+                                                                  const glm::vec3& shift) {
+    const std::vector<uint32_t> objects = shown.voxels.objects.read(0, shown.voxels.count);
+    std::vector<uint32_t> missed;
+    for (uint32_t voxel = 0; voxel < objects.size(); ++voxel)
+        if (objects[voxel] == 0) missed.push_back(voxel);
+    LightTask task;
+    ProbePoints& points = task.points;
+    points.count = uint32_t(missed.size());
+    if (missed.empty()) return task;
+    points.total = (points.count + 15) / 16 * 16;
+    const std::vector<float> from = shown.points.coordinates.read();
+    const std::vector<uint32_t> views_from = shown.points.views.read();
+    std::vector<float> coordinates(size_t(points.total) * 3);
+    std::vector<uint32_t> views(points.total, kNoView);
+    for (size_t i = 0; i < missed.size(); ++i) {
+        views[i] = views_from[missed[i]];
+        for (int axis = 0; axis < 3; ++axis)
+            coordinates[size_t(axis) * points.total + i] =
+                from[size_t(axis) * shown.points.total + missed[i]] + shift[axis];
+    }
+    points.coordinates =
+        Buffer<float>(device_, "probe points", std::span<const float>(coordinates));
+    points.views = Buffer<uint32_t>(device_, "probe views", std::span<const uint32_t>(views));
+    task.targets = Buffer<uint32_t>(device_, "probe targets", std::span<const uint32_t>(missed));
+    return task;
+}
+
+void DisplayLatticeStage::light(TraceStage& trace, Illumination& illumination, const Space& space,
+                                RayBatch& batch, ShownVoxels& shown) {
+    light_points(illumination, space, batch, {shown.points, {}}, shown.voxels);
+    // A ray along the surface at its point, as at an outline, may pass by: one beside it does not.
+    for (const float by : {1.0f / 512, 1.0f / 64})
+        for (int side = 0; side < 6; ++side) {
+            glm::vec3 shift(0);
+            shift[side / 2] = side % 2 == 0 ? by : -by;
+            const LightTask missed = missed_points(shown, shift);
+            if (missed.points.count == 0) return;
+            light_points(illumination, space, batch, missed, shown.voxels);
+        }
+    if (visibility_ == Visibility::observer) return;
+    // Nor may a whole face that a view looks along: other views see it.
+    for (const bool hidden : {false, true})
+        for (uint32_t view = 1; view < views_.size(); ++view) {
+            LightTask missed = missed_points(shown, glm::vec3(0));
+            if (missed.points.count == 0) return;
+            missed.points.views.fill(hidden ? view : kNoView);
+            if (!hidden) search(trace, batch, missed.points, view);
+            light_points(illumination, space, batch, missed, shown.voxels);
+        }
 }
 
 }  // namespace voxelume

@@ -26,15 +26,23 @@ class DisplayLatticeStage {
     /// The voxels of all points that have a view.
     ShownVoxels choose(const std::vector<ProbePoints>& pieces);
 
-    /// Lights the voxels, batch by batch; returns how many rays missed their point.
-    uint32_t light(Illumination& illumination, const Space& space, RayBatch& batch,
-                   ShownVoxels& shown);
+    /// Lights the voxels, batch by batch.
+    void light(TraceStage& trace, Illumination& illumination, const Space& space, RayBatch& batch,
+               ShownVoxels& shown);
 
     uint64_t rays() const { return rays_; }  ///< aimed so far
 
   private:
     void aim(const ProbePoints& points, uint32_t search, uint32_t first, uint32_t count,
              RayBatch& batch);
+    /// Points and the voxels that their light goes to; of point n to voxel n when there is no list.
+    struct LightTask {
+        ProbePoints points;
+        Buffer<uint32_t> targets;
+    };
+    void light_points(Illumination& illumination, const Space& space, RayBatch& batch,
+                      const LightTask& task, VoxelArrays& voxels);
+    LightTask missed_points(const ShownVoxels& shown, const glm::vec3& shift);
     void search(TraceStage& trace, RayBatch& batch, ProbePoints& points, uint32_t view);
 
     Device device_;
