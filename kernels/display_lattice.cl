@@ -71,27 +71,6 @@ static inline float3 load_point(global const float* points, uint total, uint n) 
     return (float3)(points[n], points[total + n], points[2 * total + n]);
 }
 
-/// Puts the crossings of lines first_line .. first_line+count-1 one after another: line n's from
-/// starts[n] on. Lines run along `axis` (0, 1, 2) in the order of sight.cl; those of column c and row
-/// r lie at (columns-1-c) / parts_a along the next axis, and likewise rows along the one after it.
-kernel void pack_points(int axis, uint columns, uint rows, float parts_a, float parts_b,
-                        global const uint* restrict counts, global const uint* restrict starts,
-                        global const float* restrict crossings, uint first_line, uint count,
-                        uint stride, uint total, global float* restrict points) {
-    const uint n = work_item();
-    if (n >= count) return;
-    const uint tiles_x = (columns + 3u) / 4u, tile = (first_line + n) / 16u;
-    const uint column = tile % tiles_x * 4u + (n & 3u), row = tile / tiles_x * 4u + ((n >> 2) & 3u);
-    const float a = (float)(columns - 1u - column) / parts_a;
-    const float b = (float)(rows - 1u - row) / parts_b;
-    for (uint i = 0; i < counts[n]; ++i) {
-        const uint point = starts[n] + i;
-        points[(uint)axis * total + point] = crossings[i * stride + n];
-        points[(uint)((axis + 1) % 3) * total + point] = a;
-        points[(uint)((axis + 2) % 3) * total + point] = b;
-    }
-}
-
 /// Aims a ray at each of the probe points first_point .. first_point+count-1: from E where its view
 /// is 0, else along views[view], a vector as long as the world in voxels. Points without a view
 /// (0xFFFFFFFF) get idle rays. With `search` the views are all `search - 1`, and points that have a

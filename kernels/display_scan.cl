@@ -48,23 +48,22 @@ static inline void keep_crossings(ScanResult* r, const Walk* w, lane_int crossed
 }
 
 /// Keeps the crossing between u = a and b of a smooth voxel, where F changes its sign.
-static inline void cross_field(const Field* f, const Walk* w, const LocalRay* ray, lane_int tested,
+static inline void cross_field(const Field* f, const Walk* w, const LocalRay* ray, lane_int crossed,
                                lane_float a, lane_float b, lane_float fa, lane_float fb,
                                ScanResult* r) {
-    const lane_int crossed = tested & (LANE_MASK(fa < 0.0f) ^ LANE_MASK(fb < 0.0f));
-    if (!lanes_any(crossed)) return;
-    lane_float u = a;
-    for (int step = 0; step <= VXL_SECANT_STEPS; ++step) {  // regula falsi, as in hit_smooth
+    const lane_float outside = (lane_float)1.0f;
+    for (int step = 0; step < VXL_SECANT_STEPS; ++step) {  // regula falsi, as in hit_smooth
         const lane_float gap = LANES_SELECT(crossed, fa - fb, (lane_float)1.0f);
-        u = clamp(fma(exact_divide(fa, gap), b - a, a), a, b);
-        const lane_float fu = field_along(f, ray, (lane_float)1.0f, u);
+        const lane_float u = clamp(fma(exact_divide(fa, gap), b - a, a), a, b);
+        const lane_float fu = field_along(f, ray, outside, u);
         const lane_int at_b = LANE_MASK(fu < 0.0f) ^ LANE_MASK(fa < 0.0f);
         fb = LANES_SELECT(at_b, fu, 0.5f * fb);
         b = LANES_SELECT(at_b, u, b);
         fa = LANES_SELECT(at_b, 0.5f * fa, fu);
         a = LANES_SELECT(at_b, a, u);
     }
-    keep_crossings(r, w, crossed, w->t + u);
+    const lane_float gap = LANES_SELECT(crossed, fa - fb, (lane_float)1.0f);
+    keep_crossings(r, w, crossed, w->t + clamp(fma(exact_divide(fa, gap), b - a, a), a, b));
 }
 
 static inline void scan_smooth(const ScannedSurfaces* s, const Walk* w, lane_uint voxel,
@@ -76,8 +75,17 @@ static inline void scan_smooth(const ScannedSurfaces* s, const Walk* w, lane_uin
     const lane_float at_entry = field_along(&field, &ray, outside, zero);
     const lane_float at_middle = field_along(&field, &ray, outside, middle);
     const lane_float at_exit = field_along(&field, &ray, outside, end);
-    cross_field(&field, w, &ray, tested, zero, middle, at_entry, at_middle, r);
-    cross_field(&field, w, &ray, tested, middle, end, at_middle, at_exit, r);
+    const lane_int inside = LANE_MASK(at_middle < 0.0f);
+    const lane_int before = tested & (LANE_MASK(at_entry < 0.0f) ^ inside);
+    const lane_int after = tested & (LANE_MASK(at_exit < 0.0f) ^ inside);
+    const lane_int once = before | after;
+    if (lanes_any(once))
+        cross_field(&field, w, &ray, once, LANES_SELECT(before, zero, middle),
+                    LANES_SELECT(before, middle, end), LANES_SELECT(before, at_entry, at_middle),
+                    LANES_SELECT(before, at_middle, at_exit), r);
+    const lane_int twice = before & after;
+    if (lanes_any(twice))
+        cross_field(&field, w, &ray, twice, middle, end, at_middle, at_exit, r);
 }
 
 /// Keeps the crossings with solid `number` between t and t_exit.
@@ -214,4 +222,25 @@ kernel void scan_lines(PyramidShape shape, global const uint* restrict sectors,
         walking &= inside & going_on;
     }
     LANES_STORE(r.count, counts, first);
+}
+
+/// Puts the crossings of lines first_line .. first_line+count-1 one after another: line n's from
+/// starts[n] on. Lines run along `axis` (0, 1, 2) in the order of sight.cl; those of column c and row
+/// r lie at (columns-1-c) / parts_a along the next axis, and likewise rows along the one after it.
+kernel void pack_points(int axis, uint columns, uint rows, float parts_a, float parts_b,
+                        global const uint* restrict counts, global const uint* restrict starts,
+                        global const float* restrict crossings, uint first_line, uint count,
+                        uint stride, uint total, global float* restrict points) {
+    const uint n = work_item();
+    if (n >= count) return;
+    const uint tiles_x = (columns + 3u) / 4u, tile = (first_line + n) / 16u;
+    const uint column = tile % tiles_x * 4u + (n & 3u), row = tile / tiles_x * 4u + ((n >> 2) & 3u);
+    const float a = (float)(columns - 1u - column) / parts_a;
+    const float b = (float)(rows - 1u - row) / parts_b;
+    for (uint i = 0; i < counts[n]; ++i) {
+        const uint point = starts[n] + i;
+        points[(uint)axis * total + point] = crossings[i * stride + n];
+        points[(uint)((axis + 1) % 3) * total + point] = a;
+        points[(uint)((axis + 2) % 3) * total + point] = b;
+    }
 }

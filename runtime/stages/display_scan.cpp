@@ -28,15 +28,11 @@ DisplayScanStage::DisplayScanStage(const Device& device, const Features& feature
                                    const VolumeFrame& frame, const GridFrame& world)
     : device_(device),
       lattice_(display_lattice(frame, world)),
-      scan_program_(device, "display_scan.cl", features.defines(device)),
-      pack_program_(device, "display_lattice.cl", features.defines(device)),
-      scan_(scan_program_.kernel("scan_lines")),
-      pack_(pack_program_.kernel("pack_points")) {
-    for (int axis = 0; axis < 3; ++axis) {
-        families_.push_back(family(axis, frame, world));
-        sights_.emplace_back(device, features, families_.back().sight);
-    }
-}
+      families_{family(0, frame, world), family(1, frame, world), family(2, frame, world)},
+      sight_(device, features, families_.front().sight),
+      program_(device, "display_scan.cl", features.defines(device)),
+      scan_(program_.kernel("scan_lines")),
+      pack_(program_.kernel("pack_points")) {}
 
 DisplayScanStage::Family DisplayScanStage::family(int axis, const VolumeFrame& frame,
                                                   const GridFrame& world) const {
@@ -113,14 +109,15 @@ std::vector<ProbePoints> DisplayScanStage::scan(const Pyramid& world, RayBatch& 
     std::vector<ProbePoints> pieces;
     if (world.voxel_count == 0) return pieces;
     const uint32_t batch_tiles = batch.stride / 16;
-    for (size_t i = 0; i < families_.size(); ++i) {
-        const Sight& sight = families_[i].sight;
+    for (const Family& family : families_) {
+        const Sight& sight = family.sight;
+        sight_.look(sight);
         const uint32_t tiles = tile_count(sight.width, sight.height);
         for (uint32_t first = 0; first < tiles; first += batch_tiles) {
             const uint32_t now = std::min(batch_tiles, tiles - first);
-            const uint32_t count = sights_[i].cast(shape_of(world), first, now, batch);
+            const uint32_t count = sight_.cast(shape_of(world), first, now, batch);
             lines_ += count;
-            ProbePoints points = scan_batch(world, families_[i], first * 16, count, batch);
+            ProbePoints points = scan_batch(world, family, first * 16, count, batch);
             if (points.count > 0) pieces.push_back(std::move(points));
         }
     }

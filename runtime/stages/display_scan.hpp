@@ -49,10 +49,10 @@ class DisplayScanStage {
     Device device_;
     DisplayLattice lattice_;
     std::vector<Family> families_;
-    std::vector<SightStage> sights_;
-    Program scan_program_, pack_program_;
+    SightStage sight_;
+    Program program_;
     Kernel scan_, pack_;
-    uint32_t slots_ = 4;  ///< crossings of a line that have a place; grows
+    uint32_t slots_ = 16;  ///< crossings of a line that have a place; grows
     Buffer<float> crossings_;
     Buffer<uint32_t> counts_;
     uint64_t lines_ = 0;

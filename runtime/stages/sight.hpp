@@ -28,6 +28,9 @@ class SightStage {
   public:
     SightStage(const Device& device, const Features& features, const Sight& sight);
 
+    /// Casts for another observer from here on, with as many samples a pixel.
+    void look(const Sight& sight) { sight_ = sight; }
+
     /// Casts the rays of `tiles` tiles from `first_tile` on, 16 * samples each; returns their
     /// number.
     uint32_t cast(const PyramidShape& world, uint32_t first_tile, uint32_t tiles, RayBatch& batch);
