@@ -10,6 +10,10 @@
 #include "shared/display.h"
 #include "shared/voxel.h"
 
+// How far inside of a face between two voxels of the display its probe points are, in such voxels: more
+// than rounding moves them.
+#define VXL_INWARD 0.0009765625f
+
 // Crossings of one solid in one voxel, at most.
 #define VXL_SOLID_CROSSINGS 4
 
@@ -31,10 +35,16 @@ typedef struct {
     lane_uint count;  // crossings found, with those that had no slot left
 } ScanResult;
 
-static inline void keep_crossings(ScanResult* r, const Walk* w, lane_int crossed, lane_float t) {
+/// Keeps the `crossed` lanes' crossings at t. A face between two voxels of the display belongs to the
+/// one that its object is in: ahead where `inward` is 1, behind where it is -1, not known where 0.
+static inline void keep_crossings(ScanResult* r, const Walk* w, lane_int crossed, lane_float t,
+                                  lane_float inward) {
     if (!lanes_any(crossed)) return;
     const lane_float x = fma(w->dx, t, w->ox), y = fma(w->dy, t, w->oy), z = fma(w->dz, t, w->oz);
-    const lane_float s = fma(x, r->row.x, fma(y, r->row.y, fma(z, r->row.z, r->row.w)));
+    lane_float s = fma(x, r->row.x, fma(y, r->row.y, fma(z, r->row.z, r->row.w)));
+    const lane_float side = rint(s);
+    const lane_int on_side = LANE_MASK(fabs(s - side) < VXL_INWARD) & LANE_MASK(inward != 0.0f);
+    s = LANES_SELECT(on_side, fma(inward, (lane_float)VXL_INWARD, side), s);
     float value[VXL_LANES];
     int kept[VXL_LANES];
     uint slot[VXL_LANES];
@@ -63,7 +73,9 @@ static inline void cross_field(const Field* f, const Walk* w, const LocalRay* ra
         a = LANES_SELECT(at_b, a, u);
     }
     const lane_float gap = LANES_SELECT(crossed, fa - fb, (lane_float)1.0f);
-    keep_crossings(r, w, crossed, w->t + clamp(fma(exact_divide(fa, gap), b - a, a), a, b));
+    const lane_float enters = LANES_SELECT(LANE_MASK(fb < 0.0f), outside, -outside);
+    keep_crossings(r, w, crossed, w->t + clamp(fma(exact_divide(fa, gap), b - a, a), a, b),
+                   enters);
 }
 
 static inline void scan_smooth(const ScannedSurfaces* s, const Walk* w, lane_uint voxel,
@@ -96,7 +108,14 @@ static inline void scan_solid(const PyramidView* p, const ScannedSurfaces* s, co
     for (int i = 0; i < VXL_SOLID_CROSSINGS && lanes_any(tested); ++i) {
         lane_float at = t_exit;
         tested &= hit_solids(s->solids, number, &ray, t, (lane_int)0, (lane_int)0, tested, &at);
-        keep_crossings(r, w, tested & is_in_world(p, w, at), at);
+        const lane_int crossed = tested & is_in_world(p, w, at);
+        if (lanes_any(crossed)) {
+            const SolidRay from = {fma(w->dx, at, w->ox), fma(w->dy, at, w->oy),
+                                   fma(w->dz, at, w->oz), w->dx, w->dy, w->dz};
+            const lane_int enters = go_inside(s->solids, number, &from, crossed);
+            keep_crossings(r, w, crossed, at,
+                           LANES_SELECT(enters, (lane_float)1.0f, (lane_float)-1.0f));
+        }
         t = LANES_SELECT(tested, at, t);
     }
 }
@@ -122,7 +141,7 @@ static inline void scan_primitives(const PyramidView* p, const ScannedSurfaces* 
                 hit_triangle(p, t_first, (lane_int)-1, s->triangles,
                              primitive & LANES_AS_UINT(triangle), w, &shear, (lane_int)0, triangle,
                              &t);
-            keep_crossings(r, w, crossed, t);
+            keep_crossings(r, w, crossed, t, (lane_float)0.0f);
         }
         if (VXL_SOLIDS)
             scan_solid(p, s, w, primitive & ~VXL_SOLID_PRIMITIVE, listing & is_solid, t_first,
@@ -202,7 +221,7 @@ kernel void scan_lines(PyramidShape shape, global const uint* restrict sectors,
             walking &= ~arrived;
             beginning &= ~walking;
             if (VXL_CUBES) {
-                keep_crossings(&r, &w, walking & in_cube, w.t);
+                keep_crossings(&r, &w, walking & in_cube, w.t, (lane_float)-1.0f);
                 in_cube &= ~walking;
             }
             advance(&p, &w, state.log2_size, walking);
@@ -210,7 +229,8 @@ kernel void scan_lines(PyramidShape shape, global const uint* restrict sectors,
         }
         const lane_int cubes = scan_voxels(&p, &s, &w, leaf, waiting, &r);
         if (VXL_CUBES) {
-            keep_crossings(&r, &w, waiting & (cubes ^ in_cube) & ~(beginning & cubes), w.t);
+            keep_crossings(&r, &w, waiting & (cubes ^ in_cube) & ~(beginning & cubes), w.t,
+                           LANES_SELECT(cubes, (lane_float)1.0f, (lane_float)-1.0f));
             in_cube = LANES_SELECT(waiting, cubes, in_cube);
         }
         beginning &= ~waiting;
@@ -218,7 +238,8 @@ kernel void scan_lines(PyramidShape shape, global const uint* restrict sectors,
         advance(&p, &w, (lane_int)0, walking);
         const lane_int going_on = LANE_MASK(w.t <= t_end);
         const lane_int inside = in_grid(&p, &w);
-        if (VXL_CUBES) keep_crossings(&r, &w, walking & going_on & ~inside & in_cube, w.t);
+        if (VXL_CUBES)
+            keep_crossings(&r, &w, walking & going_on & ~inside & in_cube, w.t, (lane_float)-1.0f);
         walking &= inside & going_on;
     }
     LANES_STORE(r.count, counts, first);
