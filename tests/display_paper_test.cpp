@@ -1,9 +1,9 @@
 // The paper's formula, voxel by voxel, on a world of 8 x 6 x 4 voxels of a metre: two objects, one
 // light and a medium that absorbs.
 //
-//   z 0   space          the observer looks along +Z, and the display is the world
-//   z 1   the plate: x 2..4, y 2..4
-//   z 3   the wall:  x 2..7, y 1..5
+//   z 0..1   space          the observer looks along +Z, and the display is the world
+//   z 1..3   the block: x 2..4, y 2..4
+//   z 3..4   the wall:  x 1..7, y 1..5
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -19,14 +19,14 @@ constexpr const char* kPaperScene = R"({"voxelume": 1,
 "world": {"voxel_size": 1, "bounds": {"min": [0, 0, 0], "max": [8, 6, 4]},
           "background": [9, 9, 9], "ambient": [0.5, 0.25, 0.75],
           "medium": {"absorption": [0.1, 0.2, 0.4], "color": [0.05, 0.1, 0.02]}},
-"materials": {"plate": {"color": [0.8, 0.4, 0.2], "diffuse": 0.5, "specular": 0.25, "shininess": 8},
+"materials": {"block": {"color": [0.8, 0.4, 0.2], "diffuse": 0.5, "specular": 0.25, "shininess": 8},
               "wall": {"color": [0.3, 0.6, 0.9], "diffuse": 1, "emission": [0.01, 0.02, 0.03]}},
-"models": {"plate": {"shape": "box", "size": [2, 2, 1], "voxel_size": 1, "surface": "cubes",
+"models": {"block": {"shape": "box", "size": [2, 2, 2], "voxel_size": 1, "surface": "cubes",
                      "set": "solid"},
-           "wall": {"shape": "box", "size": [5, 4, 1], "voxel_size": 1, "surface": "cubes",
+           "wall": {"shape": "box", "size": [6, 4, 2], "voxel_size": 1, "surface": "cubes",
                     "set": "solid"}},
-"objects": [{"name": "plate", "model": "plate", "material": "plate", "position": [3, 3, 1.5]},
-            {"name": "wall", "model": "wall", "material": "wall", "position": [4.5, 3, 3.5]}],
+"objects": [{"name": "block", "model": "block", "material": "block", "position": [3, 3, 2]},
+            {"name": "wall", "model": "wall", "material": "wall", "position": [4, 3, 4]}],
 "lights": [{"type": "point", "position": [1.5, 4.5, -2], "color": [1, 0.5, 0.25], "intensity": 40}],
 "observer": {"position": [4, 3, -1],
              "display": {"shape": "box", "size": [8, 6, 4], "near": 1, "voxels": [8, 6, 4]}},
@@ -40,19 +40,19 @@ struct Surface {
     double z;  ///< of the face towards the observer
     double color[3], diffuse, specular, shininess, emission[3];
 };
-constexpr Surface kPlate = {1, 1, {0.8, 0.4, 0.2}, 0.5, 0.25, 8, {0, 0, 0}};
+constexpr Surface kBlock = {1, 1, {0.8, 0.4, 0.2}, 0.5, 0.25, 8, {0, 0, 0}};
 constexpr Surface kWall = {2, 3, {0.3, 0.6, 0.9}, 1, 0, 50, {0.01, 0.02, 0.03}};
 
 const Surface* surface_at(double x, double y) {
-    if (x > 2 && x < 4 && y > 2 && y < 4) return &kPlate;
-    if (x > 2 && x < 7 && y > 1 && y < 5) return &kWall;
+    if (x > 2 && x < 4 && y > 2 && y < 4) return &kBlock;
+    if (x > 1 && x < 7 && y > 1 && y < 5) return &kWall;
     return nullptr;
 }
 
-/// Whether the plate lies between the wall at (x, y, 3) and the light at (1.5, 4.5, -2): the way to
-/// the light passes z 2 after a fifth, z 1 after two fifths of it, and the plate is convex.
+/// Whether the block lies between the wall at (x, y, 3) and the light at (1.5, 4.5, -2): the way to
+/// the light leaves the block's depth, at z 1, after two fifths of it.
 bool is_in_shade(double x, double y) {
-    double first = 0.2, last = 0.4;
+    double first = 0, last = 0.4;
     const double from[2] = {x, y}, way[2] = {1.5 - x, 4.5 - y};
     for (int axis = 0; axis < 2; ++axis) {
         if (way[axis] == 0) {
@@ -137,13 +137,13 @@ TEST(PaperFormula, HoldsForTheSurfacesOfALattice) {
     scene.observer.display.voxels = {24, 18, 5};
     RenderReport report;
     const Volume p = render_volume(test_device(), scene, report);
-    size_t plates = 0;
+    size_t blocks = 0;
     for (size_t i = 0; i < p.places.size(); ++i) {
         EXPECT_EQ(p.opacities[i], 1.0f);
         EXPECT_EQ(p.kinds[i], VoxelKind::object);
-        plates += p.objects[i] == 1 && std::abs(p.depths[i] - 2) < 1e-5f;
+        blocks += p.objects[i] == 1 && std::abs(p.depths[i] - 2) < 1e-5f;
     }
-    EXPECT_GE(plates, 36u);
+    EXPECT_GE(blocks, 36u);
 }
 
 }  // namespace
