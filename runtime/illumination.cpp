@@ -191,8 +191,9 @@ void Illumination::reserve_nodes(size_t number, uint32_t count) {
     if (depths_.size() <= number) depths_.push_back(std::make_unique<Depth>());
     Depth& depth = *depths_[number];
     if (count <= depth.nodes.stride) return;
-    const uint32_t places = std::max(std::bit_ceil(count), 16u);
     const bool is_first = number == 0;
+    // The light of the first depth's nodes changes places with the caller's batch: same stride.
+    const uint32_t places = is_first ? count : std::max(std::bit_ceil(count), 16u);
     depth = Depth{};
     if (features_.transmission || !is_first)
         depth.entries = allocate_batch(device_, features_, places);
