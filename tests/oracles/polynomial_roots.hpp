@@ -1,4 +1,4 @@
-// Real roots of polynomials, by bisection between the roots of the derivative.
+// Real roots of polynomials, each searched between two roots of the derivative.
 #pragma once
 
 #include <vector>
