@@ -12,10 +12,12 @@ bool has_light(const Scene& scene) {
 
 ShadowQueue allocate_queue(const Device& device, const Features& features, uint32_t stride) {
     ShadowQueue queue;
-    if (!features.shadows) return queue;
+    if (!features.shadows && !features.medium) return queue;
     queue.count = Buffer<uint32_t>(device, "shadow queue", 1);
-    queue.traced = Buffer<uint32_t>(device, "shadow rays", 2);
-    queue.traced.fill(0);
+    if (features.shadows) {
+        queue.traced = Buffer<uint32_t>(device, "shadow rays", 2);
+        queue.traced.fill(0);
+    }
     queue.rays = Buffer<float>(device, "shadow queue", size_t(stride) * VXL_RAY_COMPONENTS);
     queue.targets = Buffer<uint32_t>(device, "shadow queue", stride);
     if (features.exact()) queue.sources = Buffer<uint32_t>(device, "shadow queue", stride);
@@ -36,6 +38,7 @@ Features features_of(const Scene& scene, const Pyramid& world) {
     Features features = features_of(world);
     features.shadows = scene.render.shadows && has_light(scene);
     features.medium = scene.world.medium.absorption != glm::vec3(0);
+    features.medium_grid = features.medium && has_density(scene.world.medium);
     return features;
 }
 
@@ -59,9 +62,10 @@ Illumination::Illumination(const Device& device, const Features& features, const
       lights_(light_records(scene, world.frame)),
       trace_(device, features),
       shade_(device, features, scene),
-      queue_(allocate_queue(device, features, most_rays)) {
-    if (!lights_.empty()) lighting_.emplace(device, features, shade_.space(), shade_.materials());
-    if (features.medium) medium_.emplace(device, features, shade_.space());
+      queue_(lights_.empty() ? ShadowQueue{} : allocate_queue(device, features, most_rays)) {
+    if (!lights_.empty()) lighting_.emplace(device, features, shade_.materials());
+    if (features.medium)
+        medium_.emplace(device, features, scene.world, shade_.space(), shade_.materials());
 }
 
 void Illumination::light(RayBatch& batch, uint32_t count) {
@@ -69,6 +73,7 @@ void Illumination::light(RayBatch& batch, uint32_t count) {
     shade_.surface(world_, batch, count);
     for (const LightRecord& light : lights_) {
         lighting_->add(world_, light, batch, count, queue_);
+        if (medium_) medium_->shadows(world_, queue_, count, batch);
         if (features_.shadows) trace_.shadows(world_, queue_, count, batch.stride, batch.radiance);
     }
     if (medium_) medium_->sight(world_, batch, count);

@@ -8,15 +8,16 @@ namespace voxelume {
 /// Every feature that is false does not exist in the machine code, and its buffers are not
 /// allocated.
 struct Features {
-    bool cubes = false;       ///< some voxel is its own surface
-    bool smooth = false;      ///< some voxel has a distance field
-    bool triangles = false;   ///< some voxel lists triangles
-    bool solids = false;      ///< some voxel lists analytic solids
-    bool attributes = false;  ///< voxels differ in object, material or kind
-    bool colors = false;      ///< voxels have colours of their own
-    bool medium = false;      ///< the space absorbs light
-    bool shadows = false;     ///< lights can be hidden
-    bool paths = false;       ///< rays are reflected, refracted or go on through surfaces
+    bool cubes = false;        ///< some voxel is its own surface
+    bool smooth = false;       ///< some voxel has a distance field
+    bool triangles = false;    ///< some voxel lists triangles
+    bool solids = false;       ///< some voxel lists analytic solids
+    bool attributes = false;   ///< voxels differ in object, material or kind
+    bool colors = false;       ///< voxels have colours of their own
+    bool medium = false;       ///< the space absorbs light
+    bool medium_grid = false;  ///< ... not everywhere alike
+    bool shadows = false;      ///< lights can be hidden
+    bool paths = false;        ///< rays are reflected, refracted or go on through surfaces
 
     bool exact() const { return triangles || solids; }
 
@@ -29,6 +30,7 @@ struct Features {
                 {"VXL_ATTRIBUTES", attributes},
                 {"VXL_COLORS", colors},
                 {"VXL_MEDIUM", medium},
+                {"VXL_MEDIUM_GRID", medium_grid},
                 {"VXL_SHADOWS", shadows},
                 {"VXL_PATHS", paths},
                 {"VXL_NATIVE_DIVIDE", device.is_cpu()}};
