@@ -11,9 +11,15 @@ HeightDensity read_height(const SceneFields& fields) {
 }
 
 BallDensity read_ball(const SceneFields& fields) {
-    const double radius = fields.get("radius").number(kLength);
-    return {fields.get("center").vector(kCoordinate), radius,
-            fields.number("falloff", {0, radius}, 0)};
+    BallDensity ball;
+    ball.center = fields.get("center").vector(kCoordinate);
+    ball.radius = fields.get("radius").number(kLength);
+    if (const auto falloff = fields.find("falloff")) {
+        ball.falloff = falloff->number(kNotNegative);
+        if (ball.falloff > ball.radius)
+            falloff->fail(fmt::format("must not be larger than the radius, {}", ball.radius));
+    }
+    return ball;
 }
 
 GridDensity read_grid(const SceneFields& fields, const AssetSearch& search) {

@@ -1,10 +1,12 @@
 #include "runtime/io/vdb_density.hpp"
 
+#include <openvdb/io/Stream.h>
 #include <openvdb/openvdb.h>
 #include <openvdb/tools/Interpolation.h>
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <glm/matrix.hpp>
 
 #include "runtime/io/input_file.hpp"
@@ -111,9 +113,10 @@ void check_values(const FloatGrid& grid, const std::string& name, const InputFil
 
 FloatGrid::ConstPtr read_grid(const GridDensity& density, const InputFile& readable) {
     openvdb::initialize();
-    openvdb::io::File file(density.file.string());
-    file.open(false);
-    const openvdb::GridPtrVecPtr grids = file.getGrids();
+    // OpenVDB's own file takes what it misses at a truncated file's end for zeros.
+    std::ifstream stream(density.file, std::ios::binary);
+    stream.exceptions(std::ios::failbit | std::ios::badbit | std::ios::eofbit);
+    const openvdb::GridPtrVecPtr grids = openvdb::io::Stream(stream, false).getGrids();
     for (const openvdb::GridBase::Ptr& grid : *grids) {
         if (grid->getName() != density.grid) continue;
         const auto floats = openvdb::gridPtrCast<FloatGrid>(grid);
@@ -140,6 +143,8 @@ std::unique_ptr<DensityField> read_vdb_density(const GridDensity& density) {
         return std::make_unique<VdbField>(read_grid(density, readable), density.world_from_grid);
     } catch (const Error&) {
         throw;
+    } catch (const std::ios_base::failure&) {
+        readable.refuse("not a readable OpenVDB file: it ends too early");
     } catch (const std::bad_alloc&) {
         readable.refuse("not a readable OpenVDB file: it declares more than there is memory");
     } catch (const std::exception& error) {
