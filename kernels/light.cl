@@ -98,7 +98,7 @@ kernel void add_light(PyramidShape shape, LightRecord light, global const float*
         any_share |= LANE_MASK(share[channel] > 0.0f);
     }
     lit &= any_share;
-    if (!VXL_SHADOWS && !VXL_MEDIUM) {
+    if (!(VXL_SHADOWS | VXL_MEDIUM)) {
         for (int channel = 0; channel < 3; ++channel) {
             const uint place = (uint)channel * stride + first;
             const lane_float sum = LANES_LOAD(radiance, place) + share[channel];
