@@ -27,15 +27,16 @@ kernel void add_light(PyramidShape shape, LightRecord light, global const float*
                       global const uint* restrict colors, global const float* restrict rays,
                       global const uint* restrict hits, uint count, uint stride,
                       global const float* restrict positions, global const float* restrict normals,
-                      global const uint* restrict words, global float* restrict radiance,
-                      global uint* restrict queue_count, global float* restrict queue_rays,
-                      global uint* restrict targets, global uint* restrict sources,
-                      global float* restrict shares) {
+                      global const uint* restrict words, global const uint* restrict sides,
+                      global float* restrict radiance, global uint* restrict queue_count,
+                      global float* restrict queue_rays, global uint* restrict targets,
+                      global uint* restrict sources, global float* restrict shares) {
     const uint first = work_item() * VXL_LANES;
     if (first >= count) return;
     const float4 edge = shape.edge;
     const lane_uint number = LANES_LOAD(hits, VXL_HIT_VOXEL * stride + first);
     lane_int lit = LANE_MASK(number != VXL_NO_VOXEL);
+    if (VXL_TRANSMISSION) lit &= LANE_MASK((LANES_LOAD(sides, first) & VXL_SIDE_HIDDEN) == 0u);
     if (!lanes_any(lit)) return;
     const lane_uint voxel = number & LANES_AS_UINT(lit);
     const Vector position = load_vector(positions, stride, first);
@@ -90,10 +91,12 @@ kernel void add_light(PyramidShape shape, LightRecord light, global const float*
     lane_float t_end = (lane_float)INFINITY;
     if (light.kind != VXL_LIGHT_DIRECTIONAL) t_end = exact_reciprocal(scale);
     const float energy[3] = {light.energy.x, light.energy.y, light.energy.z};
+    falloff *= surface_opacity(materials, material);
+    const lane_uint color_at = color_place(materials, material, position.x, position.y, position.z);
     lane_float share[3];
     lane_int any_share = (lane_int)0;
     for (int channel = 0; channel < 3; ++channel) {
-        const lane_float color = surface_color(materials, material, colors, voxel, channel);
+        const lane_float color = surface_color(materials, color_at, colors, voxel, channel);
         share[channel] = fma(color, diffuse, specular) * falloff * energy[channel];
         any_share |= LANE_MASK(share[channel] > 0.0f);
     }

@@ -74,7 +74,7 @@ kernel void absorb_sight(PyramidShape shape, Space space, DensityShape density_s
                        load_vector(rays + VXL_RAY_DX * stride, stride, first), (lane_float)0.0f,
                        LANES_SELECT(hit, t_hit, t_end)};
     lane_uint material = (lane_uint)0u;
-    if (VXL_PATHS) {
+    if (VXL_TRANSMISSION) {
         segment.t_first = LANES_LOAD(starts, first);
         material = LANES_LOAD(inside, first);
     }
@@ -82,7 +82,7 @@ kernel void absorb_sight(PyramidShape shape, Space space, DensityShape density_s
     const lane_float metres = metres_per_t(shape, segment.direction);
     lane_float depth = (lane_float)0.0f;
     if (VXL_MEDIUM) depth = depth_of(shape, &density, &segment, active & ~in_object);
-    if (VXL_PATHS && lanes_any(in_object))
+    if (VXL_TRANSMISSION && lanes_any(in_object))
         depth = LANES_SELECT(in_object, length_in_world(shape, &segment), depth);
     depth = LANES_SELECT(active, depth * metres, (lane_float)0.0f);
     const float absorption[3] = {space.absorption.x, space.absorption.y, space.absorption.z};
@@ -91,7 +91,7 @@ kernel void absorb_sight(PyramidShape shape, Space space, DensityShape density_s
         const uint place = (uint)channel * stride + first;
         lane_float per_metre = (lane_float)absorption[channel];
         lane_float shown = (lane_float)color[channel];
-        if (VXL_PATHS && lanes_any(in_object)) {
+        if (VXL_TRANSMISSION && lanes_any(in_object)) {
             const lane_uint record = (material - 1u) * VXL_MATERIAL_FLOATS;
             const lane_uint from =
                 (record + (uint)(VXL_MATERIAL_ABSORPTION + channel)) & LANES_AS_UINT(in_object);

@@ -216,7 +216,7 @@ TEST(Medium, OnPathsASegmentGoesThroughTheObjectItIsInside) {
     world.medium.density = HeightDensity{1.3, 2.1};
     world.medium.color = {1, 1, 1};
     Features features;
-    features.paths = true;
+    features.paths = features.transmission = true;
     MediumRay ray = {{0.5, 3.25, 4.5}, {0.75, 0.25, 0.125}};
     ray.t_hit = 40;
     MediumBatch batch(world, {ray, ray}, 0, features);

@@ -39,8 +39,8 @@ void LightStage::add(const Pyramid& pyramid, const LightRecord& light, RayBatch&
     if (!queue.count.empty()) queue.count.fill(0);
     add_.launch_packets(count, shape_of(pyramid), light, materials_, pyramid.colors, batch.rays,
                         batch.hits, count, batch.stride, batch.positions, batch.normals,
-                        batch.words, batch.radiance, queue.count, queue.rays, queue.targets,
-                        queue.sources, queue.shares);
+                        batch.words, batch.sides, batch.radiance, queue.count, queue.rays,
+                        queue.targets, queue.sources, queue.shares);
 }
 
 }  // namespace voxelume

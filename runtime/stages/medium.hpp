@@ -20,7 +20,8 @@ class MediumStage {
                 const Space& space, const Buffer<MaterialRecord>& materials);
 
     /// Lets the medium take its part of the radiance of rays 0 .. count-1, and add its own. With
-    /// paths, rays inside an object go through its material instead, and `passed` is written.
+    /// `transmission`, rays inside an object go through its material instead; with `paths`,
+    /// `passed` is written.
     void sight(const Pyramid& pyramid, RayBatch& batch, uint32_t count);
 
     /// Takes the medium's part from the light of the queue, at most `most` rays of it. Without
