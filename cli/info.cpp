@@ -85,7 +85,10 @@ Report describe_png(const fs::path& path) {
 }
 
 Report describe_vdb(const fs::path& path) {
-    Report report = {{"kind", "OpenVDB volume"}, {"grids", Report::array()}};
+    Report report = {{"kind", "OpenVDB volume"}};
+    if (read_vdb_metadata(path).contains(kFrameKey))
+        report = describe_volume(path, "OpenVDB volume");
+    report["grids"] = Report::array();
     for (const VdbSummary& grid : read_vdb_summary(path))
         report["grids"].push_back({{"grid", grid.name},
                                    {"type", grid.value_type},

@@ -87,6 +87,22 @@ VdbSummary summarize(const openvdb::GridBase& grid) {
     return summary;
 }
 
+/// What `read` makes of a file, with OpenVDB's failures as ours.
+template <class Read>
+auto read_opened(const InputFile& readable, const std::filesystem::path& path, Read read) {
+    try {
+        openvdb::initialize();
+        openvdb::io::File file(path.string());
+        // Whole: delayed loading would map the file for as long as the grids live.
+        file.open(false);
+        return read(file);
+    } catch (const std::bad_alloc&) {
+        readable.refuse("not a readable OpenVDB file: it declares more than there is memory");
+    } catch (const std::exception& error) {
+        readable.refuse(fmt::format("not a readable OpenVDB file: {}", error.what()));
+    }
+}
+
 }  // namespace
 
 void write_vdb(const std::filesystem::path& path, const VdbVolume& volume) {
@@ -96,22 +112,25 @@ void write_vdb(const std::filesystem::path& path, const VdbVolume& volume) {
     file.commit();
 }
 
+std::map<std::string, std::string> read_vdb_metadata(const std::filesystem::path& path) {
+    const InputFile readable(path);
+    return read_opened(readable, path, [](openvdb::io::File& file) {
+        std::map<std::string, std::string> texts;
+        const openvdb::MetaMap::Ptr metadata = file.getMetadata();
+        for (auto entry = metadata->beginMeta(); entry != metadata->endMeta(); ++entry)
+            if (entry->second->typeName() == "string") texts[entry->first] = entry->second->str();
+        return texts;
+    });
+}
+
 std::vector<VdbSummary> read_vdb_summary(const std::filesystem::path& path) {
     const InputFile readable(path);
-    try {
-        openvdb::initialize();
-        openvdb::io::File file(path.string());
-        file.open(
-            false);  // whole: delayed loading would map the file for as long as the grids live
+    return read_opened(readable, path, [](openvdb::io::File& file) {
         std::vector<VdbSummary> summaries;
         for (const openvdb::GridBase::Ptr& grid : *file.getGrids())
             summaries.push_back(summarize(*grid));
         return summaries;
-    } catch (const std::bad_alloc&) {
-        readable.refuse("not a readable OpenVDB file: it declares more than there is memory");
-    } catch (const std::exception& error) {
-        readable.refuse(fmt::format("not a readable OpenVDB file: {}", error.what()));
-    }
+    });
 }
 
 }  // namespace voxelume

@@ -84,8 +84,9 @@ class NrrdData {
             stream_.next_out = reinterpret_cast<Bytef*>(&beyond);
             stream_.avail_out = 1;
             int code = Z_OK;
-            while (code == Z_OK && stream_.avail_out == 1) code = inflate_block();
-            if (code != Z_STREAM_END || stream_.avail_out != 1)
+            while (!ended_ && code == Z_OK && stream_.avail_out == 1) code = inflate_block();
+            if (!ended_ || stream_.avail_out != 1 || stream_.avail_in > 0 ||
+                position_ != file_.size())
                 file_.refuse("its data don't end where they should; it is damaged");
         } else if (position_ != file_.size()) {
             file_.refuse("it has more data than its sizes say; it is damaged");
@@ -102,7 +103,9 @@ class NrrdData {
             stream_.next_in = block_.data();
             stream_.avail_in = static_cast<uInt>(size);
         }
-        return inflate(&stream_, Z_NO_FLUSH);
+        const int code = inflate(&stream_, Z_NO_FLUSH);
+        ended_ = code == Z_STREAM_END;
+        return code;
     }
     void inflate_into(void* data, size_t size) {
         stream_.next_out = static_cast<Bytef*>(data);
@@ -116,7 +119,7 @@ class NrrdData {
 
     const InputFile& file_;
     uint64_t position_;
-    bool compressed_;
+    bool compressed_, ended_ = false;
     z_stream stream_{};
     std::vector<Bytef> block_;
 };
@@ -125,18 +128,18 @@ class NrrdData {
 size_t take_channels(const InputFile& file, NrrdHeader& header, const VolumeFrame& frame) {
     const glm::ivec3& size = frame.size;
     for (const size_t channels : {size_t{4}, size_t{7}})
-        if (header.fields["sizes"] == fmt::format(" {} {} {} {}", channels, size.x, size.y, size.z))
+        if (header.fields["sizes"] == fmt::format("{} {} {} {}", channels, size.x, size.y, size.z))
             return channels;
     file.refuse("its sizes aren't the display's");
 }
 
 bool take_compression(const InputFile& file, NrrdHeader& header, uint64_t bytes) {
     const std::string encoding = header.fields["encoding"];
-    if ((encoding != " raw" && encoding != " gzip") || header.fields["type"] != " float" ||
-        header.fields["endian"] != " little")
+    if ((encoding != "raw" && encoding != "gzip") || header.fields["type"] != "float" ||
+        header.fields["endian"] != "little")
         file.refuse("it isn't encoded as voxelume does it");
     const uint64_t stored = file.size() - header.data_start;
-    if (encoding == " raw") {
+    if (encoding == "raw") {
         if (stored != bytes) file.refuse("it hasn't as much data as its sizes say; it is damaged");
         return false;
     }
