@@ -222,7 +222,8 @@ int run(const RenderOptions& options) {
     if (!volumes.empty()) render_volumes(device, scene, volumes, report);
     const double seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    const Outcome outcome{device, report, scene.render.size, files.size() + volumes.size(), seconds};
+    const Outcome outcome{device, report, scene.render.size, files.size() + volumes.size(),
+                          seconds};
     if (!options.stats.empty()) write_statistics(options.stats, statistics(outcome));
     if (options.quiet) return 0;
     print_summary(outcome);

@@ -2,14 +2,14 @@
 //
 // Probe points are in lattice voxels, three arrays `total` apart: on a probe line two of their
 // coordinates are exact, so a point on voxels' edges belongs to all of them. A mask of one bit for
-// every voxel of the lattice, by place x + size_x (y + size_y z), tells which are shown; the voxels of
-// 256 bits are numbered from their group's start.
+// every voxel of the lattice, by place x + size_x (y + size_y z), tells which are shown; the voxels
+// of 256 bits are numbered from their group's start.
 #include "lib/exact_exp.h"
 #include "lib/fixed_point.h"
 #include "lib/vector.h"
 #include "lib/work_item.h"
-#include "shared/scene.h"
 #include "shared/display.h"
+#include "shared/scene.h"
 #include "shared/trace.h"
 #include "shared/voxel.h"
 
@@ -74,8 +74,8 @@ static inline float3 load_point(global const float* points, uint total, uint n) 
 /// Aims a ray at each of the probe points first_point .. first_point+count-1: from E where its view
 /// is 0, else along views[view], a vector as long as the world in voxels. Points without a view
 /// (0xFFFFFFFF) get idle rays. With `search` the views are all `search - 1`, and points that have a
-/// view already are idle; rays then end where the point would be hidden. Without, they begin shortly
-/// before the point and end shortly behind it.
+/// view already are idle; rays then end where the point would be hidden. Without, they begin
+/// shortly before the point and end shortly behind it.
 kernel void aim_rays(Sight sight, PyramidShape shape, DisplayLattice lattice,
                      global const float4* restrict views, global const float* restrict points,
                      uint total, global const uint* restrict view_of_point, uint search,
@@ -90,10 +90,12 @@ kernel void aim_rays(Sight sight, PyramidShape shape, DisplayLattice lattice,
     const lane_int has_view = LANE_MASK(known != 0xFFFFFFFFu);
     aimed &= search ? ~has_view : has_view;
     const lane_uint view = (search ? (lane_uint)(search - 1u) : known) & LANES_AS_UINT(aimed);
-    const Vector p = {
-        fma(x, lattice.axis_x.x, fma(y, lattice.axis_y.x, fma(z, lattice.axis_z.x, lattice.origin.x))),
-        fma(x, lattice.axis_x.y, fma(y, lattice.axis_y.y, fma(z, lattice.axis_z.y, lattice.origin.y))),
-        fma(x, lattice.axis_x.z, fma(y, lattice.axis_y.z, fma(z, lattice.axis_z.z, lattice.origin.z)))};
+    const Vector p = {fma(x, lattice.axis_x.x,
+                          fma(y, lattice.axis_y.x, fma(z, lattice.axis_z.x, lattice.origin.x))),
+                      fma(x, lattice.axis_x.y,
+                          fma(y, lattice.axis_y.y, fma(z, lattice.axis_z.y, lattice.origin.y))),
+                      fma(x, lattice.axis_x.z,
+                          fma(y, lattice.axis_y.z, fma(z, lattice.axis_z.z, lattice.origin.z)))};
 
     // From E: `way` leads from where the ray begins to the point, `near` is the part of it before
     // the display.
@@ -102,9 +104,8 @@ kernel void aim_rays(Sight sight, PyramidShape shape, DisplayLattice lattice,
                         p.y - sight.origin.y - sight.origin_low.y,
                         p.z - sight.origin.z - sight.origin_low.z};
     const Vector metres = {eye.x * edge.x, eye.y * edge.y, eye.z * edge.z};
-    const lane_float depth =
-        fma(metres.x, ahead.x * edge.x,
-            fma(metres.y, ahead.y * edge.y, metres.z * (ahead.z * edge.z)));
+    const lane_float depth = fma(metres.x, ahead.x * edge.x,
+                                 fma(metres.y, ahead.y * edge.y, metres.z * (ahead.z * edge.z)));
     Vector way = eye;
     lane_float length = exact_sqrt(dot_product(metres, metres));
     if (sight.shape == VXL_SHAPE_PYRAMID) {
@@ -120,9 +121,8 @@ kernel void aim_rays(Sight sight, PyramidShape shape, DisplayLattice lattice,
         length = depth;
     }
     lane_int is_ahead = LANE_MASK(length > 0.0f);
-    lane_float near =
-        exact_divide((lane_float)sight.near_plane,
-                     LANES_SELECT(is_ahead, length, (lane_float)1.0f));
+    lane_float near = exact_divide((lane_float)sight.near_plane,
+                                   LANES_SELECT(is_ahead, length, (lane_float)1.0f));
     const lane_int parallel = LANE_MASK(view != 0u);
     if (lanes_any(parallel)) {
         global const float* numbers = (global const float*)views;
@@ -162,12 +162,15 @@ kernel void aim_rays(Sight sight, PyramidShape shape, DisplayLattice lattice,
     t_first = LANES_SELECT(aimed, t_first, (lane_float)0.0f);
     const lane_float zero = (lane_float)0.0f;
     const float fixed = shape.fixed_point;
-    LANES_STORE(snap_position(clamp(fma(d.x, t_first, o.x), 0.0f, (float)shape.size_x), zero, fixed),
-                rays, VXL_RAY_OX * stride + first);
-    LANES_STORE(snap_position(clamp(fma(d.y, t_first, o.y), 0.0f, (float)shape.size_y), zero, fixed),
-                rays, VXL_RAY_OY * stride + first);
-    LANES_STORE(snap_position(clamp(fma(d.z, t_first, o.z), 0.0f, (float)shape.size_z), zero, fixed),
-                rays, VXL_RAY_OZ * stride + first);
+    LANES_STORE(
+        snap_position(clamp(fma(d.x, t_first, o.x), 0.0f, (float)shape.size_x), zero, fixed), rays,
+        VXL_RAY_OX * stride + first);
+    LANES_STORE(
+        snap_position(clamp(fma(d.y, t_first, o.y), 0.0f, (float)shape.size_y), zero, fixed), rays,
+        VXL_RAY_OY * stride + first);
+    LANES_STORE(
+        snap_position(clamp(fma(d.z, t_first, o.z), 0.0f, (float)shape.size_z), zero, fixed), rays,
+        VXL_RAY_OZ * stride + first);
     LANES_STORE(d.x, rays, VXL_RAY_DX * stride + first);
     LANES_STORE(d.y, rays, VXL_RAY_DY * stride + first);
     LANES_STORE(d.z, rays, VXL_RAY_DZ * stride + first);
@@ -231,10 +234,10 @@ static inline uint number_of(global const uint* mask, global const uint* starts,
     return number + popcount(mask[word] & ((1u << (place & 31u)) - 1u));
 }
 
-/// Chooses for every voxel the point with a view that lies nearest to its middle; of equals, the one
-/// with the lowest number. In three turns over all points, the first of which has number
-/// `first_number`: 0 finds the least distance, 1 the lowest number at that, 2 copies the point and its
-/// view to the voxel.
+/// Chooses for every voxel the point with a view that lies nearest to its middle; of equals, the
+/// one with the lowest number. In three turns over all points, the first of which has number
+/// `first_number`: 0 finds the least distance, 1 the lowest number at that, 2 copies the point and
+/// its view to the voxel.
 kernel void choose_points(DisplayLattice lattice, global const float* restrict points, uint total,
                           global const uint* restrict view_of_point, uint count, uint first_number,
                           global const uint* restrict mask, global const uint* restrict starts,
@@ -265,9 +268,9 @@ kernel void choose_points(DisplayLattice lattice, global const float* restrict p
 }
 
 /// Takes the light of rays 0 .. count-1 to their voxels: ray n was aimed at the point of voxel
-/// targets[first_voxel + n], or of voxel first_voxel + n when it is not `listed`. Where a ray passes
-/// by its surface, the voxel gets object 0. The medium between the ray's start and the surface
-/// counts as air.
+/// targets[first_voxel + n], or of voxel first_voxel + n when it is not `listed`. Where a ray
+/// passes by its surface, the voxel gets object 0. The medium between the ray's start and the
+/// surface counts as air.
 kernel void keep_light(Sight sight, PyramidShape shape, Space space,
                        global const float* restrict rays, global const uint* restrict hits,
                        global const float* restrict positions, global const uint* restrict words,
@@ -286,9 +289,8 @@ kernel void keep_light(Sight sight, PyramidShape shape, Space space,
                            (p.z - sight.origin.z - sight.origin_low.z) * edge.z};
     lane_float depth = exact_sqrt(dot_product(metres, metres));
     if (sight.shape == VXL_SHAPE_PYRAMID || sight.shape == VXL_SHAPE_BOX)
-        depth = sight.lead +
-                fma(metres.x, ahead.x * edge.x,
-                    fma(metres.y, ahead.y * edge.y, metres.z * (ahead.z * edge.z)));
+        depth = sight.lead + fma(metres.x, ahead.x * edge.x,
+                                 fma(metres.y, ahead.y * edge.y, metres.z * (ahead.z * edge.z)));
     lane_float path = (lane_float)0.0f;
     if (VXL_MEDIUM) {
         const Vector d = load_vector(rays + VXL_RAY_DX * stride, stride, first);
@@ -309,10 +311,10 @@ kernel void keep_light(Sight sight, PyramidShape shape, Space space,
     }
     LANES_STORE(depth, shown, 3 * VXL_LANES);
     uint object[VXL_LANES];
-    LANES_STORE(((LANES_LOAD(words, first) & VXL_OBJECT_MASK) + 1u) & LANES_AS_UINT(hit), object, 0);
+    LANES_STORE(((LANES_LOAD(words, first) & VXL_OBJECT_MASK) + 1u) & LANES_AS_UINT(hit), object,
+                0);
     for (uint i = 0; i < VXL_LANES && first + i < count; ++i) {
-        const size_t voxel =
-            listed ? targets[first_voxel + first + i] : first_voxel + first + i;
+        const size_t voxel = listed ? targets[first_voxel + first + i] : first_voxel + first + i;
         objects[voxel] = object[i];
         opacities[voxel] = 1.0f;
         depths[voxel] = shown[3 * VXL_LANES + i];

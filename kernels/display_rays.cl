@@ -1,5 +1,5 @@
-// lit sight rays -> P in the layout `rays`: the voxel of each surface, and those of the medium before
-// it.
+// lit sight rays -> P in the layout `rays`: the voxel of each surface, and those of the medium
+// before it.
 //
 // Rays lie in the order of sight.cl, one sample a pixel. Space between a ray's way into the world
 // and its end is cut into steps; the voxels of P are written by ascending place, u + width (v +
@@ -8,8 +8,8 @@
 #include "lib/fixed_point.h"
 #include "lib/vector.h"
 #include "lib/work_item.h"
-#include "shared/scene.h"
 #include "shared/display.h"
+#include "shared/scene.h"
 #include "shared/trace.h"
 #include "shared/voxel.h"
 
@@ -24,8 +24,8 @@
 #define VXL_SPAN_RATIO 2  // metres of the ray in a metre of depth
 #define VXL_SPAN_COMPONENTS 3
 
-/// How far a point, in voxels from E's `lead`, is away from there in metres: along Z_E, or along the
-/// ray.
+/// How far a point, in voxels from E's `lead`, is away from there in metres: along Z_E, or along
+/// the ray.
 static inline lane_float depth_of(const Sight* sight, float4 edge, Vector from_eye) {
     const Vector metres = {from_eye.x * edge.x, from_eye.y * edge.y, from_eye.z * edge.z};
     if (sight->shape == VXL_SHAPE_SECTOR || sight->shape == VXL_SHAPE_BALL)
@@ -57,8 +57,9 @@ static inline lane_uint step_of(const DisplaySteps* steps, lane_float depth) {
     return LANES_AS_UINT(clamp(step, (lane_int)0, (lane_int)(steps->count - 1)));
 }
 
-/// Keeps of rays 0 .. count-1, which are the image's from `first_ray` on, what their voxels need: the
-/// step of the surface met (VXL_NO_STEP: none), its depth in metres, and the span in the medium.
+/// Keeps of rays 0 .. count-1, which are the image's from `first_ray` on, what their voxels need:
+/// the step of the surface met (VXL_NO_STEP: none), its depth in metres, and the span in the
+/// medium.
 kernel void measure_steps(Sight sight, PyramidShape shape, DisplaySteps steps,
                           global const float* restrict rays, global const uint* restrict hits,
                           global const float* restrict positions, global const uint* restrict words,
@@ -102,8 +103,7 @@ kernel void measure_steps(Sight sight, PyramidShape shape, DisplaySteps steps,
     const lane_int seen = LANE_MASK(t_end >= 0.0f);
     LANES_STORE(begin, spans, VXL_SPAN_FIRST * total + place);
     LANES_STORE(LANES_SELECT(seen, end, begin), spans, VXL_SPAN_END * total + place);
-    const lane_float ratio =
-        exact_divide(metres, LANES_SELECT(seen, along, (lane_float)1.0f));
+    const lane_float ratio = exact_divide(metres, LANES_SELECT(seen, along, (lane_float)1.0f));
     LANES_STORE(ratio, spans, VXL_SPAN_RATIO * total + place);
 }
 
@@ -138,15 +138,14 @@ kernel void count_voxels(uint width, uint height, DisplaySteps steps,
     const uint v = work_item();
     if (v >= height) return;
     for (uint u = 0; u < width; ++u) {
-        const RaySteps s =
-            steps_of_ray(steps, hit_steps, spans, total, ray_of_pixel(u, v, width));
+        const RaySteps s = steps_of_ray(steps, hit_steps, spans, total, ray_of_pixel(u, v, width));
         for (uint k = s.first; k < s.end; ++k) ++counts[v + (size_t)height * k];
         if (s.hit != VXL_NO_STEP) ++counts[v + (size_t)height * s.hit];
     }
 }
 
-/// Writes the places of row v's voxels from starts[v + height k] on, which move, and to `sources` the
-/// ray of each.
+/// Writes the places of row v's voxels from starts[v + height k] on, which move, and to `sources`
+/// the ray of each.
 kernel void place_voxels(uint width, uint height, DisplaySteps steps,
                          global const uint* restrict hit_steps, global const float* restrict spans,
                          uint total, global uint* restrict starts, global ulong* restrict places,
@@ -179,10 +178,10 @@ kernel void fill_voxels(uint width, uint height, DisplaySteps steps, float near_
                         global const ulong* restrict places, global const uint* restrict hit_steps,
                         global const float* restrict ray_depths,
                         global const uint* restrict ray_objects,
-                        global const float* restrict ray_colors,
-                        global const float* restrict spans, uint total, uint count,
-                        global float* restrict colors, global float* restrict opacities,
-                        global float* restrict depths, global uint* restrict objects) {
+                        global const float* restrict ray_colors, global const float* restrict spans,
+                        uint total, uint count, global float* restrict colors,
+                        global float* restrict opacities, global float* restrict depths,
+                        global uint* restrict objects) {
     const uint first = work_item() * VXL_LANES;
     if (first >= count) return;
     const lane_int there = LANE_MASK(LANES_NUMBERS + (int)first < (int)count);

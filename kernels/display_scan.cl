@@ -6,12 +6,12 @@
 #include "lib/solid_surface.h"
 #include "lib/triangle.h"
 #include "lib/work_item.h"
-#include "shared/scene.h"
 #include "shared/display.h"
+#include "shared/scene.h"
 #include "shared/voxel.h"
 
-// How far inside of a face between two voxels of the display its probe points are, in such voxels: more
-// than rounding moves them.
+// How far inside of a face between two voxels of the display its probe points are, in such voxels:
+// more than rounding moves them.
 #define VXL_INWARD 0.0009765625f
 
 // Crossings of one solid in one voxel, at most.
@@ -35,8 +35,9 @@ typedef struct {
     lane_uint count;  // crossings found, with those that had no slot left
 } ScanResult;
 
-/// Keeps the `crossed` lanes' crossings at t. A face between two voxels of the display belongs to the
-/// one that its object is in: ahead where `inward` is 1, behind where it is -1, not known where 0.
+/// Keeps the `crossed` lanes' crossings at t. A face between two voxels of the display belongs to
+/// the one that its object is in: ahead where `inward` is 1, behind where it is -1, not known where
+/// 0.
 static inline void keep_crossings(ScanResult* r, const Walk* w, lane_int crossed, lane_float t,
                                   lane_float inward) {
     if (!lanes_any(crossed)) return;
@@ -74,8 +75,7 @@ static inline void cross_field(const Field* f, const Walk* w, const LocalRay* ra
     }
     const lane_float gap = LANES_SELECT(crossed, fa - fb, (lane_float)1.0f);
     const lane_float enters = LANES_SELECT(LANE_MASK(fb < 0.0f), outside, -outside);
-    keep_crossings(r, w, crossed, w->t + clamp(fma(exact_divide(fa, gap), b - a, a), a, b),
-                   enters);
+    keep_crossings(r, w, crossed, w->t + clamp(fma(exact_divide(fa, gap), b - a, a), a, b), enters);
 }
 
 static inline void scan_smooth(const ScannedSurfaces* s, const Walk* w, lane_uint voxel,
@@ -96,8 +96,7 @@ static inline void scan_smooth(const ScannedSurfaces* s, const Walk* w, lane_uin
                     LANES_SELECT(before, middle, end), LANES_SELECT(before, at_entry, at_middle),
                     LANES_SELECT(before, at_middle, at_exit), r);
     const lane_int twice = before & after;
-    if (lanes_any(twice))
-        cross_field(&field, w, &ray, twice, middle, end, at_middle, at_exit, r);
+    if (lanes_any(twice)) cross_field(&field, w, &ray, twice, middle, end, at_middle, at_exit, r);
 }
 
 /// Keeps the crossings with solid `number` between t and t_exit.
@@ -110,8 +109,12 @@ static inline void scan_solid(const PyramidView* p, const ScannedSurfaces* s, co
         tested &= hit_solids(s->solids, number, &ray, t, (lane_int)0, (lane_int)0, tested, &at);
         const lane_int crossed = tested & is_in_world(p, w, at);
         if (lanes_any(crossed)) {
-            const SolidRay from = {fma(w->dx, at, w->ox), fma(w->dy, at, w->oy),
-                                   fma(w->dz, at, w->oz), w->dx, w->dy, w->dz};
+            const SolidRay from = {fma(w->dx, at, w->ox),
+                                   fma(w->dy, at, w->oy),
+                                   fma(w->dz, at, w->oz),
+                                   w->dx,
+                                   w->dy,
+                                   w->dz};
             const lane_int enters = go_inside(s->solids, number, &from, crossed);
             keep_crossings(r, w, crossed, at,
                            LANES_SELECT(enters, (lane_float)1.0f, (lane_float)-1.0f));
@@ -137,10 +140,9 @@ static inline void scan_primitives(const PyramidView* p, const ScannedSurfaces* 
         if (VXL_TRIANGLES) {
             const lane_int triangle = listing & ~is_solid;
             lane_float t = t_exit;
-            const lane_int crossed =
-                hit_triangle(p, t_first, (lane_int)-1, s->triangles,
-                             primitive & LANES_AS_UINT(triangle), w, &shear, (lane_int)0, triangle,
-                             &t);
+            const lane_int crossed = hit_triangle(p, t_first, (lane_int)-1, s->triangles,
+                                                  primitive & LANES_AS_UINT(triangle), w, &shear,
+                                                  (lane_int)0, triangle, &t);
             keep_crossings(r, w, crossed, t, (lane_float)0.0f);
         }
         if (VXL_SOLIDS)
@@ -154,9 +156,9 @@ static inline void scan_primitives(const PyramidView* p, const ScannedSurfaces* 
 /// Crosses the surfaces in the `tested` lanes' voxels, but for cubes: the mask of these.
 static inline lane_int scan_voxels(const PyramidView* p, const ScannedSurfaces* s, const Walk* w,
                                    lane_uint leaf, lane_int tested, ScanResult* r) {
-    const lane_uint voxel = voxel_number(p, leaf & LANES_AS_UINT(tested), w->x & tested,
-                                         w->y & tested, w->z & tested) &
-                            LANES_AS_UINT(tested);
+    const lane_uint voxel =
+        voxel_number(p, leaf & LANES_AS_UINT(tested), w->x & tested, w->y & tested, w->z & tested) &
+        LANES_AS_UINT(tested);
     lane_int cubes = VXL_CUBES ? tested : (lane_int)0;
     lane_int smooth = VXL_SMOOTH ? tested : (lane_int)0;
     lane_int exact = VXL_EXACT ? tested : (lane_int)0;
@@ -171,9 +173,9 @@ static inline lane_int scan_voxels(const PyramidView* p, const ScannedSurfaces* 
     return cubes;
 }
 
-/// Finds the crossings of lines 0 .. count-1 with surfaces, in their order along each line: `counts`
-/// says how many there are, `crossings` has the lattice coordinate along the line of the first
-/// `slots`. Arrays hold a multiple of 16 lines.
+/// Finds the crossings of lines 0 .. count-1 with surfaces, in their order along each line:
+/// `counts` says how many there are, `crossings` has the lattice coordinate along the line of the
+/// first `slots`. Arrays hold a multiple of 16 lines.
 kernel void scan_lines(PyramidShape shape, global const uint* restrict sectors,
                        global const uint* restrict bricks, global const uint* restrict leaves,
                        global const uint* restrict leaf_voxels,
@@ -203,8 +205,7 @@ kernel void scan_lines(PyramidShape shape, global const uint* restrict sectors,
     // A line that begins among cubes has not crossed their surface, unless it comes into the world.
     const lane_int comes_in =
         (LANE_MASK(w.ox == 0.0f) & w.px & w.mx) | (LANE_MASK(w.oy == 0.0f) & w.py & w.my) |
-        (LANE_MASK(w.oz == 0.0f) & w.pz & w.mz) |
-        (LANE_MASK(w.ox == (float)shape.size_x) & ~w.px) |
+        (LANE_MASK(w.oz == 0.0f) & w.pz & w.mz) | (LANE_MASK(w.ox == (float)shape.size_x) & ~w.px) |
         (LANE_MASK(w.oy == (float)shape.size_y) & ~w.py) |
         (LANE_MASK(w.oz == (float)shape.size_z) & ~w.pz);
     lane_int beginning = ~comes_in;
@@ -246,8 +247,9 @@ kernel void scan_lines(PyramidShape shape, global const uint* restrict sectors,
 }
 
 /// Puts the crossings of lines first_line .. first_line+count-1 one after another: line n's from
-/// starts[n] on. Lines run along `axis` (0, 1, 2) in the order of sight.cl; those of column c and row
-/// r lie at (columns-1-c) / parts_a along the next axis, and likewise rows along the one after it.
+/// starts[n] on. Lines run along `axis` (0, 1, 2) in the order of sight.cl; those of column c and
+/// row r lie at (columns-1-c) / parts_a along the next axis, and likewise rows along the one after
+/// it.
 kernel void pack_points(int axis, uint columns, uint rows, float parts_a, float parts_b,
                         global const uint* restrict counts, global const uint* restrict starts,
                         global const float* restrict crossings, uint first_line, uint count,

@@ -27,6 +27,14 @@ struct Work {
     const Progress& progress;
 };
 
+/// What the display's kernels know of the medium: one whose density differs from voxel to voxel is
+/// left in the colours of surfaces, and its space is not shown.
+Features without_varying_medium(Features features) {
+    features.medium = features.medium && !features.medium_grid;
+    features.medium_grid = false;
+    return features;
+}
+
 /// The observer with one sight ray for each (u, v) of the display.
 Sight display_sight(Scene scene, const VolumeFrame& frame, const GridFrame& world) {
     scene.render.size = {frame.size.x, frame.size.y};
@@ -55,8 +63,8 @@ VoxelArrays render_rays(Work& work) {
     RayBatch batch = allocate_batch(work.device, work.features, batch_tiles * 16);
     SightStage sight(work.device, work.features, work.sight);
     Illumination illumination(work.device, work.features, work.scene, work.world, batch.stride);
-    DisplayRaysStage display(work.device, work.features, work.sight, work.frame,
-                             work.scene.world.medium, space_of(work.scene.world));
+    DisplayRaysStage display(work.device, without_varying_medium(work.features), work.sight,
+                             work.frame, work.scene.world.medium, space_of(work.scene.world));
     for (uint32_t first = 0; first < tiles; first += batch_tiles) {
         const uint32_t now = std::min(batch_tiles, tiles - first);
         const uint32_t rays = sight.cast(shape_of(work.world), first, now, batch);
@@ -77,7 +85,8 @@ VoxelArrays render_lattice(Work& work) {
     // Finding surfaces asks for no more than their geometry.
     const Features geometry = features_of(work.world);
     DisplayScanStage scan(work.device, geometry, work.frame, work.world.frame);
-    DisplayLatticeStage display(work.device, work.features, work.sight, work.frame, work.world);
+    DisplayLatticeStage display(work.device, without_varying_medium(work.features), work.sight,
+                                work.frame, work.world);
     const auto report_progress = [&work](uint32_t done) {
         if (!work.progress) return;
         work.device.finish();
@@ -111,8 +120,10 @@ Volume render_volume(const Device& device, const Scene& scene, RenderReport& rep
     const Pyramid world = form_world(device, scene, report.world);
     const auto start = std::chrono::steady_clock::now();
     const VolumeFrame frame = display_frame(scene);
-    Work work = {device, scene, world, features_of(scene, world), frame,
-                 display_sight(scene, frame, world.frame), report, progress};
+    Work work = {device, scene,
+                 world,  features_of(scene, world),
+                 frame,  display_sight(scene, frame, world.frame),
+                 report, progress};
     Volume volume;
     volume.frame = frame;
     read_voxels(frame.layout == VolumeLayout::rays ? render_rays(work) : render_lattice(work),

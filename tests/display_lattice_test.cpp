@@ -19,8 +19,7 @@ struct LatticeOracle {
                observer.world_from_observer * (frame.origin + frame.edge * lattice);
     }
     glm::dvec3 lattice(const glm::dvec3& p) const {
-        const glm::dvec3 q =
-            glm::transpose(observer.world_from_observer) * (p - observer.position);
+        const glm::dvec3 q = glm::transpose(observer.world_from_observer) * (p - observer.position);
         return (q - frame.origin) / frame.edge;
     }
     /// How far the middle of a voxel is inside the display's shape, roughly; its sign is exact.
@@ -51,8 +50,8 @@ struct LatticeOracle {
         return p - ahead * glm::dot(p - observer.position, ahead);
     }
     uint64_t place(const glm::ivec3& v) const {
-        return uint64_t(v.x) + uint64_t(frame.size.x) *
-                                   (uint64_t(v.y) + uint64_t(frame.size.y) * uint64_t(v.z));
+        return uint64_t(v.x) +
+               uint64_t(frame.size.x) * (uint64_t(v.y) + uint64_t(frame.size.y) * uint64_t(v.z));
     }
     glm::ivec3 voxel(uint64_t place) const {
         return {int(place % uint64_t(frame.size.x)),
@@ -73,14 +72,12 @@ void for_each_voxel_near(const glm::dvec3& p, double margin, const Visit& visit)
 class Lattice : public testing::TestWithParam<DisplayCase> {};
 
 TEST_P(Lattice, ShowsExactlyTheVoxelsOfVisibleSurface) {
-    const Scene scene =
-        parsed(display_scene(std::string(GetParam().keys) +
-                             R"(, "layout": "lattice", "voxels": [61, 53, 47])"));
+    const Scene scene = parsed(display_scene(std::string(GetParam().keys) +
+                                             R"(, "layout": "lattice", "voxels": [61, 53, 47])"));
     const Volume volume = volume_of(scene);
     const LatticeOracle lattice{volume.frame, scene.observer};
     const oracle::SimpleScene solids = display_solids();
-    const double edge =
-        std::min({volume.frame.edge.x, volume.frame.edge.y, volume.frame.edge.z});
+    const double edge = std::min({volume.frame.edge.x, volume.frame.edge.y, volume.frame.edge.z});
 
     std::set<uint64_t> must, may;
     for (const oracle::SimpleSolid& solid : solids.solids)
@@ -96,8 +93,8 @@ TEST_P(Lattice, ShowsExactlyTheVoxelsOfVisibleSurface) {
                 if (inside < -1e-5) return;
                 may.insert(lattice.place(v));
                 const glm::dvec3 within = q - glm::dvec3(v);
-                const double depth = std::min({within.x, within.y, within.z, 1 - within.x,
-                                               1 - within.y, 1 - within.z});
+                const double depth = std::min(
+                    {within.x, within.y, within.z, 1 - within.x, 1 - within.y, 1 - within.z});
                 if (surely && depth > 0.04 && inside > 1e-5) must.insert(lattice.place(v));
             });
         }
@@ -112,14 +109,13 @@ TEST_P(Lattice, ShowsExactlyTheVoxelsOfVisibleSurface) {
 }
 
 TEST_P(Lattice, EveryVoxelIsWithinHalfItsDiagonalOfTheSurface) {
-    const Scene scene =
-        parsed(display_scene(std::string(GetParam().keys) +
-                             R"(, "layout": "lattice", "voxels": [41, 33, 37])"));
+    const Scene scene = parsed(display_scene(std::string(GetParam().keys) +
+                                             R"(, "layout": "lattice", "voxels": [41, 33, 37])"));
     for (const char* visibility : {"observer", "outside", "all"}) {
         Scene s = scene;
         s.observer.display.visibility = std::string(visibility) == "observer" ? Visibility::observer
                                         : std::string(visibility) == "all"    ? Visibility::all
-                                                                           : Visibility::outside;
+                                                                              : Visibility::outside;
         const Volume volume = volume_of(s);
         const LatticeOracle lattice{volume.frame, s.observer};
         const double half_diagonal = glm::length(volume.frame.edge) / 2;
@@ -130,7 +126,8 @@ TEST_P(Lattice, EveryVoxelIsWithinHalfItsDiagonalOfTheSurface) {
             ASSERT_LE(display_solids().distance(lattice.world(middle)), half_diagonal + 1e-5)
                 << visibility << " " << volume.places[i];
             ASSERT_EQ(volume.opacities[i], 1.0f);
-            ASSERT_EQ(volume.kinds[i], VoxelKind::object) << visibility << " " << middle.x << " " << middle.y << " " << middle.z;
+            ASSERT_EQ(volume.kinds[i], VoxelKind::object)
+                << visibility << " " << middle.x << " " << middle.y << " " << middle.z;
             ASSERT_TRUE(volume.objects[i] == 1 || volume.objects[i] == 2);
         }
     }

@@ -91,7 +91,8 @@ double space_color(int k, int c) {
 
 TEST(PaperFormula, HoldsForEveryVoxelOfSightRays) {
     RenderReport report;
-    const Volume p = render_volume(test_device(), parse_scene(kPaperScene, "test.json", {}), report);
+    const Volume p =
+        render_volume(test_device(), parse_scene(kPaperScene, "test.json", {}), report);
     std::map<uint64_t, size_t> number;
     for (size_t i = 0; i < p.places.size(); ++i) number[p.places[i]] = i;
     size_t expected = 0, shaded = 0;
@@ -116,11 +117,12 @@ TEST(PaperFormula, HoldsForEveryVoxelOfSightRays) {
                 EXPECT_NEAR(p.opacities[i], is_space ? 1 - std::exp(-0.1) : 1, 1e-7);
                 EXPECT_NEAR(p.depths[i], is_space ? 1.5 + k : 1 + end, 1e-6);
                 for (int c = 0; c < 3; ++c) {
-                    const double color =
-                        is_space ? space_color(k, c)
-                                 : surface_light(*surface, x, y, c) *
-                                       std::exp(-(kAbsorption[c] - 0.1) * surface->z);
-                    EXPECT_NEAR(p.colors[i][c], color, 2e-6 * std::max(color, 0.5)) << "channel " << c;
+                    const double color = is_space
+                                             ? space_color(k, c)
+                                             : surface_light(*surface, x, y, c) *
+                                                   std::exp(-(kAbsorption[c] - 0.1) * surface->z);
+                    EXPECT_NEAR(p.colors[i][c], color, 2e-6 * std::max(color, 0.5))
+                        << "channel " << c;
                 }
             }
             shaded += surface == &kWall && is_in_shade(x, y);
@@ -133,7 +135,8 @@ TEST(PaperFormula, HoldsForEveryVoxelOfSightRays) {
 TEST(PaperFormula, HoldsForTheSurfacesOfALattice) {
     Scene scene = parse_scene(kPaperScene, "test.json", {});
     scene.observer.display.layout = VolumeLayout::lattice;
-    // Four probe points and more in a voxel of the world, and no face between voxels of the display.
+    // Four probe points and more in a voxel of the world, and no face between voxels of the
+    // display.
     scene.observer.display.voxels = {24, 18, 5};
     RenderReport report;
     const Volume p = render_volume(test_device(), scene, report);

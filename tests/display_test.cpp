@@ -59,8 +59,8 @@ class Rays : public testing::TestWithParam<DisplayCase> {};
 TEST_P(Rays, ShowExactlyTheFirstSurfaceOfEverySightRay) {
     for (const char* surface : {"exact", "smooth"}) {
         const bool exact = std::string(surface) == "exact";
-        const Scene scene = parsed(display_scene(
-            std::string(GetParam().keys) + R"(, "voxels": [97, 71, 83])", surface));
+        const Scene scene = parsed(
+            display_scene(std::string(GetParam().keys) + R"(, "voxels": [97, 71, 83])", surface));
         const Volume volume = volume_of(scene);
         ASSERT_TRUE(std::ranges::is_sorted(volume.places));
         ASSERT_EQ(std::ranges::adjacent_find(volume.places), volume.places.end());
@@ -72,7 +72,8 @@ TEST_P(Rays, ShowExactlyTheFirstSurfaceOfEverySightRay) {
         size_t certain = 0, wrong = 0;
         for (int v = 0; v < 71; ++v)
             for (int u = 0; u < 97; ++u) {
-                // Smooth surfaces round edges off within their voxel; there a few rays are doubtful.
+                // Smooth surfaces round edges off within their voxel; there a few rays are
+                // doubtful.
                 const double around = exact ? 1e-3 : 0.45;
                 std::set<int> may;
                 for (const double du : {-around, 0.0, around})
@@ -135,8 +136,7 @@ void expect_flattens_to_the_image(Scene scene, bool everywhere) {
     resize(scene, {scene.observer.display.voxels.x, scene.observer.display.voxels.y});
     RenderReport report;
     const Image image = render(test_device(), scene, report);
-    const std::vector<glm::dvec3> flat =
-        flattened(volume, glm::dvec3(scene.world.background));
+    const std::vector<glm::dvec3> flat = flattened(volume, glm::dvec3(scene.world.background));
     size_t compared = 0;
     for (size_t i = 0; i < flat.size(); ++i) {
         if (!everywhere && image.planes.at("A")[i] == 0) continue;
@@ -150,8 +150,8 @@ void expect_flattens_to_the_image(Scene scene, bool everywhere) {
 TEST(Flattened, IsTheFlatImageInClearSpace) {
     for (const DisplayCase& shape : kDisplayCases)
         expect_flattens_to_the_image(
-            parsed(display_scene(std::string(shape.keys) + R"(, "voxels": [64, 48, 100])",
-                                 "smooth", "", kLamp)),
+            parsed(display_scene(std::string(shape.keys) + R"(, "voxels": [64, 48, 100])", "smooth",
+                                 "", kLamp)),
             true);
 }
 
@@ -169,11 +169,10 @@ TEST(Flattened, IsTheFlatImageOfSurfacesInAColouredMedium) {
          {R"(, "medium": {"absorption": [0.05, 0.02, 0.01], "color": [0, 0, 0]})",
           R"(, "medium": {"absorption": [0.3, 1, 2.5], "color": [0.4, 0.2, 0.6]})",
           R"(, "medium": {"absorption": [0, 0.5, 0.9], "color": [0.1, 0.2, 0.3]})"})
-        expect_flattens_to_the_image(
-            parsed(display_scene(std::string(kDisplayCases[0].keys) +
-                                     R"(, "voxels": [64, 48, 100])",
-                                 "exact", medium, kLamp)),
-            false);
+        expect_flattens_to_the_image(parsed(display_scene(std::string(kDisplayCases[0].keys) +
+                                                              R"(, "voxels": [64, 48, 100])",
+                                                          "exact", medium, kLamp)),
+                                     false);
 }
 
 TEST(Rays, AnEmptyWorldShowsNothing) {

@@ -23,11 +23,11 @@ typedef struct DisplayLattice {
     float4 axis_x;
     float4 axis_y;
     float4 axis_z;
-    float4 row_x;   // lattice coordinate x of a point p in voxels of the world: row_x.xyz . p +
-    float4 row_y;   // row_x.w; likewise y, z
+    float4 row_x;  // lattice coordinate x of a point p in voxels of the world: row_x.xyz . p +
+    float4 row_y;  // row_x.w; likewise y, z
     float4 row_z;
-    float4 corner;  // xyz: of voxel (0,0,0), metres in the observer's coordinates
-    float4 edge;    // xyz: of a voxel, metres
+    float4 corner;               // xyz: of voxel (0,0,0), metres in the observer's coordinates
+    float4 edge;                 // xyz: of a voxel, metres
     int size_x, size_y, size_z;  // voxels
     int shape;                   // VXL_SHAPE_*
     float slope_x, slope_y;      // pyramid: tangents of the half angles; sector: cosine of the half

@@ -1,12 +1,13 @@
-// Volumetric images of a scene in a Cartesian display: time against a flat image with as many shaded
-// points, and memory against stored voxels.
+// Volumetric images of a scene in a Cartesian display: time against a flat image with as many
+// shaded points, and memory against stored voxels.
 //
 //   bench_display SCENE [voxels along each edge ..., 128 256 512 1024]
 //
-// The display is a box around the world's middle as the scene's observer sees it, as wide as the world is
-// long. The flat image comes from the same box; its size is such that as many pixels hit something as
-// the volume has voxels. Both are made three times in turn in this process after one run that compiles
-// the kernels; the least times are told, of all from forming the world on, and of the image alone.
+// The display is a box around the world's middle as the scene's observer sees it, as wide as the
+// world is long. The flat image comes from the same box; its size is such that as many pixels hit
+// something as the volume has voxels. Both are made three times in turn in this process after one
+// run that compiles the kernels; the least times are told, of all from forming the world on, and of
+// the image alone.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -80,16 +81,16 @@ void bench(const Device& device, const Scene& scene, int n) {
     const double share = share_of_hits(render(device, flat, report));
     const int side = int(std::lround(std::sqrt(double(voxels) / share)));
     flat.render.size = {side, side};
-    const Times volume =
-        timed(device, [&](RenderReport& r) { render_volume(device, display, r); });
+    const Times volume = timed(device, [&](RenderReport& r) { render_volume(device, display, r); });
     const Times image = timed(device, [&](RenderReport& r) { render(device, flat, r); });
     const double stored = 32.0 * double(voxels), mask = double(n) * n * n / 8;
-    fmt::print("{:5}^3 {:9} voxels, {:7.1f} MB stored, mask {:6.1f} MB, peak {:8.1f} MB | "
-               "volume {:6.3f} s, image alone {:6.3f} | flat {}x{} {:6.3f} s, {:6.3f} | ratio "
-               "{:.2f}, {:.2f}\n",
-               n, voxels, stored / 1e6, mask / 1e6, double(volume.peak) / 1e6, volume.total,
-               volume.image, side, side, image.total, image.image, volume.total / image.total,
-               volume.image / image.image);
+    fmt::print(
+        "{:5}^3 {:9} voxels, {:7.1f} MB stored, mask {:6.1f} MB, peak {:8.1f} MB | "
+        "volume {:6.3f} s, image alone {:6.3f} | flat {}x{} {:6.3f} s, {:6.3f} | ratio "
+        "{:.2f}, {:.2f}\n",
+        n, voxels, stored / 1e6, mask / 1e6, double(volume.peak) / 1e6, volume.total, volume.image,
+        side, side, image.total, image.image, volume.total / image.total,
+        volume.image / image.image);
     std::fflush(stdout);
 }
 
