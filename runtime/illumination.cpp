@@ -2,12 +2,26 @@
 
 #include <algorithm>
 
+#include "runtime/stages/spots.hpp"
+
 namespace voxelume {
 namespace {
 
+bool shines(const Light& light) {
+    return light.energy != glm::vec3(0);
+}
+
+bool has_area(const Light& light) {
+    return light.kind == LightKind::disk || light.kind == LightKind::rectangle;
+}
+
+bool has_lamp(const Scene& scene) {
+    return std::ranges::any_of(scene.objects,
+                               [&](const Object& object) { return is_lamp(scene, object); });
+}
+
 bool has_light(const Scene& scene) {
-    return std::ranges::any_of(scene.lights,
-                               [](const Light& light) { return light.energy != glm::vec3(0); });
+    return std::ranges::any_of(scene.lights, shines) || has_lamp(scene);
 }
 
 ShadowQueue allocate_queue(const Device& device, const Features& features, uint32_t stride) {
@@ -23,10 +37,18 @@ ShadowQueue allocate_queue(const Device& device, const Features& features, uint3
     return queue;
 }
 
-std::vector<LightRecord> light_records(const Scene& scene, const GridFrame& world) {
+std::vector<LightRecord> light_records(const Device& device, const Features& features,
+                                       const Scene& scene, const Pyramid& world) {
     std::vector<LightRecord> records;
-    for (const Light& light : scene.lights)
-        if (light.energy != glm::vec3(0)) records.push_back(light_record(light, world));
+    for (const Light& light : scene.lights) {
+        if (!shines(light)) continue;
+        if (has_area(light))
+            std::ranges::copy(area_spots(light, world.frame), std::back_inserter(records));
+        else
+            records.push_back(light_record(light, world.frame));
+    }
+    if (has_lamp(scene))
+        std::ranges::copy(lamp_spots(device, features, scene, world), std::back_inserter(records));
     return records;
 }
 
@@ -35,6 +57,9 @@ std::vector<LightRecord> light_records(const Scene& scene, const GridFrame& worl
 Features features_of(const Scene& scene, const Pyramid& world) {
     Features features = features_of(world);
     features.shadows = scene.render.shadows && has_light(scene);
+    features.patches = has_lamp(scene) || std::ranges::any_of(scene.lights, [](const Light& light) {
+                           return shines(light) && has_area(light);
+                       });
     features.medium = scene.world.medium.absorption != glm::vec3(0);
     return features;
 }
@@ -56,7 +81,7 @@ Illumination::Illumination(const Device& device, const Features& features, const
                            const Pyramid& world, uint32_t most_rays)
     : features_(features),
       world_(world),
-      lights_(light_records(scene, world.frame)),
+      lights_(light_records(device, features, scene, world)),
       trace_(device, features),
       shade_(device, features, scene),
       queue_(allocate_queue(device, features, most_rays)) {

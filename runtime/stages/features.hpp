@@ -16,15 +16,22 @@ struct Features {
     bool colors = false;      ///< voxels have colours of their own
     bool medium = false;      ///< the space absorbs light
     bool shadows = false;     ///< lights can be hidden
+    bool patches = false;     ///< some light has an area
 
     bool exact() const { return triangles || solids; }
 
     Defines defines(const Device& device) const {
-        return {{"VXL_CUBES", cubes},     {"VXL_SMOOTH", smooth},
-                {"VXL_EXACT", exact()},   {"VXL_TRIANGLES", triangles},
-                {"VXL_SOLIDS", solids},   {"VXL_ATTRIBUTES", attributes},
-                {"VXL_COLORS", colors},   {"VXL_MEDIUM", medium},
-                {"VXL_SHADOWS", shadows}, {"VXL_NATIVE_DIVIDE", device.is_cpu()}};
+        return {{"VXL_CUBES", cubes},
+                {"VXL_SMOOTH", smooth},
+                {"VXL_EXACT", exact()},
+                {"VXL_TRIANGLES", triangles},
+                {"VXL_SOLIDS", solids},
+                {"VXL_ATTRIBUTES", attributes},
+                {"VXL_COLORS", colors},
+                {"VXL_MEDIUM", medium},
+                {"VXL_SHADOWS", shadows},
+                {"VXL_PATCHES", patches},
+                {"VXL_NATIVE_DIVIDE", device.is_cpu()}};
     }
 };
 
