@@ -4,12 +4,26 @@
 #include <bit>
 #include <set>
 
+#include "runtime/stages/spots.hpp"
+
 namespace voxelume {
 namespace {
 
+bool shines(const Light& light) {
+    return light.energy != glm::vec3(0);
+}
+
+bool has_area(const Light& light) {
+    return light.kind == LightKind::disk || light.kind == LightKind::rectangle;
+}
+
+bool has_lamp(const Scene& scene) {
+    return std::ranges::any_of(scene.objects,
+                               [&](const Object& object) { return is_lamp(scene, object); });
+}
+
 bool has_light(const Scene& scene) {
-    return std::ranges::any_of(scene.lights,
-                               [](const Light& light) { return light.energy != glm::vec3(0); });
+    return std::ranges::any_of(scene.lights, shines) || has_lamp(scene);
 }
 
 ShadowQueue allocate_shadow_queue(const Device& device, const Features& features, uint32_t stride) {
@@ -27,10 +41,18 @@ ShadowQueue allocate_shadow_queue(const Device& device, const Features& features
     return queue;
 }
 
-std::vector<LightRecord> light_records(const Scene& scene, const GridFrame& world) {
+std::vector<LightRecord> light_records(const Device& device, const Features& features,
+                                       const Scene& scene, const Pyramid& world) {
     std::vector<LightRecord> records;
-    for (const Light& light : scene.lights)
-        if (light.energy != glm::vec3(0)) records.push_back(light_record(light, world));
+    for (const Light& light : scene.lights) {
+        if (!shines(light)) continue;
+        if (has_area(light))
+            std::ranges::copy(area_spots(light, world.frame), std::back_inserter(records));
+        else
+            records.push_back(light_record(light, world.frame));
+    }
+    if (has_lamp(scene))
+        std::ranges::copy(lamp_spots(device, features, scene, world), std::back_inserter(records));
     return records;
 }
 
@@ -87,6 +109,9 @@ RayQueue allocate_queue(const Device& device, const Features& features, uint32_t
 Features features_of(const Scene& scene, const Pyramid& world) {
     Features features = features_of(world);
     features.shadows = scene.render.shadows && has_light(scene);
+    features.patches = has_lamp(scene) || std::ranges::any_of(scene.lights, [](const Light& light) {
+                           return shines(light) && has_area(light);
+                       });
     features.medium = scene.world.medium.absorption != glm::vec3(0);
     features.medium_grid = features.medium && has_density(scene.world.medium);
     add_paths(scene, features);
@@ -115,7 +140,7 @@ Illumination::Illumination(const Device& device, const Features& features, const
     : device_(device),
       features_(features),
       world_(world),
-      lights_(light_records(scene, world.frame)),
+      lights_(light_records(device, features, scene, world)),
       most_rays_(most_rays),
       most_depth_(size_t(scene.render.depth)),
       trace_(device, features),

@@ -34,7 +34,7 @@ std::string model_text(const Model& model) {
 }
 
 std::string light_text(const Light& light) {
-    static constexpr std::array kinds = {"point", "spot", "directional"};
+    static constexpr std::array kinds = {"point", "spot", "directional", "disk", "rectangle"};
     const bool has_place = light.kind != LightKind::directional;
     return fmt::format("light \"{}\": {}, {} {}, energy {}", light.name,
                        kinds[static_cast<size_t>(light.kind)], has_place ? "at" : "along",
