@@ -1,0 +1,23 @@
+// Images of absorbing objects in an absorbing medium against an analytic tracer.
+#include "tests/analytic_comparison.hpp"
+#include "tests/analytic_image_scenes.hpp"
+
+namespace voxelume {
+namespace {
+
+Scene scene_of(const char* text) {
+    Scene scene = parse_scene(text, "test.json", {});
+    resize(scene, {172, 133});
+    return scene;
+}
+
+TEST(AbsorbingImage, NestedDielectricsInAMedium) {
+    expect_analytic_image(scene_of(kNestedScene), 1e-5, 1e-3);
+}
+
+TEST(AbsorbingImage, VeilsAndFilteredShadowsInAMedium) {
+    expect_analytic_image(scene_of(kVeiledScene), 1e-5, 1e-3);
+}
+
+}  // namespace
+}  // namespace voxelume
