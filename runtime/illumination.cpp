@@ -136,7 +136,7 @@ Illumination::Illumination(const Device& device, const Features& features, const
 void Illumination::light(RayBatch& batch, uint32_t count) {
     if (!features_.paths) return direct(batch, count);
     scatter_->begin(batch, count);
-    reserve_nodes(0, most_rays_);
+    reserve_nodes(0, batch.stride);
     follow(0, batch, count);
     Depth& depth = *depths_[0];
     if (!features_.transmission) return;
@@ -193,13 +193,14 @@ void Illumination::scatter(size_t number, RayBatch& entries, uint32_t count) {
     }
 }
 
-/// Makes room for `count` nodes of a depth. The first depth's own entries are the caller's.
+/// Makes room for `count` nodes of a depth; of the first, whose arrays are exchanged with the
+/// caller's, exactly so much.
 void Illumination::reserve_nodes(size_t number, uint32_t count) {
     if (depths_.size() <= number) depths_.push_back(std::make_unique<Depth>());
     Depth& depth = *depths_[number];
-    if (count <= depth.nodes.stride) return;
-    const uint32_t places = std::max(std::bit_ceil(count), 16u);
     const bool is_first = number == 0;
+    if (is_first ? count == depth.nodes.stride : count <= depth.nodes.stride) return;
+    const uint32_t places = is_first ? count : std::max(std::bit_ceil(count), 16u);
     depth = Depth{};
     if (features_.transmission || !is_first)
         depth.entries = allocate_batch(device_, features_, places);
