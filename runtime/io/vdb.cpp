@@ -1,5 +1,5 @@
-// The only file that sees OpenVDB's headers, which take long to compile. It writes through a stream
-// of ours: OpenVDB's own file reports success on a full disk.
+// Beside vdb_density.cpp the only file that sees OpenVDB's headers, which take long to compile. It
+// writes through a stream of ours: OpenVDB's own file reports success on a full disk.
 #include "runtime/io/vdb.hpp"
 
 #include <openvdb/io/Stream.h>
