@@ -166,7 +166,8 @@ bool is_beyond_a_schema(const std::string& objection) {
          {"no material named", "no model named", "there is no file", "empty along", "voxels along",
           "singular", "parallel to", "must not be zero", "the position itself",
           "nothing lies between", "not be larger than", "already", "is an absolute path",
-          "only a mesh has groups", "is not a file", "none of the object's materials"}) {
+          "only a mesh has groups", "is not a file", "above 0 along some axis",
+          "none of the object's materials"}) {
         if (objection.find(part) != objection.npos) return true;
     }
     return false;
