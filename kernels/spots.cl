@@ -156,13 +156,13 @@ static inline void project_on_solid(PyramidShape shape, global const SolidShape*
                                     uint number, lane_int x, lane_int y, lane_int z, Vector* p,
                                     Vector* g, lane_float* left) {
     const float shortest = fmin(shape.edge.x, fmin(shape.edge.y, shape.edge.z));
-    const lane_float none = (lane_float)0.0f;
     for (int step = 0; step <= VXL_PROJECT_STEPS; ++step) {
         const LatticePoint at = {x, y, z, p->x, p->y, p->z};
         const SolidDistance distance = solid_distance(solids, number, at);
-        const SolidRay ray = {
-            LANES_FLOAT(x) + p->x, LANES_FLOAT(y) + p->y, LANES_FLOAT(z) + p->z, none, none, none};
-        const SolidPoint gradient = solid_normal(solids, number, &ray, none);
+        // solid_normal looks at the origin of the ray: any direction will do
+        const SolidRay ray = {LANES_FLOAT(x) + p->x, LANES_FLOAT(y) + p->y, LANES_FLOAT(z) + p->z,
+                              (lane_float)1.0f,      (lane_float)0.0f,      (lane_float)0.0f};
+        const SolidPoint gradient = solid_normal(solids, number, &ray, (lane_float)0.0f);
         g->x = gradient.x, g->y = gradient.y, g->z = gradient.z;
         *left = fabs(distance.distance);
         if (step == VXL_PROJECT_STEPS) return;

@@ -1,3 +1,5 @@
+// the triangles of lamps -> pieces of surface: which way they shine, and parts small enough for
+// spots.
 #include <algorithm>
 #include <array>
 #include <glm/geometric.hpp>

@@ -45,6 +45,7 @@ void divide(glm::dvec2 middle, glm::dvec2 size, int count, std::vector<glm::dvec
 /// Vogel's spiral: points that share a disk evenly, each an angle of pi (3 - sqrt 5) on.
 std::vector<glm::dvec2> points_of_disk(double radius, int count) {
     const double step = std::numbers::pi * (3 - std::sqrt(5.0));
+    if (count == 1) return {glm::dvec2(0)};
     std::vector<glm::dvec2> points;
     for (int i = 0; i < count; ++i) {
         const double r = radius * std::sqrt((i + 0.5) / count);
