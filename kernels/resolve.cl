@@ -11,7 +11,8 @@
 kernel void resolve_pixels(Sight sight, PyramidShape shape, float4 world_origin,
                            global const uint* restrict hits, global const float* restrict positions,
                            global const float* restrict normals, global const uint* restrict words,
-                           global const float* restrict radiance, uint first_tile, uint tile_count,
+                           global const float* restrict radiance,
+                           global const float* restrict coverage, uint first_tile, uint tile_count,
                            uint stride, global float* restrict image, global uint* restrict objects,
                            global uint* restrict not_finite) {
     const uint item = work_item();
@@ -26,13 +27,15 @@ kernel void resolve_pixels(Sight sight, PyramidShape shape, float4 world_origin,
     const uint first_ray = item / 16u * (uint)sight.samples * 16u + item % 16u;
 
     float color[3] = {0.0f, 0.0f, 0.0f};
-    uint covered = 0, shown = VXL_NO_VOXEL;
+    float covered = 0.0f;
+    uint shown = VXL_NO_VOXEL;
     for (uint sample = 0; sample < (uint)sight.samples; ++sample) {
         const uint ray = first_ray + sample * 16u;
         for (uint channel = 0; channel < 3; ++channel)
             color[channel] += radiance[channel * stride + ray];
+        if (VXL_TRANSMISSION) covered += coverage[ray];
         if (hits[VXL_HIT_VOXEL * stride + ray] == VXL_NO_VOXEL) continue;
-        ++covered;
+        if (!VXL_TRANSMISSION) covered += 1.0f;
         if (shown == VXL_NO_VOXEL) shown = ray;
     }
     const float share = sight.sample_share;
@@ -42,7 +45,7 @@ kernel void resolve_pixels(Sight sight, PyramidShape shape, float4 world_origin,
         if (!finite) atomic_inc(not_finite);
         image[channel * pixels + pixel] = finite ? value : 0.0f;
     }
-    image[3 * pixels + pixel] = (float)covered * share;
+    image[3 * pixels + pixel] = covered * share;
     const bool hit = shown != VXL_NO_VOXEL;
     const uint ray = hit ? shown : 0;
     const float edge[3] = {shape.edge.x, shape.edge.y, shape.edge.z};

@@ -1,6 +1,8 @@
 // hits -> surface points: where each ray met what, facing which way, and what shines there without
 // lights.
 #include "lib/field.h"
+#include "lib/hit_word.h"
+#include "lib/interior.h"
 #include "lib/solid_surface.h"
 #include "lib/surface_color.h"
 #include "lib/vector.h"
@@ -25,24 +27,20 @@ static inline Vector triangle_normal(global const float* restrict triangles, lan
     return n;
 }
 
-/// The attribute words of solids: the fourth word of each one's first record.
-static inline lane_uint solid_attributes(global const SolidShape* restrict solids,
-                                         lane_uint number) {
-    return LANES_GATHER_UINT((global const uint*)solids, number * VXL_SOLID_WORDS + 3u);
-}
-
 /// Finds the point and normal of every hit, and starts its radiance with ambient light and
-/// emission; rays that hit nothing take the background. `words` keeps each hit's attribute word.
+/// emission; rays that hit nothing take the background. `words` keeps each hit's attribute word,
+/// `sides` how the surface was met, where the scene has transmitting objects or mirrors.
 kernel void shade_surface(PyramidShape shape, Space space, global const float* restrict materials,
                           global const uint* restrict attributes, uint constant_attribute,
                           global const uint* restrict colors, global const uint* restrict fields,
                           global const float* restrict triangles,
                           global const uint* restrict triangle_attributes,
                           global const SolidShape* restrict solids,
-                          global const float* restrict rays, global const uint* restrict hits,
+                          global const uint* restrict ranks, global const float* restrict rays,
+                          global const uint* restrict hits, global const uint* restrict paths,
                           uint count, uint stride, global float* restrict positions,
                           global float* restrict normals, global uint* restrict words,
-                          global float* restrict radiance) {
+                          global uint* restrict sides, global float* restrict radiance) {
     const uint first = work_item() * VXL_LANES;
     if (first >= count) return;
     const float4 edge = shape.edge;
@@ -63,11 +61,11 @@ kernel void shade_surface(PyramidShape shape, Space space, global const float* r
                 clamp(fma(d.y, at, o.y - cy), 0.0f, 1.0f),
                 clamp(fma(d.z, at, o.z - cz), 0.0f, 1.0f)};
 
-    lane_uint word = (lane_uint)constant_attribute;
-    if (VXL_ATTRIBUTES) word = LANES_GATHER_UINT(attributes, voxel);
     Vector normal = {(lane_float)0.0f, (lane_float)0.0f, (lane_float)0.0f};
     lane_uint primitive = (lane_uint)VXL_NO_PRIMITIVE;
     if (VXL_EXACT) primitive = LANES_LOAD(hits, VXL_HIT_PRIMITIVE * stride + first);
+    const lane_uint word = hit_word(attributes, constant_attribute, triangle_attributes, solids,
+                                    voxel, primitive, hit);
     const lane_int exact = LANE_MASK(primitive != VXL_NO_PRIMITIVE) & hit;
     const lane_uint kind = word >> VXL_KIND_SHIFT;
     if (VXL_CUBES) {
@@ -102,8 +100,6 @@ kernel void shade_surface(PyramidShape shape, Space space, global const float* r
             const lane_uint triangle = primitive & LANES_AS_UINT(is_triangle);
             normal = select_vector(is_triangle, unit(triangle_normal(triangles, triangle, edge)),
                                    normal);
-            word =
-                LANES_SELECT(is_triangle, LANES_GATHER_UINT(triangle_attributes, triangle), word);
         }
         if (VXL_SOLIDS && lanes_any(is_solid)) {
             const lane_uint solid = (primitive & ~VXL_SOLID_PRIMITIVE) & LANES_AS_UINT(is_solid);
@@ -112,7 +108,6 @@ kernel void shade_surface(PyramidShape shape, Space space, global const float* r
             const Vector gradient = {g.x * shape.inverse_edge.x, g.y * shape.inverse_edge.y,
                                      g.z * shape.inverse_edge.z};
             normal = select_vector(is_solid, unit(gradient), normal);
-            word = LANES_SELECT(is_solid, solid_attributes(solids, solid), word);
         }
         const Vector along = {fma(d.x, at, o.x - cx), fma(d.y, at, o.y - cy),
                               fma(d.z, at, o.z - cz)};
@@ -124,19 +119,35 @@ kernel void shade_surface(PyramidShape shape, Space space, global const float* r
     const Vector flipped = {-normal.x, -normal.y, -normal.z};
     normal = select_vector(behind, flipped, normal);
 
+    lane_uint side = LANES_AS_UINT(behind) & VXL_SIDE_LEAVING;
+    lane_int hidden = (lane_int)0;
+    if (VXL_TRANSMISSION) {
+        const Interior before = load_interior(paths, stride, first);
+        const lane_int body = is_smooth(word, primitive);
+        const lane_int leaving = interior_holds(&before, word, body) | behind;
+        hidden = hides_surface(&before, word, body, leaving, ranks) & hit &
+                 transmits(materials, material_place(word) & LANES_AS_UINT(hit));
+        side =
+            (LANES_AS_UINT(leaving) & VXL_SIDE_LEAVING) | (LANES_AS_UINT(hidden) & VXL_SIDE_HIDDEN);
+    }
+    if (VXL_PATHS) LANES_STORE(side, sides, first);
+
     Vector position = {cx + s.x, cy + s.y, cz + s.z};
     store_vector(position, positions, stride, first);
     store_vector(normal, normals, stride, first);
     LANES_STORE(word, words, first);
     const lane_uint material = material_place(word) & LANES_AS_UINT(hit);
     const lane_float diffuse = LANES_GATHER_FLOAT(materials, material + VXL_MATERIAL_DIFFUSE);
+    const lane_uint place = color_place(materials, material, position.x, position.y, position.z);
+    const lane_float opacity =
+        LANES_SELECT(hidden, (lane_float)0.0f, surface_opacity(materials, material));
     const float ambient[3] = {space.ambient.x, space.ambient.y, space.ambient.z};
     const float background[3] = {space.background.x, space.background.y, space.background.z};
     for (int channel = 0; channel < 3; ++channel) {
-        const lane_float color = surface_color(materials, material, colors, voxel, channel);
+        const lane_float color = surface_color(materials, place, colors, voxel, channel);
         const lane_float emission =
             LANES_GATHER_FLOAT(materials, material + (uint)(VXL_MATERIAL_EMISSION + channel));
-        const lane_float own = fma(color * diffuse, ambient[channel], emission);
+        const lane_float own = fma(color * diffuse, ambient[channel], emission) * opacity;
         LANES_STORE(LANES_SELECT(hit, own, (lane_float)background[channel]), radiance,
                     (uint)channel * stride + first);
     }

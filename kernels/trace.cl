@@ -3,9 +3,13 @@
 // One work-item carries VXL_LANES rays. Lanes that reach an occupied voxel wait until no lane of
 // the packet is walking; then the surfaces inside those voxels are tested together, and lanes that
 // missed them walk on.
+#include "lib/hit_word.h"
+#include "lib/interior.h"
 #include "lib/smooth.h"
 #include "lib/solid_surface.h"
+#include "lib/surface_color.h"
 #include "lib/triangle.h"
+#include "lib/vector.h"
 #include "lib/work_item.h"
 #include "shared/scene.h"
 #include "shared/voxel.h"
@@ -16,9 +20,20 @@ typedef struct {
     global const uint* restrict primitive_first;
     global const uint* restrict primitives;
     global const float* restrict triangles;
+    global const uint* restrict triangle_attributes;
     global const SolidShape* restrict solids;
     float half_curvature;
 } SurfaceView;
+
+/// How a packet's rays set out.
+typedef struct {
+    lane_int on_surface;     // mask: begins on a surface
+    lane_int goes_on;        // mask: continues an earlier ray, whose surface was met at t_first
+    lane_uint source;        // the primitive it begins on
+    lane_int within_source;  // mask: it travels on inside of that primitive's object
+    lane_float t_first;
+    Interior interior;  // of scenes with transmitting objects; empty elsewhere
+} Travel;
 
 /// What a packet has found so far.
 typedef struct {
@@ -39,14 +54,17 @@ static inline void take_voxel_hit(Found* found, lane_float t, lane_int accepted)
 /// Tests solid `number` of each lane in `tested`: closer hits in the world than *t replace it.
 /// `entering` lanes look from one unit of t before their origin first.
 static inline lane_int hit_solids_in_world(const PyramidView* p, const SurfaceView* s,
-                                           const Walk* w, lane_uint number, lane_int tested,
-                                           lane_int from_solid, lane_int entering, lane_float* t) {
+                                           const Walk* w, lane_uint number, const Travel* travel,
+                                           lane_int tested, lane_int from_solid, lane_int entering,
+                                           lane_float* t) {
     lane_int closer = (lane_int)0;
+    const lane_int nothing = (lane_int)0;
     const lane_int early = tested & entering;
     if (lanes_any(early)) {
         const SolidRay ray = {w->ox - w->dx, w->oy - w->dy, w->oz - w->dz, w->dx, w->dy, w->dz};
         lane_float from_before = (lane_float)INFINITY;
-        const lane_int met = hit_solids(s->solids, number, &ray, (lane_int)0, early, &from_before);
+        const lane_int met = hit_solids(s->solids, number, &ray, (lane_float)0.0f, nothing, nothing,
+                                        early, &from_before);
         const lane_float at = LANES_SELECT(met, from_before - 1.0f, (lane_float)0.0f);
         closer = met & is_in_world(p, w, at) & LANE_MASK(at < *t);
         *t = LANES_SELECT(closer, at, *t);
@@ -55,22 +73,32 @@ static inline lane_int hit_solids_in_world(const PyramidView* p, const SurfaceVi
     const lane_int left = tested & ~closer;
     lane_float at = *t;
     lane_int met = (lane_int)0;
-    if (lanes_any(left)) met = hit_solids(s->solids, number, &ray, from_solid, left, &at);
+    if (lanes_any(left)) {
+        lane_int inside = from_solid & travel->within_source;
+        lane_int known = from_solid;
+        if (VXL_TRANSMISSION) {
+            const lane_int holds =
+                interior_holds(&travel->interior, solid_attributes(s->solids, number), nothing);
+            known |= holds;
+            inside |= holds & ~from_solid;
+        }
+        met = hit_solids(s->solids, number, &ray, travel->t_first, known, inside, left, &at);
+    }
     met &= is_in_world(p, w, LANES_SELECT(met, at, (lane_float)0.0f));
     *t = LANES_SELECT(met, at, *t);
     return closer | met;
 }
 
-/// Tests the primitives that the `tested` lanes' voxels list; `source` is the one a ray began on. A
-/// primitive may be hit outside of the voxel that lists it: the hit counts once the walk is that
-/// far.
+/// Tests the primitives that the `tested` lanes' voxels list. A primitive may be hit outside of the
+/// voxel that lists it: the hit counts once the walk is that far.
 ///
 /// Where a ray comes into the world, a surface on the world's very side may be met just before the
-/// ray's rounded origin: there, hits count from behind it as well, as far as the world reaches.
+/// ray's rounded origin: there, hits count from behind it as well, as far as the world reaches. A
+/// ray that goes on meets what lies at the very t of its last surface in the order of numbers.
 static inline lane_int hit_exact(const PyramidView* p, const SurfaceView* s, const Walk* w,
-                                 lane_int tested, lane_uint source, Found* found) {
+                                 lane_int tested, const Travel* travel, Found* found) {
     const lane_int entering = LANE_MASK(w->t == 0.0f) & LANE_MASK(w->axis != 3);
-    const lane_float t_least = LANES_SELECT(entering, (lane_float)-INFINITY, (lane_float)0.0f);
+    const lane_float t_least = LANES_SELECT(entering, (lane_float)-INFINITY, travel->t_first);
     const RayShear shear = ray_shear(w);
     const lane_uint voxel = found->voxel & LANES_AS_UINT(tested);
     lane_uint next = LANES_GATHER_UINT(s->primitive_first, voxel);
@@ -80,22 +108,31 @@ static inline lane_int hit_exact(const PyramidView* p, const SurfaceView* s, con
         const lane_uint primitive =
             LANES_GATHER_UINT(s->primitives, next & LANES_AS_UINT(listing)) &
             LANES_AS_UINT(listing);
-        const lane_int of_source = LANE_MASK(primitive == source);
+        const lane_int of_source = LANE_MASK(primitive == travel->source);
         const lane_int is_solid = LANE_MASK((primitive & VXL_SOLID_PRIMITIVE) != 0u);
         lane_int closer = (lane_int)0;
         if (VXL_TRIANGLES) {
             const lane_int triangle = listing & ~(is_solid | of_source);
-            if (!VXL_SOLIDS || lanes_any(triangle))
-                closer |=
-                    hit_triangle(p, t_least, s->triangles, primitive & LANES_AS_UINT(triangle), w,
-                                 &shear, triangle, &found->t);
+            if (!VXL_SOLIDS || lanes_any(triangle)) {
+                const lane_uint number = primitive & LANES_AS_UINT(triangle);
+                lane_int within = (lane_int)0, at_least = (lane_int)0;
+                if (VXL_TRANSMISSION) {
+                    within = interior_holds(&travel->interior,
+                                            LANES_GATHER_UINT(s->triangle_attributes, number),
+                                            (lane_int)0);
+                    at_least = travel->goes_on & LANE_MASK(primitive > travel->source);
+                }
+                closer |= hit_triangle(p, t_least, at_least, s->triangles, number, w, &shear,
+                                       within, triangle, &found->t);
+            }
         }
         if (VXL_SOLIDS) {  // a solid is met by the whole ray at once: once is enough
             const lane_int solid = listing & is_solid & LANE_MASK(primitive != found->solid);
             found->solid = LANES_SELECT(solid, primitive, found->solid);
             if (lanes_any(solid))
-                closer |= hit_solids_in_world(p, s, w, primitive & ~VXL_SOLID_PRIMITIVE, solid,
-                                              of_source, entering, &found->t);
+                closer |= hit_solids_in_world(
+                    p, s, w, primitive & ~VXL_SOLID_PRIMITIVE & LANES_AS_UINT(solid), travel, solid,
+                    of_source, entering, &found->t);
         }
         found->primitive = LANES_SELECT(closer, primitive, found->primitive);
         next += 1u;
@@ -106,8 +143,7 @@ static inline lane_int hit_exact(const PyramidView* p, const SurfaceView* s, con
 
 /// Tests the surface inside each `tested` lane's voxel; the mask of lanes whose ray ends there.
 static inline lane_int test_surfaces(const PyramidView* p, const SurfaceView* s, const Walk* w,
-                                     lane_int tested, lane_int from_surface, lane_uint source,
-                                     Found* found) {
+                                     lane_int tested, const Travel* travel, Found* found) {
     const lane_uint voxel = voxel_number(p, found->leaf & LANES_AS_UINT(tested), w->x & tested,
                                          w->y & tested, w->z & tested) &
                             LANES_AS_UINT(tested);
@@ -121,25 +157,31 @@ static inline lane_int test_surfaces(const PyramidView* p, const SurfaceView* s,
         smooth &= LANE_MASK(kind != VXL_KIND_CUBES);  // an exact voxel may hold both
         exact &= LANE_MASK(kind == VXL_KIND_EXACT);
     }
-    const lane_int beginning = from_surface & LANE_MASK(w->axis == 3);
+    const lane_int beginning = travel->on_surface & LANE_MASK(w->axis == 3);
     cubes &= ~beginning;
     lane_int accepted = cubes;
     if (VXL_CUBES) take_voxel_hit(found, w->t, cubes);
     if (VXL_SMOOTH && lanes_any(smooth)) {
         const Field field = read_field(s->fields, voxel, s->half_curvature);
         lane_float t = (lane_float)INFINITY;
-        const lane_int met = hit_smooth(&field, w, smooth, beginning, &found->level, &t);
+        lane_float side = (lane_float)1.0f;
+        if (VXL_TRANSMISSION)
+            side = LANES_SELECT(LANE_MASK(travel->interior.smooth != VXL_NO_MEMBER),
+                                (lane_float)-1.0f, side);
+        const lane_int met = hit_smooth(&field, w, side, smooth, beginning, &found->level, &t);
+        // A ray that goes straight on has its hits beyond this voxel where any other ray has them.
+        if (VXL_TRANSMISSION)
+            found->level = LANES_SELECT(travel->goes_on, (lane_float)0.0f, found->level);
         take_voxel_hit(found, t, met);
         accepted |= met;
     }
-    if (VXL_EXACT && lanes_any(exact)) accepted |= hit_exact(p, s, w, exact, source, found);
+    if (VXL_EXACT && lanes_any(exact)) accepted |= hit_exact(p, s, w, exact, travel, found);
     return accepted;
 }
 
 /// Walks the `active` lanes to their first surface before t_end.
 static inline Found find_first(const PyramidView* p, const SurfaceView* s, Walk* w,
-                               lane_float t_end, lane_int active, lane_int from_surface,
-                               lane_uint source) {
+                               lane_float t_end, lane_int active, const Travel* travel) {
     Found found;
     found.hit = (lane_int)0;
     found.t = (lane_float)INFINITY;
@@ -163,8 +205,7 @@ static inline Found find_first(const PyramidView* p, const SurfaceView* s, Walk*
                 walking &= ~passed;
             }
         }
-        const lane_int accepted =
-            test_surfaces(p, s, w, waiting, from_surface, source, &found) & waiting;
+        const lane_int accepted = test_surfaces(p, s, w, waiting, travel, &found) & waiting;
         found.hit |= accepted;
         walking = waiting & ~accepted;
         if (!lanes_any(walking)) break;
@@ -202,11 +243,11 @@ static inline lane_int on_entry_side(lane_float o, lane_float d, int size) {
            (LANE_MASK(o == (float)size) & LANE_MASK(d < 0.0f));
 }
 
-/// Lets walks that begin on a side of the world have come in across it.
-static inline void enter_world(const PyramidView* p, Walk* w) {
-    const lane_int x = on_entry_side(w->ox, w->dx, p->size_x);
-    const lane_int y = on_entry_side(w->oy, w->dy, p->size_y);
-    const lane_int z = on_entry_side(w->oz, w->dz, p->size_z);
+/// Lets `entering` walks that begin on a side of the world have come in across it.
+static inline void enter_world(const PyramidView* p, Walk* w, lane_int entering) {
+    const lane_int x = on_entry_side(w->ox, w->dx, p->size_x) & entering;
+    const lane_int y = on_entry_side(w->oy, w->dy, p->size_y) & entering;
+    const lane_int z = on_entry_side(w->oz, w->dz, p->size_z) & entering;
     w->axis = LANES_SELECT(z, (lane_int)2, w->axis);
     w->axis = LANES_SELECT(y, (lane_int)1, w->axis);
     w->axis = LANES_SELECT(x, (lane_int)0, w->axis);
@@ -217,24 +258,79 @@ static inline void enter_world(const PyramidView* p, Walk* w) {
         global const uint *restrict leaves, global const uint *restrict leaf_voxels,             \
         global const uint *restrict attributes, global const uint *restrict fields,              \
         global const uint *restrict primitive_first, global const uint *restrict primitives,     \
-        global const float *restrict triangles, global const SolidShape *restrict solids
+        global const float *restrict triangles, global const uint *restrict triangle_attributes, \
+        global const SolidShape *restrict solids
 
 #define VXL_WORLD_VIEWS                                                                    \
     const PyramidView pyramid = pyramid_view(shape, sectors, bricks, leaves, leaf_voxels); \
-    const SurfaceView surface = {attributes, fields, primitive_first,     primitives,      \
-                                 triangles,  solids, shape.half_curvature}
+    const SurfaceView surface = {                                                          \
+        attributes,          fields, primitive_first,     primitives, triangles,           \
+        triangle_attributes, solids, shape.half_curvature}
+
+/// Rays from the observer.
+static inline Travel sight_travel(void) {
+    const Travel travel = {(lane_int)0, (lane_int)0,      (lane_uint)VXL_NO_PRIMITIVE,
+                           (lane_int)0, (lane_float)0.0f, empty_interior()};
+    return travel;
+}
+
+static inline lane_int has_flag(lane_uint flags, uint flag) {
+    return LANE_MASK((flags & flag) != 0u);
+}
+
+static inline Travel load_travel(global const uint* restrict paths,
+                                 global const float* restrict starts, uint stride, uint first) {
+    Travel travel = sight_travel();
+    const lane_uint flags = LANES_LOAD(paths, VXL_PATH_FLAGS * stride + first);
+    travel.on_surface = has_flag(flags, VXL_PATH_ON_SURFACE);
+    travel.within_source = has_flag(flags, VXL_PATH_WITHIN_SOURCE);
+    travel.source = LANES_LOAD(paths, VXL_PATH_SOURCE * stride + first);
+    if (VXL_TRANSMISSION) {
+        travel.goes_on = has_flag(flags, VXL_PATH_GOES_ON);
+        travel.t_first = LANES_LOAD(starts, first);
+        travel.interior = load_interior(paths, stride, first);
+    }
+    return travel;
+}
+
+/// When the ray came into the walk's present cell, less than 0 where it began.
+static inline lane_float entry_time(const Walk* w) {
+    const lane_float none = (lane_float)-INFINITY;
+    const lane_float tx = (LANES_FLOAT(w->x + w->px + 1) - w->ox) * w->ix;
+    const lane_float ty = (LANES_FLOAT(w->y + w->py + 1) - w->oy) * w->iy;
+    const lane_float tz = (LANES_FLOAT(w->z + w->pz + 1) - w->oz) * w->iz;
+    return fmax(LANES_SELECT(w->mx, tx, none),
+                fmax(LANES_SELECT(w->my, ty, none), LANES_SELECT(w->mz, tz, none)));
+}
+
+/// Moves the walks of rays that go on to the cell where they were.
+static inline void resume_walk(Walk* w, const Travel* travel, lane_uint cell_xy, lane_uint cell_z) {
+    const lane_int on = travel->goes_on;
+    w->x = LANES_SELECT(on, LANES_AS_INT(cell_xy & 0xFFFFu), w->x);
+    w->y = LANES_SELECT(on, LANES_AS_INT(cell_xy >> 16), w->y);
+    w->z = LANES_SELECT(on, LANES_AS_INT(cell_z & 0xFFFFu), w->z);
+    w->t = LANES_SELECT(on, fmax(travel->t_first, entry_time(w)), w->t);
+    w->axis = LANES_SELECT(on, (lane_int)3, w->axis);
+}
 
 /// The closest hit of rays 0 .. count-1. Arrays hold a multiple of 16 rays.
 kernel void trace_closest(VXL_WORLD_ARGUMENTS, global const float* restrict rays, uint count,
-                          uint stride, global uint* restrict hits) {
+                          uint stride, global const uint* restrict paths,
+                          global const float* restrict starts, global uint* restrict hits) {
     const uint first = work_item() * VXL_LANES;
     if (first >= count) return;
     VXL_WORLD_VIEWS;
     Walk walk = load_walk(rays, stride, first);
-    enter_world(&pyramid, &walk);
+    Travel travel = sight_travel();
+    if (VXL_PATHS) travel = load_travel(paths, starts, stride, first);
+    enter_world(&pyramid, &walk, ~travel.on_surface);
+    if (VXL_TRANSMISSION)
+        resume_walk(&walk, &travel, LANES_LOAD(paths, VXL_PATH_CELL * stride + first),
+                    LANES_LOAD(paths, VXL_PATH_CELL_Z * stride + first));
     const lane_float t_end = LANES_LOAD(rays, VXL_RAY_END * stride + first);
-    const Found found = find_first(&pyramid, &surface, &walk, t_end, LANE_MASK(t_end >= 0.0f),
-                                   (lane_int)0, (lane_uint)VXL_NO_PRIMITIVE);
+    const lane_int active =
+        LANE_MASK(t_end >= 0.0f) & LANE_MASK(LANES_AS_INT(LANES_NUMBERS + (int)first) < (int)count);
+    const Found found = find_first(&pyramid, &surface, &walk, t_end, active, &travel);
     const lane_uint voxel = LANES_SELECT(found.hit, found.voxel, (lane_uint)VXL_NO_VOXEL);
     LANES_STORE(LANES_AS_UINT(found.t), hits, VXL_HIT_T * stride + first);
     LANES_STORE(voxel, hits, VXL_HIT_VOXEL * stride + first);
@@ -243,14 +339,86 @@ kernel void trace_closest(VXL_WORLD_ARGUMENTS, global const float* restrict rays
     if (VXL_EXACT) LANES_STORE(found.primitive, hits, VXL_HIT_PRIMITIVE * stride + first);
 }
 
+/// What surfaces and objects on the way leave of a shadow ray's light.
+typedef struct {
+    lane_float passed[3];  // by surfaces
+    lane_float depth[3];   // optical depth of objects
+} Filter;
+
+/// Lets a packet of shadow rays go on through transmitting surfaces; the mask of those that reach
+/// their light. Rays that meet more than VXL_MOST_LAYERS surfaces don't.
+static inline lane_int pass_through(const PyramidView* p, const SurfaceView* s, Walk* w,
+                                    lane_float t_end, lane_int active, Travel* travel,
+                                    uint constant_attribute, global const float* restrict materials,
+                                    global const uint* restrict colors,
+                                    global const uint* restrict ranks, lane_float metres,
+                                    Filter* filter) {
+    lane_float t_last = (lane_float)0.0f;
+    lane_int passing = active, arrived = (lane_int)0;
+    for (int layer = 0; layer < VXL_MOST_LAYERS && lanes_any(passing); ++layer) {
+        const Found found = find_first(p, s, w, t_end, passing, travel);
+        const lane_int hit = found.hit & passing;
+        // The way up to here, or to the light, inside of the object that counts.
+        const lane_uint before = effective_member(&travel->interior, ranks);
+        const lane_uint medium =
+            material_place(before) & LANES_AS_UINT(LANE_MASK(before != VXL_NO_MEMBER));
+        const lane_float t_now = LANES_SELECT(hit, found.t, t_end);
+        const lane_int absorbs =
+            passing & LANE_MASK(before != VXL_NO_MEMBER) & LANE_MASK(t_now < INFINITY);
+        const lane_float way = LANES_SELECT(absorbs, (t_now - t_last) * metres, (lane_float)0.0f);
+        for (int channel = 0; channel < 3; ++channel)
+            filter->depth[channel] = fma(
+                LANES_GATHER_FLOAT(materials, medium + (uint)(VXL_MATERIAL_ABSORPTION + channel)),
+                way, filter->depth[channel]);
+        arrived |= passing & ~hit;
+        passing = hit;
+        if (!lanes_any(passing)) break;
+
+        const lane_uint voxel = found.voxel & LANES_AS_UINT(hit);
+        const lane_uint word = hit_word(s->attributes, constant_attribute, s->triangle_attributes,
+                                        s->solids, voxel, found.primitive, hit);
+        const lane_int smooth = is_smooth(word, found.primitive);
+        const lane_uint material = material_place(word) & LANES_AS_UINT(hit);
+        const lane_float opacity = surface_opacity(materials, material);
+        const lane_float refraction =
+            LANES_GATHER_FLOAT(materials, material + VXL_MATERIAL_REFRACTION);
+        passing &= LANE_MASK(opacity < 1.0f) | LANE_MASK(refraction > 0.0f);
+        const lane_int leaving = interior_holds(&travel->interior, word, smooth);
+        travel->interior = cross_interior(travel->interior, word, smooth, leaving, passing);
+        const lane_int hidden =
+            same_member(before, effective_member(&travel->interior, ranks)) & passing;
+        const lane_uint color = color_place(materials, material, fma(w->dx, found.t, w->ox),
+                                            fma(w->dy, found.t, w->oy), fma(w->dz, found.t, w->oz));
+        const lane_float clear = 1.0f - opacity;
+        for (int channel = 0; channel < 3; ++channel) {
+            const lane_float tint =
+                fma(opacity, surface_color(materials, color, colors, voxel, channel), clear);
+            lane_float part = clear * tint;
+            if (VXL_FILTERED) part = fma(opacity, refraction, part);
+            filter->passed[channel] *= LANES_SELECT(passing & ~hidden, part, (lane_float)1.0f);
+        }
+        if (!VXL_FILTERED) passing &= hidden | LANE_MASK(clear > 0.0f);
+        travel->goes_on = travel->on_surface = (lane_int)-1;
+        travel->source = found.primitive;
+        travel->within_source = ~leaving;
+        travel->t_first = t_last = LANES_SELECT(passing, found.t, t_last);
+        w->t = LANES_SELECT(passing, fmax(found.t, w->t), w->t);
+        w->axis = (lane_int)3;
+    }
+    return arrived;
+}
+
 /// Traces a queue of shadow rays that begin on surfaces; what reaches its light adds its share of
 /// light, `shares` (three components `stride` apart), to the radiance of the ray it was sent for.
 ///
 /// Every target stands in the queue at most once, so no two work-items add to the same place. The
 /// first work-item alone adds the queue's length to `traced`, low word and high word.
-kernel void trace_shadows(VXL_WORLD_ARGUMENTS, global const float* restrict rays,
-                          global const uint* restrict count, uint stride,
-                          global const uint* restrict targets, global const uint* restrict sources,
+kernel void trace_shadows(VXL_WORLD_ARGUMENTS, uint constant_attribute,
+                          global const float* restrict materials,
+                          global const uint* restrict colors, global const uint* restrict ranks,
+                          global const float* restrict rays, global const uint* restrict count,
+                          uint stride, global const uint* restrict targets,
+                          global const uint* restrict sources, global const uint* restrict paths,
                           global const float* restrict shares, global uint* restrict traced,
                           global float* restrict radiance) {
     const uint first = work_item() * VXL_LANES;
@@ -264,17 +432,50 @@ kernel void trace_shadows(VXL_WORLD_ARGUMENTS, global const float* restrict rays
     Walk walk = load_walk(rays, stride, first);
     const lane_float t_end = LANES_LOAD(rays, VXL_RAY_END * stride + first);
     const lane_int active = LANE_MASK(LANES_AS_INT(LANES_NUMBERS + (int)first) < (int)queued);
-    const lane_uint source = VXL_EXACT ? LANES_LOAD(sources, first) : (lane_uint)VXL_NO_PRIMITIVE;
-    const Found found = find_first(&pyramid, &surface, &walk, t_end, active, (lane_int)-1, source);
+    Travel travel = sight_travel();
+    travel.on_surface = (lane_int)-1;
+    if (VXL_EXACT) travel.source = LANES_LOAD(sources, first);
+    if (VXL_SOLIDS) {
+        const SolidRay ray = {walk.ox, walk.oy, walk.oz, walk.dx, walk.dy, walk.dz};
+        const lane_int solid = LANE_MASK((travel.source & VXL_SOLID_PRIMITIVE) != 0u) &
+                               LANE_MASK(travel.source != VXL_NO_PRIMITIVE) & active;
+        if (lanes_any(solid))
+            travel.within_source = go_inside(
+                solids, travel.source & ~VXL_SOLID_PRIMITIVE & LANES_AS_UINT(solid), &ray, solid);
+    }
+    lane_float share[3];
+    for (int channel = 0; channel < 3; ++channel)
+        share[channel] = LANES_LOAD(shares, channel * stride + first);
+    lane_int arrived;
+    if (VXL_FILTER) {
+        // `paths` are those of the rays that met the surface: on its same side light arrives.
+        const lane_uint target = LANES_LOAD(targets, first) & LANES_AS_UINT(active);
+        const lane_uint inside = VXL_PATH_INSIDE * stride + target;
+        travel.interior.smooth = LANES_GATHER_UINT(paths, inside);
+        travel.interior.a = LANES_GATHER_UINT(paths, inside + stride);
+        travel.interior.b = LANES_GATHER_UINT(paths, inside + 2u * stride);
+        travel.interior.c = LANES_GATHER_UINT(paths, inside + 3u * stride);
+        const Vector along = {walk.dx * shape.edge.x, walk.dy * shape.edge.y,
+                              walk.dz * shape.edge.z};
+        const lane_float zero = (lane_float)0.0f, one = (lane_float)1.0f;
+        Filter filter = {{one, one, one}, {zero, zero, zero}};
+        arrived =
+            pass_through(&pyramid, &surface, &walk, t_end, active, &travel, constant_attribute,
+                         materials, colors, ranks, exact_sqrt(dot_product(along, along)), &filter);
+        for (int channel = 0; channel < 3; ++channel)
+            share[channel] *= filter.passed[channel] * exact_exp(-filter.depth[channel]);
+    } else {
+        arrived = active & ~find_first(&pyramid, &surface, &walk, t_end, active, &travel).hit;
+    }
     uint target[VXL_LANES];
-    float share[3 * VXL_LANES];
+    float sent[3 * VXL_LANES];
     int lit[VXL_LANES];
     LANES_STORE(LANES_LOAD(targets, first), target, 0);
-    LANES_STORE(active & ~found.hit, lit, 0);
+    LANES_STORE(arrived, lit, 0);
     for (int channel = 0; channel < 3; ++channel)
-        LANES_STORE(LANES_LOAD(shares, channel * stride + first), share, channel * VXL_LANES);
+        LANES_STORE(share[channel], sent, channel * VXL_LANES);
     for (int lane = 0; lane < VXL_LANES; ++lane)
         for (int channel = 0; channel < 3; ++channel)
             if (lit[lane])
-                radiance[channel * stride + target[lane]] += share[channel * VXL_LANES + lane];
+                radiance[channel * stride + target[lane]] += sent[channel * VXL_LANES + lane];
 }

@@ -1,6 +1,8 @@
 #include "runtime/illumination.hpp"
 
 #include <algorithm>
+#include <bit>
+#include <set>
 
 namespace voxelume {
 namespace {
@@ -10,12 +12,14 @@ bool has_light(const Scene& scene) {
                                [](const Light& light) { return light.energy != glm::vec3(0); });
 }
 
-ShadowQueue allocate_queue(const Device& device, const Features& features, uint32_t stride) {
+ShadowQueue allocate_shadow_queue(const Device& device, const Features& features, uint32_t stride) {
     ShadowQueue queue;
-    if (!features.shadows) return queue;
+    if (!features.shadows && !features.medium) return queue;
     queue.count = Buffer<uint32_t>(device, "shadow queue", 1);
-    queue.traced = Buffer<uint32_t>(device, "shadow rays", 2);
-    queue.traced.fill(0);
+    if (features.shadows) {
+        queue.traced = Buffer<uint32_t>(device, "shadow rays", 2);
+        queue.traced.fill(0);
+    }
     queue.rays = Buffer<float>(device, "shadow queue", size_t(stride) * VXL_RAY_COMPONENTS);
     queue.targets = Buffer<uint32_t>(device, "shadow queue", stride);
     if (features.exact()) queue.sources = Buffer<uint32_t>(device, "shadow queue", stride);
@@ -30,48 +34,186 @@ std::vector<LightRecord> light_records(const Scene& scene, const GridFrame& worl
     return records;
 }
 
+/// The materials that some object may show.
+std::vector<const Material*> shown_materials(const Scene& scene) {
+    std::set<int> numbers;
+    for (const Object& object : scene.objects) {
+        numbers.insert(object.material);
+        for (const GroupMaterial& group : object.groups) numbers.insert(group.material);
+    }
+    std::vector<const Material*> materials;
+    for (const int number : numbers) materials.push_back(&scene.materials[size_t(number)]);
+    return materials;
+}
+
+/// The features that the materials decide.
+void add_paths(const Scene& scene, Features& features) {
+    const bool follows = scene.render.depth > 0;
+    bool refraction = false, opacity = false, reflection = false, fresnel = false;
+    bool absorption = false;
+    for (const Material* m : shown_materials(scene)) {
+        features.checker |= m->checker.has_value();
+        refraction |= m->refraction > 0;
+        opacity |= m->opacity < 1;
+        reflection |= m->reflection > 0;
+        fresnel |= m->fresnel && (m->reflection > 0 || m->refraction > 0);
+        absorption |= m->absorption != glm::vec3(0) && (m->refraction > 0 || m->opacity < 1);
+    }
+    const bool filters =
+        features.shadows && (opacity || (refraction && scene.render.filtered_shadows));
+    features.transmission = opacity || (refraction && (follows || filters));
+    features.refracts = follows && (refraction || fresnel);
+    features.paths = features.transmission || (follows && reflection);
+    features.absorbs = features.medium || (features.transmission && absorption);
+    features.filter = filters;
+    features.filtered_refraction = filters && scene.render.filtered_shadows;
+}
+
+/// Arrays of rays on their way.
+RayQueue allocate_queue(const Device& device, const Features& features, uint32_t places) {
+    RayQueue queue;
+    queue.rays = Buffer<float>(device, "rays", size_t(places) * VXL_RAY_COMPONENTS);
+    if (!features.paths) return queue;
+    const size_t components = features.transmission ? VXL_PATH_COMPONENTS : VXL_PATH_CELL;
+    queue.paths = Buffer<uint32_t>(device, "paths", places * components);
+    if (!features.transmission) return queue;
+    queue.starts = Buffer<float>(device, "path starts", places);
+    queue.inside = Buffer<uint32_t>(device, "path media", places);
+    return queue;
+}
+
 }  // namespace
 
 Features features_of(const Scene& scene, const Pyramid& world) {
     Features features = features_of(world);
     features.shadows = scene.render.shadows && has_light(scene);
     features.medium = scene.world.medium.absorption != glm::vec3(0);
+    features.medium_grid = features.medium && has_density(scene.world.medium);
+    add_paths(scene, features);
     return features;
 }
 
 RayBatch allocate_batch(const Device& device, const Features& features, uint32_t stride) {
     RayBatch batch;
+    static_cast<RayQueue&>(batch) = allocate_queue(device, features, stride);
     batch.stride = stride;
-    batch.rays = Buffer<float>(device, "rays", size_t(stride) * VXL_RAY_COMPONENTS);
     const size_t hit_components = features.exact() ? VXL_HIT_COMPONENTS : VXL_HIT_PRIMITIVE;
     batch.hits = Buffer<uint32_t>(device, "hits", stride * hit_components);
     batch.positions = Buffer<float>(device, "positions", size_t(stride) * 3);
     batch.normals = Buffer<float>(device, "normals", size_t(stride) * 3);
     batch.words = Buffer<uint32_t>(device, "words", stride);
     batch.radiance = Buffer<float>(device, "radiance", size_t(stride) * 3);
+    if (features.paths) batch.sides = Buffer<uint32_t>(device, "sides", stride);
+    if (features.paths && features.absorbs)
+        batch.passed = Buffer<float>(device, "passed", size_t(stride) * 3);
+    if (features.transmission) batch.coverage = Buffer<float>(device, "coverage", stride);
     return batch;
 }
 
 Illumination::Illumination(const Device& device, const Features& features, const Scene& scene,
-                           const Pyramid& world, uint32_t most_rays)
-    : features_(features),
+                           const Pyramid& world, uint32_t most_rays, bool compact)
+    : device_(device),
+      features_(features),
       world_(world),
       lights_(light_records(scene, world.frame)),
+      most_rays_(most_rays),
+      most_depth_(size_t(scene.render.depth)),
       trace_(device, features),
-      shade_(device, features, scene),
-      queue_(allocate_queue(device, features, most_rays)) {
-    if (!lights_.empty()) lighting_.emplace(device, features, shade_.space(), shade_.materials());
-    if (features.medium) medium_.emplace(device, features, shade_.space());
+      shade_(device, features, scene, world.frame),
+      surroundings_{shade_.materials(), shade_.ranks()},
+      queue_(lights_.empty()
+                 ? ShadowQueue{}
+                 : allocate_shadow_queue(device, features,
+                                         std::bit_ceil((features.refracts ? 2 : 1) * most_rays))) {
+    if (!lights_.empty()) lighting_.emplace(device, features, shade_.materials());
+    if (features.absorbs)
+        medium_.emplace(device, features, scene.world, shade_.space(), shade_.materials());
+    if (features.paths)
+        scatter_.emplace(device, features, surroundings_, float(scene.render.least_weight),
+                         compact);
 }
 
 void Illumination::light(RayBatch& batch, uint32_t count) {
-    trace_.closest(world_, batch, count);
-    shade_.surface(world_, batch, count);
+    if (!features_.paths) return direct(batch, count);
+    scatter_->begin(batch, count);
+    reserve_nodes(0, batch.stride);
+    follow(0, batch, count);
+    Depth& depth = *depths_[0];
+    if (!features_.transmission) return;
+    std::swap(batch.radiance, depth.nodes.radiance);
+    std::swap(batch.coverage, depth.nodes.coverage);
+}
+
+/// Blocks 3 to 5.
+void Illumination::direct(RayBatch& entries, uint32_t count) {
+    trace_.closest(world_, entries, count);
+    shade_.surface(world_, entries, count);
     for (const LightRecord& light : lights_) {
-        lighting_->add(world_, light, batch, count, queue_);
-        if (features_.shadows) trace_.shadows(world_, queue_, count, batch.stride, batch.radiance);
+        lighting_->add(world_, light, entries, count, queue_);
+        if (features_.medium) medium_->shadows(world_, queue_, count, entries);
+        if (features_.shadows) trace_.shadows(world_, surroundings_, queue_, count, entries);
     }
-    if (medium_) medium_->sight(world_, batch, count);
+    if (medium_) medium_->sight(world_, entries, count);
+}
+
+/// Fills the nodes of a depth, whose rays are in `first`.
+void Illumination::follow(size_t number, RayBatch& first, uint32_t count) {
+    Depth& depth = *depths_[number];
+    RayBatch* entries = &first;
+    for (bool is_first = true; count > 0; is_first = false) {
+        direct(*entries, count);
+        uint32_t on = 0;
+        if (features_.transmission)
+            on =
+                scatter_->layer(*entries, count, is_first, depth.children, depth.nodes, depth.next);
+        else
+            depth.nodes.radiance = entries->radiance;
+        if (number < most_depth_) scatter(number, *entries, count);
+        std::swap(static_cast<RayQueue&>(depth.entries), depth.next);
+        entries = &depth.entries;
+        count = on;
+        secondary_rays_ += on;
+    }
+}
+
+/// Blocks 6.1 to 9: follows what surfaces reflect and refract, as much at a time as fits.
+void Illumination::scatter(size_t number, RayBatch& entries, uint32_t count) {
+    const uint32_t branches = features_.refracts ? 2 : 1;
+    for (uint32_t begin = 0; begin < count; begin += most_rays_) {
+        const uint32_t end = std::min(count, begin + most_rays_);
+        reserve_nodes(number + 1, branches * (end - begin));
+        Depth& depth = *depths_[number];
+        Depth& below = *depths_[number + 1];
+        const uint32_t sent =
+            scatter_->rays(world_, entries, begin, end, depth.children, below.entries);
+        if (sent == 0) continue;
+        secondary_rays_ += sent;
+        follow(number + 1, below.entries, sent);
+        scatter_->gather(entries, begin, end, depth.children, below.nodes, depth.nodes);
+    }
+}
+
+/// Makes room for `count` nodes of a depth; of the first, whose arrays are exchanged with the
+/// caller's, exactly so much.
+void Illumination::reserve_nodes(size_t number, uint32_t count) {
+    if (depths_.size() <= number) depths_.push_back(std::make_unique<Depth>());
+    Depth& depth = *depths_[number];
+    const bool is_first = number == 0;
+    if (is_first ? count == depth.nodes.stride : count <= depth.nodes.stride) return;
+    const uint32_t places = is_first ? count : std::max(std::bit_ceil(count), 16u);
+    depth = Depth{};
+    if (features_.transmission || !is_first)
+        depth.entries = allocate_batch(device_, features_, places);
+    depth.nodes.stride = places;
+    if (features_.transmission) {
+        depth.next = allocate_queue(device_, features_, places);
+        depth.nodes.radiance = Buffer<float>(device_, "node light", size_t(places) * 3);
+        if (is_first) depth.nodes.coverage = Buffer<float>(device_, "node coverage", places);
+        depth.children.gains = Buffer<float>(device_, "path gains", size_t(places) * 3);
+    }
+    const size_t branches = features_.refracts ? 2 : 1;
+    depth.children.nodes = Buffer<uint32_t>(device_, "path children", places * branches);
+    depth.children.shares = Buffer<float>(device_, "path shares", places * branches);
 }
 
 uint64_t Illumination::shadow_rays() const {

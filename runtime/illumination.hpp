@@ -1,6 +1,7 @@
 // rays -> radiance: what each ray meets and the light that comes along it. Blocks 3 to 9.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -8,6 +9,7 @@
 #include "runtime/scene.hpp"
 #include "runtime/stages/light.hpp"
 #include "runtime/stages/medium.hpp"
+#include "runtime/stages/scatter.hpp"
 #include "runtime/stages/shade.hpp"
 #include "runtime/stages/trace.hpp"
 
@@ -19,28 +21,61 @@ Features features_of(const Scene& scene, const Pyramid& world);
 /// An empty batch for up to `stride` rays, with the arrays that the features need.
 RayBatch allocate_batch(const Device& device, const Features& features, uint32_t stride);
 
+/// Rays that go through the stages together.
+inline uint32_t batch_rays(const Features& features) {
+    return features.paths ? kBatchRays / 2 : kBatchRays;
+}
+
 /// Traces and lights batches of rays. Flat and volumetric images share it.
+///
+/// Reflected and refracted rays are followed depth by depth, as the tree of Whitted 1980, each
+/// depth as one dense batch. Rays that go straight on through surfaces are further layers of their
+/// depth.
 class Illumination {
   public:
-    /// For batches of at most `most_rays` rays, a multiple of 16. The world must outlive it.
+    /// For batches of at most `most_rays` rays, a multiple of 16. The world must outlive it. For
+    /// `compact` see ScatterStage.
     Illumination(const Device& device, const Features& features, const Scene& scene,
-                 const Pyramid& world, uint32_t most_rays);
+                 const Pyramid& world, uint32_t most_rays, bool compact = true);
 
-    /// Fills hits, positions, normals, words and radiance of rays 0 .. count-1.
+    /// Fills hits, positions, normals, words and radiance of rays 0 .. count-1, which come from an
+    /// observer.
     void light(RayBatch& batch, uint32_t count);
 
     const Features& features() const { return features_; }
     uint64_t shadow_rays() const;  ///< traced so far; waits for the device
+    uint64_t secondary_rays() const { return secondary_rays_; }  ///< and rays that went straight on
+    uint64_t ended_paths() const { return scatter_ ? scatter_->ended() : 0; }
 
   private:
+    /// The arrays of one depth. Their sizes follow what has been needed.
+    struct Depth {
+        RayBatch entries;
+        RayQueue next;  ///< the layer behind them
+        Children children;
+        NodeLight nodes;
+    };
+
+    void direct(RayBatch& entries, uint32_t count);
+    void follow(size_t depth, RayBatch& first, uint32_t count);
+    void scatter(size_t depth, RayBatch& entries, uint32_t count);
+    void reserve_nodes(size_t depth, uint32_t count);
+
+    Device device_;
     Features features_;
     const Pyramid& world_;
     std::vector<LightRecord> lights_;
+    uint32_t most_rays_;
+    size_t most_depth_;
     TraceStage trace_;
     ShadeStage shade_;
-    std::optional<LightStage> lighting_;  ///< not even compiled in a scene without lights
-    std::optional<MediumStage> medium_;   ///< nor this in a clear space
+    Surroundings surroundings_;
+    std::optional<LightStage> lighting_;   ///< not even compiled in a scene without lights
+    std::optional<MediumStage> medium_;    ///< nor this where nothing absorbs
+    std::optional<ScatterStage> scatter_;  ///< nor this without paths
     ShadowQueue queue_;
+    std::vector<std::unique_ptr<Depth>> depths_;
+    uint64_t secondary_rays_ = 0;
 };
 
 }  // namespace voxelume

@@ -32,7 +32,7 @@ Image render(const Device& device, const Scene& scene, RenderReport& report,
 
     const uint32_t tiles = tile_count(observer.width, observer.height);
     const uint32_t rays_per_tile = 16 * uint32_t(observer.samples);
-    const uint32_t batch_tiles = std::clamp(kBatchRays / rays_per_tile, 1u, tiles);
+    const uint32_t batch_tiles = std::clamp(batch_rays(features) / rays_per_tile, 1u, tiles);
     RayBatch batch = allocate_batch(device, features, batch_tiles * rays_per_tile);
 
     SightStage sight(device, features, observer);
@@ -52,6 +52,8 @@ Image render(const Device& device, const Scene& scene, RenderReport& report,
     Image image = resolve.image();
     report.not_finite = resolve.not_finite();
     report.shadow_rays = illumination.shadow_rays();
+    report.secondary_rays = illumination.secondary_rays();
+    report.ended_paths = illumination.ended_paths();
     report.voxels = world.voxel_count;
     report.world_bytes = bytes_of(world);
     report.image_seconds =

@@ -18,7 +18,9 @@ struct RenderReport {
     uint64_t world_bytes = 0;  ///< of the pyramid on the device
     uint64_t sight_rays = 0;
     uint64_t shadow_rays = 0;
-    uint32_t not_finite = 0;  ///< values that became 0; more than 0 is a fault of ours
+    uint64_t secondary_rays = 0;  ///< reflected, refracted, and gone on through surfaces
+    uint64_t ended_paths = 0;     ///< not followed for their small weight
+    uint32_t not_finite = 0;      ///< values that became 0; more than 0 is a fault of ours
 };
 
 /// Renders the flat image of a scene's observer on a device.

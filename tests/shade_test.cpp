@@ -52,7 +52,7 @@ class Shaded {
         batch.normals = Buffer<float>(device_, "normals", 48);
         batch.words = Buffer<uint32_t>(device_, "words", 16);
         batch.radiance = Buffer<float>(device_, "radiance", 48);
-        ShadeStage(device_, features, scene).surface(pyramid, batch, 16);
+        ShadeStage(device_, features, scene, pyramid.frame).surface(pyramid, batch, 16);
         word = batch.words.read_one(0);
         for (uint32_t a = 0; a < 3; ++a) {
             position[int(a)] = batch.positions.read_one(a * 16);

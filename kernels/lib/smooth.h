@@ -27,29 +27,32 @@ static inline LocalRay local_ray(const Walk* w) {
     return r;
 }
 
-static inline lane_float field_along(const Field* f, const LocalRay* r, lane_float u) {
-    return field_value(f, clamp(fma(r->dx, u, r->sx), 0.0f, 1.0f),
-                       clamp(fma(r->dy, u, r->sy), 0.0f, 1.0f),
-                       clamp(fma(r->dz, u, r->sz), 0.0f, 1.0f));
+/// The field along the ray, seen from where the ray comes: -1 for `side` looks from the inside.
+static inline lane_float field_along(const Field* f, const LocalRay* r, lane_float side,
+                                     lane_float u) {
+    return side * field_value(f, clamp(fma(r->dx, u, r->sx), 0.0f, 1.0f),
+                              clamp(fma(r->dy, u, r->sy), 0.0f, 1.0f),
+                              clamp(fma(r->dz, u, r->sz), 0.0f, 1.0f));
 }
 
 /// Tests the voxels that the `tested` lanes stand in; the mask of those hit, their t in `t_hit`.
 ///
-/// A ray comes from outside the surface and hits where F turns negative: at the entry point if it
-/// is negative there already, so that no ray slips through between two voxels. A ray that began on
-/// the surface in this very voxel (`beginning`) sees the level of its own origin instead: `level`
-/// is set so that F + level is not negative there, and stays with the ray.
-static inline lane_int hit_smooth(const Field* f, const Walk* w, lane_int tested,
+/// A ray comes from outside the surface, or from inside (`side` -1, F seen with the other sign),
+/// and hits where F turns negative: at the entry point if it is negative there already, so that no
+/// ray slips through between two voxels. A ray that began on the surface in this very voxel
+/// (`beginning`) sees the level of its own origin instead: `level` is set so that F + level is not
+/// negative there, and stays with the ray.
+static inline lane_int hit_smooth(const Field* f, const Walk* w, lane_float side, lane_int tested,
                                   lane_int beginning, lane_float* level, lane_float* t_hit) {
     const LocalRay ray = local_ray(w);
     const lane_float u_exit = fmax(exit_time(w) - w->t, 0.0f);
     lane_float a = (lane_float)0.0f, b = u_exit;
-    const lane_float f_entry = field_along(f, &ray, a);
+    const lane_float f_entry = field_along(f, &ray, side, a);
     *level = LANES_SELECT(beginning & tested, fmax(-f_entry, 0.0f) + VXL_FIELD_ROUNDING, *level);
     lane_float fa = f_entry + *level;
-    lane_float fb = field_along(f, &ray, b) + *level;
+    lane_float fb = field_along(f, &ray, side, b) + *level;
     const lane_float middle = 0.5f * u_exit;
-    const lane_float fm = field_along(f, &ray, middle) + *level;
+    const lane_float fm = field_along(f, &ray, side, middle) + *level;
 
     // Both ends outside: the ray may still dip below the surface. Look at the parabola's lowest
     // point.
@@ -64,7 +67,7 @@ static inline lane_int hit_smooth(const Field* f, const Walk* w, lane_int tested
             u_exit *
                 (0.5f - 0.25f * exact_divide(slope, LANES_SELECT(dips, bend, (lane_float)1.0f))),
             lowest);
-        f_lowest = LANES_SELECT(dips, field_along(f, &ray, lowest) + *level, f_lowest);
+        f_lowest = LANES_SELECT(dips, field_along(f, &ray, side, lowest) + *level, f_lowest);
     }
     const lane_int entered = LANE_MASK(fa < 0.0f) & ~beginning;
     const lane_int before = LANE_MASK(f_lowest < 0.0f);
@@ -81,7 +84,7 @@ static inline lane_int hit_smooth(const Field* f, const Walk* w, lane_int tested
         for (int step = 0; step < VXL_SECANT_STEPS; ++step) {
             const lane_float gap = LANES_SELECT(bracketed, fa - fb, (lane_float)1.0f);
             const lane_float u = fma(exact_divide(fa, gap), b - a, a);
-            const lane_float fu = field_along(f, &ray, u) + *level;
+            const lane_float fu = field_along(f, &ray, side, u) + *level;
             const lane_int below = LANE_MASK(fu < 0.0f);
             fb = LANES_SELECT(below, fu, 0.5f * fb);
             b = LANES_SELECT(below, u, b);

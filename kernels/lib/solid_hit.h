@@ -128,35 +128,35 @@ static inline SolidEvent event_at(global const SolidShape* solids, uint number, 
 
 /// The solid of one shape: its ends in order, without asking for events.
 static inline lane_float first_end_of_shape(global const SolidShape* s, const SolidRay* ray,
-                                            lane_int from_surface, lane_int inside) {
+                                            lane_float t_first, lane_int known, lane_int inside) {
     const ShapePath path = shape_path(s, ray);
     const TorusSpans spans = shape_spans(s, &path);
     const lane_float a0 = spans.first.enter, a1 = spans.first.leave;
     const lane_float b0 = spans.second.enter, b1 = spans.second.leave;
-    const lane_int in_a = LANE_MASK(a0 <= 0.0f) & LANE_MASK(a1 > 0.0f);
-    const lane_int in_b = LANE_MASK(b0 <= 0.0f) & LANE_MASK(b1 > 0.0f);
+    const lane_int in_a = LANE_MASK(a0 <= t_first) & LANE_MASK(a1 > t_first);
+    const lane_int in_b = LANE_MASK(b0 <= t_first) & LANE_MASK(b1 > t_first);
     const lane_int flip = (lane_int)((s->kind & VXL_SOLID_COMPLEMENT) ? -1 : 0);
-    const lane_int in_shape = LANES_SELECT(from_surface, inside ^ flip, in_a | in_b);
+    const lane_int in_shape = LANES_SELECT(known, inside ^ flip, in_a | in_b);
     const lane_float a = LANES_SELECT(in_shape, a1, a0), b = LANES_SELECT(in_shape, b1, b0);
     const lane_float far = (lane_float)INFINITY;
-    return fmin(LANES_SELECT(LANE_MASK(a0 < a1) & LANE_MASK(a > 0.0f), a, far),
-                LANES_SELECT(LANE_MASK(b0 < b1) & LANE_MASK(b > 0.0f), b, far));
+    return fmin(LANES_SELECT(LANE_MASK(a0 < a1) & LANE_MASK(a > t_first), a, far),
+                LANES_SELECT(LANE_MASK(b0 < b1) & LANE_MASK(b > t_first), b, far));
 }
 
-/// The least t > 0 at which the ray crosses the solid's surface; infinity when it doesn't, and in
-/// lanes that are not `tested`.
+/// The least t > t_first at which the ray crosses the solid's surface; infinity when it doesn't,
+/// and in lanes that are not `tested`.
 ///
-/// In the lanes of `from_surface` the ray starts on the solid's surface and travels on `inside`
-/// (mask) or outside of it, see goes_inside; in the others the origin itself tells.
+/// In the lanes of `known` the ray is known to travel `inside` (mask) of the solid or outside of it
+/// from t_first on, see goes_inside; in the others the point at t_first itself tells.
 static inline lane_float solid_crossing(global const SolidShape* solids, uint number,
-                                        const SolidRay* ray, lane_int from_surface, lane_int inside,
-                                        lane_int tested) {
+                                        const SolidRay* ray, lane_float t_first, lane_int known,
+                                        lane_int inside, lane_int tested) {
     const lane_float far = (lane_float)INFINITY;
     if (solids[number].shape_count == 1u)
-        return LANES_SELECT(tested, first_end_of_shape(solids + number, ray, from_surface, inside),
-                            far);
-    SolidEvent event = event_at(solids, number, ray, (lane_float)0.0f);
-    inside = LANES_SELECT(from_surface, inside, event.after);
+        return LANES_SELECT(tested,
+                            first_end_of_shape(solids + number, ray, t_first, known, inside), far);
+    SolidEvent event = event_at(solids, number, ray, t_first);
+    inside = LANES_SELECT(known, inside, event.after);
     lane_float t = LANES_SELECT(tested, event.next, far);
     lane_int searched = tested & LANE_MASK(t < far);
     while (lanes_any(searched)) {

@@ -119,27 +119,39 @@ static inline lane_int goes_inside(global const SolidShape* solids, uint number,
 }
 
 /// Tests the solid `number` of each lane in `tested` (an entry of `primitives` without
-/// kSolidPrimitive); hits closer than *t, beyond the origin, replace it. Returns the mask of those
+/// kSolidPrimitive); hits closer than *t, beyond t_first, replace it. Returns the mask of those
 /// lanes.
 ///
 /// The hit is the first of the whole ray, wherever the voxel that lists the solid lies. A ray that
-/// starts on the solid's own surface says so in `from_solid`; then that point is not met again.
+/// is known to travel inside or outside of the solid from t_first on says so in `known` and
+/// `inside`; then a surface point at t_first is not met again.
 static inline lane_int hit_solids(global const SolidShape* solids, lane_uint number,
-                                  const SolidRay* ray, lane_int from_solid, lane_int tested,
-                                  lane_float* t) {
+                                  const SolidRay* ray, lane_float t_first, lane_int known,
+                                  lane_int inside, lane_int tested, lane_float* t) {
     lane_int closer = (lane_int)0, left = tested;
     while (lanes_any(left)) {
         const uint one = lanes_least(LANES_SELECT(left, number, (lane_uint)0xFFFFFFFFu));
         const lane_int same = left & LANE_MASK(number == one);
         left &= ~same;
-        lane_int inside = (lane_int)0;
-        if (lanes_any(same & from_solid)) inside = goes_inside(solids, one, ray);
-        const lane_float at = solid_crossing(solids, one, ray, from_solid, inside, same);
+        const lane_float at = solid_crossing(solids, one, ray, t_first, known, inside, same);
         const lane_int nearer = same & LANE_MASK(at < *t);
         *t = LANES_SELECT(nearer, at, *t);
         closer |= nearer;
     }
     return closer;
+}
+
+/// goes_inside for the solid of each lane in `asked`; 0 in the others.
+static inline lane_int go_inside(global const SolidShape* solids, lane_uint number,
+                                 const SolidRay* ray, lane_int asked) {
+    lane_int inside = (lane_int)0, left = asked;
+    while (lanes_any(left)) {
+        const uint one = lanes_least(LANES_SELECT(left, number, (lane_uint)0xFFFFFFFFu));
+        const lane_int same = left & LANE_MASK(number == one);
+        left &= ~same;
+        inside |= same & goes_inside(solids, one, ray);
+    }
+    return inside;
 }
 
 /// solid_normal for the solid of each lane in `wanted`; 0 in the others.

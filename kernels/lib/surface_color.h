@@ -13,18 +13,52 @@ static inline lane_float linear_channel(lane_uint color, int shift) {
     return LANES_SELECT(LANE_MASK(s <= 0.04045f), s * 0.0773993808f, curved);
 }
 
-/// The colour of a surface point: its material's, times its voxel's own where the world has such.
-static inline lane_float surface_color(global const float* restrict materials, lane_uint material,
+/// Where the record of an attribute word's material starts, in floats.
+static inline lane_uint material_place(lane_uint word) {
+    return ((word >> VXL_MATERIAL_SHIFT) & VXL_MATERIAL_MASK) * VXL_MATERIAL_FLOATS;
+}
+
+/// The block coordinate of `position` (in voxels) along one axis of a material's checker.
+static inline lane_int checker_block(global const float* restrict materials, lane_uint material,
+                                     uint axis, lane_float position) {
+    const lane_float scale =
+        LANES_GATHER_FLOAT(materials, material + (VXL_MATERIAL_CHECKER_SCALE + axis));
+    const lane_float shift =
+        LANES_GATHER_FLOAT(materials, material + (VXL_MATERIAL_CHECKER_SHIFT + axis));
+    return LANES_INT(floor(fma(position, scale, shift)));
+}
+
+/// Where a material's colour at a point starts, in floats: its own, or that of its checker.
+static inline lane_uint color_place(global const float* restrict materials, lane_uint material,
+                                    lane_float x, lane_float y, lane_float z) {
+    if (!VXL_CHECKER) return material;
+    const lane_int block = checker_block(materials, material, 0u, x) +
+                           checker_block(materials, material, 1u, y) +
+                           checker_block(materials, material, 2u, z);
+    return material + LANES_AS_UINT((block & 1) * VXL_MATERIAL_CHECKER_COLOR);
+}
+
+/// The colour of a surface point: of its material (see color_place), times its voxel's own where
+/// the world has such.
+static inline lane_float surface_color(global const float* restrict materials, lane_uint place,
                                        global const uint* restrict colors, lane_uint voxel,
                                        int channel) {
-    lane_float color = LANES_GATHER_FLOAT(materials, material + (uint)channel);
+    lane_float color = LANES_GATHER_FLOAT(materials, place + (uint)channel);
     if (VXL_COLORS) color *= linear_channel(LANES_GATHER_UINT(colors, voxel), 8 * channel);
     return color;
 }
 
-/// Where the record of an attribute word's material starts, in floats.
-static inline lane_uint material_place(lane_uint word) {
-    return ((word >> VXL_MATERIAL_SHIFT) & VXL_MATERIAL_MASK) * VXL_MATERIAL_FLOATS;
+/// The share of what lies behind that a surface covers: 1 in scenes without transmitting objects.
+static inline lane_float surface_opacity(global const float* restrict materials,
+                                         lane_uint material) {
+    if (!VXL_TRANSMISSION) return (lane_float)1.0f;
+    return LANES_GATHER_FLOAT(materials, material + VXL_MATERIAL_OPACITY);
+}
+
+/// Mask: light goes through or past surfaces of a material.
+static inline lane_int transmits(global const float* restrict materials, lane_uint material) {
+    return LANE_MASK(LANES_GATHER_FLOAT(materials, material + VXL_MATERIAL_OPACITY) < 1.0f) |
+           LANE_MASK(LANES_GATHER_FLOAT(materials, material + VXL_MATERIAL_REFRACTION) > 0.0f);
 }
 
 #endif

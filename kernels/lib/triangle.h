@@ -53,11 +53,14 @@ static inline lane_float edge_function(ShearedCorner a, ShearedCorner b) {
     return left - right;
 }
 
-/// Tests triangle `number` of each lane in `tested`; hits in the world beyond t_least that are
-/// closer than *t replace it.
-static inline lane_int hit_triangle(const PyramidView* p, lane_float t_least,
+/// Tests triangle `number` of each lane in `tested`; hits in the world beyond t_least, or at it
+/// where `at_least` is set, that are closer than *t replace it. Rays from `within` the triangle's
+/// object meet its back only: the neighbour across an edge that they came in by has its face
+/// towards them.
+static inline lane_int hit_triangle(const PyramidView* p, lane_float t_least, lane_int at_least,
                                     global const float* triangles, lane_uint number, const Walk* w,
-                                    const RayShear* s, lane_int tested, lane_float* t) {
+                                    const RayShear* s, lane_int within, lane_int tested,
+                                    lane_float* t) {
     const lane_uint first = number * 9u;
     const ShearedCorner a = shear_corner(triangles, first, w, s);
     const ShearedCorner b = shear_corner(triangles, first + 3u, w, s);
@@ -68,13 +71,16 @@ static inline lane_int hit_triangle(const PyramidView* p, lane_float t_least,
     const lane_int one_side = (LANE_MASK(u >= 0.0f) & LANE_MASK(v >= 0.0f) & LANE_MASK(e >= 0.0f)) |
                               (LANE_MASK(u <= 0.0f) & LANE_MASK(v <= 0.0f) & LANE_MASK(e <= 0.0f));
     const lane_float determinant = u + v + e;
-    const lane_int solid = LANE_MASK(determinant != 0.0f) & one_side & tested;
+    lane_int solid = LANE_MASK(determinant != 0.0f) & one_side & tested;
+    // The determinant's sign is that of -(n . d) times the direction along the sheared z.
+    if (VXL_TRANSMISSION) solid &= ~within | LANE_MASK(determinant * s->scale < 0.0f);
     if (!lanes_any(solid)) return solid;
     const lane_float weighted = fma(u, a.z, fma(v, b.z, e * c.z));
     const lane_float at =
         exact_divide(weighted, LANES_SELECT(solid, determinant, (lane_float)1.0f));
-    const lane_int closer =
-        solid & LANE_MASK(at > t_least) & LANE_MASK(at < *t) & is_in_world(p, w, at);
+    const lane_int closer = solid &
+                            (LANE_MASK(at > t_least) | (at_least & LANE_MASK(at == t_least))) &
+                            LANE_MASK(at < *t) & is_in_world(p, w, at);
     *t = LANES_SELECT(closer, at, *t);
     return closer;
 }

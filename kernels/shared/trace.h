@@ -34,4 +34,41 @@
 #define VXL_NO_PRIMITIVE 0xFFFFFFFFu
 #define VXL_NO_VOXEL 0xFFFFFFFFu
 
+// How a ray came to be, for scenes whose rays are reflected, refracted or go on through surfaces.
+//   VXL_PATH_SOURCE  the primitive that the ray begins on, VXL_NO_PRIMITIVE for other surfaces
+//   VXL_PATH_FLAGS   VXL_PATH_* bits
+//   VXL_PATH_WEIGHT  float: the share of a pixel that the ray's node may add
+// The others exist in scenes with transmitting objects only:
+//   VXL_PATH_CELL    the cell in which the ray goes on: x | y << 16
+//   VXL_PATH_CELL_Z  z
+//   VXL_PATH_TARGET  the node that the ray's light goes to
+//   VXL_PATH_CLEAR   float: what the surfaces passed leave uncovered
+//   VXL_PATH_PASSED  3 floats: what is left of the light on its way to the node
+//   VXL_PATH_INSIDE  VXL_INTERIOR_MEMBERS attribute words: the objects that the ray is inside of
+#define VXL_PATH_SOURCE 0
+#define VXL_PATH_FLAGS 1
+#define VXL_PATH_WEIGHT 2
+#define VXL_PATH_CELL 3
+#define VXL_PATH_CELL_Z 4
+#define VXL_PATH_TARGET 5
+#define VXL_PATH_CLEAR 6
+#define VXL_PATH_PASSED 7
+#define VXL_PATH_INSIDE 10
+#define VXL_PATH_COMPONENTS 14
+
+#define VXL_PATH_ON_SURFACE 1u     // begins on a surface
+#define VXL_PATH_WITHIN_SOURCE 2u  // and travels on inside of it
+#define VXL_PATH_GOES_ON 4u        // an earlier ray's continuation, from its t = `starts` on
+
+#define VXL_MOST_LAYERS 1024  // surfaces that one ray goes straight on through
+
+// Members of a set of objects that a ray is inside of. The first is the smooth one (smooth objects
+// are one body), the others exact or of cubes.
+#define VXL_INTERIOR_MEMBERS 4
+#define VXL_NO_MEMBER 0xFFFFFFFFu
+
+// How a ray meets a surface: bits of RayBatch::sides.
+#define VXL_SIDE_LEAVING 1u  // from inside the object
+#define VXL_SIDE_HIDDEN 2u   // where another object is what counts before and behind it
+
 #endif

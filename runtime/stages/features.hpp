@@ -8,23 +8,44 @@ namespace voxelume {
 /// Every feature that is false does not exist in the machine code, and its buffers are not
 /// allocated.
 struct Features {
-    bool cubes = false;       ///< some voxel is its own surface
-    bool smooth = false;      ///< some voxel has a distance field
-    bool triangles = false;   ///< some voxel lists triangles
-    bool solids = false;      ///< some voxel lists analytic solids
-    bool attributes = false;  ///< voxels differ in object, material or kind
-    bool colors = false;      ///< voxels have colours of their own
-    bool medium = false;      ///< the space absorbs light
-    bool shadows = false;     ///< lights can be hidden
+    bool cubes = false;         ///< some voxel is its own surface
+    bool smooth = false;        ///< some voxel has a distance field
+    bool triangles = false;     ///< some voxel lists triangles
+    bool solids = false;        ///< some voxel lists analytic solids
+    bool attributes = false;    ///< voxels differ in object, material or kind
+    bool colors = false;        ///< voxels have colours of their own
+    bool medium = false;        ///< the space absorbs light
+    bool medium_grid = false;   ///< ... not everywhere alike
+    bool shadows = false;       ///< lights can be hidden
+    bool checker = false;       ///< some material changes its colour from block to block
+    bool paths = false;         ///< rays are reflected, refracted or go on through surfaces
+    bool transmission = false;  ///< some object lets light through
+    bool refracts = false;      ///< some surface bends rays, or reflects by Fresnel's law
+    bool absorbs = false;       ///< the space, or an object that light goes through, takes of it
+    bool filter = false;        ///< shadow rays go on through some surfaces
+    bool filtered_refraction = false;  ///< refracting ones among them
 
     bool exact() const { return triangles || solids; }
 
     Defines defines(const Device& device) const {
-        return {{"VXL_CUBES", cubes},     {"VXL_SMOOTH", smooth},
-                {"VXL_EXACT", exact()},   {"VXL_TRIANGLES", triangles},
-                {"VXL_SOLIDS", solids},   {"VXL_ATTRIBUTES", attributes},
-                {"VXL_COLORS", colors},   {"VXL_MEDIUM", medium},
-                {"VXL_SHADOWS", shadows}, {"VXL_NATIVE_DIVIDE", device.is_cpu()}};
+        return {{"VXL_CUBES", cubes},
+                {"VXL_SMOOTH", smooth},
+                {"VXL_EXACT", exact()},
+                {"VXL_TRIANGLES", triangles},
+                {"VXL_SOLIDS", solids},
+                {"VXL_ATTRIBUTES", attributes},
+                {"VXL_COLORS", colors},
+                {"VXL_MEDIUM", medium},
+                {"VXL_MEDIUM_GRID", medium_grid},
+                {"VXL_SHADOWS", shadows},
+                {"VXL_CHECKER", checker},
+                {"VXL_PATHS", paths},
+                {"VXL_TRANSMISSION", transmission},
+                {"VXL_REFRACTS", refracts},
+                {"VXL_ABSORBS", absorbs},
+                {"VXL_FILTER", filter},
+                {"VXL_FILTERED", filtered_refraction},
+                {"VXL_NATIVE_DIVIDE", device.is_cpu()}};
     }
 };
 

@@ -10,22 +10,34 @@ namespace voxelume {
 /// CPU's caches on their way.
 inline constexpr uint32_t kBatchRays = 1u << 18;
 
-/// Rays and what they met; shared/trace.h has the components, `stride` values apart.
-struct RayBatch {
-    uint32_t stride = 0;    ///< places for rays, a multiple of 16
-    Buffer<float> rays;     ///< VXL_RAY_COMPONENTS
-    Buffer<uint32_t> hits;  ///< VXL_HIT_COMPONENTS
+/// Rays as they set out; shared/trace.h has the components, `stride` values apart.
+struct RayQueue {
+    Buffer<float> rays;  ///< VXL_RAY_COMPONENTS
+    // of scenes with paths only
+    Buffer<uint32_t> paths;   ///< VXL_PATH_COMPONENTS
+    Buffer<float> starts;     ///< t where the ray's segment begins
+    Buffer<uint32_t> inside;  ///< 0: open space; else 1 + the material it goes through
+};
 
+/// Rays and what they met.
+struct RayBatch : RayQueue {
+    uint32_t stride = 0;      ///< places for rays, a multiple of 16
+    Buffer<uint32_t> hits;    ///< VXL_HIT_COMPONENTS
     Buffer<float> positions;  ///< 3: of the hits, voxels
     Buffer<float> normals;    ///< 3: unit, in metres' space, towards the ray's start
     Buffer<uint32_t> words;   ///< the attribute word of each hit
     Buffer<float> radiance;   ///< 3
+    // of scenes with paths only
+    Buffer<uint32_t> sides;  ///< VXL_SIDE_* bits: how each surface was met
+    Buffer<float> passed;    ///< 3: the part of the light that comes through the segment
+    Buffer<float> coverage;  ///< how much of what lies behind is covered
 };
 
-/// Shadow rays waiting to be traced, left-packed. Not allocated in a scene without shadows.
+/// Shadow rays waiting to be traced, left-packed. Not allocated where nothing can keep light back.
 struct ShadowQueue {
     Buffer<uint32_t> count;    ///< one value, kept on the device
-    Buffer<uint32_t> traced;   ///< rays traced since the frame began: low word, high word
+    Buffer<uint32_t> traced;   ///< rays traced since the frame began: low word, high word; only
+                               ///< with shadows
     Buffer<float> rays;        ///< VXL_RAY_COMPONENTS, the batch's stride apart
     Buffer<uint32_t> targets;  ///< the sight ray whose radiance each would add to
     Buffer<uint32_t> sources;  ///< the primitive that each begins on; exact surfaces only

@@ -31,7 +31,7 @@ void ResolveStage::pixels(const Pyramid& pyramid, const RayBatch& batch, uint32_
     const float4 origin = {float(o.x), float(o.y), float(o.z), 0};
     pixels_.launch(WorkItem::light, size_t(tiles) * 16, sight_, shape_of(pyramid), origin,
                    batch.hits, batch.positions, batch.normals, batch.words, batch.radiance,
-                   first_tile, tiles, batch.stride, planes_, objects_, not_finite_);
+                   batch.coverage, first_tile, tiles, batch.stride, planes_, objects_, not_finite_);
 }
 
 Image ResolveStage::image() const {

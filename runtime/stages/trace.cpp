@@ -52,16 +52,19 @@ void TraceStage::closest(const Pyramid& pyramid, RayBatch& batch, uint32_t count
     closest_.launch_packets(count, shape_of(pyramid), pyramid.sectors, pyramid.bricks,
                             pyramid.leaves, pyramid.leaf_voxels, pyramid.attributes, pyramid.fields,
                             pyramid.primitive_first, pyramid.primitives, pyramid.triangles,
-                            pyramid.solids, batch.rays, count, batch.stride, batch.hits);
+                            pyramid.triangle_attributes, pyramid.solids, batch.rays, count,
+                            batch.stride, batch.paths, batch.starts, batch.hits);
 }
 
-void TraceStage::shadows(const Pyramid& pyramid, const ShadowQueue& queue, uint32_t most,
-                         uint32_t stride, Buffer<float>& radiance) {
+void TraceStage::shadows(const Pyramid& pyramid, const Surroundings& surroundings,
+                         const ShadowQueue& queue, uint32_t most, RayBatch& batch) {
     shadows_.launch_packets(most, shape_of(pyramid), pyramid.sectors, pyramid.bricks,
                             pyramid.leaves, pyramid.leaf_voxels, pyramid.attributes, pyramid.fields,
                             pyramid.primitive_first, pyramid.primitives, pyramid.triangles,
-                            pyramid.solids, queue.rays, queue.count, stride, queue.targets,
-                            queue.sources, queue.shares, queue.traced, radiance);
+                            pyramid.triangle_attributes, pyramid.solids, pyramid.attribute,
+                            surroundings.materials, pyramid.colors, surroundings.ranks, queue.rays,
+                            queue.count, batch.stride, queue.targets, queue.sources, batch.paths,
+                            queue.shares, queue.traced, batch.radiance);
 }
 
 }  // namespace voxelume

@@ -15,6 +15,12 @@ PyramidShape shape_of(const Pyramid& pyramid);
 /// The numbers of a hit's feature set that the pyramid decides.
 Features features_of(const Pyramid& pyramid);
 
+/// What rays that go on through surfaces need to know of them.
+struct Surroundings {
+    Buffer<MaterialRecord> materials;
+    Buffer<uint32_t> ranks;  ///< see ShadeStage
+};
+
 /// Kernels of trace.cl for one feature set. The paper's blocks 2, 3 and 4.2.
 class TraceStage {
   public:
@@ -23,10 +29,10 @@ class TraceStage {
     /// Finds the first hit of rays 0 .. count-1 of the batch.
     void closest(const Pyramid& pyramid, RayBatch& batch, uint32_t count);
 
-    /// Traces the queue, at most `most` rays of it; lights that are seen add their share to
-    /// `radiance`.
-    void shadows(const Pyramid& pyramid, const ShadowQueue& queue, uint32_t most, uint32_t stride,
-                 Buffer<float>& radiance);
+    /// Traces the queue, at most `most` rays of it, sent from the batch; lights that are seen add
+    /// their share to its radiance.
+    void shadows(const Pyramid& pyramid, const Surroundings& surroundings, const ShadowQueue& queue,
+                 uint32_t most, RayBatch& batch);
 
   private:
     Program program_;

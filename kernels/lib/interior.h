@@ -1,0 +1,101 @@
+// The set of transmitting objects that a ray is inside of.
+//
+// What counts of them is the one whose object comes first in the order of priorities, so nothing
+// depends on the order in which their surfaces were crossed.
+#ifndef VXL_INTERIOR_H
+#define VXL_INTERIOR_H
+
+#include "lib/lanes.h"
+#include "shared/trace.h"
+#include "shared/voxel.h"
+
+/// Attribute words, VXL_NO_MEMBER for none: the smooth body's, then three others.
+typedef struct {
+    lane_uint smooth, a, b, c;
+} Interior;
+
+static inline Interior empty_interior(void) {
+    const lane_uint none = (lane_uint)VXL_NO_MEMBER;
+    const Interior interior = {none, none, none, none};
+    return interior;
+}
+
+static inline Interior load_interior(global const uint* paths, uint stride, uint first) {
+    global const uint* p = paths + VXL_PATH_INSIDE * (size_t)stride;
+    const Interior interior = {LANES_LOAD(p, first), LANES_LOAD(p, stride + first),
+                               LANES_LOAD(p, 2 * (size_t)stride + first),
+                               LANES_LOAD(p, 3 * (size_t)stride + first)};
+    return interior;
+}
+
+static inline lane_int is_member(lane_uint member, lane_uint word) {
+    return LANE_MASK(((member ^ word) & VXL_OBJECT_MASK) == 0u) &
+           LANE_MASK(member != VXL_NO_MEMBER);
+}
+
+/// Mask: the set holds the object of an attribute word, which shows the smooth body or not.
+static inline lane_int interior_holds(const Interior* in, lane_uint word, lane_int smooth) {
+    return (smooth & LANE_MASK(in->smooth != VXL_NO_MEMBER)) |
+           (~smooth & (is_member(in->a, word) | is_member(in->b, word) | is_member(in->c, word)));
+}
+
+/// The set behind a surface of the object of `word`, in the lanes that cross it.
+static inline Interior cross_interior(Interior in, lane_uint word, lane_int smooth,
+                                      lane_int leaving, lane_int crossing) {
+    const lane_uint none = (lane_uint)VXL_NO_MEMBER;
+    in.smooth = LANES_SELECT(crossing & smooth, LANES_SELECT(leaving, none, word), in.smooth);
+    const lane_int other = crossing & ~smooth;
+    const lane_int out = other & leaving;
+    in.a = LANES_SELECT(out & is_member(in.a, word), none, in.a);
+    in.b = LANES_SELECT(out & is_member(in.b, word), none, in.b);
+    in.c = LANES_SELECT(out & is_member(in.c, word), none, in.c);
+    lane_int into = other & ~leaving & ~interior_holds(&in, word, (lane_int)0);
+    const lane_int to_a = into & LANE_MASK(in.a == VXL_NO_MEMBER);
+    in.a = LANES_SELECT(to_a, word, in.a);
+    into &= ~to_a;
+    const lane_int to_b = into & LANE_MASK(in.b == VXL_NO_MEMBER);
+    in.b = LANES_SELECT(to_b, word, in.b);
+    into &= ~to_b;
+    in.c = LANES_SELECT(into & LANE_MASK(in.c == VXL_NO_MEMBER), word, in.c);
+    return in;
+}
+
+/// `ranks[object]` is the object's place in the order of priorities.
+static inline lane_uint rank_of(global const uint* ranks, lane_uint word) {
+    const lane_int some = LANE_MASK(word != VXL_NO_MEMBER);
+    const lane_uint object = word & VXL_OBJECT_MASK & LANES_AS_UINT(some);
+    return LANES_SELECT(some, LANES_GATHER_UINT(ranks, object), (lane_uint)VXL_NO_MEMBER);
+}
+
+static inline lane_uint first_in_rank(lane_uint word, lane_uint* rank, lane_uint other,
+                                      global const uint* ranks) {
+    const lane_uint other_rank = rank_of(ranks, other);
+    const lane_int before = LANE_MASK(other_rank < *rank);
+    *rank = LANES_SELECT(before, other_rank, *rank);
+    return LANES_SELECT(before, other, word);
+}
+
+/// The attribute word of the object that counts, VXL_NO_MEMBER in open space.
+static inline lane_uint effective_member(const Interior* in, global const uint* ranks) {
+    lane_uint rank = rank_of(ranks, in->smooth);
+    lane_uint word = first_in_rank(in->smooth, &rank, in->a, ranks);
+    word = first_in_rank(word, &rank, in->b, ranks);
+    return first_in_rank(word, &rank, in->c, ranks);
+}
+
+/// Mask: two attribute words, or VXL_NO_MEMBER, stand for the same object or for none.
+static inline lane_int same_member(lane_uint a, lane_uint b) {
+    return LANE_MASK(a == b) | (is_member(a, b) & LANE_MASK(b != VXL_NO_MEMBER));
+}
+
+/// Mask: a surface is hidden, for the object that counts is the same before and behind it. Who
+/// leaves an object that the set doesn't hold began inside of it.
+static inline lane_int hides_surface(const Interior* in, lane_uint word, lane_int smooth,
+                                     lane_int leaving, global const uint* ranks) {
+    const Interior before =
+        cross_interior(*in, word, smooth, (lane_int)0, leaving & ~interior_holds(in, word, smooth));
+    const Interior behind = cross_interior(before, word, smooth, leaving, (lane_int)-1);
+    return same_member(effective_member(&before, ranks), effective_member(&behind, ranks));
+}
+
+#endif

@@ -1,0 +1,50 @@
+// Snell and Fresnel over lanes, without cancellation where it would hurt.
+#ifndef VXL_OPTICS_H
+#define VXL_OPTICS_H
+
+#include "lib/exact_float.h"
+
+/// How light goes on behind a surface between two media.
+typedef struct {
+    lane_int total;        // mask: total internal reflection
+    lane_float cosine;     // of the angle of refraction, 0 where total
+    lane_float reflected;  // Fresnel's reflectance of unpolarised light, 1 where total
+    lane_float refracted;  // 1 - reflected, computed without subtracting
+} Refraction;
+
+/// cos^2 of the angle of refraction: 1 - eta^2 (1 - c^2).
+///
+/// Above 1, eta c - sqrt(eta^2 - 1) is what decides; its root is carried in two floats, so that the
+/// sign is right within 1e-7 of the critical angle. Source: accuracy notes on Snell's law; Kahan.
+static inline lane_float squared_cosine(lane_float eta, lane_float c) {
+    const lane_int denser = LANE_MASK(eta > 1.0f);
+    const lane_float square = eta * eta;
+    const lane_float rest = fma(eta, eta, -square);
+    const lane_float excess = LANES_SELECT(denser, square - 1.0f, (lane_float)1.0f);
+    const lane_float high = exact_sqrt(excess);
+    const lane_float low = exact_divide(fma(-high, high, excess) + rest,
+                                        LANES_SELECT(denser, 2.0f * high, (lane_float)1.0f));
+    const lane_float from_denser = (fma(eta, c, -high) - low) * fma(eta, c, high);
+    const lane_float from_rarer = fma(-square, (1.0f - c) * (1.0f + c), (lane_float)1.0f);
+    return LANES_SELECT(denser, from_denser, from_rarer);
+}
+
+/// `eta` is the index before the surface over the one behind it, `c` the cosine of incidence, > 0.
+static inline Refraction refraction_at(lane_float eta, lane_float c) {
+    const lane_float square = squared_cosine(eta, c);
+    const lane_int same = LANE_MASK(eta == 1.0f);
+    Refraction r;
+    r.total = LANE_MASK(square < 0.0f);
+    r.cosine = LANES_SELECT(same, c, exact_sqrt(fmax(square, 0.0f)));
+    const lane_float ec = eta * c, et = eta * r.cosine;
+    const lane_float across = exact_reciprocal(ec + r.cosine), along = exact_reciprocal(c + et);
+    const lane_float rs = (ec - r.cosine) * across, rp = (c - et) * along;
+    r.reflected = 0.5f * fma(rs, rs, rp * rp);
+    r.refracted = 2.0f * ec * r.cosine * fma(across, across, along * along);
+    const lane_float one = (lane_float)1.0f, zero = (lane_float)0.0f;
+    r.reflected = LANES_SELECT(r.total, one, LANES_SELECT(same, zero, r.reflected));
+    r.refracted = LANES_SELECT(r.total, zero, LANES_SELECT(same, one, r.refracted));
+    return r;
+}
+
+#endif
