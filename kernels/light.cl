@@ -100,7 +100,7 @@ kernel void add_light(PyramidShape shape, Space space, LightRecord light,
     }
     const float energy[3] = {light.energy.x, light.energy.y, light.energy.z};
     const float absorption[3] = {space.absorption.x, space.absorption.y, space.absorption.z};
-    falloff *= surface_opacity(materials, material);
+    falloff *= surface_opacity(materials, material, colors, voxel);
     const lane_uint color_at = color_place(materials, material, position.x, position.y, position.z);
     lane_float share[3];
     lane_int any_share = (lane_int)0;

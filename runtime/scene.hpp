@@ -185,6 +185,12 @@ void resize(Scene& scene, glm::ivec2 size);
 std::vector<int> materials_of_groups(const Object& object,
                                      const std::vector<std::string>& group_names);
 
+/// Whether light goes through or past surfaces of the material.
+bool transmits(const Material& material);
+
+/// Whether a material that the object may show transmits light.
+bool transmits(const Scene& scene, const Object& object);
+
 /// What the scene holds, in lines for people: world, models, objects, lights, observer.
 std::string describe(const Scene& scene);
 
