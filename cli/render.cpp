@@ -94,6 +94,8 @@ nlohmann::ordered_json statistics(const Outcome& outcome) {
     json["triangles"] = report.world.triangles;
     json["sight_rays"] = report.sight_rays;
     json["shadow_rays"] = report.shadow_rays;
+    json["secondary_rays"] = report.secondary_rays;
+    json["ended_paths"] = report.ended_paths;
     json["not_finite"] = report.not_finite;
     json["world_bytes"] = report.world_bytes;
     json["peak_device_bytes"] = counters.peak_bytes;

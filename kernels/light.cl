@@ -21,16 +21,16 @@ static inline lane_float spot_share(LightRecord light, Vector to_surface) {
 }
 
 /// Adds one light: every surface point that faces it, and to which it gives any light, gets a place
-/// in the queue of shadow rays with the light's share. Without shadows the share is added at once.
-kernel void add_light(PyramidShape shape, Space space, LightRecord light,
-                      global const float* restrict materials, global const uint* restrict colors,
-                      global const float* restrict rays, global const uint* restrict hits,
-                      uint count, uint stride, global const float* restrict positions,
-                      global const float* restrict normals, global const uint* restrict words,
-                      global const uint* restrict sides, global float* restrict radiance,
-                      global uint* restrict queue_count, global float* restrict queue_rays,
-                      global uint* restrict targets, global uint* restrict sources,
-                      global float* restrict shares) {
+/// in the queue of shadow rays with the light's share. Where neither an object nor the medium can
+/// come between, the share is added at once.
+kernel void add_light(PyramidShape shape, LightRecord light, global const float* restrict materials,
+                      global const uint* restrict colors, global const float* restrict rays,
+                      global const uint* restrict hits, uint count, uint stride,
+                      global const float* restrict positions, global const float* restrict normals,
+                      global const uint* restrict words, global const uint* restrict sides,
+                      global float* restrict radiance, global uint* restrict queue_count,
+                      global float* restrict queue_rays, global uint* restrict targets,
+                      global uint* restrict sources, global float* restrict shares) {
     const uint first = work_item() * VXL_LANES;
     if (first >= count) return;
     const float4 edge = shape.edge;
@@ -90,16 +90,7 @@ kernel void add_light(PyramidShape shape, Space space, LightRecord light,
         clamp(snap_position(position.z, normal.z, shape.fixed_point), 0.0f, (float)shape.size_z)};
     lane_float t_end = (lane_float)INFINITY;
     if (light.kind != VXL_LIGHT_DIRECTIONAL) t_end = exact_reciprocal(scale);
-    lane_float path = (lane_float)0.0f;
-    if (VXL_MEDIUM) {  // metres of medium on the way: to the light, or to the end of the world
-        lane_float t_first = (lane_float)0.0f, t_last = t_end;
-        clip_axis(origin.x, direction.x, (float)shape.size_x, &t_first, &t_last);
-        clip_axis(origin.y, direction.y, (float)shape.size_y, &t_first, &t_last);
-        clip_axis(origin.z, direction.z, (float)shape.size_z, &t_first, &t_last);
-        path = fmax(t_last, 0.0f) * scale * exact_sqrt(squared);
-    }
     const float energy[3] = {light.energy.x, light.energy.y, light.energy.z};
-    const float absorption[3] = {space.absorption.x, space.absorption.y, space.absorption.z};
     falloff *= surface_opacity(materials, material, colors, voxel);
     const lane_uint color_at = color_place(materials, material, position.x, position.y, position.z);
     lane_float share[3];
@@ -107,11 +98,10 @@ kernel void add_light(PyramidShape shape, Space space, LightRecord light,
     for (int channel = 0; channel < 3; ++channel) {
         const lane_float color = surface_color(materials, color_at, colors, voxel, channel);
         share[channel] = fma(color, diffuse, specular) * falloff * energy[channel];
-        if (VXL_MEDIUM) share[channel] *= exact_exp(-absorption[channel] * path);
         any_share |= LANE_MASK(share[channel] > 0.0f);
     }
     lit &= any_share;
-    if (!VXL_SHADOWS) {
+    if (!(VXL_SHADOWS | VXL_MEDIUM)) {
         for (int channel = 0; channel < 3; ++channel) {
             const uint place = (uint)channel * stride + first;
             const lane_float sum = LANES_LOAD(radiance, place) + share[channel];

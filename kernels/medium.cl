@@ -1,41 +1,144 @@
-// radiance at surfaces -> radiance at the rays' starts: what the medium of S takes and adds.
+// radiance at surfaces -> radiance at the rays' starts: what the medium of S, and of the objects
+// that rays go through, takes and adds.
+//
+// The density of the medium scales its absorption alone, so the sum of density times length stands
+// for a ray's whole way: passed = exp(-absorption * sum), emitted = color * (1 - passed).
+#include "lib/density.h"
 #include "lib/exact_exp.h"
 #include "lib/fixed_point.h"
+#include "lib/vector.h"
 #include "lib/work_item.h"
 #include "shared/scene.h"
 #include "shared/trace.h"
 
-/// Gives each ray's radiance what the world's medium does to it between the ray's start and its
-/// end.
-kernel void absorb_sight(PyramidShape shape, Space space, global const float* restrict rays,
-                         global const uint* restrict hits, uint count, uint stride,
-                         global float* restrict radiance) {
+/// The part of a ray between t_first and t_last.
+typedef struct {
+    Vector origin, direction;
+    lane_float t_first, t_last;
+} Segment;
+
+/// The segment's part inside the world, metres.
+static inline lane_float length_in_world(PyramidShape shape, const Segment* s) {
+    lane_float t_first = s->t_first, t_last = s->t_last;
+    clip_axis(s->origin.x, s->direction.x, (float)shape.size_x, &t_first, &t_last);
+    clip_axis(s->origin.y, s->direction.y, (float)shape.size_y, &t_first, &t_last);
+    clip_axis(s->origin.z, s->direction.z, (float)shape.size_z, &t_first, &t_last);
+    return fmax(t_last - t_first, 0.0f);
+}
+
+static inline lane_float metres_per_t(PyramidShape shape, Vector direction) {
+    const Vector metric = {direction.x * shape.edge.x, direction.y * shape.edge.y,
+                           direction.z * shape.edge.z};
+    return exact_sqrt(dot_product(metric, metric));
+}
+
+/// Density times t on the segments of the `active` lanes.
+static inline lane_float depth_of(PyramidShape shape, const DensityView* density, const Segment* s,
+                                  lane_int active) {
+    if (!VXL_MEDIUM_GRID) return length_in_world(shape, s);
+    const PyramidView p = {0,
+                           0,
+                           0,
+                           0,
+                           shape.size_x,
+                           shape.size_y,
+                           shape.size_z,
+                           shape.sectors_x,
+                           shape.sectors_y,
+                           shape.plane_bound,
+                           shape.fixed_point};
+    Walk walk = begin_walk(s->origin.x, s->origin.y, s->origin.z, s->direction.x, s->direction.y,
+                           s->direction.z);
+    return walk_density(&p, density, &walk, s->t_first, s->t_last, active);
+}
+
+/// Gives each ray's radiance what the medium does to it between the ray's start, or its segment's,
+/// and its end. `passed` takes the part of the light that comes through.
+kernel void absorb_sight(PyramidShape shape, Space space, DensityShape density_shape,
+                         global const uint* restrict density_bricks,
+                         global const float* restrict density_values,
+                         global const float* restrict materials, global const float* restrict rays,
+                         global const uint* restrict hits, global const float* restrict starts,
+                         global const uint* restrict inside, uint count, uint stride,
+                         global float* restrict radiance, global float* restrict passed) {
     const uint first = work_item() * VXL_LANES;
     if (first >= count) return;
+    const DensityView density = {density_shape, density_bricks, density_values};
     const lane_int hit =
         LANE_MASK(LANES_LOAD(hits, VXL_HIT_VOXEL * stride + first) != VXL_NO_VOXEL);
     const lane_float t_hit = LANES_AS_FLOAT(LANES_LOAD(hits, VXL_HIT_T * stride + first));
     // A ray that met nothing goes on to the far surface, or to the world's end.
-    lane_float t_first = (lane_float)0.0f;
-    lane_float t_last = LANES_LOAD(rays, VXL_RAY_END * stride + first);
-    lane_float metres = (lane_float)0.0f;
-    const float edges[3] = {shape.edge.x, shape.edge.y, shape.edge.z};
-    const int sizes[3] = {shape.size_x, shape.size_y, shape.size_z};
-    for (uint a = 0; a < 3; ++a) {
-        const lane_float o = LANES_LOAD(rays, (VXL_RAY_OX + a) * stride + first);
-        const lane_float d = LANES_LOAD(rays, (VXL_RAY_DX + a) * stride + first);
-        clip_axis(o, d, (float)sizes[a], &t_first, &t_last);
-        metres = fma(d * edges[a], d * edges[a], metres);
+    const lane_float t_end = LANES_LOAD(rays, VXL_RAY_END * stride + first);
+    const lane_int active = LANE_MASK(t_end >= 0.0f);
+    Segment segment = {load_vector(rays, stride, first),
+                       load_vector(rays + VXL_RAY_DX * stride, stride, first), (lane_float)0.0f,
+                       LANES_SELECT(hit, t_hit, t_end)};
+    lane_uint material = (lane_uint)0u;
+    if (VXL_TRANSMISSION) {
+        segment.t_first = LANES_LOAD(starts, first);
+        material = LANES_LOAD(inside, first);
     }
-    metres = exact_sqrt(metres);
-    const lane_float path = fmax(LANES_SELECT(hit, t_hit, t_last), 0.0f) * metres;
+    const lane_int in_object = LANE_MASK(material != 0u);
+    const lane_float metres = metres_per_t(shape, segment.direction);
+    lane_float depth = (lane_float)0.0f;
+    if (VXL_MEDIUM) depth = depth_of(shape, &density, &segment, active & ~in_object);
+    if (VXL_TRANSMISSION && lanes_any(in_object))
+        depth = LANES_SELECT(in_object, length_in_world(shape, &segment), depth);
+    depth = LANES_SELECT(active, depth * metres, (lane_float)0.0f);
     const float absorption[3] = {space.absorption.x, space.absorption.y, space.absorption.z};
     const float color[3] = {space.color.x, space.color.y, space.color.z};
     for (int channel = 0; channel < 3; ++channel) {
-        const lane_float passed = exact_exp(-absorption[channel] * path);
         const uint place = (uint)channel * stride + first;
+        lane_float per_metre = (lane_float)absorption[channel];
+        lane_float shown = (lane_float)color[channel];
+        if (VXL_TRANSMISSION && lanes_any(in_object)) {
+            const lane_uint record = (material - 1u) * VXL_MATERIAL_FLOATS;
+            const lane_uint from =
+                (record + (uint)(VXL_MATERIAL_ABSORPTION + channel)) & LANES_AS_UINT(in_object);
+            per_metre = LANES_SELECT(in_object, LANES_GATHER_FLOAT(materials, from), per_metre);
+            shown = LANES_SELECT(in_object, (lane_float)0.0f, shown);
+        }
+        const lane_float tau = per_metre * depth;
+        const lane_float share = exact_exp(-tau);
         const lane_float behind = LANES_LOAD(radiance, place);
-        LANES_STORE(fma(passed, behind - color[channel], (lane_float)color[channel]), radiance,
-                    place);
+        LANES_STORE(fma(share, behind, shown * exact_rise(tau)), radiance, place);
+        if (VXL_PATHS) LANES_STORE(share, passed, place);
     }
+}
+
+/// Takes from the light that waits in the queue of shadow rays what the medium keeps on its way.
+/// Without shadows it then arrives: every target stands in the queue at most once.
+kernel void absorb_shadows(PyramidShape shape, Space space, DensityShape density_shape,
+                           global const uint* restrict density_bricks,
+                           global const float* restrict density_values,
+                           global const float* restrict rays, global const uint* restrict queued,
+                           uint stride, global const uint* restrict targets,
+                           global float* restrict shares, global float* restrict radiance) {
+    const uint first = work_item() * VXL_LANES;
+    const uint count = *queued;
+    if (first >= count) return;
+    const DensityView density = {density_shape, density_bricks, density_values};
+    const lane_int active = LANE_MASK(LANES_AS_INT(LANES_NUMBERS + (int)first) < (int)count);
+    // Places beyond the queue's end hold what was there before.
+    const Segment segment = {load_vector(rays, stride, first),
+                             load_vector(rays + VXL_RAY_DX * stride, stride, first),
+                             (lane_float)0.0f, LANES_LOAD(rays, VXL_RAY_END * stride + first)};
+    const lane_float metres = metres_per_t(shape, segment.direction);
+    const lane_float depth = depth_of(shape, &density, &segment, active) * metres;
+    const float absorption[3] = {space.absorption.x, space.absorption.y, space.absorption.z};
+    float arriving[3 * VXL_LANES];
+    for (int channel = 0; channel < 3; ++channel) {
+        const uint place = (uint)channel * stride + first;
+        const lane_float share =
+            LANES_LOAD(shares, place) * exact_exp(-absorption[channel] * depth);
+        if (VXL_SHADOWS)
+            LANES_STORE(share, shares, place);
+        else
+            LANES_STORE(share, arriving, channel * VXL_LANES);
+    }
+    if (VXL_SHADOWS) return;
+    for (uint lane = 0; lane < VXL_LANES && first + lane < count; ++lane)
+        for (uint channel = 0; channel < 3; ++channel)
+            radiance[channel * stride + targets[first + lane]] +=
+                arriving[channel * VXL_LANES + lane];
 }

@@ -190,6 +190,9 @@ static inline lane_int test_surfaces(const PyramidView* p, const SurfaceView* s,
             side = LANES_SELECT(LANE_MASK(travel->interior.smooth != VXL_NO_MEMBER),
                                 (lane_float)-1.0f, side);
         const lane_int met = hit_smooth(&field, w, side, smooth, beginning, &found->level, &t);
+        // A ray that goes straight on has its hits beyond this voxel where any other ray has them.
+        if (VXL_TRANSMISSION)
+            found->level = LANES_SELECT(travel->goes_on, (lane_float)0.0f, found->level);
         take_voxel_hit(found, t, met);
         accepted |= met;
     }

@@ -14,10 +14,12 @@ bool has_light(const Scene& scene) {
 
 ShadowQueue allocate_shadow_queue(const Device& device, const Features& features, uint32_t stride) {
     ShadowQueue queue;
-    if (!features.shadows) return queue;
+    if (!features.shadows && !features.medium) return queue;
     queue.count = Buffer<uint32_t>(device, "shadow queue", 1);
-    queue.traced = Buffer<uint32_t>(device, "shadow rays", 2);
-    queue.traced.fill(0);
+    if (features.shadows) {
+        queue.traced = Buffer<uint32_t>(device, "shadow rays", 2);
+        queue.traced.fill(0);
+    }
     queue.rays = Buffer<float>(device, "shadow queue", size_t(stride) * VXL_RAY_COMPONENTS);
     queue.targets = Buffer<uint32_t>(device, "shadow queue", stride);
     if (features.exact()) queue.sources = Buffer<uint32_t>(device, "shadow queue", stride);
@@ -92,6 +94,7 @@ Features features_of(const Scene& scene, const Pyramid& world) {
     Features features = features_of(world);
     features.shadows = scene.render.shadows && has_light(scene);
     features.medium = scene.world.medium.absorption != glm::vec3(0);
+    features.medium_grid = features.medium && has_density(scene.world.medium);
     add_paths(scene, features);
     return features;
 }
@@ -124,10 +127,13 @@ Illumination::Illumination(const Device& device, const Features& features, const
       trace_(device, features),
       shade_(device, features, scene, world.frame),
       surroundings_{shade_.materials(), shade_.ranks()},
-      queue_(allocate_shadow_queue(device, features,
-                                   std::bit_ceil((features.refracts ? 2 : 1) * most_rays))) {
-    if (!lights_.empty()) lighting_.emplace(device, features, shade_.space(), shade_.materials());
-    if (features.absorbs) medium_.emplace(device, features, shade_.space());
+      queue_(lights_.empty()
+                 ? ShadowQueue{}
+                 : allocate_shadow_queue(device, features,
+                                         std::bit_ceil((features.refracts ? 2 : 1) * most_rays))) {
+    if (!lights_.empty()) lighting_.emplace(device, features, shade_.materials());
+    if (features.absorbs)
+        medium_.emplace(device, features, scene.world, shade_.space(), shade_.materials());
     if (features.paths)
         scatter_.emplace(device, features, surroundings_, float(scene.render.least_weight),
                          compact);
@@ -136,7 +142,7 @@ Illumination::Illumination(const Device& device, const Features& features, const
 void Illumination::light(RayBatch& batch, uint32_t count) {
     if (!features_.paths) return direct(batch, count);
     scatter_->begin(batch, count);
-    reserve_nodes(0, most_rays_);
+    reserve_nodes(0, batch.stride);
     follow(0, batch, count);
     Depth& depth = *depths_[0];
     if (!features_.transmission) return;
@@ -150,6 +156,7 @@ void Illumination::direct(RayBatch& entries, uint32_t count) {
     shade_.surface(world_, entries, count);
     for (const LightRecord& light : lights_) {
         lighting_->add(world_, light, entries, count, queue_);
+        if (features_.medium) medium_->shadows(world_, queue_, count, entries);
         if (features_.shadows) trace_.shadows(world_, surroundings_, queue_, count, entries);
     }
     if (medium_) medium_->sight(world_, entries, count);
@@ -192,13 +199,14 @@ void Illumination::scatter(size_t number, RayBatch& entries, uint32_t count) {
     }
 }
 
-/// Makes room for `count` nodes of a depth. The first depth's own entries are the caller's.
+/// Makes room for `count` nodes of a depth; of the first, whose arrays are exchanged with the
+/// caller's, exactly so much.
 void Illumination::reserve_nodes(size_t number, uint32_t count) {
     if (depths_.size() <= number) depths_.push_back(std::make_unique<Depth>());
     Depth& depth = *depths_[number];
-    if (count <= depth.nodes.stride) return;
-    const uint32_t places = std::max(std::bit_ceil(count), 16u);
     const bool is_first = number == 0;
+    if (is_first ? count == depth.nodes.stride : count <= depth.nodes.stride) return;
+    const uint32_t places = is_first ? count : std::max(std::bit_ceil(count), 16u);
     depth = Depth{};
     if (features_.transmission || !is_first)
         depth.entries = allocate_batch(device_, features_, places);

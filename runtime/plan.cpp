@@ -195,9 +195,10 @@ class Planner {
         plan_.index_bytes = world + plan_.bricks * kIndexMarks + plan_.world_bytes;
         const glm::dvec2 size(scene_.render.size);
         const double pixels = size.x * size.y;
-        plan_.image_bytes = plan_.world_bytes + kPixel * pixels +
+        plan_.medium = plan_density(scene_.world);
+        plan_.image_bytes = plan_.world_bytes + plan_.medium.bytes + kPixel * pixels +
                             kRay * std::min(double(kBatchRays), pixels * scene_.render.samples);
-        plan_.host_bytes = kWorldTable * table + 2 * kPixel * pixels;
+        plan_.host_bytes = kWorldTable * table + 2 * kPixel * pixels + plan_.medium.host_bytes;
         for (const GridPlan& grid : plan_.grids)
             plan_.host_bytes += double(grid.triangles) * 36 + kModelTable * brick_table(grid.frame);
     }

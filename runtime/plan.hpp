@@ -12,6 +12,7 @@
 #include "runtime/model_frame.hpp"
 #include "runtime/opencl/device.hpp"
 #include "runtime/scene.hpp"
+#include "runtime/stages/density_grid.hpp"
 
 namespace voxelume {
 
@@ -40,6 +41,7 @@ struct ScenePlan {
     double image_bytes = 0;
 
     double world_bytes = 0;  ///< the pyramid's, part of the last two
+    DensityPlan medium;      ///< part of the last one
     double host_bytes = 0;   ///< tables, meshes and the image in main memory
 
     double peak_bytes() const;

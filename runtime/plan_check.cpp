@@ -53,7 +53,7 @@ double main_memory() {
 }
 
 void check_image(const Scene& scene, const ScenePlan& plan, const DeviceInfo& device) {
-    const double image = plan.image_bytes - plan.world_bytes;
+    const double image = plan.image_bytes - plan.world_bytes - plan.medium.bytes;
     const double there = std::min(double(device.memory), main_memory() / 2);
     if (image > there)
         throw Error(ErrorKind::limit,
@@ -69,6 +69,17 @@ void check_image(const Scene& scene, const ScenePlan& plan, const DeviceInfo& de
                     "piece: render a smaller one",
                     scene.render.size.x, scene.render.size.y, bytes_text(planes), device.name,
                     bytes_text(piece));
+}
+
+void check_medium(const Scene& scene, const ScenePlan& plan, const DeviceInfo& device) {
+    const double bytes = plan.medium.buffer_bytes, piece = double(device.max_allocation);
+    if (bytes > piece)
+        throw Error(ErrorKind::limit,
+                    "{}.medium: a density at each of {} voxels needs a buffer of {}, and \"{}\" "
+                    "allows {} in one piece: use {}",
+                    scene.world.where, size_text(scene.world.voxels), bytes_text(bytes),
+                    device.name, bytes_text(piece),
+                    larger_voxels(scene.world.voxel_size, table_factor(bytes, piece)));
 }
 
 }  // namespace
@@ -117,6 +128,7 @@ void check_tables(const Scene& scene, const DeviceInfo& device) {
 void check_memory(const Scene& scene, const ScenePlan& plan, const DeviceInfo& device) {
     for (const GridPlan& grid : plan.grids)
         if (grid.object < 0) check_model(scene.models[size_t(grid.model)], grid, device);
+    check_medium(scene, plan, device);
     check_image(scene, plan, device);
     const double memory = double(device.memory), peak = plan.peak_bytes();
     if (peak > memory)

@@ -88,7 +88,7 @@ Scene parse_scene(std::string_view text, const std::filesystem::path& file,
     Scene scene;
     scene.file = file;
     scene.materials.emplace_back().name = "default";
-    scene.world = read_world(fields.get("world"));
+    scene.world = read_world(fields.get("world"), {file.parent_path(), assets});
     if (const auto value = fields.find("materials")) scene.materials = read_materials(*value);
     if (const auto value = fields.find("models")) {
         scene.models = read_models(*value, {file.parent_path(), assets, scene.world.voxel_size});

@@ -10,6 +10,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <variant>
 #include <vector>
 
 #include "runtime/assets.hpp"
@@ -24,11 +25,41 @@ struct Bounds {
     glm::dvec3 max{0};
 };
 
+/// Density 1 up to the height `base`, from there falling by a factor of e every `scale_height`.
+struct HeightDensity {
+    double base = 0;          ///< metres along Y
+    double scale_height = 1;  ///< metres, > 0
+};
+
+/// Density 1 in a ball; over its outer `falloff` metres it falls smoothly to 0.
+struct BallDensity {
+    glm::dvec3 center{0};  ///< metres
+    double radius = 1;     ///< metres, > 0
+    double falloff = 0;    ///< metres, 0..radius
+};
+
+/// A float grid of an OpenVDB file, which has a transform of its own to metres.
+struct GridDensity {
+    std::filesystem::path file;
+    std::string grid;               ///< name in the file
+    glm::dmat4 world_from_grid{1};  ///< from the grid's metres; affine and safely invertible
+    std::string where;
+};
+
+/// The medium's density at the world's voxels; without any it is 1 everywhere.
+using Density = std::variant<std::monostate, HeightDensity, BallDensity, GridDensity>;
+
 /// What fills the space between the objects.
 struct Medium {
-    glm::vec3 absorption{0};  ///< per metre, >= 0
+    glm::vec3 absorption{0};  ///< per metre at density 1, >= 0
     glm::vec3 color{0};       ///< radiance that an infinitely deep medium shows, >= 0
+    Density density;
 };
+
+/// Whether the medium's density differs from voxel to voxel.
+inline bool has_density(const Medium& medium) {
+    return !std::holds_alternative<std::monostate>(medium.density);
+}
 
 /// S: its lattice starts at `bounds.min`; the last voxels may reach past `bounds.max`.
 struct World {

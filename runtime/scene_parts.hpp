@@ -35,7 +35,14 @@ struct ModelContext {
     glm::dvec3 world_voxel_size;
 };
 
-World read_world(const SceneValue& value);
+/// Where a part of the scene looks for the files that it names.
+struct AssetSearch {
+    std::filesystem::path scene_folder;
+    const AssetFolders& assets;
+};
+
+World read_world(const SceneValue& value, const AssetSearch& search);
+Medium read_medium(const SceneValue& value, const AssetSearch& search);
 std::vector<Material> read_materials(const SceneValue& value);
 std::vector<Model> read_models(const SceneValue& value, const ModelContext& context);
 Solid read_solid(const SceneValue& value);  ///< of a model; see scene_solids.cpp for its parts

@@ -24,11 +24,6 @@ Bounds read_bounds(const SceneValue& value) {
     return bounds;
 }
 
-Medium read_medium(const SceneValue& value) {
-    const SceneFields fields(value, "medium");
-    return {fields.color("absorption", kMaxLength, {}), fields.color("color", kMaxLength, {})};
-}
-
 /// Voxels that cover a length. Decimal fractions have no exact binary form, so a quotient within a
 /// billionth of a whole number is that number: 0.6 / 0.2 gives 3 voxels, and 0.9 / 0.3 does too.
 double voxels_along(double length, double voxel) {
@@ -86,7 +81,7 @@ Material read_material(const std::string& name, const SceneValue& value) {
 
 }  // namespace
 
-World read_world(const SceneValue& value) {
+World read_world(const SceneValue& value, const AssetSearch& search) {
     const SceneFields fields(value, "world");
     World world;
     world.voxel_size = fields.get("voxel_size").number_or_vector(kLength);
@@ -94,7 +89,7 @@ World read_world(const SceneValue& value) {
     world.voxels = count_voxels(value, world);
     world.background = fields.color("background", kMaxLength, {});
     world.ambient = fields.color("ambient", kMaxLength, {});
-    if (const auto medium = fields.find("medium")) world.medium = read_medium(*medium);
+    if (const auto medium = fields.find("medium")) world.medium = read_medium(*medium, search);
     world.where = value.where();
     return world;
 }

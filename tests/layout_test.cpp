@@ -5,6 +5,7 @@
 #include <bit>
 #include <type_traits>
 
+#include "kernels/shared/medium.h"
 #include "kernels/shared/scene.h"
 #include "kernels/shared/solid.h"
 #include "runtime/opencl/program.hpp"
@@ -29,6 +30,8 @@
 #define SOLID_SHAPE_FIELDS \
     I(kind) I(operations) I(shape_count) I(attribute) IA(cell, 3) FA(fraction, 3) \
     FA(shape_from_grid, 9) FA(size, 4) FA(rounding, 2) FA(derived, 5) FA(unused, 2)
+#define DENSITY_SHAPE_FIELDS \
+    I(bricks_x) I(bricks_y) I(shift_x) I(shift_y) I(shift_z) IA(unused, 3)
 // clang-format on
 
 #define TEXT_OF(fields) TEXT_OF_(fields)
@@ -43,6 +46,7 @@ constexpr const char* kMaterialRecordText = TEXT_OF(MATERIAL_RECORD_FIELDS);
 constexpr const char* kLightRecordText = TEXT_OF(LIGHT_RECORD_FIELDS);
 constexpr const char* kSpaceText = TEXT_OF(SPACE_FIELDS);
 constexpr const char* kSolidShapeText = TEXT_OF(SOLID_SHAPE_FIELDS);
+constexpr const char* kDensityShapeText = TEXT_OF(DENSITY_SHAPE_FIELDS);
 
 using Words = std::vector<uint32_t>;
 
@@ -60,6 +64,7 @@ Words read_by_kernel(const T& value, const std::string& type, const std::string&
     const Device device = test_device();
     const std::string source = R"(
 #include "lib/work_item.h"
+#include "shared/medium.h"
 #include "shared/scene.h"
 #include "shared/solid.h"
 #define F(n) *words++ = as_uint(value.n);
@@ -106,6 +111,7 @@ CROSSES(MaterialRecord, MATERIAL_RECORD_FIELDS, kMaterialRecordText)
 CROSSES(LightRecord, LIGHT_RECORD_FIELDS, kLightRecordText)
 CROSSES(Space, SPACE_FIELDS, kSpaceText)
 CROSSES(SolidShape, SOLID_SHAPE_FIELDS, kSolidShapeText)
+CROSSES(DensityShape, DENSITY_SHAPE_FIELDS, kDensityShapeText)
 
 }  // namespace
 }  // namespace voxelume

@@ -51,7 +51,7 @@ class Lit {
         const MaterialRecord record = material_of();
         const Buffer<MaterialRecord> materials(device_, "materials",
                                                std::span<const MaterialRecord>(&record, 1));
-        LightStage stage(device_, features, Space{}, materials);
+        LightStage stage(device_, features, materials);
         stage.add(pyramid, light_record(light, pyramid.frame), batch, kRays, queue);
         return queue.count.read_one(0);
     }

@@ -21,7 +21,7 @@ const std::filesystem::path kScenes = std::filesystem::path(VXL_SOURCE_DIR) / "s
 /// Adds the keys that a definition of the schema allows, by kind where it has kinds.
 void collect_keys(const std::string& name, const json& definition,
                   std::map<std::string, KeySet>& tables) {
-    const std::set<std::string> selected_by_kind = {"model", "part", "light", "display"};
+    const std::set<std::string> selected_by_kind = {"model", "part", "light", "display", "density"};
     if (!selected_by_kind.contains(name)) {
         for (const auto& [key, value] : definition["properties"].items()) tables[name].insert(key);
         return;

@@ -54,7 +54,8 @@ class SceneSchema : public FileTest {
   protected:
     void SetUp() override {
         FileTest::SetUp();
-        for (const char* mesh : {"bunny.obj", "m.obj"}) put_bytes(folder / mesh, "v 0 0 0\n");
+        for (const char* file : {"bunny.obj", "m.obj", "smoke.vdb"})
+            put_bytes(folder / file, "v 0 0 0\n");
     }
 
     /// The parser's objection, or nothing.
@@ -93,7 +94,8 @@ std::vector<json> full_scenes() {
         R"({"$schema": "x", "voxelume": 1,
             "world": {"voxel_size": [0.1, 0.2, 0.3], "bounds": {"min": [-1, -2, -3], "max": [1, 2, 3]},
                       "background": [1, 2, 3], "ambient": [0, 1, 2],
-                      "medium": {"absorption": [1, 2, 3], "color": [0, 0, 1]}},
+                      "medium": {"absorption": [1, 2, 3], "color": [0, 0, 1],
+                                 "density": {"kind": "height", "base": -1, "scale_height": 2}}},
             "materials": {"a": {"color": [0, 0.5, 1], "diffuse": 0.5, "specular": 0.5, "shininess": 7,
                                 "reflection": 0.5, "refraction": 0.5, "ior": 1.5, "fresnel": true,
                                 "opacity": 0.5, "checker": {"color": [0, 0, 0], "size": [1, 0, 1], "origin": [0, 0, 0]}, "absorption": [3, 2, 1],
@@ -138,11 +140,16 @@ std::vector<json> full_scenes() {
                            {"shape": "union", "parts": [{"shape": "sphere", "radius": 1}]}]}},
             "observer": {"position": [0, 0, 0], "turn": [1, 2, 3],
                          "display": {"shape": "sector", "angle": 200, "near": 1, "far": 2}}})",
-        R"({"voxelume": 1, "world": {"voxel_size": 0.5, "bounds": {"min": [0, 0, 0], "max": [1, 2, 3]}},
+        R"({"voxelume": 1, "world": {"voxel_size": 0.5, "bounds": {"min": [0, 0, 0], "max": [1, 2, 3]},
+            "medium": {"density": {"kind": "ball", "center": [1, 2, 3], "radius": 2, "falloff": 1}}},
             "observer": {"position": [0, 0, 0], "display": {"shape": "ball", "radius": 2, "voxels": [5, 6, 7]}}})",
-        R"({"voxelume": 1, "world": {"voxel_size": 0.5, "bounds": {"min": [0, 0, 0], "max": [1, 2, 3]}},
+        R"({"voxelume": 1, "world": {"voxel_size": 0.5, "bounds": {"min": [0, 0, 0], "max": [1, 2, 3]},
+            "medium": {"density": {"kind": "grid", "file": "smoke.vdb", "grid": "d", "position": [1, 2, 3],
+                                   "turn": [10, 20, 30], "scale": 2}}},
             "observer": {"position": [0, 0, 0], "display": {"shape": "pyramid", "angle": 40}}})",
-        R"({"voxelume": 1, "world": {"voxel_size": 0.5, "bounds": {"min": [0, 0, 0], "max": [1, 2, 3]}},
+        R"({"voxelume": 1, "world": {"voxel_size": 0.5, "bounds": {"min": [0, 0, 0], "max": [1, 2, 3]},
+            "medium": {"density": {"kind": "grid", "file": "smoke.vdb",
+                                   "matrix": [[2, 1, 0, 5], [0, 3, 1, 6], [1, 0, 4, 7]]}}},
             "observer": {"position": [0, 0, 0], "display": {"shape": "box", "size": [1, 2, 3], "near": 1}}})",
     };
     std::vector<json> scenes;

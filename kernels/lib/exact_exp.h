@@ -25,6 +25,22 @@ static inline lane_float exact_exp(lane_float x) {
     return LANES_SELECT(LANE_MASK(x < -87.0f), (lane_float)0.0f, result);
 }
 
+/// 1 - e^-x for x >= 0, with a small relative error near 0 as well.
+static inline lane_float exact_rise(lane_float x) {
+    const lane_float clamped = fmin(x, 87.0f);
+    const lane_int k = LANES_INT(fma(clamped, 1.44269504f, 0.5f));
+    const lane_float n = LANES_FLOAT(k);
+    const lane_float r = fma(n, 1.42860677e-6f, fma(n, 0.693145752f, -clamped));
+    lane_float p = fma(r, 1.98412698e-4f, 1.38888889e-3f);
+    p = fma(p, r, 8.33333333e-3f);
+    p = fma(p, r, 4.16666667e-2f);
+    p = fma(p, r, 1.66666667e-1f);
+    p = fma(p, r, 0.5f);
+    p = fma(p * r, r, r);  // e^r - 1
+    const lane_float scale = LANES_AS_FLOAT((127 - k) << 23);
+    return fma(-p, scale, 1.0f - scale);
+}
+
 /// The natural logarithm of a normal x > 0, with a small relative error near 1 as well.
 static inline lane_float exact_log(lane_float x) {
     const lane_int bits = LANES_AS_INT(x);

@@ -130,14 +130,11 @@ static inline lane_int near_plane(lane_int plane, lane_float position, float bou
     return LANE_MASK(fabs(LANES_FLOAT(plane) - position) <= bound);
 }
 
-/// Moves the `moving` lanes out of the aligned blocks of 1 << log2_size empty cells around them.
-static inline void advance(const PyramidView* p, Walk* w, lane_int log2_size, lane_int moving) {
-    const lane_int size = (lane_int)1 << log2_size;
-    const lane_int corner = -size;
+/// Moves the `moving` lanes across the first of the planes kx, ky, kz, one ahead on each axis.
+static inline void cross_first(const PyramidView* p, Walk* w, lane_int kx, lane_int ky, lane_int kz,
+                               lane_int moving) {
     Crossing c;
-    c.kx = (w->x & corner) + (w->px & size);
-    c.ky = (w->y & corner) + (w->py & size);
-    c.kz = (w->z & corner) + (w->pz & size);
+    c.kx = kx, c.ky = ky, c.kz = kz;
     c.tx = (LANES_FLOAT(c.kx) - w->ox) * w->ix;
     c.ty = (LANES_FLOAT(c.ky) - w->oy) * w->iy;
     c.tz = (LANES_FLOAT(c.kz) - w->oz) * w->iz;
@@ -172,6 +169,14 @@ static inline void advance(const PyramidView* p, Walk* w, lane_int log2_size, la
     w->z = LANES_SELECT(moving, c.z, w->z);
     w->t = LANES_SELECT(moving, t, w->t);
     w->axis = LANES_SELECT(moving, ~c.ex & (2 + c.ey), w->axis);
+}
+
+/// Moves the `moving` lanes out of the aligned blocks of 1 << log2_size empty cells around them.
+static inline void advance(const PyramidView* p, Walk* w, lane_int log2_size, lane_int moving) {
+    const lane_int size = (lane_int)1 << log2_size;
+    const lane_int corner = -size;
+    cross_first(p, w, (w->x & corner) + (w->px & size), (w->y & corner) + (w->py & size),
+                (w->z & corner) + (w->pz & size), moving);
 }
 
 /// When the ray leaves the walk's present cell.

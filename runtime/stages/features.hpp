@@ -15,6 +15,7 @@ struct Features {
     bool attributes = false;    ///< voxels differ in object, material or kind
     bool colors = false;        ///< voxels have colours of their own
     bool medium = false;        ///< the space absorbs light
+    bool medium_grid = false;   ///< ... not everywhere alike
     bool shadows = false;       ///< lights can be hidden
     bool checker = false;       ///< some material changes its colour from block to block
     bool paths = false;         ///< rays are reflected, refracted or go on through surfaces
@@ -37,6 +38,7 @@ struct Features {
                 {"VXL_ATTRIBUTES", attributes},
                 {"VXL_COLORS", colors},
                 {"VXL_MEDIUM", medium},
+                {"VXL_MEDIUM_GRID", medium_grid},
                 {"VXL_SHADOWS", shadows},
                 {"VXL_CHECKER", checker},
                 {"VXL_PATHS", paths},

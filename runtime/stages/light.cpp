@@ -28,18 +28,17 @@ LightRecord light_record(const Light& light, const GridFrame& world) {
     return record;
 }
 
-LightStage::LightStage(const Device& device, const Features& features, const Space& space,
+LightStage::LightStage(const Device& device, const Features& features,
                        const Buffer<MaterialRecord>& materials)
-    : space_(space),
-      materials_(materials),
+    : materials_(materials),
       program_(device, "light.cl", features.defines(device)),
       add_(program_.kernel("add_light")) {}
 
 void LightStage::add(const Pyramid& pyramid, const LightRecord& light, RayBatch& batch,
                      uint32_t count, ShadowQueue& queue) {
     if (!queue.count.empty()) queue.count.fill(0);
-    add_.launch_packets(count, shape_of(pyramid), space_, light, materials_, pyramid.colors,
-                        batch.rays, batch.hits, count, batch.stride, batch.positions, batch.normals,
+    add_.launch_packets(count, shape_of(pyramid), light, materials_, pyramid.colors, batch.rays,
+                        batch.hits, count, batch.stride, batch.positions, batch.normals,
                         batch.words, batch.sides, batch.radiance, queue.count, queue.rays,
                         queue.targets, queue.sources, queue.shares);
 }

@@ -16,16 +16,15 @@ LightRecord light_record(const Light& light, const GridFrame& world);
 /// Kernel of light.cl for one feature set. The paper's blocks 4.1 and 5.
 class LightStage {
   public:
-    LightStage(const Device& device, const Features& features, const Space& space,
+    LightStage(const Device& device, const Features& features,
                const Buffer<MaterialRecord>& materials);
 
-    /// Adds one light to surface points 0 .. count-1: at once in a scene without shadows, else by
+    /// Adds one light to surface points 0 .. count-1: at once where nothing can keep it, else by
     /// filling the queue, which it empties first.
     void add(const Pyramid& pyramid, const LightRecord& light, RayBatch& batch, uint32_t count,
              ShadowQueue& queue);
 
   private:
-    Space space_;
     Buffer<MaterialRecord> materials_;
     Program program_;
     Kernel add_;

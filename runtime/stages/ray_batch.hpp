@@ -33,10 +33,11 @@ struct RayBatch : RayQueue {
     Buffer<float> coverage;  ///< how much of what lies behind is covered
 };
 
-/// Shadow rays waiting to be traced, left-packed. Not allocated in a scene without shadows.
+/// Shadow rays waiting to be traced, left-packed. Not allocated where nothing can keep light back.
 struct ShadowQueue {
     Buffer<uint32_t> count;    ///< one value, kept on the device
-    Buffer<uint32_t> traced;   ///< rays traced since the frame began: low word, high word
+    Buffer<uint32_t> traced;   ///< rays traced since the frame began: low word, high word; only
+                               ///< with shadows
     Buffer<float> rays;        ///< VXL_RAY_COMPONENTS, the batch's stride apart
     Buffer<uint32_t> targets;  ///< the sight ray whose radiance each would add to
     Buffer<uint32_t> sources;  ///< the primitive that each begins on; exact surfaces only

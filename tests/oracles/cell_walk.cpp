@@ -23,10 +23,15 @@ int64_t floor_divide(int64_t a, int64_t b) {
     return a / b - (a % b != 0 && (a < 0) != (b < 0));
 }
 
-}  // namespace
+double value_of(const Time& time, int fraction_bits) {
+    if (time.denominator == 0) return 0;
+    return double(time.numerator) / double(time.denominator) * std::ldexp(1.0, 22 - fraction_bits);
+}
 
-FirstHit first_hit(const glm::dvec3& o, const glm::dvec3& d, const glm::ivec3& size,
-                   int fraction_bits, const VoxelSet& voxels) {
+/// Calls `visit(cell, axis, time in, time out)` for each cell until it says false.
+template <class Visit>
+void walk(const glm::dvec3& o, const glm::dvec3& d, const glm::ivec3& size, int fraction_bits,
+          const Visit& visit) {
     const int64_t unit = int64_t(1) << fraction_bits;
     int64_t origin[3], direction[3], cell[3];
     for (int a = 0; a < 3; ++a) {
@@ -36,19 +41,11 @@ FirstHit first_hit(const glm::dvec3& o, const glm::dvec3& d, const glm::ivec3& s
         cell[a] =
             direction[a] >= 0 ? floor_divide(origin[a], unit) : -floor_divide(-origin[a], unit) - 1;
     }
-    FirstHit result;
+    int entered_across = 3;
     for (Time now; true;) {
         for (int a = 0; a < 3; ++a)
-            if (cell[a] < 0 || cell[a] >= size[a]) return {};
+            if (cell[a] < 0 || cell[a] >= size[a]) return;
         const glm::ivec3 here{int(cell[0]), int(cell[1]), int(cell[2])};
-        if (voxels.contains(here)) {
-            result.hit = true;
-            result.cell = here;
-            if (now.denominator != 0)
-                result.t = double(now.numerator) / double(now.denominator) *
-                           std::ldexp(1.0, 22 - fraction_bits);
-            return result;
-        }
         Time next;
         int axis = 0;
         for (int a = 0; a < 3; ++a) {
@@ -60,10 +57,36 @@ FirstHit first_hit(const glm::dvec3& o, const glm::dvec3& d, const glm::ivec3& s
             next = time;
             axis = a;
         }
+        if (!visit(here, entered_across, value_of(now, fraction_bits),
+                   value_of(next, fraction_bits)))
+            return;
         now = next;
         cell[axis] += direction[axis] > 0 ? 1 : -1;
-        result.axis = axis;
+        entered_across = axis;
     }
+}
+
+}  // namespace
+
+FirstHit first_hit(const glm::dvec3& o, const glm::dvec3& d, const glm::ivec3& size,
+                   int fraction_bits, const VoxelSet& voxels) {
+    FirstHit result;
+    walk(o, d, size, fraction_bits, [&](const glm::ivec3& cell, int axis, double t_in, double) {
+        if (!voxels.contains(cell)) return true;
+        result = {true, cell, axis, t_in};
+        return false;
+    });
+    return result;
+}
+
+std::vector<PassedCell> cells_passed(const glm::dvec3& o, const glm::dvec3& d,
+                                     const glm::ivec3& size, int fraction_bits) {
+    std::vector<PassedCell> cells;
+    walk(o, d, size, fraction_bits, [&](const glm::ivec3& cell, int, double t_in, double t_out) {
+        cells.push_back({cell, t_in, t_out});
+        return true;
+    });
+    return cells;
 }
 
 }  // namespace oracle

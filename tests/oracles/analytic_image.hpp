@@ -1,0 +1,25 @@
+// The flat image of a scene of analytic solids, with the places where a comparison makes no sense.
+#pragma once
+
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include "runtime/scene.hpp"
+
+namespace voxelume::oracle {
+
+/// `width` x `height` values, row 0 at the top, x fastest.
+struct AnalyticImage {
+    int width = 0;
+    int height = 0;
+    std::vector<glm::dvec3> radiance;
+    std::vector<uint8_t> edge;  ///< 1: something else was decided on the way to the pixel than to
+                                ///< one of its eight neighbours, so rounding may decide, too
+};
+
+/// One sight ray through each pixel's centre. Throws std::invalid_argument for displays other than
+/// pyramids and for objects that AnalyticTracer refuses.
+AnalyticImage analytic_image(const Scene& scene);
+
+}  // namespace voxelume::oracle
