@@ -108,7 +108,7 @@ kernel void add_light(PyramidShape shape, LightRecord light, global const float*
     lane_float t_end = (lane_float)INFINITY;
     if (light.kind != VXL_LIGHT_DIRECTIONAL) t_end = exact_reciprocal(scale);
     const float energy[3] = {light.energy.x, light.energy.y, light.energy.z};
-    falloff *= surface_opacity(materials, material);
+    falloff *= surface_opacity(materials, material, colors, voxel);
     const lane_uint color_at = color_place(materials, material, position.x, position.y, position.z);
     lane_float share[3];
     lane_int any_share = (lane_int)0;

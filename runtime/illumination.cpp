@@ -73,13 +73,14 @@ void add_paths(const Scene& scene, Features& features) {
     const bool follows = scene.render.depth > 0;
     bool refraction = false, opacity = false, reflection = false, fresnel = false;
     bool absorption = false;
+    opacity = features.voxel_opacity;
     for (const Material* m : shown_materials(scene)) {
         features.checker |= m->checker.has_value();
         refraction |= m->refraction > 0;
         opacity |= m->opacity < 1;
         reflection |= m->reflection > 0;
         fresnel |= m->fresnel && (m->reflection > 0 || m->refraction > 0);
-        absorption |= m->absorption != glm::vec3(0) && (m->refraction > 0 || m->opacity < 1);
+        absorption |= m->absorption != glm::vec3(0) && (transmits(*m) || features.voxel_opacity);
     }
     const bool filters =
         features.shadows && (opacity || (refraction && scene.render.filtered_shadows));
@@ -89,6 +90,11 @@ void add_paths(const Scene& scene, Features& features) {
     features.absorbs = features.medium || (features.transmission && absorption);
     features.filter = filters;
     features.filtered_refraction = filters && scene.render.filtered_shadows;
+    features.cube_bodies =
+        features.transmission && std::ranges::any_of(scene.objects, [&](const Object& object) {
+            return scene.models[size_t(object.model)].surface == Surface::cubes &&
+                   (features.voxel_opacity || transmits(scene, object));
+        });
 }
 
 /// Arrays of rays on their way.
@@ -189,8 +195,8 @@ void Illumination::follow(size_t number, RayBatch& first, uint32_t count) {
         direct(*entries, count);
         uint32_t on = 0;
         if (features_.transmission)
-            on =
-                scatter_->layer(*entries, count, is_first, depth.children, depth.nodes, depth.next);
+            on = scatter_->layer(world_, *entries, count, is_first, depth.children, depth.nodes,
+                                 depth.next);
         else
             depth.nodes.radiance = entries->radiance;
         if (number < most_depth_) scatter(number, *entries, count);

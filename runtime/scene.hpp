@@ -228,6 +228,12 @@ std::vector<int> materials_of_groups(const Object& object,
 /// Whether one of the object's materials has emission.
 bool has_emission(const Scene& scene, const Object& object);
 
+/// Whether light goes through or past surfaces of the material.
+bool transmits(const Material& material);
+
+/// Whether a material that the object may show transmits light.
+bool transmits(const Scene& scene, const Object& object);
+
 /// What the scene holds, in lines for people: world, models, objects, lights, observer.
 std::string describe(const Scene& scene);
 

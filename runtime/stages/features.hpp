@@ -25,6 +25,8 @@ struct Features {
     bool absorbs = false;       ///< the space, or an object that light goes through, takes of it
     bool filter = false;        ///< shadow rays go on through some surfaces
     bool filtered_refraction = false;  ///< refracting ones among them
+    bool cube_bodies = false;          ///< some object of cubes lets light through
+    bool voxel_opacity = false;        ///< voxels have opacities of their own
 
     bool exact() const { return triangles || solids; }
 
@@ -47,6 +49,8 @@ struct Features {
                 {"VXL_ABSORBS", absorbs},
                 {"VXL_FILTER", filter},
                 {"VXL_FILTERED", filtered_refraction},
+                {"VXL_CUBE_BODIES", cube_bodies},
+                {"VXL_VOXEL_OPACITY", voxel_opacity},
                 {"VXL_NATIVE_DIVIDE", device.is_cpu()}};
     }
 };
