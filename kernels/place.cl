@@ -7,6 +7,7 @@
 // Build constants: VXL_SMOOTH: the object has distances, else occupancy. VXL_ATTRIBUTES,
 // VXL_COLORS: the world has them. VXL_OBJECT_ATTRIBUTES, VXL_OBJECT_COLORS: the object has them.
 // VXL_WORLD_OCCUPANCY: the world has cubes or exact voxels as well. VXL_REACH: the reach is not 0.
+// VXL_KEEPS_INSIDE: bricks inside of the object are stored, too.
 #include "lib/placed_attributes.h"
 #include "lib/placed_field.h"
 #include "lib/work_item.h"
@@ -63,7 +64,8 @@ kernel void classify_bricks(const uint count, const int4 world_bricks, const Wor
         else if (!touches_full_brick(&object, box))
             state = VXL_NOTHING;
     }
-    if (state == VXL_FULL && is_at_bounds(bounds, brick_at(index, world_bricks) * 16, 16))
+    if (state == VXL_FULL &&
+        (VXL_KEEPS_INSIDE || is_at_bounds(bounds, brick_at(index, world_bricks) * 16, 16)))
         state = VXL_SURFACE;
     states[index] = (uchar)max((uint)states[index], state);
 }

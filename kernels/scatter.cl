@@ -5,6 +5,7 @@
 // Whitted 1980 describes. Surfaces that transmit light straight on make further entries of the same
 // node, layer by layer; reflection and refraction make nodes of the next depth. Light is gathered
 // by each entry from its own children, so that no sum depends on the order of the queues.
+#include "lib/cube_body.h"
 #include "lib/fixed_point.h"
 #include "lib/hit_word.h"
 #include "lib/interior.h"
@@ -33,6 +34,11 @@ static inline lane_float largest(const lane_float* value) {
 
 static inline lane_int below(uint first, uint count) {
     return LANE_MASK(LANES_AS_INT(LANES_NUMBERS + (int)first) < (int)count);
+}
+
+/// VXL_PATH_JOINED of rays inside of a set of objects.
+static inline lane_uint joined_flag(const Interior* in, global const float* restrict materials) {
+    return LANES_AS_UINT(is_joined(body_inside(in), materials)) & VXL_PATH_JOINED;
 }
 
 /// RayBatch::inside of a ray inside of the object that counts.
@@ -80,16 +86,16 @@ kernel void begin_paths(uint count, uint stride, global uint* restrict paths,
 /// that surfaces leave uncovered. `gains` is what an entry's reflected and refracted light counts
 /// in its node; `coverage` of a node may be null.
 kernel void pass_layer(global const float* restrict materials, global const uint* restrict ranks,
-                       float least_weight, uint first_layer, global const float* restrict rays,
-                       global const uint* restrict hits, global const uint* restrict words,
-                       global const uint* restrict sides, global const float* restrict radiance,
-                       global const float* restrict passed, global const uint* restrict paths,
-                       uint count, uint stride, global float* restrict gains,
-                       global float* restrict nodes, global float* restrict coverage,
-                       uint node_stride, global uint* restrict counters,
-                       global float* restrict next_rays, global uint* restrict next_paths,
-                       global float* restrict next_starts, global uint* restrict next_inside,
-                       uint next_stride) {
+                       global const uint* restrict colors, float least_weight, uint first_layer,
+                       global const float* restrict rays, global const uint* restrict hits,
+                       global const uint* restrict words, global const uint* restrict sides,
+                       global const float* restrict radiance, global const float* restrict passed,
+                       global const uint* restrict paths, uint count, uint stride,
+                       global float* restrict gains, global float* restrict nodes,
+                       global float* restrict coverage, uint node_stride,
+                       global uint* restrict counters, global float* restrict next_rays,
+                       global uint* restrict next_paths, global float* restrict next_starts,
+                       global uint* restrict next_inside, uint next_stride) {
     const uint first = work_item() * VXL_LANES;
     if (first >= count) return;
     const lane_int valid = below(first, count);
@@ -101,7 +107,9 @@ kernel void pass_layer(global const float* restrict materials, global const uint
     const lane_int leaving = LANE_MASK((side & VXL_SIDE_LEAVING) != 0u);
     const lane_uint material = material_place(word) & LANES_AS_UINT(hit);
     const lane_float zero = (lane_float)0.0f, one = (lane_float)1.0f;
-    lane_float opacity = LANES_SELECT(hit, surface_opacity(materials, material), one);
+    const lane_uint voxel = number & LANES_AS_UINT(hit);
+    lane_float opacity =
+        LANES_SELECT(hit, surface_opacity(materials, material, colors, voxel), one);
     opacity = LANES_SELECT(hidden, zero, opacity);
     const lane_float left = 1.0f - opacity;
     const lane_float clear = path_float(paths, VXL_PATH_CLEAR, stride, first);
@@ -148,10 +156,11 @@ kernel void pass_layer(global const float* restrict materials, global const uint
     on.flags = LANES_SELECT(leaving, (lane_uint)0, (lane_uint)VXL_PATH_WITHIN_SOURCE) |
                (VXL_PATH_ON_SURFACE | VXL_PATH_GOES_ON);
     on.cell_xy = LANES_LOAD(hits, VXL_HIT_CELL * stride + first);
-    on.cell_z = LANES_LOAD(hits, VXL_HIT_FACE * stride + first) & 0xFFFFu;
+    on.cell_z = LANES_LOAD(hits, VXL_HIT_FACE * stride + first);
     on.target = target;
     on.interior = cross_interior(load_interior(paths, stride, first), word,
                                  is_smooth(word, on.source), leaving, goes_on);
+    if (VXL_CUBE_BODIES) on.flags |= joined_flag(&on.interior, materials);
     on.medium = medium_inside(&on.interior, ranks);
     const RayQueue queue = {next_rays, next_paths, next_starts, next_inside, next_stride};
     uint places[VXL_LANES];
@@ -262,7 +271,9 @@ kernel void scatter_rays(PyramidShape shape, global const float* restrict materi
         const lane_int body = is_smooth(word, ray.source);
         const lane_int began = leaving & ~interior_holds(&ray.interior, word, body);
         const Interior before = cross_interior(ray.interior, word, body, (lane_int)0, began & hit);
-        const lane_int open = transmits(materials, material) & hit;
+        const lane_int open =
+            hit & transmits(materials, material,
+                            LANES_GATHER_FLOAT(materials, material + VXL_MATERIAL_OPACITY));
         behind = cross_interior(before, word, body, leaving, open);
         const lane_uint from = medium_inside(&before, ranks);
         lane_uint to = medium_inside(&behind, ranks);
@@ -302,6 +313,15 @@ kernel void scatter_rays(PyramidShape shape, global const float* restrict materi
                 VXL_PATH_ON_SURFACE;
     ray.medium = (lane_uint)0;
     if (VXL_TRANSMISSION) ray.medium = medium_inside(&ray.interior, ranks);
+    lane_int cube = (lane_int)0;  // a cube's side towards its inside: rays begin in a known cell
+    const lane_uint face = LANES_LOAD(hits, VXL_HIT_FACE * stride + first);
+    if (VXL_CUBE_BODIES) {
+        cube = is_cube(word, ray.source);
+        ray.flags |= joined_flag(&ray.interior, materials) |
+                     (LANES_AS_UINT(cube & leaving) & VXL_PATH_FROM_CELL);
+        ray.cell_xy = LANES_LOAD(hits, VXL_HIT_CELL * stride + first);
+        ray.cell_z = face & 0xFFFFu;
+    }
     const lane_float twice = 2.0f * cosine;
     const Vector mirrored = {fma(twice, n.x, v.x), fma(twice, n.y, v.y), fma(twice, n.z, v.z)};
     set_out(&ray, shape, position, n, mirrored);
@@ -327,8 +347,11 @@ kernel void scatter_rays(PyramidShape shape, global const float* restrict materi
     ray.start =
         LANES_SELECT(same, LANES_AS_FLOAT(LANES_LOAD(hits, VXL_HIT_T * stride + first)), zero);
     ray.flags |= LANES_AS_UINT(same) & VXL_PATH_GOES_ON;
+    if (VXL_CUBE_BODIES)
+        ray.flags |=
+            joined_flag(&ray.interior, materials) | (LANES_AS_UINT(cube) & VXL_PATH_FROM_CELL);
     ray.cell_xy = LANES_LOAD(hits, VXL_HIT_CELL * stride + first);
-    ray.cell_z = LANES_LOAD(hits, VXL_HIT_FACE * stride + first) & 0xFFFFu;
+    ray.cell_z = face;
     put_children(&queue, &ray, refracted, valid, compact, end - begin + (first - begin), counters,
                  children + stride + first, shares + stride + first);
 }

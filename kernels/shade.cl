@@ -1,5 +1,6 @@
 // hits -> surface points: where each ray met what, facing which way, and what shines there without
 // lights.
+#include "lib/cube_body.h"
 #include "lib/field.h"
 #include "lib/hit_word.h"
 #include "lib/interior.h"
@@ -52,7 +53,7 @@ kernel void shade_surface(PyramidShape shape, Space space, global const float* r
     const lane_uint voxel = number & LANES_AS_UINT(hit);
     const lane_float cx = LANES_FLOAT(cell_xy & 0xFFFFu), cy = LANES_FLOAT(cell_xy >> 16);
     const lane_float cz = LANES_FLOAT(cell_face & 0xFFFFu);
-    const lane_uint axis = cell_face >> 16;
+    const lane_uint axis = (cell_face >> VXL_FACE_AXIS_SHIFT) & VXL_FACE_AXIS_MASK;
     const Vector o = load_vector(rays, stride, first);
     const Vector d = load_vector(rays + VXL_RAY_DX * stride, stride, first);
     const lane_float at = LANES_SELECT(hit, t, (lane_float)0.0f);
@@ -77,11 +78,12 @@ kernel void shade_surface(PyramidShape shape, Space space, global const float* r
                        LANES_SELECT(LANE_MASK(axis == 1u), up_y, zero),
                        LANES_SELECT(LANE_MASK(axis == 2u), up_z, zero)};
         const lane_int cubes = LANE_MASK(kind == VXL_KIND_CUBES) & hit & ~exact;
-        const lane_float half_unit = (lane_float)0.5f;
+        lane_float half_unit = (lane_float)0.5f;  // towards the face that was met
+        if (VXL_CUBE_BODIES) half_unit = LANES_SELECT(is_exit(cell_face), -half_unit, half_unit);
         const Vector on_face = {
-            LANES_SELECT(LANE_MASK(axis == 0u), fma(up_x, half_unit, half_unit), s.x),
-            LANES_SELECT(LANE_MASK(axis == 1u), fma(up_y, half_unit, half_unit), s.y),
-            LANES_SELECT(LANE_MASK(axis == 2u), fma(up_z, half_unit, half_unit), s.z)};
+            LANES_SELECT(LANE_MASK(axis == 0u), fma(up_x, half_unit, 0.5f), s.x),
+            LANES_SELECT(LANE_MASK(axis == 1u), fma(up_y, half_unit, 0.5f), s.y),
+            LANES_SELECT(LANE_MASK(axis == 2u), fma(up_z, half_unit, 0.5f), s.z)};
         s = select_vector(cubes, on_face, s);
         normal = select_vector(cubes, face, normal);
     }
@@ -119,14 +121,29 @@ kernel void shade_surface(PyramidShape shape, Space space, global const float* r
     const Vector flipped = {-normal.x, -normal.y, -normal.z};
     normal = select_vector(behind, flipped, normal);
 
+    const lane_uint material = material_place(word) & LANES_AS_UINT(hit);
+    lane_float opacity = surface_opacity(materials, material, colors, voxel);
     lane_uint side = LANES_AS_UINT(behind) & VXL_SIDE_LEAVING;
-    lane_int hidden = (lane_int)0;
     if (VXL_TRANSMISSION) {
+        lane_int hidden;
         const Interior before = load_interior(paths, stride, first);
         const lane_int body = is_smooth(word, primitive);
-        const lane_int leaving = interior_holds(&before, word, body) | behind;
-        hidden = hides_surface(&before, word, body, leaving, ranks) & hit &
-                 transmits(materials, material_place(word) & LANES_AS_UINT(hit));
+        lane_int leaving = interior_holds(&before, word, body) | behind;
+        lane_int inner = (lane_int)0, exit = (lane_int)0;  // faces between cubes, and out of them
+        if (VXL_CUBE_BODIES) {
+            const lane_int cube = is_cube(word, primitive) & hit;
+            exit = cube & is_exit(cell_face);
+            inner = cube & leaving & ~exit;
+            leaving = LANES_SELECT(cube, exit, leaving);
+        }
+        hidden = hides_surface(&before, word, body, leaving, ranks);
+        if (VXL_CUBE_BODIES) {
+            hidden |= exit & ~is_joined(word, materials);
+            hidden =
+                LANES_SELECT(inner, ~same_member(effective_member(&before, ranks), word), hidden);
+        }
+        hidden &= hit & (transmits(materials, material, opacity) | exit);
+        opacity = LANES_SELECT(hidden, (lane_float)0.0f, opacity);
         side =
             (LANES_AS_UINT(leaving) & VXL_SIDE_LEAVING) | (LANES_AS_UINT(hidden) & VXL_SIDE_HIDDEN);
     }
@@ -136,11 +153,8 @@ kernel void shade_surface(PyramidShape shape, Space space, global const float* r
     store_vector(position, positions, stride, first);
     store_vector(normal, normals, stride, first);
     LANES_STORE(word, words, first);
-    const lane_uint material = material_place(word) & LANES_AS_UINT(hit);
     const lane_float diffuse = LANES_GATHER_FLOAT(materials, material + VXL_MATERIAL_DIFFUSE);
     const lane_uint place = color_place(materials, material, position.x, position.y, position.z);
-    const lane_float opacity =
-        LANES_SELECT(hidden, (lane_float)0.0f, surface_opacity(materials, material));
     const float ambient[3] = {space.ambient.x, space.ambient.y, space.ambient.z};
     const float background[3] = {space.background.x, space.background.y, space.background.z};
     for (int channel = 0; channel < 3; ++channel) {

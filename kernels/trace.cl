@@ -3,6 +3,7 @@
 // One work-item carries VXL_LANES rays. Lanes that reach an occupied voxel wait until no lane of
 // the packet is walking; then the surfaces inside those voxels are tested together, and lanes that
 // missed them walk on.
+#include "lib/cube_body.h"
 #include "lib/hit_word.h"
 #include "lib/interior.h"
 #include "lib/smooth.h"
@@ -33,6 +34,8 @@ typedef struct {
     lane_int within_source;  // mask: it travels on inside of that primitive's object
     lane_float t_first;
     Interior interior;  // of scenes with transmitting objects; empty elsewhere
+    lane_uint body;     // the body of cubes in it, VXL_NO_MEMBER for none
+    lane_int joined;    // mask: the body's inner faces are no surfaces
 } Travel;
 
 /// What a packet has found so far.
@@ -42,6 +45,8 @@ typedef struct {
     lane_uint leaf, voxel, primitive;
     lane_uint solid;   // the last one tested
     lane_float level;  // shift of smooth surfaces for rays that began on one, see hit_smooth
+    lane_int in_body;  // mask: the walk has been in a cell of the body that the ray is inside of
+    lane_int exit;     // mask: the hit is the face across which it left the body
 } Found;
 
 /// Takes a hit at `t` on a cube or field in the `accepted` lanes, unless a primitive is hit before.
@@ -49,6 +54,12 @@ static inline void take_voxel_hit(Found* found, lane_float t, lane_int accepted)
     const lane_int closer = accepted & LANE_MASK(t < found->t);
     found->t = LANES_SELECT(closer, t, found->t);
     found->primitive = LANES_SELECT(closer, (lane_uint)VXL_NO_PRIMITIVE, found->primitive);
+}
+
+/// Ends walks that leave the body of cubes that their rays are inside of; the voxel is its last.
+static inline void leave_body(Found* found, const Walk* w, lane_int leaving) {
+    found->exit |= leaving & LANE_MASK(w->t < found->t);
+    take_voxel_hit(found, w->t, leaving);
 }
 
 /// Tests solid `number` of each lane in `tested`: closer hits in the world than *t replace it.
@@ -147,6 +158,16 @@ static inline lane_int test_surfaces(const PyramidView* p, const SurfaceView* s,
     const lane_uint voxel = voxel_number(p, found->leaf & LANES_AS_UINT(tested), w->x & tested,
                                          w->y & tested, w->z & tested) &
                             LANES_AS_UINT(tested);
+    lane_int passed = (lane_int)0, left = (lane_int)0;
+    if (VXL_CUBE_BODIES) {
+        lane_int own = tested & LANE_MASK(travel->body != VXL_NO_MEMBER);
+        if (VXL_ATTRIBUTES) own &= is_member(travel->body, LANES_GATHER_UINT(s->attributes, voxel));
+        left = tested & found->in_body & ~own;
+        leave_body(found, w, left);
+        tested &= ~left;
+        found->in_body |= own;
+        passed = own & travel->joined;
+    }
     found->voxel = LANES_SELECT(tested, voxel, found->voxel);
     lane_int cubes = VXL_CUBES ? tested : (lane_int)0;
     lane_int smooth = VXL_SMOOTH ? tested : (lane_int)0;
@@ -158,8 +179,8 @@ static inline lane_int test_surfaces(const PyramidView* p, const SurfaceView* s,
         exact &= LANE_MASK(kind == VXL_KIND_EXACT);
     }
     const lane_int beginning = travel->on_surface & LANE_MASK(w->axis == 3);
-    cubes &= ~beginning;
-    lane_int accepted = cubes;
+    cubes &= ~(beginning | passed);
+    lane_int accepted = cubes | left;
     if (VXL_CUBES) take_voxel_hit(found, w->t, cubes);
     if (VXL_SMOOTH && lanes_any(smooth)) {
         const Field field = read_field(s->fields, voxel, s->half_curvature);
@@ -188,6 +209,7 @@ static inline Found find_first(const PyramidView* p, const SurfaceView* s, Walk*
     found.leaf = found.voxel = (lane_uint)0;
     found.primitive = found.solid = (lane_uint)VXL_NO_PRIMITIVE;
     found.level = (lane_float)0.0f;
+    found.in_body = found.exit = (lane_int)0;
     lane_int walking = active & in_grid(p, w);
     while (lanes_any(walking)) {
         lane_int waiting = (lane_int)0;
@@ -197,6 +219,12 @@ static inline Found find_first(const PyramidView* p, const SurfaceView* s, Walk*
             found.leaf = LANES_SELECT(arrived, state.leaf, found.leaf);
             waiting |= arrived;
             walking &= ~arrived;
+            if (VXL_CUBE_BODIES) {
+                const lane_int left = walking & found.in_body;
+                leave_body(&found, w, left);
+                found.hit |= left;
+                walking &= ~left;
+            }
             advance(p, w, state.log2_size, walking);
             walking &= in_grid(p, w) & LANE_MASK(w->t <= t_end);
             if (VXL_EXACT) {  // an earlier voxel's primitive is hit before anything ahead
@@ -210,6 +238,11 @@ static inline Found find_first(const PyramidView* p, const SurfaceView* s, Walk*
         walking = waiting & ~accepted;
         if (!lanes_any(walking)) break;
         advance(p, w, (lane_int)0, walking);
+        if (VXL_CUBE_BODIES) {
+            const lane_int left = walking & found.in_body & ~in_grid(p, w);
+            leave_body(&found, w, left);
+            found.hit |= left;
+        }
         walking &= in_grid(p, w) & LANE_MASK(w->t <= t_end);
     }
     if (VXL_EXACT) found.hit |= active & LANE_MASK(found.t < INFINITY);
@@ -269,8 +302,9 @@ static inline void enter_world(const PyramidView* p, Walk* w, lane_int entering)
 
 /// Rays from the observer.
 static inline Travel sight_travel(void) {
-    const Travel travel = {(lane_int)0, (lane_int)0,      (lane_uint)VXL_NO_PRIMITIVE,
-                           (lane_int)0, (lane_float)0.0f, empty_interior()};
+    const Travel travel = {
+        (lane_int)0,      (lane_int)0,      (lane_uint)VXL_NO_PRIMITIVE, (lane_int)0,
+        (lane_float)0.0f, empty_interior(), (lane_uint)VXL_NO_MEMBER,    (lane_int)0};
     return travel;
 }
 
@@ -290,6 +324,10 @@ static inline Travel load_travel(global const uint* restrict paths,
         travel.t_first = LANES_LOAD(starts, first);
         travel.interior = load_interior(paths, stride, first);
     }
+    if (VXL_CUBE_BODIES) {
+        travel.body = body_inside(&travel.interior);
+        travel.joined = has_flag(flags, VXL_PATH_JOINED);
+    }
     return travel;
 }
 
@@ -303,14 +341,21 @@ static inline lane_float entry_time(const Walk* w) {
                 fmax(LANES_SELECT(w->my, ty, none), LANES_SELECT(w->mz, tz, none)));
 }
 
-/// Moves the walks of rays that go on to the cell where they were.
-static inline void resume_walk(Walk* w, const Travel* travel, lane_uint cell_xy, lane_uint cell_z) {
-    const lane_int on = travel->goes_on;
+/// Moves the `resuming` walks to the cell where their rays begin or go on.
+static inline void resume_walk(Walk* w, const Travel* travel, lane_uint cell_xy, lane_uint cell_z,
+                               lane_int resuming) {
+    const lane_int on = resuming;
     w->x = LANES_SELECT(on, LANES_AS_INT(cell_xy & 0xFFFFu), w->x);
     w->y = LANES_SELECT(on, LANES_AS_INT(cell_xy >> 16), w->y);
     w->z = LANES_SELECT(on, LANES_AS_INT(cell_z & 0xFFFFu), w->z);
-    w->t = LANES_SELECT(on, fmax(travel->t_first, entry_time(w)), w->t);
     w->axis = LANES_SELECT(on, (lane_int)3, w->axis);
+    if (VXL_CUBE_BODIES) {  // out of a body: what fills the next cell is entered now
+        const lane_int out = on & is_exit(cell_z);
+        const lane_uint axis = (cell_z >> VXL_FACE_AXIS_SHIFT) & VXL_FACE_AXIS_MASK;
+        w->axis = LANES_SELECT(out, LANES_AS_INT(axis), w->axis);
+        step_across(w, has_flag(cell_z, VXL_FACE_UP), out);
+    }
+    w->t = LANES_SELECT(on, fmax(travel->t_first, entry_time(w)), w->t);
 }
 
 /// The closest hit of rays 0 .. count-1. Arrays hold a multiple of 16 rays.
@@ -326,7 +371,9 @@ kernel void trace_closest(VXL_WORLD_ARGUMENTS, global const float* restrict rays
     enter_world(&pyramid, &walk, ~travel.on_surface);
     if (VXL_TRANSMISSION)
         resume_walk(&walk, &travel, LANES_LOAD(paths, VXL_PATH_CELL * stride + first),
-                    LANES_LOAD(paths, VXL_PATH_CELL_Z * stride + first));
+                    LANES_LOAD(paths, VXL_PATH_CELL_Z * stride + first),
+                    has_flag(LANES_LOAD(paths, VXL_PATH_FLAGS * stride + first),
+                             VXL_PATH_GOES_ON | VXL_PATH_FROM_CELL));
     const lane_float t_end = LANES_LOAD(rays, VXL_RAY_END * stride + first);
     const lane_int active =
         LANE_MASK(t_end >= 0.0f) & LANE_MASK(LANES_AS_INT(LANES_NUMBERS + (int)first) < (int)count);
@@ -334,9 +381,15 @@ kernel void trace_closest(VXL_WORLD_ARGUMENTS, global const float* restrict rays
     const lane_uint voxel = LANES_SELECT(found.hit, found.voxel, (lane_uint)VXL_NO_VOXEL);
     LANES_STORE(LANES_AS_UINT(found.t), hits, VXL_HIT_T * stride + first);
     LANES_STORE(voxel, hits, VXL_HIT_VOXEL * stride + first);
+    LANES_STORE(hit_face(&walk, found.exit & found.hit), hits, VXL_HIT_FACE * stride + first);
     LANES_STORE(LANES_AS_UINT(walk.x | (walk.y << 16)), hits, VXL_HIT_CELL * stride + first);
-    LANES_STORE(LANES_AS_UINT(walk.z | (walk.axis << 16)), hits, VXL_HIT_FACE * stride + first);
     if (VXL_EXACT) LANES_STORE(found.primitive, hits, VXL_HIT_PRIMITIVE * stride + first);
+}
+
+/// Finds the body of cubes that the rays are inside of.
+static inline void find_body(Travel* travel, global const float* restrict materials) {
+    travel->body = body_inside(&travel->interior);
+    travel->joined = is_joined(travel->body, materials);
 }
 
 /// What surfaces and objects on the way leave of a shadow ray's light.
@@ -379,14 +432,24 @@ static inline lane_int pass_through(const PyramidView* p, const SurfaceView* s, 
                                         s->solids, voxel, found.primitive, hit);
         const lane_int smooth = is_smooth(word, found.primitive);
         const lane_uint material = material_place(word) & LANES_AS_UINT(hit);
-        const lane_float opacity = surface_opacity(materials, material);
+        const lane_float opacity = surface_opacity(materials, material, colors, voxel);
         const lane_float refraction =
             LANES_GATHER_FLOAT(materials, material + VXL_MATERIAL_REFRACTION);
-        passing &= LANE_MASK(opacity < 1.0f) | LANE_MASK(refraction > 0.0f);
-        const lane_int leaving = interior_holds(&travel->interior, word, smooth);
+        passing &= LANE_MASK(opacity < 1.0f) | LANE_MASK(refraction > 0.0f) | found.exit;
+        lane_int leaving = interior_holds(&travel->interior, word, smooth);
+        lane_int inner = (lane_int)0;
+        if (VXL_CUBE_BODIES) {
+            const lane_int cube = is_cube(word, found.primitive);
+            inner = cube & leaving & ~found.exit;
+            leaving = LANES_SELECT(cube, found.exit, leaving);
+        }
         travel->interior = cross_interior(travel->interior, word, smooth, leaving, passing);
-        const lane_int hidden =
-            same_member(before, effective_member(&travel->interior, ranks)) & passing;
+        lane_int hidden = same_member(before, effective_member(&travel->interior, ranks)) & passing;
+        if (VXL_CUBE_BODIES) {
+            hidden |= found.exit & LANE_MASK(refraction == 0.0f);
+            hidden = LANES_SELECT(inner, ~same_member(before, word), hidden);
+            find_body(travel, materials);
+        }
         const lane_uint color = color_place(materials, material, fma(w->dx, found.t, w->ox),
                                             fma(w->dy, found.t, w->oy), fma(w->dz, found.t, w->oz));
         const lane_float clear = 1.0f - opacity;
@@ -403,7 +466,7 @@ static inline lane_int pass_through(const PyramidView* p, const SurfaceView* s, 
         travel->within_source = ~leaving;
         travel->t_first = t_last = LANES_SELECT(passing, found.t, t_last);
         w->t = LANES_SELECT(passing, fmax(found.t, w->t), w->t);
-        w->axis = (lane_int)3;
+        w->axis = LANES_SELECT(found.exit, w->axis, (lane_int)3);
     }
     return arrived;
 }
@@ -455,6 +518,7 @@ kernel void trace_shadows(VXL_WORLD_ARGUMENTS, uint constant_attribute,
         travel.interior.a = LANES_GATHER_UINT(paths, inside + stride);
         travel.interior.b = LANES_GATHER_UINT(paths, inside + 2u * stride);
         travel.interior.c = LANES_GATHER_UINT(paths, inside + 3u * stride);
+        if (VXL_CUBE_BODIES) find_body(&travel, materials);
         const Vector along = {walk.dx * shape.edge.x, walk.dy * shape.edge.y,
                               walk.dz * shape.edge.z};
         const lane_float zero = (lane_float)0.0f, one = (lane_float)1.0f;

@@ -53,7 +53,8 @@ struct BrickGrid {
     Buffer<int16_t> distance;      ///< 4096 per slot: at nodes (voxels' minimum corners), x fastest
     Buffer<uint32_t> attributes;   ///< 4096 per slot: shared/voxel.h's word of each voxel
     uint32_t attribute = 0;        ///< the word of every voxel when `attributes` is empty
-    Buffer<uint32_t> colors;  ///< 4096 per slot: 0xBBGGRR, sRGB, multiplies the material's colour
+    Buffer<uint32_t> colors;       ///< 4096 per slot: shared/voxel.h's colour word of each voxel
+    bool transparent = false;      ///< some voxel's colour says that it isn't opaque
 
     // exact surfaces: voxel v of slot s lists primitives[first[s*4096+v] .. first[s*4096+v+1])
     Buffer<uint32_t> primitive_first;  ///< 4096 per slot + 1
@@ -83,6 +84,7 @@ struct Pyramid {
     Buffer<uint32_t> attributes;   ///< one per voxel, shared/voxel.h; see `attribute`
     uint32_t attribute = 0;        ///< the word of every voxel when `attributes` is empty
     Buffer<uint32_t> colors;       ///< one per voxel
+    bool transparent = false;      ///< some of the voxels aren't opaque
     Buffer<uint32_t> fields;       ///< 8 per voxel, shared/voxel.h; empty without smooth surfaces
     int curvature_exponent = 0;  ///< unit of the fields' second differences: 2^this distance units
     Buffer<uint32_t> primitive_first;  ///< voxel_count + 1; empty without exact surfaces

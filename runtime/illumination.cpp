@@ -4,12 +4,26 @@
 #include <bit>
 #include <set>
 
+#include "runtime/stages/spots.hpp"
+
 namespace voxelume {
 namespace {
 
+bool shines(const Light& light) {
+    return light.energy != glm::vec3(0);
+}
+
+bool has_area(const Light& light) {
+    return light.kind == LightKind::disk || light.kind == LightKind::rectangle;
+}
+
+bool has_lamp(const Scene& scene) {
+    return std::ranges::any_of(scene.objects,
+                               [&](const Object& object) { return is_lamp(scene, object); });
+}
+
 bool has_light(const Scene& scene) {
-    return std::ranges::any_of(scene.lights,
-                               [](const Light& light) { return light.energy != glm::vec3(0); });
+    return std::ranges::any_of(scene.lights, shines) || has_lamp(scene);
 }
 
 ShadowQueue allocate_shadow_queue(const Device& device, const Features& features, uint32_t stride) {
@@ -27,10 +41,18 @@ ShadowQueue allocate_shadow_queue(const Device& device, const Features& features
     return queue;
 }
 
-std::vector<LightRecord> light_records(const Scene& scene, const GridFrame& world) {
+std::vector<LightRecord> light_records(const Device& device, const Features& features,
+                                       const Scene& scene, const Pyramid& world) {
     std::vector<LightRecord> records;
-    for (const Light& light : scene.lights)
-        if (light.energy != glm::vec3(0)) records.push_back(light_record(light, world));
+    for (const Light& light : scene.lights) {
+        if (!shines(light)) continue;
+        if (has_area(light))
+            std::ranges::copy(area_spots(light, world.frame), std::back_inserter(records));
+        else
+            records.push_back(light_record(light, world.frame));
+    }
+    if (has_lamp(scene))
+        std::ranges::copy(lamp_spots(device, features, scene, world), std::back_inserter(records));
     return records;
 }
 
@@ -51,13 +73,14 @@ void add_paths(const Scene& scene, Features& features) {
     const bool follows = scene.render.depth > 0;
     bool refraction = false, opacity = false, reflection = false, fresnel = false;
     bool absorption = false;
+    opacity = features.voxel_opacity;
     for (const Material* m : shown_materials(scene)) {
         features.checker |= m->checker.has_value();
         refraction |= m->refraction > 0;
         opacity |= m->opacity < 1;
         reflection |= m->reflection > 0;
         fresnel |= m->fresnel && (m->reflection > 0 || m->refraction > 0);
-        absorption |= m->absorption != glm::vec3(0) && (m->refraction > 0 || m->opacity < 1);
+        absorption |= m->absorption != glm::vec3(0) && (transmits(*m) || features.voxel_opacity);
     }
     const bool filters =
         features.shadows && (opacity || (refraction && scene.render.filtered_shadows));
@@ -67,6 +90,11 @@ void add_paths(const Scene& scene, Features& features) {
     features.absorbs = features.medium || (features.transmission && absorption);
     features.filter = filters;
     features.filtered_refraction = filters && scene.render.filtered_shadows;
+    features.cube_bodies =
+        features.transmission && std::ranges::any_of(scene.objects, [&](const Object& object) {
+            return scene.models[size_t(object.model)].surface == Surface::cubes &&
+                   (features.voxel_opacity || transmits(scene, object));
+        });
 }
 
 /// Arrays of rays on their way.
@@ -87,6 +115,9 @@ RayQueue allocate_queue(const Device& device, const Features& features, uint32_t
 Features features_of(const Scene& scene, const Pyramid& world) {
     Features features = features_of(world);
     features.shadows = scene.render.shadows && has_light(scene);
+    features.patches = has_lamp(scene) || std::ranges::any_of(scene.lights, [](const Light& light) {
+                           return shines(light) && has_area(light);
+                       });
     features.medium = scene.world.medium.absorption != glm::vec3(0);
     features.medium_grid = features.medium && has_density(scene.world.medium);
     add_paths(scene, features);
@@ -115,7 +146,7 @@ Illumination::Illumination(const Device& device, const Features& features, const
     : device_(device),
       features_(features),
       world_(world),
-      lights_(light_records(scene, world.frame)),
+      lights_(light_records(device, features, scene, world)),
       most_rays_(most_rays),
       most_depth_(size_t(scene.render.depth)),
       trace_(device, features),
@@ -164,8 +195,8 @@ void Illumination::follow(size_t number, RayBatch& first, uint32_t count) {
         direct(*entries, count);
         uint32_t on = 0;
         if (features_.transmission)
-            on =
-                scatter_->layer(*entries, count, is_first, depth.children, depth.nodes, depth.next);
+            on = scatter_->layer(world_, *entries, count, is_first, depth.children, depth.nodes,
+                                 depth.next);
         else
             depth.nodes.radiance = entries->radiance;
         if (number < most_depth_) scatter(number, *entries, count);

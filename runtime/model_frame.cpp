@@ -80,4 +80,10 @@ bool is_in_reach(const Scene& scene, const Object& object) {
     return !model.solid || !bounds(*model.solid, glm::dmat4(1), reach).is_empty();
 }
 
+bool shows_inside(const Scene& scene, const Object& object) {
+    const Model& model = scene.models[size_t(object.model)];
+    return model.surface == Surface::cubes && model.set == VoxelSet::solid &&
+           transmits(scene, object);
+}
+
 }  // namespace voxelume

@@ -39,6 +39,9 @@ Bounds mesh_bounds(const Mesh& mesh);
 /// for more voxels than can be numbered; the sentence begins with the model's place.
 GridFrame model_frame(const Model& model, const Mesh* mesh);
 
+/// Whether rays see the voxels inside of the object, too: solid cubes that let light through.
+bool shows_inside(const Scene& scene, const Object& object);
+
 /// Whether any part of the object can lie inside the world; models that aren't are not read.
 bool is_in_reach(const Scene& scene, const Object& object);
 

@@ -133,4 +133,15 @@ std::vector<int> materials_of_groups(const Object& object,
     return materials;
 }
 
+bool transmits(const Material& material) {
+    return material.refraction > 0 || material.opacity < 1;
+}
+
+bool transmits(const Scene& scene, const Object& object) {
+    return transmits(scene.materials[size_t(object.material)]) ||
+           std::ranges::any_of(object.groups, [&](const GroupMaterial& group) {
+               return transmits(scene.materials[size_t(group.material)]);
+           });
+}
+
 }  // namespace voxelume

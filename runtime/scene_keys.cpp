@@ -52,11 +52,16 @@ std::vector<KeyTable> make_tables() {
     for (const KeyTable& shape : shapes)
         tables.push_back({"part:" + shape.name, shape.keys + placement});
     tables.push_back(
-        {"object", Keys{"name", "model", "material", "materials", "priority"} + placement});
+        {"object",
+         Keys{"name", "model", "material", "materials", "priority", "spots"} + placement});
     tables.push_back({"light:point", light + Keys{"position"}});
     tables.push_back(
         {"light:spot", light + Keys{"position", "direction", "look_at", "angle", "inner_angle"}});
     tables.push_back({"light:directional", light + Keys{"direction"}});
+    tables.push_back(
+        {"light:disk", light + Keys{"position", "direction", "look_at", "radius", "spots"}});
+    tables.push_back({"light:rectangle",
+                      light + Keys{"position", "direction", "look_at", "up", "size", "spots"}});
     tables.push_back({"observer", {"position", "look_at", "up", "turn", "display"}});
     const Keys display = {"shape", "voxels", "layout", "visibility", "clip"};
     tables.push_back({"display:pyramid", display + Keys{"angles", "angle", "near", "far"}});

@@ -44,6 +44,7 @@ class ObjectMaker {
         placed.priority = object.priority;
         placed.set = model.set;
         placed.in_world_frame = model.surface == Surface::exact;
+        placed.keeps_inside = shows_inside(scene_, object);
         for (const int material : materials_of_groups(object, group_names(model)))
             placed.material_of_group.push_back(uint32_t(material));
         placed.grid = placed.in_world_frame ? exact_grid(object, model) : grid_of(model);

@@ -26,7 +26,7 @@
     F(reflection) F(refraction) F(opacity) F(fresnel) FA(checker_color, 3) \
     FA(checker_scale, 3) FA(checker_shift, 3) FA(unused, 6)
 #define LIGHT_RECORD_FIELDS \
-    V(position) V(direction) V(energy) F(inner_cosine) F(outer_cosine) I(kind) I(unused)
+    V(position) V(direction) V(energy) F(inner_cosine) F(outer_cosine) I(kind) F(spread)
 #define SPACE_FIELDS V(background) V(ambient) V(absorption) V(color)
 #define DISPLAY_STEPS_FIELDS F(step) F(inverse_step) I(count) F(absorption)
 #define DISPLAY_LATTICE_FIELDS \

@@ -48,16 +48,23 @@ static inline lane_float surface_color(global const float* restrict materials, l
     return color;
 }
 
-/// The share of what lies behind that a surface covers: 1 in scenes without transmitting objects.
-static inline lane_float surface_opacity(global const float* restrict materials,
-                                         lane_uint material) {
+/// The share of what lies behind that a surface covers: its material's, times its voxel's own. 1 in
+/// scenes without transmitting objects.
+static inline lane_float surface_opacity(global const float* restrict materials, lane_uint material,
+                                         global const uint* restrict colors, lane_uint voxel) {
     if (!VXL_TRANSMISSION) return (lane_float)1.0f;
-    return LANES_GATHER_FLOAT(materials, material + VXL_MATERIAL_OPACITY);
+    lane_float opacity = LANES_GATHER_FLOAT(materials, material + VXL_MATERIAL_OPACITY);
+    if (VXL_VOXEL_OPACITY) {
+        const lane_uint transparency = LANES_GATHER_UINT(colors, voxel) >> VXL_TRANSPARENCY_SHIFT;
+        opacity *= exact_divide(LANES_FLOAT(255u - transparency), (lane_float)255.0f);
+    }
+    return opacity;
 }
 
-/// Mask: light goes through or past surfaces of a material.
-static inline lane_int transmits(global const float* restrict materials, lane_uint material) {
-    return LANE_MASK(LANES_GATHER_FLOAT(materials, material + VXL_MATERIAL_OPACITY) < 1.0f) |
+/// Mask: light goes through or past a surface of a material that covers by `opacity`.
+static inline lane_int transmits(global const float* restrict materials, lane_uint material,
+                                 lane_float opacity) {
+    return LANE_MASK(opacity < 1.0f) |
            LANE_MASK(LANES_GATHER_FLOAT(materials, material + VXL_MATERIAL_REFRACTION) > 0.0f);
 }
 

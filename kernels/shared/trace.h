@@ -21,7 +21,9 @@
 //   VXL_HIT_VOXEL  the voxel's number in the pyramid, VXL_NO_VOXEL for a miss
 //   VXL_HIT_CELL   x | y << 16
 //   VXL_HIT_FACE   z | axis << 16: the axis (0, 1, 2) across which the ray entered the cell, or
-//                  came into the world; 3: it began there
+//                  came into the world; 3: it began there. Where it left the object of the cell's
+//                  voxel, VXL_FACE_EXIT is set, the axis is that across which it left the cell,
+//                  and VXL_FACE_UP says that this was towards larger coordinates.
 //   VXL_HIT_PRIMITIVE  the triangle or solid hit, VXL_NO_PRIMITIVE for other surfaces
 #define VXL_HIT_T 0
 #define VXL_HIT_VOXEL 1
@@ -29,6 +31,10 @@
 #define VXL_HIT_FACE 3
 #define VXL_HIT_PRIMITIVE 4
 #define VXL_HIT_COMPONENTS 5
+#define VXL_FACE_AXIS_SHIFT 16
+#define VXL_FACE_AXIS_MASK 3u
+#define VXL_FACE_EXIT 0x40000u
+#define VXL_FACE_UP 0x80000u
 // A primitive is a triangle's number, or this bit and a solid's.
 #define VXL_SOLID_PRIMITIVE 0x80000000u
 #define VXL_NO_PRIMITIVE 0xFFFFFFFFu
@@ -40,7 +46,7 @@
 //   VXL_PATH_WEIGHT  float: the share of a pixel that the ray's node may add
 // The others exist in scenes with transmitting objects only:
 //   VXL_PATH_CELL    the cell in which the ray goes on: x | y << 16
-//   VXL_PATH_CELL_Z  z
+//   VXL_PATH_CELL_Z  z; or with VXL_FACE_EXIT all of VXL_HIT_FACE: it goes on in the next cell
 //   VXL_PATH_TARGET  the node that the ray's light goes to
 //   VXL_PATH_CLEAR   float: what the surfaces passed leave uncovered
 //   VXL_PATH_PASSED  3 floats: what is left of the light on its way to the node
@@ -59,6 +65,8 @@
 #define VXL_PATH_ON_SURFACE 1u     // begins on a surface
 #define VXL_PATH_WITHIN_SOURCE 2u  // and travels on inside of it
 #define VXL_PATH_GOES_ON 4u        // an earlier ray's continuation, from its t = `starts` on
+#define VXL_PATH_FROM_CELL 8u      // begins in the cell named
+#define VXL_PATH_JOINED 16u        // inside of cubes whose inner faces are no surfaces
 
 #define VXL_MOST_LAYERS 1024  // surfaces that one ray goes straight on through
 

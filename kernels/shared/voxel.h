@@ -17,6 +17,10 @@
 #define VXL_KIND_SMOOTH 1u
 #define VXL_KIND_EXACT 2u
 
+// Colour word of a voxel: 0xTTBBGGRR, sRGB and the voxel's transparency, 0 opaque .. 255 clear. Both
+// multiply the material's.
+#define VXL_TRANSPARENCY_SHIFT 24
+
 // Field record of a smooth voxel, 8 words (32 bytes, aligned). The distance inside the voxel at
 // s = (x,y,z) in [0,1]³ is half-Taylor interpolation (Kraaijpoel & van Leeuwen 2010), which with
 // gradients from central differences becomes

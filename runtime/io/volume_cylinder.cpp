@@ -34,9 +34,9 @@ struct Cylinder {
         const VolumeFrame& frame = volume.frame;
         return 0.5 * std::min(frame.edge.x * frame.size.x, frame.edge.z * frame.size.z);
     }
-    /// The volume's voxel in the middle of a cell. Angle 0 is image right, -X_E, and angles grow
-    /// counter-clockwise as seen from above.
-    glm::ivec3 cell_at(int angle, int ring, int height) const {
+    /// The volume's column of voxels in the middle of a cell. Angle 0 is image right, -X_E, and
+    /// angles grow counter-clockwise as seen from above.
+    glm::ivec3 column_at(int angle, int ring) const {
         const VolumeFrame& frame = volume.frame;
         const double turn = 2 * kPi * (angle + 0.5) / size.angles;
         const double r = radius() * (ring + 0.5) / size.radii;
@@ -44,8 +44,7 @@ struct Cylinder {
             const double voxel = 0.5 * frame.size[axis] + metres / frame.edge[axis];
             return std::clamp(int(std::floor(voxel)), 0, frame.size[axis] - 1);
         };
-        const auto y = int(int64_t(2 * height + 1) * frame.size.y / (2 * int64_t(size.heights)));
-        return {along(0, -r * std::cos(turn)), y, along(2, r * std::sin(turn))};
+        return {along(0, -r * std::cos(turn)), 0, along(2, r * std::sin(turn))};
     }
     /// The position of a voxel in the volume's arrays, or -1.
     int64_t find(const glm::ivec3& cell) const {
@@ -74,9 +73,11 @@ std::vector<uint8_t> make_buffer(const Cylinder& cylinder, const Packing& packin
     const Volume& volume = cylinder.volume;
     size_t at = 0;
     for (int angle = 0; angle < angles; ++angle)
-        for (int ring = 0; ring < radii; ++ring)
+        for (int ring = 0; ring < radii; ++ring) {
+            glm::ivec3 cell = cylinder.column_at(angle, ring);
             for (int height = 0; height < heights; ++height, at += packing.bytes) {
-                const int64_t i = cylinder.find(cylinder.cell_at(angle, ring, height));
+                cell.y = height;
+                const int64_t i = cylinder.find(cell);
                 if (i < 0) continue;
                 const int word = pack(packing,
                                       light_of(volume.colors[size_t(i)],
@@ -85,6 +86,7 @@ std::vector<uint8_t> make_buffer(const Cylinder& cylinder, const Packing& packin
                 buffer[at] = uint8_t(word & 0xff);
                 if (packing.bytes == 2) buffer[at + 1] = uint8_t(word >> 8);
             }
+        }
     return buffer;
 }
 

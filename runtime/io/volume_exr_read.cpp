@@ -115,7 +115,7 @@ VolumeFrame take_frame(const InputFile& readable, const VolumePath& path,
     const auto* text = header.findTypedAttribute<Imf::StringAttribute>(kFrameKey);
     if (text == nullptr) readable.refuse("a deep image, but not of a display");
     const VolumeFrame frame = read_frame_text(text->value(), path.string());
-    const Imath::Box2i window = header.dataWindow();
+    const Imath::Box2i& window = header.dataWindow();
     if (window.min != Imath::V2i(0) || window.max.x != frame.size.x - 1 ||
         window.max.y != frame.size.y - 1)
         readable.refuse("its size isn't the display's");

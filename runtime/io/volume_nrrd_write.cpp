@@ -19,7 +19,7 @@ namespace {
 class NrrdData {
   public:
     NrrdData(AtomicFile& file, bool compress) : file_(file), compress_(compress) {
-        constexpr int kGzip = 15 + 16, kMemoryLevel = 8, kLevel = 6;
+        constexpr int kGzip = 15 + 16, kMemoryLevel = 8, kLevel = 1;
         if (compress && deflateInit2(&stream_, kLevel, Z_DEFLATED, kGzip, kMemoryLevel,
                                      Z_DEFAULT_STRATEGY) != Z_OK)
             file.fail("zlib doesn't start");

@@ -55,17 +55,42 @@ openvdb::Coord coord_of(const VolumeFrame& frame, uint64_t place) {
     return {cell.x, cell.y, cell.z};
 }
 
-/// `value_at(i)` is the value of the i-th listed voxel.
-template <class Grid, class ValueAt>
-typename Grid::Ptr make_grid(const Volume& volume, const char* name, ValueAt value_at) {
-    auto grid = Grid::create();
-    auto accessor = grid->getAccessor();
-    for (size_t i = 0; i < volume.places.size(); ++i)
-        accessor.setValue(coord_of(volume.frame, volume.places[i]), value_at(i));
-    grid->setName(name);
-    grid->setTransform(make_transform(volume.frame));
-    return grid;
+/// The listed voxels leaf by leaf, 8 x 8 x 8 each: OpenVDB's accessors are slow across leaves.
+std::vector<uint32_t> order_by_leaf(const Volume& volume) {
+    std::vector<std::pair<uint64_t, uint32_t>> order;
+    order.reserve(volume.places.size());
+    for (uint32_t i = 0; i < volume.places.size(); ++i) {
+        const glm::ivec3 leaf = cell_of(volume.frame, volume.places[i]) / 8;
+        order.emplace_back(uint64_t(leaf.x) | uint64_t(leaf.y) << 16 | uint64_t(leaf.z) << 32, i);
+    }
+    std::ranges::sort(order);
+    std::vector<uint32_t> voxels;
+    voxels.reserve(order.size());
+    for (const auto& [leaf, i] : order) voxels.push_back(i);
+    return voxels;
 }
+
+/// Makes grids that list the same voxels.
+class GridMaker {
+  public:
+    explicit GridMaker(const Volume& volume) : volume_(volume), order_(order_by_leaf(volume)) {}
+
+    /// `value_at(i)` is the value of the i-th listed voxel.
+    template <class Grid, class ValueAt>
+    typename Grid::Ptr make(const char* name, ValueAt value_at) const {
+        auto grid = Grid::create();
+        auto accessor = grid->getAccessor();
+        for (const uint32_t i : order_)
+            accessor.setValue(coord_of(volume_.frame, volume_.places[i]), value_at(i));
+        grid->setName(name);
+        grid->setTransform(make_transform(volume_.frame));
+        return grid;
+    }
+
+  private:
+    const Volume& volume_;
+    std::vector<uint32_t> order_;
+};
 
 /// The extinction per metre that gives the opacity over `length`; an opaque voxel lets 1/1024 of
 /// the light through.
@@ -78,20 +103,20 @@ openvdb::GridCPtrVec make_grids(const Volume& volume) {
     using openvdb::FloatGrid;
     using openvdb::Int32Grid;
     const VolumeFrame& frame = volume.frame;
+    const GridMaker maker(volume);
     const double length = frame.layout == VolumeLayout::lattice ? frame.edge.z : frame.step;
-    auto density = make_grid<FloatGrid>(
-        volume, "density", [&](size_t i) { return density_of(volume.opacities[i], length); });
-    auto alpha =
-        make_grid<FloatGrid>(volume, "alpha", [&](size_t i) { return volume.opacities[i]; });
-    auto color = make_grid<openvdb::Vec3SGrid>(volume, "Cd", [&](size_t i) {
+    auto density = maker.make<FloatGrid>(
+        "density", [&](size_t i) { return density_of(volume.opacities[i], length); });
+    auto alpha = maker.make<FloatGrid>("alpha", [&](size_t i) { return volume.opacities[i]; });
+    auto color = maker.make<openvdb::Vec3SGrid>("Cd", [&](size_t i) {
         const glm::vec3& c = volume.colors[i];
         return openvdb::Vec3s(c.r, c.g, c.b);
     });
-    auto depth = make_grid<FloatGrid>(volume, "depth", [&](size_t i) { return volume.depths[i]; });
-    auto object = make_grid<Int32Grid>(
-        volume, "object", [&](size_t i) { return static_cast<int32_t>(volume.objects[i]); });
-    auto kind = make_grid<Int32Grid>(volume, "kind",
-                                     [&](size_t i) { return static_cast<int>(volume.kinds[i]); });
+    auto depth = maker.make<FloatGrid>("depth", [&](size_t i) { return volume.depths[i]; });
+    auto object = maker.make<Int32Grid>(
+        "object", [&](size_t i) { return static_cast<int32_t>(volume.objects[i]); });
+    auto kind =
+        maker.make<Int32Grid>("kind", [&](size_t i) { return static_cast<int>(volume.kinds[i]); });
     density->setGridClass(openvdb::GRID_FOG_VOLUME);
     alpha->setGridClass(openvdb::GRID_FOG_VOLUME);
     color->setVectorType(openvdb::VEC_INVARIANT);
@@ -117,21 +142,36 @@ VolumeGrids take_grids(openvdb::io::File& file) {
     return grids;
 }
 
-/// Ascending places of the active voxels.
-std::vector<uint64_t> take_places(const InputFile& readable, const VolumeFrame& frame,
-                                  const openvdb::FloatGrid& alpha) {
-    std::vector<uint64_t> places;
-    for (auto value = alpha.cbeginValueOn(); value; ++value) {
+/// A voxel before all are brought into the order of their places.
+struct FoundVoxel {
+    uint64_t place = 0;
+    openvdb::Vec3s color;
+    float opacity = 0, depth = 0;
+    int32_t object = 0, kind = 0;
+};
+
+/// The active voxels of `alpha`, ascending, with what the other grids say there.
+std::vector<FoundVoxel> find_voxels(const InputFile& readable, const VolumeFrame& frame,
+                                    const VolumeGrids& grids) {
+    const glm::ivec3& size = frame.size;
+    auto depth = grids.depth->getConstAccessor();
+    auto color = grids.color->getConstAccessor();
+    auto object = grids.object->getConstAccessor(), kind = grids.kind->getConstAccessor();
+    std::vector<FoundVoxel> voxels;
+    voxels.reserve(grids.alpha->activeVoxelCount());
+    for (auto value = grids.alpha->cbeginValueOn(); value; ++value) {
         const openvdb::Coord c = value.getCoord();
-        if (!value.isVoxelValue() || c.x() < 0 || c.y() < 0 || c.z() < 0 || c.x() >= frame.size.x ||
-            c.y() >= frame.size.y || c.z() >= frame.size.z)
+        if (!value.isVoxelValue() || c.x() < 0 || c.y() < 0 || c.z() < 0 || c.x() >= size.x ||
+            c.y() >= size.y || c.z() >= size.z)
             readable.refuse("a voxel lies outside of the display");
-        places.push_back(uint64_t(c.x()) +
-                         uint64_t(frame.size.x) *
-                             (uint64_t(c.y()) + uint64_t(frame.size.y) * uint64_t(c.z())));
+        const uint64_t place =
+            uint64_t(c.x()) +
+            uint64_t(size.x) * (uint64_t(c.y()) + uint64_t(size.y) * uint64_t(c.z()));
+        voxels.push_back({place, color.getValue(c), *value, depth.getValue(c), object.getValue(c),
+                          kind.getValue(c)});
     }
-    std::ranges::sort(places);
-    return places;
+    std::ranges::sort(voxels, {}, &FoundVoxel::place);
+    return voxels;
 }
 
 Volume take_volume(const InputFile& readable, const VolumePath& path, openvdb::io::File& file) {
@@ -145,18 +185,13 @@ Volume take_volume(const InputFile& readable, const VolumePath& path, openvdb::i
             volume.attributes[entry->first] = entry->second->str();
     const VolumeGrids grids = take_grids(file);
     if (!grids.complete()) readable.refuse("its grids aren't those of a display");
-    volume.places = take_places(readable, volume.frame, *grids.alpha);
-    auto alpha = grids.alpha->getConstAccessor(), depth = grids.depth->getConstAccessor();
-    auto color = grids.color->getConstAccessor();
-    auto object = grids.object->getConstAccessor(), kind = grids.kind->getConstAccessor();
-    for (const uint64_t place : volume.places) {
-        const openvdb::Coord c = coord_of(volume.frame, place);
-        const openvdb::Vec3s& light = color.getValue(c);
-        volume.colors.emplace_back(light.x(), light.y(), light.z());
-        volume.opacities.push_back(alpha.getValue(c));
-        volume.depths.push_back(depth.getValue(c));
-        volume.objects.push_back(static_cast<uint32_t>(object.getValue(c)));
-        volume.kinds.push_back(static_cast<VoxelKind>(std::clamp(kind.getValue(c), 0, 2)));
+    for (const FoundVoxel& voxel : find_voxels(readable, volume.frame, grids)) {
+        volume.places.push_back(voxel.place);
+        volume.colors.emplace_back(voxel.color.x(), voxel.color.y(), voxel.color.z());
+        volume.opacities.push_back(voxel.opacity);
+        volume.depths.push_back(voxel.depth);
+        volume.objects.push_back(static_cast<uint32_t>(voxel.object));
+        volume.kinds.push_back(static_cast<VoxelKind>(std::clamp(voxel.kind, 0, 2)));
     }
     return volume;
 }
@@ -165,6 +200,8 @@ Volume take_volume(const InputFile& readable, const VolumePath& path, openvdb::i
 
 void write_volume_vdb(const VolumePath& path, const Volume& volume) {
     AtomicFile file(path);
+    if (volume.places.size() > UINT32_MAX)
+        file.fail("it has more than 2^32 voxels that show something");
     openvdb::initialize();
     openvdb::MetaMap metadata;
     for (const auto& [key, text] : volume.attributes)

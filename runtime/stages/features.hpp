@@ -17,6 +17,7 @@ struct Features {
     bool medium = false;        ///< the space absorbs light
     bool medium_grid = false;   ///< ... not everywhere alike
     bool shadows = false;       ///< lights can be hidden
+    bool patches = false;       ///< some light has an area
     bool checker = false;       ///< some material changes its colour from block to block
     bool paths = false;         ///< rays are reflected, refracted or go on through surfaces
     bool transmission = false;  ///< some object lets light through
@@ -24,6 +25,8 @@ struct Features {
     bool absorbs = false;       ///< the space, or an object that light goes through, takes of it
     bool filter = false;        ///< shadow rays go on through some surfaces
     bool filtered_refraction = false;  ///< refracting ones among them
+    bool cube_bodies = false;          ///< some object of cubes lets light through
+    bool voxel_opacity = false;        ///< voxels have opacities of their own
 
     bool exact() const { return triangles || solids; }
 
@@ -38,6 +41,7 @@ struct Features {
                 {"VXL_MEDIUM", medium},
                 {"VXL_MEDIUM_GRID", medium_grid},
                 {"VXL_SHADOWS", shadows},
+                {"VXL_PATCHES", patches},
                 {"VXL_CHECKER", checker},
                 {"VXL_PATHS", paths},
                 {"VXL_TRANSMISSION", transmission},
@@ -45,6 +49,8 @@ struct Features {
                 {"VXL_ABSORBS", absorbs},
                 {"VXL_FILTER", filter},
                 {"VXL_FILTERED", filtered_refraction},
+                {"VXL_CUBE_BODIES", cube_bodies},
+                {"VXL_VOXEL_OPACITY", voxel_opacity},
                 {"VXL_NATIVE_DIVIDE", device.is_cpu()}};
     }
 };

@@ -201,6 +201,7 @@ Pyramid allocate(const Device& device, const BrickGrid& grid, const Numbering& n
     else
         pyramid.attribute = (grid.attribute & ~(~0u << VXL_KIND_SHIFT)) |
                             static_cast<uint32_t>(kind) << VXL_KIND_SHIFT;
+    pyramid.transparent = grid.transparent;
     if (!grid.colors.empty()) pyramid.colors = Buffer<uint32_t>(device, "voxel colors", voxels);
     if (!grid.distance.empty())
         pyramid.fields = Buffer<uint32_t>(device, "voxel fields", voxels * VXL_FIELD_WORDS);

@@ -28,7 +28,7 @@ Surface surface_of(const BrickGrid& grid) {
 
 /// What the world stores, taken from what its objects have.
 struct WorldParts {
-    bool smooth = false, occupancy = false, colors = false;
+    bool smooth = false, occupancy = false, colors = false, transparent = false;
     std::set<uint32_t> words;  ///< that voxels can have
 };
 
@@ -70,6 +70,7 @@ WorldParts parts_of(std::span<const PlacedObject> objects) {
         parts.smooth |= surface == Surface::smooth;
         parts.occupancy |= surface != Surface::smooth;
         parts.colors |= !object.grid->colors.empty();
+        parts.transparent |= object.grid->transparent;
         const std::vector<uint32_t> words = possible_words(object, surface);
         parts.words.insert(words.begin(), words.end());
     }
@@ -125,7 +126,8 @@ Painter prepare(const Device& device, const PlacedObject& object, const GridFram
                                         {"VXL_OBJECT_ATTRIBUTES", !grid.attributes.empty()},
                                         {"VXL_OBJECT_COLORS", !grid.colors.empty()},
                                         {"VXL_WORLD_OCCUPANCY", parts.occupancy},
-                                        {"VXL_REACH", map.has_reach}}),
+                                        {"VXL_REACH", map.has_reach},
+                                        {"VXL_KEEPS_INSIDE", object.keeps_inside}}),
                     .words = word_map(device, object, surface),
                     .near = Buffer<uint64_t>(device, "near leaves", grid.brick_count)};
     const double band = std::ceil(kBandVoxels * kDistanceUnitsPerVoxel / map.distance_scale);
@@ -183,6 +185,7 @@ void allocate(const Device& device, const WorldParts& parts, BrickGrid& world) {
     if (parts.colors) {
         world.colors = Buffer<uint32_t>(device, "world colors", voxels);
         world.colors.fill(0xFFFFFF);
+        world.transparent = parts.transparent;
     }
 }
 
@@ -234,7 +237,7 @@ void paint_cubes(Painter& painter, BrickGrid& world) {
 /// A world that is its only object: its buffers, with its word.
 bool is_only_object(std::span<const PlacedObject> objects, const WorldParts& parts) {
     return objects.size() == 1 && objects[0].in_world_frame && parts.words.size() == 1 &&
-           surface_of(*objects[0].grid) != Surface::exact;
+           !objects[0].keeps_inside && surface_of(*objects[0].grid) != Surface::exact;
 }
 
 }  // namespace

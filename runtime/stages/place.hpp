@@ -23,6 +23,7 @@ struct PlacedObject {
                                           ///< groups; empty: the group is the material
     VoxelSet set = VoxelSet::supercover;  ///< what its cubes are; `thin` widens turned sheets
     bool in_world_frame = false;  ///< `grid` has the world's frame already, the map is not used
+    bool keeps_inside = false;    ///< of solid cubes: rays see the voxels inside, too
 };
 
 /// Resamples every object into one grid of the world by the inverse of its map, in one step from
@@ -58,7 +59,8 @@ struct PlacedObject {
 ///
 /// `attributes` are stored only when the objects have more than one word together. A world whose
 /// only object is in its frame shares that object's buffers. Bricks are stored wherever an object
-/// may have surface, and a brick is kBrickInside only if the voxels around it are full, too.
+/// may have surface, and a brick is kBrickInside only if the voxels around it are full, too, and of
+/// an object that doesn't keep its inside.
 ///
 /// Throws Error::scene for a placement that can't be inverted, Error::limit for too little memory.
 BrickGrid place(const Device& device, std::span<const PlacedObject> objects,

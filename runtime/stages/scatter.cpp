@@ -31,14 +31,16 @@ uint32_t ScatterStage::take(uint32_t counter) {
     return counts[counter];
 }
 
-uint32_t ScatterStage::layer(RayBatch& entries, uint32_t count, bool first_layer,
-                             Children& children, NodeLight& nodes, RayQueue& next) {
+uint32_t ScatterStage::layer(const Pyramid& pyramid, RayBatch& entries, uint32_t count,
+                             bool first_layer, Children& children, NodeLight& nodes,
+                             RayQueue& next) {
     counters_.fill(0);
-    layer_.launch_packets(
-        count, surroundings_.materials, surroundings_.ranks, least_weight_, uint32_t(first_layer),
-        entries.rays, entries.hits, entries.words, entries.sides, entries.radiance, entries.passed,
-        entries.paths, count, entries.stride, children.gains, nodes.radiance, nodes.coverage,
-        nodes.stride, counters_, next.rays, next.paths, next.starts, next.inside, nodes.stride);
+    layer_.launch_packets(count, surroundings_.materials, surroundings_.ranks, pyramid.colors,
+                          least_weight_, uint32_t(first_layer), entries.rays, entries.hits,
+                          entries.words, entries.sides, entries.radiance, entries.passed,
+                          entries.paths, count, entries.stride, children.gains, nodes.radiance,
+                          nodes.coverage, nodes.stride, counters_, next.rays, next.paths,
+                          next.starts, next.inside, nodes.stride);
     return take(kCountLayer);
 }
 

@@ -37,8 +37,8 @@ class ScatterStage {
 
     /// Adds a layer to its nodes and sends its straight rays into `next`, which has as many places
     /// as there are nodes; returns their number.
-    uint32_t layer(RayBatch& entries, uint32_t count, bool first_layer, Children& children,
-                   NodeLight& nodes, RayQueue& next);
+    uint32_t layer(const Pyramid& pyramid, RayBatch& entries, uint32_t count, bool first_layer,
+                   Children& children, NodeLight& nodes, RayQueue& next);
 
     /// Sends the reflected and refracted rays of entries begin .. end-1 into `queue`; returns their
     /// number.

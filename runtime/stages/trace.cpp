@@ -34,6 +34,7 @@ Features features_of(const Pyramid& pyramid) {
     Features features;
     features.attributes = !pyramid.attributes.empty();
     features.colors = !pyramid.colors.empty();
+    features.voxel_opacity = pyramid.transparent;
     features.smooth = !pyramid.fields.empty();
     features.triangles = !pyramid.triangles.empty();
     features.solids = !pyramid.solids.empty();

@@ -1,0 +1,255 @@
+// Objects of cubes that let light through: their voxels are one body, and only its faces refract.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "runtime/illumination.hpp"
+#include "runtime/renderer.hpp"
+#include "runtime/stages/sight.hpp"
+#include "tests/oracles/image_hash.hpp"
+#include "tests/test_device.hpp"
+
+namespace voxelume {
+namespace {
+
+constexpr const char* kColors[] = {"R", "G", "B"};
+
+Image rendered(const std::string& text, int lanes = 0, uint64_t* secondary_rays = nullptr) {
+    RenderReport report;
+    Image image = render(test_device(lanes), parse_scene(text, "test.json", {}), report);
+    EXPECT_EQ(report.not_finite, 0u);
+    if (secondary_rays) *secondary_rays = report.secondary_rays;
+    return image;
+}
+
+/// A world of 48 x 40 x 56 voxels of 0.125 m around one solid block of 31 x 9 x 23 voxels, whose
+/// top face is at y = 0.625, seen from above.
+std::string block_scene(
+    const std::string& material, const std::string& more_objects = "",
+    const std::string& observer = R"("position": [0.9, 5, -1.7], "look_at": [0, 0.5, 0],
+              "display": {"shape": "pyramid", "angle": 20})") {
+    return R"({"voxelume": 1,
+"world": {"voxel_size": 0.125, "bounds": {"min": [-3, -2.5, -3.5], "max": [3, 2.5, 3.5]},
+          "background": [0.25, 0.5, 0.75], "ambient": [0.1, 0.2, 0.3]},
+"materials": {"m": )" +
+           material +
+           R"(, "floor": {"color": [0.9, 0.2, 0.1], "checker": {"color": [0.9, 0.9, 0.9], "size": 0.3}}},
+"models": {"block": {"shape": "box", "size": [3.8, 1.1, 2.8], "surface": "cubes", "set": "solid"},
+           "floor": {"shape": "box", "size": [5.7, 0.2, 6.7], "surface": "cubes"}},
+"objects": [{"model": "block", "material": "m", "position": [0.0625, 0.0625, 0.0625]})" +
+           more_objects + R"(],
+"lights": [{"type": "point", "position": [0.3, 2.2, -2.1], "intensity": 3}],
+"observer": {)" +
+           observer + R"(},
+"render": {"size": [32, 24], "shadow": "filtered"}})";
+}
+
+/// Rays and what they met, followed by hand through refractions.
+class Refractions {
+  public:
+    explicit Refractions(const Scene& scene)
+        : scene_(scene),
+          world_(form_world(device_, scene, report_)),
+          features_(features_of(scene, world_)),
+          trace_(device_, features_),
+          shade_(device_, features_, scene, world_.frame),
+          scatter_(device_, features_, {shade_.materials(), shade_.ranks()}, 0, false) {
+        rays_ = allocate_batch(device_, features_, kRays);
+        SightStage(device_, features_, sight_of(scene, world_.frame))
+            .cast(shape_of(world_), 0, kRays / 16, rays_);
+        scatter_.begin(rays_, kRays);
+        find_points();
+    }
+
+    /// Goes on with the refracted rays.
+    void refract() {
+        Children children;
+        children.nodes = Buffer<uint32_t>(device_, "children", 2 * kRays);
+        children.shares = Buffer<float>(device_, "shares", 2 * kRays);
+        children.gains = Buffer<float>(device_, "gains", 3 * kRays);
+        children.gains.fill(1);
+        RayBatch queue = allocate_batch(device_, features_, 2 * kRays);
+        scatter_.rays(world_, rays_, 0, kRays, children, queue);
+        rays_ = std::move(queue);
+        first_ = kRays;
+        find_points();
+    }
+
+    glm::dvec3 direction(uint32_t i) const { return glm::normalize(row(rays_.rays, 3, i)); }
+    glm::dvec3 position(uint32_t i) const { return row(rays_.positions, 0, i) * 0.125; }
+    glm::dvec3 normal(uint32_t i) const { return row(rays_.normals, 0, i); }
+    bool is_hit(uint32_t i) const {
+        return rays_.hits.read_one(VXL_HIT_VOXEL * size_t(rays_.stride) + first_ + i) !=
+               VXL_NO_VOXEL;
+    }
+    uint32_t side(uint32_t i) const { return rays_.sides.read_one(first_ + i); }
+    static constexpr uint32_t kRays = 768;
+
+  private:
+    void find_points() {
+        trace_.closest(world_, rays_, rays_.stride);
+        shade_.surface(world_, rays_, rays_.stride);
+    }
+
+    glm::dvec3 row(const Buffer<float>& values, uint32_t component, uint32_t i) const {
+        const size_t stride = rays_.stride, at = first_ + i;
+        return {values.read_one(component * stride + at),
+                values.read_one((component + 1) * stride + at),
+                values.read_one((component + 2) * stride + at)};
+    }
+
+    const Scene& scene_;
+    Device device_ = test_device();
+    WorldReport report_;
+    Pyramid world_;
+    Features features_;
+    TraceStage trace_;
+    ShadeStage shade_;
+    ScatterStage scatter_;
+    RayBatch rays_;
+    uint32_t first_ = 0;
+};
+
+TEST(GlassCubes, ASlabShiftsRaysAsSnellSays) {
+    const Scene scene =
+        parse_scene(block_scene(R"({"diffuse": 0, "refraction": 1, "ior": 1.5})"), "test.json", {});
+    Refractions rays(scene);
+    std::vector<glm::dvec3> direction, entry;
+    for (uint32_t i = 0; i < Refractions::kRays; ++i) {
+        direction.push_back(rays.direction(i));
+        entry.push_back(rays.position(i));
+        ASSERT_TRUE(rays.is_hit(i)) << i;
+        ASSERT_EQ(rays.side(i), 0u);
+        ASSERT_EQ(rays.normal(i), glm::dvec3(0, 1, 0));
+        ASSERT_EQ(entry[i].y, 0.625 + 2.5);
+    }
+    rays.refract();
+    std::vector<glm::dvec3> exit;
+    for (uint32_t i = 0; i < Refractions::kRays; ++i) {
+        const glm::dvec3& d = direction[i];
+        glm::dvec3 bent = d / 1.5;
+        bent.y = -std::sqrt(1 - bent.x * bent.x - bent.z * bent.z);
+        exit.push_back(entry[i] + bent * (-1.125 / bent.y));
+        ASSERT_TRUE(rays.is_hit(i)) << i;
+        EXPECT_EQ(rays.side(i), VXL_SIDE_LEAVING);
+        EXPECT_EQ(rays.normal(i), glm::dvec3(0, 1, 0));
+        EXPECT_LT(glm::distance(rays.position(i), exit[i]), 1e-5) << i;
+        EXPECT_LT(glm::distance(rays.direction(i), bent), 1e-5) << i;
+    }
+    rays.refract();
+    for (uint32_t i = 0; i < Refractions::kRays; ++i) {
+        EXPECT_LT(glm::distance(rays.direction(i), direction[i]), 1e-5) << i;
+        EXPECT_FALSE(rays.is_hit(i)) << i;
+    }
+}
+
+std::string without_block(std::string scene) {
+    const size_t block = scene.find(R"({"model": "block")");
+    return scene.erase(block, scene.find(R"({"model": "floor")") - block);
+}
+
+constexpr const char* kFloor =
+    R"(, {"model": "floor", "material": "floor", "position": [0, -2, 0]})";
+
+TEST(GlassCubes, OfTheSpacesOwnIndexAreInvisibleToTheBit) {
+    const std::string ghost = R"({"diffuse": 0, "refraction": 1, "ior": 1})";
+    uint64_t secondary_rays = 0;
+    const Image with = rendered(block_scene(ghost, kFloor), 0, &secondary_rays);
+    const Image without = rendered(without_block(block_scene(ghost, kFloor)));
+    EXPECT_GT(secondary_rays, 1000u);
+    for (const char* color : kColors)
+        EXPECT_EQ(with.planes.at(color), without.planes.at(color)) << color;
+}
+
+TEST(GlassCubes, TouchingAnotherObjectAreLeftWhereItBegins) {
+    // The floor lies against the block's lower face.
+    const std::string ghost = R"({"diffuse": 0, "refraction": 1, "ior": 1})";
+    const char* floor = R"(, {"model": "floor", "material": "floor", "position": [0, -0.6, 0]})";
+    const char* observer = R"("position": [4, 3, -5], "look_at": [0, -0.5, 0],
+              "display": {"shape": "pyramid", "angle": 25})";
+    const Image with = rendered(block_scene(ghost, floor, observer));
+    const Image without = rendered(without_block(block_scene(ghost, floor, observer)));
+    for (const char* color : kColors)
+        EXPECT_EQ(with.planes.at(color), without.planes.at(color)) << color;
+}
+
+TEST(GlassCubes, SolidOnesAbsorbAlongTheWholeWay) {
+    // Along X_E and through 31 voxels: bricks inside of the block count, too.
+    const Image image = rendered(block_scene(
+        R"({"diffuse": 0, "refraction": 1, "ior": 1, "absorption": [0.3, 0.7, 0]})", "",
+        R"("position": [-6, 0.07, 0.03], "look_at": [0, 0.07, 0.03], "display": {"shape": "box", "size": [0.8, 0.6, 12]})"));
+    const double expected[] = {0.25 * std::exp(-0.3 * 3.875), 0.5 * std::exp(-0.7 * 3.875), 0.75};
+    for (int c = 0; c < 3; ++c)
+        for (const float value : image.planes.at(kColors[c]))
+            EXPECT_NEAR(value, expected[c], 1e-5) << c;
+}
+
+TEST(GlassCubes, EveryVoxelOfLittleOpacityCoversOnce) {
+    const Image image = rendered(block_scene(
+        R"({"color": [1, 1, 1], "specular": 0, "diffuse": 1, "opacity": 0.07})", "",
+        R"("position": [-6, 0.07, 0.03], "look_at": [0, 0.07, 0.03], "display": {"shape": "box", "size": [0.8, 0.6, 12]})"));
+    const double ambient[] = {0.1, 0.2, 0.3}, background[] = {0.25, 0.5, 0.75};
+    const double left = std::pow(0.93, 31);
+    for (int c = 0; c < 3; ++c)
+        for (const float value : image.planes.at(kColors[c]))
+            EXPECT_NEAR(value, left * background[c] + (1 - left) * ambient[c], 2e-5) << c;
+    for (const float value : image.planes.at("A")) EXPECT_NEAR(value, 1 - left, 1e-5);
+}
+
+/// A closed room of cubes with a far too bright background, full of glass cubes and mirrors.
+std::string leaky_room(int depth) {
+    return R"({"voxelume": 1,
+"world": {"voxel_size": 0.03, "bounds": {"min": [-1.1, -1.1, -1.1], "max": [1.1, 1.1, 1.1]},
+          "background": [1e6, 1e6, 1e6], "ambient": [1, 1, 1]},
+"materials": {"wall": {"color": [0.5, 0.5, 0.5], "reflection": 0.5},
+              "mirror": {"diffuse": 0, "reflection": 1},
+              "haze": {"opacity": 0.1},
+              "glass": {"diffuse": 0, "reflection": 1, "refraction": 1, "ior": 1.5, "fresnel": true}},
+"models": {"room": {"shape": "difference", "surface": "cubes", "set": "solid", "parts": [
+              {"shape": "box", "size": [2.1, 2.1, 2.1]}, {"shape": "box", "size": [1.9, 1.9, 1.9]}]},
+           "ball": {"shape": "sphere", "radius": 0.35, "surface": "cubes", "set": "solid"},
+           "shell": {"shape": "sphere", "radius": 0.3, "surface": "cubes"},
+           "smooth ball": {"shape": "sphere", "radius": 0.3},
+           "block": {"shape": "box", "size": [0.5, 0.4, 0.3], "surface": "cubes", "set": "solid"}},
+"objects": [{"model": "room", "material": "wall"},
+            {"model": "ball", "material": "glass", "position": [-0.31, 0.22, 0.13]},
+            {"model": "block", "material": "glass", "position": [-0.31, 0.22, 0.13], "priority": 1},
+            {"model": "shell", "material": "glass", "position": [0.4, 0.35, 0.2]},
+            {"model": "smooth ball", "material": "glass", "position": [0.3, 0.45, 0.2], "priority": 1},
+            {"model": "ball", "material": "mirror", "position": [0.4, -0.4, 0.3]},
+            {"model": "block", "material": "haze", "position": [0.1, 0, -0.2]},
+            {"model": "block", "material": "glass", "position": [-0.3, -0.5, 0.2], "turn": [33, 20, 0]}],
+"observer": {"position": [0.1, 0.05, -0.8], "look_at": [0, 0, 0.3],
+             "display": {"shape": "pyramid", "angle": 90}},
+"render": {"size": [128, 128], "depth": )" +
+           std::to_string(depth) + "}}";
+}
+
+TEST(GlassCubes, NoRayLeavesAClosedRoom) {
+    uint64_t secondary_rays = 0;
+    const Image image = rendered(leaky_room(16), 0, &secondary_rays);
+    EXPECT_GT(secondary_rays, 100'000u);
+    size_t leaks = 0;
+    for (const float value : image.planes.at("R")) leaks += value > 2;
+    EXPECT_EQ(leaks, 0u) << "of " << secondary_rays << " secondary rays";
+}
+
+TEST(GlassCubes, LanesDoNotChangeABit) {
+    const uint64_t expected = oracle::image_hash(rendered(leaky_room(4), 1));
+    for (const int lanes : {4, 8, 16})
+        EXPECT_EQ(oracle::image_hash(rendered(leaky_room(4), lanes)), expected)
+            << lanes << " lanes";
+}
+
+TEST(GlassCubes, AreNotThereWhereNoCubesTransmit) {
+    Scene scene = parse_scene(block_scene(R"({"reflection": 0.5})"), "test.json", {});
+    EXPECT_FALSE(features_of(scene, {}).cube_bodies);
+    scene.materials[size_t(scene.objects[0].material)].opacity = 0.5;
+    EXPECT_TRUE(features_of(scene, {}).cube_bodies);
+    scene.models[size_t(scene.objects[0].model)].surface = Surface::exact;
+    EXPECT_FALSE(features_of(scene, {}).cube_bodies);
+}
+
+}  // namespace
+}  // namespace voxelume
