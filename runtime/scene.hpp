@@ -153,6 +153,18 @@ struct Light {
 
 enum class DisplayShape : uint8_t { pyramid, sector, ball, box };
 
+enum class VolumeLayout : uint8_t {
+    rays,    ///< (u, v, k): sight ray by step; u to the image's right, v down, k away from E
+    lattice  ///< (x, y, z): Cartesian voxels along X_E, Y_E, Z_E, clipped by the display's shape
+};
+
+/// Which surfaces of the world a lattice shows.
+enum class Visibility : uint8_t {
+    observer,  ///< those that E sees
+    outside,   ///< those that can be seen from somewhere outside of the world
+    all        ///< all
+};
+
 /// VD_E, in the observer's coordinates. A ball is centred at the observer, the others lie around
 /// Z_E.
 struct Display {
@@ -165,6 +177,9 @@ struct Display {
     glm::ivec3 voxels{0};  ///< u, v, k
     bool square_pixels =
         false;  ///< pyramid given by one angle: the vertical one follows the image's size
+    VolumeLayout layout = VolumeLayout::rays;
+    Visibility visibility = Visibility::observer;  ///< always `observer` for rays
+    bool cylinder = false;  ///< lattice: clipped by the upright cylinder that it circumscribes, too
 };
 
 /// E: looks along +Z_E with Y_E up, so the right-hand side of the image is -X_E.

@@ -63,10 +63,11 @@ std::vector<KeyTable> make_tables() {
     tables.push_back({"light:rectangle",
                       light + Keys{"position", "direction", "look_at", "up", "size", "spots"}});
     tables.push_back({"observer", {"position", "look_at", "up", "turn", "display"}});
-    tables.push_back({"display:pyramid", {"shape", "angles", "angle", "near", "far", "voxels"}});
-    tables.push_back({"display:sector", {"shape", "angle", "near", "far", "voxels"}});
-    tables.push_back({"display:ball", {"shape", "radius", "voxels"}});
-    tables.push_back({"display:box", {"shape", "size", "near", "voxels"}});
+    const Keys display = {"shape", "voxels", "layout", "visibility", "clip"};
+    tables.push_back({"display:pyramid", display + Keys{"angles", "angle", "near", "far"}});
+    tables.push_back({"display:sector", display + Keys{"angle", "near", "far"}});
+    tables.push_back({"display:ball", display + Keys{"radius"}});
+    tables.push_back({"display:box", display + Keys{"size", "near"}});
     tables.push_back({"animation", {"frames", "fps", "tracks"}});
     tables.push_back({"render", {"size", "samples", "depth", "shadows", "shadow", "least_weight"}});
     return tables;

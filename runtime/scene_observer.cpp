@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
@@ -65,6 +66,25 @@ void read_angles(const SceneFields& fields, glm::ivec2 image_size, Display& disp
     display.half_angles.y = square_pixel_half_angle(display.half_angles.x, image_size);
 }
 
+/// How the display's voxels are ordered, and which of them it has.
+void read_volume(const SceneFields& fields, Display& display) {
+    using Names = std::array<std::string_view, 2>;
+    using Sights = std::array<std::string_view, 3>;
+    if (const auto layout = fields.find("layout"))
+        display.layout = static_cast<VolumeLayout>(layout->choice(Names{"rays", "lattice"}));
+    const bool is_lattice = display.layout == VolumeLayout::lattice;
+    const auto visibility = fields.find("visibility");
+    if (visibility)
+        display.visibility =
+            static_cast<Visibility>(visibility->choice(Sights{"observer", "outside", "all"}));
+    if (display.visibility != Visibility::observer && !is_lattice)
+        visibility->fail("needs \"layout\": \"lattice\": rays show what their observer sees");
+    const auto clip = fields.find("clip");
+    if (clip) display.cylinder = clip->choice(Names{"shape", "cylinder"}) == 1;
+    if (display.cylinder && !is_lattice)
+        clip->fail("needs \"layout\": \"lattice\": rays end with their display's shape");
+}
+
 Display read_display(const SceneValue& value, const Scene& scene, glm::dvec3 position) {
     constexpr int kMaxDisplaySide = 65536;
     const double world_end = distance_to_farthest_corner(scene.world, position);
@@ -93,6 +113,7 @@ Display read_display(const SceneValue& value, const Scene& scene, glm::dvec3 pos
             break;
         }
     }
+    read_volume(fields, display);
     display.voxels = {scene.render.size, 256};
     if (const auto voxels = fields.find("voxels")) {
         const auto counts = voxels->items();
