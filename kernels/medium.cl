@@ -70,8 +70,8 @@ kernel void absorb_sight(PyramidShape shape, Space space, DensityShape density_s
     // A ray that met nothing goes on to the far surface, or to the world's end.
     const lane_float t_end = LANES_LOAD(rays, VXL_RAY_END * stride + first);
     // Places beyond the queue's end hold what was there before.
-    const lane_int active = LANE_MASK(t_end >= 0.0f) &
-                            LANE_MASK(LANES_AS_INT(LANES_NUMBERS + (int)first) < (int)count);
+    const lane_int active =
+        LANE_MASK(t_end >= 0.0f) & LANE_MASK(LANES_AS_INT(LANES_NUMBERS + (int)first) < (int)count);
     Segment segment = {load_vector(rays, stride, first),
                        load_vector(rays + VXL_RAY_DX * stride, stride, first), (lane_float)0.0f,
                        LANES_SELECT(hit, t_hit, t_end)};

@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <bit>
+#include <cstring>
 #include <set>
 
+#include "kernels/shared/solid.h"
+#include "kernels/shared/voxel.h"
 #include "runtime/stages/spots.hpp"
 
 namespace voxelume {
@@ -110,6 +113,20 @@ RayQueue allocate_queue(const Device& device, const Features& features, uint32_t
     return queue;
 }
 
+/// The first records of the solids that light goes through.
+Buffer<uint32_t> transmitting_solids(const Device& device, const Scene& scene,
+                                     const Pyramid& world) {
+    const std::vector<uint32_t> words = world.solids.read();
+    std::vector<uint32_t> numbers;
+    for (uint32_t i = 0; i < words.size() / VXL_SOLID_WORDS; ++i) {
+        SolidShape shape;
+        std::memcpy(&shape, &words[size_t(i) * VXL_SOLID_WORDS], sizeof shape);
+        const uint32_t material = shape.attribute >> VXL_MATERIAL_SHIFT & VXL_MATERIAL_MASK;
+        if (shape.shape_count > 0 && transmits(scene.materials[material])) numbers.push_back(i);
+    }
+    return {device, "path bodies", std::span<const uint32_t>(numbers)};
+}
+
 }  // namespace
 
 Features features_of(const Scene& scene, const Pyramid& world) {
@@ -162,11 +179,13 @@ Illumination::Illumination(const Device& device, const Features& features, const
     if (features.paths)
         scatter_.emplace(device, features, surroundings_, float(scene.render.least_weight),
                          compact);
+    if (features.transmission && features.solids)
+        scatter_->set_bodies(transmitting_solids(device, scene, world));
 }
 
 void Illumination::light(RayBatch& batch, uint32_t count) {
     if (!features_.paths) return direct(batch, count);
-    scatter_->begin(batch, count);
+    scatter_->begin(world_, batch, count);
     reserve_nodes(0, batch.stride);
     follow(0, batch, count);
     Depth& depth = *depths_[0];
