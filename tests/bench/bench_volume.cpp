@@ -1,7 +1,7 @@
 // Volumetric images of a scene in a Cartesian display: time against a flat image with as many
 // shaded points, and memory against stored voxels.
 //
-//   bench_display SCENE [voxels along each edge ..., 128 256 512 1024]
+//   bench_volume SCENE [voxels along each edge ..., 128 256 512 1024]
 //
 // The display is a box around the world's middle as the scene's observer sees it, as wide as the
 // world is long. The flat image comes from the same box; its size is such that as many pixels hit
