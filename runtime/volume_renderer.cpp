@@ -128,6 +128,7 @@ Volume render_volume(const Device& device, const Scene& scene, RenderReport& rep
     volume.frame = frame;
     read_voxels(frame.layout == VolumeLayout::rays ? render_rays(work) : render_lattice(work),
                 volume);
+    device.finish();  // and kernels' times are known
     report.not_finite = count_not_finite(volume);
     report.voxels = world.voxel_count;
     report.image_seconds =

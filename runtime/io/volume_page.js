@@ -127,7 +127,7 @@ function paint(pixels, width, height, scale, shown) {
     for (let n = shown - 1; n >= 0; --n) {
         const i = voxels.order[n];
         // A cube's outline is wider than its edge, seen from most sides.
-        const side = Math.max(1, Math.round(1.25 * edges[i] * scale / sz[i]));
+        const side = Math.ceil(1.3 * edges[i] * scale / sz[i]);
         const left = Math.round(sx[i] - side / 2), top = Math.round(sy[i] - side / 2);
         const r = colors[4 * i], g = colors[4 * i + 1], b = colors[4 * i + 2];
         const opacity = colors[4 * i + 3] / 255;
