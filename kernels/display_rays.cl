@@ -107,6 +107,77 @@ kernel void measure_steps(Sight sight, PyramidShape shape, DisplaySteps steps,
     LANES_STORE(ratio, spans, VXL_SPAN_RATIO * total + place);
 }
 
+/// Writes a record of VXL_LAYER_WORDS words, `count` apart, of every entry of a layer of surfaces,
+/// 0 .. count-1. `seen` holds the light and the coverage of the rays' nodes before the layer.
+kernel void measure_layer(Sight sight, PyramidShape shape, DisplaySteps steps, uint is_first,
+                          global const float* restrict rays, global const uint* restrict paths,
+                          global const float* restrict starts, global const uint* restrict inside,
+                          global const uint* restrict hits, global const float* restrict positions,
+                          global const uint* restrict words, uint count, uint stride,
+                          global const float* restrict nodes, global const float* restrict coverage,
+                          uint node_stride, uint first_ray, global float* restrict seen,
+                          global uint* restrict records) {
+    const uint n = work_item();
+    if (n >= count) return;
+    const uint ray = is_first ? n : paths[VXL_PATH_TARGET * stride + n];
+    const bool hit = hits[VXL_HIT_VOXEL * stride + n] != VXL_NO_VOXEL;
+    float light[3];
+    for (uint c = 0; c < 3; ++c) {
+        const float before = is_first ? 0.0f : seen[c * node_stride + ray];
+        light[c] = nodes[c * node_stride + ray] - before;
+        seen[c * node_stride + ray] = nodes[c * node_stride + ray];
+    }
+    const float clear_before = is_first ? 1.0f : 1.0f - seen[3 * node_stride + ray];
+    const float clear = 1.0f - coverage[ray];
+    seen[3 * node_stride + ray] = coverage[ray];
+
+    // One ray in every lane: depths are those of the other kernels, bit by bit.
+    const Vector o = {(lane_float)rays[VXL_RAY_OX * stride + n],
+                      (lane_float)rays[VXL_RAY_OY * stride + n],
+                      (lane_float)rays[VXL_RAY_OZ * stride + n]};
+    const Vector d = {(lane_float)rays[VXL_RAY_DX * stride + n],
+                      (lane_float)rays[VXL_RAY_DY * stride + n],
+                      (lane_float)rays[VXL_RAY_DZ * stride + n]};
+    const Vector at = {(lane_float)positions[n], (lane_float)positions[stride + n],
+                       (lane_float)positions[2 * stride + n]};
+    const float t_end = rays[VXL_RAY_END * stride + n];
+    lane_float t_first = (lane_float)0.0f, t_last = (lane_float)t_end;
+    clip_axis(o.x, d.x, (float)shape.size_x, &t_first, &t_last);
+    clip_axis(o.y, d.y, (float)shape.size_y, &t_first, &t_last);
+    clip_axis(o.z, d.z, (float)shape.size_z, &t_first, &t_last);
+    const lane_float from = fmax(t_first, is_first ? 0.0f : starts[n]);
+    const lane_float to = hit ? (lane_float)as_float(hits[VXL_HIT_T * stride + n]) : t_last;
+    const Vector metric = {d.x * shape.edge.x, d.y * shape.edge.y, d.z * shape.edge.z};
+    const lane_float metres = exact_sqrt(dot_product(metric, metric));
+    lane_float along = metres;
+    if (sight.shape == VXL_SHAPE_PYRAMID || sight.shape == VXL_SHAPE_BOX)
+        along = depth_of(&sight, shape.edge, d);
+    const lane_float origin = depth_of(&sight, shape.edge, from_eye(&sight, o)) - sight.near_plane;
+    const lane_float depth = depth_of(&sight, shape.edge, from_eye(&sight, at));
+    const bool idle = t_end < 0.0f;
+    const lane_float begin = fma(along, from, origin);
+    const lane_float values[5] = {
+        depth + sight.lead, begin, idle ? begin : fmax(fma(along, to, origin), begin),
+        idle ? (lane_float)1.0f : exact_divide(metres, along), depth - sight.near_plane};
+    float one[5 * VXL_LANES];
+    for (int i = 0; i < 5; ++i) LANES_STORE(values[i], one, i * VXL_LANES);
+    uint step[VXL_LANES];
+    LANES_STORE(step_of(&steps, values[4]), step, 0);
+
+    records[VXL_LAYER_RAY * count + n] = first_ray + ray;
+    records[VXL_LAYER_OBJECT * count + n] = hit && !idle ? (words[n] & VXL_OBJECT_MASK) + 1u : 0u;
+    records[VXL_LAYER_STEP * count + n] = step[0];
+    records[VXL_LAYER_IN_MEDIUM * count + n] = inside[n] == 0u;
+    const float opacity = clear < clear_before ? 1.0f - clear / clear_before : 0.0f;
+    records[VXL_LAYER_OPACITY * count + n] = as_uint(clear > 0.0f ? opacity : 1.0f);
+    for (uint i = 0; i < 4; ++i)
+        records[(VXL_LAYER_DEPTH + i) * count + n] = as_uint(one[i * VXL_LANES]);
+    for (uint c = 0; c < 3; ++c) {
+        records[(VXL_LAYER_LIGHT + c) * count + n] = as_uint(light[c]);
+        records[(VXL_LAYER_PASSED + c) * count + n] = paths[(VXL_PATH_PASSED + c) * stride + n];
+    }
+}
+
 /// The place of pixel (u, v)'s ray in the order of sight.cl.
 static inline uint ray_of_pixel(uint u, uint v, uint width) {
     const uint tile = v / 4u * ((width + 3u) / 4u) + u / 4u;

@@ -56,7 +56,7 @@ void count_rays(const Illumination& illumination, RenderReport& report) {
     report.ended_paths = illumination.ended_paths();
 }
 
-VoxelArrays render_rays(Work& work) {
+void render_rays(Work& work, Volume& volume) {
     check_rays(work.frame);
     const uint32_t tiles = tile_count(work.sight.width, work.sight.height);
     const uint32_t batch_tiles = std::clamp(batch_rays(work.features) / 16, 1u, tiles);
@@ -68,8 +68,13 @@ VoxelArrays render_rays(Work& work) {
     for (uint32_t first = 0; first < tiles; first += batch_tiles) {
         const uint32_t now = std::min(batch_tiles, tiles - first);
         const uint32_t rays = sight.cast(shape_of(work.world), first, now, batch);
-        illumination.light(batch, rays);
-        display.keep(shape_of(work.world), batch, first * 16, rays);
+        const PyramidShape shape = shape_of(work.world);
+        illumination.light(
+            batch, rays,
+            [&](const RayBatch& entries, uint32_t count, bool is_first, const NodeLight& nodes) {
+                display.keep_layer(shape, entries, count, is_first, nodes, first * 16);
+            });
+        if (!work.features.transmission) display.keep(shape, batch, first * 16, rays);
         work.report.sight_rays += rays;
         if (work.progress) {
             work.device.finish();
@@ -77,10 +82,10 @@ VoxelArrays render_rays(Work& work) {
         }
     }
     count_rays(illumination, work.report);
-    return display.voxels();
+    display.read(volume);
 }
 
-VoxelArrays render_lattice(Work& work) {
+void render_lattice(Work& work, Volume& volume) {
     RayBatch batch = allocate_batch(work.device, work.features, batch_rays(work.features));
     // Finding surfaces asks for no more than their geometry.
     const Features geometry = features_of(work.world);
@@ -104,7 +109,7 @@ VoxelArrays render_lattice(Work& work) {
     report_progress(3);
     work.report.sight_rays += scan.lines() + display.rays();
     count_rays(illumination, work.report);
-    return shown.voxels;
+    read_voxels(shown.voxels, volume);
 }
 
 uint32_t count_not_finite(const Volume& volume) {
@@ -126,8 +131,10 @@ Volume render_volume(const Device& device, const Scene& scene, RenderReport& rep
                  report, progress};
     Volume volume;
     volume.frame = frame;
-    read_voxels(frame.layout == VolumeLayout::rays ? render_rays(work) : render_lattice(work),
-                volume);
+    if (frame.layout == VolumeLayout::rays)
+        render_rays(work, volume);
+    else
+        render_lattice(work, volume);
     device.finish();  // and kernels' times are known
     report.not_finite = count_not_finite(volume);
     report.voxels = world.voxel_count;

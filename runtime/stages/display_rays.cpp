@@ -1,6 +1,7 @@
 #include "runtime/stages/display_rays.hpp"
 
 #include "runtime/error.hpp"
+#include "runtime/stages/display_layers.hpp"
 #include "runtime/stages/sight.hpp"
 
 namespace voxelume {
@@ -60,6 +61,7 @@ DisplayRaysStage::DisplayRaysStage(const Device& device, const Features& feature
                                    const Sight& sight, const VolumeFrame& frame,
                                    const Medium& medium, const Space& space)
     : device_(device),
+      transmission_(features.transmission),
       sight_(sight),
       steps_(display_steps(frame, medium)),
       near_depth_(float(frame.display.near)),
@@ -71,9 +73,11 @@ DisplayRaysStage::DisplayRaysStage(const Device& device, const Features& feature
       colors_(device, "display ray colors", size_t(total_) * 3),
       program_(device, "display_rays.cl", features.defines(device)),
       measure_(program_.kernel("measure_steps")),
+      layer_(program_.kernel("measure_layer")),
       count_(program_.kernel("count_voxels")),
       place_(program_.kernel("place_voxels")),
       fill_(program_.kernel("fill_voxels")) {
+    if (!features.medium) steps_.absorption = 0;
     if (features.medium)
         spans_ = Buffer<float>(device, "display spans", size_t(total_) * kSpanComponents);
 }
@@ -83,6 +87,26 @@ void DisplayRaysStage::keep(const PyramidShape& world, const RayBatch& batch, ui
     measure_.launch_packets(count, sight_, world, steps_, batch.rays, batch.hits, batch.positions,
                             batch.words, batch.radiance, count, batch.stride, first_ray, total_,
                             hit_steps_, depths_, objects_, colors_, spans_);
+}
+
+void DisplayRaysStage::keep_layer(const PyramidShape& world, const RayBatch& entries,
+                                  uint32_t count, bool is_first, const NodeLight& nodes,
+                                  uint32_t first_ray) {
+    if (seen_.size() < size_t(nodes.stride) * 4)
+        seen_ = Buffer<float>(device_, "display layers", size_t(nodes.stride) * 4);
+    const Buffer<uint32_t> records(device_, "display layers", size_t(count) * VXL_LAYER_WORDS);
+    layer_.launch(WorkItem::light, count, sight_, world, steps_, uint32_t(is_first), entries.rays,
+                  entries.paths, entries.starts, entries.inside, entries.hits, entries.positions,
+                  entries.words, count, entries.stride, nodes.radiance, nodes.coverage,
+                  nodes.stride, first_ray, seen_, records);
+    layers_.push_back({count, records.read()});
+}
+
+void DisplayRaysStage::read(Volume& volume) {
+    if (transmission_)
+        assemble_layers(layers_, {steps_, space_, near_depth_}, volume);
+    else
+        read_voxels(voxels(), volume);
 }
 
 VoxelArrays DisplayRaysStage::voxels() {
