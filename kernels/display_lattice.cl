@@ -18,6 +18,9 @@
 // How far in front of a probe point another surface must be to hide it, in lattice voxels.
 #define VXL_HIDING_DISTANCE 0.0625f
 
+// How much surfaces in front cover of a point that is still seen.
+#define VXL_HIDING_COVERAGE 0.9990234375f
+
 // How far before its probe point a voxel's light ray begins, and how far behind it may end.
 #define VXL_LIGHT_DISTANCE 1.0f
 
@@ -179,12 +182,15 @@ kernel void aim_rays(Sight sight, PyramidShape shape, DisplayLattice lattice,
 }
 
 /// Gives `view` to the points first_point .. first_point+count-1 that have none and that nothing
-/// hides in it.
-kernel void note_view(global const uint* restrict hits, uint first_point, uint count, uint stride,
-                      uint view, global uint* restrict view_of_point) {
+/// hides in it: nothing is met, or, where surfaces let light through, they leave enough uncovered.
+kernel void note_view(global const uint* restrict hits, global const float* restrict coverage,
+                      uint first_point, uint count, uint stride, uint view,
+                      global uint* restrict view_of_point) {
     const uint n = work_item();
     if (n >= count || view_of_point[first_point + n] != 0xFFFFFFFFu) return;
-    if (hits[VXL_HIT_VOXEL * stride + n] == VXL_NO_VOXEL) view_of_point[first_point + n] = view;
+    const bool is_clear = VXL_TRANSMISSION ? coverage[n] <= VXL_HIDING_COVERAGE
+                                           : hits[VXL_HIT_VOXEL * stride + n] == VXL_NO_VOXEL;
+    if (is_clear) view_of_point[first_point + n] = view;
 }
 
 /// Marks the voxels of points 0 .. count-1 that have a view.
@@ -270,18 +276,25 @@ kernel void choose_points(DisplayLattice lattice, global const float* restrict p
 /// Takes the light of rays 0 .. count-1 to their voxels: ray n was aimed at the point of voxel
 /// targets[first_voxel + n], or of voxel first_voxel + n when it is not `listed`. Where a ray
 /// passes by its surface, the voxel gets object 0. The medium between the ray's start and the
-/// surface counts as air.
+/// surface counts as air. A surface that lets light through has covered `coverage` of it, and
+/// `radiance` is its own.
 kernel void keep_light(Sight sight, PyramidShape shape, Space space,
                        global const float* restrict rays, global const uint* restrict hits,
                        global const float* restrict positions, global const uint* restrict words,
-                       global const float* restrict radiance, global const uint* restrict targets,
-                       uint listed, uint first_voxel, uint count, uint stride,
-                       global float* restrict colors, global float* restrict opacities,
-                       global float* restrict depths, global uint* restrict objects) {
+                       global const float* restrict radiance, global const float* restrict coverage,
+                       uint light_stride, global const uint* restrict targets, uint listed,
+                       uint first_voxel, uint count, uint stride, global float* restrict colors,
+                       global float* restrict opacities, global float* restrict depths,
+                       global uint* restrict objects) {
     const uint first = work_item() * VXL_LANES;
     if (first >= count) return;
-    const lane_int hit =
-        LANE_MASK(LANES_LOAD(hits, VXL_HIT_VOXEL * stride + first) != VXL_NO_VOXEL);
+    lane_int hit = LANE_MASK(LANES_LOAD(hits, VXL_HIT_VOXEL * stride + first) != VXL_NO_VOXEL);
+    lane_float opacity = (lane_float)1.0f;
+    if (VXL_TRANSMISSION) {
+        opacity = LANES_LOAD(coverage, first);
+        hit &= LANE_MASK(opacity > 0.0f);
+        opacity = LANES_SELECT(hit, opacity, (lane_float)1.0f);
+    }
     const Vector p = load_vector(positions, stride, first);
     const float4 edge = shape.edge, ahead = sight.axis_z;
     const Vector metres = {(p.x - sight.origin.x - sight.origin_low.x) * edge.x,
@@ -300,23 +313,25 @@ kernel void keep_light(Sight sight, PyramidShape shape, Space space,
     }
     const float absorption[3] = {space.absorption.x, space.absorption.y, space.absorption.z};
     const float color[3] = {space.color.x, space.color.y, space.color.z};
-    float shown[4 * VXL_LANES];
+    float shown[5 * VXL_LANES];
     for (uint channel = 0; channel < 3; ++channel) {
-        lane_float value = LANES_LOAD(radiance, channel * stride + first);
+        lane_float value = LANES_LOAD(radiance, channel * light_stride + first);
         if (VXL_MEDIUM) {
             const lane_float passed = fmax(exact_exp(-absorption[channel] * path), 1e-6f);
             value = fmax(exact_divide(fma(-color[channel], 1.0f - passed, value), passed), 0.0f);
         }
+        if (VXL_TRANSMISSION) value = exact_divide(value, opacity);
         LANES_STORE(LANES_SELECT(hit, value, (lane_float)0.0f), shown, channel * VXL_LANES);
     }
     LANES_STORE(depth, shown, 3 * VXL_LANES);
+    LANES_STORE(opacity, shown, 4 * VXL_LANES);
     uint object[VXL_LANES];
     LANES_STORE(((LANES_LOAD(words, first) & VXL_OBJECT_MASK) + 1u) & LANES_AS_UINT(hit), object,
                 0);
     for (uint i = 0; i < VXL_LANES && first + i < count; ++i) {
         const size_t voxel = listed ? targets[first_voxel + first + i] : first_voxel + first + i;
         objects[voxel] = object[i];
-        opacities[voxel] = 1.0f;
+        opacities[voxel] = shown[4 * VXL_LANES + i];
         depths[voxel] = shown[3 * VXL_LANES + i];
         for (uint channel = 0; channel < 3; ++channel)
             colors[3 * voxel + channel] = shown[channel * VXL_LANES + i];

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <optional>
 
 #include "runtime/error.hpp"
 #include "runtime/illumination.hpp"
@@ -32,6 +33,21 @@ struct Work {
 Features without_varying_medium(Features features) {
     features.medium = features.medium && !features.medium_grid;
     features.medium_grid = false;
+    return features;
+}
+
+/// A scene of the same surfaces, which only tell how much they cover.
+Scene without_light(Scene scene) {
+    scene.lights.clear();
+    scene.world.medium = {};
+    scene.render.depth = 0;
+    for (Material& material : scene.materials) material.emission = glm::vec3(0);
+    return scene;
+}
+
+/// Refracting surfaces cover all: without opacities in the scene, rays fill the coverage too.
+Features with_transmission(Features features) {
+    features.paths = features.transmission = true;
     return features;
 }
 
@@ -100,12 +116,22 @@ void render_lattice(Work& work, Volume& volume) {
     std::vector<ProbePoints> pieces = scan.scan(work.world, batch);
     report_progress(1);
     TraceStage trace(work.device, geometry);
-    display.find_views(trace, batch, pieces);
+    LookAhead look = [&](RayBatch& rays, uint32_t count) {
+        trace.closest(work.world, rays, count);
+    };
+    std::optional<Illumination> clear;
+    if (work.features.transmission) {
+        const Scene dark = without_light(work.scene);
+        clear.emplace(work.device, with_transmission(features_of(dark, work.world)), dark,
+                      work.world, batch.stride);
+        look = [&](RayBatch& rays, uint32_t count) { clear->light(rays, count); };
+    }
+    display.find_views(look, batch, pieces);
     ShownVoxels shown = display.choose(pieces);
     report_progress(2);
     pieces.clear();
     Illumination illumination(work.device, work.features, work.scene, work.world, batch.stride);
-    display.light(trace, illumination, space_of(work.scene.world), batch, shown);
+    display.light(look, illumination, space_of(work.scene.world), batch, shown);
     report_progress(3);
     work.report.sight_rays += scan.lines() + display.rays();
     count_rays(illumination, work.report);

@@ -51,6 +51,7 @@ DisplayLatticeStage::DisplayLatticeStage(const Device& device, const Features& f
       sight_(sight),
       lattice_(display_lattice(frame, world.frame)),
       visibility_(frame.display.visibility),
+      transmission_(features.transmission),
       world_(world),
       views_(device, "display views", std::span<const float4>(ways_from_outside(world.frame))),
       groups_(group_count(device, frame.size)),
@@ -71,23 +72,23 @@ void DisplayLatticeStage::aim(const ProbePoints& points, uint32_t search, uint32
     rays_ += count;
 }
 
-void DisplayLatticeStage::search(TraceStage& trace, RayBatch& batch, ProbePoints& points,
+void DisplayLatticeStage::search(const LookAhead& look, RayBatch& batch, ProbePoints& points,
                                  uint32_t view) {
     for (uint32_t first = 0; first < points.count; first += batch.stride) {
         const uint32_t count = std::min(batch.stride, points.count - first);
         aim(points, view + 1, first, count, batch);
-        trace.closest(world_, batch, count);
-        note_.launch(WorkItem::light, count, batch.hits, first, count, batch.stride, view,
-                     points.views);
+        look(batch, count);
+        note_.launch(WorkItem::light, count, batch.hits, batch.coverage, first, count, batch.stride,
+                     view, points.views);
     }
 }
 
-void DisplayLatticeStage::find_views(TraceStage& trace, RayBatch& batch,
+void DisplayLatticeStage::find_views(const LookAhead& look, RayBatch& batch,
                                      std::vector<ProbePoints>& pieces) {
     for (ProbePoints& points : pieces) {
-        if (visibility_ != Visibility::outside) search(trace, batch, points, 0);
+        if (visibility_ != Visibility::outside) search(look, batch, points, 0);
         if (visibility_ == Visibility::observer) continue;
-        for (uint32_t view = 1; view < views_.size(); ++view) search(trace, batch, points, view);
+        for (uint32_t view = 1; view < views_.size(); ++view) search(look, batch, points, view);
         if (visibility_ != Visibility::all) continue;
         std::vector<uint32_t> views = points.views.read();  // what no view shows is lit as from E
         std::ranges::replace(views, kNoView, 0u);
@@ -134,17 +135,32 @@ ShownVoxels DisplayLatticeStage::choose(const std::vector<ProbePoints>& pieces) 
     return shown;
 }
 
+void DisplayLatticeStage::keep(const Space& space, const RayBatch& batch, const NodeLight& nodes,
+                               const LightTask& task, uint32_t first, uint32_t count,
+                               VoxelArrays& voxels) {
+    keep_.launch_packets(count, sight_, shape_of(world_), space, batch.rays, batch.hits,
+                         batch.positions, batch.words, nodes.radiance, nodes.coverage, nodes.stride,
+                         task.targets, uint32_t(!task.targets.empty()), first, count, batch.stride,
+                         voxels.colors, voxels.opacities, voxels.depths, voxels.objects);
+}
+
 void DisplayLatticeStage::light_points(Illumination& illumination, const Space& space,
                                        RayBatch& batch, const LightTask& task,
                                        VoxelArrays& voxels) {
     for (uint32_t first = 0; first < task.points.count; first += batch.stride) {
         const uint32_t count = std::min(batch.stride, task.points.count - first);
         aim(task.points, 0, first, count, batch);
-        illumination.light(batch, count);
-        keep_.launch_packets(count, sight_, shape_of(world_), space, batch.rays, batch.hits,
-                             batch.positions, batch.words, batch.radiance, task.targets,
-                             uint32_t(!task.targets.empty()), first, count, batch.stride,
-                             voxels.colors, voxels.opacities, voxels.depths, voxels.objects);
+        if (!transmission_) {
+            illumination.light(batch, count);
+            keep(space, batch, {batch.radiance, {}, batch.stride}, task, first, count, voxels);
+            continue;
+        }
+        // The nearest surface is the voxel's; what lies behind has voxels of its own.
+        illumination.light(
+            batch, count,
+            [&](const RayBatch& entries, uint32_t, bool is_first, const NodeLight& nodes) {
+                if (is_first) keep(space, entries, nodes, task, first, count, voxels);
+            });
     }
 }
 
@@ -177,8 +193,8 @@ DisplayLatticeStage::LightTask DisplayLatticeStage::missed_points(const ShownVox
     return task;
 }
 
-void DisplayLatticeStage::light(TraceStage& trace, Illumination& illumination, const Space& space,
-                                RayBatch& batch, ShownVoxels& shown) {
+void DisplayLatticeStage::light(const LookAhead& look, Illumination& illumination,
+                                const Space& space, RayBatch& batch, ShownVoxels& shown) {
     light_points(illumination, space, batch, {shown.points, {}}, shown.voxels);
     // A ray along the surface at its point, as at an outline, may pass by: one beside it does not.
     for (const float by : {1.0f / 512, 1.0f / 64})
@@ -196,7 +212,7 @@ void DisplayLatticeStage::light(TraceStage& trace, Illumination& illumination, c
             LightTask missed = missed_points(shown, glm::vec3(0));
             if (missed.points.count == 0) return;
             missed.points.views.fill(hidden ? view : kNoView);
-            if (!hidden) search(trace, batch, missed.points, view);
+            if (!hidden) search(look, batch, missed.points, view);
             light_points(illumination, space, batch, missed, shown.voxels);
         }
 }
