@@ -49,6 +49,10 @@ class Illumination {
     void light(RayBatch& batch, uint32_t count, const LayerSink& sink = {});
 
     const Features& features() const { return features_; }
+    /// The medium's, null where its density is 1 everywhere.
+    const DensityGrid* density() const {
+        return features_.medium_grid ? &medium_->density() : nullptr;
+    }
     uint64_t shadow_rays() const;  ///< traced so far; waits for the device
     uint64_t secondary_rays() const { return secondary_rays_; }  ///< and rays that went straight on
     uint64_t ended_paths() const { return scatter_ ? scatter_->ended() : 0; }

@@ -28,8 +28,8 @@ struct Work {
     const Progress& progress;
 };
 
-/// What the display's kernels know of the medium: one whose density differs from voxel to voxel is
-/// left in the colours of surfaces, and its space is not shown.
+/// What the lattice's kernels know of the medium: where its density differs from voxel to voxel,
+/// the little of it that lies between a light ray's start and its surface stays in the colours.
 Features without_varying_medium(Features features) {
     features.medium = features.medium && !features.medium_grid;
     features.medium_grid = false;
@@ -79,18 +79,21 @@ void render_rays(Work& work, Volume& volume) {
     RayBatch batch = allocate_batch(work.device, work.features, batch_tiles * 16);
     SightStage sight(work.device, work.features, work.sight);
     Illumination illumination(work.device, work.features, work.scene, work.world, batch.stride);
-    DisplayRaysStage display(work.device, without_varying_medium(work.features), work.sight,
-                             work.frame, work.scene.world.medium, space_of(work.scene.world));
+    DisplayRaysStage display(work.device, work.features, work.sight, work.frame,
+                             work.scene.world.medium, space_of(work.scene.world));
     for (uint32_t first = 0; first < tiles; first += batch_tiles) {
         const uint32_t now = std::min(batch_tiles, tiles - first);
         const uint32_t rays = sight.cast(shape_of(work.world), first, now, batch);
-        const PyramidShape shape = shape_of(work.world);
-        illumination.light(
-            batch, rays,
-            [&](const RayBatch& entries, uint32_t count, bool is_first, const NodeLight& nodes) {
-                display.keep_layer(shape, entries, count, is_first, nodes, first * 16);
-            });
-        if (!work.features.transmission) display.keep(shape, batch, first * 16, rays);
+        const auto keep_layer = [&](const RayBatch& entries, uint32_t count, bool is_first,
+                                    const NodeLight& nodes) {
+            display.keep_layer(work.world, illumination.density(),
+                               {entries, count, is_first, nodes, first * 16});
+        };
+        illumination.light(batch, rays, keep_layer);
+        if (!display.has_layers())
+            display.keep(shape_of(work.world), batch, first * 16, rays);
+        else if (!work.features.transmission)
+            keep_layer(batch, rays, true, {batch.radiance, {}, batch.stride});
         work.report.sight_rays += rays;
         if (work.progress) {
             work.device.finish();

@@ -167,6 +167,41 @@ TEST(Layers, LaidOverOneAnotherAreTheFlatImageOfEveryMaterial) {
     EXPECT_LT(difference(glass, volume_of(glass), true).first, 1e-5);
 }
 
+TEST(Layers, AMediumOfVaryingDensityIsShownByVoxels) {
+    const Volume volume = volume_of(
+        parsed(panes(R"(, "medium": {"absorption": [0.3, 0.3, 0.3], "color": [0.1, 0.2, 0.3],
+                        "density": {"kind": "height", "base": 1, "scale_height": 0.5}})")));
+    // Above the base the density falls: e^(-(y - 1) / 0.5), taken at the voxels' middles.
+    for (const auto& [v, y] : {std::pair{0, 1.75}, {1, 1.25}, {2, 0.75}}) {
+        const auto column = column_of(volume, 3, v);
+        ASSERT_EQ(column.size(), 8u) << v;
+        // Rays through the middles of pixels lie between two rows of voxels of 0.25 m: the upper.
+        double least = 1e9, most = 0;
+        for (const double side : {-0.125, 0.125}) {
+            const double density = y + side < 1 ? 1.0 : std::exp(-(y + side - 1) / 0.5);
+            least = std::min(least, density), most = std::max(most, density);
+        }
+        for (const int k : {0, 1, 3, 6}) {
+            const double density = -std::log1p(-double(column.at(k).opacity)) / 0.15;
+            EXPECT_GT(density, least - 1e-5) << v << " " << k;
+            EXPECT_LT(density, most + 1e-5) << v << " " << k;
+            EXPECT_NEAR(column.at(k).color[1], 0.2f, 1e-5f);
+        }
+    }
+}
+
+TEST(Layers, LaidOverOneAnotherAreTheFlatImageInFog) {
+    for (const DisplayCase& shape : kDisplayCases)
+        for (const char* material : {"", R"(, "opacity": 0.3)"}) {
+            const Scene scene =
+                clear_scene(std::string(shape.keys) + R"(, "voxels": [48, 36, 60])",
+                            R"(, "medium": {"absorption": [0.9, 0.9, 0.9], "color": [0.3, 0.2, 0.1],
+                    "density": {"kind": "height", "base": -0.4, "scale_height": 0.5}})",
+                            material);
+            EXPECT_LT(difference(scene, volume_of(scene), true).first, 1e-5) << shape.name;
+        }
+}
+
 TEST(Layers, ALatticeShowsWhatIsSeenThroughPanes) {
     Scene scene = parsed(panes(""));
     scene.observer.display.layout = VolumeLayout::lattice;

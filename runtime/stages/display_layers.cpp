@@ -69,28 +69,57 @@ class Assembly {
         put(column, word(layer, n, VXL_LAYER_STEP), light, opacity, depth, object);
     }
 
-    /// The voxels of the medium on a ray's way to a surface; returns the light that they add.
-    glm::dvec3 add_space(const LayerRecords& layer, size_t n, uint64_t column) {
+    /// Density times metres of the medium in each step of a ray's way to a surface, from `first`
+    /// on.
+    struct Way {
+        uint32_t first = 0;
+        std::vector<double> amounts;
+    };
+    Way way_of(const LayerRecords& layer, size_t n) const {
         const double begin = number(layer, n, VXL_LAYER_BEGIN),
                      end = number(layer, n, VXL_LAYER_END),
                      ratio = number(layer, n, VXL_LAYER_RATIO), step = double(space_.steps.step);
-        const glm::dvec3 passed = numbers(layer, n, VXL_LAYER_PASSED);
-        glm::dvec3 sum(0);
-        if (!(begin < end)) return sum;
+        if (!(begin < end)) return {};
         const auto step_at = [&](double depth) {
             return uint32_t(std::clamp(std::floor(depth / step), 0.0, double(size_.z - 1)));
         };
         const bool is_hit = word(layer, n, VXL_LAYER_OBJECT) != 0;
         const uint32_t last = is_hit ? word(layer, n, VXL_LAYER_STEP) : step_at(end);
-        for (uint32_t k = step_at(begin); k <= last; ++k) {
-            const double from = std::max(k * step, begin), to = std::min((k + 1) * step, end);
-            const double before = (from - begin) * ratio, inside = (to - from) * ratio;
+        Way way;
+        if (layer.first_amount.empty()) {
+            way.first = step_at(begin);
+            for (uint32_t k = way.first; k <= last; ++k)
+                way.amounts.push_back(
+                    std::max(std::min((k + 1) * step, end) - std::max(k * step, begin), 0.0) *
+                    ratio);
+            return way;
+        }
+        way.first = std::min(layer.first_step[n], last);
+        const size_t from = layer.first_amount[n], to = layer.first_amount[n + 1];
+        for (size_t i = from; i < to; ++i) {
+            // Rounding may put a little beyond the surface.
+            if (way.first + way.amounts.size() <= last) way.amounts.push_back(0);
+            way.amounts.back() += double(layer.amounts[i]);
+        }
+        return way;
+    }
+
+    /// The voxels of the medium on a ray's way to a surface; returns the light that they add.
+    glm::dvec3 add_space(const LayerRecords& layer, size_t n, uint64_t column) {
+        const glm::dvec3 passed = numbers(layer, n, VXL_LAYER_PASSED);
+        const Way way = way_of(layer, n);
+        glm::dvec3 sum(0);
+        double before = 0;
+        for (size_t i = 0; i < way.amounts.size(); ++i) {
+            const double inside = way.amounts[i];
             if (!(inside > 0)) continue;
+            const auto k = uint32_t(way.first + i);
             const glm::dvec3 light = passed * color_ * glm::exp(-absorption_ * before) *
                                      (1.0 - glm::exp(-absorption_ * inside));
             put(column, k, light, -std::expm1(-double(space_.steps.absorption) * inside),
-                float((k + 0.5) * step + double(space_.near_depth)), 0);
+                float((k + 0.5) * double(space_.steps.step) + double(space_.near_depth)), 0);
             sum += light;
+            before += inside;
         }
         return sum;
     }

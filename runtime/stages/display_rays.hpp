@@ -2,6 +2,7 @@
 #pragma once
 
 #include "runtime/opencl/program.hpp"
+#include "runtime/stages/density_grid.hpp"
 #include "runtime/stages/display_frame.hpp"
 #include "runtime/stages/features.hpp"
 #include "runtime/stages/ray_batch.hpp"
@@ -29,6 +30,11 @@ void read_voxels(const VoxelArrays& voxels, Volume& volume);
 struct LayerRecords {
     size_t count = 0;
     std::vector<uint32_t> words;
+    /// Density times metres of entry n in step k, at `first_amount[n] + k - first_step[n]`; empty
+    /// in a medium of density 1. Entry n's end where those of n+1 begin.
+    std::vector<float> amounts;
+    std::vector<size_t> first_amount;
+    std::vector<uint32_t> first_step;
 };
 
 /// Kernels of display_rays.cl, and what they keep of each sight ray. The paper's blocks 2 and 3.
@@ -41,10 +47,19 @@ class DisplayRaysStage {
     /// Keeps lit rays 0 .. count-1 of the batch, which begin at ray `first_ray` of the display.
     void keep(const PyramidShape& world, const RayBatch& batch, uint32_t first_ray, uint32_t count);
 
-    /// The same in a scene with `transmission`, where light comes from several surfaces along a
-    /// ray: keeps a layer of a batch that begins at ray `first_ray`. The first layer comes first.
-    void keep_layer(const PyramidShape& world, const RayBatch& entries, uint32_t count,
-                    bool is_first, const NodeLight& nodes, uint32_t first_ray);
+    /// A layer of surfaces, the nearest first: which entries of a batch that begins at ray
+    /// `first_ray`, and where the light of their rays is.
+    struct Layer {
+        const RayBatch& entries;
+        uint32_t count;
+        bool is_first;
+        const NodeLight& nodes;
+        uint32_t first_ray;
+    };
+    /// Instead of `keep` where light comes from several surfaces along a ray (`transmission`), or a
+    /// medium that differs from voxel to voxel (`medium_grid`).
+    void keep_layer(const Pyramid& world, const DensityGrid* density, const Layer& layer);
+    bool has_layers() const { return has_layers_; }
 
     /// Puts the voxels of all rays into the volume, once every ray is kept.
     void read(Volume& volume);
@@ -53,7 +68,10 @@ class DisplayRaysStage {
     VoxelArrays voxels();
 
     Device device_;
-    bool transmission_;
+    void measure_density(const Pyramid& world, const DensityGrid& density, const Layer& layer,
+                         LayerRecords& records);
+
+    bool has_layers_, transmission_;
     Sight sight_;
     DisplaySteps steps_;
     float near_depth_;
@@ -65,7 +83,7 @@ class DisplayRaysStage {
     Buffer<float> seen_;   ///< of the batch's nodes before a layer: light, coverage
     std::vector<LayerRecords> layers_;
     Program program_;
-    Kernel measure_, layer_, count_, place_, fill_;
+    Kernel measure_, layer_, density_, count_, place_, fill_;
 };
 
 }  // namespace voxelume
