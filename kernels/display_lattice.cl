@@ -241,15 +241,13 @@ static inline uint number_of(global const uint* mask, global const uint* starts,
 }
 
 /// Chooses for every voxel the point with a view that lies nearest to its middle; of equals, the
-/// one with the lowest number. In three turns over all points, the first of which has number
-/// `first_number`: 0 finds the least distance, 1 the lowest number at that, 2 copies the point and
-/// its view to the voxel.
+/// one with the lowest number. In two turns over all points, the first of which has number
+/// `first_number`: 0 finds the least distance, 1 the lowest number at that.
 kernel void choose_points(DisplayLattice lattice, global const float* restrict points, uint total,
                           global const uint* restrict view_of_point, uint count, uint first_number,
                           global const uint* restrict mask, global const uint* restrict starts,
-                          uint turn, global uint* restrict distances, global uint* restrict numbers,
-                          uint voxels, global float* restrict voxel_points,
-                          global uint* restrict voxel_views) {
+                          uint turn, global uint* restrict distances,
+                          global uint* restrict numbers) {
     const uint n = work_item();
     if (n >= count || view_of_point[n] == 0xFFFFFFFFu) return;
     const float3 point = load_point(points, total, n);
@@ -261,16 +259,25 @@ kernel void choose_points(DisplayLattice lattice, global const float* restrict p
                     z = point.z - (float)v.z - 0.5f;
         const uint distance = as_uint(fma(x, x, fma(y, y, z * z)));
         if (turn == 0) {
-            atomic_min(distances + voxel, distance);
-        } else if (turn == 1) {
-            if (distances[voxel] == distance) atomic_min(numbers + voxel, first_number + n);
-        } else if (numbers[voxel] == first_number + n) {
-            voxel_points[voxel] = point.x;
-            voxel_points[voxels + voxel] = point.y;
-            voxel_points[2 * voxels + voxel] = point.z;
-            voxel_views[voxel] = view_of_point[n];
+            if (distance < distances[voxel]) atomic_min(distances + voxel, distance);
+        } else if (distances[voxel] == distance) {
+            atomic_min(numbers + voxel, first_number + n);
         }
     }
+}
+
+/// Copies to voxels 0 .. voxels-1 their points and views, those that are among points 0 .. count-1.
+kernel void take_points(global const float* restrict points, uint total,
+                        global const uint* restrict view_of_point, uint count, uint first_number,
+                        global const uint* restrict numbers, uint voxels, uint voxel_stride,
+                        global float* restrict voxel_points, global uint* restrict voxel_views) {
+    const uint voxel = work_item();
+    if (voxel >= voxels) return;
+    const uint n = numbers[voxel] - first_number;
+    if (n >= count) return;
+    for (uint axis = 0; axis < 3; ++axis)
+        voxel_points[axis * voxel_stride + voxel] = points[axis * total + n];
+    voxel_views[voxel] = view_of_point[n];
 }
 
 /// Takes the light of rays 0 .. count-1 to their voxels: ray n was aimed at the point of voxel

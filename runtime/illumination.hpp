@@ -48,6 +48,9 @@ class Illumination {
     /// observer. `sink` hears of layers in scenes with `transmission`.
     void light(RayBatch& batch, uint32_t count, const LayerSink& sink = {});
 
+    /// Fills only the hits, without light.
+    void find_hits(RayBatch& batch, uint32_t count) { trace_.closest(world_, batch, count); }
+
     const Features& features() const { return features_; }
     /// The medium's, null where its density is 1 everywhere.
     const DensityGrid* density() const {

@@ -92,12 +92,15 @@ void ViewCanvas::cover_hull(std::span<const glm::dvec2> points, const glm::vec3&
 void ViewCanvas::cover_rectangle(glm::dvec2 low, glm::dvec2 high, const glm::vec3& color,
                                  float opacity) {
     low *= kSamples, high *= kSamples;
-    // A cell thinner than a sample covers the one that it begins in.
-    const glm::dvec2 first = glm::floor(low);
-    high = glm::max(high, first + 0.75);
+    for (int axis = 0; axis < 2; ++axis) {
+        if (std::ceil(low[axis] - 0.5) < std::ceil(high[axis] - 0.5)) continue;
+        low[axis] =
+            std::floor(low[axis]) + 0.5;  // no sample's middle lies within: one all the same
+        high[axis] = low[axis] + 0.5;
+    }
     const int end = int(std::ceil(std::min(high.y, double(size_.y)) - 0.5));
-    for (int y = std::max(int(std::ceil(std::min(low.y, first.y + 0.5) - 0.5)), 0); y < end; ++y)
-        cover_span(y, std::min(low.x, first.x + 0.5), high.x, color, opacity);
+    for (int y = std::max(int(std::ceil(low.y - 0.5)), 0); y < end; ++y)
+        cover_span(y, low.x, high.x, color, opacity);
 }
 
 void ViewCanvas::draw_line(glm::dvec2 from, glm::dvec2 to) {

@@ -118,10 +118,8 @@ void render_lattice(Work& work, Volume& volume) {
     };
     std::vector<ProbePoints> pieces = scan.scan(work.world, batch);
     report_progress(1);
-    TraceStage trace(work.device, geometry);
-    LookAhead look = [&](RayBatch& rays, uint32_t count) {
-        trace.closest(work.world, rays, count);
-    };
+    Illumination illumination(work.device, work.features, work.scene, work.world, batch.stride);
+    LookAhead look = [&](RayBatch& rays, uint32_t count) { illumination.find_hits(rays, count); };
     std::optional<Illumination> clear;
     if (work.features.transmission) {
         const Scene dark = without_light(work.scene);
@@ -133,7 +131,6 @@ void render_lattice(Work& work, Volume& volume) {
     ShownVoxels shown = display.choose(pieces);
     report_progress(2);
     pieces.clear();
-    Illumination illumination(work.device, work.features, work.scene, work.world, batch.stride);
     display.light(look, illumination, space_of(work.scene.world), batch, shown);
     report_progress(3);
     work.report.sight_rays += scan.lines() + display.rays();

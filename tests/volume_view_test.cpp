@@ -118,6 +118,10 @@ TEST(VolumeView, NeighboursLeaveNoGapsAndCoverNothingTwice) {
     for (double y = 0.3; y < 0.7; y += 0.01)
         for (double x = 0.35; x < 0.65; x += 0.01)
             EXPECT_NEAR(pixel_of(image, x, y).r, 0.505f, 1e-3f) << x << " " << y;
+    const Image slice = view_slices(volume, 0, 1, {97, 97});
+    for (double y = 0.05; y < 0.95; y += 0.01)
+        for (double x = 0.05; x < 0.95; x += 0.01)
+            EXPECT_NEAR(pixel_of(slice, x, y).r, 0.505f, 1e-3f) << x << " " << y;
     const Image slant = view_volume(volume, {0.6, 0.4}, kSize);
     for (double y = 0.45; y < 0.55; y += 0.01)
         for (double x = 0.45; x < 0.55; x += 0.01)

@@ -63,6 +63,7 @@ DisplayLatticeStage::DisplayLatticeStage(const Device& device, const Features& f
       count_(program_.kernel("count_groups")),
       list_(program_.kernel("list_places")),
       choose_(program_.kernel("choose_points")),
+      take_(program_.kernel("take_points")),
       keep_(program_.kernel("keep_light")) {}
 
 void DisplayLatticeStage::aim(const ProbePoints& points, uint32_t search, uint32_t first,
@@ -122,15 +123,21 @@ ShownVoxels DisplayLatticeStage::choose(const std::vector<ProbePoints>& pieces) 
     Buffer<uint32_t> numbers(device_, "display numbers", chosen.count);
     distances.fill(UINT32_MAX);
     numbers.fill(UINT32_MAX);
-    for (const uint32_t turn : {0u, 1u, 2u}) {
+    for (const uint32_t turn : {0u, 1u}) {
         uint32_t first_number = 0;
         for (const ProbePoints& points : pieces) {
             choose_.launch(WorkItem::light, points.count, lattice_, points.coordinates,
                            points.total, points.views, points.count, first_number, mask_, starts,
-                           turn, distances, numbers, chosen.total, chosen.coordinates,
-                           chosen.views);
+                           turn, distances, numbers);
             first_number += points.count;
         }
+    }
+    uint32_t first_number = 0;
+    for (const ProbePoints& points : pieces) {
+        take_.launch(WorkItem::light, chosen.count, points.coordinates, points.total, points.views,
+                     points.count, first_number, numbers, chosen.count, chosen.total,
+                     chosen.coordinates, chosen.views);
+        first_number += points.count;
     }
     return shown;
 }
@@ -166,7 +173,8 @@ void DisplayLatticeStage::light_points(Illumination& illumination, const Space& 
 
 /// The points of voxels that have no light yet, moved a little.
 DisplayLatticeStage::LightTask DisplayLatticeStage::missed_points(const ShownVoxels& shown,
-                                                                  const glm::vec3& shift) {
+                                                                  const glm::vec3& shift,
+                                                                  HostPoints& host) {
     const std::vector<uint32_t> objects = shown.voxels.objects.read(0, shown.voxels.count);
     std::vector<uint32_t> missed;
     for (uint32_t voxel = 0; voxel < objects.size(); ++voxel)
@@ -176,15 +184,17 @@ DisplayLatticeStage::LightTask DisplayLatticeStage::missed_points(const ShownVox
     points.count = uint32_t(missed.size());
     if (missed.empty()) return task;
     points.total = (points.count + 15) / 16 * 16;
-    const std::vector<float> from = shown.points.coordinates.read();
-    const std::vector<uint32_t> views_from = shown.points.views.read();
+    if (host.coordinates.empty()) {
+        host.coordinates = shown.points.coordinates.read();
+        host.views = shown.points.views.read();
+    }
     std::vector<float> coordinates(size_t(points.total) * 3);
     std::vector<uint32_t> views(points.total, kNoView);
     for (size_t i = 0; i < missed.size(); ++i) {
-        views[i] = views_from[missed[i]];
+        views[i] = host.views[missed[i]];
         for (int axis = 0; axis < 3; ++axis)
             coordinates[size_t(axis) * points.total + i] =
-                from[size_t(axis) * shown.points.total + missed[i]] + shift[axis];
+                host.coordinates[size_t(axis) * shown.points.total + missed[i]] + shift[axis];
     }
     points.coordinates =
         Buffer<float>(device_, "probe points", std::span<const float>(coordinates));
@@ -196,12 +206,13 @@ DisplayLatticeStage::LightTask DisplayLatticeStage::missed_points(const ShownVox
 void DisplayLatticeStage::light(const LookAhead& look, Illumination& illumination,
                                 const Space& space, RayBatch& batch, ShownVoxels& shown) {
     light_points(illumination, space, batch, {shown.points, {}}, shown.voxels);
+    HostPoints host;
     // A ray along the surface at its point, as at an outline, may pass by: one beside it does not.
     for (const float by : {1.0f / 512, 1.0f / 64})
         for (int side = 0; side < 6; ++side) {
             glm::vec3 shift(0);
             shift[side / 2] = side % 2 == 0 ? by : -by;
-            const LightTask missed = missed_points(shown, shift);
+            const LightTask missed = missed_points(shown, shift, host);
             if (missed.points.count == 0) return;
             light_points(illumination, space, batch, missed, shown.voxels);
         }
@@ -209,7 +220,7 @@ void DisplayLatticeStage::light(const LookAhead& look, Illumination& illuminatio
     // Nor may a whole face that a view looks along: other views see it.
     for (const bool hidden : {false, true})
         for (uint32_t view = 1; view < views_.size(); ++view) {
-            LightTask missed = missed_points(shown, glm::vec3(0));
+            LightTask missed = missed_points(shown, glm::vec3(0), host);
             if (missed.points.count == 0) return;
             missed.points.views.fill(hidden ? view : kNoView);
             if (!hidden) search(look, batch, missed.points, view);

@@ -51,7 +51,12 @@ class DisplayLatticeStage {
               const LightTask& task, uint32_t first, uint32_t count, VoxelArrays& voxels);
     void light_points(Illumination& illumination, const Space& space, RayBatch& batch,
                       const LightTask& task, VoxelArrays& voxels);
-    LightTask missed_points(const ShownVoxels& shown, const glm::vec3& shift);
+    /// The points of all voxels, read when the first one is missed.
+    struct HostPoints {
+        std::vector<float> coordinates;
+        std::vector<uint32_t> views;
+    };
+    LightTask missed_points(const ShownVoxels& shown, const glm::vec3& shift, HostPoints& host);
     void search(const LookAhead& look, RayBatch& batch, ProbePoints& points, uint32_t view);
 
     Device device_;
@@ -64,7 +69,7 @@ class DisplayLatticeStage {
     uint32_t groups_;
     Buffer<uint32_t> mask_;  ///< one bit for every voxel of the lattice
     Program program_;
-    Kernel aim_, note_, mark_, count_, list_, choose_, keep_;
+    Kernel aim_, note_, mark_, count_, list_, choose_, take_, keep_;
     uint64_t rays_ = 0;
 };
 
