@@ -28,6 +28,7 @@ struct Command {
 };
 
 Action add_check(CLI::App& app);
+Action add_convert(CLI::App& app);
 Action add_devices(CLI::App& app);
 Action add_diff(CLI::App& app);
 Action add_render(CLI::App& app);

@@ -7,12 +7,14 @@
 #include "cli/commands.hpp"
 #include "cli/mesh_report.hpp"
 #include "cli/report.hpp"
+#include "cli/volume_report.hpp"
 #include "runtime/error.hpp"
 #include "runtime/io/exr.hpp"
 #include "runtime/io/input_file.hpp"
 #include "runtime/io/model_file.hpp"
 #include "runtime/io/png.hpp"
 #include "runtime/io/vdb.hpp"
+#include "runtime/io/volume_frame_text.hpp"
 
 namespace voxelume::cli {
 
@@ -50,6 +52,7 @@ Report describe_plane(const std::string& name, const std::string& type,
 
 Report describe_exr(const fs::path& path) {
     const ExrHeader header = read_exr_header(path);
+    if (header.attributes.contains(kFrameKey)) return describe_volume(path, "deep OpenEXR volume");
     Report report = {{"kind", "OpenEXR image"},
                      {"size", {header.width, header.height}},
                      {"layout", header.layout},
@@ -82,7 +85,10 @@ Report describe_png(const fs::path& path) {
 }
 
 Report describe_vdb(const fs::path& path) {
-    Report report = {{"kind", "OpenVDB volume"}, {"grids", Report::array()}};
+    Report report = {{"kind", "OpenVDB volume"}};
+    if (read_vdb_metadata(path).contains(kFrameKey))
+        report = describe_volume(path, "OpenVDB volume");
+    report["grids"] = Report::array();
     for (const VdbSummary& grid : read_vdb_summary(path))
         report["grids"].push_back({{"grid", grid.name},
                                    {"type", grid.value_type},
@@ -107,23 +113,27 @@ Report describe_model(const fs::path& path) {
     return report;
 }
 
+Report describe_nrrd(const fs::path& path) {
+    return describe_volume(path, "NRRD volume");
+}
+
 using Describe = Report (*)(const fs::path&);
 
 /// By what the file begins with; meshes have no mark of their own, so they are what is left.
 Describe find_description(const fs::path& path) {
-    constexpr std::array<std::pair<std::string_view, Describe>, 4> kKinds = {
+    constexpr std::array<std::pair<std::string_view, Describe>, 6> kKinds = {
         {{{"\x76\x2f\x31\x01", 4}, describe_exr},
          {{"\x89PNG\r\n\x1a\n", 8}, describe_png},
          {{" BDV\0\0\0\0", 8}, describe_vdb},
-         {{"\x89VXM\r\n\x1a\n", 8}, describe_model}}};
+         {{"\x89VXM\r\n\x1a\n", 8}, describe_model},
+         {{"NRRD000", 7}, describe_nrrd},
+         {{"Kvxl", 4}, describe_kv6}}};
     const InputFile file(path);
     std::string start(std::min<uint64_t>(8, file.size()), '\0');
     file.read(0, start.data(), start.size());
     for (const auto& [mark, describe] : kKinds)
         if (start.starts_with(mark)) return describe;
-    if (path.extension() == ".json")
-        file.refuse("is a scene or a report; `voxelume check` says what is in a scene");
-    return describe_mesh;
+    return path.extension() == ".json" ? describe_volume_header : describe_mesh;
 }
 
 }  // namespace
@@ -135,7 +145,8 @@ Action add_info(CLI::App& app) {
     };
     auto options = std::make_shared<Options>();
     app.add_option("FILE", options->path,
-                   "OpenEXR image, PNG, OpenVDB volume, voxelized model (.vxm) or mesh")
+                   "OpenEXR image, PNG, volumetric image (.vdb .exr .nrrd .json .kv6), voxelized "
+                   "model (.vxm) or mesh")
         ->required();
     app.add_flag("--json", options->json, "print JSON");
     return [options] {

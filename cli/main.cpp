@@ -25,6 +25,7 @@ constexpr std::array kCommands = {
     Command{"check", "check a scene, and say what rendering it takes", add_check},
     Command{"voxelize", "turn a mesh into voxels: a model file or an OpenVDB volume", add_voxelize},
     Command{"info", "say what is in a file: image, volume, model or mesh", add_info},
+    Command{"convert", "write a volumetric image as another format", add_convert},
     Command{"diff", "measure how far two images are from each other", add_diff},
 };
 

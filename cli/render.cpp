@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -18,15 +19,18 @@
 #include "runtime/io/frame_path.hpp"
 #include "runtime/io/png.hpp"
 #include "runtime/io/progress.hpp"
+#include "runtime/io/volume_file.hpp"
 #include "runtime/renderer.hpp"
+#include "runtime/stages/display_frame.hpp"
 #include "runtime/version.hpp"
+#include "runtime/volume_renderer.hpp"
 
 namespace voxelume::cli {
 namespace {
 
 struct RenderOptions {
     SceneOptions scene;
-    std::vector<std::string> outputs;
+    std::vector<std::string> outputs, volumes;
     std::string frames;
     float exposure = 0;
     bool float_color = false;
@@ -47,14 +51,25 @@ struct Outcome {
 
 /// The files of one frame, or of all that --frames names. Nothing moves yet, so they are all alike.
 std::vector<std::string> output_files(const RenderOptions& options) {
-    if (options.outputs.empty() && !options.plan_only)
-        throw Error(ErrorKind::usage, "render: say where the image goes: -o image.exr");
+    if (options.outputs.empty() && options.volumes.empty() && !options.plan_only)
+        throw Error(ErrorKind::usage,
+                    "render: say where the image goes: -o image.exr, or --volume image.vdb");
     const bool animation = !options.frames.empty();
     const std::vector<int> frames = animation ? parse_frame_list(options.frames) : std::vector{1};
     std::vector<std::string> files;
     for (const int frame : frames)
         for (const std::string& pattern : options.outputs)
             files.push_back(frame_path(pattern, frame, animation));
+    return files;
+}
+
+/// The volumetric files likewise. Without --frames the #### of slices is left to their writer.
+std::vector<std::string> volume_files(const RenderOptions& options) {
+    if (options.frames.empty()) return options.volumes;
+    std::vector<std::string> files;
+    for (const int frame : parse_frame_list(options.frames))
+        for (const std::string& pattern : options.volumes)
+            files.push_back(frame_path(pattern, frame, true));
     return files;
 }
 
@@ -162,11 +177,39 @@ Image render_with_bar(const Device& device, const Scene& scene, RenderReport& re
     });
 }
 
+[[noreturn]] void refuse_not_finite(uint32_t count) {
+    throw Error(ErrorKind::render,
+                "{} values of the image were not finite and became 0: please report this scene",
+                count);
+}
+
+void add_attributes(const Scene& scene, std::map<std::string, std::string>& attributes) {
+    attributes["scene"] = scene.file.filename().string();
+    attributes["software"] = "voxelume " + std::string(version());
+}
+
+void render_images(const Device& device, const Scene& scene, const RenderOptions& options,
+                   const std::vector<std::string>& files, RenderReport& report) {
+    Image image = render_with_bar(device, scene, report, options.quiet);
+    if (report.not_finite != 0) refuse_not_finite(report.not_finite);
+    add_attributes(scene, image.attributes);
+    for (const std::string& path : files) write(image, path, options);
+}
+
+void render_volumes(const Device& device, const Scene& scene, const std::vector<std::string>& files,
+                    RenderReport& report) {
+    Volume volume = render_volume(device, scene, report);
+    if (report.not_finite != 0) refuse_not_finite(report.not_finite);
+    add_attributes(scene, volume.attributes);
+    for (const std::string& path : files) write_volume(path, volume);
+}
+
 int run(const RenderOptions& options) {
     const auto start = std::chrono::steady_clock::now();
-    const std::vector<std::string> files = output_files(options);
+    const std::vector<std::string> files = output_files(options), volumes = volume_files(options);
     check_outputs(files, options);
     const Scene scene = read_with(options.scene, "render");
+    for (const std::string& path : volumes) check_volume_output(path, display_frame(scene));
     const Device device = Device::open(options.scene.device);
     if (options.plan_only) {
         print_plan(scene, device, false);
@@ -175,17 +218,12 @@ int run(const RenderOptions& options) {
     if (options.verbose || !options.stats.empty()) device.time_kernels(true);
 
     RenderReport report;
-    Image image = render_with_bar(device, scene, report, options.quiet);
-    if (report.not_finite != 0)
-        throw Error(ErrorKind::render,
-                    "{} values of the image were not finite and became 0: please report this scene",
-                    report.not_finite);
-    image.attributes = {{"scene", scene.file.filename().string()},
-                        {"software", "voxelume " + std::string(version())}};
-    for (const std::string& path : files) write(image, path, options);
+    if (!files.empty()) render_images(device, scene, options, files, report);
+    if (!volumes.empty()) render_volumes(device, scene, volumes, report);
     const double seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    const Outcome outcome{device, report, {image.width, image.height}, files.size(), seconds};
+    const Outcome outcome{device, report, scene.render.size, files.size() + volumes.size(),
+                          seconds};
     if (!options.stats.empty()) write_statistics(options.stats, statistics(outcome));
     if (options.quiet) return 0;
     print_summary(outcome);
@@ -199,6 +237,10 @@ Action add_render(CLI::App& app) {
     const auto options = std::make_shared<RenderOptions>();
     add_scene_options(app, options->scene);
     app.add_option("-o,--output", options->outputs, "image: .exr or .png; may be given again")
+        ->allow_extra_args(false);
+    app.add_option("--volume", options->volumes,
+                   "volumetric image of the scene's display: .vdb .exr .nrrd .raw, name.####.png "
+                   "and displays' own formats; may be given again")
         ->allow_extra_args(false);
     app.add_option("--frames", options->frames,
                    "frames like 1-10,20,30-60x5; #### in an output's name is the number");

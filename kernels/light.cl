@@ -20,6 +20,19 @@ static inline lane_float spot_share(LightRecord light, Vector to_surface) {
     return s * s * fma(-2.0f, s, 3.0f);
 }
 
+/// What a small patch of a glowing surface gives to a point at distance d, where it is seen at an
+/// angle with this cosine: cosine / (d^2 + A/pi). Beside a disk's middle that is exact, from far
+/// away it is the cosine over d^2, and no nearness makes it more than all the light that a
+/// surface can get (Wallace, Elmquist and Haines 1989).
+static inline lane_float patch_falloff(LightRecord light, Vector to_surface, lane_float squared) {
+    const Vector normal = {(lane_float)light.direction.x, (lane_float)light.direction.y,
+                           (lane_float)light.direction.z};
+    const lane_float cosine = dot_product(normal, to_surface);
+    const lane_int faces = LANE_MASK(cosine > 0.0f);
+    const lane_float sum = LANES_SELECT(faces, squared + light.spread, (lane_float)1.0f);
+    return LANES_SELECT(faces, cosine * exact_reciprocal(sum), (lane_float)0.0f);
+}
+
 /// Adds one light: every surface point that faces it, and to which it gives any light, gets a place
 /// in the queue of shadow rays with the light's share. Where neither an object nor the medium can
 /// come between, the share is added at once.
@@ -61,6 +74,10 @@ kernel void add_light(PyramidShape shape, LightRecord light, global const float*
     if (light.kind == VXL_LIGHT_SPOT) {
         const Vector to_surface = {-l.x, -l.y, -l.z};
         falloff *= spot_share(light, to_surface);
+    }
+    if (VXL_PATCHES && light.kind == VXL_LIGHT_PATCH) {
+        const Vector to_surface = {-l.x, -l.y, -l.z};
+        falloff = patch_falloff(light, to_surface, squared);
     }
     lit &= LANE_MASK(falloff > 0.0f);
     if (!lanes_any(lit)) return;

@@ -69,7 +69,9 @@ kernel void absorb_sight(PyramidShape shape, Space space, DensityShape density_s
     const lane_float t_hit = LANES_AS_FLOAT(LANES_LOAD(hits, VXL_HIT_T * stride + first));
     // A ray that met nothing goes on to the far surface, or to the world's end.
     const lane_float t_end = LANES_LOAD(rays, VXL_RAY_END * stride + first);
-    const lane_int active = LANE_MASK(t_end >= 0.0f);
+    // Places beyond the queue's end hold what was there before.
+    const lane_int active =
+        LANE_MASK(t_end >= 0.0f) & LANE_MASK(LANES_AS_INT(LANES_NUMBERS + (int)first) < (int)count);
     Segment segment = {load_vector(rays, stride, first),
                        load_vector(rays + VXL_RAY_DX * stride, stride, first), (lane_float)0.0f,
                        LANES_SELECT(hit, t_hit, t_end)};
@@ -78,7 +80,7 @@ kernel void absorb_sight(PyramidShape shape, Space space, DensityShape density_s
         segment.t_first = LANES_LOAD(starts, first);
         material = LANES_LOAD(inside, first);
     }
-    const lane_int in_object = LANE_MASK(material != 0u);
+    const lane_int in_object = LANE_MASK(material != 0u) & active;
     const lane_float metres = metres_per_t(shape, segment.direction);
     lane_float depth = (lane_float)0.0f;
     if (VXL_MEDIUM) depth = depth_of(shape, &density, &segment, active & ~in_object);

@@ -11,6 +11,7 @@
 #include "lib/interior.h"
 #include "lib/optics.h"
 #include "lib/ray_queue.h"
+#include "lib/solid_hit.h"
 #include "lib/surface_color.h"
 #include "lib/vector.h"
 #include "lib/work_item.h"
@@ -41,13 +42,6 @@ static inline lane_uint joined_flag(const Interior* in, global const float* rest
     return LANES_AS_UINT(is_joined(body_inside(in), materials)) & VXL_PATH_JOINED;
 }
 
-/// RayBatch::inside of a ray inside of the object that counts.
-static inline lane_uint medium_inside(const Interior* in, global const uint* ranks) {
-    const lane_uint word = effective_member(in, ranks);
-    const lane_uint material = (word >> VXL_MATERIAL_SHIFT) & VXL_MATERIAL_MASK;
-    return LANES_SELECT(LANE_MASK(word != VXL_NO_MEMBER), material + 1u, (lane_uint)0);
-}
-
 /// The index of refraction of a RayBatch::inside.
 static inline lane_float medium_ior(global const float* restrict materials, lane_uint medium) {
     const lane_int some = LANE_MASK(medium != 0u);
@@ -61,9 +55,13 @@ static inline void count_lanes(lane_int mask, global uint* counter) {
     reserve_places(mask, counter, places);
 }
 
-/// Makes rays from an observer entries of their own nodes.
-kernel void begin_paths(uint count, uint stride, global uint* restrict paths,
-                        global float* restrict starts, global uint* restrict inside) {
+/// Makes rays from an observer entries of their own nodes. `bodies` are the solids that transmit
+/// light: a ray may begin inside of them.
+kernel void begin_paths(global const SolidShape* restrict solids, uint body_count,
+                        global const uint* restrict bodies, global const uint* restrict ranks,
+                        global const float* restrict rays, uint count, uint stride,
+                        global uint* restrict paths, global float* restrict starts,
+                        global uint* restrict inside) {
     const uint first = work_item() * VXL_LANES;
     if (first >= count) return;
     const lane_uint one = LANES_AS_UINT((lane_float)1.0f);
@@ -76,10 +74,25 @@ kernel void begin_paths(uint count, uint stride, global uint* restrict paths,
     LANES_STORE(LANES_AS_UINT(LANES_NUMBERS + (int)first), paths, VXL_PATH_TARGET * stride + first);
     LANES_STORE(one, paths, VXL_PATH_CLEAR * stride + first);
     for (uint c = 0; c < 3; ++c) LANES_STORE(one, paths, (VXL_PATH_PASSED + c) * stride + first);
-    for (uint c = 0; c < VXL_INTERIOR_MEMBERS; ++c)
-        LANES_STORE((lane_uint)VXL_NO_MEMBER, paths, (VXL_PATH_INSIDE + c) * stride + first);
     LANES_STORE((lane_float)0.0f, starts, first);
-    LANES_STORE((lane_uint)0, inside, first);
+    Interior in = empty_interior();
+    if (VXL_SOLIDS) {
+        const Vector o = load_vector(rays, stride, first);
+        const Vector d = load_vector(rays + VXL_RAY_DX * stride, stride, first);
+        const SolidRay ray = {o.x, o.y, o.z, d.x, d.y, d.z};
+        const lane_int valid =
+            below(first, count) & LANE_MASK(LANES_LOAD(rays, VXL_RAY_END * stride + first) >= 0.0f);
+        for (uint i = 0; i < body_count; ++i) {
+            const SolidEvent event = event_at(solids, bodies[i], &ray, (lane_float)0.0f);
+            in = cross_interior(in, (lane_uint)solids[bodies[i]].attribute, (lane_int)0,
+                                (lane_int)0, event.after & valid);
+        }
+    }
+    LANES_STORE(in.smooth, paths, VXL_PATH_INSIDE * stride + first);
+    LANES_STORE(in.a, paths, (VXL_PATH_INSIDE + 1) * stride + first);
+    LANES_STORE(in.b, paths, (VXL_PATH_INSIDE + 2) * stride + first);
+    LANES_STORE(in.c, paths, (VXL_PATH_INSIDE + 3) * stride + first);
+    LANES_STORE(medium_inside(&in, ranks), inside, first);
 }
 
 /// Adds a layer's light to its nodes (in the first layer: begins their sums), and sends the rays on
@@ -264,18 +277,21 @@ kernel void scatter_rays(PyramidShape shape, global const float* restrict materi
     const Vector position = load_vector(positions, stride, first);
     const lane_float cosine = clamp(-dot_product(v, n), 0.0f, 1.0f);
 
+    // Who leaves a transmitting object that the set doesn't hold began inside of it.
     Interior behind = ray.interior;
+    lane_int open = (lane_int)0;
+    if (VXL_TRANSMISSION) {
+        const lane_int body = is_smooth(word, ray.source);
+        open = hit & transmits(materials, material,
+                               LANES_GATHER_FLOAT(materials, material + VXL_MATERIAL_OPACITY));
+        const lane_int began = open & leaving & ~interior_holds(&ray.interior, word, body);
+        ray.interior = cross_interior(ray.interior, word, body, (lane_int)0, began);
+        behind = cross_interior(ray.interior, word, body, leaving, open);
+    }
     lane_float eta = one;
     Refraction bend = {(lane_int)0, cosine, zero, one};
     if (VXL_REFRACTS) {
-        const lane_int body = is_smooth(word, ray.source);
-        const lane_int began = leaving & ~interior_holds(&ray.interior, word, body);
-        const Interior before = cross_interior(ray.interior, word, body, (lane_int)0, began & hit);
-        const lane_int open =
-            hit & transmits(materials, material,
-                            LANES_GATHER_FLOAT(materials, material + VXL_MATERIAL_OPACITY));
-        behind = cross_interior(before, word, body, leaving, open);
-        const lane_uint from = medium_inside(&before, ranks);
+        const lane_uint from = medium_inside(&ray.interior, ranks);
         lane_uint to = medium_inside(&behind, ranks);
         to = LANES_SELECT(open, to, ((word >> VXL_MATERIAL_SHIFT) & VXL_MATERIAL_MASK) + 1u);
         eta = exact_divide(medium_ior(materials, from),

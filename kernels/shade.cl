@@ -41,7 +41,8 @@ kernel void shade_surface(PyramidShape shape, Space space, global const float* r
                           global const uint* restrict hits, global const uint* restrict paths,
                           uint count, uint stride, global float* restrict positions,
                           global float* restrict normals, global uint* restrict words,
-                          global uint* restrict sides, global float* restrict radiance) {
+                          global uint* restrict sides, global uint* restrict inside,
+                          global float* restrict radiance) {
     const uint first = work_item() * VXL_LANES;
     if (first >= count) return;
     const float4 edge = shape.edge;
@@ -137,6 +138,15 @@ kernel void shade_surface(PyramidShape shape, Space space, global const float* r
             leaving = LANES_SELECT(cube, exit, leaving);
         }
         hidden = hides_surface(&before, word, body, leaving, ranks);
+        if (VXL_ABSORBS && VXL_SMOOTH) {
+            // A ray from an observer that first meets the smooth body from inside began in it.
+            const lane_uint flags = LANES_LOAD(paths, VXL_PATH_FLAGS * stride + first);
+            const lane_int began = hit & body & leaving & LANE_MASK(flags == 0u) &
+                                   ~interior_holds(&before, word, body) &
+                                   transmits(materials, material, opacity);
+            const Interior from = cross_interior(before, word, body, (lane_int)0, began);
+            LANES_STORE(medium_inside(&from, ranks), inside, first);
+        }
         if (VXL_CUBE_BODIES) {
             hidden |= exit & ~is_joined(word, materials);
             hidden =

@@ -36,6 +36,7 @@ typedef struct {
     Interior interior;  // of scenes with transmitting objects; empty elsewhere
     lane_uint body;     // the body of cubes in it, VXL_NO_MEMBER for none
     lane_int joined;    // mask: the body's inner faces are no surfaces
+    lane_int unsure;    // mask: it may begin inside of the smooth body unbeknown
 } Travel;
 
 /// What a packet has found so far.
@@ -45,6 +46,8 @@ typedef struct {
     lane_uint leaf, voxel, primitive;
     lane_uint solid;   // the last one tested
     lane_float level;  // shift of smooth surfaces for rays that began on one, see hit_smooth
+    lane_int asked;    // mask: it is known on which side of the smooth body the ray began ...
+    lane_int within;   // mask: ... inside
     lane_int in_body;  // mask: the walk has been in a cell of the body that the ray is inside of
     lane_int exit;     // mask: the hit is the face across which it left the body
 } Found;
@@ -185,10 +188,14 @@ static inline lane_int test_surfaces(const PyramidView* p, const SurfaceView* s,
     if (VXL_SMOOTH && lanes_any(smooth)) {
         const Field field = read_field(s->fields, voxel, s->half_curvature);
         lane_float t = (lane_float)INFINITY;
-        lane_float side = (lane_float)1.0f;
-        if (VXL_TRANSMISSION)
-            side = LANES_SELECT(LANE_MASK(travel->interior.smooth != VXL_NO_MEMBER),
-                                (lane_float)-1.0f, side);
+        const lane_int asking = smooth & ~found->asked;
+        if (lanes_any(asking)) {
+            found->within |= asking & begins_within(&field, w, p->plane_bound);
+            found->asked |= asking;
+        }
+        lane_int within = found->within;
+        if (VXL_TRANSMISSION) within |= LANE_MASK(travel->interior.smooth != VXL_NO_MEMBER);
+        const lane_float side = LANES_SELECT(within, (lane_float)-1.0f, (lane_float)1.0f);
         const lane_int met = hit_smooth(&field, w, side, smooth, beginning, &found->level, &t);
         // A ray that goes straight on has its hits beyond this voxel where any other ray has them.
         if (VXL_TRANSMISSION)
@@ -209,6 +216,8 @@ static inline Found find_first(const PyramidView* p, const SurfaceView* s, Walk*
     found.leaf = found.voxel = (lane_uint)0;
     found.primitive = found.solid = (lane_uint)VXL_NO_PRIMITIVE;
     found.level = (lane_float)0.0f;
+    found.asked = ~travel->unsure;
+    found.within = (lane_int)0;
     found.in_body = found.exit = (lane_int)0;
     lane_int walking = active & in_grid(p, w);
     while (lanes_any(walking)) {
@@ -304,7 +313,8 @@ static inline void enter_world(const PyramidView* p, Walk* w, lane_int entering)
 static inline Travel sight_travel(void) {
     const Travel travel = {
         (lane_int)0,      (lane_int)0,      (lane_uint)VXL_NO_PRIMITIVE, (lane_int)0,
-        (lane_float)0.0f, empty_interior(), (lane_uint)VXL_NO_MEMBER,    (lane_int)0};
+        (lane_float)0.0f, empty_interior(), (lane_uint)VXL_NO_MEMBER,    (lane_int)0,
+        (lane_int)0};
     return travel;
 }
 
@@ -369,6 +379,7 @@ kernel void trace_closest(VXL_WORLD_ARGUMENTS, global const float* restrict rays
     Travel travel = sight_travel();
     if (VXL_PATHS) travel = load_travel(paths, starts, stride, first);
     enter_world(&pyramid, &walk, ~travel.on_surface);
+    travel.unsure = ~travel.on_surface & LANE_MASK(walk.axis == 3);
     if (VXL_TRANSMISSION)
         resume_walk(&walk, &travel, LANES_LOAD(paths, VXL_PATH_CELL * stride + first),
                     LANES_LOAD(paths, VXL_PATH_CELL_Z * stride + first),

@@ -2,14 +2,31 @@
 
 #include <algorithm>
 #include <bit>
+#include <cstring>
 #include <set>
+
+#include "kernels/shared/solid.h"
+#include "kernels/shared/voxel.h"
+#include "runtime/stages/spots.hpp"
 
 namespace voxelume {
 namespace {
 
+bool shines(const Light& light) {
+    return light.energy != glm::vec3(0);
+}
+
+bool has_area(const Light& light) {
+    return light.kind == LightKind::disk || light.kind == LightKind::rectangle;
+}
+
+bool has_lamp(const Scene& scene) {
+    return std::ranges::any_of(scene.objects,
+                               [&](const Object& object) { return is_lamp(scene, object); });
+}
+
 bool has_light(const Scene& scene) {
-    return std::ranges::any_of(scene.lights,
-                               [](const Light& light) { return light.energy != glm::vec3(0); });
+    return std::ranges::any_of(scene.lights, shines) || has_lamp(scene);
 }
 
 ShadowQueue allocate_shadow_queue(const Device& device, const Features& features, uint32_t stride) {
@@ -27,10 +44,18 @@ ShadowQueue allocate_shadow_queue(const Device& device, const Features& features
     return queue;
 }
 
-std::vector<LightRecord> light_records(const Scene& scene, const GridFrame& world) {
+std::vector<LightRecord> light_records(const Device& device, const Features& features,
+                                       const Scene& scene, const Pyramid& world) {
     std::vector<LightRecord> records;
-    for (const Light& light : scene.lights)
-        if (light.energy != glm::vec3(0)) records.push_back(light_record(light, world));
+    for (const Light& light : scene.lights) {
+        if (!shines(light)) continue;
+        if (has_area(light))
+            std::ranges::copy(area_spots(light, world.frame), std::back_inserter(records));
+        else
+            records.push_back(light_record(light, world.frame));
+    }
+    if (has_lamp(scene))
+        std::ranges::copy(lamp_spots(device, features, scene, world), std::back_inserter(records));
     return records;
 }
 
@@ -88,11 +113,28 @@ RayQueue allocate_queue(const Device& device, const Features& features, uint32_t
     return queue;
 }
 
+/// The first records of the solids that light goes through.
+Buffer<uint32_t> transmitting_solids(const Device& device, const Scene& scene,
+                                     const Pyramid& world) {
+    const std::vector<uint32_t> words = world.solids.read();
+    std::vector<uint32_t> numbers;
+    for (uint32_t i = 0; i < words.size() / VXL_SOLID_WORDS; ++i) {
+        SolidShape shape;
+        std::memcpy(&shape, &words[size_t(i) * VXL_SOLID_WORDS], sizeof shape);
+        const uint32_t material = shape.attribute >> VXL_MATERIAL_SHIFT & VXL_MATERIAL_MASK;
+        if (shape.shape_count > 0 && transmits(scene.materials[material])) numbers.push_back(i);
+    }
+    return {device, "path bodies", std::span<const uint32_t>(numbers)};
+}
+
 }  // namespace
 
 Features features_of(const Scene& scene, const Pyramid& world) {
     Features features = features_of(world);
     features.shadows = scene.render.shadows && has_light(scene);
+    features.patches = has_lamp(scene) || std::ranges::any_of(scene.lights, [](const Light& light) {
+                           return shines(light) && has_area(light);
+                       });
     features.medium = scene.world.medium.absorption != glm::vec3(0);
     features.medium_grid = features.medium && has_density(scene.world.medium);
     add_paths(scene, features);
@@ -121,7 +163,7 @@ Illumination::Illumination(const Device& device, const Features& features, const
     : device_(device),
       features_(features),
       world_(world),
-      lights_(light_records(scene, world.frame)),
+      lights_(light_records(device, features, scene, world)),
       most_rays_(most_rays),
       most_depth_(size_t(scene.render.depth)),
       trace_(device, features),
@@ -137,11 +179,13 @@ Illumination::Illumination(const Device& device, const Features& features, const
     if (features.paths)
         scatter_.emplace(device, features, surroundings_, float(scene.render.least_weight),
                          compact);
+    if (features.transmission && features.solids)
+        scatter_->set_bodies(transmitting_solids(device, scene, world));
 }
 
 void Illumination::light(RayBatch& batch, uint32_t count) {
     if (!features_.paths) return direct(batch, count);
-    scatter_->begin(batch, count);
+    scatter_->begin(world_, batch, count);
     reserve_nodes(0, batch.stride);
     follow(0, batch, count);
     Depth& depth = *depths_[0];

@@ -125,25 +125,46 @@ struct Object {
     int material = 0;  ///< index into Scene::materials, for all faces that `groups` does not name
     std::vector<GroupMaterial> groups;
     int priority = 0;  ///< where objects overlap: the higher wins, then the earlier in the list
+    std::optional<int> spots;  ///< that its emission lights the world by; none: by its size
     glm::dmat4 world_from_object{
         1};  ///< affine and safely invertible; mirrors and shears are allowed
     std::string where;
 };
 
-enum class LightKind : uint8_t { point, spot, directional };
+enum class LightKind : uint8_t { point, spot, directional, disk, rectangle };
+
+/// The most spots that one source of light is made of.
+inline constexpr int kMaxSpots = 16384;
 
 struct Light {
     std::string name;
     LightKind kind = LightKind::point;
-    glm::dvec3 position{0};   ///< metres; point and spot
-    glm::dvec3 direction{0};  ///< unit vector along which the light travels; spot and directional
-    glm::vec3 energy{1};      ///< colour times intensity: at 1 m, or everywhere for directional
+    glm::dvec3 position{0};   ///< metres; all but directional; the centre of a disk or rectangle
+    glm::dvec3 direction{0};  ///< unit vector along which the light travels; all but point
+    glm::vec3 energy{1};      ///< colour times intensity: at 1 m, or everywhere for directional;
+                              ///< of a disk or rectangle, along `direction` from far away
     double inner_half_angle = 0;  ///< radians; spot: full light up to here, ...
     double outer_half_angle = 0;  ///< ... none from here, between them smoothstep of the cosine
+    double radius = 0;            ///< metres; disk
+    glm::dvec2 size{0};           ///< metres; rectangle: along axis_x, and across it
+    glm::dvec3 axis_x{0};         ///< unit vector across `direction`; disk and rectangle
+    int spots = 64;               ///< disk and rectangle: points that they shine from
     std::string where;
 };
 
 enum class DisplayShape : uint8_t { pyramid, sector, ball, box };
+
+enum class VolumeLayout : uint8_t {
+    rays,    ///< (u, v, k): sight ray by step; u to the image's right, v down, k away from E
+    lattice  ///< (x, y, z): Cartesian voxels along X_E, Y_E, Z_E, clipped by the display's shape
+};
+
+/// Which surfaces of the world a lattice shows.
+enum class Visibility : uint8_t {
+    observer,  ///< those that E sees
+    outside,   ///< those that can be seen from somewhere outside of the world
+    all        ///< all
+};
 
 /// VD_E, in the observer's coordinates. A ball is centred at the observer, the others lie around
 /// Z_E.
@@ -157,6 +178,9 @@ struct Display {
     glm::ivec3 voxels{0};  ///< u, v, k
     bool square_pixels =
         false;  ///< pyramid given by one angle: the vertical one follows the image's size
+    VolumeLayout layout = VolumeLayout::rays;
+    Visibility visibility = Visibility::observer;  ///< always `observer` for rays
+    bool cylinder = false;  ///< lattice: clipped by the upright cylinder that it circumscribes, too
 };
 
 /// E: looks along +Z_E with Y_E up, so the right-hand side of the image is -X_E.
@@ -216,6 +240,9 @@ void resize(Scene& scene, glm::ivec2 size);
 /// when the object names a group that the mesh does not have.
 std::vector<int> materials_of_groups(const Object& object,
                                      const std::vector<std::string>& group_names);
+
+/// Whether one of the object's materials has emission.
+bool has_emission(const Scene& scene, const Object& object);
 
 /// Whether light goes through or past surfaces of the material.
 bool transmits(const Material& material);

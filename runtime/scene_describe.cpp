@@ -38,12 +38,30 @@ std::string model_text(const Model& model) {
 }
 
 std::string light_text(const Light& light) {
-    static constexpr std::array kinds = {"point", "spot", "directional"};
+    static constexpr std::array kinds = {"point", "spot", "directional", "disk", "rectangle"};
     const bool has_place = light.kind != LightKind::directional;
     return fmt::format("light \"{}\": {}, {} {}, energy {}", light.name,
                        kinds[static_cast<size_t>(light.kind)], has_place ? "at" : "along",
                        vector_text(has_place ? light.position : light.direction),
                        vector_text(light.energy));
+}
+
+std::string density_text(const Density& density) {
+    if (const auto* height = std::get_if<HeightDensity>(&density))
+        return fmt::format(", density 1 up to y {:.6g}, above it a factor of e less every {:.6g} m",
+                           height->base, height->scale_height);
+    if (const auto* ball = std::get_if<BallDensity>(&density))
+        return fmt::format(", density of a ball at {}, radius {:.6g}", vector_text(ball->center),
+                           ball->radius);
+    if (const auto* grid = std::get_if<GridDensity>(&density))
+        return fmt::format(", density of grid \"{}\" of {}", grid->grid,
+                           grid->file.filename().string());
+    return "";
+}
+
+std::string medium_text(const Medium& medium) {
+    return fmt::format("medium: absorption {} per m{}\n",
+                       vector_text(glm::dvec3(medium.absorption)), density_text(medium.density));
 }
 
 std::string observer_text(const Observer& observer) {
@@ -61,6 +79,7 @@ std::string describe(const Scene& scene) {
     const World& world = scene.world;
     std::string text = fmt::format("world: {}x{}x{} voxels of {} m\n", world.voxels.x,
                                    world.voxels.y, world.voxels.z, vector_text(world.voxel_size));
+    if (world.medium.absorption != glm::vec3(0)) text += medium_text(world.medium);
     for (const Model& model : scene.models) text += model_text(model) + "\n";
     for (const Object& object : scene.objects) {
         text += fmt::format("object \"{}\": model \"{}\", material \"{}\", at {}\n", object.name,

@@ -53,16 +53,22 @@ std::vector<KeyTable> make_tables() {
     for (const KeyTable& shape : shapes)
         tables.push_back({"part:" + shape.name, shape.keys + placement});
     tables.push_back(
-        {"object", Keys{"name", "model", "material", "materials", "priority"} + placement});
+        {"object",
+         Keys{"name", "model", "material", "materials", "priority", "spots"} + placement});
     tables.push_back({"light:point", light + Keys{"position"}});
     tables.push_back(
         {"light:spot", light + Keys{"position", "direction", "look_at", "angle", "inner_angle"}});
     tables.push_back({"light:directional", light + Keys{"direction"}});
+    tables.push_back(
+        {"light:disk", light + Keys{"position", "direction", "look_at", "radius", "spots"}});
+    tables.push_back({"light:rectangle",
+                      light + Keys{"position", "direction", "look_at", "up", "size", "spots"}});
     tables.push_back({"observer", {"position", "look_at", "up", "turn", "display"}});
-    tables.push_back({"display:pyramid", {"shape", "angles", "angle", "near", "far", "voxels"}});
-    tables.push_back({"display:sector", {"shape", "angle", "near", "far", "voxels"}});
-    tables.push_back({"display:ball", {"shape", "radius", "voxels"}});
-    tables.push_back({"display:box", {"shape", "size", "near", "voxels"}});
+    const Keys display = {"shape", "voxels", "layout", "visibility", "clip"};
+    tables.push_back({"display:pyramid", display + Keys{"angles", "angle", "near", "far"}});
+    tables.push_back({"display:sector", display + Keys{"angle", "near", "far"}});
+    tables.push_back({"display:ball", display + Keys{"radius"}});
+    tables.push_back({"display:box", display + Keys{"size", "near"}});
     tables.push_back({"animation", {"frames", "fps", "tracks"}});
     tables.push_back({"render", {"size", "samples", "depth", "shadows", "shadow", "least_weight"}});
     return tables;

@@ -1,6 +1,7 @@
 // The scene's models and the objects that place them in the world.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <glm/common.hpp>
 #include <glm/matrix.hpp>
 #include <unordered_set>
@@ -110,11 +111,20 @@ Object read_object(const SceneValue& value, size_t number, ObjectNames& names) {
     object.model = names.models.find(fields.get("model"));
     read_materials_of(fields, names.materials, object);
     object.priority = fields.integer("priority", -1'000'000, 1'000'000, 0);
+    if (const auto spots = fields.find("spots")) object.spots = spots->integer(0, kMaxSpots);
     object.world_from_object = read_placement(fields);
     return object;
 }
 
 }  // namespace
+
+bool has_emission(const Scene& scene, const Object& object) {
+    const auto emits = [&](int material) {
+        return scene.materials[size_t(material)].emission != glm::vec3(0);
+    };
+    return emits(object.material) ||
+           std::ranges::any_of(object.groups, emits, &GroupMaterial::material);
+}
 
 std::vector<Model> read_models(const SceneValue& value, const ModelContext& context) {
     std::vector<Model> models;
@@ -138,6 +148,12 @@ std::vector<Object> read_objects(const SceneValue& value, const Scene& scene) {
                 .get("materials")
                 .fail("only a mesh has groups of faces; give this object one \"material\"");
         }
+        if (object.spots && !has_emission(scene, object))
+            SceneFields(item, "object")
+                .get("spots")
+                .fail(
+                    "none of the object's materials has emission, so it has no spots to shine "
+                    "from");
     }
     return objects;
 }

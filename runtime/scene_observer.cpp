@@ -1,7 +1,8 @@
-// The observer with its display, and the lights.
+// The observer with its display.
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
@@ -11,14 +12,6 @@
 
 namespace voxelume {
 namespace {
-
-/// Unit vector from a position to the point that the value gives.
-glm::dvec3 direction_to(const SceneValue& target, glm::dvec3 position) {
-    const glm::dvec3 v = target.vector(kCoordinate) - position;
-    const double distance = glm::length(v);
-    if (distance == 0) target.fail("is the position itself; name a point away from it");
-    return v / distance;
-}
 
 glm::dmat3 read_orientation(const SceneFields& fields, glm::dvec3 position) {
     fields.refuse_both("look_at", "turn");
@@ -38,10 +31,6 @@ glm::dmat3 read_orientation(const SceneFields& fields, glm::dvec3 position) {
                 "give another \"up\", such as [0, 0, 1]");
     }
     return {x / sine, glm::cross(z, x / sine), z};
-}
-
-double half_angle(const SceneValue& value, double max, bool max_is_open) {
-    return glm::radians(value.number({0, max, true, max_is_open}) / 2);
 }
 
 double distance_to_farthest_corner(const World& world, glm::dvec3 position) {
@@ -77,6 +66,25 @@ void read_angles(const SceneFields& fields, glm::ivec2 image_size, Display& disp
     display.half_angles.y = square_pixel_half_angle(display.half_angles.x, image_size);
 }
 
+/// How the display's voxels are ordered, and which of them it has.
+void read_volume(const SceneFields& fields, Display& display) {
+    using Names = std::array<std::string_view, 2>;
+    using Sights = std::array<std::string_view, 3>;
+    if (const auto layout = fields.find("layout"))
+        display.layout = static_cast<VolumeLayout>(layout->choice(Names{"rays", "lattice"}));
+    const bool is_lattice = display.layout == VolumeLayout::lattice;
+    const auto visibility = fields.find("visibility");
+    if (visibility)
+        display.visibility =
+            static_cast<Visibility>(visibility->choice(Sights{"observer", "outside", "all"}));
+    if (display.visibility != Visibility::observer && !is_lattice)
+        visibility->fail("needs \"layout\": \"lattice\": rays show what their observer sees");
+    const auto clip = fields.find("clip");
+    if (clip) display.cylinder = clip->choice(Names{"shape", "cylinder"}) == 1;
+    if (display.cylinder && !is_lattice)
+        clip->fail("needs \"layout\": \"lattice\": rays end with their display's shape");
+}
+
 Display read_display(const SceneValue& value, const Scene& scene, glm::dvec3 position) {
     constexpr int kMaxDisplaySide = 65536;
     const double world_end = distance_to_farthest_corner(scene.world, position);
@@ -105,6 +113,7 @@ Display read_display(const SceneValue& value, const Scene& scene, glm::dvec3 pos
             break;
         }
     }
+    read_volume(fields, display);
     display.voxels = {scene.render.size, 256};
     if (const auto voxels = fields.find("voxels")) {
         const auto counts = voxels->items();
@@ -114,42 +123,18 @@ Display read_display(const SceneValue& value, const Scene& scene, glm::dvec3 pos
     return display;
 }
 
-/// Direction and angles of a spot.
-void read_spot(const SceneFields& fields, Light& light) {
-    fields.refuse_both("direction", "look_at");
-    const auto target = fields.find("look_at");
-    light.direction =
-        target ? direction_to(*target, light.position) : fields.get("direction").direction();
-    const auto angle = fields.find("angle");
-    light.outer_half_angle = angle ? half_angle(*angle, 180, true) : glm::radians(30.0);
-    const auto inner = fields.find("inner_angle");
-    light.inner_half_angle =
-        inner ? glm::radians(inner->number({0, 180, false, true}) / 2) : light.outer_half_angle;
-    if (light.inner_half_angle > light.outer_half_angle) {
-        inner->fail("must not be larger than the spot's angle");
-    }
-}
-
-Light read_light(const SceneValue& value, size_t number) {
-    const size_t kind = kind_of(value, "type", "light");
-    const SceneFields fields(value, fmt::format("light:{}", scene_kinds("light")[kind]));
-    Light light;
-    light.where = value.where();
-    light.kind = static_cast<LightKind>(kind);  // the tables have the order of the enumeration
-    const auto name = fields.find("name");
-    light.name = name ? name->text() : fmt::format("lights[{}]", number);
-    light.energy = fields.color("color", kMaxLength, glm::vec3(1)) *
-                   static_cast<float>(fields.number("intensity", kNotNegative, 1));
-    if (light.kind == LightKind::directional) {
-        light.direction = fields.get("direction").direction();
-    } else {
-        light.position = fields.get("position").vector(kCoordinate);
-    }
-    if (light.kind == LightKind::spot) read_spot(fields, light);
-    return light;
-}
-
 }  // namespace
+
+glm::dvec3 direction_to(const SceneValue& target, glm::dvec3 position) {
+    const glm::dvec3 v = target.vector(kCoordinate) - position;
+    const double distance = glm::length(v);
+    if (distance == 0) target.fail("is the position itself; name a point away from it");
+    return v / distance;
+}
+
+double half_angle(const SceneValue& value, double max, bool max_is_open) {
+    return glm::radians(value.number({0, max, true, max_is_open}) / 2);
+}
 
 double square_pixel_half_angle(double horizontal_half_angle, glm::ivec2 size) {
     return std::atan(std::tan(horizontal_half_angle) * size.y / size.x);
@@ -163,12 +148,6 @@ Observer read_observer(const SceneValue& value, const Scene& scene) {
     observer.world_from_observer = read_orientation(fields, observer.position);
     observer.display = read_display(fields.get("display"), scene, observer.position);
     return observer;
-}
-
-std::vector<Light> read_lights(const SceneValue& value) {
-    std::vector<Light> lights;
-    for (const SceneValue& item : value.items()) lights.push_back(read_light(item, lights.size()));
-    return lights;
 }
 
 }  // namespace voxelume

@@ -55,6 +55,12 @@ RenderSettings read_render(const SceneValue& value);
 /// The map that `position`, `turn` and `scale`, or `matrix`, give. Refuses singular ones.
 glm::dmat4 read_placement(const SceneFields& fields);
 
+/// Unit vector from a position to the point that the value gives, which must be another.
+glm::dvec3 direction_to(const SceneValue& target, glm::dvec3 position);
+
+/// Half of an angle above 0 degrees, in radians.
+double half_angle(const SceneValue& value, double max, bool max_is_open);
+
 /// The vertical half angle at which pixels of an image of this size are square.
 double square_pixel_half_angle(double horizontal_half_angle, glm::ivec2 size);
 

@@ -12,11 +12,6 @@
 
 namespace voxelume {
 
-enum class VolumeLayout : uint8_t {
-    rays,    ///< (u, v, k): sight ray by step; u to the image's right, v down, k away from E
-    lattice  ///< (x, y, z): Cartesian voxels along X_E, Y_E, Z_E, clipped by the display's shape
-};
-
 /// What a display voxel shows. `unseen` voxels lie behind a surface: nothing is known of them, so
 /// they are stored only on request.
 enum class VoxelKind : uint8_t { space, object, unseen };

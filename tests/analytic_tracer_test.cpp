@@ -206,7 +206,8 @@ TEST(AnalyticTracer, OpacityShowsItsShareOfWhatLiesBehind) {
 
 TEST(AnalyticTracer, TheMediumFillsTheWorldButNotTheGlass) {
     Scene scene = empty_scene(glm::vec3(1));
-    scene.world.medium = {glm::vec3(0.125f), glm::vec3(0.5f)};
+    scene.world.medium.absorption = glm::vec3(0.125f);
+    scene.world.medium.color = glm::vec3(0.5f);
     const auto through = [](double behind, double metres) {
         const double passed = std::exp(-0.125 * metres);
         return behind * passed + 0.5 * (1 - passed);

@@ -58,7 +58,7 @@ class Refractions {
         rays_ = allocate_batch(device_, features_, kRays);
         SightStage(device_, features_, sight_of(scene, world_.frame))
             .cast(shape_of(world_), 0, kRays / 16, rays_);
-        scatter_.begin(rays_, kRays);
+        scatter_.begin(world_, rays_, kRays);
         find_points();
     }
 

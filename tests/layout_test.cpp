@@ -5,6 +5,7 @@
 #include <bit>
 #include <type_traits>
 
+#include "kernels/shared/display.h"
 #include "kernels/shared/medium.h"
 #include "kernels/shared/scene.h"
 #include "kernels/shared/solid.h"
@@ -25,8 +26,13 @@
     F(reflection) F(refraction) F(opacity) F(fresnel) FA(checker_color, 3) \
     FA(checker_scale, 3) FA(checker_shift, 3) FA(unused, 6)
 #define LIGHT_RECORD_FIELDS \
-    V(position) V(direction) V(energy) F(inner_cosine) F(outer_cosine) I(kind) I(unused)
+    V(position) V(direction) V(energy) F(inner_cosine) F(outer_cosine) I(kind) F(spread)
 #define SPACE_FIELDS V(background) V(ambient) V(absorption) V(color)
+#define DISPLAY_STEPS_FIELDS F(step) F(inverse_step) I(count) F(absorption)
+#define DISPLAY_LATTICE_FIELDS \
+    V(origin) V(axis_x) V(axis_y) V(axis_z) V(row_x) V(row_y) V(row_z) V(corner) V(edge) I(size_x) \
+    I(size_y) I(size_z) I(shape) F(slope_x) F(slope_y) F(near_depth) F(far_depth) I(cylinder) \
+    FA(unused, 3)
 #define SOLID_SHAPE_FIELDS \
     I(kind) I(operations) I(shape_count) I(attribute) IA(cell, 3) FA(fraction, 3) \
     FA(shape_from_grid, 9) FA(size, 4) FA(rounding, 2) FA(derived, 5) FA(unused, 2)
@@ -45,6 +51,8 @@ constexpr const char* kSightText = TEXT_OF(SIGHT_FIELDS);
 constexpr const char* kMaterialRecordText = TEXT_OF(MATERIAL_RECORD_FIELDS);
 constexpr const char* kLightRecordText = TEXT_OF(LIGHT_RECORD_FIELDS);
 constexpr const char* kSpaceText = TEXT_OF(SPACE_FIELDS);
+constexpr const char* kDisplayStepsText = TEXT_OF(DISPLAY_STEPS_FIELDS);
+constexpr const char* kDisplayLatticeText = TEXT_OF(DISPLAY_LATTICE_FIELDS);
 constexpr const char* kSolidShapeText = TEXT_OF(SOLID_SHAPE_FIELDS);
 constexpr const char* kDensityShapeText = TEXT_OF(DENSITY_SHAPE_FIELDS);
 
@@ -66,6 +74,7 @@ Words read_by_kernel(const T& value, const std::string& type, const std::string&
 #include "lib/work_item.h"
 #include "shared/medium.h"
 #include "shared/scene.h"
+#include "shared/display.h"
 #include "shared/solid.h"
 #define F(n) *words++ = as_uint(value.n);
 #define V(n) F(n.x) F(n.y) F(n.z) F(n.w)
@@ -110,6 +119,8 @@ CROSSES(Sight, SIGHT_FIELDS, kSightText)
 CROSSES(MaterialRecord, MATERIAL_RECORD_FIELDS, kMaterialRecordText)
 CROSSES(LightRecord, LIGHT_RECORD_FIELDS, kLightRecordText)
 CROSSES(Space, SPACE_FIELDS, kSpaceText)
+CROSSES(DisplaySteps, DISPLAY_STEPS_FIELDS, kDisplayStepsText)
+CROSSES(DisplayLattice, DISPLAY_LATTICE_FIELDS, kDisplayLatticeText)
 CROSSES(SolidShape, SOLID_SHAPE_FIELDS, kSolidShapeText)
 CROSSES(DensityShape, DENSITY_SHAPE_FIELDS, kDensityShapeText)
 

@@ -216,7 +216,7 @@ TEST(Render, ADistantObserverSeesWhatANearOneDoesWithTheSameAngle) {
 
 TEST(Render, WhatASceneDoesNotHaveIsNotAllocatedOrLaunched) {
     const Rendered plain = rendered(scene_of(box_scene("cubes", "")));
-    for (const char* kernel : {"add_light", "trace_shadows", "absorb_sight"})
+    for (const char* kernel : {"add_light", "trace_shadows", "absorb_sight", "absorb_shadows"})
         EXPECT_THAT(plain.counters.launches, Not(Contains(Key(std::string(kernel))))) << kernel;
     EXPECT_THAT(plain.counters.allocated_bytes, Not(Contains(Key(std::string("shadow queue")))));
 

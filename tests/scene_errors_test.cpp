@@ -226,4 +226,18 @@ TEST(SceneText, NoDamageToAShippedSceneEscapesAsAnythingButAnError) {
     EXPECT_GT(refused, 2500);
 }
 
+TEST(SceneErrors, OfLightsWithAnArea) {
+    EXPECT_THAT(message(scene_with(R"("lights": [{"type": "disk", "position": [0, 1, 2],
+        "direction": [0, -1, 0]}],)")),
+                HasSubstr("radius"));
+    EXPECT_THAT(message(scene_with(R"("lights": [{"type": "rectangle", "position": [0, 1, 2],
+        "direction": [0, -1, 0], "up": [0, 2, 0], "size": [1, 2]}],)")),
+                HasSubstr("parallel to \"up\""));
+    EXPECT_THAT(message(scene_with(R"("lights": [{"type": "disk", "position": [0, 1, 2],
+        "direction": [0, -1, 0], "radius": 1, "spots": 0}],)")),
+                HasSubstr("lights[0].spots"));
+    EXPECT_THAT(message(scene_with(R"("objects": [{"model": "ball", "spots": 9}],)")),
+                HasSubstr("none of the object's materials has emission"));
+}
+
 }  // namespace voxelume

@@ -111,7 +111,7 @@ std::vector<json> full_scenes() {
                        "torus": {"shape": "torus", "radius": 2, "tube": 1},
                        "capsule": {"shape": "capsule", "radius": 1, "height": 2},
                        "slab": {"shape": "slab", "thickness": 0.1}},
-            "objects": [{"name": "o", "model": "m", "material": "a", "materials": {"lid": "a"}, "priority": 3,
+            "objects": [{"name": "o", "model": "m", "material": "a", "materials": {"lid": "a"}, "priority": 3, "spots": 8,
                          "position": [1, 2, 3], "turn": [10, 20, 30], "scale": 2},
                         {"model": "sphere", "scale": [1, -2, 3]},
                         {"model": "box", "matrix": [[2, 1, 0, 5], [0, 3, 1, 6], [1, 0, 4, 7]]}],
@@ -119,7 +119,10 @@ std::vector<json> full_scenes() {
                        {"type": "spot", "position": [1, 2, 3], "direction": [0, -1, 2], "angle": 50,
                         "inner_angle": 20},
                        {"type": "spot", "position": [1, 2, 3], "look_at": [0, 0, 9]},
-                       {"type": "directional", "direction": [1, 2, 3]}],
+                       {"type": "directional", "direction": [1, 2, 3]},
+                       {"type": "disk", "position": [1, 2, 3], "direction": [0, -1, 0], "radius": 2, "spots": 9},
+                       {"type": "rectangle", "position": [1, 2, 3], "look_at": [0, 0, 9], "up": [1, 0, 0],
+                        "size": [2, 3], "spots": 7}],
             "observer": {"position": [0, 1, -3], "look_at": [0.5, 0, 0], "up": [0, 1, 0],
                          "display": {"shape": "pyramid", "angles": [40, 30], "near": 0.5, "far": 10,
                                      "voxels": [64, 48, 32]}},
@@ -164,7 +167,8 @@ bool is_beyond_a_schema(const std::string& objection) {
          {"no material named", "no model named", "there is no file", "empty along", "voxels along",
           "singular", "parallel to", "must not be zero", "the position itself",
           "nothing lies between", "not be larger than", "already", "is an absolute path",
-          "only a mesh has groups", "is not a file"}) {
+          "only a mesh has groups", "is not a file", "above 0 along some axis",
+          "none of the object's materials"}) {
         if (objection.find(part) != objection.npos) return true;
     }
     return false;

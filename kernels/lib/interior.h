@@ -98,4 +98,11 @@ static inline lane_int hides_surface(const Interior* in, lane_uint word, lane_in
     return same_member(effective_member(&before, ranks), effective_member(&behind, ranks));
 }
 
+/// RayBatch::inside of a ray inside of the object that counts.
+static inline lane_uint medium_inside(const Interior* in, global const uint* ranks) {
+    const lane_uint word = effective_member(in, ranks);
+    const lane_uint material = (word >> VXL_MATERIAL_SHIFT) & VXL_MATERIAL_MASK;
+    return LANES_SELECT(LANE_MASK(word != VXL_NO_MEMBER), material + 1u, (lane_uint)0);
+}
+
 #endif

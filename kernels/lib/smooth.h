@@ -35,6 +35,15 @@ static inline lane_float field_along(const Field* f, const LocalRay* r, lane_flo
                               clamp(fma(r->dz, u, r->sz), 0.0f, 1.0f));
 }
 
+/// Mask: a walk that stands in its first smooth voxel came from inside the surface. From outside, F
+/// is not negative there, but for the rounding of the point: plane_bound along each axis, and F
+/// grows by less than two voxels a voxel.
+static inline lane_int begins_within(const Field* f, const Walk* w, float plane_bound) {
+    const LocalRay ray = local_ray(w);
+    const lane_float entry = field_along(f, &ray, (lane_float)1.0f, (lane_float)0.0f);
+    return LANE_MASK(entry < -(6.0f * VXL_DISTANCE_UNITS * plane_bound + VXL_FIELD_ROUNDING));
+}
+
 /// Tests the voxels that the `tested` lanes stand in; the mask of those hit, their t in `t_hit`.
 ///
 /// A ray comes from outside the surface, or from inside (`side` -1, F seen with the other sign),

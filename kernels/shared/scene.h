@@ -92,15 +92,18 @@ VXL_SIZE_IS(MaterialRecord, 128);
 #define VXL_LIGHT_POINT 0
 #define VXL_LIGHT_SPOT 1
 #define VXL_LIGHT_DIRECTIONAL 2
+#define VXL_LIGHT_PATCH 3
 
 typedef struct LightRecord {
-    float4 position;   // point and spot: where; directional: the way towards it; w unused
-    float4 direction;  // spot: unit vector in metres' space along which the light travels; w unused
-    float4 energy;     // rgb at 1 m, or everywhere for directional; w unused
+    float4 position;   // point, spot, patch: where; directional: the way towards it; w unused
+    float4 direction;  // spot: unit vector in metres' space along which the light travels; patch:
+                       // its normal; w unused
+    float4 energy;     // rgb at 1 m, or everywhere for directional; patch: radiance times area over
+                       // pi; w unused
     float inner_cosine;  // spot: full light up to this angle's cosine, none from outer_cosine on
     float outer_cosine;
     int kind;
-    int unused;
+    float spread;  // patch: its area over pi, square metres
 } LightRecord;
 VXL_SIZE_IS(LightRecord, 64);
 

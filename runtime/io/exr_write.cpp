@@ -1,10 +1,8 @@
-// Image -> scanline OpenEXR, through a stream of our own: OpenEXR 3.1.5 truncates small files
-// silently on a full disk.
+// Image -> scanline OpenEXR.
 #include <ImfChannelList.h>
 #include <ImfChromaticitiesAttribute.h>
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
-#include <ImfIO.h>
 #include <ImfInputFile.h>
 #include <ImfOutputFile.h>
 #include <ImfStandardAttributes.h>
@@ -16,24 +14,11 @@
 
 #include "runtime/io/atomic_file.hpp"
 #include "runtime/io/exr.hpp"
+#include "runtime/io/exr_stream.hpp"
 
 namespace voxelume {
 
 namespace {
-
-/// OpenEXR's stream onto an AtomicFile.
-class ExrStream : public Imf::OStream {
-  public:
-    ExrStream(AtomicFile& file, const std::string& name) : OStream(name.c_str()), file_(file) {}
-    void write(const char bytes[], int count) override {
-        file_.write(bytes, static_cast<size_t>(count));
-    }
-    uint64_t tellp() override { return file_.position(); }
-    void seekp(uint64_t position) override { file_.seek(position); }
-
-  private:
-    AtomicFile& file_;
-};
 
 bool is_color(const std::string& plane) {
     return plane == "R" || plane == "G" || plane == "B" || plane == "A";

@@ -1,74 +1,15 @@
-// The only file that sees OpenVDB's headers, which take long to compile. It writes through a stream
-// of ours: OpenVDB's own file reports success on a full disk.
 #include "runtime/io/vdb.hpp"
 
-#include <openvdb/io/Stream.h>
 #include <openvdb/openvdb.h>
 #include <openvdb/tools/SignedFloodFill.h>
-#include <xxhash.h>
-
-#include <array>
-#include <memory>
-#include <ostream>
-#include <streambuf>
 
 #include "runtime/io/atomic_file.hpp"
 #include "runtime/io/input_file.hpp"
+#include "runtime/io/vdb_stream.hpp"
 
 namespace voxelume {
 
 namespace {
-
-/// Where the file's identifier stands, in text: after magic, three version numbers and a flag.
-constexpr uint64_t kUuidStart = 21;
-constexpr uint64_t kUuidLength = 36;
-
-/// Passes bytes on to an AtomicFile in blocks and hashes all but the identifier.
-class VdbStreamBuffer : public std::streambuf {
-  public:
-    explicit VdbStreamBuffer(AtomicFile& file)
-        : file_(file), state_(XXH3_createState(), XXH3_freeState) {
-        XXH3_128bits_reset(state_.get());
-        setp(block_.data(), block_.data() + block_.size());
-    }
-    XXH128_hash_t content_hash() const { return XXH3_128bits_digest(state_.get()); }
-
-  protected:
-    int_type overflow(int_type next) override {
-        sync();
-        if (!traits_type::eq_int_type(next, traits_type::eof()))
-            sputc(traits_type::to_char_type(next));
-        return traits_type::not_eof(next);
-    }
-    int sync() override {
-        const auto size = static_cast<size_t>(pptr() - pbase());
-        // The first block holds the identifier whole: it is far longer than the file's head.
-        if (file_.position() == 0 && size >= kUuidStart + kUuidLength) {
-            update(pbase(), kUuidStart);
-            update(pbase() + kUuidStart + kUuidLength, size - kUuidStart - kUuidLength);
-        } else {
-            update(pbase(), size);
-        }
-        file_.write(pbase(), size);
-        setp(block_.data(), block_.data() + block_.size());
-        return 0;
-    }
-
-  private:
-    void update(const char* bytes, size_t size) { XXH3_128bits_update(state_.get(), bytes, size); }
-
-    AtomicFile& file_;
-    std::unique_ptr<XXH3_state_t, decltype(&XXH3_freeState)> state_;
-    std::array<char, 1 << 16> block_{};
-};
-
-/// 128 bits in the form of a version 5 (from a hash) identifier.
-std::string uuid_from(XXH128_hash_t hash) {
-    const uint64_t high = (hash.high64 & ~uint64_t{0xf000}) | 0x5000;
-    const uint64_t low = (hash.low64 & ~(uint64_t{3} << 62)) | (uint64_t{2} << 62);
-    return fmt::format("{:08x}-{:04x}-{:04x}-{:04x}-{:012x}", high >> 32, high >> 16 & 0xffff,
-                       high & 0xffff, low >> 48, low & 0xffffffffffff);
-}
 
 openvdb::math::Transform::Ptr make_transform(const VdbVolume& volume) {
     const glm::dvec3& edges = volume.voxel_edges;
@@ -123,17 +64,11 @@ void check_volume(AtomicFile& file, const VdbVolume& volume) {
 }
 
 void write_grids(AtomicFile& file, const VdbVolume& volume) {
+    openvdb::initialize();
     openvdb::MetaMap metadata;
     for (const auto& [key, text] : volume.metadata)
         metadata.insertMeta(key, openvdb::StringMetadata(text));
-    VdbStreamBuffer buffer(file);
-    std::ostream stream(&buffer);
-    stream.exceptions(std::ios::badbit);  // hands the file's own error on
-    openvdb::io::Stream(stream).write(make_grids(volume), metadata);
-    stream.flush();
-    const std::string uuid = uuid_from(buffer.content_hash());
-    file.seek(kUuidStart);
-    file.write(uuid.data(), uuid.size());
+    write_vdb_grids(file, make_grids(volume), metadata);
 }
 
 VdbSummary summarize(const openvdb::GridBase& grid) {
@@ -152,38 +87,50 @@ VdbSummary summarize(const openvdb::GridBase& grid) {
     return summary;
 }
 
-}  // namespace
-
-void write_vdb(const std::filesystem::path& path, const VdbVolume& volume) {
-    AtomicFile file(path);
-    check_volume(file, volume);
-    try {
-        openvdb::initialize();
-        write_grids(file, volume);
-    } catch (const openvdb::Exception& error) {
-        file.fail(error.what());
-    } catch (const std::ios_base::failure& error) {
-        file.fail(error.what());
-    }
-    file.commit();
-}
-
-std::vector<VdbSummary> read_vdb_summary(const std::filesystem::path& path) {
-    const InputFile readable(path);
+/// What `read` makes of a file, with OpenVDB's failures as ours.
+template <class Read>
+auto read_opened(const InputFile& readable, const std::filesystem::path& path, Read read) {
     try {
         openvdb::initialize();
         openvdb::io::File file(path.string());
-        file.open(
-            false);  // whole: delayed loading would map the file for as long as the grids live
-        std::vector<VdbSummary> summaries;
-        for (const openvdb::GridBase::Ptr& grid : *file.getGrids())
-            summaries.push_back(summarize(*grid));
-        return summaries;
+        // Whole: delayed loading would map the file for as long as the grids live.
+        file.open(false);
+        return read(file);
     } catch (const std::bad_alloc&) {
         readable.refuse("not a readable OpenVDB file: it declares more than there is memory");
     } catch (const std::exception& error) {
         readable.refuse(fmt::format("not a readable OpenVDB file: {}", error.what()));
     }
+}
+
+}  // namespace
+
+void write_vdb(const std::filesystem::path& path, const VdbVolume& volume) {
+    AtomicFile file(path);
+    check_volume(file, volume);
+    write_grids(file, volume);
+    file.commit();
+}
+
+std::map<std::string, std::string> read_vdb_metadata(const std::filesystem::path& path) {
+    const InputFile readable(path);
+    return read_opened(readable, path, [](openvdb::io::File& file) {
+        std::map<std::string, std::string> texts;
+        const openvdb::MetaMap::Ptr metadata = file.getMetadata();
+        for (auto entry = metadata->beginMeta(); entry != metadata->endMeta(); ++entry)
+            if (entry->second->typeName() == "string") texts[entry->first] = entry->second->str();
+        return texts;
+    });
+}
+
+std::vector<VdbSummary> read_vdb_summary(const std::filesystem::path& path) {
+    const InputFile readable(path);
+    return read_opened(readable, path, [](openvdb::io::File& file) {
+        std::vector<VdbSummary> summaries;
+        for (const openvdb::GridBase::Ptr& grid : *file.getGrids())
+            summaries.push_back(summarize(*grid));
+        return summaries;
+    });
 }
 
 }  // namespace voxelume

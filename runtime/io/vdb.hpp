@@ -47,6 +47,9 @@ struct VdbSummary {
     glm::dvec3 voxel_edges{0.0};  ///< metres
 };
 
+/// The file's own texts. Throws as read_vdb_summary does.
+std::map<std::string, std::string> read_vdb_metadata(const std::filesystem::path& path);
+
 /// Reads every grid of a file. Throws Error::input for a file that is missing or that OpenVDB can't
 /// read.
 std::vector<VdbSummary> read_vdb_summary(const std::filesystem::path& path);

@@ -17,6 +17,7 @@ struct Features {
     bool medium = false;        ///< the space absorbs light
     bool medium_grid = false;   ///< ... not everywhere alike
     bool shadows = false;       ///< lights can be hidden
+    bool patches = false;       ///< some light has an area
     bool checker = false;       ///< some material changes its colour from block to block
     bool paths = false;         ///< rays are reflected, refracted or go on through surfaces
     bool transmission = false;  ///< some object lets light through
@@ -40,6 +41,7 @@ struct Features {
                 {"VXL_MEDIUM", medium},
                 {"VXL_MEDIUM_GRID", medium_grid},
                 {"VXL_SHADOWS", shadows},
+                {"VXL_PATCHES", patches},
                 {"VXL_CHECKER", checker},
                 {"VXL_PATHS", paths},
                 {"VXL_TRANSMISSION", transmission},

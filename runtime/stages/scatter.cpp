@@ -21,8 +21,10 @@ ScatterStage::ScatterStage(const Device& device, const Features& features,
       rays_(program_.kernel("scatter_rays")),
       gather_(program_.kernel("gather_light")) {}
 
-void ScatterStage::begin(RayBatch& batch, uint32_t count) {
-    begin_.launch_packets(count, count, batch.stride, batch.paths, batch.starts, batch.inside);
+void ScatterStage::begin(const Pyramid& pyramid, RayBatch& batch, uint32_t count) {
+    begin_.launch_packets(count, pyramid.solids, uint32_t(bodies_.size()), bodies_,
+                          surroundings_.ranks, batch.rays, count, batch.stride, batch.paths,
+                          batch.starts, batch.inside);
 }
 
 uint32_t ScatterStage::take(uint32_t counter) {

@@ -32,8 +32,8 @@ class ScatterStage {
     ScatterStage(const Device& device, const Features& features, Surroundings surroundings,
                  float least_weight, bool compact);
 
-    /// Makes rays 0 .. count-1 paths of their own.
-    void begin(RayBatch& batch, uint32_t count);
+    /// Makes rays 0 .. count-1, which come from an observer, paths of their own.
+    void begin(const Pyramid& pyramid, RayBatch& batch, uint32_t count);
 
     /// Adds a layer to its nodes and sends its straight rays into `next`, which has as many places
     /// as there are nodes; returns their number.
@@ -49,6 +49,9 @@ class ScatterStage {
     void gather(const RayBatch& entries, uint32_t begin, uint32_t end, const Children& children,
                 const NodeLight& child_nodes, NodeLight& nodes);
 
+    /// Says which analytic solids transmit light: numbers of their first records.
+    void set_bodies(Buffer<uint32_t> solids) { bodies_ = std::move(solids); }
+
     uint64_t ended() const { return ended_; }  ///< paths that ended for their small weight
 
   private:
@@ -58,7 +61,7 @@ class ScatterStage {
     float least_weight_;
     bool compact_;
     uint32_t branches_;
-    Buffer<uint32_t> counters_;
+    Buffer<uint32_t> counters_, bodies_;
     uint64_t ended_ = 0;
     Program program_;
     Kernel begin_, layer_, rays_, gather_;

@@ -13,20 +13,6 @@ float4 to_float4(const glm::dvec3& v) {
     return {float(v.x), float(v.y), float(v.z), 0};
 }
 
-int shape_number(DisplayShape shape) {
-    switch (shape) {
-        case DisplayShape::pyramid:
-            return VXL_SHAPE_PYRAMID;
-        case DisplayShape::sector:
-            return VXL_SHAPE_SECTOR;
-        case DisplayShape::ball:
-            return VXL_SHAPE_BALL;
-        case DisplayShape::box:
-            return VXL_SHAPE_BOX;
-    }
-    return VXL_SHAPE_PYRAMID;
-}
-
 /// What half of the image spans: tangents, angles or metres, as the shape has it.
 glm::dvec2 half_extent(const Display& display) {
     constexpr double kPi = 3.141592653589793;
@@ -56,6 +42,20 @@ double depth_of_world(const Observer& observer, const GridFrame& world) {
 }
 
 }  // namespace
+
+int shape_number(DisplayShape shape) {
+    switch (shape) {
+        case DisplayShape::pyramid:
+            return VXL_SHAPE_PYRAMID;
+        case DisplayShape::sector:
+            return VXL_SHAPE_SECTOR;
+        case DisplayShape::ball:
+            return VXL_SHAPE_BALL;
+        case DisplayShape::box:
+            return VXL_SHAPE_BOX;
+    }
+    return VXL_SHAPE_PYRAMID;
+}
 
 Sight sight_of(const Scene& scene, const GridFrame& world) {
     const Observer& observer = scene.observer;

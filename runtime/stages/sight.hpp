@@ -10,6 +10,9 @@
 
 namespace voxelume {
 
+/// The shape's VXL_SHAPE_* of shared/scene.h.
+int shape_number(DisplayShape shape);
+
 /// The observer as kernels take it: in the voxels of the world.
 Sight sight_of(const Scene& scene, const GridFrame& world);
 
@@ -24,6 +27,9 @@ uint32_t tile_count(int width, int height);
 class SightStage {
   public:
     SightStage(const Device& device, const Features& features, const Sight& sight);
+
+    /// Casts for another observer from here on, with as many samples a pixel.
+    void look(const Sight& sight) { sight_ = sight; }
 
     /// Casts the rays of `tiles` tiles from `first_tile` on, 16 * samples each; returns their
     /// number.

@@ -52,6 +52,8 @@ AnalyticTracer::AnalyticTracer(const Scene& scene)
     : scene_(scene),
       world_min_(scene.world.bounds.min),
       world_max_(world_min_ + glm::dvec3(scene.world.voxels) * scene.world.voxel_size) {
+    if (has_density(scene.world.medium))
+        throw std::invalid_argument("the analytic tracer's medium is the same everywhere");
     for (const Object& object : scene.objects) {
         const Model& model = scene.models[size_t(object.model)];
         if (!model.solid) throw std::invalid_argument("the analytic tracer takes solids only");

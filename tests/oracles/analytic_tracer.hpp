@@ -30,7 +30,7 @@ struct Seen {
 class AnalyticTracer {
   public:
     /// Keeps a reference to the scene. Throws std::invalid_argument for solids that it doesn't
-    /// know.
+    /// know and for a medium with a density.
     explicit AnalyticTracer(const Scene& scene);
 
     /// The ray from `origin` along the unit vector `direction`, between `t_first` and `t_last`

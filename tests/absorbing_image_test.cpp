@@ -19,9 +19,5 @@ TEST(AbsorbingImage, VeilsAndFilteredShadowsInAMedium) {
     expect_analytic_image(scene_of(kVeiledScene), 1e-5, 1e-3);
 }
 
-TEST(AbsorbingImage, WaterThatRaysBeginInAbsorbsFromTheirStartOn) {
-    expect_analytic_image(scene_of(kPoolScene), 1e-5, 1e-3);
-}
-
 }  // namespace
 }  // namespace voxelume

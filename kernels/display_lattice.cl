@@ -1,0 +1,324 @@
+// probe points -> P in the layout `lattice`: which voxels are shown, and by which point.
+//
+// Probe points are in lattice voxels, three arrays `total` apart: on a probe line two of their
+// coordinates are exact, so a point on voxels' edges belongs to all of them. A mask of one bit for
+// every voxel of the lattice, by place x + size_x (y + size_y z), tells which are shown; the voxels
+// of 256 bits are numbered from their group's start.
+#include "lib/exact_exp.h"
+#include "lib/fixed_point.h"
+#include "lib/vector.h"
+#include "lib/work_item.h"
+#include "shared/display.h"
+#include "shared/scene.h"
+#include "shared/trace.h"
+#include "shared/voxel.h"
+
+#define VXL_GROUP_WORDS 8
+
+// How far in front of a probe point another surface must be to hide it, in lattice voxels.
+#define VXL_HIDING_DISTANCE 0.0625f
+
+// How far before its probe point a voxel's light ray begins, and how far behind it may end.
+#define VXL_LIGHT_DISTANCE 1.0f
+
+static inline float3 middle_of(const DisplayLattice* l, int4 v) {
+    return (float3)(fma((float)v.x + 0.5f, l->edge.x, l->corner.x),
+                    fma((float)v.y + 0.5f, l->edge.y, l->corner.y),
+                    fma((float)v.z + 0.5f, l->edge.z, l->corner.z));
+}
+
+/// Whether the display has voxel v: its middle lies in the shape.
+static inline bool is_in_display(const DisplayLattice* l, int4 v) {
+    if (v.x < 0 || v.y < 0 || v.z < 0 || v.x >= l->size_x || v.y >= l->size_y || v.z >= l->size_z)
+        return false;
+    const float3 p = middle_of(l, v);
+    if (l->cylinder) {
+        const float x = 2.0f * ((float)v.x + 0.5f) - (float)l->size_x;
+        const float z = 2.0f * ((float)v.z + 0.5f) - (float)l->size_z;
+        const float along_x = x * (float)l->size_z, along_z = z * (float)l->size_x;
+        const float radius = (float)l->size_x * (float)l->size_z;
+        if (fma(along_x, along_x, along_z * along_z) > radius * radius) return false;
+    }
+    if (l->shape == VXL_SHAPE_PYRAMID)
+        return fabs(p.x) <= p.z * l->slope_x && fabs(p.y) <= p.z * l->slope_y;
+    if (l->shape == VXL_SHAPE_BOX) return true;
+    const float squared = fma(p.x, p.x, fma(p.y, p.y, p.z * p.z));
+    if (squared > l->far_depth * l->far_depth) return false;
+    if (l->shape == VXL_SHAPE_BALL) return true;
+    // The angle from Z_E by squares: no root, and the cosine may be negative.
+    const float least = l->slope_x * fabs(l->slope_x) * squared;
+    return squared >= l->near_depth * l->near_depth && p.z * fabs(p.z) >= least;
+}
+
+/// Voxel number `which` (0 .. 7) of those that a point lies in or on; those that are told twice, or
+/// that the display doesn't have, have x = -1.
+static inline int4 voxel_at(const DisplayLattice* l, float3 point, uint which) {
+    const float3 below = floor(point);
+    int4 v = (int4)((int)below.x, (int)below.y, (int)below.z, 0);
+    const int4 step = (int4)(which & 1u, (which >> 1) & 1u, which >> 2, 0);
+    const bool twice = (step.x && below.x != point.x) || (step.y && below.y != point.y) ||
+                       (step.z && below.z != point.z);
+    v -= step;
+    if (twice || !is_in_display(l, v)) v.x = -1;
+    return v;
+}
+
+static inline size_t place_of(const DisplayLattice* l, int4 v) {
+    return (size_t)v.x + (size_t)l->size_x * ((size_t)v.y + (size_t)l->size_y * (size_t)v.z);
+}
+
+static inline float3 load_point(global const float* points, uint total, uint n) {
+    return (float3)(points[n], points[total + n], points[2 * total + n]);
+}
+
+/// Aims a ray at each of the probe points first_point .. first_point+count-1: from E where its view
+/// is 0, else along views[view], a vector as long as the world in voxels. Points without a view
+/// (0xFFFFFFFF) get idle rays. With `search` the views are all `search - 1`, and points that have a
+/// view already are idle; rays then end where the point would be hidden. Without, they begin
+/// shortly before the point and end shortly behind it.
+kernel void aim_rays(Sight sight, PyramidShape shape, DisplayLattice lattice,
+                     global const float4* restrict views, global const float* restrict points,
+                     uint total, global const uint* restrict view_of_point, uint search,
+                     uint first_point, uint count, uint stride, global float* restrict rays) {
+    const uint first = work_item() * VXL_LANES;
+    if (first >= count) return;
+    const lane_float x = LANES_LOAD(points, first_point + first);
+    const lane_float y = LANES_LOAD(points, total + first_point + first);
+    const lane_float z = LANES_LOAD(points, 2 * total + first_point + first);
+    const lane_uint known = LANES_LOAD(view_of_point, first_point + first);
+    lane_int aimed = LANE_MASK(LANES_NUMBERS + (int)first < (int)count);
+    const lane_int has_view = LANE_MASK(known != 0xFFFFFFFFu);
+    aimed &= search ? ~has_view : has_view;
+    const lane_uint view = (search ? (lane_uint)(search - 1u) : known) & LANES_AS_UINT(aimed);
+    const Vector p = {fma(x, lattice.axis_x.x,
+                          fma(y, lattice.axis_y.x, fma(z, lattice.axis_z.x, lattice.origin.x))),
+                      fma(x, lattice.axis_x.y,
+                          fma(y, lattice.axis_y.y, fma(z, lattice.axis_z.y, lattice.origin.y))),
+                      fma(x, lattice.axis_x.z,
+                          fma(y, lattice.axis_y.z, fma(z, lattice.axis_z.z, lattice.origin.z)))};
+
+    // From E: `way` leads from where the ray begins to the point, `near` is the part of it before
+    // the display.
+    const float4 edge = shape.edge, ahead = sight.axis_z;
+    const Vector eye = {p.x - sight.origin.x - sight.origin_low.x,
+                        p.y - sight.origin.y - sight.origin_low.y,
+                        p.z - sight.origin.z - sight.origin_low.z};
+    const Vector metres = {eye.x * edge.x, eye.y * edge.y, eye.z * edge.z};
+    const lane_float depth = fma(metres.x, ahead.x * edge.x,
+                                 fma(metres.y, ahead.y * edge.y, metres.z * (ahead.z * edge.z)));
+    Vector way = eye;
+    lane_float length = exact_sqrt(dot_product(metres, metres));
+    if (sight.shape == VXL_SHAPE_PYRAMID) {
+        const lane_float whole = depth + sight.lead;
+        const lane_float part =
+            exact_divide(depth, LANES_SELECT(LANE_MASK(whole > 0.0f), whole, (lane_float)1.0f));
+        way.x = fma((lane_float)ahead.x, (lane_float)sight.lead, eye.x) * part;
+        way.y = fma((lane_float)ahead.y, (lane_float)sight.lead, eye.y) * part;
+        way.z = fma((lane_float)ahead.z, (lane_float)sight.lead, eye.z) * part;
+        length = depth;
+    } else if (sight.shape == VXL_SHAPE_BOX) {
+        way.x = ahead.x * depth, way.y = ahead.y * depth, way.z = ahead.z * depth;
+        length = depth;
+    }
+    lane_int is_ahead = LANE_MASK(length > 0.0f);
+    lane_float near = exact_divide((lane_float)sight.near_plane,
+                                   LANES_SELECT(is_ahead, length, (lane_float)1.0f));
+    const lane_int parallel = LANE_MASK(view != 0u);
+    if (lanes_any(parallel)) {
+        global const float* numbers = (global const float*)views;
+        const Vector along = {LANES_GATHER_FLOAT(numbers, view * 4u),
+                              LANES_GATHER_FLOAT(numbers, view * 4u + 1u),
+                              LANES_GATHER_FLOAT(numbers, view * 4u + 2u)};
+        way = select_vector(parallel, along, way);
+        near = LANES_SELECT(parallel, (lane_float)0.0f, near);
+        is_ahead |= parallel;
+    }
+    aimed &= is_ahead;
+    way.x = LANES_SELECT(aimed, way.x, (lane_float)1.0f);
+    const lane_float scale = power_of_two_scale(way.x, way.y, way.z);
+    const Vector d = {snap_direction(way.x * scale), snap_direction(way.y * scale),
+                      snap_direction(way.z * scale)};
+    const lane_float t_point = exact_reciprocal(scale);
+    const Vector o = {p.x - way.x, p.y - way.y, p.z - way.z};
+    // Lattice voxels that a unit of t passes along the fastest axis.
+    const lane_float rate = fmax(
+        fabs(fma(d.x, lattice.row_x.x, fma(d.y, lattice.row_x.y, d.z * lattice.row_x.z))),
+        fmax(fabs(fma(d.x, lattice.row_y.x, fma(d.y, lattice.row_y.y, d.z * lattice.row_y.z))),
+             fabs(fma(d.x, lattice.row_z.x, fma(d.y, lattice.row_z.y, d.z * lattice.row_z.z)))));
+    const lane_float per_voxel = exact_reciprocal(rate);
+    lane_float t_first = near * t_point, t_last;
+    if (search) {
+        t_last = t_point - VXL_HIDING_DISTANCE * per_voxel;
+    } else {
+        t_first = fmax(t_first, t_point - VXL_LIGHT_DISTANCE * per_voxel);
+        t_first = fmin(t_first, t_point - VXL_HIDING_DISTANCE * per_voxel);
+        t_last = t_point + VXL_LIGHT_DISTANCE * per_voxel;
+    }
+    lane_float t_out = t_last;
+    clip_axis(o.x, d.x, (float)shape.size_x, &t_first, &t_out);
+    clip_axis(o.y, d.y, (float)shape.size_y, &t_first, &t_out);
+    clip_axis(o.z, d.z, (float)shape.size_z, &t_first, &t_out);
+    aimed &= LANE_MASK(t_first <= t_out);
+    t_first = LANES_SELECT(aimed, t_first, (lane_float)0.0f);
+    const lane_float zero = (lane_float)0.0f;
+    const float fixed = shape.fixed_point;
+    LANES_STORE(
+        snap_position(clamp(fma(d.x, t_first, o.x), 0.0f, (float)shape.size_x), zero, fixed), rays,
+        VXL_RAY_OX * stride + first);
+    LANES_STORE(
+        snap_position(clamp(fma(d.y, t_first, o.y), 0.0f, (float)shape.size_y), zero, fixed), rays,
+        VXL_RAY_OY * stride + first);
+    LANES_STORE(
+        snap_position(clamp(fma(d.z, t_first, o.z), 0.0f, (float)shape.size_z), zero, fixed), rays,
+        VXL_RAY_OZ * stride + first);
+    LANES_STORE(d.x, rays, VXL_RAY_DX * stride + first);
+    LANES_STORE(d.y, rays, VXL_RAY_DY * stride + first);
+    LANES_STORE(d.z, rays, VXL_RAY_DZ * stride + first);
+    LANES_STORE(LANES_SELECT(aimed, t_last - t_first, (lane_float)-1.0f), rays,
+                VXL_RAY_END * stride + first);
+}
+
+/// Gives `view` to the points first_point .. first_point+count-1 that have none and that nothing
+/// hides in it.
+kernel void note_view(global const uint* restrict hits, uint first_point, uint count, uint stride,
+                      uint view, global uint* restrict view_of_point) {
+    const uint n = work_item();
+    if (n >= count || view_of_point[first_point + n] != 0xFFFFFFFFu) return;
+    if (hits[VXL_HIT_VOXEL * stride + n] == VXL_NO_VOXEL) view_of_point[first_point + n] = view;
+}
+
+/// Marks the voxels of points 0 .. count-1 that have a view.
+kernel void mark_voxels(DisplayLattice lattice, global const float* restrict points, uint total,
+                        global const uint* restrict view_of_point, uint count,
+                        global uint* restrict mask) {
+    const uint n = work_item();
+    if (n >= count || view_of_point[n] == 0xFFFFFFFFu) return;
+    const float3 point = load_point(points, total, n);
+    for (uint which = 0; which < 8; ++which) {
+        const int4 v = voxel_at(&lattice, point, which);
+        if (v.x < 0) continue;
+        const size_t place = place_of(&lattice, v);
+        const uint bit = 1u << (place & 31u);
+        if (!(mask[place >> 5] & bit)) atomic_or(mask + (place >> 5), bit);
+    }
+}
+
+/// Counts the voxels of each group of the mask.
+kernel void count_groups(global const uint* restrict mask, uint count,
+                         global uint* restrict counts) {
+    const uint group = work_item();
+    if (group >= count) return;
+    uint sum = 0;
+    for (uint i = 0; i < VXL_GROUP_WORDS; ++i)
+        sum += popcount(mask[(size_t)group * VXL_GROUP_WORDS + i]);
+    counts[group] = sum;
+}
+
+/// Lists the places of the marked voxels in ascending order.
+kernel void list_places(global const uint* restrict mask, global const uint* restrict starts,
+                        uint count, global ulong* restrict places) {
+    const uint group = work_item();
+    if (group >= count) return;
+    uint voxel = starts[group];
+    for (uint i = 0; i < VXL_GROUP_WORDS; ++i) {
+        const size_t word = (size_t)group * VXL_GROUP_WORDS + i;
+        for (uint left = mask[word]; left != 0u; left &= left - 1u)
+            places[voxel++] = (ulong)word * 32u + (31u - clz(left & (0u - left)));
+    }
+}
+
+static inline uint number_of(global const uint* mask, global const uint* starts, size_t place) {
+    const size_t word = place >> 5, first = word & ~(size_t)(VXL_GROUP_WORDS - 1);
+    uint number = starts[word / VXL_GROUP_WORDS];
+    for (size_t i = first; i < word; ++i) number += popcount(mask[i]);
+    return number + popcount(mask[word] & ((1u << (place & 31u)) - 1u));
+}
+
+/// Chooses for every voxel the point with a view that lies nearest to its middle; of equals, the
+/// one with the lowest number. In three turns over all points, the first of which has number
+/// `first_number`: 0 finds the least distance, 1 the lowest number at that, 2 copies the point and
+/// its view to the voxel.
+kernel void choose_points(DisplayLattice lattice, global const float* restrict points, uint total,
+                          global const uint* restrict view_of_point, uint count, uint first_number,
+                          global const uint* restrict mask, global const uint* restrict starts,
+                          uint turn, global uint* restrict distances, global uint* restrict numbers,
+                          uint voxels, global float* restrict voxel_points,
+                          global uint* restrict voxel_views) {
+    const uint n = work_item();
+    if (n >= count || view_of_point[n] == 0xFFFFFFFFu) return;
+    const float3 point = load_point(points, total, n);
+    for (uint which = 0; which < 8; ++which) {
+        const int4 v = voxel_at(&lattice, point, which);
+        if (v.x < 0) continue;
+        const uint voxel = number_of(mask, starts, place_of(&lattice, v));
+        const float x = point.x - (float)v.x - 0.5f, y = point.y - (float)v.y - 0.5f,
+                    z = point.z - (float)v.z - 0.5f;
+        const uint distance = as_uint(fma(x, x, fma(y, y, z * z)));
+        if (turn == 0) {
+            atomic_min(distances + voxel, distance);
+        } else if (turn == 1) {
+            if (distances[voxel] == distance) atomic_min(numbers + voxel, first_number + n);
+        } else if (numbers[voxel] == first_number + n) {
+            voxel_points[voxel] = point.x;
+            voxel_points[voxels + voxel] = point.y;
+            voxel_points[2 * voxels + voxel] = point.z;
+            voxel_views[voxel] = view_of_point[n];
+        }
+    }
+}
+
+/// Takes the light of rays 0 .. count-1 to their voxels: ray n was aimed at the point of voxel
+/// targets[first_voxel + n], or of voxel first_voxel + n when it is not `listed`. Where a ray
+/// passes by its surface, the voxel gets object 0. The medium between the ray's start and the
+/// surface counts as air.
+kernel void keep_light(Sight sight, PyramidShape shape, Space space,
+                       global const float* restrict rays, global const uint* restrict hits,
+                       global const float* restrict positions, global const uint* restrict words,
+                       global const float* restrict radiance, global const uint* restrict targets,
+                       uint listed, uint first_voxel, uint count, uint stride,
+                       global float* restrict colors, global float* restrict opacities,
+                       global float* restrict depths, global uint* restrict objects) {
+    const uint first = work_item() * VXL_LANES;
+    if (first >= count) return;
+    const lane_int hit =
+        LANE_MASK(LANES_LOAD(hits, VXL_HIT_VOXEL * stride + first) != VXL_NO_VOXEL);
+    const Vector p = load_vector(positions, stride, first);
+    const float4 edge = shape.edge, ahead = sight.axis_z;
+    const Vector metres = {(p.x - sight.origin.x - sight.origin_low.x) * edge.x,
+                           (p.y - sight.origin.y - sight.origin_low.y) * edge.y,
+                           (p.z - sight.origin.z - sight.origin_low.z) * edge.z};
+    lane_float depth = exact_sqrt(dot_product(metres, metres));
+    if (sight.shape == VXL_SHAPE_PYRAMID || sight.shape == VXL_SHAPE_BOX)
+        depth = sight.lead + fma(metres.x, ahead.x * edge.x,
+                                 fma(metres.y, ahead.y * edge.y, metres.z * (ahead.z * edge.z)));
+    lane_float path = (lane_float)0.0f;
+    if (VXL_MEDIUM) {
+        const Vector d = load_vector(rays + VXL_RAY_DX * stride, stride, first);
+        const Vector metric = {d.x * edge.x, d.y * edge.y, d.z * edge.z};
+        const lane_float t = LANES_AS_FLOAT(LANES_LOAD(hits, VXL_HIT_T * stride + first));
+        path = LANES_SELECT(hit, t, (lane_float)0.0f) * exact_sqrt(dot_product(metric, metric));
+    }
+    const float absorption[3] = {space.absorption.x, space.absorption.y, space.absorption.z};
+    const float color[3] = {space.color.x, space.color.y, space.color.z};
+    float shown[4 * VXL_LANES];
+    for (uint channel = 0; channel < 3; ++channel) {
+        lane_float value = LANES_LOAD(radiance, channel * stride + first);
+        if (VXL_MEDIUM) {
+            const lane_float passed = fmax(exact_exp(-absorption[channel] * path), 1e-6f);
+            value = fmax(exact_divide(fma(-color[channel], 1.0f - passed, value), passed), 0.0f);
+        }
+        LANES_STORE(LANES_SELECT(hit, value, (lane_float)0.0f), shown, channel * VXL_LANES);
+    }
+    LANES_STORE(depth, shown, 3 * VXL_LANES);
+    uint object[VXL_LANES];
+    LANES_STORE(((LANES_LOAD(words, first) & VXL_OBJECT_MASK) + 1u) & LANES_AS_UINT(hit), object,
+                0);
+    for (uint i = 0; i < VXL_LANES && first + i < count; ++i) {
+        const size_t voxel = listed ? targets[first_voxel + first + i] : first_voxel + first + i;
+        objects[voxel] = object[i];
+        opacities[voxel] = 1.0f;
+        depths[voxel] = shown[3 * VXL_LANES + i];
+        for (uint channel = 0; channel < 3; ++channel)
+            colors[3 * voxel + channel] = shown[channel * VXL_LANES + i];
+    }
+}

@@ -1,0 +1,240 @@
+// lit sight rays -> P in the layout `rays`: the voxel of each surface, and those of the medium
+// before it.
+//
+// Rays lie in the order of sight.cl, one sample a pixel. Space between a ray's way into the world
+// and its end is cut into steps; the voxels of P are written by ascending place, u + width (v +
+// height k).
+#include "lib/exact_exp.h"
+#include "lib/fixed_point.h"
+#include "lib/vector.h"
+#include "lib/work_item.h"
+#include "shared/display.h"
+#include "shared/scene.h"
+#include "shared/trace.h"
+#include "shared/voxel.h"
+
+#define VXL_NO_STEP 0xFFFFFFFFu
+
+// Less than this share of the light behind is not told from none.
+#define VXL_LEAST_PASSED 9.5367431640625e-7f
+
+// Values of the array `spans`, `total` apart. Depths are metres beyond the near surface.
+#define VXL_SPAN_FIRST 0  // where the ray is in the world
+#define VXL_SPAN_END 1    // where it ends there, at a surface or not
+#define VXL_SPAN_RATIO 2  // metres of the ray in a metre of depth
+#define VXL_SPAN_COMPONENTS 3
+
+/// How far a point, in voxels from E's `lead`, is away from there in metres: along Z_E, or along
+/// the ray.
+static inline lane_float depth_of(const Sight* sight, float4 edge, Vector from_eye) {
+    const Vector metres = {from_eye.x * edge.x, from_eye.y * edge.y, from_eye.z * edge.z};
+    if (sight->shape == VXL_SHAPE_SECTOR || sight->shape == VXL_SHAPE_BALL)
+        return exact_sqrt(dot_product(metres, metres));
+    // Z_E in voxels per metre, times the edge, is a unit vector.
+    return fma(metres.x, sight->axis_z.x * edge.x,
+               fma(metres.y, sight->axis_z.y * edge.y, metres.z * (sight->axis_z.z * edge.z)));
+}
+
+static inline Vector from_eye(const Sight* sight, Vector p) {
+    const Vector result = {p.x - sight->origin.x - sight->origin_low.x,
+                           p.y - sight->origin.y - sight->origin_low.y,
+                           p.z - sight->origin.z - sight->origin_low.z};
+    return result;
+}
+
+/// 1 - e^-x for x >= 0, with a small relative error near 0 as well.
+static inline lane_float covered_share(lane_float x) {
+    lane_float p = fma(x, 8.33333333e-3f, -4.16666667e-2f);
+    p = fma(p, x, 1.66666667e-1f);
+    p = fma(p, x, -0.5f);
+    p = fma(p, x, 1.0f);
+    return LANES_SELECT(LANE_MASK(x < 0.125f), x * p, 1.0f - exact_exp(-x));
+}
+
+/// The step that a depth beyond the near surface lies in.
+static inline lane_uint step_of(const DisplaySteps* steps, lane_float depth) {
+    const lane_int step = LANES_INT(fmax(depth, 0.0f) * steps->inverse_step);
+    return LANES_AS_UINT(clamp(step, (lane_int)0, (lane_int)(steps->count - 1)));
+}
+
+/// Keeps of rays 0 .. count-1, which are the image's from `first_ray` on, what their voxels need:
+/// the step of the surface met (VXL_NO_STEP: none), its depth in metres, and the span in the
+/// medium.
+kernel void measure_steps(Sight sight, PyramidShape shape, DisplaySteps steps,
+                          global const float* restrict rays, global const uint* restrict hits,
+                          global const float* restrict positions, global const uint* restrict words,
+                          global const float* restrict radiance, uint count, uint stride,
+                          uint first_ray, uint total, global uint* restrict hit_steps,
+                          global float* restrict depths, global uint* restrict objects,
+                          global float* restrict colors, global float* restrict spans) {
+    const uint first = work_item() * VXL_LANES;
+    if (first >= count) return;
+    const uint place = first_ray + first;
+    const lane_int hit =
+        LANE_MASK(LANES_LOAD(hits, VXL_HIT_VOXEL * stride + first) != VXL_NO_VOXEL);
+    const lane_float depth =
+        depth_of(&sight, shape.edge, from_eye(&sight, load_vector(positions, stride, first)));
+    const lane_uint step = step_of(&steps, depth - sight.near_plane);
+    LANES_STORE(LANES_SELECT(hit, step, (lane_uint)VXL_NO_STEP), hit_steps, place);
+    LANES_STORE(depth + sight.lead, depths, place);
+    const lane_uint object = (LANES_LOAD(words, first) & VXL_OBJECT_MASK) + 1u;
+    LANES_STORE(object & LANES_AS_UINT(hit), objects, place);
+    for (uint channel = 0; channel < 3; ++channel)
+        LANES_STORE(LANES_LOAD(radiance, channel * stride + first), colors,
+                    channel * total + place);
+    if (!VXL_MEDIUM) return;
+
+    const lane_float t_end = LANES_LOAD(rays, VXL_RAY_END * stride + first);
+    lane_float t_first = (lane_float)0.0f, t_last = t_end;
+    const Vector o = load_vector(rays, stride, first);
+    const Vector d = load_vector(rays + VXL_RAY_DX * stride, stride, first);
+    clip_axis(o.x, d.x, (float)shape.size_x, &t_first, &t_last);
+    clip_axis(o.y, d.y, (float)shape.size_y, &t_first, &t_last);
+    clip_axis(o.z, d.z, (float)shape.size_z, &t_first, &t_last);
+    const lane_float t_hit = LANES_AS_FLOAT(LANES_LOAD(hits, VXL_HIT_T * stride + first));
+    const lane_float t = fmax(LANES_SELECT(hit, t_hit, t_last), 0.0f);
+    const Vector metric = {d.x * shape.edge.x, d.y * shape.edge.y, d.z * shape.edge.z};
+    const lane_float metres = exact_sqrt(dot_product(metric, metric));
+    lane_float along = metres;  // depth a unit of t
+    if (sight.shape == VXL_SHAPE_PYRAMID || sight.shape == VXL_SHAPE_BOX)
+        along = depth_of(&sight, shape.edge, d);
+    const lane_float begin = depth_of(&sight, shape.edge, from_eye(&sight, o)) - sight.near_plane;
+    const lane_float end = fma(along, t, begin);
+    const lane_int seen = LANE_MASK(t_end >= 0.0f);
+    LANES_STORE(begin, spans, VXL_SPAN_FIRST * total + place);
+    LANES_STORE(LANES_SELECT(seen, end, begin), spans, VXL_SPAN_END * total + place);
+    const lane_float ratio = exact_divide(metres, LANES_SELECT(seen, along, (lane_float)1.0f));
+    LANES_STORE(ratio, spans, VXL_SPAN_RATIO * total + place);
+}
+
+/// The place of pixel (u, v)'s ray in the order of sight.cl.
+static inline uint ray_of_pixel(uint u, uint v, uint width) {
+    const uint tile = v / 4u * ((width + 3u) / 4u) + u / 4u;
+    return tile * 16u + (v & 3u) * 4u + (u & 3u);
+}
+
+/// Steps first .. end-1 of a ray hold space that shows, the step `hit` a surface.
+typedef struct {
+    uint first, end, hit;
+} RaySteps;
+
+static inline RaySteps steps_of_ray(DisplaySteps steps, global const uint* hit_steps,
+                                    global const float* spans, uint total, uint ray) {
+    RaySteps s = {0, 0, hit_steps[ray]};
+    if (!VXL_MEDIUM) return s;
+    const float begin = spans[VXL_SPAN_FIRST * total + ray];
+    const float end = spans[VXL_SPAN_END * total + ray];
+    if (!(begin < end) || steps.absorption == 0.0f) return s;
+    const float most = (float)(steps.count - 1);
+    s.first = (uint)clamp(begin * steps.inverse_step, 0.0f, most);
+    s.end = s.hit != VXL_NO_STEP ? s.hit : (uint)clamp(end * steps.inverse_step, 0.0f, most) + 1u;
+    return s;
+}
+
+/// Counts the voxels of row v in every layer k: counts[v + height k]. One work-item a row.
+kernel void count_voxels(uint width, uint height, DisplaySteps steps,
+                         global const uint* restrict hit_steps, global const float* restrict spans,
+                         uint total, global uint* restrict counts) {
+    const uint v = work_item();
+    if (v >= height) return;
+    for (uint u = 0; u < width; ++u) {
+        const RaySteps s = steps_of_ray(steps, hit_steps, spans, total, ray_of_pixel(u, v, width));
+        for (uint k = s.first; k < s.end; ++k) ++counts[v + (size_t)height * k];
+        if (s.hit != VXL_NO_STEP) ++counts[v + (size_t)height * s.hit];
+    }
+}
+
+/// Writes the places of row v's voxels from starts[v + height k] on, which move, and to `sources`
+/// the ray of each.
+kernel void place_voxels(uint width, uint height, DisplaySteps steps,
+                         global const uint* restrict hit_steps, global const float* restrict spans,
+                         uint total, global uint* restrict starts, global ulong* restrict places,
+                         global uint* restrict sources) {
+    const uint v = work_item();
+    if (v >= height) return;
+    for (uint u = 0; u < width; ++u) {
+        const uint ray = ray_of_pixel(u, v, width);
+        const RaySteps s = steps_of_ray(steps, hit_steps, spans, total, ray);
+        for (uint k = s.first; k < s.end; ++k) {
+            const uint voxel = starts[v + (size_t)height * k]++;
+            places[voxel] = u + (ulong)width * (v + (ulong)height * k);
+            sources[voxel] = ray;
+        }
+        if (s.hit == VXL_NO_STEP) continue;
+        const uint voxel = starts[v + (size_t)height * s.hit]++;
+        places[voxel] = u + (ulong)width * (v + (ulong)height * s.hit);
+        sources[voxel] = ray;
+    }
+}
+
+/// Gives voxels 0 .. count-1 their colours (three each, one after another), opacities, depths and
+/// objects; `objects` holds the ray of each before.
+///
+/// A voxel of space adds color (1 - exp(-absorption x)) over its x metres of medium. Its opacity
+/// passes on what the least absorbed channel keeps; the rest that other channels lose is taken from
+/// the colours behind. A surface's radiance came through all of the medium: what the voxels before
+/// it add is subtracted again, and what they cover given back.
+kernel void fill_voxels(uint width, uint height, DisplaySteps steps, float near_depth, Space space,
+                        global const ulong* restrict places, global const uint* restrict hit_steps,
+                        global const float* restrict ray_depths,
+                        global const uint* restrict ray_objects,
+                        global const float* restrict ray_colors, global const float* restrict spans,
+                        uint total, uint count, global float* restrict colors,
+                        global float* restrict opacities, global float* restrict depths,
+                        global uint* restrict objects) {
+    const uint first = work_item() * VXL_LANES;
+    if (first >= count) return;
+    const lane_int there = LANE_MASK(LANES_NUMBERS + (int)first < (int)count);
+    uint layer[VXL_LANES];
+    for (uint i = 0; i < VXL_LANES; ++i)
+        layer[i] = first + i < count ? (uint)(places[first + i] / ((ulong)width * height)) : 0;
+    const lane_uint k = LANES_LOAD(layer, 0);
+    const lane_uint ray = LANES_LOAD(objects, first) & LANES_AS_UINT(there);
+    const lane_int is_object = LANE_MASK(LANES_GATHER_UINT(hit_steps, ray) == k);
+    lane_float depth = LANES_GATHER_FLOAT(ray_depths, ray);
+    lane_float opacity = (lane_float)1.0f, before = (lane_float)0.0f, inside = (lane_float)0.0f;
+    lane_float passed = (lane_float)1.0f;  // by the opacities of the voxels before
+    if (VXL_MEDIUM) {
+        const lane_float begin = LANES_GATHER_FLOAT(spans, ray + VXL_SPAN_FIRST * total);
+        const lane_float end = LANES_GATHER_FLOAT(spans, ray + VXL_SPAN_END * total);
+        const lane_float ratio = LANES_GATHER_FLOAT(spans, ray + VXL_SPAN_RATIO * total);
+        const lane_float from = fmax(LANES_FLOAT(k) * steps.step, begin);
+        const lane_float to = fmin((LANES_FLOAT(k) + 1.0f) * steps.step, end);
+        before = fmax(from - begin, 0.0f) * ratio;
+        inside = fmax(to - from, 0.0f) * ratio;
+        passed = fmax(exact_exp(-steps.absorption * before), VXL_LEAST_PASSED);
+        opacity = LANES_SELECT(is_object, opacity, covered_share(steps.absorption * inside));
+        const lane_float middle = fma(LANES_FLOAT(k) + 0.5f, steps.step, near_depth);
+        depth = LANES_SELECT(is_object, depth, middle);
+    }
+    const float absorption[3] = {space.absorption.x, space.absorption.y, space.absorption.z};
+    const float color[3] = {space.color.x, space.color.y, space.color.z};
+    float shown[3 * VXL_LANES];
+    for (uint channel = 0; channel < 3; ++channel) {
+        lane_float value = LANES_GATHER_FLOAT(ray_colors, ray + channel * total);
+        if (VXL_MEDIUM) {
+            const lane_float kept = exact_exp(-absorption[channel] * before);
+            const lane_float added =
+                color[channel] * covered_share(absorption[channel] * inside) * kept;
+            const lane_float of_surface =
+                fma(-color[channel], covered_share(absorption[channel] * before), value);
+            const lane_float part = LANES_SELECT(is_object, of_surface, added);
+            const lane_float share = fmax(passed * opacity, 1.17549435e-38f);
+            value = fmax(exact_divide(part, share), 0.0f);
+        }
+        LANES_STORE(value, shown, channel * VXL_LANES);
+    }
+    float result[VXL_LANES];
+    LANES_STORE(opacity, result, 0);
+    for (uint i = 0; i < VXL_LANES && first + i < count; ++i) opacities[first + i] = result[i];
+    LANES_STORE(depth, result, 0);
+    for (uint i = 0; i < VXL_LANES && first + i < count; ++i) depths[first + i] = result[i];
+    const lane_uint object = LANES_GATHER_UINT(ray_objects, ray) & LANES_AS_UINT(is_object);
+    uint number[VXL_LANES];
+    LANES_STORE(object, number, 0);
+    for (uint i = 0; i < VXL_LANES && first + i < count; ++i) {
+        objects[first + i] = number[i];
+        for (uint channel = 0; channel < 3; ++channel)
+            colors[3 * (size_t)(first + i) + channel] = shown[channel * VXL_LANES + i];
+    }
+}

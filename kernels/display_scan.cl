@@ -1,0 +1,269 @@
+// probe lines -> probe points: every crossing of the lines of a display's lattice with a surface.
+//
+// One work-item carries VXL_LANES lines through the world. Lanes that reach an occupied voxel wait
+// until no lane is walking; then the surfaces in those voxels are crossed together.
+#include "lib/smooth.h"
+#include "lib/solid_surface.h"
+#include "lib/triangle.h"
+#include "lib/work_item.h"
+#include "shared/display.h"
+#include "shared/scene.h"
+#include "shared/voxel.h"
+
+// How far inside of a face between two voxels of the display its probe points are, in such voxels:
+// more than rounding moves them.
+#define VXL_INWARD 0.0009765625f
+
+// Crossings of one solid in one voxel, at most.
+#define VXL_SOLID_CROSSINGS 4
+
+typedef struct {
+    global const uint* restrict attributes;
+    global const uint* restrict fields;
+    global const uint* restrict primitive_first;
+    global const uint* restrict primitives;
+    global const float* restrict triangles;
+    global const SolidShape* restrict solids;
+    float half_curvature;
+} ScannedSurfaces;
+
+/// Where a packet's crossings go: slot i of line n at i * stride + n.
+typedef struct {
+    float4 row;  // of the lattice coordinate along the lines
+    uint first, stride, slots;
+    global float* restrict crossings;
+    lane_uint count;  // crossings found, with those that had no slot left
+} ScanResult;
+
+/// Keeps the `crossed` lanes' crossings at t. A face between two voxels of the display belongs to
+/// the one that its object is in: ahead where `inward` is 1, behind where it is -1, not known where
+/// 0.
+static inline void keep_crossings(ScanResult* r, const Walk* w, lane_int crossed, lane_float t,
+                                  lane_float inward) {
+    if (!lanes_any(crossed)) return;
+    const lane_float x = fma(w->dx, t, w->ox), y = fma(w->dy, t, w->oy), z = fma(w->dz, t, w->oz);
+    lane_float s = fma(x, r->row.x, fma(y, r->row.y, fma(z, r->row.z, r->row.w)));
+    const lane_float side = rint(s);
+    const lane_int on_side = LANE_MASK(fabs(s - side) < VXL_INWARD) & LANE_MASK(inward != 0.0f);
+    s = LANES_SELECT(on_side, fma(inward, (lane_float)VXL_INWARD, side), s);
+    float value[VXL_LANES];
+    int kept[VXL_LANES];
+    uint slot[VXL_LANES];
+    LANES_STORE(s, value, 0);
+    LANES_STORE(crossed, kept, 0);
+    LANES_STORE(r->count, slot, 0);
+    for (uint i = 0; i < VXL_LANES; ++i)
+        if (kept[i] && slot[i] < r->slots)
+            r->crossings[slot[i] * r->stride + r->first + i] = value[i];
+    r->count += LANES_AS_UINT(crossed) & 1u;
+}
+
+/// Keeps the crossing between u = a and b of a smooth voxel, where F changes its sign.
+static inline void cross_field(const Field* f, const Walk* w, const LocalRay* ray, lane_int crossed,
+                               lane_float a, lane_float b, lane_float fa, lane_float fb,
+                               ScanResult* r) {
+    const lane_float outside = (lane_float)1.0f;
+    for (int step = 0; step < VXL_SECANT_STEPS; ++step) {  // regula falsi, as in hit_smooth
+        const lane_float gap = LANES_SELECT(crossed, fa - fb, (lane_float)1.0f);
+        const lane_float u = clamp(fma(exact_divide(fa, gap), b - a, a), a, b);
+        const lane_float fu = field_along(f, ray, outside, u);
+        const lane_int at_b = LANE_MASK(fu < 0.0f) ^ LANE_MASK(fa < 0.0f);
+        fb = LANES_SELECT(at_b, fu, 0.5f * fb);
+        b = LANES_SELECT(at_b, u, b);
+        fa = LANES_SELECT(at_b, 0.5f * fa, fu);
+        a = LANES_SELECT(at_b, a, u);
+    }
+    const lane_float gap = LANES_SELECT(crossed, fa - fb, (lane_float)1.0f);
+    const lane_float enters = LANES_SELECT(LANE_MASK(fb < 0.0f), outside, -outside);
+    keep_crossings(r, w, crossed, w->t + clamp(fma(exact_divide(fa, gap), b - a, a), a, b), enters);
+}
+
+static inline void scan_smooth(const ScannedSurfaces* s, const Walk* w, lane_uint voxel,
+                               lane_int tested, ScanResult* r) {
+    const Field field = read_field(s->fields, voxel, s->half_curvature);
+    const LocalRay ray = local_ray(w);
+    const lane_float zero = (lane_float)0.0f, outside = (lane_float)1.0f;
+    const lane_float end = fmax(exit_time(w) - w->t, 0.0f), middle = 0.5f * end;
+    const lane_float at_entry = field_along(&field, &ray, outside, zero);
+    const lane_float at_middle = field_along(&field, &ray, outside, middle);
+    const lane_float at_exit = field_along(&field, &ray, outside, end);
+    const lane_int inside = LANE_MASK(at_middle < 0.0f);
+    const lane_int before = tested & (LANE_MASK(at_entry < 0.0f) ^ inside);
+    const lane_int after = tested & (LANE_MASK(at_exit < 0.0f) ^ inside);
+    const lane_int once = before | after;
+    if (lanes_any(once))
+        cross_field(&field, w, &ray, once, LANES_SELECT(before, zero, middle),
+                    LANES_SELECT(before, middle, end), LANES_SELECT(before, at_entry, at_middle),
+                    LANES_SELECT(before, at_middle, at_exit), r);
+    const lane_int twice = before & after;
+    if (lanes_any(twice)) cross_field(&field, w, &ray, twice, middle, end, at_middle, at_exit, r);
+}
+
+/// Keeps the crossings with solid `number` between t and t_exit.
+static inline void scan_solid(const PyramidView* p, const ScannedSurfaces* s, const Walk* w,
+                              lane_uint number, lane_int tested, lane_float t, lane_float t_exit,
+                              ScanResult* r) {
+    const SolidRay ray = {w->ox, w->oy, w->oz, w->dx, w->dy, w->dz};
+    for (int i = 0; i < VXL_SOLID_CROSSINGS && lanes_any(tested); ++i) {
+        lane_float at = t_exit;
+        tested &= hit_solids(s->solids, number, &ray, t, (lane_int)0, (lane_int)0, tested, &at);
+        const lane_int crossed = tested & is_in_world(p, w, at);
+        if (lanes_any(crossed)) {
+            const SolidRay from = {fma(w->dx, at, w->ox),
+                                   fma(w->dy, at, w->oy),
+                                   fma(w->dz, at, w->oz),
+                                   w->dx,
+                                   w->dy,
+                                   w->dz};
+            const lane_int enters = go_inside(s->solids, number, &from, crossed);
+            keep_crossings(r, w, crossed, at,
+                           LANES_SELECT(enters, (lane_float)1.0f, (lane_float)-1.0f));
+        }
+        t = LANES_SELECT(tested, at, t);
+    }
+}
+
+/// Keeps the crossings with the primitives that the voxel lists. What lies on a voxel's side may be
+/// kept for both voxels.
+static inline void scan_primitives(const PyramidView* p, const ScannedSurfaces* s, const Walk* w,
+                                   lane_uint voxel, lane_int tested, ScanResult* r) {
+    const lane_float t_first = w->t - p->plane_bound, t_exit = exit_time(w) + p->plane_bound;
+    const RayShear shear = ray_shear(w);
+    lane_uint next = LANES_GATHER_UINT(s->primitive_first, voxel);
+    const lane_uint end = LANES_GATHER_UINT(s->primitive_first, voxel + 1u);
+    lane_int listing = tested & LANE_MASK(next < end);
+    while (lanes_any(listing)) {
+        const lane_uint primitive =
+            LANES_GATHER_UINT(s->primitives, next & LANES_AS_UINT(listing)) &
+            LANES_AS_UINT(listing);
+        const lane_int is_solid = LANE_MASK((primitive & VXL_SOLID_PRIMITIVE) != 0u);
+        if (VXL_TRIANGLES) {
+            const lane_int triangle = listing & ~is_solid;
+            lane_float t = t_exit;
+            const lane_int crossed = hit_triangle(p, t_first, (lane_int)-1, s->triangles,
+                                                  primitive & LANES_AS_UINT(triangle), w, &shear,
+                                                  (lane_int)0, triangle, &t);
+            keep_crossings(r, w, crossed, t, (lane_float)0.0f);
+        }
+        if (VXL_SOLIDS)
+            scan_solid(p, s, w, primitive & ~VXL_SOLID_PRIMITIVE, listing & is_solid, t_first,
+                       t_exit, r);
+        next += 1u;
+        listing &= LANE_MASK(next < end);
+    }
+}
+
+/// Crosses the surfaces in the `tested` lanes' voxels, but for cubes: the mask of these.
+static inline lane_int scan_voxels(const PyramidView* p, const ScannedSurfaces* s, const Walk* w,
+                                   lane_uint leaf, lane_int tested, ScanResult* r) {
+    const lane_uint voxel =
+        voxel_number(p, leaf & LANES_AS_UINT(tested), w->x & tested, w->y & tested, w->z & tested) &
+        LANES_AS_UINT(tested);
+    lane_int cubes = VXL_CUBES ? tested : (lane_int)0;
+    lane_int smooth = VXL_SMOOTH ? tested : (lane_int)0;
+    lane_int exact = VXL_EXACT ? tested : (lane_int)0;
+    if (VXL_CUBES + VXL_SMOOTH + VXL_EXACT > 1) {
+        const lane_uint kind = LANES_GATHER_UINT(s->attributes, voxel) >> VXL_KIND_SHIFT;
+        cubes &= LANE_MASK(kind == VXL_KIND_CUBES);
+        smooth &= LANE_MASK(kind != VXL_KIND_CUBES);  // an exact voxel may hold both
+        exact &= LANE_MASK(kind == VXL_KIND_EXACT);
+    }
+    if (VXL_SMOOTH && lanes_any(smooth)) scan_smooth(s, w, voxel, smooth, r);
+    if (VXL_EXACT && lanes_any(exact)) scan_primitives(p, s, w, voxel, exact, r);
+    return cubes;
+}
+
+/// Finds the crossings of lines 0 .. count-1 with surfaces, in their order along each line:
+/// `counts` says how many there are, `crossings` has the lattice coordinate along the line of the
+/// first `slots`. Arrays hold a multiple of 16 lines.
+kernel void scan_lines(PyramidShape shape, global const uint* restrict sectors,
+                       global const uint* restrict bricks, global const uint* restrict leaves,
+                       global const uint* restrict leaf_voxels,
+                       global const uint* restrict attributes, global const uint* restrict fields,
+                       global const uint* restrict primitive_first,
+                       global const uint* restrict primitives,
+                       global const float* restrict triangles,
+                       global const SolidShape* restrict solids, float4 row,
+                       global const float* restrict rays, uint count, uint stride, uint slots,
+                       global uint* restrict counts, global float* restrict crossings) {
+    const uint first = work_item() * VXL_LANES;
+    if (first >= count) return;
+    const PyramidView p = {sectors,           bricks,           leaves,
+                           leaf_voxels,       shape.size_x,     shape.size_y,
+                           shape.size_z,      shape.sectors_x,  shape.sectors_y,
+                           shape.plane_bound, shape.fixed_point};
+    const ScannedSurfaces s = {attributes, fields, primitive_first,     primitives,
+                               triangles,  solids, shape.half_curvature};
+    ScanResult r = {row, first, stride, slots, crossings, (lane_uint)0u};
+    Walk w = begin_walk(LANES_LOAD(rays, VXL_RAY_OX * stride + first),
+                        LANES_LOAD(rays, VXL_RAY_OY * stride + first),
+                        LANES_LOAD(rays, VXL_RAY_OZ * stride + first),
+                        LANES_LOAD(rays, VXL_RAY_DX * stride + first),
+                        LANES_LOAD(rays, VXL_RAY_DY * stride + first),
+                        LANES_LOAD(rays, VXL_RAY_DZ * stride + first));
+    const lane_float t_end = LANES_LOAD(rays, VXL_RAY_END * stride + first);
+    // A line that begins among cubes has not crossed their surface, unless it comes into the world.
+    const lane_int comes_in =
+        (LANE_MASK(w.ox == 0.0f) & w.px & w.mx) | (LANE_MASK(w.oy == 0.0f) & w.py & w.my) |
+        (LANE_MASK(w.oz == 0.0f) & w.pz & w.mz) | (LANE_MASK(w.ox == (float)shape.size_x) & ~w.px) |
+        (LANE_MASK(w.oy == (float)shape.size_y) & ~w.py) |
+        (LANE_MASK(w.oz == (float)shape.size_z) & ~w.pz);
+    lane_int beginning = ~comes_in;
+    lane_int in_cube = (lane_int)0;
+    lane_int walking = LANE_MASK(t_end >= 0.0f) & in_grid(&p, &w);
+    while (lanes_any(walking)) {
+        lane_int waiting = (lane_int)0;
+        lane_uint leaf = (lane_uint)0u;
+        while (lanes_any(walking)) {
+            const CellState state = look_up(&p, w.x, w.y, w.z, walking);
+            const lane_int arrived = state.occupied & walking;
+            leaf = LANES_SELECT(arrived, state.leaf, leaf);
+            waiting |= arrived;
+            walking &= ~arrived;
+            beginning &= ~walking;
+            if (VXL_CUBES) {
+                keep_crossings(&r, &w, walking & in_cube, w.t, (lane_float)-1.0f);
+                in_cube &= ~walking;
+            }
+            advance(&p, &w, state.log2_size, walking);
+            walking &= in_grid(&p, &w) & LANE_MASK(w.t <= t_end);
+        }
+        const lane_int cubes = scan_voxels(&p, &s, &w, leaf, waiting, &r);
+        if (VXL_CUBES) {
+            keep_crossings(&r, &w, waiting & (cubes ^ in_cube) & ~(beginning & cubes), w.t,
+                           LANES_SELECT(cubes, (lane_float)1.0f, (lane_float)-1.0f));
+            in_cube = LANES_SELECT(waiting, cubes, in_cube);
+        }
+        beginning &= ~waiting;
+        walking = waiting;
+        advance(&p, &w, (lane_int)0, walking);
+        const lane_int going_on = LANE_MASK(w.t <= t_end);
+        const lane_int inside = in_grid(&p, &w);
+        if (VXL_CUBES)
+            keep_crossings(&r, &w, walking & going_on & ~inside & in_cube, w.t, (lane_float)-1.0f);
+        walking &= inside & going_on;
+    }
+    LANES_STORE(r.count, counts, first);
+}
+
+/// Puts the crossings of lines first_line .. first_line+count-1 one after another: line n's from
+/// starts[n] on. Lines run along `axis` (0, 1, 2) in the order of sight.cl; those of column c and
+/// row r lie at (columns-1-c) / parts_a along the next axis, and likewise rows along the one after
+/// it.
+kernel void pack_points(int axis, uint columns, uint rows, float parts_a, float parts_b,
+                        global const uint* restrict counts, global const uint* restrict starts,
+                        global const float* restrict crossings, uint first_line, uint count,
+                        uint stride, uint total, global float* restrict points) {
+    const uint n = work_item();
+    if (n >= count) return;
+    const uint tiles_x = (columns + 3u) / 4u, tile = (first_line + n) / 16u;
+    const uint column = tile % tiles_x * 4u + (n & 3u), row = tile / tiles_x * 4u + ((n >> 2) & 3u);
+    const float a = (float)(columns - 1u - column) / parts_a;
+    const float b = (float)(rows - 1u - row) / parts_b;
+    for (uint i = 0; i < counts[n]; ++i) {
+        const uint point = starts[n] + i;
+        points[(uint)axis * total + point] = crossings[i * stride + n];
+        points[(uint)((axis + 1) % 3) * total + point] = a;
+        points[(uint)((axis + 2) % 3) * total + point] = b;
+    }
+}

@@ -1,0 +1,45 @@
+// The display as the kernels see it: where its voxels lie in the world.
+#ifndef VXL_SHARED_DISPLAY_H
+#define VXL_SHARED_DISPLAY_H
+
+#ifdef __cplusplus
+#include <kernels/shared/scene.h>  // kernels include shared/scene.h before
+namespace voxelume {
+#endif
+
+// A display of layout `rays`: how depth becomes steps.
+typedef struct DisplaySteps {
+    float step;          // metres
+    float inverse_step;  // 1 / step
+    int count;           // steps of a ray
+    float absorption;    // per metre: what the medium takes of every channel, its voxels' opacity
+} DisplaySteps;
+VXL_SIZE_IS(DisplaySteps, 16);
+
+// A display of layout `lattice`. A coordinate (x,y,z) in lattice voxels is origin + x axis_x + y
+// axis_y + z axis_z in voxels of the world.
+typedef struct DisplayLattice {
+    float4 origin;
+    float4 axis_x;
+    float4 axis_y;
+    float4 axis_z;
+    float4 row_x;  // lattice coordinate x of a point p in voxels of the world: row_x.xyz . p +
+    float4 row_y;  // row_x.w; likewise y, z
+    float4 row_z;
+    float4 corner;               // xyz: of voxel (0,0,0), metres in the observer's coordinates
+    float4 edge;                 // xyz: of a voxel, metres
+    int size_x, size_y, size_z;  // voxels
+    int shape;                   // VXL_SHAPE_*
+    float slope_x, slope_y;      // pyramid: tangents of the half angles; sector: cosine of the half
+                                 // angle in slope_x
+    float near_depth, far_depth;  // metres, see Display
+    int cylinder;                 // 1: clipped by the upright cylinder in the lattice
+    float unused[3];
+} DisplayLattice;
+VXL_SIZE_IS(DisplayLattice, 192);
+
+#ifdef __cplusplus
+}  // namespace voxelume
+#endif
+
+#endif

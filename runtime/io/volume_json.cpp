@@ -1,0 +1,47 @@
+#include "runtime/io/volume_json.hpp"
+
+#include "runtime/io/atomic_file.hpp"
+#include "runtime/io/volume_frame_text.hpp"
+#include "runtime/volume_geometry.hpp"
+
+namespace voxelume {
+
+VolumePath header_path_of(const VolumePath& data) {
+    VolumePath header = data;
+    if (data.extension() == ".raw") return header.replace_extension(".json");
+    return header += ".json";
+}
+
+VolumeJson start_header(const VolumePath& data, const Volume& volume, VolumeFormat format) {
+    const VolumeFrame& frame = volume.frame;
+    VolumeJson header = {{"voxelume_volume", 1},
+                         {"format", volume_format_name(format)},
+                         {"data", data.filename().string()},
+                         {"byte_order", "little"}};
+    VolumeJson matrix = nullptr;
+    if (const auto world = world_from_voxels(frame)) {
+        matrix = VolumeJson::array();
+        for (int row = 0; row < 4; ++row)
+            matrix.push_back(
+                {(*world)[0][row], (*world)[1][row], (*world)[2][row], (*world)[3][row]});
+    }
+    header["units"] = {{"length", "metre"}, {"angle", "radian"}};
+    header["world_from_voxels"] = matrix;
+    header[kFrameKey] = VolumeJson::parse(write_frame_text(frame));
+    header["attributes"] = volume.attributes;
+    return header;
+}
+
+void write_json(const VolumePath& path, const VolumeJson& json) {
+    AtomicFile file(path);
+    std::string text;
+    try {
+        text = json.dump(2) + "\n";
+    } catch (const VolumeJson::type_error& error) {
+        file.fail(fmt::format("a text isn't UTF-8: {}", error.what()));
+    }
+    file.write(text.data(), text.size());
+    file.commit();
+}
+
+}  // namespace voxelume

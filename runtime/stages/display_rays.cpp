@@ -1,0 +1,107 @@
+#include "runtime/stages/display_rays.hpp"
+
+#include "runtime/error.hpp"
+#include "runtime/stages/sight.hpp"
+
+namespace voxelume {
+namespace {
+
+constexpr uint32_t kSpanComponents = 3;
+
+uint32_t ray_count(const Sight& sight) {
+    return tile_count(sight.width, sight.height) * 16;
+}
+
+/// Replaces counts by the sums of those before; returns the sum of all.
+uint64_t make_starts(std::vector<uint32_t>& counts) {
+    uint64_t sum = 0;
+    for (uint32_t& count : counts) {
+        const uint32_t here = count;
+        count = uint32_t(sum);
+        sum += here;
+    }
+    return sum;
+}
+
+}  // namespace
+
+VoxelArrays allocate_voxels(const Device& device, uint64_t count) {
+    if (count >= UINT32_MAX)
+        throw Error(ErrorKind::limit,
+                    "this volumetric image has {} voxels, at most {} can be numbered: use larger "
+                    "display voxels, or no medium",
+                    count, UINT32_MAX - 1);
+    const size_t padded = (size_t(count) + 15) / 16 * 16;
+    VoxelArrays voxels;
+    voxels.count = size_t(count);
+    voxels.places = Buffer<uint64_t>(device, "display places", padded);
+    voxels.colors = Buffer<float>(device, "display colors", padded * 3);
+    voxels.opacities = Buffer<float>(device, "display opacities", padded);
+    voxels.depths = Buffer<float>(device, "display depths", padded);
+    voxels.objects = Buffer<uint32_t>(device, "display objects", padded);
+    return voxels;
+}
+
+void read_voxels(const VoxelArrays& voxels, Volume& volume) {
+    volume.places = voxels.places.read(0, voxels.count);
+    volume.opacities = voxels.opacities.read(0, voxels.count);
+    volume.depths = voxels.depths.read(0, voxels.count);
+    volume.objects = voxels.objects.read(0, voxels.count);
+    const std::vector<float> colors = voxels.colors.read(0, voxels.count * 3);
+    volume.colors.resize(voxels.count);
+    volume.kinds.resize(voxels.count);
+    for (size_t i = 0; i < voxels.count; ++i) {
+        volume.colors[i] = {colors[3 * i], colors[3 * i + 1], colors[3 * i + 2]};
+        volume.kinds[i] = volume.objects[i] == 0 ? VoxelKind::space : VoxelKind::object;
+    }
+}
+
+DisplayRaysStage::DisplayRaysStage(const Device& device, const Features& features,
+                                   const Sight& sight, const VolumeFrame& frame,
+                                   const Medium& medium, const Space& space)
+    : device_(device),
+      sight_(sight),
+      steps_(display_steps(frame, medium)),
+      near_depth_(float(frame.display.near)),
+      space_(space),
+      total_(ray_count(sight)),
+      hit_steps_(device, "display steps", total_),
+      objects_(device, "display ray objects", total_),
+      depths_(device, "display ray depths", total_),
+      colors_(device, "display ray colors", size_t(total_) * 3),
+      program_(device, "display_rays.cl", features.defines(device)),
+      measure_(program_.kernel("measure_steps")),
+      count_(program_.kernel("count_voxels")),
+      place_(program_.kernel("place_voxels")),
+      fill_(program_.kernel("fill_voxels")) {
+    if (features.medium)
+        spans_ = Buffer<float>(device, "display spans", size_t(total_) * kSpanComponents);
+}
+
+void DisplayRaysStage::keep(const PyramidShape& world, const RayBatch& batch, uint32_t first_ray,
+                            uint32_t count) {
+    measure_.launch_packets(count, sight_, world, steps_, batch.rays, batch.hits, batch.positions,
+                            batch.words, batch.radiance, count, batch.stride, first_ray, total_,
+                            hit_steps_, depths_, objects_, colors_, spans_);
+}
+
+VoxelArrays DisplayRaysStage::voxels() {
+    const uint32_t width = uint32_t(sight_.width), height = uint32_t(sight_.height);
+    Buffer<uint32_t> starts(device_, "display counts", size_t(height) * size_t(steps_.count));
+    starts.fill(0);
+    count_.launch(WorkItem::heavy, height, width, height, steps_, hit_steps_, spans_, total_,
+                  starts);
+    std::vector<uint32_t> counts = starts.read();
+    VoxelArrays voxels = allocate_voxels(device_, make_starts(counts));
+    if (voxels.count == 0) return voxels;
+    starts.write(std::span<const uint32_t>(counts));
+    place_.launch(WorkItem::heavy, height, width, height, steps_, hit_steps_, spans_, total_,
+                  starts, voxels.places, voxels.objects);
+    const uint32_t count = uint32_t(voxels.count);
+    fill_.launch_packets(count, width, height, steps_, near_depth_, space_, voxels.places,
+                         hit_steps_, depths_, objects_, colors_, spans_, total_, count,
+                         voxels.colors, voxels.opacities, voxels.depths, voxels.objects);
+    return voxels;
+}
+
+}  // namespace voxelume

@@ -1,0 +1,127 @@
+#include "runtime/stages/display_scan.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "runtime/stages/trace.hpp"
+
+namespace voxelume {
+namespace {
+
+constexpr int kMostParts = 64;
+
+float4 to_float4(const glm::dvec3& v) {
+    return {float(v.x), float(v.y), float(v.z), 0};
+}
+
+/// Parts of a display voxel's edge of which none is longer than a voxel of the world.
+int parts_of(double edge, const GridFrame& world) {
+    const glm::dvec3& e = world.voxel_edge;
+    const double parts = std::ceil(edge / std::min({e.x, e.y, e.z}) - 1e-6);
+    return std::clamp(int(parts), 1, kMostParts);
+}
+
+}  // namespace
+
+DisplayScanStage::DisplayScanStage(const Device& device, const Features& features,
+                                   const VolumeFrame& frame, const GridFrame& world)
+    : device_(device),
+      lattice_(display_lattice(frame, world)),
+      families_{family(0, frame, world), family(1, frame, world), family(2, frame, world)},
+      sight_(device, features, families_.front().sight),
+      program_(device, "display_scan.cl", features.defines(device)),
+      scan_(program_.kernel("scan_lines")),
+      pack_(program_.kernel("pack_points")) {}
+
+DisplayScanStage::Family DisplayScanStage::family(int axis, const VolumeFrame& frame,
+                                                  const GridFrame& world) const {
+    const int a = (axis + 1) % 3, b = (axis + 2) % 3;
+    const glm::dmat4& map = frame.world_from_observer;
+    const auto direction = [&](int i) {
+        return glm::dvec3(map[i]) * frame.edge[i] / world.voxel_edge;
+    };
+    Family result{};
+    result.axis = axis;
+    result.parts = {parts_of(frame.edge[a], world), parts_of(frame.edge[b], world)};
+    glm::dvec3 corner = frame.origin;
+    corner[a] += 0.5 * frame.size[a] * frame.edge[a];
+    corner[b] += 0.5 * frame.size[b] * frame.edge[b];
+    const glm::dvec3 origin =
+        (glm::dvec3(map * glm::dvec4(corner, 1)) - world.origin) / world.voxel_edge;
+    // A box of parallel rays whose unit of length is a part across, and a lattice voxel along.
+    Sight& sight = result.sight;
+    sight.origin = to_float4(origin);
+    sight.origin_low =
+        to_float4(origin - glm::dvec3(sight.origin.x, sight.origin.y, sight.origin.z));
+    sight.axis_x = to_float4(direction(a) / double(result.parts.x));
+    sight.axis_y = to_float4(direction(b) / double(result.parts.y));
+    sight.axis_z = to_float4(direction(axis));
+    sight.width = frame.size[a] * result.parts.x + 1;
+    sight.height = frame.size[b] * result.parts.y + 1;
+    sight.half_x = 0.5f * float(sight.width);
+    sight.half_y = 0.5f * float(sight.height);
+    sight.far_plane = float(frame.size[axis]);
+    sight.samples = 1;
+    sight.sample_share = 1;
+    sight.shape = VXL_SHAPE_BOX;
+    result.row = axis == 0 ? lattice_.row_x : axis == 1 ? lattice_.row_y : lattice_.row_z;
+    return result;
+}
+
+ProbePoints DisplayScanStage::scan_batch(const Pyramid& world, const Family& family,
+                                         uint32_t first_line, uint32_t count, RayBatch& batch) {
+    std::vector<uint32_t> counts;
+    for (;;) {
+        const size_t places = size_t(batch.stride) * slots_;
+        if (crossings_.size() < places)
+            crossings_ = Buffer<float>(device_, "probe crossings", places);
+        if (counts_.size() < batch.stride)
+            counts_ = Buffer<uint32_t>(device_, "probe counts", batch.stride);
+        scan_.launch_packets(count, shape_of(world), world.sectors, world.bricks, world.leaves,
+                             world.leaf_voxels, world.attributes, world.fields,
+                             world.primitive_first, world.primitives, world.triangles, world.solids,
+                             family.row, batch.rays, count, batch.stride, slots_, counts_,
+                             crossings_);
+        counts = counts_.read(0, count);
+        const uint32_t most = *std::ranges::max_element(counts);
+        if (most <= slots_) break;
+        slots_ = most;
+    }
+    std::vector<uint32_t> starts(count);
+    std::exclusive_scan(counts.begin(), counts.end(), starts.begin(), 0u);
+    ProbePoints points;
+    points.count = starts.back() + counts.back();
+    points.total = (points.count + 15) / 16 * 16;
+    if (points.count == 0) return points;
+    points.coordinates = Buffer<float>(device_, "probe points", size_t(points.total) * 3);
+    points.views = Buffer<uint32_t>(device_, "probe views", points.total);
+    points.views.fill(kNoView);
+    const Buffer<uint32_t> places(device_, "probe starts", std::span<const uint32_t>(starts));
+    pack_.launch(WorkItem::light, count, family.axis, uint32_t(family.sight.width),
+                 uint32_t(family.sight.height), float(family.parts.x), float(family.parts.y),
+                 counts_, places, crossings_, first_line, count, batch.stride, points.total,
+                 points.coordinates);
+    return points;
+}
+
+std::vector<ProbePoints> DisplayScanStage::scan(const Pyramid& world, RayBatch& batch) {
+    std::vector<ProbePoints> pieces;
+    if (world.voxel_count == 0) return pieces;
+    const uint32_t batch_tiles = batch.stride / 16;
+    for (const Family& family : families_) {
+        const Sight& sight = family.sight;
+        sight_.look(sight);
+        const uint32_t tiles = tile_count(sight.width, sight.height);
+        for (uint32_t first = 0; first < tiles; first += batch_tiles) {
+            const uint32_t now = std::min(batch_tiles, tiles - first);
+            const uint32_t count = sight_.cast(shape_of(world), first, now, batch);
+            lines_ += count;
+            ProbePoints points = scan_batch(world, family, first * 16, count, batch);
+            if (points.count > 0) pieces.push_back(std::move(points));
+        }
+    }
+    return pieces;
+}
+
+}  // namespace voxelume

@@ -1,0 +1,61 @@
+// world + lattice of a display -> probe points: where its probe lines cross surfaces.
+#pragma once
+
+#include <vector>
+
+#include "runtime/opencl/program.hpp"
+#include "runtime/stages/display_frame.hpp"
+#include "runtime/stages/features.hpp"
+#include "runtime/stages/ray_batch.hpp"
+#include "runtime/stages/sight.hpp"
+
+namespace voxelume {
+
+/// Probe points in lattice voxels, in an order that depends on the world and the lattice alone.
+struct ProbePoints {
+    uint32_t count = 0;
+    uint32_t total = 0;         ///< places in each array, a multiple of 16
+    Buffer<float> coordinates;  ///< x, y, z, `total` apart
+    Buffer<uint32_t> views;     ///< in which view each is visible, kNoView for none
+};
+inline constexpr uint32_t kNoView = 0xFFFFFFFFu;
+
+/// Kernel of display_scan.cl: probe lines along the three axes of a lattice.
+///
+/// They are all lines of the lattice's edges, with so many parallels between them that no gap is
+/// wider than a voxel of the world (up to 64 in a voxel).
+class DisplayScanStage {
+  public:
+    DisplayScanStage(const Device& device, const Features& features, const VolumeFrame& frame,
+                     const GridFrame& world);
+
+    /// The crossings of all lines, in pieces of one batch of lines each. `batch` serves for rays.
+    std::vector<ProbePoints> scan(const Pyramid& world, RayBatch& batch);
+
+    uint64_t lines() const { return lines_; }  ///< cast so far
+
+  private:
+    /// The lines along one axis.
+    struct Family {
+        int axis;
+        glm::ivec2 parts;  ///< lines in a voxel, along the next axis and the one after it
+        Sight sight;
+        float4 row;
+    };
+    Family family(int axis, const VolumeFrame& frame, const GridFrame& world) const;
+    ProbePoints scan_batch(const Pyramid& world, const Family& family, uint32_t first_line,
+                           uint32_t count, RayBatch& batch);
+
+    Device device_;
+    DisplayLattice lattice_;
+    std::vector<Family> families_;
+    SightStage sight_;
+    Program program_;
+    Kernel scan_, pack_;
+    uint32_t slots_ = 16;  ///< crossings of a line that have a place; grows
+    Buffer<float> crossings_;
+    Buffer<uint32_t> counts_;
+    uint64_t lines_ = 0;
+};
+
+}  // namespace voxelume

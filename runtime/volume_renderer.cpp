@@ -1,0 +1,138 @@
+#include "runtime/volume_renderer.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "runtime/error.hpp"
+#include "runtime/illumination.hpp"
+#include "runtime/stages/display_lattice.hpp"
+#include "runtime/stages/display_rays.hpp"
+#include "runtime/stages/sight.hpp"
+
+namespace voxelume {
+namespace {
+
+using Progress = std::function<void(uint32_t, uint32_t)>;
+
+/// What both layouts work with.
+struct Work {
+    const Device& device;
+    const Scene& scene;
+    const Pyramid& world;
+    Features features;
+    VolumeFrame frame;
+    Sight sight;
+    RenderReport& report;
+    const Progress& progress;
+};
+
+/// What the display's kernels know of the medium: one whose density differs from voxel to voxel is
+/// left in the colours of surfaces, and its space is not shown.
+Features without_varying_medium(Features features) {
+    features.medium = features.medium && !features.medium_grid;
+    features.medium_grid = false;
+    return features;
+}
+
+/// The observer with one sight ray for each (u, v) of the display.
+Sight display_sight(Scene scene, const VolumeFrame& frame, const GridFrame& world) {
+    scene.render.size = {frame.size.x, frame.size.y};
+    scene.render.samples = 1;
+    return sight_of(scene, world);
+}
+
+void check_rays(const VolumeFrame& frame) {
+    const uint64_t rays = uint64_t(frame.size.x) * uint64_t(frame.size.y);
+    if (rays > UINT32_MAX / 2)
+        throw Error(ErrorKind::limit,
+                    "a display of {}x{} sight rays is too large: at most 2^31 can be numbered",
+                    frame.size.x, frame.size.y);
+}
+
+void count_rays(const Illumination& illumination, RenderReport& report) {
+    report.shadow_rays = illumination.shadow_rays();
+    report.secondary_rays = illumination.secondary_rays();
+    report.ended_paths = illumination.ended_paths();
+}
+
+VoxelArrays render_rays(Work& work) {
+    check_rays(work.frame);
+    const uint32_t tiles = tile_count(work.sight.width, work.sight.height);
+    const uint32_t batch_tiles = std::clamp(batch_rays(work.features) / 16, 1u, tiles);
+    RayBatch batch = allocate_batch(work.device, work.features, batch_tiles * 16);
+    SightStage sight(work.device, work.features, work.sight);
+    Illumination illumination(work.device, work.features, work.scene, work.world, batch.stride);
+    DisplayRaysStage display(work.device, without_varying_medium(work.features), work.sight,
+                             work.frame, work.scene.world.medium, space_of(work.scene.world));
+    for (uint32_t first = 0; first < tiles; first += batch_tiles) {
+        const uint32_t now = std::min(batch_tiles, tiles - first);
+        const uint32_t rays = sight.cast(shape_of(work.world), first, now, batch);
+        illumination.light(batch, rays);
+        display.keep(shape_of(work.world), batch, first * 16, rays);
+        work.report.sight_rays += rays;
+        if (work.progress) {
+            work.device.finish();
+            work.progress(first + now, tiles);
+        }
+    }
+    count_rays(illumination, work.report);
+    return display.voxels();
+}
+
+VoxelArrays render_lattice(Work& work) {
+    RayBatch batch = allocate_batch(work.device, work.features, batch_rays(work.features));
+    // Finding surfaces asks for no more than their geometry.
+    const Features geometry = features_of(work.world);
+    DisplayScanStage scan(work.device, geometry, work.frame, work.world.frame);
+    DisplayLatticeStage display(work.device, without_varying_medium(work.features), work.sight,
+                                work.frame, work.world);
+    const auto report_progress = [&work](uint32_t done) {
+        if (!work.progress) return;
+        work.device.finish();
+        work.progress(done, 3);
+    };
+    std::vector<ProbePoints> pieces = scan.scan(work.world, batch);
+    report_progress(1);
+    TraceStage trace(work.device, geometry);
+    display.find_views(trace, batch, pieces);
+    ShownVoxels shown = display.choose(pieces);
+    report_progress(2);
+    pieces.clear();
+    Illumination illumination(work.device, work.features, work.scene, work.world, batch.stride);
+    display.light(trace, illumination, space_of(work.scene.world), batch, shown);
+    report_progress(3);
+    work.report.sight_rays += scan.lines() + display.rays();
+    count_rays(illumination, work.report);
+    return shown.voxels;
+}
+
+uint32_t count_not_finite(const Volume& volume) {
+    return uint32_t(std::ranges::count_if(volume.colors, [](const glm::vec3& c) {
+        return !std::isfinite(c.x) || !std::isfinite(c.y) || !std::isfinite(c.z);
+    }));
+}
+
+}  // namespace
+
+Volume render_volume(const Device& device, const Scene& scene, RenderReport& report,
+                     const Progress& progress) {
+    const Pyramid world = form_world(device, scene, report.world);
+    const auto start = std::chrono::steady_clock::now();
+    const VolumeFrame frame = display_frame(scene);
+    Work work = {device, scene,
+                 world,  features_of(scene, world),
+                 frame,  display_sight(scene, frame, world.frame),
+                 report, progress};
+    Volume volume;
+    volume.frame = frame;
+    read_voxels(frame.layout == VolumeLayout::rays ? render_rays(work) : render_lattice(work),
+                volume);
+    report.not_finite = count_not_finite(volume);
+    report.voxels = world.voxel_count;
+    report.image_seconds =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return volume;
+}
+
+}  // namespace voxelume

@@ -1,0 +1,140 @@
+// Which voxels a Cartesian display shows, against what an observer sees by geometry alone.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+
+#include "tests/display_fixture.hpp"
+
+namespace voxelume {
+namespace {
+
+/// A lattice by its documented rules, in double.
+struct LatticeOracle {
+    const VolumeFrame& frame;
+    const Observer& observer;
+
+    glm::dvec3 world(const glm::dvec3& lattice) const {
+        return observer.position +
+               observer.world_from_observer * (frame.origin + frame.edge * lattice);
+    }
+    glm::dvec3 lattice(const glm::dvec3& p) const {
+        const glm::dvec3 q = glm::transpose(observer.world_from_observer) * (p - observer.position);
+        return (q - frame.origin) / frame.edge;
+    }
+    /// How far the middle of a voxel is inside the display's shape, roughly; its sign is exact.
+    double inside(const glm::dvec3& middle) const {
+        const glm::dvec3 q = frame.origin + frame.edge * middle;
+        const Display& d = frame.display;
+        const double r = glm::length(q);
+        const glm::dvec3 c = middle / glm::dvec3(frame.size) * 2.0 - 1.0;
+        double least = d.cylinder ? 1 - std::hypot(c.x, c.z) : 1;
+        switch (d.shape) {
+            case DisplayShape::pyramid:
+                return std::min({least, q.z * std::tan(d.half_angles.x) - std::abs(q.x),
+                                 q.z * std::tan(d.half_angles.y) - std::abs(q.y)});
+            case DisplayShape::sector:
+                return std::min({least, d.far - r, r - d.near,
+                                 d.half_angles.x - std::acos(std::clamp(q.z / r, -1.0, 1.0))});
+            case DisplayShape::ball:
+                return std::min(least, d.far - r);
+            case DisplayShape::box:
+                break;
+        }
+        return least;
+    }
+    /// From where the observer sees a point: E, or the point beside it on the box's plane.
+    glm::dvec3 eye(const glm::dvec3& p) const {
+        if (frame.display.shape != DisplayShape::box) return observer.position;
+        const glm::dvec3& ahead = observer.world_from_observer[2];
+        return p - ahead * glm::dot(p - observer.position, ahead);
+    }
+    uint64_t place(const glm::ivec3& v) const {
+        return uint64_t(v.x) +
+               uint64_t(frame.size.x) * (uint64_t(v.y) + uint64_t(frame.size.y) * uint64_t(v.z));
+    }
+    glm::ivec3 voxel(uint64_t place) const {
+        return {int(place % uint64_t(frame.size.x)),
+                int(place / uint64_t(frame.size.x) % uint64_t(frame.size.y)),
+                int(place / (uint64_t(frame.size.x) * uint64_t(frame.size.y)))};
+    }
+};
+
+/// Voxels that a point lies in, or within `margin` voxels of.
+template <class Visit>
+void for_each_voxel_near(const glm::dvec3& p, double margin, const Visit& visit) {
+    const glm::ivec3 low(glm::floor(p - margin)), high(glm::floor(p + margin));
+    for (int z = low.z; z <= high.z; ++z)
+        for (int y = low.y; y <= high.y; ++y)
+            for (int x = low.x; x <= high.x; ++x) visit(glm::ivec3(x, y, z));
+}
+
+class Lattice : public testing::TestWithParam<DisplayCase> {};
+
+TEST_P(Lattice, ShowsExactlyTheVoxelsOfVisibleSurface) {
+    const Scene scene = parsed(display_scene(std::string(GetParam().keys) +
+                                             R"(, "layout": "lattice", "voxels": [61, 53, 47])"));
+    const Volume volume = volume_of(scene);
+    const LatticeOracle lattice{volume.frame, scene.observer};
+    const oracle::SimpleScene solids = display_solids();
+    const double edge = std::min({volume.frame.edge.x, volume.frame.edge.y, volume.frame.edge.z});
+
+    std::set<uint64_t> must, may;
+    for (const oracle::SimpleSolid& solid : solids.solids)
+        for (const glm::dvec3& p : solid.surface_points(0.08 * edge)) {
+            const glm::dvec3 eye = lattice.eye(p), q = lattice.lattice(p);
+            const bool surely = solids.is_seen(eye, p, 1e-9), maybe = solids.is_seen(eye, p, edge);
+            if (!maybe) continue;
+            for_each_voxel_near(q, 0.09, [&](const glm::ivec3& v) {
+                if (glm::any(glm::lessThan(v, glm::ivec3(0))) ||
+                    glm::any(glm::greaterThanEqual(v, volume.frame.size)))
+                    return;
+                const double inside = lattice.inside(glm::dvec3(v) + 0.5);
+                if (inside < -1e-5) return;
+                may.insert(lattice.place(v));
+                const glm::dvec3 within = q - glm::dvec3(v);
+                const double depth = std::min(
+                    {within.x, within.y, within.z, 1 - within.x, 1 - within.y, 1 - within.z});
+                if (surely && depth > 0.04 && inside > 1e-5) must.insert(lattice.place(v));
+            });
+        }
+    const std::set<uint64_t> shown(volume.places.begin(), volume.places.end());
+    size_t holes = 0, extras = 0;
+    for (const uint64_t place : must) holes += !shown.contains(place);
+    for (const uint64_t place : shown) extras += !may.contains(place);
+    EXPECT_EQ(holes, 0u) << "of " << must.size();
+    EXPECT_EQ(extras, 0u) << "of " << shown.size();
+    EXPECT_GT(must.size(), may.size() / 2);
+    EXPECT_GT(must.size(), 150u);
+}
+
+TEST_P(Lattice, EveryVoxelIsWithinHalfItsDiagonalOfTheSurface) {
+    const Scene scene = parsed(display_scene(std::string(GetParam().keys) +
+                                             R"(, "layout": "lattice", "voxels": [41, 33, 37])"));
+    for (const char* visibility : {"observer", "outside", "all"}) {
+        Scene s = scene;
+        s.observer.display.visibility = std::string(visibility) == "observer" ? Visibility::observer
+                                        : std::string(visibility) == "all"    ? Visibility::all
+                                                                              : Visibility::outside;
+        const Volume volume = volume_of(s);
+        const LatticeOracle lattice{volume.frame, s.observer};
+        const double half_diagonal = glm::length(volume.frame.edge) / 2;
+        ASSERT_GT(volume.places.size(), 100u);
+        ASSERT_TRUE(std::ranges::is_sorted(volume.places));
+        for (size_t i = 0; i < volume.places.size(); ++i) {
+            const glm::dvec3 middle = glm::dvec3(lattice.voxel(volume.places[i])) + 0.5;
+            ASSERT_LE(display_solids().distance(lattice.world(middle)), half_diagonal + 1e-5)
+                << visibility << " " << volume.places[i];
+            ASSERT_EQ(volume.opacities[i], 1.0f);
+            ASSERT_EQ(volume.kinds[i], VoxelKind::object)
+                << visibility << " " << middle.x << " " << middle.y << " " << middle.z;
+            ASSERT_TRUE(volume.objects[i] == 1 || volume.objects[i] == 2);
+        }
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Shapes, Lattice, testing::ValuesIn(kDisplayCases),
+                         [](const auto& shape) { return shape.param.name; });
+
+}  // namespace
+}  // namespace voxelume
