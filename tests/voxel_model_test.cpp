@@ -202,8 +202,8 @@ TEST_F(VoxelModels, VoxelsTintTheLightThatPassesThem) {
 "objects": [{"model": "wall", "material": "wall", "position": [0.3, 0.2, 0.7]})") +
                (with_stack ? R"(, {"model": "stack", "material": "m"})" : "") + R"(],
 "lights": [{"type": "directional", "direction": [0, 0, 1]}],
-"observer": {"position": [-1.5, 0.22, 0.2], "look_at": [0.3, 0.22, 0.6],
-             "display": {"shape": "pyramid", "angle": 3}},
+"observer": {"position": [-1.5, 0.22, 0.2], "look_at": [0.3, 0.22, 0.55],
+             "display": {"shape": "pyramid", "angle": 2}},
 "render": {"size": [6, 6]}})";
     };
     RenderReport report;
