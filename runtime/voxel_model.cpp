@@ -5,156 +5,20 @@
 #include <cmath>
 #include <cstdlib>
 #include <glm/common.hpp>
-#include <sstream>
 
 #include "kernels/shared/voxel.h"
 #include "runtime/io/input_file.hpp"
-#include "runtime/io/model_file.hpp"
+#include "runtime/io/model_voxels.hpp"
 #include "runtime/io/vdb_voxels.hpp"
 
 namespace voxelume {
 namespace {
 
 constexpr int kMostVoxelsPerAxis = 65536;
-constexpr double kMostBricks = 1 << 28;
+constexpr double kMostBricks = 1 << 28, kFarthestCell = 1 << 30;
+constexpr size_t kMostStoredBricks = 1 << 18;  // 4 GiB of colours
 constexpr size_t kVoxelsPerBrick = 4096, kLeavesPerBrick = 64;
 constexpr int kMargin = 4;  // voxels around a volume, as around other models
-constexpr const char* kSurfaceNames[] = {"cubes", "smooth", "exact"};
-
-size_t brick_count(const GridFrame& frame) {
-    const glm::ivec3 bricks = frame.bricks();
-    return size_t(bricks.x) * size_t(bricks.y) * size_t(bricks.z);
-}
-
-void check_size(const glm::dvec3& size, const InputFile& file) {
-    const glm::dvec3 bricks = size / double(kBrickSize) + 1.0;
-    if (!(std::max({size.x, size.y, size.z}) <= kMostVoxelsPerAxis &&
-          std::min({size.x, size.y, size.z}) >= 1 && bricks.x * bricks.y * bricks.z <= kMostBricks))
-        file.refuse(
-            fmt::format("its voxels span {} x {} x {}, at most {} along each axis and {} "
-                        "bricks of 16 in all are possible",
-                        size.x, size.y, size.z, kMostVoxelsPerAxis, kMostBricks));
-}
-
-/// A model file taken apart; its checksums hold, but a writer may be wrong.
-class ModelReader {
-  public:
-    ModelReader(const InputFile& file, ModelFile content)
-        : file_(file), content_(std::move(content)) {}
-
-    VoxelModel read(Surface surface) {
-        if (text("format") != "voxelume bricks 1")
-            file_.refuse("has no voxels of a model that this voxelume reads");
-        VoxelModel model;
-        const std::string name = text("surface");
-        if (name != kSurfaceNames[size_t(surface)])
-            file_.refuse(fmt::format("holds a model of surface \"{}\": give it \"surface\": \"{}\"",
-                                     name, name));
-        model.surface = surface;
-        if (surface == Surface::cubes) {
-            const std::string set = text("set");
-            model.set = set == "solid"  ? VoxelSet::solid
-                        : set == "thin" ? VoxelSet::thin
-                                        : VoxelSet::supercover;
-        }
-        read_frame(model.frame);
-        read_bricks(model);
-        std::istringstream groups(content_.header["groups"]);
-        for (std::string group; std::getline(groups, group);) model.groups.push_back(group);
-        if (surface == Surface::exact) read_triangles(model);
-        model.transparent = std::ranges::any_of(
-            model.colors, [](uint32_t c) { return c >> VXL_TRANSPARENCY_SHIFT; });
-        return model;
-    }
-
-  private:
-    const std::string& text(const char* key) {
-        const auto found = content_.header.find(key);
-        if (found == content_.header.end()) file_.refuse(fmt::format("lacks its \"{}\"", key));
-        return found->second;
-    }
-
-    glm::dvec3 numbers(const char* key) {
-        glm::dvec3 v;
-        std::istringstream stream(text(key));
-        stream >> v.x >> v.y >> v.z;
-        if (!stream || !std::isfinite(v.x + v.y + v.z))
-            file_.refuse(fmt::format("its \"{}\" is not three numbers", key));
-        return v;
-    }
-
-    void read_frame(GridFrame& frame) {
-        const glm::dvec3 size = numbers("size");
-        check_size(size, file_);
-        frame.size = glm::ivec3(size);
-        frame.origin = numbers("origin");
-        frame.voxel_edge = numbers("voxel_edge");
-        if (!(std::min({frame.voxel_edge.x, frame.voxel_edge.y, frame.voxel_edge.z}) > 0))
-            file_.refuse("its voxels have no size");
-    }
-
-    /// An array of `count` elements, or an empty one where the file has none and needs none.
-    template <class Element>
-    std::vector<Element> array(const char* name, size_t count, bool needed) {
-        const auto found = content_.arrays.find(name);
-        if (found == content_.arrays.end()) {
-            if (needed && count > 0) file_.refuse(fmt::format("lacks its array {}", name));
-            return {};
-        }
-        auto* values = std::get_if<std::vector<Element>>(&found->second);
-        if (!values || values->size() != count)
-            file_.refuse(fmt::format("its array {} doesn't fit its size", name));
-        return std::move(*values);
-    }
-
-    void read_bricks(VoxelModel& model) {
-        const size_t table = brick_count(model.frame);
-        model.slots = array<uint32_t>("slots", table, true);
-        const auto stored = size_t(
-            std::ranges::count_if(model.slots, [](uint32_t slot) { return slot < kBrickInside; }));
-        model.coordinates = array<uint32_t>("coordinates", stored, true);
-        for (size_t slot = 0; slot < stored; ++slot) {
-            const uint32_t brick = model.coordinates[slot];
-            if (brick >= table || model.slots[brick] != slot)
-                file_.refuse("its bricks are numbered wrongly");
-        }
-        const bool smooth = model.surface == Surface::smooth;
-        model.occupancy =
-            array<uint64_t>("occupancy", smooth ? 0 : stored * kLeavesPerBrick, !smooth);
-        model.distance = array<int16_t>("distance", smooth ? stored * kVoxelsPerBrick : 0, smooth);
-        model.colors = array<uint32_t>("colors", stored * kVoxelsPerBrick, false);
-        if (model.surface != Surface::exact)
-            model.attributes = array<uint32_t>("attributes", stored * kVoxelsPerBrick, false);
-    }
-
-    void read_triangles(VoxelModel& model) {
-        const auto found = content_.arrays.find("triangles");
-        const auto* corners = found == content_.arrays.end()
-                                  ? nullptr
-                                  : std::get_if<std::vector<float>>(&found->second);
-        if (!corners || corners->empty() || corners->size() % 9 != 0)
-            file_.refuse("has no whole triangles");
-        Mesh& mesh = model.mesh;
-        const uint32_t count = uint32_t(corners->size() / 9);
-        for (uint32_t i = 0; i < 3 * count; ++i) {
-            const float* p = corners->data() + 3 * size_t(i);
-            if (!std::isfinite(p[0] + p[1] + p[2]))
-                file_.refuse("a triangle's corner is no number");
-            mesh.positions.emplace_back(model.frame.origin +
-                                        model.frame.voxel_edge * glm::dvec3(p[0], p[1], p[2]));
-        }
-        for (uint32_t i = 0; i < count; ++i)
-            mesh.triangles.emplace_back(3 * i, 3 * i + 1, 3 * i + 2);
-        mesh.group_names = model.groups;
-        if (model.groups.empty()) return;
-        for (const uint32_t word : array<uint32_t>("triangle_attributes", count, true))
-            mesh.triangle_group.push_back(std::min(word >> VXL_MATERIAL_SHIFT & VXL_MATERIAL_MASK,
-                                                   uint32_t(model.groups.size() - 1)));
-    }
-
-    const InputFile& file_;
-    ModelFile content_;
-};
 
 uint32_t srgb_byte(float linear) {
     const double v = std::clamp(double(linear), 0.0, 1.0);
@@ -165,8 +29,8 @@ uint32_t srgb_byte(float linear) {
 /// Gives slots to the bricks of `cells` that `is_kept` keeps, in ascending order.
 template <class IsKept>
 void number_bricks(const std::vector<glm::ivec3>& cells, const glm::ivec3& first,
-                   const IsKept& is_kept, VoxelModel& model) {
-    model.slots.assign(brick_count(model.frame), kBrickOutside);
+                   const IsKept& is_kept, const InputFile& file, VoxelModel& model) {
+    model.slots.assign(bricks_of(model.frame), kBrickOutside);
     const glm::ivec3 bricks = model.frame.bricks();
     for (size_t i = 0; i < cells.size(); ++i) {
         const glm::ivec3 b = (cells[i] - first) / kBrickSize;
@@ -177,6 +41,7 @@ void number_bricks(const std::vector<glm::ivec3>& cells, const glm::ivec3& first
         model.slots[brick] = uint32_t(model.coordinates.size());
         model.coordinates.push_back(uint32_t(brick));
     }
+    check_stored_bricks(model.coordinates.size(), file);
 }
 
 /// Where cell `v` of the model is among its bricks' voxels.
@@ -186,9 +51,10 @@ size_t place_of(const VoxelModel& model, const glm::ivec3& v) {
     return size_t(slot) * kVoxelsPerBrick + size_t(in.x | in.y << 4 | in.z << 8);
 }
 
-void fill_cubes(const VdbVoxels& voxels, const glm::ivec3& first, VoxelModel& model) {
+void fill_cubes(const VdbVoxels& voxels, const glm::ivec3& first, const InputFile& file,
+                VoxelModel& model) {
     number_bricks(
-        voxels.cells, first, [&](size_t i) { return voxels.values[i] > 0; }, model);
+        voxels.cells, first, [&](size_t i) { return voxels.values[i] > 0; }, file, model);
     model.occupancy.assign(model.coordinates.size() * kLeavesPerBrick, 0);
     const auto covers = [&](size_t i) { return std::min(voxels.values[i], 1.0f); };
     for (size_t i = 0; i < voxels.cells.size(); ++i)
@@ -214,9 +80,10 @@ void fill_cubes(const VdbVoxels& voxels, const glm::ivec3& first, VoxelModel& mo
     }
 }
 
-void fill_distances(const VdbVoxels& voxels, const glm::ivec3& first, VoxelModel& model) {
+void fill_distances(const VdbVoxels& voxels, const glm::ivec3& first, const InputFile& file,
+                    VoxelModel& model) {
     number_bricks(
-        voxels.cells, first, [](size_t) { return true; }, model);
+        voxels.cells, first, [](size_t) { return true; }, file, model);
     const glm::ivec3 bricks = model.frame.bricks();
     for (size_t brick = 0; brick < model.slots.size(); ++brick) {
         if (model.slots[brick] != kBrickOutside) continue;
@@ -251,7 +118,10 @@ VoxelModel model_of(const VdbVoxels& voxels, Surface surface, const InputFile& f
         high = glm::max(high, glm::dvec3(cell));
     }
     const glm::dvec3 size = high - low + 1.0 + 2.0 * kMargin;
-    check_size(size, file);
+    check_voxel_span(size, file);
+    if (std::max(-std::min({low.x, low.y, low.z}), std::max({high.x, high.y, high.z})) >
+        kFarthestCell)
+        file.refuse("its voxels lie farther from its origin than can be counted");
     const glm::ivec3 first = glm::ivec3(low) - kMargin;
     VoxelModel model;
     model.surface = surface;
@@ -261,13 +131,35 @@ VoxelModel model_of(const VdbVoxels& voxels, Surface surface, const InputFile& f
     const double to_corner = surface == Surface::smooth ? 0.0 : 0.5;
     model.frame.origin = voxels.origin + voxels.voxel_edges * (glm::dvec3(first) - to_corner);
     if (surface == Surface::smooth)
-        fill_distances(voxels, first, model);
+        fill_distances(voxels, first, file, model);
     else
-        fill_cubes(voxels, first, model);
+        fill_cubes(voxels, first, file, model);
     return model;
 }
 
 }  // namespace
+
+size_t bricks_of(const GridFrame& frame) {
+    const glm::ivec3 bricks = frame.bricks();
+    return size_t(bricks.x) * size_t(bricks.y) * size_t(bricks.z);
+}
+
+void check_voxel_span(const glm::dvec3& size, const InputFile& file) {
+    const glm::dvec3 bricks = size / double(kBrickSize) + 1.0;
+    if (!(std::max({size.x, size.y, size.z}) <= kMostVoxelsPerAxis &&
+          std::min({size.x, size.y, size.z}) >= 1 && bricks.x * bricks.y * bricks.z <= kMostBricks))
+        file.refuse(
+            fmt::format("its voxels span {} x {} x {}, at most {} along each axis and {} "
+                        "bricks of 16 in all are possible",
+                        size.x, size.y, size.z, kMostVoxelsPerAxis, kMostBricks));
+}
+
+void check_stored_bricks(size_t stored, const InputFile& file) {
+    if (stored > kMostStoredBricks)
+        file.refuse(
+            fmt::format("its voxels lie in {} bricks of 16 x 16 x 16, at most {} are possible",
+                        stored, kMostStoredBricks));
+}
 
 size_t VoxelModel::voxels() const {
     size_t count = 0;
@@ -294,7 +186,7 @@ VoxelModel read_voxel_model(const std::filesystem::path& path, Surface surface) 
     const InputFile file(path);
     std::string start(std::min<uint64_t>(8, file.size()), '\0');
     file.read(0, start.data(), start.size());
-    if (start == "\x89VXM\r\n\x1a\n") return ModelReader(file, read_model_file(path)).read(surface);
+    if (start == "\x89VXM\r\n\x1a\n") return read_model_voxels(path, surface);
     if (start != std::string(" BDV\0\0\0\0", 8))
         file.refuse("is neither a .vxm nor an OpenVDB file");
     if (surface == Surface::exact)

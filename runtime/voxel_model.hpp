@@ -27,6 +27,15 @@ struct VoxelModel {
     BrickGrid upload(const Device& device) const;
 };
 
+class InputFile;
+
+/// Bricks in the table of a frame.
+size_t bricks_of(const GridFrame& frame);
+
+/// Throw Error::input for more voxels along the axes, or stored bricks, than a model may have.
+void check_voxel_span(const glm::dvec3& size, const InputFile& file);
+void check_stored_bricks(size_t stored, const InputFile& file);
+
 /// Reads a model by what its file begins with.
 ///
 /// .vxm: its own surface must be `surface`. OpenVDB: as cubes the voxels of a fog whose value is

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "runtime/error.hpp"
+#include "runtime/illumination.hpp"
 #include "runtime/io/vdb.hpp"
 #include "runtime/model_frame.hpp"
 #include "runtime/renderer.hpp"
@@ -128,6 +129,23 @@ TEST_F(VoxelModels, ThatAreDamagedOrAnotherSurfaceAreRefusedInOneSentence) {
     }
 }
 
+TEST_F(VoxelModels, ThatSpanTooMuchAreRefusedBeforeMemoryIsTaken) {
+    const auto write = [&](const glm::ivec3& first, const glm::ivec3& last) {
+        const std::vector<glm::ivec3> cells = {first, last};
+        const std::vector<float> values = {1, 1};
+        VdbVolume volume;
+        volume.cells = cells;
+        volume.values = values;
+        write_vdb(folder / "far.vdb", volume);
+    };
+    write({0, 0, 0}, {1, 70000, 2});
+    expect_refused("far.vdb", Surface::cubes, "span 10 x 70009 x 11");
+    write({0, 0, 0}, {60000, 60000, 60000});
+    expect_refused("far.vdb", Surface::cubes, "bricks of 16");
+    write({2147483640, 0, 0}, {2147483646, 3, 4});
+    expect_refused("far.vdb", Surface::cubes, "farther from its origin");
+}
+
 /// A stack along Z of plates, 12 x 9 voxels each, in a fog of their opacities and colours.
 struct Stack {
     std::vector<float> opacities = {0.2f, 0.6f, 0.4f, 1.5f, 0.8f};
@@ -158,37 +176,117 @@ struct Stack {
     }
 };
 
-TEST_F(VoxelModels, VoxelsCoverByTheirOwnOpacityFrontToBack) {
+/// What a ray sees of voxels, of opacity and own light each, front to back.
+struct Laid {
+    double left = 1;
+    double light[3] = {};
+
+    void add(const Stack& stack, size_t plate, int voxels = 1) {
+        for (int i = 0; i < voxels; ++i) {
+            for (int c = 0; c < 3; ++c)
+                light[c] += left * stack.opacity(plate) * 0.5 * stack.colors[plate][c];
+            left *= 1 - stack.opacity(plate);
+        }
+    }
+};
+
+constexpr double kBackground[] = {0.25, 0.5, 0.75};
+
+std::string stack_scene(const std::string& objects, const std::string& observer) {
+    return R"({"voxelume": 1,
+"world": {"voxel_size": 0.05, "bounds": {"min": [-0.5, -0.5, -0.5], "max": [1.5, 1, 1]},
+          "background": [0.25, 0.5, 0.75], "ambient": [1, 1, 1]},
+"materials": {"m": {"color": [0.5, 0.5, 0.5]},
+              "mirror": {"diffuse": 0, "reflection": 1}},
+"models": {"stack": {"voxels": "stack.vdb"},
+           "mirror": {"shape": "box", "size": [1, 0.9, 0.12], "surface": "cubes"}},
+"objects": [)" +
+           objects + R"(],
+"observer": {)" +
+           observer + R"(, "display": {"shape": "box", "size": [0.3, 0.2, 5]}},
+"render": {"size": [6, 5]}})";
+}
+
+constexpr const char* kStack = R"({"model": "stack", "material": "m"})";
+constexpr const char* kAlongZ = R"("position": [0.3, 0.22, -2], "look_at": [0.3, 0.22, 0])";
+
+class StackedVoxels : public VoxelModels {
+  protected:
+    Image rendered_stack(const Stack& stack, const std::string& objects,
+                         const std::string& observer = kAlongZ) const {
+        stack.write(folder / "stack.vdb");
+        RenderReport report;
+        return render(test_device(),
+                      parse_scene(stack_scene(objects, observer), folder / "s.json", {}), report);
+    }
+
+    static void expect_seen(const Image& image, const Laid& laid) {
+        for (int c = 0; c < 3; ++c)
+            for (const float value : image.planes.at(kColors[c]))
+                EXPECT_NEAR(value, laid.light[c] + laid.left * kBackground[c], 2e-6) << c;
+    }
+};
+
+TEST_F(StackedVoxels, CoverByTheirOwnOpacityFrontToBack) {
     Stack stack;
     for (const size_t plates : {5, 3}) {
         stack.opacities.resize(plates);
-        stack.write(folder / "stack.vdb");
-        const std::string text = R"({"voxelume": 1,
-"world": {"voxel_size": 0.05, "bounds": {"min": [-0.5, -0.5, -0.5], "max": [1.5, 1, 1]},
-          "background": [0.25, 0.5, 0.75], "ambient": [1, 1, 1]},
-"materials": {"m": {"color": [0.5, 0.5, 0.5]}},
-"models": {"stack": {"voxels": "stack.vdb"}},
-"objects": [{"model": "stack", "material": "m"}],
-"observer": {"position": [0.3, 0.22, -2], "look_at": [0.3, 0.22, 0],
-             "display": {"shape": "box", "size": [0.4, 0.3, 5]}},
-"render": {"size": [8, 8]}})";
-        RenderReport report;
-        const Image image = render(test_device(), parse_scene(text, folder / "s.json", {}), report);
-        double left = 1, expected[3] = {};
-        for (size_t plate = 0; plate < plates; ++plate) {
-            for (int c = 0; c < 3; ++c)
-                expected[c] += left * stack.opacity(plate) * 0.5 * stack.colors[plate][c];
-            left *= 1 - stack.opacity(plate);
-        }
-        const double background[] = {0.25, 0.5, 0.75};
-        for (int c = 0; c < 3; ++c)
-            for (const float value : image.planes.at(kColors[c]))
-                EXPECT_NEAR(value, expected[c] + left * background[c], 2e-6) << plates << c;
-        for (const float value : image.planes.at("A")) EXPECT_NEAR(value, 1 - left, 2e-6);
+        const Image image = rendered_stack(stack, kStack);
+        Laid laid;
+        for (size_t plate = 0; plate < plates; ++plate) laid.add(stack, plate);
+        expect_seen(image, laid);
+        for (const float value : image.planes.at("A")) EXPECT_NEAR(value, 1 - laid.left, 2e-6);
     }
 }
 
-TEST_F(VoxelModels, VoxelsTintTheLightThatPassesThem) {
+TEST_F(StackedVoxels, KeepOpacityAndColourWhenTurnedAndStretched) {
+    // Turned so that the plates follow one another along X, each three voxels of the world deep.
+    Stack stack;
+    stack.opacities = {0.2f, 0.6f, 0.4f};
+    const std::string placed =
+        R"({"model": "stack", "material": "m", "position": [0.1, 0, 0.7], "turn": [90, 0, 0], "scale": [1, 1, 3]})";
+    Laid forwards, backwards;
+    for (size_t plate = 0; plate < 3; ++plate) {
+        forwards.add(stack, plate, 3);
+        backwards.add(stack, 2 - plate, 3);
+    }
+    expect_seen(
+        rendered_stack(stack, placed, R"("position": [-2, 0.22, 0.4], "look_at": [0, 0.22, 0.4])"),
+        forwards);
+    expect_seen(
+        rendered_stack(stack, placed, R"("position": [3, 0.22, 0.4], "look_at": [0, 0.22, 0.4])"),
+        backwards);
+}
+
+TEST_F(StackedVoxels, CoverWhatAMirrorShowsToo) {
+    Stack stack;
+    stack.opacities = {0.2f, 0.6f, 0.4f};
+    const Image image = rendered_stack(
+        stack, std::string(kStack) +
+                   R"(, {"model": "mirror", "material": "mirror", "position": [0.3, 0.2, 0.5]})");
+    Laid laid;
+    for (const size_t plate : {0, 1, 2, 2, 1, 0}) laid.add(stack, plate);
+    expect_seen(image, laid);
+}
+
+TEST_F(StackedVoxels, OfWholeOpacityLeaveNothingOfItCompiled) {
+    Stack stack;
+    const Device device = test_device();
+    const auto features = [&] {
+        stack.write(folder / "stack.vdb");
+        const Scene scene = parse_scene(stack_scene(kStack, kAlongZ), folder / "s.json", {});
+        WorldReport report;
+        return features_of(scene, form_world(device, scene, report));
+    };
+    const Features some = features();
+    EXPECT_TRUE(some.voxel_opacity && some.transmission && some.paths && some.cube_bodies);
+    stack.opacities.assign(5, 1.0f);
+    const Features none = features();
+    EXPECT_FALSE(none.voxel_opacity || none.transmission || none.paths || none.cube_bodies);
+    EXPECT_TRUE(none.colors);
+}
+
+TEST_F(StackedVoxels, TintTheLightThatPassesThem) {
     Stack stack;
     stack.opacities.resize(3);
     stack.write(folder / "stack.vdb");
