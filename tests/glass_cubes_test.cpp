@@ -257,10 +257,11 @@ TEST(GlassCubes, NoRayLeavesAClosedRoom) {
     EXPECT_EQ(leaks, 0u) << "of " << secondary_rays << " secondary rays";
 }
 
-// CTest runs this program with 4, 8 and 16 lanes, too.
-TEST(GlassCubes, AreTheSameToTheBitWhenRaysAreTracedOneByOne) {
-    EXPECT_EQ(oracle::image_hash(rendered(leaky_room(3, 40))),
-              oracle::image_hash(rendered(leaky_room(3, 40), 1)));
+// CTest runs this program with 1, 4, 8 and 16 lanes. A change that is meant to change the image
+// takes the hash that this prints.
+TEST(GlassCubes, AreTheSameToTheBitHoweverManyRaysAreTracedAtOnce) {
+    EXPECT_EQ(fmt::format("{:016x}", oracle::image_hash(rendered(leaky_room(3, 40)))),
+              "caa77866ed61bafc");
 }
 
 TEST(GlassCubes, AreNotThereWhereNoCubesTransmit) {
