@@ -1,26 +1,14 @@
 #include "runtime/io/vdb_voxels.hpp"
 
-#include <openvdb/io/Stream.h>
-#include <openvdb/openvdb.h>
-
 #include <cmath>
-#include <fstream>
 
-#include "runtime/io/input_file.hpp"
+#include "runtime/io/vdb_read.hpp"
 
 namespace voxelume {
 namespace {
 
 using openvdb::FloatGrid;
 using openvdb::Vec3d;
-
-openvdb::GridPtrVecPtr read_grids(const std::filesystem::path& path) {
-    openvdb::initialize();
-    // OpenVDB's own file takes what it misses at a truncated file's end for zeros.
-    std::ifstream stream(path, std::ios::binary);
-    stream.exceptions(std::ios::failbit | std::ios::badbit | std::ios::eofbit);
-    return openvdb::io::Stream(stream, false).getGrids();
-}
 
 FloatGrid::Ptr find_grid(const openvdb::GridPtrVec& grids, Surface surface,
                          const InputFile& readable) {
@@ -98,17 +86,7 @@ VdbVoxels take_voxels(const openvdb::GridPtrVec& grids, Surface surface,
 
 VdbVoxels read_vdb_voxels(const std::filesystem::path& path, Surface surface) {
     const InputFile readable(path);
-    try {
-        return take_voxels(*read_grids(path), surface, readable);
-    } catch (const Error&) {
-        throw;
-    } catch (const std::ios_base::failure&) {
-        readable.refuse("not a readable OpenVDB file: it ends too early");
-    } catch (const std::bad_alloc&) {
-        readable.refuse("not a readable OpenVDB file: it declares more than there is memory");
-    } catch (const std::exception& error) {
-        readable.refuse(fmt::format("not a readable OpenVDB file: {}", error.what()));
-    }
+    return take_voxels(*read_vdb_grids(path, readable), surface, readable);
 }
 
 }  // namespace voxelume
