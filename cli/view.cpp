@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <glm/trigonometric.hpp>
 #include <string>
+#include <vector>
 
 #include "cli/checks.hpp"
 #include "cli/commands.hpp"
@@ -17,7 +18,8 @@ namespace {
 constexpr int kLeastSide = 64;
 
 struct ViewCommand {
-    std::string from, output, size = "1280x1000";
+    std::string from, size = "1280x1000";
+    std::vector<std::string> outputs;
     double around = 35, above = 25;
     float exposure = 0;
 };
@@ -27,16 +29,18 @@ int run(const ViewCommand& command) {
     if (size.x < kLeastSide || size.y < kLeastSide)
         throw Error(ErrorKind::usage, "view: --size {}: a sheet has at least {} pixels a side",
                     command.size, kLeastSide);
-    check_output(command.output, {".png", ".html"}, "view");
+    for (const std::string& output : command.outputs)
+        check_output(output, {".png", ".html"}, "view");
     const Volume volume = read_volume(command.from);
     const ViewPoint view{glm::radians(command.around), glm::radians(command.above)};
-    if (std::filesystem::path(command.output).extension() == ".html") {
-        write_volume_page(command.output, volume, {view, command.exposure});
-        return 0;
-    }
     PngOptions png;
     png.exposure = command.exposure;
-    write_png(command.output, view_sheet(volume, view, size), png);
+    for (const std::string& output : command.outputs) {
+        if (std::filesystem::path(output).extension() == ".html")
+            write_volume_page(output, volume, {view, command.exposure});
+        else
+            write_png(output, view_sheet(volume, view, size), png);
+    }
     return 0;
 }
 
@@ -46,10 +50,11 @@ Action add_view(CLI::App& app) {
     const auto command = std::make_shared<ViewCommand>();
     app.add_option("VOLUME", command->from, "volumetric image: .vdb .exr .nrrd .raw or .json")
         ->required();
-    app.add_option("-o,--output", command->output,
+    app.add_option("-o,--output", command->outputs,
                    ".png: from the front, from another side, and in slices from near to far; "
-                   ".html: a page to turn and slice it in")
-        ->required();
+                   ".html: a page to turn and slice it in; may be given again")
+        ->required()
+        ->allow_extra_args(false);
     app.add_option("--around", command->around,
                    "degrees to the observer's right of that other side, 35 by default")
         ->check(in_range(-360, 360));
