@@ -18,9 +18,6 @@
 // How far in front of a probe point another surface must be to hide it, in lattice voxels.
 #define VXL_HIDING_DISTANCE 0.0625f
 
-// How much surfaces in front cover of a point that is still seen.
-#define VXL_HIDING_COVERAGE 0.9990234375f
-
 // How far before its probe point a voxel's light ray begins, and how far behind it may end.
 #define VXL_LIGHT_DISTANCE 1.0f
 
@@ -182,14 +179,14 @@ kernel void aim_rays(Sight sight, PyramidShape shape, DisplayLattice lattice,
 }
 
 /// Gives `view` to the points first_point .. first_point+count-1 that have none and that nothing
-/// hides in it: nothing is met, or, where surfaces let light through, they leave enough uncovered.
+/// hides in it: nothing is met, or, where surfaces let light through, they cover `most` at most.
 kernel void note_view(global const uint* restrict hits, global const float* restrict coverage,
-                      uint first_point, uint count, uint stride, uint view,
+                      uint first_point, uint count, uint stride, uint view, float most,
                       global uint* restrict view_of_point) {
     const uint n = work_item();
     if (n >= count || view_of_point[first_point + n] != 0xFFFFFFFFu) return;
-    const bool is_clear = VXL_TRANSMISSION ? coverage[n] <= VXL_HIDING_COVERAGE
-                                           : hits[VXL_HIT_VOXEL * stride + n] == VXL_NO_VOXEL;
+    const bool is_clear =
+        VXL_TRANSMISSION ? coverage[n] <= most : hits[VXL_HIT_VOXEL * stride + n] == VXL_NO_VOXEL;
     if (is_clear) view_of_point[first_point + n] = view;
 }
 

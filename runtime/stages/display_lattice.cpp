@@ -10,6 +10,9 @@
 namespace voxelume {
 namespace {
 
+/// How much the surfaces in front may cover of a point that is still seen.
+constexpr float kMostCovered = 1 - 1.0f / 1024;
+
 constexpr uint32_t kGroupWords = 8, kGroupBits = 256;
 
 /// Ways from outside of the world to a point in it, in voxels: view 0 is the observer's and has no
@@ -74,22 +77,25 @@ void DisplayLatticeStage::aim(const ProbePoints& points, uint32_t search, uint32
 }
 
 void DisplayLatticeStage::search(const LookAhead& look, RayBatch& batch, ProbePoints& points,
-                                 uint32_t view) {
+                                 uint32_t view, float most_covered) {
     for (uint32_t first = 0; first < points.count; first += batch.stride) {
         const uint32_t count = std::min(batch.stride, points.count - first);
         aim(points, view + 1, first, count, batch);
         look(batch, count);
         note_.launch(WorkItem::light, count, batch.hits, batch.coverage, first, count, batch.stride,
-                     view, points.views);
+                     view, most_covered, points.views);
     }
 }
 
 void DisplayLatticeStage::find_views(const LookAhead& look, RayBatch& batch,
                                      std::vector<ProbePoints>& pieces) {
     for (ProbePoints& points : pieces) {
-        if (visibility_ != Visibility::outside) search(look, batch, points, 0);
+        if (visibility_ != Visibility::outside) search(look, batch, points, 0, kMostCovered);
         if (visibility_ == Visibility::observer) continue;
-        for (uint32_t view = 1; view < views_.size(); ++view) search(look, batch, points, view);
+        // Where a point is seen freely from somewhere, it is not lit as seen through others.
+        for (const float most : {0.0f, kMostCovered})
+            for (uint32_t view = 1; view < views_.size() && (transmission_ || most == 0); ++view)
+                search(look, batch, points, view, most);
         if (visibility_ != Visibility::all) continue;
         std::vector<uint32_t> views = points.views.read();  // what no view shows is lit as from E
         std::ranges::replace(views, kNoView, 0u);
@@ -223,7 +229,7 @@ void DisplayLatticeStage::light(const LookAhead& look, Illumination& illuminatio
             LightTask missed = missed_points(shown, glm::vec3(0), host);
             if (missed.points.count == 0) return;
             missed.points.views.fill(hidden ? view : kNoView);
-            if (!hidden) search(look, batch, missed.points, view);
+            if (!hidden) search(look, batch, missed.points, view, kMostCovered);
             light_points(illumination, space, batch, missed, shown.voxels);
         }
 }

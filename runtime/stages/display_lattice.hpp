@@ -57,7 +57,8 @@ class DisplayLatticeStage {
         std::vector<uint32_t> views;
     };
     LightTask missed_points(const ShownVoxels& shown, const glm::vec3& shift, HostPoints& host);
-    void search(const LookAhead& look, RayBatch& batch, ProbePoints& points, uint32_t view);
+    void search(const LookAhead& look, RayBatch& batch, ProbePoints& points, uint32_t view,
+                float most_covered);
 
     Device device_;
     Sight sight_;
