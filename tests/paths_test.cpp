@@ -67,7 +67,7 @@ constexpr const char* kGhostBall =
 class AllSurfaces : public testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(Paths, AllSurfaces, testing::Values("exact", "smooth"));
 
-TEST_P(AllSurfaces, ABallOfTheSpacesOwnIndexIsInvisibleToTheBit) {
+TEST_P(AllSurfaces, O6ABallOfTheSpacesOwnIndexIsInvisibleToTheBit) {
     const Rendered bare = rendered(scene_with(kGhost, "", R"(, "shadow": "filtered")", GetParam()));
     const Rendered ghost =
         rendered(scene_with(kGhost, kGhostBall, R"(, "shadow": "filtered")", GetParam()));

@@ -2,7 +2,7 @@
 #ifndef VXL_OPTICS_H
 #define VXL_OPTICS_H
 
-#include "lib/exact_float.h"
+#include "lib/vector.h"
 
 /// How light goes on behind a surface between two media.
 typedef struct {
@@ -45,6 +45,16 @@ static inline Refraction refraction_at(lane_float eta, lane_float c) {
     r.reflected = LANES_SELECT(r.total, one, LANES_SELECT(same, zero, r.reflected));
     r.refracted = LANES_SELECT(r.total, zero, LANES_SELECT(same, one, r.refracted));
     return r;
+}
+
+/// The unit direction behind a surface of a ray along the unit vector `v`. `n` is the unit normal
+/// against it, `c` the cosine of incidence; `eta` and `bend` as for refraction_at, not total.
+static inline Vector refracted_direction(Vector v, Vector n, lane_float eta, lane_float c,
+                                         const Refraction* bend) {
+    const lane_float turn = fma(eta, c, -bend->cosine);
+    const Vector bent = {fma(turn, n.x, eta * v.x), fma(turn, n.y, eta * v.y),
+                         fma(turn, n.z, eta * v.z)};
+    return bent;
 }
 
 #endif
