@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
+#include <glm/matrix.hpp>
 #include <set>
 
 #include "runtime/stages/ray_batch.hpp"
@@ -129,6 +131,23 @@ class Planner {
         return {extent.voxels * inside, extent.bricks * inside};
     }
 
+    /// Voxels of the world inside of an object whose inside rays see: those of its box.
+    double inside_voxels(const Object& object) {
+        const Model& model = scene_.models[size_t(object.model)];
+        const glm::dmat4& map = object.world_from_object;
+        const glm::dvec3 edge = plan_.world.voxel_edge;
+        const double voxel = edge.x * edge.y * edge.z;
+        if (!model.solid) {
+            const Bounds box = mesh_bounds(*mesh_of(model));
+            const glm::dvec3 size = box.max - box.min, world = world_box_.max - world_box_.min;
+            const double volume = size.x * size.y * size.z * std::abs(glm::determinant(map));
+            return std::min(volume, world.x * world.y * world.z) / voxel;
+        }
+        const SolidBounds box = bounds(*model.solid, map, world_box_);
+        const glm::dvec3 size = glm::max(box.max - box.min, 0.0);
+        return size.x * size.y * size.z / voxel;
+    }
+
     double part_in_world(int model_number, const glm::dmat4& map) {
         const Mesh& mesh = *mesh_of(scene_.models[size_t(model_number)]);
         const auto [entry, added] = boxes_.try_emplace(model_number);
@@ -154,6 +173,11 @@ class Planner {
             world_extent(object, model.surface == Surface::smooth ? kBand : kPlacedBand);
         plan_.voxels += in_world.voxels;
         plan_.bricks += in_world.bricks;
+        if (shows_inside(scene_, object)) {
+            const double inside = inside_voxels(object);
+            plan_.voxels += inside;
+            plan_.bricks += inside / (kBrickSize * kBrickSize * kBrickSize);
+        }
         smooth_ |= model.surface == Surface::smooth;
         occupied_ |= model.surface != Surface::smooth;
         colors_ |= extras.colors;

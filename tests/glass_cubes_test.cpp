@@ -23,8 +23,8 @@ Image rendered(const std::string& text, int lanes = 0, uint64_t* secondary_rays 
     return image;
 }
 
-/// A world of 48 x 40 x 56 voxels of 0.125 m around one solid block of 31 x 9 x 23 voxels, whose
-/// top face is at y = 0.625, seen from above.
+/// A world of 48 x 40 x 56 voxels of 0.125 m around one solid block of 30 x 8 x 22 voxels, whose
+/// top face is at y = 0.5, seen from above.
 std::string block_scene(
     const std::string& material, const std::string& more_objects = "",
     const std::string& observer = R"("position": [0.9, 5, -1.7], "look_at": [0, 0.5, 0],
@@ -42,7 +42,7 @@ std::string block_scene(
 "lights": [{"type": "point", "position": [0.3, 2.2, -2.1], "intensity": 3}],
 "observer": {)" +
            observer + R"(},
-"render": {"size": [32, 24], "shadow": "filtered"}})";
+"render": {"size": [16, 12], "shadow": "filtered"}})";
 }
 
 /// Rays and what they met, followed by hand through refractions.
@@ -65,12 +65,12 @@ class Refractions {
     /// Goes on with the refracted rays.
     void refract() {
         Children children;
-        children.nodes = Buffer<uint32_t>(device_, "children", 2 * kRays);
-        children.shares = Buffer<float>(device_, "shares", 2 * kRays);
-        children.gains = Buffer<float>(device_, "gains", 3 * kRays);
+        children.nodes = Buffer<uint32_t>(device_, "children", 2 * rays_.stride);
+        children.shares = Buffer<float>(device_, "shares", 2 * rays_.stride);
+        children.gains = Buffer<float>(device_, "gains", 3 * rays_.stride);
         children.gains.fill(1);
         RayBatch queue = allocate_batch(device_, features_, 2 * kRays);
-        scatter_.rays(world_, rays_, 0, kRays, children, queue);
+        scatter_.rays(world_, rays_, first_, first_ + kRays, children, queue);
         rays_ = std::move(queue);
         first_ = kRays;
         find_points();
@@ -84,7 +84,7 @@ class Refractions {
                VXL_NO_VOXEL;
     }
     uint32_t side(uint32_t i) const { return rays_.sides.read_one(first_ + i); }
-    static constexpr uint32_t kRays = 768;
+    static constexpr uint32_t kRays = 192;
 
   private:
     void find_points() {
@@ -122,7 +122,7 @@ TEST(GlassCubes, ASlabShiftsRaysAsSnellSays) {
         ASSERT_TRUE(rays.is_hit(i)) << i;
         ASSERT_EQ(rays.side(i), 0u);
         ASSERT_EQ(rays.normal(i), glm::dvec3(0, 1, 0));
-        ASSERT_EQ(entry[i].y, 0.625 + 2.5);
+        ASSERT_EQ(entry[i].y, 0.5 + 2.5);
     }
     rays.refract();
     std::vector<glm::dvec3> exit;
@@ -130,7 +130,7 @@ TEST(GlassCubes, ASlabShiftsRaysAsSnellSays) {
         const glm::dvec3& d = direction[i];
         glm::dvec3 bent = d / 1.5;
         bent.y = -std::sqrt(1 - bent.x * bent.x - bent.z * bent.z);
-        exit.push_back(entry[i] + bent * (-1.125 / bent.y));
+        exit.push_back(entry[i] + bent * (-1.0 / bent.y));
         ASSERT_TRUE(rays.is_hit(i)) << i;
         EXPECT_EQ(rays.side(i), VXL_SIDE_LEAVING);
         EXPECT_EQ(rays.normal(i), glm::dvec3(0, 1, 0));
@@ -157,7 +157,7 @@ TEST(GlassCubes, OfTheSpacesOwnIndexAreInvisibleToTheBit) {
     uint64_t secondary_rays = 0;
     const Image with = rendered(block_scene(ghost, kFloor), 0, &secondary_rays);
     const Image without = rendered(without_block(block_scene(ghost, kFloor)));
-    EXPECT_GT(secondary_rays, 1000u);
+    EXPECT_GT(secondary_rays, 300u);
     for (const char* color : kColors)
         EXPECT_EQ(with.planes.at(color), without.planes.at(color)) << color;
 }
@@ -175,22 +175,24 @@ TEST(GlassCubes, TouchingAnotherObjectAreLeftWhereItBegins) {
 }
 
 TEST(GlassCubes, SolidOnesAbsorbAlongTheWholeWay) {
-    // Along X_E and through 31 voxels: bricks inside of the block count, too.
+    // Along X_E and through 30 voxels: bricks inside of the block count, too.
     const Image image = rendered(block_scene(
         R"({"diffuse": 0, "refraction": 1, "ior": 1, "absorption": [0.3, 0.7, 0]})", "",
         R"("position": [-6, 0.07, 0.03], "look_at": [0, 0.07, 0.03], "display": {"shape": "box", "size": [0.8, 0.6, 12]})"));
-    const double expected[] = {0.25 * std::exp(-0.3 * 3.875), 0.5 * std::exp(-0.7 * 3.875), 0.75};
+    const double expected[] = {0.25 * std::exp(-0.3 * 3.75), 0.5 * std::exp(-0.7 * 3.75), 0.75};
     for (int c = 0; c < 3; ++c)
         for (const float value : image.planes.at(kColors[c]))
             EXPECT_NEAR(value, expected[c], 1e-5) << c;
 }
 
 TEST(GlassCubes, EveryVoxelOfLittleOpacityCoversOnce) {
-    const Image image = rendered(block_scene(
+    std::string scene = block_scene(
         R"({"color": [1, 1, 1], "specular": 0, "diffuse": 1, "opacity": 0.07})", "",
-        R"("position": [-6, 0.07, 0.03], "look_at": [0, 0.07, 0.03], "display": {"shape": "box", "size": [0.8, 0.6, 12]})"));
+        R"("position": [-6, 0.07, 0.03], "look_at": [0, 0.07, 0.03], "display": {"shape": "box", "size": [0.8, 0.6, 12]})");
+    scene.erase(scene.find(R"({"type": "point")"), 63);
+    const Image image = rendered(scene);
     const double ambient[] = {0.1, 0.2, 0.3}, background[] = {0.25, 0.5, 0.75};
-    const double left = std::pow(0.93, 31);
+    const double left = std::pow(0.93, 30);
     for (int c = 0; c < 3; ++c)
         for (const float value : image.planes.at(kColors[c]))
             EXPECT_NEAR(value, left * background[c] + (1 - left) * ambient[c], 2e-5) << c;
@@ -200,7 +202,7 @@ TEST(GlassCubes, EveryVoxelOfLittleOpacityCoversOnce) {
 /// A closed room of cubes with a far too bright background, full of glass cubes and mirrors.
 std::string leaky_room(int depth) {
     return R"({"voxelume": 1,
-"world": {"voxel_size": 0.03, "bounds": {"min": [-1.1, -1.1, -1.1], "max": [1.1, 1.1, 1.1]},
+"world": {"voxel_size": 0.05, "bounds": {"min": [-1.1, -1.1, -1.1], "max": [1.1, 1.1, 1.1]},
           "background": [1e6, 1e6, 1e6], "ambient": [1, 1, 1]},
 "materials": {"wall": {"color": [0.5, 0.5, 0.5], "reflection": 0.5},
               "mirror": {"diffuse": 0, "reflection": 1},
@@ -222,13 +224,13 @@ std::string leaky_room(int depth) {
             {"model": "block", "material": "glass", "position": [-0.3, -0.5, 0.2], "turn": [33, 20, 0]}],
 "observer": {"position": [0.1, 0.05, -0.8], "look_at": [0, 0, 0.3],
              "display": {"shape": "pyramid", "angle": 90}},
-"render": {"size": [128, 128], "depth": )" +
+"render": {"size": [64, 64], "depth": )" +
            std::to_string(depth) + "}}";
 }
 
 TEST(GlassCubes, NoRayLeavesAClosedRoom) {
     uint64_t secondary_rays = 0;
-    const Image image = rendered(leaky_room(16), 0, &secondary_rays);
+    const Image image = rendered(leaky_room(12), 0, &secondary_rays);
     EXPECT_GT(secondary_rays, 100'000u);
     size_t leaks = 0;
     for (const float value : image.planes.at("R")) leaks += value > 2;
@@ -236,9 +238,9 @@ TEST(GlassCubes, NoRayLeavesAClosedRoom) {
 }
 
 TEST(GlassCubes, LanesDoNotChangeABit) {
-    const uint64_t expected = oracle::image_hash(rendered(leaky_room(4), 1));
+    const uint64_t expected = oracle::image_hash(rendered(leaky_room(3), 1));
     for (const int lanes : {4, 8, 16})
-        EXPECT_EQ(oracle::image_hash(rendered(leaky_room(4), lanes)), expected)
+        EXPECT_EQ(oracle::image_hash(rendered(leaky_room(3), lanes)), expected)
             << lanes << " lanes";
 }
 

@@ -3,6 +3,7 @@
 #include <ImfDeepFrameBuffer.h>
 #include <ImfDeepScanLineInputFile.h>
 #include <ImfHeader.h>
+#include <ImfInputFile.h>
 #include <ImfStringAttribute.h>
 
 #include <algorithm>
