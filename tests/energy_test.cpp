@@ -12,7 +12,7 @@ namespace {
 Json corridor(const char* surface, int depth) {
     Json scene = sensor_room();
     scene["materials"]["mirror"] = {{"diffuse", 0}, {"reflection", 0.96875}};
-    const Json mirror = {{"shape", "box"}, {"size", {0.7, 0.2, 1.04}}, {"surface", surface}};
+    const Json mirror = {{"shape", "box"}, {"size", {0.7, 0.2, 1.4}}, {"surface", surface}};
     add_thing(scene, mirror, "mirror", {0, 0.15, 0});
     add_thing(scene, mirror, "mirror", {0, -0.15, 0});
     send_rays(scene, {0.05, 0.003, -0.45}, {0.1, 5.3, 1}, 0.07, 24);
@@ -53,11 +53,12 @@ TEST_P(Corridor, O7FiftyReflectionsEndWhereTheUnfoldedRayDoes) {
     EXPECT_GT(shown, 100u);
     EXPECT_GT(ended, 20u);
     EXPECT_LE(worst, bound);
-    EXPECT_LE(worst_excess, std::max(10 * bound, 1e-5));
+    EXPECT_LE(worst_excess, 1e-5);
 }
 
 INSTANTIATE_TEST_SUITE_P(Mirrors, Corridor,
-                         testing::Values(std::pair("exact", 50 * 1e-6), std::pair("smooth", 1e-3)),
+                         testing::Values(std::pair("exact", 50 * 1e-6),
+                                         std::pair("smooth", 50 * 1e-6)),
                          [](const auto& way) { return std::string(way.param.first); });
 
 /// O11: a closed room whose walls send out 1 in all directions, without lights.
@@ -114,8 +115,10 @@ TEST_P(BothSurfaces, O11WhatReturnsAllLightIsInvisibleInAWhiteFurnace) {
     EXPECT_LE(f.below, 1e-6);
 }
 
-TEST_P(BothSurfaces, O11GlassInAWhiteFurnaceLosesOnlyWhatIsDeeperThanTheLimit) {
+TEST_P(BothSurfaces, O11GlassInAWhiteFurnaceLosesOnlyPathsThatEnd) {
+    // Between a ring's windings paths multiply without end, so here small weights end them.
     Json scene = furnace(64);
+    scene["render"]["least_weight"] = 1e-4;
     add_thing(scene, ball(0.2, GetParam()), "glass", {0.1, 0.05, 0.15});
     add_thing(scene, {{"shape", "torus"}, {"radius", 0.2}, {"tube", 0.07}, {"surface", GetParam()}},
               "glass", {-0.15, -0.1, -0.1}, {{"turn", {20, 50, 10}}});

@@ -24,7 +24,7 @@ inline const std::array<glm::dvec3, 3> kLamps{
     {{-0.3, 0.2, 0.1}, {0.25, 0.3, -0.2}, {0.1, -0.35, 0.3}}};  ///< red, green, blue; 1 at 1 m
 
 /// The room without anything in it, as a scene file. Shadows are off, so lamps shine through all.
-inline Json sensor_room(double voxel_size = 0.01) {
+inline Json sensor_room(double voxel_size = 0.02) {
     Json scene = Json::parse(R"({"voxelume": 1,
 "world": {"bounds": {"min": [-0.6, -0.6, -0.6], "max": [0.6, 0.6, 0.6]}, "background": [1e6, 1e6, 1e6]},
 "materials": {"wall": {"color": [1, 1, 1]},
