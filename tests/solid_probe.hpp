@@ -46,8 +46,10 @@ kernel void probe(global const SolidShape* solids, global const float* rays, uin
     ray.dz = LANES_LOAD(rays, 5u * count + i);
     lane_float t = (lane_float)INFINITY;
     const lane_uint number = LANES_LOAD(numbers, i);
-    const lane_int hit =
-        hit_solids(solids, number, &ray, (lane_int)from_solid, (lane_int)-1, &t);
+    const lane_int known = (lane_int)from_solid;
+    const lane_int inside = go_inside(solids, number, &ray, known);
+    const lane_int hit = hit_solids(solids, number, &ray, (lane_float)0.0f, known, inside,
+                                    (lane_int)-1, &t);
     const SolidPoint n = solid_normals(solids, number, &ray, t, hit);
     LANES_STORE(t, hits, i);
     LANES_STORE(n.x, hits, count + i);

@@ -3,8 +3,10 @@
 #define VXL_SHARED_DISPLAY_H
 
 #ifdef __cplusplus
-#include <kernels/shared/scene.h>  // kernels include shared/scene.h before
+#include <kernels/shared/scene.h>
 namespace voxelume {
+#else
+#include "shared/scene.h"
 #endif
 
 // A display of layout `rays`: how depth becomes steps.
