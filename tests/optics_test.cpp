@@ -139,6 +139,7 @@ std::optional<long double> cosine_behind(float eta, float cosine) {
 TEST(Optics, O1SlabShiftsRaysAndLeavesTheirDirection) {
     constexpr double kThickness = 1;
     std::vector<Boundary> faces;
+    faces.reserve(890);
     for (int i = 0; i < 890; ++i)
         faces.push_back({1 / 1.5, askew(at_angle(i * 0.1 * kDegree)), askew({-1, 0, 0})});
     std::vector<Boundary> behind = faces;
@@ -197,6 +198,7 @@ TEST(Optics, O3PrismDeviatesTheLeastOnTheSymmetricPath) {
         }
         const std::vector<glm::dvec3> within = Boundaries().refracted(entries);
         std::vector<Boundary> exits;
+        exits.reserve(within.size());
         for (const glm::dvec3& v : within) exits.push_back({ior, v, askew(-second)});
         const std::vector<glm::dvec3> out = Boundaries().refracted(exits);
         double least = 10;
