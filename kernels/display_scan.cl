@@ -24,7 +24,6 @@ typedef struct {
     global const uint* restrict primitives;
     global const float* restrict triangles;
     global const SolidShape* restrict solids;
-    float half_curvature;
 } ScannedSurfaces;
 
 /// Where a packet's crossings go: slot i of line n at i * stride + n.
@@ -80,7 +79,7 @@ static inline void cross_field(const Field* f, const Walk* w, const LocalRay* ra
 
 static inline void scan_smooth(const ScannedSurfaces* s, const Walk* w, lane_uint voxel,
                                lane_int tested, ScanResult* r) {
-    const Field field = read_field(s->fields, voxel, s->half_curvature);
+    const Field field = read_field(s->fields, voxel);
     const LocalRay ray = local_ray(w);
     const lane_float zero = (lane_float)0.0f, outside = (lane_float)1.0f;
     const lane_float end = fmax(exit_time(w) - w->t, 0.0f), middle = 0.5f * end;
@@ -192,8 +191,7 @@ kernel void scan_lines(PyramidShape shape, global const uint* restrict sectors,
                            leaf_voxels,       shape.size_x,     shape.size_y,
                            shape.size_z,      shape.sectors_x,  shape.sectors_y,
                            shape.plane_bound, shape.fixed_point};
-    const ScannedSurfaces s = {attributes, fields, primitive_first,     primitives,
-                               triangles,  solids, shape.half_curvature};
+    const ScannedSurfaces s = {attributes, fields, primitive_first, primitives, triangles, solids};
     ScanResult r = {row, first, stride, slots, crossings, (lane_uint)0u};
     Walk w = begin_walk(LANES_LOAD(rays, VXL_RAY_OX * stride + first),
                         LANES_LOAD(rays, VXL_RAY_OY * stride + first),

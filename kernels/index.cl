@@ -33,8 +33,8 @@ static inline int lowest_bit(ulong mask) {
     return (int)popcount((mask & -mask) - 1);
 }
 
-// One brick: masks of its voxels, mask of its leaves, and three counts: voxels, primitives, and the
-// largest twice-|D| of its smooth cells. `size` is the grid's, `bricks` the brick table's.
+// One brick: masks of its voxels, mask of its leaves, and two counts: voxels and primitives. `size`
+// is the grid's, `bricks` the brick table's.
 kernel void mark_voxels(const uint count, const int4 size, const int4 bricks,
                         global const uint* restrict slots, global const uint* restrict coordinates,
                         global const ulong* restrict occupancy,
@@ -47,11 +47,10 @@ kernel void mark_voxels(const uint count, const int4 size, const int4 bricks,
     ulong kept[64];
     for (int leaf = 0; leaf < 64; ++leaf)
         kept[leaf] = VXL_OCCUPANCY ? occupancy[(size_t)slot * 64 + leaf] : 0;
-    uint largest = 0;
     if (VXL_SMOOTH) {
         short nodes[VXL_NODE_COUNT];
         gather_nodes(slots, bricks, distance, brick, nodes);
-        largest = keep_smooth_cells(nodes, kept);
+        keep_smooth_cells(nodes, kept);
     }
     const int4 room = size - brick * 16;
     const bool whole = room.x >= 16 && room.y >= 16 && room.z >= 16;
@@ -71,15 +70,14 @@ kernel void mark_voxels(const uint count, const int4 size, const int4 bricks,
             }
     }
     leaf_masks[slot] = leaf_mask;
-    vstore3((uint3)(voxels, primitives, largest), slot, counts);
+    vstore2((uint2)(voxels, primitives), slot, counts);
 }
 
 // One brick: its leaves and voxels, from the numbers in `starts` (first leaf, voxel, primitive of
 // each slot) on. `kinds` holds the kind bits of voxels in the occupancy masks (x) and of the others
-// (y), `exponent` the unit of second differences. The last voxel's end in `voxel_primitive_first`
-// is the host's to write.
+// (y). The last voxel's end in `voxel_primitive_first` is the host's to write.
 kernel void write_voxels(const uint count, const uint2 kinds, const uint attribute,
-                         const int exponent, const int4 bricks, global const uint* restrict slots,
+                         const int4 bricks, global const uint* restrict slots,
                          global const uint* restrict coordinates,
                          global const ulong* restrict occupancy,
                          global const short* restrict distance,
@@ -130,8 +128,8 @@ kernel void write_voxels(const uint count, const uint2 kinds, const uint attribu
                 const int4 cell = (int4)(place & 15, place >> 4 & 15, place >> 8, 0);
                 const bool has_list =
                     VXL_PRIMITIVES && primitive_first[voxel] != primitive_first[voxel + 1];
-                vstore8(smooth || has_list ? field_record(nodes, cell, exponent) : (uint8)(0),
-                        number, voxel_fields);
+                vstore8(smooth || has_list ? field_record(nodes, cell) : (uint8)(0), number,
+                        voxel_fields);
             }
             if (VXL_PRIMITIVES) {
                 voxel_primitive_first[number] = primitive;

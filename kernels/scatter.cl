@@ -380,7 +380,7 @@ kernel void gather_light(uint begin, uint end, uint stride, global const uint* r
     if (entry >= end) return;
     const uint reflected = children[entry];
     const uint refracted = VXL_REFRACTS ? children[stride + entry] : VXL_NO_CHILD;
-    if ((reflected & refracted) == VXL_NO_CHILD) return;  // neither
+    if ((reflected == VXL_NO_CHILD) & (refracted == VXL_NO_CHILD)) return;
     const uint node = VXL_TRANSMISSION ? paths[VXL_PATH_TARGET * stride + entry] : entry;
     for (uint c = 0; c < 3; ++c) {
         float light = 0.0f;

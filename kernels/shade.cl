@@ -90,7 +90,7 @@ kernel void shade_surface(PyramidShape shape, Space space, global const float* r
     }
     const lane_int smooth = LANE_MASK(kind != VXL_KIND_CUBES) & hit & ~exact;
     if (VXL_SMOOTH && lanes_any(smooth)) {
-        const Field field = read_field(fields, voxel & LANES_AS_UINT(smooth), shape.half_curvature);
+        const Field field = read_field(fields, voxel & LANES_AS_UINT(smooth));
         Vector g;
         field_gradient(&field, s.x, s.y, s.z, &g.x, &g.y, &g.z);
         g.x *= shape.inverse_edge.x, g.y *= shape.inverse_edge.y, g.z *= shape.inverse_edge.z;

@@ -196,7 +196,7 @@ kernel void find_surface(PyramidShape shape, const uint count, const uint stride
     lane_float left = (lane_float)INFINITY;
     const lane_int is_field = LANE_MASK(form == VXL_PIECE_FIELD);
     if (VXL_SMOOTH && lanes_any(is_field)) {
-        const Field f = read_field(fields, number & LANES_AS_UINT(is_field), shape.half_curvature);
+        const Field f = read_field(fields, number & LANES_AS_UINT(is_field));
         Vector at = p, slope = g;
         lane_float rest = left;
         project_on_field(&f, &at, &slope, &rest);

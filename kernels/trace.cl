@@ -23,7 +23,6 @@ typedef struct {
     global const float* restrict triangles;
     global const uint* restrict triangle_attributes;
     global const SolidShape* restrict solids;
-    float half_curvature;
 } SurfaceView;
 
 /// How a packet's rays set out.
@@ -192,7 +191,7 @@ static inline lane_int test_surfaces(const PyramidView* p, const SurfaceView* s,
     lane_int accepted = cubes | left;
     if (VXL_CUBES) take_voxel_hit(found, w->t, cubes);
     if (VXL_SMOOTH && lanes_any(smooth)) {
-        const Field field = read_field(s->fields, voxel, s->half_curvature);
+        const Field field = read_field(s->fields, voxel);
         lane_float t = (lane_float)INFINITY;
         const lane_int asking = smooth & ~found->asked;
         if (lanes_any(asking)) {
@@ -311,8 +310,7 @@ static inline void enter_world(const PyramidView* p, Walk* w, lane_int entering)
 #define VXL_WORLD_VIEWS                                                                    \
     const PyramidView pyramid = pyramid_view(shape, sectors, bricks, leaves, leaf_voxels); \
     const SurfaceView surface = {                                                          \
-        attributes,          fields, primitive_first,     primitives, triangles,           \
-        triangle_attributes, solids, shape.half_curvature}
+        attributes, fields, primitive_first, primitives, triangles, triangle_attributes, solids}
 
 /// Rays from the observer.
 static inline Travel sight_travel(void) {

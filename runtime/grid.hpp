@@ -86,7 +86,6 @@ struct Pyramid {
     Buffer<uint32_t> colors;       ///< one per voxel
     bool transparent = false;      ///< some of the voxels aren't opaque
     Buffer<uint32_t> fields;       ///< 8 per voxel, shared/voxel.h; empty without smooth surfaces
-    int curvature_exponent = 0;  ///< unit of the fields' second differences: 2^this distance units
     Buffer<uint32_t> primitive_first;  ///< voxel_count + 1; empty without exact surfaces
     Buffer<uint32_t> primitives;       ///< these four as in BrickGrid
     Buffer<float> triangles;

@@ -50,6 +50,29 @@ const Mesh& MeshStore::mesh(const std::filesystem::path& file) {
     return mesh;
 }
 
+const VoxelModel& MeshStore::voxels(const Model& model) {
+    const auto found = voxels_.find(model.voxels);
+    if (found != voxels_.end() && found->second.surface == model.surface) return found->second;
+    const auto start = std::chrono::steady_clock::now();
+    VoxelModel read = read_voxel_model(model.voxels, model.surface);
+    load_seconds_ +=
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    triangles_ += read.mesh.triangles.size();
+    return voxels_.insert_or_assign(model.voxels, std::move(read)).first->second;
+}
+
+const Mesh* MeshStore::mesh_of(const Model& model) {
+    if (model.solid) return nullptr;
+    if (model.voxels.empty()) return &mesh(model.mesh);
+    return model.surface == Surface::exact ? &voxels(model).mesh : nullptr;
+}
+
+const std::vector<std::string>& MeshStore::groups_of(const Model& model) {
+    static const std::vector<std::string> none;
+    if (model.solid) return none;
+    return model.voxels.empty() ? mesh(model.mesh).group_names : voxels(model).groups;
+}
+
 GridFrame world_frame(const World& world) {
     return {world.bounds.min, world.voxel_size, world.voxels};
 }

@@ -6,23 +6,32 @@
 #include "runtime/grid.hpp"
 #include "runtime/mesh.hpp"
 #include "runtime/scene.hpp"
+#include "runtime/voxel_model.hpp"
 
 namespace voxelume {
 
 /// Margin of empty voxels around a model, so that the differences of a smooth surface lie inside.
 inline constexpr int kModelMargin = 4;
 
-/// The meshes of a scene, each file read once, when it is first asked for.
+/// The meshes and voxels of a scene, each file read once, when it is first asked for.
 class MeshStore {
   public:
     /// Throws Error::input as read_mesh does.
     const Mesh& mesh(const std::filesystem::path& file);
+    /// The voxels of a model that has a file of them. Throws Error::input as read_voxel_model does.
+    const VoxelModel& voxels(const Model& model);
+    /// What is voxelized for a model: its mesh, or the triangles of a file of exact voxels; null
+    /// for the others.
+    const Mesh* mesh_of(const Model& model);
+    /// The names of a model's groups of faces or voxels.
+    const std::vector<std::string>& groups_of(const Model& model);
 
     double load_seconds() const { return load_seconds_; }
     uint64_t triangles() const { return triangles_; }
 
   private:
     std::map<std::filesystem::path, Mesh> meshes_;
+    std::map<std::filesystem::path, VoxelModel> voxels_;
     double load_seconds_ = 0;
     uint64_t triangles_ = 0;
 };

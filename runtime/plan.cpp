@@ -108,9 +108,7 @@ class Planner {
     }
 
   private:
-    const Mesh* mesh_of(const Model& model) {
-        return model.solid ? nullptr : &meshes_.mesh(model.mesh);
-    }
+    const Mesh* mesh_of(const Model& model) { return meshes_.mesh_of(model); }
 
     const SurfaceArea& area_of(int model_number) {
         const auto [entry, added] = areas_.try_emplace(model_number);
@@ -167,6 +165,8 @@ class Planner {
     void add_object(int number) {
         const Object& object = scene_.objects[size_t(number)];
         const Model& model = scene_.models[size_t(object.model)];
+        if (!model.voxels.empty() && model.surface != Surface::exact)
+            return add_voxels(object, meshes_.voxels(model));
         const Mesh* mesh = mesh_of(model);
         const Extras extras = extras_of(model, mesh);
         const SurfaceExtent in_world =
@@ -194,6 +194,33 @@ class Planner {
             return;
         }
         plan_.grids.back().model = object.model;
+    }
+
+    /// An object whose voxels come from a file: in the world it has as many in its volume, and no
+    /// fewer bricks.
+    void add_voxels(const Object& object, const VoxelModel& voxels) {
+        const auto volume = [](const glm::dvec3& edge) { return edge.x * edge.y * edge.z; };
+        const double finer =
+            std::max(1.0, volume(voxels.frame.voxel_edge) / volume(plan_.world.voxel_edge) *
+                              std::abs(glm::determinant(object.world_from_object)));
+        const double count = double(voxels.voxels());
+        const auto stored = double(voxels.coordinates.size());
+        const bool smooth = voxels.surface == Surface::smooth;
+        plan_.voxels += count * finer;
+        plan_.bricks += 2 * stored * finer;
+        smooth_ |= smooth;
+        occupied_ |= !smooth;
+        colors_ |= !voxels.colors.empty();
+        words_ |= objects_++ > 0 || !voxels.attributes.empty();
+        if (!made_.insert(object.model).second) return;
+        GridPlan grid{.model = object.model, .frame = voxels.frame, .voxels = count};
+        grid.bricks = stored;
+        grid.kept_bytes =
+            brick_table(voxels.frame) * 4 +
+            stored * ((smooth ? kDistance : kOccupancy) +
+                      kWords * (int(!voxels.attributes.empty()) + int(!voxels.colors.empty())));
+        grid.made_bytes = grid.kept_bytes;
+        plan_.grids.push_back(grid);
     }
 
     void add_stages() {

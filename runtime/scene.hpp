@@ -98,9 +98,10 @@ struct Material {
 /// O_i before it is placed: a mesh file or a solid, with the lattice that it is voxelized on.
 struct Model {
     std::string name;
-    std::filesystem::path mesh;  ///< a regular file inside the asset folders; empty for a solid
-    std::optional<Solid> solid;  ///< has a value exactly when `mesh` is empty
-    glm::dvec3 voxel_size{0};    ///< metres in object space, > 0; 0 when `resolution` decides
+    std::filesystem::path mesh;    ///< a regular file inside the asset folders; may be empty
+    std::filesystem::path voxels;  ///< likewise, of voxels that are there already; may be empty
+    std::optional<Solid> solid;    ///< has a value exactly when both files are empty
+    glm::dvec3 voxel_size{0};      ///< metres in object space, > 0; 0 when `resolution` decides
     int resolution = 0;  ///< voxels along the longest side, 1..65536; 0 when `voxel_size` decides
     Surface surface = Surface::smooth;
     VoxelSet set = VoxelSet::supercover;  ///< for `cubes`

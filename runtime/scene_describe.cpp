@@ -25,7 +25,11 @@ std::string solid_text(const Solid& solid) {
 std::string model_text(const Model& model) {
     static constexpr std::array surfaces = {"cubes", "smooth", "exact"};
     const std::string source =
-        model.solid ? solid_text(*model.solid) : model.mesh.filename().string();
+        model.solid ? solid_text(*model.solid)
+                    : (model.voxels.empty() ? model.mesh : model.voxels).filename().string();
+    if (!model.voxels.empty())
+        return fmt::format("model \"{}\": {}, {}", model.name, source,
+                           surfaces[static_cast<size_t>(model.surface)]);
     const std::string pitch =
         model.resolution > 0 ? fmt::format("{} voxels along the longest side", model.resolution)
                              : fmt::format("voxels of {} m", vector_text(model.voxel_size));

@@ -46,6 +46,7 @@ std::vector<KeyTable> make_tables() {
           "opacity", "absorption", "emission", "checker"}},
         {"checker", {"color", "size", "origin"}},
         {"model:mesh", Keys{"mesh"} + lattice},
+        {"model:voxels", {"voxels", "surface"}},
     };
     for (const KeyTable& shape : shapes)
         tables.push_back({"model:" + shape.name, shape.keys + lattice});

@@ -38,21 +38,37 @@ void read_lattice(const SceneFields& fields, glm::dvec3 world_voxel_size, Model&
     }
 }
 
+/// A model whose file holds its voxels, with a lattice of their own.
+void read_voxels(const SceneFields& fields, const ModelContext& context, Model& model) {
+    const SceneValue voxels = fields.get("voxels");
+    model.voxels = find_asset(voxels.text(), context.scene_folder, context.assets, voxels.where());
+    model.surface = Surface::cubes;
+    if (const auto surface = fields.find("surface"))
+        model.surface = static_cast<Surface>(surface->choice(Names{"cubes", "smooth", "exact"}));
+}
+
 Model read_model(const std::string& name, const SceneValue& value, const ModelContext& context) {
     Model model;
     model.name = name;
     model.where = value.where();
     bool has_mesh = false;
+    bool has_voxels = false;
     bool has_shape = false;
     for (const JsonMember& member : value.json().members) {
         has_mesh = has_mesh || member.key == "mesh";
+        has_voxels = has_voxels || member.key == "voxels";
         has_shape = has_shape || member.key == "shape";
     }
     if (has_mesh && has_shape) value.fail("has a \"mesh\" and a \"shape\"; leave one of them out");
-    if (!has_mesh && !has_shape && value.is(JsonType::object)) {
-        value.fail("needs a \"mesh\" (a file) or a \"shape\" (sphere, box, ...)");
+    if (has_voxels && (has_mesh || has_shape))
+        value.fail(fmt::format("has \"voxels\" and a \"{}\"; leave one of them out",
+                               has_mesh ? "mesh" : "shape"));
+    if (!has_mesh && !has_voxels && !has_shape && value.is(JsonType::object)) {
+        value.fail("needs a \"mesh\" or \"voxels\" (a file) or a \"shape\" (sphere, box, ...)");
     }
-    if (has_shape) {
+    if (has_voxels) {
+        read_voxels(SceneFields(value, "model:voxels"), context, model);
+    } else if (has_shape) {
         model.solid = read_solid(value);
         const std::string_view shape = scene_kinds("part")[kind_of(value, "shape", "part")];
         read_lattice(SceneFields(value, fmt::format("model:{}", shape)), context.world_voxel_size,

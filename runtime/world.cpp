@@ -42,31 +42,32 @@ class ObjectMaker {
         placed.world_from_object = object.world_from_object;
         placed.object = number;
         placed.priority = object.priority;
-        placed.set = model.set;
+        placed.set = is_voxels(model) ? meshes_.voxels(model).set : model.set;
         placed.in_world_frame = model.surface == Surface::exact;
-        placed.keeps_inside = shows_inside(scene_, object);
-        for (const int material : materials_of_groups(object, group_names(model)))
+        placed.keeps_inside =
+            shows_inside(scene_, object) ||
+            (is_voxels(model) && model.surface == Surface::cubes && transmits(scene_, object));
+        for (const int material : materials_of_groups(object, meshes_.groups_of(model)))
             placed.material_of_group.push_back(uint32_t(material));
         placed.grid = placed.in_world_frame ? exact_grid(object, model) : grid_of(model);
         return placed;
     }
 
   private:
-    const std::vector<std::string>& group_names(const Model& model) {
-        static const std::vector<std::string> none;
-        return model.solid ? none : mesh_of(model)->group_names;
-    }
+    const Mesh* mesh_of(const Model& model) { return meshes_.mesh_of(model); }
 
-    const Mesh* mesh_of(const Model& model) {
-        return model.solid ? nullptr : &meshes_.mesh(model.mesh);
+    static bool is_voxels(const Model& model) {
+        return !model.voxels.empty() && model.surface != Surface::exact;
     }
 
     const BrickGrid* grid_of(const Model& model) {
         const auto found = grids_.find(&model);
         if (found != grids_.end()) return &found->second;
         Stopwatch watch(report_.voxelize_seconds);
-        const GridFrame frame = model_frame(model, mesh_of(model));
-        BrickGrid grid = voxelized(model, glm::dmat4(1), frame, model.where);
+        BrickGrid grid =
+            is_voxels(model)
+                ? meshes_.voxels(model).upload(device_)
+                : voxelized(model, glm::dmat4(1), model_frame(model, mesh_of(model)), model.where);
         watch.stop();
         return &grids_.emplace(&model, std::move(grid)).first->second;
     }

@@ -36,12 +36,12 @@ inline std::string in_words(const char* where, const ColorError& error, int widt
                        error.worst_pixel / size_t(width));
 }
 
-/// Renders a scene and expects it to be the analytic image: RMS at most `rms`, no colour off by
+/// Renders a scene and expects it to be an analytic image: RMS at most `rms`, no colour off by
 /// more than `worst`, over all pixels but those at edges. Prints the errors with the edges, too.
-inline void expect_analytic_image(const Scene& scene, double rms, double worst) {
+inline void expect_image(const Scene& scene, const oracle::AnalyticImage& expected, double rms,
+                         double worst) {
     RenderReport report;
     const Image image = render(test_device(), scene, report);
-    const oracle::AnalyticImage expected = oracle::analytic_image(scene);
     const auto &red = image.planes.at("R"), &green = image.planes.at("G"),
                &blue = image.planes.at("B");
     ASSERT_EQ(red.size(), expected.radiance.size());
@@ -57,6 +57,11 @@ inline void expect_analytic_image(const Scene& scene, double rms, double worst) 
     EXPECT_GT(beside.pixels, red.size() / 3) << "edges leave too little to compare";
     EXPECT_LE(beside.rms(), rms) << words;
     EXPECT_LE(beside.worst, worst) << words;
+}
+
+/// expect_image for the analytic image of the scene itself.
+inline void expect_analytic_image(const Scene& scene, double rms, double worst) {
+    expect_image(scene, oracle::analytic_image(scene), rms, worst);
 }
 
 }  // namespace voxelume

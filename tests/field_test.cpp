@@ -15,24 +15,33 @@ namespace {
 
 constexpr unsigned kSeed = 20261121;
 
-/// Decoded record: distances at corners, second differences of edges, as integers of their units.
+/// Decoded record: distances at corners and second differences of edges, in 1/8192 voxel.
 struct Record {
     std::array<int, 8> f{};                 ///< number x | y << 1 | z << 2
     std::array<std::array<int, 4>, 3> d{};  ///< per axis and edge: first other axis | second << 1
 };
+
+/// The ten bits of D = ±(2^e (64 + m) - 64); fails for other values.
+uint32_t bits_of_edge(int d) {
+    for (uint32_t e = 0; e < 8; ++e)
+        for (uint32_t m = 0; m < 64; ++m)
+            if (std::abs(d) == int((64 + m) << e) - 64) return 64 * e + m + (d < 0 ? 512 : 0);
+    ADD_FAILURE() << d << " is no second difference of a record";
+    return 0;
+}
 
 std::array<uint32_t, VXL_FIELD_WORDS> packed(const Record& r) {
     std::array<uint32_t, VXL_FIELD_WORDS> words{};
     for (size_t i = 0; i < 4; ++i) {
         words[i] = (uint32_t(r.f[2 * i]) & 0xFFFF) | uint32_t(r.f[2 * i + 1]) << 16;
         for (size_t axis = 0; axis < 3; ++axis)
-            words[4 + i] |= (uint32_t(r.d[axis][i]) & 0x3FF) << (10 * axis);
+            words[4 + i] |= bits_of_edge(r.d[axis][i]) << (10 * axis);
     }
     return words;
 }
 
-/// F(s) of shared/voxel.h; `unit` is the unit of the second differences.
-double interpolant(const Record& r, double unit, const std::array<double, 3>& s) {
+/// F(s) of shared/voxel.h.
+double interpolant(const Record& r, const std::array<double, 3>& s) {
     double sum = 0;
     for (int i = 0; i < 8; ++i) {
         double weight = 1;
@@ -43,25 +52,25 @@ double interpolant(const Record& r, double unit, const std::array<double, 3>& s)
     for (size_t axis = 0; axis < 3; ++axis) {
         const double first = s[axis == 0 ? 1 : 0], second = s[axis == 2 ? 1 : 2];
         for (size_t e = 0; e < 4; ++e)
-            sum += 0.5 * s[axis] * (1 - s[axis]) * unit * r.d[axis][e] *
-                   (e & 1 ? first : 1 - first) * (e >> 1 ? second : 1 - second);
+            sum += 0.5 * s[axis] * (1 - s[axis]) * r.d[axis][e] * (e & 1 ? first : 1 - first) *
+                   (e >> 1 ? second : 1 - second);
     }
     return sum;
 }
 
 /// The derivative along an axis; F is a quadratic on it, so a central difference is exact.
-double slope(const Record& r, double unit, std::array<double, 3> s, size_t axis) {
+double slope(const Record& r, std::array<double, 3> s, size_t axis) {
     const double at = s[axis], step = 0.125;
     s[axis] = at + step;
-    const double above = interpolant(r, unit, s);
+    const double above = interpolant(r, s);
     s[axis] = at - step;
-    return (above - interpolant(r, unit, s)) / (2 * step);
+    return (above - interpolant(r, s)) / (2 * step);
 }
 
 using Result = std::array<double, 4>;  ///< value, gradient
 
 /// What the device function makes of each record at its point.
-std::vector<Result> evaluate(const Device& device, const std::vector<Record>& records, float unit,
+std::vector<Result> evaluate(const Device& device, const std::vector<Record>& records,
                              const std::vector<std::array<float, 3>>& points) {
     const auto count = uint32_t(records.size());
     std::vector<uint32_t> words;
@@ -73,11 +82,11 @@ std::vector<Result> evaluate(const Device& device, const std::vector<Record>& re
     const Program program = Program::from_text(device, R"(
 #include "lib/field.h"
 #include "lib/work_item.h"
-kernel void evaluate(uint count, float half_curvature, global const uint* fields,
+kernel void evaluate(uint count, global const uint* fields,
                      global const float* points, global float* results) {
     const uint first = work_item() * VXL_LANES;
     if (first >= count) return;
-    const Field f = read_field(fields, LANES_AS_UINT(LANES_NUMBERS + (int)first), half_curvature);
+    const Field f = read_field(fields, LANES_AS_UINT(LANES_NUMBERS + (int)first));
     const lane_float x = LANES_LOAD(points, first), y = LANES_LOAD(points, count + first);
     const lane_float z = LANES_LOAD(points, 2 * count + first);
     lane_float gx, gy, gz;
@@ -90,10 +99,9 @@ kernel void evaluate(uint count, float half_curvature, global const uint* fields
 )");
     Buffer<float> results(device, "results", size_t(count) * 4);
     program.kernel("evaluate")
-        .launch_packets(count, count, 0.5f * unit,
-                        Buffer<uint32_t>(device, "fields", std::span<const uint32_t>(words)),
-                        Buffer<float>(device, "points", std::span<const float>(coordinates)),
-                        results);
+        .launch_packets(
+            count, count, Buffer<uint32_t>(device, "fields", std::span<const uint32_t>(words)),
+            Buffer<float>(device, "points", std::span<const float>(coordinates)), results);
     const std::vector<float> values = results.read();
     std::vector<Result> all(count);
     for (uint32_t i = 0; i < count; ++i)
@@ -109,26 +117,30 @@ std::vector<std::array<float, 3>> random_points(uint32_t count, std::mt19937& ra
     return points;
 }
 
+int random_edge(std::mt19937& random) {
+    const int size = int((64 + random() % 64) << random() % 8) - 64;
+    return random() % 2 ? size : -size;
+}
+
 class FieldLanes : public testing::TestWithParam<int> {};
 
 TEST_P(FieldLanes, AgreesWithTheFormulaInDouble) {
     std::mt19937 random(kSeed);
-    constexpr float kUnit = 8;
     std::vector<Record> records(4096);
     for (Record& r : records) {
         for (int& f : r.f) f = int(random() % 65535) - 32767;
         for (auto& edges : r.d)
-            for (int& d : edges) d = int(random() % 1023) - 511;
+            for (int& d : edges) d = random_edge(random);
     }
     const auto points = random_points(4096, random);
-    const auto results = evaluate(test_device(GetParam()), records, kUnit, points);
+    const auto results = evaluate(test_device(GetParam()), records, points);
     for (size_t i = 0; i < records.size(); ++i) {
         const std::array<double, 3> s = {points[i][0], points[i][1], points[i][2]};
         // |F| < 2^15 and each of some sixteen roundings is half a unit in the last place, 2^-10.
-        ASSERT_NEAR(results[i][0], interpolant(records[i], kUnit, s), 1.0 / 64)
+        ASSERT_NEAR(results[i][0], interpolant(records[i], s), 1.0 / 64)
             << "seed " << kSeed << " point " << i;
         for (size_t axis = 0; axis < 3; ++axis)
-            ASSERT_NEAR(results[i][1 + axis], slope(records[i], kUnit, s, axis), 1.0 / 16)
+            ASSERT_NEAR(results[i][1 + axis], slope(records[i], s, axis), 1.0 / 16)
                 << "seed " << kSeed << " point " << i << " axis " << axis;
     }
 }
@@ -179,12 +191,14 @@ TEST_P(FieldLanes, ReproducesPlanesAndQuadraticsExactly) {
         for (int& b : q.b) b = small(3000);
         for (auto& row : q.a)
             for (int& a : row) a = i % 2 ? small(200) : 0;  // every other one is a plane
+        for (size_t axis = 0; axis < 3 && i % 2; ++axis)    // D = -2a, such that records hold it
+            q.a[axis][axis] = (int((64 + random() % 64) << (1 + random() % 2)) - 64) / 2;
         records.push_back(sampled(q));
     }
     std::vector<std::array<float, 3>> points(quadratics.size());
     for (auto& p : points)
         for (float& c : p) c = float(random() % 5) / 4;
-    const auto results = evaluate(test_device(GetParam()), records, 1, points);
+    const auto results = evaluate(test_device(GetParam()), records, points);
     for (size_t i = 0; i < records.size(); ++i) {
         const std::array<double, 3> s = {points[i][0], points[i][1], points[i][2]};
         ASSERT_EQ(results[i][0], quadratics[i](s)) << "seed " << kSeed << " quadratic " << i;
@@ -207,7 +221,7 @@ TEST_P(FieldLanes, HoldsTheSameBitsOnBothSidesOfASharedFace) {
         for (Record* r : {&low[i], &high[i]}) {
             for (int& f : r->f) f = int(random() % 40000) - 20000;
             for (auto& edges : r->d)
-                for (int& d : edges) d = int(random() % 1023) - 511;
+                for (int& d : edges) d = random_edge(random);
         }
         for (size_t n = 0; n < 8; ++n)
             if (n >> axis & 1) high[i].f[n & ~(size_t(1) << axis)] = low[i].f[n];
@@ -221,8 +235,8 @@ TEST_P(FieldLanes, HoldsTheSameBitsOnBothSidesOfASharedFace) {
         points[i][axis] = 1, high_points[i][axis] = 0;
     }
     const Device device = test_device(GetParam());
-    const auto below = evaluate(device, low, 4, points);
-    const auto above = evaluate(device, high, 4, high_points);
+    const auto below = evaluate(device, low, points);
+    const auto above = evaluate(device, high, high_points);
     for (size_t i = 0; i < low.size(); ++i)
         ASSERT_EQ(below[i][0], above[i][0]) << "seed " << kSeed << " face " << i;
 }

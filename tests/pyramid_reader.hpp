@@ -20,8 +20,7 @@ struct HostPyramid {
           leaf_voxels(p.leaf_voxels.read()),
           attributes(p.attributes.read()),
           attribute(p.attribute),
-          fields(p.fields.read()),
-          exponent(p.curvature_exponent) {}
+          fields(p.fields.read()) {}
 
     /// The voxel's number, or nothing and in `empty_log2` the cube that is promised to be empty.
     std::optional<uint32_t> find(const glm::ivec3& v, int& empty_log2) const {
@@ -52,7 +51,6 @@ struct HostPyramid {
     std::vector<uint32_t> sectors, bricks, leaves, leaf_voxels, attributes;
     uint32_t attribute;
     std::vector<uint32_t> fields;
-    int exponent;
 };
 
 inline bool any_in_cube(const VoxelMap& voxels, const glm::ivec3& v, int log2) {

@@ -28,10 +28,10 @@ void collect_keys(const std::string& name, const json& definition,
     }
     for (const json& branch : definition["allOf"]) {
         if (!branch.contains("if") || !branch["then"].contains("propertyNames")) continue;
-        std::string kind = "mesh";
-        if (branch["if"].contains("properties")) {
-            kind = branch["if"]["properties"].begin().value()["const"];
-        }
+        const json& condition = branch["if"];
+        const std::string kind = condition.contains("properties")
+                                     ? condition["properties"].begin().value()["const"]
+                                     : condition["required"][0];
         for (const json& key : branch["then"]["propertyNames"]["enum"]) {
             tables[name + ":" + kind].insert(key);
             EXPECT_TRUE(definition["properties"].contains(key))

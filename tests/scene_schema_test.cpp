@@ -102,6 +102,7 @@ std::vector<json> full_scenes() {
                                 "emission": [4, 5, 6]}},
             "models": {"m": {"mesh": "m.obj", "voxel_size": 0.1, "surface": "cubes", "set": "thin"},
                        "r": {"mesh": "m.obj", "resolution": 64, "surface": "exact"},
+                       "v": {"voxels": "smoke.vdb", "surface": "cubes"},
                        "sphere": {"shape": "sphere", "radius": 0.5},
                        "ellipsoid": {"shape": "ellipsoid", "radii": [1, 2, 3]},
                        "box": {"shape": "box", "size": [1, 2, 3]},

@@ -5,13 +5,12 @@
 
 #include "lib/brick_nodes.h"
 
-// A cell is kept when min f - m <= 0 <= max f + m, with m = 1/8 Σ_a max|D_a| + kMargin over the
+// A cell is kept when min f - m <= 0 <= max f + m, with m = 129/128 1/8 Σ_a max|D_a| + 1 over the
 // three axes and each axis' four edges. That misses no zero of the interpolant F in voxel.h:
 //   min f <= Σ w_i f_i <= max f, since the weights are positive and sum to 1; ½ x(1-x) <= 1/8 on
 //   [0,1]; |Σ w_yz D_x| <= max|D_x|; so |F - Σ w_i f_i| <= 1/8 Σ_a max|D_a|.
-// The margin covers the records' rounding: D is off by at most half its unit 2^8, which is 128, and
-// 3/8 of that is 48 (1/171 voxel). It leaves the kept set independent of the unit that is chosen.
-#define VXL_KEEP_MARGIN 48
+// Records hold D to within |D|/128 + 1/2, or a smaller one; the 1 covers three eighths of that half
+// unit, and the rounding of F.
 
 // Of vectors of shorts: PoCL's min, max and abs_diff of these go lane by lane (107 against 39 ms of
 // CPU time for the bunny at 512 voxels).
@@ -66,12 +65,6 @@ static inline ushort largest_lane(ushort16 values) {
     return max(max(four.x, four.y), max(four.z, four.w));
 }
 
-static inline uint largest_lane_int(int16 values) {
-    const int8 eight = max(values.lo, values.hi);
-    const int4 four = max(eight.lo, eight.hi);
-    return (uint)max(max(four.x, four.y), max(four.z, four.w));
-}
-
 static inline ushort16 larger_step(ushort16 largest, short16 a, short16 b) {
     const ushort16 step = as_ushort16(LARGER(a, b) - SMALLER(a, b));
     return LARGER(largest, step);
@@ -97,8 +90,8 @@ static inline int largest_step(const short* nodes) {
 }
 
 // Sixteen cells along x from the one at `node`: bits of those to keep. `reach` bounds m in the
-// brick; `largest` collects |2D| of kept cells.
-static inline uint keep_row(const short* node, short reach, int16* largest) {
+// brick.
+static inline uint keep_row(const short* node, short reach) {
     short16 low = VXL_SATURATED, high = -VXL_SATURATED;
     for (int corner = 0; corner < 8; ++corner) {
         const short16 f = vload16(0, node + (corner & 1) + (corner >> 1 & 1) * VXL_NODE_ROW +
@@ -117,41 +110,40 @@ static inline uint keep_row(const short* node, short reach, int16* largest) {
     const int16 x = largest_of_edges(node, 1, VXL_NODE_ROW, VXL_NODE_LAYER);
     const int16 y = largest_of_edges(node, VXL_NODE_ROW, 1, VXL_NODE_LAYER);
     const int16 z = largest_of_edges(node, VXL_NODE_LAYER, 1, VXL_NODE_ROW);
-    const int16 reach16 = x + y + z + 16 * VXL_KEEP_MARGIN;  // 16 m
+    const int16 twice = x + y + z;
+    const int16 reach16 = twice + (twice >> 7) + 16;  // 16 m, less than 1 below
     const int16 kept = convert_int16(low) * 16 <= reach16 & convert_int16(high) * 16 >= -reach16 &
                        convert_int16(nearest) < VXL_SATURATED;
-    *largest = max(*largest, max(max(x, y), z) & kept);
     return lanes_to_bits(kept);
 }
 
-// Adds the cells that the interpolant can cross to the 64 leaf masks; returns their largest |2D|.
-static inline uint keep_smooth_cells(const short* nodes, ulong* kept) {
-    // |2D| is at most two steps, so m at most 3/8 of the largest step.
-    const short reach = (short)(largest_step(nodes) * 3 / 8 + 1 + VXL_KEEP_MARGIN);
-    int16 largest = 0;
+// Adds the cells that the interpolant can cross to the 64 leaf masks.
+static inline void keep_smooth_cells(const short* nodes, ulong* kept) {
+    // |2D| is at most two steps, so m - 1 at most 3/8 of 129/128 of the largest step.
+    const short reach = (short)(largest_step(nodes) * 97 / 256 + 2);
     for (int z = 0; z < 16; ++z)
         for (int y = 0; y < 16; ++y) {
-            const ulong bits = keep_row(nodes + node_place(0, y, z), reach, &largest);
+            const ulong bits = keep_row(nodes + node_place(0, y, z), reach);
             if (bits == 0) continue;
             const int leaf = (y & 12) | (z & 12) << 2;
             const int shift = (y & 3) << 2 | (z & 3) << 4;
             for (int x = 0; x < 4; ++x) kept[leaf | x] |= (bits >> 4 * x & 15) << shift;
         }
-    return largest_lane_int(largest);
 }
 
-// D in units of 2^exponent from twice D: to nearest, ties to even, within ten bits.
-static inline uint curvature_bits(int twice, int exponent) {
-    const int shift = exponent + 1;
-    const int middle = 1 << exponent;
-    const int rest = twice & (2 * middle - 1);
-    const int floored = twice >> shift;
+// The ten bits of an edge in shared/voxel.h from twice D: to the nearest, of two to the even one.
+static inline uint curvature_bits(int twice) {
+    const int shifted = abs(twice) + 128;  // 2 (|D| + 64), at least 2^7
+    const int shift = 25 - clz(shifted);   // e + 1
+    const int floored = shifted >> shift, rest = shifted & ((1 << shift) - 1);
+    const int middle = 1 << (shift - 1);
     const int rounded = floored + (rest > middle || (rest == middle && (floored & 1)));
-    return (uint)clamp(rounded, -511, 511) & 0x3FFu;
+    const uint code = (uint)((shift - 1) * 64 + rounded - 64);
+    return min(code, 511u) | (twice < 0 ? 512u : 0u);
 }
 
 // The eight words of a cell as shared/voxel.h describes them.
-static inline uint8 field_record(const short* nodes, int4 cell, int exponent) {
+static inline uint8 field_record(const short* nodes, int4 cell) {
     const short* node = nodes + node_place(cell.x, cell.y, cell.z);
     uint words[8];
     for (int i = 0; i < 4; ++i) {
@@ -161,8 +153,7 @@ static inline uint8 field_record(const short* nodes, int4 cell, int exponent) {
         const int x = twice_curvature(pair, 1);
         const int y = twice_curvature(node + low + high * VXL_NODE_LAYER, VXL_NODE_ROW);
         const int z = twice_curvature(node + low + high * VXL_NODE_ROW, VXL_NODE_LAYER);
-        words[4 + i] = curvature_bits(x, exponent) | curvature_bits(y, exponent) << 10 |
-                       curvature_bits(z, exponent) << 20;
+        words[4 + i] = curvature_bits(x) | curvature_bits(y) << 10 | curvature_bits(z) << 20;
     }
     return vload8(0, words);
 }

@@ -22,13 +22,16 @@ static inline lane_float low_half(lane_uint word) {
 static inline lane_float high_half(lane_uint word) {
     return LANES_FLOAT(LANES_AS_INT(word) >> 16);
 }
-static inline lane_float ten_bits(lane_uint word, int first) {
-    return LANES_FLOAT(LANES_AS_INT(word << (22 - first)) >> 22);
+/// ½ D of the edge whose bits begin at bit `first`.
+static inline lane_float half_curvature(lane_uint word, int first) {
+    // The nine bits of |D| as exponent and first bits of a float from 32 on: (32 + m/2) 2^e.
+    const lane_uint size = (first > 17 ? word >> (first - 17) : word << (17 - first)) & 0x3FE0000u;
+    const lane_float half_size = LANES_AS_FLOAT(size + 0x42000000u) - 32.0f;
+    return LANES_AS_FLOAT(LANES_AS_UINT(half_size) ^ (word << (22 - first) & 0x80000000u));
 }
 
-/// Reads a voxel's record; `half_curvature` is half of 2^curvature_exponent.
-static inline Field read_field(global const uint* restrict fields, lane_uint voxel,
-                               float half_curvature) {
+/// Reads a voxel's record.
+static inline Field read_field(global const uint* restrict fields, lane_uint voxel) {
     Field f;
     const lane_uint first = voxel * VXL_FIELD_WORDS;
     lane_uint word = LANES_GATHER_UINT(fields, first);
@@ -40,21 +43,21 @@ static inline Field read_field(global const uint* restrict fields, lane_uint vox
     word = LANES_GATHER_UINT(fields, first + 3u);
     f.f011 = low_half(word), f.f111 = high_half(word);
     word = LANES_GATHER_UINT(fields, first + 4u);
-    f.x00 = ten_bits(word, 0) * half_curvature;
-    f.y00 = ten_bits(word, 10) * half_curvature;
-    f.z00 = ten_bits(word, 20) * half_curvature;
+    f.x00 = half_curvature(word, 0);
+    f.y00 = half_curvature(word, 10);
+    f.z00 = half_curvature(word, 20);
     word = LANES_GATHER_UINT(fields, first + 5u);
-    f.x10 = ten_bits(word, 0) * half_curvature;
-    f.y10 = ten_bits(word, 10) * half_curvature;
-    f.z10 = ten_bits(word, 20) * half_curvature;
+    f.x10 = half_curvature(word, 0);
+    f.y10 = half_curvature(word, 10);
+    f.z10 = half_curvature(word, 20);
     word = LANES_GATHER_UINT(fields, first + 6u);
-    f.x01 = ten_bits(word, 0) * half_curvature;
-    f.y01 = ten_bits(word, 10) * half_curvature;
-    f.z01 = ten_bits(word, 20) * half_curvature;
+    f.x01 = half_curvature(word, 0);
+    f.y01 = half_curvature(word, 10);
+    f.z01 = half_curvature(word, 20);
     word = LANES_GATHER_UINT(fields, first + 7u);
-    f.x11 = ten_bits(word, 0) * half_curvature;
-    f.y11 = ten_bits(word, 10) * half_curvature;
-    f.z11 = ten_bits(word, 20) * half_curvature;
+    f.x11 = half_curvature(word, 0);
+    f.y11 = half_curvature(word, 10);
+    f.z11 = half_curvature(word, 20);
     return f;
 }
 

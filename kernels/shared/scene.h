@@ -20,9 +20,9 @@ typedef struct PyramidShape {
     float4 inverse_edge;         // 1 / edge
     int size_x, size_y, size_z;  // voxels
     int sectors_x, sectors_y;
-    float plane_bound;     // voxels: how far a computed crossing can lie from the true one
-    float fixed_point;     // 2^fraction_bits: one voxel in the rays' fixed point
-    float half_curvature;  // half of 2^curvature_exponent, in distance units
+    float plane_bound;  // voxels: how far a computed crossing can lie from the true one
+    float fixed_point;  // 2^fraction_bits: one voxel in the rays' fixed point
+    float unused;
 } PyramidShape;
 VXL_SIZE_IS(PyramidShape, 64);
 

@@ -17,8 +17,8 @@
 #define VXL_KIND_SMOOTH 1u
 #define VXL_KIND_EXACT 2u
 
-// Colour word of a voxel: 0xTTBBGGRR, sRGB and the voxel's transparency, 0 opaque .. 255 clear. Both
-// multiply the material's.
+// Colour word of a voxel: 0xTTBBGGRR, sRGB and the voxel's transparency, 0 opaque .. 255 clear.
+// Both multiply the material's.
 #define VXL_TRANSPARENCY_SHIFT 24
 
 // Field record of a smooth voxel, 8 words (32 bytes, aligned). The distance inside the voxel at
@@ -27,9 +27,12 @@
 //   F(s) = Σ w_i f_i + ½ x(1-x) Σ w_yz D_x + ½ y(1-y) Σ w_xz D_y + ½ z(1-z) Σ w_xy D_z
 // where D_a of an edge along axis a from node 0 to node 1 is (f(1) - f(-1) - f(2) + f(0)) / 2.
 //   words 0..3: two f each, low half x=0, high half x=1, int16 in 1/8192 voxel; word = y | z<<1
-//   words 4..7: edge e of each axis, 10-bit signed in 2^curvature_exponent / 8192 voxel:
+//   words 4..7: edge e of each axis, ten bits each:
 //     bits 0-9 D_x of the edge at y=e&1, z=e>>1;  10-19 D_y at x=e&1, z=e>>1;  20-29 D_z at x=e&1,
 //     y=e>>1
+//   The ten bits are a sign and 64 e + m: |D| = 2^e (64 + m) - 64, in 1/8192 voxel, up to 16192.
+//   D of flat surfaces is kept to the unit of f, whatever edges the world has besides. An edge's
+//   bits depend on its own four nodes only, so the voxels around it agree.
 #define VXL_FIELD_WORDS 8
 #define VXL_DISTANCE_UNITS 8192
 

@@ -1,15 +1,12 @@
 #include "runtime/io/vdb_density.hpp"
 
-#include <openvdb/io/Stream.h>
-#include <openvdb/openvdb.h>
 #include <openvdb/tools/Interpolation.h>
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <glm/matrix.hpp>
 
-#include "runtime/io/input_file.hpp"
+#include "runtime/io/vdb_read.hpp"
 
 namespace voxelume {
 namespace {
@@ -112,11 +109,7 @@ void check_values(const FloatGrid& grid, const std::string& name, const InputFil
 }
 
 FloatGrid::ConstPtr read_grid(const GridDensity& density, const InputFile& readable) {
-    openvdb::initialize();
-    // OpenVDB's own file takes what it misses at a truncated file's end for zeros.
-    std::ifstream stream(density.file, std::ios::binary);
-    stream.exceptions(std::ios::failbit | std::ios::badbit | std::ios::eofbit);
-    const openvdb::GridPtrVecPtr grids = openvdb::io::Stream(stream, false).getGrids();
+    const openvdb::GridPtrVecPtr grids = read_vdb_grids(density.file, readable);
     for (const openvdb::GridBase::Ptr& grid : *grids) {
         if (grid->getName() != density.grid) continue;
         const auto floats = openvdb::gridPtrCast<FloatGrid>(grid);
@@ -139,17 +132,7 @@ FloatGrid::ConstPtr read_grid(const GridDensity& density, const InputFile& reada
 
 std::unique_ptr<DensityField> read_vdb_density(const GridDensity& density) {
     const InputFile readable(density.file);
-    try {
-        return std::make_unique<VdbField>(read_grid(density, readable), density.world_from_grid);
-    } catch (const Error&) {
-        throw;
-    } catch (const std::ios_base::failure&) {
-        readable.refuse("not a readable OpenVDB file: it ends too early");
-    } catch (const std::bad_alloc&) {
-        readable.refuse("not a readable OpenVDB file: it declares more than there is memory");
-    } catch (const std::exception& error) {
-        readable.refuse(fmt::format("not a readable OpenVDB file: {}", error.what()));
-    }
+    return std::make_unique<VdbField>(read_grid(density, readable), density.world_from_grid);
 }
 
 }  // namespace voxelume

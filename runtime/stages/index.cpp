@@ -22,7 +22,7 @@ constexpr int kBricksPerSector = kSectorSize / kBrickSize;
 struct Marks {
     Buffer<uint64_t> masks;           ///< 64 per slot: the leaves' voxels
     std::vector<uint64_t> leaf_mask;  ///< per slot
-    std::vector<uint32_t> counts;     ///< 3 per slot: voxels, primitives, largest |2D|
+    std::vector<uint32_t> counts;     ///< 2 per slot: voxels, primitives
 };
 
 /// The pyramid's upper levels, and where each slot's leaves, voxels and primitives start.
@@ -49,7 +49,7 @@ Marks mark_voxels(const Device& device, const Program& program, const BrickGrid&
     Marks marks;
     marks.masks = Buffer<uint64_t>(device, "index masks", size_t(grid.brick_count) * 64);
     Buffer<uint64_t> leaf_mask(device, "index leaf masks", grid.brick_count);
-    Buffer<uint32_t> counts(device, "index counts", size_t(grid.brick_count) * 3);
+    Buffer<uint32_t> counts(device, "index counts", size_t(grid.brick_count) * 2);
     program.kernel("mark_voxels")
         .launch(WorkItem::heavy, grid.brick_count, grid.brick_count, glm::ivec4(grid.frame.size, 0),
                 glm::ivec4(grid.frame.bricks(), 0), grid.slots, grid.coordinates, grid.occupancy,
@@ -154,8 +154,8 @@ Numbering number_voxels(const BrickGrid& grid, const Marks& marks) {
         start[1] = uint32_t(voxels);
         start[2] = uint32_t(primitives);
         leaves += size_t(std::popcount(mask));
-        voxels += marks.counts[slot * 3];
-        primitives += marks.counts[slot * 3 + 1];
+        voxels += marks.counts[slot * 2];
+        primitives += marks.counts[slot * 2 + 1];
     }
     write_empty_cubes(numbers.bricks);
     if (std::max(voxels, primitives) > UINT32_MAX)
@@ -167,17 +167,6 @@ Numbering number_voxels(const BrickGrid& grid, const Marks& marks) {
     numbers.voxel_count = uint32_t(voxels);
     numbers.primitive_count = uint32_t(primitives);
     return numbers;
-}
-
-/// The smallest unit 2^exponent (at least 1) in which every D of the kept cells fits in 10 bits.
-int curvature_exponent(const Marks& marks) {
-    uint32_t largest = 0;
-    for (size_t i = 2; i < marks.counts.size(); i += 3)
-        largest = std::max(largest, marks.counts[i]);
-    int exponent = 0;
-    // D = largest / 2 rounds to 511 as long as it is below 511.5 units; the tie goes to even 512.
-    while (largest >= (1023u << exponent)) ++exponent;
-    return exponent;
 }
 
 Surface occupied_kind(const BrickGrid& grid) {
@@ -222,17 +211,15 @@ Pyramid build_index(const Device& device, const BrickGrid& grid) {
     const Marks marks = mark_voxels(device, program, grid);
     const Numbering numbers = number_voxels(grid, marks);
     Pyramid pyramid = allocate(device, grid, numbers);
-    pyramid.curvature_exponent = curvature_exponent(marks);
     const glm::uvec2 kinds{static_cast<uint32_t>(occupied_kind(grid)) << VXL_KIND_SHIFT,
                            VXL_KIND_SMOOTH << VXL_KIND_SHIFT};
     const Buffer<uint32_t> starts(device, "index starts", numbers.starts);
     program.kernel("write_voxels")
         .launch(WorkItem::heavy, grid.brick_count, grid.brick_count, kinds, grid.attribute,
-                pyramid.curvature_exponent, glm::ivec4(grid.frame.bricks(), 0), grid.slots,
-                grid.coordinates, grid.occupancy, grid.distance, grid.attributes, grid.colors,
-                grid.primitive_first, grid.primitives, marks.masks, starts, pyramid.leaves,
-                pyramid.leaf_voxels, pyramid.attributes, pyramid.colors, pyramid.fields,
-                pyramid.primitive_first, pyramid.primitives);
+                glm::ivec4(grid.frame.bricks(), 0), grid.slots, grid.coordinates, grid.occupancy,
+                grid.distance, grid.attributes, grid.colors, grid.primitive_first, grid.primitives,
+                marks.masks, starts, pyramid.leaves, pyramid.leaf_voxels, pyramid.attributes,
+                pyramid.colors, pyramid.fields, pyramid.primitive_first, pyramid.primitives);
     if (!pyramid.primitive_first.empty())
         pyramid.primitive_first.write(std::span(&numbers.primitive_count, 1), numbers.voxel_count);
     return pyramid;

@@ -26,7 +26,6 @@ PyramidShape shape_of(const Pyramid& pyramid) {
     // 2.5 * 2^-24 of the longest side; 4 units leave room for the comparison's own rounding.
     shape.plane_bound = std::ldexp(1.0f, integer_bits + 2 - 24);
     shape.fixed_point = std::ldexp(1.0f, 24 - integer_bits);
-    shape.half_curvature = std::ldexp(0.5f, pyramid.curvature_exponent);
     return shape;
 }
 
