@@ -125,7 +125,7 @@ TEST_P(BothSurfaces, O11GlassInAWhiteFurnaceLosesOnlyPathsThatEnd) {
     send_rays(scene, {0, 0, -0.47}, {0, 0, 1}, 0.8, 48);
     const Furnace f = heat(scene);
     EXPECT_LE(f.above, 1e-6);
-    EXPECT_LE(f.below, 1e-3);
+    EXPECT_LE(f.below, 1e-2);  // grazing, of one ball (1-R) R^63 < 0.006 is deeper than the limit
     EXPECT_LE(f.mean_below, 1e-5);
 }
 
