@@ -3,12 +3,12 @@
 
 #include <fcntl.h>
 #include <poll.h>
-#include <signal.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <array>
 #include <chrono>
+#include <csignal>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
@@ -30,6 +30,7 @@ class Browser {
 
     /// `folder` takes its profile.
     explicit Browser(const std::filesystem::path& folder) : folder_(folder) {
+        std::signal(SIGPIPE, SIG_IGN);  // a browser that isn't there is a failed write
         std::array<int, 2> to{}, from{};
         if (pipe(to.data()) != 0 || pipe(from.data()) != 0)
             throw std::runtime_error("no pipes for the browser");
