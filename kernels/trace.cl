@@ -22,7 +22,7 @@
     (VXL_PATHS ? LANES_GATHER_UINT(p, ray) : LANES_LOAD(p, LANES_FIRST(ray)))
 
 // Idle lanes for which a packet takes on further rays.
-#define VXL_REFILL ((VXL_LANES + 1) / 2)
+#define VXL_REFILL ((VXL_LANES + 3) / 4)
 
 typedef struct {
     global const uint* restrict attributes;

@@ -17,7 +17,7 @@
 #define VXL_DIRECTION_BITS 22
 
 // Packets of rays that a work-item of trace_closest carries one after another.
-#define VXL_PACKETS(lanes) ((lanes) > 1 ? 8u : 1u)
+#define VXL_PACKETS(lanes) ((lanes) > 1 ? 16u : 1u)
 
 // What a ray met.
 //   VXL_HIT_T      float: where, as the ray's t
