@@ -27,6 +27,7 @@ constexpr std::array kCommands = {
     Command{"info", "say what is in a file: image, volume, model or mesh", add_info},
     Command{"convert", "write a volumetric image as another format", add_convert},
     Command{"diff", "measure how far two images are from each other", add_diff},
+    Command{"stress", "hold what a device does against exact arithmetic", add_stress},
 };
 
 constexpr const char* kExitCodes =
