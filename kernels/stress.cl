@@ -1,4 +1,5 @@
 // rays -> what their discrete walks leave: `voxelume stress` compares it with exact arithmetic.
+#include "lib/fixed_point.h"
 #include "lib/walk.h"
 #include "lib/work_item.h"
 #include "shared/scene.h"
@@ -88,4 +89,35 @@ kernel void list_walks(PyramidShape shape, global const float* restrict rays, ui
         advance(&grid, &w, block_log2(&w), walking);
         walking &= in_grid(&grid, &w);
     }
+}
+
+/// Snaps rays of any origin and length to the fixed point, from where they come into the grid on,
+/// as sight rays are. Rays that pass the grid get t_end = -1. `snapped` may not be `rays`.
+kernel void snap_rays(PyramidShape shape, global const float* restrict rays, uint count,
+                      uint stride, global float* restrict snapped) {
+    const uint first = work_item() * VXL_LANES;
+    if (first >= count) return;
+    lane_float d[3], o[3];
+    for (int a = 0; a < 3; ++a) {
+        o[a] = LANES_LOAD(rays, (uint)(VXL_RAY_OX + a) * stride + first);
+        d[a] = LANES_LOAD(rays, (uint)(VXL_RAY_DX + a) * stride + first);
+    }
+    const lane_float scale = power_of_two_scale(d[0], d[1], d[2]);
+    const float size[3] = {(float)shape.size_x, (float)shape.size_y, (float)shape.size_z};
+    lane_float t_first = (lane_float)0.0f, t_last = (lane_float)INFINITY;
+    for (int a = 0; a < 3; ++a) {
+        d[a] = snap_direction(d[a] * scale);
+        clip_axis(o[a], d[a], size[a], &t_first, &t_last);
+    }
+    const lane_int seen = LANE_MASK(t_first <= t_last);
+    t_first = LANES_SELECT(seen, t_first, (lane_float)0.0f);
+    for (int a = 0; a < 3; ++a) {
+        LANES_STORE(d[a], snapped, (uint)(VXL_RAY_DX + a) * stride + first);
+        // start_coordinate takes the origin's rounded part for all lanes: the rest is what differs
+        const lane_float at = start_coordinate(0.0f, o[a], d[a], size[a], t_first);
+        LANES_STORE(snap_position(at, (lane_float)0.0f, shape.fixed_point), snapped,
+                    (uint)(VXL_RAY_OX + a) * stride + first);
+    }
+    const lane_float t_end = LANES_SELECT(seen, (lane_float)INFINITY, (lane_float)-1.0f);
+    LANES_STORE(t_end, snapped, VXL_RAY_END * stride + first);
 }

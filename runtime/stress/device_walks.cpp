@@ -86,6 +86,35 @@ std::vector<EnteredCell> DeviceWalks::cells(const FixedGrid& grid, const FixedRa
     return cells;
 }
 
+std::vector<std::optional<FixedRay>> DeviceWalks::snap(const FixedGrid& grid,
+                                                       std::span<const FloatRay> rays) {
+    const uint32_t count = uint32_t(rays.size()), stride = ray_stride(count);
+    std::vector<float> values(size_t(stride) * VXL_RAY_COMPONENTS, 1.0f);
+    for (size_t i = 0; i < count; ++i)
+        for (int a = 0; a < 3; ++a) {
+            values[size_t(VXL_RAY_OX + a) * stride + i] = rays[i].origin[a];
+            values[size_t(VXL_RAY_DX + a) * stride + i] = rays[i].direction[a];
+        }
+    Buffer<float> snapped(device_, "snapped rays", values.size());
+    cells_.kernel("snap_rays")
+        .launch_packets(count, shape_of_grid(grid),
+                        Buffer<float>(device_, "float rays", std::span<const float>(values)), count,
+                        stride, snapped);
+    const std::vector<float> words = snapped.read();
+    std::vector<std::optional<FixedRay>> result(count);
+    for (size_t i = 0; i < count; ++i) {
+        if (!(words[size_t(VXL_RAY_END) * stride + i] >= 0)) continue;
+        FixedRay ray;
+        for (size_t a = 0; a < 3; ++a) {
+            ray.origin[a] = int64_t(words[(VXL_RAY_OX + a) * stride + i] * float(grid.unit()));
+            ray.direction[a] =
+                int64_t(words[(VXL_RAY_DX + a) * stride + i] * float(1 << VXL_DIRECTION_BITS));
+        }
+        result[i] = ray;
+    }
+    return result;
+}
+
 BrickGrid cubes_of(const Device& device, const VoxelBits& voxels, const GridFrame& frame) {
     BrickGrid grid;
     grid.frame = frame;

@@ -7,7 +7,7 @@
 
 #include "runtime/opencl/program.hpp"
 #include "runtime/stages/trace.hpp"
-#include "runtime/stress/exact_walk.hpp"
+#include "runtime/stress/exact_snap.hpp"
 
 namespace voxelume {
 
@@ -32,6 +32,10 @@ class DeviceWalks {
     /// The first `most` cells of one ray.
     std::vector<EnteredCell> cells(const FixedGrid& grid, const FixedRay& ray, Steps steps,
                                    uint32_t most);
+
+    /// Rays as snapping leaves them, nothing for those that pass the grid.
+    std::vector<std::optional<FixedRay>> snap(const FixedGrid& grid,
+                                              std::span<const FloatRay> rays);
 
   private:
     Device device_;

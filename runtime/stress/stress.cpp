@@ -8,6 +8,7 @@
 #include "runtime/stress/stress_leaks.hpp"
 #include "runtime/stress/stress_placement.hpp"
 #include "runtime/stress/stress_rays.hpp"
+#include "runtime/stress/stress_snapping.hpp"
 #include "runtime/stress/stress_triangles.hpp"
 
 namespace voxelume {
@@ -36,6 +37,11 @@ const std::vector<StressTest>& stress_tests() {
             all.push_back({named.name, named.help, 1, [kind = named.kind](const StressRun& run) {
                                return stress_rays(kind, run);
                            }});
+        all.push_back({"far", "rays from up to 10^7 voxels away, snapped and walked", 1,
+                       [](const StressRun& run) { return stress_snapping(SnapClass::far, run); }});
+        all.push_back(
+            {"denormal", "rays of denormal, huge and zero components", 1,
+             [](const StressRun& run) { return stress_snapping(SnapClass::denormal, run); }});
         for (const Leaks& leaks : kLeaks)
             all.push_back({leaks.name, leaks.help, 1, [leaks](const StressRun& run) {
                                return stress_leaks({leaks.surface, leaks.set}, run);
@@ -43,7 +49,7 @@ const std::vector<StressTest>& stress_tests() {
         all.push_back(
             {"triangles", "voxels of triangles of eight nasty classes", 100, stress_triangles});
         all.push_back(
-            {"placement", "voxels of a lump placed by affine maps", 10000, stress_placement});
+            {"placement", "voxels of a lump placed by affine maps", 20000, stress_placement});
         return all;
     }();
     return tests;
