@@ -22,9 +22,7 @@ Passage passage(const FixedGrid& grid, const glm::vec3& o, const std::array<int6
         const double d = std::ldexp(double(direction[size_t(a)]), -22);
         const double low = -margin - double(o[a]), high = grid.size[a] + margin - double(o[a]);
         if (low > high || (d == 0 && (low > 0 || high < 0))) p.last = -1;
-        if (d == 0) {
-            continue;
-        }
+        if (d == 0) continue;
         p.first = std::max(p.first, std::min(low / d, high / d));
         p.last = std::min(p.last, std::max(low / d, high / d));
     }

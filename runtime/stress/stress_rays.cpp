@@ -15,7 +15,7 @@
 namespace voxelume {
 namespace {
 
-constexpr uint32_t kAll = 1u << 20;
+constexpr uint32_t kAll = 0;
 
 /// Small and large, never a cube where it can be helped.
 constexpr std::array kGrids = {
@@ -142,18 +142,20 @@ class RayStress {
 
     void compare_walks(const FixedGrid& grid, uint64_t first, const RayGrid& chosen) {
         const Steps steps = chosen.compared == Compared::cells ? Steps::cells : Steps::blocks;
-        walks_.start(grid, rays_, steps, chosen.most_cells);
+        // No walk is longer than the sides together: a device's that is ends there, too.
+        const uint32_t longest = uint32_t(grid.size.x + grid.size.y + grid.size.z);
+        const uint32_t most_cells = chosen.most_cells == kAll ? longest : chosen.most_cells;
+        walks_.start(grid, rays_, steps, most_cells);
         exact_.resize(rays_.size());
-        in_pieces(rays_.size(), [&](size_t i) {
-            exact_[i] = exact_digest(grid, rays_[i], steps, chosen.most_cells);
-        });
+        in_pieces(rays_.size(),
+                  [&](size_t i) { exact_[i] = exact_digest(grid, rays_[i], steps, most_cells); });
         const std::vector<WalkDigest> device = walks_.digests();
         for (size_t i = 0; i < rays_.size(); ++i) {
             result_.cells += exact_[i].cells;
             if (device[i] == exact_[i]) continue;
             note_mismatch(result_, first + i, [&] {
                 const uint32_t most =
-                    std::min(chosen.most_cells, std::max(device[i].cells, exact_[i].cells) + 1);
+                    std::min(most_cells, std::max(device[i].cells, exact_[i].cells) + 1);
                 return describe(grid, rays_[i]) + ": " +
                        first_difference(walks_.cells(grid, rays_[i], steps, most),
                                         exact_cells(grid, rays_[i], steps, most));
