@@ -1,10 +1,12 @@
 #include "cli/checks.hpp"
 
 #include <algorithm>
+#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 
 #include "runtime/io/atomic_file.hpp"
+#include "runtime/scene.hpp"
 
 namespace voxelume::cli {
 
@@ -19,6 +21,16 @@ void check_output(const std::string& path, std::initializer_list<const char*> ex
                     list);
     }
     const AtomicFile trial(path);  // leaves nothing behind without commit()
+}
+
+glm::ivec2 parse_size(const std::string& text, const char* command) {
+    glm::ivec2 size{0};
+    char rest = 0;
+    if (std::sscanf(text.c_str(), "%6dx%6d%c", &size.x, &size.y, &rest) != 2 || size.x < 1 ||
+        size.y < 1 || size.x > kMaxImageSide || size.y > kMaxImageSide)
+        throw Error(ErrorKind::usage, "{}: --size {}: give WIDTHxHEIGHT, 1 to {} each", command,
+                    text, kMaxImageSide);
+    return size;
 }
 
 std::function<std::string(const std::string&)> in_range(double least, double most, Number number) {

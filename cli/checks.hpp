@@ -5,6 +5,7 @@
 
 #include <array>
 #include <functional>
+#include <glm/vec2.hpp>
 #include <initializer_list>
 #include <string>
 #include <string_view>
@@ -19,6 +20,9 @@ namespace voxelume::cli {
 /// Error::output when no file can be made there. `command` opens the message about the name.
 void check_output(const std::string& path, std::initializer_list<const char*> extensions,
                   const char* command);
+
+/// "640x480". Throws Error::usage; `command` opens the message.
+glm::ivec2 parse_size(const std::string& text, const char* command);
 
 enum class Number { whole, any };
 

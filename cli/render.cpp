@@ -145,12 +145,17 @@ std::string count_text(uint64_t count) {
 
 void print_summary(const Outcome& outcome) {
     const RenderReport& report = outcome.report;
+    const std::string secondary =
+        report.secondary_rays > 0
+            ? fmt::format(", {} secondary rays ({} paths ended early)",
+                          count_text(report.secondary_rays), count_text(report.ended_paths))
+            : "";
     fmt::print(stderr,
-               "{}x{} in {:.2f} s on \"{}\": {} voxels, {} sight and {} shadow rays; "
+               "{}x{} in {:.2f} s on \"{}\": {} voxels, {} sight and {} shadow rays{}; "
                "load {:.0f} ms, voxelize {:.0f}, place {:.0f}, index {:.0f}, image {:.0f}\n",
                outcome.size.x, outcome.size.y, outcome.seconds, outcome.device.info().name,
                count_text(report.voxels), count_text(report.sight_rays),
-               count_text(report.shadow_rays), report.world.load_seconds * 1e3,
+               count_text(report.shadow_rays), secondary, report.world.load_seconds * 1e3,
                report.world.voxelize_seconds * 1e3, report.world.place_seconds * 1e3,
                report.world.index_seconds * 1e3, report.image_seconds * 1e3);
 }

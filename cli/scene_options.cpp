@@ -1,26 +1,11 @@
 #include "cli/scene_options.hpp"
 
 #include <CLI/CLI.hpp>
-#include <cstdio>
 
 #include "cli/checks.hpp"
 #include "runtime/error.hpp"
 
 namespace voxelume::cli {
-namespace {
-
-glm::ivec2 parse_size(const std::string& text, const char* command) {
-    glm::ivec2 size{0};
-    char rest = 0;
-    if (std::sscanf(text.c_str(), "%6dx%6d%c", &size.x, &size.y, &rest) != 2 || size.x < 1 ||
-        size.y < 1 || size.x > kMaxImageSide || size.y > kMaxImageSide)
-        throw Error(ErrorKind::usage, "{}: --size {}: give WIDTHxHEIGHT, 1 to {} each", command,
-                    text, kMaxImageSide);
-    return size;
-}
-
-}  // namespace
-
 void add_scene_options(CLI::App& app, SceneOptions& options) {
     app.add_option("SCENE", options.scene, "the scene, JSON (see scenes/README.md)")->required();
     app.add_option("--assets", options.assets, "folder of models that the scene names")

@@ -179,12 +179,15 @@ kernel void aim_rays(Sight sight, PyramidShape shape, DisplayLattice lattice,
 }
 
 /// Gives `view` to the points first_point .. first_point+count-1 that have none and that nothing
-/// hides in it.
-kernel void note_view(global const uint* restrict hits, uint first_point, uint count, uint stride,
-                      uint view, global uint* restrict view_of_point) {
+/// hides in it: nothing is met, or, where surfaces let light through, they cover `most` at most.
+kernel void note_view(global const uint* restrict hits, global const float* restrict coverage,
+                      uint first_point, uint count, uint stride, uint view, float most,
+                      global uint* restrict view_of_point) {
     const uint n = work_item();
     if (n >= count || view_of_point[first_point + n] != 0xFFFFFFFFu) return;
-    if (hits[VXL_HIT_VOXEL * stride + n] == VXL_NO_VOXEL) view_of_point[first_point + n] = view;
+    const bool is_clear =
+        VXL_TRANSMISSION ? coverage[n] <= most : hits[VXL_HIT_VOXEL * stride + n] == VXL_NO_VOXEL;
+    if (is_clear) view_of_point[first_point + n] = view;
 }
 
 /// Marks the voxels of points 0 .. count-1 that have a view.
@@ -235,15 +238,13 @@ static inline uint number_of(global const uint* mask, global const uint* starts,
 }
 
 /// Chooses for every voxel the point with a view that lies nearest to its middle; of equals, the
-/// one with the lowest number. In three turns over all points, the first of which has number
-/// `first_number`: 0 finds the least distance, 1 the lowest number at that, 2 copies the point and
-/// its view to the voxel.
+/// one with the lowest number. In two turns over all points, the first of which has number
+/// `first_number`: 0 finds the least distance, 1 the lowest number at that.
 kernel void choose_points(DisplayLattice lattice, global const float* restrict points, uint total,
                           global const uint* restrict view_of_point, uint count, uint first_number,
                           global const uint* restrict mask, global const uint* restrict starts,
-                          uint turn, global uint* restrict distances, global uint* restrict numbers,
-                          uint voxels, global float* restrict voxel_points,
-                          global uint* restrict voxel_views) {
+                          uint turn, global uint* restrict distances,
+                          global uint* restrict numbers) {
     const uint n = work_item();
     if (n >= count || view_of_point[n] == 0xFFFFFFFFu) return;
     const float3 point = load_point(points, total, n);
@@ -255,33 +256,49 @@ kernel void choose_points(DisplayLattice lattice, global const float* restrict p
                     z = point.z - (float)v.z - 0.5f;
         const uint distance = as_uint(fma(x, x, fma(y, y, z * z)));
         if (turn == 0) {
-            atomic_min(distances + voxel, distance);
-        } else if (turn == 1) {
-            if (distances[voxel] == distance) atomic_min(numbers + voxel, first_number + n);
-        } else if (numbers[voxel] == first_number + n) {
-            voxel_points[voxel] = point.x;
-            voxel_points[voxels + voxel] = point.y;
-            voxel_points[2 * voxels + voxel] = point.z;
-            voxel_views[voxel] = view_of_point[n];
+            if (distance < distances[voxel]) atomic_min(distances + voxel, distance);
+        } else if (distances[voxel] == distance) {
+            atomic_min(numbers + voxel, first_number + n);
         }
     }
+}
+
+/// Copies to voxels 0 .. voxels-1 their points and views, those that are among points 0 .. count-1.
+kernel void take_points(global const float* restrict points, uint total,
+                        global const uint* restrict view_of_point, uint count, uint first_number,
+                        global const uint* restrict numbers, uint voxels, uint voxel_stride,
+                        global float* restrict voxel_points, global uint* restrict voxel_views) {
+    const uint voxel = work_item();
+    if (voxel >= voxels) return;
+    const uint n = numbers[voxel] - first_number;
+    if (n >= count) return;
+    for (uint axis = 0; axis < 3; ++axis)
+        voxel_points[axis * voxel_stride + voxel] = points[axis * total + n];
+    voxel_views[voxel] = view_of_point[n];
 }
 
 /// Takes the light of rays 0 .. count-1 to their voxels: ray n was aimed at the point of voxel
 /// targets[first_voxel + n], or of voxel first_voxel + n when it is not `listed`. Where a ray
 /// passes by its surface, the voxel gets object 0. The medium between the ray's start and the
-/// surface counts as air.
+/// surface counts as air. A surface that lets light through has covered `coverage` of it, and
+/// `radiance` is its own.
 kernel void keep_light(Sight sight, PyramidShape shape, Space space,
                        global const float* restrict rays, global const uint* restrict hits,
                        global const float* restrict positions, global const uint* restrict words,
-                       global const float* restrict radiance, global const uint* restrict targets,
-                       uint listed, uint first_voxel, uint count, uint stride,
-                       global float* restrict colors, global float* restrict opacities,
-                       global float* restrict depths, global uint* restrict objects) {
+                       global const float* restrict radiance, global const float* restrict coverage,
+                       uint light_stride, global const uint* restrict targets, uint listed,
+                       uint first_voxel, uint count, uint stride, global float* restrict colors,
+                       global float* restrict opacities, global float* restrict depths,
+                       global uint* restrict objects) {
     const uint first = work_item() * VXL_LANES;
     if (first >= count) return;
-    const lane_int hit =
-        LANE_MASK(LANES_LOAD(hits, VXL_HIT_VOXEL * stride + first) != VXL_NO_VOXEL);
+    lane_int hit = LANE_MASK(LANES_LOAD(hits, VXL_HIT_VOXEL * stride + first) != VXL_NO_VOXEL);
+    lane_float opacity = (lane_float)1.0f;
+    if (VXL_TRANSMISSION) {
+        opacity = LANES_LOAD(coverage, first);
+        hit &= LANE_MASK(opacity > 0.0f);
+        opacity = LANES_SELECT(hit, opacity, (lane_float)1.0f);
+    }
     const Vector p = load_vector(positions, stride, first);
     const float4 edge = shape.edge, ahead = sight.axis_z;
     const Vector metres = {(p.x - sight.origin.x - sight.origin_low.x) * edge.x,
@@ -300,23 +317,25 @@ kernel void keep_light(Sight sight, PyramidShape shape, Space space,
     }
     const float absorption[3] = {space.absorption.x, space.absorption.y, space.absorption.z};
     const float color[3] = {space.color.x, space.color.y, space.color.z};
-    float shown[4 * VXL_LANES];
+    float shown[5 * VXL_LANES];
     for (uint channel = 0; channel < 3; ++channel) {
-        lane_float value = LANES_LOAD(radiance, channel * stride + first);
+        lane_float value = LANES_LOAD(radiance, channel * light_stride + first);
         if (VXL_MEDIUM) {
             const lane_float passed = fmax(exact_exp(-absorption[channel] * path), 1e-6f);
             value = fmax(exact_divide(fma(-color[channel], 1.0f - passed, value), passed), 0.0f);
         }
+        if (VXL_TRANSMISSION) value = exact_divide(value, opacity);
         LANES_STORE(LANES_SELECT(hit, value, (lane_float)0.0f), shown, channel * VXL_LANES);
     }
     LANES_STORE(depth, shown, 3 * VXL_LANES);
+    LANES_STORE(opacity, shown, 4 * VXL_LANES);
     uint object[VXL_LANES];
     LANES_STORE(((LANES_LOAD(words, first) & VXL_OBJECT_MASK) + 1u) & LANES_AS_UINT(hit), object,
                 0);
     for (uint i = 0; i < VXL_LANES && first + i < count; ++i) {
         const size_t voxel = listed ? targets[first_voxel + first + i] : first_voxel + first + i;
         objects[voxel] = object[i];
-        opacities[voxel] = 1.0f;
+        opacities[voxel] = shown[4 * VXL_LANES + i];
         depths[voxel] = shown[3 * VXL_LANES + i];
         for (uint channel = 0; channel < 3; ++channel)
             colors[3 * voxel + channel] = shown[channel * VXL_LANES + i];

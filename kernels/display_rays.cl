@@ -4,6 +4,7 @@
 // Rays lie in the order of sight.cl, one sample a pixel. Space between a ray's way into the world
 // and its end is cut into steps; the voxels of P are written by ascending place, u + width (v +
 // height k).
+#include "lib/density.h"
 #include "lib/exact_exp.h"
 #include "lib/fixed_point.h"
 #include "lib/vector.h"
@@ -105,6 +106,163 @@ kernel void measure_steps(Sight sight, PyramidShape shape, DisplaySteps steps,
     LANES_STORE(LANES_SELECT(seen, end, begin), spans, VXL_SPAN_END * total + place);
     const lane_float ratio = exact_divide(metres, LANES_SELECT(seen, along, (lane_float)1.0f));
     LANES_STORE(ratio, spans, VXL_SPAN_RATIO * total + place);
+}
+
+/// Writes a record of VXL_LAYER_WORDS words, `count` apart, of every entry of a layer of surfaces,
+/// 0 .. count-1. `seen` holds the light and the coverage of the rays' nodes before the layer.
+kernel void measure_layer(Sight sight, PyramidShape shape, DisplaySteps steps, uint is_first,
+                          global const float* restrict rays, global const uint* restrict paths,
+                          global const float* restrict starts, global const uint* restrict inside,
+                          global const uint* restrict hits, global const float* restrict positions,
+                          global const uint* restrict words, uint count, uint stride,
+                          global const float* restrict nodes, global const float* restrict coverage,
+                          uint node_stride, uint first_ray, global float* restrict seen,
+                          global uint* restrict records) {
+    const uint n = work_item();
+    if (n >= count) return;
+    const bool goes_on = VXL_TRANSMISSION && !is_first;
+    const uint ray = goes_on ? paths[VXL_PATH_TARGET * stride + n] : n;
+    const bool hit = hits[VXL_HIT_VOXEL * stride + n] != VXL_NO_VOXEL;
+    float light[3];
+    for (uint c = 0; c < 3; ++c) {
+        const float before = goes_on ? seen[c * node_stride + ray] : 0.0f;
+        light[c] = nodes[c * node_stride + ray] - before;
+        if (VXL_TRANSMISSION) seen[c * node_stride + ray] = nodes[c * node_stride + ray];
+    }
+    const float clear_before = goes_on ? 1.0f - seen[3 * node_stride + ray] : 1.0f;
+    const float clear = VXL_TRANSMISSION ? 1.0f - coverage[ray] : hit ? 0.0f : 1.0f;
+    if (VXL_TRANSMISSION) seen[3 * node_stride + ray] = coverage[ray];
+
+    // One ray in every lane: depths are those of the other kernels, bit by bit.
+    const Vector o = {(lane_float)rays[VXL_RAY_OX * stride + n],
+                      (lane_float)rays[VXL_RAY_OY * stride + n],
+                      (lane_float)rays[VXL_RAY_OZ * stride + n]};
+    const Vector d = {(lane_float)rays[VXL_RAY_DX * stride + n],
+                      (lane_float)rays[VXL_RAY_DY * stride + n],
+                      (lane_float)rays[VXL_RAY_DZ * stride + n]};
+    const Vector at = {(lane_float)positions[n], (lane_float)positions[stride + n],
+                       (lane_float)positions[2 * stride + n]};
+    const float t_end = rays[VXL_RAY_END * stride + n];
+    lane_float t_first = (lane_float)0.0f, t_last = (lane_float)t_end;
+    clip_axis(o.x, d.x, (float)shape.size_x, &t_first, &t_last);
+    clip_axis(o.y, d.y, (float)shape.size_y, &t_first, &t_last);
+    clip_axis(o.z, d.z, (float)shape.size_z, &t_first, &t_last);
+    const lane_float from = fmax(t_first, goes_on ? starts[n] : 0.0f);
+    const lane_float to = hit ? (lane_float)as_float(hits[VXL_HIT_T * stride + n]) : t_last;
+    const Vector metric = {d.x * shape.edge.x, d.y * shape.edge.y, d.z * shape.edge.z};
+    const lane_float metres = exact_sqrt(dot_product(metric, metric));
+    lane_float along = metres;
+    if (sight.shape == VXL_SHAPE_PYRAMID || sight.shape == VXL_SHAPE_BOX)
+        along = depth_of(&sight, shape.edge, d);
+    const lane_float origin = depth_of(&sight, shape.edge, from_eye(&sight, o)) - sight.near_plane;
+    const lane_float depth = depth_of(&sight, shape.edge, from_eye(&sight, at));
+    const bool idle = t_end < 0.0f;
+    const lane_float begin = fma(along, from, origin);
+    const lane_float values[5] = {
+        depth + sight.lead, begin, idle ? begin : fmax(fma(along, to, origin), begin),
+        idle ? (lane_float)1.0f : exact_divide(metres, along), depth - sight.near_plane};
+    float one[5 * VXL_LANES];
+    for (int i = 0; i < 5; ++i) LANES_STORE(values[i], one, i * VXL_LANES);
+    uint step[VXL_LANES];
+    LANES_STORE(step_of(&steps, values[4]), step, 0);
+
+    records[VXL_LAYER_RAY * count + n] = first_ray + ray;
+    records[VXL_LAYER_OBJECT * count + n] = hit && !idle ? (words[n] & VXL_OBJECT_MASK) + 1u : 0u;
+    records[VXL_LAYER_STEP * count + n] = step[0];
+    records[VXL_LAYER_IN_MEDIUM * count + n] = !VXL_TRANSMISSION || inside[n] == 0u;
+    const float opacity = clear < clear_before ? 1.0f - clear / clear_before : 0.0f;
+    records[VXL_LAYER_OPACITY * count + n] = as_uint(clear > 0.0f ? opacity : 1.0f);
+    for (uint i = 0; i < 4; ++i)
+        records[(VXL_LAYER_DEPTH + i) * count + n] = as_uint(one[i * VXL_LANES]);
+    for (uint c = 0; c < 3; ++c) {
+        records[(VXL_LAYER_LIGHT + c) * count + n] = as_uint(light[c]);
+        records[(VXL_LAYER_PASSED + c) * count + n] =
+            VXL_TRANSMISSION ? paths[(VXL_PATH_PASSED + c) * stride + n] : as_uint(1.0f);
+    }
+}
+
+/// Adds what lies between two depths beyond the near surface to the steps there.
+static inline void add_to_steps(DisplaySteps steps, float from, float to, float amount,
+                                global float* amounts, uint stride) {
+    const float most = (float)(steps.count - 1);
+    const uint first = (uint)clamp(from * steps.inverse_step, 0.0f, most);
+    const uint last = (uint)clamp(to * steps.inverse_step, 0.0f, most);
+    if (first >= last) {
+        amounts[(size_t)first * stride] += amount;
+        return;
+    }
+    const float share = amount / (to - from);
+    for (uint k = first; k <= last; ++k) {
+        const float begin = k == first ? from : (float)k * steps.step;
+        const float end = k == last ? to : (float)(k + 1u) * steps.step;
+        amounts[(size_t)k * stride] += fmax(end - begin, 0.0f) * share;
+    }
+}
+
+/// Sums density times metres in every step k of entries first_entry .. first_entry+count-1 of a
+/// layer: amounts[k * amount_stride + n], which are zero before.
+kernel void measure_density(Sight sight, PyramidShape shape, DisplaySteps steps,
+                            DensityShape density_shape, global const uint* restrict density_bricks,
+                            global const float* restrict density_values, uint is_first,
+                            global const float* restrict rays, global const float* restrict starts,
+                            global const uint* restrict inside, global const uint* restrict hits,
+                            uint first_entry, uint count, uint stride, uint amount_stride,
+                            global float* restrict amounts) {
+    const uint lane_0 = work_item() * VXL_LANES, first = first_entry + lane_0;
+    if (lane_0 >= count) return;
+    const DensityView density = {density_shape, density_bricks, density_values};
+    const PyramidView p = {0,
+                           0,
+                           0,
+                           0,
+                           shape.size_x,
+                           shape.size_y,
+                           shape.size_z,
+                           shape.sectors_x,
+                           shape.sectors_y,
+                           shape.plane_bound,
+                           shape.fixed_point};
+    const Vector o = load_vector(rays, stride, first);
+    const Vector d = load_vector(rays + VXL_RAY_DX * stride, stride, first);
+    const lane_float t_end = LANES_LOAD(rays, VXL_RAY_END * stride + first);
+    const lane_int hit =
+        LANE_MASK(LANES_LOAD(hits, VXL_HIT_VOXEL * stride + first) != VXL_NO_VOXEL);
+    const lane_float t_hit = LANES_AS_FLOAT(LANES_LOAD(hits, VXL_HIT_T * stride + first));
+    const lane_float t_last = LANES_SELECT(hit, t_hit, t_end);
+    lane_float t_first = (lane_float)0.0f;
+    lane_int walking = LANE_MASK(LANES_NUMBERS + (int)lane_0 < (int)count);
+    if (VXL_TRANSMISSION) {
+        if (!is_first) t_first = LANES_LOAD(starts, first);
+        walking &= LANE_MASK(LANES_LOAD(inside, first) == 0u);
+    }
+    const Vector metric = {d.x * shape.edge.x, d.y * shape.edge.y, d.z * shape.edge.z};
+    const lane_float metres = exact_sqrt(dot_product(metric, metric));
+    lane_float along = metres;
+    if (sight.shape == VXL_SHAPE_PYRAMID || sight.shape == VXL_SHAPE_BOX)
+        along = depth_of(&sight, shape.edge, d);
+    const lane_float origin = depth_of(&sight, shape.edge, from_eye(&sight, o)) - sight.near_plane;
+    Walk w = begin_walk(o.x, o.y, o.z, d.x, d.y, d.z);
+    lane_float entered = t_first;
+    walking &= LANE_MASK(t_end >= 0.0f) & in_grid(&p, &w) & LANE_MASK(t_first < t_last);
+    while (lanes_any(walking)) {
+        const DensityCell cell = look_up_density(&density, w.x, w.y, w.z, walking);
+        leave_cells(&p, &density, &w, cell.log2_size, walking);
+        const lane_int counts = walking & LANE_MASK(w.t > t_first);
+        const lane_int ends = LANE_MASK(w.t >= t_last);
+        const lane_float left = LANES_SELECT(ends, t_last, w.t);
+        float part[3 * VXL_LANES];
+        int adds[VXL_LANES];
+        LANES_STORE(cell.density * fmax(left - entered, 0.0f) * metres, part, 0);
+        LANES_STORE(fma(along, entered, origin), part, VXL_LANES);
+        LANES_STORE(fma(along, left, origin), part, 2 * VXL_LANES);
+        LANES_STORE(counts & LANE_MASK(cell.density > 0.0f), adds, 0);
+        for (uint i = 0; i < VXL_LANES; ++i)
+            if (adds[i])
+                add_to_steps(steps, part[VXL_LANES + i], part[2 * VXL_LANES + i], part[i],
+                             amounts + lane_0 + i, amount_stride);
+        entered = LANES_SELECT(counts, left, entered);
+        walking &= ~ends & in_grid(&p, &w);
+    }
 }
 
 /// The place of pixel (u, v)'s ray in the order of sight.cl.

@@ -174,17 +174,15 @@ static inline lane_int scan_voxels(const PyramidView* p, const ScannedSurfaces* 
 
 /// Finds the crossings of lines 0 .. count-1 with surfaces, in their order along each line:
 /// `counts` says how many there are, `crossings` has the lattice coordinate along the line of the
-/// first `slots`. Arrays hold a multiple of 16 lines.
-kernel void scan_lines(PyramidShape shape, global const uint* restrict sectors,
-                       global const uint* restrict bricks, global const uint* restrict leaves,
-                       global const uint* restrict leaf_voxels,
-                       global const uint* restrict attributes, global const uint* restrict fields,
-                       global const uint* restrict primitive_first,
-                       global const uint* restrict primitives,
-                       global const float* restrict triangles,
-                       global const SolidShape* restrict solids, float4 row,
-                       global const float* restrict rays, uint count, uint stride, uint slots,
-                       global uint* restrict counts, global float* restrict crossings) {
+/// first `slots`, `line_stride` apart. Arrays hold a multiple of 16 lines.
+kernel void scan_lines(
+    PyramidShape shape, global const uint* restrict sectors, global const uint* restrict bricks,
+    global const uint* restrict leaves, global const uint* restrict leaf_voxels,
+    global const uint* restrict attributes, global const uint* restrict fields,
+    global const uint* restrict primitive_first, global const uint* restrict primitives,
+    global const float* restrict triangles, global const SolidShape* restrict solids, float4 row,
+    global const float* restrict rays, uint count, uint stride, uint slots, uint line_stride,
+    global uint* restrict counts, global float* restrict crossings) {
     const uint first = work_item() * VXL_LANES;
     if (first >= count) return;
     const PyramidView p = {sectors,           bricks,           leaves,
@@ -192,7 +190,7 @@ kernel void scan_lines(PyramidShape shape, global const uint* restrict sectors,
                            shape.size_z,      shape.sectors_x,  shape.sectors_y,
                            shape.plane_bound, shape.fixed_point};
     const ScannedSurfaces s = {attributes, fields, primitive_first, primitives, triangles, solids};
-    ScanResult r = {row, first, stride, slots, crossings, (lane_uint)0u};
+    ScanResult r = {row, first, line_stride, slots, crossings, (lane_uint)0u};
     Walk w = begin_walk(LANES_LOAD(rays, VXL_RAY_OX * stride + first),
                         LANES_LOAD(rays, VXL_RAY_OY * stride + first),
                         LANES_LOAD(rays, VXL_RAY_OZ * stride + first),

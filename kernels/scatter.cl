@@ -350,9 +350,7 @@ kernel void scatter_rays(PyramidShape shape, global const float* restrict materi
                 VXL_PATH_ON_SURFACE;
     ray.interior = behind;
     ray.medium = medium_inside(&behind, ranks);
-    const lane_float turn = fma(eta, cosine, -bend.cosine);
-    const Vector bent = {fma(turn, n.x, eta * v.x), fma(turn, n.y, eta * v.y),
-                         fma(turn, n.z, eta * v.z)};
+    const Vector bent = refracted_direction(v, n, eta, cosine, &bend);
     const Vector into = {-n.x, -n.y, -n.z};
     set_out(&ray, shape, position, into, bent);
     // Between equal media the very same ray goes on.

@@ -118,7 +118,10 @@ kernel void shade_surface(PyramidShape shape, Space space, global const float* r
     }
     // Surfaces without an inside, and insides that a ray began in, face the ray.
     const Vector metric = {d.x * edge.x, d.y * edge.y, d.z * edge.z};
-    const lane_int behind = LANE_MASK(dot_product(metric, normal) > 0.0f);
+    // A smooth one's gradient may turn too far at its silhouette, but the walk knows the side.
+    lane_int behind = LANE_MASK(dot_product(metric, normal) > 0.0f);
+    if (VXL_SMOOTH)
+        behind = LANES_SELECT(smooth, LANE_MASK((cell_face & VXL_FACE_WITHIN) != 0u), behind);
     const Vector flipped = {-normal.x, -normal.y, -normal.z};
     normal = select_vector(behind, flipped, normal);
 

@@ -154,6 +154,12 @@ static inline lane_int hit_exact(const PyramidView* p, const SurfaceView* s, con
     return tested & LANE_MASK(found->t <= exit_time(w));
 }
 
+/// Mask: rays that are inside of the smooth body, as far as their walk has found out.
+static inline lane_int within_smooth(const Found* found, const Travel* travel) {
+    if (!VXL_TRANSMISSION) return found->within;
+    return found->within | LANE_MASK(travel->interior.smooth != VXL_NO_MEMBER);
+}
+
 /// Tests the surface inside each `tested` lane's voxel; the mask of lanes whose ray ends there.
 static inline lane_int test_surfaces(const PyramidView* p, const SurfaceView* s, const Walk* w,
                                      lane_int tested, const Travel* travel, Found* found) {
@@ -192,9 +198,8 @@ static inline lane_int test_surfaces(const PyramidView* p, const SurfaceView* s,
             found->within |= asking & begins_within(&field, w, p->plane_bound);
             found->asked |= asking;
         }
-        lane_int within = found->within;
-        if (VXL_TRANSMISSION) within |= LANE_MASK(travel->interior.smooth != VXL_NO_MEMBER);
-        const lane_float side = LANES_SELECT(within, (lane_float)-1.0f, (lane_float)1.0f);
+        const lane_float side =
+            LANES_SELECT(within_smooth(found, travel), (lane_float)-1.0f, (lane_float)1.0f);
         const lane_int met = hit_smooth(&field, w, side, smooth, beginning, &found->level, &t);
         // A ray that goes straight on has its hits beyond this voxel where any other ray has them.
         if (VXL_TRANSMISSION)
@@ -390,7 +395,9 @@ kernel void trace_closest(VXL_WORLD_ARGUMENTS, global const float* restrict rays
     const lane_uint voxel = LANES_SELECT(found.hit, found.voxel, (lane_uint)VXL_NO_VOXEL);
     LANES_STORE(LANES_AS_UINT(found.t), hits, VXL_HIT_T * stride + first);
     LANES_STORE(voxel, hits, VXL_HIT_VOXEL * stride + first);
-    LANES_STORE(hit_face(&walk, found.exit & found.hit), hits, VXL_HIT_FACE * stride + first);
+    lane_uint face = hit_face(&walk, found.exit & found.hit);
+    if (VXL_SMOOTH) face |= LANES_AS_UINT(within_smooth(&found, &travel)) & VXL_FACE_WITHIN;
+    LANES_STORE(face, hits, VXL_HIT_FACE * stride + first);
     LANES_STORE(LANES_AS_UINT(walk.x | (walk.y << 16)), hits, VXL_HIT_CELL * stride + first);
     if (VXL_EXACT) LANES_STORE(found.primitive, hits, VXL_HIT_PRIMITIVE * stride + first);
 }

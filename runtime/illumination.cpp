@@ -183,11 +183,11 @@ Illumination::Illumination(const Device& device, const Features& features, const
         scatter_->set_bodies(transmitting_solids(device, scene, world));
 }
 
-void Illumination::light(RayBatch& batch, uint32_t count) {
+void Illumination::light(RayBatch& batch, uint32_t count, const LayerSink& sink) {
     if (!features_.paths) return direct(batch, count);
     scatter_->begin(world_, batch, count);
     reserve_nodes(0, batch.stride);
-    follow(0, batch, count);
+    follow(0, batch, count, sink);
     Depth& depth = *depths_[0];
     if (!features_.transmission) return;
     std::swap(batch.radiance, depth.nodes.radiance);
@@ -207,7 +207,7 @@ void Illumination::direct(RayBatch& entries, uint32_t count) {
 }
 
 /// Fills the nodes of a depth, whose rays are in `first`.
-void Illumination::follow(size_t number, RayBatch& first, uint32_t count) {
+void Illumination::follow(size_t number, RayBatch& first, uint32_t count, const LayerSink& sink) {
     Depth& depth = *depths_[number];
     RayBatch* entries = &first;
     for (bool is_first = true; count > 0; is_first = false) {
@@ -219,6 +219,7 @@ void Illumination::follow(size_t number, RayBatch& first, uint32_t count) {
         else
             depth.nodes.radiance = entries->radiance;
         if (number < most_depth_) scatter(number, *entries, count);
+        if (sink && features_.transmission) sink(*entries, count, is_first, depth.nodes);
         std::swap(static_cast<RayQueue&>(depth.entries), depth.next);
         entries = &depth.entries;
         count = on;

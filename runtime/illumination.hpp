@@ -1,6 +1,7 @@
 // rays -> radiance: what each ray meets and the light that comes along it. Blocks 3 to 9.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -26,6 +27,11 @@ inline uint32_t batch_rays(const Features& features) {
     return features.paths ? kBatchRays / 2 : kBatchRays;
 }
 
+/// Called for each layer of surfaces along the rays of an observer, the nearest first, once its
+/// light is added to the nodes. Entry n of the first layer is ray n; others name theirs in `paths`.
+using LayerSink =
+    std::function<void(const RayBatch& entries, uint32_t count, bool is_first, const NodeLight&)>;
+
 /// Traces and lights batches of rays. Flat and volumetric images share it.
 ///
 /// Reflected and refracted rays are followed depth by depth, as the tree of Whitted 1980, each
@@ -39,10 +45,17 @@ class Illumination {
                  const Pyramid& world, uint32_t most_rays, bool compact = true);
 
     /// Fills hits, positions, normals, words and radiance of rays 0 .. count-1, which come from an
-    /// observer.
-    void light(RayBatch& batch, uint32_t count);
+    /// observer. `sink` hears of layers in scenes with `transmission`.
+    void light(RayBatch& batch, uint32_t count, const LayerSink& sink = {});
+
+    /// Fills only the hits, without light.
+    void find_hits(RayBatch& batch, uint32_t count) { trace_.closest(world_, batch, count); }
 
     const Features& features() const { return features_; }
+    /// The medium's, null where its density is 1 everywhere.
+    const DensityGrid* density() const {
+        return features_.medium_grid ? &medium_->density() : nullptr;
+    }
     uint64_t shadow_rays() const;  ///< traced so far; waits for the device
     uint64_t secondary_rays() const { return secondary_rays_; }  ///< and rays that went straight on
     uint64_t ended_paths() const { return scatter_ ? scatter_->ended() : 0; }
@@ -57,7 +70,7 @@ class Illumination {
     };
 
     void direct(RayBatch& entries, uint32_t count);
-    void follow(size_t depth, RayBatch& first, uint32_t count);
+    void follow(size_t depth, RayBatch& first, uint32_t count, const LayerSink& sink = {});
     void scatter(size_t depth, RayBatch& entries, uint32_t count);
     void reserve_nodes(size_t depth, uint32_t count);
 

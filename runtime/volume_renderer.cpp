@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <optional>
 
 #include "runtime/error.hpp"
 #include "runtime/illumination.hpp"
@@ -27,11 +28,26 @@ struct Work {
     const Progress& progress;
 };
 
-/// What the display's kernels know of the medium: one whose density differs from voxel to voxel is
-/// left in the colours of surfaces, and its space is not shown.
+/// What the lattice's kernels know of the medium: where its density differs from voxel to voxel,
+/// the little of it that lies between a light ray's start and its surface stays in the colours.
 Features without_varying_medium(Features features) {
     features.medium = features.medium && !features.medium_grid;
     features.medium_grid = false;
+    return features;
+}
+
+/// A scene of the same surfaces, which only tell how much they cover.
+Scene without_light(Scene scene) {
+    scene.lights.clear();
+    scene.world.medium = {};
+    scene.render.depth = 0;
+    for (Material& material : scene.materials) material.emission = glm::vec3(0);
+    return scene;
+}
+
+/// Refracting surfaces cover all: without opacities in the scene, rays fill the coverage too.
+Features with_transmission(Features features) {
+    features.paths = features.transmission = true;
     return features;
 }
 
@@ -56,20 +72,28 @@ void count_rays(const Illumination& illumination, RenderReport& report) {
     report.ended_paths = illumination.ended_paths();
 }
 
-VoxelArrays render_rays(Work& work) {
+void render_rays(Work& work, Volume& volume) {
     check_rays(work.frame);
     const uint32_t tiles = tile_count(work.sight.width, work.sight.height);
     const uint32_t batch_tiles = std::clamp(batch_rays(work.features) / 16, 1u, tiles);
     RayBatch batch = allocate_batch(work.device, work.features, batch_tiles * 16);
     SightStage sight(work.device, work.features, work.sight);
     Illumination illumination(work.device, work.features, work.scene, work.world, batch.stride);
-    DisplayRaysStage display(work.device, without_varying_medium(work.features), work.sight,
-                             work.frame, work.scene.world.medium, space_of(work.scene.world));
+    DisplayRaysStage display(work.device, work.features, work.sight, work.frame,
+                             work.scene.world.medium, space_of(work.scene.world));
     for (uint32_t first = 0; first < tiles; first += batch_tiles) {
         const uint32_t now = std::min(batch_tiles, tiles - first);
         const uint32_t rays = sight.cast(shape_of(work.world), first, now, batch);
-        illumination.light(batch, rays);
-        display.keep(shape_of(work.world), batch, first * 16, rays);
+        const auto keep_layer = [&](const RayBatch& entries, uint32_t count, bool is_first,
+                                    const NodeLight& nodes) {
+            display.keep_layer(work.world, illumination.density(),
+                               {entries, count, is_first, nodes, first * 16});
+        };
+        illumination.light(batch, rays, keep_layer);
+        if (!display.has_layers())
+            display.keep(shape_of(work.world), batch, first * 16, rays);
+        else if (!work.features.transmission)
+            keep_layer(batch, rays, true, {batch.radiance, {}, batch.stride});
         work.report.sight_rays += rays;
         if (work.progress) {
             work.device.finish();
@@ -77,10 +101,10 @@ VoxelArrays render_rays(Work& work) {
         }
     }
     count_rays(illumination, work.report);
-    return display.voxels();
+    display.read(volume);
 }
 
-VoxelArrays render_lattice(Work& work) {
+void render_lattice(Work& work, Volume& volume) {
     RayBatch batch = allocate_batch(work.device, work.features, batch_rays(work.features));
     // Finding surfaces asks for no more than their geometry.
     const Features geometry = features_of(work.world);
@@ -94,17 +118,24 @@ VoxelArrays render_lattice(Work& work) {
     };
     std::vector<ProbePoints> pieces = scan.scan(work.world, batch);
     report_progress(1);
-    TraceStage trace(work.device, geometry);
-    display.find_views(trace, batch, pieces);
+    Illumination illumination(work.device, work.features, work.scene, work.world, batch.stride);
+    LookAhead look = [&](RayBatch& rays, uint32_t count) { illumination.find_hits(rays, count); };
+    std::optional<Illumination> clear;
+    if (work.features.transmission) {
+        const Scene dark = without_light(work.scene);
+        clear.emplace(work.device, with_transmission(features_of(dark, work.world)), dark,
+                      work.world, batch.stride);
+        look = [&](RayBatch& rays, uint32_t count) { clear->light(rays, count); };
+    }
+    display.find_views(look, batch, pieces);
     ShownVoxels shown = display.choose(pieces);
     report_progress(2);
     pieces.clear();
-    Illumination illumination(work.device, work.features, work.scene, work.world, batch.stride);
-    display.light(trace, illumination, space_of(work.scene.world), batch, shown);
+    display.light(look, illumination, space_of(work.scene.world), batch, shown);
     report_progress(3);
     work.report.sight_rays += scan.lines() + display.rays();
     count_rays(illumination, work.report);
-    return shown.voxels;
+    read_voxels(shown.voxels, volume);
 }
 
 uint32_t count_not_finite(const Volume& volume) {
@@ -126,8 +157,11 @@ Volume render_volume(const Device& device, const Scene& scene, RenderReport& rep
                  report, progress};
     Volume volume;
     volume.frame = frame;
-    read_voxels(frame.layout == VolumeLayout::rays ? render_rays(work) : render_lattice(work),
-                volume);
+    if (frame.layout == VolumeLayout::rays)
+        render_rays(work, volume);
+    else
+        render_lattice(work, volume);
+    device.finish();  // and kernels' times are known
     report.not_finite = count_not_finite(volume);
     report.voxels = world.voxel_count;
     report.image_seconds =

@@ -71,33 +71,65 @@ void for_each_voxel_near(const glm::dvec3& p, double margin, const Visit& visit)
 
 class Lattice : public testing::TestWithParam<DisplayCase> {};
 
-TEST_P(Lattice, ShowsExactlyTheVoxelsOfVisibleSurface) {
-    const Scene scene = parsed(display_scene(std::string(GetParam().keys) +
-                                             R"(, "layout": "lattice", "voxels": [61, 53, 47])"));
-    const Volume volume = volume_of(scene);
-    const LatticeOracle lattice{volume.frame, scene.observer};
-    const oracle::SimpleScene solids = display_solids();
-    const double edge = std::min({volume.frame.edge.x, volume.frame.edge.y, volume.frame.edge.z});
+/// How surely a point can be seen: by E, or along the ways from outside that the manual names.
+struct Sightings {
+    bool surely = false, maybe = false;
+};
 
+Sightings sightings_of(const LatticeOracle& lattice, const oracle::SimpleScene& solids,
+                       const glm::dvec3& p, double edge) {
+    Sightings result;
+    const Visibility visibility = lattice.frame.display.visibility;
+    if (visibility == Visibility::all) return {true, true};
+    const auto look_from = [&](const glm::dvec3& eye) {
+        result.surely |= solids.is_seen(eye, p, 1e-9);
+        result.maybe |= solids.is_seen(eye, p, edge);
+    };
+    if (visibility == Visibility::observer) {
+        look_from(lattice.eye(p));
+        return result;
+    }
+    for (int i = 0; i < 27 && !result.surely; ++i) {
+        const glm::dvec3 way(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1);
+        if (i != 13) look_from(p + 10.0 * glm::normalize(way));
+    }
+    return result;
+}
+
+/// The voxels that hold a surface point that can be seen, surely and within rounding.
+struct ExpectedVoxels {
     std::set<uint64_t> must, may;
+};
+
+ExpectedVoxels expected_voxels(const LatticeOracle& lattice) {
+    const oracle::SimpleScene solids = display_solids();
+    const VolumeFrame& frame = lattice.frame;
+    const double edge = std::min({frame.edge.x, frame.edge.y, frame.edge.z});
+    ExpectedVoxels expected;
     for (const oracle::SimpleSolid& solid : solids.solids)
         for (const glm::dvec3& p : solid.surface_points(0.08 * edge)) {
-            const glm::dvec3 eye = lattice.eye(p), q = lattice.lattice(p);
-            const bool surely = solids.is_seen(eye, p, 1e-9), maybe = solids.is_seen(eye, p, edge);
+            const auto [surely, maybe] = sightings_of(lattice, solids, p, edge);
             if (!maybe) continue;
+            const glm::dvec3 q = lattice.lattice(p);
             for_each_voxel_near(q, 0.09, [&](const glm::ivec3& v) {
                 if (glm::any(glm::lessThan(v, glm::ivec3(0))) ||
-                    glm::any(glm::greaterThanEqual(v, volume.frame.size)))
+                    glm::any(glm::greaterThanEqual(v, frame.size)))
                     return;
                 const double inside = lattice.inside(glm::dvec3(v) + 0.5);
                 if (inside < -1e-5) return;
-                may.insert(lattice.place(v));
+                expected.may.insert(lattice.place(v));
                 const glm::dvec3 within = q - glm::dvec3(v);
                 const double depth = std::min(
                     {within.x, within.y, within.z, 1 - within.x, 1 - within.y, 1 - within.z});
-                if (surely && depth > 0.04 && inside > 1e-5) must.insert(lattice.place(v));
+                if (surely && depth > 0.04 && inside > 1e-5) expected.must.insert(lattice.place(v));
             });
         }
+    return expected;
+}
+
+void expect_exactly_the_visible(const Scene& scene) {
+    const Volume volume = volume_of(scene);
+    const auto [must, may] = expected_voxels({volume.frame, scene.observer});
     const std::set<uint64_t> shown(volume.places.begin(), volume.places.end());
     size_t holes = 0, extras = 0;
     for (const uint64_t place : must) holes += !shown.contains(place);
@@ -106,6 +138,34 @@ TEST_P(Lattice, ShowsExactlyTheVoxelsOfVisibleSurface) {
     EXPECT_EQ(extras, 0u) << "of " << shown.size();
     EXPECT_GT(must.size(), may.size() / 2);
     EXPECT_GT(must.size(), 150u);
+}
+
+TEST_P(Lattice, ShowsExactlyTheVoxelsOfVisibleSurface) {
+    expect_exactly_the_visible(parsed(display_scene(
+        std::string(GetParam().keys) + R"(, "layout": "lattice", "voxels": [61, 53, 47])")));
+}
+
+TEST_P(Lattice, ShowsExactlyTheVoxelsThatOutsideOrNobodySees) {
+    Scene scene = parsed(display_scene(std::string(GetParam().keys) +
+                                       R"(, "layout": "lattice", "voxels": [43, 37, 31])"));
+    for (const Visibility visibility : {Visibility::outside, Visibility::all}) {
+        SCOPED_TRACE(int(visibility));
+        scene.observer.display.visibility = visibility;
+        expect_exactly_the_visible(scene);
+    }
+}
+
+TEST(LatticeCylinder, ClipsWhatLiesBesideIt) {
+    for (const char* keys :
+         {R"("shape": "box", "size": [1.6, 2.3, 2.1], "near": 1.5)",
+          R"("shape": "pyramid", "angles": [27, 30], "near": 1.2, "far": 3.5)"}) {
+        Scene scene = parsed(display_scene(std::string(keys) + R"(, "layout": "lattice",
+                                           "visibility": "all", "voxels": [41, 37, 33])"));
+        const size_t whole = volume_of(scene).places.size();
+        scene.observer.display.cylinder = true;
+        expect_exactly_the_visible(scene);
+        EXPECT_LT(volume_of(scene).places.size(), whole - 20);
+    }
 }
 
 TEST_P(Lattice, EveryVoxelIsWithinHalfItsDiagonalOfTheSurface) {

@@ -140,13 +140,29 @@ TEST(PaperFormula, HoldsForTheSurfacesOfALattice) {
     scene.observer.display.voxels = {24, 18, 5};
     RenderReport report;
     const Volume p = render_volume(test_device(), scene, report);
-    size_t blocks = 0;
+    size_t fronts[2] = {};
     for (size_t i = 0; i < p.places.size(); ++i) {
         EXPECT_EQ(p.opacities[i], 1.0f);
         EXPECT_EQ(p.kinds[i], VoxelKind::object);
-        blocks += p.objects[i] == 1 && std::abs(p.depths[i] - 2) < 1e-5f;
+        ASSERT_TRUE(p.objects[i] == 1 || p.objects[i] == 2);
+        const Surface& surface = p.objects[i] == 1 ? kBlock : kWall;
+        if (std::abs(p.depths[i] - 1 - surface.z) > 1e-5) continue;  // a side of it
+        ++fronts[p.objects[i] - 1];
+        // Lit at one of the four corners of the voxel, which are as near to its middle.
+        const double x = double(p.places[i] % 24) / 3, y = double(p.places[i] / 24 % 18) / 3;
+        bool is_one = false;
+        for (const double dx : {0.0, 1.0 / 3})
+            for (const double dy : {0.0, 1.0 / 3}) {
+                double most = 0;
+                for (int c = 0; c < 3; ++c)
+                    most = std::max(most, std::abs(double(p.colors[i][c]) -
+                                                   surface_light(surface, x + dx, y + dy, c)));
+                is_one |= most < 2e-5;
+            }
+        EXPECT_TRUE(is_one) << "at " << x << " " << y << ", object " << p.objects[i];
     }
-    EXPECT_GE(blocks, 36u);
+    EXPECT_GE(fronts[0], 36u);
+    EXPECT_GE(fronts[1], 150u);
 }
 
 }  // namespace

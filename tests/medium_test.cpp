@@ -102,7 +102,7 @@ TEST(Medium, ItsOwnLightIsAccurateWhereItIsThin) {
     }
 }
 
-TEST(Medium, NothingComesThroughAnOpticalDepthOfTwoHundred) {
+TEST(Medium, O8NothingComesThroughAnOpticalDepthOfTwoHundred) {
     World world = medium_world(kSize);
     world.medium.absorption = {200.0f / 35, 87.5f / 35, 86.5f / 35};
     world.medium.color = {0.25, 0.5, 0.75};
@@ -144,7 +144,7 @@ TEST(Medium, HasTheSameBitsForEveryNumberOfLanes) {
     }
 }
 
-TEST(Medium, AMillionSegmentsAreSummedToAFloatsAccuracy) {
+TEST(Medium, O8AMillionSegmentsAreSummedToAFloatsAccuracy) {
     constexpr uint32_t kTerms = 1'000'000;
     const Device device = test_device();
     const Program program = Program::from_text(device, R"(

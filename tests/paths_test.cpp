@@ -6,6 +6,7 @@
 #include "runtime/illumination.hpp"
 #include "runtime/renderer.hpp"
 #include "runtime/stages/sight.hpp"
+#include "tests/leaky_room.hpp"
 #include "tests/oracles/image_hash.hpp"
 #include "tests/test_device.hpp"
 
@@ -67,7 +68,7 @@ constexpr const char* kGhostBall =
 class AllSurfaces : public testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(Paths, AllSurfaces, testing::Values("exact", "smooth"));
 
-TEST_P(AllSurfaces, ABallOfTheSpacesOwnIndexIsInvisibleToTheBit) {
+TEST_P(AllSurfaces, O6ABallOfTheSpacesOwnIndexIsInvisibleToTheBit) {
     const Rendered bare = rendered(scene_with(kGhost, "", R"(, "shadow": "filtered")", GetParam()));
     const Rendered ghost =
         rendered(scene_with(kGhost, kGhostBall, R"(, "shadow": "filtered")", GetParam()));
@@ -125,42 +126,6 @@ TEST(Paths, PanesCoverWhatLiesBehindByTheirOpacity) {
     for (int c = 0; c < 3; ++c)
         for (const float value : r.image.planes.at(kColors[c])) EXPECT_NEAR(value, color[c], 1e-6);
     for (const float value : r.image.planes.at("A")) EXPECT_NEAR(value, covered, 1e-6);
-}
-
-/// A closed room with a far too bright background, and things in it that send rays everywhere.
-Scene leaky_room(const std::string& surface, int depth) {
-    const std::string text = R"({"voxelume": 1,
-"world": {"voxel_size": 0.03, "bounds": {"min": [-1.1, -1.1, -1.1], "max": [1.1, 1.1, 1.1]},
-          "background": [1e6, 1e6, 1e6], "ambient": [1, 1, 1]},
-"materials": {"wall": {"color": [0.5, 0.5, 0.5], "reflection": 0.5},
-              "mirror": {"diffuse": 0, "reflection": 1},
-              "glass": {"diffuse": 0, "reflection": 1, "refraction": 1, "ior": 1.5, "fresnel": true}},
-"models": {"room": {"shape": "difference", "surface": ")" +
-                             surface + R"(", "parts": [
-              {"shape": "box", "size": [2.1, 2.1, 2.1]}, {"shape": "box", "size": [1.9, 1.9, 1.9]}]},
-           "ball": {"shape": "sphere", "radius": 0.3, "surface": ")" +
-                             surface + R"("},
-           "ring": {"shape": "torus", "radius": 0.25, "tube": 0.1, "surface": ")" +
-                             surface + R"("},
-           "block": {"shape": "box", "size": [0.4, 0.5, 0.3], "surface": "exact"}},
-"objects": [{"model": "room", "material": "wall"},
-            {"model": "ball", "material": "glass", "position": [-0.31, 0.22, 0.13]},
-            {"model": "ring", "material": "glass", "position": [0.4, 0.35, 0.2], "turn": [20, 50, 10]},
-            {"model": "ball", "material": "mirror", "position": [0.4, -0.4, 0.3]},
-            {"model": "block", "material": "glass", "position": [-0.3, -0.5, 0.2], "turn": [33, 20, 0]}],
-"observer": {"position": [0.1, 0.05, -0.8], "look_at": [0, 0, 0.3],
-             "display": {"shape": "pyramid", "angle": 90}},
-"render": {"size": [192, 192], "depth": )" +
-                             std::to_string(depth) + "}}";
-    return parse_scene(text, "test.json", {});
-}
-
-TEST_P(AllSurfaces, NoRayLeavesAClosedRoom) {
-    const Rendered r = rendered(leaky_room(GetParam(), 20));
-    EXPECT_GT(r.report.secondary_rays, 500'000u);
-    size_t leaks = 0;
-    for (const float value : r.image.planes.at("R")) leaks += value > 2;
-    EXPECT_EQ(leaks, 0u) << "of " << r.report.secondary_rays << " secondary rays";
 }
 
 TEST_P(AllSurfaces, LanesDoNotChangeABit) {

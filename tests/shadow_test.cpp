@@ -1,4 +1,5 @@
-// Lit surfaces don't shadow themselves, however low the light stands.
+// Lit surfaces don't shadow themselves, however low the light stands, and what is turned from it is
+// dark. Cases O9 and O10.
 #include <gtest/gtest.h>
 
 #include <numbers>
@@ -102,7 +103,7 @@ bool clear_of_ball(const glm::dvec3& p, const glm::dvec3& l) {
     return glm::length(glm::cross(kCenter - p, l)) > kRadius + 0.02 || glm::dot(kCenter - p, l) < 0;
 }
 
-TEST_P(Shadows, FlatGroundUnderALowLightIsLit) {
+TEST_P(Shadows, O9FlatGroundUnderALowLightIsLit) {
     const Bounds bounds = scene(0.3).world.bounds;
     for (const double elevation : {0.002, 0.02, 0.3})
         expect_no_acne(
@@ -114,7 +115,7 @@ TEST_P(Shadows, FlatGroundUnderALowLightIsLit) {
             1000);
 }
 
-TEST_P(Shadows, TheLitSideOfABallIsLit) {
+TEST_P(Shadows, O9TheLitSideOfABallIsLit) {
     if (GetParam() == Surface::cubes) GTEST_SKIP() << "stairs of cubes do shadow one another";
     for (const double elevation : {0.02, 0.9})
         expect_no_acne(

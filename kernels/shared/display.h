@@ -18,6 +18,20 @@ typedef struct DisplaySteps {
 } DisplaySteps;
 VXL_SIZE_IS(DisplaySteps, 16);
 
+// A ray's way through one layer of surfaces, as words: to the surface that it meets, or to its end.
+#define VXL_LAYER_RAY 0        // uint: number of the sight ray
+#define VXL_LAYER_OBJECT 1     // uint: number of the object met plus 1, 0 for none
+#define VXL_LAYER_STEP 2       // uint: of the surface
+#define VXL_LAYER_IN_MEDIUM 3  // uint: 1 where the way leads through the medium of S, not an object
+#define VXL_LAYER_OPACITY 4    // float: of the surface
+#define VXL_LAYER_DEPTH 5      // float: of the surface, metres
+#define VXL_LAYER_BEGIN 6      // float: of the way, depth in metres beyond the near surface
+#define VXL_LAYER_END 7
+#define VXL_LAYER_RATIO 8    // float: metres of the way in a metre of depth
+#define VXL_LAYER_LIGHT 9    // 3 floats: what the layer adds to the light at E
+#define VXL_LAYER_PASSED 12  // 3 floats: the part of the light that comes from the way's begin to E
+#define VXL_LAYER_WORDS 15
+
 // A display of layout `lattice`. A coordinate (x,y,z) in lattice voxels is origin + x axis_x + y
 // axis_y + z axis_z in voxels of the world.
 typedef struct DisplayLattice {

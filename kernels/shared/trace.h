@@ -23,7 +23,8 @@
 //   VXL_HIT_FACE   z | axis << 16: the axis (0, 1, 2) across which the ray entered the cell, or
 //                  came into the world; 3: it began there. Where it left the object of the cell's
 //                  voxel, VXL_FACE_EXIT is set, the axis is that across which it left the cell,
-//                  and VXL_FACE_UP says that this was towards larger coordinates.
+//                  and VXL_FACE_UP says that this was towards larger coordinates. Of smooth
+//                  surfaces VXL_FACE_WITHIN says that they were met from inside.
 //   VXL_HIT_PRIMITIVE  the triangle or solid hit, VXL_NO_PRIMITIVE for other surfaces
 #define VXL_HIT_T 0
 #define VXL_HIT_VOXEL 1
@@ -35,6 +36,7 @@
 #define VXL_FACE_AXIS_MASK 3u
 #define VXL_FACE_EXIT 0x40000u
 #define VXL_FACE_UP 0x80000u
+#define VXL_FACE_WITHIN 0x100000u
 // A primitive is a triangle's number, or this bit and a solid's.
 #define VXL_SOLID_PRIMITIVE 0x80000000u
 #define VXL_NO_PRIMITIVE 0xFFFFFFFFu

@@ -10,6 +10,9 @@
 namespace voxelume {
 namespace {
 
+/// How much the surfaces in front may cover of a point that is still seen.
+constexpr float kMostCovered = 1 - 1.0f / 1024;
+
 constexpr uint32_t kGroupWords = 8, kGroupBits = 256;
 
 /// Ways from outside of the world to a point in it, in voxels: view 0 is the observer's and has no
@@ -51,6 +54,7 @@ DisplayLatticeStage::DisplayLatticeStage(const Device& device, const Features& f
       sight_(sight),
       lattice_(display_lattice(frame, world.frame)),
       visibility_(frame.display.visibility),
+      transmission_(features.transmission),
       world_(world),
       views_(device, "display views", std::span<const float4>(ways_from_outside(world.frame))),
       groups_(group_count(device, frame.size)),
@@ -62,6 +66,7 @@ DisplayLatticeStage::DisplayLatticeStage(const Device& device, const Features& f
       count_(program_.kernel("count_groups")),
       list_(program_.kernel("list_places")),
       choose_(program_.kernel("choose_points")),
+      take_(program_.kernel("take_points")),
       keep_(program_.kernel("keep_light")) {}
 
 void DisplayLatticeStage::aim(const ProbePoints& points, uint32_t search, uint32_t first,
@@ -71,23 +76,26 @@ void DisplayLatticeStage::aim(const ProbePoints& points, uint32_t search, uint32
     rays_ += count;
 }
 
-void DisplayLatticeStage::search(TraceStage& trace, RayBatch& batch, ProbePoints& points,
-                                 uint32_t view) {
+void DisplayLatticeStage::search(const LookAhead& look, RayBatch& batch, ProbePoints& points,
+                                 uint32_t view, float most_covered) {
     for (uint32_t first = 0; first < points.count; first += batch.stride) {
         const uint32_t count = std::min(batch.stride, points.count - first);
         aim(points, view + 1, first, count, batch);
-        trace.closest(world_, batch, count);
-        note_.launch(WorkItem::light, count, batch.hits, first, count, batch.stride, view,
-                     points.views);
+        look(batch, count);
+        note_.launch(WorkItem::light, count, batch.hits, batch.coverage, first, count, batch.stride,
+                     view, most_covered, points.views);
     }
 }
 
-void DisplayLatticeStage::find_views(TraceStage& trace, RayBatch& batch,
+void DisplayLatticeStage::find_views(const LookAhead& look, RayBatch& batch,
                                      std::vector<ProbePoints>& pieces) {
     for (ProbePoints& points : pieces) {
-        if (visibility_ != Visibility::outside) search(trace, batch, points, 0);
+        if (visibility_ != Visibility::outside) search(look, batch, points, 0, kMostCovered);
         if (visibility_ == Visibility::observer) continue;
-        for (uint32_t view = 1; view < views_.size(); ++view) search(trace, batch, points, view);
+        // Where a point is seen freely from somewhere, it is not lit as seen through others.
+        for (const float most : {0.0f, kMostCovered})
+            for (uint32_t view = 1; view < views_.size() && (transmission_ || most == 0); ++view)
+                search(look, batch, points, view, most);
         if (visibility_ != Visibility::all) continue;
         std::vector<uint32_t> views = points.views.read();  // what no view shows is lit as from E
         std::ranges::replace(views, kNoView, 0u);
@@ -121,17 +129,32 @@ ShownVoxels DisplayLatticeStage::choose(const std::vector<ProbePoints>& pieces) 
     Buffer<uint32_t> numbers(device_, "display numbers", chosen.count);
     distances.fill(UINT32_MAX);
     numbers.fill(UINT32_MAX);
-    for (const uint32_t turn : {0u, 1u, 2u}) {
+    for (const uint32_t turn : {0u, 1u}) {
         uint32_t first_number = 0;
         for (const ProbePoints& points : pieces) {
             choose_.launch(WorkItem::light, points.count, lattice_, points.coordinates,
                            points.total, points.views, points.count, first_number, mask_, starts,
-                           turn, distances, numbers, chosen.total, chosen.coordinates,
-                           chosen.views);
+                           turn, distances, numbers);
             first_number += points.count;
         }
     }
+    uint32_t first_number = 0;
+    for (const ProbePoints& points : pieces) {
+        take_.launch(WorkItem::light, chosen.count, points.coordinates, points.total, points.views,
+                     points.count, first_number, numbers, chosen.count, chosen.total,
+                     chosen.coordinates, chosen.views);
+        first_number += points.count;
+    }
     return shown;
+}
+
+void DisplayLatticeStage::keep(const Space& space, const RayBatch& batch, const NodeLight& nodes,
+                               const LightTask& task, uint32_t first, uint32_t count,
+                               VoxelArrays& voxels) {
+    keep_.launch_packets(count, sight_, shape_of(world_), space, batch.rays, batch.hits,
+                         batch.positions, batch.words, nodes.radiance, nodes.coverage, nodes.stride,
+                         task.targets, uint32_t(!task.targets.empty()), first, count, batch.stride,
+                         voxels.colors, voxels.opacities, voxels.depths, voxels.objects);
 }
 
 void DisplayLatticeStage::light_points(Illumination& illumination, const Space& space,
@@ -140,17 +163,24 @@ void DisplayLatticeStage::light_points(Illumination& illumination, const Space& 
     for (uint32_t first = 0; first < task.points.count; first += batch.stride) {
         const uint32_t count = std::min(batch.stride, task.points.count - first);
         aim(task.points, 0, first, count, batch);
-        illumination.light(batch, count);
-        keep_.launch_packets(count, sight_, shape_of(world_), space, batch.rays, batch.hits,
-                             batch.positions, batch.words, batch.radiance, task.targets,
-                             uint32_t(!task.targets.empty()), first, count, batch.stride,
-                             voxels.colors, voxels.opacities, voxels.depths, voxels.objects);
+        if (!transmission_) {
+            illumination.light(batch, count);
+            keep(space, batch, {batch.radiance, {}, batch.stride}, task, first, count, voxels);
+            continue;
+        }
+        // The nearest surface is the voxel's; what lies behind has voxels of its own.
+        illumination.light(
+            batch, count,
+            [&](const RayBatch& entries, uint32_t, bool is_first, const NodeLight& nodes) {
+                if (is_first) keep(space, entries, nodes, task, first, count, voxels);
+            });
     }
 }
 
 /// The points of voxels that have no light yet, moved a little.
 DisplayLatticeStage::LightTask DisplayLatticeStage::missed_points(const ShownVoxels& shown,
-                                                                  const glm::vec3& shift) {
+                                                                  const glm::vec3& shift,
+                                                                  HostPoints& host) {
     const std::vector<uint32_t> objects = shown.voxels.objects.read(0, shown.voxels.count);
     std::vector<uint32_t> missed;
     for (uint32_t voxel = 0; voxel < objects.size(); ++voxel)
@@ -160,15 +190,17 @@ DisplayLatticeStage::LightTask DisplayLatticeStage::missed_points(const ShownVox
     points.count = uint32_t(missed.size());
     if (missed.empty()) return task;
     points.total = (points.count + 15) / 16 * 16;
-    const std::vector<float> from = shown.points.coordinates.read();
-    const std::vector<uint32_t> views_from = shown.points.views.read();
+    if (host.coordinates.empty()) {
+        host.coordinates = shown.points.coordinates.read();
+        host.views = shown.points.views.read();
+    }
     std::vector<float> coordinates(size_t(points.total) * 3);
     std::vector<uint32_t> views(points.total, kNoView);
     for (size_t i = 0; i < missed.size(); ++i) {
-        views[i] = views_from[missed[i]];
+        views[i] = host.views[missed[i]];
         for (int axis = 0; axis < 3; ++axis)
             coordinates[size_t(axis) * points.total + i] =
-                from[size_t(axis) * shown.points.total + missed[i]] + shift[axis];
+                host.coordinates[size_t(axis) * shown.points.total + missed[i]] + shift[axis];
     }
     points.coordinates =
         Buffer<float>(device_, "probe points", std::span<const float>(coordinates));
@@ -177,15 +209,16 @@ DisplayLatticeStage::LightTask DisplayLatticeStage::missed_points(const ShownVox
     return task;
 }
 
-void DisplayLatticeStage::light(TraceStage& trace, Illumination& illumination, const Space& space,
-                                RayBatch& batch, ShownVoxels& shown) {
+void DisplayLatticeStage::light(const LookAhead& look, Illumination& illumination,
+                                const Space& space, RayBatch& batch, ShownVoxels& shown) {
     light_points(illumination, space, batch, {shown.points, {}}, shown.voxels);
+    HostPoints host;
     // A ray along the surface at its point, as at an outline, may pass by: one beside it does not.
     for (const float by : {1.0f / 512, 1.0f / 64})
         for (int side = 0; side < 6; ++side) {
             glm::vec3 shift(0);
             shift[side / 2] = side % 2 == 0 ? by : -by;
-            const LightTask missed = missed_points(shown, shift);
+            const LightTask missed = missed_points(shown, shift, host);
             if (missed.points.count == 0) return;
             light_points(illumination, space, batch, missed, shown.voxels);
         }
@@ -193,10 +226,10 @@ void DisplayLatticeStage::light(TraceStage& trace, Illumination& illumination, c
     // Nor may a whole face that a view looks along: other views see it.
     for (const bool hidden : {false, true})
         for (uint32_t view = 1; view < views_.size(); ++view) {
-            LightTask missed = missed_points(shown, glm::vec3(0));
+            LightTask missed = missed_points(shown, glm::vec3(0), host);
             if (missed.points.count == 0) return;
             missed.points.views.fill(hidden ? view : kNoView);
-            if (!hidden) search(trace, batch, missed.points, view);
+            if (!hidden) search(look, batch, missed.points, view, kMostCovered);
             light_points(illumination, space, batch, missed, shown.voxels);
         }
 }

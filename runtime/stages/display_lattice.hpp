@@ -1,6 +1,8 @@
 // probe points -> P in the layout `lattice`: the voxels that are shown, and their light.
 #pragma once
 
+#include <functional>
+
 #include "runtime/illumination.hpp"
 #include "runtime/stages/display_rays.hpp"
 #include "runtime/stages/display_scan.hpp"
@@ -13,6 +15,10 @@ struct ShownVoxels {
     ProbePoints points;  ///< one for each voxel
 };
 
+/// Traces rays 0 .. count-1 of a batch. Where surfaces let light through, also fills what all
+/// surfaces along each ray cover.
+using LookAhead = std::function<void(RayBatch& batch, uint32_t count)>;
+
 /// Kernels of display_lattice.cl. The paper's blocks 2 and 3.
 class DisplayLatticeStage {
   public:
@@ -21,14 +27,14 @@ class DisplayLatticeStage {
                         const VolumeFrame& frame, const Pyramid& world);
 
     /// Finds in which view each point is visible, as the display's visibility asks for.
-    void find_views(TraceStage& trace, RayBatch& batch, std::vector<ProbePoints>& pieces);
+    void find_views(const LookAhead& look, RayBatch& batch, std::vector<ProbePoints>& pieces);
 
     /// The voxels of all points that have a view.
     ShownVoxels choose(const std::vector<ProbePoints>& pieces);
 
     /// Lights the voxels, batch by batch.
-    void light(TraceStage& trace, Illumination& illumination, const Space& space, RayBatch& batch,
-               ShownVoxels& shown);
+    void light(const LookAhead& look, Illumination& illumination, const Space& space,
+               RayBatch& batch, ShownVoxels& shown);
 
     uint64_t rays() const { return rays_; }  ///< aimed so far
 
@@ -40,21 +46,31 @@ class DisplayLatticeStage {
         ProbePoints points;
         Buffer<uint32_t> targets;
     };
+    /// Takes the light of batch rays from `first` on to their voxels. `nodes` holds it.
+    void keep(const Space& space, const RayBatch& batch, const NodeLight& nodes,
+              const LightTask& task, uint32_t first, uint32_t count, VoxelArrays& voxels);
     void light_points(Illumination& illumination, const Space& space, RayBatch& batch,
                       const LightTask& task, VoxelArrays& voxels);
-    LightTask missed_points(const ShownVoxels& shown, const glm::vec3& shift);
-    void search(TraceStage& trace, RayBatch& batch, ProbePoints& points, uint32_t view);
+    /// The points of all voxels, read when the first one is missed.
+    struct HostPoints {
+        std::vector<float> coordinates;
+        std::vector<uint32_t> views;
+    };
+    LightTask missed_points(const ShownVoxels& shown, const glm::vec3& shift, HostPoints& host);
+    void search(const LookAhead& look, RayBatch& batch, ProbePoints& points, uint32_t view,
+                float most_covered);
 
     Device device_;
     Sight sight_;
     DisplayLattice lattice_;
     Visibility visibility_;
+    bool transmission_;
     const Pyramid& world_;
     Buffer<float4> views_;
     uint32_t groups_;
     Buffer<uint32_t> mask_;  ///< one bit for every voxel of the lattice
     Program program_;
-    Kernel aim_, note_, mark_, count_, list_, choose_, keep_;
+    Kernel aim_, note_, mark_, count_, list_, choose_, take_, keep_;
     uint64_t rays_ = 0;
 };
 

@@ -2,9 +2,11 @@
 #pragma once
 
 #include "runtime/opencl/program.hpp"
+#include "runtime/stages/density_grid.hpp"
 #include "runtime/stages/display_frame.hpp"
 #include "runtime/stages/features.hpp"
 #include "runtime/stages/ray_batch.hpp"
+#include "runtime/stages/scatter.hpp"
 
 namespace voxelume {
 
@@ -24,6 +26,17 @@ VoxelArrays allocate_voxels(const Device& device, uint64_t count);
 /// Reads the voxels into a volume. Waits for the device.
 void read_voxels(const VoxelArrays& voxels, Volume& volume);
 
+/// The records of a layer of surfaces along sight rays: VXL_LAYER_WORDS words, `count` apart.
+struct LayerRecords {
+    size_t count = 0;
+    std::vector<uint32_t> words;
+    /// Density times metres of entry n in step k, at `first_amount[n] + k - first_step[n]`; empty
+    /// in a medium of density 1. Entry n's end where those of n+1 begin.
+    std::vector<float> amounts;
+    std::vector<size_t> first_amount;
+    std::vector<uint32_t> first_step;
+};
+
 /// Kernels of display_rays.cl, and what they keep of each sight ray. The paper's blocks 2 and 3.
 class DisplayRaysStage {
   public:
@@ -34,11 +47,31 @@ class DisplayRaysStage {
     /// Keeps lit rays 0 .. count-1 of the batch, which begin at ray `first_ray` of the display.
     void keep(const PyramidShape& world, const RayBatch& batch, uint32_t first_ray, uint32_t count);
 
-    /// The voxels of all rays, once every ray is kept.
-    VoxelArrays voxels();
+    /// A layer of surfaces, the nearest first: which entries of a batch that begins at ray
+    /// `first_ray`, and where the light of their rays is.
+    struct Layer {
+        const RayBatch& entries;
+        uint32_t count;
+        bool is_first;
+        const NodeLight& nodes;
+        uint32_t first_ray;
+    };
+    /// Instead of `keep` where light comes from several surfaces along a ray (`transmission`), or a
+    /// medium that differs from voxel to voxel (`medium_grid`).
+    void keep_layer(const Pyramid& world, const DensityGrid* density, const Layer& layer);
+    bool has_layers() const { return has_layers_; }
+
+    /// Puts the voxels of all rays into the volume, once every ray is kept.
+    void read(Volume& volume);
 
   private:
+    VoxelArrays voxels();
+
     Device device_;
+    void measure_density(const Pyramid& world, const DensityGrid& density, const Layer& layer,
+                         LayerRecords& records);
+
+    bool has_layers_, transmission_;
     Sight sight_;
     DisplaySteps steps_;
     float near_depth_;
@@ -47,8 +80,10 @@ class DisplayRaysStage {
     Buffer<uint32_t> hit_steps_, objects_;
     Buffer<float> depths_, colors_;
     Buffer<float> spans_;  ///< only in a world with a medium
+    Buffer<float> seen_;   ///< of the batch's nodes before a layer: light, coverage
+    std::vector<LayerRecords> layers_;
     Program program_;
-    Kernel measure_, count_, place_, fill_;
+    Kernel measure_, layer_, density_, count_, place_, fill_;
 };
 
 }  // namespace voxelume

@@ -11,6 +11,10 @@ namespace {
 
 constexpr int kMostParts = 64;
 
+/// Lines have places for many crossings, so fewer of them go together; and where these do not do,
+/// only those few are scanned again.
+constexpr uint32_t kBatchParts = 4;
+
 float4 to_float4(const glm::dvec3& v) {
     return {float(v.x), float(v.y), float(v.z), 0};
 }
@@ -71,22 +75,21 @@ DisplayScanStage::Family DisplayScanStage::family(int axis, const VolumeFrame& f
 
 ProbePoints DisplayScanStage::scan_batch(const Pyramid& world, const Family& family,
                                          uint32_t first_line, uint32_t count, RayBatch& batch) {
+    const uint32_t stride = (count + 15) / 16 * 16;
     std::vector<uint32_t> counts;
     for (;;) {
-        const size_t places = size_t(batch.stride) * slots_;
-        if (crossings_.size() < places)
-            crossings_ = Buffer<float>(device_, "probe crossings", places);
-        if (counts_.size() < batch.stride)
-            counts_ = Buffer<uint32_t>(device_, "probe counts", batch.stride);
+        if (crossings_.size() < size_t(stride) * slots_)
+            crossings_ = Buffer<float>(device_, "probe crossings", size_t(stride) * slots_);
+        if (counts_.size() < stride) counts_ = Buffer<uint32_t>(device_, "probe counts", stride);
         scan_.launch_packets(count, shape_of(world), world.sectors, world.bricks, world.leaves,
                              world.leaf_voxels, world.attributes, world.fields,
                              world.primitive_first, world.primitives, world.triangles, world.solids,
-                             family.row, batch.rays, count, batch.stride, slots_, counts_,
+                             family.row, batch.rays, count, batch.stride, slots_, stride, counts_,
                              crossings_);
         counts = counts_.read(0, count);
         const uint32_t most = *std::ranges::max_element(counts);
         if (most <= slots_) break;
-        slots_ = most;
+        slots_ = std::max(most, 2 * slots_);
     }
     std::vector<uint32_t> starts(count);
     std::exclusive_scan(counts.begin(), counts.end(), starts.begin(), 0u);
@@ -100,7 +103,7 @@ ProbePoints DisplayScanStage::scan_batch(const Pyramid& world, const Family& fam
     const Buffer<uint32_t> places(device_, "probe starts", std::span<const uint32_t>(starts));
     pack_.launch(WorkItem::light, count, family.axis, uint32_t(family.sight.width),
                  uint32_t(family.sight.height), float(family.parts.x), float(family.parts.y),
-                 counts_, places, crossings_, first_line, count, batch.stride, points.total,
+                 counts_, places, crossings_, first_line, count, stride, points.total,
                  points.coordinates);
     return points;
 }
@@ -108,7 +111,7 @@ ProbePoints DisplayScanStage::scan_batch(const Pyramid& world, const Family& fam
 std::vector<ProbePoints> DisplayScanStage::scan(const Pyramid& world, RayBatch& batch) {
     std::vector<ProbePoints> pieces;
     if (world.voxel_count == 0) return pieces;
-    const uint32_t batch_tiles = batch.stride / 16;
+    const uint32_t batch_tiles = std::max(batch.stride / 16 / kBatchParts, 1u);
     for (const Family& family : families_) {
         const Sight& sight = family.sight;
         sight_.look(sight);

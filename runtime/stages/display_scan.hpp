@@ -29,7 +29,7 @@ class DisplayScanStage {
     DisplayScanStage(const Device& device, const Features& features, const VolumeFrame& frame,
                      const GridFrame& world);
 
-    /// The crossings of all lines, in pieces of one batch of lines each. `batch` serves for rays.
+    /// The crossings of all lines, in pieces of a part of a batch each. `batch` serves for rays.
     std::vector<ProbePoints> scan(const Pyramid& world, RayBatch& batch);
 
     uint64_t lines() const { return lines_; }  ///< cast so far
@@ -52,7 +52,7 @@ class DisplayScanStage {
     SightStage sight_;
     Program program_;
     Kernel scan_, pack_;
-    uint32_t slots_ = 16;  ///< crossings of a line that have a place; grows
+    uint32_t slots_ = 64;  ///< crossings of a line that have a place; grows
     Buffer<float> crossings_;
     Buffer<uint32_t> counts_;
     uint64_t lines_ = 0;

@@ -1,11 +1,11 @@
 // Volumetric images of a scene in a Cartesian display: time against a flat image with as many
 // shaded points, and memory against stored voxels.
 //
-//   bench_display SCENE [voxels along each edge ..., 128 256 512 1024]
+//   bench_volume SCENE [voxels along each edge ..., 128 256 512 1024]
 //
 // The display is a box around the world's middle as the scene's observer sees it, as wide as the
 // world is long. The flat image comes from the same box; its size is such that as many pixels hit
-// something as the volume has voxels. Both are made three times in turn in this process after one
+// something as the volume has voxels. Both are made five times in turn in this process after one
 // run that compiles the kernels; the least times are told, of all from forming the world on, and of
 // the image alone.
 #include <fmt/format.h>
@@ -22,7 +22,7 @@
 namespace voxelume {
 namespace {
 
-constexpr int kRuns = 3;
+constexpr int kRuns = 5;
 
 struct Times {
     double total = 1e9, image = 1e9;
@@ -30,20 +30,16 @@ struct Times {
 };
 
 template <class Render>
-Times timed(const Device& device, const Render& render) {
-    Times times;
-    for (int run = 0; run < kRuns; ++run) {
-        RenderReport report;
-        device.counters().peak_bytes = device.counters().bytes_in_use;
-        const auto start = std::chrono::steady_clock::now();
-        render(report);
-        const double total =
-            std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-        times.total = std::min(times.total, total);
-        times.image = std::min(times.image, report.image_seconds);
-        times.peak = device.counters().peak_bytes;
-    }
-    return times;
+void time_once(const Device& device, const Render& render, Times& times) {
+    RenderReport report;
+    device.counters().peak_bytes = device.counters().bytes_in_use;
+    const auto start = std::chrono::steady_clock::now();
+    render(report);
+    const double total =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    times.total = std::min(times.total, total);
+    times.image = std::min(times.image, report.image_seconds);
+    times.peak = device.counters().peak_bytes;
 }
 
 /// The scene with a box display of n³ voxels around the world.
@@ -81,16 +77,21 @@ void bench(const Device& device, const Scene& scene, int n) {
     const double share = share_of_hits(render(device, flat, report));
     const int side = int(std::lround(std::sqrt(double(voxels) / share)));
     flat.render.size = {side, side};
-    const Times volume = timed(device, [&](RenderReport& r) { render_volume(device, display, r); });
-    const Times image = timed(device, [&](RenderReport& r) { render(device, flat, r); });
+    Times volume, image;
+    for (int run = 0; run < kRuns; ++run) {
+        time_once(
+            device, [&](RenderReport& r) { render_volume(device, display, r); }, volume);
+        time_once(
+            device, [&](RenderReport& r) { render(device, flat, r); }, image);
+    }
     const double stored = 32.0 * double(voxels), mask = double(n) * n * n / 8;
     fmt::print(
-        "{:5}^3 {:9} voxels, {:7.1f} MB stored, mask {:6.1f} MB, peak {:8.1f} MB | "
+        "{:5}^3 {:9} voxels, {:7.1f} MB stored, mask {:6.1f} MB, peak {:8.1f} MB (flat {:.1f}) | "
         "volume {:6.3f} s, image alone {:6.3f} | flat {}x{} {:6.3f} s, {:6.3f} | ratio "
         "{:.2f}, {:.2f}\n",
-        n, voxels, stored / 1e6, mask / 1e6, double(volume.peak) / 1e6, volume.total, volume.image,
-        side, side, image.total, image.image, volume.total / image.total,
-        volume.image / image.image);
+        n, voxels, stored / 1e6, mask / 1e6, double(volume.peak) / 1e6, double(image.peak) / 1e6,
+        volume.total, volume.image, side, side, image.total, image.image,
+        volume.total / image.total, volume.image / image.image);
     std::fflush(stdout);
 }
 

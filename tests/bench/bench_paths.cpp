@@ -1,0 +1,111 @@
+// Secondary rays a second in a scene's frame, and what compaction of their queues is worth.
+//
+//   bench_paths SCENE [asset folder ...]
+//
+// The frame is the scene's flat image, with shadows and all; its world is formed before. Times are
+// the process's CPU time over all threads, medians of seven runs, with and without compaction in
+// turn.
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "runtime/illumination.hpp"
+#include "runtime/stages/resolve.hpp"
+#include "runtime/stages/sight.hpp"
+#include "runtime/world.hpp"
+
+namespace voxelume {
+namespace {
+
+constexpr int kRuns = 7;
+
+double cpu_seconds() {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    const auto seconds = [](const timeval& t) {
+        return double(t.tv_sec) + 1e-6 * double(t.tv_usec);
+    };
+    return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+}
+
+/// A scene's frame, again and again.
+class Frame {
+  public:
+    Frame(const Device& device, const Scene& scene, const Pyramid& world, bool compact)
+        : device_(device),
+          world_(world),
+          features_(features_of(scene, world)),
+          observer_(sight_of(scene, world.frame)),
+          tiles_(tile_count(observer_.width, observer_.height)),
+          batch_tiles_(
+              std::clamp(batch_rays(features_) / (16 * uint32_t(observer_.samples)), 1u, tiles_)),
+          batch_(
+              allocate_batch(device, features_, batch_tiles_ * 16 * uint32_t(observer_.samples))),
+          sight_(device, features_, observer_),
+          illumination_(device, features_, scene, world, batch_.stride, compact) {}
+
+    /// CPU seconds of one frame.
+    double render() {
+        const double start = cpu_seconds();
+        const uint64_t before = illumination_.secondary_rays();
+        for (uint32_t first = 0; first < tiles_; first += batch_tiles_) {
+            const uint32_t rays = sight_.cast(shape_of(world_), first,
+                                              std::min(batch_tiles_, tiles_ - first), batch_);
+            illumination_.light(batch_, rays);
+        }
+        device_.finish();
+        rays_ = illumination_.secondary_rays() - before;
+        return cpu_seconds() - start;
+    }
+
+    /// Of the last frame. Without compaction, places that no ray is in count, too.
+    uint64_t secondary_rays() const { return rays_; }
+
+  private:
+    Device device_;
+    const Pyramid& world_;
+    Features features_;
+    Sight observer_;
+    uint32_t tiles_, batch_tiles_;
+    RayBatch batch_;
+    SightStage sight_;
+    Illumination illumination_;
+    uint64_t rays_ = 0;
+};
+
+double median(std::vector<double> values) {
+    std::ranges::sort(values);
+    return values[values.size() / 2];
+}
+
+void measure(const Scene& scene) {
+    const Device device = Device::open("cpu");
+    WorldReport report;
+    const Pyramid world = form_world(device, scene, report);
+    Frame compact(device, scene, world, true), sparse(device, scene, world, false);
+    compact.render(), sparse.render();
+    std::vector<double> with, without;
+    for (int run = 0; run < kRuns; ++run) {
+        with.push_back(compact.render());
+        without.push_back(sparse.render());
+    }
+    const double time = median(with), sparse_time = median(without);
+    fmt::print("{} lanes, {} voxels, {} secondary rays\n", device.lanes(), world.voxel_count,
+               compact.secondary_rays());
+    fmt::print("compacted {:.3f} s, {:.2f} million secondary rays a second and core\n", time,
+               double(compact.secondary_rays()) / time / 1e6);
+    fmt::print("sparse    {:.3f} s, {:.2f} times as long\n", sparse_time, sparse_time / time);
+}
+
+}  // namespace
+}  // namespace voxelume
+
+int main(int argc, char** argv) {
+    if (argc < 2) {
+        fmt::print(stderr, "usage: bench_paths SCENE [asset folder ...]\n");
+        return 2;
+    }
+    voxelume::measure(voxelume::read_scene(argv[1], {argv + 2, argv + argc}));
+}

@@ -1,0 +1,86 @@
+// Every scene in scenes/, small and coarse, makes a file without a value that isn't finite.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "runtime/io/exr.hpp"
+#include "runtime/renderer.hpp"
+#include "tests/file_fixture.hpp"
+#include "tests/test_device.hpp"
+
+namespace voxelume {
+namespace {
+
+const std::filesystem::path kScenes = std::filesystem::path(VXL_SOURCE_DIR) / "scenes";
+const AssetFolders kAssets{"/usr/share/glmark2/models"};  // Debian's glmark2-data
+constexpr double kMostVoxels = 128;                       // along an axis of the world
+
+std::vector<std::string> scene_names() {
+    std::vector<std::string> names;
+    for (const auto& entry : std::filesystem::directory_iterator(kScenes)) {
+        const std::filesystem::path& file = entry.path();
+        if (file.extension() == ".json" && file.stem().extension() != ".schema")
+            names.push_back(file.stem());
+    }
+    std::ranges::sort(names);
+    return names;
+}
+
+/// Makes the world's voxels larger, and with them the models' own.
+void coarsen(Scene& scene) {
+    const int most = std::max({scene.world.voxels.x, scene.world.voxels.y, scene.world.voxels.z});
+    const double factor = std::max(1.0, most / kMostVoxels);
+    scene.world.voxel_size *= factor;
+    scene.world.voxels = glm::ivec3(glm::ceil(glm::dvec3(scene.world.voxels) / factor));
+    for (Model& model : scene.models) {
+        model.voxel_size *= factor;
+        if (model.resolution > 0) model.resolution = int(model.resolution / factor) + 1;
+    }
+}
+
+class ShippedScenes : public FileTest, public testing::WithParamInterface<std::string> {};
+
+TEST_P(ShippedScenes, HaveFiniteValuesInEveryPixelOfTheFile) {
+    Scene scene = read_scene(kScenes / (GetParam() + ".json"), kAssets);
+    resize(scene, {96, 72});
+    scene.render.samples = 1;
+    coarsen(scene);
+    RenderReport report;
+    const Image rendered = render(test_device(), scene, report);
+    EXPECT_EQ(report.not_finite, 0u);
+    write_exr(folder / "scene.exr", rendered);
+    const Image image = read_exr(folder / "scene.exr");
+    ASSERT_EQ(image.width, 96);
+    ASSERT_EQ(image.height, 72);
+    ASSERT_GE(image.planes.size(), 11u);
+    for (const auto& [name, plane] : image.planes) {
+        ASSERT_EQ(plane.size(), 96u * 72u) << name;
+        size_t not_finite = 0;
+        for (size_t i = 0; i < plane.size(); ++i) {
+            const bool nothing_there =
+                name == "Z" && plane[i] == INFINITY && image.id_planes.at("objectId")[i] == 0;
+            not_finite += !std::isfinite(plane[i]) && !nothing_there;
+        }
+        EXPECT_EQ(not_finite, 0u) << name;
+    }
+    const std::vector<float>& shown = image.planes.at("A");
+    EXPECT_GT(std::ranges::count_if(shown, [](float a) { return a > 0; }), 500);
+}
+
+TEST(ShippedScenesList, IsThatOfTheFolder) {
+    const std::vector<std::string> names = scene_names();
+    EXPECT_GE(names.size(), 6u);
+    EXPECT_TRUE(std::ranges::count(names, "whitted"));
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, ShippedScenes, testing::ValuesIn(scene_names()),
+                         [](const auto& name) {
+                             std::string word = name.param;
+                             std::ranges::replace_if(
+                                 word, [](unsigned char c) { return !std::isalnum(c); }, '_');
+                             return word;
+                         });
+
+}  // namespace
+}  // namespace voxelume
