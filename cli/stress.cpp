@@ -57,8 +57,8 @@ uint64_t run_test(const StressTest& test, const StressCommand& command, const De
                result.mismatches, seconds);
     for (const std::string& example : result.examples) fmt::print("  {} {}\n", test.name, example);
     if (!result.examples.empty())
-        fmt::print("  again: voxelume stress --only {} --seed {} --first N --rays 1\n", test.name,
-                   command.seed);
+        fmt::print("  again: voxelume stress --only {} --seed {} --rays 1 --first CASE\n",
+                   test.name, command.seed);
     std::fflush(stdout);
     return result.mismatches;
 }

@@ -6,7 +6,7 @@
 #include <glm/common.hpp>
 #include <limits>
 
-#include "runtime/stages/index.hpp"
+#include "runtime/stress/occupancy.hpp"
 
 namespace voxelume {
 namespace {
@@ -132,9 +132,8 @@ BrickGrid cubes_of(const Device& device, const VoxelBits& voxels, const GridFram
                     for (v.y = first.y; v.y < end.y; ++v.y)
                         for (v.x = first.x; v.x < end.x; ++v.x) {
                             if (!voxels.is_set(v)) continue;
-                            const glm::ivec3 leaf = v % 16 / 4, in = v % 4;
-                            masks[size_t(leaf.x + 4 * leaf.y + 16 * leaf.z)] |=
-                                uint64_t{1} << (in.x + 4 * in.y + 16 * in.z);
+                            const VoxelPlace place(v);
+                            masks[place.leaf] |= place.bit;
                             any = true;
                         }
                 slots.push_back(any ? uint32_t(coordinates.size()) : kBrickOutside);

@@ -33,6 +33,7 @@ constexpr std::array kLeaks = {
 const std::vector<StressTest>& stress_tests() {
     static const std::vector<StressTest> tests = [] {
         std::vector<StressTest> all;
+        all.reserve(kRayClasses.size() + kLeaks.size() + 4);
         for (const RayClassName& named : kRayClasses)
             all.push_back({named.name, named.help, 1, [kind = named.kind](const StressRun& run) {
                                return stress_rays(kind, run);

@@ -10,6 +10,7 @@
 
 #include "runtime/stages/place.hpp"
 #include "runtime/stress/device_walks.hpp"
+#include "runtime/stress/occupancy.hpp"
 #include "runtime/stress/stress_random.hpp"
 
 namespace voxelume {
@@ -117,32 +118,11 @@ bool is_right(const VoxelBits& lump, const glm::dvec3& p, double bound, bool fou
     return false;
 }
 
-/// A world's occupancy, read back.
-class WorldVoxels {
-  public:
-    explicit WorldVoxels(const BrickGrid& grid)
-        : bricks_(grid.frame.bricks()), slots_(grid.slots.read()), masks_(grid.occupancy.read()) {}
-
-    bool is_set(const glm::ivec3& v) const {
-        const glm::ivec3 b = v / 16, leaf = v % 16 / 4, in = v % 4;
-        const uint32_t slot = slots_[size_t(b.x + bricks_.x * (b.y + bricks_.y * b.z))];
-        if (slot >= kBrickInside) return slot == kBrickInside;
-        return masks_[64 * size_t(slot) + size_t(leaf.x + 4 * leaf.y + 16 * leaf.z)] >>
-                   (in.x + 4 * in.y + 16 * in.z) &
-               1;
-    }
-
-  private:
-    glm::ivec3 bricks_;
-    std::vector<uint32_t> slots_;
-    std::vector<uint64_t> masks_;
-};
-
 /// Coefficients and offsets are rounded to 2^-24: half of that for every step through the world.
 constexpr double kRounding = 0x1p-25 * (1 + 3 * kRegion * kRegionsAlong);
 
 /// How many voxels of a region are not what its map makes of the lump.
-uint64_t wrong_voxels(const WorldVoxels& placed, const VoxelBits& lump, const glm::dmat4& map,
+uint64_t wrong_voxels(const ReadOccupancy& placed, const VoxelBits& lump, const glm::dmat4& map,
                       double bound, const glm::ivec3& start) {
     const Image image(map);
     std::atomic<uint64_t> wrong{0};
@@ -184,7 +164,7 @@ StressResult stress_placement(const StressRun& run) {
             map[3] += glm::dvec4(region_start(i), 0);
             objects.push_back({.grid = &grid, .world_from_object = map, .material_of_group = {0}});
         }
-        const WorldVoxels placed(place(run.device, objects, world_frame()));
+        const ReadOccupancy placed(place(run.device, objects, world_frame()));
         for (size_t i = 0; i < count; ++i) {
             const bool is_exact = stress_map(run.seed, first + i).is_exact;
             const uint64_t wrong = wrong_voxels(placed, lump, objects[i].world_from_object,

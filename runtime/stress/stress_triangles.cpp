@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "runtime/stages/voxelize.hpp"
+#include "runtime/stress/occupancy.hpp"
 #include "runtime/stress/stress_random.hpp"
 
 namespace voxelume {
@@ -76,10 +77,9 @@ TriangleOnLattice without_area(StressRandom& random, const glm::ivec3& middle) {
 void set_row(RegionMasks& masks, const VoxelRow& row, int y, int z) {
     for (int64_t x = std::max<int64_t>(row.first, 0); x <= std::min<int64_t>(row.last, kRegion - 1);
          ++x) {
-        const glm::ivec3 v(int(x), y, z), brick = v / 16, leaf = v % 16 / 4, in = v % 4;
-        const int number = brick.x + kBricksOfRegion * (brick.y + kBricksOfRegion * brick.z);
-        masks[size_t(64 * number + leaf.x + 4 * leaf.y + 16 * leaf.z)] |=
-            uint64_t{1} << (in.x + 4 * in.y + 16 * in.z);
+        const glm::ivec3 v(int(x), y, z);
+        const VoxelPlace place(v);
+        masks[64 * brick_number(v / 16, glm::ivec3(kBricksOfRegion)) + place.leaf] |= place.bit;
     }
 }
 
@@ -101,30 +101,17 @@ glm::ivec3 region_start(uint64_t i) {
            kRegion;
 }
 
-/// The device's occupancy, read back.
-struct ReadOccupancy {
-    explicit ReadOccupancy(const BrickGrid& grid)
-        : bricks(grid.frame.bricks()), slots(grid.slots.read()), masks(grid.occupancy.read()) {}
-
-    RegionMasks region(const glm::ivec3& first) const {
-        RegionMasks all;
-        for (int i = 0; i < kBricksOfRegion * kBricksOfRegion * kBricksOfRegion; ++i) {
-            const glm::ivec3 b =
-                first / kBrickSize + glm::ivec3(i % kBricksOfRegion,
-                                                i / kBricksOfRegion % kBricksOfRegion,
-                                                i / (kBricksOfRegion * kBricksOfRegion));
-            const uint32_t slot = slots[size_t(b.x + bricks.x * (b.y + bricks.y * b.z))];
-            if (slot >= kBrickInside)
-                all.insert(all.end(), 64, 0);
-            else
-                all.insert(all.end(), &masks[64 * size_t(slot)], &masks[64 * size_t(slot)] + 64);
-        }
-        return all;
-    }
-    glm::ivec3 bricks;
-    std::vector<uint32_t> slots;
-    std::vector<uint64_t> masks;
-};
+/// The masks of a region of the device's grid.
+RegionMasks region_of(const ReadOccupancy& occupancy, const glm::ivec3& first) {
+    RegionMasks all;
+    for (glm::ivec3 b{0}; b.z < kBricksOfRegion; ++b.z)
+        for (b.y = 0; b.y < kBricksOfRegion; ++b.y)
+            for (b.x = 0; b.x < kBricksOfRegion; ++b.x) {
+                const auto masks = occupancy.masks(first / kBrickSize + b);
+                all.insert(all.end(), masks.begin(), masks.end());
+            }
+    return all;
+}
 
 std::string describe_difference(const TriangleOnLattice& t, const RegionMasks& device,
                                 const RegionMasks& exact) {
@@ -161,7 +148,7 @@ void try_grid(Voxelizer& voxelizer, const StressRun& run, uint64_t first, size_t
     for_each_in_parallel(count, [&](uint64_t i) { exact[i] = exact_masks(triangles[i]); });
     const ReadOccupancy occupancy(grid);
     for (size_t i = 0; i < count; ++i) {
-        const RegionMasks device = occupancy.region(region_start(i));
+        const RegionMasks device = region_of(occupancy, region_start(i));
         for (const uint64_t mask : exact[i]) result.cells += __builtin_popcountll(mask);
         if (device != exact[i])
             note_mismatch(result, first + i,
