@@ -4,6 +4,7 @@
 // the packet is walking; then the surfaces inside those voxels are tested together, and lanes that
 // missed them walk on.
 #include "lib/cube_body.h"
+#include "lib/fixed_point.h"
 #include "lib/hit_word.h"
 #include "lib/interior.h"
 #include "lib/smooth.h"
@@ -423,17 +424,21 @@ static inline lane_int pass_through(const PyramidView* p, const SurfaceView* s, 
                                     global const uint* restrict ranks, lane_float metres,
                                     Filter* filter) {
     lane_float t_last = (lane_float)0.0f;
+    // Objects end where the world does.
+    lane_float t_in = t_last, t_out = t_end;
+    clip_axis(w->ox, w->dx, (float)p->size_x, &t_in, &t_out);
+    clip_axis(w->oy, w->dy, (float)p->size_y, &t_in, &t_out);
+    clip_axis(w->oz, w->dz, (float)p->size_z, &t_in, &t_out);
     lane_int passing = active, arrived = (lane_int)0;
     for (int layer = 0; layer < VXL_MOST_LAYERS && lanes_any(passing); ++layer) {
         const Found found = find_first(p, s, w, t_end, passing, travel);
         const lane_int hit = found.hit & passing;
-        // The way up to here, or to the light, inside of the object that counts.
+        // The way up to here, to the light or out of the world, inside of the object that counts.
         const lane_uint before = effective_member(&travel->interior, ranks);
         const lane_uint medium =
             material_place(before) & LANES_AS_UINT(LANE_MASK(before != VXL_NO_MEMBER));
-        const lane_float t_now = LANES_SELECT(hit, found.t, t_end);
-        const lane_int absorbs =
-            passing & LANE_MASK(before != VXL_NO_MEMBER) & LANE_MASK(t_now < INFINITY);
+        const lane_float t_now = LANES_SELECT(hit, found.t, fmax(t_out, t_last));
+        const lane_int absorbs = passing & LANE_MASK(before != VXL_NO_MEMBER);
         const lane_float way = LANES_SELECT(absorbs, (t_now - t_last) * metres, (lane_float)0.0f);
         for (int channel = 0; channel < 3; ++channel)
             filter->depth[channel] = fma(

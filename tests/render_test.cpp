@@ -4,10 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 
-#include "tests/oracles/image_hash.hpp"
 #include "tests/test_device.hpp"
 
 namespace voxelume {
@@ -37,10 +34,6 @@ std::string box_scene(const std::string& surface, const std::string& lights,
 
 Scene scene_of(const std::string& text) {
     return parse_scene(text, "test.json", {});
-}
-
-Scene shipped_scene(const char* name) {
-    return read_scene(std::filesystem::path(VXL_SOURCE_DIR) / "scenes" / name, {});
 }
 
 struct Rendered {
@@ -261,36 +254,6 @@ TEST(Render, SamplesCoverAPixelEvenly) {
     for (const float a : r.image.planes.at("A")) covered += double(a);
     EXPECT_NEAR(covered / 15, 0.7 * 0.5 / (1.6 * 1.2), 0.01);
 }
-
-class ShippedScene : public testing::TestWithParam<const char*> {};
-
-TEST_P(ShippedScene, HasTheSameBitsForEveryNumberOfLanes) {
-    const Scene scene = shipped_scene(GetParam());
-    const uint64_t expected = oracle::image_hash(rendered(scene, 16).image);
-    for (const int lanes : {1, 4, 8}) {
-        const Rendered r = rendered(scene, lanes);
-        EXPECT_EQ(oracle::image_hash(r.image), expected) << lanes << " lanes";
-        EXPECT_EQ(r.report.not_finite, 0u);
-    }
-}
-
-/// The hash of a scene's image in tests/golden/hashes.txt: lines of a scene's name and its hash.
-std::string golden_hash(const std::string& scene) {
-    std::ifstream file(std::filesystem::path(VXL_SOURCE_DIR) / "tests/golden/hashes.txt");
-    std::string name, hash;
-    while (file >> name >> hash)
-        if (name == scene) return hash;
-    return "none";
-}
-
-TEST_P(ShippedScene, IsItsGoldenImageToTheBit) {
-    const std::string hash =
-        fmt::format("{:016x}", oracle::image_hash(rendered(shipped_scene(GetParam())).image));
-    EXPECT_EQ(hash, golden_hash(GetParam())) << "if the image was meant to change, look at it and "
-                                                "write the hash to tests/golden/hashes.txt";
-}
-
-INSTANTIATE_TEST_SUITE_P(Scenes, ShippedScene, testing::Values("solids.json", "cubes.json"));
 
 }  // namespace
 }  // namespace voxelume

@@ -19,7 +19,7 @@
 namespace voxelume {
 namespace {
 
-constexpr int kRuns = 7;
+constexpr int kRuns = 3;
 
 double cpu_seconds() {
     rusage usage{};
