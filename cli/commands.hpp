@@ -33,6 +33,7 @@ Action add_devices(CLI::App& app);
 Action add_diff(CLI::App& app);
 Action add_render(CLI::App& app);
 Action add_info(CLI::App& app);
+Action add_stress(CLI::App& app);
 Action add_view(CLI::App& app);
 Action add_voxelize(CLI::App& app);
 

@@ -28,6 +28,7 @@ constexpr std::array kCommands = {
     Command{"convert", "write a volumetric image as another format", add_convert},
     Command{"view", "show a volumetric image: as a picture, or as a page to turn it in", add_view},
     Command{"diff", "measure how far two images are from each other", add_diff},
+    Command{"stress", "hold what a device does against exact arithmetic", add_stress},
 };
 
 constexpr const char* kExitCodes =

@@ -51,15 +51,6 @@ static inline lane_float along(float ax, float ay, float az, Vector v) {
     return fma(v.x, ax, fma(v.y, ay, v.z * az));
 }
 
-/// A coordinate of the ray o + low + d t at t_first: exactly the world's side where it comes in.
-static inline lane_float start_coordinate(float o, lane_float low, lane_float d, float size,
-                                          lane_float t_first) {
-    const lane_float side = LANES_SELECT(LANE_MASK(d < 0.0f), (lane_float)size, (lane_float)0.0f);
-    const lane_float t_side = (side - (o + low)) * exact_reciprocal(d);  // as clip_axis has it
-    const lane_float at_start = clamp(fma(d, t_first, o) + low, 0.0f, size);
-    return LANES_SELECT(LANE_MASK(t_side == t_first), side, at_start);
-}
-
 /// Writes the rays of one packet. `offsets` holds x and y in [0, 1) of each sample in its pixel.
 kernel void cast_sight(Sight sight, PyramidShape shape, global const float* restrict offsets,
                        uint first_tile, uint count, uint stride, global float* restrict rays) {

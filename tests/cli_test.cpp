@@ -125,6 +125,25 @@ TEST_F(CliTest, InfoDoesNotLetAFileSteerTheTerminal) {
     EXPECT_THAT(run("info a.exr").out, Not(HasSubstr("\x1b")));
 }
 
+TEST_F(CliTest, StressSaysWhatItTriedAndHowOften) {
+    const ProgramResult result = run("stress --rays 3e3 --seed 5 --only ties --only triangles");
+    EXPECT_EQ(result.exit_code, 0);
+    EXPECT_THAT(result.out,
+                testing::MatchesRegex("ties +3000 cases +0 mismatches +[0-9.]+ s\n"
+                                      "triangles +30 cases +0 mismatches +[0-9.]+ s\n"));
+    EXPECT_THAT(result.err, Not(HasSubstr("%")));  // no bar where nobody watches
+    EXPECT_EQ(run("stress -q --rays 1 --first 40000 --only corners").err, "");
+}
+
+TEST_F(CliTest, StressKnowsItsTests) {
+    const ProgramResult result = run("stress --only tie");
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_EQ(result.err,
+              "voxelume: stress: there is no test named \"tie\"; did you mean \"ties\"?\n");
+    EXPECT_THAT(run("help stress").out, HasSubstr("rays between lattice points"));
+    EXPECT_EQ(run("stress --rays 0").exit_code, 2);
+}
+
 TEST_F(CliTest, DiffMeasuresEachChannel) {
     write_exr(folder / "a.exr", grey_row(0.75f), ColorDepth::float32);
     write_exr(folder / "b.exr", grey_row(0.0f), ColorDepth::float32);

@@ -41,4 +41,13 @@ static inline void clip_axis(lane_float o, lane_float d, float size, lane_float*
     *t_last = fmin(*t_last, LANES_SELECT(moves, fmax(a, b), none));
 }
 
+/// A coordinate of the ray o + low + d t at t_first: exactly the world's side where it comes in.
+static inline lane_float start_coordinate(float o, lane_float low, lane_float d, float size,
+                                          lane_float t_first) {
+    const lane_float side = LANES_SELECT(LANE_MASK(d < 0.0f), (lane_float)size, (lane_float)0.0f);
+    const lane_float t_side = (side - (o + low)) * exact_reciprocal(d);  // as clip_axis has it
+    const lane_float at_start = clamp(fma(d, t_first, o) + low, 0.0f, size);
+    return LANES_SELECT(LANE_MASK(t_side == t_first), side, at_start);
+}
+
 #endif

@@ -89,16 +89,20 @@ static inline lane_int hit_smooth(const Field* f, const Walk* w, lane_float side
     const lane_int bracketed = crossed & ~entered;
     if (lanes_any(bracketed)) {
         // Regula falsi on a bracket with F(a) >= 0 > F(b); an end kept twice has its value halved
-        // (Illinois), so both ends close in.
+        // (Illinois), so both ends close in. Halved at once it would be as far off on the other
+        // side.
+        lane_int kept_a = (lane_int)0, kept_b = (lane_int)0;
         for (int step = 0; step < VXL_SECANT_STEPS; ++step) {
             const lane_float gap = LANES_SELECT(bracketed, fa - fb, (lane_float)1.0f);
             const lane_float u = fma(exact_divide(fa, gap), b - a, a);
             const lane_float fu = field_along(f, &ray, side, u) + *level;
             const lane_int below = LANE_MASK(fu < 0.0f);
-            fb = LANES_SELECT(below, fu, 0.5f * fb);
+            fa = LANES_SELECT(kept_a & below, 0.5f * fa, LANES_SELECT(below, fa, fu));
+            fb = LANES_SELECT(kept_b & ~below, 0.5f * fb, LANES_SELECT(below, fu, fb));
             b = LANES_SELECT(below, u, b);
-            fa = LANES_SELECT(below, 0.5f * fa, fu);
             a = LANES_SELECT(below, a, u);
+            kept_a = below;
+            kept_b = ~below;
         }
     }
     const lane_float gap = LANES_SELECT(bracketed, fa - fb, (lane_float)1.0f);

@@ -1,0 +1,101 @@
+// voxelume stress: what a device does, held against exact arithmetic, case after case.
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "cli/checks.hpp"
+#include "cli/commands.hpp"
+#include "runtime/error.hpp"
+#include "runtime/io/progress.hpp"
+#include "runtime/opencl/device.hpp"
+#include "runtime/stress/stress.hpp"
+
+namespace voxelume::cli {
+namespace {
+
+struct StressCommand {
+    double rays = 1e6;
+    uint64_t seed = 1;
+    std::vector<std::string> only;
+    uint64_t first = 0;
+    std::string device;
+    bool quiet = false;
+};
+
+std::vector<const StressTest*> chosen_tests(const std::vector<std::string>& only) {
+    std::vector<const StressTest*> chosen;
+    std::vector<std::string_view> names;
+    for (const StressTest& test : stress_tests()) {
+        names.push_back(test.name);
+        if (only.empty()) chosen.push_back(&test);
+    }
+    for (const std::string& name : only) {
+        const auto known = std::ranges::find(names, name);
+        if (known == names.end())
+            throw Error(ErrorKind::usage, "stress: there is no test named {}{}", quote(name),
+                        suggest(name, names));
+        chosen.push_back(&stress_tests()[size_t(known - names.begin())]);
+    }
+    return chosen;
+}
+
+/// Runs a test and prints its line; the number of mismatches.
+uint64_t run_test(const StressTest& test, const StressCommand& command, const Device& device) {
+    const auto start = std::chrono::steady_clock::now();
+    const uint64_t count = std::max<uint64_t>(1, uint64_t(command.rays) / test.rays_per_case);
+    StressResult result;
+    {
+        Progress bar(test.name, count, stderr, command.quiet);
+        result = test.run({device, command.seed, command.first, count,
+                           [&bar](uint64_t cases) { bar.advance(cases); }});
+    }
+    const double seconds =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    fmt::print("{:<12}{:>14} cases {:>10} mismatches {:>10.1f} s\n", test.name, result.cases,
+               result.mismatches, seconds);
+    for (const std::string& example : result.examples) fmt::print("  {} {}\n", test.name, example);
+    if (!result.examples.empty())
+        fmt::print("  again: voxelume stress --only {} --seed {} --rays 1 --first CASE\n",
+                   test.name, command.seed);
+    std::fflush(stdout);
+    return result.mismatches;
+}
+
+int run(const StressCommand& command) {
+    const std::vector<const StressTest*> tests = chosen_tests(command.only);
+    const Device device = Device::open(command.device);
+    if (!command.quiet)
+        fmt::print(stderr, "\"{}\", {} lanes, seed {}\n", device.info().name, device.lanes(),
+                   command.seed);
+    uint64_t mismatches = 0;
+    for (const StressTest* test : tests) mismatches += run_test(*test, command, device);
+    return mismatches == 0 ? 0 : 1;
+}
+
+std::string list_of_tests() {
+    std::string list = "of these tests only; may be given again:";
+    for (const StressTest& test : stress_tests())
+        list += fmt::format("\n{:<12}{}", test.name, test.help);
+    return list;
+}
+
+}  // namespace
+
+Action add_stress(CLI::App& app) {
+    const auto command = std::make_shared<StressCommand>();
+    app.add_option("--rays", command->rays,
+                   "rays of every class, 1e6 without; other tests try in proportion")
+        ->check(in_range(1, 1e15));
+    app.add_option("--seed", command->seed, "of the cases, 1 without")
+        ->check(in_range(0, 1e18, Number::whole));
+    app.add_option("--only", command->only, list_of_tests())->allow_extra_args(false);
+    app.add_option("--first", command->first, "number of the first case, to try one again")
+        ->check(in_range(0, 1e18, Number::whole));
+    app.add_option("--device", command->device, "auto, cpu, gpu, a number, or part of a name");
+    app.add_flag("-q,--quiet", command->quiet, "no progress bar");
+    return [command] { return run(*command); };
+}
+
+}  // namespace voxelume::cli

@@ -1,0 +1,123 @@
+// rays -> what their discrete walks leave: `voxelume stress` compares it with exact arithmetic.
+#include "lib/fixed_point.h"
+#include "lib/walk.h"
+#include "lib/work_item.h"
+#include "shared/scene.h"
+#include "shared/stress.h"
+
+#ifndef VXL_BLOCKS
+#define VXL_BLOCKS 0
+#endif
+
+static inline lane_uint mix_cell(lane_int x, lane_int y, lane_int z) {
+    return LANES_AS_UINT(x) * VXL_HASH_X + LANES_AS_UINT(y) * VXL_HASH_Y +
+           LANES_AS_UINT(z) * VXL_HASH_Z;
+}
+
+/// The edge, as a power of two, of the block around the walk's cell that is left in one step.
+static inline lane_int block_log2(const Walk* w) {
+    if (!VXL_BLOCKS) return (lane_int)0;
+    const lane_uint mix = mix_cell(w->x >> 3, w->y >> 3, w->z >> 3) * VXL_HASH_FACTOR;
+    return max(LANES_AS_INT(mix >> 28) - 9, 0);
+}
+
+static inline Walk load_stressed(global const float* restrict rays, uint stride, uint first) {
+    return begin_walk(LANES_LOAD(rays, VXL_RAY_OX * stride + first),
+                      LANES_LOAD(rays, VXL_RAY_OY * stride + first),
+                      LANES_LOAD(rays, VXL_RAY_OZ * stride + first),
+                      LANES_LOAD(rays, VXL_RAY_DX * stride + first),
+                      LANES_LOAD(rays, VXL_RAY_DY * stride + first),
+                      LANES_LOAD(rays, VXL_RAY_DZ * stride + first));
+}
+
+static inline PyramidView grid_without_voxels(PyramidShape shape) {
+    PyramidView p = {0,
+                     0,
+                     0,
+                     0,
+                     shape.size_x,
+                     shape.size_y,
+                     shape.size_z,
+                     shape.sectors_x,
+                     shape.sectors_y,
+                     shape.plane_bound,
+                     shape.fixed_point};
+    return p;
+}
+
+/// Walks rays 0 .. count-1 through at most `most` cells each. Arrays hold a multiple of 16 rays.
+///
+/// Of each ray: the number of cells entered, and a hash of the cells, axes and times in their
+/// order. With VXL_BLOCKS the walk leaves blocks of up to 64 cells in one step.
+kernel void digest_walks(PyramidShape shape, global const float* restrict rays, uint count,
+                         uint stride, uint most, global uint* restrict digests) {
+    const uint first = work_item() * VXL_LANES;
+    if (first >= count) return;
+    const PyramidView grid = grid_without_voxels(shape);
+    Walk w = load_stressed(rays, stride, first);
+    lane_uint cells = (lane_uint)0, hash = (lane_uint)0;
+    lane_int walking = in_grid(&grid, &w);
+    while (lanes_any(walking)) {
+        const lane_uint place = mix_cell(w.x, w.y, w.z) + LANES_AS_UINT(w.axis);
+        const lane_uint mixed = ((hash ^ LANES_AS_UINT(w.t)) + place) * VXL_HASH_FACTOR;
+        hash = LANES_SELECT(walking, mixed, hash);
+        cells -= LANES_AS_UINT(walking);
+        walking &= LANE_MASK(cells < most);
+        advance(&grid, &w, block_log2(&w), walking);
+        walking &= in_grid(&grid, &w);
+    }
+    LANES_STORE(cells, digests, first);
+    LANES_STORE(hash, digests, stride + first);
+}
+
+/// The cells themselves: `most` places of x, y, z, axis and t, `stride` values apart. Places that a
+/// walk doesn't reach keep what they had.
+kernel void list_walks(PyramidShape shape, global const float* restrict rays, uint count,
+                       uint stride, uint most, global int* restrict lists) {
+    const uint first = work_item() * VXL_LANES;
+    if (first >= count) return;
+    const PyramidView grid = grid_without_voxels(shape);
+    Walk w = load_stressed(rays, stride, first);
+    lane_int walking = in_grid(&grid, &w);
+    for (uint i = 0; i < most && lanes_any(walking); ++i) {
+        const uint at = 5u * i * stride + first;
+        LANES_STORE(LANES_SELECT(walking, w.x, (lane_int)-1), lists, at);
+        LANES_STORE(w.y, lists, at + stride);
+        LANES_STORE(w.z, lists, at + 2u * stride);
+        LANES_STORE(w.axis, lists, at + 3u * stride);
+        LANES_STORE(LANES_AS_INT(w.t), lists, at + 4u * stride);
+        advance(&grid, &w, block_log2(&w), walking);
+        walking &= in_grid(&grid, &w);
+    }
+}
+
+/// Snaps rays of any origin and length to the fixed point, from where they come into the grid on,
+/// as sight rays are. Rays that pass the grid get t_end = -1. `snapped` may not be `rays`.
+kernel void snap_rays(PyramidShape shape, global const float* restrict rays, uint count,
+                      uint stride, global float* restrict snapped) {
+    const uint first = work_item() * VXL_LANES;
+    if (first >= count) return;
+    lane_float d[3], o[3];
+    for (int a = 0; a < 3; ++a) {
+        o[a] = LANES_LOAD(rays, (uint)(VXL_RAY_OX + a) * stride + first);
+        d[a] = LANES_LOAD(rays, (uint)(VXL_RAY_DX + a) * stride + first);
+    }
+    const lane_float scale = power_of_two_scale(d[0], d[1], d[2]);
+    const float size[3] = {(float)shape.size_x, (float)shape.size_y, (float)shape.size_z};
+    lane_float t_first = (lane_float)0.0f, t_last = (lane_float)INFINITY;
+    for (int a = 0; a < 3; ++a) {
+        d[a] = snap_direction(d[a] * scale);
+        clip_axis(o[a], d[a], size[a], &t_first, &t_last);
+    }
+    const lane_int seen = LANE_MASK(t_first <= t_last);
+    t_first = LANES_SELECT(seen, t_first, (lane_float)0.0f);
+    for (int a = 0; a < 3; ++a) {
+        LANES_STORE(d[a], snapped, (uint)(VXL_RAY_DX + a) * stride + first);
+        // start_coordinate takes the origin's rounded part for all lanes: the rest is what differs
+        const lane_float at = start_coordinate(0.0f, o[a], d[a], size[a], t_first);
+        LANES_STORE(snap_position(at, (lane_float)0.0f, shape.fixed_point), snapped,
+                    (uint)(VXL_RAY_OX + a) * stride + first);
+    }
+    const lane_float t_end = LANES_SELECT(seen, (lane_float)INFINITY, (lane_float)-1.0f);
+    LANES_STORE(t_end, snapped, VXL_RAY_END * stride + first);
+}

@@ -1,0 +1,70 @@
+#include "runtime/stress/stress.hpp"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <thread>
+
+#include "runtime/stress/stress_leaks.hpp"
+#include "runtime/stress/stress_placement.hpp"
+#include "runtime/stress/stress_rays.hpp"
+#include "runtime/stress/stress_snapping.hpp"
+#include "runtime/stress/stress_triangles.hpp"
+
+namespace voxelume {
+namespace {
+
+struct Leaks {
+    const char* name;
+    const char* help;
+    Surface surface;
+    VoxelSet set;
+};
+
+constexpr std::array kLeaks = {
+    Leaks{"smooth", "rays into a ring's smooth surface", Surface::smooth, VoxelSet::supercover},
+    Leaks{"exact", "rays into a ring of triangles", Surface::exact, VoxelSet::supercover},
+    Leaks{"thin", "rays into a ring's thin shell of cubes", Surface::cubes, VoxelSet::thin},
+    Leaks{"solid", "rays into a solid ring of cubes", Surface::cubes, VoxelSet::solid},
+};
+
+}  // namespace
+
+const std::vector<StressTest>& stress_tests() {
+    static const std::vector<StressTest> tests = [] {
+        std::vector<StressTest> all;
+        all.reserve(kRayClasses.size() + kLeaks.size() + 4);
+        for (const RayClassName& named : kRayClasses)
+            all.push_back({named.name, named.help, 1, [kind = named.kind](const StressRun& run) {
+                               return stress_rays(kind, run);
+                           }});
+        all.push_back({"far", "rays from up to 10^7 voxels away, snapped and walked", 1,
+                       [](const StressRun& run) { return stress_snapping(SnapClass::far, run); }});
+        all.push_back(
+            {"denormal", "rays of denormal, huge and zero components", 1,
+             [](const StressRun& run) { return stress_snapping(SnapClass::denormal, run); }});
+        for (const Leaks& leaks : kLeaks)
+            all.push_back({leaks.name, leaks.help, 1, [leaks](const StressRun& run) {
+                               return stress_leaks({leaks.surface, leaks.set}, run);
+                           }});
+        all.push_back(
+            {"triangles", "voxels of triangles of eight nasty classes", 100, stress_triangles});
+        all.push_back(
+            {"placement", "voxels of a lump placed by affine maps", 20000, stress_placement});
+        return all;
+    }();
+    return tests;
+}
+
+void for_each_in_parallel(uint64_t count, const std::function<void(uint64_t)>& work) {
+    std::atomic<uint64_t> next{0};
+    const auto take = [&] {
+        for (uint64_t i = next++; i < count; i = next++) work(i);
+    };
+    const uint64_t most = std::max(1u, std::thread::hardware_concurrency());
+    std::vector<std::jthread> helpers;
+    for (uint64_t i = 1; i < std::min(most, count); ++i) helpers.emplace_back(take);
+    take();
+}
+
+}  // namespace voxelume

@@ -1,0 +1,119 @@
+// What `voxelume stress` finds: nothing wrong here, and what is wrong where something is.
+#include "runtime/stress/stress.hpp"
+
+#include <gtest/gtest.h>
+#include <glm/common.hpp>
+#if defined(__SSE__)
+#include <xmmintrin.h>
+#endif
+
+#include "runtime/stress/device_walks.hpp"
+#include "runtime/stress/exact_cover.hpp"
+#include "runtime/stress/ray_classes.hpp"
+#include "runtime/stress/stress_triangles.hpp"
+#include "tests/oracles/triangle_overlap.hpp"
+#include "tests/test_device.hpp"
+
+namespace voxelume {
+namespace {
+
+constexpr uint64_t kSeed = 20261121;
+
+const StressTest& test_named(const std::string& name) {
+    for (const StressTest& test : stress_tests())
+        if (test.name == name) return test;
+    throw std::out_of_range(name);
+}
+
+class Stress : public testing::TestWithParam<std::string> {};
+
+TEST_P(Stress, FindsNothing) {
+    const StressTest& test = test_named(GetParam());
+    const Device device = test_device();
+    // All grids of the rays' classes; all classes of triangles; both kinds of maps.
+    const uint64_t count = std::max<uint64_t>(200000 / test.rays_per_case, 27);
+    const uint64_t cases = GetParam() == "triangles" ? 8 * kTrianglesOfOneGrid : count;
+    uint64_t told = 0;
+    const StressResult result =
+        test.run({device, kSeed, 0, cases, [&told](uint64_t tried) { told += tried; }});
+    EXPECT_EQ(result.cases, cases);
+    EXPECT_EQ(told, cases);
+    EXPECT_EQ(result.mismatches, 0u) << "seed " << kSeed << ", " << result.examples.front();
+}
+
+std::vector<std::string> names_of_tests() {
+    std::vector<std::string> names;
+    for (const StressTest& test : stress_tests()) names.push_back(test.name);
+    return names;
+}
+
+INSTANTIATE_TEST_SUITE_P(Tests, Stress, testing::ValuesIn(names_of_tests()),
+                         [](const auto& name) { return name.param; });
+
+std::vector<FixedRay> rays_of_all_classes(const FixedGrid& grid, uint64_t of_each) {
+    std::vector<FixedRay> rays;
+    for (const RayClassName& named : kRayClasses)
+        for (uint64_t i = 0; i < of_each; ++i)
+            rays.push_back(ray_of_class(named.kind, grid, kSeed, i));
+    return rays;
+}
+
+std::vector<WalkDigest> digests(const Device& device, const FixedGrid& grid,
+                                const std::vector<FixedRay>& rays) {
+    DeviceWalks walks(device);
+    walks.start(grid, rays, Steps::cells, 1000);
+    return walks.digests();
+}
+
+TEST(DeviceWalks, AreTheSameForEveryNumberOfLanesAndEachTime) {
+    const FixedGrid grid = fixed_grid({64, 61, 37});
+    const std::vector<FixedRay> rays = rays_of_all_classes(grid, 1003);
+    const std::vector<WalkDigest> expected = digests(test_device(1), grid, rays);
+    for (const int lanes : {4, 16})
+        EXPECT_EQ(digests(test_device(lanes), grid, rays), expected) << lanes;
+    for (int i = 0; i < 9; ++i) EXPECT_EQ(digests(test_device(1), grid, rays), expected);
+}
+
+TEST(DeviceWalks, DoNotDependOnTheHostsTreatmentOfDenormals) {
+#if defined(__SSE__)
+    const FixedGrid grid = fixed_grid({64, 61, 37});
+    const std::vector<FixedRay> rays = rays_of_all_classes(grid, 501);
+    const std::vector<WalkDigest> expected = digests(test_device(), grid, rays);
+    const unsigned mode = _mm_getcsr();
+    _mm_setcsr(mode | 0x8040u);  // flush to zero, denormals are zero
+    const std::vector<WalkDigest> flushed = digests(test_device(), grid, rays);
+    _mm_setcsr(mode);
+    EXPECT_EQ(flushed, expected);
+#else
+    GTEST_SKIP() << "only for processors with SSE";
+#endif
+}
+
+TEST(DeviceWalks, ListTheCellsThatTheirDigestsStandFor) {
+    const FixedGrid grid = fixed_grid({64, 61, 37});
+    DeviceWalks walks(test_device());
+    for (const Steps steps : {Steps::cells, Steps::blocks})
+        for (const FixedRay& ray : rays_of_all_classes(grid, 3))
+            EXPECT_EQ(walks.cells(grid, ray, steps, 170), exact_cells(grid, ray, steps, 170));
+}
+
+TEST(ExactRow, HasTheVoxelsThatSeparatingAxesFind) {
+    for (uint64_t number = 0; number < 8 * kTrianglesOfOneGrid;
+         number += kTrianglesOfOneGrid / 12) {
+        const TriangleOnLattice t = stress_triangle(kSeed, number);
+        const glm::ivec3 first = glm::min(glm::min(t[0], t[1]), t[2]) / 4096 - 1;
+        const glm::ivec3 last =
+            glm::min(glm::max(glm::max(t[0], t[1]), t[2]) / 4096 + 1, first + 24);
+        for (int z = first.z; z <= last.z; ++z)
+            for (int y = first.y; y <= last.y; ++y) {
+                const VoxelRow row = exact_row(t, y, z);
+                for (int x = first.x; x <= last.x; ++x)
+                    ASSERT_EQ(x >= row.first && x <= row.last,
+                              oracle::cube_meets_triangle({x, y, z}, t))
+                        << "triangle " << number << " voxel " << x << ' ' << y << ' ' << z;
+            }
+    }
+}
+
+}  // namespace
+}  // namespace voxelume
