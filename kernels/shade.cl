@@ -154,6 +154,8 @@ kernel void shade_surface(PyramidShape shape, Space space, global const float* r
             hidden |= exit & ~is_joined(word, materials);
             hidden =
                 LANES_SELECT(inner, ~same_member(effective_member(&before, ranks), word), hidden);
+            // An observer inside of a joined body is not on any face of it.
+            hidden |= is_cube(word, primitive) & LANE_MASK(axis == 3u) & is_joined(word, materials);
         }
         hidden &= hit & (transmits(materials, material, opacity) | exit);
         opacity = LANES_SELECT(hidden, (lane_float)0.0f, opacity);

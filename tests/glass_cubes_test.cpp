@@ -105,6 +105,18 @@ TEST(GlassCubes, ASlabShiftsRaysAsSnellSays) {
 
 constexpr const char* kGhost = R"({"diffuse": 0, "refraction": 1, "ior": 1})";
 
+TEST(GlassCubes, AreMetByAnObserverInsideOnlyWhereTheyEnd) {
+    constexpr const char* kFromInside =
+        R"("position": [0.2, 0.07, 0.03], "look_at": [5, 0.07, 0.03],
+              "display": {"shape": "box", "size": [0.4, 0.3, 12]})";
+    const Image image = rendered(
+        block_scene(R"({"diffuse": 0, "refraction": 0.75, "ior": 1.5})", -20, kFromInside));
+    const float background[3] = {0.25f, 0.5f, 0.75f};
+    for (int c = 0; c < 3; ++c)
+        for (const float value : image.planes.at(kColors[c]))
+            EXPECT_NEAR(value, 0.75f * background[c], 1e-6);
+}
+
 TEST(GlassCubes, OfTheSpacesOwnIndexAreInvisibleToTheBit) {
     uint64_t secondary_rays = 0;
     const Image with = rendered(block_scene(kGhost), 0, &secondary_rays);

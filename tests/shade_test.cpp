@@ -92,6 +92,21 @@ TEST(Shade, ACubeIsHitExactlyOnTheFaceThatWasCrossed) {
     EXPECT_EQ(s.missed, glm::vec3(3, 2, 1)) << "the background";
 }
 
+TEST(Shade, ACheckerKeepsItsBlocksFarFromTheOrigin) {
+    for (const double origin : {0.25, 0.75}) {
+        Shaded s;
+        s.pyramid.frame.origin = {1e8, 0, 0};
+        s.scene.materials[2].checker = Checker{{0, 0, 0}, {1, 0, 0}, {origin, 0, 0}};
+        s.set_ray({0.25f, 6.5f, 2.125f}, {0.75f, -0.5f, 0.125f});
+        s.set_hit(1.0f, {1, 6, 2}, 0);  // at x = 1e8 + 0.5 metres
+        Features features;
+        features.cubes = features.checker = true;
+        s.shade(features);
+        const float ambient = origin < 0.5 ? 0.25f : 0.0f;  // block 1e8 or 1e8 - 1
+        EXPECT_EQ(s.radiance, glm::vec3(ambient, ambient / 4 + 0.125f, ambient / 2));
+    }
+}
+
 TEST(Shade, AFieldsNormalIsItsGradientInMetres) {
     Shaded s;
     s.pyramid.attribute |= VXL_KIND_SMOOTH << VXL_KIND_SHIFT;

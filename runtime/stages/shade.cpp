@@ -1,6 +1,7 @@
 #include "runtime/stages/shade.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "runtime/stages/trace.hpp"
@@ -28,7 +29,9 @@ void set_checker(const Checker& checker, const GridFrame& world, MaterialRecord&
     for (int a = 0; a < 3; ++a) {
         if (checker.size[a] == 0) continue;
         record.checker_scale[a] = float(world.voxel_edge[a] / checker.size[a]);
-        record.checker_shift[a] = float((world.origin[a] - checker.origin[a]) / checker.size[a]);
+        // Two blocks make a period: far from the origin a float would round whole blocks off.
+        const double shift = (world.origin[a] - checker.origin[a]) / checker.size[a];
+        record.checker_shift[a] = float(std::fmod(shift, 2.0));
     }
 }
 
