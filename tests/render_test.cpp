@@ -5,12 +5,14 @@
 
 #include <cmath>
 
+#include "runtime/illumination.hpp"
 #include "tests/test_device.hpp"
 
 namespace voxelume {
 namespace {
 
 using testing::Contains;
+using testing::ElementsAre;
 using testing::Key;
 using testing::Not;
 
@@ -221,6 +223,38 @@ TEST(Render, WhatASceneDoesNotHaveIsNotAllocatedOrLaunched) {
     EXPECT_THAT(lit.counters.launches, Contains(Key(std::string("add_light"))));
     EXPECT_THAT(lit.counters.launches, Not(Contains(Key(std::string("trace_shadows")))));
     EXPECT_THAT(lit.counters.allocated_bytes, Not(Contains(Key(std::string("shadow queue")))));
+}
+
+template <class T>
+std::vector<std::string> names(const std::map<std::string, T>& counters) {
+    std::vector<std::string> all;
+    for (const auto& [name, value] : counters) all.push_back(name);
+    return all;
+}
+
+TEST(Render, ASceneOfPlainCubesHasNothingElseInIt) {
+    // One object of cubes without lights: of all features, kernels and buffers these are left.
+    const Scene scene = scene_of(box_scene("cubes", ""));
+    const Rendered r = rendered(scene);
+    const Device device = test_device();
+    WorldReport report;
+    const Features features = features_of(scene, form_world(device, scene, report));
+    for (const auto& [name, value] : features.defines(device))
+        EXPECT_EQ(value != 0,
+                  name == "VXL_CUBES" || (name == "VXL_NATIVE_DIVIDE" && device.is_cpu()))
+            << name;
+    EXPECT_THAT(names(r.counters.launches),
+                ElementsAre("cast_sight", "classify_bricks", "mark_near_leaves", "mark_voxels",
+                            "occupy_solid", "paint_cubes", "resolve_pixels", "shade_surface",
+                            "trace_closest", "write_voxels"));
+    EXPECT_THAT(names(r.counters.allocated_bytes),
+                ElementsAre("brick records", "brick states", "coordinates", "hits", "image",
+                            "index counts", "index leaf masks", "index masks", "index starts",
+                            "leaf voxels", "leaves", "materials", "materials of groups",
+                            "near leaves", "normals", "not finite", "object numbers", "occupancy",
+                            "placement", "positions", "radiance", "rays", "sample offsets",
+                            "sectors", "slots", "solids", "undecided count", "undecided voxels",
+                            "words", "world coordinates", "world occupancy", "world slots"));
 }
 
 TEST(Render, ALightWithoutEnergyIsNotShaded) {
