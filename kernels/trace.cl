@@ -1,8 +1,7 @@
 // rays -> hits: the discrete walk of every ray through the world to the first surface it meets.
 //
-// One work-item carries VXL_LANES rays. Lanes that reach an occupied voxel wait until no lane of
-// the packet is walking; then the surfaces inside those voxels are tested together, and lanes that
-// missed them walk on.
+// A packet carries VXL_LANES rays. Lanes that reach an occupied voxel wait for others; then the
+// surfaces inside those voxels are tested together, and lanes that missed them walk on.
 #include "lib/cube_body.h"
 #include "lib/fixed_point.h"
 #include "lib/hit_word.h"
@@ -15,6 +14,15 @@
 #include "lib/work_item.h"
 #include "shared/scene.h"
 #include "shared/voxel.h"
+
+// Values of the rays that a packet's lanes hold: side by side, unless they are taken on one by one.
+#define VXL_RAY_FLOATS(p, ray) \
+    (VXL_PATHS ? LANES_GATHER_FLOAT(p, ray) : LANES_LOAD(p, LANES_FIRST(ray)))
+#define VXL_RAY_UINTS(p, ray) \
+    (VXL_PATHS ? LANES_GATHER_UINT(p, ray) : LANES_LOAD(p, LANES_FIRST(ray)))
+
+// Idle lanes for which a packet takes on further rays.
+#define VXL_REFILL ((VXL_LANES + 3) / 4)
 
 typedef struct {
     global const uint* restrict attributes;
@@ -212,9 +220,8 @@ static inline lane_int test_surfaces(const PyramidView* p, const SurfaceView* s,
     return accepted;
 }
 
-/// Walks the `active` lanes to their first surface before t_end.
-static inline Found find_first(const PyramidView* p, const SurfaceView* s, Walk* w,
-                               lane_float t_end, lane_int active, const Travel* travel) {
+/// Before a walk.
+static inline Found found_nothing(const Travel* travel) {
     Found found;
     found.hit = (lane_int)0;
     found.t = (lane_float)INFINITY;
@@ -224,43 +231,70 @@ static inline Found find_first(const PyramidView* p, const SurfaceView* s, Walk*
     found.asked = ~travel->unsure;
     found.within = (lane_int)0;
     found.in_body = found.exit = (lane_int)0;
-    lane_int walking = active & in_grid(p, w);
-    while (lanes_any(walking)) {
-        lane_int waiting = (lane_int)0;
-        while (lanes_any(walking)) {
-            const CellState state = look_up(p, w->x, w->y, w->z, walking);
-            const lane_int arrived = state.occupied & walking;
-            found.leaf = LANES_SELECT(arrived, state.leaf, found.leaf);
-            waiting |= arrived;
-            walking &= ~arrived;
-            if (VXL_CUBE_BODIES) {
-                const lane_int left = walking & found.in_body;
-                leave_body(&found, w, left);
-                found.hit |= left;
-                walking &= ~left;
-            }
-            advance(p, w, state.log2_size, walking);
-            walking &= in_grid(p, w) & LANE_MASK(w->t <= t_end);
-            if (VXL_EXACT) {  // an earlier voxel's primitive is hit before anything ahead
-                const lane_int passed = walking & LANE_MASK(w->t >= found.t);
-                found.hit |= passed;
-                walking &= ~passed;
-            }
-        }
-        const lane_int accepted = test_surfaces(p, s, w, waiting, travel, &found) & waiting;
-        found.hit |= accepted;
-        walking = waiting & ~accepted;
-        if (!lanes_any(walking)) break;
-        advance(p, w, (lane_int)0, walking);
-        if (VXL_CUBE_BODIES) {
-            const lane_int left = walking & found.in_body & ~in_grid(p, w);
-            leave_body(&found, w, left);
-            found.hit |= left;
-        }
-        walking &= in_grid(p, w) & LANE_MASK(w->t <= t_end);
+    return found;
+}
+
+/// Moves the `walking` lanes one step: out of the empty block around them, or, where their cell is
+/// occupied, to the `waiting` ones. Lanes that leave the world or come to t_end are in neither.
+static inline void walk_on(const PyramidView* p, Walk* w, lane_float t_end, Found* found,
+                           lane_int* walking, lane_int* waiting) {
+    lane_int moving = *walking;
+    const CellState state = look_up(p, w->x, w->y, w->z, moving);
+    const lane_int arrived = state.occupied & moving;
+    found->leaf = LANES_SELECT(arrived, state.leaf, found->leaf);
+    *waiting |= arrived;
+    moving &= ~arrived;
+    if (VXL_CUBE_BODIES) {
+        const lane_int left = moving & found->in_body;
+        leave_body(found, w, left);
+        found->hit |= left;
+        moving &= ~left;
     }
-    if (VXL_EXACT) found.hit |= active & LANE_MASK(found.t < INFINITY);
-    found.hit &= LANE_MASK(found.t <= t_end);
+    advance(p, w, state.log2_size, moving);
+    moving &= in_grid(p, w) & LANE_MASK(w->t <= t_end);
+    if (VXL_EXACT) {  // an earlier voxel's primitive is hit before anything ahead
+        const lane_int passed = moving & LANE_MASK(w->t >= found->t);
+        found->hit |= passed;
+        moving &= ~passed;
+    }
+    *walking = moving;
+}
+
+/// Tests the surfaces in the voxels of the `waiting` lanes; those that miss them walk on.
+static inline void meet_surfaces(const PyramidView* p, const SurfaceView* s, Walk* w,
+                                 lane_float t_end, const Travel* travel, Found* found,
+                                 lane_int* walking, lane_int* waiting) {
+    const lane_int accepted = test_surfaces(p, s, w, *waiting, travel, found) & *waiting;
+    found->hit |= accepted;
+    lane_int moving = *waiting & ~accepted;
+    *waiting = (lane_int)0;
+    if (!lanes_any(moving)) return;
+    advance(p, w, (lane_int)0, moving);
+    if (VXL_CUBE_BODIES) {
+        const lane_int left = moving & found->in_body & ~in_grid(p, w);
+        leave_body(found, w, left);
+        found->hit |= left;
+    }
+    *walking |= moving & in_grid(p, w) & LANE_MASK(w->t <= t_end);
+}
+
+/// Mask: lanes whose walks have ended with a hit.
+static inline lane_int is_hit(const Found* found, lane_float t_end) {
+    lane_int hit = found->hit;
+    if (VXL_EXACT) hit |= LANE_MASK(found->t < INFINITY);
+    return hit & LANE_MASK(found->t <= t_end);
+}
+
+/// Walks the `active` lanes to their first surface before t_end.
+static inline Found find_first(const PyramidView* p, const SurfaceView* s, Walk* w,
+                               lane_float t_end, lane_int active, const Travel* travel) {
+    Found found = found_nothing(travel);
+    lane_int walking = active & in_grid(p, w), waiting = (lane_int)0;
+    while (lanes_any(walking)) {
+        while (lanes_any(walking)) walk_on(p, w, t_end, &found, &walking, &waiting);
+        meet_surfaces(p, s, w, t_end, travel, &found, &walking, &waiting);
+    }
+    found.hit = is_hit(&found, t_end) & active;
     return found;
 }
 
@@ -275,13 +309,13 @@ static inline PyramidView pyramid_view(PyramidShape shape, global const uint* re
     return p;
 }
 
-static inline Walk load_walk(global const float* restrict rays, uint stride, uint first) {
-    return begin_walk(LANES_LOAD(rays, VXL_RAY_OX * stride + first),
-                      LANES_LOAD(rays, VXL_RAY_OY * stride + first),
-                      LANES_LOAD(rays, VXL_RAY_OZ * stride + first),
-                      LANES_LOAD(rays, VXL_RAY_DX * stride + first),
-                      LANES_LOAD(rays, VXL_RAY_DY * stride + first),
-                      LANES_LOAD(rays, VXL_RAY_DZ * stride + first));
+static inline Walk load_walk(global const float* restrict rays, uint stride, lane_uint ray) {
+    return begin_walk(VXL_RAY_FLOATS(rays + VXL_RAY_OX * stride, ray),
+                      VXL_RAY_FLOATS(rays + VXL_RAY_OY * stride, ray),
+                      VXL_RAY_FLOATS(rays + VXL_RAY_OZ * stride, ray),
+                      VXL_RAY_FLOATS(rays + VXL_RAY_DX * stride, ray),
+                      VXL_RAY_FLOATS(rays + VXL_RAY_DY * stride, ray),
+                      VXL_RAY_FLOATS(rays + VXL_RAY_DZ * stride, ray));
 }
 
 /// Mask: a coordinate of a ray's origin lies on the side of the world across which it comes in.
@@ -327,16 +361,16 @@ static inline lane_int has_flag(lane_uint flags, uint flag) {
 }
 
 static inline Travel load_travel(global const uint* restrict paths,
-                                 global const float* restrict starts, uint stride, uint first) {
+                                 global const float* restrict starts, uint stride, lane_uint ray) {
     Travel travel = sight_travel();
-    const lane_uint flags = LANES_LOAD(paths, VXL_PATH_FLAGS * stride + first);
+    const lane_uint flags = VXL_RAY_UINTS(paths + VXL_PATH_FLAGS * stride, ray);
     travel.on_surface = has_flag(flags, VXL_PATH_ON_SURFACE);
     travel.within_source = has_flag(flags, VXL_PATH_WITHIN_SOURCE);
-    travel.source = LANES_LOAD(paths, VXL_PATH_SOURCE * stride + first);
+    travel.source = VXL_RAY_UINTS(paths + VXL_PATH_SOURCE * stride, ray);
     if (VXL_TRANSMISSION) {
         travel.goes_on = has_flag(flags, VXL_PATH_GOES_ON);
-        travel.t_first = LANES_LOAD(starts, first);
-        travel.interior = load_interior(paths, stride, first);
+        travel.t_first = VXL_RAY_FLOATS(starts, ray);
+        travel.interior = gather_interior(paths, stride, ray);
     }
     if (VXL_CUBE_BODIES) {
         travel.body = body_inside(&travel.interior);
@@ -372,36 +406,170 @@ static inline void resume_walk(Walk* w, const Travel* travel, lane_uint cell_xy,
     w->t = LANES_SELECT(on, fmax(travel->t_first, entry_time(w)), w->t);
 }
 
-/// The closest hit of rays 0 .. count-1. Arrays hold a multiple of 16 rays.
+/// A packet of rays on their way.
+typedef struct {
+    lane_uint ray;  // the number of each lane's ray
+    Walk walk;
+    Travel travel;
+    Found found;
+    lane_float t_end;
+} Flight;
+
+/// Gives the `idle` lanes the next of the rays up to `end`; the mask of those that got one.
+static inline lane_int take_rays(lane_int idle, uint end, uint* next, lane_uint* ray) {
+    uint numbers[VXL_LANES];
+    int taken[VXL_LANES];
+    LANES_STORE(*ray, numbers, 0);
+    LANES_STORE(idle, taken, 0);
+    for (int lane = 0; lane < VXL_LANES; ++lane) {
+        taken[lane] &= -(int)(*next < end);
+        numbers[lane] = taken[lane] ? *next : numbers[lane];
+        *next -= (uint)taken[lane];
+    }
+    *ray = LANES_LOAD(numbers, 0);
+    return LANES_LOAD(taken, 0);
+}
+
+/// Sets the rays that the lanes hold on their way.
+static inline void set_out(const PyramidView* p, global const float* restrict rays, uint stride,
+                           global const uint* restrict paths, global const float* restrict starts,
+                           Flight* f) {
+    f->walk = load_walk(rays, stride, f->ray);
+    f->travel = sight_travel();
+    if (VXL_PATHS) f->travel = load_travel(paths, starts, stride, f->ray);
+    enter_world(p, &f->walk, ~f->travel.on_surface);
+    f->travel.unsure = ~f->travel.on_surface & LANE_MASK(f->walk.axis == 3);
+    if (VXL_TRANSMISSION)
+        resume_walk(&f->walk, &f->travel, VXL_RAY_UINTS(paths + VXL_PATH_CELL * stride, f->ray),
+                    VXL_RAY_UINTS(paths + VXL_PATH_CELL_Z * stride, f->ray),
+                    has_flag(VXL_RAY_UINTS(paths + VXL_PATH_FLAGS * stride, f->ray),
+                             VXL_PATH_GOES_ON | VXL_PATH_FROM_CELL));
+    f->t_end = VXL_RAY_FLOATS(rays + VXL_RAY_END * stride, f->ray);
+    f->found = found_nothing(&f->travel);
+}
+
+/// Puts lanes that are not `fresh` back to where their walks had been.
+static inline void keep_progress(const Flight* before, lane_int fresh, Flight* f) {
+    f->walk.x = LANES_SELECT(fresh, f->walk.x, before->walk.x);
+    f->walk.y = LANES_SELECT(fresh, f->walk.y, before->walk.y);
+    f->walk.z = LANES_SELECT(fresh, f->walk.z, before->walk.z);
+    f->walk.t = LANES_SELECT(fresh, f->walk.t, before->walk.t);
+    f->walk.axis = LANES_SELECT(fresh, f->walk.axis, before->walk.axis);
+    f->found.hit = LANES_SELECT(fresh, f->found.hit, before->found.hit);
+    f->found.t = LANES_SELECT(fresh, f->found.t, before->found.t);
+    f->found.leaf = LANES_SELECT(fresh, f->found.leaf, before->found.leaf);
+    f->found.voxel = LANES_SELECT(fresh, f->found.voxel, before->found.voxel);
+    f->found.primitive = LANES_SELECT(fresh, f->found.primitive, before->found.primitive);
+    f->found.solid = LANES_SELECT(fresh, f->found.solid, before->found.solid);
+    f->found.level = LANES_SELECT(fresh, f->found.level, before->found.level);
+    f->found.asked = LANES_SELECT(fresh, f->found.asked, before->found.asked);
+    f->found.within = LANES_SELECT(fresh, f->found.within, before->found.within);
+    f->found.in_body = LANES_SELECT(fresh, f->found.in_body, before->found.in_body);
+    f->found.exit = LANES_SELECT(fresh, f->found.exit, before->found.exit);
+}
+
+/// What a ray met, as shared/trace.h describes it.
+typedef struct {
+    lane_uint values[VXL_HIT_COMPONENTS];
+} Hit;
+
+static inline Hit hit_of(const Flight* f, lane_int hit) {
+    Hit h;
+    Walk walk = f->walk;
+    lane_uint face = hit_face(&walk, f->found.exit & hit);
+    if (VXL_SMOOTH) face |= LANES_AS_UINT(within_smooth(&f->found, &f->travel)) & VXL_FACE_WITHIN;
+    h.values[VXL_HIT_T] = LANES_AS_UINT(f->found.t);
+    h.values[VXL_HIT_VOXEL] = LANES_SELECT(hit, f->found.voxel, (lane_uint)VXL_NO_VOXEL);
+    h.values[VXL_HIT_CELL] = LANES_AS_UINT(walk.x | (walk.y << 16));
+    h.values[VXL_HIT_FACE] = face;
+    h.values[VXL_HIT_PRIMITIVE] = f->found.primitive;
+    return h;
+}
+
+#define VXL_STORED_COMPONENTS (VXL_EXACT ? VXL_HIT_COMPONENTS : VXL_HIT_PRIMITIVE)
+
+/// The closest hit of rays 0 .. count-1 that run beside each other. Arrays hold a multiple of 16
+/// rays.
 kernel void trace_closest(VXL_WORLD_ARGUMENTS, global const float* restrict rays, uint count,
                           uint stride, global const uint* restrict paths,
                           global const float* restrict starts, global uint* restrict hits) {
     const uint first = work_item() * VXL_LANES;
     if (first >= count) return;
     VXL_WORLD_VIEWS;
-    Walk walk = load_walk(rays, stride, first);
-    Travel travel = sight_travel();
-    if (VXL_PATHS) travel = load_travel(paths, starts, stride, first);
-    enter_world(&pyramid, &walk, ~travel.on_surface);
-    travel.unsure = ~travel.on_surface & LANE_MASK(walk.axis == 3);
-    if (VXL_TRANSMISSION)
-        resume_walk(&walk, &travel, LANES_LOAD(paths, VXL_PATH_CELL * stride + first),
-                    LANES_LOAD(paths, VXL_PATH_CELL_Z * stride + first),
-                    has_flag(LANES_LOAD(paths, VXL_PATH_FLAGS * stride + first),
-                             VXL_PATH_GOES_ON | VXL_PATH_FROM_CELL));
-    const lane_float t_end = LANES_LOAD(rays, VXL_RAY_END * stride + first);
-    const lane_int active =
-        LANE_MASK(t_end >= 0.0f) & LANE_MASK(LANES_AS_INT(LANES_NUMBERS + (int)first) < (int)count);
-    const Found found = find_first(&pyramid, &surface, &walk, t_end, active, &travel);
-    const lane_uint voxel = LANES_SELECT(found.hit, found.voxel, (lane_uint)VXL_NO_VOXEL);
-    LANES_STORE(LANES_AS_UINT(found.t), hits, VXL_HIT_T * stride + first);
-    LANES_STORE(voxel, hits, VXL_HIT_VOXEL * stride + first);
-    lane_uint face = hit_face(&walk, found.exit & found.hit);
-    if (VXL_SMOOTH) face |= LANES_AS_UINT(within_smooth(&found, &travel)) & VXL_FACE_WITHIN;
-    LANES_STORE(face, hits, VXL_HIT_FACE * stride + first);
-    LANES_STORE(LANES_AS_UINT(walk.x | (walk.y << 16)), hits, VXL_HIT_CELL * stride + first);
-    if (VXL_EXACT) LANES_STORE(found.primitive, hits, VXL_HIT_PRIMITIVE * stride + first);
+    Flight f;
+    f.ray = LANES_AS_UINT(LANES_NUMBERS + (int)first);
+    set_out(&pyramid, rays, stride, paths, starts, &f);
+    const lane_int active = LANE_MASK(f.t_end >= 0.0f) & LANE_MASK(f.ray < count);
+    f.found = find_first(&pyramid, &surface, &f.walk, f.t_end, active, &f.travel);
+    const Hit hit = hit_of(&f, f.found.hit);
+    for (uint i = 0; i < VXL_STORED_COMPONENTS; ++i)
+        LANES_STORE(hit.values[i], hits, i * stride + first);
 }
+
+#if VXL_PATHS
+/// Stores what the rays of the `landing` lanes have met.
+static inline void store_hits(const Flight* f, lane_int landing, uint stride,
+                              global uint* restrict hits) {
+    const Hit hit = hit_of(f, is_hit(&f->found, f->t_end));
+    uint rays[VXL_LANES], values[VXL_LANES];
+    int stored[VXL_LANES];
+    LANES_STORE(f->ray, rays, 0);
+    LANES_STORE(landing, stored, 0);
+    for (uint i = 0; i < VXL_STORED_COMPONENTS; ++i) {
+        LANES_STORE(hit.values[i], values, 0);
+        for (uint lane = 0; lane < VXL_LANES; ++lane)
+            if (stored[lane]) hits[i * stride + rays[lane]] = values[lane];
+    }
+}
+
+/// The closest hit of rays 0 .. count-1 that run anywhere: reflected and refracted ones.
+///
+/// A work-item carries VXL_PACKETS(VXL_LANES) packets' rays. Lanes whose rays have ended wait until
+/// several have; then their hits are stored, and they go on with the next rays. Lanes walk while
+/// more of them can than wait in occupied voxels. The hits' bits are those of trace_closest.
+kernel void trace_scattered(VXL_WORLD_ARGUMENTS, global const float* restrict rays, uint count,
+                            uint stride, global const uint* restrict paths,
+                            global const float* restrict starts, global uint* restrict hits) {
+    uint next = work_item() * (VXL_LANES * VXL_PACKETS(VXL_LANES));
+    if (next >= count) return;
+    const uint end =
+        min(next + VXL_LANES * VXL_PACKETS(VXL_LANES), (count + VXL_LANES - 1u) & -VXL_LANES);
+    VXL_WORLD_VIEWS;
+    Flight f;
+    f.ray = LANES_AS_UINT(LANES_NUMBERS + (int)next);
+    set_out(&pyramid, rays, stride, paths, starts, &f);
+    next += VXL_LANES;
+    lane_int held = (lane_int)-1, waiting = (lane_int)0;
+    lane_int walking =
+        LANE_MASK(f.t_end >= 0.0f) & LANE_MASK(f.ray < count) & in_grid(&pyramid, &f.walk);
+    while (true) {
+        int steps = lanes_count(walking), tests = 0;
+        const int least = next < end ? VXL_LANES - VXL_REFILL : 0;
+        while (steps > tests && steps + tests > least) {
+            walk_on(&pyramid, &f.walk, f.t_end, &f.found, &walking, &waiting);
+            steps = lanes_count(walking), tests = lanes_count(waiting);
+        }
+        if (tests > 0)
+            meet_surfaces(&pyramid, &surface, &f.walk, f.t_end, &f.travel, &f.found, &walking,
+                          &waiting);
+        steps = lanes_count(walking);
+        if (steps > least) continue;
+        store_hits(&f, held & ~walking, stride, hits);
+        held &= walking;
+        if (next >= end) {
+            if (steps == 0) break;
+            continue;
+        }
+        const Flight before = f;
+        const lane_int fresh = take_rays(~walking, end, &next, &f.ray);
+        set_out(&pyramid, rays, stride, paths, starts, &f);
+        keep_progress(&before, fresh, &f);
+        held |= fresh;
+        walking |= fresh & LANE_MASK(f.t_end >= 0.0f) & LANE_MASK(f.ray < count) &
+                   in_grid(&pyramid, &f.walk);
+    }
+}
+#endif
 
 /// Finds the body of cubes that the rays are inside of.
 static inline void find_body(Travel* travel, global const float* restrict materials) {
@@ -513,7 +681,7 @@ kernel void trace_shadows(VXL_WORLD_ARGUMENTS, uint constant_attribute,
         traced[1] += traced[0] < queued;
     }
     VXL_WORLD_VIEWS;
-    Walk walk = load_walk(rays, stride, first);
+    Walk walk = load_walk(rays, stride, LANES_AS_UINT(LANES_NUMBERS + (int)first));
     const lane_float t_end = LANES_LOAD(rays, VXL_RAY_END * stride + first);
     const lane_int active = LANE_MASK(LANES_AS_INT(LANES_NUMBERS + (int)first) < (int)queued);
     Travel travel = sight_travel();

@@ -184,7 +184,7 @@ Illumination::Illumination(const Device& device, const Features& features, const
 }
 
 void Illumination::light(RayBatch& batch, uint32_t count, const LayerSink& sink) {
-    if (!features_.paths) return direct(batch, count);
+    if (!features_.paths) return direct(batch, count, false);
     scatter_->begin(world_, batch, count);
     reserve_nodes(0, batch.stride);
     follow(0, batch, count, sink);
@@ -195,8 +195,8 @@ void Illumination::light(RayBatch& batch, uint32_t count, const LayerSink& sink)
 }
 
 /// Blocks 3 to 5.
-void Illumination::direct(RayBatch& entries, uint32_t count) {
-    trace_.closest(world_, entries, count);
+void Illumination::direct(RayBatch& entries, uint32_t count, bool scattered) {
+    trace_.closest(world_, entries, count, scattered);
     shade_.surface(world_, entries, count);
     for (const LightRecord& light : lights_) {
         lighting_->add(world_, light, entries, count, queue_);
@@ -211,7 +211,7 @@ void Illumination::follow(size_t number, RayBatch& first, uint32_t count, const 
     Depth& depth = *depths_[number];
     RayBatch* entries = &first;
     for (bool is_first = true; count > 0; is_first = false) {
-        direct(*entries, count);
+        direct(*entries, count, number > 0);
         uint32_t on = 0;
         if (features_.transmission)
             on = scatter_->layer(world_, *entries, count, is_first, depth.children, depth.nodes,

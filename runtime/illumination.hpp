@@ -69,7 +69,7 @@ class Illumination {
         NodeLight nodes;
     };
 
-    void direct(RayBatch& entries, uint32_t count);
+    void direct(RayBatch& entries, uint32_t count, bool scattered);
     void follow(size_t depth, RayBatch& first, uint32_t count, const LayerSink& sink = {});
     void scatter(size_t depth, RayBatch& entries, uint32_t count);
     void reserve_nodes(size_t depth, uint32_t count);

@@ -28,6 +28,15 @@ static inline Interior load_interior(global const uint* paths, uint stride, uint
     return interior;
 }
 
+/// load_interior of the paths numbered `path`.
+static inline Interior gather_interior(global const uint* paths, uint stride, lane_uint path) {
+    global const uint* p = paths + VXL_PATH_INSIDE * (size_t)stride;
+    const Interior interior = {LANES_GATHER_UINT(p, path), LANES_GATHER_UINT(p + stride, path),
+                               LANES_GATHER_UINT(p + 2 * (size_t)stride, path),
+                               LANES_GATHER_UINT(p + 3 * (size_t)stride, path)};
+    return interior;
+}
+
 static inline lane_int is_member(lane_uint member, lane_uint word) {
     return LANE_MASK(((member ^ word) & VXL_OBJECT_MASK) == 0u) &
            LANE_MASK(member != VXL_NO_MEMBER);

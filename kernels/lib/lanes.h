@@ -40,9 +40,13 @@ typedef long lane_long;
 #define LANES_AS_UINT(v) as_uint(v)
 #define LANES_AS_FLOAT(v) as_float(v)
 #define LANES_NUMBERS 0
+#define LANES_FIRST(v) (v)
 
 static inline int lanes_any(lane_int mask) {
     return mask;
+}
+static inline int lanes_count(lane_int mask) {
+    return -mask;
 }
 static inline uint lanes_least(lane_uint v) {
     return v;
@@ -67,6 +71,7 @@ typedef VXL_JOIN(long, VXL_LANES) lane_long;
 #define LANES_AS_INT(v) VXL_JOIN(as_int, VXL_LANES)(v)
 #define LANES_AS_UINT(v) VXL_JOIN(as_uint, VXL_LANES)(v)
 #define LANES_AS_FLOAT(v) VXL_JOIN(as_float, VXL_LANES)(v)
+#define LANES_FIRST(v) ((v).s0)
 
 // Indexed loads in this form become one gather instruction. `any` on a vector would compile to a
 // ladder of branches; folding halves does not.
@@ -76,6 +81,9 @@ typedef VXL_JOIN(long, VXL_LANES) lane_long;
 static inline int lanes_any(int4 mask) {
     int2 q = mask.lo | mask.hi;
     return q.x | q.y;
+}
+static inline int lanes_count(int4 mask) {
+    return (int)popcount(as_uint(convert_char4(mask))) >> 3;
 }
 static inline uint lanes_least(uint4 v) {
     uint2 q = min(v.lo, v.hi);
@@ -90,6 +98,9 @@ static inline int lanes_any(int8 mask) {
     int4 h = mask.lo | mask.hi;
     int2 q = h.lo | h.hi;
     return q.x | q.y;
+}
+static inline int lanes_count(int8 mask) {
+    return (int)popcount(as_ulong(convert_char8(mask))) >> 3;
 }
 static inline uint lanes_least(uint8 v) {
     uint4 h = min(v.lo, v.hi);
@@ -107,6 +118,10 @@ static inline int lanes_any(int16 mask) {
     int4 h = e.lo | e.hi;
     int2 q = h.lo | h.hi;
     return q.x | q.y;
+}
+static inline int lanes_count(int16 mask) {
+    const ulong2 bytes = as_ulong2(convert_char16(mask));
+    return (int)(popcount(bytes.x) + popcount(bytes.y)) >> 3;
 }
 static inline uint lanes_least(uint16 v) {
     uint8 e = min(v.lo, v.hi);

@@ -16,6 +16,9 @@
 
 #define VXL_DIRECTION_BITS 22
 
+// Packets of rays that a work-item of trace_closest carries one after another.
+#define VXL_PACKETS(lanes) ((lanes) > 1 ? 16u : 1u)
+
 // What a ray met.
 //   VXL_HIT_T      float: where, as the ray's t
 //   VXL_HIT_VOXEL  the voxel's number in the pyramid, VXL_NO_VOXEL for a miss

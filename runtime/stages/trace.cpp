@@ -43,17 +43,22 @@ Features features_of(const Pyramid& pyramid) {
 }
 
 TraceStage::TraceStage(const Device& device, const Features& features)
-    : program_(device, "trace.cl", features.defines(device)),
+    : packets_(VXL_PACKETS(device.lanes())),
+      program_(device, "trace.cl", features.defines(device)),
       closest_(program_.kernel("trace_closest")),
-      shadows_(program_.kernel("trace_shadows")) {}
+      shadows_(program_.kernel("trace_shadows")) {
+    if (features.paths) scattered_ = program_.kernel("trace_scattered");
+}
 
-void TraceStage::closest(const Pyramid& pyramid, RayBatch& batch, uint32_t count) {
+void TraceStage::closest(const Pyramid& pyramid, RayBatch& batch, uint32_t count, bool scattered) {
     if (pyramid.voxel_count == 0) return batch.hits.fill(VXL_NO_VOXEL);
-    closest_.launch_packets(count, shape_of(pyramid), pyramid.sectors, pyramid.bricks,
-                            pyramid.leaves, pyramid.leaf_voxels, pyramid.attributes, pyramid.fields,
-                            pyramid.primitive_first, pyramid.primitives, pyramid.triangles,
-                            pyramid.triangle_attributes, pyramid.solids, batch.rays, count,
-                            batch.stride, batch.paths, batch.starts, batch.hits);
+    Kernel& kernel = scattered ? scattered_.value() : closest_;
+    const size_t rays = scattered ? (count + packets_ - 1) / packets_ : count;
+    kernel.launch_packets(rays, shape_of(pyramid), pyramid.sectors, pyramid.bricks, pyramid.leaves,
+                          pyramid.leaf_voxels, pyramid.attributes, pyramid.fields,
+                          pyramid.primitive_first, pyramid.primitives, pyramid.triangles,
+                          pyramid.triangle_attributes, pyramid.solids, batch.rays, count,
+                          batch.stride, batch.paths, batch.starts, batch.hits);
 }
 
 void TraceStage::shadows(const Pyramid& pyramid, const Surroundings& surroundings,

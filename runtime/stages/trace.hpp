@@ -1,6 +1,8 @@
 // rays -> hits: the discrete walk of every ray to the first surface it meets.
 #pragma once
 
+#include <optional>
+
 #include "kernels/shared/scene.h"
 #include "runtime/grid.hpp"
 #include "runtime/opencl/program.hpp"
@@ -26,8 +28,9 @@ class TraceStage {
   public:
     TraceStage(const Device& device, const Features& features);
 
-    /// Finds the first hit of rays 0 .. count-1 of the batch.
-    void closest(const Pyramid& pyramid, RayBatch& batch, uint32_t count);
+    /// Finds the first hit of rays 0 .. count-1 of the batch. `scattered` says that rays beside
+    /// each other in it go different ways: reflected and refracted ones. Hits don't depend on it.
+    void closest(const Pyramid& pyramid, RayBatch& batch, uint32_t count, bool scattered = false);
 
     /// Traces the queue, at most `most` rays of it, sent from the batch; lights that are seen add
     /// their share to its radiance.
@@ -35,8 +38,10 @@ class TraceStage {
                  uint32_t most, RayBatch& batch);
 
   private:
+    size_t packets_;  // that a work-item of `scattered_` carries
     Program program_;
     Kernel closest_, shadows_;
+    std::optional<Kernel> scattered_;  ///< of scenes with paths
 };
 
 }  // namespace voxelume

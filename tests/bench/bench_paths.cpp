@@ -19,7 +19,7 @@
 namespace voxelume {
 namespace {
 
-constexpr int kRuns = 3;
+constexpr int kRuns = 7;
 
 double cpu_seconds() {
     rusage usage{};
