@@ -48,8 +48,9 @@ std::vector<const BenchSolid*> chosen_solids(const std::vector<std::string>& onl
 BenchOptions options_of(const BenchCommand& command) {
     BenchOptions options;
     options.solids = chosen_solids(command.only);
-    options.resolutions = {16, 32, 64, 128, 256, 512};
-    if (!command.is_quick) options.resolutions.push_back(1024);
+    // The steps are halved where smooth surfaces have not yet reached their floor.
+    options.resolutions = {8, 11, 16, 23, 32, 45, 64, 128, 256};
+    if (!command.is_quick) options.resolutions.insert(options.resolutions.end(), {512, 1024});
     if (!command.resolutions.empty()) options.resolutions = command.resolutions;
     std::ranges::sort(options.resolutions);
     const auto repeated = std::ranges::unique(options.resolutions);

@@ -15,7 +15,7 @@
 namespace voxelume {
 namespace {
 
-BenchTimes times_of(const RenderReport& report) {
+BenchTimes times_of(const RenderReport& report, const DeviceCounters& counters) {
     BenchTimes times;
     times.load = report.world.load_seconds;
     times.voxelize = report.world.voxelize_seconds;
@@ -23,6 +23,8 @@ BenchTimes times_of(const RenderReport& report) {
     times.index = report.world.index_seconds;
     times.image = report.image_seconds;
     times.total = times.load + times.voxelize + times.place + times.index + times.image;
+    times.programs = counters.build_ms / 1e3;
+    for (const auto& [kernel, ms] : counters.kernel_ms) times.kernels += ms / 1e3;
     return times;
 }
 
@@ -56,9 +58,12 @@ BenchRow measure_row(const Device& device, const Scene& scene, const BenchTruth&
     for (int i = 0; i <= repeats; ++i) {
         DeviceCounters& counters = device.counters();
         counters.peak_bytes = counters.bytes_in_use;
+        counters.build_ms = 0;
+        counters.kernel_ms.clear();
         RenderReport report;
         const Image image = render(device, scene, report);
-        const BenchTimes times = times_of(report);
+        device.finish();
+        const BenchTimes times = times_of(report, counters);
         if (i == 0) {  // kernels are compiled on the way
             row.errors = measure_errors(truth, image);
             row.voxels = report.voxels;
@@ -80,15 +85,23 @@ void mark_front(std::span<BenchRow> rows) {
     for (const size_t i : pareto_front(seconds, errors)) rows[i].is_best = true;
 }
 
-BenchFit fit_rows(std::span<const BenchRow> rows, const std::string& scene, Surface surface) {
-    std::vector<double> sizes, depths, normals;
+SlopeFit fit_rows(std::span<const BenchRow> rows, Surface surface, bool BenchRow::*counts,
+                  double BenchErrors::*error) {
+    std::vector<double> sizes, errors;
     for (const BenchRow& row : rows) {
-        if (row.surface != surface || !row.above_floor) continue;
+        if (row.surface != surface || !(row.*counts)) continue;
         sizes.push_back(row.voxel_size);
-        depths.push_back(row.errors.depth_rms);
-        normals.push_back(row.errors.normal_rms);
+        errors.push_back(row.errors.*error);
     }
-    return {scene, surface, fit_slope(sizes, depths), fit_slope(sizes, normals)};
+    return fit_slope(sizes, errors);
+}
+
+void choose_fitted(BenchRow& row) {
+    if (row.surface != Surface::smooth) return;
+    const bool is_fine = row.least_radius == 0 || row.least_radius >= kLeastVoxels * row.voxel_size;
+    const double depth_floor = kDepthFloor * row.voxel_size;
+    row.fits_depth = is_fine && row.errors.depth_rms > kFloorFactor * depth_floor;
+    row.fits_normal = is_fine && row.errors.normal_rms > kFloorFactor * kNormalFloor;
 }
 
 }  // namespace
@@ -106,22 +119,24 @@ const char* name_of(Surface surface) {
 }
 
 void conclude(BenchReport& report) {
-    for (BenchRow& row : report.rows)
-        row.above_floor = row.surface != Surface::smooth ||
-                          row.errors.depth_rms > kFloorFactor * kDistanceRounding * row.voxel_size;
+    for (BenchRow& row : report.rows) choose_fitted(row);
     for (size_t first = 0, end = 0; first < report.rows.size(); first = end) {
         const std::string scene = report.rows[first].scene;
         while (end < report.rows.size() && report.rows[end].scene == scene) ++end;
         const std::span<BenchRow> rows(report.rows.data() + first, end - first);
         mark_front(rows);
         for (const Surface surface : kBenchSurfaces)
-            report.fits.push_back(fit_rows(rows, scene, surface));
+            report.fits.push_back(
+                {scene, surface,
+                 fit_rows(rows, surface, &BenchRow::fits_depth, &BenchErrors::depth_rms),
+                 fit_rows(rows, surface, &BenchRow::fits_normal, &BenchErrors::normal_rms)});
     }
 }
 
 BenchReport run_bench(const Device& device, const BenchOptions& options,
                       const std::function<void(size_t, size_t)>& progress) {
     BenchReport report = describe(device, options);
+    device.time_kernels(true);
     const size_t total =
         options.solids.size() * std::size(kBenchSurfaces) * options.resolutions.size();
     for (const BenchSolid* solid : options.solids) {
@@ -131,6 +146,7 @@ BenchReport run_bench(const Device& device, const BenchOptions& options,
                 const Scene scene = bench_scene(*solid, surface, resolution, options.size);
                 BenchRow row = measure_row(device, scene, truth, options.repeats);
                 row.scene = solid->name;
+                row.least_radius = solid->least_radius;
                 row.surface = surface;
                 row.resolution = resolution;
                 row.voxel_size = 1.0 / resolution;

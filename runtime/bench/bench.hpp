@@ -24,22 +24,26 @@ struct BenchOptions {
 /// Seconds of one render.
 struct BenchTimes {
     double load = 0, voxelize = 0, place = 0, index = 0;
-    double image = 0;  ///< sight, trace, shade and resolve
-    double total = 0;  ///< sum of all
+    double image = 0;     ///< sight, trace, shade and resolve
+    double total = 0;     ///< sum of all so far
+    double programs = 0;  ///< of it, making compiled kernels ready
+    double kernels = 0;   ///< of it, kernels running on the device
 };
 
 /// One solid as one surface in voxels of one size.
 struct BenchRow {
     std::string scene;
     Surface surface = Surface::cubes;
-    int resolution = 0;     ///< voxels a metre
-    double voxel_size = 0;  ///< metres
-    BenchTimes seconds;     ///< of the repeat with the least total
+    int resolution = 0;       ///< voxels a metre
+    double voxel_size = 0;    ///< metres
+    double least_radius = 0;  ///< of the solid's curvature, metres; 0 for edges
+    BenchTimes seconds;       ///< of the repeat with the least total
     uint64_t voxels = 0;
     uint64_t world_bytes = 0;  ///< of the world's pyramid
     uint64_t peak_bytes = 0;   ///< the most on the device at once
     BenchErrors errors;
-    bool above_floor = true;  ///< far enough above the rounding of distances for `depth` fits
+    bool fits_depth = true;   ///< counts for the slope of the depth RMS
+    bool fits_normal = true;  ///< likewise for normals
     bool is_best = false;     ///< on the Pareto front of total time and depth RMS in its scene
 };
 
@@ -47,7 +51,7 @@ struct BenchRow {
 struct BenchFit {
     std::string scene;
     Surface surface = Surface::cubes;
-    SlopeFit depth;   ///< of the RMS, over rows above the floor
+    SlopeFit depth;   ///< of the RMS, over the rows that count
     SlopeFit normal;  ///< likewise
 };
 
@@ -63,11 +67,16 @@ struct BenchReport {
 inline constexpr Surface kBenchSurfaces[] = {Surface::cubes, Surface::smooth, Surface::exact};
 const char* name_of(Surface surface);
 
-/// The rounding of the distances that `smooth` keeps, in voxels; its errors can't fall below.
-inline constexpr double kDistanceRounding = 5e-5;
+/// `smooth` keeps distances in 16 bits, whose rounding its errors can't fall below.
+inline constexpr double kDepthFloor = 5e-5;      // voxels, RMS
+inline constexpr double kNormalFloor = 3.75e-3;  // degrees, RMS
 
-/// Rows of `smooth` are fitted where their depth RMS is more than this many roundings.
+/// Rows of `smooth` are fitted where their error is more than this many floors ...
 inline constexpr double kFloorFactor = 3;
+
+/// ... and the solid's least radius of curvature this many voxels, for the gradients' stencils are
+/// three voxels wide.
+inline constexpr double kLeastVoxels = 3;
 
 /// Marks the rows that are fitted and those on the front, and fits. Everything that follows from
 /// rows that were measured.

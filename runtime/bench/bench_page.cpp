@@ -128,14 +128,14 @@ std::string heading(const BenchReport& report) {
 std::string slopes(const BenchReport& report) {
     std::string html =
         "<h2>Convergence</h2>\n<p>Slopes of log error against log voxel size, by least squares, "
-        "with 95 % intervals.</p>\n<div class=\"rows\"><table>\n<tr><th>scene<th>surface<th>depth "
-        "points<th>depth slope<th>expected<th>normal slope<th>expected</tr>\n";
+        "with 95 % intervals and the number of rows fitted.</p>\n<div class=\"rows\"><table>\n"
+        "<tr><th>scene<th>surface<th>depth slope<th>expected<th>normal slope<th>expected</tr>\n";
     for (const BenchFit& fit : report.fits) {
         const ExpectedSlopes expected = expected_slopes(fit.scene, fit.surface);
-        html += fmt::format("<tr><td>{}<td>{}<td>{}<td>{}<td>{}<td>{}<td>{}</tr>\n",
-                            escape_html(fit.scene), name_of(fit.surface), fit.depth.points,
-                            slope_text(fit.depth), escape_html(expected.depth),
-                            slope_text(fit.normal), escape_html(expected.normal));
+        html +=
+            fmt::format("<tr><td>{}<td>{}<td>{}<td>{}<td>{}<td>{}</tr>\n", escape_html(fit.scene),
+                        name_of(fit.surface), slope_text(fit.depth), escape_html(expected.depth),
+                        slope_text(fit.normal), escape_html(expected.normal));
     }
     return html + "</table></div>\n";
 }
@@ -143,19 +143,21 @@ std::string slopes(const BenchReport& report) {
 std::string rows(const BenchReport& report) {
     std::string html =
         "<h2>Rows</h2>\n<div class=\"rows\"><table>\n<tr><th>scene<th>surface<th>voxels a metre"
-        "<th>load ms<th>voxelize ms<th>place ms<th>index ms<th>image ms<th>total ms<th>peak MB"
+        "<th>load ms<th>voxelize ms<th>place ms<th>index ms<th>image ms<th>total ms<th>kernels "
+        "ms<th>peak MB"
         "<th>depth RMS m<th>depth max m<th>normal RMS &deg;<th>outline mean px<th>outline max "
         "px<th>front</tr>\n";
     for (const BenchRow& r : report.rows) {
         const BenchTimes& s = r.seconds;
         const BenchErrors& e = r.errors;
         html += fmt::format(
-            "<tr><td>{}<td>{}<td>{}<td>{:.2f}<td>{:.2f}<td>{:.2f}<td>{:.2f}<td>{:.2f}<td>{:.2f}"
+            "<tr><td>{}<td>{}<td>{}<td>{:.2f}<td>{:.2f}<td>{:.2f}<td>{:.2f}<td>{:.2f}<td>{:.2f}<td>"
+            "{:.2f}"
             "<td>{:.1f}<td>{:.3g}<td>{:.3g}<td>{:.3g}<td>{:.3g}<td>{:.3g}<td>{}</tr>\n",
             escape_html(r.scene), name_of(r.surface), r.resolution, s.load * 1e3, s.voxelize * 1e3,
-            s.place * 1e3, s.index * 1e3, s.image * 1e3, s.total * 1e3, double(r.peak_bytes) / 1e6,
-            e.depth_rms, e.depth_max, e.normal_rms, e.silhouette_mean, e.silhouette_max,
-            r.is_best ? "*" : "");
+            s.place * 1e3, s.index * 1e3, s.image * 1e3, s.total * 1e3, s.kernels * 1e3,
+            double(r.peak_bytes) / 1e6, e.depth_rms, e.depth_max, e.normal_rms, e.silhouette_mean,
+            e.silhouette_max, r.is_best ? "*" : "");
     }
     return html + "</table></div>\n";
 }
@@ -167,13 +169,15 @@ std::string method() {
         "ray; depth and normals are compared where both meet the solid with an incidence cosine of "
         "at least {}. The outline's mean is the area that only one of both covers over the true "
         "outline's length, its max the largest distance of such a pixel's centre from the true "
-        "outline. A time is all stages from the model to the image, without compiling kernels and "
-        "without writing files. Rows of <i>smooth</i> are fitted where their depth RMS is more "
-        "than "
-        "{} x {} voxel, the rounding of the distances that it keeps; all other rows always are. "
-        "Rings mark the Pareto front: no other row of the scene is both faster and nearer to the "
-        "truth. Dashed lines are the fits, their slopes in brackets.</p>\n",
-        kLeastCosine, kFloorFactor, kDistanceRounding);
+        "outline.</p>\n<p>A time is all stages from the model to the image, without compiling "
+        "kernels and without writing files, but with making compiled kernels ready, which is the "
+        "same for every voxel size. <i>Kernels</i> is the part of it in which the device ran "
+        "them. Rings mark the Pareto front: no other row of the scene is both faster and nearer to "
+        "the truth.</p>\n<p>Dashed lines are fits, their slopes in brackets, over these rows: "
+        "of <i>cubes</i> and <i>exact</i> all; of <i>smooth</i> those whose RMS is more than {} "
+        "times what the rounding of its 16-bit distances leaves ({} voxel of depth, {} degrees of "
+        "normals), with at least {} voxels to the least radius of curvature.</p>\n",
+        kLeastCosine, kFloorFactor, kDepthFloor, kNormalFloor, kLeastVoxels);
 }
 
 }  // namespace

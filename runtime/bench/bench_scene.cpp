@@ -14,8 +14,8 @@ std::array<BenchSolid, 3> make_solids() {
     Solid sphere, torus, box;
     sphere.radius = 0.47;
     torus.kind = SolidKind::torus;
-    torus.radius = 0.33;
-    torus.tube = 0.15;
+    torus.radius = 0.3;
+    torus.tube = 0.19;
     box.kind = SolidKind::box;
     box.size = {0.67, 0.41, 0.53};
     const auto placed = [](glm::dvec3 position, glm::dvec3 turn) {
@@ -23,12 +23,12 @@ std::array<BenchSolid, 3> make_solids() {
     };
     // The torus shows its hole: no ray passes its tube twice, so its silhouette has only air
     // behind.
-    return {
-        BenchSolid{"sphere", "radius 0.47 m", sphere, placed({0.0123, -0.0071, 0.0052}, {0, 0, 0})},
-        BenchSolid{"torus", "radius 0.33 m, tube 0.15 m, turned", torus,
-                   placed({-0.0082, 0.0117, 0.0034}, {30, 40, 15})},
-        BenchSolid{"box", "0.67 x 0.41 x 0.53 m, turned", box,
-                   placed({0.0041, 0.0093, -0.0126}, {25, -35, 20})}};
+    return {BenchSolid{"sphere", "radius 0.47 m", sphere, sphere.radius,
+                       placed({0.0123, -0.0071, 0.0052}, {0, 0, 0})},
+            BenchSolid{"torus", "radius 0.3 m, tube 0.19 m, turned", torus, torus.tube,
+                       placed({-0.0082, 0.0117, 0.0034}, {30, 40, 15})},
+            BenchSolid{"box", "0.67 x 0.41 x 0.53 m, turned", box, 0,
+                       placed({0.0041, 0.0093, -0.0126}, {25, -35, 20})}};
 }
 
 Observer observer_of(glm::ivec2 size) {

@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <vector>
 
 namespace voxelume {
 namespace {
@@ -20,33 +22,36 @@ nlohmann::ordered_json json_of(const BenchRow& row) {
     return {{"scene", row.scene},
             {"surface", name_of(row.surface)},
             {"voxels_per_metre", row.resolution},
-            {"voxel_size", row.voxel_size},
+            {"voxel_size_metres", row.voxel_size},
             {"seconds",
              {{"load", s.load},
               {"voxelize", s.voxelize},
               {"place", s.place},
               {"index", s.index},
               {"image", s.image},
-              {"total", s.total}}},
+              {"total", s.total},
+              {"programs", s.programs},
+              {"kernels", s.kernels}}},
             {"voxels", row.voxels},
             {"world_bytes", row.world_bytes},
             {"peak_device_bytes", row.peak_bytes},
             {"compared_pixels", e.compared},
-            {"depth_rms", e.depth_rms},
-            {"depth_max", e.depth_max},
+            {"depth_rms_metres", e.depth_rms},
+            {"depth_max_metres", e.depth_max},
             {"normal_rms_degrees", e.normal_rms},
             {"silhouette_mean_pixels", e.silhouette_mean},
             {"silhouette_max_pixels", e.silhouette_max},
-            {"above_floor", row.above_floor},
+            {"fits_depth", row.fits_depth},
+            {"fits_normal", row.fits_normal},
             {"pareto", row.is_best}};
 }
 
 }  // namespace
 
 std::string slope_text(const SlopeFit& fit) {
-    if (fit.points < 2) return "-";
-    if (!std::isfinite(fit.half_width)) return fmt::format("{:.2f}", fit.slope);
-    return fmt::format("{:.2f} +- {:.2f}", fit.slope, fit.half_width);
+    if (fit.points < 2) return fmt::format("- ({} rows)", fit.points);
+    if (!std::isfinite(fit.half_width)) return fmt::format("{:.2f} (2 rows)", fit.slope);
+    return fmt::format("{:.2f} +- {:.2f} ({} rows)", fit.slope, fit.half_width, fit.points);
 }
 
 ExpectedSlopes expected_slopes(const std::string& scene, Surface surface) {
@@ -58,45 +63,50 @@ ExpectedSlopes expected_slopes(const std::string& scene, Surface surface) {
 
 std::string bench_text(const BenchReport& report) {
     std::string text = fmt::format(
-        "{:<7} {:<7} {:>6} {:>9} {:>7} {:>7} {:>9} {:>7} {:>9} {:>9} {:>9} {:>9} {:>9}\n", "scene",
-        "surface", "1/size", "voxelize", "place", "index", "image ms", "MB", "depth", "max m",
-        "normal", "outline", "max px");
+        "{:<7} {:<7} {:>6} {:>8} {:>8} {:>8} {:>8} {:>8} {:>8} {:>6} {:>9} {:>9} {:>9} {:>9} "
+        "{:>9}\n",
+        "scene", "surface", "1/size", "voxelize", "place", "index", "image", "total", "kernels",
+        "MB", "depth", "max", "normal", "outline", "max");
+    text += fmt::format(
+        "{:<7} {:<7} {:>6} {:>8} {:>8} {:>8} {:>8} {:>8} {:>8} {:>6} {:>9} {:>9} {:>9} {:>9} "
+        "{:>9}\n",
+        "", "", "1/m", "ms", "ms", "ms", "ms", "ms", "ms", "peak", "RMS m", "m", "RMS deg",
+        "mean px", "px");
     for (const BenchRow& r : report.rows) {
         const BenchTimes& s = r.seconds;
         const BenchErrors& e = r.errors;
         text += fmt::format(
-            "{:<7} {:<7} {:>6} {:>9.2f} {:>7.2f} {:>7.2f} {:>9.2f} {:>7.1f} {:>9.2e} {:>9.2e} "
-            "{:>9.2e} {:>9.2e} {:>9.2e}{}\n",
+            "{:<7} {:<7} {:>6} {:>8.1f} {:>8.1f} {:>8.1f} {:>8.1f} {:>8.1f} {:>8.1f} {:>6.1f} "
+            "{:>9.2e} {:>9.2e} {:>9.2e} {:>9.2e} {:>9.2e}{}\n",
             r.scene, name_of(r.surface), r.resolution, s.voxelize * 1e3, s.place * 1e3,
-            s.index * 1e3, s.image * 1e3, double(r.peak_bytes) / 1e6, e.depth_rms, e.depth_max,
-            e.normal_rms, e.silhouette_mean, e.silhouette_max, r.is_best ? " *" : "");
+            s.index * 1e3, s.image * 1e3, s.total * 1e3, s.kernels * 1e3,
+            double(r.peak_bytes) / 1e6, e.depth_rms, e.depth_max, e.normal_rms, e.silhouette_mean,
+            e.silhouette_max, r.is_best ? " *" : "");
     }
     text += "* on the Pareto front of total time and depth RMS\n\n";
-    text += fmt::format("{:<7} {:<7} {:>6}  {:<16} {:<10} {:<16} {:<10}\n", "scene", "surface",
-                        "points", "depth slope", "expected", "normal slope", "expected");
+    text += fmt::format("{:<7} {:<7}  {:<20} {:<10} {:<20} {:<10}\n", "scene", "surface",
+                        "depth slope", "expected", "normal slope", "expected");
     for (const BenchFit& f : report.fits) {
         const ExpectedSlopes expected = expected_slopes(f.scene, f.surface);
-        text += fmt::format("{:<7} {:<7} {:>6}  {:<16} {:<10} {:<16} {:<10}\n", f.scene,
-                            name_of(f.surface), f.depth.points, slope_text(f.depth), expected.depth,
-                            slope_text(f.normal), expected.normal);
+        text +=
+            fmt::format("{:<7} {:<7}  {:<20} {:<10} {:<20} {:<10}\n", f.scene, name_of(f.surface),
+                        slope_text(f.depth), expected.depth, slope_text(f.normal), expected.normal);
     }
     return text;
 }
 
 std::string bench_csv(const BenchReport& report) {
-    std::string text =
-        "scene,surface,voxels_per_metre,voxel_size_m,load_s,voxelize_s,place_s,index_s,image_s,"
-        "total_s,voxels,world_bytes,peak_device_bytes,compared_pixels,depth_rms_m,depth_max_m,"
-        "normal_rms_deg,silhouette_mean_px,silhouette_max_px,above_floor,pareto\r\n";
-    for (const BenchRow& r : report.rows) {
-        const BenchTimes& s = r.seconds;
-        const BenchErrors& e = r.errors;
-        text +=
-            fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\r\n",
-                        r.scene, name_of(r.surface), r.resolution, r.voxel_size, s.load, s.voxelize,
-                        s.place, s.index, s.image, s.total, r.voxels, r.world_bytes, r.peak_bytes,
-                        e.compared, e.depth_rms, e.depth_max, e.normal_rms, e.silhouette_mean,
-                        e.silhouette_max, int(r.above_floor), int(r.is_best));
+    std::string text;
+    for (const BenchRow& row : report.rows) {
+        std::vector<std::string> names, values;
+        const nlohmann::ordered_json flat = json_of(row).flatten();
+        for (const auto& [path, value] : flat.items()) {
+            names.push_back(path.substr(1));
+            std::ranges::replace(names.back(), '/', '_');
+            values.push_back(value.is_string() ? value.get<std::string>() : value.dump());
+        }
+        if (text.empty()) text = fmt::format("{}\r\n", fmt::join(names, ","));
+        text += fmt::format("{}\r\n", fmt::join(values, ","));
     }
     return text;
 }

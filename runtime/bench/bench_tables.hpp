@@ -17,7 +17,7 @@ std::string bench_csv(const BenchReport& report);
 /// Everything in the report. An interval without bounds is null.
 nlohmann::ordered_json bench_json(const BenchReport& report);
 
-/// "2.98 +- 0.03", "2.98" without an interval, "-" without a slope.
+/// "2.98 +- 0.03 (5 rows)", "2.98 (2 rows)" without an interval, "- (1 rows)" without a slope.
 std::string slope_text(const SlopeFit& fit);
 
 /// What theory promises of a slope, for people; empty when it promises nothing.
