@@ -28,7 +28,7 @@ BenchTimes times_of(const RenderReport& report, const DeviceCounters& counters) 
     return times;
 }
 
-/// "Linux 6.1.0 x86_64, 2 threads, AMD ..." is left to the device's name: this is what runs it.
+/// The system and its number of threads, without the name of a host.
 std::string describe_machine() {
     utsname names{};
     if (uname(&names) != 0) return "unknown";

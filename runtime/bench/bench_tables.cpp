@@ -55,7 +55,7 @@ std::string slope_text(const SlopeFit& fit) {
 }
 
 ExpectedSlopes expected_slopes(const std::string& scene, Surface surface) {
-    if (surface == Surface::exact) return {"0", "0"};
+    if (surface == Surface::exact) return {"0 (float)", "0 (float)"};
     if (surface == Surface::cubes) return {"1.0", "0"};
     if (scene == "box") return {};  // its edges are no part of what smooth surfaces promise
     return {">= 2.9", ">= 1.95"};
@@ -63,23 +63,24 @@ ExpectedSlopes expected_slopes(const std::string& scene, Surface surface) {
 
 std::string bench_text(const BenchReport& report) {
     std::string text = fmt::format(
-        "{:<7} {:<7} {:>6} {:>8} {:>8} {:>8} {:>8} {:>8} {:>8} {:>6} {:>9} {:>9} {:>9} {:>9} "
+        "{:<7} {:<7} {:>6} {:>8} {:>8} {:>8} {:>8} {:>8} {:>8} {:>8} {:>6} {:>9} {:>9} {:>9} {:>9} "
         "{:>9}\n",
-        "scene", "surface", "1/size", "voxelize", "place", "index", "image", "total", "kernels",
-        "MB", "depth", "max", "normal", "outline", "max");
+        "scene", "surface", "1/size", "voxelize", "place", "index", "image", "total", "programs",
+        "kernels", "MB", "depth", "max", "normal", "outline", "max");
     text += fmt::format(
-        "{:<7} {:<7} {:>6} {:>8} {:>8} {:>8} {:>8} {:>8} {:>8} {:>6} {:>9} {:>9} {:>9} {:>9} "
+        "{:<7} {:<7} {:>6} {:>8} {:>8} {:>8} {:>8} {:>8} {:>8} {:>8} {:>6} {:>9} {:>9} {:>9} {:>9} "
         "{:>9}\n",
-        "", "", "1/m", "ms", "ms", "ms", "ms", "ms", "ms", "peak", "RMS m", "m", "RMS deg",
+        "", "", "1/m", "ms", "ms", "ms", "ms", "ms", "ms", "ms", "peak", "RMS m", "m", "RMS deg",
         "mean px", "px");
     for (const BenchRow& r : report.rows) {
         const BenchTimes& s = r.seconds;
         const BenchErrors& e = r.errors;
         text += fmt::format(
-            "{:<7} {:<7} {:>6} {:>8.1f} {:>8.1f} {:>8.1f} {:>8.1f} {:>8.1f} {:>8.1f} {:>6.1f} "
+            "{:<7} {:<7} {:>6} {:>8.1f} {:>8.1f} {:>8.1f} {:>8.1f} {:>8.1f} {:>8.1f} {:>8.1f} "
+            "{:>6.1f} "
             "{:>9.2e} {:>9.2e} {:>9.2e} {:>9.2e} {:>9.2e}{}\n",
             r.scene, name_of(r.surface), r.resolution, s.voxelize * 1e3, s.place * 1e3,
-            s.index * 1e3, s.image * 1e3, s.total * 1e3, s.kernels * 1e3,
+            s.index * 1e3, s.image * 1e3, s.total * 1e3, s.programs * 1e3, s.kernels * 1e3,
             double(r.peak_bytes) / 1e6, e.depth_rms, e.depth_max, e.normal_rms, e.silhouette_mean,
             e.silhouette_max, r.is_best ? " *" : "");
     }
