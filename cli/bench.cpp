@@ -53,8 +53,8 @@ BenchOptions options_of(const BenchCommand& command) {
     if (!command.is_quick) options.resolutions.insert(options.resolutions.end(), {512, 1024});
     if (!command.resolutions.empty()) options.resolutions = command.resolutions;
     std::ranges::sort(options.resolutions);
-    const auto repeated = std::ranges::unique(options.resolutions);
-    options.resolutions.erase(repeated.begin(), repeated.end());
+    options.resolutions.erase(std::unique(options.resolutions.begin(), options.resolutions.end()),
+                              options.resolutions.end());
     options.size = glm::ivec2(command.is_quick ? 256 : 1024);
     if (!command.size.empty()) options.size = parse_size(command.size, "bench");
     options.repeats = command.is_quick ? 1 : 5;

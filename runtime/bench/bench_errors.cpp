@@ -120,8 +120,8 @@ BenchErrors measure_errors(const BenchTruth& truth, const Image& image) {
         const std::optional<AnalyticHit>& ideal = truth.hits[pixel];
         const bool hit = alpha[pixel] > 0;
         if (hit != ideal.has_value()) {
-            const size_t width = size_t(truth.size.x);
-            const glm::dvec2 center(double(pixel % width) + 0.5, double(pixel / width) + 0.5);
+            const size_t column = pixel % size_t(truth.size.x), row = pixel / size_t(truth.size.x);
+            const glm::dvec2 center(double(column) + 0.5, double(row) + 0.5);
             errors.silhouette_max =
                 std::max(errors.silhouette_max, distance_to_silhouette(truth, center));
             ++differing;
