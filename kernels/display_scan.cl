@@ -244,18 +244,19 @@ kernel void scan_lines(
 
 /// Puts the crossings of lines first_line .. first_line+count-1 one after another: line n's from
 /// starts[n] on. Lines run along `axis` (0, 1, 2) in the order of sight.cl; those of column c and
-/// row r lie at (columns-1-c) / parts_a along the next axis, and likewise rows along the one after
-/// it.
-kernel void pack_points(int axis, uint columns, uint rows, float parts_a, float parts_b,
-                        global const uint* restrict counts, global const uint* restrict starts,
-                        global const float* restrict crossings, uint first_line, uint count,
-                        uint stride, uint total, global float* restrict points) {
+/// row r lie at (last_a - c) / parts_a along the next axis and (last_b - r) / parts_b along the one
+/// after it.
+kernel void pack_points(int axis, uint columns, int last_a, int last_b, float parts_a,
+                        float parts_b, global const uint* restrict counts,
+                        global const uint* restrict starts, global const float* restrict crossings,
+                        uint first_line, uint count, uint stride, uint total,
+                        global float* restrict points) {
     const uint n = work_item();
     if (n >= count) return;
     const uint tiles_x = (columns + 3u) / 4u, tile = (first_line + n) / 16u;
     const uint column = tile % tiles_x * 4u + (n & 3u), row = tile / tiles_x * 4u + ((n >> 2) & 3u);
-    const float a = (float)(columns - 1u - column) / parts_a;
-    const float b = (float)(rows - 1u - row) / parts_b;
+    const float a = (float)(last_a - (int)column) / parts_a;
+    const float b = (float)(last_b - (int)row) / parts_b;
     for (uint i = 0; i < counts[n]; ++i) {
         const uint point = starts[n] + i;
         points[(uint)axis * total + point] = crossings[i * stride + n];

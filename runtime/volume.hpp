@@ -13,7 +13,7 @@
 namespace voxelume {
 
 /// What a display voxel shows. `unseen` voxels lie behind a surface: nothing is known of them, so
-/// they are stored only on request.
+/// rendering lists none; the formats have a number for them all the same.
 enum class VoxelKind : uint8_t { space, object, unseen };
 
 /// V, the lattice of display voxels, and where it stands.

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <set>
 
+#include "runtime/error.hpp"
+#include "runtime/volume_geometry.hpp"
 #include "tests/display_fixture.hpp"
 
 namespace voxelume {
@@ -152,6 +154,39 @@ TEST_P(Lattice, ShowsExactlyTheVoxelsThatOutsideOrNobodySees) {
         SCOPED_TRACE(int(visibility));
         scene.observer.display.visibility = visibility;
         expect_exactly_the_visible(scene);
+    }
+}
+
+TEST(LatticeOfCoarseVoxels, ReachesFarBeyondTheWorld) {
+    Scene scene = parsed(display_scene(R"("shape": "box", "size": [91, 60.2, 73], "near": 0,
+                                          "layout": "lattice", "voxels": [700, 700, 730])"));
+    const Volume far = volume_of(scene);
+    // Only lines that meet the world are scanned: some 3 m in 0.04 m each way, on three sides.
+    RenderReport report;
+    render_volume(test_device(), scene, report);
+    EXPECT_LT(report.sight_rays, 120'000u);
+    // The same voxels of a display that ends around the world.
+    scene.observer.display.voxels = {70, 70, 73};
+    scene.observer.display.half_size = {4.55, 3.01};
+    scene.observer.display.far = 7.3;
+    const Volume near = volume_of(scene);
+    ASSERT_GT(near.places.size(), 100u);
+    ASSERT_EQ(far.places.size(), near.places.size());
+    for (size_t i = 0; i < near.places.size(); ++i) {
+        const glm::ivec3 v = cell_of(near.frame, near.places[i]);
+        EXPECT_EQ(cell_of(far.frame, far.places[i]), v + glm::ivec3(315, 315, 0));
+        EXPECT_NEAR(far.depths[i], near.depths[i], 2e-3);
+    }
+}
+
+TEST(LatticeOfManyVoxels, WithMoreLinesThanCanBeNumberedIsRefused) {
+    Scene scene = parsed(display_scene(R"("shape": "box", "size": [2, 2, 2], "near": 1.5,
+                                          "layout": "lattice", "voxels": [65536, 65536, 1])"));
+    try {
+        volume_of(scene);
+        FAIL() << "not refused";
+    } catch (const Error& error) {
+        EXPECT_EQ(error.kind(), ErrorKind::limit);
     }
 }
 

@@ -61,7 +61,7 @@ class Lamps : public testing::TestWithParam<const char*> {
 INSTANTIATE_TEST_SUITE_P(Surfaces, Lamps, testing::Values("exact", "smooth"));
 
 TEST_P(Lamps, O9ABallIsLitUpToItsTerminatorAndDarkBeyond) {
-    const double band = is_exact() ? 1e-5 : 1e-3;  // of cosines between lit and dark
+    const double band = is_exact() ? 1e-5 : 1e-3;   // of cosines between lit and dark
     const double bound = is_exact() ? 2e-6 : 7e-4;  // 1 / (6 R²), R = 15 voxels
     for (const glm::dvec3& lamp :
          {glm::dvec3(-0.7, 0.85, -0.6), glm::dvec3(30, 4, -20), glm::dvec3(-0.29, 0.5, 0)}) {

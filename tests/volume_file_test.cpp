@@ -119,6 +119,28 @@ TEST_F(VolumeFileTest, SlicesShowWhatTheObserverSees) {
     EXPECT_TRUE(std::filesystem::exists(folder / "r.json"));
 }
 
+TEST_F(VolumeFileTest, AHeaderReplacesNothingButItsLike) {
+    const Volume volume = lattice_volume();
+    const auto expect_refused = [&](const char* name) {
+        const Error error = refusal(name, volume);
+        EXPECT_EQ(error.kind(), ErrorKind::output) << name;
+        EXPECT_THAT(error.what(), HasSubstr("this file isn't one")) << name;
+    };
+    const std::string scene = R"({"voxelume": 1})";
+    put_bytes(folder / "a.json", scene);
+    for (const char* name : {"a.raw", "a.json", "a.####.png"}) expect_refused(name);
+    EXPECT_EQ(bytes_of(folder / "a.json"), scene);
+    EXPECT_EQ(files_in_folder(), 1u);
+
+    write_volume(folder / "b.raw", volume);
+    expect_refused("b.####.png");
+    write_volume(folder / "b.raw", volume);
+    EXPECT_EQ(read_volume(folder / "b.raw").places, volume.places);
+    write_volume(folder / "c.####.png", volume);
+    write_volume(folder / "c.####.png", volume);
+    expect_refused("c.raw");
+}
+
 TEST_F(VolumeFileTest, PlyPointsStandInTheWorld) {
     Volume rays = rays_volume();
     write_volume(folder / "a.ply", rays);

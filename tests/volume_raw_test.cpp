@@ -79,6 +79,10 @@ TEST_F(VolumeRawTest, TheSameVolumeGivesTheSameBytes) {
 TEST_F(VolumeRawTest, DamageIsAnInputError) {
     write_volume(data(), lattice_volume());
     expect_truncations_refused(data(), header(), 97);
+    const std::string whole = bytes_of(data());
+    put_bytes(data(), whole + "x");
+    EXPECT_THAT(error_of([&] { read_volume(header()); }).what(), HasSubstr("more data"));
+    put_bytes(data(), whole);
     EXPECT_EQ(count_refused_changes(data(), header(), 200), 200u);
     expect_truncations_refused(header(), header(), 61);
     EXPECT_GT(count_refused_changes(header(), header(), 400), 200u);

@@ -8,6 +8,7 @@
 #include "runtime/io/frame_path.hpp"
 #include "runtime/io/input_file.hpp"
 #include "runtime/io/volume_formats.hpp"
+#include "runtime/io/volume_json.hpp"
 #include "runtime/scene_fields.hpp"
 #include "runtime/volume_geometry.hpp"
 
@@ -99,11 +100,16 @@ void check_size(const VolumePath& path, const VolumeFrame& frame, VolumeFormat f
                     path.string(), bytes / 1e9, most / 1e9);
 }
 
-/// A file of the name that write_volume starts with can be made there.
+/// A file of the name that write_volume starts with can be made there, and its header overwrites
+/// nothing else.
 void check_path(const VolumePath& path, VolumeFormat format) {
     const std::string name = path.filename().string();
     if (format != VolumeFormat::slices) {
         const AtomicFile trial(path);
+        if (format == VolumeFormat::raw)
+            check_header(path.extension() == ".json" ? path : header_path_of(path), format);
+        else if (format >= VolumeFormat::planes)
+            check_header(header_path_of(path), format);
         return;
     }
     if (frame_path(path.string(), 0, false) == path.string())
@@ -111,6 +117,7 @@ void check_path(const VolumePath& path, VolumeFormat format) {
                     "{}: a stack of slices needs their number in its name: {}.####.png",
                     path.string(), path.stem().string());
     const AtomicFile trial(frame_path(path.string(), 0, true));
+    check_header(slices_header_of(path), format);
 }
 
 VolumeFormat format_for(const VolumePath& path, const VolumeOptions& options) {

@@ -14,6 +14,8 @@ void write_volume_exr(const VolumePath& path, const Volume& volume);
 void write_volume_nrrd(const VolumePath& path, const Volume& volume, const VolumeOptions& options);
 void write_volume_raw(const VolumePath& path, const Volume& volume);
 void write_volume_slices(const VolumePath& pattern, const Volume& volume);
+/// The header of slices, without their number: `a/s.####.png` -> `a/s.json`.
+VolumePath slices_header_of(const VolumePath& pattern);
 void write_volume_ply(const VolumePath& path, const Volume& volume);
 void write_volume_kv6(const VolumePath& path, const Volume& volume, const DeviceOptions& options);
 /// `planes` or `color_planes`.

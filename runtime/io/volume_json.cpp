@@ -1,15 +1,44 @@
 #include "runtime/io/volume_json.hpp"
 
+#include <fstream>
+#include <system_error>
+
+#include "runtime/error.hpp"
 #include "runtime/io/atomic_file.hpp"
 #include "runtime/io/volume_frame_text.hpp"
 #include "runtime/volume_geometry.hpp"
 
 namespace voxelume {
 
+namespace {
+
+/// Headers are much shorter; scenes may be long.
+constexpr uintmax_t kMostHeaderBytes = 1 << 20;
+
+bool is_header(const VolumePath& path, VolumeFormat format) {
+    std::error_code failed;
+    if (std::filesystem::file_size(path, failed) > kMostHeaderBytes || failed) return false;
+    std::ifstream file(path, std::ios::binary);
+    const VolumeJson json = VolumeJson::parse(file, nullptr, false);
+    return json.is_object() && json.contains("voxelume_volume") &&
+           json.value("format", VolumeJson()) == volume_format_name(format);
+}
+
+}  // namespace
+
 VolumePath header_path_of(const VolumePath& data) {
     VolumePath header = data;
     if (data.extension() == ".raw") return header.replace_extension(".json");
     return header += ".json";
+}
+
+void check_header(const VolumePath& header, VolumeFormat format) {
+    std::error_code failed;
+    if (!std::filesystem::is_regular_file(header, failed) || is_header(header, format)) return;
+    throw Error(ErrorKind::output,
+                "{}: a header of format {} would go there, and this file isn't one; choose another "
+                "name",
+                header.string(), volume_format_name(format));
 }
 
 VolumeJson start_header(const VolumePath& data, const Volume& volume, VolumeFormat format) {

@@ -12,6 +12,10 @@ using VolumeJson = nlohmann::ordered_json;
 /// `volume.raw` -> `volume.json`; any other data file gets `.json` behind its name.
 VolumePath header_path_of(const VolumePath& data);
 
+/// Throws Error::output where the header's name is taken by a file that is no header of this
+/// format: a scene, or the header of other files of the same name.
+void check_header(const VolumePath& header, VolumeFormat format);
+
 /// Magic, format, data file, byte order, layout, frame and attributes.
 VolumeJson start_header(const VolumePath& data, const Volume& volume, VolumeFormat format);
 

@@ -91,6 +91,8 @@ struct RawFile {
 };
 
 void read_voxels(const RawFile& file, Volume& volume) {
+    const double bytes = double(voxel_count(file.frame)) * 25;
+    if (double(file.data.size()) > bytes) file.data.refuse("it has more data than its arrays");
     file.read<uint8_t>(3, "kind", 1, [&](uint64_t place, const uint8_t* kind) {
         if (*kind == 0) return;
         if (*kind > 3) file.data.refuse("a voxel has an unknown kind");

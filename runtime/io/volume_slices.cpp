@@ -9,15 +9,6 @@ namespace voxelume {
 
 namespace {
 
-/// The pattern without its number and its ending: `a/slices.####.png` -> `a/slices.json`.
-VolumePath slices_header(const VolumePath& pattern) {
-    std::string name = pattern.filename().string();
-    const size_t number = name.find_first_of("#%");
-    name.resize(number == std::string::npos ? 0 : number);
-    while (name.ends_with('.') || name.ends_with('_') || name.ends_with('-')) name.pop_back();
-    return pattern.parent_path() / (name.empty() ? "slices.json" : name + ".json");
-}
-
 /// Columns to the image's right, rows down: a lattice's X_E and Y_E run the other way.
 Image make_slice(const Volume& volume, VolumeRows& rows) {
     const glm::ivec3& size = volume.frame.size;
@@ -43,6 +34,14 @@ Image make_slice(const Volume& volume, VolumeRows& rows) {
 
 }  // namespace
 
+VolumePath slices_header_of(const VolumePath& pattern) {
+    std::string name = pattern.filename().string();
+    const size_t number = name.find_first_of("#%");
+    name.resize(number == std::string::npos ? 0 : number);
+    while (name.ends_with('.') || name.ends_with('_') || name.ends_with('-')) name.pop_back();
+    return pattern.parent_path() / (name.empty() ? "slices.json" : name + ".json");
+}
+
 void write_volume_slices(const VolumePath& pattern, const Volume& volume) {
     const glm::ivec3& size = volume.frame.size;
     PngOptions options;
@@ -56,7 +55,7 @@ void write_volume_slices(const VolumePath& pattern, const Volume& volume) {
                                                                : VolumeJson{"-X_E", "-Y_E", "+Z_E"};
     header["axis_order"] = "columns, rows from the top, slices";
     header["bits"] = "8 each of red, green, blue (sRGB, not multiplied by alpha) and alpha";
-    write_json(slices_header(pattern), header);
+    write_json(slices_header_of(pattern), header);
 }
 
 }  // namespace voxelume

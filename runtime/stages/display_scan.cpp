@@ -1,9 +1,11 @@
 #include "runtime/stages/display_scan.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 
+#include "runtime/error.hpp"
 #include "runtime/stages/trace.hpp"
 
 namespace voxelume {
@@ -24,6 +26,36 @@ int parts_of(double edge, const GridFrame& world) {
     const glm::dvec3& e = world.voxel_edge;
     const double parts = std::ceil(edge / std::min({e.x, e.y, e.z}) - 1e-6);
     return std::clamp(int(parts), 1, kMostParts);
+}
+
+struct Range {
+    int first, last;
+};
+
+/// Numbers of the lines that meet the world across one axis of the lattice, which has `count` parts
+/// of a voxel along it; `first` is above `last` where there are none.
+Range lines_across(const float4& row, int parts, int count, const GridFrame& world) {
+    const glm::dvec3 along(row.x, row.y, row.z);
+    double least = double(row.w), most = least;
+    for (int axis = 0; axis < 3; ++axis) {
+        const double reach = along[axis] * double(world.size[axis]);
+        least += std::min(reach, 0.0);
+        most += std::max(reach, 0.0);
+    }
+    // One line more on each side than the floats of `row` may be wrong by.
+    const double slack = 1 + 1e-5 * (std::abs(double(row.w)) + most - least) * parts;
+    const double first = std::floor(least * parts - slack), last = std::ceil(most * parts + slack);
+    return {int(std::clamp(first, 0.0, count + 1.0)), int(std::clamp(last, -1.0, double(count)))};
+}
+
+void check_lines(const Sight& sight, const VolumeFrame& frame) {
+    const double lines = double(sight.width) * double(sight.height);
+    if (lines > double(UINT32_MAX / 2))
+        throw Error(ErrorKind::limit,
+                    "a lattice of {}x{}x{} display voxels is scanned along {:.3g} lines on one of "
+                    "its sides, and 2^31 can be numbered: use fewer display voxels, or a smaller "
+                    "display",
+                    frame.size.x, frame.size.y, frame.size.z, lines);
 }
 
 }  // namespace
@@ -48,9 +80,15 @@ DisplayScanStage::Family DisplayScanStage::family(int axis, const VolumeFrame& f
     Family result{};
     result.axis = axis;
     result.parts = {parts_of(frame.edge[a], world), parts_of(frame.edge[b], world)};
+    const std::array rows = {lattice_.row_x, lattice_.row_y, lattice_.row_z};
+    const Range across_a =
+        lines_across(rows[size_t(a)], result.parts.x, frame.size[a] * result.parts.x, world);
+    const Range across_b =
+        lines_across(rows[size_t(b)], result.parts.y, frame.size[b] * result.parts.y, world);
+    result.last = {across_a.last, across_b.last};
     glm::dvec3 corner = frame.origin;
-    corner[a] += 0.5 * frame.size[a] * frame.edge[a];
-    corner[b] += 0.5 * frame.size[b] * frame.edge[b];
+    corner[a] += 0.5 * (across_a.first + across_a.last) / result.parts.x * frame.edge[a];
+    corner[b] += 0.5 * (across_b.first + across_b.last) / result.parts.y * frame.edge[b];
     const glm::dvec3 origin =
         (glm::dvec3(map * glm::dvec4(corner, 1)) - world.origin) / world.voxel_edge;
     // A box of parallel rays whose unit of length is a part across, and a lattice voxel along.
@@ -61,15 +99,16 @@ DisplayScanStage::Family DisplayScanStage::family(int axis, const VolumeFrame& f
     sight.axis_x = to_float4(direction(a) / double(result.parts.x));
     sight.axis_y = to_float4(direction(b) / double(result.parts.y));
     sight.axis_z = to_float4(direction(axis));
-    sight.width = frame.size[a] * result.parts.x + 1;
-    sight.height = frame.size[b] * result.parts.y + 1;
+    sight.width = std::max(across_a.last - across_a.first + 1, 0);
+    sight.height = std::max(across_b.last - across_b.first + 1, 0);
+    check_lines(sight, frame);
     sight.half_x = 0.5f * float(sight.width);
     sight.half_y = 0.5f * float(sight.height);
     sight.far_plane = float(frame.size[axis]);
     sight.samples = 1;
     sight.sample_share = 1;
     sight.shape = VXL_SHAPE_BOX;
-    result.row = axis == 0 ? lattice_.row_x : axis == 1 ? lattice_.row_y : lattice_.row_z;
+    result.row = rows[size_t(axis)];
     return result;
 }
 
@@ -101,10 +140,9 @@ ProbePoints DisplayScanStage::scan_batch(const Pyramid& world, const Family& fam
     points.views = Buffer<uint32_t>(device_, "probe views", points.total);
     points.views.fill(kNoView);
     const Buffer<uint32_t> places(device_, "probe starts", std::span<const uint32_t>(starts));
-    pack_.launch(WorkItem::light, count, family.axis, uint32_t(family.sight.width),
-                 uint32_t(family.sight.height), float(family.parts.x), float(family.parts.y),
-                 counts_, places, crossings_, first_line, count, stride, points.total,
-                 points.coordinates);
+    pack_.launch(WorkItem::light, count, family.axis, uint32_t(family.sight.width), family.last.x,
+                 family.last.y, float(family.parts.x), float(family.parts.y), counts_, places,
+                 crossings_, first_line, count, stride, points.total, points.coordinates);
     return points;
 }
 
@@ -114,6 +152,7 @@ std::vector<ProbePoints> DisplayScanStage::scan(const Pyramid& world, RayBatch& 
     const uint32_t batch_tiles = std::max(batch.stride / 16 / kBatchParts, 1u);
     for (const Family& family : families_) {
         const Sight& sight = family.sight;
+        if (sight.width == 0 || sight.height == 0) continue;
         sight_.look(sight);
         const uint32_t tiles = tile_count(sight.width, sight.height);
         for (uint32_t first = 0; first < tiles; first += batch_tiles) {

@@ -23,9 +23,11 @@ inline constexpr uint32_t kNoView = 0xFFFFFFFFu;
 /// Kernel of display_scan.cl: probe lines along the three axes of a lattice.
 ///
 /// They are all lines of the lattice's edges, with so many parallels between them that no gap is
-/// wider than a voxel of the world (up to 64 in a voxel).
+/// wider than a voxel of the world (up to 64 in a voxel). Those that pass the world by are left
+/// out.
 class DisplayScanStage {
   public:
+    /// Throws Error::limit where more than 2^31 lines along an axis meet the world.
     DisplayScanStage(const Device& device, const Features& features, const VolumeFrame& frame,
                      const GridFrame& world);
 
@@ -39,6 +41,7 @@ class DisplayScanStage {
     struct Family {
         int axis;
         glm::ivec2 parts;  ///< lines in a voxel, along the next axis and the one after it
+        glm::ivec2 last;   ///< number of the last line along each, counted in parts from the corner
         Sight sight;
         float4 row;
     };

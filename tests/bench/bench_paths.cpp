@@ -3,7 +3,7 @@
 //   bench_paths SCENE [asset folder ...]
 //
 // The frame is the scene's flat image, with shadows and all; its world is formed before. Times are
-// the process's CPU time over all threads, medians of seven runs, with and without compaction in
+// the process's CPU time over all threads, medians of five runs, with and without compaction in
 // turn.
 #include <fmt/format.h>
 #include <sys/resource.h>
@@ -19,7 +19,7 @@
 namespace voxelume {
 namespace {
 
-constexpr int kRuns = 7;
+constexpr int kRuns = 5;
 
 double cpu_seconds() {
     rusage usage{};
