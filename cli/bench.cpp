@@ -118,7 +118,7 @@ std::string list_of_solids() {
 Action add_bench(CLI::App& app) {
     const auto command = std::make_shared<BenchCommand>();
     app.add_flag("--quick", command->is_quick,
-                 "256x256 pixels, one repeat, no finest voxels: under a minute");
+                 "256x256 pixels, one repeat, no finest voxels: about a minute");
     app.add_option("-o,--output", command->page, "report with plots: .html");
     app.add_option("--json", command->json, "file for everything that was measured");
     app.add_option("--csv", command->csv, "file for the rows");

@@ -187,13 +187,14 @@ std::string method() {
         "outline's length, its max the largest distance of such a pixel's centre from the true "
         "outline.</p>\n<p><i>Cubes</i> are the supercover, as scenes have it without a "
         "<code>set</code>. The total is all stages from the model to the image, without writing "
-        "files. Of it, <i>programs</i> is making kernels ready that were compiled before, which "
-        "no voxel size changes, and <i>kernels</i> is the time that the device ran them. Rings "
+        "files. Of it, <i>programs</i> is making kernels ready that were compiled before, much the "
+        "same for every voxel size, and <i>kernels</i> is the time that the device ran them. Rings "
         "mark the Pareto front: no other row of the scene is both faster in total and nearer to "
-        "the truth.</p>\n<p>Dashed lines are fits, their slopes in brackets, over these rows: "
-        "of <i>cubes</i> and <i>exact</i> all; of <i>smooth</i> those whose RMS is more than {} "
-        "times what the rounding of its 16-bit distances leaves ({} voxel of depth, {} degrees of "
-        "normals), with at least {} voxels to the least radius of curvature.</p>\n",
+        "the truth.</p>\n<p>Dashed lines are fits, their slopes in brackets, over these rows: of "
+        "<i>cubes</i> and <i>exact</i> all; of <i>smooth</i> those whose RMS is more than {} times "
+        "the floor that the rounding of its 16-bit distances was measured to leave ({} voxel of "
+        "depth, {} degrees of normals), with at least {} voxels to the least radius of "
+        "curvature.</p>\n",
         kLeastCosine, kFloorFactor, kDepthFloor, kNormalFloor, kLeastVoxels);
 }
 
