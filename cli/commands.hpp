@@ -27,6 +27,7 @@ struct Command {
     AddCommand add;
 };
 
+Action add_bench(CLI::App& app);
 Action add_check(CLI::App& app);
 Action add_convert(CLI::App& app);
 Action add_devices(CLI::App& app);

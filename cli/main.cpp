@@ -29,6 +29,7 @@ constexpr std::array kCommands = {
     Command{"view", "show a volumetric image: as a picture, or as a page to turn it in", add_view},
     Command{"diff", "measure how far two images are from each other", add_diff},
     Command{"stress", "hold what a device does against exact arithmetic", add_stress},
+    Command{"bench", "measure run time against error", add_bench},
 };
 
 constexpr const char* kExitCodes =

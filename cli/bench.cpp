@@ -1,0 +1,137 @@
+// voxelume bench: run time against error, on solids whose surface is known.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "cli/checks.hpp"
+#include "cli/commands.hpp"
+#include "runtime/bench/bench.hpp"
+#include "runtime/bench/bench_page.hpp"
+#include "runtime/bench/bench_tables.hpp"
+#include "runtime/error.hpp"
+#include "runtime/io/atomic_file.hpp"
+#include "runtime/io/progress.hpp"
+#include "runtime/opencl/device.hpp"
+
+namespace voxelume::cli {
+namespace {
+
+struct BenchCommand {
+    bool is_quick = false;
+    std::string page, json, csv;
+    std::vector<std::string> only;
+    std::vector<int> resolutions;
+    std::string size;
+    int repeats = 0;  ///< 0: as --quick says
+    std::string device;
+    bool quiet = false;
+};
+
+std::vector<const BenchSolid*> chosen_solids(const std::vector<std::string>& only) {
+    std::vector<const BenchSolid*> chosen;
+    std::vector<std::string_view> names;
+    for (const BenchSolid& solid : bench_solids()) {
+        names.emplace_back(solid.name);
+        if (only.empty() || std::ranges::find(only, solid.name) != only.end())
+            chosen.push_back(&solid);
+    }
+    for (const std::string& name : only)
+        if (std::ranges::find(names, name) == names.end())
+            throw Error(ErrorKind::usage, "bench: there is no scene named {}{}", quote(name),
+                        suggest(name, names));
+    return chosen;
+}
+
+BenchOptions options_of(const BenchCommand& command) {
+    BenchOptions options;
+    options.solids = chosen_solids(command.only);
+    // The steps are halved where smooth surfaces have not yet reached their floor.
+    options.resolutions = {8, 11, 16, 23, 32, 45, 64, 128, 256};
+    if (!command.is_quick) options.resolutions.insert(options.resolutions.end(), {512, 1024});
+    if (!command.resolutions.empty()) options.resolutions = command.resolutions;
+    std::ranges::sort(options.resolutions);
+    options.resolutions.erase(std::unique(options.resolutions.begin(), options.resolutions.end()),
+                              options.resolutions.end());
+    options.size = glm::ivec2(command.is_quick ? 256 : 1024);
+    if (!command.size.empty()) options.size = parse_size(command.size, "bench");
+    options.repeats = command.is_quick ? 1 : 5;
+    if (command.repeats > 0) options.repeats = command.repeats;
+    return options;
+}
+
+void check_outputs(const BenchCommand& command) {
+    if (!command.page.empty()) check_output(command.page, {".html", ".htm"}, "bench");
+    if (!command.json.empty()) check_output(command.json, {}, "bench");
+    if (!command.csv.empty()) check_output(command.csv, {}, "bench");
+    std::vector<std::string> names;
+    for (const std::string& name : {command.page, command.json, command.csv})
+        if (!name.empty()) names.push_back(name);
+    std::ranges::sort(names);
+    const auto twice = std::ranges::adjacent_find(names);
+    if (twice != names.end())
+        throw Error(ErrorKind::usage, "bench: {}: two outputs have one name", *twice);
+}
+
+void write_text(const std::string& path, const std::string& text) {
+    if (path.empty()) return;
+    AtomicFile file(path);
+    file.write(text.data(), text.size());
+    file.commit();
+}
+
+int run(const BenchCommand& command) {
+    const BenchOptions options = options_of(command);
+    check_outputs(command);
+    const Device device = Device::open(command.device);
+    BenchReport report;
+    {
+        Progress bar("measuring",
+                     options.solids.size() * std::size(kBenchSurfaces) * options.resolutions.size(),
+                     stderr, command.quiet);
+        report = run_bench(device, options, [&bar](size_t, size_t) { bar.advance(); });
+    }
+    if (!command.quiet)
+        fmt::print(stderr, "\"{}\", {} lanes, driver {}; {}\n", report.device, report.lanes,
+                   report.driver, report.machine);
+    fmt::print("{}", bench_text(report));
+    write_text(command.page, bench_page(report));
+    write_text(command.csv, bench_csv(report));
+    // The device's name may be in any encoding.
+    const auto json = bench_json(report);
+    write_text(command.json,
+               json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
+    return 0;
+}
+
+std::string list_of_solids() {
+    std::string list = "of these scenes only; may be given again:";
+    for (const BenchSolid& solid : bench_solids())
+        list += fmt::format("\n{:<8}{}", solid.name, solid.help);
+    return list;
+}
+
+}  // namespace
+
+Action add_bench(CLI::App& app) {
+    const auto command = std::make_shared<BenchCommand>();
+    app.add_flag("--quick", command->is_quick,
+                 "256x256 pixels, one repeat, no finest voxels: about a minute");
+    app.add_option("-o,--output", command->page, "report with plots: .html");
+    app.add_option("--json", command->json, "file for everything that was measured");
+    app.add_option("--csv", command->csv, "file for the rows");
+    app.add_option("--only", command->only, list_of_solids())->allow_extra_args(false);
+    app.add_option("--resolution", command->resolutions, "voxels a metre, like 16,32,64")
+        ->delimiter(',')
+        ->check(in_range(2, 4096, Number::whole));
+    app.add_option("--size", command->size, "of the images, like 640x480");
+    app.add_option("--repeat", command->repeats, "renders of each row, the fastest of which counts")
+        ->check(in_range(1, 1000, Number::whole));
+    app.add_option("--device", command->device, "auto, cpu, gpu, a number, or part of a name");
+    app.add_flag("-q,--quiet", command->quiet, "no progress bar");
+    return [command] { return run(*command); };
+}
+
+}  // namespace voxelume::cli

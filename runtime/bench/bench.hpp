@@ -1,0 +1,90 @@
+// Run time against error: solids with a known surface, shown by every surface at every voxel size.
+#pragma once
+
+#include <functional>
+#include <glm/vec2.hpp>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "runtime/bench/bench_errors.hpp"
+#include "runtime/bench/bench_scene.hpp"
+#include "runtime/bench/convergence.hpp"
+#include "runtime/opencl/device.hpp"
+
+namespace voxelume {
+
+struct BenchOptions {
+    std::vector<const BenchSolid*> solids;
+    std::vector<int> resolutions;  ///< voxels a metre, ascending
+    glm::ivec2 size{1024, 1024};   ///< pixels
+    int repeats = 5;               ///< measured renders of each row, after one that isn't
+};
+
+/// Seconds of one render.
+struct BenchTimes {
+    double load = 0, voxelize = 0, place = 0, index = 0;
+    double image = 0;     ///< sight, trace, shade and resolve
+    double total = 0;     ///< sum of all so far
+    double programs = 0;  ///< of it, making compiled kernels ready
+    double kernels = 0;   ///< of it, kernels running on the device
+};
+
+/// One solid as one surface in voxels of one size.
+struct BenchRow {
+    std::string scene;
+    Surface surface = Surface::cubes;
+    int resolution = 0;       ///< voxels a metre
+    double voxel_size = 0;    ///< metres
+    double least_radius = 0;  ///< of the solid's curvature, metres; 0 for edges
+    BenchTimes seconds;       ///< of the repeat with the least total
+    uint64_t voxels = 0;
+    uint64_t world_bytes = 0;  ///< of the world's pyramid
+    uint64_t peak_bytes = 0;   ///< the most on the device at once
+    BenchErrors errors;
+    bool fits_depth = true;   ///< counts for the slope of the depth RMS
+    bool fits_normal = true;  ///< likewise for normals
+    bool is_best = false;     ///< on the Pareto front of total time and depth RMS in its scene
+};
+
+/// How fast the errors of one scene and surface fall with the size of voxels.
+struct BenchFit {
+    std::string scene;
+    Surface surface = Surface::cubes;
+    SlopeFit depth;   ///< of the RMS, over the rows that count
+    SlopeFit normal;  ///< likewise
+};
+
+struct BenchReport {
+    std::string version, device, driver, platform, machine, time;
+    int lanes = 0;
+    glm::ivec2 size{0};
+    int repeats = 0;
+    std::vector<BenchRow> rows;
+    std::vector<BenchFit> fits;
+};
+
+inline constexpr Surface kBenchSurfaces[] = {Surface::cubes, Surface::smooth, Surface::exact};
+const char* name_of(Surface surface);
+
+/// `smooth` keeps distances in 16 bits. Measured: where the errors of a sphere stop falling.
+inline constexpr double kDepthFloor = 5e-5;      // voxels, RMS
+inline constexpr double kNormalFloor = 3.75e-3;  // degrees, RMS
+
+/// Rows of `smooth` are fitted where their error is more than this many floors ...
+inline constexpr double kFloorFactor = 3;
+
+/// ... and the solid's least radius of curvature this many voxels, for the gradients' stencils are
+/// three voxels wide.
+inline constexpr double kLeastVoxels = 3;
+
+/// Marks the rows that are fitted and those on the front, and fits. Everything that follows from
+/// rows that were measured.
+void conclude(BenchReport& report);
+
+/// Measures every row. `progress` is called with the rows done and their number. Throws Error as
+/// rendering does.
+BenchReport run_bench(const Device& device, const BenchOptions& options,
+                      const std::function<void(size_t done, size_t total)>& progress);
+
+}  // namespace voxelume

@@ -1,0 +1,25 @@
+// What rows of errors and times say: how fast errors fall, and which choices nothing beats.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace voxelume {
+
+/// A straight line through the logarithms of points, by least squares.
+struct SlopeFit {
+    size_t points = 0;
+    double slope = 0;       ///< 0 for fewer than two points
+    double intercept = 0;   ///< natural logarithm of y at x = 1
+    double half_width = 0;  ///< of the slope's 95 % interval (Student's t); infinite for < 3 points
+};
+
+/// Fits y = exp(intercept) * x^slope. Points with x or y that isn't positive are left out.
+SlopeFit fit_slope(std::span<const double> x, std::span<const double> y);
+
+/// Indices of the points that no other point beats: none is at most as large in both and smaller
+/// in one. In the order of `x`.
+std::vector<size_t> pareto_front(std::span<const double> x, std::span<const double> y);
+
+}  // namespace voxelume
