@@ -67,6 +67,7 @@ std::vector<const Material*> shown_materials(const Scene& scene) {
         for (const GroupMaterial& group : object.groups) numbers.insert(group.material);
     }
     std::vector<const Material*> materials;
+    materials.reserve(numbers.size());
     for (const int number : numbers) materials.push_back(&scene.materials[size_t(number)]);
     return materials;
 }

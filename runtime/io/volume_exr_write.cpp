@@ -4,6 +4,7 @@
 #include <ImfDeepFrameBuffer.h>
 #include <ImfDeepScanLineOutputFile.h>
 #include <ImfHeader.h>
+#include <ImfInputFile.h>  // the linter takes its forward declaration for our class
 #include <ImfPartType.h>
 #include <ImfStandardAttributes.h>
 #include <ImfStringAttribute.h>
