@@ -155,9 +155,7 @@ kernel void aim_rays(Sight sight, PyramidShape shape, DisplayLattice lattice,
         t_last = t_point + VXL_LIGHT_DISTANCE * per_voxel;
     }
     lane_float t_out = t_last;
-    clip_axis(o.x, d.x, (float)shape.size_x, &t_first, &t_out);
-    clip_axis(o.y, d.y, (float)shape.size_y, &t_first, &t_out);
-    clip_axis(o.z, d.z, (float)shape.size_z, &t_first, &t_out);
+    clip_to_world(o, d, shape.size_x, shape.size_y, shape.size_z, &t_first, &t_out);
     aimed &= LANE_MASK(t_first <= t_out);
     t_first = LANES_SELECT(aimed, t_first, (lane_float)0.0f);
     const lane_float zero = (lane_float)0.0f;
@@ -191,9 +189,9 @@ kernel void note_view(global const uint* restrict hits, global const float* rest
 }
 
 /// Marks the voxels of points 0 .. count-1 that have a view.
-kernel void mark_voxels(DisplayLattice lattice, global const float* restrict points, uint total,
-                        global const uint* restrict view_of_point, uint count,
-                        global uint* restrict mask) {
+kernel void mark_shown(DisplayLattice lattice, global const float* restrict points, uint total,
+                       global const uint* restrict view_of_point, uint count,
+                       global uint* restrict mask) {
     const uint n = work_item();
     if (n >= count || view_of_point[n] == 0xFFFFFFFFu) return;
     const float3 point = load_point(points, total, n);
@@ -311,9 +309,8 @@ kernel void keep_light(Sight sight, PyramidShape shape, Space space,
     lane_float path = (lane_float)0.0f;
     if (VXL_MEDIUM) {
         const Vector d = load_vector(rays + VXL_RAY_DX * stride, stride, first);
-        const Vector metric = {d.x * edge.x, d.y * edge.y, d.z * edge.z};
         const lane_float t = LANES_AS_FLOAT(LANES_LOAD(hits, VXL_HIT_T * stride + first));
-        path = LANES_SELECT(hit, t, (lane_float)0.0f) * exact_sqrt(dot_product(metric, metric));
+        path = LANES_SELECT(hit, t, (lane_float)0.0f) * metres_per_t(edge, d);
     }
     const float absorption[3] = {space.absorption.x, space.absorption.y, space.absorption.z};
     const float color[3] = {space.color.x, space.color.y, space.color.z};
@@ -321,6 +318,7 @@ kernel void keep_light(Sight sight, PyramidShape shape, Space space,
     for (uint channel = 0; channel < 3; ++channel) {
         lane_float value = LANES_LOAD(radiance, channel * light_stride + first);
         if (VXL_MEDIUM) {
+            // Through more medium than this, rounding of `value` would be all that is left.
             const lane_float passed = fmax(exact_exp(-absorption[channel] * path), 1e-6f);
             value = fmax(exact_divide(fma(-color[channel], 1.0f - passed, value), passed), 0.0f);
         }

@@ -89,13 +89,10 @@ kernel void measure_steps(Sight sight, PyramidShape shape, DisplaySteps steps,
     lane_float t_first = (lane_float)0.0f, t_last = t_end;
     const Vector o = load_vector(rays, stride, first);
     const Vector d = load_vector(rays + VXL_RAY_DX * stride, stride, first);
-    clip_axis(o.x, d.x, (float)shape.size_x, &t_first, &t_last);
-    clip_axis(o.y, d.y, (float)shape.size_y, &t_first, &t_last);
-    clip_axis(o.z, d.z, (float)shape.size_z, &t_first, &t_last);
+    clip_to_world(o, d, shape.size_x, shape.size_y, shape.size_z, &t_first, &t_last);
     const lane_float t_hit = LANES_AS_FLOAT(LANES_LOAD(hits, VXL_HIT_T * stride + first));
     const lane_float t = fmax(LANES_SELECT(hit, t_hit, t_last), 0.0f);
-    const Vector metric = {d.x * shape.edge.x, d.y * shape.edge.y, d.z * shape.edge.z};
-    const lane_float metres = exact_sqrt(dot_product(metric, metric));
+    const lane_float metres = metres_per_t(shape.edge, d);
     lane_float along = metres;  // depth a unit of t
     if (sight.shape == VXL_SHAPE_PYRAMID || sight.shape == VXL_SHAPE_BOX)
         along = depth_of(&sight, shape.edge, d);
@@ -144,13 +141,10 @@ kernel void measure_layer(Sight sight, PyramidShape shape, DisplaySteps steps, u
                        (lane_float)positions[2 * stride + n]};
     const float t_end = rays[VXL_RAY_END * stride + n];
     lane_float t_first = (lane_float)0.0f, t_last = (lane_float)t_end;
-    clip_axis(o.x, d.x, (float)shape.size_x, &t_first, &t_last);
-    clip_axis(o.y, d.y, (float)shape.size_y, &t_first, &t_last);
-    clip_axis(o.z, d.z, (float)shape.size_z, &t_first, &t_last);
+    clip_to_world(o, d, shape.size_x, shape.size_y, shape.size_z, &t_first, &t_last);
     const lane_float from = fmax(t_first, goes_on ? starts[n] : 0.0f);
     const lane_float to = hit ? (lane_float)as_float(hits[VXL_HIT_T * stride + n]) : t_last;
-    const Vector metric = {d.x * shape.edge.x, d.y * shape.edge.y, d.z * shape.edge.z};
-    const lane_float metres = exact_sqrt(dot_product(metric, metric));
+    const lane_float metres = metres_per_t(shape.edge, d);
     lane_float along = metres;
     if (sight.shape == VXL_SHAPE_PYRAMID || sight.shape == VXL_SHAPE_BOX)
         along = depth_of(&sight, shape.edge, d);
@@ -211,17 +205,7 @@ kernel void measure_density(Sight sight, PyramidShape shape, DisplaySteps steps,
     const uint lane_0 = work_item() * VXL_LANES, first = first_entry + lane_0;
     if (lane_0 >= count) return;
     const DensityView density = {density_shape, density_bricks, density_values};
-    const PyramidView p = {0,
-                           0,
-                           0,
-                           0,
-                           shape.size_x,
-                           shape.size_y,
-                           shape.size_z,
-                           shape.sectors_x,
-                           shape.sectors_y,
-                           shape.plane_bound,
-                           shape.fixed_point};
+    const PyramidView p = grid_view(shape);
     const Vector o = load_vector(rays, stride, first);
     const Vector d = load_vector(rays + VXL_RAY_DX * stride, stride, first);
     const lane_float t_end = LANES_LOAD(rays, VXL_RAY_END * stride + first);
@@ -235,8 +219,7 @@ kernel void measure_density(Sight sight, PyramidShape shape, DisplaySteps steps,
         if (!is_first) t_first = LANES_LOAD(starts, first);
         walking &= LANE_MASK(LANES_LOAD(inside, first) == 0u);
     }
-    const Vector metric = {d.x * shape.edge.x, d.y * shape.edge.y, d.z * shape.edge.z};
-    const lane_float metres = exact_sqrt(dot_product(metric, metric));
+    const lane_float metres = metres_per_t(shape.edge, d);
     lane_float along = metres;
     if (sight.shape == VXL_SHAPE_PYRAMID || sight.shape == VXL_SHAPE_BOX)
         along = depth_of(&sight, shape.edge, d);

@@ -5,6 +5,7 @@
 #include "lib/smooth.h"
 #include "lib/solid_surface.h"
 #include "lib/triangle.h"
+#include "lib/voxel_kinds.h"
 #include "lib/work_item.h"
 #include "shared/display.h"
 #include "shared/scene.h"
@@ -158,18 +159,10 @@ static inline lane_int scan_voxels(const PyramidView* p, const ScannedSurfaces* 
     const lane_uint voxel =
         voxel_number(p, leaf & LANES_AS_UINT(tested), w->x & tested, w->y & tested, w->z & tested) &
         LANES_AS_UINT(tested);
-    lane_int cubes = VXL_CUBES ? tested : (lane_int)0;
-    lane_int smooth = VXL_SMOOTH ? tested : (lane_int)0;
-    lane_int exact = VXL_EXACT ? tested : (lane_int)0;
-    if (VXL_CUBES + VXL_SMOOTH + VXL_EXACT > 1) {
-        const lane_uint kind = LANES_GATHER_UINT(s->attributes, voxel) >> VXL_KIND_SHIFT;
-        cubes &= LANE_MASK(kind == VXL_KIND_CUBES);
-        smooth &= LANE_MASK(kind != VXL_KIND_CUBES);  // an exact voxel may hold both
-        exact &= LANE_MASK(kind == VXL_KIND_EXACT);
-    }
-    if (VXL_SMOOTH && lanes_any(smooth)) scan_smooth(s, w, voxel, smooth, r);
-    if (VXL_EXACT && lanes_any(exact)) scan_primitives(p, s, w, voxel, exact, r);
-    return cubes;
+    const VoxelKinds kinds = kinds_of(s->attributes, voxel, tested);
+    if (VXL_SMOOTH && lanes_any(kinds.smooth)) scan_smooth(s, w, voxel, kinds.smooth, r);
+    if (VXL_EXACT && lanes_any(kinds.exact)) scan_primitives(p, s, w, voxel, kinds.exact, r);
+    return kinds.cubes;
 }
 
 /// Finds the crossings of lines 0 .. count-1 with surfaces, in their order along each line:
@@ -185,18 +178,10 @@ kernel void scan_lines(
     global uint* restrict counts, global float* restrict crossings) {
     const uint first = work_item() * VXL_LANES;
     if (first >= count) return;
-    const PyramidView p = {sectors,           bricks,           leaves,
-                           leaf_voxels,       shape.size_x,     shape.size_y,
-                           shape.size_z,      shape.sectors_x,  shape.sectors_y,
-                           shape.plane_bound, shape.fixed_point};
+    const PyramidView p = pyramid_view(shape, sectors, bricks, leaves, leaf_voxels);
     const ScannedSurfaces s = {attributes, fields, primitive_first, primitives, triangles, solids};
     ScanResult r = {row, first, line_stride, slots, crossings, (lane_uint)0u};
-    Walk w = begin_walk(LANES_LOAD(rays, VXL_RAY_OX * stride + first),
-                        LANES_LOAD(rays, VXL_RAY_OY * stride + first),
-                        LANES_LOAD(rays, VXL_RAY_OZ * stride + first),
-                        LANES_LOAD(rays, VXL_RAY_DX * stride + first),
-                        LANES_LOAD(rays, VXL_RAY_DY * stride + first),
-                        LANES_LOAD(rays, VXL_RAY_DZ * stride + first));
+    Walk w = load_walk(rays, stride, first);
     const lane_float t_end = LANES_LOAD(rays, VXL_RAY_END * stride + first);
     // A line that begins among cubes has not crossed their surface, unless it comes into the world.
     const lane_int comes_in =

@@ -20,33 +20,16 @@ typedef struct {
 /// The segment's part inside the world, metres.
 static inline lane_float length_in_world(PyramidShape shape, const Segment* s) {
     lane_float t_first = s->t_first, t_last = s->t_last;
-    clip_axis(s->origin.x, s->direction.x, (float)shape.size_x, &t_first, &t_last);
-    clip_axis(s->origin.y, s->direction.y, (float)shape.size_y, &t_first, &t_last);
-    clip_axis(s->origin.z, s->direction.z, (float)shape.size_z, &t_first, &t_last);
+    clip_to_world(s->origin, s->direction, shape.size_x, shape.size_y, shape.size_z, &t_first,
+                  &t_last);
     return fmax(t_last - t_first, 0.0f);
-}
-
-static inline lane_float metres_per_t(PyramidShape shape, Vector direction) {
-    const Vector metric = {direction.x * shape.edge.x, direction.y * shape.edge.y,
-                           direction.z * shape.edge.z};
-    return exact_sqrt(dot_product(metric, metric));
 }
 
 /// Density times t on the segments of the `active` lanes.
 static inline lane_float depth_of(PyramidShape shape, const DensityView* density, const Segment* s,
                                   lane_int active) {
     if (!VXL_MEDIUM_GRID) return length_in_world(shape, s);
-    const PyramidView p = {0,
-                           0,
-                           0,
-                           0,
-                           shape.size_x,
-                           shape.size_y,
-                           shape.size_z,
-                           shape.sectors_x,
-                           shape.sectors_y,
-                           shape.plane_bound,
-                           shape.fixed_point};
+    const PyramidView p = grid_view(shape);
     Walk walk = begin_walk(s->origin.x, s->origin.y, s->origin.z, s->direction.x, s->direction.y,
                            s->direction.z);
     return walk_density(&p, density, &walk, s->t_first, s->t_last, active);
@@ -81,7 +64,7 @@ kernel void absorb_sight(PyramidShape shape, Space space, DensityShape density_s
         material = LANES_LOAD(inside, first);
     }
     const lane_int in_object = LANE_MASK(material != 0u) & active;
-    const lane_float metres = metres_per_t(shape, segment.direction);
+    const lane_float metres = metres_per_t(shape.edge, segment.direction);
     lane_float depth = (lane_float)0.0f;
     if (VXL_MEDIUM) depth = depth_of(shape, &density, &segment, active & ~in_object);
     if (VXL_TRANSMISSION && lanes_any(in_object))
@@ -125,7 +108,7 @@ kernel void absorb_shadows(PyramidShape shape, Space space, DensityShape density
     const Segment segment = {load_vector(rays, stride, first),
                              load_vector(rays + VXL_RAY_DX * stride, stride, first),
                              (lane_float)0.0f, LANES_LOAD(rays, VXL_RAY_END * stride + first)};
-    const lane_float metres = metres_per_t(shape, segment.direction);
+    const lane_float metres = metres_per_t(shape.edge, segment.direction);
     const lane_float depth = depth_of(shape, &density, &segment, active) * metres;
     const float absorption[3] = {space.absorption.x, space.absorption.y, space.absorption.z};
     float arriving[3 * VXL_LANES];

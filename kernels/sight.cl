@@ -4,12 +4,9 @@
 // ((tile * samples) + sample) * 16 + pixel of the tile, whatever the number of lanes.
 #include "lib/exact_exp.h"
 #include "lib/fixed_point.h"
+#include "lib/vector.h"
 #include "lib/work_item.h"
 #include "shared/scene.h"
-
-typedef struct {
-    lane_float x, y, z;
-} Vector;
 
 /// A sight ray in the observer's coordinates, metres.
 typedef struct {
@@ -87,9 +84,9 @@ kernel void cast_sight(Sight sight, PyramidShape shape, global const float* rest
         sight.origin_low.z + along(sight.axis_x.z, sight.axis_y.z, sight.axis_z.z, ray.start);
     const lane_float t_far = sight.far_plane * per_metre;
     lane_float t_first = sight.near_plane * per_metre, t_last = t_far;
-    clip_axis(sight.origin.x + lx, dx, (float)shape.size_x, &t_first, &t_last);
-    clip_axis(sight.origin.y + ly, dy, (float)shape.size_y, &t_first, &t_last);
-    clip_axis(sight.origin.z + lz, dz, (float)shape.size_z, &t_first, &t_last);
+    const Vector origin = {sight.origin.x + lx, sight.origin.y + ly, sight.origin.z + lz};
+    const Vector direction = {dx, dy, dz};
+    clip_to_world(origin, direction, shape.size_x, shape.size_y, shape.size_z, &t_first, &t_last);
     seen &= LANE_MASK(t_first <= t_last);
     t_first = LANES_SELECT(seen, t_first, (lane_float)0.0f);
 

@@ -21,30 +21,6 @@ static inline lane_int block_log2(const Walk* w) {
     return max(LANES_AS_INT(mix >> 28) - 9, 0);
 }
 
-static inline Walk load_stressed(global const float* restrict rays, uint stride, uint first) {
-    return begin_walk(LANES_LOAD(rays, VXL_RAY_OX * stride + first),
-                      LANES_LOAD(rays, VXL_RAY_OY * stride + first),
-                      LANES_LOAD(rays, VXL_RAY_OZ * stride + first),
-                      LANES_LOAD(rays, VXL_RAY_DX * stride + first),
-                      LANES_LOAD(rays, VXL_RAY_DY * stride + first),
-                      LANES_LOAD(rays, VXL_RAY_DZ * stride + first));
-}
-
-static inline PyramidView grid_without_voxels(PyramidShape shape) {
-    PyramidView p = {0,
-                     0,
-                     0,
-                     0,
-                     shape.size_x,
-                     shape.size_y,
-                     shape.size_z,
-                     shape.sectors_x,
-                     shape.sectors_y,
-                     shape.plane_bound,
-                     shape.fixed_point};
-    return p;
-}
-
 /// Walks rays 0 .. count-1 through at most `most` cells each. Arrays hold a multiple of 16 rays.
 ///
 /// Of each ray: the number of cells entered, and a hash of the cells, axes and times in their
@@ -53,8 +29,8 @@ kernel void digest_walks(PyramidShape shape, global const float* restrict rays, 
                          uint stride, uint most, global uint* restrict digests) {
     const uint first = work_item() * VXL_LANES;
     if (first >= count) return;
-    const PyramidView grid = grid_without_voxels(shape);
-    Walk w = load_stressed(rays, stride, first);
+    const PyramidView grid = grid_view(shape);
+    Walk w = load_walk(rays, stride, first);
     lane_uint cells = (lane_uint)0, hash = (lane_uint)0;
     lane_int walking = in_grid(&grid, &w);
     while (lanes_any(walking)) {
@@ -76,8 +52,8 @@ kernel void list_walks(PyramidShape shape, global const float* restrict rays, ui
                        uint stride, uint most, global int* restrict lists) {
     const uint first = work_item() * VXL_LANES;
     if (first >= count) return;
-    const PyramidView grid = grid_without_voxels(shape);
-    Walk w = load_stressed(rays, stride, first);
+    const PyramidView grid = grid_view(shape);
+    Walk w = load_walk(rays, stride, first);
     lane_int walking = in_grid(&grid, &w);
     for (uint i = 0; i < most && lanes_any(walking); ++i) {
         const uint at = 5u * i * stride + first;

@@ -183,6 +183,9 @@ struct Display {
     bool cylinder = false;  ///< lattice: clipped by the upright cylinder that it circumscribes, too
 };
 
+/// What half of the image spans, u and v: tangents for a pyramid, metres for a box, else radians.
+glm::dvec2 half_extent(const Display& display);
+
 /// E: looks along +Z_E with Y_E up, so the right-hand side of the image is -X_E.
 struct Observer {
     glm::dvec3 position{0};             ///< metres

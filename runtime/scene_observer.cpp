@@ -6,6 +6,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
+#include <numbers>
 
 #include "runtime/scene_affine.hpp"
 #include "runtime/scene_parts.hpp"
@@ -138,6 +139,20 @@ double half_angle(const SceneValue& value, double max, bool max_is_open) {
 
 double square_pixel_half_angle(double horizontal_half_angle, glm::ivec2 size) {
     return std::atan(std::tan(horizontal_half_angle) * size.y / size.x);
+}
+
+glm::dvec2 half_extent(const Display& display) {
+    switch (display.shape) {
+        case DisplayShape::pyramid:
+            return glm::tan(display.half_angles);
+        case DisplayShape::sector:
+            return display.half_angles;
+        case DisplayShape::ball:
+            return {std::numbers::pi, std::numbers::pi / 2};
+        case DisplayShape::box:
+            return display.half_size;
+    }
+    return {};
 }
 
 Observer read_observer(const SceneValue& value, const Scene& scene) {

@@ -11,23 +11,6 @@ namespace voxelume {
 
 namespace {
 
-constexpr double kPi = 3.141592653589793;
-
-/// What u = 1 and v = 1 stand for: tangents for a pyramid, metres for a box, else radians.
-glm::dvec2 half_extent(const Display& display) {
-    switch (display.shape) {
-        case DisplayShape::pyramid:
-            return glm::tan(display.half_angles);
-        case DisplayShape::sector:
-            return display.half_angles;
-        case DisplayShape::ball:
-            return {kPi, kPi / 2};
-        case DisplayShape::box:
-            return display.half_size;
-    }
-    return {};
-}
-
 /// The sight ray at (u, v) in [-1, 1], u to the right (-X_E) and v down (-Y_E).
 glm::dvec3 direction_of(const Display& display, glm::dvec2 half, glm::dvec2 uv) {
     const glm::dvec2 xy = -uv * half;

@@ -2,7 +2,7 @@
 #ifndef VXL_FIXED_POINT_H
 #define VXL_FIXED_POINT_H
 
-#include "lib/exact_float.h"
+#include "lib/vector.h"
 #include "shared/trace.h"
 
 /// The power of two that brings the largest of |x|, |y|, |z| into [1/2, 1). At least one is normal.
@@ -39,6 +39,20 @@ static inline void clip_axis(lane_float o, lane_float d, float size, lane_float*
     const lane_float none = LANES_SELECT(outside, (lane_float)-INFINITY, (lane_float)INFINITY);
     *t_first = fmax(*t_first, LANES_SELECT(moves, fmin(a, b), (lane_float)-INFINITY));
     *t_last = fmin(*t_last, LANES_SELECT(moves, fmax(a, b), none));
+}
+
+/// Limits [t_first, t_last] of a ray to what lies in the world.
+static inline void clip_to_world(Vector o, Vector d, int size_x, int size_y, int size_z,
+                                 lane_float* t_first, lane_float* t_last) {
+    clip_axis(o.x, d.x, (float)size_x, t_first, t_last);
+    clip_axis(o.y, d.y, (float)size_y, t_first, t_last);
+    clip_axis(o.z, d.z, (float)size_z, t_first, t_last);
+}
+
+/// How far a ray comes in one unit of t, of voxels with these edges in metres.
+static inline lane_float metres_per_t(float4 edge, Vector d) {
+    const Vector metric = {d.x * edge.x, d.y * edge.y, d.z * edge.z};
+    return exact_sqrt(dot_product(metric, metric));
 }
 
 /// A coordinate of the ray o + low + d t at t_first: exactly the world's side where it comes in.

@@ -8,6 +8,7 @@
 #define VXL_PYRAMID_H
 
 #include "lib/lanes.h"
+#include "shared/scene.h"
 
 #define VXL_GROUP_OF_EIGHT 0x00330033u
 #define VXL_GROUP_CORNER 0x0Au
@@ -22,6 +23,22 @@ typedef struct {
     float plane_bound;  // how far a computed crossing can lie from the true one, voxels
     float fixed_point;  // 2^fraction_bits: one voxel in the rays' fixed point
 } PyramidView;
+
+static inline PyramidView pyramid_view(PyramidShape shape, global const uint* restrict sectors,
+                                       global const uint* restrict bricks,
+                                       global const uint* restrict leaves,
+                                       global const uint* restrict leaf_voxels) {
+    PyramidView p = {sectors,           bricks,           leaves,
+                     leaf_voxels,       shape.size_x,     shape.size_y,
+                     shape.size_z,      shape.sectors_x,  shape.sectors_y,
+                     shape.plane_bound, shape.fixed_point};
+    return p;
+}
+
+/// The grid alone, for walks that look nothing up.
+static inline PyramidView grid_view(PyramidShape shape) {
+    return pyramid_view(shape, 0, 0, 0, 0);
+}
 
 /// What the pyramid knows of a cell: the empty block around it, or the leaf that holds its voxel.
 typedef struct {

@@ -43,6 +43,16 @@ static inline Walk begin_walk(lane_float ox, lane_float oy, lane_float oz, lane_
     return w;
 }
 
+/// The walks of a packet's rays from `first` on.
+static inline Walk load_walk(global const float* restrict rays, uint stride, uint first) {
+    return begin_walk(LANES_LOAD(rays, VXL_RAY_OX * stride + first),
+                      LANES_LOAD(rays, VXL_RAY_OY * stride + first),
+                      LANES_LOAD(rays, VXL_RAY_OZ * stride + first),
+                      LANES_LOAD(rays, VXL_RAY_DX * stride + first),
+                      LANES_LOAD(rays, VXL_RAY_DY * stride + first),
+                      LANES_LOAD(rays, VXL_RAY_DZ * stride + first));
+}
+
 /// Mask: the walk is inside the grid.
 static inline lane_int in_grid(const PyramidView* p, const Walk* w) {
     return LANE_MASK((w->x | w->y | w->z) >= 0) & LANE_MASK(w->x < p->size_x) &

@@ -62,7 +62,7 @@ DisplayLatticeStage::DisplayLatticeStage(const Device& device, const Features& f
       program_(device, "display_lattice.cl", features.defines(device)),
       aim_(program_.kernel("aim_rays")),
       note_(program_.kernel("note_view")),
-      mark_(program_.kernel("mark_voxels")),
+      mark_(program_.kernel("mark_shown")),
       count_(program_.kernel("count_groups")),
       list_(program_.kernel("list_places")),
       choose_(program_.kernel("choose_points")),

@@ -13,22 +13,6 @@ float4 to_float4(const glm::dvec3& v) {
     return {float(v.x), float(v.y), float(v.z), 0};
 }
 
-/// What half of the image spans: tangents, angles or metres, as the shape has it.
-glm::dvec2 half_extent(const Display& display) {
-    constexpr double kPi = 3.141592653589793;
-    switch (display.shape) {
-        case DisplayShape::pyramid:
-            return glm::tan(display.half_angles);
-        case DisplayShape::sector:
-            return display.half_angles;
-        case DisplayShape::ball:
-            return {kPi, kPi / 2};
-        case DisplayShape::box:
-            return display.half_size;
-    }
-    return {};
-}
-
 /// How far the world's nearest corner is ahead of the observer along Z_E, metres; 0 if it is not.
 double depth_of_world(const Observer& observer, const GridFrame& world) {
     double least = std::numeric_limits<double>::infinity();

@@ -6,7 +6,6 @@
 // the process's CPU time over all threads, medians of five runs, with and without compaction in
 // turn.
 #include <fmt/format.h>
-#include <sys/resource.h>
 
 #include <algorithm>
 #include <vector>
@@ -15,20 +14,12 @@
 #include "runtime/stages/resolve.hpp"
 #include "runtime/stages/sight.hpp"
 #include "runtime/world.hpp"
+#include "tests/bench/cpu_time.hpp"
 
 namespace voxelume {
 namespace {
 
 constexpr int kRuns = 5;
-
-double cpu_seconds() {
-    rusage usage{};
-    getrusage(RUSAGE_SELF, &usage);
-    const auto seconds = [](const timeval& t) {
-        return double(t.tv_sec) + 1e-6 * double(t.tv_usec);
-    };
-    return seconds(usage.ru_utime) + seconds(usage.ru_stime);
-}
 
 /// A scene's frame, again and again.
 class Frame {

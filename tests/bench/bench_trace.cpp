@@ -8,7 +8,6 @@
 // process's CPU time over all threads, so a figure is per core; set POCL_MAX_PTHREAD_COUNT=1 to
 // compare packets alone.
 #include <fmt/format.h>
-#include <sys/resource.h>
 
 #include <algorithm>
 #include <cmath>
@@ -23,21 +22,13 @@
 #include "runtime/stages/index.hpp"
 #include "runtime/stages/trace.hpp"
 #include "runtime/stages/voxelize.hpp"
+#include "tests/bench/cpu_time.hpp"
 
 namespace voxelume {
 namespace {
 
 constexpr int kImage = 1024;
 constexpr int kRuns = 7;
-
-double cpu_seconds() {
-    rusage usage{};
-    getrusage(RUSAGE_SELF, &usage);
-    const auto seconds = [](const timeval& t) {
-        return double(t.tv_sec) + 1e-6 * double(t.tv_usec);
-    };
-    return seconds(usage.ru_utime) + seconds(usage.ru_stime);
-}
 
 /// A ray in the pyramid's voxels, snapped as kernels/lib/fixed_point.h does.
 struct Ray {

@@ -1,0 +1,97 @@
+// What transmitting surfaces and objects leave of the light along a shadow ray.
+#ifndef VXL_FILTER_H
+#define VXL_FILTER_H
+
+#include "lib/fixed_point.h"
+#include "lib/flight.h"
+#include "lib/surface_color.h"
+
+/// Finds the body of cubes that the rays are inside of.
+static inline void find_body(Travel* travel, global const float* restrict materials) {
+    travel->body = body_inside(&travel->interior);
+    travel->joined = is_joined(travel->body, materials);
+}
+
+/// What surfaces and objects on the way leave of a shadow ray's light.
+typedef struct {
+    lane_float passed[3];  // by surfaces
+    lane_float depth[3];   // optical depth of objects
+} Filter;
+
+/// Lets a packet of shadow rays go on through transmitting surfaces; the mask of those that reach
+/// their light. Rays that meet more than VXL_MOST_LAYERS surfaces don't.
+static inline lane_int pass_through(const PyramidView* p, const SurfaceView* s, Walk* w,
+                                    lane_float t_end, lane_int active, Travel* travel,
+                                    uint constant_attribute, global const float* restrict materials,
+                                    global const uint* restrict colors,
+                                    global const uint* restrict ranks, lane_float metres,
+                                    Filter* filter) {
+    lane_float t_last = (lane_float)0.0f;
+    // Objects end where the world does.
+    lane_float t_in = t_last, t_out = t_end;
+    const Vector o = {w->ox, w->oy, w->oz}, d = {w->dx, w->dy, w->dz};
+    clip_to_world(o, d, p->size_x, p->size_y, p->size_z, &t_in, &t_out);
+    lane_int passing = active, arrived = (lane_int)0;
+    for (int layer = 0; layer < VXL_MOST_LAYERS && lanes_any(passing); ++layer) {
+        const Found found = find_first(p, s, w, t_end, passing, travel);
+        const lane_int hit = found.hit & passing;
+        // The way up to here, to the light or out of the world, inside of the object that counts.
+        const lane_uint before = effective_member(&travel->interior, ranks);
+        const lane_uint medium =
+            material_place(before) & LANES_AS_UINT(LANE_MASK(before != VXL_NO_MEMBER));
+        const lane_float t_now = LANES_SELECT(hit, found.t, fmax(t_out, t_last));
+        const lane_int absorbs = passing & LANE_MASK(before != VXL_NO_MEMBER);
+        const lane_float way = LANES_SELECT(absorbs, (t_now - t_last) * metres, (lane_float)0.0f);
+        for (int channel = 0; channel < 3; ++channel)
+            filter->depth[channel] = fma(
+                LANES_GATHER_FLOAT(materials, medium + (uint)(VXL_MATERIAL_ABSORPTION + channel)),
+                way, filter->depth[channel]);
+        arrived |= passing & ~hit;
+        passing = hit;
+        if (!lanes_any(passing)) break;
+
+        const lane_uint voxel = found.voxel & LANES_AS_UINT(hit);
+        const lane_uint word = hit_word(s->attributes, constant_attribute, s->triangle_attributes,
+                                        s->solids, voxel, found.primitive, hit);
+        const lane_int smooth = is_smooth(word, found.primitive);
+        const lane_uint material = material_place(word) & LANES_AS_UINT(hit);
+        const lane_float opacity = surface_opacity(materials, material, colors, voxel);
+        const lane_float refraction =
+            LANES_GATHER_FLOAT(materials, material + VXL_MATERIAL_REFRACTION);
+        passing &= LANE_MASK(opacity < 1.0f) | LANE_MASK(refraction > 0.0f) | found.exit;
+        lane_int leaving = interior_holds(&travel->interior, word, smooth);
+        lane_int inner = (lane_int)0;
+        if (VXL_CUBE_BODIES) {
+            const lane_int cube = is_cube(word, found.primitive);
+            inner = cube & leaving & ~found.exit;
+            leaving = LANES_SELECT(cube, found.exit, leaving);
+        }
+        travel->interior = cross_interior(travel->interior, word, smooth, leaving, passing);
+        lane_int hidden = same_member(before, effective_member(&travel->interior, ranks)) & passing;
+        if (VXL_CUBE_BODIES) {
+            hidden |= found.exit & LANE_MASK(refraction == 0.0f);
+            hidden = LANES_SELECT(inner, ~same_member(before, word), hidden);
+            find_body(travel, materials);
+        }
+        const lane_uint color = color_place(materials, material, fma(w->dx, found.t, w->ox),
+                                            fma(w->dy, found.t, w->oy), fma(w->dz, found.t, w->oz));
+        const lane_float clear = 1.0f - opacity;
+        for (int channel = 0; channel < 3; ++channel) {
+            const lane_float tint =
+                fma(opacity, surface_color(materials, color, colors, voxel, channel), clear);
+            lane_float part = clear * tint;
+            if (VXL_FILTERED) part = fma(opacity, refraction, part);
+            filter->passed[channel] *= LANES_SELECT(passing & ~hidden, part, (lane_float)1.0f);
+        }
+        if (!VXL_FILTERED) passing &= hidden | LANE_MASK(clear > 0.0f);
+        travel->goes_on = travel->on_surface = (lane_int)-1;
+        travel->source = found.primitive;
+        travel->within_source = ~leaving;
+        travel->t_first = t_last = LANES_SELECT(passing, found.t, t_last);
+        w->t = LANES_SELECT(passing, fmax(found.t, w->t), w->t);
+        w->axis = LANES_SELECT(found.exit, w->axis, (lane_int)3);
+    }
+    return arrived;
+}
+
+#endif
