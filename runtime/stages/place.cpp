@@ -13,12 +13,8 @@
 namespace voxelume {
 namespace {
 
-bool same_frame(const GridFrame& a, const GridFrame& b) {
-    return a.origin == b.origin && a.voxel_edge == b.voxel_edge && a.size == b.size;
-}
-
 void check_object(const PlacedObject& object, const GridFrame& world) {
-    if (object.in_world_frame && !same_frame(object.grid->frame, world))
+    if (object.in_world_frame && object.grid->frame != world)
         throw Error(ErrorKind::scene,
                     "object {}: its voxels have another frame than the world that they were made "
                     "for: voxelize it in the world's frame",
@@ -59,7 +55,7 @@ class Placer::State {
     State(const Device& device, const GridFrame& frame) : device_(device) { world_.frame = frame; }
 
     bool continues_with(const GridFrame& frame, const WorldParts& parts) const {
-        return bricks_ && same_frame(frame, world_.frame) && parts.is_stored_like(parts_);
+        return bricks_ && frame == world_.frame && parts.is_stored_like(parts_);
     }
 
     /// An object's own buffers are all of the world.
