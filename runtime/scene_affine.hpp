@@ -11,6 +11,10 @@ namespace voxelume {
 /// Turns by multiples of 90 degrees give exactly 0 and +-1.
 glm::dmat3 rotation_from_turn(glm::dvec3 turn);
 
+/// A turn in degrees that gives the rotation: theta from -90 to 90, the others from -180 to 180.
+/// Where theta is +-90 and only one of the others is determined, both together are right.
+glm::dvec3 turn_from_rotation(const glm::dmat3& rotation);
+
 /// Moves a point that is first scaled, then turned, then shifted.
 glm::dmat4 affine_from_factors(glm::dvec3 position, glm::dvec3 turn, glm::dvec3 scale);
 
