@@ -2,6 +2,7 @@
 #include "runtime/scene.hpp"
 
 #include <algorithm>
+#include <array>
 #include <fstream>
 #include <glm/common.hpp>
 #include <glm/matrix.hpp>
@@ -53,14 +54,16 @@ void check_version(const SceneFields& fields) {
 
 void find_reaches(Scene& scene) {
     const Bounds world = lattice_bounds(scene.world);
+    std::array<glm::dvec4, 8> corners;
+    for (int i = 0; i < 8; ++i) corners[size_t(i)] = glm::dvec4(corner(world, i), 1);
     for (Model& model : scene.models) model.reach = {};
     std::vector<bool> is_used(scene.models.size(), false);
     for (const Object& object : scene.objects) {
         if (!object.visible) continue;
         const glm::dmat4 object_from_world = glm::inverse(object.world_from_object);
         Bounds& reach = scene.models[object.model].reach;
-        for (int i = 0; i < 8; ++i) {
-            const glm::dvec3 p(object_from_world * glm::dvec4(corner(world, i), 1));
+        for (const glm::dvec4& world_corner : corners) {
+            const glm::dvec3 p(object_from_world * world_corner);
             const bool is_first = !is_used[object.model];
             reach.min = is_first ? p : glm::min(reach.min, p);
             reach.max = is_first ? p : glm::max(reach.max, p);

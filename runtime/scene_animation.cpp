@@ -174,12 +174,17 @@ class MotionReader {
         return found->second;
     }
 
+    /// An object that is only placed anew keeps what else places it, so that little is copied.
     static void finish_object(MovingPart& part, Object& object) {
         object.moves = std::ranges::any_of(part.tracks, is_placement);
         part.places = std::ranges::all_of(part.tracks, is_placement);
         if (!part.places) return;
-        std::erase_if(part.value.members, [](const JsonMember& m) {
-            return m.key != "position" && m.key != "turn" && m.key != "scale" && m.key != "matrix";
+        std::erase_if(part.value.members, [&](const JsonMember& m) {
+            const bool is_replaced = std::ranges::any_of(part.tracks, [&](const Track& track) {
+                return track.target.steps == std::vector<TargetStep>{{m.key}};
+            });
+            return is_replaced || (m.key != "position" && m.key != "turn" && m.key != "scale" &&
+                                   m.key != "matrix");
         });
     }
 
