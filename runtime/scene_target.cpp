@@ -177,11 +177,11 @@ class PathWalker {
     void follow(const Place& place, const JsonValue& value) {
         Names known = place.values;
         for (const auto& [key, name] : place.places) known.push_back(key);
-        const std::string key = next_key(path_so_far(), known);
+        const std::string here = path_so_far(), key = next_key(here, known);
         const auto inner =
             std::ranges::find(place.places, key, [](const auto& entry) { return entry.first; });
         if (inner != place.places.end()) {
-            const JsonValue* child = &member(value, key, path_so_far());
+            const JsonValue* child = &member(value, key, here);
             target_.steps.push_back({key});
             if (child->type == JsonType::array) {
                 child = &item(*child, key);
@@ -190,11 +190,11 @@ class PathWalker {
             return follow(place_named(inner->second), *child);
         }
         if (std::ranges::find(place.values, key) == place.values.end())
-            path_.fail(fmt::format("{} has no value {} that can change{}", path_so_far(),
-                                   quote(key), suggest(key, known)));
+            path_.fail(fmt::format("{} has no value {} that can change{}", here, quote(key),
+                                   suggest(key, known)));
         target_.steps.push_back({key});
         if (is_at_end()) return;
-        item(member(value, key, path_so_far()), key);
+        item(member(value, key, here), key);
         target_.steps.push_back(steps_[next_ - 1]);
         if (!is_at_end()) path_.fail(fmt::format("goes on behind a number of {}", quote(key)));
     }

@@ -44,8 +44,8 @@ glm::dvec3 turn_at(const Keyframes& keys, double frame) {
 }  // namespace
 
 TEST(Keyframes, HoldBeforeTheFirstAndAfterTheLastKey) {
-    for (const Interpolation kind : {Interpolation::step, Interpolation::linear,
-                                     Interpolation::cubic}) {
+    for (const Interpolation kind :
+         {Interpolation::step, Interpolation::linear, Interpolation::cubic}) {
         const Keyframes keys = keys_of(kind, {2, 5}, {3, -1, 7, 11}, 2);
         EXPECT_THAT(values_at(keys, -1e9), ElementsAre(3, -1));
         EXPECT_THAT(values_at(keys, 2), ElementsAre(3, -1));
@@ -84,8 +84,8 @@ TEST(Keyframes, OfTwoCubicKeysAreSmoothstep) {
 }
 
 // By hand: slopes around frame 3 are 1 and 4, spans 2 and 1, so weights are 2*1+2 = 4 and 1+2*2 = 5
-// and the slope there is 9 / (4/1 + 5/4) = 12/7. Cubic Bezier control values lie a third of the span
-// along the slopes.
+// and the slope there is 9 / (4/1 + 5/4) = 12/7. Cubic Bezier control values lie a third of the
+// span along the slopes.
 TEST(Keyframes, OfCubicKeysAreTheHandComputedBezier) {
     const Keyframes keys = keys_of(Interpolation::cubic, {1, 3, 4}, {0, 2, 6});
     const double slope = 12.0 / 7;

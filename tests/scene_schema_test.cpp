@@ -181,15 +181,37 @@ std::vector<json> full_scenes() {
 
 /// Objections to what a schema can't express: names and files, relations between values, geometry.
 bool is_beyond_a_schema(const std::string& objection) {
-    for (const char* part :
-         {"no material named", "no model named", "there is no file", "empty along", "voxels along",
-          "singular", "parallel to", "must not be zero", "the position itself",
-          "nothing lies between", "not be larger than", "already", "is an absolute path",
-          "only a mesh has groups", "is not a file", "above 0 along some axis",
-          "none of the object's materials", "(at frame", "that can change", "has no place for",
-          "must not be smaller", "files are missing", "named \"o\"", "there is no lights[0]",
-          "to change", "not after the key before", "has another form", "there is nothing between",
-          "is for turns", "goes on behind", "changes this value already"}) {
+    for (const char* part : {"no material named",
+                             "no model named",
+                             "there is no file",
+                             "empty along",
+                             "voxels along",
+                             "singular",
+                             "parallel to",
+                             "must not be zero",
+                             "the position itself",
+                             "nothing lies between",
+                             "not be larger than",
+                             "already",
+                             "is an absolute path",
+                             "only a mesh has groups",
+                             "is not a file",
+                             "above 0 along some axis",
+                             "none of the object's materials",
+                             "(at frame",
+                             "that can change",
+                             "has no place for",
+                             "must not be smaller",
+                             "files are missing",
+                             "named \"o\"",
+                             "there is no lights[0]",
+                             "to change",
+                             "not after the key before",
+                             "has another form",
+                             "there is nothing between",
+                             "is for turns",
+                             "goes on behind",
+                             "changes this value already"}) {
         if (objection.find(part) != objection.npos) return true;
     }
     return false;
