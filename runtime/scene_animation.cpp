@@ -21,6 +21,7 @@ class FrameReader {
           search_{scene.file.parent_path(), motion.assets, frame, all_files} {}
 
     void read(const MovingPart& part) {
+        if (part.factors && place(part)) return;
         try {
             JsonValue json = part.value;
             for (const Track& track : part.tracks)
@@ -32,6 +33,24 @@ class FrameReader {
     }
 
   private:
+    /// Places an object without the detour over the document, which has the messages: worlds have
+    /// thousands of objects on the move. Keys are in their ranges, and so is what lies between.
+    bool place(const MovingPart& part) {
+        Factors factors = *part.factors;
+        for (const Track& track : part.tracks) {
+            const std::vector<double> row = values_at(track.keys, frame_);
+            const std::string& key = track.target.steps.front().key;
+            glm::dvec3& factor = key == "position" ? factors.position
+                                 : key == "turn"   ? factors.turn
+                                                   : factors.scale;
+            factor = row.size() == 1 ? glm::dvec3(row[0]) : glm::dvec3(row[0], row[1], row[2]);
+        }
+        const glm::dmat4 map = affine_from_factors(factors);
+        if (!is_safely_invertible(stretch_of(glm::dmat3(map)))) return false;
+        scene_.objects[part.place].world_from_object = map;
+        return true;
+    }
+
     void read(const MovingPart& part, const SceneValue& value) {
         switch (part.part) {
             case ScenePart::world:
@@ -169,8 +188,8 @@ class MotionReader {
     MovingPart& part_of(const TrackTarget& target) {
         const auto [found, is_new] = parts_.try_emplace({target.part, target.number});
         if (is_new)
-            found->second = {target.part, target.number, 0,     target.name,
-                             target.path, *target.value, false, {}};
+            found->second = {target.part,   target.number, 0,  target.name, target.path,
+                             *target.value, false,         {}, {}};
         return found->second;
     }
 
@@ -192,6 +211,17 @@ class MotionReader {
     SceneMotion motion_;
     std::map<std::pair<ScenePart, size_t>, MovingPart> parts_;
 };
+
+/// Finds the factors of an object that no track changes, if all tracks change whole ones.
+void find_factors(MovingPart& part, const std::string& file) {
+    const SceneValue value(part.value, part.path, file);
+    const bool by_factors = part.places && std::ranges::all_of(part.tracks, [](const Track& track) {
+                                return track.target.steps.size() == 1;
+                            });
+    if (!by_factors) return;
+    const SceneFields fields(value, "object");
+    if (!fields.has("matrix")) part.factors = read_factors(fields);
+}
 
 /// Reads every part at each of its own keys; between them only relations of values can go wrong.
 void check_keys(const Scene& scene, const SceneMotion& motion) {
@@ -222,6 +252,7 @@ std::shared_ptr<const SceneMotion> read_motion(const SceneValue& root, const Ass
     if (motion->parts.empty()) return nullptr;
     motion->file = scene.file.string();
     check_keys(scene, *motion);
+    for (MovingPart& part : motion->parts) find_factors(part, motion->file);
     return motion;
 }
 

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "runtime/assets.hpp"
+#include "runtime/scene_affine.hpp"
 #include "runtime/scene_track.hpp"
 
 namespace voxelume {
@@ -14,12 +16,13 @@ struct Scene;
 /// A part of the scene that tracks or numbered files change.
 struct MovingPart {
     ScenePart part = ScenePart::world;
-    size_t number = 0;    ///< in the document
-    size_t place = 0;     ///< in the scene's list
-    std::string name;     ///< of a material or model
-    std::string path;     ///< as messages have it
-    JsonValue value;      ///< of an object that is only placed anew, its placement alone
-    bool places = false;  ///< an object that is only placed anew
+    size_t number = 0;               ///< in the document
+    size_t place = 0;                ///< in the scene's list
+    std::string name;                ///< of a material or model
+    std::string path;                ///< as messages have it
+    JsonValue value;                 ///< of an object that is only placed anew, its placement alone
+    bool places = false;             ///< an object that is only placed anew
+    std::optional<Factors> factors;  ///< of such an object, by whole factors: those without tracks
     std::vector<Track> tracks;
 };
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "runtime/scene.hpp"
+#include "runtime/scene_affine.hpp"
 #include "runtime/scene_fields.hpp"
 
 namespace voxelume {
@@ -72,6 +73,9 @@ RenderSettings read_render(const SceneValue& value);
 /// Sets where each model can be seen: the world's box carried into the space of every object that
 /// shows it.
 void find_reaches(Scene& scene);
+
+/// `position`, `turn` and `scale`.
+Factors read_factors(const SceneFields& fields);
 
 /// The map that `position`, `turn` and `scale`, or `matrix`, give. Refuses singular ones.
 glm::dmat4 read_placement(const SceneFields& fields);

@@ -96,7 +96,8 @@ class PathWalker {
             TargetStep& step = steps.emplace_back();
             if (is_item) {
                 const char* last = word.data() + word.size();
-                if (std::from_chars(word.data(), last, step.item).ptr != last) fail_to_read();
+                const auto [end_of_number, error] = std::from_chars(word.data(), last, step.item);
+                if (end_of_number != last || error != std::errc()) fail_to_read();
             } else {
                 step.key = word;
             }

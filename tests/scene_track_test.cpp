@@ -102,6 +102,7 @@ TEST(Tracks, OnWhatIsNotThereGetTheNearestName) {
         {values("objects..position", {"1"}), "can't be read; write keys with dots between"},
         {values("objects[x].position", {"1"}), "can't be read"},
         {values("objects[1", {"1"}), "can't be read"},
+        {values("objects[99999999999999999999].position", {"1"}), "can't be read"},
     };
     for (const Case& wrong : cases) {
         EXPECT_THAT(message(wrong.tracks),
