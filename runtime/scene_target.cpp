@@ -154,8 +154,10 @@ class PathWalker {
         target_.number = size_t(found - names.begin());
         target_.name = name;
         target_.value = is_list ? &all.items[target_.number] : &all.members[target_.number].value;
-        target_.path = is_list ? fmt::format("{}[{}]", section, target_.number)
-                               : fmt::format("{}.{}", section, name);
+        target_.path =
+            is_list ? fmt::format("{}[{}]", section, target_.number)
+                    : fmt::format("{}.{}", section,
+                                  name.find_first_of(".[") == name.npos ? name : quote(name));
     }
 
     /// Items without a name of their own have an empty one.
