@@ -5,23 +5,22 @@
 #include <filesystem>
 #include <map>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <numeric>
 #include <string>
 #include <vector>
 
 #include "cli/checks.hpp"
 #include "cli/commands.hpp"
+#include "cli/render_report.hpp"
 #include "cli/scene_options.hpp"
 #include "runtime/error.hpp"
-#include "runtime/io/atomic_file.hpp"
+#include "runtime/frame_pipeline.hpp"
 #include "runtime/io/exr.hpp"
 #include "runtime/io/frame_list.hpp"
 #include "runtime/io/frame_path.hpp"
 #include "runtime/io/png.hpp"
 #include "runtime/io/progress.hpp"
 #include "runtime/io/volume_file.hpp"
-#include "runtime/renderer.hpp"
 #include "runtime/scene_animation.hpp"
 #include "runtime/stages/display_frame.hpp"
 #include "runtime/version.hpp"
@@ -38,17 +37,9 @@ struct RenderOptions {
     bool float_color = false;
     std::string stats;
     bool plan_only = false;
+    bool one_by_one = false;
     bool verbose = false;
     bool quiet = false;
-};
-
-/// What a render came to, for the summary line and --stats-json.
-struct Outcome {
-    const Device& device;
-    const RenderReport& report;
-    glm::ivec2 size;
-    size_t files;
-    double seconds;
 };
 
 /// A frame and the files that show it.
@@ -128,93 +119,6 @@ void write(const Image& image, const std::string& path, const RenderOptions& opt
     }
 }
 
-nlohmann::ordered_json statistics(const Outcome& outcome) {
-    const DeviceCounters& counters = outcome.device.counters();
-    const RenderReport& report = outcome.report;
-    nlohmann::ordered_json json;
-    json["version"] = version();
-    json["device"] = outcome.device.info().name;
-    json["driver"] = outcome.device.info().driver;
-    json["lanes"] = outcome.device.lanes();
-    json["size"] = {outcome.size.x, outcome.size.y};
-    json["files"] = outcome.files;
-    json["voxels"] = report.voxels;
-    json["triangles"] = report.world.triangles;
-    json["sight_rays"] = report.sight_rays;
-    json["shadow_rays"] = report.shadow_rays;
-    json["secondary_rays"] = report.secondary_rays;
-    json["ended_paths"] = report.ended_paths;
-    json["not_finite"] = report.not_finite;
-    json["world_bytes"] = report.world_bytes;
-    json["peak_device_bytes"] = counters.peak_bytes;
-    json["seconds"] = {
-        {"load", report.world.load_seconds},   {"voxelize", report.world.voxelize_seconds},
-        {"place", report.world.place_seconds}, {"index", report.world.index_seconds},
-        {"image", report.image_seconds},       {"total", outcome.seconds}};
-    json["kernel_ms"] = counters.kernel_ms;
-    json["launches"] = counters.launches;
-    json["allocated_bytes"] = counters.allocated_bytes;
-    json["programs"] = {{"made", counters.programs_built},
-                        {"from_cache", counters.programs_from_cache},
-                        {"ms", counters.build_ms}};
-    return json;
-}
-
-void write_statistics(const std::string& path, const nlohmann::ordered_json& json) {
-    AtomicFile file(path);
-    // The device's name may be in any encoding.
-    const std::string text =
-        json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
-    file.write(text.data(), text.size());
-    file.commit();
-}
-
-/// "845", "84.5 k", "8.45 M"
-std::string count_text(uint64_t count) {
-    const double n = double(count);
-    if (n < 1e4) return fmt::format("{}", count);
-    return n < 1e6 ? fmt::format("{:.1f} k", n / 1e3) : fmt::format("{:.2f} M", n / 1e6);
-}
-
-void print_summary(const Outcome& outcome) {
-    const RenderReport& report = outcome.report;
-    const std::string secondary =
-        report.secondary_rays > 0
-            ? fmt::format(", {} secondary rays ({} paths ended early)",
-                          count_text(report.secondary_rays), count_text(report.ended_paths))
-            : "";
-    fmt::print(stderr,
-               "{}x{} in {:.2f} s on \"{}\": {} voxels, {} sight and {} shadow rays{}; "
-               "load {:.0f} ms, voxelize {:.0f}, place {:.0f}, index {:.0f}, image {:.0f}\n",
-               outcome.size.x, outcome.size.y, outcome.seconds, outcome.device.info().name,
-               count_text(report.voxels), count_text(report.sight_rays),
-               count_text(report.shadow_rays), secondary, report.world.load_seconds * 1e3,
-               report.world.voxelize_seconds * 1e3, report.world.place_seconds * 1e3,
-               report.world.index_seconds * 1e3, report.image_seconds * 1e3);
-}
-
-void print_details(const Outcome& outcome) {
-    const DeviceCounters& counters = outcome.device.counters();
-    fmt::print(stderr, "  {} lanes, driver {}; {} triangles; world {:.1f} MB, at most {:.1f} MB\n",
-               outcome.device.lanes(), outcome.device.info().driver, outcome.report.world.triangles,
-               double(outcome.report.world_bytes) / 1e6, double(counters.peak_bytes) / 1e6);
-    fmt::print(stderr, "  {} programs in {:.0f} ms, {} of them compiled before\n",
-               counters.programs_built, counters.build_ms, counters.programs_from_cache);
-    for (const auto& [kernel, ms] : counters.kernel_ms)
-        fmt::print(stderr, "  {:<24}{:>10.2f} ms {:>6} launches\n", kernel, ms,
-                   counters.launches.at(kernel));
-}
-
-Image render_with_bar(const Device& device, const Scene& scene, RenderReport& report, bool quiet) {
-    Progress bar("rendering", 100, stderr, quiet);
-    uint64_t shown = 0;
-    return render(device, scene, report, [&](uint32_t done, uint32_t total) {
-        const uint64_t percent = uint64_t(done) * 100 / total;
-        bar.advance(percent - shown);
-        shown = percent;
-    });
-}
-
 [[noreturn]] void refuse_not_finite(uint32_t count) {
     throw Error(ErrorKind::render,
                 "{} values of the image were not finite and became 0: please report this scene",
@@ -227,49 +131,79 @@ void add_attributes(const Scene& scene, int frame, std::map<std::string, std::st
     attributes["software"] = "voxelume " + std::string(version());
 }
 
-void render_images(const Device& device, const Scene& scene, const RenderOptions& options,
-                   const FrameFiles& files, RenderReport& report) {
-    Image image = render_with_bar(device, scene, report, options.quiet);
-    if (report.not_finite != 0) refuse_not_finite(report.not_finite);
-    add_attributes(scene, files.frame, image.attributes);
-    for (const std::string& path : files.images) write(image, path, options);
-}
+/// Renders the frames that are asked for, and tells of them.
+class FrameRun {
+  public:
+    FrameRun(const Device& device, const Scene& scene, const std::vector<FrameFiles>& list,
+             const RenderOptions& options)
+        : device_(device),
+          scene_(scene),
+          list_(list),
+          options_(options),
+          renderer_(device, list.size() > 1),
+          bar_("rendering", 100 * list.size(), stderr, options.quiet) {}
 
-void render_volumes(const Device& device, const Scene& scene, const FrameFiles& files,
-                    RenderReport& report) {
-    Volume volume = render_volume(device, scene, report);
-    if (report.not_finite != 0) refuse_not_finite(report.not_finite);
-    add_attributes(scene, files.frame, volume.attributes);
-    for (const std::string& path : files.volumes) write_volume(path, volume);
-}
+    std::vector<FrameReport> run() {
+        const FrameSteps steps{
+            [this](size_t n) { return scene_at(scene_, list_[n].frame); },
+            [this](size_t n, const Scene& scene, const FormedWorld& world,
+                   const WorldReport& report) { return render(n, scene, world, report); }};
+        run_frames(device_, list_.size(), steps, !options_.one_by_one);
+        return reports_;
+    }
 
-/// Adds what a frame took to what those before it took.
-void add_frame(const RenderReport& frame, RenderReport& sum) {
-    sum.world.load_seconds += frame.world.load_seconds;
-    sum.world.voxelize_seconds += frame.world.voxelize_seconds;
-    sum.world.place_seconds += frame.world.place_seconds;
-    sum.world.index_seconds += frame.world.index_seconds;
-    sum.world.triangles = std::max(sum.world.triangles, frame.world.triangles);
-    sum.image_seconds += frame.image_seconds;
-    sum.voxels = std::max(sum.voxels, frame.voxels);
-    sum.world_bytes = std::max(sum.world_bytes, frame.world_bytes);
-    sum.sight_rays += frame.sight_rays;
-    sum.shadow_rays += frame.shadow_rays;
-    sum.secondary_rays += frame.secondary_rays;
-    sum.ended_paths += frame.ended_paths;
-}
+  private:
+    std::function<void()> render(size_t n, const Scene& scene, const FormedWorld& world,
+                                 const WorldReport& world_report) {
+        const FrameFiles& files = list_[n];
+        FrameReport frame{files.frame, {}};
+        frame.report.world = world_report;
+        std::shared_ptr<const Image> image;
+        std::shared_ptr<Volume> volume;
+        if (!files.images.empty())
+            image = renderer_.image(scene, world, frame.report, [this, n](uint32_t i, uint32_t of) {
+                advance(100 * n + uint64_t(i) * 100 / of);
+            });
+        if (!files.volumes.empty())
+            volume = std::make_shared<Volume>(render_volume(device_, scene, world, frame.report));
+        if (frame.report.not_finite != 0) refuse_not_finite(frame.report.not_finite);
+        advance(100 * (n + 1));
+        reports_.push_back(frame);
+        return [this, image, volume, &files] {
+            if (image) write_images(*image, files);
+            if (volume) write_volumes(*volume, files);
+        };
+    }
 
-RenderReport render_frame(const Device& device, const Scene& scene, const FrameFiles& files,
-                          const RenderOptions& options) {
-    const Scene now = scene_at(scene, files.frame);
-    RenderReport report;
-    if (!files.images.empty()) render_images(device, now, options, files, report);
-    if (!files.volumes.empty()) render_volumes(device, now, files, report);
-    return report;
-}
+    void advance(uint64_t percent) {
+        bar_.advance(percent - shown_);
+        shown_ = percent;
+    }
 
-double seconds_since(std::chrono::steady_clock::time_point start) {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    void write_images(Image image, const FrameFiles& files) const {
+        add_attributes(scene_, files.frame, image.attributes);
+        for (const std::string& path : files.images) write(image, path, options_);
+    }
+
+    void write_volumes(Volume& volume, const FrameFiles& files) const {
+        add_attributes(scene_, files.frame, volume.attributes);
+        for (const std::string& path : files.volumes) write_volume(path, volume);
+    }
+
+    const Device& device_;
+    const Scene& scene_;
+    const std::vector<FrameFiles>& list_;
+    const RenderOptions& options_;
+    Renderer renderer_;
+    Progress bar_;
+    uint64_t shown_ = 0;
+    std::vector<FrameReport> reports_;
+};
+
+size_t count_files(const std::vector<FrameFiles>& list) {
+    size_t count = 0;
+    for (const FrameFiles& files : list) count += files.images.size() + files.volumes.size();
+    return count;
 }
 
 int run(const RenderOptions& options) {
@@ -286,21 +220,15 @@ int run(const RenderOptions& options) {
     }
     if (options.verbose || !options.stats.empty()) device.time_kernels(true);
 
-    RenderReport sum;
-    size_t written = 0;
-    for (const FrameFiles& files : list) {
-        const auto frame_start = std::chrono::steady_clock::now();
-        const RenderReport report = render_frame(device, scene, files, options);
-        add_frame(report, sum);
-        written += files.images.size() + files.volumes.size();
-        if (options.quiet) continue;
-        if (list.size() > 1) fmt::print(stderr, "frame {}: ", files.frame);
-        print_summary({device, report, scene.render.size, written,
-                       seconds_since(list.size() > 1 ? frame_start : start)});
-    }
-    const Outcome outcome{device, sum, scene.render.size, written, seconds_since(start)};
-    if (!options.stats.empty()) write_statistics(options.stats, statistics(outcome));
-    if (options.verbose && !options.quiet) print_details(outcome);
+    const std::vector<FrameReport> reports = FrameRun(device, scene, list, options).run();
+    device.finish();
+    const double seconds =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    const Outcome outcome{device, reports, scene.render.size, count_files(list), seconds};
+    if (!options.stats.empty()) write_statistics(options.stats, outcome);
+    if (options.quiet) return 0;
+    print_summary(outcome);
+    if (options.verbose) print_details(outcome);
     return 0;
 }
 
@@ -321,6 +249,8 @@ Action add_render(CLI::App& app) {
     app.add_flag("--float", options->float_color, "colour of .exr as 32-bit floats, not halves");
     app.add_option("--stats-json", options->stats, "file for counts and times");
     app.add_flag("--dry-run", options->plan_only, "say what it takes, as `check` does, and stop");
+    app.add_flag("--no-overlap", options->one_by_one,
+                 "of several frames, form, render and write one after another: less memory");
     app.add_flag("-v,--verbose", options->verbose, "say more: kernels' times, memory");
     app.add_flag("-q,--quiet", options->quiet, "print errors only");
     return [options] { return run(*options); };

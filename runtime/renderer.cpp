@@ -37,17 +37,30 @@ bool Renderer::has_room(const Features& features, uint64_t rays) const {
     return follows_ && rays * words * 4 <= device_.info().memory / 16;
 }
 
-Image Renderer::image(const Scene& scene, const FormedWorld& formed, RenderReport& report,
-                      const FrameProgress& progress) {
-    const auto start = std::chrono::steady_clock::now();
-    if (world_ == formed.version && scene_ == scene) {
-        const WorldReport world = report.world;
+std::shared_ptr<const Image> Renderer::image(const Scene& scene, const FormedWorld& world,
+                                             RenderReport& report, const FrameProgress& progress) {
+    if (image_ && world_ == world.version && scene_ == scene) {
+        const WorldReport formed = report.world;
         report = report_;
-        report.world = world;
-        report.is_kept = true;
+        report.world = formed;
+        report.is_kept = report.hits_are_kept = true;
+        report.image_seconds = 0;
         return image_;
     }
-    scene_.reset();
+    auto image = std::make_shared<const Image>(new_image(scene, world, report, progress));
+    if (follows_) {
+        scene_ = scene;
+        world_ = world.version;
+        image_ = image;
+        report_ = report;
+    }
+    return image;
+}
+
+Image Renderer::new_image(const Scene& scene, const FormedWorld& formed, RenderReport& report,
+                          const FrameProgress& progress) {
+    const auto start = std::chrono::steady_clock::now();
+    image_.reset();
     const Pyramid& world = formed.pyramid;
     const Features features = features_of(scene, world);
     const Sight observer = sight_of(scene, world.frame);
@@ -94,19 +107,13 @@ Image Renderer::image(const Scene& scene, const FormedWorld& formed, RenderRepor
     report.world_bytes = bytes_of(world);
     report.image_seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    if (follows_) {
-        scene_ = scene;
-        world_ = formed.version;
-        image_ = image;
-        report_ = report;
-    }
     return image;
 }
 
 Image render(const Device& device, const Scene& scene, RenderReport& report,
              const FrameProgress& progress) {
     const FormedWorld world = WorldFormer(device, false).form(scene, report.world);
-    return Renderer(device, false).image(scene, world, report, progress);
+    return Renderer(device, false).new_image(scene, world, report, progress);
 }
 
 }  // namespace voxelume

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -40,10 +41,13 @@ class Renderer {
     explicit Renderer(const Device& device, bool follows = true)
         : device_(device), follows_(follows) {}
 
-    /// Renders the image of the scene's observer in the scene's world. Throws Error as the stages
-    /// do.
-    Image image(const Scene& scene, const FormedWorld& world, RenderReport& report,
-                const FrameProgress& progress = {});
+    /// The image of the scene's observer in the scene's world. Throws Error as the stages do.
+    std::shared_ptr<const Image> image(const Scene& scene, const FormedWorld& world,
+                                       RenderReport& report, const FrameProgress& progress = {});
+
+    /// The same, which the next frame can't show again as a whole.
+    Image new_image(const Scene& scene, const FormedWorld& world, RenderReport& report,
+                    const FrameProgress& progress = {});
 
   private:
     /// What decides the first surfaces that sight rays meet.
@@ -68,7 +72,7 @@ class Renderer {
     bool follows_;
     std::optional<Scene> scene_;  ///< whose image is kept
     uint64_t world_ = 0;          ///< in which world
-    Image image_;
+    std::shared_ptr<const Image> image_;
     RenderReport report_;
     std::optional<View> view_;
     std::vector<SightHits> hits_;  ///< of each batch of the view; empty where they have no room

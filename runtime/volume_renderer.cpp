@@ -162,7 +162,7 @@ Volume render_volume(const Device& device, const Scene& scene, const FormedWorld
     device.finish();  // and kernels' times are known
     report.not_finite = count_not_finite(volume);
     report.voxels = world.voxel_count;
-    report.image_seconds =
+    report.image_seconds +=
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return volume;
 }

@@ -47,7 +47,7 @@ struct FrameRun {
                                    RenderReport report;
                                    report.world = world_report;
                                    const uint64_t hash =
-                                       oracle::image_hash(renderer.image(scene, world, report));
+                                       oracle::image_hash(*renderer.image(scene, world, report));
                                    return [this, frame, hash] {
                                        if (frame == failing_file) throw std::runtime_error("file");
                                        written.push_back(frame);

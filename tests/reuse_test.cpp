@@ -59,12 +59,12 @@ class Frames {
         for (const auto& [name, count] : shared_device().counters().launches) names.insert(name);
         return names;
     }
-    uint64_t hash() const { return oracle::image_hash(image_); }
+    uint64_t hash() const { return oracle::image_hash(*image_); }
 
   private:
     WorldFormer former_{shared_device()};
     Renderer renderer_{shared_device()};
-    Image image_;
+    std::shared_ptr<const Image> image_;
 };
 
 uint64_t hash_alone(const Scene& scene) {

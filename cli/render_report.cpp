@@ -1,0 +1,156 @@
+#include "cli/render_report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "runtime/io/atomic_file.hpp"
+#include "runtime/version.hpp"
+
+namespace voxelume::cli {
+namespace {
+
+/// Times and rays of all frames together; of sizes the largest.
+RenderReport sum_of(const std::vector<FrameReport>& frames) {
+    RenderReport sum;
+    for (const FrameReport& frame : frames) {
+        const RenderReport& report = frame.report;
+        sum.world.load_seconds += report.world.load_seconds;
+        sum.world.voxelize_seconds += report.world.voxelize_seconds;
+        sum.world.place_seconds += report.world.place_seconds;
+        sum.world.index_seconds += report.world.index_seconds;
+        sum.world.triangles = std::max(sum.world.triangles, report.world.triangles);
+        sum.image_seconds += report.image_seconds;
+        sum.voxels = std::max(sum.voxels, report.voxels);
+        sum.world_bytes = std::max(sum.world_bytes, report.world_bytes);
+        sum.sight_rays += report.sight_rays;
+        sum.shadow_rays += report.shadow_rays;
+        sum.secondary_rays += report.secondary_rays;
+        sum.ended_paths += report.ended_paths;
+        sum.not_finite += report.not_finite;
+    }
+    return sum;
+}
+
+nlohmann::ordered_json seconds_of(const RenderReport& report) {
+    return {{"load", report.world.load_seconds},
+            {"voxelize", report.world.voxelize_seconds},
+            {"place", report.world.place_seconds},
+            {"index", report.world.index_seconds},
+            {"image", report.image_seconds}};
+}
+
+/// What a frame did anew, and what it took over from the frame before.
+nlohmann::ordered_json frame_statistics(const FrameReport& frame) {
+    const RenderReport& report = frame.report;
+    return {{"frame", frame.frame},
+            {"voxelized", report.world.voxelized},
+            {"painted_bricks", report.world.painted_bricks},
+            {"world_kept", report.world.is_kept},
+            {"hits_kept", report.hits_are_kept},
+            {"image_kept", report.is_kept},
+            {"seconds", seconds_of(report)}};
+}
+
+nlohmann::ordered_json statistics(const Outcome& outcome) {
+    const DeviceCounters& counters = outcome.device.counters();
+    const RenderReport report = sum_of(outcome.frames);
+    nlohmann::ordered_json json;
+    json["version"] = version();
+    json["device"] = outcome.device.info().name;
+    json["driver"] = outcome.device.info().driver;
+    json["lanes"] = outcome.device.lanes();
+    json["size"] = {outcome.size.x, outcome.size.y};
+    json["files"] = outcome.files;
+    json["voxels"] = report.voxels;
+    json["triangles"] = report.world.triangles;
+    json["sight_rays"] = report.sight_rays;
+    json["shadow_rays"] = report.shadow_rays;
+    json["secondary_rays"] = report.secondary_rays;
+    json["ended_paths"] = report.ended_paths;
+    json["not_finite"] = report.not_finite;
+    json["world_bytes"] = report.world_bytes;
+    json["peak_device_bytes"] = counters.peak_bytes;
+    json["seconds"] = seconds_of(report);
+    json["seconds"]["total"] = outcome.seconds;
+    json["frames"] = nlohmann::ordered_json::array();
+    for (const FrameReport& frame : outcome.frames)
+        json["frames"].push_back(frame_statistics(frame));
+    json["kernel_ms"] = counters.kernel_ms;
+    json["launches"] = counters.launches;
+    json["allocated_bytes"] = counters.allocated_bytes;
+    json["programs"] = {{"made", counters.programs_built},
+                        {"from_cache", counters.programs_from_cache},
+                        {"ms", counters.build_ms}};
+    return json;
+}
+
+/// "845", "84.5 k", "8.45 M"
+std::string count_text(uint64_t count) {
+    const double n = double(count);
+    if (n < 1e4) return fmt::format("{}", count);
+    return n < 1e6 ? fmt::format("{:.1f} k", n / 1e3) : fmt::format("{:.2f} M", n / 1e6);
+}
+
+/// How many frames took over what, where there are several.
+std::string reuse_text(const std::vector<FrameReport>& frames) {
+    if (frames.size() < 2) return "";
+    const auto count = [&](auto&& is_so) { return std::ranges::count_if(frames, is_so); };
+    return fmt::format("{} frames, of which {} kept the world, {} their hits and {} the image; ",
+                       frames.size(),
+                       count([](const FrameReport& frame) { return frame.report.world.is_kept; }),
+                       count([](const FrameReport& frame) { return frame.report.hits_are_kept; }),
+                       count([](const FrameReport& frame) { return frame.report.is_kept; }));
+}
+
+}  // namespace
+
+void write_statistics(const std::string& path, const Outcome& outcome) {
+    AtomicFile file(path);
+    // The device's name may be in any encoding.
+    const std::string text =
+        statistics(outcome).dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) +
+        "\n";
+    file.write(text.data(), text.size());
+    file.commit();
+}
+
+void print_summary(const Outcome& outcome) {
+    const RenderReport report = sum_of(outcome.frames);
+    const std::string secondary =
+        report.secondary_rays > 0
+            ? fmt::format(", {} secondary rays ({} paths ended early)",
+                          count_text(report.secondary_rays), count_text(report.ended_paths))
+            : "";
+    fmt::print(stderr,
+               "{}x{} in {:.2f} s on \"{}\": {}{} voxels, {} sight and {} shadow rays{}; "
+               "load {:.0f} ms, voxelize {:.0f}, place {:.0f}, index {:.0f}, image {:.0f}\n",
+               outcome.size.x, outcome.size.y, outcome.seconds, outcome.device.info().name,
+               reuse_text(outcome.frames), count_text(report.voxels), count_text(report.sight_rays),
+               count_text(report.shadow_rays), secondary, report.world.load_seconds * 1e3,
+               report.world.voxelize_seconds * 1e3, report.world.place_seconds * 1e3,
+               report.world.index_seconds * 1e3, report.image_seconds * 1e3);
+}
+
+void print_details(const Outcome& outcome) {
+    const DeviceCounters& counters = outcome.device.counters();
+    const RenderReport report = sum_of(outcome.frames);
+    fmt::print(stderr, "  {} lanes, driver {}; {} triangles; world {:.1f} MB, at most {:.1f} MB\n",
+               outcome.device.lanes(), outcome.device.info().driver, report.world.triangles,
+               double(report.world_bytes) / 1e6, double(counters.peak_bytes) / 1e6);
+    fmt::print(stderr, "  {} programs in {:.0f} ms, {} of them compiled before\n",
+               counters.programs_built, counters.build_ms, counters.programs_from_cache);
+    if (outcome.frames.size() > 1)
+        for (const FrameReport& frame : outcome.frames)
+            fmt::print(stderr, "  frame {:<5} {:>3} voxelized, {:>7} bricks painted{}\n",
+                       frame.frame, frame.report.world.voxelized, frame.report.world.painted_bricks,
+                       frame.report.is_kept         ? ", the image kept"
+                       : frame.report.hits_are_kept ? ", hits kept"
+                                                    : "");
+    for (const auto& [kernel, ms] : counters.kernel_ms)
+        fmt::print(stderr, "  {:<24}{:>10.2f} ms {:>6} launches\n", kernel, ms,
+                   counters.launches.at(kernel));
+}
+
+}  // namespace voxelume::cli
