@@ -53,8 +53,9 @@ kernel void classify_bricks(const uint count, global const uint* restrict listed
                             global const uint* restrict slots, global const ulong* restrict near,
                             global const short* restrict distance, global uchar* restrict states) {
     const uint item = work_item();
-    if (item >= count || states[item] == VXL_SURFACE) return;
+    if (item >= count) return;
     const uint index = listed ? listed[item] : item;
+    if (states[index] == VXL_SURFACE) return;
     const PlacedObject object = {rows, fraction_bits, object_bricks, slots};
     const int4 low = (brick_at(index, world_bricks) << 5) - (int4)(2, 2, 2, 0);
     const CellBox box = map_box(&object, low, 36, true);
@@ -69,7 +70,7 @@ kernel void classify_bricks(const uint count, global const uint* restrict listed
     if (state == VXL_FULL &&
         (VXL_KEEPS_INSIDE || is_at_bounds(bounds, brick_at(index, world_bricks) * 16, 16)))
         state = VXL_SURFACE;
-    states[item] = (uchar)max((uint)states[item], state);
+    states[index] = (uchar)max((uint)states[index], state);
 }
 
 // One leaf of the world: the smaller of its distances and the object's. `scale` turns the object's
@@ -183,7 +184,7 @@ kernel void paint_smooth_voxels(
         const uint kind =
             VXL_ATTRIBUTES ? world_attributes[number] & VXL_KIND_EXACT << VXL_KIND_SHIFT : 0u;
         if (kind == 0u && (int)abs(value) <= crossing) crossed |= 1ul << i;
-        const size_t kept = (size_t)(item >> 6) * VXL_BRICK_VOXELS + place;
+        const size_t kept = (size_t)painted_place(item, painted) * VXL_BRICK_VOXELS + place;
         if (value > nearest[kept]) continue;
         nearest[kept] = value;
         const int4 at = cell - gathered.first;
