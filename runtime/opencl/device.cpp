@@ -37,6 +37,7 @@ struct Device::State {
     cl::CommandQueue queue;
     std::map<std::string, cl::Program> programs;
     DeviceCounters counters;
+    std::map<std::string, cl::Program> programs;
     bool timing = false;
     std::vector<std::pair<std::string, cl::Event>> timed;  ///< launches whose time isn't added yet
 

@@ -71,6 +71,8 @@ class Device {
     const cl::Device& handle() const;
     cl::CommandQueue& queue() const;
     DeviceCounters& counters() const;
+    /// The programs made ready so far, by a hash of what they were made of; kept until it closes.
+    std::map<std::string, cl::Program>& programs() const;
 
     /// Programs that were made ready on this device, by what they were made of.
     std::map<std::string, cl::Program>& programs() const;
