@@ -35,7 +35,6 @@ struct Device::State {
     DeviceInfo info;
     cl::Context context;
     cl::CommandQueue queue;
-    std::map<std::string, cl::Program> programs;
     DeviceCounters counters;
     std::map<std::string, cl::Program> programs;
     bool timing = false;

@@ -97,10 +97,6 @@ cl::Program build_with_pocl(const Device& device, const std::string& source,
 
 cl::Program build_program(const Device& device, const std::string& label, const std::string& source,
                           const std::string& options) {
-    // PoCL preprocesses a source with its own headers of 1 MB to find it in its cache: 20 ms.
-    const std::string key = options + '\n' + source;
-    if (const auto known = device.programs().find(key); known != device.programs().end())
-        return known->second;
     const auto start = std::chrono::steady_clock::now();
     cl::Program program;
     try {
@@ -119,7 +115,6 @@ cl::Program build_program(const Device& device, const std::string& label, const 
     ++device.counters().programs_built;
     device.counters().build_ms +=
         std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-    device.programs().emplace(key, program);
     return program;
 }
 

@@ -1,4 +1,4 @@
-// Programs compiled once: from source, from what an earlier run left on the disk, or from memory.
+// Programs compiled once: from source, or from what an earlier run left on the disk.
 #pragma once
 
 #include <string>
@@ -7,8 +7,7 @@
 
 namespace voxelume {
 
-/// A program for `device`, ready for its kernels to be taken. It is made once while the device is
-/// open.
+/// A program for `device`, ready for its kernels to be taken.
 ///
 /// What the compiler made is kept below `cache_folder()`, under a hash of the source with its
 /// includes, the options, and the versions of the platform, the driver and this cache; nothing
