@@ -20,7 +20,17 @@ struct TracedScene {
 Scene whitted_scene(Surface surface, int resolution, glm::ivec2 size) {
     auto document = nlohmann::json::parse(whitted_text(), nullptr, true, true);
     document["world"]["voxel_size"] = 1.0 / resolution;
-    for (auto& [name, model] : document["models"].items()) model["surface"] = name_of(surface);
+    auto& models = document["models"];
+    if (surface != Surface::exact) {
+        // Voxels of objects that overlap are united: only a difference makes the glass hollow.
+        models["outside"] = {{"difference", {models["outside"], models["hollow"]}}};
+        auto& objects = document["objects"];
+        std::erase_if(objects.get_ref<nlohmann::json::array_t&>(),
+                      [](const auto& object) { return object["name"] == "hollow"; });
+        models.erase("hollow");
+        document["materials"].erase("air");
+    }
+    for (auto& [name, model] : models.items()) model["surface"] = name_of(surface);
     Scene scene = parse_scene(document.dump(), "whitted.json", {});
     resize(scene, size);
     return scene;

@@ -95,6 +95,7 @@ PeerTimes run_embree(const PeerMesh& mesh, const BenchTruth& truth, Image& image
     auto start = std::chrono::steady_clock::now();
     RTCDevice device = embree_device();
     RTCScene scene = rtcNewScene(device);
+    rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);  // without it rays pass between triangles
     RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
     rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
                                mesh.positions.data(), 0, sizeof(glm::vec3), mesh.positions.size());

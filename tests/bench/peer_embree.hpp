@@ -21,7 +21,7 @@ PeerMesh tessellated(const BenchSolid& solid, int rings);
 /// "Embree 3.13.5"
 std::string embree_name();
 
-/// Builds a scene of medium quality and traces packets of 16 coherent rays.
+/// Builds a watertight scene of medium quality and traces packets of 16 coherent rays.
 PeerTimes run_embree(const PeerMesh& mesh, const BenchTruth& truth, Image& image);
 
 }  // namespace voxelume
