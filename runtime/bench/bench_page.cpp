@@ -283,7 +283,7 @@ std::string method() {
         "outline. A hit more than {} voxels from the true one shows another part of the surface: "
         "it is "
         "counted, and left out of depth and normals. Colours are compared with the mean light over "
-        "each pixel's square, by 16 to 256 rays traced in double; FLIP is that of Andersson et al. "
+        "each pixel's square, by 16 or 64 rays traced in double; FLIP is that of Andersson et al. "
         "2020 for 67 pixels a degree.</p>\n<p><i>Cubes</i> are the supercover, as scenes have it "
         "without a "
         "<code>set</code>. The total is all stages from the model to the image, without writing "

@@ -26,8 +26,8 @@ struct BenchTruth {
 
 /// Computed on all the processor's threads.
 ///
-/// A pixel's light is the mean over its square by 4 x 4 rays, and by 16 x 16 where those differ by
-/// more than 1/256 of a unit.
+/// A pixel's light is the mean over its square by 4 x 4 rays, and by 8 x 8 where those differ by
+/// more than 1/64 of a unit.
 BenchTruth bench_truth(const BenchSubject& subject, glm::ivec2 size);
 
 }  // namespace voxelume
