@@ -23,7 +23,9 @@ Scene whitted_scene(Surface surface, int resolution, glm::ivec2 size) {
     auto& models = document["models"];
     if (surface != Surface::exact) {
         // Voxels of objects that overlap are united: only a difference makes the glass hollow.
-        models["outside"] = {{"difference", {models["outside"], models["hollow"]}}};
+        for (const char* name : {"outside", "hollow"}) models[name].erase("surface");
+        models["outside"] = {{"shape", "difference"},
+                             {"parts", {models["outside"], models["hollow"]}}};
         auto& objects = document["objects"];
         std::erase_if(objects.get_ref<nlohmann::json::array_t&>(),
                       [](const auto& object) { return object["name"] == "hollow"; });
