@@ -28,6 +28,8 @@ struct Features {
     bool cube_bodies = false;          ///< some object of cubes lets light through
     bool voxel_opacity = false;        ///< voxels have opacities of their own
 
+    friend bool operator==(const Features&, const Features&) = default;
+
     bool exact() const { return triangles || solids; }
 
     Defines defines(const Device& device) const {
