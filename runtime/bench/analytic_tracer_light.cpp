@@ -4,7 +4,7 @@
 #include <glm/exponential.hpp>
 #include <glm/geometric.hpp>
 
-#include "tests/oracles/analytic_tracer_point.hpp"
+#include "runtime/bench/analytic_tracer_point.hpp"
 
 namespace voxelume::oracle {
 namespace {
