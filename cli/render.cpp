@@ -13,6 +13,7 @@
 #include "cli/commands.hpp"
 #include "cli/scene_options.hpp"
 #include "runtime/error.hpp"
+#include "runtime/interior.hpp"
 #include "runtime/io/atomic_file.hpp"
 #include "runtime/io/exr.hpp"
 #include "runtime/io/frame_list.hpp"
@@ -111,6 +112,7 @@ nlohmann::ordered_json statistics(const Outcome& outcome) {
     json["shadow_rays"] = report.shadow_rays;
     json["secondary_rays"] = report.secondary_rays;
     json["ended_paths"] = report.ended_paths;
+    json["lost_members"] = report.lost_members;
     json["not_finite"] = report.not_finite;
     json["world_bytes"] = report.world_bytes;
     json["peak_device_bytes"] = counters.peak_bytes;
@@ -158,6 +160,15 @@ void print_summary(const Outcome& outcome) {
                count_text(report.shadow_rays), secondary, report.world.load_seconds * 1e3,
                report.world.voxelize_seconds * 1e3, report.world.place_seconds * 1e3,
                report.world.index_seconds * 1e3, report.image_seconds * 1e3);
+}
+
+void warn_of_lost_members(uint64_t count) {
+    if (count == 0) return;
+    fmt::print(
+        stderr,
+        "warning: {} times a ray came into more than {} transmitting objects at once, which it "
+        "can't remember: colours behind them are wrong; let fewer objects overlap\n",
+        count_text(count), kMostMembers);
 }
 
 void print_details(const Outcome& outcome) {
@@ -232,6 +243,7 @@ int run(const RenderOptions& options) {
     if (!options.stats.empty()) write_statistics(options.stats, statistics(outcome));
     if (options.quiet) return 0;
     print_summary(outcome);
+    warn_of_lost_members(report.lost_members);
     if (options.verbose) print_details(outcome);
     return 0;
 }

@@ -11,6 +11,7 @@
 #include <glm/vec3.hpp>
 
 #include <cstdint>
+#include <vector>
 
 #include "runtime/opencl/buffer.hpp"
 #include "runtime/surface.hpp"
@@ -64,6 +65,11 @@ struct BrickGrid {
     Buffer<uint32_t> solids;               ///< analytic solids, shared/solid.h
 };
 
+/// An axis-parallel box in a grid's voxels; empty where `low` exceeds `high` on any axis.
+struct VoxelBox {
+    glm::dvec3 low{0}, high{-1};
+};
+
 /// The sparse 64-ary occupancy pyramid that rays step through, without a stack.
 ///
 /// `sectors` is dense; everything below is left-packed in ascending order, so empty space costs
@@ -91,6 +97,7 @@ struct Pyramid {
     Buffer<float> triangles;
     Buffer<uint32_t> triangle_attributes;
     Buffer<uint32_t> solids;
+    std::vector<VoxelBox> object_boxes;  ///< around each of the scene's objects; none if not known
 };
 
 }  // namespace voxelume

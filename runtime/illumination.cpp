@@ -7,6 +7,7 @@
 
 #include "kernels/shared/solid.h"
 #include "kernels/shared/voxel.h"
+#include "runtime/interior.hpp"
 #include "runtime/stages/spots.hpp"
 
 namespace voxelume {
@@ -106,12 +107,21 @@ RayQueue allocate_queue(const Device& device, const Features& features, uint32_t
     RayQueue queue;
     queue.rays = Buffer<float>(device, "rays", size_t(places) * VXL_RAY_COMPONENTS);
     if (!features.paths) return queue;
-    const size_t components = features.transmission ? VXL_PATH_COMPONENTS : VXL_PATH_CELL;
+    const size_t components =
+        features.transmission ? VXL_PATH_INSIDE + size_t(features.interior_members) : VXL_PATH_CELL;
     queue.paths = Buffer<uint32_t>(device, "paths", places * components);
     if (!features.transmission) return queue;
     queue.starts = Buffer<float>(device, "path starts", places);
     queue.inside = Buffer<uint32_t>(device, "path media", places);
     return queue;
+}
+
+/// Surroundings::lost.
+Buffer<uint32_t> allocate_lost(const Device& device, const Features& features) {
+    if (!features.interior_capped) return {};
+    Buffer<uint32_t> lost(device, "lost members", 1);
+    lost.fill(0);
+    return lost;
 }
 
 /// The first records of the solids that light goes through.
@@ -139,6 +149,7 @@ Features features_of(const Scene& scene, const Pyramid& world) {
     features.medium = scene.world.medium.absorption != glm::vec3(0);
     features.medium_grid = features.medium && has_density(scene.world.medium);
     add_paths(scene, features);
+    add_interior(scene, world, features);
     return features;
 }
 
@@ -169,7 +180,7 @@ Illumination::Illumination(const Device& device, const Features& features, const
       most_depth_(size_t(scene.render.depth)),
       trace_(device, features),
       shade_(device, features, scene, world.frame),
-      surroundings_{shade_.materials(), shade_.ranks()},
+      surroundings_{shade_.materials(), shade_.ranks(), allocate_lost(device, features)},
       queue_(lights_.empty()
                  ? ShadowQueue{}
                  : allocate_shadow_queue(device, features,
@@ -180,6 +191,11 @@ Illumination::Illumination(const Device& device, const Features& features, const
     if (features.paths)
         scatter_.emplace(device, features, surroundings_, float(scene.render.least_weight),
                          compact);
+    if (features.immersed) {
+        hollow_ = hollow_objects(scene);
+        hollow_flags_ =
+            Buffer<uint32_t>(device, "hollow objects", std::span<const uint32_t>(hollow_.flags));
+    }
     if (features.transmission && features.solids)
         scatter_->set_bodies(transmitting_solids(device, scene, world));
 }
@@ -187,6 +203,8 @@ Illumination::Illumination(const Device& device, const Features& features, const
 void Illumination::light(RayBatch& batch, uint32_t count, const LayerSink& sink) {
     if (!features_.paths) return direct(batch, count, false);
     scatter_->begin(world_, batch, count);
+    if (features_.immersed)
+        trace_.begin_inside(world_, surroundings_, hollow_flags_, hollow_.most, batch, count);
     reserve_nodes(0, batch.stride);
     follow(0, batch, count, sink);
     Depth& depth = *depths_[0];
@@ -266,6 +284,10 @@ void Illumination::reserve_nodes(size_t number, uint32_t count) {
     const size_t branches = features_.refracts ? 2 : 1;
     depth.children.nodes = Buffer<uint32_t>(device_, "path children", places * branches);
     depth.children.shares = Buffer<float>(device_, "path shares", places * branches);
+}
+
+uint64_t Illumination::lost_members() const {
+    return surroundings_.lost.empty() ? 0 : surroundings_.lost.read_one(0);
 }
 
 uint64_t Illumination::shadow_rays() const {

@@ -54,6 +54,7 @@ Image render(const Device& device, const Scene& scene, RenderReport& report,
     report.shadow_rays = illumination.shadow_rays();
     report.secondary_rays = illumination.secondary_rays();
     report.ended_paths = illumination.ended_paths();
+    report.lost_members = illumination.lost_members();
     report.voxels = world.voxel_count;
     report.world_bytes = bytes_of(world);
     report.image_seconds =

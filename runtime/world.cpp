@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "runtime/error.hpp"
+#include "runtime/object_boxes.hpp"
 #include "runtime/plan.hpp"
 #include "runtime/stages/index.hpp"
 #include "runtime/stages/place.hpp"
@@ -134,6 +135,7 @@ Pyramid form_world(const Device& device, const Scene& scene, WorldReport& report
 
     Stopwatch watch(report.index_seconds);
     Pyramid pyramid = build_index(device, world);
+    pyramid.object_boxes = object_boxes(scene, meshes);
     device.finish();
     watch.stop();
     return pyramid;

@@ -24,8 +24,8 @@ static inline lane_int pass_through(const PyramidView* p, const SurfaceView* s, 
                                     lane_float t_end, lane_int active, Travel* travel,
                                     uint constant_attribute, global const float* restrict materials,
                                     global const uint* restrict colors,
-                                    global const uint* restrict ranks, lane_float metres,
-                                    Filter* filter) {
+                                    global const uint* restrict ranks, global uint* lost,
+                                    lane_float metres, Filter* filter) {
     lane_float t_last = (lane_float)0.0f;
     // Objects end where the world does.
     lane_float t_in = t_last, t_out = t_end;
@@ -66,7 +66,10 @@ static inline lane_int pass_through(const PyramidView* p, const SurfaceView* s, 
             inner = cube & leaving & ~found.exit;
             leaving = LANES_SELECT(cube, found.exit, leaving);
         }
-        travel->interior = cross_interior(travel->interior, word, smooth, leaving, passing);
+        lane_int full;
+        travel->interior =
+            cross_interior_or_lose(travel->interior, word, smooth, leaving, passing, &full);
+        if (VXL_INTERIOR_CAPPED && lanes_any(full)) atomic_add(lost, (uint)lanes_count(full));
         lane_int hidden = same_member(before, effective_member(&travel->interior, ranks)) & passing;
         if (VXL_CUBE_BODIES) {
             hidden |= found.exit & LANE_MASK(refraction == 0.0f);

@@ -27,6 +27,10 @@ struct Features {
     bool filtered_refraction = false;  ///< refracting ones among them
     bool cube_bodies = false;          ///< some object of cubes lets light through
     bool voxel_opacity = false;        ///< voxels have opacities of their own
+    bool immersed = false;  ///< observers' rays may begin inside of a transmitting mesh or smooth
+                            ///< object
+    int interior_members = 1;      ///< of the sets of transmitting objects that rays are inside of
+    bool interior_capped = false;  ///< ... which may not be enough
 
     bool exact() const { return triangles || solids; }
 
@@ -51,6 +55,9 @@ struct Features {
                 {"VXL_FILTERED", filtered_refraction},
                 {"VXL_CUBE_BODIES", cube_bodies},
                 {"VXL_VOXEL_OPACITY", voxel_opacity},
+                {"VXL_IMMERSED", immersed},
+                {"VXL_INTERIOR_MEMBERS", interior_members},
+                {"VXL_INTERIOR_CAPPED", interior_capped},
                 {"VXL_NATIVE_DIVIDE", device.is_cpu()}};
     }
 };
