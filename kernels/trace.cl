@@ -161,11 +161,14 @@ kernel void begin_inside(VXL_WORLD_ARGUMENTS, uint constant_attribute,
 kernel void trace_shadows(VXL_WORLD_ARGUMENTS, uint constant_attribute,
                           global const float* restrict materials,
                           global const uint* restrict colors, global const uint* restrict ranks,
-                          global uint* lost, global const float* restrict rays,
-                          global const uint* restrict count, uint stride,
-                          global const uint* restrict targets, global const uint* restrict sources,
-                          global const uint* restrict paths, global const float* restrict shares,
-                          global uint* restrict traced, global float* restrict radiance) {
+                          global uint* lost, float4 absorption, DensityShape density_shape,
+                          global const uint* restrict density_bricks,
+                          global const float* restrict density_values,
+                          global const float* restrict rays, global const uint* restrict count,
+                          uint stride, global const uint* restrict targets,
+                          global const uint* restrict sources, global const uint* restrict paths,
+                          global const float* restrict shares, global uint* restrict traced,
+                          global float* restrict radiance) {
     const uint first = work_item() * VXL_LANES;
     const uint queued = *count;
     if (first >= queued) return;
@@ -199,10 +202,11 @@ kernel void trace_shadows(VXL_WORLD_ARGUMENTS, uint constant_attribute,
         if (VXL_CUBE_BODIES) find_body(&travel, materials);
         const Vector d = {walk.dx, walk.dy, walk.dz};
         const lane_float zero = (lane_float)0.0f, one = (lane_float)1.0f;
+        const MediumView medium = {absorption, {density_shape, density_bricks, density_values}};
         Filter filter = {{one, one, one}, {zero, zero, zero}};
-        arrived =
-            pass_through(&pyramid, &surface, &walk, t_end, active, &travel, constant_attribute,
-                         materials, colors, ranks, lost, metres_per_t(shape.edge, d), &filter);
+        arrived = pass_through(&pyramid, &surface, &walk, t_end, active, &travel,
+                               constant_attribute, materials, colors, ranks, lost, &medium,
+                               metres_per_t(shape.edge, d), &filter);
         for (int channel = 0; channel < 3; ++channel)
             share[channel] *= filter.passed[channel] * exact_exp(-filter.depth[channel]);
     } else {

@@ -87,9 +87,9 @@ void add_paths(const Scene& scene, Features& features) {
         fresnel |= m->fresnel && (m->reflection > 0 || m->refraction > 0);
         absorption |= m->absorption != glm::vec3(0) && (transmits(*m) || features.voxel_opacity);
     }
-    const bool filters =
-        features.shadows && (opacity || (refraction && scene.render.filtered_shadows));
-    features.transmission = opacity || (refraction && (follows || filters));
+    features.transmission =
+        opacity || (refraction && (follows || (features.shadows && scene.render.filtered_shadows)));
+    const bool filters = features.shadows && features.transmission;
     features.refracts = follows && (refraction || fresnel);
     features.paths = features.transmission || (follows && reflection);
     features.absorbs = features.medium || (features.transmission && absorption);
@@ -188,6 +188,10 @@ Illumination::Illumination(const Device& device, const Features& features, const
     if (!lights_.empty()) lighting_.emplace(device, features, shade_.materials());
     if (features.absorbs)
         medium_.emplace(device, features, scene.world, shade_.space(), shade_.materials());
+    if (features.medium) {
+        surroundings_.absorption = shade_.space().absorption;
+        surroundings_.density = medium_->density();
+    }
     if (features.paths)
         scatter_.emplace(device, features, surroundings_, float(scene.render.least_weight),
                          compact);
@@ -219,7 +223,7 @@ void Illumination::direct(RayBatch& entries, uint32_t count, bool scattered) {
     shade_.surface(world_, entries, count);
     for (const LightRecord& light : lights_) {
         lighting_->add(world_, light, entries, count, queue_);
-        if (features_.medium) medium_->shadows(world_, queue_, count, entries);
+        if (features_.medium && !features_.filter) medium_->shadows(world_, queue_, count, entries);
         if (features_.shadows) trace_.shadows(world_, surroundings_, queue_, count, entries);
     }
     if (medium_) medium_->sight(world_, entries, count);

@@ -23,7 +23,7 @@ struct Features {
     bool transmission = false;  ///< some object lets light through
     bool refracts = false;      ///< some surface bends rays, or reflects by Fresnel's law
     bool absorbs = false;       ///< the space, or an object that light goes through, takes of it
-    bool filter = false;        ///< shadow rays go on through some surfaces
+    bool filter = false;        ///< shadow rays may go through transmitting objects
     bool filtered_refraction = false;  ///< refracting ones among them
     bool cube_bodies = false;          ///< some object of cubes lets light through
     bool voxel_opacity = false;        ///< voxels have opacities of their own

@@ -80,8 +80,10 @@ void TraceStage::shadows(const Pyramid& pyramid, const Surroundings& surrounding
                             pyramid.primitive_first, pyramid.primitives, pyramid.triangles,
                             pyramid.triangle_attributes, pyramid.solids, pyramid.attribute,
                             surroundings.materials, pyramid.colors, surroundings.ranks,
-                            surroundings.lost, queue.rays, queue.count, batch.stride, queue.targets,
-                            queue.sources, batch.paths, queue.shares, queue.traced, batch.radiance);
+                            surroundings.lost, surroundings.absorption, surroundings.density.shape,
+                            surroundings.density.bricks, surroundings.density.values, queue.rays,
+                            queue.count, batch.stride, queue.targets, queue.sources, batch.paths,
+                            queue.shares, queue.traced, batch.radiance);
 }
 
 }  // namespace voxelume
