@@ -77,15 +77,11 @@ WorldParts parts_of(std::span<const PlacedObject> objects) {
     return parts;
 }
 
-/// The objects with the loser of every overlap before its winner; exact ones first of all, since
-/// they share their voxels with smooth surfaces and lose them to cubes.
+/// The objects with the loser of every overlap before its winner.
 std::vector<const PlacedObject*> painting_order(std::span<const PlacedObject> objects) {
     std::vector<const PlacedObject*> order;
     for (size_t i = objects.size(); i-- > 0;) order.push_back(&objects[i]);
     std::ranges::stable_sort(order, {}, &PlacedObject::priority);
-    std::stable_partition(order.begin(), order.end(), [](const PlacedObject* object) {
-        return surface_of(*object->grid) == Surface::exact;
-    });
     return order;
 }
 
@@ -115,21 +111,23 @@ Painter prepare(const Device& device, const PlacedObject& object, const GridFram
     const Surface surface = surface_of(grid);
     const PlacementMap map = map_of(object, world, surface);
     const bool smooth = surface == Surface::smooth;
-    Painter painter{.placed = &object,
-                    .surface = surface,
-                    .map = map,
-                    .rows = Buffer<int64_t>(device, "placement", map.rows),
-                    .program = Program(device, "place.cl",
-                                       {{"VXL_SMOOTH", smooth},
-                                        {"VXL_ATTRIBUTES", parts.words.size() > 1},
-                                        {"VXL_COLORS", parts.colors},
-                                        {"VXL_OBJECT_ATTRIBUTES", !grid.attributes.empty()},
-                                        {"VXL_OBJECT_COLORS", !grid.colors.empty()},
-                                        {"VXL_WORLD_OCCUPANCY", parts.occupancy},
-                                        {"VXL_REACH", map.has_reach},
-                                        {"VXL_KEEPS_INSIDE", object.keeps_inside}}),
-                    .words = word_map(device, object, surface),
-                    .near = Buffer<uint64_t>(device, "near leaves", grid.brick_count)};
+    Painter painter{
+        .placed = &object,
+        .surface = surface,
+        .map = map,
+        .rows = Buffer<int64_t>(device, "placement", map.rows),
+        .program = Program(device, "place.cl",
+                           {{"VXL_SMOOTH", smooth},
+                            {"VXL_ATTRIBUTES", parts.words.size() > 1},
+                            {"VXL_COLORS", parts.colors},
+                            {"VXL_OBJECT_ATTRIBUTES", !grid.attributes.empty()},
+                            {"VXL_OBJECT_COLORS", !grid.colors.empty()},
+                            {"VXL_WORLD_OCCUPANCY", parts.occupancy},
+                            {"VXL_AMONG_SMOOTH", surface == Surface::exact && parts.smooth},
+                            {"VXL_REACH", map.has_reach},
+                            {"VXL_KEEPS_INSIDE", object.keeps_inside}}),
+        .words = word_map(device, object, surface),
+        .near = Buffer<uint64_t>(device, "near leaves", grid.brick_count)};
     const double band = std::ceil(kBandVoxels * kDistanceUnitsPerVoxel / map.distance_scale);
     const int threshold = static_cast<int>(std::min(band, 32767.0));
     painter.program.kernel("mark_near_leaves")
@@ -222,7 +220,7 @@ void paint_smooth(Painter& painter, BrickGrid& world, const Buffer<int16_t>& nea
                 world.distance, nearest, world.occupancy, world.attributes, world.colors);
 }
 
-void paint_cubes(Painter& painter, BrickGrid& world) {
+void paint_cubes(Painter& painter, BrickGrid& world, const Buffer<int16_t>& nearest) {
     const BrickGrid& grid = *painter.placed->grid;
     const uint32_t leaves = world.brick_count * 64;
     painter.program.kernel("paint_cubes")
@@ -230,7 +228,7 @@ void paint_cubes(Painter& painter, BrickGrid& world) {
                 painter.map.fraction_bits, painter.rows, glm::ivec4(grid.frame.bricks(), 0),
                 grid.slots, painter.near, grid.occupancy, painter.words.map,
                 painter.words.materials, grid.attributes, grid.colors,
-                glm::ivec4(world.frame.size, 0), world.coordinates, world.occupancy,
+                glm::ivec4(world.frame.size, 0), world.coordinates, nearest, world.occupancy,
                 world.attributes, world.colors);
 }
 
@@ -268,7 +266,7 @@ BrickGrid place(const Device& device, std::span<const PlacedObject> objects,
         if (painter.surface == Surface::smooth)
             paint_smooth(painter, result, nearest);
         else
-            paint_cubes(painter, result);
+            paint_cubes(painter, result, nearest);
     }
     const auto smooth = std::ranges::find(painters, Surface::smooth, &Painter::surface);
     if (smooth != painters.end()) close_distances(*smooth, result);
