@@ -82,9 +82,9 @@ struct Pyramid {
     Buffer<uint32_t> sectors;  ///< n: its brick records are 64n .. 64n+63, in the order of mask
                                ///< bits; or 1<<31 | log2 of the empty cube around it: 6 its own
                                ///< 64³, 8 its aligned 256³
-    Buffer<uint32_t> bricks;   ///< 4 per record: mask low, mask high (of leaves), first leaf, log2
-                               ///< of the empty cube when the mask is 0 (4 its own, 5 its aligned
-                               ///< 32³)
+    Buffer<uint32_t> bricks;   ///< 4 per record: mask low, mask high (of leaves), then the first
+                               ///< leaf of each half; or, when the mask is 0, twice 1<<31 | log2 of
+                               ///< the empty cube: 4 its own, 5 its aligned 32³
     Buffer<uint32_t> leaves;   ///< 2 per leaf: mask low, mask high (of voxels)
     Buffer<uint32_t> leaf_voxels;  ///< first voxel of each leaf
     Buffer<uint32_t> attributes;   ///< one per voxel, shared/voxel.h; see `attribute`
