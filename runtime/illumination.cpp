@@ -64,6 +64,7 @@ std::vector<LightRecord> light_records(const Device& device, const Features& fea
 std::vector<const Material*> shown_materials(const Scene& scene) {
     std::set<int> numbers;
     for (const Object& object : scene.objects) {
+        if (!object.visible) continue;
         numbers.insert(object.material);
         for (const GroupMaterial& group : object.groups) numbers.insert(group.material);
     }
@@ -97,7 +98,7 @@ void add_paths(const Scene& scene, Features& features) {
     features.filtered_refraction = filters && scene.render.filtered_shadows;
     features.cube_bodies =
         features.transmission && std::ranges::any_of(scene.objects, [&](const Object& object) {
-            return scene.models[size_t(object.model)].surface == Surface::cubes &&
+            return object.visible && scene.models[size_t(object.model)].surface == Surface::cubes &&
                    (features.voxel_opacity || transmits(scene, object));
         });
 }
@@ -170,6 +171,11 @@ RayBatch allocate_batch(const Device& device, const Features& features, uint32_t
     return batch;
 }
 
+void renew_sight(const Device& device, RayBatch& batch) {
+    batch.rays = Buffer<float>(device, "rays", batch.rays.size());
+    batch.hits = Buffer<uint32_t>(device, "hits", batch.hits.size());
+}
+
 Illumination::Illumination(const Device& device, const Features& features, const Scene& scene,
                            const Pyramid& world, uint32_t most_rays, bool compact)
     : device_(device),
@@ -204,22 +210,25 @@ Illumination::Illumination(const Device& device, const Features& features, const
         scatter_->set_bodies(transmitting_solids(device, scene, world));
 }
 
-void Illumination::light(RayBatch& batch, uint32_t count, const LayerSink& sink) {
-    if (!features_.paths) return direct(batch, count, false);
+void Illumination::light_all(RayBatch& batch, uint32_t count, const LayerSink& sink,
+                             bool hits_are_known) {
+    if (!features_.paths) {
+        if (!hits_are_known) trace_.closest(world_, batch, count);
+        return direct(batch, count);
+    }
     scatter_->begin(world_, batch, count);
     if (features_.immersed)
         trace_.begin_inside(world_, surroundings_, hollow_flags_, hollow_.most, batch, count);
     reserve_nodes(0, batch.stride);
-    follow(0, batch, count, sink);
+    follow(0, batch, count, hits_are_known, sink);
     Depth& depth = *depths_[0];
     if (!features_.transmission) return;
     std::swap(batch.radiance, depth.nodes.radiance);
     std::swap(batch.coverage, depth.nodes.coverage);
 }
 
-/// Blocks 3 to 5.
-void Illumination::direct(RayBatch& entries, uint32_t count, bool scattered) {
-    trace_.closest(world_, entries, count, scattered);
+/// Blocks 4 and 5: lights what the rays have met.
+void Illumination::direct(RayBatch& entries, uint32_t count) {
     shade_.surface(world_, entries, count);
     for (const LightRecord& light : lights_) {
         lighting_->add(world_, light, entries, count, queue_);
@@ -230,11 +239,13 @@ void Illumination::direct(RayBatch& entries, uint32_t count, bool scattered) {
 }
 
 /// Fills the nodes of a depth, whose rays are in `first`.
-void Illumination::follow(size_t number, RayBatch& first, uint32_t count, const LayerSink& sink) {
+void Illumination::follow(size_t number, RayBatch& first, uint32_t count, bool hits_are_known,
+                          const LayerSink& sink) {
     Depth& depth = *depths_[number];
     RayBatch* entries = &first;
     for (bool is_first = true; count > 0; is_first = false) {
-        direct(*entries, count, number > 0);
+        if (!is_first || !hits_are_known) trace_.closest(world_, *entries, count, number > 0);
+        direct(*entries, count);
         uint32_t on = 0;
         if (features_.transmission)
             on = scatter_->layer(world_, *entries, count, is_first, depth.children, depth.nodes,

@@ -42,6 +42,7 @@ cl::Buffer allocate_in_huge_pages(const cl::Context& context, size_t bytes) {
 BufferStorage::BufferStorage(Device device, std::string name, size_t bytes)
     : device_(std::move(device)), name_(std::move(name)), bytes_(bytes) {
     const DeviceInfo& info = device_.info();
+    const auto locked = device_.lock();
     DeviceCounters& counters = device_.counters();
     if (bytes > info.max_allocation)
         throw Error(ErrorKind::limit,
@@ -65,6 +66,7 @@ BufferStorage::BufferStorage(Device device, std::string name, size_t bytes)
 }
 
 BufferStorage::~BufferStorage() {
+    const auto locked = device_.lock();
     device_.counters().bytes_in_use -= bytes_;
 }
 
@@ -90,6 +92,14 @@ void BufferStorage::fill(const void* pattern, size_t pattern_bytes, size_t bytes
     if (status != CL_SUCCESS)
         throw_device_error(cl::Error(status, "clEnqueueFillBuffer"), device_.info(),
                            fmt::format("filling the {} buffer", name_));
+}
+
+void BufferStorage::copy(const BufferStorage& from, size_t bytes) {
+    try {
+        device_.queue().enqueueCopyBuffer(from.buffer_, buffer_, 0, 0, bytes);
+    } catch (const cl::Error& error) {
+        throw_device_error(error, device_.info(), fmt::format("copying to the {} buffer", name_));
+    }
 }
 
 }  // namespace voxelume

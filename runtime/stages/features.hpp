@@ -32,6 +32,8 @@ struct Features {
     int interior_members = 1;      ///< of the sets of transmitting objects that rays are inside of
     bool interior_capped = false;  ///< ... which may not be enough
 
+    friend bool operator==(const Features&, const Features&) = default;
+
     bool exact() const { return triangles || solids; }
 
     Defines defines(const Device& device) const {
