@@ -108,8 +108,9 @@ RayQueue allocate_queue(const Device& device, const Features& features, uint32_t
     RayQueue queue;
     queue.rays = Buffer<float>(device, "rays", size_t(places) * VXL_RAY_COMPONENTS);
     if (!features.paths) return queue;
-    const size_t components =
-        features.transmission ? VXL_PATH_INSIDE + size_t(features.interior_members) : VXL_PATH_CELL;
+    const size_t components = features.transmission
+                                  ? VXL_PATH_INSIDE + 1 + size_t(features.other_members)
+                                  : VXL_PATH_CELL;
     queue.paths = Buffer<uint32_t>(device, "paths", places * components);
     if (!features.transmission) return queue;
     queue.starts = Buffer<float>(device, "path starts", places);

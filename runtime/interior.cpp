@@ -87,7 +87,7 @@ Features begun_anywhere(Features features, const Scene& scene) {
 void add_interior(const Scene& scene, const Pyramid& world, Features& features) {
     if (!features.transmission) return;
     const int others = most_overlapping(scene, world, features);
-    features.interior_members = 1 + std::min(others, kMostMembers);
+    features.other_members = std::min(others, kMostMembers);
     features.interior_capped = others > kMostMembers;
     const std::vector<uint32_t> hollow = hollow_objects(scene).flags;
     for (size_t i = 0; i < world.object_boxes.size(); ++i)

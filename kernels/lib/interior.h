@@ -9,8 +9,10 @@
 #include "shared/trace.h"
 #include "shared/voxel.h"
 
-/// Attribute words, VXL_NO_MEMBER for none: the smooth body's, then the others'. The build constant
-/// VXL_INTERIOR_MEMBERS says how many a scene needs, at least 1.
+// The build constant says how many others a scene needs.
+#define VXL_INTERIOR_MEMBERS (1 + VXL_OTHER_MEMBERS)
+
+/// Attribute words, VXL_NO_MEMBER for none: the smooth body's, then the others'.
 typedef struct {
     lane_uint members[VXL_INTERIOR_MEMBERS];
 } Interior;

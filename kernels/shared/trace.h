@@ -75,7 +75,7 @@
 #define VXL_MOST_LAYERS 1024  // surfaces that one ray goes straight on through
 
 // Members of a set of objects that a ray is inside of: the first is the smooth one (smooth objects
-// are one body), the others are exact or of cubes, as many as Features::interior_members says.
+// are one body), the others are exact or of cubes, as many as Features::other_members says.
 #define VXL_NO_MEMBER 0xFFFFFFFFu
 
 // How a ray meets a surface: bits of RayBatch::sides.

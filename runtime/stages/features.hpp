@@ -29,7 +29,8 @@ struct Features {
     bool voxel_opacity = false;        ///< voxels have opacities of their own
     bool immersed = false;  ///< observers' rays may begin inside of a transmitting mesh or smooth
                             ///< object
-    int interior_members = 1;      ///< of the sets of transmitting objects that rays are inside of
+    int other_members = 0;  ///< of the sets of transmitting objects that rays are inside of, beside
+                            ///< the smooth body
     bool interior_capped = false;  ///< ... which may not be enough
 
     friend bool operator==(const Features&, const Features&) = default;
@@ -58,7 +59,7 @@ struct Features {
                 {"VXL_CUBE_BODIES", cube_bodies},
                 {"VXL_VOXEL_OPACITY", voxel_opacity},
                 {"VXL_IMMERSED", immersed},
-                {"VXL_INTERIOR_MEMBERS", interior_members},
+                {"VXL_OTHER_MEMBERS", other_members},
                 {"VXL_INTERIOR_CAPPED", interior_capped},
                 {"VXL_NATIVE_DIVIDE", device.is_cpu()}};
     }
