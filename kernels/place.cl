@@ -7,7 +7,8 @@
 // Build constants: VXL_SMOOTH: the object has distances, else occupancy. VXL_ATTRIBUTES,
 // VXL_COLORS: the world has them. VXL_OBJECT_ATTRIBUTES, VXL_OBJECT_COLORS: the object has them.
 // VXL_WORLD_OCCUPANCY: the world has cubes or exact voxels as well. VXL_REACH: the reach is not 0.
-// VXL_KEEPS_INSIDE: bricks inside of the object are stored, too.
+// VXL_KEEPS_INSIDE: bricks inside of the object are stored, too. VXL_AMONG_SMOOTH: the object is
+// exact in a world with smooth ones.
 #include "lib/placed_attributes.h"
 #include "lib/placed_field.h"
 #include "lib/work_item.h"
@@ -201,7 +202,8 @@ kernel void paint_smooth_voxels(
 }
 
 // One leaf of the world: voxels whose centre's image lies in an occupied voxel of the object, or
-// has one within the reach.
+// has one within the reach. A voxel of the smooth body that becomes an exact one keeps the body's
+// word: its primitives have their own.
 kernel void paint_cubes(const uint count, const int4 world_bricks, const int fraction_bits,
                         constant long* rows, const int4 object_bricks,
                         global const uint* restrict slots, global const ulong* restrict near,
@@ -209,7 +211,8 @@ kernel void paint_cubes(const uint count, const int4 world_bricks, const int fra
                         global const uint* restrict materials,
                         global const uint* restrict attributes, global const uint* restrict colors,
                         const int4 world_size, global const uint* restrict painted,
-                        global const uint* restrict coordinates, global ulong* restrict occupancy,
+                        global const uint* restrict coordinates,
+                        global const short* restrict nearest, global ulong* restrict occupancy,
                         global uint* restrict world_attributes,
                         global uint* restrict world_colors) {
     const uint item = work_item();
@@ -233,6 +236,13 @@ kernel void paint_cubes(const uint count, const int4 world_bricks, const int fra
         set |= 1ul << i;
         const size_t number = (size_t)(leaf >> 6) * VXL_BRICK_VOXELS + leaf_place(leaf) + voxel.x +
                               (voxel.y << 4) + (voxel.z << 8);
+        const size_t kept = (size_t)(item >> 6) * VXL_BRICK_VOXELS + number % VXL_BRICK_VOXELS;
+        if (VXL_AMONG_SMOOTH && nearest[kept] != VXL_SATURATED &&
+            world_attributes[number] >> VXL_KIND_SHIFT != VXL_KIND_CUBES) {
+            const uint word = world_attributes[number] & ~(3u << VXL_KIND_SHIFT);
+            world_attributes[number] = word | VXL_KIND_EXACT << VXL_KIND_SHIFT;
+            continue;
+        }
         if (VXL_ATTRIBUTES) world_attributes[number] = word_of(words, materials, attributes, from);
         if (VXL_COLORS) world_colors[number] = color_of(colors, from);
     }

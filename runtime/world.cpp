@@ -2,6 +2,7 @@
 
 #include <chrono>
 
+#include "runtime/object_boxes.hpp"
 #include "runtime/plan.hpp"
 #include "runtime/stages/index.hpp"
 
@@ -88,6 +89,7 @@ FormedWorld WorldFormer::form(const Scene& scene, WorldReport& report) {
     const std::vector<PlacedObject> objects = placed_objects(scene, shown);
     report.voxelized = grids_->voxelized() - voxelized_before;
     voxelizing.stop();
+    std::vector<VoxelBox> boxes = object_boxes(scene, meshes_);
 
     Stopwatch placing(report.place_seconds);
     if (!placer_) placer_.emplace(device_);
@@ -107,6 +109,7 @@ FormedWorld WorldFormer::form(const Scene& scene, WorldReport& report) {
 
     Stopwatch indexing(report.index_seconds);
     FormedWorld formed{build_index(device_, world), ++world_.version};
+    formed.pyramid.object_boxes = std::move(boxes);
     device_.finish();
     indexing.stop();
     if (keeps) {

@@ -30,15 +30,11 @@ void check_object(const PlacedObject& object, const GridFrame& world) {
                     VXL_OBJECT_MASK + 1);
 }
 
-/// The objects with the loser of every overlap before its winner; exact ones first of all, since
-/// they share their voxels with smooth surfaces and lose them to cubes.
+/// The objects with the loser of every overlap before its winner.
 std::vector<const PlacedObject*> painting_order(std::span<const PlacedObject> objects) {
     std::vector<const PlacedObject*> order;
     for (size_t i = objects.size(); i-- > 0;) order.push_back(&objects[i]);
     std::ranges::stable_sort(order, {}, &PlacedObject::priority);
-    std::stable_partition(order.begin(), order.end(), [](const PlacedObject* object) {
-        return surface_of(*object->grid) == Surface::exact;
-    });
     return order;
 }
 

@@ -60,6 +60,7 @@ Program program_for(const Device& device, const PlacedObject& object, Surface su
              {"VXL_OBJECT_ATTRIBUTES", !object.grid->attributes.empty()},
              {"VXL_OBJECT_COLORS", !object.grid->colors.empty()},
              {"VXL_WORLD_OCCUPANCY", parts.occupancy},
+             {"VXL_AMONG_SMOOTH", surface == Surface::exact && parts.smooth},
              {"VXL_REACH", map.has_reach},
              {"VXL_KEEPS_INSIDE", object.keeps_inside}}};
 }
@@ -170,8 +171,8 @@ void Painter::paint_cubes(const PaintedBricks& painted, BrickGrid& world) {
         .launch(WorkItem::heavy, leaves, leaves, glm::ivec4(world.frame.bricks(), 0),
                 map_.fraction_bits, rows_, glm::ivec4(grid.frame.bricks(), 0), grid.slots, near_,
                 grid.occupancy, words_.map, words_.materials, grid.attributes, grid.colors,
-                glm::ivec4(world.frame.size, 0), painted.slots, world.coordinates, world.occupancy,
-                world.attributes, world.colors);
+                glm::ivec4(world.frame.size, 0), painted.slots, world.coordinates, painted.nearest,
+                world.occupancy, world.attributes, world.colors);
 }
 
 void Painter::close_distances(const PaintedBricks& painted, BrickGrid& world) {
