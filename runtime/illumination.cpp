@@ -106,7 +106,9 @@ RayQueue allocate_queue(const Device& device, const Features& features, uint32_t
     RayQueue queue;
     queue.rays = Buffer<float>(device, "rays", size_t(places) * VXL_RAY_COMPONENTS);
     if (!features.paths) return queue;
-    const size_t components = features.transmission ? VXL_PATH_COMPONENTS : VXL_PATH_CELL;
+    const size_t components = features.instances      ? VXL_PATH_COMPONENTS
+                              : features.transmission ? VXL_PATH_INSTANCE
+                                                      : VXL_PATH_CELL;
     queue.paths = Buffer<uint32_t>(device, "paths", places * components);
     if (!features.transmission) return queue;
     queue.starts = Buffer<float>(device, "path starts", places);
@@ -146,7 +148,9 @@ RayBatch allocate_batch(const Device& device, const Features& features, uint32_t
     RayBatch batch;
     static_cast<RayQueue&>(batch) = allocate_queue(device, features, stride);
     batch.stride = stride;
-    const size_t hit_components = features.exact() ? VXL_HIT_COMPONENTS : VXL_HIT_PRIMITIVE;
+    const size_t hit_components = features.instances ? VXL_HIT_COMPONENTS
+                                  : features.exact() ? VXL_HIT_INSTANCE
+                                                     : VXL_HIT_PRIMITIVE;
     batch.hits = Buffer<uint32_t>(device, "hits", stride * hit_components);
     batch.positions = Buffer<float>(device, "positions", size_t(stride) * 3);
     batch.normals = Buffer<float>(device, "normals", size_t(stride) * 3);

@@ -54,7 +54,8 @@ std::vector<KeyTable> make_tables() {
         tables.push_back({"part:" + shape.name, shape.keys + placement});
     tables.push_back(
         {"object",
-         Keys{"name", "model", "material", "materials", "priority", "spots"} + placement});
+         Keys{"name", "model", "material", "materials", "priority", "spots", "placement"} +
+             placement});
     tables.push_back({"light:point", light + Keys{"position"}});
     tables.push_back(
         {"light:spot", light + Keys{"position", "direction", "look_at", "angle", "inner_angle"}});

@@ -112,6 +112,9 @@ Object read_object(const SceneValue& value, size_t number, ObjectNames& names) {
     read_materials_of(fields, names.materials, object);
     object.priority = fields.integer("priority", -1'000'000, 1'000'000, 0);
     if (const auto spots = fields.find("spots")) object.spots = spots->integer(0, kMaxSpots);
+    if (const auto placement = fields.find("placement"))
+        object.placement =
+            static_cast<Placement>(placement->choice(Names{"auto", "world", "instance"}));
     object.world_from_object = read_placement(fields);
     return object;
 }

@@ -4,12 +4,10 @@
 #include <map>
 #include <memory>
 
-#include "runtime/error.hpp"
+#include "runtime/model_grid.hpp"
 #include "runtime/plan.hpp"
 #include "runtime/stages/index.hpp"
 #include "runtime/stages/place.hpp"
-#include "runtime/stages/voxelize.hpp"
-#include "runtime/stages/voxelize_solid.hpp"
 
 namespace voxelume {
 namespace {
@@ -33,7 +31,7 @@ class Stopwatch {
 class ObjectMaker {
   public:
     ObjectMaker(const Device& device, const Scene& scene, MeshStore& meshes, WorldReport& report)
-        : device_(device), scene_(scene), meshes_(meshes), report_(report), voxelizer_(device) {}
+        : scene_(scene), meshes_(meshes), report_(report), voxelizer_(device, meshes) {}
 
     PlacedObject make(uint32_t number) {
         const Object& object = scene_.objects[number];
@@ -54,20 +52,11 @@ class ObjectMaker {
     }
 
   private:
-    const Mesh* mesh_of(const Model& model) { return meshes_.mesh_of(model); }
-
-    static bool is_voxels(const Model& model) {
-        return !model.voxels.empty() && model.surface != Surface::exact;
-    }
-
     const BrickGrid* grid_of(const Model& model) {
         const auto found = grids_.find(&model);
         if (found != grids_.end()) return &found->second;
         Stopwatch watch(report_.voxelize_seconds);
-        BrickGrid grid =
-            is_voxels(model)
-                ? meshes_.voxels(model).upload(device_)
-                : voxelized(model, glm::dmat4(1), model_frame(model, mesh_of(model)), model.where);
+        BrickGrid grid = voxelizer_.in_own_frame(model);
         watch.stop();
         return &grids_.emplace(&model, std::move(grid)).first->second;
     }
@@ -75,35 +64,16 @@ class ObjectMaker {
     const BrickGrid* exact_grid(const Object& object, const Model& model) {
         Stopwatch watch(report_.voxelize_seconds);
         exact_grids_.push_back(std::make_unique<BrickGrid>(
-            voxelized(model, object.world_from_object, world_frame(scene_.world), object.where)));
+            voxelizer_.in_frame(model, object.world_from_object, world_frame(scene_.world),
+                                object.where)));
         watch.stop();
         return exact_grids_.back().get();
     }
 
-    /// A model in a frame; `where` in the scene opens the message if that fails.
-    BrickGrid voxelized(const Model& model, const glm::dmat4& frame_from_model,
-                        const GridFrame& frame, const std::string& where) {
-        const VoxelizeOptions options = {model.surface, model.set};
-        try {
-            BrickGrid grid =
-                model.solid
-                    ? voxelize_solid(device_, *model.solid, frame_from_model, frame, options)
-                    : voxelizer_.voxelize(*mesh_of(model), frame_from_model, frame, options);
-            device_.finish();
-            return grid;
-        } catch (const Error& error) {
-            const bool is_users =
-                error.kind() == ErrorKind::input || error.kind() == ErrorKind::limit;
-            if (!is_users) throw;
-            throw Error(error.kind(), "{}: {}", where, error.what());
-        }
-    }
-
-    const Device& device_;
     const Scene& scene_;
     MeshStore& meshes_;
     WorldReport& report_;
-    Voxelizer voxelizer_;
+    ModelVoxelizer voxelizer_;
     std::map<const Model*, BrickGrid> grids_;
     std::vector<std::unique_ptr<BrickGrid>> exact_grids_;
 };
@@ -114,7 +84,9 @@ BrickGrid place_objects(const Device& device, const Scene& scene, MeshStore& mes
     ObjectMaker maker(device, scene, meshes, report);
     std::vector<PlacedObject> placed;
     for (uint32_t number = 0; number < scene.objects.size(); ++number)
-        if (is_in_reach(scene, scene.objects[number])) placed.push_back(maker.make(number));
+        if (is_in_reach(scene, scene.objects[number]) &&
+            !is_instanced(scene, scene.objects[number]))
+            placed.push_back(maker.make(number));
     Stopwatch watch(report.place_seconds);
     BrickGrid world = place(device, placed, world_frame(scene.world));
     device.finish();
@@ -125,6 +97,7 @@ BrickGrid place_objects(const Device& device, const Scene& scene, MeshStore& mes
 }  // namespace
 
 Pyramid form_world(const Device& device, const Scene& scene, WorldReport& report) {
+    check_placements(scene);
     check_tables(scene, device.info());
     MeshStore meshes;
     check_memory(scene, plan_scene(scene, meshes), device.info());
@@ -136,7 +109,7 @@ Pyramid form_world(const Device& device, const Scene& scene, WorldReport& report
     Pyramid pyramid = build_index(device, world);
     device.finish();
     watch.stop();
-    return pyramid;
+    return add_instances(device, scene, meshes, std::move(pyramid), report.instances);
 }
 
 }  // namespace voxelume

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "runtime/grid.hpp"
+#include "runtime/instances.hpp"
 #include "runtime/opencl/device.hpp"
 #include "runtime/scene.hpp"
 
@@ -14,6 +15,7 @@ struct WorldReport {
     double place_seconds = 0;
     double index_seconds = 0;
     uint64_t triangles = 0;
+    InstanceReport instances;
 };
 
 /// Forms S from the scene's objects. Models that no object shows inside the world are not read.

@@ -17,7 +17,7 @@
 // clang-format off
 #define PYRAMID_SHAPE_FIELDS \
     V(edge) V(inverse_edge) I(size_x) I(size_y) I(size_z) I(sectors_x) I(sectors_y) \
-    F(plane_bound) F(fixed_point) F(unused)
+    F(plane_bound) F(fixed_point) F(lift)
 #define SIGHT_FIELDS \
     V(origin) V(origin_low) V(axis_x) V(axis_y) V(axis_z) F(half_x) F(half_y) F(near_plane) \
     F(far_plane) I(width) I(height) I(samples) I(shape) F(sample_share) F(lead) FA(unused, 2)

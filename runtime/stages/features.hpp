@@ -27,6 +27,7 @@ struct Features {
     bool filtered_refraction = false;  ///< refracting ones among them
     bool cube_bodies = false;          ///< some object of cubes lets light through
     bool voxel_opacity = false;        ///< voxels have opacities of their own
+    bool instances = false;            ///< some objects keep voxels of their own
 
     bool exact() const { return triangles || solids; }
 
@@ -51,6 +52,7 @@ struct Features {
                 {"VXL_FILTERED", filtered_refraction},
                 {"VXL_CUBE_BODIES", cube_bodies},
                 {"VXL_VOXEL_OPACITY", voxel_opacity},
+                {"VXL_INSTANCES", instances},
                 {"VXL_NATIVE_DIVIDE", device.is_cpu()}};
     }
 };
