@@ -19,9 +19,9 @@
         global const InstanceNode *restrict instance_nodes,                                      \
         global const uint *restrict group_materials
 
-#define VXL_WORLD_VIEWS                                                                    \
-    const PyramidView pyramid = pyramid_view(shape, sectors, bricks, leaves, leaf_voxels); \
-    const SurfaceView surface = {                                                          \
+#define VXL_WORLD_VIEWS                                                                           \
+    const PyramidView pyramid = pyramid_view(shape, sectors, bricks, leaves, leaf_voxels);        \
+    const SurfaceView surface = {                                                                 \
         attributes, fields, primitive_first, primitives, triangles, triangle_attributes, solids}; \
     const InstanceView instances = {instance_records, instance_nodes, group_materials}
 
@@ -139,9 +139,8 @@ kernel void trace_shadows(VXL_WORLD_ARGUMENTS, uint constant_attribute,
                           global const float* restrict rays, global const uint* restrict count,
                           uint stride, global const uint* restrict targets,
                           global const uint* restrict sources, global const uint* restrict paths,
-                          global const uint* restrict hits,
-                          global const float* restrict shares, global uint* restrict traced,
-                          global float* restrict radiance) {
+                          global const uint* restrict hits, global const float* restrict shares,
+                          global uint* restrict traced, global float* restrict radiance) {
     const uint first = work_item() * VXL_LANES;
     const uint queued = *count;
     if (first >= queued) return;
@@ -157,9 +156,8 @@ kernel void trace_shadows(VXL_WORLD_ARGUMENTS, uint constant_attribute,
     travel.on_surface = (lane_int)-1;
     if (VXL_EXACT) travel.source = LANES_LOAD(sources, first);
     if (VXL_INSTANCES)
-        travel.instance = LANES_GATHER_UINT(
-            hits + VXL_HIT_INSTANCE * stride,
-            LANES_LOAD(targets, first) & LANES_AS_UINT(active));
+        travel.instance = LANES_GATHER_UINT(hits + VXL_HIT_INSTANCE * stride,
+                                            LANES_LOAD(targets, first) & LANES_AS_UINT(active));
     if (VXL_SOLIDS) {
         const SolidRay ray = {walk.ox, walk.oy, walk.oz, walk.dx, walk.dy, walk.dz};
         const lane_int solid = LANE_MASK((travel.source & VXL_SOLID_PRIMITIVE) != 0u) &
@@ -182,15 +180,15 @@ kernel void trace_shadows(VXL_WORLD_ARGUMENTS, uint constant_attribute,
         const Vector d = {walk.dx, walk.dy, walk.dz};
         const lane_float zero = (lane_float)0.0f, one = (lane_float)1.0f;
         Filter filter = {{one, one, one}, {zero, zero, zero}};
-        arrived =
-            pass_through(&pyramid, &surface, &instances, &walk, t_end, active, &travel, constant_attribute,
-                         materials, colors, ranks, metres_per_t(shape.edge, d), &filter);
+        arrived = pass_through(&pyramid, &surface, &instances, &walk, t_end, active, &travel,
+                               constant_attribute, materials, colors, ranks,
+                               metres_per_t(shape.edge, d), &filter);
         for (int channel = 0; channel < 3; ++channel)
             share[channel] *= filter.passed[channel] * exact_exp(-filter.depth[channel]);
     } else {
-        arrived = active & ~find_nearest(&pyramid, &surface, &instances, &walk, t_end, active, true,
-                                         &travel)
-                                .hit;
+        arrived =
+            active &
+            ~find_nearest(&pyramid, &surface, &instances, &walk, t_end, active, true, &travel).hit;
     }
     uint target[VXL_LANES];
     float sent[3 * VXL_LANES];

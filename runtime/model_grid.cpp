@@ -15,9 +15,9 @@ BrickGrid ModelVoxelizer::in_frame(const Model& model, const glm::dmat4& frame_f
     const VoxelizeOptions options = {model.surface, model.set};
     try {
         BrickGrid grid =
-            model.solid ? voxelize_solid(device_, *model.solid, frame_from_model, frame, options)
-                        : voxelizer_.voxelize(*meshes_.mesh_of(model), frame_from_model, frame,
-                                              options);
+            model.solid
+                ? voxelize_solid(device_, *model.solid, frame_from_model, frame, options)
+                : voxelizer_.voxelize(*meshes_.mesh_of(model), frame_from_model, frame, options);
         device_.finish();
         return grid;
     } catch (const Error& error) {

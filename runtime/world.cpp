@@ -63,9 +63,8 @@ class ObjectMaker {
 
     const BrickGrid* exact_grid(const Object& object, const Model& model) {
         Stopwatch watch(report_.voxelize_seconds);
-        exact_grids_.push_back(std::make_unique<BrickGrid>(
-            voxelizer_.in_frame(model, object.world_from_object, world_frame(scene_.world),
-                                object.where)));
+        exact_grids_.push_back(std::make_unique<BrickGrid>(voxelizer_.in_frame(
+            model, object.world_from_object, world_frame(scene_.world), object.where)));
         watch.stop();
         return exact_grids_.back().get();
     }

@@ -9,6 +9,7 @@
 #include "lib/fixed_point.h"
 #include "lib/vector.h"
 #include "shared/instance.h"
+#include "shared/voxel.h"
 
 /// A ray of shared/trace.h in an instance's voxels. Its t is `base` + (`from` + t here * `scale`)
 /// in the world.
@@ -53,8 +54,7 @@ static inline void between_planes(lane_float o, lane_float d, float low, float h
 /// A coordinate of a ray where it comes into the box, or begins: exactly the side that it crosses.
 static inline lane_float coordinate_in_box(lane_float o, lane_float d, lane_float t, lane_int side,
                                            float low, float high, float fixed_point) {
-    const lane_float plane =
-        LANES_SELECT(LANE_MASK(d >= 0.0f), (lane_float)low, (lane_float)high);
+    const lane_float plane = LANES_SELECT(LANE_MASK(d >= 0.0f), (lane_float)low, (lane_float)high);
     const lane_float at = clamp(fma(d, t, o), low, high);
     return snap_position(LANES_SELECT(side, plane, at), (lane_float)0.0f, fixed_point);
 }
@@ -95,12 +95,9 @@ static inline CarriedRay carry_ray(global const InstanceRecord* r, Vector o, Vec
     const lane_int y = enters & LANE_MASK(enter.y == in) & ~z;
     const lane_int x = enters & ~(y | z);
     c.axis = LANES_SELECT(enters, (y & 1) | (z & 2), c.axis);
-    c.origin.x =
-        coordinate_in_box(p.x, e.x, c.from, x, r->low[0], r->high[0], r->fixed_point);
-    c.origin.y =
-        coordinate_in_box(p.y, e.y, c.from, y, r->low[1], r->high[1], r->fixed_point);
-    c.origin.z =
-        coordinate_in_box(p.z, e.z, c.from, z, r->low[2], r->high[2], r->fixed_point);
+    c.origin.x = coordinate_in_box(p.x, e.x, c.from, x, r->low[0], r->high[0], r->fixed_point);
+    c.origin.y = coordinate_in_box(p.y, e.y, c.from, y, r->low[1], r->high[1], r->fixed_point);
+    c.origin.z = coordinate_in_box(p.z, e.z, c.from, z, r->low[2], r->high[2], r->fixed_point);
     const lane_float to_one = power_of_two_scale(e.x, e.y, e.z);
     c.direction.x = snap_direction(e.x * to_one);
     c.direction.y = snap_direction(e.y * to_one);

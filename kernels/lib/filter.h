@@ -21,8 +21,9 @@ typedef struct {
 /// Lets a packet of shadow rays go on through transmitting surfaces; the mask of those that reach
 /// their light. Rays that meet more than VXL_MOST_LAYERS surfaces don't.
 static inline lane_int pass_through(const PyramidView* p, const SurfaceView* s,
-                                    const InstanceView* v, Walk* w, lane_float t_end, lane_int active, Travel* travel,
-                                    uint constant_attribute, global const float* restrict materials,
+                                    const InstanceView* v, Walk* w, lane_float t_end,
+                                    lane_int active, Travel* travel, uint constant_attribute,
+                                    global const float* restrict materials,
                                     global const uint* restrict colors,
                                     global const uint* restrict ranks, lane_float metres,
                                     Filter* filter) {

@@ -121,10 +121,18 @@ static inline void enter_world(const PyramidView* p, Walk* w, lane_int entering)
 
 /// Rays from the observer.
 static inline Travel sight_travel(void) {
-    const Travel travel = {
-        (lane_int)0,      (lane_int)0,      (lane_uint)VXL_NO_PRIMITIVE, (lane_int)0,
-        (lane_float)0.0f, empty_interior(), (lane_uint)VXL_NO_MEMBER,    (lane_int)0,
-        (lane_int)0,      (lane_uint)VXL_NO_INSTANCE, (lane_int)0,                 (lane_int)0};
+    const Travel travel = {(lane_int)0,
+                           (lane_int)0,
+                           (lane_uint)VXL_NO_PRIMITIVE,
+                           (lane_int)0,
+                           (lane_float)0.0f,
+                           empty_interior(),
+                           (lane_uint)VXL_NO_MEMBER,
+                           (lane_int)0,
+                           (lane_int)0,
+                           (lane_uint)VXL_NO_INSTANCE,
+                           (lane_int)0,
+                           (lane_int)0};
     return travel;
 }
 

@@ -27,8 +27,7 @@ static inline HitRay carry_hits(global const InstanceRecord* restrict records, l
         ray.direction = select_vector(same, c.direction, ray.direction);
         ray.t = LANES_SELECT(same, carried_t(&c, t), ray.t);
         for (int i = 0; i < 9; ++i)
-            ray.map[i] =
-                LANES_SELECT(same, (lane_float)r->object_from_world[i], ray.map[i]);
+            ray.map[i] = LANES_SELECT(same, (lane_float)r->object_from_world[i], ray.map[i]);
     }
     return ray;
 }

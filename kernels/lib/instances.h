@@ -69,7 +69,10 @@ static inline void enter_box(const PyramidView* p, global const InstanceRecord* 
     c.rz = LANES_INT(floor(qz + 0.5f));
     const lane_int goes_on = LANE_MASK(t_first > 0.0f) & LANE_MASK(t_first >= t);
     const lane_int enters = LANE_MASK(t >= 0.0f) & ~goes_on;
-    arbitrate(p, w, &c);
+    const AxisCrossing x = axis_crossing(c.kx, c.rx, w->ox, w->dx, w->px, p->fixed_point);
+    const AxisCrossing y = axis_crossing(c.ky, c.ry, w->oy, w->dy, w->py, p->fixed_point);
+    const AxisCrossing z = axis_crossing(c.kz, c.rz, w->oz, w->dz, w->pz, p->fixed_point);
+    settle_cell(w, &x, &y, &z, &c);
     w->x = LANES_SELECT(enters, c.x, LANES_SELECT(goes_on, LANES_INT(floor(qx)), w->x));
     w->y = LANES_SELECT(enters, c.y, LANES_SELECT(goes_on, LANES_INT(floor(qy)), w->y));
     w->z = LANES_SELECT(enters, c.z, LANES_SELECT(goes_on, LANES_INT(floor(qz)), w->z));
@@ -111,8 +114,8 @@ static inline lane_int meet_instance(const PyramidView* world, const SurfaceView
     active &= c.met & LANE_MASK(c.base + c.from <= t_last);
     if (!lanes_any(active)) return active;
     const PyramidView p = instance_pyramid(world, r);
-    Walk w = begin_walk(c.origin.x, c.origin.y, c.origin.z, c.direction.x, c.direction.y,
-                        c.direction.z);
+    Walk w =
+        begin_walk(c.origin.x, c.origin.y, c.origin.z, c.direction.x, c.direction.y, c.direction.z);
     w.axis = c.axis;
     if (r->aligned) enter_box(&p, r, travel->t_first, &w);
     Travel inside = travel_in(travel, (lane_uint)number, LANE_MASK(w.axis == 3));
@@ -122,9 +125,9 @@ static inline lane_int meet_instance(const PyramidView* world, const SurfaceView
                                LANE_MASK(travel->instance == number);
         if (lanes_any(asked)) {
             const SolidRay carried = {w.ox, w.oy, w.oz, w.dx, w.dy, w.dz};
-            inside.within_source = go_inside(
-                s->solids, inside.source & ~VXL_SOLID_PRIMITIVE & LANES_AS_UINT(asked), &carried,
-                asked);
+            inside.within_source =
+                go_inside(s->solids, inside.source & ~VXL_SOLID_PRIMITIVE & LANES_AS_UINT(asked),
+                          &carried, asked);
         }
     }
     // Later than t_last by more than the rounding of its t: what counts is compared in the world.
@@ -212,8 +215,7 @@ static inline Found find_nearest(const PyramidView* p, const SurfaceView* s, con
     const Vector o = {ray.ox, ray.oy, ray.oz}, d = {ray.dx, ray.dy, ray.dz};
     clip_to_world(o, d, p->size_x, p->size_y, p->size_z, &t_in, &t_out);
     if (any) active &= ~found.hit;
-    if (lanes_any(active))
-        meet_instances(p, s, v, &ray, t_out, active, any, travel, &found, w);
+    if (lanes_any(active)) meet_instances(p, s, v, &ray, t_out, active, any, travel, &found, w);
     return found;
 }
 

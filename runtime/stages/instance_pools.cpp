@@ -100,10 +100,10 @@ class Joiner {
     }
 
     void check_numbers() const {
-        const uint64_t most = std::max({total_.sectors, total_.records, 2 * total_.leaves,
-                                        total_.voxels, total_.primitives,
-                                        total_.triangles * kFloatsPerTriangle,
-                                        parts_.fields ? total_.voxels * VXL_FIELD_WORDS : 0});
+        const uint64_t most =
+            std::max({total_.sectors, total_.records, 2 * total_.leaves, total_.voxels,
+                      total_.primitives, total_.triangles * kFloatsPerTriangle,
+                      parts_.fields ? total_.voxels * VXL_FIELD_WORDS : 0});
         if (most > UINT32_MAX)
             throw Error(ErrorKind::limit,
                         "this world and the models of its instances need {} entries in one table, "
@@ -127,8 +127,7 @@ class Joiner {
             joined_.fields =
                 Buffer<uint32_t>(device_, "voxel fields", total_.voxels * VXL_FIELD_WORDS);
         if (!parts_.exact) return;
-        joined_.primitive_first =
-            Buffer<uint32_t>(device_, "primitive starts", total_.voxels + 1);
+        joined_.primitive_first = Buffer<uint32_t>(device_, "primitive starts", total_.voxels + 1);
         joined_.primitives = Buffer<uint32_t>(device_, "primitives", total_.primitives);
         joined_.triangles =
             Buffer<float>(device_, "triangles", total_.triangles * kFloatsPerTriangle);

@@ -13,7 +13,8 @@ constexpr float kNowhere = 1e30f;
 
 class TreeBuilder {
   public:
-    TreeBuilder(std::span<const InstanceBox> boxes, double margin) : boxes_(boxes), margin_(margin) {
+    TreeBuilder(std::span<const InstanceBox> boxes, double margin)
+        : boxes_(boxes), margin_(margin) {
         middles_.reserve(boxes.size());
         for (const InstanceBox& box : boxes) middles_.push_back(box.low + box.high);
         order_.resize(boxes.size());
@@ -60,7 +61,8 @@ class TreeBuilder {
             box.high = glm::max(box.high, boxes_[number].high);
         }
         store_box(nodes_[node], side, box);
-        const uint32_t child = numbers.size() == 1 ? numbers[0] | VXL_INSTANCE_LEAF : build(numbers);
+        const uint32_t child =
+            numbers.size() == 1 ? numbers[0] | VXL_INSTANCE_LEAF : build(numbers);
         nodes_[node].child[side] = child;
     }
 

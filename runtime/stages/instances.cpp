@@ -61,8 +61,8 @@ bool is_aligned(const VoxelMap& map, const InstanceModel& model, const PyramidSh
 double row_sum(const glm::dmat3& m) {
     double largest = 0;
     for (int row = 0; row < 3; ++row)
-        largest = std::max(largest,
-                           std::abs(m[0][row]) + std::abs(m[1][row]) + std::abs(m[2][row]));
+        largest =
+            std::max(largest, std::abs(m[0][row]) + std::abs(m[1][row]) + std::abs(m[2][row]));
     return largest;
 }
 
@@ -146,8 +146,8 @@ void set_instances(const Device& device, std::span<const Instance> list,
         if (model.low.x < model.high.x) set.list.push_back(instance);
     }
     set.records = Buffer<InstanceRecord>(device, "instances", set.list.size());
-    set.nodes = Buffer<InstanceNode>(device, "instance tree",
-                                     std::max<size_t>(set.list.size(), 2) - 1);
+    set.nodes =
+        Buffer<InstanceNode>(device, "instance tree", std::max<size_t>(set.list.size(), 2) - 1);
     set.materials = Buffer<uint32_t>(device, "instance materials", materials);
 }
 
@@ -161,9 +161,8 @@ void place_instances(std::span<const glm::dmat4> world_from_object, Pyramid& pyr
     boxes.reserve(set.list.size());
     double lift = 0;
     for (const Instance& instance : set.list) {
-        const Placed placed =
-            place_instance(instance, set.models[instance.model], pyramid.frame, world,
-                           world_from_object[instance.object]);
+        const Placed placed = place_instance(instance, set.models[instance.model], pyramid.frame,
+                                             world, world_from_object[instance.object]);
         records.push_back(placed.record);
         boxes.push_back(placed.box);
         lift = std::max(lift, placed.lift);

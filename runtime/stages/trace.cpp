@@ -74,8 +74,8 @@ void TraceStage::shadows(const Pyramid& pyramid, const Surroundings& surrounding
                             pyramid.triangle_attributes, pyramid.solids, pyramid.instances.records,
                             pyramid.instances.nodes, pyramid.instances.materials, pyramid.attribute,
                             surroundings.materials, pyramid.colors, surroundings.ranks, queue.rays,
-                            queue.count, batch.stride, queue.targets, queue.sources, batch.paths, batch.hits,
-                            queue.shares, queue.traced, batch.radiance);
+                            queue.count, batch.stride, queue.targets, queue.sources, batch.paths,
+                            batch.hits, queue.shares, queue.traced, batch.radiance);
 }
 
 }  // namespace voxelume
