@@ -33,6 +33,17 @@ VoxelMap object_from_world(const GridFrame& object, const GridFrame& world,
     return map;
 }
 
+/// Whether the map surely is invertible: the norms bound its stretch in every direction.
+bool is_well_conditioned(const glm::dmat4& map) {
+    constexpr double kSafeCondition = 1e4;
+    const auto norm = [](const glm::dmat3& m) {
+        return std::sqrt(glm::dot(m[0], m[0]) + glm::dot(m[1], m[1]) + glm::dot(m[2], m[2]));
+    };
+    const glm::dmat3 linear(map);
+    return norm(linear) * norm(glm::inverse(linear)) < kSafeCondition &&
+           glm::length(glm::dvec3(map[3])) < 1e9;
+}
+
 bool is_whole(double value) {
     return std::abs(value - std::round(value)) < kWholeBound;
 }
@@ -80,8 +91,8 @@ struct Placed {
 Placed place_instance(const Instance& instance, const InstanceModel& model,
                       const GridFrame& world_frame, const PyramidShape& world,
                       const glm::dmat4& world_from_object) {
-    // Also refuses what can't be inverted.
-    placement_map(model.frame, world_frame, world_from_object, Reach::none, instance.object);
+    if (!is_well_conditioned(world_from_object))  // or tells why not, measuring it exactly
+        placement_map(model.frame, world_frame, world_from_object, Reach::none, instance.object);
     VoxelMap map = object_from_world(model.frame, world_frame, world_from_object);
     Placed placed;
     InstanceRecord& record = placed.record;
