@@ -1,8 +1,8 @@
 // object grids -> S: every object's bricks, resampled into the world's by the inverse map.
 //
 // Objects are painted one after another, the winner of an overlap last, each by one launch over the
-// world's leaves, so no two work-items write the same voxel. Which voxel is set is decided in
-// integers alone.
+// leaves of the bricks listed in `painted`, so no two work-items write the same voxel. Which voxel
+// is set is decided in integers alone, and a brick's voxels depend on nothing but the objects.
 //
 // Build constants: VXL_SMOOTH: the object has distances, else occupancy. VXL_ATTRIBUTES,
 // VXL_COLORS: the world has them. VXL_OBJECT_ATTRIBUTES, VXL_OBJECT_COLORS: the object has them.
@@ -44,15 +44,17 @@ kernel void mark_near_leaves(const uint count, const int threshold,
     near[slot] = mask;
 }
 
-// One brick of the world: raises its state to what the object has there. A brick is full only if
-// the voxels around it are too, since a brick beside an empty voxel, or the world's end, must be
-// stored.
-kernel void classify_bricks(const uint count, const int4 world_bricks, const WorldBounds bounds,
+// One brick of the world, of those listed or, without a list, of all: raises its state to what the
+// object has there. A brick is full only if the voxels around it are too, since a brick beside an
+// empty voxel, or the world's end, must be stored.
+kernel void classify_bricks(const uint count, global const uint* restrict listed,
+                            const int4 world_bricks, const WorldBounds bounds,
                             const int fraction_bits, constant long* rows, const int4 object_bricks,
                             global const uint* restrict slots, global const ulong* restrict near,
                             global const short* restrict distance, global uchar* restrict states) {
-    const uint index = work_item();
-    if (index >= count || states[index] == VXL_SURFACE) return;
+    const uint item = work_item();
+    if (item >= count || states[item] == VXL_SURFACE) return;
+    const uint index = listed ? listed[item] : item;
     const PlacedObject object = {rows, fraction_bits, object_bricks, slots};
     const int4 low = (brick_at(index, world_bricks) << 5) - (int4)(2, 2, 2, 0);
     const CellBox box = map_box(&object, low, 36, true);
@@ -67,7 +69,7 @@ kernel void classify_bricks(const uint count, const int4 world_bricks, const Wor
     if (state == VXL_FULL &&
         (VXL_KEEPS_INSIDE || is_at_bounds(bounds, brick_at(index, world_bricks) * 16, 16)))
         state = VXL_SURFACE;
-    states[index] = (uchar)max((uint)states[index], state);
+    states[item] = (uchar)max((uint)states[item], state);
 }
 
 // One leaf of the world: the smaller of its distances and the object's. `scale` turns the object's
@@ -76,10 +78,12 @@ kernel void paint_distances(const uint count, const int4 world_bricks, const int
                             constant long* rows, const int4 object_bricks,
                             global const uint* restrict slots, global const ulong* restrict near,
                             global const short* restrict distance, const float scale,
+                            global const uint* restrict painted,
                             global const uint* restrict coordinates,
                             global short* restrict world_distance) {
-    const uint leaf = work_item();
-    if (leaf >= count) return;
+    const uint item = work_item();
+    if (item >= count) return;
+    const uint leaf = painted_leaf(item, painted);
     const PlacedObject object = {rows, fraction_bits, object_bricks, slots};
     const int4 low = leaf_in_world(leaf, coordinates, world_bricks);
     global short* out = world_distance + (size_t)(leaf >> 6) * VXL_BRICK_VOXELS + leaf_place(leaf);
@@ -113,10 +117,12 @@ kernel void paint_distances(const uint count, const int4 world_bricks, const int
 
 // One leaf of the world: ends its distances at the world's bounds.
 kernel void close_distances(const uint count, const int4 world_bricks, const WorldBounds bounds,
+                            global const uint* restrict painted,
                             global const uint* restrict coordinates,
                             global short* restrict world_distance) {
-    const uint leaf = work_item();
-    if (leaf >= count) return;
+    const uint item = work_item();
+    if (item >= count) return;
+    const uint leaf = painted_leaf(item, painted);
     const int4 low = leaf_in_world(leaf, coordinates, world_bricks);
     if (!is_at_bounds(bounds, low / 2 - 4, 12)) return;
     global short* out = world_distance + (size_t)(leaf >> 6) * VXL_BRICK_VOXELS + leaf_place(leaf);
@@ -128,7 +134,8 @@ kernel void close_distances(const uint count, const int4 world_bricks, const Wor
 }
 
 // One leaf of the world: the words and colours of its smooth voxels, where this object's surface is
-// the nearest to the voxel's centre so far. A voxel that the surface crosses is no longer a cube;
+// the nearest to the voxel's centre so far; `nearest` has 4096 distances for each painted brick. A
+// voxel that the surface crosses is no longer a cube;
 // an exact one stays exact, with the smooth surface's word: its primitives have their own.
 kernel void paint_smooth_voxels(
     const uint count, const int4 world_bricks, const WorldBounds bounds, const int fraction_bits,
@@ -136,11 +143,13 @@ kernel void paint_smooth_voxels(
     global const ulong* restrict near, global const short* restrict distance, const float scale,
     const int crossing, const WordMap words, global const uint* restrict materials,
     global const uint* restrict attributes, global const uint* restrict colors,
-    global const uint* restrict coordinates, global const short* restrict world_distance,
-    global short* restrict nearest, global ulong* restrict occupancy,
-    global uint* restrict world_attributes, global uint* restrict world_colors) {
-    const uint leaf = work_item();
-    if (leaf >= count) return;
+    global const uint* restrict painted, global const uint* restrict coordinates,
+    global const short* restrict world_distance, global short* restrict nearest,
+    global ulong* restrict occupancy, global uint* restrict world_attributes,
+    global uint* restrict world_colors) {
+    const uint item = work_item();
+    if (item >= count) return;
+    const uint leaf = painted_leaf(item, painted);
     const PlacedObject object = {rows, fraction_bits, object_bricks, slots};
     const int4 low = leaf_in_world(leaf, coordinates, world_bricks);
     const CellBox cells = map_box(&object, low, 8, false);
@@ -174,8 +183,9 @@ kernel void paint_smooth_voxels(
         const uint kind =
             VXL_ATTRIBUTES ? world_attributes[number] & VXL_KIND_EXACT << VXL_KIND_SHIFT : 0u;
         if (kind == 0u && (int)abs(value) <= crossing) crossed |= 1ul << i;
-        if (value > nearest[number]) continue;
-        nearest[number] = value;
+        const size_t kept = (size_t)(item >> 6) * VXL_BRICK_VOXELS + place;
+        if (value > nearest[kept]) continue;
+        nearest[kept] = value;
         const int4 at = cell - gathered.first;
         const int4 source =
             cell_on_surface(block + at.x + at.y * VXL_BLOCK_ROW + at.z * VXL_BLOCK_LAYER, cell);
@@ -197,11 +207,13 @@ kernel void paint_cubes(const uint count, const int4 world_bricks, const int fra
                         global const ulong* restrict object_occupancy, const WordMap words,
                         global const uint* restrict materials,
                         global const uint* restrict attributes, global const uint* restrict colors,
-                        const int4 world_size, global const uint* restrict coordinates,
-                        global ulong* restrict occupancy, global uint* restrict world_attributes,
+                        const int4 world_size, global const uint* restrict painted,
+                        global const uint* restrict coordinates, global ulong* restrict occupancy,
+                        global uint* restrict world_attributes,
                         global uint* restrict world_colors) {
-    const uint leaf = work_item();
-    if (leaf >= count) return;
+    const uint item = work_item();
+    if (item >= count) return;
+    const uint leaf = painted_leaf(item, painted);
     const PlacedObject object = {rows, fraction_bits, object_bricks, slots};
     const int4 low = leaf_in_world(leaf, coordinates, world_bricks);
     const CellBox box = map_box(&object, low + (int4)(1, 1, 1, 0), 6, true);

@@ -32,6 +32,8 @@ struct GridFrame {
     /// Bricks along each axis: enough for nodes 0..size, so a grid of 16 voxels has two.
     glm::ivec3 bricks() const { return size / kBrickSize + 1; }
     glm::ivec3 sectors() const { return (size + kSectorSize - 1) / kSectorSize; }
+
+    friend bool operator==(const GridFrame&, const GridFrame&) = default;
 };
 
 /// Values of BrickGrid::slots for a brick that is not stored.

@@ -163,6 +163,11 @@ RayBatch allocate_batch(const Device& device, const Features& features, uint32_t
     return batch;
 }
 
+void renew_sight(const Device& device, RayBatch& batch) {
+    batch.rays = Buffer<float>(device, "rays", batch.rays.size());
+    batch.hits = Buffer<uint32_t>(device, "hits", batch.hits.size());
+}
+
 Illumination::Illumination(const Device& device, const Features& features, const Scene& scene,
                            const Pyramid& world, uint32_t most_rays, bool compact)
     : device_(device),
@@ -188,20 +193,23 @@ Illumination::Illumination(const Device& device, const Features& features, const
         scatter_->set_bodies(transmitting_solids(device, scene, world));
 }
 
-void Illumination::light(RayBatch& batch, uint32_t count, const LayerSink& sink) {
-    if (!features_.paths) return direct(batch, count, false);
+void Illumination::light_all(RayBatch& batch, uint32_t count, const LayerSink& sink,
+                             bool hits_are_known) {
+    if (!features_.paths) {
+        if (!hits_are_known) trace_.closest(world_, batch, count);
+        return direct(batch, count);
+    }
     scatter_->begin(world_, batch, count);
     reserve_nodes(0, batch.stride);
-    follow(0, batch, count, sink);
+    follow(0, batch, count, hits_are_known, sink);
     Depth& depth = *depths_[0];
     if (!features_.transmission) return;
     std::swap(batch.radiance, depth.nodes.radiance);
     std::swap(batch.coverage, depth.nodes.coverage);
 }
 
-/// Blocks 3 to 5.
-void Illumination::direct(RayBatch& entries, uint32_t count, bool scattered) {
-    trace_.closest(world_, entries, count, scattered);
+/// Blocks 4 and 5: lights what the rays have met.
+void Illumination::direct(RayBatch& entries, uint32_t count) {
     shade_.surface(world_, entries, count);
     for (const LightRecord& light : lights_) {
         lighting_->add(world_, light, entries, count, queue_);
@@ -212,11 +220,13 @@ void Illumination::direct(RayBatch& entries, uint32_t count, bool scattered) {
 }
 
 /// Fills the nodes of a depth, whose rays are in `first`.
-void Illumination::follow(size_t number, RayBatch& first, uint32_t count, const LayerSink& sink) {
+void Illumination::follow(size_t number, RayBatch& first, uint32_t count, bool hits_are_known,
+                          const LayerSink& sink) {
     Depth& depth = *depths_[number];
     RayBatch* entries = &first;
     for (bool is_first = true; count > 0; is_first = false) {
-        direct(*entries, count, number > 0);
+        if (!is_first || !hits_are_known) trace_.closest(world_, *entries, count, number > 0);
+        direct(*entries, count);
         uint32_t on = 0;
         if (features_.transmission)
             on = scatter_->layer(world_, *entries, count, is_first, depth.children, depth.nodes,

@@ -22,6 +22,9 @@ Features features_of(const Scene& scene, const Pyramid& world);
 /// An empty batch for up to `stride` rays, with the arrays that the features need.
 RayBatch allocate_batch(const Device& device, const Features& features, uint32_t stride);
 
+/// Gives the batch other arrays for its rays and hits; whoever holds the old ones keeps them.
+void renew_sight(const Device& device, RayBatch& batch);
+
 /// Rays that go through the stages together.
 inline uint32_t batch_rays(const Features& features) {
     return features.paths ? kBatchRays / 2 : kBatchRays;
@@ -46,7 +49,12 @@ class Illumination {
 
     /// Fills hits, positions, normals, words and radiance of rays 0 .. count-1, which come from an
     /// observer. `sink` hears of layers in scenes with `transmission`.
-    void light(RayBatch& batch, uint32_t count, const LayerSink& sink = {});
+    void light(RayBatch& batch, uint32_t count, const LayerSink& sink = {}) {
+        light_all(batch, count, sink, false);
+    }
+
+    /// The same where the hits are there already.
+    void light_hits(RayBatch& batch, uint32_t count) { light_all(batch, count, {}, true); }
 
     /// Fills only the hits, without light.
     void find_hits(RayBatch& batch, uint32_t count) { trace_.closest(world_, batch, count); }
@@ -69,8 +77,10 @@ class Illumination {
         NodeLight nodes;
     };
 
-    void direct(RayBatch& entries, uint32_t count, bool scattered);
-    void follow(size_t depth, RayBatch& first, uint32_t count, const LayerSink& sink = {});
+    void light_all(RayBatch& batch, uint32_t count, const LayerSink& sink, bool hits_are_known);
+    void direct(RayBatch& entries, uint32_t count);
+    void follow(size_t depth, RayBatch& first, uint32_t count, bool hits_are_known = false,
+                const LayerSink& sink = {});
     void scatter(size_t depth, RayBatch& entries, uint32_t count);
     void reserve_nodes(size_t depth, uint32_t count);
 

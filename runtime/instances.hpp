@@ -2,8 +2,7 @@
 #pragma once
 
 #include "runtime/grid.hpp"
-#include "runtime/model_frame.hpp"
-#include "runtime/opencl/device.hpp"
+#include "runtime/object_grids.hpp"
 #include "runtime/scene.hpp"
 
 namespace voxelume {
@@ -22,13 +21,31 @@ void check_placements(const Scene& scene);
 struct InstanceReport {
     uint32_t instances = 0, models = 0;
     uint64_t voxels = 0;  ///< of the models, each counted once
-    double seconds = 0;   ///< voxelizing, indexing and joining models, placing instances
+    double seconds = 0;   ///< indexing and joining models, placing instances
 };
 
-/// The world with the scene's instances, each model voxelized once in its own frame. Without any
-/// the world stays as it is. Throws as form_world does.
-Pyramid add_instances(const Device& device, const Scene& scene, MeshStore& meshes, Pyramid world,
-                      InstanceReport& report);
+/// A scene's instances with the grids of their models.
+struct ListedInstances {
+    std::vector<SharedGrid> grids;  ///< of the models, each once, numbered as in `list`
+    std::vector<Instance> list;
+    std::vector<uint32_t> materials;  ///< of their groups
+};
+
+/// Lists a scene's instances, and has their models voxelized in their own frames. Throws as
+/// ObjectGrids and materials_of_groups do.
+ListedInstances list_instances(const Scene& scene, MeshStore& meshes, ObjectGrids& grids);
+
+/// The world with the scene's instances. Without any it stays as it is. Throws Error::scene for a
+/// model some of whose voxels let light through, Error::limit for too little memory.
+Pyramid add_instances(const Device& device, const Scene& scene, const ListedInstances& listed,
+                      Pyramid world, InstanceReport& report);
+
+/// The maps of a world's instances.
+std::vector<glm::dmat4> instance_maps(const Scene& scene, const Pyramid& world);
+
+/// Forgets, in a copy of a scene's models and objects, what changes when instances move alone.
+void leave_out_places_of_instances(const Scene& scene, std::vector<Model>& models,
+                                   std::vector<Object>& objects);
 
 /// Moves a world's instances to where the scene's objects are now.
 void move_instances(const Scene& scene, Pyramid& world);

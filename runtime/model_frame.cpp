@@ -40,24 +40,24 @@ GridFrame mesh_frame(const Model& model, const Mesh& mesh) {
 }  // namespace
 
 const Mesh& MeshStore::mesh(const std::filesystem::path& file) {
+    used_.insert(file);
     const auto found = meshes_.find(file);
     if (found != meshes_.end()) return found->second;
     const auto start = std::chrono::steady_clock::now();
     const Mesh& mesh = meshes_.emplace(file, read_mesh(file)).first->second;
     load_seconds_ +=
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    triangles_ += mesh.triangles.size();
     return mesh;
 }
 
 const VoxelModel& MeshStore::voxels(const Model& model) {
+    used_.insert(model.voxels);
     const auto found = voxels_.find(model.voxels);
     if (found != voxels_.end() && found->second.surface == model.surface) return found->second;
     const auto start = std::chrono::steady_clock::now();
     VoxelModel read = read_voxel_model(model.voxels, model.surface);
     load_seconds_ +=
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    triangles_ += read.mesh.triangles.size();
     return voxels_.insert_or_assign(model.voxels, std::move(read)).first->second;
 }
 
@@ -71,6 +71,20 @@ const std::vector<std::string>& MeshStore::groups_of(const Model& model) {
     static const std::vector<std::string> none;
     if (model.solid) return none;
     return model.voxels.empty() ? mesh(model.mesh).group_names : voxels(model).groups;
+}
+
+void MeshStore::forget_unused() {
+    const auto is_unused = [&](const auto& entry) { return !used_.contains(entry.first); };
+    std::erase_if(meshes_, is_unused);
+    std::erase_if(voxels_, is_unused);
+    used_.clear();
+}
+
+uint64_t MeshStore::triangles() const {
+    uint64_t sum = 0;
+    for (const auto& [file, mesh] : meshes_) sum += mesh.triangles.size();
+    for (const auto& [file, voxels] : voxels_) sum += voxels.mesh.triangles.size();
+    return sum;
 }
 
 GridFrame world_frame(const World& world) {

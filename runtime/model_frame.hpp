@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <set>
 
 #include "runtime/grid.hpp"
 #include "runtime/mesh.hpp"
@@ -13,7 +14,8 @@ namespace voxelume {
 /// Margin of empty voxels around a model, so that the differences of a smooth surface lie inside.
 inline constexpr int kModelMargin = 4;
 
-/// The meshes and voxels of a scene, each file read once, when it is first asked for.
+/// The meshes and voxels of a scene, each file read once, when it is first asked for, and
+/// kept while it is used.
 class MeshStore {
   public:
     /// Throws Error::input as read_mesh does.
@@ -26,14 +28,17 @@ class MeshStore {
     /// The names of a model's groups of faces or voxels.
     const std::vector<std::string>& groups_of(const Model& model);
 
+    /// Forgets what wasn't asked for since the last call.
+    void forget_unused();
+
     double load_seconds() const { return load_seconds_; }
-    uint64_t triangles() const { return triangles_; }
+    uint64_t triangles() const;  ///< of the meshes that are there
 
   private:
     std::map<std::filesystem::path, Mesh> meshes_;
     std::map<std::filesystem::path, VoxelModel> voxels_;
+    std::set<std::filesystem::path> used_;
     double load_seconds_ = 0;
-    uint64_t triangles_ = 0;
 };
 
 /// The world's lattice: its first voxel starts at the bounds' minimum corner.

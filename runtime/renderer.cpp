@@ -23,32 +23,68 @@ uint64_t bytes_of(const Pyramid& p) {
 
 }  // namespace
 
-Image render(const Device& device, const Scene& scene, RenderReport& report,
-             const std::function<void(uint32_t, uint32_t)>& progress) {
-    const Pyramid world = form_world(device, scene, report.world);
+Renderer::View Renderer::view_of(const Scene& scene, const FormedWorld& world,
+                                 const Features& features) {
+    View view{world.version, scene.observer, scene.render, features, {}};
+    for (const Material& material : scene.materials) view.transmits.push_back(transmits(material));
+    return view;
+}
+
+/// Hits are kept where they take little of the device's memory.
+bool Renderer::has_room(const Features& features, uint64_t rays) const {
+    const size_t words =
+        VXL_RAY_COMPONENTS + (features.exact() ? VXL_HIT_COMPONENTS : VXL_HIT_PRIMITIVE);
+    return follows_ && rays * words * 4 <= device_.info().memory / 16;
+}
+
+Image Renderer::image(const Scene& scene, const FormedWorld& formed, RenderReport& report,
+                      const FrameProgress& progress) {
     const auto start = std::chrono::steady_clock::now();
+    if (world_ == formed.version && scene_ == scene) {
+        const WorldReport world = report.world;
+        report = report_;
+        report.world = world;
+        report.is_kept = true;
+        return image_;
+    }
+    scene_.reset();
+    const Pyramid& world = formed.pyramid;
     const Features features = features_of(scene, world);
     const Sight observer = sight_of(scene, world.frame);
 
     const uint32_t tiles = tile_count(observer.width, observer.height);
     const uint32_t rays_per_tile = 16 * uint32_t(observer.samples);
     const uint32_t batch_tiles = std::clamp(batch_rays(features) / rays_per_tile, 1u, tiles);
-    RayBatch batch = allocate_batch(device, features, batch_tiles * rays_per_tile);
+    RayBatch batch = allocate_batch(device_, features, batch_tiles * rays_per_tile);
 
-    SightStage sight(device, features, observer);
-    Illumination illumination(device, features, scene, world, batch.stride);
-    ResolveStage resolve(device, features, observer);
+    View view = view_of(scene, formed, features);
+    report.hits_are_kept = view_ == view && !hits_.empty();
+    if (!report.hits_are_kept) hits_.clear();
+    const bool keeps_hits = has_room(features, uint64_t(tiles) * rays_per_tile);
+
+    SightStage sight(device_, features, observer);
+    Illumination illumination(device_, features, scene, world, batch.stride);
+    ResolveStage resolve(device_, features, observer);
     for (uint32_t first = 0; first < tiles; first += batch_tiles) {
         const uint32_t now = std::min(batch_tiles, tiles - first);
-        const uint32_t rays = sight.cast(shape_of(world), first, now, batch);
-        illumination.light(batch, rays);
+        if (report.hits_are_kept) {
+            batch.rays = hits_[first / batch_tiles].rays;
+            batch.hits = hits_[first / batch_tiles].hits;
+            illumination.light_hits(batch, now * rays_per_tile);
+        } else {
+            if (keeps_hits && first > 0) renew_sight(device_, batch);
+            sight.cast(shape_of(world), first, now, batch);
+            illumination.light(batch, now * rays_per_tile);
+            if (keeps_hits) hits_.push_back({batch.rays, batch.hits});
+        }
         resolve.pixels(world, batch, first, now);
-        report.sight_rays += rays;
+        report.sight_rays += now * rays_per_tile;
         if (progress) {
-            device.finish();
+            device_.finish();
             progress(first + now, tiles);
         }
     }
+    view_ = std::move(view);
     Image image = resolve.image();
     report.not_finite = resolve.not_finite();
     report.shadow_rays = illumination.shadow_rays();
@@ -58,7 +94,19 @@ Image render(const Device& device, const Scene& scene, RenderReport& report,
     report.world_bytes = bytes_of(world);
     report.image_seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    if (follows_) {
+        scene_ = scene;
+        world_ = formed.version;
+        image_ = image;
+        report_ = report;
+    }
     return image;
+}
+
+Image render(const Device& device, const Scene& scene, RenderReport& report,
+             const FrameProgress& progress) {
+    const FormedWorld world = WorldFormer(device, false).form(scene, report.world);
+    return Renderer(device, false).image(scene, world, report, progress);
 }
 
 }  // namespace voxelume

@@ -2,10 +2,13 @@
 #pragma once
 
 #include <functional>
+#include <optional>
+#include <vector>
 
 #include "runtime/image.hpp"
 #include "runtime/opencl/device.hpp"
 #include "runtime/scene.hpp"
+#include "runtime/stages/features.hpp"
 #include "runtime/world.hpp"
 
 namespace voxelume {
@@ -21,13 +24,61 @@ struct RenderReport {
     uint64_t secondary_rays = 0;  ///< reflected, refracted, and gone on through surfaces
     uint64_t ended_paths = 0;     ///< not followed for their small weight
     uint32_t not_finite = 0;      ///< values that became 0; more than 0 is a fault of ours
+    bool is_kept = false;         ///< the frame shows what the one before showed
+    bool hits_are_kept = false;   ///< its sight rays meet what they met before
 };
 
-/// Renders the flat image of a scene's observer on a device.
+/// Called with the parts of a frame that are done, and their number.
+using FrameProgress = std::function<void(uint32_t done, uint32_t total)>;
+
+/// Renders the flat images of one frame after another, and keeps what the next may show again: the
+/// whole image, or what its sight rays meet, which a change of lights, materials or medium leaves
+/// as it is. A frame's bits don't depend on what came before it.
+class Renderer {
+  public:
+    /// Where nothing `follows` the first frame, nothing is kept.
+    explicit Renderer(const Device& device, bool follows = true)
+        : device_(device), follows_(follows) {}
+
+    /// Renders the image of the scene's observer in the scene's world. Throws Error as the stages
+    /// do.
+    Image image(const Scene& scene, const FormedWorld& world, RenderReport& report,
+                const FrameProgress& progress = {});
+
+  private:
+    /// What decides the first surfaces that sight rays meet.
+    struct View {
+        uint64_t world = 0;
+        Observer observer;
+        RenderSettings settings;
+        Features features;
+        std::vector<bool> transmits;  ///< of each material
+        friend bool operator==(const View&, const View&) = default;
+    };
+    /// The rays and hits of one batch.
+    struct SightHits {
+        Buffer<float> rays;
+        Buffer<uint32_t> hits;
+    };
+
+    static View view_of(const Scene& scene, const FormedWorld& world, const Features& features);
+    bool has_room(const Features& features, uint64_t rays) const;
+
+    Device device_;
+    bool follows_;
+    std::optional<Scene> scene_;  ///< whose image is kept
+    uint64_t world_ = 0;          ///< in which world
+    Image image_;
+    RenderReport report_;
+    std::optional<View> view_;
+    std::vector<SightHits> hits_;  ///< of each batch of the view; empty where they have no room
+};
+
+/// Renders the image of a single frame.
 ///
-/// `progress` is called with the tiles done and their number. Throws Error::limit before memory is
-/// taken when the scene's plan doesn't fit the device, and Error as its stages do.
+/// Throws Error::limit before memory is taken when the scene's plan doesn't fit the device, and
+/// Error as the stages do.
 Image render(const Device& device, const Scene& scene, RenderReport& report,
-             const std::function<void(uint32_t done, uint32_t total)>& progress = {});
+             const FrameProgress& progress = {});
 
 }  // namespace voxelume

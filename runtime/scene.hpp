@@ -23,12 +23,16 @@ namespace voxelume {
 struct Bounds {
     glm::dvec3 min{0};
     glm::dvec3 max{0};
+
+    friend bool operator==(const Bounds&, const Bounds&) = default;
 };
 
 /// Density 1 up to the height `base`, from there falling by a factor of e every `scale_height`.
 struct HeightDensity {
     double base = 0;          ///< metres along Y
     double scale_height = 1;  ///< metres, > 0
+
+    friend bool operator==(const HeightDensity&, const HeightDensity&) = default;
 };
 
 /// Density 1 in a ball; over its outer `falloff` metres it falls smoothly to 0.
@@ -36,6 +40,8 @@ struct BallDensity {
     glm::dvec3 center{0};  ///< metres
     double radius = 1;     ///< metres, > 0
     double falloff = 0;    ///< metres, 0..radius
+
+    friend bool operator==(const BallDensity&, const BallDensity&) = default;
 };
 
 /// A float grid of an OpenVDB file, which has a transform of its own to metres.
@@ -44,6 +50,8 @@ struct GridDensity {
     std::string grid;               ///< name in the file
     glm::dmat4 world_from_grid{1};  ///< from the grid's metres; affine and safely invertible
     std::string where;
+
+    friend bool operator==(const GridDensity&, const GridDensity&) = default;
 };
 
 /// The medium's density at the world's voxels; without any it is 1 everywhere.
@@ -54,6 +62,8 @@ struct Medium {
     glm::vec3 absorption{0};  ///< per metre at density 1, >= 0
     glm::vec3 color{0};       ///< radiance that an infinitely deep medium shows, >= 0
     Density density;
+
+    friend bool operator==(const Medium&, const Medium&) = default;
 };
 
 /// Whether the medium's density differs from voxel to voxel.
@@ -70,6 +80,8 @@ struct World {
     glm::vec3 ambient{0};      ///< light that reaches every surface
     Medium medium;
     std::string where;  ///< "file:line:column: world", to open a message with
+
+    friend bool operator==(const World&, const World&) = default;
 };
 
 /// A second colour in every other block of a lattice that stands still in the world.
@@ -77,6 +89,8 @@ struct Checker {
     glm::vec3 color{0};    ///< linear Rec. 709, 0..1
     glm::dvec3 size{0};    ///< edges of a block, metres; 0: no change along that axis
     glm::dvec3 origin{0};  ///< a corner of a block of the material's own colour, metres
+
+    friend bool operator==(const Checker&, const Checker&) = default;
 };
 
 struct Material {
@@ -93,6 +107,8 @@ struct Material {
     glm::vec3 absorption{0};  ///< inside, per metre, >= 0
     glm::vec3 emission{0};    ///< radiance, >= 0
     std::optional<Checker> checker;
+
+    friend bool operator==(const Material&, const Material&) = default;
 };
 
 /// O_i before it is placed: a mesh file or a solid, with the lattice that it is voxelized on.
@@ -110,6 +126,8 @@ struct Model {
     /// not used.
     Bounds reach;
     std::string where;
+
+    friend bool operator==(const Model&, const Model&) = default;
 };
 
 /// The material of one group of faces of an object's mesh.
@@ -117,6 +135,8 @@ struct GroupMaterial {
     std::string group;  ///< as named in the mesh file
     int material = 0;
     std::string where;
+
+    friend bool operator==(const GroupMaterial&, const GroupMaterial&) = default;
 };
 
 /// How an object gets into the picture.
@@ -138,6 +158,8 @@ struct Object {
     glm::dmat4 world_from_object{
         1};  ///< affine and safely invertible; mirrors and shears are allowed
     std::string where;
+
+    friend bool operator==(const Object&, const Object&) = default;
 };
 
 enum class LightKind : uint8_t { point, spot, directional, disk, rectangle };
@@ -159,6 +181,8 @@ struct Light {
     glm::dvec3 axis_x{0};         ///< unit vector across `direction`; disk and rectangle
     int spots = 64;               ///< disk and rectangle: points that they shine from
     std::string where;
+
+    friend bool operator==(const Light&, const Light&) = default;
 };
 
 enum class DisplayShape : uint8_t { pyramid, sector, ball, box };
@@ -190,6 +214,8 @@ struct Display {
     VolumeLayout layout = VolumeLayout::rays;
     Visibility visibility = Visibility::observer;  ///< always `observer` for rays
     bool cylinder = false;  ///< lattice: clipped by the upright cylinder that it circumscribes, too
+
+    friend bool operator==(const Display&, const Display&) = default;
 };
 
 /// What half of the image spans, u and v: tangents for a pyramid, metres for a box, else radians.
@@ -201,11 +227,15 @@ struct Observer {
     glm::dmat3 world_from_observer{1};  ///< rotation; its columns are X_E, Y_E, Z_E in the world
     Display display;
     std::string where;
+
+    friend bool operator==(const Observer&, const Observer&) = default;
 };
 
 struct Animation {
     int frames = 1;
     double fps = 24;
+
+    friend bool operator==(const Animation&, const Animation&) = default;
 };
 
 inline constexpr int kMaxImageSide = 65536;
@@ -217,6 +247,8 @@ struct RenderSettings {
     bool shadows = true;
     bool filtered_shadows = false;  ///< refracting objects tint and dim light instead of hiding it
     double least_weight = 1.0 / 4096;  ///< paths that would add less than this share of a pixel end
+
+    friend bool operator==(const RenderSettings&, const RenderSettings&) = default;
 };
 
 /// Everything that a scene file says. Indices are in range, numbers finite and in their documented
@@ -232,6 +264,8 @@ struct Scene {
     Observer observer;
     Animation animation;
     RenderSettings render;
+
+    friend bool operator==(const Scene&, const Scene&) = default;
 };
 
 /// Reads and checks a scene. The format is described in scenes/README.md.

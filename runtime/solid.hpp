@@ -43,6 +43,8 @@ struct Solid {
 
     glm::dmat4 parent_from_solid{1};  ///< affine; identity at the root
     std::vector<Solid> parts;         ///< of a combination; empty for a shape
+
+    bool operator==(const Solid&) const = default;
 };
 
 inline constexpr int kMaxSolidDepth = 16;

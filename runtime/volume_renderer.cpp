@@ -14,8 +14,6 @@
 namespace voxelume {
 namespace {
 
-using Progress = std::function<void(uint32_t, uint32_t)>;
-
 /// What both layouts work with.
 struct Work {
     const Device& device;
@@ -25,7 +23,7 @@ struct Work {
     VolumeFrame frame;
     Sight sight;
     RenderReport& report;
-    const Progress& progress;
+    const FrameProgress& progress;
 };
 
 /// What the lattice's kernels know of the medium: where its density differs from voxel to voxel,
@@ -146,9 +144,9 @@ uint32_t count_not_finite(const Volume& volume) {
 
 }  // namespace
 
-Volume render_volume(const Device& device, const Scene& scene, RenderReport& report,
-                     const Progress& progress) {
-    const Pyramid world = form_world(device, scene, report.world);
+Volume render_volume(const Device& device, const Scene& scene, const FormedWorld& formed,
+                     RenderReport& report, const FrameProgress& progress) {
+    const Pyramid& world = formed.pyramid;
     const auto start = std::chrono::steady_clock::now();
     const VolumeFrame frame = display_frame(scene);
     Work work = {device, scene,
@@ -167,6 +165,12 @@ Volume render_volume(const Device& device, const Scene& scene, RenderReport& rep
     report.image_seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return volume;
+}
+
+Volume render_volume(const Device& device, const Scene& scene, RenderReport& report,
+                     const FrameProgress& progress) {
+    const FormedWorld world = WorldFormer(device, false).form(scene, report.world);
+    return render_volume(device, scene, world, report, progress);
 }
 
 }  // namespace voxelume

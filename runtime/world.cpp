@@ -1,13 +1,9 @@
 #include "runtime/world.hpp"
 
 #include <chrono>
-#include <map>
-#include <memory>
 
-#include "runtime/model_grid.hpp"
 #include "runtime/plan.hpp"
 #include "runtime/stages/index.hpp"
-#include "runtime/stages/place.hpp"
 
 namespace voxelume {
 namespace {
@@ -27,88 +23,121 @@ class Stopwatch {
     Clock::time_point start_ = Clock::now();
 };
 
-/// Voxelizes models once each, and exact objects one by one in the world's frame.
-class ObjectMaker {
-  public:
-    ObjectMaker(const Device& device, const Scene& scene, MeshStore& meshes, WorldReport& report)
-        : scene_(scene), meshes_(meshes), report_(report), voxelizer_(device, meshes) {}
-
-    PlacedObject make(uint32_t number) {
-        const Object& object = scene_.objects[number];
-        const Model& model = scene_.models[size_t(object.model)];
-        PlacedObject placed;
-        placed.world_from_object = object.world_from_object;
-        placed.object = number;
-        placed.priority = object.priority;
-        placed.set = is_voxels(model) ? meshes_.voxels(model).set : model.set;
-        placed.in_world_frame = model.surface == Surface::exact;
-        placed.keeps_inside =
-            shows_inside(scene_, object) ||
-            (is_voxels(model) && model.surface == Surface::cubes && transmits(scene_, object));
-        for (const int material : materials_of_groups(object, meshes_.groups_of(model)))
-            placed.material_of_group.push_back(uint32_t(material));
-        placed.grid = placed.in_world_frame ? exact_grid(object, model) : grid_of(model);
-        return placed;
-    }
-
-  private:
-    const BrickGrid* grid_of(const Model& model) {
-        const auto found = grids_.find(&model);
-        if (found != grids_.end()) return &found->second;
-        Stopwatch watch(report_.voxelize_seconds);
-        BrickGrid grid = voxelizer_.in_own_frame(model);
-        watch.stop();
-        return &grids_.emplace(&model, std::move(grid)).first->second;
-    }
-
-    const BrickGrid* exact_grid(const Object& object, const Model& model) {
-        Stopwatch watch(report_.voxelize_seconds);
-        exact_grids_.push_back(std::make_unique<BrickGrid>(voxelizer_.in_frame(
-            model, object.world_from_object, world_frame(scene_.world), object.where)));
-        watch.stop();
-        return exact_grids_.back().get();
-    }
-
-    const Scene& scene_;
-    MeshStore& meshes_;
-    WorldReport& report_;
-    ModelVoxelizer voxelizer_;
-    std::map<const Model*, BrickGrid> grids_;
-    std::vector<std::unique_ptr<BrickGrid>> exact_grids_;
-};
-
-/// The world's bricks. The models' own grids go when it returns.
-BrickGrid place_objects(const Device& device, const Scene& scene, MeshStore& meshes,
-                        WorldReport& report) {
-    ObjectMaker maker(device, scene, meshes, report);
-    std::vector<PlacedObject> placed;
-    for (uint32_t number = 0; number < scene.objects.size(); ++number)
-        if (is_in_reach(scene, scene.objects[number]) &&
-            !is_instanced(scene, scene.objects[number]))
-            placed.push_back(maker.make(number));
-    Stopwatch watch(report.place_seconds);
-    BrickGrid world = place(device, placed, world_frame(scene.world));
-    device.finish();
-    watch.stop();
-    return world;
+/// Whether grids, bricks and the pyramid can stay while the next world is formed beside them.
+bool fits_twice(const ScenePlan& plan, const DeviceInfo& device) {
+    return plan.place_bytes + plan.index_bytes + plan.image_bytes < double(device.memory);
 }
 
 }  // namespace
 
-Pyramid form_world(const Device& device, const Scene& scene, WorldReport& report) {
-    check_placements(scene);
-    check_tables(scene, device.info());
-    MeshStore meshes;
-    check_memory(scene, plan_scene(scene, meshes), device.info());
-    report.load_seconds = meshes.load_seconds();
-    report.triangles = meshes.triangles();
-    const BrickGrid world = place_objects(device, scene, meshes, report);
+WorldFormer::Origin WorldFormer::origin_of(const Scene& scene) {
+    Origin origin{{}, scene.models, scene.objects, {}};
+    origin.world.bounds = scene.world.bounds;
+    origin.world.voxels = scene.world.voxels;
+    origin.world.voxel_size = scene.world.voxel_size;
+    for (const Material& material : scene.materials)
+        origin.transmits.push_back(transmits(material));
+    origin.lattice = scene.observer.display.layout == VolumeLayout::lattice;
+    leave_out_places_of_instances(scene, origin.models, origin.objects);
+    return origin;
+}
 
-    Stopwatch watch(report.index_seconds);
-    Pyramid pyramid = build_index(device, world);
-    device.finish();
-    watch.stop();
-    return add_instances(device, scene, meshes, std::move(pyramid), report.instances);
+std::vector<PlacedObject> WorldFormer::placed_objects(const Scene& scene,
+                                                      std::vector<SharedGrid>& grids) {
+    std::vector<PlacedObject> objects;
+    for (uint32_t number = 0; number < scene.objects.size(); ++number) {
+        const Object& object = scene.objects[number];
+        if (is_instanced(scene, object) || !is_in_reach(scene, object)) continue;
+        const Model& model = scene.models[size_t(object.model)];
+        const bool has_own_voxels = !model.voxels.empty() && model.surface != Surface::exact;
+        grids.push_back(grids_->grid_of(scene, object));
+        PlacedObject placed{.grid = grids.back().get(), .object = number};
+        placed.in_world_frame = model.surface == Surface::exact;
+        placed.world_from_object = placed.in_world_frame ? glm::dmat4(1) : object.world_from_object;
+        placed.priority = object.priority;
+        placed.set = has_own_voxels ? meshes_.voxels(model).set : model.set;
+        placed.keeps_inside =
+            shows_inside(scene, object) ||
+            (has_own_voxels && model.surface == Surface::cubes && transmits(scene, object));
+        for (const int material : materials_of_groups(object, meshes_.groups_of(model)))
+            placed.material_of_group.push_back(uint32_t(material));
+        objects.push_back(std::move(placed));
+    }
+    return objects;
+}
+
+/// The world before, with its instances where they are now.
+FormedWorld WorldFormer::kept_world(const Scene& scene, WorldReport& report) {
+    report.triangles = meshes_.triangles();
+    report.instances = instances_;
+    std::vector<glm::dmat4> maps = instance_maps(scene, world_.pyramid);
+    report.is_kept = maps == instance_maps_;
+    if (report.is_kept) return world_;
+    Stopwatch moving(report.instances.seconds);
+    report.instances.seconds = 0;
+    move_instances(scene, world_.pyramid);
+    instance_maps_ = std::move(maps);
+    ++world_.version;
+    moving.stop();
+    return world_;
+}
+
+FormedWorld WorldFormer::form(const Scene& scene, WorldReport& report) {
+    Origin origin = origin_of(scene);
+    if (origin_ == origin) return kept_world(scene, report);
+    origin_.reset();
+    world_.pyramid = {};
+    check_placements(scene);
+    check_tables(scene, device_.info());
+    const double loaded_before = meshes_.load_seconds();
+    const ScenePlan plan = plan_scene(scene, meshes_);
+    check_memory(scene, plan, device_.info());
+    report.load_seconds = meshes_.load_seconds() - loaded_before;
+    report.triangles = meshes_.triangles();
+    const bool keeps = follows_ && fits_twice(plan, device_.info());
+
+    if (!grids_) grids_.emplace(device_, meshes_);
+    Stopwatch voxelizing(report.voxelize_seconds);
+    const uint64_t voxelized_before = grids_->voxelized();
+    std::vector<SharedGrid> shown;
+    const std::vector<PlacedObject> objects = placed_objects(scene, shown);
+    const ListedInstances listed = list_instances(scene, meshes_, *grids_);
+    report.voxelized = grids_->voxelized() - voxelized_before;
+    voxelizing.stop();
+
+    Stopwatch placing(report.place_seconds);
+    if (!placer_) placer_.emplace(device_);
+    BrickGrid world = placer_->place(objects, world_frame(scene.world));
+    device_.finish();
+    report.painted_bricks = placer_->painted_bricks();
+    shown_ = std::move(shown);
+    grids_->forget_unused();
+    meshes_.forget_unused();
+    if (!keeps) {
+        placer_.reset();
+        shown_.clear();
+        grids_.reset();
+        meshes_ = {};
+    }
+    placing.stop();
+
+    Stopwatch indexing(report.index_seconds);
+    FormedWorld formed{build_index(device_, world), ++world_.version};
+    formed.pyramid =
+        add_instances(device_, scene, listed, std::move(formed.pyramid), report.instances);
+    device_.finish();
+    indexing.stop();
+    if (keeps) {
+        world_.pyramid = formed.pyramid;
+        instance_maps_ = instance_maps(scene, formed.pyramid);
+        instances_ = report.instances;
+        origin_ = std::move(origin);
+    }
+    return formed;
+}
+
+Pyramid form_world(const Device& device, const Scene& scene, WorldReport& report) {
+    return WorldFormer(device, false).form(scene, report).pyramid;
 }
 
 }  // namespace voxelume

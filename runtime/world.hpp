@@ -1,10 +1,14 @@
 // scene -> S: every object voxelized, placed, and indexed for rays. The paper's block 1.
 #pragma once
 
+#include <optional>
+#include <vector>
+
 #include "runtime/grid.hpp"
 #include "runtime/instances.hpp"
-#include "runtime/opencl/device.hpp"
+#include "runtime/object_grids.hpp"
 #include "runtime/scene.hpp"
+#include "runtime/stages/place.hpp"
 
 namespace voxelume {
 
@@ -15,14 +19,65 @@ struct WorldReport {
     double place_seconds = 0;
     double index_seconds = 0;
     uint64_t triangles = 0;
+    uint64_t voxelized = 0;       ///< models and exact objects that were voxelized
+    uint64_t painted_bricks = 0;  ///< of the world, that objects were painted into
+    bool is_kept = false;         ///< it is the one before, untouched
     InstanceReport instances;
 };
 
-/// Forms S from the scene's objects. Models that no object shows inside the world are not read.
+/// S on a device.
+struct FormedWorld {
+    Pyramid pyramid;
+    uint64_t version = 0;  ///< the same as long as the world is, counted by who formed it
+};
+
+/// Forms the world of one frame after another, and of each only what differs from the one before.
 ///
-/// The plan is made and checked first (runtime/plan.hpp), so a world that doesn't fit costs
-/// nothing. Throws Error::input for a damaged model, Error::scene for a placement or group name
-/// that doesn't fit, Error::limit for a world that the device has no memory for.
+/// Models' grids, the world's bricks and its pyramid stay as long as frames show them, if the
+/// device has the memory; instances that move then cost no more than their maps. What a frame shows
+/// is the same, bit for bit, whatever came before it.
+class WorldFormer {
+  public:
+    /// Where nothing `follows` the first frame, nothing is kept.
+    explicit WorldFormer(const Device& device, bool follows = true)
+        : device_(device), follows_(follows) {}
+
+    /// Forms S from the scene's objects. Models that no object shows inside the world are not read.
+    ///
+    /// The plan is made and checked first (runtime/plan.hpp), so a world that doesn't fit costs
+    /// nothing. Throws Error::input for a damaged model, Error::scene for a placement or group name
+    /// that doesn't fit, Error::limit for a world that the device has no memory for.
+    FormedWorld form(const Scene& scene, WorldReport& report);
+
+  private:
+    /// What the kept world was formed from, if nothing else of a scene matters to it but where its
+    /// instances are.
+    struct Origin {
+        World world;
+        std::vector<Model> models;
+        std::vector<Object> objects;
+        std::vector<bool> transmits;  ///< of each material
+        bool lattice = false;         ///< decides which objects are instances
+        friend bool operator==(const Origin&, const Origin&) = default;
+    };
+
+    static Origin origin_of(const Scene& scene);
+    std::vector<PlacedObject> placed_objects(const Scene& scene, std::vector<SharedGrid>& grids);
+    FormedWorld kept_world(const Scene& scene, WorldReport& report);
+
+    Device device_;
+    bool follows_;
+    MeshStore meshes_;
+    std::optional<ObjectGrids> grids_;
+    std::vector<SharedGrid> shown_;  ///< that the placer's objects name
+    std::optional<Placer> placer_;
+    std::optional<Origin> origin_;
+    std::vector<glm::dmat4> instance_maps_;
+    InstanceReport instances_;
+    FormedWorld world_;
+};
+
+/// The world of a single frame.
 Pyramid form_world(const Device& device, const Scene& scene, WorldReport& report);
 
 }  // namespace voxelume

@@ -3,30 +3,13 @@
 
 #include <gtest/gtest.h>
 
-#include <optional>
 #include <vector>
 
 #include "runtime/stages/place.hpp"
 #include "tests/brick_grids.hpp"
-#include "tests/test_device.hpp"
+#include "tests/shared_device.hpp"
 
 namespace voxelume {
-
-/// Opens one device for all tests of a program and closes it before the driver's own end.
-class SharedDevice : public ::testing::Environment {
-  public:
-    void SetUp() override { device = test_device(); }
-    void TearDown() override { device.reset(); }
-    inline static std::optional<Device> device;
-};
-
-inline ::testing::Environment* const kSharedDevice =
-    ::testing::AddGlobalTestEnvironment(new SharedDevice);
-
-/// The device of all placing tests: buffers of one can't be read by kernels of another.
-inline const Device& shared_device() {
-    return SharedDevice::device.value();
-}
 
 inline GridFrame frame_at(const glm::dvec3& origin, const glm::dvec3& edge,
                           const glm::ivec3& size) {

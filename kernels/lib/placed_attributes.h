@@ -31,6 +31,11 @@ static inline long place_of_voxel(const PlacedObject* object, int4 v) {
     return (long)slot * VXL_BRICK_VOXELS + ((v.x & 15) | (v.y & 15) << 4 | (v.z & 15) << 8);
 }
 
+// Leaves are painted brick by brick, of the slots that are listed.
+static inline uint painted_leaf(uint item, global const uint* painted) {
+    return painted[item >> 6] << 6 | (item & 63u);
+}
+
 // Leaf number 64 * slot + bit of the world: its first node in half steps, its place in the brick.
 static inline int4 leaf_in_world(uint leaf, global const uint* coordinates, int4 world_bricks) {
     const int4 brick = brick_at(coordinates[leaf >> 6], world_bricks);

@@ -63,4 +63,12 @@ void BufferStorage::fill(const void* pattern, size_t pattern_bytes, size_t bytes
                            fmt::format("filling the {} buffer", name_));
 }
 
+void BufferStorage::copy(const BufferStorage& from, size_t bytes) {
+    try {
+        device_.queue().enqueueCopyBuffer(from.buffer_, buffer_, 0, 0, bytes);
+    } catch (const cl::Error& error) {
+        throw_device_error(error, device_.info(), fmt::format("copying to the {} buffer", name_));
+    }
+}
+
 }  // namespace voxelume

@@ -23,6 +23,7 @@ class BufferStorage {
     void write(size_t offset, const void* data, size_t bytes);
     void read(size_t offset, void* data, size_t bytes) const;
     void fill(const void* pattern, size_t pattern_bytes, size_t bytes);
+    void copy(const BufferStorage& from, size_t bytes);
     const cl::Buffer& handle() const { return buffer_; }
 
   private:
@@ -35,8 +36,8 @@ class BufferStorage {
 /// `size()` values of type T on a device; a cheap handle, copies share the memory.
 ///
 /// A default-constructed buffer is empty and is passed to kernels as a null pointer. Reading waits
-/// for the queue; writing and filling are ordered with the kernels. Throws Error::limit when the
-/// device has not enough memory.
+/// for the queue; writing, filling and copying are ordered with the kernels. Throws Error::limit
+/// when the device has not enough memory.
 template <class T>
 class Buffer {
     static_assert(std::is_trivially_copyable_v<T>);
@@ -61,6 +62,10 @@ class Buffer {
     }
     void fill(const T& value) {
         if (storage_) storage_->fill(&value, sizeof(T), size_ * sizeof(T));
+    }
+    /// Begins with the values of `from`, which has no more.
+    void copy(const Buffer& from) {
+        if (!from.empty()) storage_->copy(*from.storage_, from.size_ * sizeof(T));
     }
     std::vector<T> read() const { return read(0, size_); }
     std::vector<T> read(size_t first, size_t count) const {

@@ -36,6 +36,7 @@ struct Device::State {
     cl::Context context;
     cl::CommandQueue queue;
     DeviceCounters counters;
+    std::map<std::string, cl::Program> programs;
     bool timing = false;
     std::vector<std::pair<std::string, cl::Event>> timed;  ///< launches whose time isn't added yet
 
@@ -100,6 +101,9 @@ cl::CommandQueue& Device::queue() const {
 }
 DeviceCounters& Device::counters() const {
     return state_->counters;
+}
+std::map<std::string, cl::Program>& Device::programs() const {
+    return state_->programs;
 }
 
 void Device::finish() const {

@@ -71,6 +71,8 @@ class Device {
     const cl::Device& handle() const;
     cl::CommandQueue& queue() const;
     DeviceCounters& counters() const;
+    /// The programs made ready so far, by a hash of what they were made of; kept until it closes.
+    std::map<std::string, cl::Program>& programs() const;
 
     /// Waits until everything enqueued so far is done. Throws Error::render when the device failed.
     void finish() const;

@@ -1,7 +1,9 @@
 #include "runtime/opencl/program.hpp"
 
 #include <algorithm>
+#include <array>
 
+#include "runtime/disk_cache.hpp"
 #include "runtime/error.hpp"
 #include "runtime/opencl/kernel_source.hpp"
 #include "runtime/opencl/program_cache.hpp"
@@ -55,7 +57,11 @@ Program Program::from_text(const Device& device, const std::string& source,
 Program::Program(const Device& device, const std::string& label, const std::string& source,
                  const Defines& defines)
     : device_(device), label_(label) {
-    program_ = build_program(device, label, source, build_options(device, defines));
+    const std::string options = build_options(device, defines);
+    const std::array<std::string_view, 2> parts = {source, options};
+    cl::Program& kept = device.programs()[cache_key(parts)];
+    if (!kept()) kept = build_program(device, label, source, options);
+    program_ = kept;
 }
 
 Kernel Program::kernel(const std::string& name) const {

@@ -29,6 +29,8 @@ struct Features {
     bool voxel_opacity = false;        ///< voxels have opacities of their own
     bool instances = false;            ///< some objects keep voxels of their own
 
+    friend bool operator==(const Features&, const Features&) = default;
+
     bool exact() const { return triangles || solids; }
 
     Defines defines(const Device& device) const {

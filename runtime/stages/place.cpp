@@ -1,54 +1,20 @@
 #include "runtime/stages/place.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
-#include <glm/vec4.hpp>
-#include <numeric>
-#include <set>
+#include <map>
+#include <optional>
 
 #include "kernels/shared/voxel.h"
 #include "runtime/error.hpp"
-#include "runtime/opencl/program.hpp"
 #include "runtime/stages/place_exact.hpp"
-#include "runtime/stages/placement_map.hpp"
-#include "runtime/stages/placement_words.hpp"
+#include "runtime/stages/place_painter.hpp"
+#include "runtime/stages/world_bricks.hpp"
 
 namespace voxelume {
 namespace {
 
-/// World distances up to here, in voxels, are worth evaluating: what `index` reads of a surface.
-constexpr double kBandVoxels = 2.9;
-
-Surface surface_of(const BrickGrid& grid) {
-    if (!grid.distance.empty()) return Surface::smooth;
-    return grid.primitive_first.empty() ? Surface::cubes : Surface::exact;
-}
-
-/// What the world stores, taken from what its objects have.
-struct WorldParts {
-    bool smooth = false, occupancy = false, colors = false, transparent = false;
-    std::set<uint32_t> words;  ///< that voxels can have
-};
-
-/// An object ready to be painted.
-struct Painter {
-    const PlacedObject* placed;
-    Surface surface;
-    PlacementMap map;
-    Buffer<int64_t> rows;
-    Program program;
-    WordMap words;
-    Buffer<uint64_t> near;  ///< per slot: leaves with voxels, or with distances in the band
-};
-
-bool same_frame(const GridFrame& a, const GridFrame& b) {
-    return a.origin == b.origin && a.voxel_edge == b.voxel_edge && a.size == b.size;
-}
-
 void check_object(const PlacedObject& object, const GridFrame& world) {
-    if (object.in_world_frame && !same_frame(object.grid->frame, world))
+    if (object.in_world_frame && object.grid->frame != world)
         throw Error(ErrorKind::scene,
                     "object {}: its voxels have another frame than the world that they were made "
                     "for: voxelize it in the world's frame",
@@ -63,20 +29,6 @@ void check_object(const PlacedObject& object, const GridFrame& world) {
                     VXL_OBJECT_MASK + 1);
 }
 
-WorldParts parts_of(std::span<const PlacedObject> objects) {
-    WorldParts parts;
-    for (const PlacedObject& object : objects) {
-        const Surface surface = surface_of(*object.grid);
-        parts.smooth |= surface == Surface::smooth;
-        parts.occupancy |= surface != Surface::smooth;
-        parts.colors |= !object.grid->colors.empty();
-        parts.transparent |= object.grid->transparent;
-        const std::vector<uint32_t> words = possible_words(object, surface);
-        parts.words.insert(words.begin(), words.end());
-    }
-    return parts;
-}
-
 /// The objects with the loser of every overlap before its winner; exact ones first of all, since
 /// they share their voxels with smooth surfaces and lose them to cubes.
 std::vector<const PlacedObject*> painting_order(std::span<const PlacedObject> objects) {
@@ -89,191 +41,155 @@ std::vector<const PlacedObject*> painting_order(std::span<const PlacedObject> ob
     return order;
 }
 
-/// WorldBounds of lib/world_bounds.h.
-struct WorldBounds {
-    glm::ivec4 size, half_voxel;
-};
-
-WorldBounds bounds_of(const GridFrame& frame) {
-    const glm::dvec3& e = frame.voxel_edge;
-    const glm::dvec3 units = e / std::min({e.x, e.y, e.z}) * (kDistanceUnitsPerVoxel / 2.0);
-    return {glm::ivec4(frame.size, 0), glm::ivec4(glm::round(units), 0)};
-}
-
-PlacementMap map_of(const PlacedObject& object, const GridFrame& world, Surface surface) {
-    const Reach reach = surface == Surface::smooth     ? Reach::none
-                        : object.set == VoxelSet::thin ? Reach::thin
-                                                       : Reach::supercover;
-    return placement_map(object.grid->frame, world,
-                         object.in_world_frame ? glm::dmat4(1.0) : object.world_from_object, reach,
-                         object.object);
-}
-
-Painter prepare(const Device& device, const PlacedObject& object, const GridFrame& world,
-                const WorldParts& parts) {
-    const BrickGrid& grid = *object.grid;
-    const Surface surface = surface_of(grid);
-    const PlacementMap map = map_of(object, world, surface);
-    const bool smooth = surface == Surface::smooth;
-    Painter painter{.placed = &object,
-                    .surface = surface,
-                    .map = map,
-                    .rows = Buffer<int64_t>(device, "placement", map.rows),
-                    .program = Program(device, "place.cl",
-                                       {{"VXL_SMOOTH", smooth},
-                                        {"VXL_ATTRIBUTES", parts.words.size() > 1},
-                                        {"VXL_COLORS", parts.colors},
-                                        {"VXL_OBJECT_ATTRIBUTES", !grid.attributes.empty()},
-                                        {"VXL_OBJECT_COLORS", !grid.colors.empty()},
-                                        {"VXL_WORLD_OCCUPANCY", parts.occupancy},
-                                        {"VXL_REACH", map.has_reach},
-                                        {"VXL_KEEPS_INSIDE", object.keeps_inside}}),
-                    .words = word_map(device, object, surface),
-                    .near = Buffer<uint64_t>(device, "near leaves", grid.brick_count)};
-    const double band = std::ceil(kBandVoxels * kDistanceUnitsPerVoxel / map.distance_scale);
-    const int threshold = static_cast<int>(std::min(band, 32767.0));
-    painter.program.kernel("mark_near_leaves")
-        .launch(WorkItem::heavy, grid.brick_count, grid.brick_count, threshold, grid.occupancy,
-                grid.distance, painter.near);
-    return painter;
-}
-
-/// Decides which of the world's bricks are stored, and numbers them in ascending order.
-void number_bricks(const Device& device, std::span<Painter> painters, BrickGrid& world) {
-    const glm::ivec3 table = world.frame.bricks();
-    const auto count = static_cast<uint32_t>(table.x * table.y * table.z);
-    const WorldBounds bounds = bounds_of(world.frame);
-    Buffer<uint8_t> states(device, "brick states", count);
-    states.fill(0);
-    for (Painter& painter : painters) {
-        const BrickGrid& grid = *painter.placed->grid;
-        painter.program.kernel("classify_bricks")
-            .launch(WorkItem::light, count, count, glm::ivec4(table, 0), bounds,
-                    painter.map.fraction_bits, painter.rows, glm::ivec4(grid.frame.bricks(), 0),
-                    grid.slots, painter.near, grid.distance, states);
-    }
-    constexpr uint8_t kFull = 1, kSurface = 2;  // lib/placed.h
-    std::vector<uint32_t> slots(count, kBrickOutside), coordinates;
-    const std::vector<uint8_t> found = states.read();
-    for (uint32_t brick = 0; brick < count; ++brick) {
-        if (found[brick] == kFull) slots[brick] = kBrickInside;
-        if (found[brick] != kSurface) continue;
-        slots[brick] = static_cast<uint32_t>(coordinates.size());
-        coordinates.push_back(brick);
-    }
-    world.brick_count = static_cast<uint32_t>(coordinates.size());
-    world.slots = Buffer<uint32_t>(device, "world slots", slots);
-    world.coordinates = Buffer<uint32_t>(device, "world coordinates", coordinates);
-}
-
-void allocate(const Device& device, const WorldParts& parts, BrickGrid& world) {
-    const size_t voxels = size_t(world.brick_count) * 4096;
-    if (parts.occupancy) {
-        world.occupancy = Buffer<uint64_t>(device, "world occupancy", voxels / 64);
-        world.occupancy.fill(0);
-    }
-    if (parts.smooth) {
-        world.distance = Buffer<int16_t>(device, "world distances", voxels);
-        world.distance.fill(32767);
-    }
-    if (parts.words.size() > 1) {
-        world.attributes = Buffer<uint32_t>(device, "world attributes", voxels);
-        world.attributes.fill(0);
-    } else if (!parts.words.empty()) {
-        world.attribute = *parts.words.begin();
-    }
-    if (parts.colors) {
-        world.colors = Buffer<uint32_t>(device, "world colors", voxels);
-        world.colors.fill(0xFFFFFF);
-        world.transparent = parts.transparent;
-    }
-}
-
-/// Ends the world's distances at its bounds, by the program of any smooth object's painter.
-void close_distances(Painter& painter, BrickGrid& world) {
-    const uint32_t leaves = world.brick_count * 64;
-    painter.program.kernel("close_distances")
-        .launch(WorkItem::light, leaves, leaves, glm::ivec4(world.frame.bricks(), 0),
-                bounds_of(world.frame), world.coordinates, world.distance);
-}
-
-/// Half a voxel's diagonal, in distance units of the grid.
-int half_diagonal(const GridFrame& frame) {
-    const glm::dvec3 e = frame.voxel_edge;
-    return static_cast<int>(
-        std::ceil(glm::length(e) / 2 / std::min({e.x, e.y, e.z}) * kDistanceUnitsPerVoxel));
-}
-
-void paint_smooth(Painter& painter, BrickGrid& world, const Buffer<int16_t>& nearest) {
-    const BrickGrid& grid = *painter.placed->grid;
-    const uint32_t leaves = world.brick_count * 64;
-    const glm::ivec4 table(world.frame.bricks(), 0), object_table(grid.frame.bricks(), 0);
-    const auto scale = static_cast<float>(painter.map.distance_scale);
-    painter.program.kernel("paint_distances")
-        .launch(WorkItem::heavy, leaves, leaves, table, painter.map.fraction_bits, painter.rows,
-                object_table, grid.slots, painter.near, grid.distance, scale, world.coordinates,
-                world.distance);
-    if (nearest.empty()) return;
-    painter.program.kernel("paint_smooth_voxels")
-        .launch(WorkItem::heavy, leaves, leaves, table, bounds_of(world.frame),
-                painter.map.fraction_bits, painter.rows, object_table, grid.slots, painter.near,
-                grid.distance, scale, half_diagonal(world.frame), painter.words.map,
-                painter.words.materials, grid.attributes, grid.colors, world.coordinates,
-                world.distance, nearest, world.occupancy, world.attributes, world.colors);
-}
-
-void paint_cubes(Painter& painter, BrickGrid& world) {
-    const BrickGrid& grid = *painter.placed->grid;
-    const uint32_t leaves = world.brick_count * 64;
-    painter.program.kernel("paint_cubes")
-        .launch(WorkItem::heavy, leaves, leaves, glm::ivec4(world.frame.bricks(), 0),
-                painter.map.fraction_bits, painter.rows, glm::ivec4(grid.frame.bricks(), 0),
-                grid.slots, painter.near, grid.occupancy, painter.words.map,
-                painter.words.materials, grid.attributes, grid.colors,
-                glm::ivec4(world.frame.size, 0), world.coordinates, world.occupancy,
-                world.attributes, world.colors);
-}
-
 /// A world that is its only object: its buffers, with its word.
 bool is_only_object(std::span<const PlacedObject> objects, const WorldParts& parts) {
-    return objects.size() == 1 && objects[0].in_world_frame && parts.words.size() == 1 &&
+    return objects.size() == 1 && objects[0].in_world_frame && !parts.has_words() &&
            !objects[0].keeps_inside && surface_of(*objects[0].grid) != Surface::exact;
 }
 
 }  // namespace
 
-BrickGrid place(const Device& device, std::span<const PlacedObject> objects,
-                const GridFrame& world) {
+/// Objects placed, and their world.
+class Placer::State {
+  public:
+    State(const Device& device, const GridFrame& frame) : device_(device) { world_.frame = frame; }
+
+    bool continues_with(const GridFrame& frame, const WorldParts& parts) const {
+        return bricks_ && frame == world_.frame && parts.is_stored_like(parts_);
+    }
+
+    /// An object's own buffers are all of the world.
+    void share(const PlacedObject& object, const WorldParts& parts) {
+        world_ = *object.grid;
+        world_.attributes = {};
+        world_.attribute = *parts.words.begin();
+    }
+
+    void place(std::span<const PlacedObject> objects, const WorldParts& parts) {
+        parts_ = parts;
+        std::map<uint32_t, Painter> left = std::exchange(painters_, {});
+        std::vector<Painter*> changed;
+        take_painters(objects, left, changed);
+        for (auto& [number, painter] : left) changed.push_back(&painter);
+        const bool is_first = !bricks_;
+        if (is_first) bricks_.emplace(device_, parts, world_);
+        const std::vector<uint32_t> bricks =
+            is_first ? std::vector<uint32_t>{} : bricks_with(changed);
+        const std::vector<uint32_t> slots = bricks_->store(
+            bricks, is_first || !bricks.empty() ? states(bricks) : std::vector<uint8_t>{});
+        paint(objects, slots);
+        join_exact_surfaces(device_, objects, world_);
+    }
+
+    const BrickGrid& world() const { return world_; }
+    uint32_t painted() const { return painted_; }
+
+  private:
+    /// Painters for the objects, those that didn't change from `left`.
+    void take_painters(std::span<const PlacedObject> objects, std::map<uint32_t, Painter>& left,
+                       std::vector<Painter*>& changed) {
+        std::map<const BrickGrid*, const Painter*> of_grid;
+        for (const auto& [number, painter] : left) of_grid[painter.object().grid] = &painter;
+        for (const PlacedObject& object : objects) {
+            const auto before = left.find(object.object);
+            if (before != left.end() && before->second.object() == object) {
+                painters_.insert(left.extract(before));
+                continue;
+            }
+            const Painter*& same_grid = of_grid[object.grid];
+            const auto added = painters_.try_emplace(object.object, device_, object, world_.frame,
+                                                     parts_, same_grid);
+            same_grid = &added.first->second;
+            changed.push_back(&added.first->second);
+        }
+    }
+
+    uint32_t table_size() const {
+        const glm::ivec3 table = world_.frame.bricks();
+        return uint32_t(table.x) * uint32_t(table.y) * uint32_t(table.z);
+    }
+
+    /// The states that objects give to the bricks listed, or to all.
+    template <class Painters>
+    std::vector<uint8_t> states(const std::vector<uint32_t>& listed, Painters&& painters) {
+        const auto count = uint32_t(listed.empty() ? table_size() : listed.size());
+        const Buffer<uint32_t> list(device_, "listed bricks", listed);
+        Buffer<uint8_t> states(device_, "brick states", count);
+        states.fill(0);
+        for (Painter* painter : painters) painter->classify(world_.frame, count, list, states);
+        return states.read();
+    }
+
+    std::vector<uint8_t> states(const std::vector<uint32_t>& listed) {
+        std::vector<Painter*> all;
+        for (auto& [number, painter] : painters_) all.push_back(&painter);
+        return states(listed, all);
+    }
+
+    /// The bricks in which one of the painters has a part.
+    std::vector<uint32_t> bricks_with(const std::vector<Painter*>& painters) {
+        std::vector<uint32_t> bricks;
+        if (painters.empty()) return bricks;
+        const std::vector<uint8_t> found = states({}, painters);
+        for (uint32_t brick = 0; brick < found.size(); ++brick)
+            if (found[brick] != 0) bricks.push_back(brick);
+        return bricks;
+    }
+
+    void paint(std::span<const PlacedObject> objects, const std::vector<uint32_t>& slots) {
+        painted_ = uint32_t(slots.size());
+        world_.transparent = parts_.transparent;
+        if (!parts_.has_words() && !parts_.words.empty()) world_.attribute = *parts_.words.begin();
+        PaintedBricks painted{painted_, Buffer<uint32_t>(device_, "painted bricks", slots), {}};
+        bricks_->clear(painted.slots);
+        if (parts_.smooth && (parts_.has_words() || parts_.colors || parts_.occupancy)) {
+            painted.nearest =
+                Buffer<int16_t>(device_, "nearest surfaces", size_t(painted.count) * 4096);
+            painted.nearest.fill(32767);
+        }
+        Painter* smooth = nullptr;
+        for (const PlacedObject* object : painting_order(objects)) {
+            Painter& painter = painters_.at(object->object);
+            painter.paint(painted, world_);
+            if (painter.surface() == Surface::smooth) smooth = &painter;
+        }
+        if (smooth) smooth->close_distances(painted, world_);
+    }
+
+    Device device_;
+    BrickGrid world_;
+    WorldParts parts_;
+    std::optional<WorldBricks> bricks_;     ///< none before the first placing
+    std::map<uint32_t, Painter> painters_;  ///< by their objects' numbers
+    uint32_t painted_ = 0;
+};
+
+Placer::Placer(const Device& device) : device_(device) {}
+Placer::~Placer() = default;
+
+const BrickGrid& Placer::place(std::span<const PlacedObject> objects, const GridFrame& world) {
     for (const PlacedObject& object : objects) check_object(object, world);
     const WorldParts parts = parts_of(objects);
-    BrickGrid result;
+    std::unique_ptr<State> state = std::move(state_);
     if (is_only_object(objects, parts)) {
-        result = *objects[0].grid;
-        result.attributes = {};
-        result.attribute = *parts.words.begin();
-        return result;
+        state = std::make_unique<State>(device_, world);
+        state->share(objects[0], parts);
+    } else {
+        if (!state || !state->continues_with(world, parts))
+            state = std::make_unique<State>(device_, world);
+        state->place(objects, parts);
     }
-    result.frame = world;
-    std::vector<Painter> painters;
-    for (const PlacedObject* object : painting_order(objects))
-        painters.push_back(prepare(device, *object, world, parts));
-    number_bricks(device, painters, result);
-    allocate(device, parts, result);
-    Buffer<int16_t> nearest;  // distance of the nearest smooth surface to each voxel's centre
-    if (parts.smooth && (parts.words.size() > 1 || parts.colors || parts.occupancy)) {
-        nearest = Buffer<int16_t>(device, "nearest surfaces", size_t(result.brick_count) * 4096);
-        nearest.fill(32767);
-    }
-    for (Painter& painter : painters) {
-        if (painter.surface == Surface::smooth)
-            paint_smooth(painter, result, nearest);
-        else
-            paint_cubes(painter, result);
-    }
-    const auto smooth = std::ranges::find(painters, Surface::smooth, &Painter::surface);
-    if (smooth != painters.end()) close_distances(*smooth, result);
-    join_exact_surfaces(device, objects, result);
-    return result;
+    state_ = std::move(state);
+    return state_->world();
+}
+
+uint32_t Placer::painted_bricks() const {
+    return state_ ? state_->painted() : 0;
+}
+
+BrickGrid place(const Device& device, std::span<const PlacedObject> objects,
+                const GridFrame& world) {
+    return Placer(device).place(objects, world);
 }
 
 }  // namespace voxelume

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <glm/mat4x4.hpp>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -24,6 +25,8 @@ struct PlacedObject {
     VoxelSet set = VoxelSet::supercover;  ///< what its cubes are; `thin` widens turned sheets
     bool in_world_frame = false;  ///< `grid` has the world's frame already, the map is not used
     bool keeps_inside = false;    ///< of solid cubes: rays see the voxels inside, too
+
+    friend bool operator==(const PlacedObject&, const PlacedObject&) = default;
 };
 
 /// Resamples every object into one grid of the world by the inverse of its map, in one step from
@@ -65,5 +68,28 @@ struct PlacedObject {
 /// Throws Error::scene for a placement that can't be inverted, Error::limit for too little memory.
 BrickGrid place(const Device& device, std::span<const PlacedObject> objects,
                 const GridFrame& world);
+
+/// Places one list of objects after another, and paints again only the bricks of the world that
+/// the objects which changed had a part in, or have now. The voxels are those that `place` gives.
+class Placer {
+  public:
+    explicit Placer(const Device& device);
+    ~Placer();
+    Placer(const Placer&) = delete;
+    Placer& operator=(const Placer&) = delete;
+
+    /// The grids of `objects` must live until the next call has returned, or the placer has gone.
+    /// The result is changed by the next call; its slots are in no order. Throws as `place` does,
+    /// and starts afresh then.
+    const BrickGrid& place(std::span<const PlacedObject> objects, const GridFrame& world);
+
+    /// Bricks that the last call painted: none where the world is its only object.
+    uint32_t painted_bricks() const;
+
+  private:
+    class State;
+    Device device_;
+    std::unique_ptr<State> state_;
+};
 
 }  // namespace voxelume

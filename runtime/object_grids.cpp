@@ -1,0 +1,75 @@
+#include "runtime/object_grids.hpp"
+
+#include <algorithm>
+
+#include "runtime/error.hpp"
+#include "runtime/stages/voxelize_solid.hpp"
+
+namespace voxelume {
+namespace {
+
+bool has_own_voxels(const Model& model) {
+    return !model.voxels.empty() && model.surface != Surface::exact;
+}
+
+/// A model without its name, its place in the scene, and what is in its frame already.
+Model source_of(Model model) {
+    model.name.clear();
+    model.where.clear();
+    model.reach = {};
+    model.voxel_size = glm::dvec3(0);
+    model.resolution = 0;
+    return model;
+}
+
+}  // namespace
+
+SharedGrid ObjectGrids::grid_of(const Scene& scene, const Object& object) {
+    const Model& model = scene.models[size_t(object.model)];
+    if (model.surface != Surface::exact) return own_grid_of(model);
+    const Source source{source_of(model), object.world_from_object, world_frame(scene.world)};
+    return find_or_make(model, source, object.where);
+}
+
+SharedGrid ObjectGrids::own_grid_of(const Model& model) {
+    Source source{source_of(model), glm::dmat4(1), {}};
+    if (!has_own_voxels(model)) source.frame = model_frame(model, meshes_.mesh_of(model));
+    return find_or_make(model, source, model.where);
+}
+
+SharedGrid ObjectGrids::find_or_make(const Model& model, const Source& source,
+                                     const std::string& where) {
+    const auto found = std::ranges::find(kept_, source, &Kept::source);
+    if (found != kept_.end()) {
+        found->is_used = true;
+        return found->grid;
+    }
+    try {
+        auto grid = std::make_shared<const BrickGrid>(make(model, source));
+        device_.finish();
+        ++voxelized_;
+        kept_.push_back({source, grid});
+        return grid;
+    } catch (const Error& error) {
+        const bool is_users = error.kind() == ErrorKind::input || error.kind() == ErrorKind::limit;
+        if (!is_users) throw;
+        throw Error(error.kind(), "{}: {}", where, error.what());
+    }
+}
+
+BrickGrid ObjectGrids::make(const Model& model, const Source& source) {
+    if (has_own_voxels(model)) return meshes_.voxels(model).upload(device_);
+    const VoxelizeOptions options = {model.surface, model.set};
+    if (model.solid)
+        return voxelize_solid(device_, *model.solid, source.frame_from_model, source.frame,
+                              options);
+    return voxelizer_.voxelize(*meshes_.mesh_of(model), source.frame_from_model, source.frame,
+                               options);
+}
+
+void ObjectGrids::forget_unused() {
+    std::erase_if(kept_, [](const Kept& kept) { return !kept.is_used; });
+    for (Kept& kept : kept_) kept.is_used = false;
+}
+
+}  // namespace voxelume

@@ -1,0 +1,75 @@
+// An object on its way into the world: its inverse map, and the kernels that paint its voxels.
+#pragma once
+
+#include <set>
+
+#include "runtime/opencl/program.hpp"
+#include "runtime/stages/place.hpp"
+#include "runtime/stages/placement_map.hpp"
+#include "runtime/stages/placement_words.hpp"
+
+namespace voxelume {
+
+Surface surface_of(const BrickGrid& grid);
+
+/// What the world stores, taken from what its objects have.
+struct WorldParts {
+    bool smooth = false, occupancy = false, colors = false, transparent = false;
+    std::set<uint32_t> words;  ///< that voxels can have
+
+    bool has_words() const { return words.size() > 1; }
+    /// Whether bricks of the one world are bricks of the other.
+    bool is_stored_like(const WorldParts& other) const;
+};
+
+WorldParts parts_of(std::span<const PlacedObject> objects);
+
+/// WorldBounds of lib/world_bounds.h.
+struct WorldBounds {
+    glm::ivec4 size, half_voxel;
+};
+
+WorldBounds bounds_of(const GridFrame& frame);
+
+/// Bricks of the world that are painted: their slots on the device.
+struct PaintedBricks {
+    uint32_t count = 0;
+    Buffer<uint32_t> slots;
+    Buffer<int16_t> nearest;  ///< 4096 each: distance of the nearest smooth surface to each voxel's
+                              ///< centre; only where that decides something
+};
+
+/// An object ready to be painted into a world. Its grid must outlive it.
+class Painter {
+  public:
+    /// `before` may be any object's painter; what depends on the same grid is taken from it.
+    Painter(const Device& device, const PlacedObject& object, const GridFrame& world,
+            const WorldParts& parts, const Painter* before);
+
+    const PlacedObject& object() const { return object_; }
+    Surface surface() const { return surface_; }
+
+    /// Raises the states of the world's bricks in `listed`, or, where that is empty, of all.
+    void classify(const GridFrame& world, uint32_t count, const Buffer<uint32_t>& listed,
+                  const Buffer<uint8_t>& states);
+
+    void paint(const PaintedBricks& painted, BrickGrid& world);
+
+    /// Ends the world's distances at its bounds; any smooth object's painter does.
+    void close_distances(const PaintedBricks& painted, BrickGrid& world);
+
+  private:
+    void paint_smooth(const PaintedBricks& painted, BrickGrid& world);
+    void paint_cubes(const PaintedBricks& painted, BrickGrid& world);
+
+    PlacedObject object_;
+    Surface surface_;
+    PlacementMap map_;
+    Buffer<int64_t> rows_;
+    Program program_;
+    WordMap words_;
+    int threshold_;          ///< distances below which a leaf is near
+    Buffer<uint64_t> near_;  ///< per slot: leaves with voxels, or with distances in the band
+};
+
+}  // namespace voxelume

@@ -1,0 +1,109 @@
+#include "runtime/stages/world_bricks.hpp"
+
+#include "runtime/stages/place_painter.hpp"
+
+namespace voxelume {
+namespace {
+
+constexpr uint8_t kFull = 1, kSurface = 2;  // lib/placed.h
+constexpr size_t kVoxels = 4096;            // of a brick
+
+/// A buffer for `size` values that begins with those of `old`.
+template <class T>
+Buffer<T> enlarged(const Device& device, const char* name, const Buffer<T>& old, size_t size) {
+    Buffer<T> buffer(device, name, size);
+    buffer.copy(old);
+    return buffer;
+}
+
+}  // namespace
+
+WorldBricks::WorldBricks(const Device& device, const WorldParts& parts, BrickGrid& world)
+    : device_(device),
+      smooth_(parts.smooth),
+      occupancy_(parts.occupancy),
+      words_(parts.has_words()),
+      colors_(parts.colors),
+      world_(world),
+      program_(device, "place_bricks.cl",
+               {{"VXL_SMOOTH", smooth_},
+                {"VXL_OCCUPANCY", occupancy_},
+                {"VXL_ATTRIBUTES", words_},
+                {"VXL_COLORS", colors_}}) {
+    const glm::ivec3 table = world.frame.bricks();
+    slots_.assign(size_t(table.x) * size_t(table.y) * size_t(table.z), kBrickOutside);
+}
+
+std::vector<uint32_t> WorldBricks::store(const std::vector<uint32_t>& places,
+                                         const std::vector<uint8_t>& states) {
+    std::vector<uint32_t> gaps, added, stored;
+    for (size_t i = 0; i < states.size(); ++i) {
+        const auto place = uint32_t(places.empty() ? i : places[i]);
+        const bool was_stored = slots_[place] < kBrickInside, is_stored = states[i] == kSurface;
+        if (is_stored) stored.push_back(place);
+        if (was_stored && !is_stored) gaps.push_back(slots_[place]);
+        if (!was_stored && is_stored) added.push_back(place);
+        if (!is_stored) slots_[place] = states[i] == kFull ? kBrickInside : kBrickOutside;
+    }
+    for (const uint32_t place : added) {
+        if (gaps.empty()) {
+            slots_[place] = uint32_t(coordinates_.size());
+            coordinates_.push_back(place);
+        } else {
+            slots_[place] = gaps.back();
+            coordinates_[gaps.back()] = place;
+            gaps.pop_back();
+        }
+    }
+    reserve(uint32_t(coordinates_.size()));
+    fill_gaps(gaps);
+    world_.brick_count = uint32_t(coordinates_.size());
+    world_.slots = Buffer<uint32_t>(device_, "world slots", slots_);
+    world_.coordinates = Buffer<uint32_t>(device_, "world coordinates", coordinates_);
+    for (uint32_t& place : stored) place = slots_[place];
+    return stored;
+}
+
+/// Moves the last bricks into gaps.
+void WorldBricks::fill_gaps(const std::vector<uint32_t>& gaps) {
+    const auto left = uint32_t(coordinates_.size() - gaps.size());
+    std::vector<bool> is_gap(coordinates_.size());
+    for (const uint32_t gap : gaps) is_gap[gap] = true;
+    std::vector<uint32_t> moves;
+    uint32_t last = left;
+    for (const uint32_t gap : gaps) {
+        if (gap >= left) continue;
+        while (is_gap[last]) ++last;
+        moves.insert(moves.end(), {last, gap});
+        coordinates_[gap] = coordinates_[last++];
+        slots_[coordinates_[gap]] = gap;
+    }
+    coordinates_.resize(left);
+    const auto parts = uint32_t(moves.size() / 2 * 64);
+    program_.kernel("move_bricks")
+        .launch(WorkItem::light, parts, parts, Buffer<uint32_t>(device_, "moved bricks", moves),
+                world_.distance, world_.occupancy, world_.attributes, world_.colors);
+}
+
+void WorldBricks::clear(const Buffer<uint32_t>& slots) {
+    const auto parts = uint32_t(slots.size() * 64);
+    program_.kernel("clear_bricks")
+        .launch(WorkItem::light, parts, parts, slots, world_.distance, world_.occupancy,
+                world_.attributes, world_.colors);
+}
+
+/// A world that grows once may grow again: then with room for a quarter more.
+void WorldBricks::reserve(uint32_t bricks) {
+    if (bricks <= reserved_) return;
+    const size_t places = reserved_ == 0 ? bricks : bricks + bricks / 4;
+    const size_t voxels = places * kVoxels;
+    if (occupancy_)
+        world_.occupancy = enlarged(device_, "world occupancy", world_.occupancy, voxels / 64);
+    if (smooth_) world_.distance = enlarged(device_, "world distances", world_.distance, voxels);
+    if (words_)
+        world_.attributes = enlarged(device_, "world attributes", world_.attributes, voxels);
+    if (colors_) world_.colors = enlarged(device_, "world colors", world_.colors, voxels);
+    reserved_ = uint32_t(places);
+}
+
+}  // namespace voxelume

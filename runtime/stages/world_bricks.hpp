@@ -1,0 +1,41 @@
+// The bricks that a world stores: which, in what slots, and the buffers that hold them.
+#pragma once
+
+#include <vector>
+
+#include "runtime/grid.hpp"
+#include "runtime/opencl/program.hpp"
+
+namespace voxelume {
+
+struct WorldParts;
+
+/// Keeps a grid's slots without gaps while bricks come and go. The grid must outlive it.
+class WorldBricks {
+  public:
+    /// No brick is stored yet; `world` has its frame.
+    WorldBricks(const Device& device, const WorldParts& parts, BrickGrid& world);
+
+    /// Stores the bricks of `places` whose state is VXL_SURFACE, marks those that are VXL_FULL as
+    /// inside and drops the others. Without places, `states` are those of all bricks. The contents
+    /// of bricks that aren't named stay. Returns the slots of those of `places` that are stored.
+    std::vector<uint32_t> store(const std::vector<uint32_t>& places,
+                                const std::vector<uint8_t>& states);
+
+    /// Empties bricks.
+    void clear(const Buffer<uint32_t>& slots);
+
+  private:
+    void fill_gaps(const std::vector<uint32_t>& gaps);
+    void reserve(uint32_t bricks);
+
+    Device device_;
+    bool smooth_, occupancy_, words_, colors_;
+    BrickGrid& world_;
+    Program program_;
+    std::vector<uint32_t> slots_;        ///< BrickGrid::slots
+    std::vector<uint32_t> coordinates_;  ///< BrickGrid::coordinates
+    uint32_t reserved_ = 0;              ///< bricks that the buffers have room for
+};
+
+}  // namespace voxelume

@@ -1,0 +1,182 @@
+// Placing again what changed, against placing everything afresh.
+#include <gtest/gtest.h>
+
+#include <glm/gtc/matrix_transform.hpp>
+#include <random>
+
+#include "runtime/stages/index.hpp"
+#include "runtime/stages/solid_bounds.hpp"
+#include "runtime/stages/voxelize_solid.hpp"
+#include "tests/placing.hpp"
+
+namespace voxelume {
+namespace {
+
+constexpr double kEdge = 0.02;
+
+GridFrame world_of(int voxels) {
+    return frame_at(glm::dvec3(-1), glm::dvec3(kEdge), glm::ivec3(voxels));
+}
+
+BrickGrid ball(double radius, Surface surface, VoxelSet set = VoxelSet::solid) {
+    Solid solid;
+    solid.radius = radius;
+    const GridFrame frame = frame_around(solid, glm::dmat4(1), glm::dvec3(kEdge), 4, {});
+    return voxelize_solid(shared_device(), solid, glm::dmat4(1), frame, {surface, set});
+}
+
+PlacedObject at(const BrickGrid& grid, uint32_t number, const glm::dvec3& position) {
+    return {.grid = &grid,
+            .world_from_object = glm::translate(glm::dmat4(1), position),
+            .object = number,
+            .material_of_group = {number % 3}};
+}
+
+/// What rays read of a world: every buffer of its pyramid.
+std::vector<std::vector<uint32_t>> pyramid_of(const BrickGrid& world) {
+    const Pyramid p = build_index(shared_device(), world);
+    return {p.sectors.read(),    p.bricks.read(),
+            p.leaves.read(),     p.leaf_voxels.read(),
+            p.attributes.read(), p.colors.read(),
+            p.fields.read(),     p.primitive_first.read(),
+            p.primitives.read(), p.triangle_attributes.read(),
+            p.solids.read(),     {p.attribute, p.voxel_count}};
+}
+
+void expect_as_placed_afresh(Placer& placer, const std::vector<PlacedObject>& objects,
+                             const GridFrame& frame, const std::string& what) {
+    EXPECT_EQ(pyramid_of(placer.place(objects, frame)),
+              pyramid_of(place(shared_device(), objects, frame)))
+        << what;
+}
+
+TEST(Placer, FollowsRandomChanges) {
+    constexpr uint32_t kSeed = 7;
+    std::mt19937 random(kSeed);
+    const auto uniform = [&](double low, double high) {
+        return std::uniform_real_distribution<double>(low, high)(random);
+    };
+    const BrickGrid smooth = ball(0.3, Surface::smooth), small = ball(0.1, Surface::smooth);
+    const BrickGrid cubes = ball(0.25, Surface::cubes),
+                    shell = ball(0.4, Surface::cubes, VoxelSet::supercover);
+    const std::array grids = {&smooth, &small, &cubes, &shell};
+    const GridFrame frame = world_of(100);
+    const auto somewhere = [&](uint32_t number) {
+        PlacedObject object = at(*grids[random() % grids.size()], number,
+                                 {uniform(-1, 1), uniform(-1, 1), uniform(-1, 1)});
+        const glm::dvec3 axis(uniform(-1, 1), uniform(-1, 1), 0.3);
+        object.world_from_object = glm::rotate(object.world_from_object, uniform(0, 6), axis);
+        object.priority = int(random() % 2);
+        object.keeps_inside = object.grid == &cubes && random() % 2;
+        return object;
+    };
+    std::vector<PlacedObject> objects;
+    for (uint32_t number = 0; number < 6; ++number) objects.push_back(somewhere(number));
+    Placer placer(shared_device());
+    expect_as_placed_afresh(placer, objects, frame, "at first");
+    for (int step = 0; step < 25; ++step) {
+        const size_t which = random() % objects.size();
+        const auto kind = random() % 4;
+        if (kind == 0 && objects.size() > 3)
+            objects.erase(objects.begin() + long(which));
+        else if (kind == 1)
+            objects.push_back(somewhere(objects.back().object + 1));
+        else
+            objects[which] = somewhere(objects[which].object);
+        expect_as_placed_afresh(placer, objects, frame,
+                                fmt::format("seed {}, step {}", kSeed, step));
+    }
+}
+
+TEST(Placer, PaintsNothingWhereNothingChanged) {
+    const BrickGrid grid = ball(0.3, Surface::smooth);
+    const std::vector<PlacedObject> objects = {at(grid, 0, {-.5, 0, 0}), at(grid, 1, {.5, 0, 0})};
+    Placer placer(shared_device());
+    const uint32_t bricks = placer.place(objects, world_of(100)).brick_count;
+    EXPECT_EQ(placer.painted_bricks(), bricks);
+    DeviceCounters& counters = shared_device().counters();
+    counters.launches.clear();
+    EXPECT_EQ(placer.place(objects, world_of(100)).brick_count, bricks);
+    EXPECT_EQ(placer.painted_bricks(), 0u);
+    EXPECT_TRUE(counters.launches.empty());
+}
+
+TEST(Placer, PaintsTheBricksOfAMovedObjectOnly) {
+    const BrickGrid grid = ball(0.2, Surface::smooth);
+    std::vector<PlacedObject> objects = {at(grid, 0, {-.6, 0, 0}), at(grid, 1, {.6, 0, 0})};
+    Placer placer(shared_device());
+    placer.place(objects, world_of(100));
+    const std::vector<PlacedObject> alone = {objects[0]};
+    const uint32_t of_one = place(shared_device(), alone, world_of(100)).brick_count;
+    objects[0].world_from_object[3].x += kEdge;
+    DeviceCounters& counters = shared_device().counters();
+    counters.launches.clear();
+    placer.place(objects, world_of(100));
+    EXPECT_GE(placer.painted_bricks(), of_one / 2);
+    EXPECT_LE(placer.painted_bricks(), 2 * of_one);
+    // The moved object's grid is the other's, so its near leaves are known.
+    EXPECT_EQ(counters.launches.count("mark_near_leaves"), 0u);
+}
+
+TEST(Placer, GrowsAndShrinksWithItsObjects) {
+    const BrickGrid grid = ball(0.2, Surface::cubes);
+    std::vector<PlacedObject> objects = {at(grid, 0, {-.6, -.6, -.6})};
+    Placer placer(shared_device());
+    for (uint32_t number = 1; number < 8; ++number) {
+        objects.push_back(at(
+            grid, number, {number & 1 ? .6 : -.6, number & 2 ? .6 : -.6, number & 4 ? .6 : -.6}));
+        expect_as_placed_afresh(placer, objects, world_of(100), fmt::format("{} objects", number));
+    }
+    while (objects.size() > 1) {
+        objects.erase(objects.begin());
+        expect_as_placed_afresh(placer, objects, world_of(100),
+                                fmt::format("{} left", objects.size()));
+    }
+    expect_as_placed_afresh(placer, {}, world_of(100), "none left");
+}
+
+TEST(Placer, TakesAnotherFrameAndOtherKinds) {
+    const BrickGrid cubes = ball(0.2, Surface::cubes), smooth = ball(0.2, Surface::smooth);
+    Placer placer(shared_device());
+    const std::vector<PlacedObject> first = {at(cubes, 0, {0, 0, 0}), at(cubes, 1, {.3, 0, 0})};
+    const std::vector<PlacedObject> second = {at(smooth, 0, {0, 0, 0}), at(cubes, 1, {.3, 0, 0})};
+    expect_as_placed_afresh(placer, first, world_of(100), "cubes");
+    expect_as_placed_afresh(placer, second, world_of(100), "smooth and cubes");
+    expect_as_placed_afresh(placer, second, world_of(80), "a smaller world");
+    expect_as_placed_afresh(placer, first, world_of(80), "cubes again");
+}
+
+TEST(Placer, JoinsExactObjectsAgain) {
+    Solid solid;
+    solid.radius = 0.3;
+    const GridFrame frame = world_of(100);
+    const auto exact_at = [&](double x) {
+        return voxelize_solid(shared_device(), solid,
+                              glm::translate(glm::dmat4(1), glm::dvec3(x, 0, 0)), frame,
+                              {Surface::exact, VoxelSet::supercover});
+    };
+    const BrickGrid left = exact_at(-.4), right = exact_at(.35), cubes = ball(.25, Surface::cubes);
+    std::vector<PlacedObject> objects = {at(left, 0, {0, 0, 0}), at(cubes, 1, {0, .3, 0})};
+    objects[0].in_world_frame = true;
+    Placer placer(shared_device());
+    expect_as_placed_afresh(placer, objects, frame, "at first");
+    objects[0].grid = &right;
+    expect_as_placed_afresh(placer, objects, frame, "moved");
+    objects[1].world_from_object[3].y = -.4;
+    expect_as_placed_afresh(placer, objects, frame, "the cubes moved");
+}
+
+TEST(Placer, StartsAfreshAfterAnError) {
+    const BrickGrid grid = ball(0.2, Surface::smooth);
+    std::vector<PlacedObject> objects = {at(grid, 0, {0, 0, 0}), at(grid, 1, {.3, 0, 0})};
+    Placer placer(shared_device());
+    placer.place(objects, world_of(100));
+    const glm::dmat4 before = objects[1].world_from_object;
+    objects[1].world_from_object[0][0] = 0;
+    EXPECT_ANY_THROW(placer.place(objects, world_of(100)));
+    objects[1].world_from_object = before;
+    expect_as_placed_afresh(placer, objects, world_of(100), "after an error");
+}
+
+}  // namespace
+}  // namespace voxelume
