@@ -4,6 +4,7 @@
 #include <map>
 
 #include "runtime/error.hpp"
+#include "runtime/pyramid_bytes.hpp"
 #include "runtime/stages/index.hpp"
 #include "runtime/stages/instance_pools.hpp"
 #include "runtime/stages/instances.hpp"
@@ -88,6 +89,7 @@ Pyramid add_instances(const Device& device, const Scene& scene, const ListedInst
     for (const SharedGrid& grid : listed.grids) {
         models.push_back(build_index(device, *grid));
         report.voxels += models.back().voxel_count;
+        report.bytes += bytes_of(models.back());
     }
     Pyramid joined = join_models(device, world, models);
     set_instances(device, listed.list, listed.materials, joined);

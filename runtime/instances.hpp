@@ -20,7 +20,7 @@ void check_placements(const Scene& scene);
 /// What instances take, for people and tests.
 struct InstanceReport {
     uint32_t instances = 0, models = 0;
-    uint64_t voxels = 0;  ///< of the models, each counted once
+    uint64_t voxels = 0, bytes = 0;  ///< of the models, each counted once
     double seconds = 0;   ///< indexing and joining models, placing instances
 };
 

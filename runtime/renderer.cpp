@@ -4,25 +4,11 @@
 #include <chrono>
 
 #include "runtime/illumination.hpp"
+#include "runtime/pyramid_bytes.hpp"
 #include "runtime/stages/resolve.hpp"
 #include "runtime/stages/sight.hpp"
 
 namespace voxelume {
-namespace {
-
-template <class... T>
-uint64_t sum_of_bytes(const Buffer<T>&... buffers) {
-    return (uint64_t(buffers.size() * sizeof(T)) + ...);
-}
-
-uint64_t bytes_of(const Pyramid& p) {
-    return sum_of_bytes(p.sectors, p.bricks, p.leaves, p.leaf_voxels, p.attributes, p.colors,
-                        p.fields, p.primitive_first, p.primitives, p.triangles,
-                        p.triangle_attributes, p.solids);
-}
-
-}  // namespace
-
 Renderer::View Renderer::view_of(const Scene& scene, const FormedWorld& world,
                                  const Features& features) {
     View view{world.version, scene.observer, scene.render, features, {}};

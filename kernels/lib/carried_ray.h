@@ -11,13 +11,19 @@
 #include "shared/instance.h"
 #include "shared/voxel.h"
 
+/// A ray's way through the box of an instance, in its voxels: point + along * (t - base).
+typedef struct {
+    Vector point, along;
+    lane_float base, from;  // it comes in, or begins inside, at base + from
+    lane_int axis;          // across which it comes in; 3: it begins inside
+    lane_int met;           // mask: there is such a way
+} BoxPassage;
+
 /// A ray of shared/trace.h in an instance's voxels. Its t is `base` + (`from` + t here * `scale`)
 /// in the world.
 typedef struct {
     Vector origin, direction;
     lane_float base, from, scale;
-    lane_int axis;  // across which it comes into the box; 3: it begins inside of it
-    lane_int met;   // mask: it meets the box
 } CarriedRay;
 
 /// Part of a slab test: 1 / d, but not infinite.
@@ -59,50 +65,60 @@ static inline lane_float coordinate_in_box(lane_float o, lane_float d, lane_floa
     return snap_position(LANES_SELECT(side, plane, at), (lane_float)0.0f, fixed_point);
 }
 
-/// The ray o + d t of the world from t_first on, in an instance's space.
-///
-/// Where the map is `aligned` the ray's numbers are the world's but for their axes and signs, its
-/// origin may lie outside of the box, and it is on the walk to come in.
-static inline CarriedRay carry_ray(global const InstanceRecord* r, Vector o, Vector d,
-                                   lane_float t_first) {
-    CarriedRay c;
+/// The way of the ray o + d t of the world, from t_first on, through an instance's box.
+/// `inverse_squared` is 1 / (d d).
+static inline BoxPassage pass_box(global const InstanceRecord* r, Vector o, Vector d,
+                                  lane_float inverse_squared, lane_float t_first) {
+    BoxPassage b;
     const Vector v = {o.x - r->center[0], o.y - r->center[1], o.z - r->center[2]};
     const lane_int near = LANE_MASK(dot_product(v, v) <= r->near_squared);
-    const lane_float closest = exact_divide(-dot_product(v, d), dot_product(d, d));
+    const lane_float closest = fmax(-dot_product(v, d) * inverse_squared, 0.0f);
     const lane_float zero = (lane_float)0.0f;
-    c.base = r->aligned ? zero : LANES_SELECT(near, zero, fmax(closest, zero));
-    const Vector at_base = {fma(d.x, c.base, v.x), fma(d.y, c.base, v.y), fma(d.z, c.base, v.z)};
-    const Vector p = object_point(r, at_base);
-    const Vector e = object_vector(r, d);
+    b.base = r->aligned ? zero : LANES_SELECT(near, zero, closest);
+    const Vector at_base = {fma(d.x, b.base, v.x), fma(d.y, b.base, v.y), fma(d.z, b.base, v.z)};
+    b.point = object_point(r, at_base);
+    b.along = object_vector(r, d);
     Vector enter, leave;
-    between_planes(p.x, e.x, r->low[0], r->high[0], &enter.x, &leave.x);
-    between_planes(p.y, e.y, r->low[1], r->high[1], &enter.y, &leave.y);
-    between_planes(p.z, e.z, r->low[2], r->high[2], &enter.z, &leave.z);
+    between_planes(b.point.x, b.along.x, r->low[0], r->high[0], &enter.x, &leave.x);
+    between_planes(b.point.y, b.along.y, r->low[1], r->high[1], &enter.y, &leave.y);
+    between_planes(b.point.z, b.along.z, r->low[2], r->high[2], &enter.z, &leave.z);
     const lane_float in = fmax(enter.x, fmax(enter.y, enter.z));
     const lane_float out = fmin(leave.x, fmin(leave.y, leave.z));
-    const lane_float least = t_first - c.base;
-    c.from = fmax(in, least);
-    c.met = LANE_MASK(c.from <= out);
-    c.axis = (lane_int)3;
+    const lane_float least = t_first - b.base;
+    b.from = fmax(in, least);
+    b.met = LANE_MASK(b.from <= out);
+    const lane_int enters = LANE_MASK(in >= least);
+    const lane_int z = LANE_MASK(enter.z == in), y = LANE_MASK(enter.y == in) & ~z;
+    b.axis = LANES_SELECT(enters, (y & 1) | (z & 2), (lane_int)3);
+    return b;
+}
+
+/// The ray on this way, from where it comes into the box or begins.
+///
+/// Where the map is `aligned` the ray's numbers are the world's but for their axes and signs: its
+/// origin may lie outside of the box, and it is on the walk to come in.
+static inline CarriedRay carry_ray(global const InstanceRecord* r, const BoxPassage* b) {
+    CarriedRay c;
+    c.base = b->base;
     if (r->aligned) {
-        c.origin = p, c.direction = e;
-        c.from = zero;
+        c.origin = b->point, c.direction = b->along;
+        c.from = (lane_float)0.0f;
         c.scale = (lane_float)1.0f;
         return c;
     }
-    const lane_int enters = LANE_MASK(in >= least);
-    const lane_int z = enters & LANE_MASK(enter.z == in);
-    const lane_int y = enters & LANE_MASK(enter.y == in) & ~z;
-    const lane_int x = enters & ~(y | z);
-    c.axis = LANES_SELECT(enters, (y & 1) | (z & 2), c.axis);
-    c.origin.x = coordinate_in_box(p.x, e.x, c.from, x, r->low[0], r->high[0], r->fixed_point);
-    c.origin.y = coordinate_in_box(p.y, e.y, c.from, y, r->low[1], r->high[1], r->fixed_point);
-    c.origin.z = coordinate_in_box(p.z, e.z, c.from, z, r->low[2], r->high[2], r->fixed_point);
-    const lane_float to_one = power_of_two_scale(e.x, e.y, e.z);
-    c.direction.x = snap_direction(e.x * to_one);
-    c.direction.y = snap_direction(e.y * to_one);
-    c.direction.z = snap_direction(e.z * to_one);
-    c.scale = to_one;
+    c.from = b->from;
+    const Vector p = b->point, e = b->along;
+    const float one = r->fixed_point;
+    c.origin.x =
+        coordinate_in_box(p.x, e.x, c.from, LANE_MASK(b->axis == 0), r->low[0], r->high[0], one);
+    c.origin.y =
+        coordinate_in_box(p.y, e.y, c.from, LANE_MASK(b->axis == 1), r->low[1], r->high[1], one);
+    c.origin.z =
+        coordinate_in_box(p.z, e.z, c.from, LANE_MASK(b->axis == 2), r->low[2], r->high[2], one);
+    c.scale = power_of_two_scale(e.x, e.y, e.z);
+    c.direction.x = snap_direction(e.x * c.scale);
+    c.direction.y = snap_direction(e.y * c.scale);
+    c.direction.z = snap_direction(e.z * c.scale);
     return c;
 }
 

@@ -15,6 +15,7 @@ typedef struct {
 static inline HitRay carry_hits(global const InstanceRecord* restrict records, lane_uint instance,
                                 lane_int of_instance, HitRay ray) {
     const Vector o = ray.origin, d = ray.direction;
+    const lane_float inverse_squared = exact_reciprocal(dot_product(d, d));
     const lane_float t = ray.t;
     lane_int left = of_instance;
     while (lanes_any(left)) {
@@ -22,7 +23,8 @@ static inline HitRay carry_hits(global const InstanceRecord* restrict records, l
         const lane_int same = left & LANE_MASK(instance == one);
         left &= ~same;
         global const InstanceRecord* r = records + one;
-        const CarriedRay c = carry_ray(r, o, d, (lane_float)0.0f);
+        const BoxPassage way = pass_box(r, o, d, inverse_squared, (lane_float)0.0f);
+        const CarriedRay c = carry_ray(r, &way);
         ray.origin = select_vector(same, c.origin, ray.origin);
         ray.direction = select_vector(same, c.direction, ray.direction);
         ray.t = LANES_SELECT(same, carried_t(&c, t), ray.t);

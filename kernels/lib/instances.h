@@ -106,17 +106,18 @@ static inline Travel travel_in(const Travel* travel, lane_uint number, lane_int 
 /// Replaces what lanes have found by closer hits of their rays on instance `number`.
 static inline lane_int meet_instance(const PyramidView* world, const SurfaceView* s,
                                      const InstanceView* v, uint number, const Walk* ray,
-                                     lane_float t_last, lane_int active, const Travel* travel,
-                                     Found* best, Walk* at) {
+                                     lane_float inverse_squared, lane_float t_last, lane_int active,
+                                     const Travel* travel, Found* best, Walk* at) {
     global const InstanceRecord* r = v->records + number;
     const Vector o = {ray->ox, ray->oy, ray->oz}, d = {ray->dx, ray->dy, ray->dz};
-    const CarriedRay c = carry_ray(r, o, d, travel->t_first);
-    active &= c.met & LANE_MASK(c.base + c.from <= t_last);
+    const BoxPassage way = pass_box(r, o, d, inverse_squared, travel->t_first);
+    active &= way.met & LANE_MASK(way.base + way.from <= t_last);
     if (!lanes_any(active)) return active;
+    const CarriedRay c = carry_ray(r, &way);
     const PyramidView p = instance_pyramid(world, r);
     Walk w =
         begin_walk(c.origin.x, c.origin.y, c.origin.z, c.direction.x, c.direction.y, c.direction.z);
-    w.axis = c.axis;
+    w.axis = r->aligned ? (lane_int)3 : way.axis;
     if (r->aligned) enter_box(&p, r, travel->t_first, &w);
     Travel inside = travel_in(travel, (lane_uint)number, LANE_MASK(w.axis == 3));
     if (!r->aligned) inside.t_first = (lane_float)0.0f;
@@ -159,6 +160,8 @@ static inline void meet_instances(const PyramidView* world, const SurfaceView* s
                                   lane_int active, bool any, const Travel* travel, Found* best,
                                   Walk* at) {
     const SlabRay slab = slab_ray(ray);
+    const Vector d = {ray->dx, ray->dy, ray->dz};
+    const lane_float inverse_squared = exact_reciprocal(dot_product(d, d));
     uint nodes[VXL_INSTANCE_DEPTH];
     lane_int masks[VXL_INSTANCE_DEPTH];
     lane_float times[VXL_INSTANCE_DEPTH];
@@ -167,8 +170,8 @@ static inline void meet_instances(const PyramidView* world, const SurfaceView* s
     lane_float t_last = LANES_SELECT(best->hit, fmin(best->t, t_end), t_end);
     while (true) {
         if (node & VXL_INSTANCE_LEAF) {
-            const lane_int met = meet_instance(world, s, v, node & ~VXL_INSTANCE_LEAF, ray, t_last,
-                                               active, travel, best, at);
+            const lane_int met = meet_instance(world, s, v, node & ~VXL_INSTANCE_LEAF, ray,
+                                               inverse_squared, t_last, active, travel, best, at);
             t_last = LANES_SELECT(met, best->t, t_last);
             active = (lane_int)0;
         } else {
