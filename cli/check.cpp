@@ -4,6 +4,7 @@
 
 #include "cli/commands.hpp"
 #include "cli/scene_options.hpp"
+#include "runtime/scene_animation.hpp"
 
 namespace voxelume::cli {
 
@@ -17,6 +18,8 @@ Action add_check(CLI::App& app) {
     app.add_flag("--json", options->json, "print the plan as JSON");
     return [options] {
         const Scene scene = read_with(options->scene, "check");
+        for (int frame = 1; moves(scene) && frame <= scene.animation.frames; ++frame)
+            scene_at(scene, frame);
         print_plan(scene, Device::open(options->scene.device), options->json);
         return 0;
     };

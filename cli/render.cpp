@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <numeric>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,7 @@
 #include "runtime/io/progress.hpp"
 #include "runtime/io/volume_file.hpp"
 #include "runtime/renderer.hpp"
+#include "runtime/scene_animation.hpp"
 #include "runtime/stages/display_frame.hpp"
 #include "runtime/version.hpp"
 #include "runtime/volume_renderer.hpp"
@@ -49,40 +51,71 @@ struct Outcome {
     double seconds;
 };
 
-/// The files of one frame, or of all that --frames names. Nothing moves yet, so they are all alike.
-std::vector<std::string> output_files(const RenderOptions& options) {
+/// A frame and the files that show it.
+struct FrameFiles {
+    int frame = 1;
+    std::vector<std::string> images, volumes;
+};
+
+bool is_pattern(const std::string& path) {
+    return frame_path(path, 1, false) != path;
+}
+
+/// Whether an output without --frames asks for the whole animation: a name with #### does, but for
+/// slices, whose #### is left to their writer.
+bool wants_all_frames(const RenderOptions& options) {
+    return std::ranges::any_of(options.outputs, is_pattern) ||
+           std::ranges::any_of(options.volumes, [](const std::string& path) {
+               return is_pattern(path) && std::filesystem::path(path).extension() != ".png";
+           });
+}
+
+/// The frames of --frames, or else all of a moving scene, or one.
+std::vector<int> frames_of(const RenderOptions& options, const Scene& scene) {
+    if (!options.frames.empty()) return parse_frame_list(options.frames);
+    const bool all = moves(scene) && (wants_all_frames(options) || options.plan_only);
+    std::vector<int> frames(all ? size_t(scene.animation.frames) : 1);
+    std::iota(frames.begin(), frames.end(), 1);
+    return frames;
+}
+
+/// What is to be rendered: a frame each, or one for all where the world stands still.
+std::vector<FrameFiles> frame_files(const RenderOptions& options, const Scene& scene) {
+    const std::vector<int> frames = frames_of(options, scene);
+    const bool animation = !options.frames.empty() || frames.size() > 1;
+    std::vector<FrameFiles> list;
+    for (const int frame : frames) {
+        if (list.empty() || moves(scene)) list.push_back({frame, {}, {}});
+        for (const std::string& pattern : options.outputs)
+            list.back().images.push_back(frame_path(pattern, frame, animation));
+        for (const std::string& pattern : options.volumes)
+            list.back().volumes.push_back(animation ? frame_path(pattern, frame, true) : pattern);
+    }
+    return list;
+}
+
+/// What can be said before the scene is read: that --frames are none, that a disk can't take the
+/// image. All frames of a pattern are in one folder, so the first ones stand for all.
+void check_options(const RenderOptions& options) {
     if (options.outputs.empty() && options.volumes.empty() && !options.plan_only)
         throw Error(ErrorKind::usage,
                     "render: say where the image goes: -o image.exr, or --volume image.vdb");
     const bool animation = !options.frames.empty();
-    const std::vector<int> frames = animation ? parse_frame_list(options.frames) : std::vector{1};
-    std::vector<std::string> files;
-    for (const int frame : frames)
-        for (const std::string& pattern : options.outputs)
-            files.push_back(frame_path(pattern, frame, animation));
-    return files;
+    const int first = animation ? parse_frame_list(options.frames).front() : 1;
+    for (const std::string& pattern : options.outputs)
+        check_output(frame_path(pattern, first, animation), {".exr", ".png"}, "render");
+    if (!options.stats.empty()) check_output(options.stats, {}, "render");
 }
 
-/// The volumetric files likewise. Without --frames the #### of slices is left to their writer.
-std::vector<std::string> volume_files(const RenderOptions& options) {
-    if (options.frames.empty()) return options.volumes;
-    std::vector<std::string> files;
-    for (const int frame : parse_frame_list(options.frames))
-        for (const std::string& pattern : options.volumes)
-            files.push_back(frame_path(pattern, frame, true));
-    return files;
-}
-
-/// A disk that can't take the image should say so before the work, not after. All frames of a
-/// pattern are in one folder, so the first ones stand for all.
-void check_outputs(const std::vector<std::string>& files, const RenderOptions& options) {
-    for (size_t i = 0; i < options.outputs.size() && i < files.size(); ++i)
-        check_output(files[i], {".exr", ".png"}, "render");
-    if (options.stats.empty()) return;
-    check_output(options.stats, {}, "render");
-    if (std::ranges::find(files, options.stats) != files.end())
-        throw Error(ErrorKind::usage, "render: {}: the image and the statistics have one name",
-                    options.stats);
+void check_files(const std::vector<FrameFiles>& list, const Scene& scene,
+                 const RenderOptions& options) {
+    for (const FrameFiles& files : list) {
+        for (const std::string& path : files.volumes)
+            check_volume_output(path, display_frame(scene));
+        if (!options.stats.empty() && std::ranges::count(files.images, options.stats) > 0)
+            throw Error(ErrorKind::usage, "render: {}: the image and the statistics have one name",
+                        options.stats);
+    }
 }
 
 void write(const Image& image, const std::string& path, const RenderOptions& options) {
@@ -194,33 +227,64 @@ Image render_with_bar(const Device& device, const Scene& scene, RenderReport& re
                 count);
 }
 
-void add_attributes(const Scene& scene, std::map<std::string, std::string>& attributes) {
+void add_attributes(const Scene& scene, int frame, std::map<std::string, std::string>& attributes) {
     attributes["scene"] = scene.file.filename().string();
+    if (moves(scene)) attributes["frame"] = std::to_string(frame);
     attributes["software"] = "voxelume " + std::string(version());
 }
 
 void render_images(const Device& device, const Scene& scene, const RenderOptions& options,
-                   const std::vector<std::string>& files, RenderReport& report) {
+                   const FrameFiles& files, RenderReport& report) {
     Image image = render_with_bar(device, scene, report, options.quiet);
     if (report.not_finite != 0) refuse_not_finite(report.not_finite);
-    add_attributes(scene, image.attributes);
-    for (const std::string& path : files) write(image, path, options);
+    add_attributes(scene, files.frame, image.attributes);
+    for (const std::string& path : files.images) write(image, path, options);
 }
 
-void render_volumes(const Device& device, const Scene& scene, const std::vector<std::string>& files,
+void render_volumes(const Device& device, const Scene& scene, const FrameFiles& files,
                     RenderReport& report) {
     Volume volume = render_volume(device, scene, report);
     if (report.not_finite != 0) refuse_not_finite(report.not_finite);
-    add_attributes(scene, volume.attributes);
-    for (const std::string& path : files) write_volume(path, volume);
+    add_attributes(scene, files.frame, volume.attributes);
+    for (const std::string& path : files.volumes) write_volume(path, volume);
+}
+
+/// Adds what a frame took to what those before it took.
+void add_frame(const RenderReport& frame, RenderReport& sum) {
+    sum.world.load_seconds += frame.world.load_seconds;
+    sum.world.voxelize_seconds += frame.world.voxelize_seconds;
+    sum.world.place_seconds += frame.world.place_seconds;
+    sum.world.index_seconds += frame.world.index_seconds;
+    sum.world.triangles = std::max(sum.world.triangles, frame.world.triangles);
+    sum.image_seconds += frame.image_seconds;
+    sum.voxels = std::max(sum.voxels, frame.voxels);
+    sum.world_bytes = std::max(sum.world_bytes, frame.world_bytes);
+    sum.sight_rays += frame.sight_rays;
+    sum.shadow_rays += frame.shadow_rays;
+    sum.secondary_rays += frame.secondary_rays;
+    sum.ended_paths += frame.ended_paths;
+}
+
+RenderReport render_frame(const Device& device, const Scene& scene, const FrameFiles& files,
+                          const RenderOptions& options) {
+    const Scene now = scene_at(scene, files.frame);
+    RenderReport report;
+    if (!files.images.empty()) render_images(device, now, options, files, report);
+    if (!files.volumes.empty()) render_volumes(device, now, files, report);
+    return report;
+}
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
 int run(const RenderOptions& options) {
     const auto start = std::chrono::steady_clock::now();
-    const std::vector<std::string> files = output_files(options), volumes = volume_files(options);
-    check_outputs(files, options);
+    check_options(options);
     const Scene scene = read_with(options.scene, "render");
-    for (const std::string& path : volumes) check_volume_output(path, display_frame(scene));
+    const std::vector<FrameFiles> list = frame_files(options, scene);
+    check_files(list, scene, options);
+    for (const FrameFiles& files : list) scene_at(scene, files.frame);
     const Device device = Device::open(options.scene.device);
     if (options.plan_only) {
         print_plan(scene, device, false);
@@ -228,17 +292,21 @@ int run(const RenderOptions& options) {
     }
     if (options.verbose || !options.stats.empty()) device.time_kernels(true);
 
-    RenderReport report;
-    if (!files.empty()) render_images(device, scene, options, files, report);
-    if (!volumes.empty()) render_volumes(device, scene, volumes, report);
-    const double seconds =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    const Outcome outcome{device, report, scene.render.size, files.size() + volumes.size(),
-                          seconds};
+    RenderReport sum;
+    size_t written = 0;
+    for (const FrameFiles& files : list) {
+        const auto frame_start = std::chrono::steady_clock::now();
+        const RenderReport report = render_frame(device, scene, files, options);
+        add_frame(report, sum);
+        written += files.images.size() + files.volumes.size();
+        if (options.quiet) continue;
+        if (list.size() > 1) fmt::print(stderr, "frame {}: ", files.frame);
+        print_summary({device, report, scene.render.size, written,
+                       seconds_since(list.size() > 1 ? frame_start : start)});
+    }
+    const Outcome outcome{device, sum, scene.render.size, written, seconds_since(start)};
     if (!options.stats.empty()) write_statistics(options.stats, statistics(outcome));
-    if (options.quiet) return 0;
-    print_summary(outcome);
-    if (options.verbose) print_details(outcome);
+    if (options.verbose && !options.quiet) print_details(outcome);
     return 0;
 }
 

@@ -50,6 +50,14 @@ AssetFolders asset_folders(const std::vector<fs::path>& from_command_line) {
     return folders;
 }
 
+bool is_asset(std::string_view name, const fs::path& scene_folder, const AssetFolders& assets) {
+    const auto holds = [&](const fs::path& folder) {
+        std::error_code error;
+        return fs::exists(folder / name, error);
+    };
+    return holds(scene_folder) || std::ranges::any_of(assets, holds);
+}
+
 fs::path find_asset(std::string_view name, const fs::path& scene_folder, const AssetFolders& assets,
                     const std::string& where) {
     refuse_names_that_lead_out(name, where);

@@ -15,6 +15,10 @@ using AssetFolders = std::vector<std::filesystem::path>;
 /// (separated by colons; empty ones are skipped).
 AssetFolders asset_folders(const std::vector<std::filesystem::path>& from_command_line);
 
+/// Whether `find_asset` would find something by this name.
+bool is_asset(std::string_view name, const std::filesystem::path& scene_folder,
+              const AssetFolders& assets);
+
 /// The canonical path of a regular file below the scene's folder or one of `assets`.
 ///
 /// `where` opens the messages. Throws Error::scene for an absolute name, for `..` and for a link

@@ -63,6 +63,7 @@ std::vector<LightRecord> light_records(const Device& device, const Features& fea
 std::vector<const Material*> shown_materials(const Scene& scene) {
     std::set<int> numbers;
     for (const Object& object : scene.objects) {
+        if (!object.visible) continue;
         numbers.insert(object.material);
         for (const GroupMaterial& group : object.groups) numbers.insert(group.material);
     }
@@ -96,7 +97,7 @@ void add_paths(const Scene& scene, Features& features) {
     features.filtered_refraction = filters && scene.render.filtered_shadows;
     features.cube_bodies =
         features.transmission && std::ranges::any_of(scene.objects, [&](const Object& object) {
-            return scene.models[size_t(object.model)].surface == Surface::cubes &&
+            return object.visible && scene.models[size_t(object.model)].surface == Surface::cubes &&
                    (features.voxel_opacity || transmits(scene, object));
         });
 }

@@ -7,6 +7,7 @@
 
 #include "runtime/error.hpp"
 #include "runtime/io/mesh_reader.hpp"
+#include "runtime/mesh_morph.hpp"
 #include "runtime/stages/solid_bounds.hpp"
 #include "runtime/stages/voxelize.hpp"
 
@@ -63,8 +64,21 @@ const VoxelModel& MeshStore::voxels(const Model& model) {
 
 const Mesh* MeshStore::mesh_of(const Model& model) {
     if (model.solid) return nullptr;
-    if (model.voxels.empty()) return &mesh(model.mesh);
+    if (model.voxels.empty()) return model.morph ? &morphed(model) : &mesh(model.mesh);
     return model.surface == Surface::exact ? &voxels(model).mesh : nullptr;
+}
+
+const Mesh& MeshStore::morphed(const Model& model) {
+    const Morph& morph = *model.morph;
+    const Mesh& from = mesh(model.mesh);
+    const auto found = morphed_.find(model.name);
+    if (found != morphed_.end() && found->second.file == model.mesh && found->second.morph == morph)
+        return found->second.mesh;
+    Mesh mesh_now = morph.mesh.empty()
+                        ? morphed_to_sphere(from, morph.center, morph.radius, morph.amount)
+                        : ::voxelume::morphed(from, mesh(morph.mesh), morph.amount, model.where);
+    return morphed_.insert_or_assign(model.name, Morphed{model.mesh, morph, std::move(mesh_now)})
+        .first->second.mesh;
 }
 
 const std::vector<std::string>& MeshStore::groups_of(const Model& model) {
@@ -113,7 +127,7 @@ GridFrame model_frame(const Model& model, const Mesh* mesh) {
 bool is_in_reach(const Scene& scene, const Object& object) {
     const Model& model = scene.models[size_t(object.model)];
     const SolidBounds reach = {model.reach.min, model.reach.max};
-    if (reach.is_empty()) return false;
+    if (!object.visible || reach.is_empty()) return false;
     return !model.solid || !bounds(*model.solid, glm::dmat4(1), reach).is_empty();
 }
 

@@ -35,7 +35,15 @@ class MeshStore {
     uint64_t triangles() const;  ///< of the meshes that are there
 
   private:
+    struct Morphed {
+        std::filesystem::path file;
+        Morph morph;
+        Mesh mesh;
+    };
+    const Mesh& morphed(const Model& model);
+
     std::map<std::filesystem::path, Mesh> meshes_;
+    std::map<std::string, Morphed> morphed_;  ///< by the model's name, as last asked for
     std::map<std::filesystem::path, VoxelModel> voxels_;
     std::set<std::filesystem::path> used_;
     double load_seconds_ = 0;
@@ -56,7 +64,7 @@ GridFrame model_frame(const Model& model, const Mesh* mesh);
 /// Whether rays see the voxels inside of the object, too: solid cubes that let light through.
 bool shows_inside(const Scene& scene, const Object& object);
 
-/// Whether any part of the object can lie inside the world; models that aren't are not read.
+/// Whether any part of the object can be seen inside the world; models that aren't are not read.
 bool is_in_reach(const Scene& scene, const Object& object);
 
 }  // namespace voxelume

@@ -2,11 +2,14 @@
 #include "runtime/scene.hpp"
 
 #include <algorithm>
+#include <array>
 #include <fstream>
 #include <glm/common.hpp>
 #include <glm/matrix.hpp>
 
 #include "runtime/error.hpp"
+#include "runtime/scene_animation.hpp"
+#include "runtime/scene_motion.hpp"
 #include "runtime/scene_parts.hpp"
 
 namespace voxelume {
@@ -47,16 +50,20 @@ void check_version(const SceneFields& fields) {
     }
 }
 
-/// Sets where each model can be seen: the world's box carried into the space of every object that
-/// shows it.
+}  // namespace
+
 void find_reaches(Scene& scene) {
     const Bounds world = lattice_bounds(scene.world);
+    std::array<glm::dvec4, 8> corners;
+    for (int i = 0; i < 8; ++i) corners[size_t(i)] = glm::dvec4(corner(world, i), 1);
+    for (Model& model : scene.models) model.reach = {};
     std::vector<bool> is_used(scene.models.size(), false);
     for (const Object& object : scene.objects) {
+        if (!object.visible) continue;
         const glm::dmat4 object_from_world = glm::inverse(object.world_from_object);
         Bounds& reach = scene.models[object.model].reach;
-        for (int i = 0; i < 8; ++i) {
-            const glm::dvec3 p(object_from_world * glm::dvec4(corner(world, i), 1));
+        for (const glm::dvec4& world_corner : corners) {
+            const glm::dvec3 p(object_from_world * world_corner);
             const bool is_first = !is_used[object.model];
             reach.min = is_first ? p : glm::min(reach.min, p);
             reach.max = is_first ? p : glm::max(reach.max, p);
@@ -64,8 +71,6 @@ void find_reaches(Scene& scene) {
         }
     }
 }
-
-}  // namespace
 
 int NameTable::find(const SceneValue& value) const {
     const std::string& name = value.text();
@@ -88,10 +93,11 @@ Scene parse_scene(std::string_view text, const std::filesystem::path& file,
     Scene scene;
     scene.file = file;
     scene.materials.emplace_back().name = "default";
-    scene.world = read_world(fields.get("world"), {file.parent_path(), assets});
+    const AssetSearch search{file.parent_path(), assets};
+    scene.world = read_world(fields.get("world"), search);
     if (const auto value = fields.find("materials")) scene.materials = read_materials(*value);
     if (const auto value = fields.find("models")) {
-        scene.models = read_models(*value, {file.parent_path(), assets, scene.world.voxel_size});
+        scene.models = read_models(*value, {search, scene.world.voxel_size});
     }
     if (const auto value = fields.find("objects")) scene.objects = read_objects(*value, scene);
     if (const auto value = fields.find("lights")) scene.lights = read_lights(*value);
@@ -99,7 +105,8 @@ Scene parse_scene(std::string_view text, const std::filesystem::path& file,
     if (const auto value = fields.find("animation")) scene.animation = read_animation(*value);
     scene.observer = read_observer(fields.get("observer"), scene);
     find_reaches(scene);
-    return scene;
+    scene.motion = read_motion(root, assets, scene);
+    return scene.motion ? scene_at(scene, 1) : scene;
 }
 
 Scene read_scene(const std::filesystem::path& file, const AssetFolders& assets) {

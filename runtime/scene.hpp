@@ -7,6 +7,7 @@
 #include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -111,11 +112,21 @@ struct Material {
     friend bool operator==(const Material&, const Material&) = default;
 };
 
+/// A mesh on its way to another shape.
+struct Morph {
+    std::filesystem::path mesh;  ///< of the shape at its end; empty: the sphere below
+    glm::dvec3 center{0};        ///< metres in object space
+    double radius = 1;           ///< metres, > 0
+    double amount = 0;           ///< share of the way, 0..1
+    bool operator==(const Morph&) const = default;
+};
+
 /// O_i before it is placed: a mesh file or a solid, with the lattice that it is voxelized on.
 struct Model {
     std::string name;
     std::filesystem::path mesh;    ///< a regular file inside the asset folders; may be empty
     std::filesystem::path voxels;  ///< likewise, of voxels that are there already; may be empty
+    std::optional<Morph> morph;    ///< of a mesh
     std::optional<Solid> solid;    ///< has a value exactly when both files are empty
     glm::dvec3 voxel_size{0};      ///< metres in object space, > 0; 0 when `resolution` decides
     int resolution = 0;  ///< voxels along the longest side, 1..65536; 0 when `voxel_size` decides
@@ -153,10 +164,11 @@ struct Object {
     std::vector<GroupMaterial> groups;
     int priority = 0;  ///< where objects overlap: the higher wins, then the earlier in the list
     Placement placement = Placement::automatic;
-    bool moves = false;        ///< its placement changes from frame to frame
     std::optional<int> spots;  ///< that its emission lights the world by; none: by its size
     glm::dmat4 world_from_object{
-        1};  ///< affine and safely invertible; mirrors and shears are allowed
+        1};               ///< affine and safely invertible; mirrors and shears are allowed
+    bool moves = false;   ///< some track changes where it stands
+    bool visible = true;  ///< otherwise the world is as if it weren't there
     std::string where;
 
     friend bool operator==(const Object&, const Object&) = default;
@@ -232,11 +244,13 @@ struct Observer {
 };
 
 struct Animation {
-    int frames = 1;
-    double fps = 24;
+    int frames = 1;   ///< numbered from 1
+    double fps = 24;  ///< frames a second
 
     friend bool operator==(const Animation&, const Animation&) = default;
 };
+
+struct SceneMotion;
 
 inline constexpr int kMaxImageSide = 65536;
 
@@ -251,8 +265,8 @@ struct RenderSettings {
     friend bool operator==(const RenderSettings&, const RenderSettings&) = default;
 };
 
-/// Everything that a scene file says. Indices are in range, numbers finite and in their documented
-/// ranges.
+/// Everything that a scene file says, as it is at frame 1; `scene_at` gives other frames. Indices
+/// are in range, numbers finite and in their documented ranges.
 struct Scene {
     std::filesystem::path file;
     World world;
@@ -263,6 +277,7 @@ struct Scene {
     std::vector<Light> lights;
     Observer observer;
     Animation animation;
+    std::shared_ptr<const SceneMotion> motion;  ///< null: the world stands still
     RenderSettings render;
 
     friend bool operator==(const Scene&, const Scene&) = default;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
 #include <numbers>
 
 namespace voxelume {
@@ -42,6 +43,15 @@ glm::dmat3 rotation_from_turn(glm::dvec3 turn) {
     const glm::dmat3 about_x({1, 0, 0}, {0, ct, st}, {0, -st, ct});
     const glm::dmat3 about_z({cg, sg, 0}, {-sg, cg, 0}, {0, 0, 1});
     return about_y * about_x * about_z;
+}
+
+glm::dvec3 turn_from_rotation(const glm::dmat3& r) {
+    const double psi = std::atan2(r[2].x, r[2].z);
+    const double theta = std::atan2(-r[2].y, std::hypot(r[0].y, r[1].y));
+    // Gamma is what is left when psi is undone, so an ill-determined psi doesn't matter.
+    const double cp = std::cos(psi), sp = std::sin(psi);
+    const double gamma = std::atan2(sp * r[1].z - cp * r[1].x, cp * r[0].x - sp * r[0].z);
+    return glm::degrees(glm::dvec3(psi, theta, gamma));
 }
 
 glm::dmat4 affine_from_factors(glm::dvec3 position, glm::dvec3 turn, glm::dvec3 scale) {

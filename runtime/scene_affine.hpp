@@ -11,8 +11,22 @@ namespace voxelume {
 /// Turns by multiples of 90 degrees give exactly 0 and +-1.
 glm::dmat3 rotation_from_turn(glm::dvec3 turn);
 
+/// A turn in degrees that gives the rotation: theta from -90 to 90, the others from -180 to 180.
+/// Where theta is +-90 and only one of the others is determined, both together are right.
+glm::dvec3 turn_from_rotation(const glm::dmat3& rotation);
+
+/// The factors of a placement.
+struct Factors {
+    glm::dvec3 position{0};  ///< metres
+    glm::dvec3 turn{0};      ///< degrees
+    glm::dvec3 scale{1};
+};
+
 /// Moves a point that is first scaled, then turned, then shifted.
 glm::dmat4 affine_from_factors(glm::dvec3 position, glm::dvec3 turn, glm::dvec3 scale);
+inline glm::dmat4 affine_from_factors(const Factors& factors) {
+    return affine_from_factors(factors.position, factors.turn, factors.scale);
+}
 
 /// Smallest and largest length of the images of unit vectors: the singular values of a map.
 struct Stretch {
@@ -20,5 +34,13 @@ struct Stretch {
     double max;
 };
 Stretch stretch_of(const glm::dmat3& linear);
+
+inline constexpr double kLeastStretch = 1e-9;
+inline constexpr double kMostCondition = 1e5;  ///< largest over smallest stretch
+
+/// What objects and parts of solids may be stretched by.
+inline bool is_safely_invertible(const Stretch& stretch) {
+    return stretch.min >= kLeastStretch && stretch.max <= stretch.min * kMostCondition;
+}
 
 }  // namespace voxelume

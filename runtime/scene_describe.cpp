@@ -5,6 +5,7 @@
 #include <glm/trigonometric.hpp>
 
 #include "runtime/scene.hpp"
+#include "runtime/scene_motion.hpp"
 
 namespace voxelume {
 namespace {
@@ -88,6 +89,10 @@ std::string describe(const Scene& scene) {
     }
     for (const Light& light : scene.lights) text += light_text(light) + "\n";
     text += observer_text(scene.observer) + "\n";
+    if (scene.motion)
+        text +=
+            fmt::format("animation: {} frames, {:.6g} a second, {} moving parts\n",
+                        scene.animation.frames, scene.animation.fps, scene.motion->parts.size());
     text += fmt::format("image: {}x{} pixels, {} samples each, depth {}, shadows {}\n",
                         scene.render.size.x, scene.render.size.y, scene.render.samples,
                         scene.render.depth, scene.render.shadows ? "on" : "off");

@@ -17,6 +17,11 @@ std::string_view type_name(JsonType type) {
     return names[static_cast<size_t>(type)];
 }
 
+bool lies_in(double x, Range range) {
+    return (range.min_is_open ? x > range.min : x >= range.min) &&
+           (range.max_is_open ? x < range.max : x <= range.max);
+}
+
 std::string range_text(Range range) {
     const auto end = [](std::string_view open, std::string_view closed, bool is_open,
                         double value) {
@@ -51,9 +56,7 @@ void SceneValue::expect(JsonType type, std::string_view expected) const {
 double SceneValue::number(Range range) const {
     expect(JsonType::number, "a number");
     const double x = value_->number;
-    const bool inside = (range.min_is_open ? x > range.min : x >= range.min) &&
-                        (range.max_is_open ? x < range.max : x <= range.max);
-    if (!inside) fail(fmt::format("must be {}; it is {}", range_text(range), x));
+    if (!lies_in(x, range)) fail(fmt::format("must be {}; it is {}", range_text(range), x));
     return x;
 }
 
@@ -88,6 +91,12 @@ std::vector<SceneValue> SceneValue::items() const {
 
 glm::dvec3 SceneValue::vector(Range range) const {
     expect(JsonType::array, "a list of 3 numbers");
+    // Frames of an animation read thousands of vectors; only messages need the items' paths.
+    const std::vector<JsonValue>& list = value_->items;
+    if (list.size() == 3 && std::ranges::all_of(list, [&](const JsonValue& item) {
+            return item.type == JsonType::number && lies_in(item.number, range);
+        }))
+        return {list[0].number, list[1].number, list[2].number};
     const auto parts = items();
     if (parts.size() != 3) fail(fmt::format("needs 3 numbers, not {}", parts.size()));
     return {parts[0].number(range), parts[1].number(range), parts[2].number(range)};
@@ -161,14 +170,19 @@ SceneFields::SceneFields(SceneValue value, std::string_view table)
     }
 }
 
-std::optional<SceneValue> SceneFields::find(std::string_view key) const {
+const JsonMember* SceneFields::member(std::string_view key) const {
     if (std::find(table_->keys.begin(), table_->keys.end(), key) == table_->keys.end()) {
         throw std::logic_error(fmt::format("{} is not in the key table {}", key, table_->name));
     }
     for (const JsonMember& m : value_.json().members) {
-        if (m.key == key) return value_.member(m);
+        if (m.key == key) return &m;
     }
-    return std::nullopt;
+    return nullptr;
+}
+
+std::optional<SceneValue> SceneFields::find(std::string_view key) const {
+    const JsonMember* found = member(key);
+    return found == nullptr ? std::nullopt : std::optional(value_.member(*found));
 }
 
 SceneValue SceneFields::get(std::string_view key) const {

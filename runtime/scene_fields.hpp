@@ -85,7 +85,7 @@ class SceneFields {
     const SceneValue& value() const { return value_; }
     std::optional<SceneValue> find(std::string_view key) const;
     SceneValue get(std::string_view key) const;  ///< throws Error::scene when it is missing
-    bool has(std::string_view key) const { return find(key).has_value(); }
+    bool has(std::string_view key) const { return member(key) != nullptr; }
     /// Throws Error::scene when both are there.
     void refuse_both(std::string_view key, std::string_view other) const;
 
@@ -96,6 +96,8 @@ class SceneFields {
     glm::vec3 color(std::string_view key, double max, glm::vec3 fallback) const;
 
   private:
+    const JsonMember* member(std::string_view key) const;
+
     SceneValue value_;
     const KeyTable* table_;
 };

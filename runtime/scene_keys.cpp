@@ -40,20 +40,22 @@ std::vector<KeyTable> make_tables() {
         {"medium", {"absorption", "color", "density"}},
         {"density:height", {"kind", "base", "scale_height"}},
         {"density:ball", {"kind", "center", "radius", "falloff"}},
-        {"density:grid", Keys{"kind", "file", "grid"} + placement},
+        {"density:grid", Keys{"kind", "file", "sequence", "grid"} + placement},
         {"material",
          {"color", "diffuse", "specular", "shininess", "reflection", "refraction", "ior", "fresnel",
           "opacity", "absorption", "emission", "checker"}},
         {"checker", {"color", "size", "origin"}},
-        {"model:mesh", Keys{"mesh"} + lattice},
-        {"model:voxels", {"voxels", "surface"}},
+        {"model:mesh", Keys{"mesh", "sequence", "morph"} + lattice},
+        {"model:voxels", {"voxels", "sequence", "surface"}},
+        {"sequence", {"first", "last", "start", "loop"}},
+        {"morph", {"mesh", "center", "radius", "amount"}},
     };
     for (const KeyTable& shape : shapes)
         tables.push_back({"model:" + shape.name, shape.keys + lattice});
     for (const KeyTable& shape : shapes)
         tables.push_back({"part:" + shape.name, shape.keys + placement});
     tables.push_back({"object", Keys{"name", "model", "material", "materials", "priority", "spots",
-                                     "placement"} +
+                                     "placement", "visible"} +
                                     placement});
     tables.push_back({"light:point", light + Keys{"position"}});
     tables.push_back(
@@ -70,6 +72,8 @@ std::vector<KeyTable> make_tables() {
     tables.push_back({"display:ball", display + Keys{"radius"}});
     tables.push_back({"display:box", display + Keys{"size", "near"}});
     tables.push_back({"animation", {"frames", "fps", "tracks"}});
+    tables.push_back({"track", {"target", "keys", "interpolation"}});
+    tables.push_back({"key", {"frame", "time", "value"}});
     tables.push_back({"render", {"size", "samples", "depth", "shadows", "shadow", "least_weight"}});
     return tables;
 }

@@ -50,6 +50,8 @@ void read_area(const SceneFields& fields, Light& light) {
     }
 }
 
+}  // namespace
+
 Light read_light(const SceneValue& value, size_t number) {
     const size_t kind = kind_of(value, "type", "light");
     const SceneFields fields(value, fmt::format("light:{}", scene_kinds("light")[kind]));
@@ -73,8 +75,6 @@ Light read_light(const SceneValue& value, size_t number) {
         read_area(fields, light);
     return light;
 }
-
-}  // namespace
 
 std::vector<Light> read_lights(const SceneValue& value) {
     std::vector<Light> lights;

@@ -1,7 +1,7 @@
 // The medium of the scene's world, and where it is how dense.
 #include <fmt/format.h>
 
-#include "runtime/scene_parts.hpp"
+#include "runtime/scene_sequence.hpp"
 
 namespace voxelume {
 namespace {
@@ -25,7 +25,7 @@ BallDensity read_ball(const SceneFields& fields) {
 GridDensity read_grid(const SceneFields& fields, const AssetSearch& search) {
     const SceneValue file = fields.get("file");
     GridDensity density;
-    density.file = find_asset(file.text(), search.scene_folder, search.assets, file.where());
+    density.file = file_at(fields, "file", search);
     const auto grid = fields.find("grid");
     density.grid = grid ? grid->text() : "density";
     density.world_from_grid = read_placement(fields);

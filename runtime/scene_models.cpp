@@ -8,6 +8,7 @@
 
 #include "runtime/scene_affine.hpp"
 #include "runtime/scene_parts.hpp"
+#include "runtime/scene_sequence.hpp"
 
 namespace voxelume {
 namespace {
@@ -40,12 +41,49 @@ void read_lattice(const SceneFields& fields, glm::dvec3 world_voxel_size, Model&
 
 /// A model whose file holds its voxels, with a lattice of their own.
 void read_voxels(const SceneFields& fields, const ModelContext& context, Model& model) {
-    const SceneValue voxels = fields.get("voxels");
-    model.voxels = find_asset(voxels.text(), context.scene_folder, context.assets, voxels.where());
+    model.voxels = file_at(fields, "voxels", context.search);
     model.surface = Surface::cubes;
     if (const auto surface = fields.find("surface"))
         model.surface = static_cast<Surface>(surface->choice(Names{"cubes", "smooth", "exact"}));
 }
+
+Morph read_morph(const SceneValue& value, const AssetSearch& search) {
+    const SceneFields fields(value, "morph");
+    Morph morph;
+    morph.amount = fields.number("amount", kRatio, 0);
+    if (const auto mesh = fields.find("mesh")) {
+        for (const std::string_view key : {"center", "radius"}) {
+            if (const auto found = fields.find(key))
+                found->fail("is of a sphere; give the morph either a \"mesh\" or a sphere");
+        }
+        morph.mesh = find_asset(mesh->text(), search.scene_folder, search.assets, mesh->where());
+        return morph;
+    }
+    if (!fields.has("center") && !fields.has("radius"))
+        value.fail("needs a \"mesh\" to end as, or the \"center\" and \"radius\" of a sphere");
+    morph.center = fields.get("center").vector(kCoordinate);
+    morph.radius = fields.get("radius").number(kLength);
+    return morph;
+}
+
+void read_materials_of(const SceneFields& fields, const NameTable& materials, Object& object) {
+    if (const auto material = fields.find("material")) object.material = materials.find(*material);
+    if (const auto groups = fields.find("materials")) {
+        for (const auto& [group, member] : groups->named_members()) {
+            object.groups.push_back({group, materials.find(member), member.where()});
+        }
+    }
+}
+
+/// Refuses spots of an object that doesn't shine.
+void check_spots(const SceneValue& value, const Scene& scene, const Object& object) {
+    if (!object.spots || has_emission(scene, object)) return;
+    SceneFields(value, "object")
+        .get("spots")
+        .fail("none of the object's materials has emission, so it has no spots to shine from");
+}
+
+}  // namespace
 
 Model read_model(const std::string& name, const SceneValue& value, const ModelContext& context) {
     Model model;
@@ -75,51 +113,13 @@ Model read_model(const std::string& name, const SceneValue& value, const ModelCo
                      model);
     } else {
         const SceneFields fields(value, "model:mesh");
-        const SceneValue mesh = fields.get("mesh");
-        model.mesh = find_asset(mesh.text(), context.scene_folder, context.assets, mesh.where());
+        model.mesh = file_at(fields, "mesh", context.search);
+        if (const auto morph = fields.find("morph"))
+            model.morph = read_morph(*morph, context.search);
         read_lattice(fields, context.world_voxel_size, model);
     }
     return model;
 }
-
-struct ObjectNames {
-    NameTable models{"model"};
-    NameTable materials{"material"};
-    std::unordered_set<std::string> taken;
-};
-
-void read_materials_of(const SceneFields& fields, const NameTable& materials, Object& object) {
-    if (const auto material = fields.find("material")) object.material = materials.find(*material);
-    if (const auto groups = fields.find("materials")) {
-        for (const auto& [group, member] : groups->named_members()) {
-            object.groups.push_back({group, materials.find(member), member.where()});
-        }
-    }
-}
-
-Object read_object(const SceneValue& value, size_t number, ObjectNames& names) {
-    const SceneFields fields(value, "object");
-    Object object;
-    object.where = value.where();
-    object.name = fmt::format("objects[{}]", number);
-    if (const auto name = fields.find("name")) {
-        object.name = name->text();
-        if (!names.taken.insert(object.name).second) {
-            name->fail(fmt::format("another object is named {} already", quote(object.name)));
-        }
-    }
-    object.model = names.models.find(fields.get("model"));
-    read_materials_of(fields, names.materials, object);
-    object.priority = fields.integer("priority", -1'000'000, 1'000'000, 0);
-    if (const auto spots = fields.find("spots")) object.spots = spots->integer(0, kMaxSpots);
-    if (const auto placement = fields.find("placement"))
-        object.placement =
-            static_cast<Placement>(placement->choice(Names{"auto", "world", "instance"}));
-    object.world_from_object = read_placement(fields);
-    return object;
-}
-
-}  // namespace
 
 bool has_emission(const Scene& scene, const Object& object) {
     const auto emits = [&](int material) {
@@ -137,26 +137,43 @@ std::vector<Model> read_models(const SceneValue& value, const ModelContext& cont
     return models;
 }
 
-std::vector<Object> read_objects(const SceneValue& value, const Scene& scene) {
-    ObjectNames names;
-    for (const Model& model : scene.models) names.models.add(model.name);
-    for (const Material& material : scene.materials) names.materials.add(material.name);
+ObjectReader::ObjectReader(const Scene& scene) : scene_(scene) {
+    for (const Model& model : scene.models) models_.add(model.name);
+    for (const Material& material : scene.materials) materials_.add(material.name);
+}
 
+Object ObjectReader::read(const SceneValue& value, size_t number) const {
+    const SceneFields fields(value, "object");
+    Object object;
+    object.where = value.where();
+    const auto name = fields.find("name");
+    object.name = name ? name->text() : fmt::format("objects[{}]", number);
+    object.model = models_.find(fields.get("model"));
+    read_materials_of(fields, materials_, object);
+    if (!object.groups.empty() && scene_.models[object.model].solid)
+        fields.get("materials")
+            .fail("only a mesh has groups of faces; give this object one \"material\"");
+    object.priority = fields.integer("priority", -1'000'000, 1'000'000, 0);
+    if (const auto spots = fields.find("spots")) object.spots = spots->integer(0, kMaxSpots);
+    if (const auto placement = fields.find("placement"))
+        object.placement =
+            static_cast<Placement>(placement->choice(Names{"auto", "world", "instance"}));
+    if (const auto visible = fields.find("visible")) object.visible = visible->boolean();
+    object.world_from_object = read_placement(fields);
+    return object;
+}
+
+std::vector<Object> read_objects(const SceneValue& value, const Scene& scene) {
+    const ObjectReader reader(scene);
+    std::unordered_set<std::string> taken;
     std::vector<Object> objects;
     for (const SceneValue& item : value.items()) {
-        objects.push_back(read_object(item, objects.size(), names));
+        objects.push_back(reader.read(item, objects.size()));
         const Object& object = objects.back();
-        if (!object.groups.empty() && scene.models[object.model].solid) {
-            SceneFields(item, "object")
-                .get("materials")
-                .fail("only a mesh has groups of faces; give this object one \"material\"");
-        }
-        if (object.spots && !has_emission(scene, object))
-            SceneFields(item, "object")
-                .get("spots")
-                .fail(
-                    "none of the object's materials has emission, so it has no spots to shine "
-                    "from");
+        const auto name = SceneFields(item, "object").find("name");
+        if (name && !taken.insert(object.name).second)
+            name->fail(fmt::format("another object is named {} already", quote(object.name)));
+        check_spots(item, scene, object);
     }
     return objects;
 }

@@ -106,8 +106,13 @@ Solid read_solid(const SceneValue& value) {
     return SolidReader().read(value, "model", 1);
 }
 
+Factors read_factors(const SceneFields& fields) {
+    const auto scale = fields.find("scale");
+    return {fields.vector("position", kCoordinate, {}), fields.vector("turn", kDegrees, {}),
+            scale ? scale->number_or_vector({-1e6, 1e6}) : glm::dvec3(1)};
+}
+
 glm::dmat4 read_placement(const SceneFields& fields) {
-    constexpr double kMaxCondition = 1e5;
     for (const std::string_view factor : {"position", "turn", "scale"})
         fields.refuse_both(factor, "matrix");
 
@@ -126,10 +131,7 @@ glm::dmat4 read_placement(const SceneFields& fields) {
             }
         }
     } else {
-        const auto scale = fields.find("scale");
-        map = affine_from_factors(fields.vector("position", kCoordinate, {}),
-                                  fields.vector("turn", kDegrees, {}),
-                                  scale ? scale->number_or_vector({-1e6, 1e6}) : glm::dvec3(1));
+        map = affine_from_factors(read_factors(fields));
     }
 
     const Stretch stretch = stretch_of(glm::dmat3(map));
@@ -137,14 +139,14 @@ glm::dmat4 read_placement(const SceneFields& fields) {
         const auto found = fields.find("matrix");
         return found ? *found : fields.get("scale");
     };
-    if (stretch.min < 1e-9) {
+    if (stretch.min < kLeastStretch) {
         culprit().fail("is singular: it flattens the object to nothing in one direction");
     }
-    if (stretch.max > stretch.min * kMaxCondition) {
+    if (stretch.max > stretch.min * kMostCondition) {
         culprit().fail(
             fmt::format("stretches {:.3g} times as much in one direction as in another, which "
                         "is close to singular; at most {} times is allowed",
-                        stretch.max / stretch.min, kMaxCondition));
+                        stretch.max / stretch.min, kMostCondition));
     }
     return map;
 }

@@ -57,6 +57,8 @@ Checker read_checker(const SceneValue& value) {
     return checker;
 }
 
+}  // namespace
+
 Material read_material(const std::string& name, const SceneValue& value) {
     const SceneFields fields(value, "material");
     const auto ratio = [&](std::string_view key, float fallback) {
@@ -78,8 +80,6 @@ Material read_material(const std::string& name, const SceneValue& value) {
     if (const auto checker = fields.find("checker")) m.checker = read_checker(*checker);
     return m;
 }
-
-}  // namespace
 
 World read_world(const SceneValue& value, const AssetSearch& search) {
     const SceneFields fields(value, "world");
@@ -112,9 +112,6 @@ Animation read_animation(const SceneValue& value) {
     Animation animation;
     animation.frames = fields.integer("frames", 1, 1'000'000, animation.frames);
     animation.fps = fields.number("fps", {0, 1000, true}, animation.fps);
-    if (const auto tracks = fields.find("tracks"); tracks && !tracks->items().empty()) {
-        tracks->fail("must be an empty list: this version renders worlds that stand still");
-    }
     return animation;
 }
 

@@ -7,6 +7,7 @@
 
 #include "runtime/error.hpp"
 #include "runtime/scene.hpp"
+#include "runtime/scene_animation.hpp"
 
 namespace voxelume {
 namespace {
@@ -193,8 +194,10 @@ TEST(SceneErrors, RefuseAViewParallelToUp) {
                 HasSubstr("leave one of them out"));
 }
 
-TEST(SceneText, NoDamageToAShippedSceneEscapesAsAnythingButAnError) {
-    std::ifstream stream(std::filesystem::path(VXL_SOURCE_DIR) / "scenes" / "solids.json");
+class SceneText : public testing::TestWithParam<const char*> {};
+
+TEST_P(SceneText, NoDamageToAShippedSceneEscapesAsAnythingButAnError) {
+    std::ifstream stream(std::filesystem::path(VXL_SOURCE_DIR) / "scenes" / GetParam());
     const std::string text(std::istreambuf_iterator<char>(stream), {});
     ASSERT_FALSE(text.empty());
     const unsigned seed = 1980;
@@ -217,7 +220,7 @@ TEST(SceneText, NoDamageToAShippedSceneEscapesAsAnythingButAnError) {
             }
         }
         try {
-            parse_scene(damaged, "damaged.json", {});
+            scene_at(parse_scene(damaged, "damaged.json", {}), 7.5);
         } catch (const Error& error) {
             ++refused;
             EXPECT_THAT(error.what(), StartsWith("damaged.json:"));
@@ -225,6 +228,9 @@ TEST(SceneText, NoDamageToAShippedSceneEscapesAsAnythingButAnError) {
     }
     EXPECT_GT(refused, 2500);
 }
+
+INSTANTIATE_TEST_SUITE_P(Shipped, SceneText, testing::Values("solids.json", "drill.json"),
+                         [](const auto& file) { return std::string(file.param).substr(0, 5); });
 
 TEST(SceneErrors, OfLightsWithAnArea) {
     EXPECT_THAT(message(scene_with(R"("lights": [{"type": "disk", "position": [0, 1, 2],

@@ -54,7 +54,7 @@ class SceneSchema : public FileTest {
   protected:
     void SetUp() override {
         FileTest::SetUp();
-        for (const char* file : {"bunny.obj", "m.obj", "smoke.vdb"})
+        for (const char* file : {"bunny.obj", "m.obj", "smoke.vdb", "s.1.vdb", "s.2.vdb"})
             put_bytes(folder / file, "v 0 0 0\n");
     }
 
@@ -145,6 +145,22 @@ std::vector<json> full_scenes() {
             "observer": {"position": [0, 0, 0], "turn": [1, 2, 3],
                          "display": {"shape": "sector", "angle": 200, "near": 1, "far": 2}}})",
         R"({"voxelume": 1, "world": {"voxel_size": 0.5, "bounds": {"min": [0, 0, 0], "max": [1, 2, 3]},
+            "medium": {"density": {"kind": "grid", "file": "s.#.vdb", "sequence": {"first": 1, "last": 2}}}},
+            "materials": {"a": {"ior": 1.5}},
+            "models": {"m": {"mesh": "m.obj", "morph": {"mesh": "m.obj", "amount": 0.5}},
+                       "b": {"mesh": "m.obj", "morph": {"center": [1, 2, 3], "radius": 1}},
+                       "s": {"voxels": "s.#.vdb", "sequence": {"first": 1, "last": 2, "start": 3, "loop": true}},
+                       "ball": {"shape": "sphere", "radius": 1}},
+            "objects": [{"name": "o", "model": "m", "visible": true}],
+            "lights": [{"type": "point", "position": [1, 2, 3]}],
+            "observer": {"position": [0, 0, 0], "display": {"shape": "ball", "radius": 2}},
+            "animation": {"frames": 5, "tracks": [
+                {"target": "objects.o.position", "interpolation": "cubic",
+                 "keys": [{"frame": 1, "value": [1, 2, 3]}, {"time": 0.5, "value": [3, 2, 1]}]},
+                {"target": "objects.o.visible", "keys": [{"frame": 2, "value": false}]},
+                {"target": "objects.o.model", "keys": [{"frame": 2, "value": "ball"}]},
+                {"target": "lights[0].intensity", "keys": [{"frame": 2, "value": 5}]}]}})",
+        R"({"voxelume": 1, "world": {"voxel_size": 0.5, "bounds": {"min": [0, 0, 0], "max": [1, 2, 3]},
             "medium": {"density": {"kind": "ball", "center": [1, 2, 3], "radius": 2, "falloff": 1}}},
             "observer": {"position": [0, 0, 0], "display": {"shape": "ball", "radius": 2, "voxels": [5, 6, 7],
                                                                    "layout": "lattice", "visibility": "all",
@@ -165,12 +181,37 @@ std::vector<json> full_scenes() {
 
 /// Objections to what a schema can't express: names and files, relations between values, geometry.
 bool is_beyond_a_schema(const std::string& objection) {
-    for (const char* part :
-         {"no material named", "no model named", "there is no file", "empty along", "voxels along",
-          "singular", "parallel to", "must not be zero", "the position itself",
-          "nothing lies between", "not be larger than", "already", "is an absolute path",
-          "only a mesh has groups", "is not a file", "above 0 along some axis",
-          "none of the object's materials"}) {
+    for (const char* part : {"no material named",
+                             "no model named",
+                             "there is no file",
+                             "empty along",
+                             "voxels along",
+                             "singular",
+                             "parallel to",
+                             "must not be zero",
+                             "the position itself",
+                             "nothing lies between",
+                             "not be larger than",
+                             "already",
+                             "is an absolute path",
+                             "only a mesh has groups",
+                             "is not a file",
+                             "above 0 along some axis",
+                             "none of the object's materials",
+                             "(at frame",
+                             "that can change",
+                             "has no place for",
+                             "must not be smaller",
+                             "files are missing",
+                             "named \"o\"",
+                             "there is no lights[0]",
+                             "to change",
+                             "not after the key before",
+                             "has another form",
+                             "there is nothing between",
+                             "is for turns",
+                             "goes on behind",
+                             "changes this value already"}) {
         if (objection.find(part) != objection.npos) return true;
     }
     return false;

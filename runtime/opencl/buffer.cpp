@@ -16,6 +16,7 @@ std::string megabytes(uint64_t bytes) {
 BufferStorage::BufferStorage(Device device, std::string name, size_t bytes)
     : device_(std::move(device)), name_(std::move(name)), bytes_(bytes) {
     const DeviceInfo& info = device_.info();
+    const auto locked = device_.lock();
     DeviceCounters& counters = device_.counters();
     if (bytes > info.max_allocation)
         throw Error(ErrorKind::limit,
@@ -36,6 +37,7 @@ BufferStorage::BufferStorage(Device device, std::string name, size_t bytes)
 }
 
 BufferStorage::~BufferStorage() {
+    const auto locked = device_.lock();
     device_.counters().bytes_in_use -= bytes_;
 }
 

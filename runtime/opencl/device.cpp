@@ -1,6 +1,7 @@
 #include "runtime/opencl/device.hpp"
 
 #include <cstdlib>
+#include <mutex>
 #include <utility>
 
 #include "runtime/error.hpp"
@@ -30,36 +31,57 @@ int lanes_for(const DeviceInfo& info, int asked) {
 
 }  // namespace
 
-struct Device::State {
+/// What all queues of an open device share.
+struct Device::Opened {
     cl::Device device;
     DeviceInfo info;
     cl::Context context;
-    cl::CommandQueue queue;
     DeviceCounters counters;
     std::map<std::string, cl::Program> programs;
+    std::mutex mutex;
     bool timing = false;
-    std::vector<std::pair<std::string, cl::Event>> timed;  ///< launches whose time isn't added yet
+    bool has_run = false;  ///< to its end
 
-    State() = default;
-    State(const State&) = delete;
-    State& operator=(const State&) = delete;
-    ~State();
-    void add_times();
+    Opened() = default;
+    Opened(const Opened&) = delete;
+    Opened& operator=(const Opened&) = delete;
+    ~Opened() {
+        // Nothing runs any more: PoCL compiles kernels at their first launch.
+        if (has_run) keep_compiled_kernels(info);
+    }
 };
 
-/// Kernels are kept once nothing runs any more: PoCL compiles them at their first launch.
-Device::State::~State() {
-    if (queue() && clFinish(queue()) == CL_SUCCESS) keep_compiled_kernels(info);
-}
+struct Device::Queue {
+    std::shared_ptr<Opened> opened;
+    cl::CommandQueue queue;
+    std::vector<std::pair<std::string, cl::Event>> timed;  ///< launches whose time isn't added yet
 
-void Device::State::add_times() {
-    for (const auto& [kernel, event] : timed) {
-        const cl_ulong start = event.getProfilingInfo<CL_PROFILING_COMMAND_START>();
-        const cl_ulong end = event.getProfilingInfo<CL_PROFILING_COMMAND_END>();
-        counters.kernel_ms[kernel] += double(end - start) / 1e6;
+    explicit Queue(std::shared_ptr<Opened> device) : opened(std::move(device)) { renew(); }
+    Queue(const Queue&) = delete;
+    Queue& operator=(const Queue&) = delete;
+    ~Queue() {
+        if (queue()) opened->has_run = clFinish(queue()) == CL_SUCCESS;
     }
-    timed.clear();
-}
+
+    void renew() {
+        try {
+            queue = cl::CommandQueue(opened->context, opened->device,
+                                     opened->timing ? CL_QUEUE_PROFILING_ENABLE : 0);
+        } catch (const cl::Error& error) {
+            throw_device_error(error, opened->info, "opening a queue");
+        }
+    }
+
+    void add_times() {
+        const std::lock_guard lock(opened->mutex);
+        for (const auto& [kernel, event] : timed) {
+            const cl_ulong start = event.getProfilingInfo<CL_PROFILING_COMMAND_START>();
+            const cl_ulong end = event.getProfilingInfo<CL_PROFILING_COMMAND_END>();
+            opened->counters.kernel_ms[kernel] += double(end - start) / 1e6;
+        }
+        timed.clear();
+    }
+};
 
 std::vector<DeviceInfo> list_devices() {
     std::vector<DeviceInfo> infos;
@@ -74,70 +96,75 @@ Device Device::open(std::string_view selector, int lanes) {
     const std::vector<Candidate> candidates = find_candidates();
     const Candidate& chosen = choose(candidates, selector);
 
-    auto state = std::make_shared<State>();
-    state->device = chosen.device;
-    state->info = chosen.info;
-    state->info.lanes = lanes_for(chosen.info, lanes);
+    auto opened = std::make_shared<Opened>();
+    opened->device = chosen.device;
+    opened->info = chosen.info;
+    opened->info.lanes = lanes_for(chosen.info, lanes);
     try {
-        state->context = cl::Context(state->device);
-        state->queue = cl::CommandQueue(state->context, state->device);
+        opened->context = cl::Context(opened->device);
     } catch (const cl::Error& error) {
-        throw_device_error(error, state->info, "opening it");
+        throw_device_error(error, opened->info, "opening it");
     }
-    return Device(std::move(state));
+    return Device(std::make_shared<Queue>(std::move(opened)));
+}
+
+Device Device::with_own_queue() const {
+    return Device(std::make_shared<Queue>(queue_->opened));
 }
 
 const DeviceInfo& Device::info() const {
-    return state_->info;
+    return queue_->opened->info;
 }
 const cl::Context& Device::context() const {
-    return state_->context;
+    return queue_->opened->context;
 }
 const cl::Device& Device::handle() const {
-    return state_->device;
+    return queue_->opened->device;
 }
 cl::CommandQueue& Device::queue() const {
-    return state_->queue;
+    return queue_->queue;
 }
 DeviceCounters& Device::counters() const {
-    return state_->counters;
+    return queue_->opened->counters;
+}
+std::unique_lock<std::mutex> Device::lock() const {
+    return std::unique_lock(queue_->opened->mutex);
 }
 std::map<std::string, cl::Program>& Device::programs() const {
-    return state_->programs;
+    return queue_->opened->programs;
 }
 
 void Device::finish() const {
     try {
-        state_->queue.finish();
-        state_->add_times();
+        queue_->queue.finish();
+        queue_->add_times();
     } catch (const cl::Error& error) {
-        throw_device_error(error, state_->info, "waiting for its kernels");
+        throw_device_error(error, info(), "waiting for its kernels");
     }
 }
 
 void Device::time_kernels(bool on) const {
     finish();
-    try {
-        state_->queue =
-            cl::CommandQueue(state_->context, state_->device, on ? CL_QUEUE_PROFILING_ENABLE : 0);
-    } catch (const cl::Error& error) {
-        throw_device_error(error, state_->info, "opening a queue");
-    }
-    state_->timing = on;
+    queue_->opened->timing = on;
+    queue_->renew();
 }
 
 void Device::enqueue(const cl::Kernel& kernel, const std::string& name, const cl::NDRange& items,
                      const cl::NDRange& group) const {
+    const bool timing = queue_->opened->timing;
     try {
         cl::Event event;
-        state_->queue.enqueueNDRangeKernel(kernel, cl::NullRange, items, group, nullptr,
-                                           state_->timing ? &event : nullptr);
-        if (state_->timing) state_->timed.emplace_back(name, std::move(event));
+        queue_->queue.enqueueNDRangeKernel(kernel, cl::NullRange, items, group, nullptr,
+                                           timing ? &event : nullptr);
+        if (timing) queue_->timed.emplace_back(name, std::move(event));
     } catch (const cl::Error& error) {
-        throw_device_error(error, state_->info, "launching " + name);
+        throw_device_error(error, info(), "launching " + name);
     }
-    ++state_->counters.launches[name];
-    if (state_->timed.size() >= kTimesKept) finish();
+    {
+        const auto locked = lock();
+        ++counters().launches[name];
+    }
+    if (queue_->timed.size() >= kTimesKept) finish();
 }
 
 void throw_device_error(const cl::Error& error, const DeviceInfo& info, std::string_view what) {

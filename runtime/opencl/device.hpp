@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -49,8 +50,8 @@ struct DeviceCounters {
     double build_ms = 0;               ///< making programs ready; PoCL does most at first launch
 };
 
-/// An open device: one context and one in-order queue. Shared by the buffers and programs made on
-/// it.
+/// An open device and an in-order queue of work for it. Shared by the buffers and programs made on
+/// it. Each thread uses a queue of its own.
 class Device {
   public:
     /// Opens the device that `selector` names: auto, cpu, gpu, an index of `list_devices()`, or
@@ -63,6 +64,10 @@ class Device {
     /// Throws Error::device when nothing fits, naming what is there or the package to install.
     static Device open(std::string_view selector = {}, int lanes = 0);
 
+    /// The same device with another queue, for another thread. Its buffers, once written, serve
+    /// kernels of both.
+    Device with_own_queue() const;
+
     const DeviceInfo& info() const;
     int lanes() const { return info().lanes; }
     bool is_cpu() const { return info().kind == DeviceKind::cpu; }
@@ -71,6 +76,8 @@ class Device {
     const cl::Device& handle() const;
     cl::CommandQueue& queue() const;
     DeviceCounters& counters() const;
+    /// Held while counters or programs are changed.
+    std::unique_lock<std::mutex> lock() const;
     /// The programs made ready so far, by a hash of what they were made of; kept until it closes.
     std::map<std::string, cl::Program>& programs() const;
 
@@ -85,9 +92,10 @@ class Device {
                  const cl::NDRange& group) const;
 
   private:
-    struct State;
-    explicit Device(std::shared_ptr<State> state) : state_(std::move(state)) {}
-    std::shared_ptr<State> state_;
+    struct Opened;
+    struct Queue;
+    explicit Device(std::shared_ptr<Queue> queue) : queue_(std::move(queue)) {}
+    std::shared_ptr<Queue> queue_;
 };
 
 /// The library's error for an OpenCL failure while doing `what` on a device.

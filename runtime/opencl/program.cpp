@@ -59,6 +59,7 @@ Program::Program(const Device& device, const std::string& label, const std::stri
     : device_(device), label_(label) {
     const std::string options = build_options(device, defines);
     const std::array<std::string_view, 2> parts = {source, options};
+    const auto locked = device.lock();
     cl::Program& kept = device.programs()[cache_key(parts)];
     if (!kept()) kept = build_program(device, label, source, options);
     program_ = kept;

@@ -84,7 +84,7 @@ double area_of(const std::vector<GlowingPiece>& pieces) {
 }  // namespace
 
 bool is_lamp(const Scene& scene, const Object& object) {
-    return object.spots.value_or(1) > 0 && has_emission(scene, object);
+    return object.visible && object.spots.value_or(1) > 0 && has_emission(scene, object);
 }
 
 int default_spots(double area, const glm::dvec3& voxel_edge) {

@@ -1,0 +1,154 @@
+#include "runtime/frame_pipeline.hpp"
+
+#include <condition_variable>
+#include <exception>
+#include <mutex>
+#include <optional>
+#include <thread>
+
+namespace voxelume {
+namespace {
+
+/// Hands values from one thread to another, one at a time and in order.
+template <class T>
+class Handoff {
+  public:
+    /// Waits until the value before was taken. False when no more are wanted.
+    bool put(T value) {
+        std::unique_lock lock(mutex_);
+        changed_.wait(lock, [&] { return closed_ || !value_; });
+        if (closed_) return false;
+        value_.emplace(std::move(value));
+        changed_.notify_all();
+        return true;
+    }
+    /// Waits until the other thread works on the value. False when no more are wanted.
+    bool wait_until_taken() {
+        std::unique_lock lock(mutex_);
+        changed_.wait(lock, [&] { return closed_ || !value_; });
+        return !closed_;
+    }
+    /// The next value; nothing after the last one.
+    std::optional<T> take() {
+        std::unique_lock lock(mutex_);
+        changed_.wait(lock, [&] { return closed_ || value_; });
+        std::optional<T> taken = std::exchange(value_, std::nullopt);
+        changed_.notify_all();
+        return taken;
+    }
+    /// No value follows, or none is wanted. The last one can still be taken.
+    void close() {
+        const std::lock_guard lock(mutex_);
+        closed_ = true;
+        changed_.notify_all();
+    }
+
+  private:
+    std::mutex mutex_;
+    std::condition_variable changed_;
+    std::optional<T> value_;
+    bool closed_ = false;
+};
+
+struct FormedFrame {
+    Scene scene;
+    FormedWorld world;
+    WorldReport report;
+    std::exception_ptr error;  ///< instead of all that
+};
+
+FormedFrame form_frame(WorldFormer& former, const FrameSteps& steps, size_t frame) {
+    FormedFrame formed;
+    formed.scene = steps.scene(frame);
+    formed.world = former.form(formed.scene, formed.report);
+    return formed;
+}
+
+void run_one_by_one(const Device& device, size_t count, const FrameSteps& steps) {
+    WorldFormer former(device, count > 1);
+    for (size_t frame = 0; frame < count; ++frame) {
+        const FormedFrame formed = form_frame(former, steps, frame);
+        steps.render(frame, formed.scene, formed.world, formed.report)();
+    }
+}
+
+/// A thread that is waited for.
+class Worker {
+  public:
+    template <class Work>
+    explicit Worker(Work work) : thread_(std::move(work)) {}
+    ~Worker() { thread_.join(); }
+    Worker(const Worker&) = delete;
+    Worker& operator=(const Worker&) = delete;
+
+  private:
+    std::thread thread_;
+};
+
+/// Closes a handoff at the end of a block, however it is left.
+template <class T>
+class Closing {
+  public:
+    explicit Closing(Handoff<T>& handoff) : handoff_(handoff) {}
+    ~Closing() { handoff_.close(); }
+    Closing(const Closing&) = delete;
+    Closing& operator=(const Closing&) = delete;
+
+  private:
+    Handoff<T>& handoff_;
+};
+
+void run_overlapped(const Device& device, size_t count, const FrameSteps& steps) {
+    Handoff<FormedFrame> formed;
+    Handoff<std::function<void()>> writes;
+    std::exception_ptr write_error, error;
+    try {
+        const Worker writer([&] {
+            const Closing closing(writes);
+            try {
+                while (const auto write = writes.take()) (*write)();
+            } catch (...) {
+                write_error = std::current_exception();
+            }
+        });
+        const Closing end_writes(writes);
+        const Worker forming([&] {
+            const Closing closing(formed);
+            try {
+                WorldFormer former(device.with_own_queue());
+                for (size_t frame = 0; frame < count; ++frame) {
+                    // Two worlds at a time: the next is begun when this one is being rendered.
+                    if (!formed.put(form_frame(former, steps, frame))) return;
+                    if (!formed.wait_until_taken()) return;
+                }
+            } catch (...) {
+                FormedFrame failed;
+                failed.error = std::current_exception();
+                formed.put(std::move(failed));
+            }
+        });
+        const Closing end_forming(formed);
+        for (size_t frame = 0; frame < count; ++frame) {
+            std::optional<FormedFrame> next = formed.take();
+            if (!next) break;
+            if (next->error) std::rethrow_exception(next->error);
+            if (!writes.put(steps.render(frame, next->scene, next->world, next->report))) break;
+        }
+    } catch (...) {
+        error = std::current_exception();
+    }
+    // The writer's frame comes before all others.
+    if (write_error) std::rethrow_exception(write_error);
+    if (error) std::rethrow_exception(error);
+}
+
+}  // namespace
+
+void run_frames(const Device& device, size_t count, const FrameSteps& steps, bool overlap) {
+    if (overlap && count > 1)
+        run_overlapped(device, count, steps);
+    else
+        run_one_by_one(device, count, steps);
+}
+
+}  // namespace voxelume

@@ -1,0 +1,38 @@
+// Numbers at chosen frames, and what they are between them.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace voxelume {
+
+/// What holds between two keys.
+enum class Interpolation : uint8_t {
+    step,    ///< the earlier key's value
+    linear,  ///< number by number
+    cubic,   ///< number by number, with a continuous speed and never beyond the keys on both sides
+    slerp    ///< of turns: about one axis, at an even speed, the shorter way round
+};
+
+/// Rows of numbers at frames.
+struct Keyframes {
+    Interpolation interpolation = Interpolation::linear;
+    std::vector<double> frames;  ///< ascending, no two alike, at least one
+    std::vector<double>
+        values;  ///< `width` numbers per frame; of slerp 3 angles in degrees, a turn
+    size_t width = 1;
+};
+
+/// Number of the last key at or before a frame; 0 before the first.
+size_t key_before(const std::vector<double>& frames, double frame);
+
+/// The row of numbers at a frame. Before the first key and after the last one theirs hold.
+///
+/// Cubic is a Hermite spline that is at rest at the first and the last key and wherever a number
+/// turns back; elsewhere its slope is the weighted harmonic mean of the slopes on both sides, which
+/// keeps it monotone between keys (Fritsch & Butland 1984). At a key the row is the key's own, bit
+/// by bit.
+std::vector<double> values_at(const Keyframes& keys, double frame);
+
+}  // namespace voxelume

@@ -1,0 +1,79 @@
+// Frames of moving scenes on the command line.
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+
+#include "runtime/io/exr.hpp"
+#include "tests/scene_program.hpp"
+
+namespace voxelume {
+
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+/// The fixture's scene with an object that turns until frame 3.
+class CliFramesTest : public SceneProgramTest {
+  protected:
+    void write_moving_scene(int frames, double last_scale = 1) {
+        write_scene([&](Json& scene) {
+            scene["animation"] = Json::parse(R"({"tracks": [
+                {"target": "objects[0].turn", "keys": [{"frame": 1, "value": [0, 0, 0]},
+                                                       {"frame": 3, "value": [90, 40, 0]}]}]})");
+            scene["animation"]["frames"] = frames;
+            if (last_scale == 1) return;
+            scene["animation"]["tracks"].push_back(
+                {{"target", "objects[0].scale"},
+                 {"keys", {{{"frame", 1}, {"value", 1}}, {{"frame", 3}, {"value", last_scale}}}}});
+        });
+    }
+};
+
+TEST_F(CliFramesTest, ANameWithAPlaceForTheNumberGetsAllFrames) {
+    write_moving_scene(3);
+    const ProgramResult result = run("render scene.json -o f.##.exr --stats-json stats.json");
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_THAT(names(),
+                ElementsAre("f.01.exr", "f.02.exr", "f.03.exr", "scene.json", "stats.json"));
+    EXPECT_THAT(result.err, AllOf(HasSubstr("frame 1: 20x12"), HasSubstr("frame 3: 20x12")));
+    EXPECT_NE(read_exr(folder / "f.01.exr").planes.at("N.X"),
+              read_exr(folder / "f.03.exr").planes.at("N.X"));
+    EXPECT_EQ(read_exr(folder / "f.02.exr").attributes.at("frame"), "2");
+    const Json stats = Json::parse(bytes_of(folder / "stats.json"));
+    EXPECT_EQ(stats["files"], 3);
+    EXPECT_EQ(stats["sight_rays"], 3 * 240);
+}
+
+TEST_F(CliFramesTest, OneNameIsTheFirstFrame) {
+    write_moving_scene(3);
+    ASSERT_EQ(run("render scene.json -o one.exr").exit_code, 0);
+    ASSERT_EQ(run("render scene.json --frames 1 -o f.#.exr").exit_code, 0);
+    EXPECT_EQ(bytes_of(folder / "one.exr"), bytes_of(folder / "f.1.exr"));
+}
+
+TEST_F(CliFramesTest, ChosenFramesAreTheSameFramesAndMayLieOutside) {
+    write_moving_scene(3);
+    ASSERT_EQ(run("render scene.json -o all.#.exr").exit_code, 0);
+    ASSERT_EQ(run("render scene.json --frames 3-5x2,2 -o some.#.exr --volume v.#.nrrd").exit_code,
+              0);
+    EXPECT_THAT(names(),
+                ElementsAre("all.1.exr", "all.2.exr", "all.3.exr", "scene.json", "some.2.exr",
+                            "some.3.exr", "some.5.exr", "v.2.nrrd", "v.3.nrrd", "v.5.nrrd"));
+    EXPECT_EQ(bytes_of(folder / "all.2.exr"), bytes_of(folder / "some.2.exr"));
+    EXPECT_NE(bytes_of(folder / "v.2.nrrd"), bytes_of(folder / "v.3.nrrd"));
+    // Past the last key nothing moves.
+    EXPECT_EQ(read_exr(folder / "some.3.exr").planes, read_exr(folder / "some.5.exr").planes);
+}
+
+TEST_F(CliFramesTest, AFrameThatIsWrongIsToldBeforeAnyIsRendered) {
+    write_moving_scene(3, -1);
+    for (const char* line :
+         {"check scene.json", "render scene.json --dry-run", "render scene.json -o f.#.exr",
+          "render scene.json --frames 1-3 -o f.exr"})
+        EXPECT_THAT(expect_failure(3, line),
+                    AllOf(HasSubstr("objects[0].scale: is singular"), HasSubstr("(at frame 2)")));
+    EXPECT_THAT(names(), ElementsAre("scene.json"));
+    EXPECT_EQ(run("render scene.json --frames 1,3 -o f.#.exr").exit_code, 0);
+}
+
+}  // namespace voxelume
