@@ -26,12 +26,13 @@ Model source_of(Model model) {
 
 SharedGrid ObjectGrids::grid_of(const Scene& scene, const Object& object) {
     const Model& model = scene.models[size_t(object.model)];
+    if (model.surface != Surface::exact) return own_grid_of(model);
+    const Source source{source_of(model), object.world_from_object, world_frame(scene.world)};
+    return find_or_make(model, source, object.where);
+}
+
+SharedGrid ObjectGrids::own_grid_of(const Model& model) {
     Source source{source_of(model), glm::dmat4(1), {}};
-    if (model.surface == Surface::exact) {
-        source.frame_from_model = object.world_from_object;
-        source.frame = world_frame(scene.world);
-        return find_or_make(model, source, object.where);
-    }
     if (!has_own_voxels(model)) source.frame = model_frame(model, meshes_.mesh_of(model));
     return find_or_make(model, source, model.where);
 }

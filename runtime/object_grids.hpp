@@ -22,6 +22,9 @@ class ObjectGrids {
     /// does, opened by the place in the scene.
     SharedGrid grid_of(const Scene& scene, const Object& object);
 
+    /// The grid of a model in its own space, of exact ones, too: an instance's.
+    SharedGrid own_grid_of(const Model& model);
+
     /// Forgets the grids that weren't asked for since the last call.
     void forget_unused();
 
