@@ -148,7 +148,8 @@ class FrameRun {
             [this](size_t n) { return scene_at(scene_, list_[n].frame); },
             [this](size_t n, const Scene& scene, const FormedWorld& world,
                    const WorldReport& report) { return render(n, scene, world, report); }};
-        run_frames(device_, list_.size(), steps, !options_.one_by_one);
+        run_frames(device_, list_.size(), steps,
+                   {!options_.one_by_one, model_cache(options_.scene)});
         return reports_;
     }
 
@@ -215,7 +216,7 @@ int run(const RenderOptions& options) {
     for (const FrameFiles& files : list) scene_at(scene, files.frame);
     const Device device = Device::open(options.scene.device);
     if (options.plan_only) {
-        print_plan(scene, device, false);
+        print_plan(scene, device, model_cache(options.scene), false);
         return 0;
     }
     if (options.verbose || !options.stats.empty()) device.time_kernels(true);

@@ -45,7 +45,9 @@ nlohmann::ordered_json seconds_of(const RenderReport& report) {
 nlohmann::ordered_json frame_statistics(const FrameReport& frame) {
     const RenderReport& report = frame.report;
     return {{"frame", frame.frame},
+            {"meshes_read", report.world.meshes_read},
             {"voxelized", report.world.voxelized},
+            {"models_from_cache", report.world.from_cache},
             {"painted_bricks", report.world.painted_bricks},
             {"world_kept", report.world.is_kept},
             {"hits_kept", report.hits_are_kept},

@@ -14,6 +14,11 @@ void add_scene_options(CLI::App& app, SceneOptions& options) {
     app.add_option("--samples", options.samples, "samples per pixel, instead of the scene's")
         ->check(in_range(1, 4096, Number::whole));
     app.add_option("--device", options.device, "auto, cpu, gpu, a number, or part of a name");
+    app.add_flag("--no-cache", options.no_cache, "neither read nor keep models' voxels on disk");
+}
+
+ModelCache model_cache(const SceneOptions& options) {
+    return options.no_cache ? ModelCache() : ModelCache::of_user();
 }
 
 Scene read_with(const SceneOptions& options, const char* command) {

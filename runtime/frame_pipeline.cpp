@@ -64,8 +64,9 @@ FormedFrame form_frame(WorldFormer& former, const FrameSteps& steps, size_t fram
     return formed;
 }
 
-void run_one_by_one(const Device& device, size_t count, const FrameSteps& steps) {
-    WorldFormer former(device, count > 1);
+void run_one_by_one(const Device& device, size_t count, const FrameSteps& steps,
+                    const ModelCache& cache) {
+    WorldFormer former(device, count > 1, cache);
     for (size_t frame = 0; frame < count; ++frame) {
         const FormedFrame formed = form_frame(former, steps, frame);
         steps.render(frame, formed.scene, formed.world, formed.report)();
@@ -98,7 +99,8 @@ class Closing {
     Handoff<T>& handoff_;
 };
 
-void run_overlapped(const Device& device, size_t count, const FrameSteps& steps) {
+void run_overlapped(const Device& device, size_t count, const FrameSteps& steps,
+                    const ModelCache& cache) {
     Handoff<FormedFrame> formed;
     Handoff<std::function<void()>> writes;
     std::exception_ptr write_error, error;
@@ -115,7 +117,7 @@ void run_overlapped(const Device& device, size_t count, const FrameSteps& steps)
         const Worker forming([&] {
             const Closing closing(formed);
             try {
-                WorldFormer former(device.with_own_queue());
+                WorldFormer former(device.with_own_queue(), true, cache);
                 for (size_t frame = 0; frame < count; ++frame) {
                     // Two worlds at a time: the next is begun when this one is being rendered.
                     if (!formed.put(form_frame(former, steps, frame))) return;
@@ -144,11 +146,12 @@ void run_overlapped(const Device& device, size_t count, const FrameSteps& steps)
 
 }  // namespace
 
-void run_frames(const Device& device, size_t count, const FrameSteps& steps, bool overlap) {
-    if (overlap && count > 1)
-        run_overlapped(device, count, steps);
+void run_frames(const Device& device, size_t count, const FrameSteps& steps,
+                const FrameOptions& options) {
+    if (options.overlap && count > 1)
+        run_overlapped(device, count, steps, options.cache);
     else
-        run_one_by_one(device, count, steps);
+        run_one_by_one(device, count, steps, options.cache);
 }
 
 }  // namespace voxelume

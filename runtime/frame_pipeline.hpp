@@ -19,10 +19,15 @@ struct FrameSteps {
         render;
 };
 
-/// Takes `count` frames through their steps. With `overlap` three threads work on up to three
-/// frames, no more; the files are the same without.
+struct FrameOptions {
+    bool overlap = true;  ///< three threads work on up to three frames, no more
+    ModelCache cache;     ///< of models that need no voxelizing
+};
+
+/// Takes `count` frames through their steps. The files are the same with all options.
 ///
 /// Rethrows the first error of the frames in order, once the frames before it are written.
-void run_frames(const Device& device, size_t count, const FrameSteps& steps, bool overlap);
+void run_frames(const Device& device, size_t count, const FrameSteps& steps,
+                const FrameOptions& options);
 
 }  // namespace voxelume
