@@ -152,10 +152,19 @@ void MeshStore::forget_unused() {
     used_.clear();
 }
 
+/// Of a file of which only the morphed mesh's summary is known it is as many as that has.
+uint64_t MeshStore::triangles_of(const std::filesystem::path& name, const MeshFile& file) const {
+    if (file.summary) return file.summary->triangles;
+    if (file.mesh) return file.mesh->triangles.size();
+    for (const auto& [model, morphed] : morphed_)
+        if (morphed.summary && (morphed.file == name || morphed.morph.mesh == name))
+            return morphed.summary->triangles;
+    return 0;
+}
+
 uint64_t MeshStore::triangles() const {
     uint64_t sum = 0;
-    for (const auto& [name, file] : files_)
-        if (file.summary) sum += file.summary->triangles;
+    for (const auto& [name, file] : files_) sum += triangles_of(name, file);
     for (const auto& [name, file] : voxels_) sum += file.summary.triangles;
     return sum;
 }

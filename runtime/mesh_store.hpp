@@ -62,6 +62,7 @@ class MeshStore {
     };
 
     MeshFile& file(const std::filesystem::path& name);
+    uint64_t triangles_of(const std::filesystem::path& name, const MeshFile& file) const;
     const MeshSummary& summary_of_file(const std::filesystem::path& name);
     const VoxelFile& voxel_file(const Model& model);
     Morphed& morphed(const Model& model);

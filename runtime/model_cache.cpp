@@ -104,7 +104,8 @@ uint64_t megabytes_of_user() {
     if (!text || !*text) return kDefaultMegabytes;
     uint64_t megabytes = 0;
     const char* end = text + std::strlen(text);
-    if (std::from_chars(text, end, megabytes).ptr != end || megabytes > 1u << 30)
+    const auto [stop, error] = std::from_chars(text, end, megabytes);
+    if (stop != end || error != std::errc() || megabytes > 1u << 30)
         throw Error(ErrorKind::usage,
                     "VOXELUME_CACHE_MB is \"{}\": it must be the megabytes that models may take "
                     "on disk, 0 for none",

@@ -34,7 +34,7 @@ class ModelCache {
     /// Keeps nothing.
     ModelCache() = default;
     /// Keeps up to `max_bytes` of what takes `least_seconds` or more to make.
-    ModelCache(std::filesystem::path folder, uint64_t max_bytes, double least_seconds = 0.005)
+    ModelCache(std::filesystem::path folder, uint64_t max_bytes, double least_seconds = 0.001)
         : is_open_(!folder.empty() && max_bytes > 0),
           store_(std::move(folder), max_bytes),
           least_seconds_(least_seconds) {}
