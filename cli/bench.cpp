@@ -1,4 +1,4 @@
-// voxelume bench: run time against error, on solids whose surface is known.
+// voxelume bench: run time against error, on scenes whose truth is known.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <memory>
@@ -21,22 +21,22 @@ namespace {
 
 struct BenchCommand {
     bool is_quick = false;
-    std::string page, json, csv;
+    std::string page, json, csv, peers;
     std::vector<std::string> only;
-    std::vector<int> resolutions;
+    std::vector<int> resolutions, samples;
     std::string size;
     int repeats = 0;  ///< 0: as --quick says
     std::string device;
     bool quiet = false;
 };
 
-std::vector<const BenchSolid*> chosen_solids(const std::vector<std::string>& only) {
-    std::vector<const BenchSolid*> chosen;
+std::vector<const BenchEntry*> chosen_entries(const std::vector<std::string>& only) {
+    std::vector<const BenchEntry*> chosen;
     std::vector<std::string_view> names;
-    for (const BenchSolid& solid : bench_solids()) {
-        names.emplace_back(solid.name);
-        if (only.empty() || std::ranges::find(only, solid.name) != only.end())
-            chosen.push_back(&solid);
+    for (const BenchEntry& entry : bench_entries()) {
+        names.emplace_back(entry.name);
+        const bool is_named = std::ranges::find(only, entry.name) != only.end();
+        if (is_named || (only.empty() && entry.is_there())) chosen.push_back(&entry);
     }
     for (const std::string& name : only)
         if (std::ranges::find(names, name) == names.end())
@@ -45,20 +45,27 @@ std::vector<const BenchSolid*> chosen_solids(const std::vector<std::string>& onl
     return chosen;
 }
 
+void sort_once(std::vector<int>& values) {
+    std::ranges::sort(values);
+    values.erase(std::unique(values.begin(), values.end()), values.end());
+}
+
 BenchOptions options_of(const BenchCommand& command) {
     BenchOptions options;
-    options.solids = chosen_solids(command.only);
+    options.subjects = chosen_entries(command.only);
     // The steps are halved where smooth surfaces have not yet reached their floor.
     options.resolutions = {8, 11, 16, 23, 32, 45, 64, 128, 256};
     if (!command.is_quick) options.resolutions.insert(options.resolutions.end(), {512, 1024});
     if (!command.resolutions.empty()) options.resolutions = command.resolutions;
-    std::ranges::sort(options.resolutions);
-    options.resolutions.erase(std::unique(options.resolutions.begin(), options.resolutions.end()),
-                              options.resolutions.end());
+    sort_once(options.resolutions);
+    options.samples = command.is_quick ? std::vector<int>{1, 4} : std::vector<int>{1, 4, 16};
+    if (!command.samples.empty()) options.samples = command.samples;
+    sort_once(options.samples);
     options.size = glm::ivec2(command.is_quick ? 256 : 1024);
     if (!command.size.empty()) options.size = parse_size(command.size, "bench");
     options.repeats = command.is_quick ? 1 : 5;
     if (command.repeats > 0) options.repeats = command.repeats;
+    if (!command.peers.empty()) options.peers = read_peers(command.peers, options.size);
     return options;
 }
 
@@ -88,9 +95,7 @@ int run(const BenchCommand& command) {
     const Device device = Device::open(command.device);
     BenchReport report;
     {
-        Progress bar("measuring",
-                     options.solids.size() * std::size(kBenchSurfaces) * options.resolutions.size(),
-                     stderr, command.quiet);
+        Progress bar("measuring", count_rows(options), stderr, command.quiet);
         report = run_bench(device, options, [&bar](size_t, size_t) { bar.advance(); });
     }
     if (!command.quiet)
@@ -106,10 +111,10 @@ int run(const BenchCommand& command) {
     return 0;
 }
 
-std::string list_of_solids() {
+std::string list_of_scenes() {
     std::string list = "of these scenes only; may be given again:";
-    for (const BenchSolid& solid : bench_solids())
-        list += fmt::format("\n{:<8}{}", solid.name, solid.help);
+    for (const BenchEntry& entry : bench_entries())
+        list += fmt::format("\n{:<8}{}", entry.name, entry.help);
     return list;
 }
 
@@ -122,10 +127,14 @@ Action add_bench(CLI::App& app) {
     app.add_option("-o,--output", command->page, "report with plots: .html");
     app.add_option("--json", command->json, "file for everything that was measured");
     app.add_option("--csv", command->csv, "file for the rows");
-    app.add_option("--only", command->only, list_of_solids())->allow_extra_args(false);
+    app.add_option("--only", command->only, list_of_scenes())->allow_extra_args(false);
     app.add_option("--resolution", command->resolutions, "voxels a metre, like 16,32,64")
         ->delimiter(',')
         ->check(in_range(2, 4096, Number::whole));
+    app.add_option("--samples", command->samples, "rays a pixel, like 1,4,16; scenes with light")
+        ->delimiter(',')
+        ->check(in_range(1, 4096, Number::whole));
+    app.add_option("--peers", command->peers, "rows of other programs, from bench_peers: .json");
     app.add_option("--size", command->size, "of the images, like 640x480");
     app.add_option("--repeat", command->repeats, "renders of each row, the fastest of which counts")
         ->check(in_range(1, 1000, Number::whole));

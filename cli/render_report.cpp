@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "runtime/interior.hpp"
 #include "runtime/io/atomic_file.hpp"
 #include "runtime/version.hpp"
 
@@ -28,6 +29,7 @@ RenderReport sum_of(const std::vector<FrameReport>& frames) {
         sum.shadow_rays += report.shadow_rays;
         sum.secondary_rays += report.secondary_rays;
         sum.ended_paths += report.ended_paths;
+        sum.lost_members += report.lost_members;
         sum.not_finite += report.not_finite;
     }
     return sum;
@@ -71,6 +73,7 @@ nlohmann::ordered_json statistics(const Outcome& outcome) {
     json["shadow_rays"] = report.shadow_rays;
     json["secondary_rays"] = report.secondary_rays;
     json["ended_paths"] = report.ended_paths;
+    json["lost_members"] = report.lost_members;
     json["not_finite"] = report.not_finite;
     json["world_bytes"] = report.world_bytes;
     json["peak_device_bytes"] = counters.peak_bytes;

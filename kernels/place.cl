@@ -7,7 +7,8 @@
 // Build constants: VXL_SMOOTH: the object has distances, else occupancy. VXL_ATTRIBUTES,
 // VXL_COLORS: the world has them. VXL_OBJECT_ATTRIBUTES, VXL_OBJECT_COLORS: the object has them.
 // VXL_WORLD_OCCUPANCY: the world has cubes or exact voxels as well. VXL_REACH: the reach is not 0.
-// VXL_KEEPS_INSIDE: bricks inside of the object are stored, too.
+// VXL_KEEPS_INSIDE: bricks inside of the object are stored, too. VXL_AMONG_SMOOTH: the object is
+// exact in a world with smooth ones.
 #include "lib/placed_attributes.h"
 #include "lib/placed_field.h"
 #include "lib/work_item.h"
@@ -53,8 +54,9 @@ kernel void classify_bricks(const uint count, global const uint* restrict listed
                             global const uint* restrict slots, global const ulong* restrict near,
                             global const short* restrict distance, global uchar* restrict states) {
     const uint item = work_item();
-    if (item >= count || states[item] == VXL_SURFACE) return;
+    if (item >= count) return;
     const uint index = listed ? listed[item] : item;
+    if (states[index] == VXL_SURFACE) return;
     const PlacedObject object = {rows, fraction_bits, object_bricks, slots};
     const int4 low = (brick_at(index, world_bricks) << 5) - (int4)(2, 2, 2, 0);
     const CellBox box = map_box(&object, low, 36, true);
@@ -69,7 +71,7 @@ kernel void classify_bricks(const uint count, global const uint* restrict listed
     if (state == VXL_FULL &&
         (VXL_KEEPS_INSIDE || is_at_bounds(bounds, brick_at(index, world_bricks) * 16, 16)))
         state = VXL_SURFACE;
-    states[item] = (uchar)max((uint)states[item], state);
+    states[index] = (uchar)max((uint)states[index], state);
 }
 
 // One leaf of the world: the smaller of its distances and the object's. `scale` turns the object's
@@ -183,7 +185,7 @@ kernel void paint_smooth_voxels(
         const uint kind =
             VXL_ATTRIBUTES ? world_attributes[number] & VXL_KIND_EXACT << VXL_KIND_SHIFT : 0u;
         if (kind == 0u && (int)abs(value) <= crossing) crossed |= 1ul << i;
-        const size_t kept = (size_t)(item >> 6) * VXL_BRICK_VOXELS + place;
+        const size_t kept = (size_t)painted_place(item, painted) * VXL_BRICK_VOXELS + place;
         if (value > nearest[kept]) continue;
         nearest[kept] = value;
         const int4 at = cell - gathered.first;
@@ -200,7 +202,8 @@ kernel void paint_smooth_voxels(
 }
 
 // One leaf of the world: voxels whose centre's image lies in an occupied voxel of the object, or
-// has one within the reach.
+// has one within the reach. A voxel of the smooth body that becomes an exact one keeps the body's
+// word: its primitives have their own.
 kernel void paint_cubes(const uint count, const int4 world_bricks, const int fraction_bits,
                         constant long* rows, const int4 object_bricks,
                         global const uint* restrict slots, global const ulong* restrict near,
@@ -208,7 +211,8 @@ kernel void paint_cubes(const uint count, const int4 world_bricks, const int fra
                         global const uint* restrict materials,
                         global const uint* restrict attributes, global const uint* restrict colors,
                         const int4 world_size, global const uint* restrict painted,
-                        global const uint* restrict coordinates, global ulong* restrict occupancy,
+                        global const uint* restrict coordinates,
+                        global const short* restrict nearest, global ulong* restrict occupancy,
                         global uint* restrict world_attributes,
                         global uint* restrict world_colors) {
     const uint item = work_item();
@@ -232,6 +236,13 @@ kernel void paint_cubes(const uint count, const int4 world_bricks, const int fra
         set |= 1ul << i;
         const size_t number = (size_t)(leaf >> 6) * VXL_BRICK_VOXELS + leaf_place(leaf) + voxel.x +
                               (voxel.y << 4) + (voxel.z << 8);
+        const size_t kept = (size_t)(item >> 6) * VXL_BRICK_VOXELS + number % VXL_BRICK_VOXELS;
+        if (VXL_AMONG_SMOOTH && nearest[kept] != VXL_SATURATED &&
+            world_attributes[number] >> VXL_KIND_SHIFT != VXL_KIND_CUBES) {
+            const uint word = world_attributes[number] & ~(3u << VXL_KIND_SHIFT);
+            world_attributes[number] = word | VXL_KIND_EXACT << VXL_KIND_SHIFT;
+            continue;
+        }
         if (VXL_ATTRIBUTES) world_attributes[number] = word_of(words, materials, attributes, from);
         if (VXL_COLORS) world_colors[number] = color_of(colors, from);
     }

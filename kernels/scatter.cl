@@ -55,12 +55,21 @@ static inline void count_lanes(lane_int mask, global uint* counter) {
     reserve_places(mask, counter, places);
 }
 
+/// cross_interior; sets that have no room are counted in `lost`.
+static inline Interior cross_counted(Interior in, lane_uint word, lane_int smooth, lane_int leaving,
+                                     lane_int crossing, global uint* lost) {
+    lane_int full;
+    in = cross_interior_or_lose(in, word, smooth, leaving, crossing, &full);
+    if (VXL_INTERIOR_CAPPED) count_lanes(full, lost);
+    return in;
+}
+
 /// Makes rays from an observer entries of their own nodes. `bodies` are the solids that transmit
 /// light: a ray may begin inside of them.
 kernel void begin_paths(global const SolidShape* restrict solids, uint body_count,
                         global const uint* restrict bodies, global const uint* restrict ranks,
-                        global const float* restrict rays, uint count, uint stride,
-                        global uint* restrict paths, global float* restrict starts,
+                        global uint* lost, global const float* restrict rays, uint count,
+                        uint stride, global uint* restrict paths, global float* restrict starts,
                         global uint* restrict inside) {
     const uint first = work_item() * VXL_LANES;
     if (first >= count) return;
@@ -84,14 +93,11 @@ kernel void begin_paths(global const SolidShape* restrict solids, uint body_coun
             below(first, count) & LANE_MASK(LANES_LOAD(rays, VXL_RAY_END * stride + first) >= 0.0f);
         for (uint i = 0; i < body_count; ++i) {
             const SolidEvent event = event_at(solids, bodies[i], &ray, (lane_float)0.0f);
-            in = cross_interior(in, (lane_uint)solids[bodies[i]].attribute, (lane_int)0,
-                                (lane_int)0, event.after & valid);
+            in = cross_counted(in, (lane_uint)solids[bodies[i]].attribute, (lane_int)0, (lane_int)0,
+                               event.after & valid, lost);
         }
     }
-    LANES_STORE(in.smooth, paths, VXL_PATH_INSIDE * stride + first);
-    LANES_STORE(in.a, paths, (VXL_PATH_INSIDE + 1) * stride + first);
-    LANES_STORE(in.b, paths, (VXL_PATH_INSIDE + 2) * stride + first);
-    LANES_STORE(in.c, paths, (VXL_PATH_INSIDE + 3) * stride + first);
+    store_interior(&in, paths, stride, first);
     LANES_STORE(medium_inside(&in, ranks), inside, first);
 }
 
@@ -99,16 +105,17 @@ kernel void begin_paths(global const SolidShape* restrict solids, uint body_coun
 /// that surfaces leave uncovered. `gains` is what an entry's reflected and refracted light counts
 /// in its node; `coverage` of a node may be null.
 kernel void pass_layer(global const float* restrict materials, global const uint* restrict ranks,
-                       global const uint* restrict colors, float least_weight, uint first_layer,
-                       global const float* restrict rays, global const uint* restrict hits,
-                       global const uint* restrict words, global const uint* restrict sides,
-                       global const float* restrict radiance, global const float* restrict passed,
-                       global const uint* restrict paths, uint count, uint stride,
-                       global float* restrict gains, global float* restrict nodes,
-                       global float* restrict coverage, uint node_stride,
-                       global uint* restrict counters, global float* restrict next_rays,
-                       global uint* restrict next_paths, global float* restrict next_starts,
-                       global uint* restrict next_inside, uint next_stride) {
+                       global uint* lost, global const uint* restrict colors, float least_weight,
+                       uint first_layer, global const float* restrict rays,
+                       global const uint* restrict hits, global const uint* restrict words,
+                       global const uint* restrict sides, global const float* restrict radiance,
+                       global const float* restrict passed, global const uint* restrict paths,
+                       uint count, uint stride, global float* restrict gains,
+                       global float* restrict nodes, global float* restrict coverage,
+                       uint node_stride, global uint* restrict counters,
+                       global float* restrict next_rays, global uint* restrict next_paths,
+                       global float* restrict next_starts, global uint* restrict next_inside,
+                       uint next_stride) {
     const uint first = work_item() * VXL_LANES;
     if (first >= count) return;
     const lane_int valid = below(first, count);
@@ -171,8 +178,8 @@ kernel void pass_layer(global const float* restrict materials, global const uint
     on.cell_xy = LANES_LOAD(hits, VXL_HIT_CELL * stride + first);
     on.cell_z = LANES_LOAD(hits, VXL_HIT_FACE * stride + first);
     on.target = target;
-    on.interior = cross_interior(load_interior(paths, stride, first), word,
-                                 is_smooth(word, on.source), leaving, goes_on);
+    on.interior = cross_counted(load_interior(paths, stride, first), word,
+                                is_smooth(word, on.source), leaving, goes_on, lost);
     if (VXL_CUBE_BODIES) on.flags |= joined_flag(&on.interior, materials);
     on.medium = medium_inside(&on.interior, ranks);
     const RayQueue queue = {next_rays, next_paths, next_starts, next_inside, next_stride};
@@ -229,9 +236,9 @@ static inline void put_children(const RayQueue* queue, NewRays* r, Scattered s, 
 /// for each entry, the node and share of its reflected light, then (`stride` later) of its
 /// refracted.
 kernel void scatter_rays(PyramidShape shape, global const float* restrict materials,
-                         global const uint* restrict ranks, float least_weight, uint compact,
-                         global const float* restrict rays, global const uint* restrict hits,
-                         global const float* restrict positions,
+                         global const uint* restrict ranks, global uint* lost, float least_weight,
+                         uint compact, global const float* restrict rays,
+                         global const uint* restrict hits, global const float* restrict positions,
                          global const float* restrict normals, global const uint* restrict words,
                          global const uint* restrict sides, global const float* restrict passed,
                          global const float* restrict gains, global const uint* restrict paths,
@@ -285,8 +292,8 @@ kernel void scatter_rays(PyramidShape shape, global const float* restrict materi
         open = hit & transmits(materials, material,
                                LANES_GATHER_FLOAT(materials, material + VXL_MATERIAL_OPACITY));
         const lane_int began = open & leaving & ~interior_holds(&ray.interior, word, body);
-        ray.interior = cross_interior(ray.interior, word, body, (lane_int)0, began);
-        behind = cross_interior(ray.interior, word, body, leaving, open);
+        ray.interior = cross_counted(ray.interior, word, body, (lane_int)0, began, lost);
+        behind = cross_counted(ray.interior, word, body, leaving, open, lost);
     }
     lane_float eta = one;
     Refraction bend = {(lane_int)0, cosine, zero, one};

@@ -6,27 +6,12 @@
 #include "lib/interior.h"
 #include "lib/solid_surface.h"
 #include "lib/surface_color.h"
+#include "lib/triangle.h"
 #include "lib/vector.h"
 #include "lib/work_item.h"
 #include "shared/scene.h"
 #include "shared/trace.h"
 #include "shared/voxel.h"
-
-static inline Vector triangle_normal(global const float* restrict triangles, lane_uint number,
-                                     float4 edge) {
-    const lane_uint first = number * 9u;
-    const lane_float ax = LANES_GATHER_FLOAT(triangles, first);
-    const lane_float ay = LANES_GATHER_FLOAT(triangles, first + 1u);
-    const lane_float az = LANES_GATHER_FLOAT(triangles, first + 2u);
-    const lane_float ux = (LANES_GATHER_FLOAT(triangles, first + 3u) - ax) * edge.x;
-    const lane_float uy = (LANES_GATHER_FLOAT(triangles, first + 4u) - ay) * edge.y;
-    const lane_float uz = (LANES_GATHER_FLOAT(triangles, first + 5u) - az) * edge.z;
-    const lane_float vx = (LANES_GATHER_FLOAT(triangles, first + 6u) - ax) * edge.x;
-    const lane_float vy = (LANES_GATHER_FLOAT(triangles, first + 7u) - ay) * edge.y;
-    const lane_float vz = (LANES_GATHER_FLOAT(triangles, first + 8u) - az) * edge.z;
-    Vector n = {uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx};
-    return n;
-}
 
 /// Finds the point and normal of every hit, and starts its radiance with ambient light and
 /// emission; rays that hit nothing take the background. `words` keeps each hit's attribute word,
@@ -41,8 +26,7 @@ kernel void shade_surface(PyramidShape shape, Space space, global const float* r
                           global const uint* restrict hits, global const uint* restrict paths,
                           uint count, uint stride, global float* restrict positions,
                           global float* restrict normals, global uint* restrict words,
-                          global uint* restrict sides, global uint* restrict inside,
-                          global float* restrict radiance) {
+                          global uint* restrict sides, global float* restrict radiance) {
     const uint first = work_item() * VXL_LANES;
     if (first >= count) return;
     const float4 edge = shape.edge;
@@ -141,15 +125,6 @@ kernel void shade_surface(PyramidShape shape, Space space, global const float* r
             leaving = LANES_SELECT(cube, exit, leaving);
         }
         hidden = hides_surface(&before, word, body, leaving, ranks);
-        if (VXL_ABSORBS && VXL_SMOOTH) {
-            // A ray from an observer that first meets the smooth body from inside began in it.
-            const lane_uint flags = LANES_LOAD(paths, VXL_PATH_FLAGS * stride + first);
-            const lane_int began = hit & body & leaving & LANE_MASK(flags == 0u) &
-                                   ~interior_holds(&before, word, body) &
-                                   transmits(materials, material, opacity);
-            const Interior from = cross_interior(before, word, body, (lane_int)0, began);
-            LANES_STORE(medium_inside(&from, ranks), inside, first);
-        }
         if (VXL_CUBE_BODIES) {
             hidden |= exit & ~is_joined(word, materials);
             hidden =

@@ -1,4 +1,5 @@
 // rays -> hits: the discrete walk of every ray through the world to the first surface it meets.
+#include "lib/begin_inside.h"
 #include "lib/filter.h"
 #include "lib/flight.h"
 #include "lib/vector.h"
@@ -121,6 +122,37 @@ kernel void trace_scattered(VXL_WORLD_ARGUMENTS, global const float* restrict ra
 }
 #endif
 
+#if VXL_IMMERSED
+/// Adds to the objects that rays 0 .. count-1 are inside of, as begin_paths left them, those that
+/// only tracing finds; see find_beginnings. `most` is their number in the scene, smooth ones as
+/// one.
+kernel void begin_inside(VXL_WORLD_ARGUMENTS, uint constant_attribute,
+                         global const float* restrict materials, global const uint* restrict ranks,
+                         global uint* lost, global const uint* restrict hollow, uint most,
+                         global const float* restrict rays, uint count, uint stride,
+                         global uint* restrict paths, global const float* restrict starts,
+                         global uint* restrict inside) {
+    const uint first = work_item() * VXL_LANES;
+    if (first >= count) return;
+    VXL_WORLD_VIEWS;
+    Flight f;
+    f.ray = LANES_AS_UINT(LANES_NUMBERS + (int)first);
+    set_out(&pyramid, rays, stride, paths, starts, &f);
+    Interior in = f.travel.interior;
+    const lane_int active = LANE_MASK(f.t_end >= 0.0f) & LANE_MASK(f.ray < count);
+    const Interior began = find_beginnings(&pyramid, &surface, &f.walk, active, &f.travel,
+                                           constant_attribute, materials, hollow, most, lost);
+    for (int i = 0; i < VXL_INTERIOR_MEMBERS; ++i) {
+        lane_int full;
+        in = cross_interior_or_lose(in, began.members[i], (lane_int)(i == 0 ? -1 : 0), (lane_int)0,
+                                    LANE_MASK(began.members[i] != VXL_NO_MEMBER), &full);
+        if (VXL_INTERIOR_CAPPED && lanes_any(full)) atomic_add(lost, (uint)lanes_count(full));
+    }
+    store_interior(&in, paths, stride, first);
+    LANES_STORE(medium_inside(&in, ranks), inside, first);
+}
+#endif
+
 /// Traces a queue of shadow rays that begin on surfaces; what reaches its light adds its share of
 /// light, `shares` (three components `stride` apart), to the radiance of the ray it was sent for.
 ///
@@ -129,6 +161,9 @@ kernel void trace_scattered(VXL_WORLD_ARGUMENTS, global const float* restrict ra
 kernel void trace_shadows(VXL_WORLD_ARGUMENTS, uint constant_attribute,
                           global const float* restrict materials,
                           global const uint* restrict colors, global const uint* restrict ranks,
+                          global uint* lost, float4 absorption, DensityShape density_shape,
+                          global const uint* restrict density_bricks,
+                          global const float* restrict density_values,
                           global const float* restrict rays, global const uint* restrict count,
                           uint stride, global const uint* restrict targets,
                           global const uint* restrict sources, global const uint* restrict paths,
@@ -167,10 +202,11 @@ kernel void trace_shadows(VXL_WORLD_ARGUMENTS, uint constant_attribute,
         if (VXL_CUBE_BODIES) find_body(&travel, materials);
         const Vector d = {walk.dx, walk.dy, walk.dz};
         const lane_float zero = (lane_float)0.0f, one = (lane_float)1.0f;
+        const MediumView medium = {absorption, {density_shape, density_bricks, density_values}};
         Filter filter = {{one, one, one}, {zero, zero, zero}};
-        arrived =
-            pass_through(&pyramid, &surface, &walk, t_end, active, &travel, constant_attribute,
-                         materials, colors, ranks, metres_per_t(shape.edge, d), &filter);
+        arrived = pass_through(&pyramid, &surface, &walk, t_end, active, &travel,
+                               constant_attribute, materials, colors, ranks, lost, &medium,
+                               metres_per_t(shape.edge, d), &filter);
         for (int channel = 0; channel < 3; ++channel)
             share[channel] *= filter.passed[channel] * exact_exp(-filter.depth[channel]);
     } else {

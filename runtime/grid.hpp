@@ -11,6 +11,7 @@
 #include <glm/vec3.hpp>
 
 #include <cstdint>
+#include <vector>
 
 #include "runtime/opencl/buffer.hpp"
 #include "runtime/surface.hpp"
@@ -66,6 +67,11 @@ struct BrickGrid {
     Buffer<uint32_t> solids;               ///< analytic solids, shared/solid.h
 };
 
+/// An axis-parallel box in a grid's voxels; empty where `low` exceeds `high` on any axis.
+struct VoxelBox {
+    glm::dvec3 low{0}, high{-1};
+};
+
 /// The sparse 64-ary occupancy pyramid that rays step through, without a stack.
 ///
 /// `sectors` is dense; everything below is left-packed in ascending order, so empty space costs
@@ -78,9 +84,9 @@ struct Pyramid {
     Buffer<uint32_t> sectors;  ///< n: its brick records are 64n .. 64n+63, in the order of mask
                                ///< bits; or 1<<31 | log2 of the empty cube around it: 6 its own
                                ///< 64³, 8 its aligned 256³
-    Buffer<uint32_t> bricks;   ///< 4 per record: mask low, mask high (of leaves), first leaf, log2
-                               ///< of the empty cube when the mask is 0 (4 its own, 5 its aligned
-                               ///< 32³)
+    Buffer<uint32_t> bricks;   ///< 4 per record: mask low, mask high (of leaves), then the first
+                               ///< leaf of each half; or, when the mask is 0, twice 1<<31 | log2 of
+                               ///< the empty cube: 4 its own, 5 its aligned 32³
     Buffer<uint32_t> leaves;   ///< 2 per leaf: mask low, mask high (of voxels)
     Buffer<uint32_t> leaf_voxels;  ///< first voxel of each leaf
     Buffer<uint32_t> attributes;   ///< one per voxel, shared/voxel.h; see `attribute`
@@ -93,6 +99,7 @@ struct Pyramid {
     Buffer<float> triangles;
     Buffer<uint32_t> triangle_attributes;
     Buffer<uint32_t> solids;
+    std::vector<VoxelBox> object_boxes;  ///< around each of the scene's objects; none if not known
 };
 
 }  // namespace voxelume

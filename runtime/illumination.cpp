@@ -7,6 +7,7 @@
 
 #include "kernels/shared/solid.h"
 #include "kernels/shared/voxel.h"
+#include "runtime/interior.hpp"
 #include "runtime/stages/spots.hpp"
 
 namespace voxelume {
@@ -87,9 +88,9 @@ void add_paths(const Scene& scene, Features& features) {
         fresnel |= m->fresnel && (m->reflection > 0 || m->refraction > 0);
         absorption |= m->absorption != glm::vec3(0) && (transmits(*m) || features.voxel_opacity);
     }
-    const bool filters =
-        features.shadows && (opacity || (refraction && scene.render.filtered_shadows));
-    features.transmission = opacity || (refraction && (follows || filters));
+    features.transmission =
+        opacity || (refraction && (follows || (features.shadows && scene.render.filtered_shadows)));
+    const bool filters = features.shadows && features.transmission;
     features.refracts = follows && (refraction || fresnel);
     features.paths = features.transmission || (follows && reflection);
     features.absorbs = features.medium || (features.transmission && absorption);
@@ -107,12 +108,22 @@ RayQueue allocate_queue(const Device& device, const Features& features, uint32_t
     RayQueue queue;
     queue.rays = Buffer<float>(device, "rays", size_t(places) * VXL_RAY_COMPONENTS);
     if (!features.paths) return queue;
-    const size_t components = features.transmission ? VXL_PATH_COMPONENTS : VXL_PATH_CELL;
+    const size_t components = features.transmission
+                                  ? VXL_PATH_INSIDE + 1 + size_t(features.other_members)
+                                  : VXL_PATH_CELL;
     queue.paths = Buffer<uint32_t>(device, "paths", places * components);
     if (!features.transmission) return queue;
     queue.starts = Buffer<float>(device, "path starts", places);
     queue.inside = Buffer<uint32_t>(device, "path media", places);
     return queue;
+}
+
+/// Surroundings::lost.
+Buffer<uint32_t> allocate_lost(const Device& device, const Features& features) {
+    if (!features.interior_capped) return {};
+    Buffer<uint32_t> lost(device, "lost members", 1);
+    lost.fill(0);
+    return lost;
 }
 
 /// The first records of the solids that light goes through.
@@ -140,6 +151,7 @@ Features features_of(const Scene& scene, const Pyramid& world) {
     features.medium = scene.world.medium.absorption != glm::vec3(0);
     features.medium_grid = features.medium && has_density(scene.world.medium);
     add_paths(scene, features);
+    add_interior(scene, world, features);
     return features;
 }
 
@@ -175,7 +187,7 @@ Illumination::Illumination(const Device& device, const Features& features, const
       most_depth_(size_t(scene.render.depth)),
       trace_(device, features),
       shade_(device, features, scene, world.frame),
-      surroundings_{shade_.materials(), shade_.ranks()},
+      surroundings_{shade_.materials(), shade_.ranks(), allocate_lost(device, features)},
       queue_(lights_.empty()
                  ? ShadowQueue{}
                  : allocate_shadow_queue(device, features,
@@ -183,9 +195,18 @@ Illumination::Illumination(const Device& device, const Features& features, const
     if (!lights_.empty()) lighting_.emplace(device, features, shade_.materials());
     if (features.absorbs)
         medium_.emplace(device, features, scene.world, shade_.space(), shade_.materials());
+    if (features.medium) {
+        surroundings_.absorption = shade_.space().absorption;
+        surroundings_.density = medium_->density();
+    }
     if (features.paths)
         scatter_.emplace(device, features, surroundings_, float(scene.render.least_weight),
                          compact);
+    if (features.immersed) {
+        hollow_ = hollow_objects(scene);
+        hollow_flags_ =
+            Buffer<uint32_t>(device, "hollow objects", std::span<const uint32_t>(hollow_.flags));
+    }
     if (features.transmission && features.solids)
         scatter_->set_bodies(transmitting_solids(device, scene, world));
 }
@@ -197,6 +218,8 @@ void Illumination::light_all(RayBatch& batch, uint32_t count, const LayerSink& s
         return direct(batch, count);
     }
     scatter_->begin(world_, batch, count);
+    if (features_.immersed)
+        trace_.begin_inside(world_, surroundings_, hollow_flags_, hollow_.most, batch, count);
     reserve_nodes(0, batch.stride);
     follow(0, batch, count, hits_are_known, sink);
     Depth& depth = *depths_[0];
@@ -210,7 +233,7 @@ void Illumination::direct(RayBatch& entries, uint32_t count) {
     shade_.surface(world_, entries, count);
     for (const LightRecord& light : lights_) {
         lighting_->add(world_, light, entries, count, queue_);
-        if (features_.medium) medium_->shadows(world_, queue_, count, entries);
+        if (features_.medium && !features_.filter) medium_->shadows(world_, queue_, count, entries);
         if (features_.shadows) trace_.shadows(world_, surroundings_, queue_, count, entries);
     }
     if (medium_) medium_->sight(world_, entries, count);
@@ -277,6 +300,10 @@ void Illumination::reserve_nodes(size_t number, uint32_t count) {
     const size_t branches = features_.refracts ? 2 : 1;
     depth.children.nodes = Buffer<uint32_t>(device_, "path children", places * branches);
     depth.children.shares = Buffer<float>(device_, "path shares", places * branches);
+}
+
+uint64_t Illumination::lost_members() const {
+    return surroundings_.lost.empty() ? 0 : surroundings_.lost.read_one(0);
 }
 
 uint64_t Illumination::shadow_rays() const {

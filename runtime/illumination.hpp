@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "runtime/grid.hpp"
+#include "runtime/interior.hpp"
 #include "runtime/scene.hpp"
 #include "runtime/stages/light.hpp"
 #include "runtime/stages/medium.hpp"
@@ -67,6 +68,9 @@ class Illumination {
     uint64_t shadow_rays() const;  ///< traced so far; waits for the device
     uint64_t secondary_rays() const { return secondary_rays_; }  ///< and rays that went straight on
     uint64_t ended_paths() const { return scatter_ ? scatter_->ended() : 0; }
+    /// How often a ray came into more overlapping objects than it can remember; waits for the
+    /// device.
+    uint64_t lost_members() const;
 
   private:
     /// The arrays of one depth. Their sizes follow what has been needed.
@@ -97,6 +101,8 @@ class Illumination {
     std::optional<MediumStage> medium_;    ///< nor this where nothing absorbs
     std::optional<ScatterStage> scatter_;  ///< nor this without paths
     ShadowQueue queue_;
+    HollowObjects hollow_;  ///< of immersed observers
+    Buffer<uint32_t> hollow_flags_;
     std::vector<std::unique_ptr<Depth>> depths_;
     uint64_t secondary_rays_ = 0;
 };

@@ -103,6 +103,7 @@ Image Renderer::new_image(const Scene& scene, const FormedWorld& formed, RenderR
     report.shadow_rays = illumination.shadow_rays();
     report.secondary_rays = illumination.secondary_rays();
     report.ended_paths = illumination.ended_paths();
+    report.lost_members = illumination.lost_members();
     report.voxels = world.voxel_count;
     report.world_bytes = bytes_of(world);
     report.image_seconds =

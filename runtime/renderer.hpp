@@ -24,6 +24,8 @@ struct RenderReport {
     uint64_t shadow_rays = 0;
     uint64_t secondary_rays = 0;  ///< reflected, refracted, and gone on through surfaces
     uint64_t ended_paths = 0;     ///< not followed for their small weight
+    uint64_t lost_members = 0;    ///< rays that came into more overlapping objects than they can
+                                  ///< remember: the image is wrong there
     uint32_t not_finite = 0;      ///< values that became 0; more than 0 is a fault of ours
     bool is_kept = false;         ///< the frame shows what the one before showed
     bool hits_are_kept = false;   ///< its sight rays meet what they met before

@@ -7,6 +7,7 @@
 
 #include "runtime/error.hpp"
 #include "runtime/illumination.hpp"
+#include "runtime/interior.hpp"
 #include "runtime/stages/display_lattice.hpp"
 #include "runtime/stages/display_rays.hpp"
 #include "runtime/stages/sight.hpp"
@@ -44,9 +45,10 @@ Scene without_light(Scene scene) {
 }
 
 /// Refracting surfaces cover all: without opacities in the scene, rays fill the coverage too.
-Features with_transmission(Features features) {
+Features with_transmission(Features features, const Scene& scene, const Pyramid& world) {
     features.paths = features.transmission = true;
-    return features;
+    add_interior(scene, world, features);
+    return begun_anywhere(features, scene);
 }
 
 /// The observer with one sight ray for each (u, v) of the display.
@@ -68,6 +70,7 @@ void count_rays(const Illumination& illumination, RenderReport& report) {
     report.shadow_rays = illumination.shadow_rays();
     report.secondary_rays = illumination.secondary_rays();
     report.ended_paths = illumination.ended_paths();
+    report.lost_members = illumination.lost_members();
 }
 
 void render_rays(Work& work, Volume& volume) {
@@ -103,6 +106,7 @@ void render_rays(Work& work, Volume& volume) {
 }
 
 void render_lattice(Work& work, Volume& volume) {
+    work.features = begun_anywhere(work.features, work.scene);
     RayBatch batch = allocate_batch(work.device, work.features, batch_rays(work.features));
     // Finding surfaces asks for no more than their geometry.
     const Features geometry = features_of(work.world);
@@ -121,7 +125,8 @@ void render_lattice(Work& work, Volume& volume) {
     std::optional<Illumination> clear;
     if (work.features.transmission) {
         const Scene dark = without_light(work.scene);
-        clear.emplace(work.device, with_transmission(features_of(dark, work.world)), dark,
+        clear.emplace(work.device,
+                      with_transmission(features_of(dark, work.world), dark, work.world), dark,
                       work.world, batch.stride);
         look = [&](RayBatch& rays, uint32_t count) { clear->light(rays, count); };
     }

@@ -2,6 +2,7 @@
 
 #include <chrono>
 
+#include "runtime/object_boxes.hpp"
 #include "runtime/plan.hpp"
 #include "runtime/stages/index.hpp"
 
@@ -91,6 +92,7 @@ FormedWorld WorldFormer::form(const Scene& scene, WorldReport& report) {
     report.from_cache = grids_->from_cache() - cached_before;
     report.meshes_read = meshes_.meshes_read() - read_before;
     voxelizing.stop();
+    std::vector<VoxelBox> boxes = object_boxes(scene, meshes_);
 
     Stopwatch placing(report.place_seconds);
     if (!placer_) placer_.emplace(device_);
@@ -110,6 +112,7 @@ FormedWorld WorldFormer::form(const Scene& scene, WorldReport& report) {
 
     Stopwatch indexing(report.index_seconds);
     FormedWorld formed{build_index(device_, world), ++world_.version};
+    formed.pyramid.object_boxes = std::move(boxes);
     device_.finish();
     indexing.stop();
     if (keeps) {

@@ -19,5 +19,12 @@ TEST(AbsorbingImage, VeilsAndFilteredShadowsInAMedium) {
     expect_analytic_image(scene_of(kVeiledScene), 1e-5, 1e-3);
 }
 
+TEST(AbsorbingImage, AMediumWhoseDensityIsAskedForVoxelByVoxel) {
+    const Scene scene = scene_of(kVeiledScene);
+    Scene asked = scene;
+    asked.world.medium.density = BallDensity{{0, 0, 0}, 1000, 0};
+    expect_image(asked, oracle::analytic_image(scene), 1e-5, 1e-3);
+}
+
 }  // namespace
 }  // namespace voxelume

@@ -1,5 +1,5 @@
 // Closed-form crossings of lines with solids against hand-computed ones and an inside test.
-#include "tests/oracles/analytic_crossings.hpp"
+#include "runtime/bench/analytic_crossings.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <random>
 
 #include "tests/oracles/analytic_solids.hpp"
-#include "tests/oracles/polynomial_roots.hpp"
+#include "runtime/bench/polynomial_roots.hpp"
 
 namespace voxelume {
 namespace {

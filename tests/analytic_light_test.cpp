@@ -6,7 +6,7 @@
 
 #include "tests/analytic_scene.hpp"
 #include "tests/oracles/analytic_image.hpp"
-#include "tests/oracles/analytic_tracer.hpp"
+#include "runtime/bench/analytic_tracer.hpp"
 
 namespace voxelume {
 namespace {

@@ -1,5 +1,5 @@
 // The analytic tracer against numbers of geometrical optics that were derived by hand.
-#include "tests/oracles/analytic_tracer.hpp"
+#include "runtime/bench/analytic_tracer.hpp"
 
 #include <gtest/gtest.h>
 

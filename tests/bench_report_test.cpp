@@ -104,7 +104,7 @@ TEST(AnalyticRay, HitsLieOnTheSurfaceAndNothingLiesBeforeThem) {
 
 TEST(BenchScene, EveryScenesSilhouetteHasOnlyAirBehind) {
     for (const BenchSolid& solid : bench_solids()) {
-        const BenchTruth truth = bench_truth(solid, {96, 80});
+        const BenchTruth truth = bench_truth(subject_of(solid), {96, 80});
         for (size_t i = 1; i < truth.hits.size(); ++i) {
             if (i % 96 == 0 || !truth.hits[i] || !truth.hits[i - 1]) continue;
             ASSERT_LT(std::abs(truth.hits[i]->t - truth.hits[i - 1]->t), 0.12)
@@ -114,7 +114,7 @@ TEST(BenchScene, EveryScenesSilhouetteHasOnlyAirBehind) {
 }
 
 TEST(BenchErrors, AreThoseThatWerePutIn) {
-    const BenchTruth truth = bench_truth(bench_solids()[0], {40, 30});
+    const BenchTruth truth = bench_truth(subject_of(bench_solids()[0]), {40, 30});
     Image image;
     for (const char* name : {"A", "P.X", "P.Y", "P.Z", "N.X", "N.Y", "N.Z"})
         image.planes[name].resize(40 * 30);
@@ -130,7 +130,7 @@ TEST(BenchErrors, AreThoseThatWerePutIn) {
         put("P", i, truth.eye + (truth.hits[i]->t + 0.01) * truth.directions[i]);
         put("N", i, std::cos(0.02) * normal + std::sin(0.02) * across);
     }
-    const BenchErrors errors = measure_errors(truth, image);
+    const BenchErrors errors = measure_errors(truth, image, 0.1);
     EXPECT_GT(errors.compared, 300u);
     EXPECT_NEAR(errors.depth_rms, 0.01, 1e-6);
     EXPECT_NEAR(errors.depth_max, 0.01, 1e-6);
@@ -138,7 +138,7 @@ TEST(BenchErrors, AreThoseThatWerePutIn) {
     EXPECT_EQ(errors.silhouette_mean, 0);
     EXPECT_EQ(errors.silhouette_max, 0);
     image.planes["A"][0] = 1;  // the corner, far from the sphere's circle
-    const BenchErrors stray = measure_errors(truth, image);
+    const BenchErrors stray = measure_errors(truth, image, 0.1);
     EXPECT_NEAR(stray.silhouette_mean, 1 / truth.silhouette_length, 1e-15);
     EXPECT_GT(stray.silhouette_max, 10);
     EXPECT_EQ(stray.compared, errors.compared);
@@ -236,7 +236,7 @@ TEST_F(BenchProgram, WritesATableAPageAndFilesThatParse) {
     EXPECT_TRUE(json["fits"][0]["depth"]["half_width_95"].is_null());
     const std::string csv = bytes_of(folder / "out.csv");
     EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 7);
-    EXPECT_THAT(csv, testing::StartsWith("scene,surface,voxels_per_metre,"));
+    EXPECT_THAT(csv, testing::StartsWith("scene,surface,placement,samples,voxels_per_metre,"));
     const size_t line = csv.find('\n') + 1;
     EXPECT_EQ(std::count(csv.begin(), csv.begin() + long(line), ','),
               std::count(csv.begin() + long(line), csv.begin() + long(csv.find('\n', line)), ','));

@@ -29,10 +29,11 @@ TEST(Index, PinsTheOrderOfBitsAndNumbersOfOneHandWrittenBrick) {
         build_index(device, occupied_bricks(frame_of({70, 45, 130}), voxels).upload(device));
     EXPECT_THAT(p.sectors.read(),
                 ElementsAre(0u, 0x80000006u, 0x80000006u, 0x80000006u, 0x80000006u, 0x80000006u));
-    EXPECT_THAT(p.bricks.read(57 * 4, 4), ElementsAre(0x103u, 0x10000u, 0u, 0u));
-    EXPECT_THAT(p.bricks.read(56 * 4, 4), ElementsAre(0u, 0u, 0u, 4u)) << "in 57's aligned 32³";
-    EXPECT_THAT(p.bricks.read(58 * 4, 4), ElementsAre(0u, 0u, 0u, 5u));
-    EXPECT_THAT(p.bricks.read(0, 4), ElementsAre(0u, 0u, 0u, 5u));
+    EXPECT_THAT(p.bricks.read(57 * 4, 4), ElementsAre(0x103u, 0x10000u, 0u, 3u));
+    EXPECT_THAT(p.bricks.read(56 * 4, 4), ElementsAre(0u, 0u, 0x80000004u, 0x80000004u))
+        << "in 57's aligned 32³";
+    EXPECT_THAT(p.bricks.read(58 * 4, 4), ElementsAre(0u, 0u, 0x80000005u, 0x80000005u));
+    EXPECT_THAT(p.bricks.read(0, 4), ElementsAre(0u, 0u, 0x80000005u, 0x80000005u));
     EXPECT_THAT(p.leaves.read(), ElementsAre(0x102u, 0x10000u, 2u, 0u, 16u, 0u, 0u, 1u));
     EXPECT_THAT(p.leaf_voxels.read(), ElementsAre(0u, 3u, 4u, 5u));
     EXPECT_THAT(p.attributes.read(), ElementsAre(11u, 12u, 13u, 14u, 15u, 16u));

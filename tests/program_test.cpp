@@ -29,6 +29,19 @@ kernel void write_number(uint count, global uint* numbers) {
     EXPECT_EQ(device.counters().launches.at("write_number"), 1u);
 }
 
+TEST(Program, IsMadeOnceWhileTheDeviceIsOpen) {
+    const Device device = test_device();
+    const auto made = [&](const std::string& text, int value) {
+        const uint64_t before = device.counters().programs_built;
+        Program::from_text(device, text, {{"VALUE", value}});
+        return device.counters().programs_built - before;
+    };
+    EXPECT_EQ(made("kernel void f(global int* x) { *x = VALUE; }\n", 3), 1u);
+    EXPECT_EQ(made("kernel void f(global int* x) { *x = VALUE; }\n", 3), 0u);
+    EXPECT_EQ(made("kernel void f(global int* x) { *x = VALUE; }\n", 5), 1u);
+    EXPECT_EQ(made("kernel void f(global int* x) { *x += VALUE; }\n", 3), 1u);
+}
+
 TEST(Program, NamesTheKernelFileAndLineOfAnError) {
     const Device device = test_device();
     if (device.info().platform == "Oclgrind") GTEST_SKIP() << "its compiler ignores #line";

@@ -31,11 +31,14 @@ struct HostPyramid {
         const int brick_bit = v.x / 16 % 4 + v.y / 16 % 4 * 4 + v.z / 16 % 4 * 16;
         const size_t record = (size_t(sector) * 64 + size_t(brick_bit)) * 4;
         const uint64_t leaf_mask = bricks.at(record) | uint64_t(bricks.at(record + 1)) << 32;
-        if (leaf_mask == 0) return empty_log2 = int(bricks.at(record + 3)), std::nullopt;
+        if (leaf_mask == 0) {
+            EXPECT_EQ(bricks.at(record + 2), bricks.at(record + 3));
+            return empty_log2 = int(bricks.at(record + 3) - 0x80000000u), std::nullopt;
+        }
         const int leaf_bit = v.x / 4 % 4 + v.y / 4 % 4 * 4 + v.z / 4 % 4 * 16;
         if ((leaf_mask >> leaf_bit) % 2 == 0) return empty_log2 = 2, std::nullopt;
-        size_t leaf = bricks.at(record + 2);
-        for (int bit = 0; bit < leaf_bit; ++bit) leaf += (leaf_mask >> bit) % 2;
+        size_t leaf = bricks.at(record + 2 + size_t(leaf_bit / 32));
+        for (int bit = leaf_bit & 32; bit < leaf_bit; ++bit) leaf += (leaf_mask >> bit) % 2;
         const uint64_t mask = leaves.at(leaf * 2) | uint64_t(leaves.at(leaf * 2 + 1)) << 32;
         const int voxel_bit = v.x % 4 + v.y % 4 * 4 + v.z % 4 * 16;
         if ((mask >> voxel_bit) % 2 == 0) return empty_log2 = 0, std::nullopt;

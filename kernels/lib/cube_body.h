@@ -22,9 +22,10 @@ static inline lane_int is_cube(lane_uint word, lane_uint primitive) {
 static inline lane_uint body_inside(const Interior* in) {
     const lane_uint kind = (lane_uint)VXL_KIND_CUBES;
     lane_uint body = (lane_uint)VXL_NO_MEMBER;
-    body = LANES_SELECT(LANE_MASK((in->a >> VXL_KIND_SHIFT) == kind), in->a, body);
-    body = LANES_SELECT(LANE_MASK((in->b >> VXL_KIND_SHIFT) == kind), in->b, body);
-    return LANES_SELECT(LANE_MASK((in->c >> VXL_KIND_SHIFT) == kind), in->c, body);
+    for (int i = 1; i < VXL_INTERIOR_MEMBERS; ++i)
+        body = LANES_SELECT(LANE_MASK((in->members[i] >> VXL_KIND_SHIFT) == kind), in->members[i],
+                            body);
+    return body;
 }
 
 /// Mask: the faces between the voxels of a body are no surfaces.

@@ -2,6 +2,7 @@
 #ifndef VXL_FILTER_H
 #define VXL_FILTER_H
 
+#include "lib/density.h"
 #include "lib/fixed_point.h"
 #include "lib/flight.h"
 #include "lib/surface_color.h"
@@ -15,8 +16,24 @@ static inline void find_body(Travel* travel, global const float* restrict materi
 /// What surfaces and objects on the way leave of a shadow ray's light.
 typedef struct {
     lane_float passed[3];  // by surfaces
-    lane_float depth[3];   // optical depth of objects
+    lane_float depth[3];   // optical depth of objects and of the medium between them
 } Filter;
+
+/// The medium of S.
+typedef struct {
+    float4 absorption;  // per metre, at density 1
+    DensityView density;
+} MediumView;
+
+/// Density times t of the medium between t_first and t_last of the `open` lanes.
+static inline lane_float medium_between(const PyramidView* p, const MediumView* medium,
+                                        const Walk* w, lane_float t_first, lane_float t_last,
+                                        lane_int open) {
+    if (!VXL_MEDIUM_GRID) return LANES_SELECT(open, t_last - t_first, (lane_float)0.0f);
+    Walk walk = begin_walk(w->ox, w->oy, w->oz, w->dx, w->dy, w->dz);
+    return LANES_SELECT(open, walk_density(p, &medium->density, &walk, t_first, t_last, open),
+                        (lane_float)0.0f);
+}
 
 /// Lets a packet of shadow rays go on through transmitting surfaces; the mask of those that reach
 /// their light. Rays that meet more than VXL_MOST_LAYERS surfaces don't.
@@ -24,8 +41,8 @@ static inline lane_int pass_through(const PyramidView* p, const SurfaceView* s, 
                                     lane_float t_end, lane_int active, Travel* travel,
                                     uint constant_attribute, global const float* restrict materials,
                                     global const uint* restrict colors,
-                                    global const uint* restrict ranks, lane_float metres,
-                                    Filter* filter) {
+                                    global const uint* restrict ranks, global uint* lost,
+                                    const MediumView* space, lane_float metres, Filter* filter) {
     lane_float t_last = (lane_float)0.0f;
     // Objects end where the world does.
     lane_float t_in = t_last, t_out = t_end;
@@ -46,6 +63,17 @@ static inline lane_int pass_through(const PyramidView* p, const SurfaceView* s, 
             filter->depth[channel] = fma(
                 LANES_GATHER_FLOAT(materials, medium + (uint)(VXL_MATERIAL_ABSORPTION + channel)),
                 way, filter->depth[channel]);
+        const lane_int open = passing & ~absorbs;
+        if (VXL_MEDIUM && lanes_any(open)) {
+            const lane_float amount =
+                medium_between(p, space, w, t_last, LANES_SELECT(open, t_now, t_last), open) *
+                metres;
+            const float per_metre[3] = {space->absorption.x, space->absorption.y,
+                                        space->absorption.z};
+            for (int channel = 0; channel < 3; ++channel)
+                filter->depth[channel] =
+                    fma((lane_float)per_metre[channel], amount, filter->depth[channel]);
+        }
         arrived |= passing & ~hit;
         passing = hit;
         if (!lanes_any(passing)) break;
@@ -66,7 +94,10 @@ static inline lane_int pass_through(const PyramidView* p, const SurfaceView* s, 
             inner = cube & leaving & ~found.exit;
             leaving = LANES_SELECT(cube, found.exit, leaving);
         }
-        travel->interior = cross_interior(travel->interior, word, smooth, leaving, passing);
+        lane_int full;
+        travel->interior =
+            cross_interior_or_lose(travel->interior, word, smooth, leaving, passing, &full);
+        if (VXL_INTERIOR_CAPPED && lanes_any(full)) atomic_add(lost, (uint)lanes_count(full));
         lane_int hidden = same_member(before, effective_member(&travel->interior, ranks)) & passing;
         if (VXL_CUBE_BODIES) {
             hidden |= found.exit & LANE_MASK(refraction == 0.0f);

@@ -9,31 +9,40 @@
 #include "shared/trace.h"
 #include "shared/voxel.h"
 
-/// Attribute words, VXL_NO_MEMBER for none: the smooth body's, then three others.
+// The build constant says how many others a scene needs.
+#define VXL_INTERIOR_MEMBERS (1 + VXL_OTHER_MEMBERS)
+
+/// Attribute words, VXL_NO_MEMBER for none: the smooth body's, then the others'.
 typedef struct {
-    lane_uint smooth, a, b, c;
+    lane_uint members[VXL_INTERIOR_MEMBERS];
 } Interior;
 
 static inline Interior empty_interior(void) {
-    const lane_uint none = (lane_uint)VXL_NO_MEMBER;
-    const Interior interior = {none, none, none, none};
+    Interior interior;
+    for (int i = 0; i < VXL_INTERIOR_MEMBERS; ++i) interior.members[i] = (lane_uint)VXL_NO_MEMBER;
     return interior;
 }
 
 static inline Interior load_interior(global const uint* paths, uint stride, uint first) {
     global const uint* p = paths + VXL_PATH_INSIDE * (size_t)stride;
-    const Interior interior = {LANES_LOAD(p, first), LANES_LOAD(p, stride + first),
-                               LANES_LOAD(p, 2 * (size_t)stride + first),
-                               LANES_LOAD(p, 3 * (size_t)stride + first)};
+    Interior interior;
+    for (int i = 0; i < VXL_INTERIOR_MEMBERS; ++i)
+        interior.members[i] = LANES_LOAD(p, (size_t)i * stride + first);
     return interior;
+}
+
+static inline void store_interior(const Interior* in, global uint* paths, uint stride, uint first) {
+    global uint* p = paths + VXL_PATH_INSIDE * (size_t)stride;
+    for (int i = 0; i < VXL_INTERIOR_MEMBERS; ++i)
+        LANES_STORE(in->members[i], p, (size_t)i * stride + first);
 }
 
 /// load_interior of the paths numbered `path`.
 static inline Interior gather_interior(global const uint* paths, uint stride, lane_uint path) {
     global const uint* p = paths + VXL_PATH_INSIDE * (size_t)stride;
-    const Interior interior = {LANES_GATHER_UINT(p, path), LANES_GATHER_UINT(p + stride, path),
-                               LANES_GATHER_UINT(p + 2 * (size_t)stride, path),
-                               LANES_GATHER_UINT(p + 3 * (size_t)stride, path)};
+    Interior interior;
+    for (int i = 0; i < VXL_INTERIOR_MEMBERS; ++i)
+        interior.members[i] = LANES_GATHER_UINT(p + (size_t)i * stride, path);
     return interior;
 }
 
@@ -44,29 +53,36 @@ static inline lane_int is_member(lane_uint member, lane_uint word) {
 
 /// Mask: the set holds the object of an attribute word, which shows the smooth body or not.
 static inline lane_int interior_holds(const Interior* in, lane_uint word, lane_int smooth) {
-    return (smooth & LANE_MASK(in->smooth != VXL_NO_MEMBER)) |
-           (~smooth & (is_member(in->a, word) | is_member(in->b, word) | is_member(in->c, word)));
+    lane_int other = (lane_int)0;
+    for (int i = 1; i < VXL_INTERIOR_MEMBERS; ++i) other |= is_member(in->members[i], word);
+    return (smooth & LANE_MASK(in->members[0] != VXL_NO_MEMBER)) | (~smooth & other);
+}
+
+/// cross_interior; `lost` is the mask of lanes whose sets had no room for what they came into.
+static inline Interior cross_interior_or_lose(Interior in, lane_uint word, lane_int smooth,
+                                              lane_int leaving, lane_int crossing, lane_int* lost) {
+    const lane_uint none = (lane_uint)VXL_NO_MEMBER;
+    in.members[0] =
+        LANES_SELECT(crossing & smooth, LANES_SELECT(leaving, none, word), in.members[0]);
+    const lane_int other = crossing & ~smooth;
+    const lane_int out = other & leaving;
+    lane_int into = other & ~leaving & ~interior_holds(&in, word, (lane_int)0);
+    for (int i = 1; i < VXL_INTERIOR_MEMBERS; ++i) {
+        const lane_uint member =
+            LANES_SELECT(out & is_member(in.members[i], word), none, in.members[i]);
+        const lane_int here = into & LANE_MASK(member == VXL_NO_MEMBER);
+        in.members[i] = LANES_SELECT(here, word, member);
+        into &= ~here;
+    }
+    *lost = into;
+    return in;
 }
 
 /// The set behind a surface of the object of `word`, in the lanes that cross it.
 static inline Interior cross_interior(Interior in, lane_uint word, lane_int smooth,
                                       lane_int leaving, lane_int crossing) {
-    const lane_uint none = (lane_uint)VXL_NO_MEMBER;
-    in.smooth = LANES_SELECT(crossing & smooth, LANES_SELECT(leaving, none, word), in.smooth);
-    const lane_int other = crossing & ~smooth;
-    const lane_int out = other & leaving;
-    in.a = LANES_SELECT(out & is_member(in.a, word), none, in.a);
-    in.b = LANES_SELECT(out & is_member(in.b, word), none, in.b);
-    in.c = LANES_SELECT(out & is_member(in.c, word), none, in.c);
-    lane_int into = other & ~leaving & ~interior_holds(&in, word, (lane_int)0);
-    const lane_int to_a = into & LANE_MASK(in.a == VXL_NO_MEMBER);
-    in.a = LANES_SELECT(to_a, word, in.a);
-    into &= ~to_a;
-    const lane_int to_b = into & LANE_MASK(in.b == VXL_NO_MEMBER);
-    in.b = LANES_SELECT(to_b, word, in.b);
-    into &= ~to_b;
-    in.c = LANES_SELECT(into & LANE_MASK(in.c == VXL_NO_MEMBER), word, in.c);
-    return in;
+    lane_int lost;
+    return cross_interior_or_lose(in, word, smooth, leaving, crossing, &lost);
 }
 
 /// `ranks[object]` is the object's place in the order of priorities.
@@ -86,10 +102,10 @@ static inline lane_uint first_in_rank(lane_uint word, lane_uint* rank, lane_uint
 
 /// The attribute word of the object that counts, VXL_NO_MEMBER in open space.
 static inline lane_uint effective_member(const Interior* in, global const uint* ranks) {
-    lane_uint rank = rank_of(ranks, in->smooth);
-    lane_uint word = first_in_rank(in->smooth, &rank, in->a, ranks);
-    word = first_in_rank(word, &rank, in->b, ranks);
-    return first_in_rank(word, &rank, in->c, ranks);
+    lane_uint word = in->members[0], rank = rank_of(ranks, word);
+    for (int i = 1; i < VXL_INTERIOR_MEMBERS; ++i)
+        word = first_in_rank(word, &rank, in->members[i], ranks);
+    return word;
 }
 
 /// Mask: two attribute words, or VXL_NO_MEMBER, stand for the same object or for none.

@@ -76,17 +76,13 @@ static inline CellState look_up(const PyramidView* p, lane_int x, lane_int y, la
     state.leaf = (lane_uint)0;
     state.log2_size = 2 - group_is_empty(mask, bit);
 
-    const lane_int half_empty = LANE_MASK(mask == 0u) & active;
-    if (lanes_any(half_empty)) {
-        const lane_int skip = LANES_AS_INT(LANES_GATHER_UINT(p->bricks, record + 3u));
-        const lane_int empty = LANES_SELECT(stored, max(skip, 3), LANES_AS_INT(entry & 0xFFu));
-        state.log2_size = LANES_SELECT(half_empty, empty, state.log2_size);
-    }
+    const lane_uint own = LANES_GATHER_UINT(p->bricks, record + 2u + upper);
+    const lane_int empty = LANES_AS_INT(LANES_SELECT(stored, own, entry));
+    const lane_int skip = LANES_SELECT(LANE_MASK(empty < 0), empty & 0xFF, (lane_int)3);
+    state.log2_size = LANES_SELECT(LANE_MASK(mask == 0u), skip, state.log2_size);
     if (lanes_any(has_leaf)) {
-        const lane_uint lower = LANES_GATHER_UINT(p->bricks, record);
-        const lane_uint below = popcount(mask & (((lane_uint)1u << bit) - 1u)) +
-                                (popcount(lower) & (lane_uint)(0u - upper));
-        state.leaf = (LANES_GATHER_UINT(p->bricks, record + 2u) + below) & LANES_AS_UINT(has_leaf);
+        const lane_uint below = popcount(mask & (((lane_uint)1u << bit) - 1u));
+        state.leaf = (own + below) & LANES_AS_UINT(has_leaf);
         const lane_uint voxels =
             LANES_GATHER_UINT(p->leaves, state.leaf * 2u + LANES_AS_UINT((z >> 1) & 1));
         const lane_uint voxel = child_bit(x, y, z, 0);

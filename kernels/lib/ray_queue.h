@@ -80,10 +80,8 @@ static inline void put_rays(const RayQueue* q, const NewRays* r, lane_int wanted
     put_uint(q->paths + VXL_PATH_CLEAR * n, LANES_AS_UINT(r->clear), put, places);
     for (uint c = 0; c < 3; ++c)
         put_uint(q->paths + (VXL_PATH_PASSED + c) * n, LANES_AS_UINT(r->passed[c]), put, places);
-    put_uint(q->paths + VXL_PATH_INSIDE * n, r->interior.smooth, put, places);
-    put_uint(q->paths + (VXL_PATH_INSIDE + 1) * n, r->interior.a, put, places);
-    put_uint(q->paths + (VXL_PATH_INSIDE + 2) * n, r->interior.b, put, places);
-    put_uint(q->paths + (VXL_PATH_INSIDE + 3) * n, r->interior.c, put, places);
+    for (uint i = 0; i < VXL_INTERIOR_MEMBERS; ++i)
+        put_uint(q->paths + (VXL_PATH_INSIDE + i) * n, r->interior.members[i], put, places);
     put_float(q->starts, r->start, put, places);
     put_uint(q->inside, r->medium, put, places);
 }

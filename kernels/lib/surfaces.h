@@ -153,7 +153,7 @@ static inline lane_int hit_exact(const PyramidView* p, const SurfaceView* s, con
 /// Mask: rays that are inside of the smooth body, as far as their walk has found out.
 static inline lane_int within_smooth(const Found* found, const Travel* travel) {
     if (!VXL_TRANSMISSION) return found->within;
-    return found->within | LANE_MASK(travel->interior.smooth != VXL_NO_MEMBER);
+    return found->within | LANE_MASK(travel->interior.members[0] != VXL_NO_MEMBER);
 }
 
 /// Tests the surface inside each `tested` lane's voxel; the mask of lanes whose ray ends there.

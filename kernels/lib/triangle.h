@@ -7,7 +7,26 @@
 #ifndef VXL_TRIANGLE_H
 #define VXL_TRIANGLE_H
 
+#include "lib/vector.h"
 #include "lib/walk.h"
+
+/// The normal of triangles of counter-clockwise corners, not of unit length, in units where a voxel
+/// has `edge`s.
+static inline Vector triangle_normal(global const float* restrict triangles, lane_uint number,
+                                     float4 edge) {
+    const lane_uint first = number * 9u;
+    const lane_float ax = LANES_GATHER_FLOAT(triangles, first);
+    const lane_float ay = LANES_GATHER_FLOAT(triangles, first + 1u);
+    const lane_float az = LANES_GATHER_FLOAT(triangles, first + 2u);
+    const lane_float ux = (LANES_GATHER_FLOAT(triangles, first + 3u) - ax) * edge.x;
+    const lane_float uy = (LANES_GATHER_FLOAT(triangles, first + 4u) - ay) * edge.y;
+    const lane_float uz = (LANES_GATHER_FLOAT(triangles, first + 5u) - az) * edge.z;
+    const lane_float vx = (LANES_GATHER_FLOAT(triangles, first + 6u) - ax) * edge.x;
+    const lane_float vy = (LANES_GATHER_FLOAT(triangles, first + 7u) - ay) * edge.y;
+    const lane_float vz = (LANES_GATHER_FLOAT(triangles, first + 8u) - az) * edge.z;
+    Vector n = {uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx};
+    return n;
+}
 
 /// The shear of a ray: its largest direction component is axis z of the sheared space.
 typedef struct {

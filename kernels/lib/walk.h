@@ -13,6 +13,11 @@
 #include "lib/pyramid.h"
 #include "shared/trace.h"
 
+// 0 leaves every crossing to floats: what exactness costs is measured against that.
+#ifndef VXL_ARBITRATE
+#define VXL_ARBITRATE 1
+#endif
+
 typedef struct {
     lane_float ox, oy, oz, dx, dy, dz;  // the ray, shared/trace.h
     lane_float ix, iy, iz;              // 1 / d, +infinity for 0
@@ -164,7 +169,7 @@ static inline void cross_first(const PyramidView* p, Walk* w, lane_int kx, lane_
                                  (near_plane(c.ry, qy, p->plane_bound) & w->my) +
                                  (near_plane(c.rz, qz, p->plane_bound) & w->mz);
     const lane_int doubtful = LANE_MASK(near_planes < -1) & moving;
-    if (lanes_any(doubtful)) {
+    if (VXL_ARBITRATE && lanes_any(doubtful)) {
         Crossing exact = c;
         arbitrate(p, w, &exact);
         c.x = LANES_SELECT(doubtful, exact.x, c.x);

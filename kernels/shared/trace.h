@@ -65,7 +65,6 @@
 #define VXL_PATH_CLEAR 6
 #define VXL_PATH_PASSED 7
 #define VXL_PATH_INSIDE 10
-#define VXL_PATH_COMPONENTS 14
 
 #define VXL_PATH_ON_SURFACE 1u     // begins on a surface
 #define VXL_PATH_WITHIN_SOURCE 2u  // and travels on inside of it
@@ -75,9 +74,8 @@
 
 #define VXL_MOST_LAYERS 1024  // surfaces that one ray goes straight on through
 
-// Members of a set of objects that a ray is inside of. The first is the smooth one (smooth objects
-// are one body), the others exact or of cubes.
-#define VXL_INTERIOR_MEMBERS 4
+// Members of a set of objects that a ray is inside of: the first is the smooth one (smooth objects
+// are one body), the others are exact or of cubes, as many as Features::other_members says.
 #define VXL_NO_MEMBER 0xFFFFFFFFu
 
 // How a ray meets a surface: bits of RayBatch::sides.

@@ -23,7 +23,6 @@ BenchTimes times_of(const RenderReport& report, const DeviceCounters& counters) 
     times.index = report.world.index_seconds;
     times.image = report.image_seconds;
     times.total = times.load + times.voxelize + times.place + times.index + times.image;
-    times.programs = counters.build_ms / 1e3;
     for (const auto& [kernel, ms] : counters.kernel_ms) times.kernels += ms / 1e3;
     return times;
 }
@@ -51,9 +50,11 @@ BenchReport describe(const Device& device, const BenchOptions& options) {
     return report;
 }
 
-BenchRow measure_row(const Device& device, const Scene& scene, const BenchTruth& truth,
-                     int repeats) {
-    BenchRow row;
+void measure(const Device& device, const Scene& scene, const BenchTruth& truth, int repeats,
+             BenchRow& row) {
+    // Programs are ready from the rows of one ray a pixel, and more of them take long.
+    if (row.samples > 1) repeats = 0;
+    double programs = 0;
     row.seconds.total = INFINITY;
     for (int i = 0; i <= repeats; ++i) {
         DeviceCounters& counters = device.counters();
@@ -65,31 +66,55 @@ BenchRow measure_row(const Device& device, const Scene& scene, const BenchTruth&
         device.finish();
         const BenchTimes times = times_of(report, counters);
         if (i == 0) {  // kernels are compiled on the way
-            row.errors = measure_errors(truth, image);
+            programs = counters.build_ms / 1e3;
+            row.errors = measure_errors(truth, image, scene.world.voxel_size.x);
             row.voxels = report.voxels;
             row.world_bytes = report.world_bytes;
             row.peak_bytes = counters.peak_bytes;
+            if (repeats == 0) row.seconds = times;
         } else if (times.total < row.seconds.total) {
             row.seconds = times;
         }
     }
-    return row;
+    row.seconds.programs = programs;
+}
+
+/// The combinations of one subject in the order in which they are measured.
+std::vector<BenchRow> planned_rows(const BenchOptions& options, const BenchEntry& entry,
+                                   bool has_light) {
+    std::vector<BenchRow> rows;
+    for (const Surface surface : kBenchSurfaces)
+        for (const int samples : has_light ? options.samples : std::vector<int>{1})
+            for (const int resolution : options.resolutions) {
+                if (resolution < entry.coarsest || resolution > entry.finest) continue;
+                BenchRow row;
+                row.scene = entry.name;
+                row.surface = surface;
+                row.samples = samples;
+                row.resolution = resolution;
+                row.voxel_size = 1.0 / resolution;
+                rows.push_back(row);
+            }
+    return rows;
 }
 
 void mark_front(std::span<BenchRow> rows) {
     std::vector<double> seconds, errors;
-    for (const BenchRow& row : rows) {
+    std::vector<BenchRow*> compared;
+    for (BenchRow& row : rows) {
+        if (row.samples != 1) continue;
+        compared.push_back(&row);
         seconds.push_back(row.seconds.total);
         errors.push_back(row.errors.depth_rms);
     }
-    for (const size_t i : pareto_front(seconds, errors)) rows[i].is_best = true;
+    for (const size_t i : pareto_front(seconds, errors)) compared[i]->is_best = true;
 }
 
 SlopeFit fit_rows(std::span<const BenchRow> rows, Surface surface, bool BenchRow::*counts,
                   double BenchErrors::*error) {
     std::vector<double> sizes, errors;
     for (const BenchRow& row : rows) {
-        if (row.surface != surface || !(row.*counts)) continue;
+        if (row.surface != surface || row.samples != 1 || !(row.*counts)) continue;
         sizes.push_back(row.voxel_size);
         errors.push_back(row.errors.*error);
     }
@@ -133,26 +158,30 @@ void conclude(BenchReport& report) {
     }
 }
 
+size_t count_rows(const BenchOptions& options) {
+    size_t count = 0;
+    for (const BenchEntry* entry : options.subjects)
+        count += planned_rows(options, *entry, entry->has_light).size();
+    return count;
+}
+
 BenchReport run_bench(const Device& device, const BenchOptions& options,
                       const std::function<void(size_t, size_t)>& progress) {
     BenchReport report = describe(device, options);
+    report.peers = options.peers;
     device.time_kernels(true);
-    const size_t total =
-        options.solids.size() * std::size(kBenchSurfaces) * options.resolutions.size();
-    for (const BenchSolid* solid : options.solids) {
-        const BenchTruth truth = bench_truth(*solid, options.size);
-        for (const Surface surface : kBenchSurfaces) {
-            for (const int resolution : options.resolutions) {
-                const Scene scene = bench_scene(*solid, surface, resolution, options.size);
-                BenchRow row = measure_row(device, scene, truth, options.repeats);
-                row.scene = solid->name;
-                row.least_radius = solid->least_radius;
-                row.surface = surface;
-                row.resolution = resolution;
-                row.voxel_size = 1.0 / resolution;
-                report.rows.push_back(row);
-                progress(report.rows.size(), total);
-            }
+    const size_t total = count_rows(options);
+    for (const BenchEntry* entry : options.subjects) {
+        const BenchSubject subject = entry->open();
+        const BenchTruth truth = bench_truth(subject, options.size);
+        for (const BenchRow& planned : planned_rows(options, *entry, entry->has_light)) {
+            Scene scene = subject.scene(planned.surface, planned.resolution, options.size);
+            scene.render.samples = planned.samples;
+            BenchRow row = planned;
+            row.least_radius = subject.least_radius;
+            measure(device, scene, truth, options.repeats, row);
+            report.rows.push_back(row);
+            progress(report.rows.size(), total);
         }
     }
     conclude(report);

@@ -1,4 +1,4 @@
-// Run time against error: solids with a known surface, shown by every surface at every voxel size.
+// Run time against error: what has a known truth, shown by every surface at every voxel size.
 #pragma once
 
 #include <functional>
@@ -8,17 +8,21 @@
 #include <vector>
 
 #include "runtime/bench/bench_errors.hpp"
-#include "runtime/bench/bench_scene.hpp"
+#include "runtime/bench/bench_peers.hpp"
+#include "runtime/bench/bench_subject.hpp"
 #include "runtime/bench/convergence.hpp"
 #include "runtime/opencl/device.hpp"
 
 namespace voxelume {
 
 struct BenchOptions {
-    std::vector<const BenchSolid*> solids;
-    std::vector<int> resolutions;  ///< voxels a metre, ascending
-    glm::ivec2 size{1024, 1024};   ///< pixels
-    int repeats = 5;               ///< measured renders of each row, after one that isn't
+    std::vector<const BenchEntry*> subjects;
+    std::vector<int> resolutions;  ///< voxels a metre, ascending; each subject takes its part
+    std::vector<int> samples = {
+        1};  ///< rays a pixel, ascending; more than 1 for subjects with light
+    std::vector<BenchPeerRow> peers;  ///< of other programs, for the same plots
+    glm::ivec2 size{1024, 1024};      ///< pixels
+    int repeats = 5;                  ///< measured renders of each row, after one that isn't
 };
 
 /// Seconds of one render.
@@ -26,17 +30,19 @@ struct BenchTimes {
     double load = 0, voxelize = 0, place = 0, index = 0;
     double image = 0;     ///< sight, trace, shade and resolve
     double total = 0;     ///< sum of all so far
-    double programs = 0;  ///< of it, making compiled kernels ready
     double kernels = 0;   ///< of it, kernels running on the device
+    double programs = 0;  ///< of the first render, making kernels ready that weren't yet; no part
+                          ///< of the total
 };
 
-/// One solid as one surface in voxels of one size.
+/// One subject as one surface in voxels of one size.
 struct BenchRow {
     std::string scene;
     Surface surface = Surface::cubes;
+    int samples = 1;          ///< rays a pixel; depth, normals and outline are measured with 1
     int resolution = 0;       ///< voxels a metre
     double voxel_size = 0;    ///< metres
-    double least_radius = 0;  ///< of the solid's curvature, metres; 0 for edges
+    double least_radius = 0;  ///< of curvature, metres; 0 for edges, or not known
     BenchTimes seconds;       ///< of the repeat with the least total
     uint64_t voxels = 0;
     uint64_t world_bytes = 0;  ///< of the world's pyramid
@@ -62,6 +68,7 @@ struct BenchReport {
     int repeats = 0;
     std::vector<BenchRow> rows;
     std::vector<BenchFit> fits;
+    std::vector<BenchPeerRow> peers;
 };
 
 inline constexpr Surface kBenchSurfaces[] = {Surface::cubes, Surface::smooth, Surface::exact};
@@ -81,6 +88,9 @@ inline constexpr double kLeastVoxels = 3;
 /// Marks the rows that are fitted and those on the front, and fits. Everything that follows from
 /// rows that were measured.
 void conclude(BenchReport& report);
+
+/// How many rows the options ask for.
+size_t count_rows(const BenchOptions& options);
 
 /// Measures every row. `progress` is called with the rows done and their number. Throws Error as
 /// rendering does.

@@ -1,32 +1,12 @@
-// How far an image lies from the solid that it shows.
+// How far an image lies from the truth of its subject.
 #pragma once
 
 #include <cstdint>
-#include <glm/vec2.hpp>
-#include <optional>
-#include <vector>
 
-#include "runtime/bench/analytic_ray.hpp"
-#include "runtime/bench/bench_scene.hpp"
+#include "runtime/bench/bench_truth.hpp"
 #include "runtime/image.hpp"
 
 namespace voxelume {
-
-/// What ideal rays through the pixels' centres meet.
-struct BenchTruth {
-    struct Segment {
-        glm::dvec2 a, b;  ///< pixels from the upper left corner
-    };
-
-    glm::ivec2 size{0};
-    glm::dvec3 eye{0};
-    std::vector<glm::dvec3> directions;            ///< per pixel
-    std::vector<std::optional<AnalyticHit>> hits;  ///< per pixel
-    std::vector<Segment> silhouette;               ///< where hits end, between pixels' centres
-    double silhouette_length = 0;                  ///< pixels
-};
-
-BenchTruth bench_truth(const BenchSolid& solid, glm::ivec2 size);
 
 struct BenchErrors {
     uint64_t compared = 0;  ///< pixels hit by both, incidence cosine at least kLeastCosine
@@ -35,12 +15,20 @@ struct BenchErrors {
     double normal_rms = 0;       ///< degrees
     double silhouette_mean = 0;  ///< pixels: area hit by only one of both over the true length
     double silhouette_max = 0;   ///< pixels: farthest such pixel's centre from the true silhouette
+    uint64_t other_parts = 0;    ///< pixels that show a part before or behind the true one
+    double color_rmse = 0;       ///< of linear R, G and B against the pixel's mean; 0 without light
+    double flip = 0;             ///< mean of the FLIP map, 0..1; 0 without light
 };
 
 /// Depth errors grow with 1/cosine to no bound, so hits flatter than this count as silhouettes.
 inline constexpr double kLeastCosine = 0.3;
 
-/// Compares an image's planes A, P and N with the truth; both have one size.
-BenchErrors measure_errors(const BenchTruth& truth, const Image& image);
+/// A hit farther from the true one than this many voxels is on another part of the surface: an
+/// outline inside of the figure has moved. A cube's corner at kLeastCosine is 5.8 voxels away.
+inline constexpr double kSamePartVoxels = 6;
+
+/// Compares an image's planes A, P and N, and R, G and B where there is light, with the truth; both
+/// have one size.
+BenchErrors measure_errors(const BenchTruth& truth, const Image& image, double voxel_size);
 
 }  // namespace voxelume

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
+#include <utility>
 
 #include "runtime/scene_affine.hpp"
 
@@ -51,8 +52,8 @@ std::span<const BenchSolid> bench_solids() {
     return solids;
 }
 
-Scene bench_scene(const BenchSolid& solid, Surface surface, int resolution, glm::ivec2 size) {
-    constexpr double kHalf = 0.55;  // metres from the origin that no solid reaches
+Scene empty_bench_scene(int resolution, glm::ivec2 size) {
+    constexpr double kHalf = 0.55;  // metres from the origin that nothing reaches
     constexpr int kMargin = 8;      // voxels of air
     Scene scene;
     const double edge = 1.0 / resolution;
@@ -61,19 +62,30 @@ Scene bench_scene(const BenchSolid& solid, Surface surface, int resolution, glm:
     scene.world.voxels = glm::ivec3(2 * half);
     scene.world.bounds = {glm::dvec3(-half * edge), glm::dvec3(half * edge)};
     scene.materials.emplace_back();
+    scene.observer = observer_of(size);
+    scene.render.size = size;
+    return scene;
+}
+
+void add_bench_object(Scene& scene, Model model, Surface surface, int resolution,
+                      const glm::dmat4& placement) {
+    const double scale = glm::length(glm::dvec3(placement[0]));
+    model.voxel_size = glm::dvec3(1 / (resolution * scale));
+    model.surface = surface;
+    model.reach = {glm::dvec3(-2 / scale), glm::dvec3(2 / scale)};
+    Object object;
+    object.name = model.name;
+    object.world_from_object = placement;
+    scene.models.push_back(std::move(model));
+    scene.objects.push_back(std::move(object));
+}
+
+Scene bench_scene(const BenchSolid& solid, Surface surface, int resolution, glm::ivec2 size) {
+    Scene scene = empty_bench_scene(resolution, size);
     Model model;
     model.name = solid.name;
     model.solid = solid.solid;
-    model.voxel_size = glm::dvec3(edge);
-    model.surface = surface;
-    model.reach = {glm::dvec3(-2), glm::dvec3(2)};
-    scene.models.push_back(model);
-    Object object;
-    object.name = solid.name;
-    object.world_from_object = solid.world_from_solid;
-    scene.objects.push_back(object);
-    scene.observer = observer_of(size);
-    scene.render.size = size;
+    add_bench_object(scene, std::move(model), surface, resolution, solid.world_from_solid);
     return scene;
 }
 

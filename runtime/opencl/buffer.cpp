@@ -1,6 +1,9 @@
 #include "runtime/opencl/buffer.hpp"
 
+#include <sys/mman.h>
+
 #include <algorithm>
+#include <cstdlib>
 
 #include "runtime/error.hpp"
 
@@ -9,6 +12,29 @@ namespace {
 
 std::string megabytes(uint64_t bytes) {
     return fmt::format("{:.1f} MB", double(bytes) / 1e6);
+}
+
+constexpr size_t kHugePage = size_t{2} << 20;
+
+void CL_CALLBACK free_memory(cl_mem, void* memory) {
+    std::free(memory);
+}
+
+/// A buffer of a CPU device in huge pages where the system gives them: rays read their voxels from
+/// all over the world, and would find a page's address in no cache.
+cl::Buffer allocate_in_huge_pages(const cl::Context& context, size_t bytes) {
+    const size_t whole = (bytes + kHugePage - 1) / kHugePage * kHugePage;
+    void* memory = std::aligned_alloc(kHugePage, whole);
+    if (!memory) throw cl::Error(CL_MEM_OBJECT_ALLOCATION_FAILURE, "aligned_alloc");
+    madvise(memory, whole, MADV_HUGEPAGE);
+    try {
+        cl::Buffer buffer(context, CL_MEM_READ_WRITE | CL_MEM_USE_HOST_PTR, bytes, memory);
+        buffer.setDestructorCallback(free_memory, memory);
+        return buffer;
+    } catch (...) {
+        std::free(memory);
+        throw;
+    }
 }
 
 }  // namespace
@@ -27,7 +53,10 @@ BufferStorage::BufferStorage(Device device, std::string name, size_t bytes)
                     "the {} buffer needs {} on \"{}\", which has {} left: use larger voxels", name_,
                     megabytes(bytes), info.name, megabytes(info.memory - counters.bytes_in_use));
     try {
-        buffer_ = cl::Buffer(device_.context(), CL_MEM_READ_WRITE, bytes);
+        if (device_.is_cpu() && bytes >= kHugePage)
+            buffer_ = allocate_in_huge_pages(device_.context(), bytes);
+        else
+            buffer_ = cl::Buffer(device_.context(), CL_MEM_READ_WRITE, bytes);
     } catch (const cl::Error& error) {
         throw_device_error(error, info, fmt::format("allocating the {} buffer", name_));
     }

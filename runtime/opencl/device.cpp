@@ -1,5 +1,6 @@
 #include "runtime/opencl/device.hpp"
 
+#include <charconv>
 #include <cstdlib>
 #include <mutex>
 #include <utility>
@@ -27,6 +28,28 @@ int lanes_for(const DeviceInfo& info, int asked) {
         if (text == std::to_string(lanes)) return lanes;
     throw Error(ErrorKind::usage, "{} lanes per work-item: there are kernels for 1, 4, 8 and 16",
                 text);
+}
+
+/// A number from 1 on in the environment; 0 without one.
+int number_in_environment(const char* name) {
+    const std::string text = environment(name);
+    if (text.empty()) return 0;
+    int number = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (error != std::errc() || end != text.data() + text.size() || number < 1)
+        throw Error(ErrorKind::usage, "{}={}: must be a whole number from 1 on", name, text);
+    return number;
+}
+
+/// The part of a device that VOXELUME_UNITS asks for, or all of it.
+cl::Device part_of(const cl::Device& device) {
+    const int units = number_in_environment("VOXELUME_UNITS");
+    if (units == 0) return device;
+    const cl_device_partition_property properties[] = {CL_DEVICE_PARTITION_BY_COUNTS, units,
+                                                       CL_DEVICE_PARTITION_BY_COUNTS_LIST_END, 0};
+    std::vector<cl::Device> parts;
+    cl::Device(device).createSubDevices(properties, &parts);
+    return parts.at(0);
 }
 
 }  // namespace
@@ -97,10 +120,12 @@ Device Device::open(std::string_view selector, int lanes) {
     const Candidate& chosen = choose(candidates, selector);
 
     auto opened = std::make_shared<Opened>();
-    opened->device = chosen.device;
     opened->info = chosen.info;
     opened->info.lanes = lanes_for(chosen.info, lanes);
+    opened->info.work_group = number_in_environment("VOXELUME_WORK_GROUP");
+    opened->info.build_options = environment("VOXELUME_BUILD_OPTIONS");
     try {
+        opened->device = part_of(chosen.device);
         opened->context = cl::Context(opened->device);
     } catch (const cl::Error& error) {
         throw_device_error(error, opened->info, "opening it");

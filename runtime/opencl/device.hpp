@@ -26,9 +26,11 @@ struct DeviceInfo {
     uint64_t memory = 0;          ///< bytes
     uint64_t max_allocation = 0;  ///< bytes in one buffer
     int compute_units = 0;
-    int lanes = 1;         ///< rays that one work-item of a packet kernel carries
-    std::string unusable;  ///< why it can't render here; empty when it can
-    std::string note;      ///< what its user should know; mostly empty
+    int lanes = 1;       ///< rays that one work-item of a packet kernel carries
+    int work_group = 0;  ///< work-items in every group; 0: chosen by kernel and kind of device
+    std::string build_options;  ///< added to those of every program
+    std::string unusable;       ///< why it can't render here; empty when it can
+    std::string note;           ///< what its user should know; mostly empty
 };
 
 /// The name of PoCL's platform, the one for CPUs.
@@ -60,7 +62,9 @@ class Device {
     ///
     /// Where several devices match, a GPU goes before a CPU, then the most compute units, then the
     /// lowest index. `lanes` overrides the lanes per work-item (1, 4, 8 or 16); 0 takes
-    /// VOXELUME_LANES, else the device's own.
+    /// VOXELUME_LANES, else the device's own. To look into a driver's faults, VOXELUME_WORK_GROUP
+    /// gives the size of every work-group, VOXELUME_UNITS takes only so many compute units (a
+    /// sub-device), and VOXELUME_BUILD_OPTIONS is added to the compiler's options.
     /// Throws Error::device when nothing fits, naming what is there or the package to install.
     static Device open(std::string_view selector = {}, int lanes = 0);
 
@@ -79,6 +83,7 @@ class Device {
     /// Held while counters or programs are changed.
     std::unique_lock<std::mutex> lock() const;
     /// The programs made ready so far, by a hash of what they were made of; kept until it closes.
+    /// PoCL preprocesses a source with its own headers of 1 MB to find it on the disk: 20 ms each.
     std::map<std::string, cl::Program>& programs() const;
 
     /// Waits until everything enqueued so far is done. Throws Error::render when the device failed.

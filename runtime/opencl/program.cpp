@@ -22,7 +22,13 @@ std::string build_options(const Device& device, const Defines& defines) {
     if (!has_lanes) options += fmt::format(" -DVXL_LANES={}", device.lanes());
     // Oclgrind 21.10 interprets LLVM code, but not the alias hints that its optimizer leaves.
     if (device.info().platform == "Oclgrind") options += " -cl-opt-disable";
+    if (!device.info().build_options.empty()) options += " " + device.info().build_options;
     return options;
+}
+
+size_t group_size(const Device& device, WorkItem work) {
+    if (device.info().work_group > 0) return size_t(device.info().work_group);
+    return device.is_cpu() ? (work == WorkItem::heavy ? 1 : 16) : 64;
 }
 
 }  // namespace
@@ -38,10 +44,10 @@ void Kernel::enqueue(WorkItem work, size_t count) {
     if (count == 0) return;
     // A fixed local size per kernel and two dimensions below 65535: PoCL builds a kernel again for
     // every other local size, and for any larger dimension.
-    const size_t local = device_.is_cpu() ? (work == WorkItem::heavy ? 1 : 16) : 64;
-    constexpr size_t kRow = 16384;
+    const size_t local = group_size(device_, work);
+    const size_t row_items = 16384 / local * local;
     const size_t groups = (count + local - 1) / local;
-    const size_t columns = std::min(groups * local, kRow);
+    const size_t columns = std::min(groups * local, row_items);
     const size_t rows = (groups * local + columns - 1) / columns;
     device_.enqueue(kernel_, name_, cl::NDRange(columns, rows), cl::NDRange(local, 1));
 }

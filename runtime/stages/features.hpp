@@ -23,10 +23,15 @@ struct Features {
     bool transmission = false;  ///< some object lets light through
     bool refracts = false;      ///< some surface bends rays, or reflects by Fresnel's law
     bool absorbs = false;       ///< the space, or an object that light goes through, takes of it
-    bool filter = false;        ///< shadow rays go on through some surfaces
+    bool filter = false;        ///< shadow rays may go through transmitting objects
     bool filtered_refraction = false;  ///< refracting ones among them
     bool cube_bodies = false;          ///< some object of cubes lets light through
     bool voxel_opacity = false;        ///< voxels have opacities of their own
+    bool immersed = false;  ///< observers' rays may begin inside of a transmitting mesh or smooth
+                            ///< object
+    int other_members = 0;  ///< of the sets of transmitting objects that rays are inside of, beside
+                            ///< the smooth body
+    bool interior_capped = false;  ///< ... which may not be enough
 
     friend bool operator==(const Features&, const Features&) = default;
 
@@ -53,6 +58,9 @@ struct Features {
                 {"VXL_FILTERED", filtered_refraction},
                 {"VXL_CUBE_BODIES", cube_bodies},
                 {"VXL_VOXEL_OPACITY", voxel_opacity},
+                {"VXL_IMMERSED", immersed},
+                {"VXL_OTHER_MEMBERS", other_members},
+                {"VXL_INTERIOR_CAPPED", interior_capped},
                 {"VXL_NATIVE_DIVIDE", device.is_cpu()}};
     }
 };

@@ -13,7 +13,7 @@
 namespace voxelume {
 namespace {
 
-constexpr uint32_t kEmptySector = 0x80000000u;
+constexpr uint32_t kEmptyCube = 0x80000000u;
 constexpr size_t kRecordsPerSector = 64;
 constexpr size_t kWordsPerRecord = 4;
 constexpr int kBricksPerSector = kSectorSize / kBrickSize;
@@ -95,7 +95,7 @@ uint32_t number_sectors(const glm::ivec3& size, const std::vector<bool>& occupie
         empty_groups(size, 4, [&](size_t sector) { return !occupied[sector]; });
     uint32_t block = 0;
     for (size_t sector = 0; sector < sectors.size(); ++sector)
-        sectors[sector] = occupied[sector] ? block++ : kEmptySector | (far_empty[sector] ? 8u : 6u);
+        sectors[sector] = occupied[sector] ? block++ : kEmptyCube | (far_empty[sector] ? 8u : 6u);
     return block;
 }
 
@@ -111,7 +111,8 @@ void write_empty_cubes(std::vector<uint32_t>& bricks) {
         for (size_t bit = 0; bit < kRecordsPerSector; ++bit) {
             if (occupied >> bit & 1) continue;
             const bool group_empty = (occupied >> (bit & 0b101010) & kGroup) == 0;
-            bricks[first + bit * kWordsPerRecord + 3] = group_empty ? 5 : 4;
+            uint32_t* record = &bricks[first + bit * kWordsPerRecord];
+            record[2] = record[3] = kEmptyCube | (group_empty ? 5u : 4u);
         }
     }
 }
@@ -149,6 +150,7 @@ Numbering number_voxels(const BrickGrid& grid, const Marks& marks) {
         words[0] = uint32_t(mask);
         words[1] = uint32_t(mask >> 32);
         words[2] = uint32_t(leaves);
+        words[3] = uint32_t(leaves) + uint32_t(std::popcount(words[0]));
         uint32_t* start = &numbers.starts[slot * 3];
         start[0] = uint32_t(leaves);
         start[1] = uint32_t(voxels);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <numeric>
 #include <optional>
 
 #include "kernels/shared/voxel.h"
@@ -29,15 +30,11 @@ void check_object(const PlacedObject& object, const GridFrame& world) {
                     VXL_OBJECT_MASK + 1);
 }
 
-/// The objects with the loser of every overlap before its winner; exact ones first of all, since
-/// they share their voxels with smooth surfaces and lose them to cubes.
+/// The objects with the loser of every overlap before its winner.
 std::vector<const PlacedObject*> painting_order(std::span<const PlacedObject> objects) {
     std::vector<const PlacedObject*> order;
     for (size_t i = objects.size(); i-- > 0;) order.push_back(&objects[i]);
     std::ranges::stable_sort(order, {}, &PlacedObject::priority);
-    std::stable_partition(order.begin(), order.end(), [](const PlacedObject* object) {
-        return surface_of(*object->grid) == Surface::exact;
-    });
     return order;
 }
 
@@ -71,13 +68,7 @@ class Placer::State {
         std::vector<Painter*> changed;
         take_painters(objects, left, changed);
         for (auto& [number, painter] : left) changed.push_back(&painter);
-        const bool is_first = !bricks_;
-        if (is_first) bricks_.emplace(device_, parts, world_);
-        const std::vector<uint32_t> bricks =
-            is_first ? std::vector<uint32_t>{} : bricks_with(changed);
-        const std::vector<uint32_t> slots = bricks_->store(
-            bricks, is_first || !bricks.empty() ? states(bricks) : std::vector<uint8_t>{});
-        paint(objects, slots);
+        paint(objects, store_bricks(changed));
         join_exact_surfaces(device_, objects, world_);
     }
 
@@ -104,56 +95,107 @@ class Placer::State {
         }
     }
 
-    uint32_t table_size() const {
+    /// Calls `visit` with each brick of a box.
+    template <class Visit>
+    void for_each_brick(const BrickBox& box, Visit&& visit) const {
         const glm::ivec3 table = world_.frame.bricks();
-        return uint32_t(table.x) * uint32_t(table.y) * uint32_t(table.z);
+        for (int z = box.first.z; z <= box.last.z; ++z)
+            for (int y = box.first.y; y <= box.last.y; ++y)
+                for (int x = box.first.x; x <= box.last.x; ++x)
+                    visit(uint32_t(x) +
+                          uint32_t(table.x) * (uint32_t(y) + uint32_t(table.y) * uint32_t(z)));
     }
 
-    /// The states that objects give to the bricks listed, or to all.
+    /// The states that objects give to the world's bricks, in all or only those `asked` for.
     template <class Painters>
-    std::vector<uint8_t> states(const std::vector<uint32_t>& listed, Painters&& painters) {
-        const auto count = uint32_t(listed.empty() ? table_size() : listed.size());
-        const Buffer<uint32_t> list(device_, "listed bricks", listed);
+    std::vector<uint8_t> states(Painters&& painters, const std::vector<bool>& asked) {
+        const glm::ivec3 table = world_.frame.bricks();
+        const auto count = uint32_t(table.x) * uint32_t(table.y) * uint32_t(table.z);
         Buffer<uint8_t> states(device_, "brick states", count);
         states.fill(0);
-        for (Painter* painter : painters) painter->classify(world_.frame, count, list, states);
+        for (Painter* painter : painters) {
+            std::vector<uint32_t> listed;
+            for_each_brick(painter->bricks(), [&](uint32_t brick) {
+                if (asked.empty() || asked[brick]) listed.push_back(brick);
+            });
+            if (listed.size() == count)
+                painter->classify(world_.frame, count, {}, states);
+            else if (!listed.empty())
+                painter->classify(world_.frame, uint32_t(listed.size()),
+                                  Buffer<uint32_t>(device_, "listed bricks", listed), states);
+        }
         return states.read();
     }
 
-    std::vector<uint8_t> states(const std::vector<uint32_t>& listed) {
+    std::vector<Painter*> all_painters() {
         std::vector<Painter*> all;
         for (auto& [number, painter] : painters_) all.push_back(&painter);
-        return states(listed, all);
+        return all;
     }
 
-    /// The bricks in which one of the painters has a part.
-    std::vector<uint32_t> bricks_with(const std::vector<Painter*>& painters) {
+    /// Stores the bricks that the objects need, and returns those to paint: in which a painter that
+    /// changed has a part, or had one.
+    std::vector<uint32_t> store_bricks(const std::vector<Painter*>& changed) {
+        if (!bricks_) {
+            bricks_.emplace(device_, parts_, world_);
+            const std::vector<uint8_t> found = states(all_painters(), {});
+            std::vector<uint32_t> bricks(found.size());
+            std::iota(bricks.begin(), bricks.end(), 0u);
+            return bricks_->store(bricks, found);
+        }
+        if (changed.empty()) return {};
+        const std::vector<uint8_t> reached = states(changed, {});
+        std::vector<bool> asked(reached.size());
         std::vector<uint32_t> bricks;
-        if (painters.empty()) return bricks;
-        const std::vector<uint8_t> found = states({}, painters);
-        for (uint32_t brick = 0; brick < found.size(); ++brick)
-            if (found[brick] != 0) bricks.push_back(brick);
-        return bricks;
+        for (uint32_t brick = 0; brick < reached.size(); ++brick) {
+            if (reached[brick] == 0) continue;
+            asked[brick] = true;
+            bricks.push_back(brick);
+        }
+        return bricks_->store(bricks, states(all_painters(), asked));
     }
 
-    void paint(std::span<const PlacedObject> objects, const std::vector<uint32_t>& slots) {
-        painted_ = uint32_t(slots.size());
+    /// Bricks that are painted, and where they are in the list of them.
+    struct Painting {
+        const std::vector<uint32_t>& bricks;
+        std::vector<uint32_t> places;  ///< of each of the world's bricks, or kBrickOutside
+        Buffer<int16_t> nearest;
+    };
+
+    PaintedBricks painted_bricks(const Painting& painting, const BrickBox& box) {
+        std::vector<uint32_t> slots;
+        for_each_brick(box, [&](uint32_t brick) {
+            if (painting.places[brick] == kBrickOutside) return;
+            slots.push_back(bricks_->slot(brick));
+            slots.push_back(painting.places[brick]);
+        });
+        return {uint32_t(slots.size() / 2), Buffer<uint32_t>(device_, "painted bricks", slots),
+                painting.nearest};
+    }
+
+    void paint(std::span<const PlacedObject> objects, const std::vector<uint32_t>& bricks) {
+        painted_ = uint32_t(bricks.size());
         world_.transparent = parts_.transparent;
         if (!parts_.has_words() && !parts_.words.empty()) world_.attribute = *parts_.words.begin();
-        PaintedBricks painted{painted_, Buffer<uint32_t>(device_, "painted bricks", slots), {}};
-        bricks_->clear(painted.slots);
+        if (bricks.empty()) return;
+        bricks_->clear(bricks);
+        Painting painting{bricks, {}, {}};
+        const glm::ivec3 table = world_.frame.bricks();
+        painting.places.assign(size_t(table.x) * size_t(table.y) * size_t(table.z), kBrickOutside);
+        for (uint32_t place = 0; place < painted_; ++place) painting.places[bricks[place]] = place;
         if (parts_.smooth && (parts_.has_words() || parts_.colors || parts_.occupancy)) {
-            painted.nearest =
-                Buffer<int16_t>(device_, "nearest surfaces", size_t(painted.count) * 4096);
-            painted.nearest.fill(32767);
+            painting.nearest =
+                Buffer<int16_t>(device_, "nearest surfaces", size_t(painted_) * 4096);
+            painting.nearest.fill(32767);
         }
         Painter* smooth = nullptr;
         for (const PlacedObject* object : painting_order(objects)) {
             Painter& painter = painters_.at(object->object);
-            painter.paint(painted, world_);
+            painter.paint(painted_bricks(painting, painter.bricks()), world_);
             if (painter.surface() == Surface::smooth) smooth = &painter;
         }
-        if (smooth) smooth->close_distances(painted, world_);
+        if (smooth)
+            smooth->close_distances(painted_bricks(painting, {glm::ivec3(0), table - 1}), world_);
     }
 
     Device device_;

@@ -23,6 +23,33 @@ PlacementMap map_of(const PlacedObject& object, const GridFrame& world, Surface 
                          object.object);
 }
 
+/// The bricks that the object's grid comes to stand in, and one voxel around it.
+BrickBox bricks_of(const PlacedObject& object, const GridFrame& world) {
+    const glm::ivec3 last = world.bricks() - 1;
+    if (object.in_world_frame) return {glm::ivec3(0), last};
+    const GridFrame& grid = object.grid->frame;
+    glm::dvec3 low(INFINITY), high(-INFINITY);
+    for (int corner = 0; corner < 8; ++corner) {
+        const glm::dvec3 end(corner & 1 ? grid.size.x : 0, corner & 2 ? grid.size.y : 0,
+                             corner & 4 ? grid.size.z : 0);
+        const glm::dvec3 in_object = grid.origin + grid.voxel_edge * end;
+        const glm::dvec3 in_world(object.world_from_object * glm::dvec4(in_object, 1));
+        const glm::dvec3 voxel = (in_world - world.origin) / world.voxel_edge;
+        low = glm::min(low, voxel), high = glm::max(high, voxel);
+    }
+    // Reach is at most half an object voxel's diagonal as the world sees it: two voxels are enough
+    // for that and for rounding where the object's are no larger; else so many of its own.
+    const glm::dmat3 turn(object.world_from_object);
+    glm::dvec3 margin(2);
+    for (int axis = 0; axis < 3; ++axis)
+        margin += glm::abs(turn[axis]) * grid.voxel_edge[axis] / world.voxel_edge;
+    const glm::dvec3 edge(kBrickSize);
+    const glm::dvec3 first_brick = glm::floor((low - margin) / edge);
+    const glm::dvec3 last_brick = glm::floor((high + margin) / edge);
+    return {glm::ivec3(glm::clamp(first_brick, glm::dvec3(0), glm::dvec3(last + 1))),
+            glm::ivec3(glm::clamp(last_brick, glm::dvec3(-1), glm::dvec3(last)))};
+}
+
 Program program_for(const Device& device, const PlacedObject& object, Surface surface,
                     const PlacementMap& map, const WorldParts& parts) {
     return {device,
@@ -33,6 +60,7 @@ Program program_for(const Device& device, const PlacedObject& object, Surface su
              {"VXL_OBJECT_ATTRIBUTES", !object.grid->attributes.empty()},
              {"VXL_OBJECT_COLORS", !object.grid->colors.empty()},
              {"VXL_WORLD_OCCUPANCY", parts.occupancy},
+             {"VXL_AMONG_SMOOTH", surface == Surface::exact && parts.smooth},
              {"VXL_REACH", map.has_reach},
              {"VXL_KEEPS_INSIDE", object.keeps_inside}}};
 }
@@ -86,6 +114,7 @@ Painter::Painter(const Device& device, const PlacedObject& object, const GridFra
     : object_(object),
       surface_(surface_of(*object.grid)),
       map_(map_of(object, world, surface_)),
+      bricks_(bricks_of(object, world)),
       rows_(device, "placement", map_.rows),
       program_(program_for(device, object, surface_, map_, parts)),
       words_(word_map(device, object, surface_)),
@@ -142,8 +171,8 @@ void Painter::paint_cubes(const PaintedBricks& painted, BrickGrid& world) {
         .launch(WorkItem::heavy, leaves, leaves, glm::ivec4(world.frame.bricks(), 0),
                 map_.fraction_bits, rows_, glm::ivec4(grid.frame.bricks(), 0), grid.slots, near_,
                 grid.occupancy, words_.map, words_.materials, grid.attributes, grid.colors,
-                glm::ivec4(world.frame.size, 0), painted.slots, world.coordinates, world.occupancy,
-                world.attributes, world.colors);
+                glm::ivec4(world.frame.size, 0), painted.slots, world.coordinates, painted.nearest,
+                world.occupancy, world.attributes, world.colors);
 }
 
 void Painter::close_distances(const PaintedBricks& painted, BrickGrid& world) {

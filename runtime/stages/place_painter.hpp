@@ -31,12 +31,20 @@ struct WorldBounds {
 
 WorldBounds bounds_of(const GridFrame& frame);
 
-/// Bricks of the world that are painted: their slots on the device.
+/// A box of the world's bricks.
+struct BrickBox {
+    glm::ivec3 first{0}, last{-1};
+
+    bool is_empty() const { return first.x > last.x || first.y > last.y || first.z > last.z; }
+};
+
+/// Bricks of the world that are painted, on the device.
 struct PaintedBricks {
     uint32_t count = 0;
-    Buffer<uint32_t> slots;
-    Buffer<int16_t> nearest;  ///< 4096 each: distance of the nearest smooth surface to each voxel's
-                              ///< centre; only where that decides something
+    Buffer<uint32_t> slots;   ///< 2 each: its slot, its place in `nearest`
+    Buffer<int16_t> nearest;  ///< 4096 for each brick that any object is painted into: distance of
+                              ///< the nearest smooth surface to each voxel's centre; only where
+                              ///< that decides something
 };
 
 /// An object ready to be painted into a world. Its grid must outlive it.
@@ -49,7 +57,10 @@ class Painter {
     const PlacedObject& object() const { return object_; }
     Surface surface() const { return surface_; }
 
-    /// Raises the states of the world's bricks in `listed`, or, where that is empty, of all.
+    /// The bricks of the world outside of which the object has nothing.
+    const BrickBox& bricks() const { return bricks_; }
+
+    /// Raises the states of `count` of the world's bricks: those listed, or, without a list, all.
     void classify(const GridFrame& world, uint32_t count, const Buffer<uint32_t>& listed,
                   const Buffer<uint8_t>& states);
 
@@ -65,6 +76,7 @@ class Painter {
     PlacedObject object_;
     Surface surface_;
     PlacementMap map_;
+    BrickBox bricks_;
     Buffer<int64_t> rows_;
     Program program_;
     WordMap words_;

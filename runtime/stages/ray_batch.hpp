@@ -14,7 +14,7 @@ inline constexpr uint32_t kBatchRays = 1u << 18;
 struct RayQueue {
     Buffer<float> rays;  ///< VXL_RAY_COMPONENTS
     // of scenes with paths only
-    Buffer<uint32_t> paths;   ///< VXL_PATH_COMPONENTS
+    Buffer<uint32_t> paths;   ///< VXL_PATH_*, the last once for each member
     Buffer<float> starts;     ///< t where the ray's segment begins
     Buffer<uint32_t> inside;  ///< 0: open space; else 1 + the material it goes through
 };

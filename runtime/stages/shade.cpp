@@ -89,7 +89,7 @@ void ShadeStage::surface(const Pyramid& pyramid, RayBatch& batch, uint32_t count
                             pyramid.attribute, pyramid.colors, pyramid.fields, pyramid.triangles,
                             pyramid.triangle_attributes, pyramid.solids, ranks_, batch.rays,
                             batch.hits, batch.paths, count, batch.stride, batch.positions,
-                            batch.normals, batch.words, batch.sides, batch.inside, batch.radiance);
+                            batch.normals, batch.words, batch.sides, batch.radiance);
 }
 
 }  // namespace voxelume

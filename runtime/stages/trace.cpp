@@ -48,6 +48,7 @@ TraceStage::TraceStage(const Device& device, const Features& features)
       closest_(program_.kernel("trace_closest")),
       shadows_(program_.kernel("trace_shadows")) {
     if (features.paths) scattered_ = program_.kernel("trace_scattered");
+    if (features.immersed) inside_ = program_.kernel("begin_inside");
 }
 
 void TraceStage::closest(const Pyramid& pyramid, RayBatch& batch, uint32_t count, bool scattered) {
@@ -61,13 +62,26 @@ void TraceStage::closest(const Pyramid& pyramid, RayBatch& batch, uint32_t count
                           batch.stride, batch.paths, batch.starts, batch.hits);
 }
 
+void TraceStage::begin_inside(const Pyramid& pyramid, const Surroundings& surroundings,
+                              const Buffer<uint32_t>& hollow, uint32_t most_hollow, RayBatch& batch,
+                              uint32_t count) {
+    inside_.value().launch_packets(
+        count, shape_of(pyramid), pyramid.sectors, pyramid.bricks, pyramid.leaves,
+        pyramid.leaf_voxels, pyramid.attributes, pyramid.fields, pyramid.primitive_first,
+        pyramid.primitives, pyramid.triangles, pyramid.triangle_attributes, pyramid.solids,
+        pyramid.attribute, surroundings.materials, surroundings.ranks, surroundings.lost, hollow,
+        most_hollow, batch.rays, count, batch.stride, batch.paths, batch.starts, batch.inside);
+}
+
 void TraceStage::shadows(const Pyramid& pyramid, const Surroundings& surroundings,
                          const ShadowQueue& queue, uint32_t most, RayBatch& batch) {
     shadows_.launch_packets(most, shape_of(pyramid), pyramid.sectors, pyramid.bricks,
                             pyramid.leaves, pyramid.leaf_voxels, pyramid.attributes, pyramid.fields,
                             pyramid.primitive_first, pyramid.primitives, pyramid.triangles,
                             pyramid.triangle_attributes, pyramid.solids, pyramid.attribute,
-                            surroundings.materials, pyramid.colors, surroundings.ranks, queue.rays,
+                            surroundings.materials, pyramid.colors, surroundings.ranks,
+                            surroundings.lost, surroundings.absorption, surroundings.density.shape,
+                            surroundings.density.bricks, surroundings.density.values, queue.rays,
                             queue.count, batch.stride, queue.targets, queue.sources, batch.paths,
                             queue.shares, queue.traced, batch.radiance);
 }

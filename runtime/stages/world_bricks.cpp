@@ -37,13 +37,12 @@ WorldBricks::WorldBricks(const Device& device, const WorldParts& parts, BrickGri
 std::vector<uint32_t> WorldBricks::store(const std::vector<uint32_t>& places,
                                          const std::vector<uint8_t>& states) {
     std::vector<uint32_t> gaps, added, stored;
-    for (size_t i = 0; i < states.size(); ++i) {
-        const auto place = uint32_t(places.empty() ? i : places[i]);
-        const bool was_stored = slots_[place] < kBrickInside, is_stored = states[i] == kSurface;
+    for (const uint32_t place : places) {
+        const bool was_stored = slots_[place] < kBrickInside, is_stored = states[place] == kSurface;
         if (is_stored) stored.push_back(place);
         if (was_stored && !is_stored) gaps.push_back(slots_[place]);
         if (!was_stored && is_stored) added.push_back(place);
-        if (!is_stored) slots_[place] = states[i] == kFull ? kBrickInside : kBrickOutside;
+        if (!is_stored) slots_[place] = states[place] == kFull ? kBrickInside : kBrickOutside;
     }
     for (const uint32_t place : added) {
         if (gaps.empty()) {
@@ -60,7 +59,6 @@ std::vector<uint32_t> WorldBricks::store(const std::vector<uint32_t>& places,
     world_.brick_count = uint32_t(coordinates_.size());
     world_.slots = Buffer<uint32_t>(device_, "world slots", slots_);
     world_.coordinates = Buffer<uint32_t>(device_, "world coordinates", coordinates_);
-    for (uint32_t& place : stored) place = slots_[place];
     return stored;
 }
 
@@ -85,11 +83,14 @@ void WorldBricks::fill_gaps(const std::vector<uint32_t>& gaps) {
                 world_.distance, world_.occupancy, world_.attributes, world_.colors);
 }
 
-void WorldBricks::clear(const Buffer<uint32_t>& slots) {
+void WorldBricks::clear(const std::vector<uint32_t>& places) {
+    std::vector<uint32_t> slots;
+    slots.reserve(places.size());
+    for (const uint32_t place : places) slots.push_back(slots_[place]);
     const auto parts = uint32_t(slots.size() * 64);
     program_.kernel("clear_bricks")
-        .launch(WorkItem::light, parts, parts, slots, world_.distance, world_.occupancy,
-                world_.attributes, world_.colors);
+        .launch(WorkItem::light, parts, parts, Buffer<uint32_t>(device_, "cleared bricks", slots),
+                world_.distance, world_.occupancy, world_.attributes, world_.colors);
 }
 
 /// A world that grows once may grow again: then with room for a quarter more.

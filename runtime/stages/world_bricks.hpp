@@ -17,13 +17,15 @@ class WorldBricks {
     WorldBricks(const Device& device, const WorldParts& parts, BrickGrid& world);
 
     /// Stores the bricks of `places` whose state is VXL_SURFACE, marks those that are VXL_FULL as
-    /// inside and drops the others. Without places, `states` are those of all bricks. The contents
-    /// of bricks that aren't named stay. Returns the slots of those of `places` that are stored.
+    /// inside and drops the others; `states` has those of all bricks of the world. The contents of
+    /// bricks that aren't named stay. Returns those of `places` that are stored.
     std::vector<uint32_t> store(const std::vector<uint32_t>& places,
                                 const std::vector<uint8_t>& states);
 
-    /// Empties bricks.
-    void clear(const Buffer<uint32_t>& slots);
+    /// Empties bricks that are stored.
+    void clear(const std::vector<uint32_t>& places);
+
+    uint32_t slot(uint32_t place) const { return slots_[place]; }
 
   private:
     void fill_gaps(const std::vector<uint32_t>& gaps);

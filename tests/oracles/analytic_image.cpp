@@ -5,7 +5,7 @@
 #include <glm/geometric.hpp>
 #include <stdexcept>
 
-#include "tests/oracles/analytic_tracer.hpp"
+#include "runtime/bench/analytic_tracer.hpp"
 
 namespace voxelume::oracle {
 namespace {

@@ -6,8 +6,8 @@
 #include <limits>
 #include <vector>
 
+#include "runtime/bench/analytic_crossings.hpp"
 #include "runtime/scene.hpp"
-#include "tests/oracles/analytic_crossings.hpp"
 
 namespace voxelume::oracle {
 

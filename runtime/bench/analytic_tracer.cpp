@@ -1,4 +1,4 @@
-#include "tests/oracles/analytic_tracer.hpp"
+#include "runtime/bench/analytic_tracer.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 #include <glm/geometric.hpp>
 #include <stdexcept>
 
-#include "tests/oracles/analytic_tracer_point.hpp"
+#include "runtime/bench/analytic_tracer_point.hpp"
 
 namespace voxelume::oracle {
 namespace {

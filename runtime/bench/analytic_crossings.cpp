@@ -1,4 +1,4 @@
-#include "tests/oracles/analytic_crossings.hpp"
+#include "runtime/bench/analytic_crossings.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "tests/oracles/polynomial_roots.hpp"
+#include "runtime/bench/polynomial_roots.hpp"
 
 namespace voxelume::oracle {
 namespace {

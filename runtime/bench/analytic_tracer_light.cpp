@@ -4,7 +4,7 @@
 #include <glm/exponential.hpp>
 #include <glm/geometric.hpp>
 
-#include "tests/oracles/analytic_tracer_point.hpp"
+#include "runtime/bench/analytic_tracer_point.hpp"
 
 namespace voxelume::oracle {
 namespace {
@@ -52,23 +52,24 @@ glm::dvec3 AnalyticTracer::share_of(const Light& light, const Path& path, const 
 /// What the way to a light lets through.
 glm::dvec3 AnalyticTracer::shadow(const Path& path, const Point& point, const glm::dvec3& to_light,
                                   double distance, Events& events) const {
-    // The medium fills the world, the objects in it as well as the space between them.
     Path way{{point.position, to_light}, 0, distance, path.inside, glm::dvec3(1), 0};
     for (int a = 0; a < 3; ++a) {
         const double d = to_light[a], side = d > 0 ? world_max_[a] : world_min_[a];
         if (d != 0) way.t_last = std::min(way.t_last, (side - point.position[a]) / d);
     }
-    const double metres = std::max(0.0, way.t_last);
-    glm::dvec3 passed = glm::exp(-glm::dvec3(scene_.world.medium.absorption) * metres);
-    if (!scene_.render.shadows) return passed;
+    const glm::dvec3 of_medium(scene_.world.medium.absorption);
+    if (!scene_.render.shadows) return glm::exp(-of_medium * std::max(0.0, way.t_last));
+    glm::dvec3 passed(1);
     for (;;) {
         const Surface surface = next_surface(way);
         events.add(uint64_t(surface.object + 1));
-        if (const int within = effective(way.inside); within >= 0) {
-            const int material = scene_.objects[size_t(within)].material;
-            passed *= glm::exp(-glm::dvec3(scene_.materials[size_t(material)].absorption) *
-                               (surface.crossing.t - way.t));
-        }
+        const int within = effective(way.inside);
+        const glm::dvec3 absorption =
+            within < 0
+                ? of_medium
+                : glm::dvec3(
+                      scene_.materials[size_t(scene_.objects[size_t(within)].material)].absorption);
+        passed *= glm::exp(-absorption * std::max(0.0, surface.crossing.t - way.t));
         if (surface.object < 0) return passed;
         if (!is_hidden(way, surface)) {
             events.add(uint64_t(surface.crossing.face));

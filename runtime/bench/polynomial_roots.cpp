@@ -1,4 +1,4 @@
-#include "tests/oracles/polynomial_roots.hpp"
+#include "runtime/bench/polynomial_roots.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 // What the parts of the analytic tracer share: a surface point, and the record of decisions.
 #pragma once
 
-#include "tests/oracles/analytic_tracer.hpp"
+#include "runtime/bench/analytic_tracer.hpp"
 
 namespace voxelume::oracle {
 

@@ -1,0 +1,36 @@
+// What other programs take for the same rays, from a file that tests/bench/bench_peers writes.
+#pragma once
+
+#include <filesystem>
+#include <glm/vec2.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace voxelume {
+
+/// Another program on one scene with one setting of its fineness.
+struct BenchPeerRow {
+    std::string program;  ///< with its version
+    std::string scene;    ///< as in `bench_entries`
+    std::string setting;  ///< for people: "1,024 triangles", "voxels of 10 mm"
+    double build_seconds = 0;
+    double trace_seconds = 0;
+    double depth_rms = 0;  ///< metres
+    double depth_max = 0;
+    double normal_rms = 0;  ///< degrees
+
+    double total_seconds() const { return build_seconds + trace_seconds; }
+};
+
+/// Reads a file of rows that were measured with images of `size` pixels. Throws Error::input for
+/// one that isn't there, isn't such a file or has another size.
+std::vector<BenchPeerRow> read_peers(const std::filesystem::path& file, glm::ivec2 size);
+
+struct BenchReport;
+struct BenchRow;
+
+/// The quickest row of the peer's scene whose depth RMS is at most the peer's; null without one.
+const BenchRow* row_as_accurate(const BenchReport& report, const BenchPeerRow& peer);
+
+}  // namespace voxelume

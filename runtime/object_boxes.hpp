@@ -1,0 +1,22 @@
+// scene -> where in the world's lattice each object is at most.
+#pragma once
+
+#include <vector>
+
+#include "runtime/grid.hpp"
+#include "runtime/model_frame.hpp"
+#include "runtime/scene.hpp"
+
+namespace voxelume {
+
+/// A box around each object as the world shows it, in the world's voxels, cut to the lattice; empty
+/// for objects that aren't in it.
+///
+/// Surfaces may lie a voxel from where the object's own is, so the boxes are that much larger.
+/// Throws Error::input as MeshStore does.
+std::vector<VoxelBox> object_boxes(const Scene& scene, MeshStore& meshes);
+
+/// Whether two boxes share a point.
+bool overlap(const VoxelBox& a, const VoxelBox& b);
+
+}  // namespace voxelume

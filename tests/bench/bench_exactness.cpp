@@ -1,0 +1,196 @@
+// What exact arithmetic costs: the kernels against the same with floats alone, in turns.
+//
+//   bench_exactness MESH [voxels along the longest side, 512] [turns, 7]
+//
+// Traversal: sight rays at the mesh, whose crossings are left to floats by VXL_ARBITRATE=0.
+// Voxelization: the supercover's predicates, by tests/bench/float_cover.h in 32-bit floats. Times
+// are the process's CPU time over all threads; ratios are medians of the turns' own ratios.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <functional>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "runtime/io/mesh_reader.hpp"
+#include "runtime/stages/index.hpp"
+#include "runtime/stages/mesh_lattice.hpp"
+#include "runtime/stages/sight.hpp"
+#include "runtime/stages/trace.hpp"
+#include "runtime/stages/voxelize.hpp"
+#include "runtime/stages/voxelize_bins.hpp"
+#include "runtime/stages/voxelize_steps.hpp"
+#include "tests/bench/cpu_time.hpp"
+#include "tests/bench/float_cover.hpp"
+
+namespace voxelume {
+namespace {
+
+double median(std::vector<double> values) {
+    std::ranges::sort(values);
+    return values[values.size() / 2];
+}
+
+/// Prints the medians of both, and of their ratios.
+void compare(const std::string& name, int turns, const std::function<void()>& exact,
+             const std::function<void()>& floats) {
+    const auto timed = [](const std::function<void()>& work) {
+        const double start = cpu_seconds();
+        work();
+        return cpu_seconds() - start;
+    };
+    exact(), floats();  // kernels are compiled on the way
+    std::vector<double> exact_seconds, float_seconds, ratios;
+    for (int turn = 0; turn < turns; ++turn) {
+        exact_seconds.push_back(timed(exact));
+        float_seconds.push_back(timed(floats));
+        ratios.push_back(exact_seconds.back() / float_seconds.back());
+    }
+    fmt::print("{:<24} exact {:8.2f} ms, floats {:8.2f} ms, ratio {:.3f} ({:.3f} to {:.3f})\n",
+               name, median(exact_seconds) * 1e3, median(float_seconds) * 1e3, median(ratios),
+               *std::ranges::min_element(ratios), *std::ranges::max_element(ratios));
+    std::fflush(stdout);
+}
+
+double longest_side(const Mesh& mesh) {
+    glm::vec3 low(INFINITY), high(-INFINITY);
+    for (const glm::vec3& p : mesh.positions) low = glm::min(low, p), high = glm::max(high, p);
+    const glm::vec3 size = high - low;
+    return double(std::max({size.x, size.y, size.z}));
+}
+
+/// Sight rays of 1024 x 1024 pixels at the whole of a pyramid, on a device of its own.
+class Tracing {
+  public:
+    Tracing(const char* options, const Mesh& mesh, const GridFrame& frame, Surface surface)
+        : device_(opened(options)),
+          pyramid_(build_index(device_,
+                               voxelize_mesh(device_, mesh, glm::dmat4(1), frame, {surface, {}}))),
+          stage_(device_, features_of(pyramid_)) {
+        constexpr int kSide = 1024;
+        Scene scene;
+        const glm::dvec3 size = glm::dvec3(frame.size) * frame.voxel_edge;
+        const double length = std::max({size.x, size.y, size.z});
+        const glm::dvec3 middle = frame.origin + size / 2.0;
+        scene.observer.position = middle + length * 1.8 * glm::normalize(glm::dvec3(0.5, 0.35, 1));
+        const glm::dvec3 z = glm::normalize(middle - scene.observer.position);
+        const glm::dvec3 x = glm::normalize(glm::cross(glm::dvec3(0, 1, 0), z));
+        scene.observer.world_from_observer = glm::dmat3(x, glm::cross(z, x), z);
+        scene.observer.display.half_angles = glm::dvec2(0.3);
+        scene.observer.display.far = 100 * length;
+        scene.render.size = glm::ivec2(kSide);
+        count_ = tile_count(kSide, kSide) * 16;
+        batch_.stride = count_;
+        batch_.rays = Buffer<float>(device_, "rays", size_t(count_) * VXL_RAY_COMPONENTS);
+        batch_.hits = Buffer<uint32_t>(device_, "hits", size_t(count_) * VXL_HIT_COMPONENTS);
+        SightStage sight(device_, features_of(pyramid_), sight_of(scene, frame));
+        sight.cast(shape_of(pyramid_), 0, tile_count(kSide, kSide), batch_);
+        device_.finish();
+    }
+
+    void run() {
+        for (int i = 0; i < 4; ++i) stage_.closest(pyramid_, batch_, count_);
+        device_.finish();
+    }
+
+  private:
+    static Device opened(const char* options) {
+        setenv("VOXELUME_BUILD_OPTIONS", options, 1);
+        const Device device = Device::open();
+        unsetenv("VOXELUME_BUILD_OPTIONS");
+        return device;
+    }
+
+    Device device_;
+    Pyramid pyramid_;
+    TraceStage stage_;
+    RayBatch batch_;
+    uint32_t count_ = 0;
+};
+
+/// The covering of all bricks by triangles that are binned already.
+class Covering {
+  public:
+    Covering(const Device& device, const Mesh& mesh, const GridFrame& frame)
+        : device_(device), frame_(frame) {
+        const MeshLattice lattice = snap_to_lattice(mesh, glm::dmat4(1), frame);
+        const auto* vertices = &lattice.vertices[0].x;
+        const auto* corners = &lattice.triangles[0].x;
+        triangles_ = {0, uint32_t(lattice.triangles.size()),
+                      Buffer<int32_t>(device, "lattice vertices",
+                                      std::span(vertices, 3 * lattice.vertices.size())),
+                      Buffer<uint32_t>(device, "lattice triangles",
+                                       std::span(corners, 3 * lattice.triangles.size()))};
+        bins_ = bin_triangles(device, Program(device, "voxelize_bin.cl"), triangles_,
+                              frame.bricks(), glm::ivec3(0), kBrickSize * kLatticePerVoxel);
+        occupancy_ = Buffer<uint64_t>(device, "occupancy", size_t(64) * bins_.stored);
+    }
+
+    std::function<void()> work(const Program& program) {
+        return [this, kernel = program.kernel("cover_bricks")]() mutable {
+            for (int i = 0; i < 4; ++i)
+                kernel.launch(WorkItem::heavy, bins_.stored, bins_.stored,
+                              glm::ivec4(frame_.size, 0), glm::ivec4(frame_.bricks(), 0),
+                              triangles_.vertices, triangles_.triangles, bins_.coordinates,
+                              bins_.first, bins_.lists, occupancy_);
+            device_.finish();
+        };
+    }
+
+    std::vector<uint64_t> occupancy() const { return occupancy_.read(); }
+
+  private:
+    Device device_;
+    GridFrame frame_;
+    DeviceTriangles triangles_;
+    TriangleBins bins_;
+    Buffer<uint64_t> occupancy_;
+};
+
+uint64_t differing_bits(const std::vector<uint64_t>& a, const std::vector<uint64_t>& b) {
+    uint64_t count = 0;
+    for (size_t i = 0; i < a.size(); ++i) count += uint64_t(std::popcount(a[i] ^ b[i]));
+    return count;
+}
+
+void measure(const Mesh& mesh, int resolution, int turns) {
+    const GridFrame frame = frame_around(mesh, glm::dvec3(longest_side(mesh) / resolution));
+    const std::pair<const char*, Surface> surfaces[] = {
+        {"cubes", Surface::cubes}, {"smooth", Surface::smooth}, {"exact", Surface::exact}};
+    for (const auto& [name, surface] : surfaces) {
+        Tracing exact("", mesh, frame, surface);
+        Tracing floats("-DVXL_ARBITRATE=0", mesh, frame, surface);
+        compare(
+            fmt::format("trace {}", name), turns, [&] { exact.run(); }, [&] { floats.run(); });
+    }
+    const Device device = Device::open();
+    Covering covering(device, mesh, frame);
+    const auto exact = covering.work(
+        Program(device, "voxelize_cover.cl", {{"VXL_SLICES", kBrickSize}, {"VXL_THIN", 0}}));
+    const auto floats =
+        covering.work(Program::from_text(device, kFloatCover, {{"VXL_SLICES", kBrickSize}}));
+    compare("voxelize supercover", turns, exact, floats);
+    exact();
+    const std::vector<uint64_t> right = covering.occupancy();
+    floats();
+    fmt::print("voxels that floats have wrong: {}\n", differing_bits(right, covering.occupancy()));
+}
+
+}  // namespace
+}  // namespace voxelume
+
+int main(int argc, char** argv) {
+    try {
+        if (argc < 2) throw std::runtime_error("give a mesh");
+        voxelume::measure(voxelume::read_mesh(argv[1]), argc > 2 ? std::atoi(argv[2]) : 512,
+                          argc > 3 ? std::atoi(argv[3]) : 7);
+        return 0;
+    } catch (const std::exception& error) {
+        std::fprintf(stderr, "bench_exactness: %s\n", error.what());
+        return 1;
+    }
+}

@@ -1,0 +1,101 @@
+// The solids of `voxelume bench` in other programs: bench_peers OUTPUT.json [SIDE [REPEATS]].
+//
+// Embree 3 on tessellations, OpenVDB's LevelSetRayIntersector on level sets. Same rays, same
+// errors; building their structures counts, making triangles or reading files doesn't. A level set
+// is sampled from the solid's distance within OpenVDB's narrow band of 3 voxels.
+#include <fmt/format.h>
+#include <openvdb/openvdb.h>
+#include <tbb/global_control.h>
+
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "runtime/bench/bench_errors.hpp"
+#include "runtime/bench/bench_subject.hpp"
+#include "runtime/io/atomic_file.hpp"
+#include "tests/bench/peer_embree.hpp"
+#include "tests/bench/peer_openvdb.hpp"
+
+namespace voxelume {
+namespace {
+
+struct Bench {
+    nlohmann::ordered_json rows = nlohmann::ordered_json::array();
+    int repeats = 5;
+
+    /// `run` builds and traces once, into an image.
+    void add(const BenchSolid& solid, const BenchTruth& truth, const std::string& program,
+             const std::string& setting, double voxel_size,
+             const std::function<PeerTimes(Image&)>& run) {
+        PeerTimes best{INFINITY, 0};
+        Image image = empty_peer_image(truth.size);
+        for (int i = 0; i <= repeats; ++i) {  // the first warms caches and threads up
+            const PeerTimes times = run(image);
+            if (i > 0 && times.build + times.trace < best.build + best.trace) best = times;
+        }
+        const BenchErrors errors = measure_errors(truth, image, voxel_size);
+        rows.push_back({{"program", program},
+                        {"scene", solid.name},
+                        {"setting", setting},
+                        {"build_seconds", best.build},
+                        {"trace_seconds", best.trace},
+                        {"compared_pixels", errors.compared},
+                        {"depth_rms_metres", errors.depth_rms},
+                        {"depth_max_metres", errors.depth_max},
+                        {"normal_rms_degrees", errors.normal_rms},
+                        {"silhouette_mean_pixels", errors.silhouette_mean}});
+        fmt::print("{:<16} {:<7} {:<22} build {:>9.2f} ms, trace {:>9.2f} ms, depth {:.2e} m\n",
+                   program, solid.name, setting, best.build * 1e3, best.trace * 1e3,
+                   errors.depth_rms);
+        std::fflush(stdout);
+    }
+};
+
+void measure(const char* output, int side, int repeats) {
+    constexpr double kNoLimit = 1;  // voxel size: no hit counts as another part's
+    const unsigned threads = std::thread::hardware_concurrency();
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    openvdb::initialize();
+    Bench bench;
+    bench.repeats = repeats;
+    for (const BenchSolid& solid : bench_solids().first(2)) {
+        const BenchTruth truth = bench_truth(subject_of(solid), glm::ivec2(side));
+        for (const int rings : {8, 16, 32, 64, 128, 256, 512, 1024, 2048}) {
+            const PeerMesh mesh = tessellated(solid, rings);
+            bench.add(solid, truth, embree_name(),
+                      fmt::format("{} triangles", mesh.triangles.size()), kNoLimit,
+                      [&](Image& image) { return run_embree(mesh, truth, image); });
+        }
+        for (const int resolution : {8, 16, 32, 64, 128, 256, 512})
+            bench.add(solid, truth, openvdb_name(), fmt::format("voxels of 1/{} m", resolution),
+                      kNoLimit,
+                      [&](Image& image) { return run_openvdb(solid, resolution, truth, image); });
+    }
+    const nlohmann::ordered_json json = {
+        {"size", {side, side}}, {"threads", threads}, {"repeats", repeats}, {"rows", bench.rows}};
+    AtomicFile file(output);
+    const std::string text = json.dump(2) + "\n";
+    file.write(text.data(), text.size());
+    file.commit();
+}
+
+}  // namespace
+}  // namespace voxelume
+
+int main(int argc, char** argv) {
+    try {
+        if (argc < 2) throw std::runtime_error("give the name of the file to write");
+        voxelume::measure(argv[1], argc > 2 ? std::atoi(argv[2]) : 1024,
+                          argc > 3 ? std::atoi(argv[3]) : 5);
+        return 0;
+    } catch (const std::exception& error) {
+        std::fprintf(stderr, "bench_peers: %s\n", error.what());
+        return 1;
+    }
+}

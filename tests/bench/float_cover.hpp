@@ -1,0 +1,117 @@
+// kernels/voxelize_cover.cl in 32-bit floats, for what exactness costs: the same tests, in the same
+// order, of coordinates in voxels.
+#pragma once
+
+namespace voxelume {
+
+inline constexpr const char* kFloatCover = R"(
+#include "lib/cover.h"
+
+typedef struct {
+    float u[3], w[3], low[3], high[3];
+} FloatSilhouette;
+
+static inline FloatSilhouette float_silhouette(float2 a, float2 b, float2 c, float area) {
+    FloatSilhouette s;
+    const float2 p[3] = {a, b, c};
+    for (int i = 0; i < 3; ++i) {
+        const float2 edge = p[(i + 1) % 3] - p[i];
+        s.u[i] = -edge.y;
+        s.w[i] = edge.x;
+        const float at = s.u[i] * p[i].x + s.w[i] * p[i].y;
+        s.low[i] = at + fmin(area, 0.0f) - fmax(s.u[i], 0.0f) - fmax(s.w[i], 0.0f);
+        s.high[i] = at + fmax(area, 0.0f) - fmin(s.u[i], 0.0f) - fmin(s.w[i], 0.0f);
+    }
+    return s;
+}
+
+static inline bool float_cell_in(const FloatSilhouette* s, int u, int w) {
+    bool inside = true;
+    for (int i = 0; i < 3; ++i) {
+        const float at = s->u[i] * (float)u + s->w[i] * (float)w;
+        inside = inside & (at >= s->low[i]) & (at <= s->high[i]);
+    }
+    return inside;
+}
+
+typedef struct {
+    CoverBox box;
+    float3 n;
+    float low, high;
+    FloatSilhouette xy, yz, zx;
+    ushort xy_rows[16];
+} FloatCover;
+
+static inline void prepare_float_cover(FloatCover* c, const LatticeTriangle* t,
+                                       const CoverBox* box) {
+    const float3 a = convert_float3(t->corner[0]) * (1.0f / LATTICE_VOXEL);
+    const float3 b = convert_float3(t->corner[1]) * (1.0f / LATTICE_VOXEL);
+    const float3 d = convert_float3(t->corner[2]) * (1.0f / LATTICE_VOXEL);
+    const float3 u = b - a, v = d - a;
+    c->box = *box;
+    c->n = (float3)(u.y * v.z - u.z * v.y, u.z * v.x - u.x * v.z, u.x * v.y - u.y * v.x);
+    const float at = c->n.x * a.x + c->n.y * a.y + c->n.z * a.z;
+    const float3 positive = fmax(c->n, 0.0f), negative = fmin(c->n, 0.0f);
+    c->low = at - (positive.x + positive.y + positive.z);
+    c->high = at - (negative.x + negative.y + negative.z);
+    c->xy = float_silhouette(a.xy, b.xy, d.xy, c->n.z);
+    c->yz = float_silhouette(a.yz, b.yz, d.yz, c->n.x);
+    c->zx = float_silhouette(a.zx, b.zx, d.zx, c->n.y);
+    for (int y = box->first.y; y <= box->last.y; ++y) {
+        uint row = 0;
+        for (int x = box->first.x; x <= box->last.x; ++x)
+            row |= (uint)float_cell_in(&c->xy, x, y) << x;
+        c->xy_rows[y] = (ushort)row;
+    }
+}
+
+static inline uint float_row(const FloatCover* c, int y, int z) {
+    if (!c->xy_rows[y] || !float_cell_in(&c->yz, y, z)) return 0u;
+    const float row_at = c->n.y * (float)y + c->n.z * (float)z;
+    uint row = 0;
+    for (int x = c->box.first.x; x <= c->box.last.x; ++x) {
+        const float at = row_at + c->n.x * (float)x;
+        const bool inside = (at >= c->low) & (at <= c->high) & float_cell_in(&c->zx, z, x);
+        row |= (uint)inside << x;
+    }
+    return row & c->xy_rows[y];
+}
+
+static inline void add_row(ulong* masks, uint row, int y, int z) {
+    const int leaf = ((y >> 2) << 2) | ((z >> 2) << 4);
+    const int shift = ((y & 3) << 2) | ((z & 3) << 4);
+    for (int i = 0; i < 4; ++i) masks[leaf + i] |= (ulong)((row >> (4 * i)) & 15u) << shift;
+}
+
+kernel void cover_bricks(uint count, int4 size, int4 bricks, global const int* restrict vertices,
+                         global const uint* restrict triangles,
+                         global const uint* restrict coordinates, global const uint* restrict first,
+                         global const uint* restrict lists, global ulong* restrict occupancy) {
+    if (work_item() >= count * (16 / VXL_SLICES)) return;
+    const uint slot = work_item() / (16 / VXL_SLICES);
+    const int first_slice = (int)(work_item() % (16 / VXL_SLICES)) * VXL_SLICES;
+    const int3 brick = brick_of(coordinates[slot], bricks);
+    const int3 last = min(size.xyz - brick * 16, (int3)(16)) - 1;
+    ulong masks[4 * VXL_SLICES];
+    for (int i = 0; i < 4 * VXL_SLICES; ++i) masks[i] = 0;
+    for (uint i = first[slot]; i < first[slot + 1]; ++i) {
+        const LatticeTriangle t =
+            load_triangle(vertices, triangles, lists[i], brick * LATTICE_BRICK);
+        CoverBox box = cover_box(&t, last);
+        box.first.z = max(box.first.z, first_slice);
+        box.last.z = min(box.last.z, first_slice + VXL_SLICES - 1);
+        if (any(box.first > box.last)) continue;
+        FloatCover cover;
+        prepare_float_cover(&cover, &t, &box);
+        for (int z = box.first.z; z <= box.last.z; ++z)
+            for (int y = box.first.y; y <= box.last.y; ++y) {
+                const uint row = float_row(&cover, y, z);
+                if (row) add_row(masks, row, y, z - first_slice);
+            }
+    }
+    for (int i = 0; i < 4 * VXL_SLICES; ++i)
+        occupancy[64u * slot + 4u * first_slice + i] = masks[i];
+}
+)";
+
+}  // namespace voxelume

@@ -1,0 +1,27 @@
+// Embree 3 on a tessellated solid.
+#pragma once
+
+#include <vector>
+
+#include "runtime/bench/bench_truth.hpp"
+#include "tests/bench/peer_image.hpp"
+
+namespace voxelume {
+
+/// With a margin behind the positions, which Embree reads in blocks of 16 bytes.
+struct PeerMesh {
+    std::vector<glm::vec3> positions;  ///< metres in the world, on the surface
+    std::vector<glm::uvec3> triangles;
+};
+
+/// A sphere in `rings` by 2 `rings` quadrilaterals, a torus likewise around the tube and the ring,
+/// each cut into two triangles.
+PeerMesh tessellated(const BenchSolid& solid, int rings);
+
+/// "Embree 3.13.5"
+std::string embree_name();
+
+/// Builds a watertight scene of medium quality and traces packets of 16 coherent rays.
+PeerTimes run_embree(const PeerMesh& mesh, const BenchTruth& truth, Image& image);
+
+}  // namespace voxelume

@@ -1,0 +1,17 @@
+// OpenVDB's ray intersector on a solid's level set.
+#pragma once
+
+#include "runtime/bench/bench_truth.hpp"
+#include "tests/bench/peer_image.hpp"
+
+namespace voxelume {
+
+/// "OpenVDB 10.0.1"
+std::string openvdb_name();
+
+/// Samples the distance within 3 voxels of the surface: a sphere by OpenVDB's own maker of spheres,
+/// a torus leaf by leaf on all threads. Then intersects ray by ray, as its renderer does.
+PeerTimes run_openvdb(const BenchSolid& solid, int resolution, const BenchTruth& truth,
+                      Image& image);
+
+}  // namespace voxelume

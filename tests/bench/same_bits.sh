@@ -1,0 +1,56 @@
+#!/bin/sh
+# One hash per scene, whatever compiles and runs it: same_bits.sh [BUILD-FOLDER]
+#
+# Builds the program with g++ and clang++, as Debug and Release, and renders every scene of scenes/
+# small with lanes {1,4,8,16}, work-groups {own,1,24}, threads {1,2}, one compute unit, and with the
+# OpenCL compiler's optimizer off. Prints a line per scene and setting that differs from the first, and
+# the number of images; exits with 1 if any differs. The first run compiles for an hour on two cores.
+set -eu
+source=$(cd "$(dirname "$0")/../.." && pwd)
+work=${1:-$source/build/same-bits}
+mkdir -p "$work"
+images=0
+differing=0
+
+# check PROGRAM SETTING...: renders all scenes under these settings of the environment.
+check() {
+    program=$1
+    shift
+    for scene in "$source"/scenes/*.json; do
+        name=$(basename "$scene" .json)
+        [ "$name" = voxelume.schema ] && continue
+        env "$@" "$program" render "$scene" --assets /usr/share/glmark2/models --size 48x36 --float -q \
+            --frames 1 -o "$work/image.exr"
+        hash=$(sha256sum <"$work/image.exr")
+        [ -f "$work/$name.hash" ] || echo "$hash" >"$work/$name.hash"
+        images=$((images + 1))
+        if [ "$hash" != "$(cat "$work/$name.hash")" ]; then
+            differing=$((differing + 1))
+            echo "$name differs: $program with $*"
+        fi
+    done
+}
+
+rm -f "$work"/*.hash
+for compiler in g++ clang++; do
+    for type in Release Debug; do
+        folder=$work/$compiler-$type
+        command -v "$compiler" >/dev/null || { echo "no $compiler: left out"; continue; }
+        cmake -G Ninja -S "$source" -B "$folder" -DCMAKE_BUILD_TYPE=$type -DCMAKE_CXX_COMPILER=$compiler \
+            -DBUILD_TESTING=OFF >/dev/null
+        ninja -C "$folder" voxelume >/dev/null
+        program=$folder/voxelume
+        check "$program" VOXELUME_DEVICE=cpu
+        for lanes in 1 4 8 16; do
+            [ "$compiler-$type" = g++-Release ] || continue
+            check "$program" VOXELUME_LANES=$lanes
+            check "$program" VOXELUME_LANES=$lanes POCL_MAX_PTHREAD_COUNT=1
+            check "$program" VOXELUME_LANES=$lanes VOXELUME_WORK_GROUP=1
+            check "$program" VOXELUME_LANES=$lanes VOXELUME_WORK_GROUP=24
+            check "$program" VOXELUME_LANES=$lanes VOXELUME_UNITS=1
+            check "$program" VOXELUME_LANES=$lanes VOXELUME_BUILD_OPTIONS=-cl-opt-disable
+        done
+    done
+done
+echo "$images images, $differing differ"
+[ "$differing" = 0 ]
