@@ -6,6 +6,8 @@
 #include <optional>
 #include <thread>
 
+#include "runtime/device_frames.hpp"
+
 namespace voxelume {
 namespace {
 
@@ -69,7 +71,7 @@ void run_one_by_one(const Device& device, size_t count, const FrameSteps& steps,
     WorldFormer former(device, count > 1, cache);
     for (size_t frame = 0; frame < count; ++frame) {
         const FormedFrame formed = form_frame(former, steps, frame);
-        steps.render(frame, formed.scene, formed.world, formed.report)();
+        steps.render({frame, 0, formed.scene, formed.world, formed.report})();
     }
 }
 
@@ -134,7 +136,8 @@ void run_overlapped(const Device& device, size_t count, const FrameSteps& steps,
             std::optional<FormedFrame> next = formed.take();
             if (!next) break;
             if (next->error) std::rethrow_exception(next->error);
-            if (!writes.put(steps.render(frame, next->scene, next->world, next->report))) break;
+            if (!writes.put(steps.render({frame, 0, next->scene, next->world, next->report})))
+                break;
         }
     } catch (...) {
         error = std::current_exception();
@@ -146,12 +149,14 @@ void run_overlapped(const Device& device, size_t count, const FrameSteps& steps,
 
 }  // namespace
 
-void run_frames(const Device& device, size_t count, const FrameSteps& steps,
+void run_frames(const std::vector<Device>& devices, size_t count, const FrameSteps& steps,
                 const FrameOptions& options) {
-    if (options.overlap && count > 1)
-        run_overlapped(device, count, steps, options.cache);
+    if (devices.size() > 1 && count > 1)
+        share_frames(devices, count, steps, options.cache);
+    else if (options.overlap && count > 1)
+        run_overlapped(devices[0], count, steps, options.cache);
     else
-        run_one_by_one(device, count, steps, options.cache);
+        run_one_by_one(devices[0], count, steps, options.cache);
 }
 
 }  // namespace voxelume
