@@ -106,6 +106,12 @@ nlohmann::ordered_json statistics(const Outcome& outcome) {
     json["lost_members"] = report.lost_members;
     json["not_finite"] = report.not_finite;
     json["world_bytes"] = report.world_bytes;
+    if (const InstanceReport& i = report.world.instances; i.instances > 0)
+        json["instances"] = {{"number", i.instances},
+                             {"models", i.models},
+                             {"model_voxels", i.voxels},
+                             {"model_bytes", i.bytes},
+                             {"seconds", i.seconds}};
     json["peak_device_bytes"] = counters.peak_bytes;
     json["seconds"] = seconds_of(report);
     json["seconds"]["total"] = outcome.seconds;

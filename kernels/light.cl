@@ -1,7 +1,7 @@
 // surface points + a light -> a queue of shadow rays, each with the light that it would bring.
 //
 // Whitted 1980: ambient, Lambert's cosine, and the highlight of Blinn's half vector.
-#include "lib/fixed_point.h"
+#include "lib/lift.h"
 #include "lib/surface_color.h"
 #include "lib/vector.h"
 #include "lib/work_item.h"
@@ -101,10 +101,11 @@ kernel void add_light(PyramidShape shape, LightRecord light, global const float*
     const Vector direction = {snap_direction(to_light.x * scale),
                               snap_direction(to_light.y * scale),
                               snap_direction(to_light.z * scale)};
+    const Vector start = lifted(shape, position, normal, hits, stride, first);
     const Vector origin = {
-        clamp(snap_position(position.x, normal.x, shape.fixed_point), 0.0f, (float)shape.size_x),
-        clamp(snap_position(position.y, normal.y, shape.fixed_point), 0.0f, (float)shape.size_y),
-        clamp(snap_position(position.z, normal.z, shape.fixed_point), 0.0f, (float)shape.size_z)};
+        clamp(snap_position(start.x, normal.x, shape.fixed_point), 0.0f, (float)shape.size_x),
+        clamp(snap_position(start.y, normal.y, shape.fixed_point), 0.0f, (float)shape.size_y),
+        clamp(snap_position(start.z, normal.z, shape.fixed_point), 0.0f, (float)shape.size_z)};
     lane_float t_end = (lane_float)INFINITY;
     if (light.kind != VXL_LIGHT_DIRECTIONAL) t_end = exact_reciprocal(scale);
     const float energy[3] = {light.energy.x, light.energy.y, light.energy.z};

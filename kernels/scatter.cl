@@ -9,6 +9,7 @@
 #include "lib/fixed_point.h"
 #include "lib/hit_word.h"
 #include "lib/interior.h"
+#include "lib/lift.h"
 #include "lib/optics.h"
 #include "lib/ray_queue.h"
 #include "lib/solid_hit.h"
@@ -77,6 +78,8 @@ kernel void begin_paths(global const SolidShape* restrict solids, uint body_coun
     LANES_STORE((lane_uint)VXL_NO_PRIMITIVE, paths, VXL_PATH_SOURCE * stride + first);
     LANES_STORE((lane_uint)0, paths, VXL_PATH_FLAGS * stride + first);
     LANES_STORE(one, paths, VXL_PATH_WEIGHT * stride + first);
+    if (VXL_INSTANCES)
+        LANES_STORE((lane_uint)VXL_NO_INSTANCE, paths, VXL_PATH_INSTANCE * stride + first);
     if (!VXL_TRANSMISSION) return;
     LANES_STORE((lane_uint)0, paths, VXL_PATH_CELL * stride + first);
     LANES_STORE((lane_uint)0, paths, VXL_PATH_CELL_Z * stride + first);
@@ -173,6 +176,7 @@ kernel void pass_layer(global const float* restrict materials, global const uint
     on.start = LANES_AS_FLOAT(LANES_LOAD(hits, VXL_HIT_T * stride + first));
     on.source = (lane_uint)VXL_NO_PRIMITIVE;
     if (VXL_EXACT) on.source = LANES_LOAD(hits, VXL_HIT_PRIMITIVE * stride + first);
+    if (VXL_INSTANCES) on.instance = LANES_LOAD(hits, VXL_HIT_INSTANCE * stride + first);
     on.flags = LANES_SELECT(leaving, (lane_uint)0, (lane_uint)VXL_PATH_WITHIN_SOURCE) |
                (VXL_PATH_ON_SURFACE | VXL_PATH_GOES_ON);
     on.cell_xy = LANES_LOAD(hits, VXL_HIT_CELL * stride + first);
@@ -269,6 +273,7 @@ kernel void scatter_rays(PyramidShape shape, global const float* restrict materi
     NewRays ray;
     ray.source = (lane_uint)VXL_NO_PRIMITIVE;
     if (VXL_EXACT) ray.source = LANES_LOAD(hits, VXL_HIT_PRIMITIVE * stride + first);
+    if (VXL_INSTANCES) ray.instance = LANES_LOAD(hits, VXL_HIT_INSTANCE * stride + first);
     ray.clear = ray.passed[0] = ray.passed[1] = ray.passed[2] = one;
     ray.start = zero;
     ray.cell_xy = ray.cell_z = (lane_uint)0;
@@ -348,7 +353,7 @@ kernel void scatter_rays(PyramidShape shape, global const float* restrict materi
     }
     const lane_float twice = 2.0f * cosine;
     const Vector mirrored = {fma(twice, n.x, v.x), fma(twice, n.y, v.y), fma(twice, n.z, v.z)};
-    set_out(&ray, shape, position, n, mirrored);
+    set_out(&ray, shape, lifted(shape, position, n, hits, stride, first), n, mirrored);
     put_children(&queue, &ray, reflected, valid, compact, first - begin, counters, children + first,
                  shares + first);
     if (!VXL_REFRACTS) return;
@@ -360,7 +365,7 @@ kernel void scatter_rays(PyramidShape shape, global const float* restrict materi
     ray.medium = medium_inside(&behind, ranks);
     const Vector bent = refracted_direction(v, n, eta, cosine, &bend);
     const Vector into = {-n.x, -n.y, -n.z};
-    set_out(&ray, shape, position, into, bent);
+    set_out(&ray, shape, lifted(shape, position, into, hits, stride, first), into, bent);
     // Between equal media the very same ray goes on.
     const lane_int same = LANE_MASK(eta == 1.0f);
     ray.origin = select_vector(same, load_vector(rays, stride, first), ray.origin);

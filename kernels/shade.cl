@@ -3,6 +3,7 @@
 #include "lib/cube_body.h"
 #include "lib/field.h"
 #include "lib/hit_word.h"
+#include "lib/instance_hit.h"
 #include "lib/interior.h"
 #include "lib/solid_surface.h"
 #include "lib/surface_color.h"
@@ -22,6 +23,8 @@ kernel void shade_surface(PyramidShape shape, Space space, global const float* r
                           global const float* restrict triangles,
                           global const uint* restrict triangle_attributes,
                           global const SolidShape* restrict solids,
+                          global const InstanceRecord* restrict instance_records,
+                          global const uint* restrict group_materials,
                           global const uint* restrict ranks, global const float* restrict rays,
                           global const uint* restrict hits, global const uint* restrict paths,
                           uint count, uint stride, global float* restrict positions,
@@ -39,9 +42,19 @@ kernel void shade_surface(PyramidShape shape, Space space, global const float* r
     const lane_float cx = LANES_FLOAT(cell_xy & 0xFFFFu), cy = LANES_FLOAT(cell_xy >> 16);
     const lane_float cz = LANES_FLOAT(cell_face & 0xFFFFu);
     const lane_uint axis = (cell_face >> VXL_FACE_AXIS_SHIFT) & VXL_FACE_AXIS_MASK;
-    const Vector o = load_vector(rays, stride, first);
-    const Vector d = load_vector(rays + VXL_RAY_DX * stride, stride, first);
-    const lane_float at = LANES_SELECT(hit, t, (lane_float)0.0f);
+    const Vector world_o = load_vector(rays, stride, first);
+    const Vector world_d = load_vector(rays + VXL_RAY_DX * stride, stride, first);
+    const lane_float world_at = LANES_SELECT(hit, t, (lane_float)0.0f);
+    HitRay in_grid = {world_o, world_d, world_at};
+    lane_uint instance = (lane_uint)VXL_NO_INSTANCE;
+    lane_int of_instance = (lane_int)0;
+    if (VXL_INSTANCES) {
+        instance = LANES_LOAD(hits, VXL_HIT_INSTANCE * stride + first);
+        of_instance = hit & LANE_MASK(instance != VXL_NO_INSTANCE);
+        in_grid = carry_hits(instance_records, instance, of_instance, in_grid);
+    }
+    const Vector o = in_grid.origin, d = in_grid.direction;
+    const lane_float at = in_grid.t;
     // The position inside the voxel: a cube's on the face that was crossed, exactly.
     Vector s = {clamp(fma(d.x, at, o.x - cx), 0.0f, 1.0f),
                 clamp(fma(d.y, at, o.y - cy), 0.0f, 1.0f),
@@ -50,8 +63,10 @@ kernel void shade_surface(PyramidShape shape, Space space, global const float* r
     Vector normal = {(lane_float)0.0f, (lane_float)0.0f, (lane_float)0.0f};
     lane_uint primitive = (lane_uint)VXL_NO_PRIMITIVE;
     if (VXL_EXACT) primitive = LANES_LOAD(hits, VXL_HIT_PRIMITIVE * stride + first);
-    const lane_uint word = hit_word(attributes, constant_attribute, triangle_attributes, solids,
-                                    voxel, primitive, hit);
+    lane_uint word = hit_word(attributes, constant_attribute, triangle_attributes, solids, voxel,
+                              primitive, hit);
+    if (VXL_INSTANCES)
+        word = instance_word(instance_records, group_materials, instance, word, of_instance);
     const lane_int exact = LANE_MASK(primitive != VXL_NO_PRIMITIVE) & hit;
     const lane_uint kind = word >> VXL_KIND_SHIFT;
     if (VXL_CUBES) {
@@ -71,12 +86,18 @@ kernel void shade_surface(PyramidShape shape, Space space, global const float* r
             LANES_SELECT(LANE_MASK(axis == 2u), fma(up_z, half_unit, 0.5f), s.z)};
         s = select_vector(cubes, on_face, s);
         normal = select_vector(cubes, face, normal);
+        if (VXL_INSTANCES) {
+            Vector g = world_gradient(&in_grid, face, of_instance);
+            g.x *= shape.inverse_edge.x, g.y *= shape.inverse_edge.y, g.z *= shape.inverse_edge.z;
+            normal = select_vector(cubes & of_instance, unit(g), normal);
+        }
     }
     const lane_int smooth = LANE_MASK(kind != VXL_KIND_CUBES) & hit & ~exact;
     if (VXL_SMOOTH && lanes_any(smooth)) {
         const Field field = read_field(fields, voxel & LANES_AS_UINT(smooth));
         Vector g;
         field_gradient(&field, s.x, s.y, s.z, &g.x, &g.y, &g.z);
+        if (VXL_INSTANCES) g = world_gradient(&in_grid, g, of_instance);
         g.x *= shape.inverse_edge.x, g.y *= shape.inverse_edge.y, g.z *= shape.inverse_edge.z;
         normal = select_vector(smooth, unit(g), normal);
     }
@@ -87,11 +108,20 @@ kernel void shade_surface(PyramidShape shape, Space space, global const float* r
             const lane_uint triangle = primitive & LANES_AS_UINT(is_triangle);
             normal = select_vector(is_triangle, unit(triangle_normal(triangles, triangle, edge)),
                                    normal);
+            if (VXL_INSTANCES) {
+                Vector g = triangle_normal(triangles, triangle, (float4)(1.0f));
+                g = world_gradient(&in_grid, g, of_instance);
+                g.x *= shape.inverse_edge.x, g.y *= shape.inverse_edge.y;
+                g.z *= shape.inverse_edge.z;
+                normal = select_vector(is_triangle & of_instance, unit(g), normal);
+            }
         }
         if (VXL_SOLIDS && lanes_any(is_solid)) {
             const lane_uint solid = (primitive & ~VXL_SOLID_PRIMITIVE) & LANES_AS_UINT(is_solid);
             const SolidRay ray = {o.x, o.y, o.z, d.x, d.y, d.z};
-            const SolidPoint g = solid_normals(solids, solid, &ray, at, is_solid);
+            const SolidPoint in_voxels = solid_normals(solids, solid, &ray, at, is_solid);
+            Vector g = {in_voxels.x, in_voxels.y, in_voxels.z};
+            if (VXL_INSTANCES) g = world_gradient(&in_grid, g, of_instance);
             const Vector gradient = {g.x * shape.inverse_edge.x, g.y * shape.inverse_edge.y,
                                      g.z * shape.inverse_edge.z};
             normal = select_vector(is_solid, unit(gradient), normal);
@@ -101,7 +131,7 @@ kernel void shade_surface(PyramidShape shape, Space space, global const float* r
         s = select_vector(exact, along, s);
     }
     // Surfaces without an inside, and insides that a ray began in, face the ray.
-    const Vector metric = {d.x * edge.x, d.y * edge.y, d.z * edge.z};
+    const Vector metric = {world_d.x * edge.x, world_d.y * edge.y, world_d.z * edge.z};
     // A smooth one's gradient may turn too far at its silhouette, but the walk knows the side.
     lane_int behind = LANE_MASK(dot_product(metric, normal) > 0.0f);
     if (VXL_SMOOTH)
@@ -115,7 +145,7 @@ kernel void shade_surface(PyramidShape shape, Space space, global const float* r
     if (VXL_TRANSMISSION) {
         lane_int hidden;
         const Interior before = load_interior(paths, stride, first);
-        const lane_int body = is_smooth(word, primitive);
+        const lane_int body = is_smooth(word, primitive) & ~of_instance;
         lane_int leaving = interior_holds(&before, word, body) | behind;
         lane_int inner = (lane_int)0, exit = (lane_int)0;  // faces between cubes, and out of them
         if (VXL_CUBE_BODIES) {
@@ -140,6 +170,12 @@ kernel void shade_surface(PyramidShape shape, Space space, global const float* r
     if (VXL_PATHS) LANES_STORE(side, sides, first);
 
     Vector position = {cx + s.x, cy + s.y, cz + s.z};
+    if (VXL_INSTANCES) {
+        const Vector on_ray = {fma(world_d.x, world_at, world_o.x),
+                               fma(world_d.y, world_at, world_o.y),
+                               fma(world_d.z, world_at, world_o.z)};
+        position = select_vector(of_instance, on_ray, position);
+    }
     store_vector(position, positions, stride, first);
     store_vector(normal, normals, stride, first);
     LANES_STORE(word, words, first);

@@ -1,7 +1,7 @@
 // rays -> hits: the discrete walk of every ray through the world to the first surface it meets.
 #include "lib/begin_inside.h"
 #include "lib/filter.h"
-#include "lib/flight.h"
+#include "lib/instances.h"
 #include "lib/vector.h"
 #include "lib/work_item.h"
 #include "shared/scene.h"
@@ -15,12 +15,16 @@
         global const uint *restrict attributes, global const uint *restrict fields,              \
         global const uint *restrict primitive_first, global const uint *restrict primitives,     \
         global const float *restrict triangles, global const uint *restrict triangle_attributes, \
-        global const SolidShape *restrict solids
+        global const SolidShape *restrict solids,                                                \
+        global const InstanceRecord *restrict instance_records,                                  \
+        global const InstanceNode *restrict instance_nodes,                                      \
+        global const uint *restrict group_materials
 
-#define VXL_WORLD_VIEWS                                                                    \
-    const PyramidView pyramid = pyramid_view(shape, sectors, bricks, leaves, leaf_voxels); \
-    const SurfaceView surface = {                                                          \
-        attributes, fields, primitive_first, primitives, triangles, triangle_attributes, solids}
+#define VXL_WORLD_VIEWS                                                                           \
+    const PyramidView pyramid = pyramid_view(shape, sectors, bricks, leaves, leaf_voxels);        \
+    const SurfaceView surface = {                                                                 \
+        attributes, fields, primitive_first, primitives, triangles, triangle_attributes, solids}; \
+    const InstanceView instances = {instance_records, instance_nodes, group_materials}
 
 /// What a ray met, as shared/trace.h describes it.
 typedef struct {
@@ -37,10 +41,12 @@ static inline Hit hit_of(const Flight* f, lane_int hit) {
     h.values[VXL_HIT_CELL] = LANES_AS_UINT(walk.x | (walk.y << 16));
     h.values[VXL_HIT_FACE] = face;
     h.values[VXL_HIT_PRIMITIVE] = f->found.primitive;
+    h.values[VXL_HIT_INSTANCE] = f->found.instance;
     return h;
 }
 
-#define VXL_STORED_COMPONENTS (VXL_EXACT ? VXL_HIT_COMPONENTS : VXL_HIT_PRIMITIVE)
+#define VXL_STORED_COMPONENTS \
+    (VXL_INSTANCES ? VXL_HIT_COMPONENTS : (VXL_EXACT ? VXL_HIT_INSTANCE : VXL_HIT_PRIMITIVE))
 
 /// The closest hit of rays 0 .. count-1 that run beside each other. Arrays hold a multiple of 16
 /// rays.
@@ -54,7 +60,8 @@ kernel void trace_closest(VXL_WORLD_ARGUMENTS, global const float* restrict rays
     f.ray = LANES_AS_UINT(LANES_NUMBERS + (int)first);
     set_out(&pyramid, rays, stride, paths, starts, &f);
     const lane_int active = LANE_MASK(f.t_end >= 0.0f) & LANE_MASK(f.ray < count);
-    f.found = find_first(&pyramid, &surface, &f.walk, f.t_end, active, &f.travel);
+    f.found =
+        find_nearest(&pyramid, &surface, &instances, &f.walk, f.t_end, active, false, &f.travel);
     const Hit hit = hit_of(&f, f.found.hit);
     for (uint i = 0; i < VXL_STORED_COMPONENTS; ++i)
         LANES_STORE(hit.values[i], hits, i * stride + first);
@@ -167,8 +174,8 @@ kernel void trace_shadows(VXL_WORLD_ARGUMENTS, uint constant_attribute,
                           global const float* restrict rays, global const uint* restrict count,
                           uint stride, global const uint* restrict targets,
                           global const uint* restrict sources, global const uint* restrict paths,
-                          global const float* restrict shares, global uint* restrict traced,
-                          global float* restrict radiance) {
+                          global const uint* restrict hits, global const float* restrict shares,
+                          global uint* restrict traced, global float* restrict radiance) {
     const uint first = work_item() * VXL_LANES;
     const uint queued = *count;
     if (first >= queued) return;
@@ -183,13 +190,18 @@ kernel void trace_shadows(VXL_WORLD_ARGUMENTS, uint constant_attribute,
     Travel travel = sight_travel();
     travel.on_surface = (lane_int)-1;
     if (VXL_EXACT) travel.source = LANES_LOAD(sources, first);
+    if (VXL_INSTANCES)
+        travel.instance = LANES_GATHER_UINT(hits + VXL_HIT_INSTANCE * stride,
+                                            LANES_LOAD(targets, first) & LANES_AS_UINT(active));
     if (VXL_SOLIDS) {
         const SolidRay ray = {walk.ox, walk.oy, walk.oz, walk.dx, walk.dy, walk.dz};
         const lane_int solid = LANE_MASK((travel.source & VXL_SOLID_PRIMITIVE) != 0u) &
                                LANE_MASK(travel.source != VXL_NO_PRIMITIVE) & active;
-        if (lanes_any(solid))
+        travel.asks_side = solid & LANE_MASK(travel.instance != VXL_NO_INSTANCE);
+        const lane_int asked = solid & ~travel.asks_side;
+        if (lanes_any(asked))
             travel.within_source = go_inside(
-                solids, travel.source & ~VXL_SOLID_PRIMITIVE & LANES_AS_UINT(solid), &ray, solid);
+                solids, travel.source & ~VXL_SOLID_PRIMITIVE & LANES_AS_UINT(asked), &ray, asked);
     }
     lane_float share[3];
     for (int channel = 0; channel < 3; ++channel)
@@ -204,13 +216,15 @@ kernel void trace_shadows(VXL_WORLD_ARGUMENTS, uint constant_attribute,
         const lane_float zero = (lane_float)0.0f, one = (lane_float)1.0f;
         const MediumView medium = {absorption, {density_shape, density_bricks, density_values}};
         Filter filter = {{one, one, one}, {zero, zero, zero}};
-        arrived = pass_through(&pyramid, &surface, &walk, t_end, active, &travel,
+        arrived = pass_through(&pyramid, &surface, &instances, &walk, t_end, active, &travel,
                                constant_attribute, materials, colors, ranks, lost, &medium,
                                metres_per_t(shape.edge, d), &filter);
         for (int channel = 0; channel < 3; ++channel)
             share[channel] *= filter.passed[channel] * exact_exp(-filter.depth[channel]);
     } else {
-        arrived = active & ~find_first(&pyramid, &surface, &walk, t_end, active, &travel).hit;
+        arrived =
+            active &
+            ~find_nearest(&pyramid, &surface, &instances, &walk, t_end, active, true, &travel).hit;
     }
     uint target[VXL_LANES];
     float sent[3 * VXL_LANES];

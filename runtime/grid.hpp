@@ -13,6 +13,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "kernels/shared/instance.h"
 #include "runtime/opencl/buffer.hpp"
 #include "runtime/surface.hpp"
 
@@ -72,11 +73,40 @@ struct VoxelBox {
     glm::dvec3 low{0}, high{-1};
 };
 
+/// A model that instances share: where its voxels are in a pyramid's buffers.
+struct InstanceModel {
+    GridFrame frame;
+    uint32_t first_sector = 0;   ///< of its table in Pyramid::sectors
+    glm::ivec3 low{0}, high{0};  ///< the box of its voxels; empty for a model without any
+};
+
+/// An object that shows a model without being placed in the world's voxels.
+struct Instance {
+    uint32_t object = 0;                              ///< its number in the scene
+    uint32_t model = 0;                               ///< index into InstanceSet::models
+    uint32_t first_material = 0, material_count = 0;  ///< of its groups, in InstanceSet::materials
+};
+
+/// The instances of a world, numbered as in `list`.
+struct InstanceSet {
+    std::vector<InstanceModel> models;
+    std::vector<Instance> list;
+    float lift = 0;  ///< PyramidShape::lift
+    Buffer<InstanceRecord> records;
+    Buffer<InstanceNode> nodes;  ///< of the tree over their boxes; the root is the first
+    Buffer<uint32_t> materials;
+
+    bool empty() const { return list.empty(); }
+};
+
 /// The sparse 64-ary occupancy pyramid that rays step through, without a stack.
 ///
 /// `sectors` is dense; everything below is left-packed in ascending order, so empty space costs
 /// nothing. A leaf's number is its brick's first leaf plus the count of mask bits below its own; a
 /// voxel's number is its leaf's first voxel plus the count of mask bits below its own.
+///
+/// With instances, the pyramids of their models lie behind the world's in every buffer, with
+/// numbers that count from the buffers' starts; the counts are of all together.
 struct Pyramid {
     GridFrame frame;
     uint32_t leaf_count = 0;
@@ -99,6 +129,7 @@ struct Pyramid {
     Buffer<float> triangles;
     Buffer<uint32_t> triangle_attributes;
     Buffer<uint32_t> solids;
+    InstanceSet instances;
     std::vector<VoxelBox> object_boxes;  ///< around each of the scene's objects; none if not known
 };
 

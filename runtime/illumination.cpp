@@ -110,7 +110,8 @@ RayQueue allocate_queue(const Device& device, const Features& features, uint32_t
     if (!features.paths) return queue;
     const size_t components = features.transmission
                                   ? VXL_PATH_INSIDE + 1 + size_t(features.other_members)
-                                  : VXL_PATH_CELL;
+                              : features.instances ? VXL_PATH_INSIDE
+                                                   : VXL_PATH_CELL;
     queue.paths = Buffer<uint32_t>(device, "paths", places * components);
     if (!features.transmission) return queue;
     queue.starts = Buffer<float>(device, "path starts", places);
@@ -159,7 +160,9 @@ RayBatch allocate_batch(const Device& device, const Features& features, uint32_t
     RayBatch batch;
     static_cast<RayQueue&>(batch) = allocate_queue(device, features, stride);
     batch.stride = stride;
-    const size_t hit_components = features.exact() ? VXL_HIT_COMPONENTS : VXL_HIT_PRIMITIVE;
+    const size_t hit_components = features.instances ? VXL_HIT_COMPONENTS
+                                  : features.exact() ? VXL_HIT_INSTANCE
+                                                     : VXL_HIT_PRIMITIVE;
     batch.hits = Buffer<uint32_t>(device, "hits", stride * hit_components);
     batch.positions = Buffer<float>(device, "positions", size_t(stride) * 3);
     batch.normals = Buffer<float>(device, "normals", size_t(stride) * 3);

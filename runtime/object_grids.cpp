@@ -27,34 +27,32 @@ Model source_of(Model model) {
 
 SharedGrid ObjectGrids::grid_of(const Scene& scene, const Object& object) {
     const Model& model = scene.models[size_t(object.model)];
+    if (model.surface != Surface::exact) return own_grid_of(model);
+    const Source source{source_of(model), object.world_from_object, world_frame(scene.world)};
+    return find_or_make(model, source, object.where, !object.moves);
+}
+
+SharedGrid ObjectGrids::own_grid_of(const Model& model) {
     Source source{source_of(model), glm::dmat4(1), {}};
-    if (model.surface == Surface::exact) {
-        source.frame_from_model = object.world_from_object;
-        source.frame = world_frame(scene.world);
-        return find_or_make(model, source, object);
-    }
     if (!has_own_voxels(model)) source.frame = model_frame(model, meshes_.summary_of(model));
-    return find_or_make(model, source, object);
+    return find_or_make(model, source, model.where);
 }
 
 SharedGrid ObjectGrids::find_or_make(const Model& model, const Source& source,
-                                     const Object& object) {
+                                     const std::string& where, bool keeps) {
     const auto found = std::ranges::find(kept_, source, &Kept::source);
     if (found != kept_.end()) {
         found->is_used = true;
         return found->grid;
     }
-    const bool is_exact = model.surface == Surface::exact;
     try {
-        // An exact object that moves is another one in every frame, and 20 times its mesh's size.
-        const bool keeps = !(is_exact && object.moves);
         auto grid = std::make_shared<const BrickGrid>(read_or_make(model, source, keeps));
         kept_.push_back({source, grid});
         return grid;
     } catch (const Error& error) {
         const bool is_users = error.kind() == ErrorKind::input || error.kind() == ErrorKind::limit;
         if (!is_users) throw;
-        throw Error(error.kind(), "{}: {}", is_exact ? object.where : model.where, error.what());
+        throw Error(error.kind(), "{}: {}", where, error.what());
     }
 }
 

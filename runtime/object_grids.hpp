@@ -24,6 +24,9 @@ class ObjectGrids {
     /// does, opened by the place in the scene.
     SharedGrid grid_of(const Scene& scene, const Object& object);
 
+    /// The grid of a model in its own space, of exact ones, too: an instance's.
+    SharedGrid own_grid_of(const Model& model);
+
     /// Forgets the grids that weren't asked for since the last call.
     void forget_unused();
 
@@ -44,7 +47,10 @@ class ObjectGrids {
         bool is_used = true;
     };
 
-    SharedGrid find_or_make(const Model& model, const Source& source, const Object& object);
+    /// `keeps` lets the cache have it: an exact object that moves is another one in every frame,
+    /// and takes many times its mesh's bytes.
+    SharedGrid find_or_make(const Model& model, const Source& source, const std::string& where,
+                            bool keeps = true);
     BrickGrid read_or_make(const Model& model, const Source& source, bool keeps);
     BrickGrid make(const Model& model, const Source& source);
 

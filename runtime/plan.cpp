@@ -6,6 +6,7 @@
 #include <glm/matrix.hpp>
 #include <set>
 
+#include "runtime/instances.hpp"
 #include "runtime/stages/ray_batch.hpp"
 #include "runtime/surface_extent.hpp"
 
@@ -101,8 +102,14 @@ class Planner {
     }
 
     ScenePlan run() {
-        for (size_t number = 0; number < scene_.objects.size(); ++number)
-            if (is_in_reach(scene_, scene_.objects[number])) add_object(int(number));
+        for (size_t number = 0; number < scene_.objects.size(); ++number) {
+            const Object& object = scene_.objects[number];
+            if (!is_in_reach(scene_, object)) continue;
+            if (is_instanced(scene_, object))
+                add_instance(object);
+            else
+                add_object(int(number));
+        }
         add_stages();
         return plan_;
     }
@@ -192,6 +199,32 @@ class Planner {
         plan_.grids.back().model = object.model;
     }
 
+    /// An object that keeps its model's voxels: they count once.
+    void add_instance(const Object& object) {
+        const Model& model = scene_.models[size_t(object.model)];
+        const bool is_smooth = model.surface == Surface::smooth;
+        instances_.any = true;
+        instances_.smooth |= is_smooth;
+        if (!shared_.insert(object.model).second) return;
+        GridPlan grid;
+        if (!model.voxels.empty() && model.surface != Surface::exact) {
+            const VoxelModel& voxels = meshes_.voxels(model);
+            grid = plan_voxels(voxels);
+            instances_.colors |= !voxels.colors.empty();
+        } else {
+            const MeshSummary* mesh = meshes_.summary_of(model);
+            grid = plan_model_of(model, mesh, area_of(object.model));
+            instances_.colors |= extras_of(model, mesh).colors;
+            if (model.surface == Surface::exact)
+                instances_.exact_bytes +=
+                    grid.voxels * (kPrimitives + kWord) + double(grid.triangles) * kExactTriangle;
+        }
+        instances_.voxels += grid.voxels;
+        grid.model = object.model;
+        if (model.surface == Surface::exact || made_.insert(object.model).second)
+            plan_.grids.push_back(grid);
+    }
+
     /// An object whose voxels come from a file: in the world it has as many in its volume, and no
     /// fewer bricks.
     void add_voxels(const Object& object, const VoxelModel& voxels) {
@@ -209,14 +242,21 @@ class Planner {
         colors_ |= !voxels.colors.empty();
         words_ |= objects_++ > 0 || !voxels.attributes.empty();
         if (!made_.insert(object.model).second) return;
-        GridPlan grid{.model = object.model, .frame = voxels.frame, .voxels = count};
+        GridPlan grid = plan_voxels(voxels);
+        grid.model = object.model;
+        plan_.grids.push_back(grid);
+    }
+
+    static GridPlan plan_voxels(const VoxelModel& voxels) {
+        const auto stored = double(voxels.coordinates.size());
+        GridPlan grid{.frame = voxels.frame, .voxels = double(voxels.voxels())};
         grid.bricks = stored;
         grid.kept_bytes =
             brick_table(voxels.frame) * 4 +
-            stored * ((smooth ? kDistance : kOccupancy) +
+            stored * ((voxels.surface == Surface::smooth ? kDistance : kOccupancy) +
                       kWords * (int(!voxels.attributes.empty()) + int(!voxels.colors.empty())));
         grid.made_bytes = grid.kept_bytes;
-        plan_.grids.push_back(grid);
+        return grid;
     }
 
     void add_stages() {
@@ -240,6 +280,7 @@ class Planner {
                             (exact_voxels_ > 0 ? plan_.bricks * kWords : 0);
         plan_.world_bytes = pyramid_bytes();
         plan_.index_bytes = world + plan_.bricks * kIndexMarks + plan_.world_bytes;
+        if (instances_.any) plan_.index_bytes += plan_.world_bytes;  // before they are joined
         const glm::dvec2 size(scene_.render.size);
         const double pixels = size.x * size.y;
         plan_.medium = plan_density(scene_.world);
@@ -254,10 +295,11 @@ class Planner {
         const glm::dvec3 sectors(plan_.world.sectors());
         const double table = sectors.x * sectors.y * sectors.z;
         double voxel = kLeaf / kVoxelsPerLeaf;
-        if (smooth_) voxel += kField;
-        if (words_ || (smooth_ && occupied_)) voxel += kWord;
-        if (colors_) voxel += kWord;
-        return 4 * table + plan_.voxels * voxel + exact_voxels_ * kWord + exact_bytes_ +
+        if (smooth_ || instances_.smooth) voxel += kField;
+        if (words_ || (smooth_ && occupied_) || instances_.any) voxel += kWord;
+        if (colors_ || instances_.colors) voxel += kWord;
+        return 4 * table + (plan_.voxels + instances_.voxels) * voxel + exact_voxels_ * kWord +
+               exact_bytes_ + instances_.exact_bytes +
                std::min(table, 8 + plan_.voxels / kVoxelsPerSector) * kSectorRecords;
     }
 
@@ -269,6 +311,11 @@ class Planner {
     std::set<int> made_;
     int objects_ = 0;
     double exact_voxels_ = 0, exact_bytes_ = 0;
+    struct {
+        bool any = false, smooth = false, colors = false;
+        double voxels = 0, exact_bytes = 0;
+    } instances_;           ///< their models
+    std::set<int> shared_;  ///< those counted
     bool smooth_ = false, occupied_ = false, words_ = false, colors_ = false;
 };
 

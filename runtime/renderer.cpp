@@ -4,25 +4,11 @@
 #include <chrono>
 
 #include "runtime/illumination.hpp"
+#include "runtime/pyramid_bytes.hpp"
 #include "runtime/stages/resolve.hpp"
 #include "runtime/stages/sight.hpp"
 
 namespace voxelume {
-namespace {
-
-template <class... T>
-uint64_t sum_of_bytes(const Buffer<T>&... buffers) {
-    return (uint64_t(buffers.size() * sizeof(T)) + ...);
-}
-
-uint64_t bytes_of(const Pyramid& p) {
-    return sum_of_bytes(p.sectors, p.bricks, p.leaves, p.leaf_voxels, p.attributes, p.colors,
-                        p.fields, p.primitive_first, p.primitives, p.triangles,
-                        p.triangle_attributes, p.solids);
-}
-
-}  // namespace
-
 Renderer::View Renderer::view_of(const Scene& scene, const FormedWorld& world,
                                  const Features& features) {
     View view{world.version, scene.observer, scene.render, features, {}};
@@ -31,10 +17,9 @@ Renderer::View Renderer::view_of(const Scene& scene, const FormedWorld& world,
 }
 
 /// Hits are kept where they take little of the device's memory.
-bool Renderer::has_room(const Features& features, uint64_t rays) const {
-    const size_t words =
-        VXL_RAY_COMPONENTS + (features.exact() ? VXL_HIT_COMPONENTS : VXL_HIT_PRIMITIVE);
-    return follows_ && rays * words * 4 <= device_.info().memory / 16;
+bool Renderer::has_room(uint64_t rays) const {
+    constexpr uint64_t kBytes = (VXL_RAY_COMPONENTS + VXL_HIT_COMPONENTS) * 4;
+    return follows_ && rays * kBytes <= device_.info().memory / 16;
 }
 
 std::shared_ptr<const Image> Renderer::image(const Scene& scene, const FormedWorld& world,
@@ -81,7 +66,7 @@ Image Renderer::part_of_image(const Scene& scene, const FormedWorld& formed, Ren
     View view = view_of(scene, formed, features);
     report.hits_are_kept = view_ == view && !hits_.empty();
     if (!report.hits_are_kept) hits_.clear();
-    const bool keeps_hits = has_room(features, uint64_t(all_tiles) * rays_per_tile);
+    const bool keeps_hits = has_room(uint64_t(all_tiles) * rays_per_tile);
 
     SightStage sight(device_, features, observer);
     Illumination illumination(device_, features, scene, world, batch.stride);

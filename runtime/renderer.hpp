@@ -75,7 +75,7 @@ class Renderer {
     };
 
     static View view_of(const Scene& scene, const FormedWorld& world, const Features& features);
-    bool has_room(const Features& features, uint64_t rays) const;
+    bool has_room(uint64_t rays) const;
 
     Device device_;
     bool follows_;

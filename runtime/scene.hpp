@@ -150,12 +150,20 @@ struct GroupMaterial {
     friend bool operator==(const GroupMaterial&, const GroupMaterial&) = default;
 };
 
+/// How an object gets into the picture.
+enum class Placement : uint8_t {
+    automatic,  ///< `world` for what stands still, `instance` for what moves
+    world,      ///< resampled into the world's voxels
+    instance    ///< rays are carried into the object's own voxels
+};
+
 struct Object {
     std::string name;
     int model = 0;     ///< index into Scene::models
     int material = 0;  ///< index into Scene::materials, for all faces that `groups` does not name
     std::vector<GroupMaterial> groups;
     int priority = 0;  ///< where objects overlap: the higher wins, then the earlier in the list
+    Placement placement = Placement::automatic;
     std::optional<int> spots;  ///< that its emission lights the world by; none: by its size
     glm::dmat4 world_from_object{
         1};               ///< affine and safely invertible; mirrors and shears are allowed

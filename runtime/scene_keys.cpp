@@ -54,9 +54,9 @@ std::vector<KeyTable> make_tables() {
         tables.push_back({"model:" + shape.name, shape.keys + lattice});
     for (const KeyTable& shape : shapes)
         tables.push_back({"part:" + shape.name, shape.keys + placement});
-    tables.push_back(
-        {"object", Keys{"name", "model", "material", "materials", "priority", "spots", "visible"} +
-                       placement});
+    tables.push_back({"object", Keys{"name", "model", "material", "materials", "priority", "spots",
+                                     "placement", "visible"} +
+                                    placement});
     tables.push_back({"light:point", light + Keys{"position"}});
     tables.push_back(
         {"light:spot", light + Keys{"position", "direction", "look_at", "angle", "inner_angle"}});

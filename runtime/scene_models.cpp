@@ -155,6 +155,9 @@ Object ObjectReader::read(const SceneValue& value, size_t number) const {
             .fail("only a mesh has groups of faces; give this object one \"material\"");
     object.priority = fields.integer("priority", -1'000'000, 1'000'000, 0);
     if (const auto spots = fields.find("spots")) object.spots = spots->integer(0, kMaxSpots);
+    if (const auto placement = fields.find("placement"))
+        object.placement =
+            static_cast<Placement>(placement->choice(Names{"auto", "world", "instance"}));
     if (const auto visible = fields.find("visible")) object.visible = visible->boolean();
     object.world_from_object = read_placement(fields);
     return object;

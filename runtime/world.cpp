@@ -38,6 +38,8 @@ WorldFormer::Origin WorldFormer::origin_of(const Scene& scene) {
     origin.world.voxel_size = scene.world.voxel_size;
     for (const Material& material : scene.materials)
         origin.transmits.push_back(transmits(material));
+    origin.lattice = scene.observer.display.layout == VolumeLayout::lattice;
+    leave_out_places_of_instances(scene, origin.models, origin.objects);
     return origin;
 }
 
@@ -46,7 +48,7 @@ std::vector<PlacedObject> WorldFormer::placed_objects(const Scene& scene,
     std::vector<PlacedObject> objects;
     for (uint32_t number = 0; number < scene.objects.size(); ++number) {
         const Object& object = scene.objects[number];
-        if (!is_in_reach(scene, object)) continue;
+        if (is_instanced(scene, object) || !is_in_reach(scene, object)) continue;
         const Model& model = scene.models[size_t(object.model)];
         const bool has_own_voxels = !model.voxels.empty() && model.surface != Surface::exact;
         grids.push_back(grids_->grid_of(scene, object));
@@ -65,15 +67,28 @@ std::vector<PlacedObject> WorldFormer::placed_objects(const Scene& scene,
     return objects;
 }
 
+/// The world before, with its instances where they are now.
+FormedWorld WorldFormer::kept_world(const Scene& scene, WorldReport& report) {
+    report.triangles = meshes_.triangles();
+    report.instances = instances_;
+    std::vector<glm::dmat4> maps = instance_maps(scene, world_.pyramid);
+    report.is_kept = maps == instance_maps_;
+    if (report.is_kept) return world_;
+    Stopwatch moving(report.instances.seconds);
+    report.instances.seconds = 0;
+    move_instances(device_, scene, world_.pyramid);
+    instance_maps_ = std::move(maps);
+    ++world_.version;
+    moving.stop();
+    return world_;
+}
+
 FormedWorld WorldFormer::form(const Scene& scene, WorldReport& report) {
     Origin origin = origin_of(scene);
-    if (origin_ == origin) {
-        report.is_kept = true;
-        report.triangles = meshes_.triangles();
-        return world_;
-    }
+    if (origin_ == origin) return kept_world(scene, report);
     origin_.reset();
     world_.pyramid = {};
+    check_placements(scene);
     check_tables(scene, device_.info());
     const double loaded_before = meshes_.load_seconds();
     const uint64_t read_before = meshes_.meshes_read();
@@ -88,6 +103,7 @@ FormedWorld WorldFormer::form(const Scene& scene, WorldReport& report) {
     const uint64_t voxelized_before = grids_->voxelized(), cached_before = grids_->from_cache();
     std::vector<SharedGrid> shown;
     const std::vector<PlacedObject> objects = placed_objects(scene, shown);
+    const ListedInstances listed = list_instances(scene, meshes_, *grids_);
     report.voxelized = grids_->voxelized() - voxelized_before;
     report.from_cache = grids_->from_cache() - cached_before;
     report.meshes_read = meshes_.meshes_read() - read_before;
@@ -112,11 +128,15 @@ FormedWorld WorldFormer::form(const Scene& scene, WorldReport& report) {
 
     Stopwatch indexing(report.index_seconds);
     FormedWorld formed{build_index(device_, world), ++world_.version};
+    formed.pyramid =
+        add_instances(device_, scene, listed, std::move(formed.pyramid), report.instances);
     formed.pyramid.object_boxes = std::move(boxes);
     device_.finish();
     indexing.stop();
     if (keeps) {
         world_.pyramid = formed.pyramid;
+        instance_maps_ = instance_maps(scene, formed.pyramid);
+        instances_ = report.instances;
         origin_ = std::move(origin);
     }
     return formed;

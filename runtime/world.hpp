@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "runtime/grid.hpp"
+#include "runtime/instances.hpp"
 #include "runtime/object_grids.hpp"
 #include "runtime/scene.hpp"
 #include "runtime/stages/place.hpp"
@@ -23,6 +24,7 @@ struct WorldReport {
     uint64_t from_cache = 0;      ///< those whose voxels the model cache had
     uint64_t painted_bricks = 0;  ///< of the world, that objects were painted into
     bool is_kept = false;         ///< it is the one before, untouched
+    InstanceReport instances;
 };
 
 /// S on a device.
@@ -34,7 +36,8 @@ struct FormedWorld {
 /// Forms the world of one frame after another, and of each only what differs from the one before.
 ///
 /// Models' grids, the world's bricks and its pyramid stay as long as frames show them, if the
-/// device has the memory. What a frame shows is the same, bit for bit, whatever came before it.
+/// device has the memory; instances that move then cost no more than their maps. What a frame shows
+/// is the same, bit for bit, whatever came before it.
 class WorldFormer {
   public:
     /// Where nothing `follows` the first frame, nothing is kept.
@@ -50,17 +53,20 @@ class WorldFormer {
     FormedWorld form(const Scene& scene, WorldReport& report);
 
   private:
-    /// What the kept world was formed from, if nothing else of a scene matters to it.
+    /// What the kept world was formed from, if nothing else of a scene matters to it but where its
+    /// instances are.
     struct Origin {
         World world;
         std::vector<Model> models;
         std::vector<Object> objects;
         std::vector<bool> transmits;  ///< of each material
+        bool lattice = false;         ///< decides which objects are instances
         friend bool operator==(const Origin&, const Origin&) = default;
     };
 
     static Origin origin_of(const Scene& scene);
     std::vector<PlacedObject> placed_objects(const Scene& scene, std::vector<SharedGrid>& grids);
+    FormedWorld kept_world(const Scene& scene, WorldReport& report);
 
     Device device_;
     bool follows_;
@@ -69,6 +75,8 @@ class WorldFormer {
     std::vector<SharedGrid> shown_;  ///< that the placer's objects name
     std::optional<Placer> placer_;
     std::optional<Origin> origin_;
+    std::vector<glm::dmat4> instance_maps_;
+    InstanceReport instances_;
     FormedWorld world_;
 };
 

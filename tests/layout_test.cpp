@@ -6,6 +6,7 @@
 #include <type_traits>
 
 #include "kernels/shared/display.h"
+#include "kernels/shared/instance.h"
 #include "kernels/shared/medium.h"
 #include "kernels/shared/scene.h"
 #include "kernels/shared/solid.h"
@@ -17,7 +18,7 @@
 // clang-format off
 #define PYRAMID_SHAPE_FIELDS \
     V(edge) V(inverse_edge) I(size_x) I(size_y) I(size_z) I(sectors_x) I(sectors_y) \
-    F(plane_bound) F(fixed_point) F(unused)
+    F(plane_bound) F(fixed_point) F(lift)
 #define SIGHT_FIELDS \
     V(origin) V(origin_low) V(axis_x) V(axis_y) V(axis_z) F(half_x) F(half_y) F(near_plane) \
     F(far_plane) I(width) I(height) I(samples) I(shape) F(sample_share) F(lead) FA(unused, 2)
@@ -38,6 +39,13 @@
     FA(shape_from_grid, 9) FA(size, 4) FA(rounding, 2) FA(derived, 5) FA(unused, 2)
 #define DENSITY_SHAPE_FIELDS \
     I(bricks_x) I(bricks_y) I(shift_x) I(shift_y) I(shift_z) IA(unused, 3)
+#define INSTANCE_RECORD_FIELDS \
+    FA(object_from_world, 9) FA(center, 3) FA(image, 3) FA(low, 3) FA(high, 3) F(near_squared) \
+    F(plane_bound) F(fixed_point) IA(size, 3) I(sectors_x) I(sectors_y) I(first_sector) I(aligned) \
+    IA(unused, 1) I(object) I(first_material) I(material_count) I(padding)
+#define INSTANCE_NODE_FIELDS \
+    F(low[0][0]) F(low[0][1]) F(low[0][2]) F(low[1][0]) F(low[1][1]) F(low[1][2]) F(high[0][0]) \
+    F(high[0][1]) F(high[0][2]) F(high[1][0]) F(high[1][1]) F(high[1][2]) IA(child, 2) IA(unused, 2)
 // clang-format on
 
 #define TEXT_OF(fields) TEXT_OF_(fields)
@@ -55,6 +63,9 @@ constexpr const char* kDisplayStepsText = TEXT_OF(DISPLAY_STEPS_FIELDS);
 constexpr const char* kDisplayLatticeText = TEXT_OF(DISPLAY_LATTICE_FIELDS);
 constexpr const char* kSolidShapeText = TEXT_OF(SOLID_SHAPE_FIELDS);
 constexpr const char* kDensityShapeText = TEXT_OF(DENSITY_SHAPE_FIELDS);
+
+constexpr const char* kInstanceRecordText = TEXT_OF(INSTANCE_RECORD_FIELDS);
+constexpr const char* kInstanceNodeText = TEXT_OF(INSTANCE_NODE_FIELDS);
 
 using Words = std::vector<uint32_t>;
 
@@ -75,6 +86,7 @@ Words read_by_kernel(const T& value, const std::string& type, const std::string&
 #include "shared/medium.h"
 #include "shared/scene.h"
 #include "shared/display.h"
+#include "shared/instance.h"
 #include "shared/solid.h"
 #define F(n) *words++ = as_uint(value.n);
 #define V(n) F(n.x) F(n.y) F(n.z) F(n.w)
@@ -122,6 +134,8 @@ CROSSES(Space, SPACE_FIELDS, kSpaceText)
 CROSSES(DisplaySteps, DISPLAY_STEPS_FIELDS, kDisplayStepsText)
 CROSSES(DisplayLattice, DISPLAY_LATTICE_FIELDS, kDisplayLatticeText)
 CROSSES(SolidShape, SOLID_SHAPE_FIELDS, kSolidShapeText)
+CROSSES(InstanceRecord, INSTANCE_RECORD_FIELDS, kInstanceRecordText)
+CROSSES(InstanceNode, INSTANCE_NODE_FIELDS, kInstanceNodeText)
 CROSSES(DensityShape, DENSITY_SHAPE_FIELDS, kDensityShapeText)
 
 }  // namespace

@@ -111,7 +111,7 @@ std::vector<json> full_scenes() {
                        "torus": {"shape": "torus", "radius": 2, "tube": 1},
                        "capsule": {"shape": "capsule", "radius": 1, "height": 2},
                        "slab": {"shape": "slab", "thickness": 0.1}},
-            "objects": [{"name": "o", "model": "m", "material": "a", "materials": {"lid": "a"}, "priority": 3, "spots": 8,
+            "objects": [{"name": "o", "model": "m", "material": "a", "materials": {"lid": "a"}, "priority": 3, "spots": 8, "placement": "world",
                          "position": [1, 2, 3], "turn": [10, 20, 30], "scale": 2},
                         {"model": "sphere", "scale": [1, -2, 3]},
                         {"model": "box", "matrix": [[2, 1, 0, 5], [0, 3, 1, 6], [1, 0, 4, 7]]}],

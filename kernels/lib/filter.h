@@ -4,7 +4,7 @@
 
 #include "lib/density.h"
 #include "lib/fixed_point.h"
-#include "lib/flight.h"
+#include "lib/instances.h"
 #include "lib/surface_color.h"
 
 /// Finds the body of cubes that the rays are inside of.
@@ -37,9 +37,10 @@ static inline lane_float medium_between(const PyramidView* p, const MediumView* 
 
 /// Lets a packet of shadow rays go on through transmitting surfaces; the mask of those that reach
 /// their light. Rays that meet more than VXL_MOST_LAYERS surfaces don't.
-static inline lane_int pass_through(const PyramidView* p, const SurfaceView* s, Walk* w,
-                                    lane_float t_end, lane_int active, Travel* travel,
-                                    uint constant_attribute, global const float* restrict materials,
+static inline lane_int pass_through(const PyramidView* p, const SurfaceView* s,
+                                    const InstanceView* v, Walk* w, lane_float t_end,
+                                    lane_int active, Travel* travel, uint constant_attribute,
+                                    global const float* restrict materials,
                                     global const uint* restrict colors,
                                     global const uint* restrict ranks, global uint* lost,
                                     const MediumView* space, lane_float metres, Filter* filter) {
@@ -50,7 +51,7 @@ static inline lane_int pass_through(const PyramidView* p, const SurfaceView* s, 
     clip_to_world(o, d, p->size_x, p->size_y, p->size_z, &t_in, &t_out);
     lane_int passing = active, arrived = (lane_int)0;
     for (int layer = 0; layer < VXL_MOST_LAYERS && lanes_any(passing); ++layer) {
-        const Found found = find_first(p, s, w, t_end, passing, travel);
+        const Found found = find_nearest(p, s, v, w, t_end, passing, false, travel);
         const lane_int hit = found.hit & passing;
         // The way up to here, to the light or out of the world, inside of the object that counts.
         const lane_uint before = effective_member(&travel->interior, ranks);
@@ -79,8 +80,11 @@ static inline lane_int pass_through(const PyramidView* p, const SurfaceView* s, 
         if (!lanes_any(passing)) break;
 
         const lane_uint voxel = found.voxel & LANES_AS_UINT(hit);
-        const lane_uint word = hit_word(s->attributes, constant_attribute, s->triangle_attributes,
-                                        s->solids, voxel, found.primitive, hit);
+        lane_uint word = hit_word(s->attributes, constant_attribute, s->triangle_attributes,
+                                  s->solids, voxel, found.primitive, hit);
+        if (VXL_INSTANCES)
+            word = instance_word(v->records, v->group_materials, found.instance, word,
+                                 hit & LANE_MASK(found.instance != VXL_NO_INSTANCE));
         const lane_int smooth = is_smooth(word, found.primitive);
         const lane_uint material = material_place(word) & LANES_AS_UINT(hit);
         const lane_float opacity = surface_opacity(materials, material, colors, voxel);
@@ -117,6 +121,7 @@ static inline lane_int pass_through(const PyramidView* p, const SurfaceView* s, 
         if (!VXL_FILTERED) passing &= hidden | LANE_MASK(clear > 0.0f);
         travel->goes_on = travel->on_surface = (lane_int)-1;
         travel->source = found.primitive;
+        travel->instance = found.instance;
         travel->within_source = ~leaving;
         travel->t_first = t_last = LANES_SELECT(passing, found.t, t_last);
         w->t = LANES_SELECT(passing, fmax(found.t, w->t), w->t);

@@ -26,6 +26,7 @@ static inline Found found_nothing(const Travel* travel) {
     found.asked = ~travel->unsure;
     found.within = (lane_int)0;
     found.in_body = found.exit = (lane_int)0;
+    found.instance = (lane_uint)VXL_NO_INSTANCE;
     return found;
 }
 
@@ -120,10 +121,18 @@ static inline void enter_world(const PyramidView* p, Walk* w, lane_int entering)
 
 /// Rays from the observer.
 static inline Travel sight_travel(void) {
-    const Travel travel = {
-        (lane_int)0,      (lane_int)0,      (lane_uint)VXL_NO_PRIMITIVE, (lane_int)0,
-        (lane_float)0.0f, empty_interior(), (lane_uint)VXL_NO_MEMBER,    (lane_int)0,
-        (lane_int)0};
+    const Travel travel = {(lane_int)0,
+                           (lane_int)0,
+                           (lane_uint)VXL_NO_PRIMITIVE,
+                           (lane_int)0,
+                           (lane_float)0.0f,
+                           empty_interior(),
+                           (lane_uint)VXL_NO_MEMBER,
+                           (lane_int)0,
+                           (lane_int)0,
+                           (lane_uint)VXL_NO_INSTANCE,
+                           (lane_int)0,
+                           (lane_int)0};
     return travel;
 }
 
@@ -138,6 +147,7 @@ static inline Travel load_travel(global const uint* restrict paths,
     travel.on_surface = has_flag(flags, VXL_PATH_ON_SURFACE);
     travel.within_source = has_flag(flags, VXL_PATH_WITHIN_SOURCE);
     travel.source = VXL_RAY_UINTS(paths + VXL_PATH_SOURCE * stride, ray);
+    if (VXL_INSTANCES) travel.instance = VXL_RAY_UINTS(paths + VXL_PATH_INSTANCE * stride, ray);
     if (VXL_TRANSMISSION) {
         travel.goes_on = has_flag(flags, VXL_PATH_GOES_ON);
         travel.t_first = VXL_RAY_FLOATS(starts, ray);

@@ -11,6 +11,7 @@ typedef struct {
     Vector origin, direction;
     lane_float t_end;
     lane_uint source, flags;
+    lane_uint instance;  // of scenes with instances
     lane_float weight;
     // of scenes with transmitting objects
     lane_uint cell_xy, cell_z, target, medium;  // medium: RayBatch::inside
@@ -73,6 +74,7 @@ static inline void put_rays(const RayQueue* q, const NewRays* r, lane_int wanted
     put_uint(q->paths + VXL_PATH_SOURCE * n, r->source, put, places);
     put_uint(q->paths + VXL_PATH_FLAGS * n, r->flags, put, places);
     put_uint(q->paths + VXL_PATH_WEIGHT * n, LANES_AS_UINT(r->weight), put, places);
+    if (VXL_INSTANCES) put_uint(q->paths + VXL_PATH_INSTANCE * n, r->instance, put, places);
     if (!VXL_TRANSMISSION) return;
     put_uint(q->paths + VXL_PATH_CELL * n, r->cell_xy, put, places);
     put_uint(q->paths + VXL_PATH_CELL_Z * n, r->cell_z, put, places);

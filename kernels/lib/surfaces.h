@@ -9,6 +9,7 @@
 #include "lib/solid_surface.h"
 #include "lib/triangle.h"
 #include "lib/voxel_kinds.h"
+#include "shared/instance.h"
 #include "shared/voxel.h"
 
 typedef struct {
@@ -28,10 +29,14 @@ typedef struct {
     lane_uint source;        // the primitive it begins on
     lane_int within_source;  // mask: it travels on inside of that primitive's object
     lane_float t_first;
-    Interior interior;  // of scenes with transmitting objects; empty elsewhere
-    lane_uint body;     // the body of cubes in it, VXL_NO_MEMBER for none
-    lane_int joined;    // mask: the body's inner faces are no surfaces
-    lane_int unsure;    // mask: it may begin inside of the smooth body unbeknown
+    Interior interior;   // of scenes with transmitting objects; empty elsewhere
+    lane_uint body;      // the body of cubes in it, VXL_NO_MEMBER for none
+    lane_int joined;     // mask: the body's inner faces are no surfaces
+    lane_int unsure;     // mask: it may begin inside of the smooth body unbeknown
+    lane_uint instance;  // whose surface it begins on, VXL_NO_INSTANCE for the world's
+    lane_int asks_side;  // mask: within_source isn't known yet, an instance's space will tell
+    lane_int on_cube;    // mask: cubes in the cell where it begins are behind it; of scenes with
+                         // instances, elsewhere on_surface tells
 } Travel;
 
 /// What a packet has found so far.
@@ -39,12 +44,13 @@ typedef struct {
     lane_int hit;  // mask
     lane_float t;
     lane_uint leaf, voxel, primitive;
-    lane_uint solid;   // the last one tested
-    lane_float level;  // shift of smooth surfaces for rays that began on one, see hit_smooth
-    lane_int asked;    // mask: it is known on which side of the smooth body the ray began ...
-    lane_int within;   // mask: ... inside
-    lane_int in_body;  // mask: the walk has been in a cell of the body that the ray is inside of
-    lane_int exit;     // mask: the hit is the face across which it left the body
+    lane_uint solid;     // the last one tested
+    lane_float level;    // shift of smooth surfaces for rays that began on one, see hit_smooth
+    lane_int asked;      // mask: it is known on which side of the smooth body the ray began ...
+    lane_int within;     // mask: ... inside
+    lane_int in_body;    // mask: the walk has been in a cell of the body that the ray is inside of
+    lane_int exit;       // mask: the hit is the face across which it left the body
+    lane_uint instance;  // whose surface was hit, VXL_NO_INSTANCE for the world's
 } Found;
 
 /// Takes a hit at `t` on a cube or field in the `accepted` lanes, unless a primitive is hit before.
@@ -176,7 +182,8 @@ static inline lane_int test_surfaces(const PyramidView* p, const SurfaceView* s,
     const VoxelKinds kinds = kinds_of(s->attributes, voxel, tested);
     const lane_int smooth = kinds.smooth, exact = kinds.exact;
     const lane_int beginning = travel->on_surface & LANE_MASK(w->axis == 3);
-    const lane_int cubes = kinds.cubes & ~(beginning | passed);
+    const lane_int on_cube = VXL_INSTANCES ? travel->on_cube & LANE_MASK(w->axis == 3) : beginning;
+    const lane_int cubes = kinds.cubes & ~(on_cube | passed);
     lane_int accepted = cubes | left;
     if (VXL_CUBES) take_voxel_hit(found, w->t, cubes);
     if (VXL_SMOOTH && lanes_any(smooth)) {

@@ -110,6 +110,27 @@ typedef struct {
     lane_int x, y, z;       // the cell entered
 } Crossing;
 
+/// The cell entered across the planes of the axes that `c` names, in exact arithmetic.
+static inline void settle_cell(const Walk* w, const AxisCrossing* x, const AxisCrossing* y,
+                               const AxisCrossing* z, Crossing* c) {
+    const lane_int ez = ~(c->ex | c->ey);
+    const lane_long ex = LANES_LONG(c->ex), ey = LANES_LONG(c->ey), ez_long = LANES_LONG(ez);
+    const lane_long exit = (x->exit & ex) | (y->exit & ey) | (z->exit & ez_long);
+    const lane_long direction =
+        (x->direction & ex) | (y->direction & ey) | (z->direction & ez_long);
+    // A plane met at the same time as the exit is crossed when its axis comes first, or is the
+    // exit's.
+    const lane_long ax = x->nearest * direction, bx = exit * x->direction;
+    const lane_long ay = y->nearest * direction, by = exit * y->direction;
+    const lane_long az = z->nearest * direction, bz = exit * z->direction;
+    const lane_int crossed_x = LANE_LONG_MASK(ax <= bx);
+    const lane_int crossed_y = LANE_LONG_MASK(ay < by) | (LANE_LONG_MASK(ay == by) & ~c->ex);
+    const lane_int crossed_z = LANE_LONG_MASK(az < bz) | (LANE_LONG_MASK(az == bz) & ez);
+    c->x = LANES_SELECT(w->mx, cell_beside(c->rx, crossed_x, w->px), w->x);
+    c->y = LANES_SELECT(w->my, cell_beside(c->ry, crossed_y, w->py), w->y);
+    c->z = LANES_SELECT(w->mz, cell_beside(c->rz, crossed_z, w->pz), w->z);
+}
+
 /// Decides a crossing in exact arithmetic, for all lanes.
 static inline void arbitrate(const PyramidView* p, const Walk* w, Crossing* c) {
     const AxisCrossing x = axis_crossing(c->kx, c->rx, w->ox, w->dx, w->px, p->fixed_point);
@@ -119,21 +140,7 @@ static inline void arbitrate(const PyramidView* p, const Walk* w, Crossing* c) {
     c->ex = LANE_LONG_MASK(x.exit * y.direction <= y.exit * x.direction) &
             LANE_LONG_MASK(x.exit * z.direction <= z.exit * x.direction);
     c->ey = LANE_LONG_MASK(y.exit * z.direction <= z.exit * y.direction) & ~c->ex;
-    const lane_int ez = ~(c->ex | c->ey);
-    const lane_long ex = LANES_LONG(c->ex), ey = LANES_LONG(c->ey), ez_long = LANES_LONG(ez);
-    const lane_long exit = (x.exit & ex) | (y.exit & ey) | (z.exit & ez_long);
-    const lane_long direction = (x.direction & ex) | (y.direction & ey) | (z.direction & ez_long);
-    // A plane met at the same time as the exit is crossed when its axis comes first, or is the
-    // exit's.
-    const lane_long ax = x.nearest * direction, bx = exit * x.direction;
-    const lane_long ay = y.nearest * direction, by = exit * y.direction;
-    const lane_long az = z.nearest * direction, bz = exit * z.direction;
-    const lane_int crossed_x = LANE_LONG_MASK(ax <= bx);
-    const lane_int crossed_y = LANE_LONG_MASK(ay < by) | (LANE_LONG_MASK(ay == by) & ~c->ex);
-    const lane_int crossed_z = LANE_LONG_MASK(az < bz) | (LANE_LONG_MASK(az == bz) & ez);
-    c->x = LANES_SELECT(w->mx, cell_beside(c->rx, crossed_x, w->px), w->x);
-    c->y = LANES_SELECT(w->my, cell_beside(c->ry, crossed_y, w->py), w->y);
-    c->z = LANES_SELECT(w->mz, cell_beside(c->rz, crossed_z, w->pz), w->z);
+    settle_cell(w, &x, &y, &z, c);
 }
 
 /// The first coordinate beyond plane `k` in the ray's direction.

@@ -22,7 +22,8 @@ typedef struct PyramidShape {
     int sectors_x, sectors_y;
     float plane_bound;  // voxels: how far a computed crossing can lie from the true one
     float fixed_point;  // 2^fraction_bits: one voxel in the rays' fixed point
-    float unused;
+    float lift;  // of scenes with instances, voxels: how far along the normal rays set out from
+                 // an instance's surface, farther than rounding can have put them behind it
 } PyramidShape;
 VXL_SIZE_IS(PyramidShape, 64);
 

@@ -29,12 +29,15 @@
 //                  and VXL_FACE_UP says that this was towards larger coordinates. Of smooth
 //                  surfaces VXL_FACE_WITHIN says that they were met from inside.
 //   VXL_HIT_PRIMITIVE  the triangle or solid hit, VXL_NO_PRIMITIVE for other surfaces
+//   VXL_HIT_INSTANCE   the instance hit, in whose voxels the cell and the axis are;
+//                      VXL_NO_INSTANCE for the world. Of scenes with instances.
 #define VXL_HIT_T 0
 #define VXL_HIT_VOXEL 1
 #define VXL_HIT_CELL 2
 #define VXL_HIT_FACE 3
 #define VXL_HIT_PRIMITIVE 4
-#define VXL_HIT_COMPONENTS 5
+#define VXL_HIT_INSTANCE 5
+#define VXL_HIT_COMPONENTS 6
 #define VXL_FACE_AXIS_SHIFT 16
 #define VXL_FACE_AXIS_MASK 3u
 #define VXL_FACE_EXIT 0x40000u
@@ -56,6 +59,8 @@
 //   VXL_PATH_CLEAR   float: what the surfaces passed leave uncovered
 //   VXL_PATH_PASSED  3 floats: what is left of the light on its way to the node
 //   VXL_PATH_INSIDE  VXL_INTERIOR_MEMBERS attribute words: the objects that the ray is inside of
+// This one exists in scenes with instances only:
+//   VXL_PATH_INSTANCE  the instance that the ray begins on, VXL_NO_INSTANCE for the world
 #define VXL_PATH_SOURCE 0
 #define VXL_PATH_FLAGS 1
 #define VXL_PATH_WEIGHT 2
@@ -64,7 +69,8 @@
 #define VXL_PATH_TARGET 5
 #define VXL_PATH_CLEAR 6
 #define VXL_PATH_PASSED 7
-#define VXL_PATH_INSIDE 10
+#define VXL_PATH_INSTANCE 10
+#define VXL_PATH_INSIDE 11
 
 #define VXL_PATH_ON_SURFACE 1u     // begins on a surface
 #define VXL_PATH_WITHIN_SOURCE 2u  // and travels on inside of it

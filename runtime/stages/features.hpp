@@ -32,6 +32,7 @@ struct Features {
     int other_members = 0;  ///< of the sets of transmitting objects that rays are inside of, beside
                             ///< the smooth body
     bool interior_capped = false;  ///< ... which may not be enough
+    bool instances = false;            ///< some objects keep voxels of their own
 
     friend bool operator==(const Features&, const Features&) = default;
 
@@ -61,6 +62,7 @@ struct Features {
                 {"VXL_IMMERSED", immersed},
                 {"VXL_OTHER_MEMBERS", other_members},
                 {"VXL_INTERIOR_CAPPED", interior_capped},
+                {"VXL_INSTANCES", instances},
                 {"VXL_NATIVE_DIVIDE", device.is_cpu()}};
     }
 };

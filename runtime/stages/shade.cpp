@@ -87,9 +87,10 @@ ShadeStage::ShadeStage(const Device& device, const Features& features, const Sce
 void ShadeStage::surface(const Pyramid& pyramid, RayBatch& batch, uint32_t count) {
     surface_.launch_packets(count, shape_of(pyramid), space_, materials_, pyramid.attributes,
                             pyramid.attribute, pyramid.colors, pyramid.fields, pyramid.triangles,
-                            pyramid.triangle_attributes, pyramid.solids, ranks_, batch.rays,
-                            batch.hits, batch.paths, count, batch.stride, batch.positions,
-                            batch.normals, batch.words, batch.sides, batch.radiance);
+                            pyramid.triangle_attributes, pyramid.solids, pyramid.instances.records,
+                            pyramid.instances.materials, ranks_, batch.rays, batch.hits,
+                            batch.paths, count, batch.stride, batch.positions, batch.normals,
+                            batch.words, batch.sides, batch.radiance);
 }
 
 }  // namespace voxelume

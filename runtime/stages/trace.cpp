@@ -26,6 +26,7 @@ PyramidShape shape_of(const Pyramid& pyramid) {
     // 2.5 * 2^-24 of the longest side; 4 units leave room for the comparison's own rounding.
     shape.plane_bound = std::ldexp(1.0f, integer_bits + 2 - 24);
     shape.fixed_point = std::ldexp(1.0f, 24 - integer_bits);
+    shape.lift = pyramid.instances.lift;
     return shape;
 }
 
@@ -38,6 +39,7 @@ Features features_of(const Pyramid& pyramid) {
     features.triangles = !pyramid.triangles.empty();
     features.solids = !pyramid.solids.empty();
     const uint32_t kind = pyramid.attribute >> VXL_KIND_SHIFT;
+    features.instances = !pyramid.instances.empty();
     features.cubes = features.attributes || kind == VXL_KIND_CUBES;
     return features;
 }
@@ -47,18 +49,21 @@ TraceStage::TraceStage(const Device& device, const Features& features)
       program_(device, "trace.cl", features.defines(device)),
       closest_(program_.kernel("trace_closest")),
       shadows_(program_.kernel("trace_shadows")) {
-    if (features.paths) scattered_ = program_.kernel("trace_scattered");
+    if (features.paths && !features.instances) scattered_ = program_.kernel("trace_scattered");
     if (features.immersed) inside_ = program_.kernel("begin_inside");
 }
 
 void TraceStage::closest(const Pyramid& pyramid, RayBatch& batch, uint32_t count, bool scattered) {
     if (pyramid.voxel_count == 0) return batch.hits.fill(VXL_NO_VOXEL);
+    // A lane's instances come after its walk in the world, which others may still be in.
+    scattered = scattered && pyramid.instances.empty();
     Kernel& kernel = scattered ? scattered_.value() : closest_;
     const size_t rays = scattered ? (count + packets_ - 1) / packets_ : count;
     kernel.launch_packets(rays, shape_of(pyramid), pyramid.sectors, pyramid.bricks, pyramid.leaves,
                           pyramid.leaf_voxels, pyramid.attributes, pyramid.fields,
                           pyramid.primitive_first, pyramid.primitives, pyramid.triangles,
-                          pyramid.triangle_attributes, pyramid.solids, batch.rays, count,
+                          pyramid.triangle_attributes, pyramid.solids, pyramid.instances.records,
+                          pyramid.instances.nodes, pyramid.instances.materials, batch.rays, count,
                           batch.stride, batch.paths, batch.starts, batch.hits);
 }
 
@@ -78,12 +83,13 @@ void TraceStage::shadows(const Pyramid& pyramid, const Surroundings& surrounding
     shadows_.launch_packets(most, shape_of(pyramid), pyramid.sectors, pyramid.bricks,
                             pyramid.leaves, pyramid.leaf_voxels, pyramid.attributes, pyramid.fields,
                             pyramid.primitive_first, pyramid.primitives, pyramid.triangles,
-                            pyramid.triangle_attributes, pyramid.solids, pyramid.attribute,
+                            pyramid.triangle_attributes, pyramid.solids, pyramid.instances.records,
+                            pyramid.instances.nodes, pyramid.instances.materials, pyramid.attribute,
                             surroundings.materials, pyramid.colors, surroundings.ranks,
                             surroundings.lost, surroundings.absorption, surroundings.density.shape,
                             surroundings.density.bricks, surroundings.density.values, queue.rays,
                             queue.count, batch.stride, queue.targets, queue.sources, batch.paths,
-                            queue.shares, queue.traced, batch.radiance);
+                            batch.hits, queue.shares, queue.traced, batch.radiance);
 }
 
 }  // namespace voxelume

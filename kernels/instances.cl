@@ -1,0 +1,44 @@
+// pyramids of models -> behind the world's pyramid: joins what instances share.
+#include "lib/work_item.h"
+#include "shared/trace.h"
+#include "shared/voxel.h"
+
+// One word.
+kernel void append_words(const uint count, const uint start, global const uint* restrict from,
+                         global uint* restrict to) {
+    const uint i = work_item();
+    if (i < count) to[start + i] = from[i];
+}
+
+// One word that is the same for all.
+kernel void append_copies(const uint count, const uint start, const uint word,
+                          global uint* restrict to) {
+    const uint i = work_item();
+    if (i < count) to[start + i] = word;
+}
+
+// One number of something that `first` others lie before now; numbers with a bit of `kept` stay.
+kernel void append_numbers(const uint count, const uint start, const uint first, const uint kept,
+                           global const uint* restrict from, global uint* restrict to) {
+    const uint i = work_item();
+    if (i < count) to[start + i] = from[i] & kept ? from[i] : from[i] + first;
+}
+
+// One brick record: its halves' first leaves get new numbers, unless it is empty.
+kernel void append_bricks(const uint count, const uint start, const uint first_leaf,
+                          global const uint* restrict from, global uint* restrict to) {
+    const uint i = work_item();
+    if (i >= count) return;
+    uint4 record = vload4(i, from);
+    if (!(record.z >> 31)) record.zw += first_leaf;
+    vstore4(record, start + i, to);
+}
+
+// One entry of a list of primitives.
+kernel void append_primitives(const uint count, const uint start, const uint first_triangle,
+                              const uint first_solid, global const uint* restrict from,
+                              global uint* restrict to) {
+    const uint i = work_item();
+    if (i >= count) return;
+    to[start + i] = from[i] + (from[i] & VXL_SOLID_PRIMITIVE ? first_solid : first_triangle);
+}

@@ -1,0 +1,56 @@
+// Objects that keep voxels of their own: rays are carried into their space.
+//
+// Many instances share a model's voxels. The pyramids of all models lie behind the world's in the
+// same buffers, and what they hold are numbers in those buffers, so that a model is the place
+// where its table of sectors starts.
+//
+// The map from world voxels w to object voxels is image + object_from_world * (w - center): w -
+// center is exact for rays' origins near by, and so is what a ray is from its point closest to
+// center on.
+#ifndef VXL_SHARED_INSTANCE_H
+#define VXL_SHARED_INSTANCE_H
+
+#define VXL_NO_INSTANCE 0xFFFFFFFFu  // as a hit's or path's instance: the world
+#define VXL_INSTANCE_WORDS 36        // 32-bit words of a record
+#define VXL_INSTANCE_OBJECT 32       // words of a record that lanes gather
+#define VXL_INSTANCE_MATERIALS 33
+#define VXL_INSTANCE_GROUPS 34
+
+typedef struct InstanceRecord {
+    float object_from_world[9];  // by rows
+    float center[3];             // world voxels, whole
+    float image[3];              // of center, object voxels
+    float low[3], high[3];       // the box that holds the model's voxels, object voxels, whole
+    float near_squared;          // world voxels: rays that begin closer to center are carried from
+                                 // their origin on
+    float plane_bound;           // these and the next as in PyramidShape: of the walk in the object
+    float fixed_point;
+    int size[3];  // of the model's grid, voxels
+    int sectors_x, sectors_y;
+    unsigned int first_sector;    // where the model's table starts
+    unsigned int aligned;         // 1: the map only turns by quarters, mirrors and moves by whole
+                                  // voxels of the world's size, so rays are carried exactly
+    unsigned int unused[1];       // 0
+    unsigned int object;          // its number in the scene
+    unsigned int first_material;  // where the materials of its groups start, the last of them for
+    unsigned int material_count;  // all further groups
+    unsigned int padding;         // 0
+} InstanceRecord;
+
+// A node of the tree over the instances' boxes in the world, in its voxels: two children, each an
+// inner node, or an instance where VXL_INSTANCE_LEAF is set. A box without inside (low > high) is
+// no child.
+#define VXL_INSTANCE_LEAF 0x80000000u
+#define VXL_INSTANCE_DEPTH 32  // nodes from the root to a leaf, at most
+
+typedef struct InstanceNode {
+    float low[2][3];
+    float high[2][3];
+    unsigned int child[2];
+    unsigned int unused[2];  // 0
+} InstanceNode;
+
+typedef char InstanceRecordHas36Words[sizeof(InstanceRecord) == VXL_INSTANCE_WORDS * 4 ? 1 : -1];
+typedef char InstanceNodeHas16Words[sizeof(InstanceNode) == 64 ? 1 : -1];
+
+#endif

@@ -1,0 +1,53 @@
+// scene -> instances: the objects that keep voxels of their own, behind the world's pyramid.
+#pragma once
+
+#include "runtime/grid.hpp"
+#include "runtime/object_grids.hpp"
+#include "runtime/scene.hpp"
+
+namespace voxelume {
+
+/// Whether rays are carried into the object's space, instead of the object into the world's.
+///
+/// `auto` is `world` for an object that stands still, and for one that can't be an instance: a lamp
+/// (its spots are found in the world's voxels), one that lets light through, one in a scene whose
+/// display is a lattice (which shows the world's voxels).
+bool is_instanced(const Scene& scene, const Object& object);
+
+/// Throws Error::scene, saying why, for an object that is to be an `instance` and can't.
+void check_placements(const Scene& scene);
+
+/// What instances take, for people and tests.
+struct InstanceReport {
+    uint32_t instances = 0, models = 0;
+    uint64_t voxels = 0, bytes = 0;  ///< of the models, each counted once
+    double seconds = 0;              ///< indexing and joining models, placing instances
+};
+
+/// A scene's instances with the grids of their models.
+struct ListedInstances {
+    std::vector<SharedGrid> grids;  ///< of the models, each once, numbered as in `list`
+    std::vector<Instance> list;
+    std::vector<uint32_t> materials;  ///< of their groups
+};
+
+/// Lists a scene's instances, and has their models voxelized in their own frames. Throws as
+/// ObjectGrids and materials_of_groups do.
+ListedInstances list_instances(const Scene& scene, MeshStore& meshes, ObjectGrids& grids);
+
+/// The world with the scene's instances. Without any it stays as it is. Throws Error::scene for a
+/// model some of whose voxels let light through, Error::limit for too little memory.
+Pyramid add_instances(const Device& device, const Scene& scene, const ListedInstances& listed,
+                      Pyramid world, InstanceReport& report);
+
+/// The maps of a world's instances.
+std::vector<glm::dmat4> instance_maps(const Scene& scene, const Pyramid& world);
+
+/// Forgets, in a copy of a scene's models and objects, what changes when instances move alone.
+void leave_out_places_of_instances(const Scene& scene, std::vector<Model>& models,
+                                   std::vector<Object>& objects);
+
+/// Moves a world's instances to where the scene's objects are now.
+void move_instances(const Device& device, const Scene& scene, Pyramid& world);
+
+}  // namespace voxelume
