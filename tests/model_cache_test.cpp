@@ -232,6 +232,7 @@ TEST_F(ModelCacheFiles, AFolderThatCannotBeWrittenKeepsNothing) {
 TEST_F(ModelCacheFiles, ExactObjectsThatMoveAreNotKept) {
     Scene scene = scene_of(R"("surface": "exact")");
     scene.objects[0].moves = true;
+    scene.objects[0].placement = Placement::world;
     show(scene, cache());
     EXPECT_EQ(entries().size(), 1u) << "the mesh's summary";
     EXPECT_EQ(show(scene, cache()).world.voxelized, 1u);
