@@ -139,7 +139,7 @@ const std::vector<std::string>& MeshStore::groups_of(const Model& model) {
 
 std::string MeshStore::source_of(const Model& model) {
     if (model.mesh.empty() || !cache_.is_open()) return {};
-    const std::string from = file(model.mesh).source;
+    std::string from = file(model.mesh).source;
     if (!model.morph) return from;
     const Morph& morph = *model.morph;
     return morph_source(from, morph.mesh.empty() ? std::string() : file(morph.mesh).source, morph);
