@@ -244,17 +244,18 @@ TEST(Render, ASceneOfPlainCubesHasNothingElseInIt) {
                   name == "VXL_CUBES" || (name == "VXL_NATIVE_DIVIDE" && device.is_cpu()))
             << name;
     EXPECT_THAT(names(r.counters.launches),
-                ElementsAre("cast_sight", "classify_bricks", "mark_near_leaves", "mark_voxels",
-                            "occupy_solid", "paint_cubes", "resolve_pixels", "shade_surface",
-                            "trace_closest", "write_voxels"));
-    EXPECT_THAT(names(r.counters.allocated_bytes),
-                ElementsAre("brick records", "brick states", "coordinates", "hits", "image",
-                            "index counts", "index leaf masks", "index masks", "index starts",
-                            "leaf voxels", "leaves", "materials", "materials of groups",
-                            "near leaves", "normals", "not finite", "object numbers", "occupancy",
-                            "placement", "positions", "radiance", "rays", "sample offsets",
-                            "sectors", "slots", "solids", "undecided count", "undecided voxels",
-                            "words", "world coordinates", "world occupancy", "world slots"));
+                ElementsAre("cast_sight", "classify_bricks", "clear_bricks", "mark_near_leaves",
+                            "mark_voxels", "occupy_solid", "paint_cubes", "resolve_pixels",
+                            "shade_surface", "trace_closest", "write_voxels"));
+    EXPECT_THAT(
+        names(r.counters.allocated_bytes),
+        ElementsAre("brick records", "brick states", "cleared bricks", "coordinates", "hits",
+                    "image", "index counts", "index leaf masks", "index masks", "index starts",
+                    "leaf voxels", "leaves", "materials", "materials of groups", "near leaves",
+                    "normals", "not finite", "object numbers", "occupancy", "painted bricks",
+                    "placement", "positions", "radiance", "rays", "sample offsets", "sectors",
+                    "slots", "solids", "undecided count", "undecided voxels", "words",
+                    "world coordinates", "world occupancy", "world slots"));
 }
 
 TEST(Render, ALightWithoutEnergyIsNotShaded) {

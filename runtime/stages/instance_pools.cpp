@@ -163,7 +163,12 @@ class Joiner {
             words(p.colors, full_.voxels, joined_.colors);
         else if (parts_.colors)
             copies(p.voxel_count, full_.voxels, kWhite, joined_.colors);
-        if (!p.fields.empty()) words(p.fields, full_.voxels * VXL_FIELD_WORDS, joined_.fields);
+        // An exact voxel has a field, too, where a smooth surface shares it; zeros stand for none.
+        if (!p.fields.empty())
+            words(p.fields, full_.voxels * VXL_FIELD_WORDS, joined_.fields);
+        else if (parts_.fields)
+            copies(uint64_t(p.voxel_count) * VXL_FIELD_WORDS, full_.voxels * VXL_FIELD_WORDS, 0,
+                   joined_.fields);
         if (p.primitive_first.empty()) {
             if (parts_.exact)
                 copies(p.voxel_count, full_.voxels, uint32_t(full_.primitives),

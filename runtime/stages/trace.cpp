@@ -74,6 +74,7 @@ void TraceStage::begin_inside(const Pyramid& pyramid, const Surroundings& surrou
         count, shape_of(pyramid), pyramid.sectors, pyramid.bricks, pyramid.leaves,
         pyramid.leaf_voxels, pyramid.attributes, pyramid.fields, pyramid.primitive_first,
         pyramid.primitives, pyramid.triangles, pyramid.triangle_attributes, pyramid.solids,
+        pyramid.instances.records, pyramid.instances.nodes, pyramid.instances.materials,
         pyramid.attribute, surroundings.materials, surroundings.ranks, surroundings.lost, hollow,
         most_hollow, batch.rays, count, batch.stride, batch.paths, batch.starts, batch.inside);
 }
