@@ -20,7 +20,8 @@ Action add_check(CLI::App& app) {
         const Scene scene = read_with(options->scene, "check");
         for (int frame = 1; moves(scene) && frame <= scene.animation.frames; ++frame)
             scene_at(scene, frame);
-        print_plan(scene, Device::open(options->scene.device), options->json);
+        print_plan(scene, Device::open(options->scene.device), model_cache(options->scene),
+                   options->json);
         return 0;
     };
 }

@@ -78,7 +78,9 @@ void print_table(const std::vector<DeviceInfo>& devices, int chosen) {
     if (chosen >= 0)
         fmt::print(
             "\n* renders unless --device or VOXELUME_DEVICE names another by auto, cpu, "
-            "gpu, index or part of a name.\n");
+            "gpu, index or part of a name.\n"
+            "`render --device all` shares frames and tiles among all GPUs and a CPU, all/2 among "
+            "two halves of a CPU, too.\n");
 }
 
 /// The device that renders without --device; -1 when what VOXELUME_DEVICE names is not there.

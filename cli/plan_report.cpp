@@ -67,10 +67,10 @@ Report plan_report(const Scene& scene, const ScenePlan& plan, const Device& devi
 
 }  // namespace
 
-void print_plan(const Scene& scene, const Device& device, bool as_json) {
+void print_plan(const Scene& scene, const Device& device, const ModelCache& cache, bool as_json) {
     if (!as_json) fmt::print("{}\n", describe(scene));
     check_tables(scene, device.info());
-    MeshStore meshes;
+    MeshStore meshes(cache);
     const ScenePlan plan = plan_scene(scene, meshes);
     print_report(plan_report(scene, plan, device), as_json);
     check_memory(scene, plan, device.info());

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <mutex>
 #include <numeric>
 #include <string>
 #include <vector>
@@ -13,6 +14,7 @@
 #include "cli/commands.hpp"
 #include "cli/render_report.hpp"
 #include "cli/scene_options.hpp"
+#include "runtime/device_images.hpp"
 #include "runtime/error.hpp"
 #include "runtime/frame_pipeline.hpp"
 #include "runtime/io/exr.hpp"
@@ -134,50 +136,75 @@ void add_attributes(const Scene& scene, int frame, std::map<std::string, std::st
 /// Renders the frames that are asked for, and tells of them.
 class FrameRun {
   public:
-    FrameRun(const Device& device, const Scene& scene, const std::vector<FrameFiles>& list,
-             const RenderOptions& options)
-        : device_(device),
+    FrameRun(const std::vector<Device>& devices, const Scene& scene,
+             const std::vector<FrameFiles>& list, const RenderOptions& options)
+        : devices_(devices),
           scene_(scene),
           list_(list),
           options_(options),
-          renderer_(device, list.size() > 1),
-          bar_("rendering", 100 * list.size(), stderr, options.quiet) {}
+          cache_(model_cache(options.scene)),
+          bar_("rendering", 100 * list.size(), stderr, options.quiet),
+          reports_(list.size()) {
+        for (const Device& device : devices) renderers_.emplace_back(device, list.size() > 1);
+    }
 
     std::vector<FrameReport> run() {
-        const FrameSteps steps{
-            [this](size_t n) { return scene_at(scene_, list_[n].frame); },
-            [this](size_t n, const Scene& scene, const FormedWorld& world,
-                   const WorldReport& report) { return render(n, scene, world, report); }};
-        run_frames(device_, list_.size(), steps, !options_.one_by_one);
+        if (devices_.size() > 1 && list_.size() == 1 && list_[0].volumes.empty()) {
+            render_tiles()();
+            return reports_;
+        }
+        const FrameSteps steps{[this](size_t n) { return scene_at(scene_, list_[n].frame); },
+                               [this](const FrameInput& input) { return render(input); }};
+        run_frames(devices_, list_.size(), steps, {!options_.one_by_one, cache_});
         return reports_;
     }
 
   private:
-    std::function<void()> render(size_t n, const Scene& scene, const FormedWorld& world,
-                                 const WorldReport& world_report) {
-        const FrameFiles& files = list_[n];
-        FrameReport frame{files.frame, {}};
-        frame.report.world = world_report;
+    std::function<void()> render(const FrameInput& input) {
+        const FrameFiles& files = list_[input.frame];
+        RenderReport report;
+        report.world = input.report;
         std::shared_ptr<const Image> image;
         std::shared_ptr<Volume> volume;
+        uint64_t shown = 0;
         if (!files.images.empty())
-            image = renderer_.image(scene, world, frame.report, [this, n](uint32_t i, uint32_t of) {
-                advance(100 * n + uint64_t(i) * 100 / of);
-            });
+            image = renderers_[input.device].image(
+                input.scene, input.world, report,
+                [&](uint32_t i, uint32_t of) { advance(uint64_t(i) * 100 / of, shown); });
         if (!files.volumes.empty())
-            volume = std::make_shared<Volume>(render_volume(device_, scene, world, frame.report));
-        if (frame.report.not_finite != 0) refuse_not_finite(frame.report.not_finite);
-        advance(100 * (n + 1));
-        reports_.push_back(frame);
-        return [this, image, volume, &files] {
-            if (image) write_images(*image, files);
-            if (volume) write_volumes(*volume, files);
+            volume = std::make_shared<Volume>(
+                render_volume(devices_[input.device], input.scene, input.world, report));
+        advance(100, shown);
+        return written(input.frame, report, std::move(image), std::move(volume));
+    }
+
+    /// The only frame, by all devices.
+    std::function<void()> render_tiles() {
+        uint64_t shown = 0;
+        RenderReport report;
+        auto image = std::make_shared<const Image>(
+            render_together({devices_, cache_}, scene_at(scene_, list_[0].frame), report,
+                            [&](uint32_t i, uint32_t of) { advance(i * 100ull / of, shown); }));
+        return written(0, report, std::move(image), nullptr);
+    }
+
+    /// Takes a frame's report; returns what writes its files.
+    std::function<void()> written(size_t n, const RenderReport& report,
+                                  std::shared_ptr<const Image> image,
+                                  std::shared_ptr<Volume> volume) {
+        if (report.not_finite != 0) refuse_not_finite(report.not_finite);
+        reports_[n] = {list_[n].frame, report};
+        return [this, image = std::move(image), volume = std::move(volume), n] {
+            if (image) write_images(*image, list_[n]);
+            if (volume) write_volumes(*volume, list_[n]);
         };
     }
 
-    void advance(uint64_t percent) {
-        bar_.advance(percent - shown_);
-        shown_ = percent;
+    /// Shows a frame of which `percent` are done and `shown` were, before.
+    void advance(uint64_t percent, uint64_t& shown) {
+        const std::lock_guard lock(bar_mutex_);
+        bar_.advance(percent - shown);
+        shown = percent;
     }
 
     void write_images(Image image, const FrameFiles& files) const {
@@ -190,13 +217,14 @@ class FrameRun {
         for (const std::string& path : files.volumes) write_volume(path, volume);
     }
 
-    const Device& device_;
+    const std::vector<Device>& devices_;
     const Scene& scene_;
     const std::vector<FrameFiles>& list_;
     const RenderOptions& options_;
-    Renderer renderer_;
+    ModelCache cache_;
+    std::vector<Renderer> renderers_;
     Progress bar_;
-    uint64_t shown_ = 0;
+    std::mutex bar_mutex_;
     std::vector<FrameReport> reports_;
 };
 
@@ -213,18 +241,19 @@ int run(const RenderOptions& options) {
     const std::vector<FrameFiles> list = frame_files(options, scene);
     check_files(list, scene, options);
     for (const FrameFiles& files : list) scene_at(scene, files.frame);
-    const Device device = Device::open(options.scene.device);
+    const std::vector<Device> devices = Device::open_all(options.scene.device);
     if (options.plan_only) {
-        print_plan(scene, device, false);
+        print_plan(scene, devices[0], model_cache(options.scene), false);
         return 0;
     }
-    if (options.verbose || !options.stats.empty()) device.time_kernels(true);
+    if (options.verbose || !options.stats.empty())
+        for (const Device& device : devices) device.time_kernels(true);
 
-    const std::vector<FrameReport> reports = FrameRun(device, scene, list, options).run();
-    device.finish();
+    const std::vector<FrameReport> reports = FrameRun(devices, scene, list, options).run();
+    for (const Device& device : devices) device.finish();
     const double seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    const Outcome outcome{device, reports, scene.render.size, count_files(list), seconds};
+    const Outcome outcome{devices, reports, scene.render.size, count_files(list), seconds};
     if (!options.stats.empty()) write_statistics(options.stats, outcome);
     if (options.quiet) return 0;
     print_summary(outcome);

@@ -35,6 +35,30 @@ RenderReport sum_of(const std::vector<FrameReport>& frames) {
     return sum;
 }
 
+/// All devices' counters together.
+DeviceCounters counters_of(const Outcome& outcome) {
+    DeviceCounters sum;
+    for (const Device& device : outcome.devices) {
+        const DeviceCounters& counters = device.counters();
+        for (const auto& [name, count] : counters.launches) sum.launches[name] += count;
+        for (const auto& [name, ms] : counters.kernel_ms) sum.kernel_ms[name] += ms;
+        for (const auto& [name, bytes] : counters.allocated_bytes)
+            sum.allocated_bytes[name] += bytes;
+        sum.peak_bytes += counters.peak_bytes;
+        sum.programs_built += counters.programs_built;
+        sum.programs_from_cache += counters.programs_from_cache;
+        sum.build_ms += counters.build_ms;
+    }
+    return sum;
+}
+
+/// "a" or "a" and 2 more devices
+std::string names_of(const Outcome& outcome) {
+    const std::string first = fmt::format("\"{}\"", outcome.devices[0].info().name);
+    const size_t more = outcome.devices.size() - 1;
+    return more == 0 ? first : fmt::format("{} and {} more", first, more);
+}
+
 nlohmann::ordered_json seconds_of(const RenderReport& report) {
     return {{"load", report.world.load_seconds},
             {"voxelize", report.world.voxelize_seconds},
@@ -47,7 +71,9 @@ nlohmann::ordered_json seconds_of(const RenderReport& report) {
 nlohmann::ordered_json frame_statistics(const FrameReport& frame) {
     const RenderReport& report = frame.report;
     return {{"frame", frame.frame},
+            {"meshes_read", report.world.meshes_read},
             {"voxelized", report.world.voxelized},
+            {"models_from_cache", report.world.from_cache},
             {"painted_bricks", report.world.painted_bricks},
             {"world_kept", report.world.is_kept},
             {"hits_kept", report.hits_are_kept},
@@ -56,13 +82,19 @@ nlohmann::ordered_json frame_statistics(const FrameReport& frame) {
 }
 
 nlohmann::ordered_json statistics(const Outcome& outcome) {
-    const DeviceCounters& counters = outcome.device.counters();
+    const DeviceCounters counters = counters_of(outcome);
     const RenderReport report = sum_of(outcome.frames);
     nlohmann::ordered_json json;
     json["version"] = version();
-    json["device"] = outcome.device.info().name;
-    json["driver"] = outcome.device.info().driver;
-    json["lanes"] = outcome.device.lanes();
+    const Device& first = outcome.devices[0];
+    json["device"] = first.info().name;
+    json["driver"] = first.info().driver;
+    json["lanes"] = first.lanes();
+    json["devices"] = nlohmann::ordered_json::array();
+    for (const Device& device : outcome.devices)
+        json["devices"].push_back({{"name", device.info().name},
+                                   {"compute_units", device.info().compute_units},
+                                   {"lanes", device.lanes()}});
     json["size"] = {outcome.size.x, outcome.size.y};
     json["files"] = outcome.files;
     json["voxels"] = report.voxels;
@@ -133,9 +165,9 @@ void print_summary(const Outcome& outcome) {
                           count_text(report.secondary_rays), count_text(report.ended_paths))
             : "";
     fmt::print(stderr,
-               "{}x{} in {:.2f} s on \"{}\": {}{} voxels, {} sight and {} shadow rays{}; "
+               "{}x{} in {:.2f} s on {}: {}{} voxels, {} sight and {} shadow rays{}; "
                "load {:.0f} ms, voxelize {:.0f}, place {:.0f}, index {:.0f}, image {:.0f}\n",
-               outcome.size.x, outcome.size.y, outcome.seconds, outcome.device.info().name,
+               outcome.size.x, outcome.size.y, outcome.seconds, names_of(outcome),
                reuse_text(outcome.frames), count_text(report.voxels), count_text(report.sight_rays),
                count_text(report.shadow_rays), secondary, report.world.load_seconds * 1e3,
                report.world.voxelize_seconds * 1e3, report.world.place_seconds * 1e3,
@@ -143,10 +175,10 @@ void print_summary(const Outcome& outcome) {
 }
 
 void print_details(const Outcome& outcome) {
-    const DeviceCounters& counters = outcome.device.counters();
+    const DeviceCounters counters = counters_of(outcome);
     const RenderReport report = sum_of(outcome.frames);
     fmt::print(stderr, "  {} lanes, driver {}; {} triangles; world {:.1f} MB, at most {:.1f} MB\n",
-               outcome.device.lanes(), outcome.device.info().driver, report.world.triangles,
+               outcome.devices[0].lanes(), outcome.devices[0].info().driver, report.world.triangles,
                double(report.world_bytes) / 1e6, double(counters.peak_bytes) / 1e6);
     fmt::print(stderr, "  {} programs in {:.0f} ms, {} of them compiled before\n",
                counters.programs_built, counters.build_ms, counters.programs_from_cache);

@@ -14,7 +14,7 @@ struct FrameReport {
 };
 
 struct Outcome {
-    const Device& device;
+    const std::vector<Device>& devices;
     const std::vector<FrameReport>& frames;
     glm::ivec2 size;  ///< pixels
     size_t files;

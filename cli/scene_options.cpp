@@ -13,7 +13,13 @@ void add_scene_options(CLI::App& app, SceneOptions& options) {
     app.add_option("--size", options.size, "WIDTHxHEIGHT in pixels, instead of the scene's");
     app.add_option("--samples", options.samples, "samples per pixel, instead of the scene's")
         ->check(in_range(1, 4096, Number::whole));
-    app.add_option("--device", options.device, "auto, cpu, gpu, a number, or part of a name");
+    app.add_option("--device", options.device,
+                   "auto, cpu, gpu, a number, part of a name, or all to share frames and tiles");
+    app.add_flag("--no-cache", options.no_cache, "neither read nor keep models' voxels on disk");
+}
+
+ModelCache model_cache(const SceneOptions& options) {
+    return options.no_cache ? ModelCache() : ModelCache::of_user();
 }
 
 Scene read_with(const SceneOptions& options, const char* command) {

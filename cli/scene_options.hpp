@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "runtime/model_cache.hpp"
 #include "runtime/opencl/device.hpp"
 #include "runtime/scene.hpp"
 
@@ -21,6 +22,7 @@ struct SceneOptions {
     std::string size;
     int samples = 0;  ///< 0: the scene's
     std::string device;
+    bool no_cache = false;
 };
 
 void add_scene_options(CLI::App& app, SceneOptions& options);
@@ -28,9 +30,12 @@ void add_scene_options(CLI::App& app, SceneOptions& options);
 /// The scene with the options applied. `command` opens the messages about options.
 Scene read_with(const SceneOptions& options, const char* command);
 
+/// The user's cache of models, unless --no-cache was given.
+ModelCache model_cache(const SceneOptions& options);
+
 /// Says what a scene holds and what rendering it takes on a device, on stdout, and whether it fits.
 ///
 /// Throws Error::limit when it doesn't, after saying why.
-void print_plan(const Scene& scene, const Device& device, bool as_json);
+void print_plan(const Scene& scene, const Device& device, const ModelCache& cache, bool as_json);
 
 }  // namespace voxelume::cli

@@ -88,7 +88,8 @@ std::optional<std::string> DiskCache::read(const std::string& key) const noexcep
         return std::nullopt;
     }
     fs::last_write_time(path, fs::file_time_type::clock::now(), ignored);
-    return std::string(bytes);
+    entry.erase(0, sizeof found);
+    return entry;
 } catch (const std::exception&) {
     return std::nullopt;
 }

@@ -6,6 +6,8 @@
 #include <optional>
 #include <thread>
 
+#include "runtime/device_frames.hpp"
+
 namespace voxelume {
 namespace {
 
@@ -64,11 +66,12 @@ FormedFrame form_frame(WorldFormer& former, const FrameSteps& steps, size_t fram
     return formed;
 }
 
-void run_one_by_one(const Device& device, size_t count, const FrameSteps& steps) {
-    WorldFormer former(device, count > 1);
+void run_one_by_one(const Device& device, size_t count, const FrameSteps& steps,
+                    const ModelCache& cache) {
+    WorldFormer former(device, count > 1, cache);
     for (size_t frame = 0; frame < count; ++frame) {
         const FormedFrame formed = form_frame(former, steps, frame);
-        steps.render(frame, formed.scene, formed.world, formed.report)();
+        steps.render({frame, 0, formed.scene, formed.world, formed.report})();
     }
 }
 
@@ -98,7 +101,8 @@ class Closing {
     Handoff<T>& handoff_;
 };
 
-void run_overlapped(const Device& device, size_t count, const FrameSteps& steps) {
+void run_overlapped(const Device& device, size_t count, const FrameSteps& steps,
+                    const ModelCache& cache) {
     Handoff<FormedFrame> formed;
     Handoff<std::function<void()>> writes;
     std::exception_ptr write_error, error;
@@ -115,7 +119,7 @@ void run_overlapped(const Device& device, size_t count, const FrameSteps& steps)
         const Worker forming([&] {
             const Closing closing(formed);
             try {
-                WorldFormer former(device.with_own_queue());
+                WorldFormer former(device.with_own_queue(), true, cache);
                 for (size_t frame = 0; frame < count; ++frame) {
                     // Two worlds at a time: the next is begun when this one is being rendered.
                     if (!formed.put(form_frame(former, steps, frame))) return;
@@ -132,7 +136,8 @@ void run_overlapped(const Device& device, size_t count, const FrameSteps& steps)
             std::optional<FormedFrame> next = formed.take();
             if (!next) break;
             if (next->error) std::rethrow_exception(next->error);
-            if (!writes.put(steps.render(frame, next->scene, next->world, next->report))) break;
+            if (!writes.put(steps.render({frame, 0, next->scene, next->world, next->report})))
+                break;
         }
     } catch (...) {
         error = std::current_exception();
@@ -144,11 +149,14 @@ void run_overlapped(const Device& device, size_t count, const FrameSteps& steps)
 
 }  // namespace
 
-void run_frames(const Device& device, size_t count, const FrameSteps& steps, bool overlap) {
-    if (overlap && count > 1)
-        run_overlapped(device, count, steps);
+void run_frames(const std::vector<Device>& devices, size_t count, const FrameSteps& steps,
+                const FrameOptions& options) {
+    if (devices.size() > 1 && count > 1)
+        share_frames(devices, count, steps, options.cache);
+    else if (options.overlap && count > 1)
+        run_overlapped(devices[0], count, steps, options.cache);
     else
-        run_one_by_one(device, count, steps);
+        run_one_by_one(devices[0], count, steps, options.cache);
 }
 
 }  // namespace voxelume

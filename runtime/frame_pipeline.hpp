@@ -3,26 +3,39 @@
 #pragma once
 
 #include <functional>
+#include <vector>
 
 #include "runtime/renderer.hpp"
 
 namespace voxelume {
 
-/// What is done with each frame of a run, by its place in it.
-struct FrameSteps {
-    /// The scene to show. Called in order, by one thread.
-    std::function<Scene(size_t)> scene;
-    /// Renders it; `report` says what forming its world took. Called in order, by the caller's
-    /// thread. What it returns writes the files, by a third thread, in order.
-    std::function<std::function<void()>(size_t, const Scene&, const FormedWorld&,
-                                        const WorldReport& report)>
-        render;
+/// A frame that is ready to be rendered.
+struct FrameInput {
+    size_t frame = 0;   ///< its place in the run
+    size_t device = 0;  ///< the number of the device that has its world
+    const Scene& scene;
+    const FormedWorld& world;
+    const WorldReport& report;  ///< of forming the world
 };
 
-/// Takes `count` frames through their steps. With `overlap` three threads work on up to three
-/// frames, no more; the files are the same without.
+/// What is done with each frame of a run, by its place in it. On one device all is done in order;
+/// of several devices each has a thread, and frames of its own in order.
+struct FrameSteps {
+    /// The scene to show. Called by one thread at a time.
+    std::function<Scene(size_t)> scene;
+    /// Renders it. What it returns writes the files, by one thread, in order.
+    std::function<std::function<void()>(const FrameInput&)> render;
+};
+
+struct FrameOptions {
+    bool overlap = true;  ///< of one device: three threads work on up to three frames, no more
+    ModelCache cache;     ///< of models that need no voxelizing
+};
+
+/// Takes `count` frames through their steps. The files are the same with all options.
 ///
 /// Rethrows the first error of the frames in order, once the frames before it are written.
-void run_frames(const Device& device, size_t count, const FrameSteps& steps, bool overlap);
+void run_frames(const std::vector<Device>& devices, size_t count, const FrameSteps& steps,
+                const FrameOptions& options);
 
 }  // namespace voxelume

@@ -258,7 +258,7 @@ void Illumination::follow(size_t number, RayBatch& first, uint32_t count, bool h
             depth.nodes.radiance = entries->radiance;
         if (number < most_depth_) scatter(number, *entries, count);
         if (sink && features_.transmission) sink(*entries, count, is_first, depth.nodes);
-        std::swap(static_cast<RayQueue&>(depth.entries), depth.next);
+        if (on > 0) std::swap(static_cast<RayQueue&>(depth.entries), depth.next);
         entries = &depth.entries;
         count = on;
         secondary_rays_ += on;

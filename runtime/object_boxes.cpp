@@ -38,11 +38,9 @@ VoxelBox box_of(const Scene& scene, const Object& object, MeshStore& meshes,
             bounds(*model.solid, object.world_from_object, SolidBounds{world.origin, end});
         return box.is_empty() ? VoxelBox{} : in_voxels(box.min, box.max, world);
     }
-    const Mesh* mesh = meshes.mesh_of(model);
-    if (mesh && model.surface == Surface::exact) {
-        const Bounds box = mesh_bounds(*mesh);
-        return mapped(box.min, box.max, object.world_from_object, world);
-    }
+    const MeshSummary* mesh = meshes.summary_of(model);
+    if (mesh && model.surface == Surface::exact)
+        return mapped(mesh->surface.min, mesh->surface.max, object.world_from_object, world);
     const bool has_voxels = !model.voxels.empty();
     const GridFrame frame = has_voxels ? meshes.voxels(model).frame : model_frame(model, mesh);
     return mapped(frame.origin, frame.origin + frame.voxel_edge * glm::dvec3(frame.size),

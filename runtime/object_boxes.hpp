@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "runtime/grid.hpp"
+#include "runtime/mesh_store.hpp"
 #include "runtime/model_frame.hpp"
 #include "runtime/scene.hpp"
 

@@ -1,6 +1,7 @@
 #include "runtime/object_grids.hpp"
 
 #include <algorithm>
+#include <chrono>
 
 #include "runtime/error.hpp"
 #include "runtime/stages/voxelize_solid.hpp"
@@ -28,26 +29,24 @@ SharedGrid ObjectGrids::grid_of(const Scene& scene, const Object& object) {
     const Model& model = scene.models[size_t(object.model)];
     if (model.surface != Surface::exact) return own_grid_of(model);
     const Source source{source_of(model), object.world_from_object, world_frame(scene.world)};
-    return find_or_make(model, source, object.where);
+    return find_or_make(model, source, object.where, !object.moves);
 }
 
 SharedGrid ObjectGrids::own_grid_of(const Model& model) {
     Source source{source_of(model), glm::dmat4(1), {}};
-    if (!has_own_voxels(model)) source.frame = model_frame(model, meshes_.mesh_of(model));
+    if (!has_own_voxels(model)) source.frame = model_frame(model, meshes_.summary_of(model));
     return find_or_make(model, source, model.where);
 }
 
 SharedGrid ObjectGrids::find_or_make(const Model& model, const Source& source,
-                                     const std::string& where) {
+                                     const std::string& where, bool keeps) {
     const auto found = std::ranges::find(kept_, source, &Kept::source);
     if (found != kept_.end()) {
         found->is_used = true;
         return found->grid;
     }
     try {
-        auto grid = std::make_shared<const BrickGrid>(make(model, source));
-        device_.finish();
-        ++voxelized_;
+        auto grid = std::make_shared<const BrickGrid>(read_or_make(model, source, keeps));
         kept_.push_back({source, grid});
         return grid;
     } catch (const Error& error) {
@@ -55,6 +54,26 @@ SharedGrid ObjectGrids::find_or_make(const Model& model, const Source& source,
         if (!is_users) throw;
         throw Error(error.kind(), "{}: {}", where, error.what());
     }
+}
+
+BrickGrid ObjectGrids::read_or_make(const Model& model, const Source& source, bool keeps) {
+    const ModelCache& cache = meshes_.cache();
+    const std::string mesh = keeps ? meshes_.source_of(model) : std::string();
+    std::string key;
+    if (!mesh.empty()) {
+        key = grid_key(mesh, {model.surface, model.set}, source.frame_from_model, source.frame);
+        if (auto grid = cache.grid(device_, key)) {
+            ++from_cache_;
+            return std::move(*grid);
+        }
+    }
+    const auto start = std::chrono::steady_clock::now();
+    BrickGrid grid = make(model, source);
+    device_.finish();
+    ++voxelized_;
+    const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
+    if (!key.empty()) cache.keep(key, grid, taken.count());
+    return grid;
 }
 
 BrickGrid ObjectGrids::make(const Model& model, const Source& source) {

@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "runtime/mesh_store.hpp"
 #include "runtime/model_frame.hpp"
 #include "runtime/stages/voxelize.hpp"
 
@@ -12,7 +13,8 @@ namespace voxelume {
 using SharedGrid = std::shared_ptr<const BrickGrid>;
 
 /// The grids of a scene's objects. A model is voxelized in its own space for all its objects, an
-/// exact one in the world's frame for each object.
+/// exact one in the world's frame for each object. What the store's cache has of a mesh that an
+/// earlier run voxelized is taken from there.
 class ObjectGrids {
   public:
     ObjectGrids(const Device& device, MeshStore& meshes)
@@ -28,7 +30,8 @@ class ObjectGrids {
     /// Forgets the grids that weren't asked for since the last call.
     void forget_unused();
 
-    uint64_t voxelized() const { return voxelized_; }  ///< grids made so far
+    uint64_t voxelized() const { return voxelized_; }    ///< grids made so far
+    uint64_t from_cache() const { return from_cache_; }  ///< grids taken from the cache so far
 
   private:
     /// All that a grid depends on.
@@ -44,7 +47,11 @@ class ObjectGrids {
         bool is_used = true;
     };
 
-    SharedGrid find_or_make(const Model& model, const Source& source, const std::string& where);
+    /// `keeps` lets the cache have it: an exact object that moves is another one in every frame,
+    /// and takes many times its mesh's bytes.
+    SharedGrid find_or_make(const Model& model, const Source& source, const std::string& where,
+                            bool keeps = true);
+    BrickGrid read_or_make(const Model& model, const Source& source, bool keeps);
     BrickGrid make(const Model& model, const Source& source);
 
     Device device_;
@@ -52,6 +59,7 @@ class ObjectGrids {
     Voxelizer voxelizer_;
     std::vector<Kept> kept_;
     uint64_t voxelized_ = 0;
+    uint64_t from_cache_ = 0;
 };
 
 }  // namespace voxelume

@@ -50,9 +50,9 @@ struct Extras {
     bool words = false, colors = false;
 };
 
-Extras extras_of(const Model& model, const Mesh* mesh) {
+Extras extras_of(const Model& model, const MeshSummary* mesh) {
     if (model.solid) return {};
-    return {.words = mesh->group_names.size() > 1, .colors = !mesh->vertex_colors.empty()};
+    return {.words = mesh->group_names.size() > 1, .colors = mesh->has_colors};
 }
 
 double band_of(const Model& model) {
@@ -60,16 +60,16 @@ double band_of(const Model& model) {
 }
 
 /// In the model's own space.
-SurfaceArea model_area(const Model& model, const Mesh* mesh) {
-    if (mesh) return mesh_area(*mesh);
+SurfaceArea model_area(const Model& model, const MeshSummary* mesh) {
+    if (mesh) return mesh->area;
     return solid_area(*model.solid, glm::dmat4(1), {model.reach.min, model.reach.max});
 }
 
 /// The memory of a grid whose surface is as large as `extent`.
-GridPlan plan_grid(const Model& model, const Mesh* mesh, const GridFrame& frame,
+GridPlan plan_grid(const Model& model, const MeshSummary* mesh, const GridFrame& frame,
                    const SurfaceExtent& extent) {
     GridPlan grid{.frame = frame,
-                  .triangles = mesh ? mesh->triangles.size() : 0,
+                  .triangles = mesh ? mesh->triangles : 0,
                   .voxels = extent.voxels,
                   .bricks = extent.bricks};
     const Extras extras = extras_of(model, mesh);
@@ -86,7 +86,7 @@ GridPlan plan_grid(const Model& model, const Mesh* mesh, const GridFrame& frame,
     return grid;
 }
 
-GridPlan plan_model_of(const Model& model, const Mesh* mesh, const SurfaceArea& area) {
+GridPlan plan_model_of(const Model& model, const MeshSummary* mesh, const SurfaceArea& area) {
     const GridFrame frame = model_frame(model, mesh);
     return plan_grid(model, mesh, frame,
                      surface_extent(area, glm::dmat4(1), frame, band_of(model)));
@@ -115,12 +115,10 @@ class Planner {
     }
 
   private:
-    const Mesh* mesh_of(const Model& model) { return meshes_.mesh_of(model); }
-
     const SurfaceArea& area_of(int model_number) {
         const auto [entry, added] = areas_.try_emplace(model_number);
         const Model& model = scene_.models[size_t(model_number)];
-        if (added) entry->second = model_area(model, mesh_of(model));
+        if (added) entry->second = model_area(model, meshes_.summary_of(model));
         return entry->second;
     }
 
@@ -143,7 +141,7 @@ class Planner {
         const glm::dvec3 edge = plan_.world.voxel_edge;
         const double voxel = edge.x * edge.y * edge.z;
         if (!model.solid) {
-            const Bounds box = mesh_bounds(*mesh_of(model));
+            const Bounds& box = meshes_.summary_of(model)->surface;
             const glm::dvec3 size = box.max - box.min, world = world_box_.max - world_box_.min;
             const double volume = size.x * size.y * size.z * std::abs(glm::determinant(map));
             return std::min(volume, world.x * world.y * world.z) / voxel;
@@ -154,17 +152,15 @@ class Planner {
     }
 
     double part_in_world(int model_number, const glm::dmat4& map) {
-        const Mesh& mesh = *mesh_of(scene_.models[size_t(model_number)]);
-        const auto [entry, added] = boxes_.try_emplace(model_number);
-        if (added) entry->second = mesh_bounds(mesh);
-        const Bounds& box = entry->second;
+        const Model& model = scene_.models[size_t(model_number)];
+        const Bounds& box = meshes_.summary_of(model)->surface;
         for (int corner = 0; corner < 8; ++corner) {
             const glm::dvec3 p(map * glm::dvec4(corner & 1 ? box.max.x : box.min.x,
                                                 corner & 2 ? box.max.y : box.min.y,
                                                 corner & 4 ? box.max.z : box.min.z, 1.0));
             if (glm::any(glm::lessThan(p, world_box_.min)) ||
                 glm::any(glm::greaterThan(p, world_box_.max)))
-                return part_inside(mesh, map, world_box_);
+                return part_inside(*meshes_.mesh_of(model), map, world_box_);
         }
         return 1;
     }
@@ -174,7 +170,7 @@ class Planner {
         const Model& model = scene_.models[size_t(object.model)];
         if (!model.voxels.empty() && model.surface != Surface::exact)
             return add_voxels(object, meshes_.voxels(model));
-        const Mesh* mesh = mesh_of(model);
+        const MeshSummary* mesh = meshes_.summary_of(model);
         const Extras extras = extras_of(model, mesh);
         const SurfaceExtent in_world =
             world_extent(object, model.surface == Surface::smooth ? kBand : kPlacedBand);
@@ -192,7 +188,7 @@ class Planner {
         if (model.surface == Surface::exact) {
             exact_voxels_ += in_world.voxels;
             exact_bytes_ += in_world.voxels * kPrimitives;
-            if (mesh) exact_bytes_ += double(mesh->triangles.size()) * kExactTriangle;
+            if (mesh) exact_bytes_ += double(mesh->triangles) * kExactTriangle;
             plan_.grids.push_back(plan_grid(model, mesh, plan_.world, world_extent(object, 0)));
             plan_.grids.back().object = number;
         } else if (made_.insert(object.model).second) {
@@ -216,7 +212,7 @@ class Planner {
             grid = plan_voxels(voxels);
             instances_.colors |= !voxels.colors.empty();
         } else {
-            const Mesh* mesh = mesh_of(model);
+            const MeshSummary* mesh = meshes_.summary_of(model);
             grid = plan_model_of(model, mesh, area_of(object.model));
             instances_.colors |= extras_of(model, mesh).colors;
             if (model.surface == Surface::exact)
@@ -312,7 +308,6 @@ class Planner {
     ScenePlan plan_;
     SolidBounds world_box_;
     std::map<int, SurfaceArea> areas_;
-    std::map<int, Bounds> boxes_;
     std::set<int> made_;
     int objects_ = 0;
     double exact_voxels_ = 0, exact_bytes_ = 0;
@@ -331,7 +326,8 @@ double ScenePlan::peak_bytes() const {
 }
 
 GridPlan plan_model(const Model& model, const Mesh& mesh) {
-    return plan_model_of(model, &mesh, mesh_area(mesh));
+    const MeshSummary summary = summary_of(mesh);
+    return plan_model_of(model, &summary, summary.area);
 }
 
 ScenePlan plan_scene(const Scene& scene, MeshStore& meshes) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "runtime/grid.hpp"
+#include "runtime/mesh_store.hpp"
 #include "runtime/model_frame.hpp"
 #include "runtime/opencl/device.hpp"
 #include "runtime/scene.hpp"
@@ -53,7 +54,7 @@ GridPlan plan_model(const Model& model, const Mesh& mesh);
 /// Throws Error::limit, opened by the model's place, when a plan for it doesn't fit.
 void check_model(const Model& model, const GridPlan& plan, const DeviceInfo& device);
 
-/// Plans a scene; reads the meshes that the world shows.
+/// Plans a scene; reads the meshes that the world shows, unless the store knows enough of them.
 ///
 /// Throws as MeshStore and model_frame do, and Error::limit for a lattice with more bricks than can
 /// be numbered.

@@ -42,29 +42,37 @@ std::shared_ptr<const Image> Renderer::image(const Scene& scene, const FormedWor
     return image;
 }
 
-Image Renderer::new_image(const Scene& scene, const FormedWorld& formed, RenderReport& report,
+Image Renderer::new_image(const Scene& scene, const FormedWorld& world, RenderReport& report,
                           const FrameProgress& progress) {
+    TileShare all(tile_count(scene.render.size.x, scene.render.size.y), progress);
+    std::vector<TileRange> taken;
+    return part_of_image(scene, world, report, {all, taken});
+}
+
+Image Renderer::part_of_image(const Scene& scene, const FormedWorld& formed, RenderReport& report,
+                              const Tiles& tiles) {
     const auto start = std::chrono::steady_clock::now();
     image_.reset();
     const Pyramid& world = formed.pyramid;
     const Features features = features_of(scene, world);
     const Sight observer = sight_of(scene, world.frame);
 
-    const uint32_t tiles = tile_count(observer.width, observer.height);
+    const uint32_t all_tiles = tiles.share.tiles();
     const uint32_t rays_per_tile = 16 * uint32_t(observer.samples);
-    const uint32_t batch_tiles = std::clamp(batch_rays(features) / rays_per_tile, 1u, tiles);
+    const uint32_t batch_tiles =
+        std::clamp(batch_rays(features) / rays_per_tile, 1u, tiles.share.most());
     RayBatch batch = allocate_batch(device_, features, batch_tiles * rays_per_tile);
 
     View view = view_of(scene, formed, features);
     report.hits_are_kept = view_ == view && !hits_.empty();
     if (!report.hits_are_kept) hits_.clear();
-    const bool keeps_hits = has_room(uint64_t(tiles) * rays_per_tile);
+    const bool keeps_hits = has_room(uint64_t(all_tiles) * rays_per_tile);
 
     SightStage sight(device_, features, observer);
     Illumination illumination(device_, features, scene, world, batch.stride);
     ResolveStage resolve(device_, features, observer);
-    for (uint32_t first = 0; first < tiles; first += batch_tiles) {
-        const uint32_t now = std::min(batch_tiles, tiles - first);
+    while (const std::optional<TileRange> range = tiles.share.take(batch_tiles)) {
+        const uint32_t first = range->first, now = range->count;
         if (report.hits_are_kept) {
             batch.rays = hits_[first / batch_tiles].rays;
             batch.hits = hits_[first / batch_tiles].hits;
@@ -77,9 +85,10 @@ Image Renderer::new_image(const Scene& scene, const FormedWorld& formed, RenderR
         }
         resolve.pixels(world, batch, first, now);
         report.sight_rays += now * rays_per_tile;
-        if (progress) {
+        tiles.taken.push_back(*range);
+        if (tiles.share.is_watched()) {
             device_.finish();
-            progress(first + now, tiles);
+            tiles.share.done(*range);
         }
     }
     view_ = std::move(view);

@@ -1,7 +1,6 @@
 // scene -> image: the paper's algorithm, stage by stage.
 #pragma once
 
-#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -10,6 +9,7 @@
 #include "runtime/opencl/device.hpp"
 #include "runtime/scene.hpp"
 #include "runtime/stages/features.hpp"
+#include "runtime/tile_share.hpp"
 #include "runtime/world.hpp"
 
 namespace voxelume {
@@ -31,9 +31,6 @@ struct RenderReport {
     bool hits_are_kept = false;   ///< its sight rays meet what they met before
 };
 
-/// Called with the parts of a frame that are done, and their number.
-using FrameProgress = std::function<void(uint32_t done, uint32_t total)>;
-
 /// Renders the flat images of one frame after another, and keeps what the next may show again: the
 /// whole image, or what its sight rays meet, which a change of lights, materials or medium leaves
 /// as it is. A frame's bits don't depend on what came before it.
@@ -50,6 +47,16 @@ class Renderer {
     /// The same, which the next frame can't show again as a whole.
     Image new_image(const Scene& scene, const FormedWorld& world, RenderReport& report,
                     const FrameProgress& progress = {});
+
+    /// Tiles that one of several renderers takes of an image.
+    struct Tiles {
+        TileShare& share;
+        std::vector<TileRange>& taken;  ///< those that it made
+    };
+
+    /// The image with those tiles made that are left of `tiles`; the others are undefined.
+    Image part_of_image(const Scene& scene, const FormedWorld& world, RenderReport& report,
+                        const Tiles& tiles);
 
   private:
     /// What decides the first surfaces that sight rays meet.

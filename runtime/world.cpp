@@ -91,6 +91,7 @@ FormedWorld WorldFormer::form(const Scene& scene, WorldReport& report) {
     check_placements(scene);
     check_tables(scene, device_.info());
     const double loaded_before = meshes_.load_seconds();
+    const uint64_t read_before = meshes_.meshes_read();
     const ScenePlan plan = plan_scene(scene, meshes_);
     check_memory(scene, plan, device_.info());
     report.load_seconds = meshes_.load_seconds() - loaded_before;
@@ -99,11 +100,13 @@ FormedWorld WorldFormer::form(const Scene& scene, WorldReport& report) {
 
     if (!grids_) grids_.emplace(device_, meshes_);
     Stopwatch voxelizing(report.voxelize_seconds);
-    const uint64_t voxelized_before = grids_->voxelized();
+    const uint64_t voxelized_before = grids_->voxelized(), cached_before = grids_->from_cache();
     std::vector<SharedGrid> shown;
     const std::vector<PlacedObject> objects = placed_objects(scene, shown);
     const ListedInstances listed = list_instances(scene, meshes_, *grids_);
     report.voxelized = grids_->voxelized() - voxelized_before;
+    report.from_cache = grids_->from_cache() - cached_before;
+    report.meshes_read = meshes_.meshes_read() - read_before;
     voxelizing.stop();
     std::vector<VoxelBox> boxes = object_boxes(scene, meshes_);
 
@@ -119,7 +122,7 @@ FormedWorld WorldFormer::form(const Scene& scene, WorldReport& report) {
         placer_.reset();
         shown_.clear();
         grids_.reset();
-        meshes_ = {};
+        meshes_ = MeshStore(meshes_.cache());
     }
     placing.stop();
 

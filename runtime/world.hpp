@@ -19,7 +19,9 @@ struct WorldReport {
     double place_seconds = 0;
     double index_seconds = 0;
     uint64_t triangles = 0;
+    uint64_t meshes_read = 0;
     uint64_t voxelized = 0;       ///< models and exact objects that were voxelized
+    uint64_t from_cache = 0;      ///< those whose voxels the model cache had
     uint64_t painted_bricks = 0;  ///< of the world, that objects were painted into
     bool is_kept = false;         ///< it is the one before, untouched
     InstanceReport instances;
@@ -39,8 +41,9 @@ struct FormedWorld {
 class WorldFormer {
   public:
     /// Where nothing `follows` the first frame, nothing is kept.
-    explicit WorldFormer(const Device& device, bool follows = true)
-        : device_(device), follows_(follows) {}
+    /// Meshes that `cache` has voxels of are not read.
+    explicit WorldFormer(const Device& device, bool follows = true, ModelCache cache = {})
+        : device_(device), follows_(follows), meshes_(std::move(cache)) {}
 
     /// Forms S from the scene's objects. Models that no object shows inside the world are not read.
     ///

@@ -41,20 +41,20 @@ struct FrameRun {
                                    formed.push_back(frame);
                                    return scene_with(0.05 * double(frame / 2) - 0.4);
                                },
-                               [&](size_t frame, const Scene& scene, const FormedWorld& world,
-                                   const WorldReport& world_report) -> std::function<void()> {
+                               [&](const FrameInput& input) -> std::function<void()> {
+                                   const size_t frame = input.frame;
                                    if (frame == failing_image) throw std::runtime_error("image");
                                    RenderReport report;
-                                   report.world = world_report;
-                                   const uint64_t hash =
-                                       oracle::image_hash(*renderer.image(scene, world, report));
+                                   report.world = input.report;
+                                   const uint64_t hash = oracle::image_hash(
+                                       *renderer.image(input.scene, input.world, report));
                                    return [this, frame, hash] {
                                        if (frame == failing_file) throw std::runtime_error("file");
                                        written.push_back(frame);
                                        hashes.push_back(hash);
                                    };
                                }};
-        run_frames(device, count, steps, overlap);
+        run_frames({device}, count, steps, {.overlap = overlap, .cache = {}});
     }
 };
 

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "runtime/model_frame.hpp"
+#include "runtime/mesh_store.hpp"
 #include "runtime/renderer.hpp"
 #include "tests/file_fixture.hpp"
 #include "tests/oracles/image_hash.hpp"

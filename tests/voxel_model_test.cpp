@@ -9,6 +9,7 @@
 
 #include "runtime/error.hpp"
 #include "runtime/io/vdb.hpp"
+#include "runtime/mesh_store.hpp"
 #include "runtime/model_frame.hpp"
 #include "runtime/renderer.hpp"
 #include "runtime/stages/voxelize.hpp"
@@ -49,11 +50,12 @@ class VoxelModels : public FileTest {
         const Device device = test_device();
         MeshStore meshes;
         const Mesh& mesh = meshes.mesh(folder / "m.obj");
+        const MeshSummary summary = summary_of(mesh);
         Model model;
         model.voxel_size = glm::dvec3(0.05);
         model.surface = surface;
         const BrickGrid grid = Voxelizer(device).voxelize(
-            mesh, glm::dmat4(1), model_frame(model, &mesh), {surface, VoxelSet::supercover});
+            mesh, glm::dmat4(1), model_frame(model, &summary), {surface, VoxelSet::supercover});
         const VoxelExport exported(grid, mesh, surface, VoxelSet::supercover);
         exported.write_model(folder / (name + ".vxm"));
         exported.write_vdb(folder / (name + ".vdb"));

@@ -90,14 +90,16 @@ Mesh parse_mesh(const std::string& bytes, const fs::path& name) {
     source.fail("neither name nor content is that of a mesh; .obj, .ply and .stl can be read");
 }
 
-Mesh read_mesh(const fs::path& path) {
-    std::string bytes;
+std::string read_mesh_bytes(const fs::path& path) {
     try {
-        bytes = read_bytes(path);
+        return read_bytes(path);
     } catch (const std::bad_alloc&) {
         throw Error(ErrorKind::limit, "{}: not enough memory to read this mesh", path.string());
     }
-    return parse_mesh(bytes, path);
+}
+
+Mesh read_mesh(const fs::path& path) {
+    return parse_mesh(read_mesh_bytes(path), path);
 }
 
 }  // namespace voxelume

@@ -24,6 +24,9 @@ struct MeshSource;
 /// large.
 Mesh read_mesh(const std::filesystem::path& path);
 
+/// The bytes of the file, for parse_mesh. Throws Error::input and Error::limit as read_mesh does.
+std::string read_mesh_bytes(const std::filesystem::path& path);
+
 /// The same for a file's bytes in memory. `name` opens the messages, and its extension counts.
 Mesh parse_mesh(const std::string& bytes, const std::filesystem::path& name);
 

@@ -20,6 +20,12 @@ std::string environment(const char* name) {
     return value ? value : "";
 }
 
+std::string selector_or_default(std::string_view selector) {
+    const std::string by_default = environment("VOXELUME_DEVICE");
+    if (!selector.empty()) return std::string(selector);
+    return by_default.empty() ? "auto" : by_default;
+}
+
 /// The lanes asked for by the caller, else by VOXELUME_LANES, else the device's own.
 int lanes_for(const DeviceInfo& info, int asked) {
     const std::string text = asked != 0 ? std::to_string(asked) : environment("VOXELUME_LANES");
@@ -113,19 +119,30 @@ std::vector<DeviceInfo> list_devices() {
 }
 
 Device Device::open(std::string_view selector, int lanes) {
-    const std::string by_default = environment("VOXELUME_DEVICE");
-    if (selector.empty()) selector = by_default;
-    if (selector.empty()) selector = "auto";
+    const std::string wanted = selector_or_default(selector);
     const std::vector<Candidate> candidates = find_candidates();
-    const Candidate& chosen = choose(candidates, selector);
+    const Candidate& chosen = choose(candidates, wanted);
+    return open(chosen.device, chosen.info, lanes);
+}
 
+std::vector<Device> Device::open_all(std::string_view selector, int lanes) {
+    const std::string wanted = selector_or_default(selector);
+    const int parts = parts_of_all(wanted);
+    if (parts == 0) return {open(wanted, lanes)};
+    std::vector<Device> devices;
+    for (const Candidate& chosen : choose_all(find_candidates(), parts))
+        devices.push_back(open(chosen.device, chosen.info, lanes));
+    return devices;
+}
+
+Device Device::open(const cl::Device& device, const DeviceInfo& info, int lanes) {
     auto opened = std::make_shared<Opened>();
-    opened->info = chosen.info;
-    opened->info.lanes = lanes_for(chosen.info, lanes);
+    opened->info = info;
+    opened->info.lanes = lanes_for(info, lanes);
     opened->info.work_group = number_in_environment("VOXELUME_WORK_GROUP");
     opened->info.build_options = environment("VOXELUME_BUILD_OPTIONS");
     try {
-        opened->device = part_of(chosen.device);
+        opened->device = part_of(device);
         opened->context = cl::Context(opened->device);
     } catch (const cl::Error& error) {
         throw_device_error(error, opened->info, "opening it");

@@ -68,6 +68,12 @@ class Device {
     /// Throws Error::device when nothing fits, naming what is there or the package to install.
     static Device open(std::string_view selector = {}, int lanes = 0);
 
+    /// Opens all devices that share the work: for the selector `all` every GPU and the best CPU,
+    /// for `all/N` likewise with the CPU cut into N equal devices (one for each memory node of a
+    /// large machine, say), else the one that `open` opens. `open` takes these two for auto.
+    /// Throws Error::device as `open` does.
+    static std::vector<Device> open_all(std::string_view selector = {}, int lanes = 0);
+
     /// The same device with another queue, for another thread. Its buffers, once written, serve
     /// kernels of both.
     Device with_own_queue() const;
@@ -99,6 +105,7 @@ class Device {
   private:
     struct Opened;
     struct Queue;
+    static Device open(const cl::Device& device, const DeviceInfo& info, int lanes);
     explicit Device(std::shared_ptr<Queue> queue) : queue_(std::move(queue)) {}
     std::shared_ptr<Queue> queue_;
 };

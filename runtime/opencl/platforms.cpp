@@ -109,8 +109,34 @@ void append_platforms(std::vector<Candidate>& found) {
     }
 }
 
+/// The parts of a CPU that don't render anything else than the whole, each with its share of
+/// memory. As many compute units as don't divide are left idle.
+std::vector<Candidate> parts_of(const Candidate& whole, int parts) {
+    const int units = whole.info.compute_units / parts;
+    if (units < 1)
+        throw Error(ErrorKind::device, "\"{}\" has {} compute units, too few for {} devices",
+                    whole.info.name, whole.info.compute_units, parts);
+    std::vector<cl::Device> devices;
+    try {
+        const cl_device_partition_property equally[] = {CL_DEVICE_PARTITION_EQUALLY, units, 0};
+        cl::Device(whole.device).createSubDevices(equally, &devices);
+    } catch (const cl::Error& error) {
+        throw Error(ErrorKind::device, "\"{}\" can't be cut into {} devices: {} returned {}",
+                    whole.info.name, parts, error.what(), status_name(error.err()));
+    }
+    std::vector<Candidate> found;
+    for (int i = 0; i < parts; ++i) {
+        found.push_back({devices.at(size_t(i)), whole.info});
+        found.back().info.compute_units = units;
+        found.back().info.memory /= uint64_t(parts);
+        found.back().info.max_allocation =
+            std::min(found.back().info.max_allocation, found.back().info.memory);
+    }
+    return found;
+}
+
 bool matches(const DeviceInfo& info, const std::string& selector) {
-    if (selector == "auto") return true;
+    if (selector == "auto" || parts_of_all(selector) > 0) return true;
     if (selector == "cpu") return info.kind == DeviceKind::cpu;
     if (selector == "gpu") return info.kind == DeviceKind::gpu;
     int index = -1;
@@ -146,6 +172,15 @@ bool better(const DeviceInfo& a, const DeviceInfo& b) {
 
 }  // namespace
 
+int parts_of_all(std::string_view selector) {
+    if (lower(selector) == "all") return 1;
+    if (!lower(selector).starts_with("all/")) return 0;
+    int parts = 0;
+    const char* end = selector.data() + selector.size();
+    const auto [stop, error] = std::from_chars(selector.data() + 4, end, parts);
+    return stop == end && error == std::errc() && parts >= 1 ? parts : 0;
+}
+
 std::vector<Candidate> find_candidates() {
     std::vector<Candidate> found;
     PoclFolder::instance().announce([&found] { append_platforms(found); });
@@ -162,6 +197,25 @@ const Candidate& choose(const std::vector<Candidate>& candidates, std::string_vi
     }
     if (!best) throw_no_match(candidates, selector);
     return *best;
+}
+
+std::vector<Candidate> choose_all(const std::vector<Candidate>& candidates, int cpu_parts) {
+    std::vector<Candidate> chosen;
+    for (const Candidate& candidate : candidates)
+        if (candidate.info.unusable.empty() && candidate.info.kind == DeviceKind::gpu)
+            chosen.push_back(candidate);
+    const bool has_cpu = std::ranges::any_of(candidates, [](const Candidate& candidate) {
+        return candidate.info.unusable.empty() && candidate.info.kind == DeviceKind::cpu;
+    });
+    // Two platforms' devices of one CPU would take each other's time.
+    if (has_cpu) {
+        const Candidate& cpu = choose(candidates, "cpu");
+        const std::vector<Candidate> parts =
+            cpu_parts > 1 ? parts_of(cpu, cpu_parts) : std::vector{cpu};
+        chosen.insert(chosen.end(), parts.begin(), parts.end());
+    }
+    if (chosen.empty()) chosen.push_back(choose(candidates, "auto"));
+    return chosen;
 }
 
 }  // namespace voxelume

@@ -16,8 +16,15 @@ struct Candidate {
 /// Every device that answers. A platform that is broken or empty is passed over.
 std::vector<Candidate> find_candidates();
 
+/// 1 for the selector "all", N for "all/N", 0 for others.
+int parts_of_all(std::string_view selector);
+
 /// The best usable candidate that `selector` (auto, cpu, gpu, an index, part of a name) names.
 /// Throws Error::device when there is none, naming what is there or the package to install.
 const Candidate& choose(const std::vector<Candidate>& candidates, std::string_view selector);
+
+/// The candidates that share work: every usable GPU, and the best usable CPU cut into `cpu_parts`
+/// equal ones. Throws Error::device when there is none or the CPU can't be cut so.
+std::vector<Candidate> choose_all(const std::vector<Candidate>& candidates, int cpu_parts);
 
 }  // namespace voxelume

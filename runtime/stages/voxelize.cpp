@@ -184,6 +184,11 @@ GridFrame frame_around(const Mesh& mesh, const glm::dvec3& voxel_edge, int margi
         low = glm::min(low, glm::dvec3(p));
         high = glm::max(high, glm::dvec3(p));
     }
+    return frame_around(low, high, voxel_edge, margin);
+}
+
+GridFrame frame_around(const glm::dvec3& low, const glm::dvec3& high, const glm::dvec3& voxel_edge,
+                       int margin) {
     const glm::dvec3 size = glm::ceil((high - low) / voxel_edge);
     for (int a = 0; a < 3; ++a)
         if (!(size[a] + 2 * margin <= kLatticeReach))

@@ -61,4 +61,8 @@ BrickGrid voxelize_mesh(const Device& device, const Mesh& mesh, const glm::dmat4
 /// `margin` voxels on every side. Four keep all distances of `smooth` inside.
 GridFrame frame_around(const Mesh& mesh, const glm::dvec3& voxel_edge, int margin = 4);
 
+/// The same around a mesh whose vertices span the box `low`..`high`.
+GridFrame frame_around(const glm::dvec3& low, const glm::dvec3& high, const glm::dvec3& voxel_edge,
+                       int margin = 4);
+
 }  // namespace voxelume

@@ -1,0 +1,13 @@
+# hash_makers(folder output): a source that defines voxelume::maker_sources(), hashes of the sources below
+# `folder` by which meshes become models. Rewritten when one of them changes.
+function(hash_makers folder output)
+    file(GLOB files CONFIGURE_DEPENDS ${folder}/grid_bytes.* ${folder}/mesh*.?pp ${folder}/surface_extent.*
+         ${folder}/io/decimal.* ${folder}/io/mesh_*.?pp ${folder}/stages/mesh_*.?pp ${folder}/stages/voxelize*.?pp)
+    list(SORT files)
+    add_custom_command(
+        OUTPUT ${output}
+        COMMAND ${CMAKE_COMMAND} "-Dfiles=${files}" -Doutput=${output} -P ${CMAKE_SOURCE_DIR}/cmake/write_maker_hashes.cmake
+        DEPENDS ${files} ${CMAKE_SOURCE_DIR}/cmake/write_maker_hashes.cmake
+        COMMENT "Hashing what makes models"
+        VERBATIM)
+endfunction()

@@ -1,0 +1,172 @@
+#include "runtime/mesh_store.hpp"
+
+#include <chrono>
+
+#include "runtime/error.hpp"
+#include "runtime/io/mesh_reader.hpp"
+#include "runtime/mesh_morph.hpp"
+
+namespace voxelume {
+namespace {
+
+/// Adds the time that it lives to a sum of seconds.
+class LoadTimer {
+  public:
+    explicit LoadTimer(double& sum) : sum_(sum) {}
+    ~LoadTimer() { sum_ += seconds(); }
+    LoadTimer(const LoadTimer&) = delete;
+    LoadTimer& operator=(const LoadTimer&) = delete;
+
+    double seconds() const {
+        return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+    }
+
+  private:
+    double& sum_;
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace
+
+MeshStore::MeshFile& MeshStore::file(const std::filesystem::path& name) {
+    used_.insert(name);
+    const auto found = files_.find(name);
+    if (found != files_.end()) return found->second;
+    MeshFile file;
+    if (cache_.is_open()) {
+        const LoadTimer timer(load_seconds_);
+        file.source = mesh_source(read_mesh_bytes(name), name);
+    }
+    return files_.emplace(name, std::move(file)).first->second;
+}
+
+const Mesh& MeshStore::mesh(const std::filesystem::path& name) {
+    MeshFile& file = this->file(name);
+    if (file.mesh) return *file.mesh;
+    const LoadTimer timer(load_seconds_);
+    const std::string bytes = read_mesh_bytes(name);
+    if (cache_.is_open() && mesh_source(bytes, name) != file.source)
+        throw Error(ErrorKind::input, "{}: the file changed while it was being read: try again",
+                    name.string());
+    file.mesh = parse_mesh(bytes, name);
+    ++meshes_read_;
+    return *file.mesh;
+}
+
+const MeshSummary& MeshStore::summary_of_file(const std::filesystem::path& name) {
+    MeshFile& file = this->file(name);
+    if (file.summary) return *file.summary;
+    file.summary = cache_.summary(file.source);
+    if (file.summary) return *file.summary;
+    double seconds = 0;
+    {
+        const LoadTimer timer(seconds);
+        file.summary = voxelume::summary_of(mesh(name));
+    }
+    cache_.keep(file.source, *file.summary, seconds);
+    return *file.summary;
+}
+
+const MeshStore::VoxelFile& MeshStore::voxel_file(const Model& model) {
+    used_.insert(model.voxels);
+    const auto found = voxels_.find(model.voxels);
+    if (found != voxels_.end() && found->second.voxels.surface == model.surface)
+        return found->second;
+    const LoadTimer timer(load_seconds_);
+    VoxelFile read{read_voxel_model(model.voxels, model.surface), {}};
+    if (model.surface == Surface::exact) read.summary = voxelume::summary_of(read.voxels.mesh);
+    return voxels_.insert_or_assign(model.voxels, std::move(read)).first->second;
+}
+
+const VoxelModel& MeshStore::voxels(const Model& model) {
+    return voxel_file(model).voxels;
+}
+
+MeshStore::Morphed& MeshStore::morphed(const Model& model) {
+    used_.insert({model.mesh, model.morph->mesh});
+    const auto found = morphed_.find(model.name);
+    if (found != morphed_.end() && found->second.file == model.mesh &&
+        found->second.morph == *model.morph)
+        return found->second;
+    Morphed fresh{model.mesh, *model.morph, {}, {}};
+    return morphed_.insert_or_assign(model.name, std::move(fresh)).first->second;
+}
+
+const Mesh& MeshStore::morphed_mesh(const Model& model) {
+    Morphed& entry = morphed(model);
+    if (entry.mesh) return *entry.mesh;
+    const Morph& morph = *model.morph;
+    const Mesh& from = mesh(model.mesh);
+    entry.mesh = morph.mesh.empty()
+                     ? morphed_to_sphere(from, morph.center, morph.radius, morph.amount)
+                     : ::voxelume::morphed(from, mesh(morph.mesh), morph.amount, model.where);
+    return *entry.mesh;
+}
+
+const MeshSummary& MeshStore::morphed_summary(const Model& model) {
+    Morphed& entry = morphed(model);
+    if (entry.summary) return *entry.summary;
+    const std::string source = source_of(model);
+    entry.summary = cache_.summary(source);
+    if (entry.summary) return *entry.summary;
+    double seconds = 0;
+    {
+        const LoadTimer timer(seconds);
+        entry.summary = voxelume::summary_of(morphed_mesh(model));
+    }
+    cache_.keep(source, *entry.summary, seconds);
+    return *entry.summary;
+}
+
+const Mesh* MeshStore::mesh_of(const Model& model) {
+    if (model.solid) return nullptr;
+    if (model.voxels.empty()) return model.morph ? &morphed_mesh(model) : &mesh(model.mesh);
+    return model.surface == Surface::exact ? &voxels(model).mesh : nullptr;
+}
+
+const MeshSummary* MeshStore::summary_of(const Model& model) {
+    if (model.solid) return nullptr;
+    if (model.voxels.empty())
+        return model.morph ? &morphed_summary(model) : &summary_of_file(model.mesh);
+    return model.surface == Surface::exact ? &voxel_file(model).summary : nullptr;
+}
+
+const std::vector<std::string>& MeshStore::groups_of(const Model& model) {
+    static const std::vector<std::string> none;
+    if (model.solid) return none;
+    return model.voxels.empty() ? summary_of(model)->group_names : voxels(model).groups;
+}
+
+std::string MeshStore::source_of(const Model& model) {
+    if (model.mesh.empty() || !cache_.is_open()) return {};
+    std::string from = file(model.mesh).source;
+    if (!model.morph) return from;
+    const Morph& morph = *model.morph;
+    return morph_source(from, morph.mesh.empty() ? std::string() : file(morph.mesh).source, morph);
+}
+
+void MeshStore::forget_unused() {
+    const auto is_unused = [&](const auto& entry) { return !used_.contains(entry.first); };
+    std::erase_if(files_, is_unused);
+    std::erase_if(voxels_, is_unused);
+    used_.clear();
+}
+
+/// Of a file of which only the morphed mesh's summary is known it is as many as that has.
+uint64_t MeshStore::triangles_of(const std::filesystem::path& name, const MeshFile& file) const {
+    if (file.summary) return file.summary->triangles;
+    if (file.mesh) return file.mesh->triangles.size();
+    for (const auto& [model, morphed] : morphed_)
+        if (morphed.summary && (morphed.file == name || morphed.morph.mesh == name))
+            return morphed.summary->triangles;
+    return 0;
+}
+
+uint64_t MeshStore::triangles() const {
+    uint64_t sum = 0;
+    for (const auto& [name, file] : files_) sum += triangles_of(name, file);
+    for (const auto& [name, file] : voxels_) sum += file.summary.triangles;
+    return sum;
+}
+
+}  // namespace voxelume

@@ -1,0 +1,28 @@
+// mesh -> what planning and messages ask of it, so that a mesh in the model cache isn't read.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "runtime/mesh.hpp"
+#include "runtime/scene.hpp"
+#include "runtime/surface_extent.hpp"
+
+namespace voxelume {
+
+struct MeshSummary {
+    uint64_t triangles = 0;
+    Bounds surface;    ///< the box around the triangles, metres
+    Bounds vertices;   ///< around all positions, those that no triangle uses included
+    SurfaceArea area;  ///< in the mesh's own space
+    bool has_colors = false;
+    std::vector<std::string> group_names;
+};
+
+MeshSummary summary_of(const Mesh& mesh);
+
+/// The box around the triangles of a mesh.
+Bounds mesh_bounds(const Mesh& mesh);
+
+}  // namespace voxelume

@@ -1,0 +1,90 @@
+// The cache of models as programs use it, several at once too.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "runtime/disk_cache.hpp"
+#include "tests/program_runner.hpp"
+#include "tests/test_meshes.hpp"
+
+namespace voxelume {
+namespace {
+
+namespace fs = std::filesystem;
+
+class CliCache : public ProgramTest {
+  protected:
+    void SetUp() override {
+        ProgramTest::SetUp();
+        write_obj(folder / "ring.obj", wavy_ring(150, 80));
+        put_bytes(folder / "s.json", R"({"voxelume": 1,
+"world": {"voxel_size": 0.02, "bounds": {"min": [-0.6, -0.6, -0.6], "max": [0.6, 0.6, 0.6]}},
+"models": {"ring": {"mesh": "ring.obj"}},
+"objects": [{"model": "ring"}],
+"lights": [{"type": "directional", "direction": [0.3, -1, 0.4]}],
+"observer": {"position": [0.5, 1, -2], "look_at": [0, 0, 0],
+             "display": {"shape": "pyramid", "angle": 30}},
+"render": {"size": [40, 30]}})");
+        cache_ = folder / "cache";
+        fs::create_directory(cache_);
+        if (cache_folder().empty()) return;
+        // Kernels are taken from where all tests have them.
+        fs::create_directories(cache_folder() / "programs");
+        fs::create_directory_symlink(cache_folder() / "programs", cache_ / "programs");
+    }
+
+    std::string render(const std::string& name, const std::string& options = "") const {
+        const std::string line = fmt::format(
+            "cd '{}' && VOXELUME_CACHE_DIR='{}' '{}' render s.json -q --float -o {}.exr "
+            "--stats-json {}.json {} >/dev/null",
+            folder.string(), cache_.string(), VXL_BINARY, name, name, options);
+        EXPECT_EQ(std::system(line.c_str()), 0) << line;
+        return bytes_of(folder / (name + ".exr"));
+    }
+
+    nlohmann::json frame(const std::string& name) const {
+        return nlohmann::json::parse(bytes_of(folder / (name + ".json"))).at("frames").at(0);
+    }
+
+    fs::path cache_;
+};
+
+TEST_F(CliCache, ASecondRunTakesTheModelFromIt) {
+    const std::string cold = render("cold"), warm = render("warm");
+    EXPECT_TRUE(cold == warm);
+    EXPECT_EQ(frame("cold")["meshes_read"], 1);
+    EXPECT_EQ(frame("cold")["voxelized"], 1);
+    EXPECT_EQ(frame("warm")["meshes_read"], 0);
+    EXPECT_EQ(frame("warm")["voxelized"], 0);
+    EXPECT_EQ(frame("warm")["models_from_cache"], 1);
+}
+
+TEST_F(CliCache, NoCacheLeavesTheFolderUntouched) {
+    render("a", "--no-cache");
+    EXPECT_FALSE(fs::exists(cache_ / "models"));
+    render("b");
+    render("c", "--no-cache");
+    EXPECT_EQ(frame("c")["voxelized"], 1);
+    EXPECT_EQ(frame("c")["models_from_cache"], 0);
+}
+
+TEST_F(CliCache, ProcessesShareAColdFolder) {
+    const std::string expected = render("alone", "--no-cache");
+    std::vector<std::thread> threads;
+    for (int i = 0; i < 5; ++i) threads.emplace_back([this, i] { render(fmt::format("p{}", i)); });
+    for (std::thread& thread : threads) thread.join();
+    for (int i = 0; i < 5; ++i)
+        EXPECT_TRUE(bytes_of(folder / fmt::format("p{}.exr", i)) == expected) << i;
+    int entries = 0;
+    for (const fs::directory_entry& entry : fs::directory_iterator(cache_ / "models")) {
+        EXPECT_FALSE(entry.path().filename().string().starts_with('.'));
+        ++entries;
+    }
+    EXPECT_EQ(entries, 2);
+    render("warm");
+    EXPECT_EQ(frame("warm")["models_from_cache"], 1);
+}
+
+}  // namespace
+}  // namespace voxelume
