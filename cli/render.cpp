@@ -197,7 +197,16 @@ class FrameRun {
         return [this, image = std::move(image), volume = std::move(volume), n] {
             if (image) write_images(*image, list_[n]);
             if (volume) write_volumes(*volume, list_[n]);
+            tell_written(list_[n]);
         };
+    }
+
+    /// A line for logs, by which a farm follows an animation; a bar shows people as much.
+    void tell_written(const FrameFiles& files) const {
+        if (options_.quiet || list_.size() == 1 || describe_terminal(stderr).draws_bars) return;
+        for (const auto* paths : {&files.images, &files.volumes})
+            for (const std::string& path : *paths)
+                fmt::print(stderr, "frame {}: {}\n", files.frame, path);
     }
 
     /// Shows a frame of which `percent` are done and `shown` were, before.
