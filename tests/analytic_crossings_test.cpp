@@ -7,8 +7,8 @@
 #include <glm/geometric.hpp>
 #include <random>
 
-#include "tests/oracles/analytic_solids.hpp"
 #include "runtime/bench/polynomial_roots.hpp"
+#include "tests/oracles/analytic_solids.hpp"
 
 namespace voxelume {
 namespace {

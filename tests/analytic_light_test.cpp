@@ -4,9 +4,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "runtime/bench/analytic_tracer.hpp"
 #include "tests/analytic_scene.hpp"
 #include "tests/oracles/analytic_image.hpp"
-#include "runtime/bench/analytic_tracer.hpp"
 
 namespace voxelume {
 namespace {

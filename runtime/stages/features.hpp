@@ -32,7 +32,7 @@ struct Features {
     int other_members = 0;  ///< of the sets of transmitting objects that rays are inside of, beside
                             ///< the smooth body
     bool interior_capped = false;  ///< ... which may not be enough
-    bool instances = false;            ///< some objects keep voxels of their own
+    bool instances = false;        ///< some objects keep voxels of their own
 
     friend bool operator==(const Features&, const Features&) = default;
 

@@ -24,8 +24,8 @@ struct Surroundings {
     Buffer<uint32_t> ranks;   ///< see ShadeStage
     Buffer<uint32_t> lost{};  ///< one number, of `interior_capped` scenes: how often a ray came
                               ///< into more objects at once than its set has room for
-    float4 absorption{};    ///< of the medium, per metre
-    DensityGrid density{};  ///< ... and how dense it is, where that isn't 1 everywhere
+    float4 absorption{};      ///< of the medium, per metre
+    DensityGrid density{};    ///< ... and how dense it is, where that isn't 1 everywhere
 };
 
 /// Kernels of trace.cl for one feature set. The paper's blocks 2, 3 and 4.2.
