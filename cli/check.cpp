@@ -4,6 +4,7 @@
 
 #include "cli/commands.hpp"
 #include "cli/scene_options.hpp"
+#include "runtime/instances.hpp"
 #include "runtime/scene_animation.hpp"
 
 namespace voxelume::cli {
@@ -18,8 +19,9 @@ Action add_check(CLI::App& app) {
     app.add_flag("--json", options->json, "print the plan as JSON");
     return [options] {
         const Scene scene = read_with(options->scene, "check");
+        check_placements(scene);
         for (int frame = 1; moves(scene) && frame <= scene.animation.frames; ++frame)
-            scene_at(scene, frame);
+            check_placements(scene_at(scene, frame));
         print_plan(scene, Device::open(options->scene.device), model_cache(options->scene),
                    options->json);
         return 0;

@@ -17,6 +17,7 @@
 #include "runtime/device_images.hpp"
 #include "runtime/error.hpp"
 #include "runtime/frame_pipeline.hpp"
+#include "runtime/instances.hpp"
 #include "runtime/io/exr.hpp"
 #include "runtime/io/frame_list.hpp"
 #include "runtime/io/frame_path.hpp"
@@ -249,7 +250,7 @@ int run(const RenderOptions& options) {
     const Scene scene = read_with(options.scene, "render");
     const std::vector<FrameFiles> list = frame_files(options, scene);
     check_files(list, scene, options);
-    for (const FrameFiles& files : list) scene_at(scene, files.frame);
+    for (const FrameFiles& files : list) check_placements(scene_at(scene, files.frame));
     const std::vector<Device> devices = Device::open_all(options.scene.device);
     if (options.plan_only) {
         print_plan(scene, devices[0], model_cache(options.scene), false);

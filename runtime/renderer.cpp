@@ -65,6 +65,7 @@ Image Renderer::part_of_image(const Scene& scene, const FormedWorld& formed, Ren
 
     View view = view_of(scene, formed, features);
     report.hits_are_kept = view_ == view && !hits_.empty();
+    view_.reset();  // an error may leave the hits half done
     if (!report.hits_are_kept) hits_.clear();
     const bool keeps_hits = has_room(uint64_t(all_tiles) * rays_per_tile);
 
