@@ -17,7 +17,7 @@ namespace voxelume {
 struct PlacedObject {
     const BrickGrid* grid = nullptr;    ///< in its own frame; not owned
     glm::dmat4 world_from_object{1.0};  ///< metres to metres; mirrors and shears are welcome
-    uint32_t object = 0;                ///< its number in the scene, at most 65535
+    uint32_t object = 0;                ///< its number in the scene, its own, at most 65535
     int priority = 0;                   ///< the larger wins where objects overlap
     std::vector<uint32_t> material_of_group =
         {};                               ///< of the grid's groups; the last serves all further

@@ -162,7 +162,10 @@ StressResult stress_placement(const StressRun& run) {
         for (size_t i = 0; i < count; ++i) {
             glm::dmat4 map = stress_map(run.seed, first + i).world_from_object;
             map[3] += glm::dvec4(region_start(i), 0);
-            objects.push_back({.grid = &grid, .world_from_object = map, .material_of_group = {0}});
+            objects.push_back({.grid = &grid,
+                               .world_from_object = map,
+                               .object = uint32_t(i),
+                               .material_of_group = {0}});
         }
         const ReadOccupancy placed(place(run.device, objects, world_frame()));
         for (size_t i = 0; i < count; ++i) {
