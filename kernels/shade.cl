@@ -45,7 +45,8 @@ kernel void shade_surface(PyramidShape shape, Space space, global const float* r
     const Vector world_o = load_vector(rays, stride, first);
     const Vector world_d = load_vector(rays + VXL_RAY_DX * stride, stride, first);
     const lane_float world_at = LANES_SELECT(hit, t, (lane_float)0.0f);
-    HitRay in_grid = {world_o, world_d, world_at};
+    HitRay in_grid;
+    in_grid.origin = world_o, in_grid.direction = world_d, in_grid.t = world_at;
     lane_uint instance = (lane_uint)VXL_NO_INSTANCE;
     lane_int of_instance = (lane_int)0;
     if (VXL_INSTANCES) {

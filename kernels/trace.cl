@@ -96,6 +96,7 @@ kernel void trace_scattered(VXL_WORLD_ARGUMENTS, global const float* restrict ra
     const uint end =
         min(next + VXL_LANES * VXL_PACKETS(VXL_LANES), (count + VXL_LANES - 1u) & -VXL_LANES);
     VXL_WORLD_VIEWS;
+    (void)instances;
     Flight f;
     f.ray = LANES_AS_UINT(LANES_NUMBERS + (int)next);
     set_out(&pyramid, rays, stride, paths, starts, &f);
@@ -142,6 +143,7 @@ kernel void begin_inside(VXL_WORLD_ARGUMENTS, uint constant_attribute,
     const uint first = work_item() * VXL_LANES;
     if (first >= count) return;
     VXL_WORLD_VIEWS;
+    (void)instances;
     Flight f;
     f.ray = LANES_AS_UINT(LANES_NUMBERS + (int)first);
     set_out(&pyramid, rays, stride, paths, starts, &f);

@@ -91,7 +91,7 @@ Plane filtered_columns(const Plane& plane, const Weights& weights_of_rows) {
     Plane result{plane.width, plane.height, std::vector<double>(plane.values.size(), 0.0)};
     for (int y = 0; y < plane.height; ++y)
         for (int i = -radius; i <= radius; ++i) {
-            const double weight = weights_of_rows[size_t(i + radius)];
+            const double weight = weights_of_rows[size_t(i) + size_t(radius)];
             const double* from = plane.row(std::clamp(y + i, 0, plane.height - 1));
             double* to = result.row(y);
             for (int x = 0; x < plane.width; ++x) to[x] += weight * from[x];

@@ -112,8 +112,9 @@ Crossings torus_crossings(const Solid& torus, const Line& line) {
     using Vector = glm::vec<3, Real>;
     const double middle = (span.first + span.last) / 2;
     const Vector d(line.direction), o = Vector(line.origin) + d * Real(middle);
-    const Real R = torus.radius, r = torus.tube, four = 4 * R * R;
-    const Real dd = glm::dot(d, d), od = glm::dot(o, d), s = glm::dot(o, o) + R * R - r * r;
+    const Real ring = torus.radius, tube = torus.tube, four = 4 * ring * ring;
+    const Real dd = glm::dot(d, d), od = glm::dot(o, d),
+               s = glm::dot(o, o) + ring * ring - tube * tube;
     const std::vector<Real> quartic = {
         s * s - four * (o.x * o.x + o.z * o.z), 4 * od * s - 2 * four * (o.x * d.x + o.z * d.z),
         2 * dd * s + 4 * od * od - four * (d.x * d.x + d.z * d.z), 4 * dd * od, dd * dd};

@@ -161,7 +161,7 @@ glm::dvec3 AnalyticTracer::radiance(Path path, Events& events) const {
         through *= passed;
         path.weight *= passed;
         path.t = surface.crossing.t;
-        events.add(uint64_t(surface.object + 1));
+        events.add(uint64_t(surface.object) + 1);
         if (surface.object < 0) return before + through * glm::dvec3(scene_.world.background);
         if (!is_hidden(path, surface)) {
             if (events.object < 0) events.object = surface.object, events.t = path.t;
@@ -173,7 +173,7 @@ glm::dvec3 AnalyticTracer::radiance(Path path, Events& events) const {
 
 glm::dvec3 AnalyticTracer::surface_radiance(const Path& path, const Surface& surface,
                                             Events& events) const {
-    events.add(uint64_t(surface.crossing.face * 2 + surface.crossing.enters));
+    events.add(uint64_t(surface.crossing.face) * 2 + uint64_t(surface.crossing.enters));
     const Point point = point_at(path, surface, events);
     const Material& m = *point.material;
     const double opacity = double(m.opacity);

@@ -62,7 +62,7 @@ glm::dvec3 AnalyticTracer::shadow(const Path& path, const Point& point, const gl
     glm::dvec3 passed(1);
     for (;;) {
         const Surface surface = next_surface(way);
-        events.add(uint64_t(surface.object + 1));
+        events.add(uint64_t(surface.object) + 1);
         const int within = effective(way.inside);
         const glm::dvec3 absorption =
             within < 0
