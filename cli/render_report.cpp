@@ -22,6 +22,8 @@ RenderReport sum_of(const std::vector<FrameReport>& frames) {
         sum.world.place_seconds += report.world.place_seconds;
         sum.world.index_seconds += report.world.index_seconds;
         sum.world.triangles = std::max(sum.world.triangles, report.world.triangles);
+        if (report.world.instances.instances >= sum.world.instances.instances)
+            sum.world.instances = report.world.instances;
         sum.image_seconds += report.image_seconds;
         sum.voxels = std::max(sum.voxels, report.voxels);
         sum.world_bytes = std::max(sum.world_bytes, report.world_bytes);

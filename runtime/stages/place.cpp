@@ -155,10 +155,9 @@ class Placer::State {
         return bricks_->store(bricks, states(all_painters(), asked));
     }
 
-    /// Bricks that are painted, and where they are in the list of them.
+    /// Where each of the world's bricks is in the list of those painted, or kBrickOutside.
     struct Painting {
-        const std::vector<uint32_t>& bricks;
-        std::vector<uint32_t> places;  ///< of each of the world's bricks, or kBrickOutside
+        std::vector<uint32_t> places;
         Buffer<int16_t> nearest;
     };
 
@@ -179,7 +178,7 @@ class Placer::State {
         if (!parts_.has_words() && !parts_.words.empty()) world_.attribute = *parts_.words.begin();
         if (bricks.empty()) return;
         bricks_->clear(bricks);
-        Painting painting{bricks, {}, {}};
+        Painting painting;
         const glm::ivec3 table = world_.frame.bricks();
         painting.places.assign(size_t(table.x) * size_t(table.y) * size_t(table.z), kBrickOutside);
         for (uint32_t place = 0; place < painted_; ++place) painting.places[bricks[place]] = place;
