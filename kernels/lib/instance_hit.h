@@ -8,15 +8,17 @@
 typedef struct {
     Vector origin, direction;
     lane_float t;
-    lane_float map[9];  // object_from_world of the instance; of instances only
+    lane_float map[9];  // object_from_world of the instance; 0 for others
 } HitRay;
 
-/// The ray of each lane of `of_instance` in the space of its instance; others stay as they are.
+/// The ray of each lane of `of_instance` in the space of its instance; others stay as they are, with
+/// a map of zeros: numbers never written may not reach a built-in function, even to be left out.
 static inline HitRay carry_hits(global const InstanceRecord* restrict records, lane_uint instance,
                                 lane_int of_instance, HitRay ray) {
     const Vector o = ray.origin, d = ray.direction;
     const lane_float inverse_squared = exact_reciprocal(dot_product(d, d));
     const lane_float t = ray.t;
+    for (int i = 0; i < 9; ++i) ray.map[i] = (lane_float)0.0f;
     lane_int left = of_instance;
     while (lanes_any(left)) {
         const uint one = lanes_least(LANES_SELECT(left, instance, (lane_uint)0xFFFFFFFFu));
