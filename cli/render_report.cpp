@@ -27,12 +27,7 @@ RenderReport sum_of(const std::vector<FrameReport>& frames) {
         sum.image_seconds += report.image_seconds;
         sum.voxels = std::max(sum.voxels, report.voxels);
         sum.world_bytes = std::max(sum.world_bytes, report.world_bytes);
-        sum.sight_rays += report.sight_rays;
-        sum.shadow_rays += report.shadow_rays;
-        sum.secondary_rays += report.secondary_rays;
-        sum.ended_paths += report.ended_paths;
-        sum.lost_members += report.lost_members;
-        sum.not_finite += report.not_finite;
+        add_counts(report, sum);
     }
     return sum;
 }

@@ -7,6 +7,8 @@
 #include <optional>
 #include <thread>
 
+#include "runtime/closing.hpp"
+
 namespace voxelume {
 namespace {
 
@@ -60,18 +62,6 @@ class FrameShare {
     std::map<size_t, RenderedFrame> rendered_;
     size_t count_, ahead_, next_ = 0, written_ = 0;
     bool closed_ = false;
-};
-
-/// Closes a share at the end of a block, however it is left.
-class Closing {
-  public:
-    explicit Closing(FrameShare& share) : share_(share) {}
-    ~Closing() { share_.close(); }
-    Closing(const Closing&) = delete;
-    Closing& operator=(const Closing&) = delete;
-
-  private:
-    FrameShare& share_;
 };
 
 }  // namespace

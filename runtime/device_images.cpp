@@ -66,12 +66,7 @@ void add_report(const RenderReport& part, RenderReport& sum) {
     sum.image_seconds = std::max(sum.image_seconds, part.image_seconds);
     sum.voxels = part.voxels;
     sum.world_bytes = part.world_bytes;
-    sum.sight_rays += part.sight_rays;
-    sum.shadow_rays += part.shadow_rays;
-    sum.secondary_rays += part.secondary_rays;
-    sum.ended_paths += part.ended_paths;
-    sum.lost_members += part.lost_members;
-    sum.not_finite += part.not_finite;
+    add_counts(part, sum);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <optional>
 #include <thread>
 
+#include "runtime/closing.hpp"
 #include "runtime/device_frames.hpp"
 
 namespace voxelume {
@@ -86,19 +87,6 @@ class Worker {
 
   private:
     std::thread thread_;
-};
-
-/// Closes a handoff at the end of a block, however it is left.
-template <class T>
-class Closing {
-  public:
-    explicit Closing(Handoff<T>& handoff) : handoff_(handoff) {}
-    ~Closing() { handoff_.close(); }
-    Closing(const Closing&) = delete;
-    Closing& operator=(const Closing&) = delete;
-
-  private:
-    Handoff<T>& handoff_;
 };
 
 void run_overlapped(const Device& device, size_t count, const FrameSteps& steps,

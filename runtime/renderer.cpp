@@ -9,6 +9,16 @@
 #include "runtime/stages/sight.hpp"
 
 namespace voxelume {
+
+void add_counts(const RenderReport& report, RenderReport& sum) {
+    sum.sight_rays += report.sight_rays;
+    sum.shadow_rays += report.shadow_rays;
+    sum.secondary_rays += report.secondary_rays;
+    sum.ended_paths += report.ended_paths;
+    sum.lost_members += report.lost_members;
+    sum.not_finite += report.not_finite;
+}
+
 Renderer::View Renderer::view_of(const Scene& scene, const FormedWorld& world,
                                  const Features& features) {
     View view{world.version, scene.observer, scene.render, features, {}};

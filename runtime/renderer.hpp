@@ -31,6 +31,9 @@ struct RenderReport {
     bool hits_are_kept = false;   ///< its sight rays meet what they met before
 };
 
+/// Adds what was counted, of rays, of paths and of faults.
+void add_counts(const RenderReport& report, RenderReport& sum);
+
 /// Renders the flat images of one frame after another, and keeps what the next may show again: the
 /// whole image, or what its sight rays meet, which a change of lights, materials or medium leaves
 /// as it is. A frame's bits don't depend on what came before it.

@@ -93,12 +93,8 @@ void keep_triangles(VoxelizeJob& job, const Mesh& mesh, const glm::dmat4& frame_
 
 }  // namespace
 
-const Program& Voxelizer::program(const std::string& file, const Defines& defines) {
-    std::string key = file;
-    for (const auto& [name, value] : defines) key += fmt::format(" {}={}", name, value);
-    const auto found = programs_.find(key);
-    if (found != programs_.end()) return found->second;
-    return programs_.emplace(key, Program(device_, file, defines)).first->second;
+Program Voxelizer::program(const std::string& file, const Defines& defines) const {
+    return {device_, file, defines};
 }
 
 BrickGrid Voxelizer::voxelize(const Mesh& mesh, const glm::dmat4& frame_from_mesh,

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <glm/mat4x4.hpp>
-#include <map>
 #include <string>
 
 #include "runtime/grid.hpp"
@@ -16,7 +15,7 @@ struct DeviceTriangles;
 struct TriangleBins;
 struct VoxelizeJob;
 
-/// Voxelizes meshes on one device and keeps the compiled kernels between calls.
+/// Voxelizes meshes on one device.
 class Voxelizer {
   public:
     explicit Voxelizer(const Device& device) : device_(device) {}
@@ -47,10 +46,9 @@ class Voxelizer {
     Buffer<uint16_t> inside(VoxelizeJob& job, bool centers, const glm::ivec3& reach);
     void voxelize_smooth(VoxelizeJob& job, double band);
     void voxelize_cubes(VoxelizeJob& job, VoxelSet set);
-    const Program& program(const std::string& file, const Defines& defines);
+    Program program(const std::string& file, const Defines& defines) const;
 
     Device device_;
-    std::map<std::string, Program> programs_;
 };
 
 /// The same for a single mesh, with a voxelizer of its own.
