@@ -139,7 +139,7 @@ TEST(BenchErrors, AreThoseThatWerePutIn) {
     EXPECT_EQ(errors.silhouette_max, 0);
     image.planes["A"][0] = 1;  // the corner, far from the sphere's circle
     const BenchErrors stray = measure_errors(truth, image, 0.1);
-    EXPECT_NEAR(stray.silhouette_mean, 1 / truth.silhouette_length, 1e-15);
+    EXPECT_NEAR(stray.silhouette_mean, 1 / truth.silhouette.length, 1e-15);
     EXPECT_GT(stray.silhouette_max, 10);
     EXPECT_EQ(stray.compared, errors.compared);
 }
