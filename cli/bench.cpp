@@ -57,8 +57,8 @@ void make_quick(BenchOptions& options) {
     options.resolutions = {8, 16, 32, 64, 128};
     options.samples = {1, 4};
     options.placements = {Placement::world};
-    options.size = glm::ivec2(256);
-    options.light_size = glm::ivec2(96);
+    options.size = glm::ivec2(160);
+    options.light_size = glm::ivec2(80);
     options.measures_shadows = false;
     options.repeats = 1;
 }
@@ -144,7 +144,7 @@ std::string list_of_scenes() {
 Action add_bench(CLI::App& app) {
     const auto command = std::make_shared<BenchCommand>();
     app.add_flag("--quick", command->is_quick,
-                 "every scene in under a minute: 8 to 128 voxels a metre, 256x256 pixels (96x96 "
+                 "every scene in under a minute: 8 to 128 voxels a metre, 160x160 pixels (80x80 "
                  "with light), one repeat, no instances, no shadow edges");
     app.add_option("-o,--output", command->page, "report with plots: .html");
     app.add_option("--json", command->json, "file for everything that was measured");

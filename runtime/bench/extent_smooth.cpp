@@ -216,11 +216,13 @@ double half_curvature(uint32_t word, int first) {
 
 /// A voxel's record as values at the 27 points, after the formula in shared/voxel.h.
 std::array<double, 27> field_values(const uint32_t* record) {
+    // Surfaces that lie in a side of voxels would belong to both, or to none, as doubles round.
+    constexpr double kLift = 1e-6;  // distance units: 1e-10 voxel
     std::array<double, 27> values;
     for (size_t i = 0; i < 27; ++i) {
         const double s[] = {double(i % 3) / 2, double(i / 3 % 3) / 2, double(i / 9) / 2};
         const auto share = [&](int axis, uint32_t end) { return end != 0 ? s[axis] : 1 - s[axis]; };
-        double value = 0;
+        double value = kLift;
         for (uint32_t n = 0; n < 4; ++n) {
             const double yz = share(1, n & 1) * share(2, n >> 1);
             const double xz = share(0, n & 1) * share(2, n >> 1);
