@@ -15,7 +15,7 @@ constexpr const char* kStyle =
     "body{font:15px/1.45 system-ui,sans-serif;color:#222;background:#fff;max-width:1480px;"
     "margin:1.5em auto;padding:0 1em}"
     "h1{font-size:1.5em}h2{font-size:1.2em;margin-top:1.6em}"
-    ".plots{display:flex;flex-wrap:wrap;gap:8px}"
+    ".plots{display:flex;flex-wrap:wrap;align-items:flex-start;gap:8px}"
     "svg{width:460px;max-width:100%;height:auto}"
     ".rows{overflow-x:auto}"
     "table{border-collapse:collapse;font-variant-numeric:tabular-nums}"
@@ -31,9 +31,9 @@ std::string heading(const BenchReport& report) {
         {"Device", fmt::format("{}, {} lanes", report.device, report.lanes)},
         {"Driver", fmt::format("{}; {}", report.driver, report.platform)},
         {"Time", report.time},
-        {"Images", fmt::format("{} x {} pixels, {} x {} of scenes with light; times are those of "
-                               "the fastest of up to {} renders after one that compiles, as "
-                               "many as fit into {} s",
+        {"Images", fmt::format("{} x {} pixels, {} x {} of scenes with light. Each row is "
+                               "rendered once for its errors and kernels, then up to {} times "
+                               "while that takes less than {} s; the fastest counts",
                                report.size.x, report.size.y, report.light_size.x,
                                report.light_size.y, report.repeats, kMostRowSeconds)}};
     for (const auto& [name, value] : lines)

@@ -118,15 +118,21 @@ Legend legend_of(const LogPlot& plot) {
     constexpr double kFirst = 14, kDot = 11, kGap = 14, kLetter = 6;
     Legend legend;
     double x = kFirst;
-    for (const PlotSeries& series : plot.series) {
-        if (series.name.empty()) continue;
-        const double width = kDot + kGap + kLetter * double(series.name.size());
+    const auto add = [&](const std::string& name, const std::string& circle) {
+        const double width = kDot + kGap + kLetter * double(name.size());
         if (x > kFirst && x + width > kWidth) x = kFirst, legend.bottom += kLegendRow;
-        legend.svg += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"3\" fill=\"{}\"/>\n",
-                                  x + 4, legend.bottom - 4, series.color);
-        legend.svg += label({x + kDot, legend.bottom}, "start", series.name);
+        legend.svg += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" {}/>\n", x + 4,
+                                  legend.bottom - 4, circle);
+        legend.svg += label({x + kDot, legend.bottom}, "start", name);
         x += width;
-    }
+    };
+    for (const PlotSeries& series : plot.series)
+        if (!series.name.empty())
+            add(series.name, fmt::format("r=\"3\" fill=\"{}\"", series.color));
+    const auto has_marks = [](const PlotSeries& series) {
+        return std::ranges::find(series.marked, true) != series.marked.end();
+    };
+    if (std::ranges::any_of(plot.series, has_marks)) add("front", "class=\"mark\" r=\"4.5\"");
     return legend;
 }
 
