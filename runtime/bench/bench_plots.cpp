@@ -180,7 +180,7 @@ std::vector<LogPlot> plots_of(const BenchReport& report, const std::string& scen
                                 "relative error of volume", volume, &BenchFit::volume));
     plots.push_back(fitted_plot(report, scene, "area against voxel size", "relative error of area",
                                 area, &BenchFit::area));
-    plots.push_back(size_plot(report, scene, "shadow's edge against voxel size (zeros left out)",
+    plots.push_back(size_plot(report, scene, "shadow edge against voxel size (zeros left out)",
                               "mean displacement, pixels", shadow));
     std::erase_if(plots, [](const LogPlot& plot) { return !has_points(plot); });
     return plots;

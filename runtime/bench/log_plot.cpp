@@ -140,8 +140,8 @@ Legend legend_of(const LogPlot& plot) {
 std::string content_of(const LogPlot& plot, const Legend& legend) {
     const Axes axes = axes_of(plot);
     const glm::dvec2 size = kFrameMax - kFrameMin, middle = (kFrameMin + kFrameMax) / 2.0;
-    std::string svg = fmt::format("<text class=\"title\" x=\"{:.0f}\" y=\"14\">{}</text>\n",
-                                  kFrameMin.x, escape_html(plot.title));
+    std::string svg =
+        fmt::format("<text class=\"title\" x=\"14\" y=\"14\">{}</text>\n", escape_html(plot.title));
     svg += grid(axes);
     svg += fmt::format("<rect class=\"frame\" x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"/>\n",
                        kFrameMin.x, kFrameMin.y, size.x, size.y);
