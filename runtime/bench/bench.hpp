@@ -27,7 +27,7 @@ struct BenchOptions {
     glm::ivec2 size{1024, 1024};      ///< pixels
     glm::ivec2 light_size{256, 256};  ///< pixels of scenes with light
     bool measures_shadows = true;     ///< the edges that subjects without light cast, too
-    int repeats = 5;  ///< measured renders of each row, after one that isn't, at most
+    int repeats = 3;  ///< measured renders of each row, after one that isn't, at most
 };
 
 /// Seconds of one render.
@@ -89,7 +89,7 @@ const char* name_of(Surface surface);
 const char* name_of(Placement placement);
 
 /// A row isn't measured again once its renders have taken this long.
-inline constexpr double kMostRowSeconds = 2;
+inline constexpr double kMostRowSeconds = 1;
 
 /// `smooth` keeps distances in 16 bits. Measured: where the errors of a sphere stop falling.
 inline constexpr double kDepthFloor = 5e-5;      // voxels, RMS
