@@ -33,7 +33,8 @@ void for_neighbours(const glm::ivec3& table, uint32_t place, const Visit& visit)
     const glm::ivec3 low = glm::max(at - 1, glm::ivec3(0)), high = glm::min(at + 1, table - 1);
     for (int z = low.z; z <= high.z; ++z)
         for (int y = low.y; y <= high.y; ++y)
-            for (int x = low.x; x <= high.x; ++x) visit(size_t(x + table.x * (y + table.y * z)));
+            for (int x = low.x; x <= high.x; ++x)
+                visit(size_t(x) + size_t(table.x) * (size_t(y) + size_t(table.y) * size_t(z)));
 }
 
 }  // namespace
