@@ -83,6 +83,13 @@ GridPlan plan_grid(const Model& model, const MeshSummary* mesh, const GridFrame&
                       double(grid.triangles) * kTriangle +
                       extent.bricks * (counts_windings ? kWinding : kOccupancy) +
                       (extras.words || extras.colors ? extent.bricks * kWords : 0);
+    if (!model.cuts.empty()) {
+        // The mesh's own grids stay beside the cut one; those of the rest of space make it.
+        const bool is_shell = !smooth && model.set != VoxelSet::solid;
+        const double operands = (is_shell ? 2 : 1) * grid.kept_bytes;
+        grid.kept_bytes += operands;
+        grid.made_bytes += 2 * operands;
+    }
     return grid;
 }
 

@@ -31,10 +31,12 @@ std::string model_text(const Model& model) {
     if (!model.voxels.empty())
         return fmt::format("model \"{}\": {}, {}", model.name, source,
                            surfaces[static_cast<size_t>(model.surface)]);
+    const std::string cut =
+        model.cuts.empty() ? "" : fmt::format(", cut by {} solids", model.cuts.size());
     const std::string pitch =
         model.resolution > 0 ? fmt::format("{} voxels along the longest side", model.resolution)
                              : fmt::format("voxels of {} m", vector_text(model.voxel_size));
-    return fmt::format("model \"{}\": {}, {}, {}", model.name, source,
+    return fmt::format("model \"{}\": {}{}, {}, {}", model.name, source, cut,
                        surfaces[static_cast<size_t>(model.surface)], pitch);
 }
 

@@ -124,7 +124,7 @@ TEST_F(Cut, ASmoothFieldIsTheGreaterDistance) {
 bool leaks(const ReadBricks& grid, const glm::ivec3& inside) {
     const glm::ivec3 size = grid.host.frame.size;
     const auto number = [&](const glm::ivec3& v) {
-        return size_t(v.x + size.x * (v.y + size.y * v.z));
+        return size_t(v.x) + size_t(size.x) * (size_t(v.y) + size_t(size.y) * size_t(v.z));
     };
     std::vector<bool> seen(number(size - 1) + 1);
     std::queue<glm::ivec3> open({glm::ivec3(0)});

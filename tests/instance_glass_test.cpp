@@ -119,7 +119,7 @@ TEST_F(InstanceInGlass, AFaceInALatticePlaneIsSeenThroughAllVoxelsBeforeIt) {
                     << model << " along " << axis << " by " << sign;
                 // Pixels are half a voxel wide.
                 const auto area = [&](const std::array<int, 3>& size) {
-                    return size_t(4 * size[(a + 1) % 3] * size[(a + 2) % 3]);
+                    return size_t(4) * size_t(size[(a + 1) % 3]) * size_t(size[(a + 2) % 3]);
                 };
                 EXPECT_EQ(seen, area(body)) << model << " along " << axis << " by " << sign;
                 EXPECT_EQ(seen + through, area(block)) << model;

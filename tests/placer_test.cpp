@@ -33,8 +33,7 @@ PlacedObject at(const BrickGrid& grid, uint32_t number, const glm::dvec3& positi
 }
 
 /// What rays read of a world: every buffer of its pyramid.
-std::vector<std::vector<uint32_t>> pyramid_of(const BrickGrid& world) {
-    const Pyramid p = build_index(shared_device(), world);
+std::vector<std::vector<uint32_t>> buffers_of(const Pyramid& p) {
     return {p.sectors.read(),    p.bricks.read(),
             p.leaves.read(),     p.leaf_voxels.read(),
             p.attributes.read(), p.colors.read(),
@@ -43,10 +42,21 @@ std::vector<std::vector<uint32_t>> pyramid_of(const BrickGrid& world) {
             p.solids.read(),     {p.attribute, p.voxel_count}};
 }
 
-void expect_as_placed_afresh(Placer& placer, const std::vector<PlacedObject>& objects,
+/// A placer, and an indexer that follows it.
+struct Follower {
+    Placer placer{shared_device()};
+    Indexer indexer{shared_device()};
+
+    Pyramid pyramid_of(const std::vector<PlacedObject>& objects, const GridFrame& frame) {
+        const BrickGrid& world = placer.place(objects, frame);
+        return indexer.index(world, placer.changed_bricks());
+    }
+};
+
+void expect_as_placed_afresh(Follower& follower, const std::vector<PlacedObject>& objects,
                              const GridFrame& frame, const std::string& what) {
-    EXPECT_EQ(pyramid_of(placer.place(objects, frame)),
-              pyramid_of(place(shared_device(), objects, frame)))
+    EXPECT_EQ(buffers_of(follower.pyramid_of(objects, frame)),
+              buffers_of(build_index(shared_device(), place(shared_device(), objects, frame))))
         << what;
 }
 
@@ -72,8 +82,8 @@ TEST(Placer, FollowsRandomChanges) {
     };
     std::vector<PlacedObject> objects;
     for (uint32_t number = 0; number < 6; ++number) objects.push_back(somewhere(number));
-    Placer placer(shared_device());
-    expect_as_placed_afresh(placer, objects, frame, "at first");
+    Follower follower;
+    expect_as_placed_afresh(follower, objects, frame, "at first");
     for (int step = 0; step < 25; ++step) {
         const size_t which = random() % objects.size();
         const auto kind = random() % 4;
@@ -83,7 +93,7 @@ TEST(Placer, FollowsRandomChanges) {
             objects.push_back(somewhere(objects.back().object + 1));
         else
             objects[which] = somewhere(objects[which].object);
-        expect_as_placed_afresh(placer, objects, frame,
+        expect_as_placed_afresh(follower, objects, frame,
                                 fmt::format("seed {}, step {}", kSeed, step));
     }
 }
@@ -118,32 +128,47 @@ TEST(Placer, PaintsTheBricksOfAMovedObjectOnly) {
     EXPECT_EQ(counters.launches.count("mark_near_leaves"), 0u);
 }
 
+TEST(Indexer, LooksForNoVoxelsWhereNothingChanged) {
+    const BrickGrid grid = ball(0.2, Surface::smooth);
+    std::vector<PlacedObject> objects = {at(grid, 0, {-.6, 0, 0}), at(grid, 1, {.6, 0, 0})};
+    Follower follower;
+    follower.pyramid_of(objects, world_of(100));
+    std::map<std::string, uint64_t>& launches = shared_device().counters().launches;
+    launches.clear();
+    follower.pyramid_of(objects, world_of(100));
+    EXPECT_EQ(launches.count("mark_voxels"), 0u) << "nothing changed";
+    objects[0].world_from_object[3].x += kEdge;
+    follower.pyramid_of(objects, world_of(100));
+    EXPECT_EQ(launches.count("mark_voxels"), 1u);
+}
+
 TEST(Placer, GrowsAndShrinksWithItsObjects) {
     const BrickGrid grid = ball(0.2, Surface::cubes);
     std::vector<PlacedObject> objects = {at(grid, 0, {-.6, -.6, -.6})};
-    Placer placer(shared_device());
+    Follower follower;
     for (uint32_t number = 1; number < 8; ++number) {
         objects.push_back(at(
             grid, number, {number & 1 ? .6 : -.6, number & 2 ? .6 : -.6, number & 4 ? .6 : -.6}));
-        expect_as_placed_afresh(placer, objects, world_of(100), fmt::format("{} objects", number));
+        expect_as_placed_afresh(follower, objects, world_of(100),
+                                fmt::format("{} objects", number));
     }
     while (objects.size() > 1) {
         objects.erase(objects.begin());
-        expect_as_placed_afresh(placer, objects, world_of(100),
+        expect_as_placed_afresh(follower, objects, world_of(100),
                                 fmt::format("{} left", objects.size()));
     }
-    expect_as_placed_afresh(placer, {}, world_of(100), "none left");
+    expect_as_placed_afresh(follower, {}, world_of(100), "none left");
 }
 
 TEST(Placer, TakesAnotherFrameAndOtherKinds) {
     const BrickGrid cubes = ball(0.2, Surface::cubes), smooth = ball(0.2, Surface::smooth);
-    Placer placer(shared_device());
+    Follower follower;
     const std::vector<PlacedObject> first = {at(cubes, 0, {0, 0, 0}), at(cubes, 1, {.3, 0, 0})};
     const std::vector<PlacedObject> second = {at(smooth, 0, {0, 0, 0}), at(cubes, 1, {.3, 0, 0})};
-    expect_as_placed_afresh(placer, first, world_of(100), "cubes");
-    expect_as_placed_afresh(placer, second, world_of(100), "smooth and cubes");
-    expect_as_placed_afresh(placer, second, world_of(80), "a smaller world");
-    expect_as_placed_afresh(placer, first, world_of(80), "cubes again");
+    expect_as_placed_afresh(follower, first, world_of(100), "cubes");
+    expect_as_placed_afresh(follower, second, world_of(100), "smooth and cubes");
+    expect_as_placed_afresh(follower, second, world_of(80), "a smaller world");
+    expect_as_placed_afresh(follower, first, world_of(80), "cubes again");
 }
 
 TEST(Placer, JoinsExactObjectsAgain) {
@@ -158,24 +183,24 @@ TEST(Placer, JoinsExactObjectsAgain) {
     const BrickGrid left = exact_at(-.4), right = exact_at(.35), cubes = ball(.25, Surface::cubes);
     std::vector<PlacedObject> objects = {at(left, 0, {0, 0, 0}), at(cubes, 1, {0, .3, 0})};
     objects[0].in_world_frame = true;
-    Placer placer(shared_device());
-    expect_as_placed_afresh(placer, objects, frame, "at first");
+    Follower follower;
+    expect_as_placed_afresh(follower, objects, frame, "at first");
     objects[0].grid = &right;
-    expect_as_placed_afresh(placer, objects, frame, "moved");
+    expect_as_placed_afresh(follower, objects, frame, "moved");
     objects[1].world_from_object[3].y = -.4;
-    expect_as_placed_afresh(placer, objects, frame, "the cubes moved");
+    expect_as_placed_afresh(follower, objects, frame, "the cubes moved");
 }
 
 TEST(Placer, StartsAfreshAfterAnError) {
     const BrickGrid grid = ball(0.2, Surface::smooth);
     std::vector<PlacedObject> objects = {at(grid, 0, {0, 0, 0}), at(grid, 1, {.3, 0, 0})};
-    Placer placer(shared_device());
-    placer.place(objects, world_of(100));
+    Follower follower;
+    follower.placer.place(objects, world_of(100));
     const glm::dmat4 before = objects[1].world_from_object;
     objects[1].world_from_object[0][0] = 0;
-    EXPECT_ANY_THROW(placer.place(objects, world_of(100)));
+    EXPECT_ANY_THROW(follower.placer.place(objects, world_of(100)));
     objects[1].world_from_object = before;
-    expect_as_placed_afresh(placer, objects, world_of(100), "after an error");
+    expect_as_placed_afresh(follower, objects, world_of(100), "after an error");
 }
 
 }  // namespace

@@ -3,7 +3,7 @@
 #
 # Renders each animation in one run, which keeps what it can between frames and overlaps them, and then
 # every frame by a process of its own. Prints the frames whose files differ, and the number compared;
-# exits with 1 if any differs. Takes ten minutes on two cores. (The
+# exits with 1 if any differs. Takes twenty minutes on two busy cores. (The
 # turntable's volumes are compared by animation_frames_test, smaller.)
 set -eu
 source=$(cd "$(dirname "$0")/../.." && pwd)
