@@ -5,6 +5,7 @@
 
 #include "runtime/illumination.hpp"
 #include "runtime/pyramid_bytes.hpp"
+#include "runtime/stages/beam.hpp"
 #include "runtime/stages/resolve.hpp"
 #include "runtime/stages/sight.hpp"
 
@@ -25,6 +26,15 @@ Renderer::View Renderer::view_of(const Scene& scene, const FormedWorld& world,
     for (const Material& material : scene.materials) view.transmits.push_back(transmits(material));
     return view;
 }
+
+namespace {
+
+/// Whether so many sight rays save more time by beams than their halo takes.
+bool beams_pay(const Features& features, const Pyramid& world, uint64_t rays) {
+    return !features.instances && world.voxel_count > 0 && rays >= world.leaf_count;
+}
+
+}  // namespace
 
 /// Hits are kept where they take little of the device's memory.
 bool Renderer::has_room(uint64_t rays) const {
@@ -80,6 +90,9 @@ Image Renderer::part_of_image(const Scene& scene, const FormedWorld& formed, Ren
     const bool keeps_hits = has_room(uint64_t(all_tiles) * rays_per_tile);
 
     SightStage sight(device_, features, observer);
+    std::optional<BeamStage> beams;
+    if (!report.hits_are_kept && beams_pay(features, world, uint64_t(all_tiles) * rays_per_tile))
+        beams.emplace(device_, features, world);
     Illumination illumination(device_, features, scene, world, batch.stride);
     ResolveStage resolve(device_, features, observer);
     while (const std::optional<TileRange> range = tiles.share.take(batch_tiles)) {
@@ -91,6 +104,7 @@ Image Renderer::part_of_image(const Scene& scene, const FormedWorld& formed, Ren
         } else {
             if (keeps_hits && first > 0) renew_sight(device_, batch);
             sight.cast(shape_of(world), first, now, batch);
+            if (beams) beams->start(batch, now * rays_per_tile);
             illumination.light(batch, now * rays_per_tile);
             if (keeps_hits) hits_.push_back({batch.rays, batch.hits});
         }

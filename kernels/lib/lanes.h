@@ -56,6 +56,9 @@ static inline int lanes_count(lane_int mask) {
 static inline uint lanes_least(lane_uint v) {
     return v;
 }
+static inline lane_uint lanes_popcount(lane_uint v) {
+    return popcount(v);
+}
 
 #else
 

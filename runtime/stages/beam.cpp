@@ -98,11 +98,11 @@ Halo build_halo(const Device& device, const Pyramid& pyramid) {
     return masks.halo(device);
 }
 
-BeamStage::BeamStage(const Device& device, const Pyramid& pyramid)
+BeamStage::BeamStage(const Device& device, const Features& features, const Pyramid& pyramid)
     : device_(device),
       shape_(shape_of(pyramid)),
       halo_(build_halo(device, pyramid)),
-      program_(device, "beam.cl", {{"VXL_NATIVE_DIVIDE", device.is_cpu()}}),
+      program_(device, "sight.cl", features.defines(device)),
       start_(program_.kernel("start_beams")) {}
 
 void BeamStage::start(RayBatch& batch, uint32_t count) {

@@ -3,7 +3,7 @@
 
 #include "kernels/shared/scene.h"
 #include "runtime/grid.hpp"
-#include "runtime/opencl/program.hpp"
+#include "runtime/stages/features.hpp"
 #include "runtime/stages/ray_batch.hpp"
 
 namespace voxelume {
@@ -19,10 +19,10 @@ struct Halo {
 /// 0.3 microseconds a brick.
 Halo build_halo(const Device& device, const Pyramid& pyramid);
 
-/// Kernels of beam.cl. Beams change how long rays take, never what they meet.
+/// `start_beams` of sight.cl. Beams change how long rays take, never what they meet.
 class BeamStage {
   public:
-    BeamStage(const Device& device, const Pyramid& pyramid);
+    BeamStage(const Device& device, const Features& features, const Pyramid& pyramid);
 
     /// Sends one beam along every 16 of the rays 0 .. count-1 and leaves in `batch.beams` how far
     /// it came. The beams are those of these rays only.

@@ -1,13 +1,15 @@
-// rays -> beams: how far groups of 16 neighbouring rays run through empty space together.
+// Beams: how far groups of 16 neighbouring rays run through empty space together.
 //
 // A beam is the straight line in the middle of its rays, along the axis that they mostly follow:
 // at every coordinate s of that axis it is less than 4 voxels from each of them. So as long as its
 // own leaf and all leaves around that are empty, which the halo (runtime/stages/beam.hpp) knows of
 // one leaf, theirs are. The slack of a quarter voxel covers all rounding, and the small step past
 // the planes at which the line is looked at.
+#ifndef VXL_BEAM_H
+#define VXL_BEAM_H
+
 #include "lib/exact_float.h"
 #include "lib/pyramid.h"
-#include "lib/work_item.h"
 #include "shared/trace.h"
 
 #define VXL_BEAM_RADIUS 3.75f
@@ -74,12 +76,17 @@ typedef struct {
     lane_float b0, m, r0, e;
 } BeamAxis;
 
-static inline BeamAxis beam_axis(const Span* span, lane_float s_near, lane_float s_far) {
-    const lane_float per_s = exact_reciprocal(s_far - s_near);
-    const lane_float middle = 0.5f * (span->least_near + span->most_near);
-    const lane_float radius = 0.5f * (span->most_near - span->least_near);
-    const lane_float middle_far = 0.5f * (span->least_far + span->most_far);
-    const lane_float radius_far = 0.5f * (span->most_far - span->least_far);
+/// Zeros but for the `active` lanes.
+static inline BeamAxis beam_axis(const Span* span, lane_float s_near, lane_float s_far,
+                                 lane_int active) {
+    const lane_float per_s = exact_reciprocal(s_far - s_near), zero = (lane_float)0.0f;
+    const lane_float least = LANES_SELECT(active, span->least_near, zero);
+    const lane_float most = LANES_SELECT(active, span->most_near, zero);
+    const lane_float least_far = LANES_SELECT(active, span->least_far, zero);
+    const lane_float most_far = LANES_SELECT(active, span->most_far, zero);
+    const lane_float middle = 0.5f * (least + most), radius = 0.5f * (most - least);
+    const lane_float middle_far = 0.5f * (least_far + most_far);
+    const lane_float radius_far = 0.5f * (most_far - least_far);
     BeamAxis axis;
     axis.m = (middle_far - middle) * per_s;
     axis.e = (radius_far - radius) * per_s;
@@ -153,51 +160,4 @@ static inline lane_float run_beams(const PyramidView* p, lane_int axis, lane_flo
     return fmin(s, s_last) - 2.0f * VXL_BEAM_STEP;
 }
 
-/// One work-item sends VXL_LANES beams, each along the 16 rays of its group; see shared/trace.h.
-kernel void start_beams(PyramidShape shape, global const uint* restrict sectors,
-                        global const uint* restrict bricks, global const float* restrict rays,
-                        uint count, uint stride, global uint* restrict beams) {
-    const uint first = work_item() * VXL_LANES;
-    if (first >= count) return;
-    const PyramidView halo = pyramid_view(shape, sectors, bricks, 0, 0);
-    const BeamRays r = {rays, stride};
-    const lane_uint beam = min(LANES_AS_UINT(LANES_NUMBERS + (int)first), (lane_uint)(count - 1u));
-    const lane_uint first_ray = beam * VXL_BEAM_RAYS;
-    lane_float sign;
-    const lane_int axis = main_axis(&r, first_ray, &sign);
-    const lane_int is_x = LANE_MASK(axis == 0), is_y = LANE_MASK(axis == 1);
-    const lane_int up = LANE_MASK(sign > 0.0f);
-    const lane_int axis_b = 1 & is_x, axis_c = 1 + (1 & (is_x | is_y));
-    const lane_int size =
-        LANES_SELECT(is_x, (lane_int)shape.size_x,
-                     LANES_SELECT(is_y, (lane_int)shape.size_y, (lane_int)shape.size_z));
-    const lane_float s_near = LANES_SELECT(up, (lane_float)0.0f, -LANES_FLOAT(size));
-    const lane_float s_far = s_near + LANES_FLOAT(size);
-
-    Span b_span = empty_span(), c_span = empty_span();
-    lane_float s_first = s_far;
-    lane_int active = LANE_MASK(sign != 0.0f);
-    for (uint i = 0; i < VXL_BEAM_RAYS; ++i) {
-        const lane_uint ray = first_ray + i;
-        const lane_int held = is_ray(&r, ray) & active;
-        const lane_float s0 = sign * ray_value(&r, axis, ray);
-        const lane_float d = sign * ray_value(&r, axis + VXL_RAY_DX, ray);
-        active &= ~held | LANE_MASK(d >= VXL_BEAM_LEAST_DIRECTION);
-        const lane_float per_s = exact_reciprocal(LANES_SELECT(active & held, d, (lane_float)1.0f));
-        const lane_float mb = ray_value(&r, axis_b + VXL_RAY_DX, ray) * per_s;
-        const lane_float mc = ray_value(&r, axis_c + VXL_RAY_DX, ray) * per_s;
-        const lane_float b = ray_value(&r, axis_b, ray), c = ray_value(&r, axis_c, ray);
-        widen(fma(mb, s_near - s0, b), fma(mb, s_far - s0, b), held, &b_span);
-        widen(fma(mc, s_near - s0, c), fma(mc, s_far - s0, c), held, &c_span);
-        s_first = LANES_SELECT(held, fmin(s_first, s0), s_first);
-    }
-    const BeamAxis b = beam_axis(&b_span, s_near, s_far), c = beam_axis(&c_span, s_near, s_far);
-    const lane_float s_last =
-        fmin(fmin(narrow_until(&b, s_first), narrow_until(&c, s_first)), s_far);
-    const lane_float start = run_beams(&halo, axis, sign, &b, &c, s_first, s_last, active);
-    const uint places = VXL_BEAM_PLACES(stride);
-    LANES_STORE(LANES_AS_UINT(start), beams, VXL_BEAM_START * places + first);
-    const lane_int towards = axis | (~up & VXL_BEAM_DOWN);
-    LANES_STORE(LANES_AS_UINT(LANES_SELECT(active, towards, (lane_int)VXL_BEAM_NONE)), beams,
-                VXL_BEAM_AXIS * places + first);
-}
+#endif
