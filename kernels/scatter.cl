@@ -182,7 +182,7 @@ kernel void pass_layer(global const float* restrict materials, global const uint
     on.cell_xy = LANES_LOAD(hits, VXL_HIT_CELL * stride + first);
     on.cell_z = LANES_LOAD(hits, VXL_HIT_FACE * stride + first);
     on.target = target;
-    on.interior = cross_counted(load_interior(paths, stride, first), word,
+    on.interior = cross_counted(load_interior(paths, stride, first, valid), word,
                                 is_smooth(word, on.source), leaving, goes_on, lost);
     if (VXL_CUBE_BODIES) on.flags |= joined_flag(&on.interior, materials);
     on.medium = medium_inside(&on.interior, ranks);
@@ -278,7 +278,7 @@ kernel void scatter_rays(PyramidShape shape, global const float* restrict materi
     ray.start = zero;
     ray.cell_xy = ray.cell_z = (lane_uint)0;
     ray.interior = empty_interior();
-    if (VXL_TRANSMISSION) ray.interior = load_interior(paths, stride, first);
+    if (VXL_TRANSMISSION) ray.interior = load_interior(paths, stride, first, valid);
 
     // Directions in metres' space: v along the ray, n against it.
     const float4 edge = shape.edge;

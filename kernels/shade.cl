@@ -145,7 +145,7 @@ kernel void shade_surface(PyramidShape shape, Space space, global const float* r
     lane_uint side = LANES_AS_UINT(behind) & VXL_SIDE_LEAVING;
     if (VXL_TRANSMISSION) {
         lane_int hidden;
-        const Interior before = load_interior(paths, stride, first);
+        const Interior before = load_interior(paths, stride, first, hit);
         const lane_int body = is_smooth(word, primitive) & ~of_instance;
         lane_int leaving = interior_holds(&before, word, body) | behind;
         lane_int inner = (lane_int)0, exit = (lane_int)0;  // faces between cubes, and out of them

@@ -59,7 +59,7 @@ kernel void trace_closest(VXL_WORLD_ARGUMENTS, global const float* restrict rays
     VXL_WORLD_VIEWS;
     Flight f;
     f.ray = LANES_AS_UINT(LANES_NUMBERS + (int)first);
-    set_out(&pyramid, rays, stride, paths, starts, &f);
+    set_out(&pyramid, rays, count, stride, paths, starts, &f);
     if (beams) ride_beam(beams, stride, first, &f.walk);
     const lane_int active = LANE_MASK(f.t_end >= 0.0f) & LANE_MASK(f.ray < count);
     f.found =
@@ -101,7 +101,7 @@ kernel void trace_scattered(VXL_WORLD_ARGUMENTS, global const float* restrict ra
     (void)instances;
     Flight f;
     f.ray = LANES_AS_UINT(LANES_NUMBERS + (int)next);
-    set_out(&pyramid, rays, stride, paths, starts, &f);
+    set_out(&pyramid, rays, count, stride, paths, starts, &f);
     next += VXL_LANES;
     lane_int held = (lane_int)-1, waiting = (lane_int)0;
     lane_int walking =
@@ -123,7 +123,7 @@ kernel void trace_scattered(VXL_WORLD_ARGUMENTS, global const float* restrict ra
         if (next >= end) break;
         const Flight before = f;
         const lane_int fresh = take_rays(~walking, end, &next, &f.ray);
-        set_out(&pyramid, rays, stride, paths, starts, &f);
+        set_out(&pyramid, rays, count, stride, paths, starts, &f);
         keep_progress(&before, fresh, &f);
         held |= fresh;
         walking |= fresh & LANE_MASK(f.t_end >= 0.0f) & LANE_MASK(f.ray < count) &
@@ -148,7 +148,7 @@ kernel void begin_inside(VXL_WORLD_ARGUMENTS, uint constant_attribute,
     (void)instances;
     Flight f;
     f.ray = LANES_AS_UINT(LANES_NUMBERS + (int)first);
-    set_out(&pyramid, rays, stride, paths, starts, &f);
+    set_out(&pyramid, rays, count, stride, paths, starts, &f);
     Interior in = f.travel.interior;
     const lane_int active = LANE_MASK(f.t_end >= 0.0f) & LANE_MASK(f.ray < count);
     const Interior began = find_beginnings(&pyramid, &surface, &f.walk, active, &f.travel,
@@ -214,7 +214,7 @@ kernel void trace_shadows(VXL_WORLD_ARGUMENTS, uint constant_attribute,
     if (VXL_FILTER) {
         // `paths` are those of the rays that met the surface: on its same side light arrives.
         const lane_uint target = LANES_LOAD(targets, first) & LANES_AS_UINT(active);
-        travel.interior = gather_interior(paths, stride, target);
+        travel.interior = gather_interior(paths, stride, target, active);
         if (VXL_CUBE_BODIES) find_body(&travel, materials);
         const Vector d = {walk.dx, walk.dy, walk.dz};
         const lane_float zero = (lane_float)0.0f, one = (lane_float)1.0f;

@@ -140,8 +140,10 @@ static inline lane_int has_flag(lane_uint flags, uint flag) {
     return LANE_MASK((flags & flag) != 0u);
 }
 
+/// The paths numbered `ray` of `count`.
 static inline Travel load_travel(global const uint* restrict paths,
-                                 global const float* restrict starts, uint stride, lane_uint ray) {
+                                 global const float* restrict starts, uint count, uint stride,
+                                 lane_uint ray) {
     Travel travel = sight_travel();
     const lane_uint flags = VXL_RAY_UINTS(paths + VXL_PATH_FLAGS * stride, ray);
     travel.on_surface = has_flag(flags, VXL_PATH_ON_SURFACE);
@@ -151,7 +153,7 @@ static inline Travel load_travel(global const uint* restrict paths,
     if (VXL_TRANSMISSION) {
         travel.goes_on = has_flag(flags, VXL_PATH_GOES_ON);
         travel.t_first = VXL_RAY_FLOATS(starts, ray);
-        travel.interior = gather_interior(paths, stride, ray);
+        travel.interior = gather_interior(paths, stride, ray, LANE_MASK(ray < count));
     }
     if (VXL_CUBE_BODIES) {
         travel.body = body_inside(&travel.interior);
@@ -212,12 +214,12 @@ static inline lane_int take_rays(lane_int idle, uint end, uint* next, lane_uint*
 }
 
 /// Sets the rays that the lanes hold on their way.
-static inline void set_out(const PyramidView* p, global const float* restrict rays, uint stride,
-                           global const uint* restrict paths, global const float* restrict starts,
-                           Flight* f) {
+static inline void set_out(const PyramidView* p, global const float* restrict rays, uint count,
+                           uint stride, global const uint* restrict paths,
+                           global const float* restrict starts, Flight* f) {
     f->walk = walk_of(rays, stride, f->ray);
     f->travel = sight_travel();
-    if (VXL_PATHS) f->travel = load_travel(paths, starts, stride, f->ray);
+    if (VXL_PATHS) f->travel = load_travel(paths, starts, count, stride, f->ray);
     enter_world(p, &f->walk, ~f->travel.on_surface);
     f->travel.unsure = ~f->travel.on_surface & LANE_MASK(f->walk.axis == 3);
     if (VXL_TRANSMISSION)

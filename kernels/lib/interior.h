@@ -23,11 +23,15 @@ static inline Interior empty_interior(void) {
     return interior;
 }
 
-static inline Interior load_interior(global const uint* paths, uint stride, uint first) {
+/// The sets of the paths from `first` on. Lanes that are not of `some` are inside of nothing:
+/// beyond a queue's end there may be anything, and no object's number.
+static inline Interior load_interior(global const uint* paths, uint stride, uint first,
+                                     lane_int some) {
     global const uint* p = paths + VXL_PATH_INSIDE * (size_t)stride;
     Interior interior;
     for (int i = 0; i < VXL_INTERIOR_MEMBERS; ++i)
-        interior.members[i] = LANES_LOAD(p, (size_t)i * stride + first);
+        interior.members[i] =
+            LANES_SELECT(some, LANES_LOAD(p, (size_t)i * stride + first), (lane_uint)VXL_NO_MEMBER);
     return interior;
 }
 
@@ -38,11 +42,13 @@ static inline void store_interior(const Interior* in, global uint* paths, uint s
 }
 
 /// load_interior of the paths numbered `path`.
-static inline Interior gather_interior(global const uint* paths, uint stride, lane_uint path) {
+static inline Interior gather_interior(global const uint* paths, uint stride, lane_uint path,
+                                       lane_int some) {
     global const uint* p = paths + VXL_PATH_INSIDE * (size_t)stride;
     Interior interior;
     for (int i = 0; i < VXL_INTERIOR_MEMBERS; ++i)
-        interior.members[i] = LANES_GATHER_UINT(p + (size_t)i * stride, path);
+        interior.members[i] = LANES_SELECT(some, LANES_GATHER_UINT(p + (size_t)i * stride, path),
+                                           (lane_uint)VXL_NO_MEMBER);
     return interior;
 }
 
