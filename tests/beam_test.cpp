@@ -109,7 +109,7 @@ TEST_P(BeamLanes, LeaveTheHitsAsTheyAre) {
         const Pyramid pyramid =
             build_index(device, scattered_cubes({230, 137, 301}, voxels).upload(device));
         TraceStage trace(device, features_of(pyramid));
-        BeamStage beams(device, features_of(pyramid), pyramid);
+        BeamStage beams(device, features_of(pyramid), pyramid, build_halo(device, pyramid));
         const RayList rays = random_tiles(pyramid, 1500);
         RayBatch batch = rays.batch(device);
         trace.closest(pyramid, batch, batch.stride);
@@ -136,7 +136,8 @@ struct Start {
 
 Start first_start(const Device& device, const Pyramid& pyramid, const RayList& rays) {
     RayBatch batch = rays.batch(device);
-    BeamStage(device, features_of(pyramid), pyramid).start(batch, batch.stride);
+    BeamStage(device, features_of(pyramid), pyramid, build_halo(device, pyramid))
+        .start(batch, batch.stride);
     const std::vector<uint32_t> words = batch.beams.read();
     Start start{0, words[VXL_BEAM_AXIS * VXL_BEAM_PLACES(batch.stride)]};
     std::memcpy(&start.s, &words[0], sizeof start.s);

@@ -1,6 +1,7 @@
 #include "runtime/stages/beam.hpp"
 
 #include <array>
+#include <utility>
 
 #include "runtime/stages/sector_table.hpp"
 #include "runtime/stages/trace.hpp"
@@ -98,10 +99,11 @@ Halo build_halo(const Device& device, const Pyramid& pyramid) {
     return masks.halo(device);
 }
 
-BeamStage::BeamStage(const Device& device, const Features& features, const Pyramid& pyramid)
+BeamStage::BeamStage(const Device& device, const Features& features, const Pyramid& pyramid,
+                     Halo halo)
     : device_(device),
       shape_(shape_of(pyramid)),
-      halo_(build_halo(device, pyramid)),
+      halo_(std::move(halo)),
       program_(device, "sight.cl", features.defines(device)),
       start_(program_.kernel("start_beams")) {}
 

@@ -22,7 +22,8 @@ Halo build_halo(const Device& device, const Pyramid& pyramid);
 /// `start_beams` of sight.cl. Beams change how long rays take, never what they meet.
 class BeamStage {
   public:
-    BeamStage(const Device& device, const Features& features, const Pyramid& pyramid);
+    /// `halo` is the pyramid's.
+    BeamStage(const Device& device, const Features& features, const Pyramid& pyramid, Halo halo);
 
     /// Sends one beam along every 16 of the rays 0 .. count-1 and leaves in `batch.beams` how far
     /// it came. The beams are those of these rays only.

@@ -196,7 +196,7 @@ void bench(const Mesh& mesh, Surface surface, const char* name, int voxels, int 
     TraceStage stage(device, features_of(pyramid));
     const std::vector<Ray> rays = picture_rays(frame);
     RayList all(device, pyramid, rays);
-    BeamStage beams(device, features_of(pyramid), pyramid);
+    BeamStage beams(device, features_of(pyramid), pyramid, build_halo(device, pyramid));
     const double all_seconds = all.time(device, stage, pyramid, &beams);
     uint64_t hash = all.hash();
     const RayLists lists = split_rays(rays, all.hits(), frame);
