@@ -76,8 +76,8 @@ static inline lane_int look_up_leaf(const PyramidView* p, lane_int x, lane_int y
     const lane_int changed = LANE_MASK(sector != last->number) & active;
     if (lanes_any(changed)) {  // seldom: the branch lets the next loads begin early
         last->number = LANES_SELECT(changed, sector, last->number);
-        last->entry = LANES_SELECT(changed, LANES_GATHER_UINT(p->sectors, sector & changed),
-                                   last->entry);
+        last->entry =
+            LANES_SELECT(changed, LANES_GATHER_UINT(p->sectors, sector & changed), last->entry);
     }
     const lane_uint entry = last->entry;
     const lane_int stored = LANE_MASK(LANES_AS_INT(entry) >= 0);
