@@ -97,11 +97,13 @@ Numbering number_voxels(const BrickGrid& grid, const Marks& marks) {
         primitives += marks.counts[slot * 2 + 1];
     }
     write_empty_cubes(numbers.bricks);
-    if (std::max(voxels, primitives) > UINT32_MAX)
+    // Kernels gather by signed indices: of two words a leaf, of eight a field.
+    const uint64_t most = grid.distance.empty() ? uint64_t{1} << 30 : uint64_t{1} << 28;
+    if (std::max(voxels, primitives) > most)
         throw Error(ErrorKind::limit,
                     "this world has {} surface voxels and {} primitives in them, at most {} can be "
                     "numbered: use larger voxels",
-                    voxels, primitives, UINT32_MAX);
+                    voxels, primitives, most);
     numbers.leaf_count = uint32_t(leaves);
     numbers.voxel_count = uint32_t(voxels);
     numbers.primitive_count = uint32_t(primitives);
