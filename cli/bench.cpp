@@ -10,6 +10,7 @@
 #include "cli/commands.hpp"
 #include "runtime/bench/bench.hpp"
 #include "runtime/bench/bench_page.hpp"
+#include "runtime/bench/bench_plots.hpp"
 #include "runtime/bench/bench_tables.hpp"
 #include "runtime/error.hpp"
 #include "runtime/io/atomic_file.hpp"
@@ -21,9 +22,10 @@ namespace {
 
 struct BenchCommand {
     bool is_quick = false;
-    std::string page, json, csv, peers;
+    std::string page, json, csv, plot, peers;
     std::vector<std::string> only;
     std::vector<int> resolutions, samples;
+    std::vector<std::string> placements;
     std::string size;
     int repeats = 0;  ///< 0: as --quick says
     std::string device;
@@ -50,20 +52,37 @@ void sort_once(std::vector<int>& values) {
     values.erase(std::unique(values.begin(), values.end()), values.end());
 }
 
+/// What a run of under a minute has: programs not compiled yet take half of it.
+void make_quick(BenchOptions& options) {
+    options.resolutions = {8, 16, 32, 64, 128};
+    options.samples = {1, 4};
+    options.placements = {Placement::world};
+    options.size = glm::ivec2(160);
+    options.light_size = glm::ivec2(80);
+    options.measures_shadows = false;
+    options.repeats = 1;
+}
+
 BenchOptions options_of(const BenchCommand& command) {
     BenchOptions options;
     options.subjects = chosen_entries(command.only);
     // The steps are halved where smooth surfaces have not yet reached their floor.
-    options.resolutions = {8, 11, 16, 23, 32, 45, 64, 128, 256};
-    if (!command.is_quick) options.resolutions.insert(options.resolutions.end(), {512, 1024});
+    options.resolutions = {8, 11, 16, 23, 32, 45, 64, 128, 256, 512, 1024};
+    options.samples = {1, 4, 16};
+    if (command.is_quick) make_quick(options);
     if (!command.resolutions.empty()) options.resolutions = command.resolutions;
     sort_once(options.resolutions);
-    options.samples = command.is_quick ? std::vector<int>{1, 4} : std::vector<int>{1, 4, 16};
     if (!command.samples.empty()) options.samples = command.samples;
     sort_once(options.samples);
-    options.size = glm::ivec2(command.is_quick ? 256 : 1024);
-    if (!command.size.empty()) options.size = parse_size(command.size, "bench");
-    options.repeats = command.is_quick ? 1 : 5;
+    if (!command.placements.empty()) {
+        options.placements.clear();
+        for (const Placement placement : {Placement::world, Placement::instance})
+            if (std::ranges::find(command.placements, name_of(placement)) !=
+                command.placements.end())
+                options.placements.push_back(placement);
+    }
+    if (!command.size.empty())
+        options.size = options.light_size = parse_size(command.size, "bench");
     if (command.repeats > 0) options.repeats = command.repeats;
     if (!command.peers.empty()) options.peers = read_peers(command.peers, options.size);
     return options;
@@ -71,10 +90,11 @@ BenchOptions options_of(const BenchCommand& command) {
 
 void check_outputs(const BenchCommand& command) {
     if (!command.page.empty()) check_output(command.page, {".html", ".htm"}, "bench");
+    if (!command.plot.empty()) check_output(command.plot, {".svg"}, "bench");
     if (!command.json.empty()) check_output(command.json, {}, "bench");
     if (!command.csv.empty()) check_output(command.csv, {}, "bench");
     std::vector<std::string> names;
-    for (const std::string& name : {command.page, command.json, command.csv})
+    for (const std::string& name : {command.page, command.json, command.csv, command.plot})
         if (!name.empty()) names.push_back(name);
     std::ranges::sort(names);
     const auto twice = std::ranges::adjacent_find(names);
@@ -104,6 +124,7 @@ int run(const BenchCommand& command) {
     fmt::print("{}", bench_text(report));
     write_text(command.page, bench_page(report));
     write_text(command.csv, bench_csv(report));
+    write_text(command.plot, bench_picture(report));
     // The device's name may be in any encoding.
     const auto json = bench_json(report);
     write_text(command.json,
@@ -123,14 +144,19 @@ std::string list_of_scenes() {
 Action add_bench(CLI::App& app) {
     const auto command = std::make_shared<BenchCommand>();
     app.add_flag("--quick", command->is_quick,
-                 "256x256 pixels, one repeat, no finest voxels: about a minute");
+                 "every scene in under a minute: 8 to 128 voxels a metre, 160x160 pixels (80x80 "
+                 "with light), one repeat, no instances, no shadow edges");
     app.add_option("-o,--output", command->page, "report with plots: .html");
     app.add_option("--json", command->json, "file for everything that was measured");
     app.add_option("--csv", command->csv, "file for the rows");
+    app.add_option("--plot", command->plot, "picture of depth against time: .svg");
     app.add_option("--only", command->only, list_of_scenes())->allow_extra_args(false);
     app.add_option("--resolution", command->resolutions, "voxels a metre, like 16,32,64")
         ->delimiter(',')
         ->check(in_range(2, 4096, Number::whole));
+    app.add_option("--placement", command->placements, "world, instance, or both with a comma")
+        ->delimiter(',')
+        ->check(CLI::IsMember({"world", "instance"}));
     app.add_option("--samples", command->samples, "rays a pixel, like 1,4,16; scenes with light")
         ->delimiter(',')
         ->check(in_range(1, 4096, Number::whole));

@@ -1,21 +1,26 @@
 // voxelume diff A B: how far two images are from each other.
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <sstream>
 
 #include "cli/commands.hpp"
 #include "cli/report.hpp"
 #include "runtime/error.hpp"
+#include "runtime/flip.hpp"
 #include "runtime/image_difference.hpp"
 #include "runtime/io/exr.hpp"
 #include "runtime/io/input_file.hpp"
+#include "runtime/io/mesh_color.hpp"
 #include "runtime/io/png.hpp"
 #include "runtime/scene_fields.hpp"
 
 namespace voxelume::cli {
 
 namespace {
+
+constexpr const char* kColors[] = {"R", "G", "B"};
 
 struct DiffOptions {
     std::string a, b;
@@ -45,7 +50,33 @@ Image read_image(const std::string& path) {
     return is_png(path) ? image_from(read_png(path)) : read_exr(path);
 }
 
-ImageDifference compare_files(const DiffOptions& options) {
+/// Codes as the light that they stand for.
+void make_linear(Image& image) {
+    for (const char* name : kColors)
+        for (float& value : image.planes.at(name)) value = linear_from_srgb(double(value));
+}
+
+bool has_colors(const Image& image) {
+    const auto is_nan = [](float value) { return std::isnan(value); };
+    return std::ranges::all_of(kColors, [&](const char* name) {
+        const auto plane = image.planes.find(name);
+        return plane != image.planes.end() && std::ranges::none_of(plane->second, is_nan);
+    });
+}
+
+/// Nothing without colours, and for colours that aren't numbers.
+std::optional<double> flip_of(Image a, Image b, bool are_codes) {
+    if (!has_colors(a) || !has_colors(b)) return {};
+    if (are_codes) make_linear(a), make_linear(b);
+    return mean_flip(a, b);
+}
+
+struct FileDifference {
+    ImageDifference errors;
+    std::optional<double> flip;
+};
+
+FileDifference compare_files(const DiffOptions& options) {
     if (is_png(options.a) != is_png(options.b))
         throw Error(ErrorKind::usage,
                     "diff: {} and {} aren't of one kind: a PNG holds codes, an EXR light",
@@ -54,11 +85,12 @@ ImageDifference compare_files(const DiffOptions& options) {
     if (a.width != b.width || a.height != b.height)
         throw Error(ErrorKind::render, "{} has {} x {} pixels and {} has {} x {}", options.a,
                     a.width, a.height, options.b, b.width, b.height);
-    return compare_images(a, b);
+    return {compare_images(a, b), flip_of(a, b, is_png(options.a))};
 }
 
-/// Leaves the channels that were asked for.
-void select_channels(ImageDifference& difference, const std::string& list) {
+/// Leaves the channels that were asked for, and FLIP where all colours are among them.
+void select_channels(FileDifference& compared, const std::string& list) {
+    ImageDifference& difference = compared.errors;
     std::vector<std::string_view> known(difference.only_in_a.begin(), difference.only_in_a.end());
     known.insert(known.end(), difference.only_in_b.begin(), difference.only_in_b.end());
     for (const ChannelDifference& channel : difference.channels) known.push_back(channel.channel);
@@ -76,9 +108,11 @@ void select_channels(ImageDifference& difference, const std::string& list) {
     std::erase_if(difference.channels, [&](const auto& c) { return unwanted(c.channel); });
     std::erase_if(difference.only_in_a, unwanted);
     std::erase_if(difference.only_in_b, unwanted);
+    if (std::ranges::any_of(kColors, unwanted)) compared.flip.reset();
 }
 
-Report make_report(const ImageDifference& difference) {
+Report make_report(const FileDifference& compared) {
+    const ImageDifference& difference = compared.errors;
     Report report;
     report["channels"] = Report::array();
     for (const ChannelDifference& c : difference.channels)
@@ -89,6 +123,7 @@ Report make_report(const ImageDifference& difference) {
                                       {"mrse", c.mrse},
                                       {"differing", c.differing},
                                       {"unmatched", c.unmatched}});
+    if (compared.flip) report["FLIP"] = *compared.flip;
     if (!difference.only_in_a.empty()) report["only in A"] = difference.only_in_a;
     if (!difference.only_in_b.empty()) report["only in B"] = difference.only_in_b;
     return report;
@@ -123,12 +158,14 @@ Action add_diff(CLI::App& app) {
         "max, rmse, mae: largest, root mean square and mean absolute error; mrse: mean of\n"
         "((A - B) / (|B| + 0.01))^2; differing: pixels that aren't equal; unmatched: those of "
         "them\n"
-        "that aren't finite in both, which the errors leave out.");
+        "that aren't finite in both, which the errors leave out. FLIP: mean of what eyes see when\n"
+        "the images alternate, 0..1 (Andersson et al. 2020, LDR: light is cut to 0..1), at 67\n"
+        "pixels a degree.");
     return [options] {
-        ImageDifference difference = compare_files(*options);
+        FileDifference difference = compare_files(*options);
         if (!options->channels.empty()) select_channels(difference, options->channels);
         print_report(make_report(difference), options->json);
-        if (options->fail) check_limit(difference, *options->fail);
+        if (options->fail) check_limit(difference.errors, *options->fail);
         return 0;
     };
 }

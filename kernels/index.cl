@@ -33,16 +33,27 @@ static inline int lowest_bit(ulong mask) {
     return (int)popcount((mask & -mask) - 1);
 }
 
-// One brick: masks of its voxels, mask of its leaves, and two counts: voxels and primitives. `size`
-// is the grid's, `bricks` the brick table's.
-kernel void mark_voxels(const uint count, const int4 size, const int4 bricks,
-                        global const uint* restrict slots, global const uint* restrict coordinates,
+// One leaf of a brick whose masks go to another slot: `moves` holds pairs of slots, from and to.
+kernel void move_masks(const uint count, global const uint* restrict moves, global ulong* masks) {
+    const uint item = work_item();
+    if (item >= count) return;
+    const uint2 slots = vload2(item >> 6, moves);
+    masks[(size_t)slots.y * 64 + (item & 63u)] = masks[(size_t)slots.x * 64 + (item & 63u)];
+}
+
+// One brick of those `listed`, or of all where that is null: masks of its voxels, mask of its
+// leaves, and two counts: voxels and primitives, these in the list's order. `size` is the grid's,
+// `bricks` the brick table's.
+kernel void mark_voxels(const uint count, global const uint* restrict listed, const int4 size,
+                        const int4 bricks, global const uint* restrict slots,
+                        global const uint* restrict coordinates,
                         global const ulong* restrict occupancy,
                         global const short* restrict distance,
                         global const uint* restrict primitive_first, global ulong* restrict masks,
                         global ulong* restrict leaf_masks, global uint* restrict counts) {
-    const uint slot = work_item();
-    if (slot >= count) return;
+    const uint item = work_item();
+    if (item >= count) return;
+    const uint slot = listed ? listed[item] : item;
     const int4 brick = brick_at(coordinates[slot], bricks);
     ulong kept[64];
     for (int leaf = 0; leaf < 64; ++leaf)
@@ -69,8 +80,8 @@ kernel void mark_voxels(const uint count, const int4 size, const int4 bricks,
                 primitives += primitive_first[voxel + 1] - primitive_first[voxel];
             }
     }
-    leaf_masks[slot] = leaf_mask;
-    vstore2((uint2)(voxels, primitives), slot, counts);
+    leaf_masks[item] = leaf_mask;
+    vstore2((uint2)(voxels, primitives), item, counts);
 }
 
 // One brick: its leaves and voxels, from the numbers in `starts` (first leaf, voxel, primitive of

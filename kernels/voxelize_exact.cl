@@ -1,6 +1,7 @@
 // triangles of each brick -> for each voxel the triangles that it lists, in ascending order.
 //
-// A voxel lists the triangles that its closed cube meets, the SUPERCOVER. Counted, summed, written.
+// A voxel lists the triangles that its closed cube meets, the SUPERCOVER, widened by VXL_MARGIN.
+// Counted, summed, written.
 #include "lib/cover.h"
 
 static inline uint voxel_index(int x, int y, int z) {

@@ -4,6 +4,7 @@
 #include <chrono>
 
 #include "runtime/error.hpp"
+#include "runtime/stages/cut.hpp"
 #include "runtime/stages/voxelize_solid.hpp"
 
 namespace voxelume {
@@ -51,12 +52,13 @@ SharedGrid ObjectGrids::find_or_make(const Model& model, const Source& source,
         return grid;
     } catch (const Error& error) {
         const bool is_users = error.kind() == ErrorKind::input || error.kind() == ErrorKind::limit;
-        if (!is_users) throw;
+        if (!is_users || where.empty()) throw;
         throw Error(error.kind(), "{}: {}", where, error.what());
     }
 }
 
 BrickGrid ObjectGrids::read_or_make(const Model& model, const Source& source, bool keeps) {
+    if (!model.cuts.empty()) return make_cut(model, source, keeps);
     const ModelCache& cache = meshes_.cache();
     const std::string mesh = keeps ? meshes_.source_of(model) : std::string();
     std::string key;
@@ -84,6 +86,29 @@ BrickGrid ObjectGrids::make(const Model& model, const Source& source) {
                               options);
     return voxelizer_.voxelize(*meshes_.mesh_of(model), source.frame_from_model, source.frame,
                                options);
+}
+
+/// The mesh's own grids are kept like any others: while cuts move, only they are voxelized anew.
+BrickGrid ObjectGrids::make_cut(const Model& model, const Source& source, bool keeps) {
+    const Solid rest = rest_of(source.frame, model.cuts);
+    const auto body = [&](VoxelSet set) {
+        Model whole = model;
+        whole.cuts.clear();
+        whole.set = set;
+        return find_or_make(whole, {source_of(whole), source.frame_from_model, source.frame}, "",
+                            keeps);
+    };
+    const auto left = [&](VoxelSet set) {
+        return voxelize_solid(device_, rest, source.frame_from_model, source.frame,
+                              {model.surface, set});
+    };
+    ++voxelized_;
+    const SharedGrid whole = body(model.set);
+    const BrickGrid space = left(model.set);
+    if (model.surface == Surface::smooth) return common_field(device_, *whole, space);
+    if (model.set == VoxelSet::solid)
+        return common_cubes(device_, {*whole, *whole}, {space, space});
+    return common_cubes(device_, {*whole, *body(VoxelSet::solid)}, {space, left(VoxelSet::solid)});
 }
 
 void ObjectGrids::forget_unused() {

@@ -47,12 +47,13 @@ class ObjectGrids {
         bool is_used = true;
     };
 
-    /// `keeps` lets the cache have it: an exact object that moves is another one in every frame,
-    /// and takes many times its mesh's bytes.
+    /// `where` opens messages; empty, where a caller does. `keeps` lets the cache have it: an exact
+    /// object that moves is another one in every frame, and takes many times its mesh's bytes.
     SharedGrid find_or_make(const Model& model, const Source& source, const std::string& where,
                             bool keeps = true);
     BrickGrid read_or_make(const Model& model, const Source& source, bool keeps);
     BrickGrid make(const Model& model, const Source& source);
+    BrickGrid make_cut(const Model& model, const Source& source, bool keeps);
 
     Device device_;
     MeshStore& meshes_;

@@ -127,6 +127,7 @@ struct Model {
     std::filesystem::path mesh;    ///< a regular file inside the asset folders; may be empty
     std::filesystem::path voxels;  ///< likewise, of voxels that are there already; may be empty
     std::optional<Morph> morph;    ///< of a mesh
+    std::vector<Solid> cuts;       ///< of a mesh that isn't exact: what is taken away from it
     std::optional<Solid> solid;    ///< has a value exactly when both files are empty
     glm::dvec3 voxel_size{0};      ///< metres in object space, > 0; 0 when `resolution` decides
     int resolution = 0;  ///< voxels along the longest side, 1..65536; 0 when `voxel_size` decides

@@ -84,6 +84,7 @@ class FrameReader {
         model.voxels = std::move(now.voxels);
         model.solid = std::move(now.solid);
         model.morph = std::move(now.morph);
+        model.cuts = std::move(now.cuts);
     }
 
     void read_object(const MovingPart& part, const SceneValue& value) {

@@ -45,7 +45,7 @@ std::vector<KeyTable> make_tables() {
          {"color", "diffuse", "specular", "shininess", "reflection", "refraction", "ior", "fresnel",
           "opacity", "absorption", "emission", "checker"}},
         {"checker", {"color", "size", "origin"}},
-        {"model:mesh", Keys{"mesh", "sequence", "morph"} + lattice},
+        {"model:mesh", Keys{"mesh", "sequence", "morph", "cut"} + lattice},
         {"model:voxels", {"voxels", "sequence", "surface"}},
         {"sequence", {"first", "last", "start", "loop"}},
         {"morph", {"mesh", "center", "radius", "amount"}},

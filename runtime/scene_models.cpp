@@ -117,6 +117,13 @@ Model read_model(const std::string& name, const SceneValue& value, const ModelCo
         if (const auto morph = fields.find("morph"))
             model.morph = read_morph(*morph, context.search);
         read_lattice(fields, context.world_voxel_size, model);
+        if (const auto cut = fields.find("cut")) {
+            model.cuts = read_cuts(*cut);
+            if (model.surface == Surface::exact)
+                cut->fail(
+                    "an \"exact\" mesh shows its triangles and can't be cut; make its surface "
+                    "\"smooth\" or \"cubes\"");
+        }
     }
     return model;
 }

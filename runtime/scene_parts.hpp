@@ -63,6 +63,7 @@ std::vector<Material> read_materials(const SceneValue& value);
 Model read_model(const std::string& name, const SceneValue& value, const ModelContext& context);
 std::vector<Model> read_models(const SceneValue& value, const ModelContext& context);
 Solid read_solid(const SceneValue& value);  ///< of a model; see scene_solids.cpp for its parts
+std::vector<Solid> read_cuts(const SceneValue& value);  ///< a list of parts, of a mesh
 std::vector<Object> read_objects(const SceneValue& value, const Scene& scene);
 Light read_light(const SceneValue& value, size_t number);  ///< `number`: its place in the list
 std::vector<Light> read_lights(const SceneValue& value);

@@ -75,6 +75,14 @@ class SolidReader {
         return solid;
     }
 
+    /// Parts of something that counts as one shape and isn't a solid.
+    std::vector<Solid> read_list(const SceneValue& value) {
+        Solid of;
+        ++shapes_;
+        read_parts(value, of, 1);
+        return std::move(of.parts);
+    }
+
   private:
     void read_parts(const SceneValue& value, Solid& solid, int depth) {
         const auto parts = value.items();
@@ -104,6 +112,10 @@ bool is_infinite(const Solid& solid) {
 
 Solid read_solid(const SceneValue& value) {
     return SolidReader().read(value, "model", 1);
+}
+
+std::vector<Solid> read_cuts(const SceneValue& value) {
+    return SolidReader().read_list(value);
 }
 
 Factors read_factors(const SceneFields& fields) {

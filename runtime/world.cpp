@@ -88,6 +88,8 @@ FormedWorld WorldFormer::form(const Scene& scene, WorldReport& report) {
     if (origin_ == origin) return kept_world(scene, report);
     origin_.reset();
     world_.pyramid = {};
+    // What an error leaves in the middle is begun afresh.
+    Indexer indexer = std::exchange(indexer_, Indexer(device_));
     check_placements(scene);
     check_tables(scene, device_.info());
     const double loaded_before = meshes_.load_seconds();
@@ -127,7 +129,8 @@ FormedWorld WorldFormer::form(const Scene& scene, WorldReport& report) {
     placing.stop();
 
     Stopwatch indexing(report.index_seconds);
-    FormedWorld formed{build_index(device_, world), ++world_.version};
+    FormedWorld formed{indexer.index(world, placer_ ? placer_->changed_bricks() : nullptr),
+                       ++world_.version};
     formed.pyramid =
         add_instances(device_, scene, listed, std::move(formed.pyramid), report.instances);
     formed.pyramid.object_boxes = std::move(boxes);
@@ -135,6 +138,7 @@ FormedWorld WorldFormer::form(const Scene& scene, WorldReport& report) {
     indexing.stop();
     if (keeps) {
         world_.pyramid = formed.pyramid;
+        indexer_ = std::move(indexer);
         instance_maps_ = instance_maps(scene, formed.pyramid);
         instances_ = report.instances;
         origin_ = std::move(origin);

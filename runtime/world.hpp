@@ -8,6 +8,7 @@
 #include "runtime/instances.hpp"
 #include "runtime/object_grids.hpp"
 #include "runtime/scene.hpp"
+#include "runtime/stages/index.hpp"
 #include "runtime/stages/place.hpp"
 
 namespace voxelume {
@@ -43,7 +44,7 @@ class WorldFormer {
     /// Where nothing `follows` the first frame, nothing is kept.
     /// Meshes that `cache` has voxels of are not read.
     explicit WorldFormer(const Device& device, bool follows = true, ModelCache cache = {})
-        : device_(device), follows_(follows), meshes_(std::move(cache)) {}
+        : device_(device), follows_(follows), meshes_(std::move(cache)), indexer_(device) {}
 
     /// Forms S from the scene's objects. Models that no object shows inside the world are not read.
     ///
@@ -74,6 +75,7 @@ class WorldFormer {
     std::optional<ObjectGrids> grids_;
     std::vector<SharedGrid> shown_;  ///< that the placer's objects name
     std::optional<Placer> placer_;
+    Indexer indexer_;
     std::optional<Origin> origin_;
     std::vector<glm::dmat4> instance_maps_;
     InstanceReport instances_;

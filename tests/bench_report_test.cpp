@@ -139,7 +139,7 @@ TEST(BenchErrors, AreThoseThatWerePutIn) {
     EXPECT_EQ(errors.silhouette_max, 0);
     image.planes["A"][0] = 1;  // the corner, far from the sphere's circle
     const BenchErrors stray = measure_errors(truth, image, 0.1);
-    EXPECT_NEAR(stray.silhouette_mean, 1 / truth.silhouette_length, 1e-15);
+    EXPECT_NEAR(stray.silhouette_mean, 1 / truth.silhouette.length, 1e-15);
     EXPECT_GT(stray.silhouette_max, 10);
     EXPECT_EQ(stray.compared, errors.compared);
 }
@@ -195,12 +195,13 @@ TEST(BenchReport, FitsSmoothOnlyWhereItIsNeitherTooCoarseNorAtItsFloor) {
                    row_of(Surface::smooth, 32, 4e-6, 1),  // 1.28e-4 voxel: the rounding's share
                    row_of(Surface::cubes, 4, 1, 5)};
     conclude(report);
-    ASSERT_EQ(report.fits.size(), 3u);
-    EXPECT_EQ(report.fits[1].surface, Surface::smooth);
-    EXPECT_EQ(report.fits[1].depth.points, 2u);
-    EXPECT_NEAR(report.fits[1].depth.slope, 3, 1e-14);
-    EXPECT_EQ(report.fits[1].normal.points, 3u);
-    EXPECT_EQ(report.fits[0].depth.points, 1u);
+    ASSERT_EQ(report.fits.size(), 2u);
+    EXPECT_EQ(report.fits[0].surface, Surface::smooth);
+    EXPECT_EQ(report.fits[0].depth.points, 2u);
+    EXPECT_NEAR(report.fits[0].depth.slope, 3, 1e-14);
+    EXPECT_EQ(report.fits[0].normal.points, 3u);
+    EXPECT_EQ(report.fits[0].volume.points, 0u);
+    EXPECT_EQ(report.fits[1].depth.points, 1u);
     EXPECT_TRUE(report.rows[3].is_best);
     EXPECT_FALSE(report.rows[1].is_best);
 }
@@ -221,21 +222,29 @@ class BenchProgram : public ProgramTest {};
 TEST_F(BenchProgram, WritesATableAPageAndFilesThatParse) {
     const ProgramResult result = run(
         "bench -q --only box --resolution 16,8 --size 40x30 --repeat 1 --device cpu -o out.html "
-        "--json out.json --csv out.csv");
+        "--json out.json --csv out.csv --plot out.svg");
     ASSERT_EQ(result.exit_code, 0) << result.err;
     EXPECT_THAT(result.out, HasSubstr("Pareto"));
     const auto json = nlohmann::json::parse(bytes_of(folder / "out.json"));
-    ASSERT_EQ(json["rows"].size(), 6u);
+    ASSERT_EQ(json["rows"].size(), 12u);
     EXPECT_EQ(json["rows"][0]["voxels_per_metre"], 8);
-    EXPECT_EQ(json["rows"][5]["surface"], "exact");
-    EXPECT_LT(json["rows"][5]["depth_rms_metres"], 1e-6);
-    EXPECT_GT(json["rows"][5]["compared_pixels"], 200);
-    EXPECT_GT(json["rows"][5]["peak_device_bytes"], 0);
-    EXPECT_GT(json["rows"][5]["seconds"]["kernels"], 0);
-    EXPECT_EQ(json["fits"].size(), 3u);
+    EXPECT_EQ(json["rows"][1]["placement"], "world");
+    for (const size_t number : {9, 11}) {
+        const auto& row = json["rows"][number];
+        EXPECT_EQ(row["surface"], "exact");
+        EXPECT_EQ(row["placement"], number == 9 ? "world" : "instance");
+        EXPECT_LT(row["depth_rms_metres"], 1e-6);
+        EXPECT_GT(row["compared_pixels"], 200);
+        EXPECT_GT(row["peak_device_bytes"], 0);
+        EXPECT_GT(row["seconds"]["kernels"], 0);
+        EXPECT_NEAR(row["volume_error"], 0, 1e-6);
+        EXPECT_NEAR(row["area_error"], 0, 1e-6);
+        EXPECT_LT(row["shadow_mean_pixels"], 0.05);
+    }
+    EXPECT_EQ(json["fits"].size(), 6u);
     EXPECT_TRUE(json["fits"][0]["depth"]["half_width_95"].is_null());
     const std::string csv = bytes_of(folder / "out.csv");
-    EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 7);
+    EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 13);
     EXPECT_THAT(csv, testing::StartsWith("scene,surface,placement,samples,voxels_per_metre,"));
     const size_t line = csv.find('\n') + 1;
     EXPECT_EQ(std::count(csv.begin(), csv.begin() + long(line), ','),
@@ -243,6 +252,7 @@ TEST_F(BenchProgram, WritesATableAPageAndFilesThatParse) {
     const std::string page = bytes_of(folder / "out.html");
     EXPECT_THAT(page, HasSubstr("<svg"));
     EXPECT_THAT(page, testing::EndsWith("</html>\n"));
+    EXPECT_THAT(bytes_of(folder / "out.svg"), testing::StartsWith("<svg xmlns="));
 }
 
 TEST_F(BenchProgram, RefusesWhatItCannotDoBeforeItMeasures) {
@@ -253,6 +263,8 @@ TEST_F(BenchProgram, RefusesWhatItCannotDoBeforeItMeasures) {
     EXPECT_EQ(run("bench -o report.pdf").exit_code, 2);
     EXPECT_EQ(run("bench --json a --csv a").exit_code, 2);
     EXPECT_EQ(run("bench --resolution 1").exit_code, 2);
+    EXPECT_EQ(run("bench --placement both").exit_code, 2);
+    EXPECT_EQ(run("bench --plot report.png").exit_code, 2);
     EXPECT_EQ(run("bench --csv missing/a.csv").exit_code, 5);
     EXPECT_THAT(run("help bench").out, HasSubstr("radius 0.47 m"));
 }

@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "runtime/flip.hpp"
 #include "runtime/io/exr.hpp"
 #include "runtime/io/model_file.hpp"
 #include "runtime/io/png.hpp"
@@ -156,6 +157,31 @@ TEST_F(CliTest, DiffMeasuresEachChannel) {
     EXPECT_EQ(report["channels"][0]["mae"], 0.25);
     EXPECT_EQ(report["channels"][0]["differing"], 1);
     EXPECT_EQ(report["channels"][1]["differing"], 0);
+    EXPECT_FALSE(report.contains("FLIP"));
+}
+
+TEST_F(CliTest, DiffSaysWhatEyesSee) {
+    const Image light{64,
+                      48,
+                      {{"R", std::vector<float>(64 * 48, 0.5f)},
+                       {"G", std::vector<float>(64 * 48, 0.25f)},
+                       {"B", std::vector<float>(64 * 48, 0.125f)}},
+                      {},
+                      {}};
+    Image other = light;
+    std::ranges::fill(other.planes["G"], 0.5f);
+    write_exr(folder / "a.exr", light, ColorDepth::float32);
+    write_exr(folder / "b.exr", other, ColorDepth::float32);
+    write_png(folder / "a.png", light);
+    write_png(folder / "b.png", other);
+    const auto flip = [&](const std::string& files) {
+        return nlohmann::json::parse(run("diff --json " + files).out).at("FLIP").get<double>();
+    };
+    EXPECT_DOUBLE_EQ(flip("a.exr b.exr"), mean_flip(light, other));
+    EXPECT_GT(flip("a.exr b.exr"), 0.1);
+    EXPECT_NEAR(flip("a.png b.png"), flip("a.exr b.exr"), 0.005);  // codes are rounded
+    EXPECT_EQ(flip("a.png a.png"), 0);
+    EXPECT_THAT(run("diff a.exr b.exr").out, HasSubstr("FLIP"));
 }
 
 TEST_F(CliTest, DiffFailsOnlyAboveTheLimit) {

@@ -11,14 +11,13 @@
 #include "runtime/renderer.hpp"
 #include "tests/file_fixture.hpp"
 #include "tests/oracles/image_hash.hpp"
+#include "tests/small_scene.hpp"
 #include "tests/test_device.hpp"
 
 namespace voxelume {
 namespace {
 
-const std::filesystem::path kScenes = std::filesystem::path(VXL_SOURCE_DIR) / "scenes";
-const AssetFolders kAssets{"/usr/share/glmark2/models"};  // Debian's glmark2-data
-constexpr double kMostVoxels = 128;                       // along an axis of the world
+constexpr double kMostVoxels = 128;  // along an axis of the world
 
 std::vector<std::string> scene_names() {
     std::vector<std::string> names;
@@ -29,18 +28,6 @@ std::vector<std::string> scene_names() {
     }
     std::ranges::sort(names);
     return names;
-}
-
-/// Makes the world's voxels larger, and with them the models' own.
-void coarsen(Scene& scene) {
-    const int most = std::max({scene.world.voxels.x, scene.world.voxels.y, scene.world.voxels.z});
-    const double factor = std::max(1.0, most / kMostVoxels);
-    scene.world.voxel_size *= factor;
-    scene.world.voxels = glm::ivec3(glm::ceil(glm::dvec3(scene.world.voxels) / factor));
-    for (Model& model : scene.models) {
-        model.voxel_size *= factor;
-        if (model.resolution > 0) model.resolution = int(model.resolution / factor) + 1;
-    }
 }
 
 /// The hash of a scene's image in tests/golden/hashes.txt: lines of a scene's name and its hash.
@@ -55,10 +42,7 @@ std::string golden_hash(const std::string& scene) {
 class ShippedScenes : public FileTest, public testing::WithParamInterface<std::string> {};
 
 TEST_P(ShippedScenes, HaveTheirGoldenBitsAndOnlyFiniteValuesInTheFile) {
-    Scene scene = read_scene(kScenes / (GetParam() + ".json"), kAssets);
-    resize(scene, {96, 72});
-    scene.render.samples = 1;
-    coarsen(scene);
+    const Scene scene = small_scene(GetParam(), {96, 72}, kMostVoxels);
     RenderReport report;
     const Image rendered = render(test_device(), scene, report);
     EXPECT_EQ(report.not_finite, 0u);

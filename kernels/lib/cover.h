@@ -4,6 +4,13 @@
 
 #include "lib/lattice.h"
 
+// Lattice units by which a voxel's closed cube reaches beyond its sides for SUPERCOVER. The lattice's
+// corners are up to half a unit from those that rays meet, on every axis: voxels that list triangles
+// for rays must list one that only comes that close.
+#ifndef VXL_MARGIN
+#define VXL_MARGIN 0
+#endif
+
 /// The place of brick `index` of a grid of `bricks`.
 static inline int3 brick_of(uint index, int4 bricks) {
     const uint row = index / (uint)bricks.x;
@@ -19,8 +26,8 @@ typedef struct {
 /// The voxels up to `last` whose closed cubes the triangle's bounding box meets.
 static inline CoverBox cover_box(const LatticeTriangle* t, int3 last) {
     CoverBox box;
-    box.first = max((lowest_corner(t) - 1) >> LATTICE_BITS, (int3)(0));
-    box.last = min(highest_corner(t) >> LATTICE_BITS, last);
+    box.first = max((lowest_corner(t) - 1 - VXL_MARGIN) >> LATTICE_BITS, (int3)(0));
+    box.last = min((highest_corner(t) + VXL_MARGIN) >> LATTICE_BITS, last);
     return box;
 }
 
@@ -39,11 +46,14 @@ static inline void prepare_supercover(Cover* c, const LatticeTriangle* t) {
     const long3 n = c->n;
     const Wide at = wide_dot(n, p[0]);
     const long3 positive = max(n, (long3)(0)), negative = min(n, (long3)(0));
-    c->low = wide_ceil(at, LATTICE_BITS) - (positive.x + positive.y + positive.z);
-    c->high = wide_floor(at, LATTICE_BITS) - (negative.x + negative.y + negative.z);
-    c->xy = silhouette_of_cells(p[0].xy, p[1].xy, p[2].xy, n.z);
-    c->yz = silhouette_of_cells(p[0].yz, p[1].yz, p[2].yz, n.x);
-    c->zx = silhouette_of_cells(p[0].zx, p[1].zx, p[2].zx, n.y);
+    const long3 size = positive - negative;
+    const long widened =
+        (VXL_MARGIN * (size.x + size.y + size.z) + (LATTICE_VOXEL - 1)) >> LATTICE_BITS;
+    c->low = wide_ceil(at, LATTICE_BITS) - (positive.x + positive.y + positive.z) - widened;
+    c->high = wide_floor(at, LATTICE_BITS) - (negative.x + negative.y + negative.z) + widened;
+    c->xy = silhouette_of_cells(p[0].xy, p[1].xy, p[2].xy, n.z, VXL_MARGIN);
+    c->yz = silhouette_of_cells(p[0].yz, p[1].yz, p[2].yz, n.x, VXL_MARGIN);
+    c->zx = silhouette_of_cells(p[0].zx, p[1].zx, p[2].zx, n.y, VXL_MARGIN);
     for (int y = c->box.first.y; y <= c->box.last.y; ++y)
         c->xy_rows[y] = (ushort)silhouette_row(&c->xy, y, c->box.first.x, c->box.last.x);
 }

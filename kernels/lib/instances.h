@@ -46,8 +46,18 @@ static inline lane_int meets_child(const SlabRay* r, global const InstanceNode* 
     return LANE_MASK(*t <= fmin(leave, t_last));
 }
 
+/// The cell along one axis, of which `nearest` is the plane closest to where the ray is at t_first,
+/// that the ray is in just before.
+static inline lane_int cell_before(lane_int nearest, lane_float o, lane_float inverse,
+                                   lane_int positive, lane_int moves, lane_float t_first,
+                                   lane_int still) {
+    const lane_int crossed = LANE_MASK((LANES_FLOAT(nearest) - o) * inverse < t_first);
+    return LANES_SELECT(moves, cell_beside(nearest, crossed, positive), still);
+}
+
 /// Brings walks whose origins lie outside of an aligned instance's box to the first cell in it, and
-/// those that go on at t_first there.
+/// those that go on at t_first to the one that they are in just before: what they come to at
+/// t_first itself is ahead of them.
 static inline void enter_box(const PyramidView* p, global const InstanceRecord* r,
                              lane_float t_first, Walk* w) {
     Crossing c;
@@ -67,15 +77,18 @@ static inline void enter_box(const PyramidView* p, global const InstanceRecord* 
                      qz = fma(w->dz, at, w->oz);
     c.rx = LANES_INT(floor(qx + 0.5f)), c.ry = LANES_INT(floor(qy + 0.5f));
     c.rz = LANES_INT(floor(qz + 0.5f));
-    const lane_int goes_on = LANE_MASK(t_first > 0.0f) & LANE_MASK(t_first >= t);
+    const lane_int goes_on = LANE_MASK(t_first > 0.0f) & LANE_MASK(t_first > t);
     const lane_int enters = LANE_MASK(t >= 0.0f) & ~goes_on;
     const AxisCrossing x = axis_crossing(c.kx, c.rx, w->ox, w->dx, w->px, p->fixed_point);
     const AxisCrossing y = axis_crossing(c.ky, c.ry, w->oy, w->dy, w->py, p->fixed_point);
     const AxisCrossing z = axis_crossing(c.kz, c.rz, w->oz, w->dz, w->pz, p->fixed_point);
     settle_cell(w, &x, &y, &z, &c);
-    w->x = LANES_SELECT(enters, c.x, LANES_SELECT(goes_on, LANES_INT(floor(qx)), w->x));
-    w->y = LANES_SELECT(enters, c.y, LANES_SELECT(goes_on, LANES_INT(floor(qy)), w->y));
-    w->z = LANES_SELECT(enters, c.z, LANES_SELECT(goes_on, LANES_INT(floor(qz)), w->z));
+    const lane_int x_on = cell_before(c.rx, w->ox, w->ix, w->px, w->mx, t_first, w->x);
+    const lane_int y_on = cell_before(c.ry, w->oy, w->iy, w->py, w->my, t_first, w->y);
+    const lane_int z_on = cell_before(c.rz, w->oz, w->iz, w->pz, w->mz, t_first, w->z);
+    w->x = LANES_SELECT(enters, c.x, LANES_SELECT(goes_on, x_on, w->x));
+    w->y = LANES_SELECT(enters, c.y, LANES_SELECT(goes_on, y_on, w->y));
+    w->z = LANES_SELECT(enters, c.z, LANES_SELECT(goes_on, z_on, w->z));
     w->t = LANES_SELECT(enters | goes_on, at, w->t);
     w->axis = LANES_SELECT(enters, ~c.ex & (2 + c.ey), w->axis);
 }
@@ -92,6 +105,10 @@ static inline PyramidView instance_pyramid(const PyramidView* world,
 }
 
 /// How rays set out in the space of instance `number`, or of the world.
+///
+/// A ray that goes on from a surface at t_first has yet to meet what lies at this very t in the
+/// spaces that come after the surface's: the world's is the first, then instances' by number. The
+/// objects that it is inside of are the world's.
 static inline Travel travel_in(const Travel* travel, lane_uint number, lane_int begins) {
     Travel t = *travel;
     const lane_int own = LANE_MASK(travel->instance == number);
@@ -100,6 +117,17 @@ static inline Travel travel_in(const Travel* travel, lane_uint number, lane_int 
     t.within_source &= own;
     t.source = LANES_SELECT(own, t.source, (lane_uint)VXL_NO_PRIMITIVE);
     t.unsure = begins & ~t.on_surface;
+    if (VXL_TRANSMISSION) {
+        const lane_int ahead =
+            travel->goes_on & LANE_MASK(LANES_AS_INT(number) > LANES_AS_INT(travel->instance));
+        t.t_first = LANES_SELECT(ahead, float_before(t.t_first), t.t_first);
+        const lane_int of_world = LANE_MASK(number == VXL_NO_INSTANCE);
+        for (int i = 0; i < VXL_INTERIOR_MEMBERS; ++i)
+            t.interior.members[i] =
+                LANES_SELECT(of_world, t.interior.members[i], (lane_uint)VXL_NO_MEMBER);
+        t.body = LANES_SELECT(of_world, t.body, (lane_uint)VXL_NO_MEMBER);
+        t.joined &= of_world;
+    }
     return t;
 }
 
@@ -119,8 +147,9 @@ static inline lane_int meet_instance(const PyramidView* world, const SurfaceView
         begin_walk(c.origin.x, c.origin.y, c.origin.z, c.direction.x, c.direction.y, c.direction.z);
     w.axis = r->aligned ? (lane_int)3 : way.axis;
     if (r->aligned) enter_box(&p, r, travel->t_first, &w);
-    Travel inside = travel_in(travel, (lane_uint)number, LANE_MASK(w.axis == 3));
-    if (!r->aligned) inside.t_first = (lane_float)0.0f;
+    Travel outside = *travel;
+    if (!r->aligned) outside.t_first = (lane_float)0.0f;
+    Travel inside = travel_in(&outside, (lane_uint)number, LANE_MASK(w.axis == 3));
     if (VXL_SOLIDS) {
         const lane_int asked = active & inside.asks_side & LANE_MASK(w.axis == 3) &
                                LANE_MASK(travel->instance == number);

@@ -110,15 +110,18 @@ static inline void silhouette_edges(Silhouette* s, int2 a, int2 b, int2 c) {
 /// The closed cells [U,U+1] x [W,W+1] that may meet the closed triangle; `area` is twice its signed
 /// area.
 ///
+/// `margin` widens the cells on all sides, in lattice units.
+///
 /// Each edge is tested from both sides (a separating axis), so triangles without area are exact
 /// too. What it lacks of an exact test are the axes of the cell itself: the bounding box.
-static inline Silhouette silhouette_of_cells(int2 a, int2 b, int2 c, long area) {
+static inline Silhouette silhouette_of_cells(int2 a, int2 b, int2 c, long area, int margin) {
     Silhouette s;
     silhouette_edges(&s, a, b, c);
     const int2 p[3] = {a, b, c};
     for (int i = 0; i < 3; ++i) {
         const long at = s.u[i] * p[i].x + s.w[i] * p[i].y;
-        const long first = at + min(area, 0L), last = at + max(area, 0L);
+        const long widened = margin * (max(s.u[i], -s.u[i]) + max(s.w[i], -s.w[i]));
+        const long first = at + min(area, 0L) - widened, last = at + max(area, 0L) + widened;
         s.low[i] =
             ((first + (LATTICE_VOXEL - 1)) >> LATTICE_BITS) - max(s.u[i], 0L) - max(s.w[i], 0L);
         s.high[i] = (last >> LATTICE_BITS) - min(s.u[i], 0L) - min(s.w[i], 0L);

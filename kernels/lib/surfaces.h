@@ -66,12 +66,20 @@ static inline void leave_body(Found* found, const Walk* w, lane_int leaving) {
     take_voxel_hit(found, w->t, leaving);
 }
 
+/// The largest float below t.
+static inline lane_float float_before(lane_float t) {
+    const lane_int bits = LANES_AS_INT(t);
+    const lane_float next = LANES_AS_FLOAT(bits - 1 - (LANE_MASK(t < 0.0f) & -2));
+    return LANES_SELECT(LANE_MASK(t == 0.0f), (lane_float)-FLT_MIN, next);
+}
+
 /// Tests solid `number` of each lane in `tested`: closer hits in the world than *t replace it.
+/// Those at t_first itself count for the lanes of `at_least`.
 /// `entering` lanes look from one unit of t before their origin first.
 static inline lane_int hit_solids_in_world(const PyramidView* p, const SurfaceView* s,
                                            const Walk* w, lane_uint number, const Travel* travel,
-                                           lane_int tested, lane_int from_solid, lane_int entering,
-                                           lane_float* t) {
+                                           lane_int tested, lane_int from_solid, lane_int at_least,
+                                           lane_int entering, lane_float* t) {
     lane_int closer = (lane_int)0;
     const lane_int nothing = (lane_int)0;
     const lane_int early = tested & entering;
@@ -91,13 +99,15 @@ static inline lane_int hit_solids_in_world(const PyramidView* p, const SurfaceVi
     if (lanes_any(left)) {
         lane_int inside = from_solid & travel->within_source;
         lane_int known = from_solid;
+        lane_float t_first = travel->t_first;
         if (VXL_TRANSMISSION) {
+            t_first = LANES_SELECT(at_least, float_before(t_first), t_first);
             const lane_int holds =
                 interior_holds(&travel->interior, solid_attributes(s->solids, number), nothing);
             known |= holds;
             inside |= holds & ~from_solid;
         }
-        met = hit_solids(s->solids, number, &ray, travel->t_first, known, inside, left, &at);
+        met = hit_solids(s->solids, number, &ray, t_first, known, inside, left, &at);
     }
     met &= is_in_world(p, w, LANES_SELECT(met, at, (lane_float)0.0f));
     *t = LANES_SELECT(met, at, *t);
@@ -125,18 +135,17 @@ static inline lane_int hit_exact(const PyramidView* p, const SurfaceView* s, con
             LANES_AS_UINT(listing);
         const lane_int of_source = LANE_MASK(primitive == travel->source);
         const lane_int is_solid = LANE_MASK((primitive & VXL_SOLID_PRIMITIVE) != 0u);
-        lane_int closer = (lane_int)0;
+        lane_int closer = (lane_int)0, at_least = (lane_int)0;
+        if (VXL_TRANSMISSION) at_least = travel->goes_on & LANE_MASK(primitive > travel->source);
         if (VXL_TRIANGLES) {
             const lane_int triangle = listing & ~(is_solid | of_source);
             if (!VXL_SOLIDS || lanes_any(triangle)) {
                 const lane_uint number = primitive & LANES_AS_UINT(triangle);
-                lane_int within = (lane_int)0, at_least = (lane_int)0;
-                if (VXL_TRANSMISSION) {
+                lane_int within = (lane_int)0;
+                if (VXL_TRANSMISSION)
                     within = interior_holds(&travel->interior,
                                             LANES_GATHER_UINT(s->triangle_attributes, number),
                                             (lane_int)0);
-                    at_least = travel->goes_on & LANE_MASK(primitive > travel->source);
-                }
                 closer |= hit_triangle(p, t_least, at_least, s->triangles, number, w, &shear,
                                        within, triangle, &found->t);
             }
@@ -147,7 +156,7 @@ static inline lane_int hit_exact(const PyramidView* p, const SurfaceView* s, con
             if (lanes_any(solid))
                 closer |= hit_solids_in_world(
                     p, s, w, primitive & ~VXL_SOLID_PRIMITIVE & LANES_AS_UINT(solid), travel, solid,
-                    of_source, entering, &found->t);
+                    of_source, at_least, entering, &found->t);
         }
         found->primitive = LANES_SELECT(closer, primitive, found->primitive);
         next += 1u;
@@ -156,10 +165,13 @@ static inline lane_int hit_exact(const PyramidView* p, const SurfaceView* s, con
     return tested & LANE_MASK(found->t <= exit_time(w));
 }
 
-/// Mask: rays that are inside of the smooth body, as far as their walk has found out.
+/// Mask: rays that are inside of the smooth body, as far as their walk has found out, or inside of
+/// the instance that they have met.
 static inline lane_int within_smooth(const Found* found, const Travel* travel) {
     if (!VXL_TRANSMISSION) return found->within;
-    return found->within | LANE_MASK(travel->interior.members[0] != VXL_NO_MEMBER);
+    lane_int in_body = LANE_MASK(travel->interior.members[0] != VXL_NO_MEMBER);
+    if (VXL_INSTANCES) in_body &= LANE_MASK(found->instance == VXL_NO_INSTANCE);
+    return found->within | in_body;
 }
 
 /// Tests the surface inside each `tested` lane's voxel; the mask of lanes whose ray ends there.

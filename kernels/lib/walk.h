@@ -154,6 +154,11 @@ static inline lane_int near_plane(lane_int plane, lane_float position, float bou
     return LANE_MASK(fabs(LANES_FLOAT(plane) - position) <= bound);
 }
 
+/// The cell's coordinate, unless that lies behind where the walk is.
+static inline lane_int not_back(lane_int cell, lane_int from, lane_int positive) {
+    return LANES_SELECT(LANE_MASK(((cell - from) ^ ~positive) < 0), from, cell);
+}
+
 /// Moves the `moving` lanes across the first of the planes kx, ky, kz, one ahead on each axis.
 static inline void cross_first(const PyramidView* p, Walk* w, lane_int kx, lane_int ky, lane_int kz,
                                lane_int moving) {
@@ -188,6 +193,11 @@ static inline void cross_first(const PyramidView* p, Walk* w, lane_int kx, lane_
         c.ex = LANES_SELECT(doubtful, exact.ex, c.ex);
         c.ey = LANES_SELECT(doubtful, exact.ey, c.ey);
         t = LANES_SELECT(c.ex, c.tx, LANES_SELECT(c.ey, c.ty, c.tz));
+    }
+    if (!VXL_ARBITRATE) {  // floats alone go back and forth for ever where planes meet
+        c.x = not_back(c.x, w->x, w->px);
+        c.y = not_back(c.y, w->y, w->py);
+        c.z = not_back(c.z, w->z, w->pz);
     }
     w->x = LANES_SELECT(moving, c.x, w->x);
     w->y = LANES_SELECT(moving, c.y, w->y);

@@ -1,6 +1,7 @@
 // Run time against error: what has a known truth, shown by every surface at every voxel size.
 #pragma once
 
+#include <cmath>
 #include <functional>
 #include <glm/vec2.hpp>
 #include <span>
@@ -9,6 +10,7 @@
 
 #include "runtime/bench/bench_errors.hpp"
 #include "runtime/bench/bench_peers.hpp"
+#include "runtime/bench/bench_shadow.hpp"
 #include "runtime/bench/bench_subject.hpp"
 #include "runtime/bench/convergence.hpp"
 #include "runtime/opencl/device.hpp"
@@ -21,8 +23,11 @@ struct BenchOptions {
     std::vector<int> samples = {
         1};  ///< rays a pixel, ascending; more than 1 for subjects with light
     std::vector<BenchPeerRow> peers;  ///< of other programs, for the same plots
+    std::vector<Placement> placements = {Placement::world, Placement::instance};
     glm::ivec2 size{1024, 1024};      ///< pixels
-    int repeats = 5;                  ///< measured renders of each row, after one that isn't
+    glm::ivec2 light_size{256, 256};  ///< pixels of scenes with light
+    bool measures_shadows = true;     ///< the edges that subjects without light cast, too
+    int repeats = 3;  ///< measured renders of each row, after one that isn't, at most
 };
 
 /// Seconds of one render.
@@ -39,6 +44,7 @@ struct BenchTimes {
 struct BenchRow {
     std::string scene;
     Surface surface = Surface::cubes;
+    Placement placement = Placement::world;
     int samples = 1;          ///< rays a pixel; depth, normals and outline are measured with 1
     int resolution = 0;       ///< voxels a metre
     double voxel_size = 0;    ///< metres
@@ -48,23 +54,30 @@ struct BenchRow {
     uint64_t world_bytes = 0;  ///< of the world's pyramid
     uint64_t peak_bytes = 0;   ///< the most on the device at once
     BenchErrors errors;
-    bool fits_depth = true;   ///< counts for the slope of the depth RMS
-    bool fits_normal = true;  ///< likewise for normals
-    bool is_best = false;     ///< on the Pareto front of total time and depth RMS in its scene
+    double volume_error = NAN;      ///< relative; positive: too large; NaN: not measured
+    double area_error = NAN;        ///< likewise
+    ShadowErrors shadow{NAN, NAN};  ///< likewise, pixels
+    bool fits_depth = true;         ///< counts for the slope of the depth RMS
+    bool fits_normal = true;        ///< likewise for normals
+    bool is_best = false;  ///< on the Pareto front of total time and depth RMS in its scene
 };
 
 /// How fast the errors of one scene and surface fall with the size of voxels.
 struct BenchFit {
     std::string scene;
     Surface surface = Surface::cubes;
+    Placement placement = Placement::world;
     SlopeFit depth;   ///< of the RMS, over the rows that count
     SlopeFit normal;  ///< likewise
+    SlopeFit volume;  ///< of the relative error, over all rows
+    SlopeFit area;    ///< likewise
 };
 
 struct BenchReport {
     std::string version, device, driver, platform, machine, time;
     int lanes = 0;
     glm::ivec2 size{0};
+    glm::ivec2 light_size{0};
     int repeats = 0;
     std::vector<BenchRow> rows;
     std::vector<BenchFit> fits;
@@ -73,6 +86,10 @@ struct BenchReport {
 
 inline constexpr Surface kBenchSurfaces[] = {Surface::cubes, Surface::smooth, Surface::exact};
 const char* name_of(Surface surface);
+const char* name_of(Placement placement);
+
+/// A row isn't measured again once its renders have taken this long.
+inline constexpr double kMostRowSeconds = 1;
 
 /// `smooth` keeps distances in 16 bits. Measured: where the errors of a sphere stop falling.
 inline constexpr double kDepthFloor = 5e-5;      // voxels, RMS

@@ -11,21 +11,6 @@
 namespace voxelume {
 namespace {
 
-double distance_to(const BenchTruth::Segment& segment, const glm::dvec2& p) {
-    const glm::dvec2 along = segment.b - segment.a;
-    const double square = glm::dot(along, along);
-    const double share =
-        square > 0 ? std::clamp(glm::dot(p - segment.a, along) / square, 0.0, 1.0) : 0.0;
-    return glm::distance(p, segment.a + share * along);
-}
-
-double distance_to_silhouette(const BenchTruth& truth, const glm::dvec2& p) {
-    double nearest = INFINITY;
-    for (const BenchTruth::Segment& segment : truth.silhouette)
-        nearest = std::min(nearest, distance_to(segment, p));
-    return nearest;
-}
-
 /// Degrees between two vectors, to the last bits of small ones.
 double angle_between(const glm::dvec3& a, const glm::dvec3& b) {
     return glm::degrees(std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)));
@@ -67,17 +52,14 @@ BenchErrors measure_errors(const BenchTruth& truth, const Image& image, double v
     const VectorPlanes positions(image, "P"), normals(image, "N");
     const std::vector<float>& alpha = image.planes.at("A");
     BenchErrors errors;
-    uint64_t differing = 0;
+    ContourError silhouette(truth.silhouette);
     double depth_squares = 0, normal_squares = 0;
     for (size_t pixel = 0; pixel < truth.hits.size(); ++pixel) {
         const std::optional<AnalyticHit>& ideal = truth.hits[pixel];
         const bool hit = alpha[pixel] > 0;
         if (hit != ideal.has_value()) {
             const size_t column = pixel % size_t(truth.size.x), row = pixel / size_t(truth.size.x);
-            const glm::dvec2 center(double(column) + 0.5, double(row) + 0.5);
-            errors.silhouette_max =
-                std::max(errors.silhouette_max, distance_to_silhouette(truth, center));
-            ++differing;
+            silhouette.add({double(column) + 0.5, double(row) + 0.5});
         }
         if (!hit || !ideal) continue;
         const glm::dvec3& direction = truth.directions[pixel];
@@ -96,7 +78,8 @@ BenchErrors measure_errors(const BenchTruth& truth, const Image& image, double v
     const double count = double(std::max<uint64_t>(errors.compared, 1));
     errors.depth_rms = std::sqrt(depth_squares / count);
     errors.normal_rms = std::sqrt(normal_squares / count);
-    errors.silhouette_mean = double(differing) / std::max(truth.silhouette_length, 1.0);
+    errors.silhouette_mean = silhouette.mean();
+    errors.silhouette_max = silhouette.max();
     if (!truth.radiance.empty()) measure_light(truth, image, errors);
     return errors;
 }

@@ -157,6 +157,7 @@ BenchSubject bunny_subject() {
         add_bench_object(scene, std::move(model), surface, resolution, placement);
         return scene;
     };
+    subject.extent = truth->extent();
     subject.first_hit = [truth](const glm::dvec3& origin, const glm::dvec3& direction) {
         return truth->first_hit(origin, direction);
     };

@@ -21,6 +21,9 @@ class MeshTruth {
     std::optional<AnalyticHit> first_hit(const glm::dvec3& origin,
                                          const glm::dvec3& direction) const;
 
+    /// Of a closed mesh whose triangles are turned outwards.
+    Extent extent() const { return triangles_extent(corners_); }
+
   private:
     struct Node {
         glm::dvec3 low, high;

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <filesystem>
+#include <numbers>
 
 #include "runtime/bench/bench_gyroid.hpp"
 #include "runtime/bench/bench_mesh.hpp"
@@ -19,6 +20,22 @@ bool has_bunny() {
     return std::filesystem::is_regular_file(kBunnyFile, error);
 }
 
+std::optional<Extent> extent_of(const Solid& solid) {
+    constexpr double kPi = std::numbers::pi;
+    const double r = solid.radius, t = solid.tube;
+    const glm::dvec3 s = solid.size;
+    switch (solid.kind) {
+        case SolidKind::sphere:
+            return Extent{4 * kPi / 3 * r * r * r, 4 * kPi * r * r};
+        case SolidKind::torus:
+            return Extent{2 * kPi * kPi * r * t * t, 4 * kPi * kPi * r * t};
+        case SolidKind::box:
+            return Extent{s.x * s.y * s.z, 2 * (s.x * s.y + s.y * s.z + s.z * s.x)};
+        default:
+            return {};
+    }
+}
+
 template <size_t Number>
 BenchSubject solid_subject() {
     return subject_of(bench_solids()[Number]);
@@ -30,6 +47,7 @@ BenchSubject subject_of(const BenchSolid& solid) {
     BenchSubject subject;
     subject.name = solid.name;
     subject.least_radius = solid.least_radius;
+    subject.extent = extent_of(solid.solid);
     subject.scene = [solid](Surface surface, int resolution, glm::ivec2 size) {
         return bench_scene(solid, surface, resolution, size);
     };

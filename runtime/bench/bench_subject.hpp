@@ -9,6 +9,7 @@
 #include <string>
 
 #include "runtime/bench/analytic_ray.hpp"
+#include "runtime/bench/bench_extent.hpp"
 #include "runtime/bench/bench_scene.hpp"
 
 namespace voxelume {
@@ -27,7 +28,8 @@ struct BenchSubject {
     double least_radius = 0;  ///< of curvature, metres; 0 for edges, and where it isn't known
     std::function<Scene(Surface, int resolution, glm::ivec2 size)> scene;  ///< voxels a metre
     FirstHit first_hit;
-    Radiance radiance;  ///< empty for a scene without lights
+    Radiance radiance;             ///< empty for a scene without lights
+    std::optional<Extent> extent;  ///< of the only object, where it is known
 };
 
 /// A subject by name, made when it is needed: that may read files.

@@ -21,7 +21,7 @@ nlohmann::ordered_json json_of(const BenchRow& row) {
     const BenchErrors& e = row.errors;
     return {{"scene", row.scene},
             {"surface", name_of(row.surface)},
-            {"placement", "world"},
+            {"placement", name_of(row.placement)},
             {"samples", row.samples},
             {"voxels_per_metre", row.resolution},
             {"voxel_size_metres", row.voxel_size},
@@ -44,6 +44,10 @@ nlohmann::ordered_json json_of(const BenchRow& row) {
             {"silhouette_mean_pixels", e.silhouette_mean},
             {"silhouette_max_pixels", e.silhouette_max},
             {"other_part_pixels", e.other_parts},
+            {"volume_error", row.volume_error},
+            {"area_error", row.area_error},
+            {"shadow_mean_pixels", row.shadow.mean},
+            {"shadow_max_pixels", row.shadow.max},
             {"color_rmse", e.color_rmse},
             {"flip", e.flip},
             {"fits_depth", row.fits_depth},
@@ -70,41 +74,55 @@ ExpectedSlopes expected_slopes(const std::string& scene, Surface surface) {
 
 namespace {
 
+/// What wasn't measured is a dash.
+std::string number_text(double value) {
+    return std::isnan(value) ? fmt::format(" {:>9}", "-") : fmt::format(" {:>9.2e}", value);
+}
+
 std::string geometry_text(const BenchReport& report) {
-    std::string text = fmt::format(
-        "{:<7} {:<7} {:>6} {:>8} {:>8} {:>8} {:>8} {:>8} {:>8} {:>8} {:>8} {:>6} {:>9} {:>9} "
-        "{:>9} {:>9} {:>9} {:>6}\n",
-        "scene", "surface", "1/size", "load", "voxelize", "place", "index", "image", "total",
-        "kernels", "programs", "MB", "depth", "max", "normal", "outline", "max", "other");
-    text += fmt::format(
-        "{:<7} {:<7} {:>6} {:>8} {:>8} {:>8} {:>8} {:>8} {:>8} {:>8} {:>8} {:>6} {:>9} {:>9} "
-        "{:>9} {:>9} {:>9} {:>6}\n",
-        "", "", "1/m", "ms", "ms", "ms", "ms", "ms", "ms", "ms", "ms", "peak", "RMS m", "m",
-        "RMS deg", "mean px", "px", "parts");
+    std::string names =
+        fmt::format("{:<7} {:<7} {:<8} {:>6}", "scene", "surface", "placed", "1/size");
+    std::string units = fmt::format("{:<7} {:<7} {:<8} {:>6}", "", "", "", "1/m");
+    for (const char* name :
+         {"load", "voxelize", "place", "index", "image", "total", "kernels", "programs"})
+        names += fmt::format(" {:>8}", name), units += fmt::format(" {:>8}", "ms");
+    names += fmt::format(" {:>6}", "MB"), units += fmt::format(" {:>6}", "peak");
+    const std::pair<const char*, const char*> errors[] = {
+        {"depth", "RMS m"},     {"max", "m"},          {"normal", "RMS deg"},
+        {"outline", "mean px"}, {"max", "px"},         {"volume", "relative"},
+        {"area", "relative"},   {"shadow", "mean px"}, {"max", "px"}};
+    for (const auto& [name, unit] : errors)
+        names += fmt::format(" {:>9}", name), units += fmt::format(" {:>9}", unit);
+    std::string text = names + "  other\n" + units + "  parts\n";
     for (const BenchRow& r : report.rows) {
         if (r.samples != 1) continue;
         const BenchTimes& s = r.seconds;
         const BenchErrors& e = r.errors;
-        text += fmt::format("{:<7} {:<7} {:>6}", r.scene, name_of(r.surface), r.resolution);
+        text += fmt::format("{:<7} {:<7} {:<8} {:>6}", r.scene, name_of(r.surface),
+                            name_of(r.placement), r.resolution);
         for (const double seconds :
              {s.load, s.voxelize, s.place, s.index, s.image, s.total, s.kernels, s.programs})
             text += fmt::format(" {:>8.1f}", seconds * 1e3);
-        text +=
-            fmt::format(" {:>6.1f} {:>9.2e} {:>9.2e} {:>9.2e} {:>9.2e} {:>9.2e} {:>6}{}\n",
-                        double(r.peak_bytes) / 1e6, e.depth_rms, e.depth_max, e.normal_rms,
-                        e.silhouette_mean, e.silhouette_max, e.other_parts, r.is_best ? " *" : "");
+        text += fmt::format(" {:>6.1f}", double(r.peak_bytes) / 1e6);
+        for (const double error :
+             {e.depth_rms, e.depth_max, e.normal_rms, e.silhouette_mean, e.silhouette_max,
+              r.volume_error, r.area_error, r.shadow.mean, r.shadow.max})
+            text += number_text(error);
+        text += fmt::format(" {:>6}{}\n", e.other_parts, r.is_best ? " *" : "");
     }
     return text + "* on the Pareto front of total time and depth RMS\n\n";
 }
 
 std::string slopes_text(const BenchReport& report) {
-    std::string text = fmt::format("{:<7} {:<7}  {:<20} {:<10} {:<20} {:<10}\n", "scene", "surface",
-                                   "depth slope", "expected", "normal slope", "expected");
+    std::string text = fmt::format("{:<7} {:<7} {:<8}  {:<20} {:<10} {:<20} {:<10} {:<20} {}\n",
+                                   "scene", "surface", "placed", "depth slope", "expected",
+                                   "normal slope", "expected", "volume slope", "area slope");
     for (const BenchFit& f : report.fits) {
         const ExpectedSlopes expected = expected_slopes(f.scene, f.surface);
-        text +=
-            fmt::format("{:<7} {:<7}  {:<20} {:<10} {:<20} {:<10}\n", f.scene, name_of(f.surface),
-                        slope_text(f.depth), expected.depth, slope_text(f.normal), expected.normal);
+        text += fmt::format("{:<7} {:<7} {:<8}  {:<20} {:<10} {:<20} {:<10} {:<20} {}\n", f.scene,
+                            name_of(f.surface), name_of(f.placement), slope_text(f.depth),
+                            expected.depth, slope_text(f.normal), expected.normal,
+                            slope_text(f.volume), slope_text(f.area));
     }
     return text;
 }
@@ -133,10 +151,11 @@ std::string peers_text(const BenchReport& report) {
         const BenchRow* row = row_as_accurate(report, p);
         text += fmt::format("{:<16} {:<7} {:<22} {:>9.1f} {:>9.1f} {:>9.2e} ", p.program, p.scene,
                             p.setting, p.build_seconds * 1e3, p.trace_seconds * 1e3, p.depth_rms);
-        text += row ? fmt::format("{:>9.2f}  {} {}, {:.1f} ms\n",
-                                  p.total_seconds() / row->seconds.total, name_of(row->surface),
-                                  row->resolution, row->seconds.total * 1e3)
-                    : fmt::format("{:>9}\n", "-");
+        text +=
+            row ? fmt::format("{:>9.2f}  {} {} {}, {:.1f} ms\n",
+                              p.total_seconds() / row->seconds.total, name_of(row->surface),
+                              name_of(row->placement), row->resolution, row->seconds.total * 1e3)
+                : fmt::format("{:>9}\n", "-");
     }
     return text;
 }
@@ -155,7 +174,10 @@ std::string bench_csv(const BenchReport& report) {
         for (const auto& [path, value] : flat.items()) {
             names.push_back(path.substr(1));
             std::ranges::replace(names.back(), '/', '_');
-            values.push_back(value.is_string() ? value.get<std::string>() : value.dump());
+            const bool is_missing = value.is_number_float() && !std::isfinite(value.get<double>());
+            values.push_back(value.is_string() ? value.get<std::string>()
+                             : is_missing      ? ""
+                                               : value.dump());
         }
         if (text.empty()) text = fmt::format("{}\r\n", fmt::join(names, ","));
         text += fmt::format("{}\r\n", fmt::join(values, ","));
@@ -172,6 +194,7 @@ nlohmann::ordered_json bench_json(const BenchReport& report) {
                                    {"platform", report.platform},
                                    {"lanes", report.lanes},
                                    {"size", {report.size.x, report.size.y}},
+                                   {"light_size", {report.light_size.x, report.light_size.y}},
                                    {"repeats", report.repeats},
                                    {"rows", nlohmann::ordered_json::array()},
                                    {"fits", nlohmann::ordered_json::array()}};
@@ -179,8 +202,11 @@ nlohmann::ordered_json bench_json(const BenchReport& report) {
     for (const BenchFit& fit : report.fits)
         json["fits"].push_back({{"scene", fit.scene},
                                 {"surface", name_of(fit.surface)},
+                                {"placement", name_of(fit.placement)},
                                 {"depth", json_of(fit.depth)},
-                                {"normal", json_of(fit.normal)}});
+                                {"normal", json_of(fit.normal)},
+                                {"volume", json_of(fit.volume)},
+                                {"area", json_of(fit.area)}});
     json["peers"] = nlohmann::ordered_json::array();
     for (const BenchPeerRow& peer : report.peers) {
         const BenchRow* row = row_as_accurate(report, peer);

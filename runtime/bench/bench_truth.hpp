@@ -7,20 +7,16 @@
 #include <vector>
 
 #include "runtime/bench/bench_subject.hpp"
+#include "runtime/bench/pixel_contour.hpp"
 
 namespace voxelume {
 
 struct BenchTruth {
-    struct Segment {
-        glm::dvec2 a, b;  ///< pixels from the upper left corner
-    };
-
     glm::ivec2 size{0};
     glm::dvec3 eye{0};
     std::vector<glm::dvec3> directions;            ///< per pixel, through its centre
     std::vector<std::optional<AnalyticHit>> hits;  ///< per pixel, likewise
-    std::vector<Segment> silhouette;               ///< where hits end, between pixels' centres
-    double silhouette_length = 0;                  ///< pixels
+    PixelContour silhouette;                       ///< where hits end
     std::vector<glm::dvec3> radiance;  ///< per pixel, its mean; empty for subjects without light
 };
 

@@ -8,8 +8,9 @@
 namespace voxelume {
 namespace {
 
-// Pixels of the picture: the frame's corners, and the whole.
-constexpr glm::dvec2 kFrameMin(70, 34), kFrameMax(440, 290), kPicture(460, 340);
+// Pixels of the picture: the frame's corners, the whole width, rows of names below all.
+constexpr glm::dvec2 kFrameMin(70, 24), kFrameMax(440, 280);
+constexpr double kWidth = 460, kLegend = 324, kLegendRow = 16;
 
 bool can_be_shown(const glm::dvec2& p) {
     return p.x > 0 && p.y > 0 && std::isfinite(p.x) && std::isfinite(p.y);
@@ -107,17 +108,49 @@ std::string curve(const PlotSeries& series, const Axes& axes) {
            dots;
 }
 
-std::string legend(const LogPlot& plot) {
+/// The names of the curves, in as many rows as they need.
+struct Legend {
     std::string svg;
-    double x = kFrameMin.x;
-    for (const PlotSeries& series : plot.series) {
-        if (series.name.empty()) continue;
-        svg += fmt::format("<circle cx=\"{:.1f}\" cy=\"26\" r=\"3\" fill=\"{}\"/>\n", x + 4,
-                           series.color);
-        svg += label({x + 11, 30}, "start", series.name);
-        x += 24 + 6.5 * double(series.name.size());
-    }
-    return svg;
+    double bottom = kLegend;
+};
+
+Legend legend_of(const LogPlot& plot) {
+    constexpr double kFirst = 14, kDot = 11, kGap = 14, kLetter = 6;
+    Legend legend;
+    double x = kFirst;
+    const auto add = [&](const std::string& name, const std::string& circle) {
+        const double width = kDot + kGap + kLetter * double(name.size());
+        if (x > kFirst && x + width > kWidth) x = kFirst, legend.bottom += kLegendRow;
+        legend.svg += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" {}/>\n", x + 4,
+                                  legend.bottom - 4, circle);
+        legend.svg += label({x + kDot, legend.bottom}, "start", name);
+        x += width;
+    };
+    for (const PlotSeries& series : plot.series)
+        if (!series.name.empty())
+            add(series.name, fmt::format("r=\"3\" fill=\"{}\"", series.color));
+    const auto has_marks = [](const PlotSeries& series) {
+        return std::ranges::find(series.marked, true) != series.marked.end();
+    };
+    if (std::ranges::any_of(plot.series, has_marks)) add("front", "class=\"mark\" r=\"4.5\"");
+    return legend;
+}
+
+/// Everything in the picture.
+std::string content_of(const LogPlot& plot, const Legend& legend) {
+    const Axes axes = axes_of(plot);
+    const glm::dvec2 size = kFrameMax - kFrameMin, middle = (kFrameMin + kFrameMax) / 2.0;
+    std::string svg =
+        fmt::format("<text class=\"title\" x=\"14\" y=\"14\">{}</text>\n", escape_html(plot.title));
+    svg += grid(axes);
+    svg += fmt::format("<rect class=\"frame\" x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"/>\n",
+                       kFrameMin.x, kFrameMin.y, size.x, size.y);
+    for (const PlotSeries& series : plot.series) svg += curve(series, axes);
+    svg += label({middle.x, kFrameMax.y + 28}, "middle", plot.x_label);
+    svg += fmt::format(
+        "<text text-anchor=\"middle\" transform=\"translate(14 {:.0f}) rotate(-90)\">{}</text>\n",
+        middle.y, escape_html(plot.y_label));
+    return svg + legend.svg;
 }
 
 }  // namespace
@@ -141,24 +174,34 @@ std::string escape_html(const std::string& text) {
     return escaped;
 }
 
+bool has_points(const LogPlot& plot) {
+    return std::ranges::any_of(plot.series, [](const PlotSeries& series) {
+        return std::ranges::any_of(series.points, can_be_shown);
+    });
+}
+
 std::string svg_of(const LogPlot& plot) {
-    const Axes axes = axes_of(plot);
-    const glm::dvec2 size = kFrameMax - kFrameMin, middle = (kFrameMin + kFrameMax) / 2.0;
-    std::string svg =
-        fmt::format("<svg viewBox=\"0 0 {:.0f} {:.0f}\" role=\"img\" aria-label=\"{}\">\n",
-                    kPicture.x, kPicture.y, escape_html(plot.title));
-    svg += fmt::format("<text class=\"title\" x=\"{:.0f}\" y=\"14\">{}</text>\n", kFrameMin.x,
-                       escape_html(plot.title));
-    svg += grid(axes);
-    svg += fmt::format("<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"/>\n", kFrameMin.x,
-                       kFrameMin.y, size.x, size.y);
-    for (const PlotSeries& series : plot.series) svg += curve(series, axes);
-    svg += legend(plot);
-    svg += label({middle.x, kPicture.y - 16}, "middle", plot.x_label);
-    svg += fmt::format(
-        "<text text-anchor=\"middle\" transform=\"translate(14 {:.0f}) rotate(-90)\">{}</text>\n",
-        middle.y, escape_html(plot.y_label));
-    return svg + "</svg>\n";
+    const Legend legend = legend_of(plot);
+    return fmt::format(
+        "<svg viewBox=\"0 0 {:.0f} {:.0f}\" role=\"img\" aria-label=\"{}\">\n{}</svg>\n", kWidth,
+        legend.bottom + 8, escape_html(plot.title), content_of(plot, legend));
+}
+
+std::string svg_file(const std::vector<LogPlot>& plots) {
+    std::string content;
+    double top = 0, bottom = 0;
+    for (size_t i = 0; i < plots.size(); ++i) {
+        if (i % 2 == 0) top = bottom;
+        const Legend legend = legend_of(plots[i]);
+        content += fmt::format("<g transform=\"translate({} {})\">\n{}</g>\n",
+                               i % 2 == 0 ? 0.0 : kWidth, top, content_of(plots[i], legend));
+        bottom = std::max(bottom, top + legend.bottom + 12);
+    }
+    return fmt::format(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" viewBox=\"0 0 "
+        "{0} {1}\">\n<style>{2}</style>\n<rect width=\"100%\" height=\"100%\" "
+        "fill=\"#fff\"/>\n{3}</svg>\n",
+        plots.size() > 1 ? 2 * kWidth : kWidth, bottom, kPlotStyle, content);
 }
 
 }  // namespace voxelume

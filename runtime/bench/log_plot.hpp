@@ -24,6 +24,18 @@ struct LogPlot {
 /// point, with a little room.
 std::string svg_of(const LogPlot& plot);
 
+/// Such elements side by side, two in a row, as a file of their own.
+std::string svg_file(const std::vector<LogPlot>& plots);
+
+/// How the elements look, as CSS.
+inline constexpr const char* kPlotStyle =
+    "svg text{font:11px system-ui,sans-serif;fill:#333}svg .title{font-size:13px;font-weight:600}"
+    "svg .grid{stroke:#ddd}svg .frame{fill:none;stroke:#888}"
+    "svg polyline{fill:none;stroke-width:1.5}svg .mark{fill:none;stroke:#111;stroke-width:1.5}";
+
+/// Whether anything would be seen.
+bool has_points(const LogPlot& plot);
+
 /// Text between tags or in an attribute's quotes.
 std::string escape_html(const std::string& text);
 

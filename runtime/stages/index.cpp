@@ -1,9 +1,11 @@
 #include "runtime/stages/index.hpp"
 
+#include <glm/common.hpp>
 #include <glm/vec4.hpp>
 
 #include <algorithm>
 #include <bit>
+#include <utility>
 
 #include "kernels/shared/voxel.h"
 #include "runtime/error.hpp"
@@ -15,9 +17,10 @@ namespace {
 
 /// What `mark_voxels` found in the bricks.
 struct Marks {
-    Buffer<uint64_t> masks;           ///< 64 per slot: the leaves' voxels
+    Buffer<uint64_t> masks;           ///< 64 per slot, and room: the leaves' voxels
     std::vector<uint64_t> leaf_mask;  ///< per slot
     std::vector<uint32_t> counts;     ///< 2 per slot: voxels, primitives
+    std::vector<uint32_t> slots;      ///< BrickGrid::slots
 };
 
 /// The pyramid's upper levels, and where each slot's leaves, voxels and primitives start.
@@ -40,17 +43,86 @@ Defines features(const BrickGrid& grid) {
             {"VXL_PRIMITIVES", !grid.primitive_first.empty()}};
 }
 
-Marks mark_voxels(const Device& device, const Program& program, const BrickGrid& grid) {
+/// Marks the bricks of the slots `listed`, or all; their leaf masks and counts are in that order.
+Marks mark_voxels(const Device& device, const Program& program, const BrickGrid& grid,
+                  const std::vector<uint32_t>& listed, Buffer<uint64_t> masks) {
+    const uint32_t count = listed.empty() ? grid.brick_count : uint32_t(listed.size());
     Marks marks;
-    marks.masks = Buffer<uint64_t>(device, "index masks", size_t(grid.brick_count) * 64);
-    Buffer<uint64_t> leaf_mask(device, "index leaf masks", grid.brick_count);
-    Buffer<uint32_t> counts(device, "index counts", size_t(grid.brick_count) * 2);
+    marks.masks = std::move(masks);
+    Buffer<uint64_t> leaf_mask(device, "index leaf masks", count);
+    Buffer<uint32_t> counts(device, "index counts", size_t(count) * 2);
     program.kernel("mark_voxels")
-        .launch(WorkItem::heavy, grid.brick_count, grid.brick_count, glm::ivec4(grid.frame.size, 0),
-                glm::ivec4(grid.frame.bricks(), 0), grid.slots, grid.coordinates, grid.occupancy,
-                grid.distance, grid.primitive_first, marks.masks, leaf_mask, counts);
+        .launch(WorkItem::heavy, count, count, Buffer<uint32_t>(device, "marked bricks", listed),
+                glm::ivec4(grid.frame.size, 0), glm::ivec4(grid.frame.bricks(), 0), grid.slots,
+                grid.coordinates, grid.occupancy, grid.distance, grid.primitive_first, marks.masks,
+                leaf_mask, counts);
     marks.leaf_mask = leaf_mask.read();
     marks.counts = counts.read();
+    return marks;
+}
+
+Marks mark_all(const Device& device, const Program& program, const BrickGrid& grid) {
+    Buffer<uint64_t> masks(device, "index masks", size_t(grid.brick_count) * 64);
+    return mark_voxels(device, program, grid, {}, std::move(masks));
+}
+
+/// Calls `visit` with the places of a brick and its neighbours.
+template <class Visit>
+void for_neighbours(const glm::ivec3& table, uint32_t place, const Visit& visit) {
+    const int index = int(place);
+    const glm::ivec3 at(index % table.x, index / table.x % table.y, index / (table.x * table.y));
+    const glm::ivec3 low = glm::max(at - 1, glm::ivec3(0)), high = glm::min(at + 1, table - 1);
+    for (int z = low.z; z <= high.z; ++z)
+        for (int y = low.y; y <= high.y; ++y)
+            for (int x = low.x; x <= high.x; ++x) visit(size_t(x + table.x * (y + table.y * z)));
+}
+
+/// The marks of a grid from those `before` some of its bricks changed: a voxel's depend on its own
+/// brick and its neighbours.
+Marks mark_changed(const Device& device, const Program& program, const BrickGrid& grid,
+                   const std::vector<uint32_t>& changed, Marks before) {
+    std::vector<bool> reached(before.slots.size());
+    for (const uint32_t place : changed)
+        for_neighbours(grid.frame.bricks(), place, [&](size_t brick) { reached[brick] = true; });
+    const std::vector<uint32_t> coordinates = grid.coordinates.read();
+    std::vector<uint64_t> leaf_mask(grid.brick_count);
+    std::vector<uint32_t> counts(size_t(grid.brick_count) * 2), listed, moves;
+    for (uint32_t slot = 0; slot < grid.brick_count; ++slot) {
+        const uint32_t place = coordinates[slot], old = before.slots[place];
+        if (reached[place]) {
+            listed.push_back(slot);
+            continue;
+        }
+        if (old >= kBrickInside || (old != slot && old < grid.brick_count))
+            return mark_all(device, program, grid);  // a slot that may be written before it is read
+        leaf_mask[slot] = before.leaf_mask[old];
+        counts[slot * 2] = before.counts[old * 2];
+        counts[slot * 2 + 1] = before.counts[old * 2 + 1];
+        if (old != slot) moves.insert(moves.end(), {old, slot});
+    }
+    Buffer<uint64_t> masks = std::move(before.masks);
+    if (masks.size() < size_t(grid.brick_count) * 64) {
+        Buffer<uint64_t> larger(device, "index masks", size_t(grid.brick_count) * 80);
+        larger.copy(masks);
+        masks = std::move(larger);
+    }
+    const auto moved = uint32_t(moves.size() / 2 * 64);
+    program.kernel("move_masks")
+        .launch(WorkItem::light, moved, moved, Buffer<uint32_t>(device, "moved masks", moves),
+                masks);
+    Marks marks;
+    if (listed.empty()) {
+        marks.masks = std::move(masks);
+    } else {
+        marks = mark_voxels(device, program, grid, listed, std::move(masks));
+        for (size_t i = 0; i < listed.size(); ++i) {
+            leaf_mask[listed[i]] = marks.leaf_mask[i];
+            counts[listed[i] * 2] = marks.counts[i * 2];
+            counts[listed[i] * 2 + 1] = marks.counts[i * 2 + 1];
+        }
+    }
+    marks.leaf_mask = std::move(leaf_mask);
+    marks.counts = std::move(counts);
     return marks;
 }
 
@@ -147,9 +219,11 @@ Pyramid allocate(const Device& device, const BrickGrid& grid, const Numbering& n
 
 }  // namespace
 
-Pyramid build_index(const Device& device, const BrickGrid& grid) {
-    const Program program(device, "index.cl", features(grid));
-    const Marks marks = mark_voxels(device, program, grid);
+namespace {
+
+/// The pyramid of a grid whose voxels are marked.
+Pyramid write_pyramid(const Device& device, const Program& program, const BrickGrid& grid,
+                      const Marks& marks) {
     const Numbering numbers = number_voxels(grid, marks);
     Pyramid pyramid = allocate(device, grid, numbers);
     const glm::uvec2 kinds{static_cast<uint32_t>(occupied_kind(grid)) << VXL_KIND_SHIFT,
@@ -163,6 +237,36 @@ Pyramid build_index(const Device& device, const BrickGrid& grid) {
                 pyramid.colors, pyramid.fields, pyramid.primitive_first, pyramid.primitives);
     if (!pyramid.primitive_first.empty())
         pyramid.primitive_first.write(std::span(&numbers.primitive_count, 1), numbers.voxel_count);
+    return pyramid;
+}
+
+}  // namespace
+
+Pyramid build_index(const Device& device, const BrickGrid& grid) {
+    const Program program(device, "index.cl", features(grid));
+    return write_pyramid(device, program, grid, mark_all(device, program, grid));
+}
+
+struct Indexer::Kept {
+    Marks marks;
+};
+
+Indexer::Indexer(const Device& device) : device_(device) {}
+Indexer::~Indexer() = default;
+Indexer::Indexer(Indexer&&) noexcept = default;
+Indexer& Indexer::operator=(Indexer&&) noexcept = default;
+
+Pyramid Indexer::index(const BrickGrid& grid, const std::vector<uint32_t>* changed) {
+    const Program program(device_, "index.cl", features(grid));
+    std::unique_ptr<Kept> before = std::move(kept_);
+    const bool goes_on = before && changed && grid.primitive_first.empty();
+    Marks marks = goes_on ? mark_changed(device_, program, grid, *changed, std::move(before->marks))
+                          : mark_all(device_, program, grid);
+    Pyramid pyramid = write_pyramid(device_, program, grid, marks);
+    if (grid.primitive_first.empty()) {
+        marks.slots = grid.slots.read();
+        kept_ = std::make_unique<Kept>(Kept{std::move(marks)});
+    }
     return pyramid;
 }
 

@@ -1,6 +1,9 @@
 // BrickGrid -> Pyramid: the voxels that rays must see, numbered and packed.
 #pragma once
 
+#include <memory>
+#include <vector>
+
 #include "runtime/grid.hpp"
 #include "runtime/opencl/device.hpp"
 
@@ -25,5 +28,24 @@ namespace voxelume {
 /// shares the grid's triangle and solid buffers. Throws Error::limit when the device's memory or
 /// 2^30 voxels, 2^28 in grids with distances, don't suffice.
 Pyramid build_index(const Device& device, const BrickGrid& grid);
+
+/// Builds the pyramids of one state of a grid after another, and looks for voxels only where the
+/// grid has changed. The result is that of `build_index`.
+class Indexer {
+  public:
+    explicit Indexer(const Device& device);
+    ~Indexer();
+    Indexer(Indexer&&) noexcept;
+    Indexer& operator=(Indexer&&) noexcept;
+
+    /// `changed` has the places of the bricks that changed, came or went since the last call; null
+    /// where nothing is known. Of a grid with primitives all is looked for again.
+    Pyramid index(const BrickGrid& grid, const std::vector<uint32_t>* changed);
+
+  private:
+    struct Kept;
+    Device device_;
+    std::unique_ptr<Kept> kept_;
+};
 
 }  // namespace voxelume

@@ -74,6 +74,7 @@ class Placer::State {
 
     const BrickGrid& world() const { return world_; }
     uint32_t painted() const { return painted_; }
+    const std::vector<uint32_t>* changed() const { return changed_ ? &*changed_ : nullptr; }
 
   private:
     /// Painters for the objects, those that didn't change from `left`.
@@ -138,21 +139,22 @@ class Placer::State {
     std::vector<uint32_t> store_bricks(const std::vector<Painter*>& changed) {
         if (!bricks_) {
             bricks_.emplace(device_, parts_, world_);
+            changed_.reset();
             const std::vector<uint8_t> found = states(all_painters(), {});
             std::vector<uint32_t> bricks(found.size());
             std::iota(bricks.begin(), bricks.end(), 0u);
             return bricks_->store(bricks, found);
         }
+        changed_.emplace();
         if (changed.empty()) return {};
         const std::vector<uint8_t> reached = states(changed, {});
         std::vector<bool> asked(reached.size());
-        std::vector<uint32_t> bricks;
         for (uint32_t brick = 0; brick < reached.size(); ++brick) {
             if (reached[brick] == 0) continue;
             asked[brick] = true;
-            bricks.push_back(brick);
+            changed_->push_back(brick);
         }
-        return bricks_->store(bricks, states(all_painters(), asked));
+        return bricks_->store(*changed_, states(all_painters(), asked));
     }
 
     /// Where each of the world's bricks is in the list of those painted, or kBrickOutside.
@@ -202,6 +204,7 @@ class Placer::State {
     WorldParts parts_;
     std::optional<WorldBricks> bricks_;     ///< none before the first placing
     std::map<uint32_t, Painter> painters_;  ///< by their objects' numbers
+    std::optional<std::vector<uint32_t>> changed_;
     uint32_t painted_ = 0;
 };
 
@@ -226,6 +229,10 @@ const BrickGrid& Placer::place(std::span<const PlacedObject> objects, const Grid
 
 uint32_t Placer::painted_bricks() const {
     return state_ ? state_->painted() : 0;
+}
+
+const std::vector<uint32_t>* Placer::changed_bricks() const {
+    return state_ ? state_->changed() : nullptr;
 }
 
 BrickGrid place(const Device& device, std::span<const PlacedObject> objects,

@@ -86,6 +86,10 @@ class Placer {
     /// Bricks that the last call painted: none where the world is its only object.
     uint32_t painted_bricks() const;
 
+    /// The places of all bricks that differ from those before the last call, and perhaps some that
+    /// don't; null where the world was begun afresh.
+    const std::vector<uint32_t>* changed_bricks() const;
+
   private:
     class State;
     Device device_;

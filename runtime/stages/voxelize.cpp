@@ -57,6 +57,9 @@ bool needs_inside(const VoxelizeOptions& options) {
            (options.surface == Surface::cubes && options.set == VoxelSet::solid);
 }
 
+/// Lattice units by which `exact` voxels are widened: rays meet corners that aren't snapped.
+constexpr int kListMargin = 1;
+
 /// What the mesh's groups and colours give to voxels; shared/voxel.h's words.
 MeshLabels labels_of(const Mesh& mesh, Surface surface) {
     MeshLabels labels;
@@ -116,10 +119,11 @@ BrickGrid Voxelizer::voxelize(const Mesh& mesh, const glm::dmat4& frame_from_mes
     job.grid.attribute = labels.word;
     if (options.surface == Surface::smooth)
         voxelize_smooth(job, std::min(options.band, 4.0));
-    else
-        voxelize_cubes(job, options.surface == Surface::exact ? VoxelSet::supercover : options.set);
+    else if (options.surface == Surface::cubes)
+        voxelize_cubes(job, options.set, 0);
     if (options.surface == Surface::exact) {
-        list_primitives(job, program("voxelize_exact.cl", {}));
+        voxelize_cubes(job, VoxelSet::supercover, kListMargin);
+        list_primitives(job, program("voxelize_exact.cl", {{"VXL_MARGIN", kListMargin}}));
         keep_triangles(job, mesh, frame_from_mesh, labels);
     }
     if (!labels.triangle_attributes.empty() || !labels.vertex_colors.empty())
@@ -154,8 +158,8 @@ void Voxelizer::voxelize_smooth(VoxelizeJob& job, double band) {
     measure_distances(job, program("voxelize_distance.cl", slice_defines(device_)), rows, band);
 }
 
-void Voxelizer::voxelize_cubes(VoxelizeJob& job, VoxelSet set) {
-    store_bins(job, bin(job, job.triangles, glm::ivec3(0), kLatticePerBrick));
+void Voxelizer::voxelize_cubes(VoxelizeJob& job, VoxelSet set, int margin) {
+    store_bins(job, bin(job, job.triangles, glm::ivec3(margin), kLatticePerBrick));
     if (set == VoxelSet::solid) {
         const Buffer<uint16_t> rows = inside(job, true, glm::ivec3(0));
         fill_solid(job, program("voxelize_winding.cl", {{"VXL_CENTERS", 1}}), rows);
@@ -163,6 +167,7 @@ void Voxelizer::voxelize_cubes(VoxelizeJob& job, VoxelSet set) {
     }
     Defines defines = slice_defines(device_);
     defines.emplace_back("VXL_THIN", set == VoxelSet::thin);
+    defines.emplace_back("VXL_MARGIN", margin);
     cover_bricks(job, program("voxelize_cover.cl", defines));
     mark_outside(job, program("voxelize_bin.cl", {}));
 }

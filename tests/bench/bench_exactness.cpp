@@ -1,8 +1,9 @@
 // What exact arithmetic costs: the kernels against the same with floats alone, in turns.
 //
-//   bench_exactness MESH [voxels along the longest side, 512] [turns, 7]
+//   bench_exactness MESH [voxels along the longest side, 512] [turns, 15]
 //
-// Traversal: sight rays at the mesh, whose crossings are left to floats by VXL_ARBITRATE=0.
+// Traversal: sight rays at the mesh, whose crossings are left to floats by VXL_ARBITRATE=0, where
+// cells that would lie behind are refused so that the walk ends at all.
 // Voxelization: the supercover's predicates, by tests/bench/float_cover.h in 32-bit floats. Times
 // are the process's CPU time over all threads; ratios are medians of the turns' own ratios.
 #include <fmt/format.h>
@@ -35,6 +36,11 @@ double median(std::vector<double> values) {
     return values[values.size() / 2];
 }
 
+/// Says at once what is being measured: kernels take seconds to compile.
+void tell(const std::string& what) {
+    fmt::print(stderr, "{} ...\n", what);
+}
+
 /// Prints the medians of both, and of their ratios.
 void compare(const std::string& name, int turns, const std::function<void()>& exact,
              const std::function<void()>& floats) {
@@ -43,6 +49,7 @@ void compare(const std::string& name, int turns, const std::function<void()>& ex
         work();
         return cpu_seconds() - start;
     };
+    tell(name);
     exact(), floats();  // kernels are compiled on the way
     std::vector<double> exact_seconds, float_seconds, ratios;
     for (int turn = 0; turn < turns; ++turn) {
@@ -93,7 +100,7 @@ class Tracing {
     }
 
     void run() {
-        for (int i = 0; i < 4; ++i) stage_.closest(pyramid_, batch_, count_);
+        stage_.closest(pyramid_, batch_, count_);
         device_.finish();
     }
 
@@ -162,6 +169,7 @@ void measure(const Mesh& mesh, int resolution, int turns) {
     const std::pair<const char*, Surface> surfaces[] = {
         {"cubes", Surface::cubes}, {"smooth", Surface::smooth}, {"exact", Surface::exact}};
     for (const auto& [name, surface] : surfaces) {
+        tell(fmt::format("voxels of {}", name));
         Tracing exact("", mesh, frame, surface);
         Tracing floats("-DVXL_ARBITRATE=0", mesh, frame, surface);
         compare(
@@ -187,7 +195,7 @@ int main(int argc, char** argv) {
     try {
         if (argc < 2) throw std::runtime_error("give a mesh");
         voxelume::measure(voxelume::read_mesh(argv[1]), argc > 2 ? std::atoi(argv[2]) : 512,
-                          argc > 3 ? std::atoi(argv[3]) : 7);
+                          argc > 3 ? std::atoi(argv[3]) : 15);
         return 0;
     } catch (const std::exception& error) {
         std::fprintf(stderr, "bench_exactness: %s\n", error.what());

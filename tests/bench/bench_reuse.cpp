@@ -89,7 +89,7 @@ class Frames {
 /// Times the frame that `change` makes of the one before it, and the same frame alone.
 void measure(const Device& device, const Scene& first, const char* what,
              const std::function<void(Scene&, int)>& change) {
-    std::vector<double> times, alone_times, places, alone_places, shares;
+    std::vector<double> times, alone_times, indices, places, alone_places, shares;
     Frames frames(device);
     frames.render(first);
     for (int run = 0; run < kRuns; ++run) {
@@ -98,13 +98,15 @@ void measure(const Device& device, const Scene& first, const char* what,
         const Frame frame = frames.render(scene);
         const Frame alone = Frames(device).render(scene);
         times.push_back(frame.seconds), alone_times.push_back(alone.seconds);
+        indices.push_back(frame.report.world.index_seconds);
         places.push_back(frame.report.world.place_seconds);
         alone_places.push_back(alone.report.world.place_seconds);
         shares.push_back(double(frame.report.world.painted_bricks) /
                          double(alone.report.world.painted_bricks));
     }
-    fmt::print("{:<22} {:>8.1f} ms, alone {:>8.1f} ms: {:.3f}", what, median(times) * 1e3,
-               median(alone_times) * 1e3, median(times) / median(alone_times));
+    fmt::print("{:<22} {:>8.1f} ms, alone {:>8.1f} ms: {:.3f}; index {:.1f} ms", what,
+               median(times) * 1e3, median(alone_times) * 1e3, median(times) / median(alone_times),
+               median(indices) * 1e3);
     if (median(shares) > 0)
         fmt::print("; place {:.1f} ms for {:.3f} of the bricks, all {:.1f} ms: {:.2f} of the share",
                    median(places) * 1e3, median(shares), median(alone_places) * 1e3,

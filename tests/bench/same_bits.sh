@@ -1,5 +1,9 @@
 #!/bin/sh
-# One hash per scene, whatever compiles and runs it: same_bits.sh [BUILD-FOLDER]
+# One hash per scene, whatever compiles and runs it: same_bits.sh [BUILD-FOLDER [BUILD ...]]
+#
+# A BUILD is g++-Release, g++-Debug, clang++-Release or clang++-Debug; without any it is all four.
+# SCENES="solids fog" in the environment takes some of the scenes only.
+# CMake's environment variable CMAKE_CXX_COMPILER_LAUNCHER=ccache makes the second run short.
 #
 # Builds the program with g++ and clang++, as Debug and Release, and renders every scene of scenes/
 # small with lanes {1,4,8,16}, work-groups {own,1,24}, threads {1,2}, one compute unit, and with the
@@ -8,6 +12,9 @@
 set -eu
 source=$(cd "$(dirname "$0")/../.." && pwd)
 work=${1:-$source/build/same-bits}
+[ $# -gt 0 ] && shift
+builds=${*:-g++-Release g++-Debug clang++-Release clang++-Debug}
+scenes=${SCENES:-$(find "$source/scenes" -name '*.json' ! -name '*.schema.json' -exec basename {} .json \;)}
 mkdir -p "$work"
 images=0
 differing=0
@@ -16,10 +23,8 @@ differing=0
 check() {
     program=$1
     shift
-    for scene in "$source"/scenes/*.json; do
-        name=$(basename "$scene" .json)
-        [ "$name" = voxelume.schema ] && continue
-        env "$@" "$program" render "$scene" --assets /usr/share/glmark2/models --size 48x36 --float -q \
+    for name in $scenes; do
+        env "$@" "$program" render "$source/scenes/$name.json" --assets /usr/share/glmark2/models --size 48x36 --float -q \
             --frames 1 -o "$work/image.exr"
         hash=$(sha256sum <"$work/image.exr")
         [ -f "$work/$name.hash" ] || echo "$hash" >"$work/$name.hash"
@@ -32,24 +37,25 @@ check() {
 }
 
 rm -f "$work"/*.hash
-for compiler in g++ clang++; do
-    for type in Release Debug; do
-        folder=$work/$compiler-$type
-        command -v "$compiler" >/dev/null || { echo "no $compiler: left out"; continue; }
-        cmake -G Ninja -S "$source" -B "$folder" -DCMAKE_BUILD_TYPE=$type -DCMAKE_CXX_COMPILER=$compiler \
-            -DBUILD_TESTING=OFF >/dev/null
-        ninja -C "$folder" voxelume >/dev/null
-        program=$folder/voxelume
-        check "$program" VOXELUME_DEVICE=cpu
-        for lanes in 1 4 8 16; do
-            [ "$compiler-$type" = g++-Release ] || continue
-            check "$program" VOXELUME_LANES=$lanes
-            check "$program" VOXELUME_LANES=$lanes POCL_MAX_PTHREAD_COUNT=1
-            check "$program" VOXELUME_LANES=$lanes VOXELUME_WORK_GROUP=1
-            check "$program" VOXELUME_LANES=$lanes VOXELUME_WORK_GROUP=24
-            check "$program" VOXELUME_LANES=$lanes VOXELUME_UNITS=1
-            check "$program" VOXELUME_LANES=$lanes VOXELUME_BUILD_OPTIONS=-cl-opt-disable
-        done
+for build in $builds; do
+    compiler=${build%-*}
+    folder=$work/$build
+    command -v "$compiler" >/dev/null || { echo "no $compiler: left out"; continue; }
+    cmake -G Ninja -S "$source" -B "$folder" -DCMAKE_BUILD_TYPE="${build#*-}" \
+        -DCMAKE_CXX_COMPILER="$compiler" -DBUILD_TESTING=OFF >/dev/null
+    nice ninja -C "$folder" voxelume >/dev/null
+    program=$folder/voxelume
+    check "$program" VOXELUME_DEVICE=cpu
+    echo "$build: $images images so far, $differing differ"
+    # What isn't compiled by the compiler need not be tried with each of them.
+    [ "$build" = "${builds%% *}" ] || continue
+    for lanes in 1 4 8 16; do
+        check "$program" VOXELUME_LANES=$lanes
+        check "$program" VOXELUME_LANES=$lanes POCL_MAX_PTHREAD_COUNT=1
+        check "$program" VOXELUME_LANES=$lanes VOXELUME_WORK_GROUP=1
+        check "$program" VOXELUME_LANES=$lanes VOXELUME_WORK_GROUP=24
+        check "$program" VOXELUME_LANES=$lanes VOXELUME_UNITS=1
+        check "$program" VOXELUME_LANES=$lanes VOXELUME_BUILD_OPTIONS=-cl-opt-disable
     done
 done
 echo "$images images, $differing differ"

@@ -1,0 +1,58 @@
+// object grid, what solids leave of space -> object grid: what both have in common.
+//
+// A brick of the result names its slots in the operands; an operand that doesn't store it is all
+// inside or all outside there.
+#include "lib/work_item.h"
+#include "shared/voxel.h"
+
+static inline int is_stored(uint slot) {
+    return slot < VXL_BRICK_INSIDE;
+}
+
+static inline short distance_at(global const short* restrict distance, uint slot, uint node) {
+    if (is_stored(slot)) return distance[4096u * (size_t)slot + node];
+    return slot == VXL_BRICK_INSIDE ? -32767 : 32767;
+}
+
+/// One work-item: one brick of the result. The distances to what is common to two bodies.
+kernel void join_distances(uint count, global const uint2* restrict sources,
+                           global const short* restrict body, global const short* restrict rest,
+                           global short* restrict distance) {
+    const uint brick = work_item();
+    if (brick >= count) return;
+    const uint2 slots = sources[brick];
+    global short* nodes = distance + 4096u * (size_t)brick;
+    for (uint node = 0; node < 4096u; ++node)
+        nodes[node] = max(distance_at(body, slots.x, node), distance_at(rest, slots.y, node));
+}
+
+static inline ulong mask_at(global const ulong* restrict occupancy, uint slot, uint leaf) {
+    if (is_stored(slot)) return occupancy[64u * slot + leaf];
+    return slot == VXL_BRICK_INSIDE ? ~0ul : 0ul;
+}
+
+/// One work-item: one leaf of the result. The voxels of each body's cover that touch the other,
+/// by its cover or inside of it. `sources`: slots in body, body_inside, rest, rest_inside.
+kernel void join_covers(uint count, global const uint4* restrict sources,
+                        global const ulong* restrict body, global const ulong* restrict body_inside,
+                        global const ulong* restrict rest, global const ulong* restrict rest_inside,
+                        global ulong* restrict occupancy) {
+    const uint number = work_item();
+    if (number >= 64u * count) return;
+    const uint4 slots = sources[number >> 6];
+    const uint leaf = number & 63u;
+    const ulong a = mask_at(body, slots.x, leaf), b = mask_at(rest, slots.z, leaf);
+    occupancy[number] = (a & (b | mask_at(rest_inside, slots.w, leaf))) |
+                        (b & (a | mask_at(body_inside, slots.y, leaf)));
+}
+
+/// One work-item: one brick's words of voxels, from the slot that it has in `from`; `word` where it
+/// has none.
+kernel void keep_words(uint count, global const uint* restrict slots,
+                       global const uint* restrict from, uint word, global uint* restrict words) {
+    const uint brick = work_item();
+    if (brick >= count) return;
+    const uint slot = slots[brick];
+    for (uint i = 0; i < 4096u; ++i)
+        words[4096u * (size_t)brick + i] = is_stored(slot) ? from[4096u * (size_t)slot + i] : word;
+}
