@@ -11,9 +11,11 @@
 #include <cstdio>
 #include <cstring>
 #include <new>
+#include <thread>
 
 #include "cli/commands.hpp"
 #include "runtime/error.hpp"
+#include "runtime/io/exr.hpp"
 #include "runtime/scene_fields.hpp"
 #include "runtime/version.hpp"
 
@@ -145,6 +147,7 @@ int main(int count, char** arguments) {
     // A file that reaches `ulimit -f` is a failed write like any other, not the end of the process.
     std::signal(SIGXFSZ, SIG_IGN);
     cli::keep_freed_memory();
+    voxelume::set_exr_threads(int(std::thread::hardware_concurrency()));
     try {
         const int code = cli::run({arguments + (count > 0 ? 1 : 0), arguments + count});
         cli::flush_stdout();

@@ -196,7 +196,7 @@ kernel void scan_lines(
         lane_int waiting = (lane_int)0;
         lane_uint leaf = (lane_uint)0u;
         while (lanes_any(walking)) {
-            const CellState state = look_up(&p, w.x, w.y, w.z, walking);
+            const CellState state = look_up(&p, w.x, w.y, w.z, walking, &w.last);
             const lane_int arrived = state.occupied & walking;
             leaf = LANES_SELECT(arrived, state.leaf, leaf);
             waiting |= arrived;

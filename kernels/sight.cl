@@ -2,6 +2,7 @@
 //
 // Rays come in tiles of 4 x 4 pixels, a tile's samples one after another: place
 // ((tile * samples) + sample) * 16 + pixel of the tile, whatever the number of lanes.
+#include "lib/beam.h"
 #include "lib/exact_exp.h"
 #include "lib/fixed_point.h"
 #include "lib/vector.h"
@@ -103,4 +104,54 @@ kernel void cast_sight(Sight sight, PyramidShape shape, global const float* rest
     // The ray ends at the far surface; that it leaves the world the walk finds by itself, exactly.
     const lane_float t_end = LANES_SELECT(seen, t_far - t_first, (lane_float)-1.0f);
     LANES_STORE(t_end, rays, VXL_RAY_END * stride + first);
+}
+
+/// One work-item sends VXL_LANES beams, each along the 16 rays of its group; see shared/trace.h.
+kernel void start_beams(PyramidShape shape, global const uint* restrict sectors,
+                        global const uint* restrict bricks, global const float* restrict rays,
+                        uint count, uint stride, global uint* restrict beams) {
+    const uint first = work_item() * VXL_LANES;
+    if (first >= count) return;
+    const PyramidView halo = pyramid_view(shape, sectors, bricks, 0, 0);
+    const BeamRays r = {rays, stride};
+    const lane_uint beam = min(LANES_AS_UINT(LANES_NUMBERS + (int)first), (lane_uint)(count - 1u));
+    const lane_uint first_ray = beam * VXL_BEAM_RAYS;
+    lane_float sign;
+    const lane_int axis = main_axis(&r, first_ray, &sign);
+    const lane_int is_x = LANE_MASK(axis == 0), is_y = LANE_MASK(axis == 1);
+    const lane_int up = LANE_MASK(sign > 0.0f);
+    const lane_int axis_b = 1 & is_x, axis_c = 1 + (1 & (is_x | is_y));
+    const lane_int size =
+        LANES_SELECT(is_x, (lane_int)shape.size_x,
+                     LANES_SELECT(is_y, (lane_int)shape.size_y, (lane_int)shape.size_z));
+    const lane_float s_near = LANES_SELECT(up, (lane_float)0.0f, -LANES_FLOAT(size));
+    const lane_float s_far = s_near + LANES_FLOAT(size);
+
+    Span b_span = empty_span(), c_span = empty_span();
+    lane_float s_first = s_far;
+    lane_int active = LANE_MASK(sign != 0.0f);
+    for (uint i = 0; i < VXL_BEAM_RAYS; ++i) {
+        const lane_uint ray = first_ray + i;
+        const lane_int held = is_ray(&r, ray) & active;
+        const lane_float s0 = sign * ray_value(&r, axis, ray);
+        const lane_float d = sign * ray_value(&r, axis + VXL_RAY_DX, ray);
+        active &= ~held | LANE_MASK(d >= VXL_BEAM_LEAST_DIRECTION);
+        const lane_float per_s = exact_reciprocal(LANES_SELECT(active & held, d, (lane_float)1.0f));
+        const lane_float mb = ray_value(&r, axis_b + VXL_RAY_DX, ray) * per_s;
+        const lane_float mc = ray_value(&r, axis_c + VXL_RAY_DX, ray) * per_s;
+        const lane_float b = ray_value(&r, axis_b, ray), c = ray_value(&r, axis_c, ray);
+        widen(fma(mb, s_near - s0, b), fma(mb, s_far - s0, b), held, &b_span);
+        widen(fma(mc, s_near - s0, c), fma(mc, s_far - s0, c), held, &c_span);
+        s_first = LANES_SELECT(held, fmin(s_first, s0), s_first);
+    }
+    const BeamAxis b = beam_axis(&b_span, s_near, s_far, active);
+    const BeamAxis c = beam_axis(&c_span, s_near, s_far, active);
+    const lane_float s_last =
+        fmin(fmin(narrow_until(&b, s_first), narrow_until(&c, s_first)), s_far);
+    const lane_float start = run_beams(&halo, axis, sign, &b, &c, s_first, s_last, active);
+    const uint places = VXL_BEAM_PLACES(stride);
+    LANES_STORE(LANES_AS_UINT(start), beams, VXL_BEAM_START * places + first);
+    const lane_int towards = axis | (~up & VXL_BEAM_DOWN);
+    LANES_STORE(LANES_AS_UINT(LANES_SELECT(active, towards, (lane_int)VXL_BEAM_NONE)), beams,
+                VXL_BEAM_AXIS * places + first);
 }

@@ -49,16 +49,18 @@ static inline Hit hit_of(const Flight* f, lane_int hit) {
     (VXL_INSTANCES ? VXL_HIT_COMPONENTS : (VXL_EXACT ? VXL_HIT_INSTANCE : VXL_HIT_PRIMITIVE))
 
 /// The closest hit of rays 0 .. count-1 that run beside each other. Arrays hold a multiple of 16
-/// rays.
+/// rays. Hits don't depend on whether there are `beams`.
 kernel void trace_closest(VXL_WORLD_ARGUMENTS, global const float* restrict rays, uint count,
                           uint stride, global const uint* restrict paths,
-                          global const float* restrict starts, global uint* restrict hits) {
+                          global const float* restrict starts, global const uint* restrict beams,
+                          global uint* restrict hits) {
     const uint first = work_item() * VXL_LANES;
     if (first >= count) return;
     VXL_WORLD_VIEWS;
     Flight f;
     f.ray = LANES_AS_UINT(LANES_NUMBERS + (int)first);
     set_out(&pyramid, rays, count, stride, paths, starts, &f);
+    if (beams) ride_beam(beams, stride, first, &f.walk);
     const lane_int active = LANE_MASK(f.t_end >= 0.0f) & LANE_MASK(f.ray < count);
     f.found =
         find_nearest(&pyramid, &surface, &instances, &f.walk, f.t_end, active, false, &f.travel);

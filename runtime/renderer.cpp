@@ -26,10 +26,29 @@ Renderer::View Renderer::view_of(const Scene& scene, const FormedWorld& world,
     return view;
 }
 
+namespace {
+
+/// Whether so many sight rays save more time by beams than these take: building the halo, loading
+/// one more kernel.
+bool beams_pay(const Features& features, const Pyramid& world, uint64_t rays) {
+    constexpr uint64_t kFewRays = 65536;
+    return !features.instances && world.voxel_count > 0 &&
+           rays >= std::max<uint64_t>(kFewRays, world.leaf_count);
+}
+
+}  // namespace
+
 /// Hits are kept where they take little of the device's memory.
 bool Renderer::has_room(uint64_t rays) const {
     constexpr uint64_t kBytes = (VXL_RAY_COMPONENTS + VXL_HIT_COMPONENTS) * 4;
     return follows_ && rays * kBytes <= device_.info().memory / 16;
+}
+
+Halo Renderer::halo_of(const FormedWorld& world) {
+    if (halo_ && halo_->world == world.version) return halo_->halo;
+    const Halo halo = build_halo(device_, world.pyramid);
+    if (follows_) halo_ = WorldHalo{world.version, halo};
+    return halo;
 }
 
 std::shared_ptr<const Image> Renderer::image(const Scene& scene, const FormedWorld& world,
@@ -80,6 +99,9 @@ Image Renderer::part_of_image(const Scene& scene, const FormedWorld& formed, Ren
     const bool keeps_hits = has_room(uint64_t(all_tiles) * rays_per_tile);
 
     SightStage sight(device_, features, observer);
+    std::optional<BeamStage> beams;
+    if (!report.hits_are_kept && beams_pay(features, world, uint64_t(all_tiles) * rays_per_tile))
+        beams.emplace(device_, features, world, halo_of(formed));
     Illumination illumination(device_, features, scene, world, batch.stride);
     ResolveStage resolve(device_, features, observer);
     while (const std::optional<TileRange> range = tiles.share.take(batch_tiles)) {
@@ -91,6 +113,7 @@ Image Renderer::part_of_image(const Scene& scene, const FormedWorld& formed, Ren
         } else {
             if (keeps_hits && first > 0) renew_sight(device_, batch);
             sight.cast(shape_of(world), first, now, batch);
+            if (beams) beams->start(batch, now * rays_per_tile);
             illumination.light(batch, now * rays_per_tile);
             if (keeps_hits) hits_.push_back({batch.rays, batch.hits});
         }

@@ -8,6 +8,7 @@
 #include "runtime/image.hpp"
 #include "runtime/opencl/device.hpp"
 #include "runtime/scene.hpp"
+#include "runtime/stages/beam.hpp"
 #include "runtime/stages/features.hpp"
 #include "runtime/tile_share.hpp"
 #include "runtime/world.hpp"
@@ -77,8 +78,14 @@ class Renderer {
         Buffer<uint32_t> hits;
     };
 
+    struct WorldHalo {
+        uint64_t world = 0;
+        Halo halo;
+    };
+
     static View view_of(const Scene& scene, const FormedWorld& world, const Features& features);
     bool has_room(uint64_t rays) const;
+    Halo halo_of(const FormedWorld& world);
 
     Device device_;
     bool follows_;
@@ -86,6 +93,7 @@ class Renderer {
     uint64_t world_ = 0;          ///< in which world
     std::shared_ptr<const Image> image_;
     RenderReport report_;
+    std::optional<WorldHalo> halo_;
     std::optional<View> view_;
     std::vector<SightHits> hits_;  ///< of each batch of the view; empty where they have no room
 };

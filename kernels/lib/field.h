@@ -5,7 +5,7 @@
 #ifndef VXL_FIELD_H
 #define VXL_FIELD_H
 
-#include "lib/lanes.h"
+#include "lib/records.h"
 #include "shared/voxel.h"
 
 /// A decoded record: corner distances, named x y z, and second differences, named by axis and edge.
@@ -32,32 +32,24 @@ static inline lane_float half_curvature(lane_uint word, int first) {
 
 /// Reads a voxel's record.
 static inline Field read_field(global const uint* restrict fields, lane_uint voxel) {
+    const Records r = read_records(fields, voxel);
     Field f;
-    const lane_uint first = voxel * VXL_FIELD_WORDS;
-    lane_uint word = LANES_GATHER_UINT(fields, first);
-    f.f000 = low_half(word), f.f100 = high_half(word);
-    word = LANES_GATHER_UINT(fields, first + 1u);
-    f.f010 = low_half(word), f.f110 = high_half(word);
-    word = LANES_GATHER_UINT(fields, first + 2u);
-    f.f001 = low_half(word), f.f101 = high_half(word);
-    word = LANES_GATHER_UINT(fields, first + 3u);
-    f.f011 = low_half(word), f.f111 = high_half(word);
-    word = LANES_GATHER_UINT(fields, first + 4u);
-    f.x00 = half_curvature(word, 0);
-    f.y00 = half_curvature(word, 10);
-    f.z00 = half_curvature(word, 20);
-    word = LANES_GATHER_UINT(fields, first + 5u);
-    f.x10 = half_curvature(word, 0);
-    f.y10 = half_curvature(word, 10);
-    f.z10 = half_curvature(word, 20);
-    word = LANES_GATHER_UINT(fields, first + 6u);
-    f.x01 = half_curvature(word, 0);
-    f.y01 = half_curvature(word, 10);
-    f.z01 = half_curvature(word, 20);
-    word = LANES_GATHER_UINT(fields, first + 7u);
-    f.x11 = half_curvature(word, 0);
-    f.y11 = half_curvature(word, 10);
-    f.z11 = half_curvature(word, 20);
+    f.f000 = low_half(r.word[0]), f.f100 = high_half(r.word[0]);
+    f.f010 = low_half(r.word[1]), f.f110 = high_half(r.word[1]);
+    f.f001 = low_half(r.word[2]), f.f101 = high_half(r.word[2]);
+    f.f011 = low_half(r.word[3]), f.f111 = high_half(r.word[3]);
+    f.x00 = half_curvature(r.word[4], 0);
+    f.y00 = half_curvature(r.word[4], 10);
+    f.z00 = half_curvature(r.word[4], 20);
+    f.x10 = half_curvature(r.word[5], 0);
+    f.y10 = half_curvature(r.word[5], 10);
+    f.z10 = half_curvature(r.word[5], 20);
+    f.x01 = half_curvature(r.word[6], 0);
+    f.y01 = half_curvature(r.word[6], 10);
+    f.z01 = half_curvature(r.word[6], 20);
+    f.x11 = half_curvature(r.word[7], 0);
+    f.y11 = half_curvature(r.word[7], 10);
+    f.z11 = half_curvature(r.word[7], 20);
     return f;
 }
 

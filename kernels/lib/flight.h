@@ -35,7 +35,7 @@ static inline Found found_nothing(const Travel* travel) {
 static inline void walk_on(const PyramidView* p, Walk* w, lane_float t_end, Found* found,
                            lane_int* walking, lane_int* waiting) {
     lane_int moving = *walking;
-    const CellState state = look_up(p, w->x, w->y, w->z, moving);
+    const CellState state = look_up(p, w->x, w->y, w->z, moving, &w->last);
     const lane_int arrived = state.occupied & moving;
     found->leaf = LANES_SELECT(arrived, state.leaf, found->leaf);
     *waiting |= arrived;
@@ -229,6 +229,28 @@ static inline void set_out(const PyramidView* p, global const float* restrict ra
                              VXL_PATH_GOES_ON | VXL_PATH_FROM_CELL));
     f->t_end = VXL_RAY_FLOATS(rays + VXL_RAY_END * stride, f->ray);
     f->found = found_nothing(&f->travel);
+}
+
+/// Brings walks to where the beam of their rays ended: all on their way there is empty space. The
+/// cell may be wrong by rounding; the next one is again the walk's own.
+static inline void ride_beam(global const uint* restrict beams, uint stride, uint first, Walk* w) {
+    const uint beam = first / VXL_BEAM_RAYS, places = VXL_BEAM_PLACES(stride);
+    const uint towards = beams[VXL_BEAM_AXIS * places + beam];
+    if (towards == VXL_BEAM_NONE) return;
+    const float s = as_float(beams[VXL_BEAM_START * places + beam]);
+    const float plane = (towards & VXL_BEAM_DOWN) != 0u ? -s : s;
+    const uint axis = towards & 3u;
+    const lane_float o = axis == 0u ? w->ox : axis == 1u ? w->oy : w->oz;
+    const lane_float i = axis == 0u ? w->ix : axis == 1u ? w->iy : w->iz;
+    const lane_float t = (plane - o) * i;
+    const lane_int later = LANE_MASK(t > w->t) & LANE_MASK(t < INFINITY);
+    const lane_float at = LANES_SELECT(later, t, (lane_float)0.0f);
+    const lane_float x = fma(w->dx, at, w->ox), y = fma(w->dy, at, w->oy),
+                     z = fma(w->dz, at, w->oz);
+    w->x = LANES_SELECT(later, LANES_INT(x) + LANE_MASK(x < 0.0f), w->x);
+    w->y = LANES_SELECT(later, LANES_INT(y) + LANE_MASK(y < 0.0f), w->y);
+    w->z = LANES_SELECT(later, LANES_INT(z) + LANE_MASK(z < 0.0f), w->z);
+    w->t = LANES_SELECT(later, t, w->t);
 }
 
 /// Puts lanes that are not `fresh` back to where their walks had been.

@@ -4,11 +4,13 @@
 // which is what a GPU runs. A mask is a lane_int of 0 (no) or -1 (yes) in every width.
 //   LANE_MASK(a < b)            the mask of a comparison
 //   LANES_SELECT(mask, a, b)    a where the mask says yes, else b
-//   LANES_GATHER_UINT(p, index) p[index] lane by lane, likewise _FLOAT; all indices in range
+//   LANES_GATHER_UINT(p, index) p[index] lane by lane, likewise _FLOAT; all indices in range and
+//                               below 2^31
 //   LANES_LOAD(p, first)        p[first .. first + VXL_LANES)
 //   LANES_STORE(value, p, first)
 //   lanes_any(mask)             not 0 if any lane says yes; all lanes or-ed
 //   lanes_least(v)              the smallest of the lanes' numbers
+//   lanes_popcount(v)           bits set, lane by lane
 //   LANES_INT, LANES_FLOAT, ... conversions (to int: towards zero)
 #ifndef VXL_LANES_H
 #define VXL_LANES_H
@@ -17,6 +19,9 @@
 
 #define VXL_JOIN_(a, b) a##b
 #define VXL_JOIN(a, b) VXL_JOIN_(a, b)
+
+// The smaller of two numbers that are not NaN: one instruction, where fmin's care for NaN is four.
+#define LANES_LESS(a, b) LANES_SELECT(LANE_MASK((a) < (b)), a, b)
 
 #if VXL_LANES == 1
 
@@ -50,6 +55,9 @@ static inline int lanes_count(lane_int mask) {
 }
 static inline uint lanes_least(lane_uint v) {
     return v;
+}
+static inline lane_uint lanes_popcount(lane_uint v) {
+    return popcount(v);
 }
 
 #else
@@ -130,8 +138,19 @@ static inline uint lanes_least(uint16 v) {
     return min(q.x, q.y);
 }
 #endif
-#define LANES_GATHER_UINT(p, i) ((lane_uint)(VXL_INDEXED(p, i)))
-#define LANES_GATHER_FLOAT(p, i) ((lane_float)(VXL_INDEXED(p, i)))
+
+/// Bits set in each lane's number; PoCL's popcount of a vector goes lane by lane.
+static inline lane_uint lanes_popcount(lane_uint v) {
+    v -= (v >> 1) & 0x55555555u;
+    v = (v & 0x33333333u) + ((v >> 2) & 0x33333333u);
+    v = (v + (v >> 4)) & 0x0F0F0F0Fu;
+    v += v >> 8;
+    return (v + (v >> 16)) & 0x3Fu;
+}
+
+// Indices are read as signed: a gather of unsigned ones becomes two, of 64-bit addresses.
+#define LANES_GATHER_UINT(p, i) ((lane_uint)(VXL_INDEXED(p, LANES_AS_INT(i))))
+#define LANES_GATHER_FLOAT(p, i) ((lane_float)(VXL_INDEXED(p, LANES_AS_INT(i))))
 #endif
 
 #endif

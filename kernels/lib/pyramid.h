@@ -47,6 +47,17 @@ typedef struct {
     lane_uint leaf;      // number of the cell's leaf, where occupied
 } CellState;
 
+/// The sector that each lane looked up last, which neighbouring cells mostly share.
+typedef struct {
+    lane_int number;  // -1: none yet
+    lane_uint entry;
+} LastSector;
+
+static inline LastSector no_sector(void) {
+    const LastSector none = {(lane_int)-1, (lane_uint)0};
+    return none;
+}
+
 /// Bit number, within its half of the mask, of the child of size 1 << shift that holds the cell.
 static inline lane_uint child_bit(lane_int x, lane_int y, lane_int z, int shift) {
     return LANES_AS_UINT(((x >> shift) & 3) | (((y >> shift) & 3) << 2) |
@@ -57,13 +68,18 @@ static inline lane_int group_is_empty(lane_uint mask, lane_uint bit) {
     return LANE_MASK(((mask >> (bit & VXL_GROUP_CORNER)) & VXL_GROUP_OF_EIGHT) == 0u);
 }
 
-/// The state of cell (x,y,z); lanes that are not `active` read something harmless.
-static inline CellState look_up(const PyramidView* p, lane_int x, lane_int y, lane_int z,
-                                lane_int active) {
-    CellState state;
-    const lane_int sector =
-        (((z >> 6) * p->sectors_y + (y >> 6)) * p->sectors_x + (x >> 6)) & active;
-    const lane_uint entry = LANES_GATHER_UINT(p->sectors, sector);
+/// Mask: the cell's leaf holds voxels; the state of the others' cells, and the leaves' numbers.
+/// Lanes that are not `active` read something harmless.
+static inline lane_int look_up_leaf(const PyramidView* p, lane_int x, lane_int y, lane_int z,
+                                    lane_int active, LastSector* last, CellState* state) {
+    const lane_int sector = ((z >> 6) * p->sectors_y + (y >> 6)) * p->sectors_x + (x >> 6);
+    const lane_int changed = LANE_MASK(sector != last->number) & active;
+    if (lanes_any(changed)) {  // seldom: the branch lets the next loads begin early
+        last->number = LANES_SELECT(changed, sector, last->number);
+        last->entry =
+            LANES_SELECT(changed, LANES_GATHER_UINT(p->sectors, sector & changed), last->entry);
+    }
+    const lane_uint entry = last->entry;
     const lane_int stored = LANE_MASK(LANES_AS_INT(entry) >= 0);
     const lane_uint in_sector =
         LANES_AS_UINT(((x >> 4) & 3) | (((y >> 4) & 3) << 2) | (((z >> 4) & 3) << 4));
@@ -72,17 +88,27 @@ static inline CellState look_up(const PyramidView* p, lane_int x, lane_int y, la
     const lane_uint mask = LANES_GATHER_UINT(p->bricks, record + upper) & LANES_AS_UINT(stored);
     const lane_uint bit = child_bit(x, y, z, 2);
     const lane_int has_leaf = LANE_MASK(((mask >> bit) & 1u) != 0u) & active;
-    state.occupied = (lane_int)0;
-    state.leaf = (lane_uint)0;
-    state.log2_size = 2 - group_is_empty(mask, bit);
+    state->occupied = (lane_int)0;
+    state->leaf = (lane_uint)0;
+    state->log2_size = 2 - group_is_empty(mask, bit);
 
     const lane_uint own = LANES_GATHER_UINT(p->bricks, record + 2u + upper);
     const lane_int empty = LANES_AS_INT(LANES_SELECT(stored, own, entry));
     const lane_int skip = LANES_SELECT(LANE_MASK(empty < 0), empty & 0xFF, (lane_int)3);
-    state.log2_size = LANES_SELECT(LANE_MASK(mask == 0u), skip, state.log2_size);
+    state->log2_size = LANES_SELECT(LANE_MASK(mask == 0u), skip, state->log2_size);
     if (lanes_any(has_leaf)) {
-        const lane_uint below = popcount(mask & (((lane_uint)1u << bit) - 1u));
-        state.leaf = (own + below) & LANES_AS_UINT(has_leaf);
+        const lane_uint below = lanes_popcount(mask & (((lane_uint)1u << bit) - 1u));
+        state->leaf = (own + below) & LANES_AS_UINT(has_leaf);
+    }
+    return has_leaf;
+}
+
+/// The state of cell (x,y,z); lanes that are not `active` read something harmless.
+static inline CellState look_up(const PyramidView* p, lane_int x, lane_int y, lane_int z,
+                                lane_int active, LastSector* last) {
+    CellState state;
+    const lane_int has_leaf = look_up_leaf(p, x, y, z, active, last, &state);
+    if (lanes_any(has_leaf)) {
         const lane_uint voxels =
             LANES_GATHER_UINT(p->leaves, state.leaf * 2u + LANES_AS_UINT((z >> 1) & 1));
         const lane_uint voxel = child_bit(x, y, z, 0);
@@ -98,8 +124,8 @@ static inline lane_uint voxel_number(const PyramidView* p, lane_uint leaf, lane_
     const lane_uint upper = LANES_AS_UINT((z >> 1) & 1);
     const lane_uint lower_mask = LANES_GATHER_UINT(p->leaves, leaf * 2u);
     const lane_uint mask = LANES_GATHER_UINT(p->leaves, leaf * 2u + upper);
-    const lane_uint below = popcount(mask & (((lane_uint)1u << child_bit(x, y, z, 0)) - 1u)) +
-                            (popcount(lower_mask) & (lane_uint)(0u - upper));
+    const lane_uint below = lanes_popcount(mask & (((lane_uint)1u << child_bit(x, y, z, 0)) - 1u)) +
+                            (lanes_popcount(lower_mask) & (lane_uint)(0u - upper));
     return LANES_GATHER_UINT(p->leaf_voxels, leaf) + below;
 }
 

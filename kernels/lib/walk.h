@@ -26,6 +26,7 @@ typedef struct {
     lane_int x, y, z;                   // the cell
     lane_float t;                       // where the walk entered it
     lane_int axis;                      // across a plane of this axis; 3: the walk began here
+    LastSector last;
 } Walk;
 
 /// The coordinate of the cell being entered at the ray's origin.
@@ -45,6 +46,7 @@ static inline Walk begin_walk(lane_float ox, lane_float oy, lane_float oz, lane_
     w.x = first_cell(ox, dx), w.y = first_cell(oy, dy), w.z = first_cell(oz, dz);
     w.t = (lane_float)0.0f;
     w.axis = (lane_int)3;
+    w.last = no_sector();
     return w;
 }
 
@@ -162,10 +164,11 @@ static inline void cross_first(const PyramidView* p, Walk* w, lane_int kx, lane_
                                lane_int moving) {
     Crossing c;
     c.kx = kx, c.ky = ky, c.kz = kz;
-    c.tx = (LANES_FLOAT(c.kx) - w->ox) * w->ix;
-    c.ty = (LANES_FLOAT(c.ky) - w->oy) * w->iy;
-    c.tz = (LANES_FLOAT(c.kz) - w->oz) * w->iz;
-    lane_float t = fmin(c.tx, fmin(c.ty, c.tz));
+    const lane_float never = (lane_float)INFINITY;
+    c.tx = LANES_SELECT(w->mx, (LANES_FLOAT(c.kx) - w->ox) * w->ix, never);
+    c.ty = LANES_SELECT(w->my, (LANES_FLOAT(c.ky) - w->oy) * w->iy, never);
+    c.tz = LANES_SELECT(w->mz, (LANES_FLOAT(c.kz) - w->oz) * w->iz, never);
+    lane_float t = LANES_LESS(c.tx, LANES_LESS(c.ty, c.tz));
     const lane_float qx = fma(w->dx, t, w->ox);
     const lane_float qy = fma(w->dy, t, w->oy);
     const lane_float qz = fma(w->dz, t, w->oz);

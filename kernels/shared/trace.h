@@ -16,6 +16,19 @@
 
 #define VXL_DIRECTION_BITS 22
 
+// How far the rays 16 n .. 16 n + 15 may start together: beam n, in two arrays of
+// VXL_BEAM_PLACES(stride) words.
+//   VXL_BEAM_START  float: all that they meet lies at this coordinate or beyond it ...
+//   VXL_BEAM_AXIS   ... along axis 0, 1 or 2 towards larger coordinates; with VXL_BEAM_DOWN towards
+//                   smaller ones. VXL_BEAM_NONE: they start where they start
+#define VXL_BEAM_RAYS 16
+#define VXL_BEAM_PLACES(stride) ((stride) / 256 * 16 + 16)
+#define VXL_BEAM_START 0
+#define VXL_BEAM_AXIS 1
+#define VXL_BEAM_COMPONENTS 2
+#define VXL_BEAM_DOWN 4
+#define VXL_BEAM_NONE 8
+
 // Packets of rays that a work-item of trace_closest carries one after another.
 #define VXL_PACKETS(lanes) ((lanes) > 1 ? 16u : 1u)
 

@@ -12,6 +12,10 @@ namespace voxelume {
 /// How R G B A are stored; every other float plane is float32, every id plane UINT.
 enum class ColorDepth { float16, float32 };
 
+/// Threads of the process that compress and expand EXR files; none until this is called. The bytes
+/// don't depend on it.
+void set_exr_threads(int threads);
+
 /// Writes `image` with ZIP compression, the chromaticities of Rec. 709 and its attributes as
 /// strings.
 ///

@@ -7,6 +7,7 @@
 #include <ImfOutputFile.h>
 #include <ImfStandardAttributes.h>
 #include <ImfStringAttribute.h>
+#include <ImfThreading.h>
 
 #include <algorithm>
 #include <cmath>
@@ -59,6 +60,7 @@ Channels prepare_channels(const Image& image, ColorDepth color) {
 Imf::Header make_header(const Image& image, ColorDepth color) {
     Imf::Header header(image.width, image.height);
     header.compression() = Imf::ZIP_COMPRESSION;
+    header.zipCompressionLevel() = 2;  // 1 % larger than the default's, in 5/6 of its time
     Imf::addChromaticities(header, Imf::Chromaticities());  // the default is Rec. 709
     for (const auto& [name, plane] : image.planes) {
         const bool half_plane = is_color(name) && color == ColorDepth::float16;
@@ -100,6 +102,10 @@ void check_image(AtomicFile& file, const Image& image) {
 }
 
 }  // namespace
+
+void set_exr_threads(int threads) {
+    Imf::setGlobalThreadCount(threads);
+}
 
 size_t write_exr(const std::filesystem::path& path, const Image& image, ColorDepth color) {
     AtomicFile file(path);

@@ -1,6 +1,5 @@
 #include "runtime/stages/index.hpp"
 
-#include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
 
 #include <algorithm>
@@ -10,14 +9,10 @@
 #include "kernels/shared/voxel.h"
 #include "runtime/error.hpp"
 #include "runtime/stages/index_marks.hpp"
+#include "runtime/stages/sector_table.hpp"
 
 namespace voxelume {
 namespace {
-
-constexpr uint32_t kEmptyCube = 0x80000000u;
-constexpr size_t kRecordsPerSector = 64;
-constexpr size_t kWordsPerRecord = 4;
-constexpr int kBricksPerSector = kSectorSize / kBrickSize;
 
 /// The pyramid's upper levels, and where each slot's leaves, voxels and primitives start.
 struct Numbering {
@@ -37,64 +32,6 @@ Defines features(const BrickGrid& grid) {
             {"VXL_WRITE_ATTRIBUTES", !grid.attributes.empty() || has_two_sorts(grid)},
             {"VXL_COLORS", !grid.colors.empty()},
             {"VXL_PRIMITIVES", !grid.primitive_first.empty()}};
-}
-
-/// Sector of brick `b` in the table, and the bit of the brick in it.
-glm::uvec2 sector_and_bit(const glm::ivec3& b, const glm::ivec3& sectors) {
-    const glm::ivec3 s = b / kBricksPerSector, in = b % kBricksPerSector;
-    return {s.x + sectors.x * (s.y + sectors.y * s.z), in.x | in.y << 2 | in.z << 4};
-}
-
-/// For every cell of a table, whether the aligned group of `edge`³ cells around it is empty.
-template <class IsEmpty>
-std::vector<bool> empty_groups(const glm::ivec3& size, int edge, const IsEmpty& is_empty) {
-    const glm::ivec3 groups = (size + edge - 1) / edge;
-    std::vector<bool> empty(size_t(groups.x) * groups.y * groups.z, true);
-    std::vector<bool> result(size_t(size.x) * size.y * size.z);
-    const auto for_each_cell = [&](auto&& visit) {
-        size_t cell = 0;
-        for (int z = 0; z < size.z; ++z)
-            for (int y = 0; y < size.y; ++y)
-                for (int x = 0; x < size.x; ++x, ++cell)
-                    visit(cell, size_t(x / edge) +
-                                    size_t(groups.x) *
-                                        (size_t(y / edge) + size_t(groups.y) * size_t(z / edge)));
-    };
-    for_each_cell([&](size_t cell, size_t group) {
-        if (!is_empty(cell)) empty[group] = false;
-    });
-    for_each_cell([&](size_t cell, size_t group) { result[cell] = empty[group]; });
-    return result;
-}
-
-/// Numbers the sectors that hold voxels in ascending order; the others get their empty cube.
-/// Returns how many hold voxels.
-uint32_t number_sectors(const glm::ivec3& size, const std::vector<bool>& occupied,
-                        std::vector<uint32_t>& sectors) {
-    const std::vector<bool> far_empty =
-        empty_groups(size, 4, [&](size_t sector) { return !occupied[sector]; });
-    uint32_t block = 0;
-    for (size_t sector = 0; sector < sectors.size(); ++sector)
-        sectors[sector] = occupied[sector] ? block++ : kEmptyCube | (far_empty[sector] ? 8u : 6u);
-    return block;
-}
-
-/// Gives every empty brick record the size of its empty cube.
-void write_empty_cubes(std::vector<uint32_t>& bricks) {
-    constexpr uint64_t kGroup = 0x0000000000330033ull;  // the bits of 2³ aligned bricks
-    for (size_t first = 0; first < bricks.size(); first += kRecordsPerSector * kWordsPerRecord) {
-        uint64_t occupied = 0;
-        for (size_t bit = 0; bit < kRecordsPerSector; ++bit) {
-            const uint32_t* record = &bricks[first + bit * kWordsPerRecord];
-            if (record[0] | record[1]) occupied |= uint64_t{1} << bit;
-        }
-        for (size_t bit = 0; bit < kRecordsPerSector; ++bit) {
-            if (occupied >> bit & 1) continue;
-            const bool group_empty = (occupied >> (bit & 0b101010) & kGroup) == 0;
-            uint32_t* record = &bricks[first + bit * kWordsPerRecord];
-            record[2] = record[3] = kEmptyCube | (group_empty ? 5u : 4u);
-        }
-    }
 }
 
 Numbering number_voxels(const BrickGrid& grid, const VoxelMarks& marks) {
@@ -140,11 +77,13 @@ Numbering number_voxels(const BrickGrid& grid, const VoxelMarks& marks) {
         primitives += marks.counts[slot * 2 + 1];
     }
     write_empty_cubes(numbers.bricks);
-    if (std::max(voxels, primitives) > UINT32_MAX)
+    // Kernels gather by signed indices: of two words a leaf, of eight a field.
+    const uint64_t most = grid.distance.empty() ? uint64_t{1} << 30 : uint64_t{1} << 28;
+    if (std::max(voxels, primitives) > most)
         throw Error(ErrorKind::limit,
                     "this world has {} surface voxels and {} primitives in them, at most {} can be "
                     "numbered: use larger voxels",
-                    voxels, primitives, UINT32_MAX);
+                    voxels, primitives, most);
     numbers.leaf_count = uint32_t(leaves);
     numbers.voxel_count = uint32_t(voxels);
     numbers.primitive_count = uint32_t(primitives);

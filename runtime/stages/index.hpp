@@ -26,7 +26,7 @@ namespace voxelume {
 ///
 /// The numbering depends on the grid alone, not on the device or its order of work. The pyramid
 /// shares the grid's triangle and solid buffers. Throws Error::limit when the device's memory or
-/// 2^32 voxels don't suffice.
+/// 2^30 voxels, 2^28 in grids with distances, don't suffice.
 Pyramid build_index(const Device& device, const BrickGrid& grid);
 
 /// Builds the pyramids of one state of a grid after another, and looks for voxels only where the

@@ -22,6 +22,7 @@ struct RayQueue {
 /// Rays and what they met.
 struct RayBatch : RayQueue {
     uint32_t stride = 0;      ///< places for rays, a multiple of 16
+    Buffer<uint32_t> beams;   ///< VXL_BEAM_COMPONENTS, of sight rays; empty: no beams were sent
     Buffer<uint32_t> hits;    ///< VXL_HIT_COMPONENTS
     Buffer<float> positions;  ///< 3: of the hits, voxels
     Buffer<float> normals;    ///< 3: unit, in metres' space, towards the ray's start

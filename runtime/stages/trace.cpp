@@ -57,14 +57,18 @@ void TraceStage::closest(const Pyramid& pyramid, RayBatch& batch, uint32_t count
     if (pyramid.voxel_count == 0) return batch.hits.fill(VXL_NO_VOXEL);
     // A lane's instances come after its walk in the world, which others may still be in.
     scattered = scattered && pyramid.instances.empty();
-    Kernel& kernel = scattered ? scattered_.value() : closest_;
-    const size_t rays = scattered ? (count + packets_ - 1) / packets_ : count;
-    kernel.launch_packets(rays, shape_of(pyramid), pyramid.sectors, pyramid.bricks, pyramid.leaves,
-                          pyramid.leaf_voxels, pyramid.attributes, pyramid.fields,
-                          pyramid.primitive_first, pyramid.primitives, pyramid.triangles,
-                          pyramid.triangle_attributes, pyramid.solids, pyramid.instances.records,
-                          pyramid.instances.nodes, pyramid.instances.materials, batch.rays, count,
-                          batch.stride, batch.paths, batch.starts, batch.hits);
+    const auto launch = [&](Kernel& kernel, size_t rays, const auto&... beams) {
+        kernel.launch_packets(
+            rays, shape_of(pyramid), pyramid.sectors, pyramid.bricks, pyramid.leaves,
+            pyramid.leaf_voxels, pyramid.attributes, pyramid.fields, pyramid.primitive_first,
+            pyramid.primitives, pyramid.triangles, pyramid.triangle_attributes, pyramid.solids,
+            pyramid.instances.records, pyramid.instances.nodes, pyramid.instances.materials,
+            batch.rays, count, batch.stride, batch.paths, batch.starts, beams..., batch.hits);
+    };
+    if (scattered)
+        launch(scattered_.value(), (count + packets_ - 1) / packets_);
+    else
+        launch(closest_, count, batch.beams);
 }
 
 void TraceStage::begin_inside(const Pyramid& pyramid, const Surroundings& surroundings,

@@ -1,13 +1,14 @@
 // Secondary rays a second in a scene's frame, and what compaction of their queues is worth.
 //
-//   bench_paths SCENE [asset folder ...]
+//   bench_paths [--compacted] SCENE [asset folder ...]
 //
 // The frame is the scene's flat image, with shadows and all; its world is formed before. Times are
 // the process's CPU time over all threads, medians of five runs, with and without compaction in
-// turn.
+// turn, or with it only.
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <string_view>
 #include <vector>
 
 #include "runtime/illumination.hpp"
@@ -71,22 +72,25 @@ double median(std::vector<double> values) {
     return values[values.size() / 2];
 }
 
-void measure(const Scene& scene) {
+void measure(const Scene& scene, bool compacted_only) {
     const Device device = Device::open("cpu");
     WorldReport report;
     const Pyramid world = form_world(device, scene, report);
     Frame compact(device, scene, world, true), sparse(device, scene, world, false);
-    compact.render(), sparse.render();
+    compact.render();
+    if (!compacted_only) sparse.render();
     std::vector<double> with, without;
     for (int run = 0; run < kRuns; ++run) {
         with.push_back(compact.render());
-        without.push_back(sparse.render());
+        if (!compacted_only) without.push_back(sparse.render());
     }
-    const double time = median(with), sparse_time = median(without);
+    const double time = median(with);
     fmt::print("{} lanes, {} voxels, {} secondary rays\n", device.lanes(), world.voxel_count,
                compact.secondary_rays());
     fmt::print("compacted {:.3f} s, {:.2f} million secondary rays a second and core\n", time,
                double(compact.secondary_rays()) / time / 1e6);
+    if (compacted_only) return;
+    const double sparse_time = median(without);
     fmt::print("sparse    {:.3f} s, {:.2f} times as long\n", sparse_time, sparse_time / time);
 }
 
@@ -94,9 +98,12 @@ void measure(const Scene& scene) {
 }  // namespace voxelume
 
 int main(int argc, char** argv) {
-    if (argc < 2) {
-        fmt::print(stderr, "usage: bench_paths SCENE [asset folder ...]\n");
+    const bool compacted_only = argc > 1 && std::string_view(argv[1]) == "--compacted";
+    const int first = compacted_only ? 2 : 1;
+    if (argc <= first) {
+        fmt::print(stderr, "usage: bench_paths [--compacted] SCENE [asset folder ...]\n");
         return 2;
     }
-    voxelume::measure(voxelume::read_scene(argv[1], {argv + 2, argv + argc}));
+    voxelume::measure(voxelume::read_scene(argv[first], {argv + first + 1, argv + argc}),
+                      compacted_only);
 }

@@ -1,13 +1,15 @@
 // Rays a second through a mesh's pyramid: closest hits of the sight rays that hit, of shadow rays
 // and of incoherent bounces, for each surface and number of lanes.
 //
-//   bench_trace MESH [voxels along the longest side, 512] [lanes ...]
+//   bench_trace MESH [voxels along the longest side, 512] [lanes ... | surfaces ...]
 //
 // The set-up of RESULTS.md: longest side 1, eye at normalize(0.5, 0.35, 1) * 1.8, vertical angle 40
 // degrees, 1024 x 1024, point light at (1.5, 2.5, 2). Ray lists are made beforehand. Times are the
 // process's CPU time over all threads, so a figure is per core; set POCL_MAX_PTHREAD_COUNT=1 to
-// compare packets alone.
+// compare packets alone. The last column is a hash of all hits: programs that differ in speed alone
+// print the same.
 #include <fmt/format.h>
+#include <xxhash.h>
 
 #include <algorithm>
 #include <cmath>
@@ -19,6 +21,7 @@
 
 #include "kernels/shared/voxel.h"
 #include "runtime/io/mesh_reader.hpp"
+#include "runtime/stages/beam.hpp"
 #include "runtime/stages/index.hpp"
 #include "runtime/stages/trace.hpp"
 #include "runtime/stages/voxelize.hpp"
@@ -68,11 +71,13 @@ class RayList {
     }
 
     /// Median CPU seconds of one pass over the list.
-    double time(const Device& device, TraceStage& stage, const Pyramid& pyramid) {
+    double time(const Device& device, TraceStage& stage, const Pyramid& pyramid,
+                BeamStage* beams = nullptr) {
         std::vector<double> seconds;
         for (int run = 0; run <= kRuns; ++run) {
             device.finish();
             const double start = cpu_seconds();
+            if (beams) beams->start(batch_, count_);
             stage.closest(pyramid, batch_, count_);
             device.finish();
             seconds.push_back(cpu_seconds() - start);
@@ -98,6 +103,16 @@ class RayList {
     }
 
     uint32_t size() const { return count_; }
+
+    /// Of the hits' t, voxels, cells and faces.
+    uint64_t hash() const {
+        std::vector<uint32_t> words = batch_.hits.read();
+        for (uint32_t i = 0; i < batch_.stride; ++i)
+            if (words[VXL_HIT_VOXEL * batch_.stride + i] == VXL_NO_VOXEL)
+                for (uint32_t c = 0; c < VXL_HIT_PRIMITIVE; ++c)
+                    words[c * batch_.stride + i] = VXL_NO_VOXEL;
+        return XXH3_64bits(words.data(), size_t(batch_.stride) * VXL_HIT_PRIMITIVE * 4);
+    }
 
   private:
     uint32_t count_;
@@ -181,14 +196,20 @@ void bench(const Mesh& mesh, Surface surface, const char* name, int voxels, int 
     TraceStage stage(device, features_of(pyramid));
     const std::vector<Ray> rays = picture_rays(frame);
     RayList all(device, pyramid, rays);
-    const double all_seconds = all.time(device, stage, pyramid);
+    BeamStage beams(device, features_of(pyramid), pyramid, build_halo(device, pyramid));
+    const double all_seconds = all.time(device, stage, pyramid, &beams);
+    uint64_t hash = all.hash();
     const RayLists lists = split_rays(rays, all.hits(), frame);
     fmt::print("{:7} {:2} lanes, {:8} voxels:", name, lanes, pyramid.voxel_count);
     for (const std::vector<Ray>* list : {&lists.hitting, &lists.shadow, &lists.bounce}) {
         RayList timed(device, pyramid, *list);
-        fmt::print(" {:6.2f}", timed.size() / timed.time(device, stage, pyramid) * 1e-6);
+        fmt::print(" {:6.2f}", timed.size() /
+                                   timed.time(device, stage, pyramid,
+                                              list == &lists.hitting ? &beams : nullptr) *
+                                   1e-6);
+        hash ^= timed.hash();
     }
-    fmt::print(" {:6.2f}\n", kImage * kImage / all_seconds * 1e-6);
+    fmt::print(" {:6.2f}  {:016x}\n", kImage * kImage / all_seconds * 1e-6, hash);
     std::fflush(stdout);
 }
 
@@ -200,11 +221,21 @@ int main(int count, char** arguments) {
     if (count < 2) return 2;
     const int voxels = count > 2 ? std::atoi(arguments[2]) : 512;
     std::vector<int> lanes;
-    for (int i = 3; i < count; ++i) lanes.push_back(std::atoi(arguments[i]));
+    std::vector<std::pair<Surface, std::string>> surfaces;
+    for (int i = 3; i < count; ++i) {
+        const std::string word = arguments[i];
+        if (word == "cubes") surfaces.emplace_back(Surface::cubes, word);
+        if (word == "smooth") surfaces.emplace_back(Surface::smooth, word);
+        if (word == "exact") surfaces.emplace_back(Surface::exact, word);
+        if (std::atoi(arguments[i]) > 0) lanes.push_back(std::atoi(arguments[i]));
+    }
     if (lanes.empty()) lanes = {16, 8, 4, 1};
+    if (surfaces.empty())
+        surfaces = {
+            {Surface::cubes, "cubes"}, {Surface::smooth, "smooth"}, {Surface::exact, "exact"}};
     const Mesh mesh = scaled_mesh(arguments[1]);
-    fmt::print("million rays a second and core: hitting, shadow, bounce, all of the picture\n");
-    for (const int n : lanes) bench(mesh, Surface::cubes, "cubes", voxels, n);
-    for (const int n : lanes) bench(mesh, Surface::smooth, "smooth", voxels, n);
-    for (const int n : lanes) bench(mesh, Surface::exact, "exact", voxels, n);
+    fmt::print(
+        "million rays a second and core: hitting, shadow, bounce, all of the picture; hash\n");
+    for (const auto& [surface, name] : surfaces)
+        for (const int n : lanes) bench(mesh, surface, name.c_str(), voxels, n);
 }

@@ -1,0 +1,119 @@
+#include "runtime/stages/beam.hpp"
+
+#include <array>
+#include <utility>
+
+#include "runtime/stages/sector_table.hpp"
+#include "runtime/stages/trace.hpp"
+
+namespace voxelume {
+namespace {
+
+/// Leaf masks of a table of sectors, those of sectors without any left out.
+class LeafMasks {
+  public:
+    explicit LeafMasks(const glm::ivec3& sectors)
+        : sectors_(sectors), block_of_(size_t(sectors.x) * sectors.y * sectors.z, kNone) {}
+
+    /// Adds leaves to brick `b`, which may lie outside of the table.
+    void add(const glm::ivec3& b, uint64_t mask) {
+        const glm::ivec3 size = sectors_ * kBricksPerSector;
+        if (mask == 0 || b.x < 0 || b.y < 0 || b.z < 0) return;
+        if (b.x >= size.x || b.y >= size.y || b.z >= size.z) return;
+        const glm::uvec2 place = sector_and_bit(b, sectors_);
+        uint32_t& block = block_of_[place.x];
+        if (block == kNone) {
+            block = uint32_t(blocks_.size());
+            blocks_.emplace_back();
+        }
+        blocks_[block][place.y] |= mask;
+    }
+
+    Halo halo(const Device& device) const {
+        std::vector<bool> occupied(block_of_.size());
+        for (size_t i = 0; i < occupied.size(); ++i) occupied[i] = block_of_[i] != kNone;
+        std::vector<uint32_t> sectors(block_of_.size());
+        const size_t stored = number_sectors(sectors_, occupied, sectors);
+        std::vector<uint32_t> bricks(stored * kRecordsPerSector * kWordsPerRecord);
+        for (size_t i = 0; i < occupied.size(); ++i) {
+            if (!occupied[i]) continue;
+            uint32_t* record = &bricks[sectors[i] * kRecordsPerSector * kWordsPerRecord];
+            for (const uint64_t mask : blocks_[block_of_[i]]) {
+                record[0] = uint32_t(mask);
+                record[1] = uint32_t(mask >> 32);
+                record += kWordsPerRecord;
+            }
+        }
+        write_empty_cubes(bricks);
+        return {{device, "halo sectors", std::span<const uint32_t>(sectors)},
+                {device, "halo bricks", std::span<const uint32_t>(bricks)}};
+    }
+
+  private:
+    static constexpr uint32_t kNone = UINT32_MAX;
+    glm::ivec3 sectors_;
+    std::vector<uint32_t> block_of_;
+    std::vector<std::array<uint64_t, kRecordsPerSector>> blocks_;
+};
+
+/// A mask dilated by one leaf along an axis whose coordinate is worth `step` bits: what falls into
+/// the brick before, the brick itself, and the brick behind. `low` holds the bits of coordinate 0.
+std::array<uint64_t, 3> dilated(uint64_t mask, int step, uint64_t low) {
+    const uint64_t high = low << 3 * step;
+    return {(mask & low) << 3 * step, mask | (mask & ~high) << step | (mask & ~low) >> step,
+            (mask & high) >> 3 * step};
+}
+
+void add_dilated(const glm::ivec3& brick, uint64_t mask, LeafMasks& masks) {
+    const auto along_x = dilated(mask, 1, 0x1111111111111111ull);
+    for (int x = 0; x < 3; ++x) {
+        const auto along_y = dilated(along_x[size_t(x)], 4, 0x000F000F000F000Full);
+        for (int y = 0; y < 3; ++y) {
+            const auto along_z = dilated(along_y[size_t(y)], 16, 0x000000000000FFFFull);
+            for (int z = 0; z < 3; ++z)
+                masks.add(brick + glm::ivec3(x, y, z) - 1, along_z[size_t(z)]);
+        }
+    }
+}
+
+}  // namespace
+
+Halo build_halo(const Device& device, const Pyramid& pyramid) {
+    const glm::ivec3 table = pyramid.frame.sectors();
+    const std::vector<uint32_t> sectors = pyramid.sectors.read(), bricks = pyramid.bricks.read();
+    LeafMasks masks(table);
+    for (size_t i = 0; i < sectors.size(); ++i) {
+        if (sectors[i] & kEmptyCube) continue;
+        const int number = int(i);
+        const glm::ivec3 first =
+            glm::ivec3(number % table.x, number / table.x % table.y, number / (table.x * table.y)) *
+            kBricksPerSector;
+        for (int bit = 0; bit < int(kRecordsPerSector); ++bit) {
+            const uint32_t* record =
+                &bricks[(sectors[i] * kRecordsPerSector + size_t(bit)) * kWordsPerRecord];
+            const uint64_t mask = record[0] | uint64_t(record[1]) << 32;
+            if (mask != 0)
+                add_dilated(first + glm::ivec3(bit & 3, bit >> 2 & 3, bit >> 4), mask, masks);
+        }
+    }
+    return masks.halo(device);
+}
+
+BeamStage::BeamStage(const Device& device, const Features& features, const Pyramid& pyramid,
+                     Halo halo)
+    : device_(device),
+      shape_(shape_of(pyramid)),
+      halo_(std::move(halo)),
+      program_(device, "sight.cl", features.defines(device)),
+      start_(program_.kernel("start_beams")) {}
+
+void BeamStage::start(RayBatch& batch, uint32_t count) {
+    if (batch.beams.empty())
+        batch.beams = Buffer<uint32_t>(device_, "beams",
+                                       size_t(VXL_BEAM_PLACES(batch.stride)) * VXL_BEAM_COMPONENTS);
+    const uint32_t beams = (count + VXL_BEAM_RAYS - 1) / VXL_BEAM_RAYS;
+    start_.launch_packets(beams, shape_, halo_.sectors, halo_.bricks, batch.rays, beams,
+                          batch.stride, batch.beams);
+}
+
+}  // namespace voxelume

@@ -1,0 +1,201 @@
+#include "runtime/stages/beam.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <random>
+
+#include "runtime/stages/index.hpp"
+#include "runtime/stages/trace.hpp"
+#include "tests/brick_grids.hpp"
+#include "tests/test_device.hpp"
+
+namespace voxelume {
+namespace {
+
+constexpr uint32_t kSeed = 20261122;
+
+/// Rays in groups of 16 that run beside each other, snapped as shared/trace.h has it.
+struct RayList {
+    std::vector<float> values;
+    uint32_t stride;
+
+    explicit RayList(uint32_t count)
+        : values(size_t(count) * VXL_RAY_COMPONENTS, -1.0f), stride(count) {}
+
+    void set(uint32_t ray, const glm::dvec3& origin, const glm::dvec3& direction, float unit) {
+        const double step = std::ldexp(1.0, -VXL_DIRECTION_BITS);
+        int exponent = 0;
+        std::frexp(std::max({std::abs(direction.x), std::abs(direction.y), std::abs(direction.z)}),
+                   &exponent);
+        for (uint32_t a = 0; a < 3; ++a) {
+            const double d = std::ldexp(direction[int(a)], -exponent);
+            values[(VXL_RAY_OX + a) * stride + ray] =
+                float(std::round(origin[int(a)] * unit) / unit);
+            values[(VXL_RAY_DX + a) * stride + ray] = float(std::round(d / step) * step);
+        }
+        values[VXL_RAY_END * stride + ray] = INFINITY;
+    }
+    RayBatch batch(const Device& device) const {
+        RayBatch batch;
+        batch.stride = stride;
+        batch.rays = Buffer<float>(device, "rays", std::span<const float>(values));
+        batch.hits = Buffer<uint32_t>(device, "hits", size_t(stride) * VXL_HIT_COMPONENTS);
+        return batch;
+    }
+};
+
+/// Tiles of rays from random points through random ones, narrow and wide, some places idle.
+RayList random_tiles(const Pyramid& pyramid, uint32_t tiles) {
+    std::mt19937 random(kSeed);
+    const auto uniform = [&] { return double(random()) / 4294967296.0; };
+    const glm::dvec3 size(pyramid.frame.size);
+    RayList rays(tiles * VXL_BEAM_RAYS);
+    for (uint32_t tile = 0; tile < tiles; ++tile) {
+        const double spread = std::ldexp(1.0, -int(tile % 12));  // of the whole direction
+        glm::dvec3 origin, target, shift;
+        for (int a = 0; a < 3; ++a) {
+            origin[a] = uniform() * size[a], target[a] = uniform() * size[a];
+            if (tile % 3 == 0) target[a] = origin[a] + (a == int(tile % 7 % 3) ? 1 : 0);
+            shift[a] = tile % 2 ? uniform() : 0;  // origins apart
+        }
+        for (uint32_t i = 0; i < VXL_BEAM_RAYS; ++i) {
+            if (tile % 5 == 0 && random() % 4 == 0) continue;
+            glm::dvec3 direction = target - origin;
+            for (int a = 0; a < 3; ++a) direction[a] += spread * (uniform() - 0.5);
+            const glm::dvec3 start = glm::clamp(origin + shift * double(i % 4), {0, 0, 0}, size);
+            rays.set(tile * VXL_BEAM_RAYS + i, start, direction, shape_of(pyramid).fixed_point);
+        }
+    }
+    return rays;
+}
+
+HostBricks scattered_cubes(const glm::ivec3& size, int count) {
+    std::mt19937 random(kSeed);
+    HostBricks bricks(frame_of(size));
+    std::vector<glm::ivec3> voxels;
+    for (int i = 0; i < count; ++i) {
+        voxels.push_back({int(random() % unsigned(size.x)), int(random() % unsigned(size.y)),
+                          int(random() % unsigned(size.z))});
+        bricks.slots[bricks.brick_index(voxels.back())] = 0;
+    }
+    bricks.number_slots();
+    bricks.occupancy.assign(bricks.coordinates.size() * 64, 0);
+    for (const glm::ivec3& v : voxels) {
+        const glm::ivec3 leaf = v / 4 % 4, in = v % 4;
+        bricks.occupancy[size_t(bricks.slots[bricks.brick_index(v)]) * 64 +
+                         size_t(leaf.x + 4 * leaf.y + 16 * leaf.z)] |=
+            uint64_t{1} << (in.x + 4 * in.y + 16 * in.z);
+    }
+    return bricks;
+}
+
+/// The hits' words; what a miss leaves beside its mark counts as nothing.
+std::vector<uint32_t> hits_of(const RayBatch& batch) {
+    std::vector<uint32_t> words = batch.hits.read(0, size_t(batch.stride) * VXL_HIT_PRIMITIVE);
+    for (uint32_t i = 0; i < batch.stride; ++i)
+        if (words[VXL_HIT_VOXEL * batch.stride + i] == VXL_NO_VOXEL)
+            for (uint32_t c = 0; c < VXL_HIT_PRIMITIVE; ++c)
+                words[c * batch.stride + i] = VXL_NO_VOXEL;
+    return words;
+}
+
+class BeamLanes : public testing::TestWithParam<int> {};
+
+TEST_P(BeamLanes, LeaveTheHitsAsTheyAre) {
+    const Device device = test_device(GetParam());
+    for (const int voxels : {3, 400, 4000}) {
+        const Pyramid pyramid =
+            build_index(device, scattered_cubes({230, 137, 301}, voxels).upload(device));
+        TraceStage trace(device, features_of(pyramid));
+        BeamStage beams(device, features_of(pyramid), pyramid, build_halo(device, pyramid));
+        const RayList rays = random_tiles(pyramid, 1500);
+        RayBatch batch = rays.batch(device);
+        trace.closest(pyramid, batch, batch.stride);
+        const std::vector<uint32_t> expected = hits_of(batch);
+        batch.hits.fill(0);
+        beams.start(batch, batch.stride);
+        trace.closest(pyramid, batch, batch.stride);
+        const std::vector<uint32_t> hits = hits_of(batch);
+        for (uint32_t i = 0; i < batch.stride; ++i)
+            for (uint32_t c = 0; c < VXL_HIT_PRIMITIVE; ++c)
+                ASSERT_EQ(hits[c * batch.stride + i], expected[c * batch.stride + i])
+                    << "seed " << kSeed << ", " << voxels << " voxels, ray " << i << ", component "
+                    << c;
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Lanes, BeamLanes, testing::Values(1, 4, 8, 16));
+
+/// Where the first of the beams starts its rays, and along which axis.
+struct Start {
+    float s;
+    uint32_t axis;
+};
+
+Start first_start(const Device& device, const Pyramid& pyramid, const RayList& rays) {
+    RayBatch batch = rays.batch(device);
+    BeamStage(device, features_of(pyramid), pyramid, build_halo(device, pyramid))
+        .start(batch, batch.stride);
+    const std::vector<uint32_t> words = batch.beams.read();
+    Start start{0, words[VXL_BEAM_AXIS * VXL_BEAM_PLACES(batch.stride)]};
+    std::memcpy(&start.s, &words[0], sizeof start.s);
+    return start;
+}
+
+/// A single voxel at (130, 70, 200), and 4 x 4 rays half a voxel apart.
+struct OneVoxel {
+    Device device = test_device();
+    Pyramid pyramid;
+    RayList rays{VXL_BEAM_RAYS};
+
+    OneVoxel() {
+        HostBricks bricks(frame_of({230, 137, 301}));
+        const glm::ivec3 voxel(130, 70, 200);
+        bricks.slots[bricks.brick_index(voxel)] = 0;
+        bricks.number_slots();
+        bricks.occupancy.assign(64, 0);
+        const glm::ivec3 leaf = voxel / 4 % 4, in = voxel % 4;
+        bricks.occupancy[size_t(leaf.x + 4 * leaf.y + 16 * leaf.z)] =
+            uint64_t{1} << (in.x + 4 * in.y + 16 * in.z);
+        pyramid = build_index(device, bricks.upload(device));
+    }
+    void aim(const glm::dvec3& origin, const glm::dvec3& direction, double apart) {
+        for (uint32_t i = 0; i < VXL_BEAM_RAYS; ++i)
+            rays.set(i, origin + glm::dvec3(i % 4, i / 4, 0) * apart, direction,
+                     shape_of(pyramid).fixed_point);
+    }
+};
+
+TEST(Beam, StartsItsRaysOneLeafBeforeTheFirstThatHoldsVoxels) {
+    OneVoxel world;
+    world.aim({129.5, 69.5, 0}, {0, 0, 1}, 0.5);
+    const Start up = first_start(world.device, world.pyramid, world.rays);
+    EXPECT_EQ(up.axis, 2u);
+    EXPECT_NEAR(up.s, 196, 0.1);
+    world.aim({129.5, 69.5, 301}, {0, 0, -1}, 0.5);
+    const Start down = first_start(world.device, world.pyramid, world.rays);
+    EXPECT_EQ(down.axis, 2u | VXL_BEAM_DOWN);
+    EXPECT_NEAR(down.s, -208, 0.1);
+}
+
+TEST(Beam, ThatSeesNothingBringsItsRaysOutOfTheWorld) {
+    OneVoxel world;
+    world.aim({20, 20, 0}, {0, 0, 1}, 0.5);
+    EXPECT_NEAR(first_start(world.device, world.pyramid, world.rays).s, 301, 0.1);
+}
+
+TEST(Beam, EndsWhereItsRaysAreTooFarApart) {
+    OneVoxel world;
+    world.aim({10, 20, 0}, {0, 0, 1}, 4);
+    EXPECT_LE(first_start(world.device, world.pyramid, world.rays).s, 0);
+}
+
+TEST(Beam, OfIdlePlacesIsNone) {
+    const OneVoxel world;
+    EXPECT_EQ(first_start(world.device, world.pyramid, world.rays).axis, uint32_t{VXL_BEAM_NONE});
+}
+
+}  // namespace
+}  // namespace voxelume
