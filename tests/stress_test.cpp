@@ -50,6 +50,14 @@ std::vector<std::string> names_of_tests() {
 INSTANTIATE_TEST_SUITE_P(Tests, Stress, testing::ValuesIn(names_of_tests()),
                          [](const auto& name) { return name.param; });
 
+// The triangle's corners, snapped, lie on the other side of the voxel's edge than those that the
+// ray meets.
+TEST(StressFound, ARayAlongAVoxelsEdgeMeetsTheTriangleBesideIt) {
+    const StressResult result = test_named("exact").run({test_device(), kSeed, 6494911, 1, {}});
+    EXPECT_EQ(result.cases, 1u);
+    EXPECT_EQ(result.mismatches, 0u);
+}
+
 std::vector<FixedRay> rays_of_all_classes(const FixedGrid& grid, uint64_t of_each) {
     std::vector<FixedRay> rays;
     for (const RayClassName& named : kRayClasses)

@@ -126,10 +126,10 @@ void measure(const Device& device, const Measured& measured, int repeats, BenchR
     clear_counters(device);
     BenchTimes best = measure_first(device, scene, measured, row);
     const double programs = row.seconds.programs;
-    // The first render counts where it is long and made no kernels: those of more rays a pixel.
+    // The first render counts where it made no kernels and is long, or there are no repeats.
     double spent = best.total;
-    if (programs > 0 || spent < kMostRowSeconds) best.total = INFINITY;
-    for (int i = 0; i < repeats && (spent < kMostRowSeconds || std::isinf(best.total)); ++i) {
+    if (programs > 0 || (repeats > 0 && spent < kMostRowSeconds)) best.total = INFINITY;
+    for (int i = 0; std::isinf(best.total) || (i < repeats && spent < kMostRowSeconds); ++i) {
         clear_counters(device);
         RenderReport report;
         render(device, scene, report);

@@ -27,7 +27,8 @@ struct BenchOptions {
     glm::ivec2 size{1024, 1024};      ///< pixels
     glm::ivec2 light_size{256, 256};  ///< pixels of scenes with light
     bool measures_shadows = true;     ///< the edges that subjects without light cast, too
-    int repeats = 3;  ///< measured renders of each row, after one that isn't, at most
+    int repeats = 3;  ///< measured renders of each row, at most, after one that isn't; 0: that one
+                      ///< counts, unless it made kernels
 };
 
 /// Seconds of one render.

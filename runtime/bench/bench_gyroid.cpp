@@ -96,7 +96,7 @@ class TetrahedraMarch {
             vertices_.try_emplace({inside, outside}, uint32_t(mesh_.positions.size()));
         if (is_new) {
             glm::dvec3 a = place(inside), b = place(outside);
-            for (int i = 0; i < 40; ++i) {
+            for (int i = 0; i < 30; ++i) {
                 const glm::dvec3 middle = (a + b) / 2.0;
                 (gyroid_value(middle) < 0 ? a : b) = middle;
             }

@@ -23,6 +23,14 @@ constexpr const char* kStyle =
     "td:nth-child(-n+3),th:nth-child(-n+3){text-align:left}"
     "dt{float:left;width:6em;color:#666}dd{margin-left:6.5em}";
 
+std::string repeats_text(int repeats) {
+    if (repeats == 0) return "Each row is rendered once, and again where that made kernels";
+    return fmt::format(
+        "Each row is rendered once for its errors and kernels, then up to {} times while that "
+        "takes less than {} s; the fastest counts",
+        repeats, kMostRowSeconds);
+}
+
 std::string heading(const BenchReport& report) {
     std::string html = "<dl>\n";
     const std::pair<const char*, std::string> lines[] = {
@@ -31,11 +39,9 @@ std::string heading(const BenchReport& report) {
         {"Device", fmt::format("{}, {} lanes", report.device, report.lanes)},
         {"Driver", fmt::format("{}; {}", report.driver, report.platform)},
         {"Time", report.time},
-        {"Images", fmt::format("{} x {} pixels, {} x {} of scenes with light. Each row is "
-                               "rendered once for its errors and kernels, then up to {} times "
-                               "while that takes less than {} s; the fastest counts",
-                               report.size.x, report.size.y, report.light_size.x,
-                               report.light_size.y, report.repeats, kMostRowSeconds)}};
+        {"Images", fmt::format("{} x {} pixels, {} x {} of scenes with light. {}", report.size.x,
+                               report.size.y, report.light_size.x, report.light_size.y,
+                               repeats_text(report.repeats))}};
     for (const auto& [name, value] : lines)
         html += fmt::format("<dt>{}</dt><dd>{}</dd>\n", name, escape_html(value));
     return html + "</dl>\n";

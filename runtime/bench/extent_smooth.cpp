@@ -220,7 +220,8 @@ std::array<double, 27> field_values(const uint32_t* record) {
     constexpr double kLift = 1e-6;  // distance units: 1e-10 voxel
     std::array<double, 27> values;
     for (size_t i = 0; i < 27; ++i) {
-        const double s[] = {double(i % 3) / 2, double(i / 3 % 3) / 2, double(i / 9) / 2};
+        const size_t place[] = {i % 3, i / 3 % 3, i / 9};
+        const double s[] = {0.5 * double(place[0]), 0.5 * double(place[1]), 0.5 * double(place[2])};
         const auto share = [&](int axis, uint32_t end) { return end != 0 ? s[axis] : 1 - s[axis]; };
         double value = kLift;
         for (uint32_t n = 0; n < 4; ++n) {
