@@ -171,11 +171,12 @@ VoxelSetOf voxels_where(const glm::ivec3& size, Predicate is_set) {
     return voxels;
 }
 
-inline VoxelSetOf exact_supercover(const Mesh& mesh, const glm::ivec3& size) {
+inline VoxelSetOf exact_supercover(const Mesh& mesh, const glm::ivec3& size, int margin = 0) {
     const auto triangles = lattice_mesh(mesh);
     return voxels_where(size, [&](const glm::ivec3& v) {
-        return std::any_of(triangles.begin(), triangles.end(),
-                           [&](const auto& t) { return oracle::cube_meets_triangle(v, t); });
+        return std::any_of(triangles.begin(), triangles.end(), [&](const auto& t) {
+            return oracle::cube_meets_triangle(v, t, margin);
+        });
     });
 }
 

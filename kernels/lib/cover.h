@@ -4,9 +4,9 @@
 
 #include "lib/lattice.h"
 
-// Lattice units by which a voxel's closed cube reaches beyond its sides for SUPERCOVER. The lattice's
-// corners are up to half a unit from those that rays meet, on every axis: voxels that list triangles
-// for rays must list one that only comes that close.
+// Lattice units by which a voxel's closed cube reaches beyond its sides for SUPERCOVER. The
+// lattice's corners are up to half a unit from those that rays meet, on every axis: voxels that
+// list triangles for rays must list one that only comes that close.
 #ifndef VXL_MARGIN
 #define VXL_MARGIN 0
 #endif
@@ -44,13 +44,12 @@ typedef struct {
 static inline void prepare_supercover(Cover* c, const LatticeTriangle* t) {
     const int3* p = t->corner;
     const long3 n = c->n;
-    const Wide at = wide_dot(n, p[0]);
     const long3 positive = max(n, (long3)(0)), negative = min(n, (long3)(0));
-    const long3 size = positive - negative;
-    const long widened =
-        (VXL_MARGIN * (size.x + size.y + size.z) + (LATTICE_VOXEL - 1)) >> LATTICE_BITS;
-    c->low = wide_ceil(at, LATTICE_BITS) - (positive.x + positive.y + positive.z) - widened;
-    c->high = wide_floor(at, LATTICE_BITS) - (negative.x + negative.y + negative.z) + widened;
+    const int3 outwards = VXL_MARGIN * convert_int3((n < 0L) - (n > 0L));
+    c->low = wide_ceil(wide_dot(n, p[0] - outwards), LATTICE_BITS) -
+             (positive.x + positive.y + positive.z);
+    c->high = wide_floor(wide_dot(n, p[0] + outwards), LATTICE_BITS) -
+              (negative.x + negative.y + negative.z);
     c->xy = silhouette_of_cells(p[0].xy, p[1].xy, p[2].xy, n.z, VXL_MARGIN);
     c->yz = silhouette_of_cells(p[0].yz, p[1].yz, p[2].yz, n.x, VXL_MARGIN);
     c->zx = silhouette_of_cells(p[0].zx, p[1].zx, p[2].zx, n.y, VXL_MARGIN);

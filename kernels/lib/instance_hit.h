@@ -11,8 +11,9 @@ typedef struct {
     lane_float map[9];  // object_from_world of the instance; 0 for others
 } HitRay;
 
-/// The ray of each lane of `of_instance` in the space of its instance; others stay as they are, with
-/// a map of zeros: numbers never written may not reach a built-in function, even to be left out.
+/// The ray of each lane of `of_instance` in the space of its instance; others stay as they are,
+/// with a map of zeros: numbers never written may not reach a built-in function, even to be left
+/// out.
 static inline HitRay carry_hits(global const InstanceRecord* restrict records, lane_uint instance,
                                 lane_int of_instance, HitRay ray) {
     const Vector o = ray.origin, d = ray.direction;

@@ -104,11 +104,12 @@ class Joiner {
             std::max({total_.sectors, total_.records, 2 * total_.leaves, total_.voxels,
                       total_.primitives, total_.triangles * kFloatsPerTriangle,
                       parts_.fields ? total_.voxels * VXL_FIELD_WORDS : 0});
-        if (most > UINT32_MAX)
+        constexpr uint64_t kMostEntries = uint64_t{1} << 31;  // kernels gather by signed indices
+        if (most > kMostEntries)
             throw Error(ErrorKind::limit,
                         "this world and the models of its instances need {} entries in one table, "
                         "at most {} can be numbered: use larger voxels",
-                        most, UINT32_MAX);
+                        most, kMostEntries);
     }
 
     void allocate(const GridFrame& frame) {

@@ -30,7 +30,8 @@ class Voxelizer {
     ///   smooth  every brick with a node within `band` of the surface, and every brick whose nodes
     ///           are not all on one side. Distances are exact to their rounding within the band and
     ///           saturated (±32767) beyond.
-    ///   exact   as cubes, with the triangles of each voxel in ascending order. Voxels are widened by
+    ///   exact   as cubes, with the triangles of each voxel in ascending order. Voxels are widened
+    ///   by
     ///           a unit of the lattice, for rays meet corners that aren't snapped to it.
     /// `attributes` is empty for a mesh with one group, `colors` for one without. Otherwise a voxel
     /// has the group of the triangle closest to its centre, of equally close ones that with the

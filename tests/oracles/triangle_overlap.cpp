@@ -24,10 +24,11 @@ Int128 dot(const Axis& a, const glm::ivec3& p) {
     return a.x * p.x + a.y * p.y + a.z * p.z;
 }
 
-bool separates(const Axis& axis, const glm::ivec3& v, const LatticeCorners& triangle) {
+bool separates(const Axis& axis, const glm::ivec3& v, int margin, const LatticeCorners& triangle) {
     Int128 cube_low = 0, cube_high = 0;
     for (int corner = 0; corner < 8; ++corner) {
-        const glm::ivec3 p = (v + glm::ivec3(corner & 1, corner >> 1 & 1, corner >> 2)) * 4096;
+        const glm::ivec3 far(corner & 1, corner >> 1 & 1, corner >> 2);
+        const glm::ivec3 p = (v + far) * 4096 + (2 * far - 1) * margin;
         const Int128 at = dot(axis, p);
         cube_low = corner ? std::min(cube_low, at) : at;
         cube_high = corner ? std::max(cube_high, at) : at;
@@ -92,15 +93,15 @@ Rational plane_crossing(const Point& p, int axis, const LatticeCorners& triangle
 
 }  // namespace
 
-bool cube_meets_triangle(const glm::ivec3& v, const LatticeCorners& triangle) {
+bool cube_meets_triangle(const glm::ivec3& v, const LatticeCorners& triangle, int margin) {
     const Axis unit[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     const Axis e0 = to_axis(triangle[1] - triangle[0]), e1 = to_axis(triangle[2] - triangle[1]),
                e2 = to_axis(triangle[0] - triangle[2]);
-    if (separates(cross(e0, e1), v, triangle)) return false;
+    if (separates(cross(e0, e1), v, margin, triangle)) return false;
     for (const Axis& u : unit) {
-        if (separates(u, v, triangle)) return false;
+        if (separates(u, v, margin, triangle)) return false;
         for (const Axis& e : {e0, e1, e2})
-            if (separates(cross(u, e), v, triangle)) return false;
+            if (separates(cross(u, e), v, margin, triangle)) return false;
     }
     return true;
 }

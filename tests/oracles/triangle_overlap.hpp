@@ -11,8 +11,9 @@ namespace voxelume::oracle {
 /// Corners on the lattice of 1/4096 voxel.
 using LatticeCorners = std::array<glm::ivec3, 3>;
 
-/// Whether the closed triangle meets the closed cube of voxel `v`: 13 separating axes.
-bool cube_meets_triangle(const glm::ivec3& v, const LatticeCorners& triangle);
+/// Whether the closed triangle meets the closed cube of voxel `v`, widened on all sides by `margin`
+/// units of the lattice: 13 separating axes.
+bool cube_meets_triangle(const glm::ivec3& v, const LatticeCorners& triangle, int margin = 0);
 
 /// Whether the triangle meets the crosshair of voxel `v`: its three centre segments, each from its
 /// start to before its end, their lines moved by (e, e², e³) with e = 2^-80.
