@@ -112,6 +112,10 @@ void write_text(const std::string& path, const std::string& text) {
 int run(const BenchCommand& command) {
     const BenchOptions options = options_of(command);
     check_outputs(command);
+    if (count_rows(options) == 0)
+        throw Error(ErrorKind::usage,
+                    "bench: no scene has rows of these sizes and placements; scenes/BENCH.md names "
+                    "what each has");
     const Device device = Device::open(command.device);
     BenchReport report;
     {

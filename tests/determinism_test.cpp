@@ -2,6 +2,10 @@
 // about a device that must not matter.
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <fstream>
+#include <numbers>
+
 #include "tests/program_runner.hpp"
 
 namespace voxelume {
@@ -21,15 +25,53 @@ class Setting {
     const char* name_;
 };
 
+/// A ring of triangles, as an OBJ file has it.
+std::string ring_text() {
+    constexpr int kAround = 24, kAcross = 12;
+    std::string text;
+    for (int i = 0; i < kAround; ++i)
+        for (int j = 0; j < kAcross; ++j) {
+            const double a = 2 * std::numbers::pi * i / kAround;
+            const double b = 2 * std::numbers::pi * j / kAcross, r = 0.4 + 0.18 * std::cos(b);
+            text +=
+                fmt::format("v {} {} {}\n", r * std::cos(a), 0.18 * std::sin(b), r * std::sin(a));
+        }
+    for (int i = 0; i < kAround; ++i)
+        for (int j = 0; j < kAcross; ++j) {
+            const int next = (i + 1) % kAround * kAcross + 1, beside = (j + 1) % kAcross;
+            text += fmt::format("f {} {} {} {}\n", i * kAcross + 1 + j, i * kAcross + 1 + beside,
+                                next + beside, next + j);
+        }
+    return text;
+}
+
+constexpr const char* kRings = R"({"voxelume": 1,
+"world": {"voxel_size": 0.03, "bounds": {"min": [-0.7, -0.9, -0.7], "max": [0.7, 0.9, 0.7]}},
+"models": {"smooth": {"mesh": "ring.obj"},
+           "solid": {"mesh": "ring.obj", "surface": "cubes", "set": "solid"},
+           "exact": {"mesh": "ring.obj", "surface": "exact"}},
+"objects": [{"model": "smooth", "turn": [11, 20, 5]},
+            {"model": "solid", "position": [0.01, 0.55, 0.02], "turn": [7, 0, 3]},
+            {"model": "exact", "position": [0.01, -0.55, 0.02]}],
+"observer": {"position": [0.5, 1.2, 2.4], "look_at": [0, 0, 0],
+             "display": {"shape": "pyramid", "angle": 45}},
+"lights": [{"type": "point", "position": [2, 3, 4], "intensity": 20}]})";
+
 class Determinism : public ProgramTest {
   protected:
-    /// The image's bytes when rendered with something added to the command.
+    /// The bytes of solids' and of meshes' images, rendered with something added to the command.
     std::string image(const std::string& name, const std::string& options = "") {
-        const ProgramResult result =
-            run(fmt::format("render '{}/scenes/solids.json' --size 52x39 --float -q -o {}.exr {}",
-                            VXL_SOURCE_DIR, name, options));
-        EXPECT_EQ(result.exit_code, 0) << result.err;
-        return bytes_of(folder / (name + ".exr"));
+        std::ofstream(folder / "ring.obj") << ring_text();
+        std::ofstream(folder / "rings.json") << kRings;
+        std::string bytes;
+        for (const std::string scene :
+             {VXL_SOURCE_DIR "/scenes/solids.json", "rings.json --no-cache"}) {
+            const ProgramResult result = run(fmt::format(
+                "render {} --size 52x39 --float -q -o {}.exr {}", scene, name, options));
+            EXPECT_EQ(result.exit_code, 0) << result.err;
+            bytes += bytes_of(folder / (name + ".exr"));
+        }
+        return bytes;
     }
 
     void expect_same_image(const char* variable, const std::vector<const char*>& values) {

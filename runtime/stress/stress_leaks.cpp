@@ -65,6 +65,10 @@ double safe_share(const VoxelizeOptions& options) {
     return options.set == VoxelSet::supercover ? 0.96 : 0.85;  // centres inside: a voxel's diagonal
 }
 
+/// Voxels of a surface reach no farther out of the ring than this, in voxels: their diagonal, and
+/// some room.
+constexpr double kReach = 2;
+
 glm::dvec3 point_inside(const Ring& ring, double share, StressRandom& random) {
     return ring.point(random.uniform(0, 2 * kPi), random.uniform(0, 2 * kPi),
                       random.uniform(0, share));
@@ -117,6 +121,24 @@ InwardRay through_corners(const Ring& ring, const FixedGrid& grid, double share,
     }
 }
 
+glm::dvec3 point_at(const FixedGrid& grid, const FixedRay& ray, double t) {
+    glm::dvec3 point;
+    for (size_t a = 0; a < 3; ++a)
+        point[int(a)] = double(ray.origin[a]) / double(grid.unit()) +
+                        double(ray.direction[a]) / double(kOne) * t;
+    return point;
+}
+
+/// What is wrong with where a ray was found to meet the ring; empty if nothing is.
+std::string fault_of(const Ring& ring, const FixedGrid& grid, const InwardRay& inward,
+                     const std::optional<EnteredCell>& hit) {
+    if (!hit) return "a miss";
+    const double t = hit->t;
+    if (!(t >= 0 && t <= inward.inside)) return fmt::format("a hit at t = {} only", t);
+    if (ring.outside(point_at(grid, inward.ray, t)) <= kReach) return {};
+    return fmt::format("a hit at t = {}, where nothing is", t);
+}
+
 }  // namespace
 
 StressResult stress_leaks(const VoxelizeOptions& options, const StressRun& run) {
@@ -149,11 +171,11 @@ StressResult stress_leaks(const VoxelizeOptions& options, const StressRun& run) 
         device.start(grid, rays);
         const std::vector<std::optional<EnteredCell>> hits = device.hits();
         for (size_t i = 0; i < count; ++i) {
-            if (hits[i] && double(hits[i]->t) <= inward[i].inside) continue;
+            const std::string fault = fault_of(ring, grid, inward[i], hits[i]);
+            if (fault.empty()) continue;
             note_mismatch(result, first + i, [&] {
-                return describe(grid, rays[i]) +
-                       (hits[i] ? fmt::format(": a hit at t = {} only", hits[i]->t) : ": a miss") +
-                       fmt::format(", though t = {} is inside", inward[i].inside);
+                return fmt::format("{}: {}, though t = {} is inside", describe(grid, rays[i]),
+                                   fault, inward[i].inside);
             });
         }
         result.cases += count;

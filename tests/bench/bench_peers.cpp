@@ -96,8 +96,11 @@ void measure(const char* output, int side, int repeats) {
 int main(int argc, char** argv) {
     try {
         if (argc < 2) throw std::runtime_error("give the name of the file to write");
-        voxelume::measure(argv[1], argc > 2 ? std::atoi(argv[2]) : 1024,
-                          argc > 3 ? std::atoi(argv[3]) : 5);
+        const int side = argc > 2 ? std::atoi(argv[2]) : 1024;
+        const int repeats = argc > 3 ? std::atoi(argv[3]) : 5;
+        if (side <= 0 || side % 4 != 0 || repeats <= 0)
+            throw std::runtime_error("SIDE is a multiple of 4 pixels, REPEATS at least 1");
+        voxelume::measure(argv[1], side, repeats);
         return 0;
     } catch (const std::exception& error) {
         std::fprintf(stderr, "bench_peers: %s\n", error.what());

@@ -24,7 +24,7 @@ check() {
     program=$1
     shift
     for name in $scenes; do
-        env "$@" "$program" render "$source/scenes/$name.json" --assets /usr/share/glmark2/models --size 48x36 --float -q \
+        env "$@" "$program" render "$source/scenes/$name.json" --assets /usr/share/glmark2/models --size 48x36 --float --no-cache -q \
             --frames 1 -o "$work/image.exr"
         hash=$(sha256sum <"$work/image.exr")
         [ -f "$work/$name.hash" ] || echo "$hash" >"$work/$name.hash"
