@@ -46,7 +46,7 @@ bool Renderer::has_room(uint64_t rays) const {
 
 Halo Renderer::halo_of(const FormedWorld& world) {
     if (halo_ && halo_->world == world.version) return halo_->halo;
-    const Halo halo = build_halo(device_, world.pyramid);
+    Halo halo = build_halo(device_, world.pyramid);
     if (follows_) halo_ = WorldHalo{world.version, halo};
     return halo;
 }

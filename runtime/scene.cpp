@@ -8,6 +8,7 @@
 #include <glm/matrix.hpp>
 
 #include "runtime/error.hpp"
+#include "runtime/instances.hpp"
 #include "runtime/scene_animation.hpp"
 #include "runtime/scene_motion.hpp"
 #include "runtime/scene_parts.hpp"
@@ -57,9 +58,13 @@ void find_reaches(Scene& scene) {
     std::array<glm::dvec4, 8> corners;
     for (int i = 0; i < 8; ++i) corners[size_t(i)] = glm::dvec4(corner(world, i), 1);
     for (Model& model : scene.models) model.reach = {};
-    std::vector<bool> is_used(scene.models.size(), false);
+    std::vector<bool> is_used(scene.models.size(), false), is_baked(scene.models.size(), false);
+    const auto baked = [&](const Object& object) { return !is_instanced(scene, object); };
+    for (const Object& object : scene.objects)
+        if (object.visible && baked(object)) is_baked[object.model] = true;
     for (const Object& object : scene.objects) {
-        if (!object.visible) continue;
+        // Where instances go doesn't matter to voxels that are shown in the world.
+        if (!object.visible || (is_baked[object.model] && !baked(object))) continue;
         const glm::dmat4 object_from_world = glm::inverse(object.world_from_object);
         Bounds& reach = scene.models[object.model].reach;
         for (const glm::dvec4& world_corner : corners) {

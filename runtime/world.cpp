@@ -32,13 +32,14 @@ bool fits_twice(const ScenePlan& plan, const DeviceInfo& device) {
 }  // namespace
 
 WorldFormer::Origin WorldFormer::origin_of(const Scene& scene) {
-    Origin origin{{}, scene.models, scene.objects, {}};
+    Origin origin{{}, scene.models, scene.objects, {}, {}};
     origin.world.bounds = scene.world.bounds;
     origin.world.voxels = scene.world.voxels;
     origin.world.voxel_size = scene.world.voxel_size;
     for (const Material& material : scene.materials)
         origin.transmits.push_back(transmits(material));
-    origin.lattice = scene.observer.display.layout == VolumeLayout::lattice;
+    for (const Object& object : scene.objects)
+        origin.instanced.push_back(is_instanced(scene, object));
     leave_out_places_of_instances(scene, origin.models, origin.objects);
     return origin;
 }

@@ -61,7 +61,7 @@ class WorldFormer {
         std::vector<Model> models;
         std::vector<Object> objects;
         std::vector<bool> transmits;  ///< of each material
-        bool lattice = false;         ///< decides which objects are instances
+        std::vector<bool> instanced;  ///< each object
         friend bool operator==(const Origin&, const Origin&) = default;
     };
 

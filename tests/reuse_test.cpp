@@ -7,6 +7,7 @@
 #include <set>
 
 #include "runtime/renderer.hpp"
+#include "runtime/scene_parts.hpp"
 #include "tests/oracles/image_hash.hpp"
 #include "tests/shared_device.hpp"
 
@@ -196,6 +197,33 @@ TEST(Reuse, NeverShowsInTheImage) {
                 << material << ", seed " << kSeed << ", step " << step << ", kind " << kind;
         }
     }
+}
+
+// A lamp's spots are found in the world's voxels, so it can't stay an instance.
+TEST(Reuse, AnInstanceThatBeginsToShineIsPlacedInTheWorld) {
+    Scene scene = scene_of("blue");
+    scene.objects[0].moves = true;
+    scene.objects[0].world_from_object = glm::dmat4(1);
+    scene.objects[0].material = int(scene.materials.size());
+    scene.materials.push_back(scene.materials[1]);
+    find_reaches(scene);
+    Frames frames(scene);
+    scene.materials.back().emission = glm::vec3(5);
+    frames.render(scene);
+    EXPECT_EQ(frames.hash(), hash_alone(scene));
+}
+
+TEST(Reuse, AnInstanceMovesWithoutTheObjectsOfItsModel) {
+    Scene scene = scene_of("blue");
+    scene.objects[0].moves = true;
+    find_reaches(scene);
+    Frames frames(scene);
+    scene.objects[0].world_from_object[3].x += 0.3;
+    find_reaches(scene);
+    const RenderReport report = frames.render(scene);
+    EXPECT_EQ(report.world.painted_bricks, 0u);
+    EXPECT_THAT(frames.kernels(), testing::Not(testing::Contains("mark_voxels")));
+    EXPECT_EQ(frames.hash(), hash_alone(scene));
 }
 
 }  // namespace
