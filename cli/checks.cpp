@@ -40,8 +40,10 @@ std::function<std::string(const std::string&)> in_range(double least, double mos
         const bool is_whole = text.find_first_not_of("+-0123456789") == std::string::npos;
         const bool is_number = !text.empty() && *end == '\0' && value >= least && value <= most;
         if (is_number && (is_whole || number == Number::any)) return {};
-        return fmt::format("{} isn't a {}number from {:g} to {:g}", quote(text),
-                           number == Number::whole ? "whole " : "", least, most);
+        if (number == Number::whole)
+            return fmt::format("{} isn't a whole number from {:.0f} to {:.0f} in digits",
+                               quote(text), least, most);
+        return fmt::format("{} isn't a number from {:g} to {:g}", quote(text), least, most);
     };
 }
 
