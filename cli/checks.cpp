@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <map>
 
 #include "runtime/io/atomic_file.hpp"
 #include "runtime/scene.hpp"
@@ -21,6 +22,18 @@ void check_output(const std::string& path, std::initializer_list<const char*> ex
                     list);
     }
     const AtomicFile trial(path);  // leaves nothing behind without commit()
+}
+
+void check_distinct(const std::vector<std::string>& paths, const char* command) {
+    std::map<std::filesystem::path, std::string> known;
+    for (const std::string& path : paths) {
+        if (path.empty()) continue;
+        const auto [first, is_new] =
+            known.emplace(std::filesystem::absolute(path).lexically_normal(), path);
+        if (!is_new)
+            throw Error(ErrorKind::usage, "{}: {} and {}: two outputs are one file", command,
+                        first->second, path);
+    }
 }
 
 glm::ivec2 parse_size(const std::string& text, const char* command) {

@@ -106,9 +106,10 @@ void check_files(const std::vector<FrameFiles>& list, const Scene& scene,
     for (const FrameFiles& files : list) {
         for (const std::string& path : files.volumes)
             check_volume_output(path, display_frame(scene));
-        if (!options.stats.empty() && std::ranges::count(files.images, options.stats) > 0)
-            throw Error(ErrorKind::usage, "render: {}: the image and the statistics have one name",
-                        options.stats);
+        std::vector<std::string> names = files.images;
+        names.insert(names.end(), files.volumes.begin(), files.volumes.end());
+        names.push_back(options.stats);
+        check_distinct(names, "render");
     }
 }
 
