@@ -26,7 +26,7 @@ TEST(BenchFronts, TheyCrossWhereStraightLinesOfLogarithmsDo) {
     // The other takes 1 s at 1e-1 and 10,000 s at 1e-5, ten times as long per decade; ours always
     // takes 100 s: they are equal at 1e-3.
     const std::vector<FrontPiece> pieces =
-        compare_fronts({{1e-2, 100}, {1e-6, 100.0000001}}, {{1e-1, 1}, {1e-5, 1e4}});
+        compare_fronts({{1e-2, 100}, {1e-6, 100.0000001}}, {{1e-1, 1}, {1e-5, 1e4}}, 1e-1);
     ASSERT_EQ(pieces.size(), 2u);
     EXPECT_NEAR(pieces[0].coarse, 1e-1, 1e-9);
     EXPECT_NEAR(pieces[0].fine, 1e-3, 1e-9);
@@ -40,13 +40,16 @@ TEST(BenchFronts, TheyCrossWhereStraightLinesOfLogarithmsDo) {
 
 TEST(BenchFronts, OnlyErrorsThatBothReachAreCompared) {
     const std::vector<FrontPiece> pieces =
-        compare_fronts({{1e-2, 1}, {1e-4, 4}}, {{1e-3, 10}, {1e-6, 100}});
+        compare_fronts({{1e-2, 1}, {1e-4, 4}}, {{1e-3, 10}, {1e-6, 100}}, 1e-3);
     ASSERT_EQ(pieces.size(), 1u);
     EXPECT_NEAR(pieces[0].coarse, 1e-3, 1e-12);
     EXPECT_NEAR(pieces[0].fine, 1e-4, 1e-12);
     EXPECT_NEAR(pieces[0].least, 5, 1e-9);                  // 10 s over 2 s
     EXPECT_NEAR(pieces[0].most, std::cbrt(1e4) / 4, 1e-9);  // 21.5 s over 4 s
-    EXPECT_TRUE(compare_fronts({{1e-2, 1}}, {{1e-3, 1}}).empty());
+    // A coarser image takes what the front's coarsest takes.
+    EXPECT_NEAR(compare_fronts({{1e-2, 1}, {1e-4, 4}}, {{1e-3, 10}, {1e-6, 100}}, 1e-1)[0].most, 10,
+                1e-9);
+    EXPECT_TRUE(compare_fronts({{1e-2, 1}}, {{1e-3, 1}}, 1e-3).empty());
 }
 
 BenchReport report_with_peers() {

@@ -21,8 +21,7 @@ double log_seconds(const ErrorFront& front, double log_error) {
 }
 
 /// Where the ratio of two fronts bends: logarithms of errors, falling.
-std::vector<double> bends(const ErrorFront& ours, const ErrorFront& other) {
-    const double coarse = std::log(other.front().first);
+std::vector<double> bends(const ErrorFront& ours, const ErrorFront& other, double coarse) {
     const double fine = std::log(std::max(ours.back().first, other.back().first));
     std::vector<double> errors = {coarse, fine};
     for (const ErrorFront* front : {&ours, &other})
@@ -36,8 +35,11 @@ std::vector<double> bends(const ErrorFront& ours, const ErrorFront& other) {
 
 /// "1.9 to 5.6 times as quick", from a ratio that favours it.
 std::string times_text(double least, double most) {
-    if (least < 1.005) return fmt::format("up to {:.3g} times as quick", most);
-    return fmt::format("{:.3g} to {:.3g} times as quick", least, most);
+    const auto digits = [](double times) {
+        return times < 100 ? fmt::format("{:.3g}", times) : fmt::format("{:.0f}", times);
+    };
+    if (least < 1.005) return fmt::format("up to {} times as quick", digits(most));
+    return fmt::format("{} to {} times as quick", digits(least), digits(most));
 }
 
 }  // namespace
@@ -56,11 +58,13 @@ ErrorFront error_front(const std::vector<std::pair<double, double>>& errors_and_
     return front;
 }
 
-std::vector<FrontPiece> compare_fronts(const ErrorFront& ours, const ErrorFront& other) {
+std::vector<FrontPiece> compare_fronts(const ErrorFront& ours, const ErrorFront& other,
+                                       double coarse) {
     std::vector<FrontPiece> pieces;
-    if (ours.empty() || other.empty() || ours.back().first >= other.front().first) return pieces;
+    if (ours.empty() || other.empty()) return pieces;
+    if (std::max(ours.back().first, other.back().first) > coarse) return pieces;
     double last_error = 0, last_log = 0;
-    for (const double error : bends(ours, other)) {
+    for (const double error : bends(ours, other, std::log(coarse))) {
         const double log_ratio = log_seconds(other, error) - log_seconds(ours, error);
         const double ratio = std::exp(log_ratio), metres = std::exp(error);
         if (pieces.empty()) {
@@ -100,7 +104,9 @@ std::vector<FrontComparison> front_comparisons(const BenchReport& report) {
                 theirs.emplace_back(row.depth_rms, row.total_seconds());
         const ErrorFront our_front = error_front(ours), their_front = error_front(theirs);
         if (our_front.empty() || their_front.empty()) continue;
-        comparisons.push_back({peer.program, peer.scene, compare_fronts(our_front, their_front),
+        const double coarse = std::ranges::max(theirs).first;
+        comparisons.push_back({peer.program, peer.scene,
+                               compare_fronts(our_front, their_front, coarse),
                                our_front.back().first, their_front.back().first});
     }
     return comparisons;
@@ -110,11 +116,14 @@ std::string sentence_of(const FrontComparison& comparison) {
     std::vector<std::string> parts;
     for (const FrontPiece& piece : comparison.pieces) {
         const bool is_ours = piece.most > 1;
-        parts.push_back(fmt::format("{} is {} from {:.2g} m of depth RMS down to {:.2g} m",
-                                    is_ours ? "Voxelume" : comparison.program,
+        const std::string range = piece.fine < piece.coarse
+                                      ? fmt::format("from {:.2g} m of depth RMS down to {:.2g} m",
+                                                    piece.coarse, piece.fine)
+                                      : fmt::format("at {:.2g} m of depth RMS", piece.fine);
+        parts.push_back(fmt::format("{} is {} {}", is_ours ? "Voxelume" : comparison.program,
                                     is_ours ? times_text(piece.least, piece.most)
                                             : times_text(1 / piece.most, 1 / piece.least),
-                                    piece.coarse, piece.fine));
+                                    range));
     }
     const bool ours_is_finer = comparison.finest_ours < comparison.finest_theirs;
     parts.push_back(fmt::format("only {} comes nearer, to {:.2g} m",

@@ -22,10 +22,11 @@ struct FrontPiece {
     double least = 0, most = 0;   ///< other's seconds over ours: both above 1, or both below
 };
 
-/// The pieces of two fronts from the other's coarsest error to the finest that both reach. Between
+/// The pieces of two fronts from the error `coarse` down to the finest that both reach. Between
 /// their points fronts are straight lines of logarithms, and a program takes no longer for a
 /// coarser image than its front has.
-std::vector<FrontPiece> compare_fronts(const ErrorFront& ours, const ErrorFront& other);
+std::vector<FrontPiece> compare_fronts(const ErrorFront& ours, const ErrorFront& other,
+                                       double coarse);
 
 /// Another program on one scene.
 struct FrontComparison {
@@ -34,7 +35,8 @@ struct FrontComparison {
     double finest_ours = 0, finest_theirs = 0;  ///< metres
 };
 
-/// For each program and scene of the report's peers, in their order.
+/// For each program and scene of the report's peers, in their order, from the coarsest of the
+/// program's rows on.
 std::vector<FrontComparison> front_comparisons(const BenchReport& report);
 
 /// "sphere: Embree is up to 5.6 times as quick from 0.019 m of depth RMS down to 2.1e-05 m; ..."
