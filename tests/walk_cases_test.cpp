@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 
+#include "runtime/stages/index.hpp"
 #include "runtime/stress/device_walks.hpp"
 #include "runtime/stress/ray_classes.hpp"
 #include "tests/oracles/rational_walk.hpp"
@@ -192,6 +193,31 @@ TEST(WalkCases, T18RaysThatOtherProgramsLose) {
     for (const auto& [o, d] : rays)
         EXPECT_EQ(device_cells(o, d, ivec3(4)), exact_cells_of(o, d, ivec3(4)))
             << o.x << ' ' << o.y << ' ' << o.z;
+}
+
+TEST(WalkCases, T18AWorldWithoutVoxelsEndsEveryRay) {  // gvdb 115: empty masks
+    const ivec3 size(70, 37, 130);
+    const FixedGrid grid = fixed_grid(size);
+    GridFrame frame;
+    frame.size = size;
+    const Device device = test_device();
+    BrickGrid bricks = cubes_of(device, VoxelBits(size), frame);
+    // One brick is stored all the same, without a voxel.
+    std::vector<uint32_t> slots = bricks.slots.read();
+    slots[7] = 0;
+    bricks.brick_count = 1;
+    bricks.slots = {device, "slots", std::span<const uint32_t>(slots)};
+    const std::array<uint32_t, 1> place = {7};
+    bricks.coordinates = {device, "coordinates", std::span<const uint32_t>(place)};
+    const std::array<uint64_t, 64> masks{};
+    bricks.occupancy = {device, "occupancy", std::span<const uint64_t>(masks)};
+    const Pyramid pyramid = build_index(device, bricks);
+    DeviceHits hits(device, pyramid);
+    std::vector<FixedRay> rays;
+    for (const RayClassName& named : kRayClasses)
+        for (uint64_t i = 0; i < 101; ++i) rays.push_back(ray_of_class(named.kind, grid, 18, i));
+    hits.start(grid, rays);
+    for (const auto& hit : hits.hits()) EXPECT_FALSE(hit);
 }
 
 TEST(WalkCases, T19TheReverseRayHasTheReverseList) {
