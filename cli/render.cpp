@@ -146,7 +146,10 @@ class FrameRun {
           cache_(model_cache(options.scene)),
           bar_("rendering", 100 * list.size(), stderr, options.quiet),
           reports_(list.size()) {
-        for (const Device& device : devices) renderers_.emplace_back(device, list.size() > 1);
+        for (const Device& device : devices) {
+            renderers_.emplace_back(device, list.size() > 1);
+            volume_renderers_.emplace_back(device, list.size() > 1);
+        }
     }
 
     std::vector<FrameReport> run() {
@@ -173,8 +176,7 @@ class FrameRun {
                 input.scene, input.world, report,
                 [&](uint32_t i, uint32_t of) { advance(uint64_t(i) * 100 / of, shown); });
         if (!files.volumes.empty())
-            volume = std::make_shared<Volume>(
-                render_volume(devices_[input.device], input.scene, input.world, report));
+            volume = volume_renderers_[input.device].volume(input.scene, input.world, report);
         advance(100, shown);
         return written(input.frame, report, std::move(image), std::move(volume));
     }
@@ -233,6 +235,7 @@ class FrameRun {
     const RenderOptions& options_;
     ModelCache cache_;
     std::vector<Renderer> renderers_;
+    std::vector<VolumeRenderer> volume_renderers_;
     Progress bar_;
     std::mutex bar_mutex_;
     std::vector<FrameReport> reports_;
