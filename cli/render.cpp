@@ -17,7 +17,7 @@
 #include "runtime/device_images.hpp"
 #include "runtime/error.hpp"
 #include "runtime/frame_pipeline.hpp"
-#include "runtime/instances.hpp"
+#include "runtime/frame_plans.hpp"
 #include "runtime/io/exr.hpp"
 #include "runtime/io/frame_list.hpp"
 #include "runtime/io/frame_path.hpp"
@@ -88,6 +88,12 @@ std::vector<FrameFiles> frame_files(const RenderOptions& options, const Scene& s
     return list;
 }
 
+std::vector<int> numbers_of(const std::vector<FrameFiles>& list) {
+    std::vector<int> numbers;
+    for (const FrameFiles& files : list) numbers.push_back(files.frame);
+    return numbers;
+}
+
 /// What can be said before the scene is read: that --frames are none, that a disk can't take the
 /// image. All frames of a pattern are in one folder, so the first ones stand for all.
 void check_options(const RenderOptions& options) {
@@ -137,13 +143,14 @@ void add_attributes(const Scene& scene, int frame, std::map<std::string, std::st
 /// Renders the frames that are asked for, and tells of them.
 class FrameRun {
   public:
+    /// `meshes` has what was read to check the frames.
     FrameRun(const std::vector<Device>& devices, const Scene& scene,
-             const std::vector<FrameFiles>& list, const RenderOptions& options)
+             const std::vector<FrameFiles>& list, const RenderOptions& options, MeshStore meshes)
         : devices_(devices),
           scene_(scene),
           list_(list),
           options_(options),
-          cache_(model_cache(options.scene)),
+          meshes_(std::move(meshes)),
           bar_("rendering", 100 * list.size(), stderr, options.quiet),
           reports_(list.size()) {
         for (const Device& device : devices) {
@@ -158,8 +165,12 @@ class FrameRun {
             return reports_;
         }
         const FrameSteps steps{[this](size_t n) { return scene_at(scene_, list_[n].frame); },
-                               [this](const FrameInput& input) { return render(input); }};
-        run_frames(devices_, list_.size(), steps, {!options_.one_by_one, cache_});
+                               [this](const FrameInput& input) {
+                                   return in_frame(scene_, list_[input.frame].frame,
+                                                   [&] { return render(input); });
+                               },
+                               [this](size_t n) { return double(list_[n].frame); }};
+        run_frames(devices_, list_.size(), steps, {!options_.one_by_one, std::move(meshes_)});
         return reports_;
     }
 
@@ -185,9 +196,11 @@ class FrameRun {
     std::function<void()> render_tiles() {
         uint64_t shown = 0;
         RenderReport report;
-        auto image = std::make_shared<const Image>(
-            render_together({devices_, cache_}, scene_at(scene_, list_[0].frame), report,
-                            [&](uint32_t i, uint32_t of) { advance(i * 100ull / of, shown); }));
+        auto image = std::make_shared<const Image>(in_frame(scene_, list_[0].frame, [&] {
+            return render_together(
+                {devices_, meshes_.cache()}, scene_at(scene_, list_[0].frame), report,
+                [&](uint32_t i, uint32_t of) { advance(i * 100ull / of, shown); });
+        }));
         return written(0, report, std::move(image), nullptr);
     }
 
@@ -233,7 +246,7 @@ class FrameRun {
     const Scene& scene_;
     const std::vector<FrameFiles>& list_;
     const RenderOptions& options_;
-    ModelCache cache_;
+    MeshStore meshes_;
     std::vector<Renderer> renderers_;
     std::vector<VolumeRenderer> volume_renderers_;
     Progress bar_;
@@ -253,16 +266,20 @@ int run(const RenderOptions& options) {
     const Scene scene = read_with(options.scene, "render");
     const std::vector<FrameFiles> list = frame_files(options, scene);
     check_files(list, scene, options);
-    for (const FrameFiles& files : list) check_placements(scene_at(scene, files.frame));
+    const std::vector<int> frames = numbers_of(list);
     const std::vector<Device> devices = Device::open_all(options.scene.device);
     if (options.plan_only) {
-        print_plan(scene, devices[0], model_cache(options.scene), false);
+        print_plan(scene, frames, devices[0], model_cache(options.scene), false);
         return 0;
     }
+    MeshStore meshes(model_cache(options.scene));
+    if (frames.size() > 1)
+        for (const Device& device : devices) check_frames(scene, frames, meshes, device.info());
     if (options.verbose || !options.stats.empty())
         for (const Device& device : devices) device.time_kernels(true);
 
-    const std::vector<FrameReport> reports = FrameRun(devices, scene, list, options).run();
+    const std::vector<FrameReport> reports =
+        FrameRun(devices, scene, list, options, std::move(meshes)).run();
     for (const Device& device : devices) device.finish();
     const double seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

@@ -97,11 +97,10 @@ FormedWorld WorldFormer::form(const Scene& scene, WorldReport& report) {
     InstanceModels models = std::exchange(models_, InstanceModels(device_));
     check_placements(scene);
     check_tables(scene, device_.info());
-    const double loaded_before = meshes_.load_seconds();
-    const uint64_t read_before = meshes_.meshes_read();
     const ScenePlan plan = plan_scene(scene, meshes_);
     check_memory(scene, plan, device_.info());
-    report.load_seconds = meshes_.load_seconds() - loaded_before;
+    report.load_seconds =
+        meshes_.load_seconds() - std::exchange(load_seconds_, meshes_.load_seconds());
     report.triangles = meshes_.triangles();
     const bool keeps = follows_ && fits_twice(plan, device_.info());
 
@@ -113,7 +112,7 @@ FormedWorld WorldFormer::form(const Scene& scene, WorldReport& report) {
     const ListedInstances listed = list_instances(scene, meshes_, *grids_);
     report.voxelized = grids_->voxelized() - voxelized_before;
     report.from_cache = grids_->from_cache() - cached_before;
-    report.meshes_read = meshes_.meshes_read() - read_before;
+    report.meshes_read = meshes_.meshes_read() - std::exchange(meshes_read_, meshes_.meshes_read());
     voxelizing.stop();
     std::vector<VoxelBox> boxes = object_boxes(scene, meshes_);
 
@@ -130,6 +129,8 @@ FormedWorld WorldFormer::form(const Scene& scene, WorldReport& report) {
         shown_.clear();
         grids_.reset();
         meshes_ = MeshStore(meshes_.cache());
+        load_seconds_ = 0;
+        meshes_read_ = 0;
     }
     placing.stop();
 

@@ -49,11 +49,11 @@ struct FormedWorld {
 class WorldFormer {
   public:
     /// Where nothing `follows` the first frame, nothing is kept.
-    /// Meshes that `cache` has voxels of are not read.
-    explicit WorldFormer(const Device& device, bool follows = true, ModelCache cache = {})
+    /// Meshes that `meshes` has already, or whose voxels are in its cache, are not read.
+    explicit WorldFormer(const Device& device, bool follows = true, MeshStore meshes = MeshStore())
         : device_(device),
           follows_(follows),
-          meshes_(std::move(cache)),
+          meshes_(std::move(meshes)),
           indexer_(device),
           models_(device) {}
 
@@ -83,6 +83,8 @@ class WorldFormer {
     Device device_;
     bool follows_;
     MeshStore meshes_;
+    double load_seconds_ = 0;  ///< of meshes_, in reports so far
+    uint64_t meshes_read_ = 0;
     std::optional<ObjectGrids> grids_;
     std::vector<SharedGrid> shown_;  ///< that the placer's objects name
     std::optional<Placer> placer_;
