@@ -7,6 +7,7 @@
 #include <memory>
 #include <mutex>
 #include <numeric>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -107,14 +108,30 @@ void check_options(const RenderOptions& options) {
     if (!options.stats.empty()) check_output(options.stats, {}, "render");
 }
 
+/// Refuses files that would be written over one another.
+class OutputNames {
+  public:
+    void add(const std::string& path) {
+        const auto file = std::filesystem::absolute(path).lexically_normal();
+        if (!taken_.insert(file).second)
+            throw Error(ErrorKind::usage,
+                        "render: {}: two outputs have this name; give each one of its own", path);
+    }
+
+  private:
+    std::set<std::filesystem::path> taken_;
+};
+
 void check_files(const std::vector<FrameFiles>& list, const Scene& scene,
                  const RenderOptions& options) {
+    OutputNames names;
+    if (!options.stats.empty()) names.add(options.stats);
     for (const FrameFiles& files : list) {
-        for (const std::string& path : files.volumes)
+        for (const std::string& path : files.images) names.add(path);
+        for (const std::string& path : files.volumes) {
+            names.add(path);
             check_volume_output(path, display_frame(scene));
-        if (!options.stats.empty() && std::ranges::count(files.images, options.stats) > 0)
-            throw Error(ErrorKind::usage, "render: {}: the image and the statistics have one name",
-                        options.stats);
+        }
     }
 }
 
