@@ -1,6 +1,7 @@
 #include "runtime/world.hpp"
 
 #include <chrono>
+#include <utility>
 
 #include "runtime/object_boxes.hpp"
 #include "runtime/plan.hpp"
@@ -72,13 +73,15 @@ std::vector<PlacedObject> WorldFormer::placed_objects(const Scene& scene,
 FormedWorld WorldFormer::kept_world(const Scene& scene, WorldReport& report) {
     report.triangles = meshes_.triangles();
     report.instances = instances_;
-    std::vector<glm::dmat4> maps = instance_maps(scene, world_.pyramid);
-    report.is_kept = maps == instance_maps_;
-    if (report.is_kept) return world_;
-    Stopwatch moving(report.instances.seconds);
     report.instances.seconds = 0;
+    report.instances.indexed = 0;
+    std::vector<InstancePlace> places = instance_places(scene, world_.pyramid);
+    report.instances.moved = count_moved(instance_places_, places);
+    report.change = report.instances.moved == 0 ? WorldChange::none : WorldChange::instances;
+    if (report.change == WorldChange::none) return world_;
+    Stopwatch moving(report.instances.seconds);
     move_instances(device_, scene, world_.pyramid);
-    instance_maps_ = std::move(maps);
+    instance_places_ = std::move(places);
     ++world_.version;
     moving.stop();
     return world_;
@@ -91,13 +94,13 @@ FormedWorld WorldFormer::form(const Scene& scene, WorldReport& report) {
     world_.pyramid = {};
     // What an error leaves in the middle is begun afresh.
     Indexer indexer = std::exchange(indexer_, Indexer(device_));
+    InstanceModels models = std::exchange(models_, InstanceModels(device_));
     check_placements(scene);
     check_tables(scene, device_.info());
-    const double loaded_before = meshes_.load_seconds();
-    const uint64_t read_before = meshes_.meshes_read();
     const ScenePlan plan = plan_scene(scene, meshes_);
     check_memory(scene, plan, device_.info());
-    report.load_seconds = meshes_.load_seconds() - loaded_before;
+    report.load_seconds =
+        meshes_.load_seconds() - std::exchange(load_seconds_, meshes_.load_seconds());
     report.triangles = meshes_.triangles();
     const bool keeps = follows_ && fits_twice(plan, device_.info());
 
@@ -109,7 +112,7 @@ FormedWorld WorldFormer::form(const Scene& scene, WorldReport& report) {
     const ListedInstances listed = list_instances(scene, meshes_, *grids_);
     report.voxelized = grids_->voxelized() - voxelized_before;
     report.from_cache = grids_->from_cache() - cached_before;
-    report.meshes_read = meshes_.meshes_read() - read_before;
+    report.meshes_read = meshes_.meshes_read() - std::exchange(meshes_read_, meshes_.meshes_read());
     voxelizing.stop();
     std::vector<VoxelBox> boxes = object_boxes(scene, meshes_);
 
@@ -126,21 +129,25 @@ FormedWorld WorldFormer::form(const Scene& scene, WorldReport& report) {
         shown_.clear();
         grids_.reset();
         meshes_ = MeshStore(meshes_.cache());
+        load_seconds_ = 0;
+        meshes_read_ = 0;
     }
     placing.stop();
 
     Stopwatch indexing(report.index_seconds);
     FormedWorld formed{indexer.index(world, placer_ ? placer_->changed_bricks() : nullptr),
                        ++world_.version};
-    formed.pyramid =
-        add_instances(device_, scene, listed, std::move(formed.pyramid), report.instances);
+    formed.pyramid = models.join(scene, listed, std::move(formed.pyramid), report.instances);
+    std::vector<InstancePlace> places = instance_places(scene, formed.pyramid);
+    report.instances.moved = count_moved(instance_places_, places);
+    instance_places_ = std::move(places);
     formed.pyramid.object_boxes = std::move(boxes);
     device_.finish();
     indexing.stop();
     if (keeps) {
         world_.pyramid = formed.pyramid;
         indexer_ = std::move(indexer);
-        instance_maps_ = instance_maps(scene, formed.pyramid);
+        models_ = std::move(models);
         instances_ = report.instances;
         origin_ = std::move(origin);
     }
