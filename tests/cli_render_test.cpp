@@ -82,7 +82,8 @@ TEST_F(CliRenderTest, StatisticsCountRaysAndTimeStagesAndKernels) {
     EXPECT_LE(stats["shadow_rays"], 240);
     EXPECT_GT(stats["world_bytes"], 0);
     EXPECT_GE(stats["peak_device_bytes"], stats["world_bytes"]);
-    for (const char* stage : {"load", "voxelize", "place", "index", "image", "total"})
+    for (const char* stage :
+         {"open", "load", "voxelize", "place", "index", "image", "write", "total"})
         EXPECT_TRUE(stats["seconds"].contains(stage)) << stage;
     EXPECT_GT(stats["kernel_ms"]["trace_closest"], 0);
 }
