@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <numeric>
-#include <set>
 
 #include "cli/checks.hpp"
 #include "runtime/io/frame_list.hpp"

@@ -1,6 +1,7 @@
 // voxelume render: the image of a scene.
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <filesystem>
 #include <map>
@@ -27,6 +28,10 @@
 
 namespace voxelume::cli {
 namespace {
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
 
 void write(const Image& image, const std::string& path, const RenderOptions& options) {
     if (std::filesystem::path(path).extension() == ".png") {
@@ -68,6 +73,9 @@ class FrameRun {
             volume_renderers_.emplace_back(device, list.size() > 1);
         }
     }
+
+    /// Seconds of writing files, up to now.
+    double write_seconds() const { return write_seconds_; }
 
     std::vector<FrameReport> run() {
         if (devices_.size() > 1 && list_.size() == 1 && list_[0].volumes.empty()) {
@@ -121,8 +129,10 @@ class FrameRun {
         if (report.not_finite != 0) refuse_not_finite(report.not_finite);
         reports_[n] = {list_[n].frame, report};
         return [this, image = std::move(image), volume = std::move(volume), n] {
+            const auto start = std::chrono::steady_clock::now();
             if (image) write_images(*image, list_[n]);
             if (volume) write_volumes(*volume, list_[n]);
+            write_seconds_ += seconds_since(start);
             tell_written(list_[n]);
         };
     }
@@ -161,6 +171,7 @@ class FrameRun {
     std::vector<VolumeRenderer> volume_renderers_;
     Progress bar_;
     std::mutex bar_mutex_;
+    std::atomic<double> write_seconds_ = 0;
     std::vector<FrameReport> reports_;
 };
 
@@ -188,12 +199,18 @@ int run(const RenderOptions& options) {
     if (options.verbose || !options.stats.empty())
         for (const Device& device : devices) device.time_kernels(true);
 
-    const std::vector<FrameReport> reports =
-        FrameRun(devices, scene, list, options, std::move(meshes)).run();
+    const double open_seconds = seconds_since(start);
+
+    FrameRun frames(devices, scene, list, options, std::move(meshes));
+    const std::vector<FrameReport> reports = frames.run();
     for (const Device& device : devices) device.finish();
-    const double seconds =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    const Outcome outcome{devices, reports, scene.render.size, count_files(list), seconds};
+    const Outcome outcome{devices,
+                          reports,
+                          scene.render.size,
+                          count_files(list),
+                          open_seconds,
+                          frames.write_seconds(),
+                          seconds_since(start)};
     if (!options.stats.empty()) write_statistics(options.stats, outcome);
     if (options.quiet) return 0;
     print_summary(outcome);

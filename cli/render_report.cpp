@@ -91,6 +91,7 @@ nlohmann::ordered_json frame_statistics(const FrameReport& frame) {
             {"voxelized", report.world.voxelized},
             {"models_from_cache", report.world.from_cache},
             {"painted_bricks", report.world.painted_bricks},
+            {"world_from_cache", report.world.is_from_cache},
             {"instances_moved", report.world.instances.moved},
             {"instance_models_indexed", report.world.instances.indexed},
             {"seconds", seconds_of(report)}};
@@ -129,6 +130,8 @@ nlohmann::ordered_json statistics(const Outcome& outcome) {
                              {"seconds", i.seconds}};
     json["peak_device_bytes"] = counters.peak_bytes;
     json["seconds"] = seconds_of(report);
+    json["seconds"]["open"] = outcome.open_seconds;
+    json["seconds"]["write"] = outcome.write_seconds;
     json["seconds"]["total"] = outcome.seconds;
     json["frames"] = nlohmann::ordered_json::array();
     for (const FrameReport& frame : outcome.frames)
@@ -183,14 +186,17 @@ void print_summary(const Outcome& outcome) {
             ? fmt::format(", {} secondary rays ({} paths ended early)",
                           count_text(report.secondary_rays), count_text(report.ended_paths))
             : "";
-    fmt::print(stderr,
-               "{}x{} in {:.2f} s on {}: {}{} voxels, {} sight and {} shadow rays{}; "
-               "load {:.0f} ms, voxelize {:.0f}, place {:.0f}, index {:.0f}, image {:.0f}\n",
-               outcome.size.x, outcome.size.y, outcome.seconds, names_of(outcome),
-               reuse_text(outcome.frames), count_text(report.voxels), count_text(report.sight_rays),
-               count_text(report.shadow_rays), secondary, report.world.load_seconds * 1e3,
-               report.world.voxelize_seconds * 1e3, report.world.place_seconds * 1e3,
-               report.world.index_seconds * 1e3, report.image_seconds * 1e3);
+    fmt::print(
+        stderr,
+        "{}x{} in {:.2f} s on {}: {}{} voxels, {} sight and {} shadow rays{}; "
+        "open {:.0f} ms, load {:.0f}, voxelize {:.0f}, place {:.0f}, index {:.0f}, image {:.0f}, "
+        "write {:.0f}\n",
+        outcome.size.x, outcome.size.y, outcome.seconds, names_of(outcome),
+        reuse_text(outcome.frames), count_text(report.voxels), count_text(report.sight_rays),
+        count_text(report.shadow_rays), secondary, outcome.open_seconds * 1e3,
+        report.world.load_seconds * 1e3, report.world.voxelize_seconds * 1e3,
+        report.world.place_seconds * 1e3, report.world.index_seconds * 1e3,
+        report.image_seconds * 1e3, outcome.write_seconds * 1e3);
 }
 
 void print_details(const Outcome& outcome) {

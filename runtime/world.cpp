@@ -6,6 +6,7 @@
 #include "runtime/object_boxes.hpp"
 #include "runtime/plan.hpp"
 #include "runtime/stages/index.hpp"
+#include "runtime/world_source.hpp"
 
 namespace voxelume {
 namespace {
@@ -23,6 +24,33 @@ class Stopwatch {
     using Clock = std::chrono::steady_clock;
     double& seconds_;
     Clock::time_point start_ = Clock::now();
+};
+
+/// Adds to a report the models that are voxelized while it lives, and the time that takes.
+class VoxelizingReport {
+  public:
+    VoxelizingReport(const ObjectGrids& grids, const MeshStore& meshes, WorldReport& report)
+        : grids_(grids), meshes_(meshes), report_(report), stopwatch_(report.voxelize_seconds) {
+        add(-1);
+    }
+    ~VoxelizingReport() {
+        add(1);
+        stopwatch_.stop();
+    }
+    VoxelizingReport(const VoxelizingReport&) = delete;
+    VoxelizingReport& operator=(const VoxelizingReport&) = delete;
+
+  private:
+    void add(int64_t sign) {
+        report_.voxelized += uint64_t(sign) * grids_.voxelized();
+        report_.from_cache += uint64_t(sign) * grids_.from_cache();
+        report_.meshes_read += uint64_t(sign) * meshes_.meshes_read();
+    }
+
+    const ObjectGrids& grids_;
+    const MeshStore& meshes_;
+    WorldReport& report_;
+    Stopwatch stopwatch_;
 };
 
 /// Whether grids, bricks and the pyramid can stay while the next world is formed beside them.
@@ -99,44 +127,22 @@ FormedWorld WorldFormer::form(const Scene& scene, WorldReport& report) {
     check_tables(scene, device_.info());
     const ScenePlan plan = plan_scene(scene, meshes_);
     check_memory(scene, plan, device_.info());
-    report.load_seconds =
-        meshes_.load_seconds() - std::exchange(load_seconds_, meshes_.load_seconds());
+    report.load_seconds = meshes_.load_seconds() - load_seconds_;
+    report.meshes_read = meshes_.meshes_read() - meshes_read_;
     report.triangles = meshes_.triangles();
     const bool keeps = follows_ && fits_twice(plan, device_.info());
 
     if (!grids_) grids_.emplace(device_, meshes_);
-    Stopwatch voxelizing(report.voxelize_seconds);
-    const uint64_t voxelized_before = grids_->voxelized(), cached_before = grids_->from_cache();
-    std::vector<SharedGrid> shown;
-    const std::vector<PlacedObject> objects = placed_objects(scene, shown);
-    const ListedInstances listed = list_instances(scene, meshes_, *grids_);
-    report.voxelized = grids_->voxelized() - voxelized_before;
-    report.from_cache = grids_->from_cache() - cached_before;
-    report.meshes_read = meshes_.meshes_read() - std::exchange(meshes_read_, meshes_.meshes_read());
-    voxelizing.stop();
-    std::vector<VoxelBox> boxes = object_boxes(scene, meshes_);
-
-    Stopwatch placing(report.place_seconds);
-    if (!placer_) placer_.emplace(device_);
-    BrickGrid world = placer_->place(objects, world_frame(scene.world));
-    device_.finish();
-    report.painted_bricks = placer_->painted_bricks();
-    shown_ = std::move(shown);
-    grids_->forget_unused();
-    meshes_.forget_unused();
-    if (!keeps) {
-        placer_.reset();
-        shown_.clear();
-        grids_.reset();
-        meshes_ = MeshStore(meshes_.cache());
-        load_seconds_ = 0;
-        meshes_read_ = 0;
+    ListedInstances listed;
+    {
+        const VoxelizingReport voxelizing(*grids_, meshes_, report);
+        listed = list_instances(scene, meshes_, *grids_);
     }
-    placing.stop();
-
+    std::vector<VoxelBox> boxes = object_boxes(scene, meshes_);
+    FormedWorld formed{kept_or_new_world(scene, keeps, report, indexer), ++world_.version};
+    load_seconds_ = meshes_.load_seconds();
+    meshes_read_ = meshes_.meshes_read();
     Stopwatch indexing(report.index_seconds);
-    FormedWorld formed{indexer.index(world, placer_ ? placer_->changed_bricks() : nullptr),
-                       ++world_.version};
     formed.pyramid = models.join(scene, listed, std::move(formed.pyramid), report.instances);
     std::vector<InstancePlace> places = instance_places(scene, formed.pyramid);
     report.instances.moved = count_moved(instance_places_, places);
@@ -152,6 +158,61 @@ FormedWorld WorldFormer::form(const Scene& scene, WorldReport& report) {
         origin_ = std::move(origin);
     }
     return formed;
+}
+
+/// The world's voxels as an earlier run formed them, else new ones, which are kept for later runs.
+Pyramid WorldFormer::kept_or_new_world(const Scene& scene, bool keeps, WorldReport& report,
+                                       Indexer& indexer) {
+    const std::string key = placer_ ? std::string() : world_source(scene, meshes_);
+    if (key.empty()) return new_world(scene, keeps, report, indexer);
+    Stopwatch reading(report.index_seconds);
+    std::optional<Pyramid> kept = meshes_.cache().world(device_, key);
+    reading.stop();
+    report.is_from_cache = kept.has_value();
+    if (kept) {
+        forget_sources(keeps);
+        return std::move(*kept);
+    }
+    Pyramid world = new_world(scene, keeps, report, indexer);
+    Stopwatch keeping(report.index_seconds);
+    meshes_.cache().keep(key, world, report.place_seconds + report.index_seconds);
+    keeping.stop();
+    return world;
+}
+
+Pyramid WorldFormer::new_world(const Scene& scene, bool keeps, WorldReport& report,
+                               Indexer& indexer) {
+    std::vector<SharedGrid> shown;
+    std::vector<PlacedObject> objects;
+    {
+        const VoxelizingReport voxelizing(*grids_, meshes_, report);
+        objects = placed_objects(scene, shown);
+    }
+    Stopwatch placing(report.place_seconds);
+    if (!placer_) placer_.emplace(device_);
+    BrickGrid world = placer_->place(objects, world_frame(scene.world));
+    device_.finish();
+    report.painted_bricks = placer_->painted_bricks();
+    shown_ = std::move(shown);
+    forget_sources(keeps);
+    placing.stop();
+
+    Stopwatch indexing(report.index_seconds);
+    Pyramid pyramid = indexer.index(world, placer_ ? placer_->changed_bricks() : nullptr);
+    device_.finish();
+    indexing.stop();
+    return pyramid;
+}
+
+/// Frees what wasn't used in this frame, and unless it `keeps` what the next may use, all of it.
+void WorldFormer::forget_sources(bool keeps) {
+    grids_->forget_unused();
+    meshes_.forget_unused();
+    if (keeps) return;
+    placer_.reset();
+    shown_.clear();
+    grids_.reset();
+    meshes_ = MeshStore(meshes_.cache());
 }
 
 Pyramid form_world(const Device& device, const Scene& scene, WorldReport& report) {

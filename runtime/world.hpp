@@ -32,6 +32,7 @@ struct WorldReport {
     uint64_t from_cache = 0;      ///< those whose voxels the model cache had
     uint64_t painted_bricks = 0;  ///< of the world, that objects were painted into
     WorldChange change = WorldChange::formed;
+    bool is_from_cache = false;  ///< an earlier run formed it
     InstanceReport instances;
 };
 
@@ -79,6 +80,10 @@ class WorldFormer {
     static Origin origin_of(const Scene& scene);
     std::vector<PlacedObject> placed_objects(const Scene& scene, std::vector<SharedGrid>& grids);
     FormedWorld kept_world(const Scene& scene, WorldReport& report);
+    Pyramid kept_or_new_world(const Scene& scene, bool keeps, WorldReport& report,
+                              Indexer& indexer);
+    Pyramid new_world(const Scene& scene, bool keeps, WorldReport& report, Indexer& indexer);
+    void forget_sources(bool keeps);
 
     Device device_;
     bool follows_;
