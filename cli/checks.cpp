@@ -31,8 +31,9 @@ void check_distinct(const std::vector<std::string>& paths, const char* command) 
         const auto [first, is_new] =
             known.emplace(std::filesystem::absolute(path).lexically_normal(), path);
         if (!is_new)
-            throw Error(ErrorKind::usage, "{}: {} and {}: two outputs are one file", command,
-                        first->second, path);
+            throw Error(ErrorKind::usage,
+                        "{}: {} and {}: two outputs are one file; give each a name of its own",
+                        command, first->second, path);
     }
 }
 

@@ -18,7 +18,9 @@ struct Outcome {
     const std::vector<FrameReport>& frames;
     glm::ivec2 size;  ///< pixels
     size_t files;
-    double seconds;
+    double open_seconds;   ///< reading the scene, finding and opening devices
+    double write_seconds;  ///< writing files, perhaps beside other work
+    double seconds;        ///< of all of it
 };
 
 void write_statistics(const std::string& path, const Outcome& outcome);

@@ -1,8 +1,11 @@
 # hash_makers(folder output): a source that defines voxelume::maker_sources(), hashes of the sources below
-# `folder` by which meshes become models. Rewritten when one of them changes.
+# `folder` by which meshes become models, and these a world. Rewritten when one of them changes.
 function(hash_makers folder output)
-    file(GLOB files CONFIGURE_DEPENDS ${folder}/grid_bytes.* ${folder}/mesh*.?pp ${folder}/surface_extent.*
-         ${folder}/io/decimal.* ${folder}/io/mesh_*.?pp ${folder}/stages/mesh_*.?pp ${folder}/stages/voxelize*.?pp)
+    file(GLOB files CONFIGURE_DEPENDS ${folder}/grid_bytes.* ${folder}/pyramid_bytes.* ${folder}/packed_buffers.*
+         ${folder}/mesh*.?pp ${folder}/surface_extent.* ${folder}/object_grids.* ${folder}/world*.?pp ${folder}/io/decimal.*
+         ${folder}/io/mesh_*.?pp ${folder}/stages/mesh_*.?pp ${folder}/stages/voxelize*.?pp ${folder}/stages/solid_*.?pp
+         ${folder}/stages/cut.* ${folder}/stages/place*.?pp ${folder}/stages/world_bricks.* ${folder}/stages/index*.?pp
+         ${folder}/stages/sector_table.*)
     list(SORT files)
     add_custom_command(
         OUTPUT ${output}

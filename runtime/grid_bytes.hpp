@@ -9,7 +9,7 @@
 
 namespace voxelume {
 
-/// A header, then each buffer as its two sizes and a zstd frame. Waits for the device's queue.
+/// A header, then each buffer. Waits for the device's queue.
 std::string bytes_of_grid(const BrickGrid& grid);
 
 /// The grid on a device; nothing for bytes that are no whole grid. Throws Error::limit when the

@@ -11,48 +11,31 @@
 
 #include "runtime/error.hpp"
 #include "runtime/grid_bytes.hpp"
+#include "runtime/key_words.hpp"
 #include "runtime/maker_sources.hpp"
 #include "runtime/opencl/kernel_source.hpp"
+#include "runtime/pyramid_bytes.hpp"
 
 namespace voxelume {
 namespace {
 
-constexpr const char* kFormat = "voxelume models 1";
+constexpr const char* kFormat = "voxelume models 2";
 constexpr uint64_t kDefaultMegabytes = 4096;
 
 /// Bytes of a grid on the device that are read, unpacked and sent there in a second, at least.
 constexpr double kReadBytesPerSecond = 0.5e9;
 
-/// Numbers as they are in memory.
-class Words {
-  public:
-    template <class Value>
-    Words& add(const Value& value) {
-        static_assert(std::is_arithmetic_v<Value>);
-        bytes_.append(reinterpret_cast<const char*>(&value), sizeof value);
-        return *this;
-    }
-    template <class Vector>
-    Words& add_all(const Vector& vector) {
-        for (int i = 0; i < vector.length(); ++i) add(vector[i]);
-        return *this;
-    }
-    std::string_view bytes() const { return bytes_; }
-
-  private:
-    std::string bytes_;
-};
-
 std::string key_of(std::initializer_list<std::string_view> parts) {
     return cache_key(std::span(parts.begin(), parts.size()));
 }
 
-/// A hash of the code that grids are made by, on the host and on devices.
+/// A hash of the code that grids and worlds are made by, on the host and on devices.
 const std::string& makers() {
     static const std::string key = [] {
         std::string text = maker_sources();
         for (const auto& [file, content] : embedded_kernels())
-            if (file.starts_with("voxelize") && file.ends_with(".cl")) text += kernel_source(file);
+            for (const char* stage : {"voxelize", "cut", "place", "index"})
+                if (file.starts_with(stage) && file.ends_with(".cl")) text += kernel_source(file);
         return key_of({kFormat, text});
     }();
     return key;
@@ -123,24 +106,29 @@ std::string mesh_source(const std::string& bytes, const std::filesystem::path& n
 }
 
 std::string morph_source(const std::string& from, const std::string& to, const Morph& morph) {
-    Words words;
+    KeyWords words;
     words.add_all(morph.center).add(morph.radius).add(morph.amount);
     return key_of({from, to, words.bytes()});
 }
 
 std::string grid_key(const std::string& source, const VoxelizeOptions& options,
                      const glm::dmat4& frame_from_mesh, const GridFrame& frame) {
-    Words words;
+    KeyWords words;
     words.add(int(options.surface)).add(int(options.set)).add(double(options.band));
-    for (int column = 0; column < 4; ++column) words.add_all(frame_from_mesh[column]);
+    words.add_columns(frame_from_mesh);
     words.add_all(frame.origin).add_all(frame.voxel_edge).add_all(frame.size);
     return key_of({makers(), "grid", source, words.bytes()});
+}
+
+std::string world_key(std::string_view parts) {
+    return key_of({makers(), "world", parts});
 }
 
 ModelCache ModelCache::of_user() {
     const std::filesystem::path folder = cache_folder();
     const uint64_t megabytes = megabytes_of_user();
-    return folder.empty() ? ModelCache() : ModelCache(folder / "models", megabytes << 20);
+    return folder.empty() ? ModelCache()
+                          : ModelCache(folder / "models", megabytes << 20).with_worlds();
 }
 
 std::optional<MeshSummary> ModelCache::summary(const std::string& source) const {
@@ -164,14 +152,33 @@ std::optional<BrickGrid> ModelCache::grid(const Device& device, const std::strin
     return bytes ? grid_of_bytes(device, *bytes) : std::nullopt;
 }
 
+bool ModelCache::is_quick(double seconds, uint64_t bytes) const {
+    const double reading = double(bytes) / kReadBytesPerSecond;
+    return seconds < least_seconds_ || (least_seconds_ > 0 && seconds < reading);
+}
+
 void ModelCache::keep(const std::string& key, const BrickGrid& grid, double seconds) const {
-    const double reading = double(device_bytes(grid)) / kReadBytesPerSecond;
-    const bool is_quick = seconds < least_seconds_ || (least_seconds_ > 0 && seconds < reading);
-    if (!is_open_ || is_quick) return;
+    if (!is_open_ || is_quick(seconds, device_bytes(grid))) return;
     try {
         store_.write(key, bytes_of_grid(grid));
     } catch (const std::bad_alloc&) {
         return;  // memory for a second copy is no reason to stop
+    }
+}
+
+std::optional<Pyramid> ModelCache::world(const Device& device, const std::string& key) const {
+    if (!keeps_worlds()) return std::nullopt;
+    const auto bytes = store_.read(key);
+    return bytes ? pyramid_of_bytes(device, *bytes) : std::nullopt;
+}
+
+void ModelCache::keep(const std::string& key, const Pyramid& world, double seconds) const {
+    const uint64_t bytes = bytes_of(world);
+    if (!keeps_worlds() || is_quick(seconds, bytes) || bytes > max_bytes_ / 8) return;
+    try {
+        store_.write(key, bytes_of_pyramid(world));
+    } catch (const std::bad_alloc&) {
+        return;
     }
 }
 

@@ -1,4 +1,5 @@
-// What models' meshes were made into, kept on disk between runs under a hash of all it comes from.
+// What models' meshes, and the worlds of them, were made into, kept on disk between runs under a
+// hash of all it comes from.
 #pragma once
 
 #include <glm/mat4x4.hpp>
@@ -24,7 +25,10 @@ std::string morph_source(const std::string& from, const std::string& to, const M
 std::string grid_key(const std::string& source, const VoxelizeOptions& options,
                      const glm::dmat4& frame_from_mesh, const GridFrame& frame);
 
-/// Summaries and voxels of meshes on disk, shared by any number of processes.
+/// Names the voxels of a world that the sources named by `parts` make up.
+std::string world_key(std::string_view parts);
+
+/// Summaries and voxels of meshes on disk, and worlds, shared by any number of processes.
 ///
 /// Entries are those of DiskCache: whole or absent, and absent once damaged. They are named by
 /// what they are made of and by the code that makes them, so that none is ever out of date. What is
@@ -37,13 +41,23 @@ class ModelCache {
     ModelCache(std::filesystem::path folder, uint64_t max_bytes, double least_seconds = 0.001)
         : is_open_(!folder.empty() && max_bytes > 0),
           store_(std::move(folder), max_bytes),
+          max_bytes_(max_bytes),
           least_seconds_(least_seconds) {}
 
-    /// That of the user: `models` below cache_folder(), of at most VOXELUME_CACHE_MB megabytes,
-    /// 4096 without it. Throws Error::usage for one that is no whole number of at least 0.
+    /// The same, which keeps worlds, too.
+    ModelCache with_worlds() const {
+        ModelCache cache = *this;
+        cache.keeps_worlds_ = true;
+        return cache;
+    }
+
+    /// That of the user, with worlds: `models` below cache_folder(), of at most VOXELUME_CACHE_MB
+    /// megabytes, 4096 without it. Throws Error::usage for one that is no whole number of at least
+    /// 0.
     static ModelCache of_user();
 
     bool is_open() const { return is_open_; }
+    bool keeps_worlds() const { return is_open_ && keeps_worlds_; }
 
     std::optional<MeshSummary> summary(const std::string& source) const;
     void keep(const std::string& source, const MeshSummary& summary, double seconds) const;
@@ -53,9 +67,18 @@ class ModelCache {
     /// `seconds` is what making it took.
     void keep(const std::string& key, const BrickGrid& grid, double seconds) const;
 
+    /// The same for worlds, without instances. One that would take an eighth of the cache or more
+    /// isn't kept.
+    std::optional<Pyramid> world(const Device& device, const std::string& key) const;
+    void keep(const std::string& key, const Pyramid& world, double seconds) const;
+
   private:
+    bool is_quick(double seconds, uint64_t bytes) const;
+
     bool is_open_ = false;
+    bool keeps_worlds_ = false;
     DiskCache store_{{}, 0};
+    uint64_t max_bytes_ = 0;
     double least_seconds_ = 0;
 };
 

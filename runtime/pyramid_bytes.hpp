@@ -1,18 +1,23 @@
-// What a pyramid takes of a device's memory.
+// What a pyramid takes of a device's memory, and its bytes for the disk.
 #pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
 
 #include "runtime/grid.hpp"
 
 namespace voxelume {
 
 /// Bytes of all of a pyramid's buffers, its instances' included.
-inline uint64_t bytes_of(const Pyramid& p) {
-    const auto sum = [](const auto&... buffers) {
-        return (uint64_t(buffers.size() * sizeof(buffers.read_one(0))) + ...);
-    };
-    return sum(p.sectors, p.bricks, p.leaves, p.leaf_voxels, p.attributes, p.colors, p.fields,
-               p.primitive_first, p.primitives, p.triangles, p.triangle_attributes, p.solids,
-               p.instances.records, p.instances.nodes, p.instances.materials);
-}
+uint64_t bytes_of(const Pyramid& pyramid);
+
+/// The voxels of a pyramid without instances, small and quick to read. Waits for the device's
+/// queue.
+std::string bytes_of_pyramid(const Pyramid& pyramid);
+
+/// That pyramid on a device; nothing for bytes that are none. Throws Error::limit when the device
+/// has not enough memory.
+std::optional<Pyramid> pyramid_of_bytes(const Device& device, std::string_view bytes);
 
 }  // namespace voxelume

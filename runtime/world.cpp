@@ -1,10 +1,12 @@
 #include "runtime/world.hpp"
 
 #include <chrono>
+#include <utility>
 
 #include "runtime/object_boxes.hpp"
 #include "runtime/plan.hpp"
 #include "runtime/stages/index.hpp"
+#include "runtime/world_source.hpp"
 
 namespace voxelume {
 namespace {
@@ -22,6 +24,33 @@ class Stopwatch {
     using Clock = std::chrono::steady_clock;
     double& seconds_;
     Clock::time_point start_ = Clock::now();
+};
+
+/// Adds to a report the models that are voxelized while it lives, and the time that takes.
+class VoxelizingReport {
+  public:
+    VoxelizingReport(const ObjectGrids& grids, const MeshStore& meshes, WorldReport& report)
+        : grids_(grids), meshes_(meshes), report_(report), stopwatch_(report.voxelize_seconds) {
+        add(-1);
+    }
+    ~VoxelizingReport() {
+        add(1);
+        stopwatch_.stop();
+    }
+    VoxelizingReport(const VoxelizingReport&) = delete;
+    VoxelizingReport& operator=(const VoxelizingReport&) = delete;
+
+  private:
+    void add(int64_t sign) {
+        report_.voxelized += uint64_t(sign) * grids_.voxelized();
+        report_.from_cache += uint64_t(sign) * grids_.from_cache();
+        report_.meshes_read += uint64_t(sign) * meshes_.meshes_read();
+    }
+
+    const ObjectGrids& grids_;
+    const MeshStore& meshes_;
+    WorldReport& report_;
+    Stopwatch stopwatch_;
 };
 
 /// Whether grids, bricks and the pyramid can stay while the next world is formed beside them.
@@ -72,13 +101,15 @@ std::vector<PlacedObject> WorldFormer::placed_objects(const Scene& scene,
 FormedWorld WorldFormer::kept_world(const Scene& scene, WorldReport& report) {
     report.triangles = meshes_.triangles();
     report.instances = instances_;
-    std::vector<glm::dmat4> maps = instance_maps(scene, world_.pyramid);
-    report.is_kept = maps == instance_maps_;
-    if (report.is_kept) return world_;
-    Stopwatch moving(report.instances.seconds);
     report.instances.seconds = 0;
+    report.instances.indexed = 0;
+    std::vector<InstancePlace> places = instance_places(scene, world_.pyramid);
+    report.instances.moved = count_moved(instance_places_, places);
+    report.change = report.instances.moved == 0 ? WorldChange::none : WorldChange::instances;
+    if (report.change == WorldChange::none) return world_;
+    Stopwatch moving(report.instances.seconds);
     move_instances(device_, scene, world_.pyramid);
-    instance_maps_ = std::move(maps);
+    instance_places_ = std::move(places);
     ++world_.version;
     moving.stop();
     return world_;
@@ -91,60 +122,97 @@ FormedWorld WorldFormer::form(const Scene& scene, WorldReport& report) {
     world_.pyramid = {};
     // What an error leaves in the middle is begun afresh.
     Indexer indexer = std::exchange(indexer_, Indexer(device_));
+    InstanceModels models = std::exchange(models_, InstanceModels(device_));
     check_placements(scene);
     check_tables(scene, device_.info());
-    const double loaded_before = meshes_.load_seconds();
-    const uint64_t read_before = meshes_.meshes_read();
     const ScenePlan plan = plan_scene(scene, meshes_);
     check_memory(scene, plan, device_.info());
-    report.load_seconds = meshes_.load_seconds() - loaded_before;
+    report.load_seconds = meshes_.load_seconds() - load_seconds_;
+    report.meshes_read = meshes_.meshes_read() - meshes_read_;
     report.triangles = meshes_.triangles();
     const bool keeps = follows_ && fits_twice(plan, device_.info());
 
     if (!grids_) grids_.emplace(device_, meshes_);
-    Stopwatch voxelizing(report.voxelize_seconds);
-    const uint64_t voxelized_before = grids_->voxelized(), cached_before = grids_->from_cache();
-    std::vector<SharedGrid> shown;
-    const std::vector<PlacedObject> objects = placed_objects(scene, shown);
-    const ListedInstances listed = list_instances(scene, meshes_, *grids_);
-    report.voxelized = grids_->voxelized() - voxelized_before;
-    report.from_cache = grids_->from_cache() - cached_before;
-    report.meshes_read = meshes_.meshes_read() - read_before;
-    voxelizing.stop();
-    std::vector<VoxelBox> boxes = object_boxes(scene, meshes_);
-
-    Stopwatch placing(report.place_seconds);
-    if (!placer_) placer_.emplace(device_);
-    BrickGrid world = placer_->place(objects, world_frame(scene.world));
-    device_.finish();
-    report.painted_bricks = placer_->painted_bricks();
-    shown_ = std::move(shown);
-    grids_->forget_unused();
-    meshes_.forget_unused();
-    if (!keeps) {
-        placer_.reset();
-        shown_.clear();
-        grids_.reset();
-        meshes_ = MeshStore(meshes_.cache());
+    ListedInstances listed;
+    {
+        const VoxelizingReport voxelizing(*grids_, meshes_, report);
+        listed = list_instances(scene, meshes_, *grids_);
     }
-    placing.stop();
-
+    std::vector<VoxelBox> boxes = object_boxes(scene, meshes_);
+    FormedWorld formed{kept_or_new_world(scene, keeps, report, indexer), ++world_.version};
+    load_seconds_ = meshes_.load_seconds();
+    meshes_read_ = meshes_.meshes_read();
     Stopwatch indexing(report.index_seconds);
-    FormedWorld formed{indexer.index(world, placer_ ? placer_->changed_bricks() : nullptr),
-                       ++world_.version};
-    formed.pyramid =
-        add_instances(device_, scene, listed, std::move(formed.pyramid), report.instances);
+    formed.pyramid = models.join(scene, listed, std::move(formed.pyramid), report.instances);
+    std::vector<InstancePlace> places = instance_places(scene, formed.pyramid);
+    report.instances.moved = count_moved(instance_places_, places);
+    instance_places_ = std::move(places);
     formed.pyramid.object_boxes = std::move(boxes);
     device_.finish();
     indexing.stop();
     if (keeps) {
         world_.pyramid = formed.pyramid;
         indexer_ = std::move(indexer);
-        instance_maps_ = instance_maps(scene, formed.pyramid);
+        models_ = std::move(models);
         instances_ = report.instances;
         origin_ = std::move(origin);
     }
     return formed;
+}
+
+/// The world's voxels as an earlier run formed them, else new ones, which are kept for later runs.
+Pyramid WorldFormer::kept_or_new_world(const Scene& scene, bool keeps, WorldReport& report,
+                                       Indexer& indexer) {
+    const std::string key = placer_ ? std::string() : world_source(scene, meshes_);
+    if (key.empty()) return new_world(scene, keeps, report, indexer);
+    Stopwatch reading(report.index_seconds);
+    std::optional<Pyramid> kept = meshes_.cache().world(device_, key);
+    reading.stop();
+    report.is_from_cache = kept.has_value();
+    if (kept) {
+        forget_sources(keeps);
+        return std::move(*kept);
+    }
+    Pyramid world = new_world(scene, keeps, report, indexer);
+    Stopwatch keeping(report.index_seconds);
+    meshes_.cache().keep(key, world, report.place_seconds + report.index_seconds);
+    keeping.stop();
+    return world;
+}
+
+Pyramid WorldFormer::new_world(const Scene& scene, bool keeps, WorldReport& report,
+                               Indexer& indexer) {
+    std::vector<SharedGrid> shown;
+    std::vector<PlacedObject> objects;
+    {
+        const VoxelizingReport voxelizing(*grids_, meshes_, report);
+        objects = placed_objects(scene, shown);
+    }
+    Stopwatch placing(report.place_seconds);
+    if (!placer_) placer_.emplace(device_);
+    BrickGrid world = placer_->place(objects, world_frame(scene.world));
+    device_.finish();
+    report.painted_bricks = placer_->painted_bricks();
+    shown_ = std::move(shown);
+    forget_sources(keeps);
+    placing.stop();
+
+    Stopwatch indexing(report.index_seconds);
+    Pyramid pyramid = indexer.index(world, placer_ ? placer_->changed_bricks() : nullptr);
+    device_.finish();
+    indexing.stop();
+    return pyramid;
+}
+
+/// Frees what wasn't used in this frame, and unless it `keeps` what the next may use, all of it.
+void WorldFormer::forget_sources(bool keeps) {
+    grids_->forget_unused();
+    meshes_.forget_unused();
+    if (keeps) return;
+    placer_.reset();
+    shown_.clear();
+    grids_.reset();
+    meshes_ = MeshStore(meshes_.cache());
 }
 
 Pyramid form_world(const Device& device, const Scene& scene, WorldReport& report) {

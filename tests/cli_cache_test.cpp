@@ -57,7 +57,18 @@ TEST_F(CliCache, ASecondRunTakesTheModelFromIt) {
     EXPECT_EQ(frame("cold")["voxelized"], 1);
     EXPECT_EQ(frame("warm")["meshes_read"], 0);
     EXPECT_EQ(frame("warm")["voxelized"], 0);
-    EXPECT_EQ(frame("warm")["models_from_cache"], 1);
+    EXPECT_EQ(frame("warm")["world_from_cache"], true);
+}
+
+TEST_F(CliCache, AnotherPlaceIsAnotherWorldOfTheSameModel) {
+    render("first");
+    std::string text = bytes_of(folder / "s.json");
+    text.replace(text.find("\"model\": \"ring\""), 15, "\"model\": \"ring\", \"turn\": [0, 0, 9]");
+    put_bytes(folder / "s.json", text);
+    const std::string moved = render("moved"), without = render("without", "--no-cache");
+    EXPECT_TRUE(moved == without);
+    EXPECT_EQ(frame("moved")["world_from_cache"], false);
+    EXPECT_EQ(frame("moved")["models_from_cache"], 1);
 }
 
 TEST_F(CliCache, NoCacheLeavesTheFolderUntouched) {
@@ -81,9 +92,9 @@ TEST_F(CliCache, ProcessesShareAColdFolder) {
         EXPECT_FALSE(entry.path().filename().string().starts_with('.'));
         ++entries;
     }
-    EXPECT_EQ(entries, 2);
+    EXPECT_EQ(entries, 3) << "summary, model and world";
     render("warm");
-    EXPECT_EQ(frame("warm")["models_from_cache"], 1);
+    EXPECT_EQ(frame("warm")["world_from_cache"], true);
 }
 
 }  // namespace

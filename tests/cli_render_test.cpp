@@ -45,6 +45,14 @@ TEST_F(CliRenderTest, OptionsComeInAnyOrder) {
     }
 }
 
+TEST_F(CliRenderTest, TwoOutputsOfOneNameAreRefused) {
+    for (const char* outputs :
+         {"-o a.exr -o a.exr", "-o a.exr -o ./a.exr", "-o a.exr --volume a.exr",
+          "-o a.png --stats-json a.png", "--frames 1-2 -o f.#.png -o f.#.png"})
+        EXPECT_THAT(expect_failure(2, std::string("render scene.json ") + outputs),
+                    HasSubstr("two outputs are one file; give each a name of its own"));
+}
+
 TEST_F(CliRenderTest, QuietSaysNothingAndAPipeGetsNoControlCharacters) {
     EXPECT_THAT(run("render scene.json -o out.exr -q").err, IsEmpty());
     for (const char c : run("render scene.json -o out.exr -v").err)
@@ -82,7 +90,8 @@ TEST_F(CliRenderTest, StatisticsCountRaysAndTimeStagesAndKernels) {
     EXPECT_LE(stats["shadow_rays"], 240);
     EXPECT_GT(stats["world_bytes"], 0);
     EXPECT_GE(stats["peak_device_bytes"], stats["world_bytes"]);
-    for (const char* stage : {"load", "voxelize", "place", "index", "image", "total"})
+    for (const char* stage :
+         {"open", "load", "voxelize", "place", "index", "image", "write", "total"})
         EXPECT_TRUE(stats["seconds"].contains(stage)) << stage;
     EXPECT_GT(stats["kernel_ms"]["trace_closest"], 0);
 }

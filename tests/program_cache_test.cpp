@@ -17,9 +17,11 @@ using ProgramCacheFiles = FileTest;
 
 namespace fs = std::filesystem;
 
-/// What a process of these tests does: two programs, one kernel launched of each. It returns how
-/// many were compiled.
+/// What a process of these tests does: two programs, one kernel launched of each, `scale` unless
+/// VXL_TEST_KERNEL names the other. It returns how many were compiled.
 int build_and_run() {
+    const char* name = std::getenv("VXL_TEST_KERNEL");
+    const std::string kernel = name ? name : "scale";
     const Device device = test_device();
     const uint32_t count = 37;
     for (int factor = 3; factor < 5; ++factor) {
@@ -29,12 +31,17 @@ int build_and_run() {
                                "kernel void scale(uint count, global uint* numbers) {\n"
                                "    if (work_item() >= count) return;\n"
                                "    numbers[work_item()] = FACTOR * work_item();\n"
+                               "}\n"
+                               "kernel void shift(uint count, global uint* numbers) {\n"
+                               "    if (work_item() >= count) return;\n"
+                               "    numbers[work_item()] = FACTOR + work_item();\n"
                                "}\n",
                                {{"FACTOR", factor}});
         Buffer<uint32_t> numbers(device, "numbers", count);
-        program.kernel("scale").launch(WorkItem::light, count, count, numbers);
+        program.kernel(kernel).launch(WorkItem::light, count, count, numbers);
         const std::vector<uint32_t> result = numbers.read();
-        for (uint32_t i = 0; i < count; ++i) EXPECT_EQ(result[i], i * uint32_t(factor));
+        for (uint32_t i = 0; i < count; ++i)
+            EXPECT_EQ(result[i], kernel == "scale" ? i * uint32_t(factor) : i + uint32_t(factor));
     }
     return int(device.counters().programs_built - device.counters().programs_from_cache);
 }
@@ -72,6 +79,25 @@ TEST_F(ProgramCacheFiles, ASecondRunCompilesNothing) {
     if (!device_keeps_programs()) GTEST_SKIP() << "this device's programs are not kept";
     const std::string environment = "VOXELUME_CACHE_DIR=" + folder.string();
     EXPECT_EQ(compiled_by_processes(1, environment), std::vector<int>{2});
+    EXPECT_EQ(compiled_by_processes(1, environment), std::vector<int>{0});
+}
+
+/// PoCL 3.1 crashes when it compiles kernels of bitcode that it optimized twice.
+TEST_F(ProgramCacheFiles, AKernelFirstLaunchedByALaterRunIsMadeOfTheKeptBitcode) {
+    if (!device_keeps_programs()) GTEST_SKIP() << "this device's programs are not kept";
+    const std::string environment = "VOXELUME_CACHE_DIR=" + folder.string();
+    EXPECT_EQ(compiled_by_processes(1, environment), std::vector<int>{2});
+    const auto bytes = [&] {
+        uintmax_t sum = 0;
+        for (const fs::directory_entry& entry : fs::directory_iterator(folder / "programs"))
+            sum += entry.file_size();
+        return sum;
+    };
+    const uintmax_t with_one = bytes();
+    for (int run = 0; run < 2; ++run)
+        EXPECT_EQ(compiled_by_processes(1, environment + " VXL_TEST_KERNEL=shift"),
+                  std::vector<int>{0});
+    EXPECT_GT(bytes(), with_one) << "the second kernel is kept, too";
     EXPECT_EQ(compiled_by_processes(1, environment), std::vector<int>{0});
 }
 

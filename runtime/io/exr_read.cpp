@@ -156,7 +156,9 @@ Image read_exr(const std::filesystem::path& path) {
         const Imath::Box2i window = input.header().dataWindow();
         input.readPixels(window.min.y, window.max.y);
         for (auto a = input.header().begin(); a != input.header().end(); ++a)
-            if (const auto* text = dynamic_cast<const Imf::StringAttribute*>(&a.attribute()))
+            // "type" is the file's own: a part is scanlines or tiles.
+            if (const auto* text = dynamic_cast<const Imf::StringAttribute*>(&a.attribute());
+                text && a.name() != std::string_view("type"))
                 image.attributes[a.name()] = text->value();
         return image;
     } catch (const Iex::BaseExc& error) {

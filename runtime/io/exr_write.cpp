@@ -1,21 +1,15 @@
 // Image -> scanline OpenEXR.
-#include <ImfChannelList.h>
-#include <ImfChromaticitiesAttribute.h>
-#include <ImfFrameBuffer.h>
-#include <ImfHeader.h>
+#include <IexBaseExc.h>
 #include <ImfInputFile.h>
-#include <ImfOutputFile.h>
-#include <ImfStandardAttributes.h>
-#include <ImfStringAttribute.h>
 #include <ImfThreading.h>
+#include <openexr.h>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "runtime/io/atomic_file.hpp"
 #include "runtime/io/exr.hpp"
-#include "runtime/io/exr_stream.hpp"
+#include "runtime/io/exr_chunks.hpp"
 
 namespace voxelume {
 
@@ -25,71 +19,18 @@ bool is_color(const std::string& plane) {
     return plane == "R" || plane == "G" || plane == "B" || plane == "A";
 }
 
-/// Planes as the file holds them; the frame buffer points into these and into the image.
-struct Channels {
-    std::map<std::string, std::vector<half>> halves;
-    std::map<std::string, std::vector<float>> floats;
-    size_t replaced = 0;  ///< colour values that weren't finite
-};
-
-template <class Value>
-std::vector<Value> finite_values(const std::vector<float>& plane, size_t& replaced) {
-    constexpr float kLargest =
-        std::is_same_v<Value, half> ? 65504.0f : std::numeric_limits<float>::max();
-    std::vector<Value> values(plane.size());
-    for (size_t i = 0; i < plane.size(); ++i) {
-        const bool finite = std::isfinite(plane[i]);
-        if (!finite) ++replaced;
-        values[i] = Value(finite ? std::clamp(plane[i], -kLargest, kLargest) : 0.0f);
-    }
-    return values;
-}
-
-Channels prepare_channels(const Image& image, ColorDepth color) {
-    Channels channels;
-    for (const auto& [name, plane] : image.planes) {
-        if (!is_color(name)) continue;
-        if (color == ColorDepth::float16)
-            channels.halves[name] = finite_values<half>(plane, channels.replaced);
-        else
-            channels.floats[name] = finite_values<float>(plane, channels.replaced);
-    }
-    return channels;
-}
-
-Imf::Header make_header(const Image& image, ColorDepth color) {
-    Imf::Header header(image.width, image.height);
-    header.compression() = Imf::ZIP_COMPRESSION;
-    header.zipCompressionLevel() = 2;  // 1 % larger than the default's, in 5/6 of its time
-    Imf::addChromaticities(header, Imf::Chromaticities());  // the default is Rec. 709
-    for (const auto& [name, plane] : image.planes) {
-        const bool half_plane = is_color(name) && color == ColorDepth::float16;
-        header.channels().insert(name, Imf::Channel(half_plane ? Imf::HALF : Imf::FLOAT));
-    }
-    for (const auto& [name, plane] : image.id_planes)
-        header.channels().insert(name, Imf::Channel(Imf::UINT));
-    for (const auto& [name, text] : image.attributes)
-        header.insert(name, Imf::StringAttribute(text));
-    return header;
-}
-
-template <class Value>
-Imf::Slice slice_of(Imf::PixelType type, const std::vector<Value>& plane, int width) {
-    char* base = reinterpret_cast<char*>(const_cast<Value*>(plane.data()));  // only read from
-    return Imf::Slice(type, base, sizeof(Value), sizeof(Value) * static_cast<size_t>(width));
-}
-
-Imf::FrameBuffer make_frame_buffer(const Image& image, const Channels& channels) {
-    Imf::FrameBuffer buffer;
+/// The image's planes in the order of their names, as the file has them.
+std::vector<ExrPlane> planes_of(const Image& image, ColorDepth color) {
+    std::vector<ExrPlane> planes;
     for (const auto& [name, plane] : image.planes)
-        if (!is_color(name)) buffer.insert(name, slice_of(Imf::FLOAT, plane, image.width));
-    for (const auto& [name, plane] : channels.floats)
-        buffer.insert(name, slice_of(Imf::FLOAT, plane, image.width));
-    for (const auto& [name, plane] : channels.halves)
-        buffer.insert(name, slice_of(Imf::HALF, plane, image.width));
+        planes.push_back({.name = name,
+                          .values = plane.data(),
+                          .is_half = is_color(name) && color == ColorDepth::float16,
+                          .is_color = is_color(name)});
     for (const auto& [name, plane] : image.id_planes)
-        buffer.insert(name, slice_of(Imf::UINT, plane, image.width));
-    return buffer;
+        planes.push_back({.name = name, .values = plane.data(), .is_id = true});
+    std::ranges::sort(planes, {}, &ExrPlane::name);
+    return planes;
 }
 
 void check_image(AtomicFile& file, const Image& image) {
@@ -101,6 +42,69 @@ void check_image(AtomicFile& file, const Image& image) {
         if (plane.size() != pixels) file.fail("plane " + name + " hasn't the image's size");
 }
 
+/// OpenEXR's writer of headers and chunks, onto a file of ours: OpenEXR 3.1.5 truncates small files
+/// silently on a full disk.
+class ExrWriter {
+  public:
+    ExrWriter(AtomicFile& file, const std::filesystem::path& path) : file_(file) {
+        exr_context_initializer_t setup = EXR_DEFAULT_CONTEXT_INITIALIZER;
+        setup.user_data = this;
+        setup.error_handler_fn = [](exr_const_context_t, exr_result_t, const char*) {};
+        setup.write_fn = [](exr_const_context_t, void* self, const void* bytes, uint64_t size,
+                            uint64_t position, exr_stream_error_func_ptr_t) {
+            return static_cast<ExrWriter*>(self)->write(bytes, size, position);
+        };
+        check(exr_start_write(&context_, path.c_str(), EXR_WRITE_FILE_DIRECTLY, &setup));
+        check(exr_add_part(context_, "", EXR_STORAGE_SCANLINE, &part_));
+    }
+    ~ExrWriter() { exr_finish(&context_); }
+    ExrWriter(const ExrWriter&) = delete;
+    ExrWriter& operator=(const ExrWriter&) = delete;
+
+    void header(const Image& image, const std::vector<ExrPlane>& planes) {
+        check(exr_initialize_required_attr_simple(context_, part_, image.width, image.height,
+                                                  EXR_COMPRESSION_ZIP));
+        constexpr exr_attr_chromaticities_t kRec709 = {0.64f, 0.33f, 0.30f,   0.60f,
+                                                       0.15f, 0.06f, 0.3127f, 0.3290f};
+        check(exr_attr_set_chromaticities(context_, part_, "chromaticities", &kRec709));
+        for (const ExrPlane& plane : planes) {
+            const exr_pixel_type_t type = plane.is_id     ? EXR_PIXEL_UINT
+                                          : plane.is_half ? EXR_PIXEL_HALF
+                                                          : EXR_PIXEL_FLOAT;
+            check(exr_add_channel(context_, part_, plane.name.c_str(), type,
+                                  EXR_PERCEPTUALLY_LOGARITHMIC, 1, 1));
+        }
+        for (const auto& [name, text] : image.attributes)
+            check(exr_attr_set_string(context_, part_, name.c_str(), text.c_str()));
+        check(exr_write_header(context_));
+    }
+
+    void chunk(const ExrChunk& chunk) {
+        check(exr_write_scanline_chunk(context_, part_, chunk.row, chunk.bytes.data(),
+                                       chunk.bytes.size()));
+    }
+
+    /// Writes the table of rows.
+    void finish() { check(exr_finish(&context_)); }
+
+  private:
+    int64_t write(const void* bytes, uint64_t size, uint64_t position) noexcept try {
+        file_.seek(position);
+        file_.write(bytes, size);
+        return int64_t(size);
+    } catch (const Error&) {
+        return -1;  // the file keeps it, and throws it below
+    }
+
+    void check(exr_result_t result) {
+        if (result != EXR_ERR_SUCCESS) file_.fail(exr_get_default_error_message(result));
+    }
+
+    AtomicFile& file_;
+    exr_context_t context_ = nullptr;
+    int part_ = 0;
+};
+
 }  // namespace
 
 void set_exr_threads(int threads) {
@@ -110,16 +114,17 @@ void set_exr_threads(int threads) {
 size_t write_exr(const std::filesystem::path& path, const Image& image, ColorDepth color) {
     AtomicFile file(path);
     check_image(file, image);
-    const Channels channels = prepare_channels(image, color);
-    try {
-        ExrStream stream(file, path.string());
-        Imf::OutputFile output(stream, make_header(image, color));
-        output.setFrameBuffer(make_frame_buffer(image, channels));
-        output.writePixels(image.height);
-        // The destructor writes the table of rows; a failure there reaches commit() through the
-        // file.
-    } catch (const Iex::BaseExc& error) {
-        file.fail(error.what());
+    const std::vector<ExrPlane> planes = planes_of(image, color);
+    size_t replaced = 0;
+    {
+        ExrWriter writer(file, path);
+        writer.header(image, planes);
+        compress_chunks(planes, image.width, image.height, Imf::globalThreadCount(),
+                        [&](const ExrChunk& chunk) {
+                            writer.chunk(chunk);
+                            replaced += chunk.replaced;
+                        });
+        writer.finish();
     }
     try {
         if (!Imf::InputFile(file.temporary().c_str()).isComplete())
@@ -128,7 +133,7 @@ size_t write_exr(const std::filesystem::path& path, const Image& image, ColorDep
         file.fail(error.what());
     }
     file.commit();
-    return channels.replaced;
+    return replaced;
 }
 
 }  // namespace voxelume

@@ -102,4 +102,19 @@ void BufferStorage::copy(const BufferStorage& from, size_t bytes) {
     }
 }
 
+void BufferStorage::write_in_place(size_t bytes, const std::function<void(void*)>& fill) {
+    try {
+        cl::CommandQueue& queue = device_.queue();
+        void* const place =
+            queue.enqueueMapBuffer(buffer_, CL_TRUE, CL_MAP_WRITE_INVALIDATE_REGION, 0, bytes);
+        const auto unmap = [&](void* mapped) {
+            clEnqueueUnmapMemObject(queue(), buffer_(), mapped, 0, nullptr, nullptr);
+        };
+        const std::unique_ptr<void, decltype(unmap)> mapping(place, unmap);
+        fill(place);
+    } catch (const cl::Error& error) {
+        throw_device_error(error, device_.info(), fmt::format("writing the {} buffer", name_));
+    }
+}
+
 }  // namespace voxelume

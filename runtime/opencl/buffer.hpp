@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -24,6 +25,8 @@ class BufferStorage {
     void read(size_t offset, void* data, size_t bytes) const;
     void fill(const void* pattern, size_t pattern_bytes, size_t bytes);
     void copy(const BufferStorage& from, size_t bytes);
+    /// Shows `fill` memory of so many bytes, which become the first of these.
+    void write_in_place(size_t bytes, const std::function<void(void*)>& fill);
     const cl::Buffer& handle() const { return buffer_; }
 
   private:
@@ -66,6 +69,15 @@ class Buffer {
     /// Begins with the values of `from`, which has no more.
     void copy(const Buffer& from) {
         if (!from.empty()) storage_->copy(*from.storage_, from.size_ * sizeof(T));
+    }
+    /// Shows `fill` all values, undefined, to be written; on a CPU they lie where kernels read
+    /// them.
+    template <class Fill>
+    void write_in_place(Fill&& fill) {
+        if (!storage_) return fill(std::span<T>());
+        storage_->write_in_place(size_ * sizeof(T), [&](void* values) {
+            fill(std::span<T>(static_cast<T*>(values), size_));
+        });
     }
     std::vector<T> read() const { return read(0, size_); }
     std::vector<T> read(size_t first, size_t count) const {

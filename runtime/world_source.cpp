@@ -1,0 +1,51 @@
+#include "runtime/world_source.hpp"
+
+#include "runtime/instances.hpp"
+#include "runtime/key_words.hpp"
+#include "runtime/model_frame.hpp"
+#include "runtime/scene_animation.hpp"
+
+namespace voxelume {
+namespace {
+
+void add_frame(KeyWords& words, const GridFrame& frame) {
+    words.add_all(frame.origin).add_all(frame.voxel_edge).add_all(frame.size);
+}
+
+void add_solid(KeyWords& words, const Solid& solid) {
+    words.add(int(solid.kind)).add(solid.radius).add(solid.top_radius).add(solid.tube);
+    words.add(solid.height).add(solid.thickness).add_all(solid.radii).add_all(solid.size);
+    words.add_columns(solid.parent_from_solid).add(solid.parts.size());
+    for (const Solid& part : solid.parts) add_solid(words, part);
+}
+
+void add_model(KeyWords& words, const Model& model, MeshStore& meshes) {
+    words.add_text(meshes.source_of(model)).add(int(model.surface)).add(int(model.set));
+    if (model.surface != Surface::exact)
+        add_frame(words, model_frame(model, meshes.summary_of(model)));
+    words.add(model.cuts.size());
+    for (const Solid& cut : model.cuts) add_solid(words, cut);
+    if (model.solid) add_solid(words, *model.solid);
+}
+
+}  // namespace
+
+std::string world_source(const Scene& scene, MeshStore& meshes) {
+    if (!meshes.cache().keeps_worlds() || moves(scene)) return {};
+    KeyWords words;
+    add_frame(words, world_frame(scene.world));
+    for (uint32_t number = 0; number < scene.objects.size(); ++number) {
+        const Object& object = scene.objects[number];
+        if (is_instanced(scene, object) || !is_in_reach(scene, object)) continue;
+        const Model& model = scene.models[size_t(object.model)];
+        if (!model.voxels.empty()) return {};
+        words.add(number).add(object.priority).add(shows_inside(scene, object));
+        words.add_columns(object.world_from_object);
+        for (const int material : materials_of_groups(object, meshes.groups_of(model)))
+            words.add(material);
+        add_model(words, model, meshes);
+    }
+    return world_key(words.bytes());
+}
+
+}  // namespace voxelume

@@ -1,0 +1,18 @@
+// scene -> the name of its world, by which it is found on disk.
+#pragma once
+
+#include <string>
+
+#include "runtime/mesh_store.hpp"
+#include "runtime/scene.hpp"
+
+namespace voxelume {
+
+/// Names all that the voxels of a scene's world are made of: sources, lattices and places of the
+/// objects that are placed in it. Meshes whose summaries are known aren't read.
+///
+/// Empty where nothing is kept: of a scene that moves, whose worlds would fill the disk, and of one
+/// with a file of voxels, which no hash is taken of.
+std::string world_source(const Scene& scene, MeshStore& meshes);
+
+}  // namespace voxelume
