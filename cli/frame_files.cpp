@@ -37,20 +37,6 @@ std::vector<int> frames_of(const RenderOptions& options, const Scene& scene) {
     return frames;
 }
 
-/// Refuses files that would be written over one another.
-class OutputNames {
-  public:
-    void add(const std::string& path) {
-        const auto file = std::filesystem::absolute(path).lexically_normal();
-        if (!taken_.insert(file).second)
-            throw Error(ErrorKind::usage,
-                        "render: {}: two outputs have this name; give each one of its own", path);
-    }
-
-  private:
-    std::set<std::filesystem::path> taken_;
-};
-
 }  // namespace
 
 std::vector<FrameFiles> frame_files(const RenderOptions& options, const Scene& scene) {
@@ -86,15 +72,14 @@ void check_options(const RenderOptions& options) {
 
 void check_files(const std::vector<FrameFiles>& list, const Scene& scene,
                  const RenderOptions& options) {
-    OutputNames names;
-    if (!options.stats.empty()) names.add(options.stats);
+    std::vector<std::string> names{options.stats};
     for (const FrameFiles& files : list) {
-        for (const std::string& path : files.images) names.add(path);
-        for (const std::string& path : files.volumes) {
-            names.add(path);
+        names.insert(names.end(), files.images.begin(), files.images.end());
+        names.insert(names.end(), files.volumes.begin(), files.volumes.end());
+        for (const std::string& path : files.volumes)
             check_volume_output(path, display_frame(scene));
-        }
     }
+    check_distinct(names, "render");
 }
 
 }  // namespace voxelume::cli
