@@ -82,12 +82,12 @@ class FrameRun {
             render_tiles()();
             return reports_;
         }
-        const FrameSteps steps{[this](size_t n) { return scene_at(scene_, list_[n].frame); },
-                               [this](const FrameInput& input) {
-                                   return in_frame(scene_, list_[input.frame].frame,
-                                                   [&] { return render(input); });
-                               },
-                               [this](size_t n) { return double(list_[n].frame); }};
+        FrameSteps steps{[this](size_t n) { return scene_at(scene_, list_[n].frame); },
+                         [this](const FrameInput& input) {
+                             return in_frame(scene_, list_[input.frame].frame,
+                                             [&] { return render(input); });
+                         }};
+        if (moves(scene_)) steps.number = [this](size_t n) { return double(list_[n].frame); };
         run_frames(devices_, list_.size(), steps, {!options_.one_by_one, std::move(meshes_)});
         return reports_;
     }

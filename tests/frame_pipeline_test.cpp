@@ -1,11 +1,13 @@
 // Frames in order, on one thread and on three, with errors in each step.
 #include "runtime/frame_pipeline.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <stdexcept>
 #include <thread>
 
+#include "tests/file_fixture.hpp"
 #include "tests/oracles/image_hash.hpp"
 #include "tests/shared_device.hpp"
 
@@ -91,6 +93,22 @@ TEST(FramePipeline, AnErrorEndsTheRunAfterTheFramesBeforeIt) {
             EXPECT_EQ(run.written, first(4)) << step << ", overlap " << overlap;
             EXPECT_LE(run.formed.size(), 8u) << step;
         }
+    }
+}
+
+TEST(FramePipeline, AnErrorOfFormingAWorldNamesItsFrame) {
+    for (const bool overlap : {false, true}) {
+        FrameSteps steps{[](size_t frame) {
+                             Scene scene = scene_with(0.1 * double(frame));
+                             if (frame == 2) scene.objects[0].world_from_object[1] = glm::dvec4(0);
+                             return scene;
+                         },
+                         [](const FrameInput&) { return [] {}; },
+                         [](size_t frame) { return 10.0 + double(frame); }};
+        const Error error =
+            error_of([&] { run_frames({shared_device()}, 4, steps, {.overlap = overlap}); });
+        EXPECT_EQ(error.kind(), ErrorKind::scene);
+        EXPECT_THAT(error.what(), testing::EndsWith(" (at frame 12)"));
     }
 }
 

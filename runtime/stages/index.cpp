@@ -173,7 +173,7 @@ Pyramid Indexer::index(const BrickGrid& grid, const std::vector<uint32_t>* chang
     VoxelMarks marks = before && changed ? mark_changed_voxels(device_, program, grid, *changed,
                                                                std::move(before->marks))
                                          : mark_voxels(device_, program, grid);
-    const Pyramid pyramid = write_pyramid(device_, program, grid, marks);
+    Pyramid pyramid = write_pyramid(device_, program, grid, marks);
     marks.slots = grid.slots.read();
     kept_ = std::make_unique<Kept>(Kept{std::move(marks), pyramid});
     return pyramid;
