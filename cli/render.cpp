@@ -39,6 +39,7 @@ struct RenderOptions {
     std::string frames;
     float exposure = 0;
     bool float_color = false;
+    std::string channels = "Z,P,N,objectId";
     std::string stats;
     bool plan_only = false;
     bool one_by_one = false;
@@ -104,6 +105,28 @@ void check_options(const RenderOptions& options) {
     for (const std::string& pattern : options.outputs)
         check_output(frame_path(pattern, first, animation), {".exr", ".png"}, "render");
     if (!options.stats.empty()) check_output(options.stats, {}, "render");
+}
+
+/// The channels that some output shows: of PNG files colour alone.
+ImageChannels channels_of(const RenderOptions& options) {
+    ImageChannels channels{false, false, false, false};
+    for (const std::string& name : CLI::detail::split(options.channels, ',')) {
+        if (name == "Z")
+            channels.depth = true;
+        else if (name == "P")
+            channels.position = true;
+        else if (name == "N")
+            channels.normal = true;
+        else if (name == "objectId")
+            channels.object = true;
+        else if (name != "RGBA")
+            throw Error(ErrorKind::usage,
+                        "render: --channels: \"{}\" is none of Z, P, N, objectId and RGBA", name);
+    }
+    const bool has_exr = std::ranges::any_of(options.outputs, [](const std::string& path) {
+        return std::filesystem::path(path).extension() == ".exr";
+    });
+    return has_exr ? channels : ImageChannels{false, false, false, false};
 }
 
 void check_files(const std::vector<FrameFiles>& list, const Scene& scene,
@@ -258,7 +281,8 @@ size_t count_files(const std::vector<FrameFiles>& list) {
 int run(const RenderOptions& options) {
     const auto start = std::chrono::steady_clock::now();
     check_options(options);
-    const Scene scene = read_with(options.scene, "render");
+    Scene scene = read_with(options.scene, "render");
+    scene.render.channels = channels_of(options);
     const std::vector<FrameFiles> list = frame_files(options, scene);
     check_files(list, scene, options);
     for (const FrameFiles& files : list) check_placements(scene_at(scene, files.frame));
@@ -304,6 +328,9 @@ Action add_render(CLI::App& app) {
                    "frames like 1-10,20,30-60x5; #### in an output's name is the number");
     app.add_option("--exposure", options->exposure, "of .png, in stops")->check(in_range(-64, 64));
     app.add_flag("--float", options->float_color, "colour of .exr as 32-bit floats, not halves");
+    app.add_option("--channels", options->channels,
+                   "of .exr beside R G B A, which it always has: some of Z,P,N,objectId; RGBA for "
+                   "none of them");
     app.add_option("--stats-json", options->stats, "file for counts and times");
     app.add_flag("--dry-run", options->plan_only, "say what it takes, as `check` does, and stop");
     app.add_flag("--no-overlap", options->one_by_one,
