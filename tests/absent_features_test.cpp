@@ -82,10 +82,10 @@ Features plain_features() {
     return features;
 }
 
-const std::set<std::string> kRemoved = {"lib/smooth.h",    "lib/field.h",        "lib/filter.h",
-                                        "lib/interior.h",  "lib/instance_hit.h", "lib/instances.h",
-                                        "lib/solid_hit.h", "lib/triangle.h",     "lib/solid_ray.h",
-                                        "lib/cube_body.h", "lib/begin_inside.h"};
+/// Not of those that the walk of all rays has a part in: interior.h, instances.h, cube_body.h.
+const std::set<std::string> kRemoved = {"lib/smooth.h",       "lib/field.h",       "lib/filter.h",
+                                        "lib/instance_hit.h", "lib/solid_hit.h",   "lib/triangle.h",
+                                        "lib/solid_ray.h",    "lib/begin_inside.h"};
 
 /// The kernels that frames of such a scene launch, by file.
 const std::map<std::string, std::set<std::string>> kLaunched = {
@@ -104,7 +104,7 @@ TEST(AbsentFeatures, AreNotInTheKernelsOfAPlainScene) {
             Program::from_text(device, source.text(), plain_features().defines(device));
         for (const std::string& kernel : kernels) program.kernel(kernel);
     }
-    EXPECT_GT(functions, 100u);
+    EXPECT_GT(functions, 60u);
 }
 
 TEST(AbsentFeatures, WouldBeMissedWhereASceneHasThem) {
