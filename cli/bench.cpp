@@ -93,13 +93,7 @@ void check_outputs(const BenchCommand& command) {
     if (!command.plot.empty()) check_output(command.plot, {".svg"}, "bench");
     if (!command.json.empty()) check_output(command.json, {}, "bench");
     if (!command.csv.empty()) check_output(command.csv, {}, "bench");
-    std::vector<std::string> names;
-    for (const std::string& name : {command.page, command.json, command.csv, command.plot})
-        if (!name.empty()) names.push_back(name);
-    std::ranges::sort(names);
-    const auto twice = std::ranges::adjacent_find(names);
-    if (twice != names.end())
-        throw Error(ErrorKind::usage, "bench: {}: two outputs have one name", *twice);
+    check_distinct({command.page, command.json, command.csv, command.plot}, "bench");
 }
 
 void write_text(const std::string& path, const std::string& text) {

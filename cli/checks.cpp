@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <map>
 
 #include "runtime/io/atomic_file.hpp"
 #include "runtime/scene.hpp"
@@ -23,6 +24,19 @@ void check_output(const std::string& path, std::initializer_list<const char*> ex
     const AtomicFile trial(path);  // leaves nothing behind without commit()
 }
 
+void check_distinct(const std::vector<std::string>& paths, const char* command) {
+    std::map<std::filesystem::path, std::string> known;
+    for (const std::string& path : paths) {
+        if (path.empty()) continue;
+        const auto [first, is_new] =
+            known.emplace(std::filesystem::absolute(path).lexically_normal(), path);
+        if (!is_new)
+            throw Error(ErrorKind::usage,
+                        "{}: {} and {}: two outputs are one file; give each a name of its own",
+                        command, first->second, path);
+    }
+}
+
 glm::ivec2 parse_size(const std::string& text, const char* command) {
     glm::ivec2 size{0};
     char rest = 0;
@@ -40,8 +54,10 @@ std::function<std::string(const std::string&)> in_range(double least, double mos
         const bool is_whole = text.find_first_not_of("+-0123456789") == std::string::npos;
         const bool is_number = !text.empty() && *end == '\0' && value >= least && value <= most;
         if (is_number && (is_whole || number == Number::any)) return {};
-        return fmt::format("{} isn't a {}number from {:g} to {:g}", quote(text),
-                           number == Number::whole ? "whole " : "", least, most);
+        if (number == Number::whole)
+            return fmt::format("{} isn't a whole number from {:.0f} to {:.0f} in digits",
+                               quote(text), least, most);
+        return fmt::format("{} isn't a number from {:g} to {:g}", quote(text), least, most);
     };
 }
 

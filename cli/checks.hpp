@@ -10,6 +10,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "runtime/error.hpp"
 #include "runtime/scene_fields.hpp"
@@ -20,6 +21,9 @@ namespace voxelume::cli {
 /// Error::output when no file can be made there. `command` opens the message about the name.
 void check_output(const std::string& path, std::initializer_list<const char*> extensions,
                   const char* command);
+
+/// Throws Error::usage when two outputs are one file, however it is spelled; empty names are none.
+void check_distinct(const std::vector<std::string>& paths, const char* command);
 
 /// "640x480". Throws Error::usage; `command` opens the message.
 glm::ivec2 parse_size(const std::string& text, const char* command);

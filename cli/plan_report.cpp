@@ -4,7 +4,8 @@
 
 #include "cli/report.hpp"
 #include "cli/scene_options.hpp"
-#include "runtime/plan.hpp"
+#include "runtime/frame_plans.hpp"
+#include "runtime/scene_animation.hpp"
 
 namespace voxelume::cli {
 namespace {
@@ -67,16 +68,23 @@ Report plan_report(const Scene& scene, const ScenePlan& plan, const Device& devi
 
 }  // namespace
 
-void print_plan(const Scene& scene, const Device& device, const ModelCache& cache, bool as_json) {
-    if (!as_json) fmt::print("{}\n", describe(scene));
+void print_plan(const Scene& scene, std::span<const int> frames, const Device& device,
+                const ModelCache& cache, bool as_json) {
     check_tables(scene, device.info());
     MeshStore meshes(cache);
-    const ScenePlan plan = plan_scene(scene, meshes);
-    print_report(plan_report(scene, plan, device), as_json);
-    check_memory(scene, plan, device.info());
-    if (!as_json)
-        fmt::print("\nfits: at most {} of {} are needed; counts and memory are estimates\n",
-                   bytes_text(plan.peak_bytes()), bytes_text(double(device.info().memory)));
+    const FramePlan planned = plan_frames(scene, frames, meshes, device.info());
+    if (!as_json) fmt::print("{}\n", describe(scene));
+    Report report = plan_report(planned.scene, planned.plan, device);
+    if (moves(scene)) report["frame"] = planned.frame;
+    print_report(report, as_json);
+    in_frame(scene, planned.frame,
+             [&] { check_memory(planned.scene, planned.plan, device.info()); });
+    if (as_json) return;
+    const std::string of_frames =
+        frames.size() > 1 ? fmt::format(" by frame {}", planned.frame) : "";
+    fmt::print("\nfits: at most {} of {} are needed{}; counts and memory are estimates\n",
+               bytes_text(planned.plan.peak_bytes()), bytes_text(double(device.info().memory)),
+               of_frames);
 }
 
 }  // namespace voxelume::cli

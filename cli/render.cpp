@@ -7,104 +7,30 @@
 #include <map>
 #include <memory>
 #include <mutex>
-#include <numeric>
 #include <string>
 #include <vector>
 
 #include "cli/checks.hpp"
 #include "cli/commands.hpp"
+#include "cli/frame_files.hpp"
 #include "cli/render_report.hpp"
-#include "cli/scene_options.hpp"
 #include "runtime/device_images.hpp"
 #include "runtime/error.hpp"
 #include "runtime/frame_pipeline.hpp"
-#include "runtime/instances.hpp"
+#include "runtime/frame_plans.hpp"
 #include "runtime/io/exr.hpp"
-#include "runtime/io/frame_list.hpp"
-#include "runtime/io/frame_path.hpp"
 #include "runtime/io/png.hpp"
 #include "runtime/io/progress.hpp"
 #include "runtime/io/volume_file.hpp"
 #include "runtime/scene_animation.hpp"
-#include "runtime/stages/display_frame.hpp"
 #include "runtime/version.hpp"
 #include "runtime/volume_renderer.hpp"
 
 namespace voxelume::cli {
 namespace {
 
-struct RenderOptions {
-    SceneOptions scene;
-    std::vector<std::string> outputs, volumes;
-    std::string frames;
-    float exposure = 0;
-    bool float_color = false;
-    std::string channels = "Z,P,N,objectId";
-    std::string stats;
-    bool plan_only = false;
-    bool one_by_one = false;
-    bool verbose = false;
-    bool quiet = false;
-};
-
-/// A frame and the files that show it.
-struct FrameFiles {
-    int frame = 1;
-    std::vector<std::string> images, volumes;
-};
-
 double seconds_since(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
-bool is_pattern(const std::string& path) {
-    return frame_path(path, 1, false) != path;
-}
-
-/// Whether an output without --frames asks for the whole animation: a name with #### does, but for
-/// slices, whose #### is left to their writer.
-bool wants_all_frames(const RenderOptions& options) {
-    return std::ranges::any_of(options.outputs, is_pattern) ||
-           std::ranges::any_of(options.volumes, [](const std::string& path) {
-               return is_pattern(path) && std::filesystem::path(path).extension() != ".png";
-           });
-}
-
-/// The frames of --frames, or else all of a moving scene, or one.
-std::vector<int> frames_of(const RenderOptions& options, const Scene& scene) {
-    if (!options.frames.empty()) return parse_frame_list(options.frames);
-    const bool all = moves(scene) && (wants_all_frames(options) || options.plan_only);
-    std::vector<int> frames(all ? size_t(scene.animation.frames) : 1);
-    std::iota(frames.begin(), frames.end(), 1);
-    return frames;
-}
-
-/// What is to be rendered: a frame each, or one for all where the world stands still.
-std::vector<FrameFiles> frame_files(const RenderOptions& options, const Scene& scene) {
-    const std::vector<int> frames = frames_of(options, scene);
-    const bool animation = !options.frames.empty() || frames.size() > 1;
-    std::vector<FrameFiles> list;
-    for (const int frame : frames) {
-        if (list.empty() || moves(scene)) list.push_back({frame, {}, {}});
-        for (const std::string& pattern : options.outputs)
-            list.back().images.push_back(frame_path(pattern, frame, animation));
-        for (const std::string& pattern : options.volumes)
-            list.back().volumes.push_back(animation ? frame_path(pattern, frame, true) : pattern);
-    }
-    return list;
-}
-
-/// What can be said before the scene is read: that --frames are none, that a disk can't take the
-/// image. All frames of a pattern are in one folder, so the first ones stand for all.
-void check_options(const RenderOptions& options) {
-    if (options.outputs.empty() && options.volumes.empty() && !options.plan_only)
-        throw Error(ErrorKind::usage,
-                    "render: say where the image goes: -o image.exr, or --volume image.vdb");
-    const bool animation = !options.frames.empty();
-    const int first = animation ? parse_frame_list(options.frames).front() : 1;
-    for (const std::string& pattern : options.outputs)
-        check_output(frame_path(pattern, first, animation), {".exr", ".png"}, "render");
-    if (!options.stats.empty()) check_output(options.stats, {}, "render");
 }
 
 /// The channels that some output shows: of PNG files colour alone.
@@ -127,17 +53,6 @@ ImageChannels channels_of(const RenderOptions& options) {
         return std::filesystem::path(path).extension() == ".exr";
     });
     return has_exr ? channels : ImageChannels{false, false, false, false};
-}
-
-void check_files(const std::vector<FrameFiles>& list, const Scene& scene,
-                 const RenderOptions& options) {
-    for (const FrameFiles& files : list) {
-        for (const std::string& path : files.volumes)
-            check_volume_output(path, display_frame(scene));
-        if (!options.stats.empty() && std::ranges::count(files.images, options.stats) > 0)
-            throw Error(ErrorKind::usage, "render: {}: the image and the statistics have one name",
-                        options.stats);
-    }
 }
 
 void write(const Image& image, const std::string& path, const RenderOptions& options) {
@@ -165,16 +80,20 @@ void add_attributes(const Scene& scene, int frame, std::map<std::string, std::st
 /// Renders the frames that are asked for, and tells of them.
 class FrameRun {
   public:
+    /// `meshes` has what was read to check the frames.
     FrameRun(const std::vector<Device>& devices, const Scene& scene,
-             const std::vector<FrameFiles>& list, const RenderOptions& options)
+             const std::vector<FrameFiles>& list, const RenderOptions& options, MeshStore meshes)
         : devices_(devices),
           scene_(scene),
           list_(list),
           options_(options),
-          cache_(model_cache(options.scene)),
+          meshes_(std::move(meshes)),
           bar_("rendering", 100 * list.size(), stderr, options.quiet),
           reports_(list.size()) {
-        for (const Device& device : devices) renderers_.emplace_back(device, list.size() > 1);
+        for (const Device& device : devices) {
+            renderers_.emplace_back(device, list.size() > 1);
+            volume_renderers_.emplace_back(device, list.size() > 1);
+        }
     }
 
     /// Seconds of writing files, up to now.
@@ -186,8 +105,12 @@ class FrameRun {
             return reports_;
         }
         const FrameSteps steps{[this](size_t n) { return scene_at(scene_, list_[n].frame); },
-                               [this](const FrameInput& input) { return render(input); }};
-        run_frames(devices_, list_.size(), steps, {!options_.one_by_one, cache_});
+                               [this](const FrameInput& input) {
+                                   return in_frame(scene_, list_[input.frame].frame,
+                                                   [&] { return render(input); });
+                               },
+                               [this](size_t n) { return double(list_[n].frame); }};
+        run_frames(devices_, list_.size(), steps, {!options_.one_by_one, std::move(meshes_)});
         return reports_;
     }
 
@@ -204,8 +127,7 @@ class FrameRun {
                 input.scene, input.world, report,
                 [&](uint32_t i, uint32_t of) { advance(uint64_t(i) * 100 / of, shown); });
         if (!files.volumes.empty())
-            volume = std::make_shared<Volume>(
-                render_volume(devices_[input.device], input.scene, input.world, report));
+            volume = volume_renderers_[input.device].volume(input.scene, input.world, report);
         advance(100, shown);
         return written(input.frame, report, std::move(image), std::move(volume));
     }
@@ -214,9 +136,11 @@ class FrameRun {
     std::function<void()> render_tiles() {
         uint64_t shown = 0;
         RenderReport report;
-        auto image = std::make_shared<const Image>(
-            render_together({devices_, cache_}, scene_at(scene_, list_[0].frame), report,
-                            [&](uint32_t i, uint32_t of) { advance(i * 100ull / of, shown); }));
+        auto image = std::make_shared<const Image>(in_frame(scene_, list_[0].frame, [&] {
+            return render_together(
+                {devices_, meshes_.cache()}, scene_at(scene_, list_[0].frame), report,
+                [&](uint32_t i, uint32_t of) { advance(i * 100ull / of, shown); });
+        }));
         return written(0, report, std::move(image), nullptr);
     }
 
@@ -264,8 +188,9 @@ class FrameRun {
     const Scene& scene_;
     const std::vector<FrameFiles>& list_;
     const RenderOptions& options_;
-    ModelCache cache_;
+    MeshStore meshes_;
     std::vector<Renderer> renderers_;
+    std::vector<VolumeRenderer> volume_renderers_;
     Progress bar_;
     std::mutex bar_mutex_;
     std::atomic<double> write_seconds_ = 0;
@@ -285,26 +210,29 @@ int run(const RenderOptions& options) {
     scene.render.channels = channels_of(options);
     const std::vector<FrameFiles> list = frame_files(options, scene);
     check_files(list, scene, options);
-    for (const FrameFiles& files : list) check_placements(scene_at(scene, files.frame));
+    const std::vector<int> frames = numbers_of(list);
     const std::vector<Device> devices = Device::open_all(options.scene.device);
     if (options.plan_only) {
-        print_plan(scene, devices[0], model_cache(options.scene), false);
+        print_plan(scene, frames, devices[0], model_cache(options.scene), false);
         return 0;
     }
+    MeshStore meshes(model_cache(options.scene));
+    if (frames.size() > 1)
+        for (const Device& device : devices) check_frames(scene, frames, meshes, device.info());
     if (options.verbose || !options.stats.empty())
         for (const Device& device : devices) device.time_kernels(true);
 
     const double open_seconds = seconds_since(start);
 
-    FrameRun frames(devices, scene, list, options);
-    const std::vector<FrameReport> reports = frames.run();
+    FrameRun rendering(devices, scene, list, options, std::move(meshes));
+    const std::vector<FrameReport> reports = rendering.run();
     for (const Device& device : devices) device.finish();
     const Outcome outcome{devices,
                           reports,
                           scene.render.size,
                           count_files(list),
                           open_seconds,
-                          frames.write_seconds(),
+                          rendering.write_seconds(),
                           seconds_since(start)};
     if (!options.stats.empty()) write_statistics(options.stats, outcome);
     if (options.quiet) return 0;

@@ -64,18 +64,36 @@ nlohmann::ordered_json seconds_of(const RenderReport& report) {
             {"image", report.image_seconds}};
 }
 
+const char* world_text(const FrameReport& frame) {
+    switch (frame.report.world.change) {
+        case WorldChange::none:
+            return "kept";
+        case WorldChange::instances:
+            return "instances moved";
+        case WorldChange::formed:
+            return "formed";
+    }
+    return "";
+}
+
+const char* image_text(const FrameReport& frame) {
+    if (frame.report.is_kept) return "kept";
+    return frame.report.hits_are_kept ? "shaded" : "traced";
+}
+
 /// What a frame did anew, and what it took over from the frame before.
 nlohmann::ordered_json frame_statistics(const FrameReport& frame) {
     const RenderReport& report = frame.report;
     return {{"frame", frame.frame},
+            {"world", world_text(frame)},
+            {"image", image_text(frame)},
             {"meshes_read", report.world.meshes_read},
             {"voxelized", report.world.voxelized},
             {"models_from_cache", report.world.from_cache},
             {"painted_bricks", report.world.painted_bricks},
-            {"world_kept", report.world.is_kept},
             {"world_from_cache", report.world.is_from_cache},
-            {"hits_kept", report.hits_are_kept},
-            {"image_kept", report.is_kept},
+            {"instances_moved", report.world.instances.moved},
+            {"instance_models_indexed", report.world.instances.indexed},
             {"seconds", seconds_of(report)}};
 }
 
@@ -138,11 +156,15 @@ std::string count_text(uint64_t count) {
 std::string reuse_text(const std::vector<FrameReport>& frames) {
     if (frames.size() < 2) return "";
     const auto count = [&](auto&& is_so) { return std::ranges::count_if(frames, is_so); };
-    return fmt::format("{} frames, of which {} kept the world, {} their hits and {} the image; ",
-                       frames.size(),
-                       count([](const FrameReport& frame) { return frame.report.world.is_kept; }),
-                       count([](const FrameReport& frame) { return frame.report.hits_are_kept; }),
-                       count([](const FrameReport& frame) { return frame.report.is_kept; }));
+    const auto worlds = [&](WorldChange change) {
+        return count([=](const FrameReport& frame) { return frame.report.world.change == change; });
+    };
+    const auto still = count([](const FrameReport& frame) { return frame.report.is_kept; });
+    const auto hits = count([](const FrameReport& frame) { return frame.report.hits_are_kept; });
+    return fmt::format(
+        "{} frames ({} worlds formed, {} with instances moved; {} traced, {} shaded, {} still); ",
+        frames.size(), worlds(WorldChange::formed), worlds(WorldChange::instances),
+        int64_t(frames.size()) - hits, hits - still, still);
 }
 
 }  // namespace
@@ -187,11 +209,12 @@ void print_details(const Outcome& outcome) {
                counters.programs_built, counters.build_ms, counters.programs_from_cache);
     if (outcome.frames.size() > 1)
         for (const FrameReport& frame : outcome.frames)
-            fmt::print(stderr, "  frame {:<5} {:>3} voxelized, {:>7} bricks painted{}\n",
-                       frame.frame, frame.report.world.voxelized, frame.report.world.painted_bricks,
-                       frame.report.is_kept         ? ", the image kept"
-                       : frame.report.hits_are_kept ? ", hits kept"
-                                                    : "");
+            fmt::print(stderr,
+                       "  frame {:<5} world {}: {} voxelized, {} bricks painted, {} instances "
+                       "moved; image {}\n",
+                       frame.frame, world_text(frame), frame.report.world.voxelized,
+                       frame.report.world.painted_bricks, frame.report.world.instances.moved,
+                       image_text(frame));
     for (const auto& [kernel, ms] : counters.kernel_ms)
         fmt::print(stderr, "  {:<24}{:>10.2f} ms {:>6} launches\n", kernel, ms,
                    counters.launches.at(kernel));

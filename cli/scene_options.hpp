@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -33,9 +34,11 @@ Scene read_with(const SceneOptions& options, const char* command);
 /// The user's cache of models, unless --no-cache was given.
 ModelCache model_cache(const SceneOptions& options);
 
-/// Says what a scene holds and what rendering it takes on a device, on stdout, and whether it fits.
+/// Says what a scene holds and what rendering takes on a device, on stdout, of its `frames` the one
+/// that takes the most, and whether all fit.
 ///
-/// Throws Error::limit when it doesn't, after saying why.
-void print_plan(const Scene& scene, const Device& device, const ModelCache& cache, bool as_json);
+/// Throws Error::limit when one doesn't, after saying why.
+void print_plan(const Scene& scene, std::span<const int> frames, const Device& device,
+                const ModelCache& cache, bool as_json);
 
 }  // namespace voxelume::cli

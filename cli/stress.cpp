@@ -36,9 +36,18 @@ std::vector<const StressTest*> chosen_tests(const std::vector<std::string>& only
         if (known == names.end())
             throw Error(ErrorKind::usage, "stress: there is no test named {}{}", quote(name),
                         suggest(name, names));
-        chosen.push_back(&stress_tests()[size_t(known - names.begin())]);
+        const StressTest* test = &stress_tests()[size_t(known - names.begin())];
+        if (std::ranges::find(chosen, test) == chosen.end()) chosen.push_back(test);
     }
     return chosen;
+}
+
+/// What tries one case again, beside those that it was tried with.
+std::string command_for(const StressTest& test, uint64_t number, const StressCommand& command) {
+    std::string text = fmt::format("voxelume stress --only {} --seed {} --rays 1 --first {}",
+                                   test.name, command.seed, number);
+    if (!command.device.empty()) text += fmt::format(" --device \"{}\"", command.device);
+    return text;
 }
 
 /// Runs a test and prints its line; the number of mismatches.
@@ -55,10 +64,9 @@ uint64_t run_test(const StressTest& test, const StressCommand& command, const De
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     fmt::print("{:<12}{:>14} cases {:>10} mismatches {:>10.1f} s\n", test.name, result.cases,
                result.mismatches, seconds);
-    for (const std::string& example : result.examples) fmt::print("  {} {}\n", test.name, example);
-    if (!result.examples.empty())
-        fmt::print("  again: voxelume stress --only {} --seed {} --rays 1 --first CASE\n",
-                   test.name, command.seed);
+    for (const StressExample& example : result.examples)
+        fmt::print("  {} case {}: {}\n    again: {}\n", test.name, example.number, example.text,
+                   command_for(test, example.number, command));
     std::fflush(stdout);
     return result.mismatches;
 }
@@ -75,7 +83,8 @@ int run(const StressCommand& command) {
 }
 
 std::string list_of_tests() {
-    std::string list = "of these tests only; may be given again:";
+    std::string list =
+        "of these tests only, each once: a name, or names with commas; may be given again:";
     for (const StressTest& test : stress_tests())
         list += fmt::format("\n{:<12}{}", test.name, test.help);
     return list;
@@ -90,7 +99,9 @@ Action add_stress(CLI::App& app) {
         ->check(in_range(1, 1e15));
     app.add_option("--seed", command->seed, "of the cases, 1 without")
         ->check(in_range(0, 1e18, Number::whole));
-    app.add_option("--only", command->only, list_of_tests())->allow_extra_args(false);
+    app.add_option("--only", command->only, list_of_tests())
+        ->allow_extra_args(false)
+        ->delimiter(',');
     app.add_option("--first", command->first, "number of the first case, to try one again")
         ->check(in_range(0, 1e18, Number::whole));
     app.add_option("--device", command->device, "auto, cpu, gpu, a number, or part of a name");

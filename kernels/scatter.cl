@@ -52,8 +52,7 @@ static inline lane_float medium_ior(global const float* restrict materials, lane
 }
 
 static inline void count_lanes(lane_int mask, global uint* counter) {
-    uint places[VXL_LANES];
-    reserve_places(mask, counter, places);
+    if (lanes_any(mask)) atomic_add(counter, (uint)lanes_count(mask));
 }
 
 /// cross_interior; sets that have no room are counted in `lost`.
@@ -187,9 +186,8 @@ kernel void pass_layer(global const float* restrict materials, global const uint
     if (VXL_CUBE_BODIES) on.flags |= joined_flag(&on.interior, materials);
     on.medium = medium_inside(&on.interior, ranks);
     const RayQueue queue = {next_rays, next_paths, next_starts, next_inside, next_stride};
-    uint places[VXL_LANES];
-    reserve_places(goes_on, counters + VXL_COUNT_LAYER, places);
-    put_rays(&queue, &on, goes_on, places);
+    const Places places = reserve_places(goes_on, counters + VXL_COUNT_LAYER);
+    put_rays(&queue, &on, &places);
 }
 
 /// The rays of one sort that leave a packet of surface points, and where they are put.
@@ -220,18 +218,18 @@ static inline void set_out(NewRays* r, PyramidShape shape, Vector position, Vect
 static inline void put_children(const RayQueue* queue, NewRays* r, Scattered s, lane_int valid,
                                 uint compact, uint place, global uint* counters,
                                 global uint* restrict children, global float* restrict shares) {
-    uint places[VXL_LANES];
-    lane_int put = s.wanted;
+    Places places;
+    lane_uint at;
     if (compact) {
-        reserve_places(s.wanted, counters + VXL_COUNT_CHILDREN, places);
+        places = reserve_places(s.wanted, counters + VXL_COUNT_CHILDREN);
+        at = places.first + lanes_ranks(s.wanted);
     } else {
-        for (int lane = 0; lane < VXL_LANES; ++lane) places[lane] = place + (uint)lane;
+        places = places_from(place, valid);
+        at = place + LANES_AS_UINT(LANES_NUMBERS);
         r->t_end = LANES_SELECT(s.wanted, r->t_end, (lane_float)-1.0f);
-        put = valid;
     }
-    lane_uint at = LANES_LOAD(places, 0);
     if (VXL_TRANSMISSION) r->target = at;
-    if (lanes_any(put)) put_rays(queue, r, put, places);
+    if (places.count > 0) put_rays(queue, r, &places);
     LANES_STORE(LANES_SELECT(s.wanted, at, (lane_uint)VXL_NO_CHILD), children, 0);
     LANES_STORE(s.share, shares, 0);
 }

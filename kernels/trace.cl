@@ -1,13 +1,10 @@
 // rays -> hits: the discrete walk of every ray through the world to the first surface it meets.
 #include "lib/begin_inside.h"
-#include "lib/filter.h"
-#include "lib/instances.h"
+#include "lib/ray_queue.h"
+#include "lib/shadow_flight.h"
 #include "lib/vector.h"
 #include "lib/work_item.h"
 #include "shared/scene.h"
-
-// Idle lanes for which a packet takes on further rays.
-#define VXL_REFILL ((VXL_LANES + 3) / 4)
 
 #define VXL_WORLD_ARGUMENTS                                                                      \
     PyramidShape shape, global const uint *restrict sectors, global const uint *restrict bricks, \
@@ -74,14 +71,13 @@ kernel void trace_closest(VXL_WORLD_ARGUMENTS, global const float* restrict rays
 static inline void store_hits(const Flight* f, lane_int landing, uint stride,
                               global uint* restrict hits) {
     const Hit hit = hit_of(f, is_hit(&f->found, f->t_end));
+    const Places stored = places_from(0, landing);
     uint rays[VXL_LANES], values[VXL_LANES];
-    int stored[VXL_LANES];
     LANES_STORE(f->ray, rays, 0);
-    LANES_STORE(landing, stored, 0);
     for (uint i = 0; i < VXL_STORED_COMPONENTS; ++i) {
         LANES_STORE(hit.values[i], values, 0);
-        for (uint lane = 0; lane < VXL_LANES; ++lane)
-            if (stored[lane]) hits[i * stride + rays[lane]] = values[lane];
+        for (uint k = 0; k < stored.count; ++k)
+            hits[i * stride + rays[stored.lane[k]]] = values[stored.lane[k]];
     }
 }
 
@@ -121,7 +117,7 @@ kernel void trace_scattered(VXL_WORLD_ARGUMENTS, global const float* restrict ra
         store_hits(&f, held & ~walking, stride, hits);
         held &= walking;
         if (next >= end) break;
-        const Flight before = f;
+        const Progress before = progress_of(&f);
         const lane_int fresh = take_rays(~walking, end, &next, &f.ray);
         set_out(&pyramid, rays, count, stride, paths, starts, &f);
         keep_progress(&before, fresh, &f);
@@ -180,7 +176,7 @@ kernel void trace_shadows(VXL_WORLD_ARGUMENTS, uint constant_attribute,
                           global const uint* restrict sources, global const uint* restrict paths,
                           global const uint* restrict hits, global const float* restrict shares,
                           global uint* restrict traced, global float* restrict radiance) {
-    const uint first = work_item() * VXL_LANES;
+    const uint first = work_item() * (VXL_LANES * VXL_SHADOW_PACKETS);
     const uint queued = *count;
     if (first >= queued) return;
     if (first == 0) {
@@ -188,57 +184,18 @@ kernel void trace_shadows(VXL_WORLD_ARGUMENTS, uint constant_attribute,
         traced[1] += traced[0] < queued;
     }
     VXL_WORLD_VIEWS;
-    Walk walk = load_walk(rays, stride, first);
-    const lane_float t_end = LANES_LOAD(rays, VXL_RAY_END * stride + first);
-    const lane_int active = LANE_MASK(LANES_AS_INT(LANES_NUMBERS + (int)first) < (int)queued);
-    Travel travel = sight_travel();
-    travel.on_surface = (lane_int)-1;
-    if (VXL_EXACT) travel.source = LANES_LOAD(sources, first);
-    if (VXL_INSTANCES)
-        travel.instance = LANES_GATHER_UINT(hits + VXL_HIT_INSTANCE * stride,
-                                            LANES_LOAD(targets, first) & LANES_AS_UINT(active));
-    if (VXL_SOLIDS) {
-        const SolidRay ray = {walk.ox, walk.oy, walk.oz, walk.dx, walk.dy, walk.dz};
-        const lane_int solid = LANE_MASK((travel.source & VXL_SOLID_PRIMITIVE) != 0u) &
-                               LANE_MASK(travel.source != VXL_NO_PRIMITIVE) & active;
-        travel.asks_side = solid & LANE_MASK(travel.instance != VXL_NO_INSTANCE);
-        const lane_int asked = solid & ~travel.asks_side;
-        if (lanes_any(asked))
-            travel.within_source = go_inside(
-                solids, travel.source & ~VXL_SOLID_PRIMITIVE & LANES_AS_UINT(asked), &ray, asked);
-    }
-    lane_float share[3];
-    for (int channel = 0; channel < 3; ++channel)
-        share[channel] = LANES_LOAD(shares, channel * stride + first);
-    lane_int arrived;
-    if (VXL_FILTER) {
-        // `paths` are those of the rays that met the surface: on its same side light arrives.
-        const lane_uint target = LANES_LOAD(targets, first) & LANES_AS_UINT(active);
-        travel.interior = gather_interior(paths, stride, target, active);
-        if (VXL_CUBE_BODIES) find_body(&travel, materials);
-        const Vector d = {walk.dx, walk.dy, walk.dz};
-        const lane_float zero = (lane_float)0.0f, one = (lane_float)1.0f;
-        const MediumView medium = {absorption, {density_shape, density_bricks, density_values}};
-        Filter filter = {{one, one, one}, {zero, zero, zero}};
-        arrived = pass_through(&pyramid, &surface, &instances, &walk, t_end, active, &travel,
-                               constant_attribute, materials, colors, ranks, lost, &medium,
-                               metres_per_t(shape.edge, d), &filter);
-        for (int channel = 0; channel < 3; ++channel)
-            share[channel] *= filter.passed[channel] * exact_exp(-filter.depth[channel]);
-    } else {
-        arrived =
-            active &
-            ~find_nearest(&pyramid, &surface, &instances, &walk, t_end, active, true, &travel).hit;
-    }
-    uint target[VXL_LANES];
-    float sent[3 * VXL_LANES];
-    int lit[VXL_LANES];
-    LANES_STORE(LANES_LOAD(targets, first), target, 0);
-    LANES_STORE(arrived, lit, 0);
-    for (int channel = 0; channel < 3; ++channel)
-        LANES_STORE(share[channel], sent, channel * VXL_LANES);
-    for (int lane = 0; lane < VXL_LANES; ++lane)
-        for (int channel = 0; channel < 3; ++channel)
-            if (lit[lane])
-                radiance[channel * stride + target[lane]] += sent[channel * VXL_LANES + lane];
+    const MediumView medium = {absorption, {density_shape, density_bricks, density_values}};
+    const FilterView filter = {constant_attribute, materials, colors, ranks, lost, medium,
+                               instances};
+    const ShadowRays queue = {rays, targets, sources, paths, hits, shares, stride};
+#if VXL_SHADOWS_FLY
+    const uint end = min(first + VXL_LANES * VXL_SHADOW_PACKETS, queued);
+    fly_shadows(&pyramid, &surface, &filter, shape, &queue, first, end, radiance);
+#else
+    ShadowFlight f;
+    f.flight.ray = LANES_AS_UINT(LANES_NUMBERS + (int)first);
+    const lane_int active = LANE_MASK(f.flight.ray < queued);
+    send_shadows(&pyramid, &surface, &filter, shape, &queue, active, &f);
+    bring_light(&queue, &f, find_lights(&pyramid, &surface, &filter, active, &f), radiance);
+#endif
 }

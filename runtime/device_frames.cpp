@@ -67,11 +67,11 @@ class FrameShare {
 }  // namespace
 
 void share_frames(const std::vector<Device>& devices, size_t count, const FrameSteps& steps,
-                  const ModelCache& cache) {
+                  const MeshStore& meshes) {
     FrameShare share(count, 2 * devices.size());
     std::mutex scenes;
     const auto work = [&](size_t device) {
-        WorldFormer former(devices[device], true, cache);
+        WorldFormer former(devices[device], true, meshes);
         while (const std::optional<size_t> frame = share.take()) {
             RenderedFrame rendered;
             try {
@@ -81,7 +81,7 @@ void share_frames(const std::vector<Device>& devices, size_t count, const FrameS
                     scene = steps.scene(*frame);
                 }
                 WorldReport report;
-                const FormedWorld world = former.form(scene, report);
+                const FormedWorld world = form_frame(former, steps, *frame, scene, report);
                 rendered.write = steps.render({*frame, device, scene, world, report});
             } catch (...) {
                 rendered.error = std::current_exception();

@@ -23,7 +23,8 @@ Part render_part(const Device& device, const ModelCache& cache, const Scene& sce
                  TileShare& share) {
     Part part;
     try {
-        const FormedWorld world = WorldFormer(device, false, cache).form(scene, part.report.world);
+        const FormedWorld world =
+            WorldFormer(device, false, MeshStore(cache)).form(scene, part.report.world);
         part.image =
             Renderer(device, false).part_of_image(scene, world, part.report, {share, part.tiles});
     } catch (...) {

@@ -5,9 +5,11 @@
 #include <mutex>
 #include <optional>
 #include <thread>
+#include <utility>
 
 #include "runtime/closing.hpp"
 #include "runtime/device_frames.hpp"
+#include "runtime/scene_animation.hpp"
 
 namespace voxelume {
 namespace {
@@ -60,18 +62,17 @@ struct FormedFrame {
     std::exception_ptr error;  ///< instead of all that
 };
 
-FormedFrame form_frame(WorldFormer& former, const FrameSteps& steps, size_t frame) {
+FormedFrame form_next(WorldFormer& former, const FrameSteps& steps, size_t frame) {
     FormedFrame formed;
     formed.scene = steps.scene(frame);
-    formed.world = former.form(formed.scene, formed.report);
+    formed.world = form_frame(former, steps, frame, formed.scene, formed.report);
     return formed;
 }
 
-void run_one_by_one(const Device& device, size_t count, const FrameSteps& steps,
-                    const ModelCache& cache) {
-    WorldFormer former(device, count > 1, cache);
+void run_one_by_one(const Device& device, size_t count, const FrameSteps& steps, MeshStore meshes) {
+    WorldFormer former(device, count > 1, std::move(meshes));
     for (size_t frame = 0; frame < count; ++frame) {
-        const FormedFrame formed = form_frame(former, steps, frame);
+        const FormedFrame formed = form_next(former, steps, frame);
         steps.render({frame, 0, formed.scene, formed.world, formed.report})();
     }
 }
@@ -89,8 +90,7 @@ class Worker {
     std::thread thread_;
 };
 
-void run_overlapped(const Device& device, size_t count, const FrameSteps& steps,
-                    const ModelCache& cache) {
+void run_overlapped(const Device& device, size_t count, const FrameSteps& steps, MeshStore meshes) {
     Handoff<FormedFrame> formed;
     Handoff<std::function<void()>> writes;
     std::exception_ptr write_error, error;
@@ -107,10 +107,10 @@ void run_overlapped(const Device& device, size_t count, const FrameSteps& steps,
         const Worker forming([&] {
             const Closing closing(formed);
             try {
-                WorldFormer former(device.with_own_queue(), true, cache);
+                WorldFormer former(device.with_own_queue(), true, std::move(meshes));
                 for (size_t frame = 0; frame < count; ++frame) {
                     // Two worlds at a time: the next is begun when this one is being rendered.
-                    if (!formed.put(form_frame(former, steps, frame))) return;
+                    if (!formed.put(form_next(former, steps, frame))) return;
                     if (!formed.wait_until_taken()) return;
                 }
             } catch (...) {
@@ -137,14 +137,24 @@ void run_overlapped(const Device& device, size_t count, const FrameSteps& steps,
 
 }  // namespace
 
+FormedWorld form_frame(WorldFormer& former, const FrameSteps& steps, size_t frame,
+                       const Scene& scene, WorldReport& report) {
+    try {
+        return former.form(scene, report);
+    } catch (const Error& error) {
+        if (!steps.number) throw;
+        throw at_frame(error, steps.number(frame));
+    }
+}
+
 void run_frames(const std::vector<Device>& devices, size_t count, const FrameSteps& steps,
-                const FrameOptions& options) {
+                FrameOptions options) {
     if (devices.size() > 1 && count > 1)
-        share_frames(devices, count, steps, options.cache);
+        share_frames(devices, count, steps, options.meshes);
     else if (options.overlap && count > 1)
-        run_overlapped(devices[0], count, steps, options.cache);
+        run_overlapped(devices[0], count, steps, std::move(options.meshes));
     else
-        run_one_by_one(devices[0], count, steps, options.cache);
+        run_one_by_one(devices[0], count, steps, std::move(options.meshes));
 }
 
 }  // namespace voxelume

@@ -25,17 +25,23 @@ struct FrameSteps {
     std::function<Scene(size_t)> scene;
     /// Renders it. What it returns writes the files, by one thread, in order.
     std::function<std::function<void()>(const FrameInput&)> render;
+    /// The number by which errors of forming its world name a frame. Without it they don't.
+    std::function<double(size_t)> number = {};
 };
 
 struct FrameOptions {
     bool overlap = true;  ///< of one device: three threads work on up to three frames, no more
-    ModelCache cache;     ///< of models that need no voxelizing
+    MeshStore meshes = MeshStore();  ///< what was read already, and the cache of models
 };
+
+/// Forms the world of a frame.
+FormedWorld form_frame(WorldFormer& former, const FrameSteps& steps, size_t frame,
+                       const Scene& scene, WorldReport& report);
 
 /// Takes `count` frames through their steps. The files are the same with all options.
 ///
 /// Rethrows the first error of the frames in order, once the frames before it are written.
 void run_frames(const std::vector<Device>& devices, size_t count, const FrameSteps& steps,
-                const FrameOptions& options);
+                FrameOptions options);
 
 }  // namespace voxelume

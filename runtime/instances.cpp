@@ -1,11 +1,12 @@
 #include "runtime/instances.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <map>
+#include <utility>
 
 #include "runtime/error.hpp"
 #include "runtime/pyramid_bytes.hpp"
-#include "runtime/stages/index.hpp"
 #include "runtime/stages/instance_pools.hpp"
 #include "runtime/stages/instances.hpp"
 #include "runtime/stages/spots.hpp"
@@ -81,20 +82,24 @@ ListedInstances list_instances(const Scene& scene, MeshStore& meshes, ObjectGrid
     return listed;
 }
 
-Pyramid add_instances(const Device& device, const Scene& scene, const ListedInstances& listed,
-                      Pyramid world, InstanceReport& report) {
+Pyramid InstanceModels::join(const Scene& scene, const ListedInstances& listed, Pyramid world,
+                             InstanceReport& report) {
+    const std::vector<Kept> before = std::exchange(kept_, {});
     if (listed.list.empty()) return world;
     const auto start = std::chrono::steady_clock::now();
-    std::vector<Pyramid> models;
+    std::vector<ModelPyramid> models;
     for (const SharedGrid& grid : listed.grids) {
-        models.push_back(build_index(device, *grid));
-        report.voxels += models.back().voxel_count;
-        report.bytes += bytes_of(models.back());
+        const auto found = std::ranges::find(before, grid, &Kept::grid);
+        if (found == before.end()) ++report.indexed;
+        models.push_back(found == before.end() ? index_model(device_, *grid) : found->model);
+        kept_.push_back({grid, models.back()});
+        report.voxels += models.back().pyramid.voxel_count;
+        report.bytes += bytes_of(models.back().pyramid);
     }
-    Pyramid joined = join_models(device, world, models);
-    set_instances(device, listed.list, listed.materials, joined);
-    move_instances(device, scene, joined);
-    device.finish();
+    Pyramid joined = join_models(device_, world, models);
+    set_instances(device_, listed.list, listed.materials, joined);
+    move_instances(device_, scene, joined);
+    device_.finish();
     report.instances = static_cast<uint32_t>(joined.instances.list.size());
     report.models = static_cast<uint32_t>(models.size());
     report.seconds =
@@ -102,11 +107,22 @@ Pyramid add_instances(const Device& device, const Scene& scene, const ListedInst
     return joined;
 }
 
-std::vector<glm::dmat4> instance_maps(const Scene& scene, const Pyramid& world) {
-    std::vector<glm::dmat4> maps;
+std::vector<InstancePlace> instance_places(const Scene& scene, const Pyramid& world) {
+    std::vector<InstancePlace> places;
     for (const Instance& instance : world.instances.list)
-        maps.push_back(scene.objects[instance.object].world_from_object);
-    return maps;
+        places.push_back({instance.object, scene.objects[instance.object].world_from_object});
+    return places;
+}
+
+uint32_t count_moved(const std::vector<InstancePlace>& before,
+                     const std::vector<InstancePlace>& now) {
+    uint32_t moved = 0;
+    auto old = before.begin();
+    for (const InstancePlace& place : now) {
+        while (old != before.end() && old->object < place.object) ++old;
+        moved += old == before.end() || *old != place;
+    }
+    return moved;
 }
 
 void leave_out_places_of_instances(const Scene& scene, std::vector<Model>& models,

@@ -4,6 +4,7 @@
 #include "runtime/grid.hpp"
 #include "runtime/object_grids.hpp"
 #include "runtime/scene.hpp"
+#include "runtime/stages/instance_model.hpp"
 
 namespace voxelume {
 
@@ -20,6 +21,8 @@ void check_placements(const Scene& scene);
 /// What instances take, for people and tests.
 struct InstanceReport {
     uint32_t instances = 0, models = 0;
+    uint32_t moved = 0;    ///< instances that stand elsewhere than in the frame before, or are new
+    uint32_t indexed = 0;  ///< models whose pyramid was built for this frame
     uint64_t voxels = 0, bytes = 0;  ///< of the models, each counted once
     double seconds = 0;              ///< indexing and joining models, placing instances
 };
@@ -32,16 +35,43 @@ struct ListedInstances {
 };
 
 /// Lists a scene's instances, and has their models voxelized in their own frames. Throws as
-/// ObjectGrids and materials_of_groups do.
+/// ObjectGrids and materials_of_groups do, and Error::scene for a model some of whose voxels let
+/// light through.
 ListedInstances list_instances(const Scene& scene, MeshStore& meshes, ObjectGrids& grids);
 
-/// The world with the scene's instances. Without any it stays as it is. Throws Error::scene for a
-/// model some of whose voxels let light through, Error::limit for too little memory.
-Pyramid add_instances(const Device& device, const Scene& scene, const ListedInstances& listed,
-                      Pyramid world, InstanceReport& report);
+/// Puts instances behind worlds, and keeps the pyramids of their models while they are shown.
+class InstanceModels {
+  public:
+    explicit InstanceModels(const Device& device) : device_(device) {}
 
-/// The maps of a world's instances.
-std::vector<glm::dmat4> instance_maps(const Scene& scene, const Pyramid& world);
+    /// The world with the scene's instances. Without any it stays as it is. Throws Error::limit for
+    /// too little memory.
+    Pyramid join(const Scene& scene, const ListedInstances& listed, Pyramid world,
+                 InstanceReport& report);
+
+  private:
+    struct Kept {
+        SharedGrid grid;
+        ModelPyramid model;
+    };
+
+    Device device_;
+    std::vector<Kept> kept_;
+};
+
+/// Where an object stands that is an instance.
+struct InstancePlace {
+    uint32_t object = 0;  ///< its number in the scene
+    glm::dmat4 world_from_object{1};
+    friend bool operator==(const InstancePlace&, const InstancePlace&) = default;
+};
+
+/// The places of a world's instances, ascending by object.
+std::vector<InstancePlace> instance_places(const Scene& scene, const Pyramid& world);
+
+/// How many of the places `now` weren't there `before`.
+uint32_t count_moved(const std::vector<InstancePlace>& before,
+                     const std::vector<InstancePlace>& now);
 
 /// Forgets, in a copy of a scene's models and objects, what changes when instances move alone.
 void leave_out_places_of_instances(const Scene& scene, std::vector<Model>& models,

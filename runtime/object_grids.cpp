@@ -24,6 +24,20 @@ Model source_of(Model model) {
     return model;
 }
 
+/// The whole mesh, in a set, of a model with cuts.
+Model whole_of(Model model, VoxelSet set) {
+    model.cuts.clear();
+    model.set = set;
+    return model;
+}
+
+/// The sets of its whole mesh that a cut model is made of.
+std::vector<VoxelSet> body_sets(const Model& model) {
+    if (model.surface == Surface::cubes && model.set != VoxelSet::solid)
+        return {model.set, VoxelSet::solid};
+    return {model.set};
+}
+
 }  // namespace
 
 SharedGrid ObjectGrids::grid_of(const Scene& scene, const Object& object) {
@@ -44,6 +58,9 @@ SharedGrid ObjectGrids::find_or_make(const Model& model, const Source& source,
     const auto found = std::ranges::find(kept_, source, &Kept::source);
     if (found != kept_.end()) {
         found->is_used = true;
+        // A cut that stands still goes on some time: the mesh's own grids wait for it.
+        if (!model.cuts.empty())
+            for (const VoxelSet set : body_sets(model)) use(body_source(model, source, set));
         return found->grid;
     }
     try {
@@ -88,15 +105,21 @@ BrickGrid ObjectGrids::make(const Model& model, const Source& source) {
                                options);
 }
 
+ObjectGrids::Source ObjectGrids::body_source(const Model& model, const Source& source,
+                                             VoxelSet set) {
+    return {source_of(whole_of(model, set)), source.frame_from_model, source.frame};
+}
+
+void ObjectGrids::use(const Source& source) {
+    const auto found = std::ranges::find(kept_, source, &Kept::source);
+    if (found != kept_.end()) found->is_used = true;
+}
+
 /// The mesh's own grids are kept like any others: while cuts move, only they are voxelized anew.
 BrickGrid ObjectGrids::make_cut(const Model& model, const Source& source, bool keeps) {
     const Solid rest = rest_of(source.frame, model.cuts);
     const auto body = [&](VoxelSet set) {
-        Model whole = model;
-        whole.cuts.clear();
-        whole.set = set;
-        return find_or_make(whole, {source_of(whole), source.frame_from_model, source.frame}, "",
-                            keeps);
+        return find_or_make(whole_of(model, set), body_source(model, source, set), "", keeps);
     };
     const auto left = [&](VoxelSet set) {
         return voxelize_solid(device_, rest, source.frame_from_model, source.frame,

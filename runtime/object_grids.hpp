@@ -51,6 +51,8 @@ class ObjectGrids {
     /// object that moves is another one in every frame, and takes many times its mesh's bytes.
     SharedGrid find_or_make(const Model& model, const Source& source, const std::string& where,
                             bool keeps = true);
+    static Source body_source(const Model& model, const Source& source, VoxelSet set);
+    void use(const Source& source);
     BrickGrid read_or_make(const Model& model, const Source& source, bool keeps);
     BrickGrid make(const Model& model, const Source& source);
     BrickGrid make_cut(const Model& model, const Source& source, bool keeps);

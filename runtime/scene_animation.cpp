@@ -4,7 +4,6 @@
 #include <map>
 #include <optional>
 
-#include "runtime/error.hpp"
 #include "runtime/scene_motion.hpp"
 #include "runtime/scene_parts.hpp"
 
@@ -28,7 +27,7 @@ class FrameReader {
                 put_value(json, track.target.steps, value_at(track, frame_));
             read(part, SceneValue(json, part.path, motion_.file));
         } catch (const Error& error) {
-            throw Error(error.kind(), "{} (at frame {})", error.what(), frame_);
+            throw at_frame(error, frame_);
         }
     }
 
@@ -259,6 +258,11 @@ std::shared_ptr<const SceneMotion> read_motion(const SceneValue& root, const Ass
 
 bool moves(const Scene& scene) {
     return scene.motion != nullptr;
+}
+
+Error at_frame(const Error& error, double frame) {
+    const std::string sentence = error.what(), end = fmt::format(" (at frame {})", frame);
+    return {error.kind(), sentence.ends_with(end) ? sentence : sentence + end};
 }
 
 Scene scene_at(const Scene& scene, double frame) {

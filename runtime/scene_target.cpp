@@ -130,6 +130,11 @@ class PathWalker {
             path_.fail(fmt::format("which of {}? Write its place, counted from 0, as in \"{}[0]\"",
                                    what, what));
         const size_t place = steps_[next_++].item;
+        if (list.type == JsonType::number)
+            path_.fail(
+                fmt::format("{} is one number here; change it as a whole, or write it as a "
+                            "list of numbers in the scene",
+                            what));
         if (place >= list.items.size())
             path_.fail(fmt::format("there is no {}[{}]: {} has {} items", what, place, what,
                                    list.items.size()));
@@ -197,11 +202,29 @@ class PathWalker {
         if (std::ranges::find(place.values, key) == place.values.end())
             path_.fail(fmt::format("{} has no value {} that can change{}", here, quote(key),
                                    suggest(key, known)));
+        check_rivals(value, key);
         target_.steps.push_back({key});
         if (is_at_end()) return;
         item(member(value, key, here), key);
         target_.steps.push_back(steps_[next_ - 1]);
         if (!is_at_end()) path_.fail(fmt::format("goes on behind a number of {}", quote(key)));
+    }
+
+    /// Refuses to change what another key of the object decides.
+    void check_rivals(const JsonValue& of, const std::string& key) const {
+        const auto has = [&](std::string_view rival) {
+            return std::ranges::find(of.members, rival, &JsonMember::key) != of.members.end();
+        };
+        if ((key == "position" || key == "turn" || key == "scale") && has("matrix"))
+            path_.fail(
+                fmt::format("{} is placed by its \"matrix\"; write \"position\", \"turn\" "
+                            "and \"scale\" instead of that to change them",
+                            path_so_far()));
+        if ((key == "mesh" || key == "voxels" || key == "file") && has("sequence"))
+            path_.fail(
+                fmt::format("{} has its files from its \"sequence\"; leave out that or this "
+                            "track",
+                            path_so_far()));
     }
 
     std::string path_so_far() const {

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "runtime/error.hpp"
 #include "runtime/illumination.hpp"
@@ -169,6 +170,28 @@ Volume render_volume(const Device& device, const Scene& scene, const FormedWorld
     report.voxels = world.voxel_count;
     report.image_seconds +=
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return volume;
+}
+
+std::shared_ptr<Volume> VolumeRenderer::volume(const Scene& scene, const FormedWorld& world,
+                                               RenderReport& report,
+                                               const FrameProgress& progress) {
+    const bool is_kept = volume_ && world_ == world.version && scene_ == scene;
+    std::shared_ptr<Volume> volume = std::exchange(volume_, nullptr);
+    if (!is_kept) {
+        volume.reset();  // before the next one needs the memory
+        report_ = {};
+        volume = std::make_shared<Volume>(render_volume(device_, scene, world, report_, progress));
+        report.image_seconds += report_.image_seconds;
+    }
+    add_counts(report_, report);
+    report.voxels = report_.voxels;
+    report.is_kept = report.hits_are_kept = is_kept;
+    if (follows_) {
+        scene_ = scene;
+        world_ = world.version;
+        volume_ = volume;
+    }
     return volume;
 }
 

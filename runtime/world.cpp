@@ -1,6 +1,7 @@
 #include "runtime/world.hpp"
 
 #include <chrono>
+#include <utility>
 
 #include "runtime/object_boxes.hpp"
 #include "runtime/plan.hpp"
@@ -102,13 +103,15 @@ std::vector<PlacedObject> WorldFormer::placed_objects(const Scene& scene,
 FormedWorld WorldFormer::kept_world(const Scene& scene, WorldReport& report) {
     report.triangles = meshes_.triangles();
     report.instances = instances_;
-    std::vector<glm::dmat4> maps = instance_maps(scene, world_.pyramid);
-    report.is_kept = maps == instance_maps_;
-    if (report.is_kept) return world_;
-    Stopwatch moving(report.instances.seconds);
     report.instances.seconds = 0;
+    report.instances.indexed = 0;
+    std::vector<InstancePlace> places = instance_places(scene, world_.pyramid);
+    report.instances.moved = count_moved(instance_places_, places);
+    report.change = report.instances.moved == 0 ? WorldChange::none : WorldChange::instances;
+    if (report.change == WorldChange::none) return world_;
+    Stopwatch moving(report.instances.seconds);
     move_instances(device_, scene, world_.pyramid);
-    instance_maps_ = std::move(maps);
+    instance_places_ = std::move(places);
     ++world_.version;
     moving.stop();
     return world_;
@@ -121,14 +124,13 @@ FormedWorld WorldFormer::form(const Scene& scene, WorldReport& report) {
     world_.pyramid = {};
     // What an error leaves in the middle is begun afresh.
     Indexer indexer = std::exchange(indexer_, Indexer(device_));
+    InstanceModels models = std::exchange(models_, InstanceModels(device_));
     check_placements(scene);
     check_tables(scene, device_.info());
-    const double loaded_before = meshes_.load_seconds();
-    const uint64_t read_before = meshes_.meshes_read();
     const ScenePlan plan = plan_scene(scene, meshes_);
     check_memory(scene, plan, device_.info());
-    report.load_seconds = meshes_.load_seconds() - loaded_before;
-    report.meshes_read = meshes_.meshes_read() - read_before;
+    report.load_seconds = meshes_.load_seconds() - load_seconds_;
+    report.meshes_read = meshes_.meshes_read() - meshes_read_;
     report.triangles = meshes_.triangles();
     const bool keeps = follows_ && fits_twice(plan, device_.info());
 
@@ -140,16 +142,20 @@ FormedWorld WorldFormer::form(const Scene& scene, WorldReport& report) {
     }
     std::vector<VoxelBox> boxes = object_boxes(scene, meshes_);
     FormedWorld formed{kept_or_new_world(scene, keeps, report, indexer), ++world_.version};
+    load_seconds_ = meshes_.load_seconds();
+    meshes_read_ = meshes_.meshes_read();
     Stopwatch indexing(report.index_seconds);
-    formed.pyramid =
-        add_instances(device_, scene, listed, std::move(formed.pyramid), report.instances);
+    formed.pyramid = models.join(scene, listed, std::move(formed.pyramid), report.instances);
+    std::vector<InstancePlace> places = instance_places(scene, formed.pyramid);
+    report.instances.moved = count_moved(instance_places_, places);
+    instance_places_ = std::move(places);
     formed.pyramid.object_boxes = std::move(boxes);
     device_.finish();
     indexing.stop();
     if (keeps) {
         world_.pyramid = formed.pyramid;
         indexer_ = std::move(indexer);
-        instance_maps_ = instance_maps(scene, formed.pyramid);
+        models_ = std::move(models);
         instances_ = report.instances;
         origin_ = std::move(origin);
     }

@@ -13,6 +13,13 @@
 
 namespace voxelume {
 
+/// What a frame's world is to the frame before.
+enum class WorldChange : uint8_t {
+    none,       ///< the same, untouched
+    instances,  ///< the same voxels; instances have moved
+    formed      ///< formed anew, of what parts could be kept
+};
+
 /// What forming the world took, for people and tests.
 struct WorldReport {
     double load_seconds = 0;      ///< reading model files
@@ -24,8 +31,8 @@ struct WorldReport {
     uint64_t voxelized = 0;       ///< models and exact objects that were voxelized
     uint64_t from_cache = 0;      ///< those whose voxels the model cache had
     uint64_t painted_bricks = 0;  ///< of the world, that objects were painted into
-    bool is_kept = false;         ///< it is the one before, untouched
-    bool is_from_cache = false;   ///< an earlier run formed it
+    WorldChange change = WorldChange::formed;
+    bool is_from_cache = false;  ///< an earlier run formed it
     InstanceReport instances;
 };
 
@@ -43,9 +50,13 @@ struct FormedWorld {
 class WorldFormer {
   public:
     /// Where nothing `follows` the first frame, nothing is kept.
-    /// Meshes that `cache` has voxels of are not read.
-    explicit WorldFormer(const Device& device, bool follows = true, ModelCache cache = {})
-        : device_(device), follows_(follows), meshes_(std::move(cache)), indexer_(device) {}
+    /// Meshes that `meshes` has already, or whose voxels are in its cache, are not read.
+    explicit WorldFormer(const Device& device, bool follows = true, MeshStore meshes = MeshStore())
+        : device_(device),
+          follows_(follows),
+          meshes_(std::move(meshes)),
+          indexer_(device),
+          models_(device) {}
 
     /// Forms S from the scene's objects. Models that no object shows inside the world are not read.
     ///
@@ -77,12 +88,15 @@ class WorldFormer {
     Device device_;
     bool follows_;
     MeshStore meshes_;
+    double load_seconds_ = 0;  ///< of meshes_, in reports so far
+    uint64_t meshes_read_ = 0;
     std::optional<ObjectGrids> grids_;
     std::vector<SharedGrid> shown_;  ///< that the placer's objects name
     std::optional<Placer> placer_;
     Indexer indexer_;
     std::optional<Origin> origin_;
-    std::vector<glm::dmat4> instance_maps_;
+    InstanceModels models_;
+    std::vector<InstancePlace> instance_places_;
     InstanceReport instances_;
     FormedWorld world_;
 };

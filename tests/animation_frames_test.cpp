@@ -68,7 +68,7 @@ std::vector<Frame> frames_in_a_run(const Scene& scene, bool is_volume) {
                                auto image = renderer.image(input.scene, input.world, report);
                                return [&frame, image] { frame.image = oracle::image_hash(*image); };
                            }};
-    run_frames({shared_device()}, frames.size(), steps, {.overlap = true, .cache = {}});
+    run_frames({shared_device()}, frames.size(), steps, {.overlap = true});
     return frames;
 }
 

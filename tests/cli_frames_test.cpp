@@ -77,4 +77,28 @@ TEST_F(CliFramesTest, AFrameThatIsWrongIsToldBeforeAnyIsRendered) {
     EXPECT_EQ(run("render scene.json --frames 1,3 -o f.#.exr").exit_code, 0);
 }
 
+TEST_F(CliFramesTest, APlacementThatIsWrongLaterIsToldWithItsFrame) {
+    write_scene([&](Json& scene) {
+        scene["objects"][0]["placement"] = "instance";
+        scene["animation"] = Json::parse(R"({"frames": 9, "tracks": [
+            {"target": "materials.brick.opacity", "interpolation": "step",
+             "keys": [{"frame": 1, "value": 1}, {"frame": 7, "value": 0.5}]}]})");
+    });
+    for (const char* line : {"check scene.json", "render scene.json --frames 6-8 -o f.#.exr"})
+        EXPECT_THAT(expect_failure(3, line), AllOf(HasSubstr("can't be placed as an instance"),
+                                                   testing::EndsWith("(at frame 7)\n")));
+    EXPECT_EQ(run("render scene.json --frames 6 -o f.exr").exit_code, 0);
+}
+
+TEST_F(CliFramesTest, ThePlanIsThatOfTheFrameThatTakesTheMost) {
+    write_scene([&](Json& scene) {
+        scene["animation"] = Json::parse(R"({"frames": 3, "tracks": [
+            {"target": "models.thing.size", "keys": [{"frame": 1, "value": [0.2, 0.2, 0.2]},
+                                                     {"frame": 2, "value": [1.2, 0.8, 0.4]},
+                                                     {"frame": 3, "value": [0.2, 0.2, 0.2]}]}]})");
+    });
+    EXPECT_EQ(Json::parse(run("check scene.json --json").out)["frame"], 2);
+    EXPECT_THAT(run("render scene.json --dry-run --frames 1,3").out, HasSubstr("by frame 1;"));
+}
+
 }  // namespace voxelume

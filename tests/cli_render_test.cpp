@@ -45,6 +45,14 @@ TEST_F(CliRenderTest, OptionsComeInAnyOrder) {
     }
 }
 
+TEST_F(CliRenderTest, TwoOutputsOfOneNameAreRefused) {
+    for (const char* outputs :
+         {"-o a.exr -o a.exr", "-o a.exr -o ./a.exr", "-o a.exr --volume a.exr",
+          "-o a.png --stats-json a.png", "--frames 1-2 -o f.#.png -o f.#.png"})
+        EXPECT_THAT(expect_failure(2, std::string("render scene.json ") + outputs),
+                    HasSubstr("two outputs are one file; give each a name of its own"));
+}
+
 TEST_F(CliRenderTest, QuietSaysNothingAndAPipeGetsNoControlCharacters) {
     EXPECT_THAT(run("render scene.json -o out.exr -q").err, IsEmpty());
     for (const char c : run("render scene.json -o out.exr -v").err)

@@ -9,6 +9,7 @@
 #include "runtime/io/png.hpp"
 #include "runtime/io/vdb.hpp"
 #include "tests/program_runner.hpp"
+#include "tests/setting.hpp"
 
 namespace voxelume {
 
@@ -134,6 +135,32 @@ TEST_F(CliTest, StressSaysWhatItTriedAndHowOften) {
                                       "triangles +30 cases +0 mismatches +[0-9.]+ s\n"));
     EXPECT_THAT(result.err, Not(HasSubstr("%")));  // no bar where nobody watches
     EXPECT_EQ(run("stress -q --rays 1 --first 40000 --only corners").err, "");
+}
+
+TEST_F(CliTest, StressPrintsACommandThatFindsAMismatchAgain) {
+    const Setting fault("VOXELUME_BUILD_OPTIONS", "-DVXL_ARBITRATE=0");
+    const ProgramResult found = run("stress -q --rays 40 --seed 5 --first 16381 --only ties");
+    EXPECT_EQ(found.exit_code, 1);
+    const size_t line = found.out.find("  ties case "), end = found.out.find('\n', line);
+    const std::string again = "    again: voxelume ";
+    const size_t command = found.out.find(again, end), command_end = found.out.find('\n', command);
+    ASSERT_NE(command_end, std::string::npos) << found.out;
+    const ProgramResult result =
+        run(found.out.substr(command + again.size(), command_end - command - again.size()));
+    EXPECT_EQ(result.exit_code, 1);
+    EXPECT_THAT(result.out, HasSubstr("1 cases          1 mismatches"));
+    EXPECT_THAT(result.out, HasSubstr(found.out.substr(line, end - line)));
+}
+
+TEST_F(CliTest, StressTakesEachTestOnceHoweverItIsNamed) {
+    const ProgramResult result = run("stress -q --rays 1 --only faces,ties --only ties");
+    EXPECT_EQ(result.exit_code, 0);
+    EXPECT_THAT(result.out, testing::MatchesRegex("faces .*\nties .*\n"));
+    EXPECT_THAT(run("stress --rays 1 --only ties,none").err, HasSubstr("no test named \"none\""));
+    EXPECT_EQ(run("stress -q --rays 1 --only ties --first 1000000000000000000").exit_code, 0);
+    EXPECT_EQ(run("stress --rays 1 --first 1e18").exit_code, 2);
+    EXPECT_THAT(run("stress --rays 1 --first 1e18").err,
+                HasSubstr("a whole number from 0 to 1000000000000000000 in digits"));
 }
 
 TEST_F(CliTest, StressKnowsItsTests) {

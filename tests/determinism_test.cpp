@@ -7,23 +7,10 @@
 #include <numbers>
 
 #include "tests/program_runner.hpp"
+#include "tests/setting.hpp"
 
 namespace voxelume {
 namespace {
-
-/// Sets an environment variable while it lives.
-class Setting {
-  public:
-    Setting(const char* name, const std::string& value) : name_(name) {
-        setenv(name, value.c_str(), 1);
-    }
-    Setting(const Setting&) = delete;
-    Setting& operator=(const Setting&) = delete;
-    ~Setting() { unsetenv(name_); }
-
-  private:
-    const char* name_;
-};
 
 /// A ring of triangles, as an OBJ file has it.
 std::string ring_text() {

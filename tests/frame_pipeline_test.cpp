@@ -54,7 +54,7 @@ struct FrameRun {
                                        hashes.push_back(hash);
                                    };
                                }};
-        run_frames({device}, count, steps, {.overlap = overlap, .cache = {}});
+        run_frames({device}, count, steps, {.overlap = overlap});
     }
 };
 

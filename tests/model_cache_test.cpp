@@ -61,7 +61,7 @@ class ModelCacheFiles : public FileTest {
         shared_device().counters().launches.clear();
         RenderReport report;
         const FormedWorld world =
-            WorldFormer(shared_device(), false, cache).form(scene, report.world);
+            WorldFormer(shared_device(), false, MeshStore(cache)).form(scene, report.world);
         Outcome outcome;
         outcome.hash =
             oracle::image_hash(Renderer(shared_device(), false).new_image(scene, world, report));

@@ -6,7 +6,9 @@
 #include <glm/gtc/constants.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "runtime/frame_plans.hpp"
 #include "runtime/renderer.hpp"
+#include "runtime/scene_animation.hpp"
 #include "runtime/surface_extent.hpp"
 #include "tests/file_fixture.hpp"
 #include "tests/test_device.hpp"
@@ -70,9 +72,9 @@ TEST(SurfaceExtent, FacesThatTheWorldCutsAreNoSurface) {
 
 class PlanTest : public FileTest {
   protected:
-    Scene scene_of(const std::string& model, double voxel) {
+    Scene scene_of(const std::string& model, double voxel, const char* animation = "") {
         const std::string text = fmt::format(R"({{
-            "voxelume": 1,
+            "voxelume": 1, {}
             "world": {{"voxel_size": {}, "bounds": {{"min": [0,0,0], "max": [1,0.9,0.8]}}}},
             "models": {{"thing": {}}},
             "objects": [{{"name": "thing", "model": "thing", "position": [0.5011,0.4007,0.4013]}}],
@@ -80,7 +82,7 @@ class PlanTest : public FileTest {
                 "display": {{"shape": "pyramid", "angles": [40,30], "near": 0.1, "far": 8,
                             "voxels": [8,6,4]}}}},
             "render": {{"size": [8, 6]}}}})",
-                                             voxel, model);
+                                             animation, voxel, model);
         return parse_scene(text, folder / "scene.json", {});
     }
     ScenePlan plan_of(const Scene& scene) {
@@ -166,6 +168,31 @@ TEST_F(PlanTest, TablesAreCheckedBeforeAnyMeshIsRead) {
     device.memory = device.max_allocation = uint64_t{1} << 60;
     const Scene largest = scene_of(R"({"shape": "sphere", "radius": 0.35})", 1.0 / 65536);
     EXPECT_THAT(error_of([&] { check_tables(largest, device); }).what(), HasSubstr("2^31 bricks"));
+}
+
+/// A ball whose radius grows from frame 1 to 3 and is small again in frame 5.
+constexpr const char* kGrowth = R"("animation": {"frames": 5, "tracks": [
+    {"target": "models.thing.radius", "keys": [{"frame": 1, "value": 0.1}, {"frame": 3, "value": 0.35},
+                                               {"frame": 5, "value": 0.1}]}]},)";
+
+TEST_F(PlanTest, OfFramesTheLargestCountsAndTheFirstThatDoesNotFitIsNamed) {
+    const Scene scene = scene_of(R"({"shape": "sphere", "radius": 0.1})", 1.0 / 200, kGrowth);
+    DeviceInfo device;
+    device.name = "Small One";
+    device.memory = device.max_allocation = 8'000'000'000;
+    const std::vector<int> frames = {1, 2, 3, 4, 5};
+    MeshStore meshes;
+    const FramePlan most = plan_frames(scene, frames, meshes, device);
+    EXPECT_EQ(most.frame, 3);
+    EXPECT_EQ(most.plan.peak_bytes(), plan_of(scene_at(scene, 3)).peak_bytes());
+    EXPECT_NO_THROW(check_frames(scene, frames, meshes, device));
+    // The first takes 0.9 MB, the second 4.0, the third 9.4.
+    device.memory = 3'000'000;
+    EXPECT_EQ(plan_frames(scene, frames, meshes, device).frame, 2);
+    const Error error = error_of([&] { check_frames(scene, frames, meshes, device); });
+    EXPECT_EQ(error.kind(), ErrorKind::limit);
+    EXPECT_THAT(error.what(), testing::EndsWith("(at frame 2)"));
+    EXPECT_NO_THROW(check_frames(scene, std::vector<int>{1, 5}, meshes, device));
 }
 
 TEST(BytesText, HasAboutThreeDigits) {

@@ -216,6 +216,16 @@ TEST_F(SceneFiles, ThatAreMissingAreNamedInOneSentence) {
     }
 }
 
+TEST_F(SceneFiles, OfASequenceHaveNoTrack) {
+    json scene = animated({track("models.m.mesh", {key(1, "m.007.obj"), key(4, "m.009.obj")})});
+    scene["models"]["m"] = {{"mesh", "m.###.obj"}, {"sequence", {{"first", 7}, {"last", 9}}}};
+    const Error error = error_of([&] { parse_scene(scene.dump(), folder / "s.json", {}); });
+    EXPECT_EQ(error.kind(), ErrorKind::scene);
+    EXPECT_THAT(error.what(),
+                testing::HasSubstr("animation.tracks[0].target: models.m has its files from its "
+                                   "\"sequence\"; leave out that or this track"));
+}
+
 TEST_F(SceneFiles, AndMorphsFollowTheirTracks) {
     json scene = animated({track("models.m.mesh", {key(1, "m.007.obj"), key(4, "m.009.obj")}),
                            track("models.m.morph.amount", {key(1, 0), key(5, 1)})});

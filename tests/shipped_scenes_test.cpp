@@ -1,15 +1,14 @@
 // Every scene in scenes/, small and coarse: its golden bits, and a file without a value that isn't
 // finite.
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 
 #include "runtime/io/exr.hpp"
 #include "runtime/renderer.hpp"
 #include "tests/file_fixture.hpp"
+#include "tests/golden_hash.hpp"
 #include "tests/oracles/image_hash.hpp"
 #include "tests/small_scene.hpp"
 #include "tests/test_device.hpp"
@@ -30,15 +29,6 @@ std::vector<std::string> scene_names() {
     return names;
 }
 
-/// The hash of a scene's image in tests/golden/hashes.txt: lines of a scene's name and its hash.
-std::string golden_hash(const std::string& scene) {
-    std::ifstream file(std::filesystem::path(VXL_SOURCE_DIR) / "tests/golden/hashes.txt");
-    std::string name, hash;
-    while (file >> name >> hash)
-        if (name == scene) return hash;
-    return "none";
-}
-
 class ShippedScenes : public FileTest, public testing::WithParamInterface<std::string> {};
 
 TEST_P(ShippedScenes, HaveTheirGoldenBitsAndOnlyFiniteValuesInTheFile) {
@@ -46,9 +36,7 @@ TEST_P(ShippedScenes, HaveTheirGoldenBitsAndOnlyFiniteValuesInTheFile) {
     RenderReport report;
     const Image rendered = render(test_device(), scene, report);
     EXPECT_EQ(report.not_finite, 0u);
-    EXPECT_EQ(fmt::format("{:016x}", oracle::image_hash(rendered)), golden_hash(GetParam()))
-        << "if the image was meant to change, look at it and write the hash to "
-           "tests/golden/hashes.txt";
+    expect_golden(GetParam(), oracle::image_hash(rendered));
     write_exr(folder / "scene.exr", rendered);
     const Image image = read_exr(folder / "scene.exr");
     ASSERT_EQ(image.width, 96);

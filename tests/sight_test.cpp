@@ -128,6 +128,17 @@ TEST(Sight, OneSampleIsThePixelsCentreAndMoreFillItEvenly) {
         for (const int count : row) EXPECT_NEAR(count, 4, 2);
 }
 
+TEST(Sight, TheOriginKeepsWhatFloatsRoundOff) {
+    Scene s = scene(DisplayShape::ball);  // rays begin at the observer
+    s.observer.position = {1.0 / 3, -1.0 / 7, 1.0 / 11};
+    const GridFrame frame = world().frame;
+    const Sight sight = sight_of(s, frame);
+    const glm::dvec3 exact = (s.observer.position - frame.origin) / frame.voxel_edge;
+    EXPECT_NEAR(double(sight.origin.x) + double(sight.origin_low.x), exact.x, 1e-12);
+    EXPECT_NEAR(double(sight.origin.y) + double(sight.origin_low.y), exact.y, 1e-12);
+    EXPECT_NEAR(double(sight.origin.z) + double(sight.origin_low.z), exact.z, 1e-12);
+}
+
 TEST(Sight, ARayPastTheWorldIsIdle) {
     Scene s = scene(DisplayShape::pyramid);
     s.observer.position = {50, 50, 50};  // looking away

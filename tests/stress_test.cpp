@@ -38,7 +38,7 @@ TEST_P(Stress, FindsNothing) {
         test.run({device, kSeed, 0, cases, [&told](uint64_t tried) { told += tried; }});
     EXPECT_EQ(result.cases, cases);
     EXPECT_EQ(told, cases);
-    EXPECT_EQ(result.mismatches, 0u) << "seed " << kSeed << ", " << result.examples.front();
+    EXPECT_EQ(result.mismatches, 0u) << "seed " << kSeed << ", " << result.examples.front().text;
 }
 
 std::vector<std::string> names_of_tests() {

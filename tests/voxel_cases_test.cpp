@@ -48,7 +48,7 @@ TEST(VoxelCases, V6FourThousandSliversAreExact) {
     for (uint64_t grid = 0; grid < 8; ++grid) {  // every eighth grid has slivers
         const StressResult result = stress_triangles(
             {device, 6, (8 * grid + 1) * kTrianglesOfOneGrid, kTrianglesOfOneGrid, {}});
-        EXPECT_EQ(result.mismatches, 0u) << result.examples.front();
+        EXPECT_EQ(result.mismatches, 0u) << result.examples.front().text;
         EXPECT_GT(result.cells, 10000u);
     }
 }

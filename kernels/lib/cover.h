@@ -31,11 +31,25 @@ static inline CoverBox cover_box(const LatticeTriangle* t, int3 last) {
     return box;
 }
 
+/// Whether the triangle's bounding box, as far as it goes, meets one line of voxels along an axis:
+/// then the triangle meets each of them, for it is connected.
+static inline bool is_in_line(const LatticeTriangle* t) {
+    const int3 first = (lowest_corner(t) - 1 - VXL_MARGIN) >> LATTICE_BITS;
+    const int3 last = (highest_corner(t) + VXL_MARGIN) >> LATTICE_BITS;
+    return (first.x < last.x) + (first.y < last.y) + (first.z < last.z) <= 1;
+}
+
+/// Bits first .. last.
+static inline uint bits_between(int first, int last) {
+    return (2u << last) - (1u << first);
+}
+
 /// A triangle prepared for tests of rows of voxels along x.
 typedef struct {
     CoverBox box;
+    bool is_in_line;  // SUPERCOVER: it meets all voxels of the box, and nothing else is prepared
     long3 n;
-    long low, high;         // SUPERCOVER: bounds on n·v for the plane to meet voxel v
+    long low, high;  // SUPERCOVER: bounds on n·(v - box.first) for the plane to meet voxel v
     Silhouette xy, yz, zx;  // seen along z, x, y
     Crossing x, y, z;       // THIN: of the plane with lines along each axis
     ushort xy_rows[16];     // SUPERCOVER: the silhouette seen along z, bit x of row y
@@ -46,10 +60,17 @@ static inline void prepare_supercover(Cover* c, const LatticeTriangle* t) {
     const long3 n = c->n;
     const long3 positive = max(n, (long3)(0)), negative = min(n, (long3)(0));
     const int3 outwards = VXL_MARGIN * convert_int3((n < 0L) - (n > 0L));
-    c->low = wide_ceil(wide_dot(n, p[0] - outwards), LATTICE_BITS) -
-             (positive.x + positive.y + positive.z);
-    c->high = wide_floor(wide_dot(n, p[0] + outwards), LATTICE_BITS) -
-              (negative.x + negative.y + negative.z);
+    const int3 near = p[0] - c->box.first * LATTICE_VOXEL;
+    long low, high;
+    if (is_short(t)) {
+        low = (dot_long(n, near - outwards) + (LATTICE_VOXEL - 1)) >> LATTICE_BITS;
+        high = dot_long(n, near + outwards) >> LATTICE_BITS;
+    } else {
+        low = wide_ceil(wide_dot(n, near - outwards), LATTICE_BITS);
+        high = wide_floor(wide_dot(n, near + outwards), LATTICE_BITS);
+    }
+    c->low = low - (positive.x + positive.y + positive.z);
+    c->high = high - (negative.x + negative.y + negative.z);
     c->xy = silhouette_of_cells(p[0].xy, p[1].xy, p[2].xy, n.z, VXL_MARGIN);
     c->yz = silhouette_of_cells(p[0].yz, p[1].yz, p[2].yz, n.x, VXL_MARGIN);
     c->zx = silhouette_of_cells(p[0].zx, p[1].zx, p[2].zx, n.y, VXL_MARGIN);
@@ -72,6 +93,8 @@ static inline void prepare_thin(Cover* c, const LatticeTriangle* t) {
 static inline void prepare_cover(Cover* c, const LatticeTriangle* t, const CoverBox* box,
                                  bool thin) {
     c->box = *box;
+    c->is_in_line = !thin && is_in_line(t);
+    if (c->is_in_line) return;
     c->n = area_vector(t);
     if (thin)
         prepare_thin(c, t);
@@ -81,11 +104,12 @@ static inline void prepare_cover(Cover* c, const LatticeTriangle* t, const Cover
 
 /// The voxels of row (y, z) whose closed cubes the closed triangle meets, bit x each.
 static inline uint supercover_row(const Cover* c, int y, int z) {
+    if (c->is_in_line) return bits_between(c->box.first.x, c->box.last.x);
     if (!c->xy_rows[y] || !cell_in_silhouette(&c->yz, y, z)) return 0u;
-    const long row_at = c->n.y * y + c->n.z * z;
+    const long row_at = c->n.y * (y - c->box.first.y) + c->n.z * (z - c->box.first.z);
     uint row = 0;
     for (int x = c->box.first.x; x <= c->box.last.x; ++x) {
-        const long at = row_at + c->n.x * x;
+        const long at = row_at + c->n.x * (x - c->box.first.x);
         const bool inside = (at >= c->low) & (at <= c->high) & cell_in_silhouette(&c->zx, z, x);
         row |= (uint)inside << x;
     }

@@ -30,6 +30,10 @@ static inline lane_float half_curvature(lane_uint word, int first) {
     return LANES_AS_FLOAT(LANES_AS_UINT(half_size) ^ (word << (22 - first) & 0x80000000u));
 }
 
+#if VXL_FIELD_WORDS != VXL_RECORD_WORDS
+#error "a voxel's field is one record"
+#endif
+
 /// Reads a voxel's record.
 static inline Field read_field(global const uint* restrict fields, lane_uint voxel) {
     const Records r = read_records(fields, voxel);

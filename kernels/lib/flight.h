@@ -9,6 +9,9 @@
 #include "lib/surfaces.h"
 #include "lib/work_item.h"
 
+// Idle lanes for which a packet takes on further rays.
+#define VXL_REFILL ((VXL_LANES + 3) / 4)
+
 // Values of the rays that a packet's lanes hold: side by side, unless they are taken on one by one.
 #define VXL_RAY_FLOATS(p, ray) \
     (VXL_PATHS ? LANES_GATHER_FLOAT(p, ray) : LANES_LOAD(p, LANES_FIRST(ray)))
@@ -140,19 +143,18 @@ static inline lane_int has_flag(lane_uint flags, uint flag) {
     return LANE_MASK((flags & flag) != 0u);
 }
 
-/// The paths numbered `ray` of `count`.
+/// The paths numbered `ray` of `count`, which have these flags.
 static inline Travel load_travel(global const uint* restrict paths,
                                  global const float* restrict starts, uint count, uint stride,
-                                 lane_uint ray) {
+                                 lane_uint ray, lane_uint flags) {
     Travel travel = sight_travel();
-    const lane_uint flags = VXL_RAY_UINTS(paths + VXL_PATH_FLAGS * stride, ray);
     travel.on_surface = has_flag(flags, VXL_PATH_ON_SURFACE);
     travel.within_source = has_flag(flags, VXL_PATH_WITHIN_SOURCE);
-    travel.source = VXL_RAY_UINTS(paths + VXL_PATH_SOURCE * stride, ray);
+    if (VXL_EXACT) travel.source = VXL_RAY_UINTS(paths + VXL_PATH_SOURCE * stride, ray);
     if (VXL_INSTANCES) travel.instance = VXL_RAY_UINTS(paths + VXL_PATH_INSTANCE * stride, ray);
     if (VXL_TRANSMISSION) {
         travel.goes_on = has_flag(flags, VXL_PATH_GOES_ON);
-        travel.t_first = VXL_RAY_FLOATS(starts, ray);
+        if (lanes_any(travel.goes_on)) travel.t_first = VXL_RAY_FLOATS(starts, ray);
         travel.interior = gather_interior(paths, stride, ray, LANE_MASK(ray < count));
     }
     if (VXL_CUBE_BODIES) {
@@ -200,17 +202,11 @@ typedef struct {
 
 /// Gives the `idle` lanes the next of the rays up to `end`; the mask of those that got one.
 static inline lane_int take_rays(lane_int idle, uint end, uint* next, lane_uint* ray) {
-    uint numbers[VXL_LANES];
-    int taken[VXL_LANES];
-    LANES_STORE(*ray, numbers, 0);
-    LANES_STORE(idle, taken, 0);
-    for (int lane = 0; lane < VXL_LANES; ++lane) {
-        taken[lane] &= -(int)(*next < end);
-        numbers[lane] = taken[lane] ? *next : numbers[lane];
-        *next -= (uint)taken[lane];
-    }
-    *ray = LANES_LOAD(numbers, 0);
-    return LANES_LOAD(taken, 0);
+    const lane_uint number = *next + lanes_ranks(idle);
+    const lane_int taken = idle & LANE_MASK(number < end);
+    *ray = LANES_SELECT(taken, number, *ray);
+    *next += (uint)lanes_count(taken);
+    return taken;
 }
 
 /// Sets the rays that the lanes hold on their way.
@@ -219,14 +215,17 @@ static inline void set_out(const PyramidView* p, global const float* restrict ra
                            global const float* restrict starts, Flight* f) {
     f->walk = walk_of(rays, stride, f->ray);
     f->travel = sight_travel();
-    if (VXL_PATHS) f->travel = load_travel(paths, starts, count, stride, f->ray);
+    lane_uint flags = (lane_uint)0;
+    if (VXL_PATHS) {
+        flags = VXL_RAY_UINTS(paths + VXL_PATH_FLAGS * stride, f->ray);
+        f->travel = load_travel(paths, starts, count, stride, f->ray, flags);
+    }
     enter_world(p, &f->walk, ~f->travel.on_surface);
     f->travel.unsure = ~f->travel.on_surface & LANE_MASK(f->walk.axis == 3);
-    if (VXL_TRANSMISSION)
+    const lane_int resuming = has_flag(flags, VXL_PATH_GOES_ON | VXL_PATH_FROM_CELL);
+    if (VXL_TRANSMISSION && lanes_any(resuming))
         resume_walk(&f->walk, &f->travel, VXL_RAY_UINTS(paths + VXL_PATH_CELL * stride, f->ray),
-                    VXL_RAY_UINTS(paths + VXL_PATH_CELL_Z * stride, f->ray),
-                    has_flag(VXL_RAY_UINTS(paths + VXL_PATH_FLAGS * stride, f->ray),
-                             VXL_PATH_GOES_ON | VXL_PATH_FROM_CELL));
+                    VXL_RAY_UINTS(paths + VXL_PATH_CELL_Z * stride, f->ray), resuming);
     f->t_end = VXL_RAY_FLOATS(rays + VXL_RAY_END * stride, f->ray);
     f->found = found_nothing(&f->travel);
 }
@@ -253,24 +252,50 @@ static inline void ride_beam(global const uint* restrict beams, uint stride, uin
     w->t = LANES_SELECT(later, t, w->t);
 }
 
+/// How far a packet's rays have come.
+typedef struct {
+    lane_int x, y, z, axis;
+    lane_float t;
+    LastSector last;
+    Found found;
+} Progress;
+
+static inline Progress progress_of(const Flight* f) {
+    const Walk* w = &f->walk;
+    const Progress progress = {w->x, w->y, w->z, w->axis, w->t, w->last, f->found};
+    return progress;
+}
+
+/// Lets the `taken` lanes have found what `other` holds.
+static inline void take_found(const Found* other, lane_int taken, Found* found) {
+    found->hit = LANES_SELECT(taken, other->hit, found->hit);
+    found->t = LANES_SELECT(taken, other->t, found->t);
+    found->leaf = LANES_SELECT(taken, other->leaf, found->leaf);
+    found->voxel = LANES_SELECT(taken, other->voxel, found->voxel);
+    if (VXL_SMOOTH) {
+        found->asked = LANES_SELECT(taken, other->asked, found->asked);
+        found->within = LANES_SELECT(taken, other->within, found->within);
+        found->level = LANES_SELECT(taken, other->level, found->level);
+    }
+    if (VXL_EXACT) {
+        found->primitive = LANES_SELECT(taken, other->primitive, found->primitive);
+        found->solid = LANES_SELECT(taken, other->solid, found->solid);
+    }
+    if (VXL_CUBE_BODIES) {
+        found->in_body = LANES_SELECT(taken, other->in_body, found->in_body);
+        found->exit = LANES_SELECT(taken, other->exit, found->exit);
+    }
+}
+
 /// Puts lanes that are not `fresh` back to where their walks had been.
-static inline void keep_progress(const Flight* before, lane_int fresh, Flight* f) {
-    f->walk.x = LANES_SELECT(fresh, f->walk.x, before->walk.x);
-    f->walk.y = LANES_SELECT(fresh, f->walk.y, before->walk.y);
-    f->walk.z = LANES_SELECT(fresh, f->walk.z, before->walk.z);
-    f->walk.t = LANES_SELECT(fresh, f->walk.t, before->walk.t);
-    f->walk.axis = LANES_SELECT(fresh, f->walk.axis, before->walk.axis);
-    f->found.hit = LANES_SELECT(fresh, f->found.hit, before->found.hit);
-    f->found.t = LANES_SELECT(fresh, f->found.t, before->found.t);
-    f->found.leaf = LANES_SELECT(fresh, f->found.leaf, before->found.leaf);
-    f->found.voxel = LANES_SELECT(fresh, f->found.voxel, before->found.voxel);
-    f->found.primitive = LANES_SELECT(fresh, f->found.primitive, before->found.primitive);
-    f->found.solid = LANES_SELECT(fresh, f->found.solid, before->found.solid);
-    f->found.level = LANES_SELECT(fresh, f->found.level, before->found.level);
-    f->found.asked = LANES_SELECT(fresh, f->found.asked, before->found.asked);
-    f->found.within = LANES_SELECT(fresh, f->found.within, before->found.within);
-    f->found.in_body = LANES_SELECT(fresh, f->found.in_body, before->found.in_body);
-    f->found.exit = LANES_SELECT(fresh, f->found.exit, before->found.exit);
+static inline void keep_progress(const Progress* before, lane_int fresh, Flight* f) {
+    f->walk.x = LANES_SELECT(fresh, f->walk.x, before->x);
+    f->walk.y = LANES_SELECT(fresh, f->walk.y, before->y);
+    f->walk.z = LANES_SELECT(fresh, f->walk.z, before->z);
+    f->walk.t = LANES_SELECT(fresh, f->walk.t, before->t);
+    f->walk.axis = LANES_SELECT(fresh, f->walk.axis, before->axis);
+    f->walk.last = before->last;  // holds for fresh rays, too
+    take_found(&before->found, ~fresh, &f->found);
 }
 
 #endif

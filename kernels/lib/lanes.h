@@ -10,6 +10,7 @@
 //   LANES_STORE(value, p, first)
 //   lanes_any(mask)             not 0 if any lane says yes; all lanes or-ed
 //   lanes_least(v)              the smallest of the lanes' numbers
+//   lanes_ranks(mask)           in each lane: how many lanes before it say yes
 //   lanes_popcount(v)           bits set, lane by lane
 //   LANES_INT, LANES_FLOAT, ... conversions (to int: towards zero)
 #ifndef VXL_LANES_H
@@ -59,6 +60,10 @@ static inline uint lanes_least(lane_uint v) {
 static inline lane_uint lanes_popcount(lane_uint v) {
     return popcount(v);
 }
+static inline lane_uint lanes_ranks(lane_int mask) {
+    (void)mask;
+    return 0;
+}
 
 #else
 
@@ -97,6 +102,10 @@ static inline uint lanes_least(uint4 v) {
     uint2 q = min(v.lo, v.hi);
     return min(q.x, q.y);
 }
+static inline uint lanes_all_bits(uint4 v) {
+    uint2 q = v.lo | v.hi;
+    return q.x | q.y;
+}
 #elif VXL_LANES == 8
 #define VXL_INDEXED(p, i)                                                                      \
     (p)[(i).s0], (p)[(i).s1], (p)[(i).s2], (p)[(i).s3], (p)[(i).s4], (p)[(i).s5], (p)[(i).s6], \
@@ -114,6 +123,11 @@ static inline uint lanes_least(uint8 v) {
     uint4 h = min(v.lo, v.hi);
     uint2 q = min(h.lo, h.hi);
     return min(q.x, q.y);
+}
+static inline uint lanes_all_bits(uint8 v) {
+    uint4 h = v.lo | v.hi;
+    uint2 q = h.lo | h.hi;
+    return q.x | q.y;
 }
 #else
 #define VXL_INDEXED(p, i)                                                                          \
@@ -137,6 +151,12 @@ static inline uint lanes_least(uint16 v) {
     uint2 q = min(h.lo, h.hi);
     return min(q.x, q.y);
 }
+static inline uint lanes_all_bits(uint16 v) {
+    uint8 e = v.lo | v.hi;
+    uint4 h = e.lo | e.hi;
+    uint2 q = h.lo | h.hi;
+    return q.x | q.y;
+}
 #endif
 
 /// Bits set in each lane's number; PoCL's popcount of a vector goes lane by lane.
@@ -146,6 +166,11 @@ static inline lane_uint lanes_popcount(lane_uint v) {
     v = (v + (v >> 4)) & 0x0F0F0F0Fu;
     v += v >> 8;
     return (v + (v >> 16)) & 0x3Fu;
+}
+
+static inline lane_uint lanes_ranks(lane_int mask) {
+    const lane_uint own = (lane_uint)1u << LANES_AS_UINT(LANES_NUMBERS);
+    return lanes_popcount((lane_uint)lanes_all_bits(LANES_AS_UINT(mask) & own) & (own - 1u));
 }
 
 // Indices are read as signed: a gather of unsigned ones becomes two, of 64-bit addresses.

@@ -41,6 +41,17 @@ static inline long3 area_vector(const LatticeTriangle* t) {
     return (long3)(u.y * v.z - u.z * v.y, u.z * v.x - u.x * v.z, u.x * v.y - u.y * v.x);
 }
 
+/// Whether the triangle spans at most 128 voxels. From a voxel of its box on, n · p then stays
+/// below 2^61 for its corners.
+static inline bool is_short(const LatticeTriangle* t) {
+    const int3 size = highest_corner(t) - lowest_corner(t);
+    return max(size.x, max(size.y, size.z)) <= 128 * LATTICE_VOXEL;
+}
+
+static inline long dot_long(long3 n, int3 p) {
+    return n.x * p.x + n.y * p.y + n.z * p.z;
+}
+
 /// A signed number of 128 bits.
 typedef struct {
     long high;

@@ -54,7 +54,7 @@ typedef struct {
 } LastSector;
 
 static inline LastSector no_sector(void) {
-    const LastSector none = {(lane_int)-1, (lane_uint)0};
+    const LastSector none = {(lane_int)-1, (lane_uint)0x80000000u};  // an empty one
     return none;
 }
 

@@ -29,63 +29,65 @@ typedef struct {
     uint stride;
 } RayQueue;
 
-/// Reserves a place behind `count` for every lane of a mask, all at once. Where the places are does
-/// not matter to any result.
-static inline void reserve_places(lane_int wanted, global uint* count, uint* places) {
+/// The wanted lanes of a packet beside each other, and where in a queue they are put.
+typedef struct {
+    uint first, count;
+    uint lane[VXL_LANES];
+} Places;
+
+static inline Places places_from(uint first, lane_int wanted) {
+    Places p;
     int lanes[VXL_LANES];
     LANES_STORE(wanted, lanes, 0);
-    uint sum = 0;
-    for (int lane = 0; lane < VXL_LANES; ++lane) sum += (uint)(lanes[lane] & 1);
-    uint place = sum == 0 ? 0 : atomic_add(count, sum);
+    p.first = first, p.count = 0;
     for (int lane = 0; lane < VXL_LANES; ++lane) {
-        places[lane] = place;
-        place += (uint)(lanes[lane] & 1);
+        p.lane[p.count] = (uint)lane;
+        p.count += (uint)(lanes[lane] & 1);
     }
+    return p;
 }
 
-static inline void put_float(global float* to, lane_float value, const int* wanted,
-                             const uint* places) {
-    float values[VXL_LANES];
-    LANES_STORE(value, values, 0);
-    for (int lane = 0; lane < VXL_LANES; ++lane)
-        if (wanted[lane]) to[places[lane]] = values[lane];
+/// Reserves a place behind `count` for every lane of a mask, all at once. Where the places are does
+/// not matter to any result.
+static inline Places reserve_places(lane_int wanted, global uint* count) {
+    const uint sum = (uint)lanes_count(wanted);
+    return places_from(sum == 0 ? 0 : atomic_add(count, sum), wanted);
 }
 
-static inline void put_uint(global uint* to, lane_uint value, const int* wanted,
-                            const uint* places) {
+static inline void put_uint(global uint* to, lane_uint value, const Places* places) {
     uint values[VXL_LANES];
     LANES_STORE(value, values, 0);
-    for (int lane = 0; lane < VXL_LANES; ++lane)
-        if (wanted[lane]) to[places[lane]] = values[lane];
+    for (uint i = 0; i < places->count; ++i) to[places->first + i] = values[places->lane[i]];
 }
 
-static inline void put_rays(const RayQueue* q, const NewRays* r, lane_int wanted,
-                            const uint* places) {
-    int put[VXL_LANES];
-    LANES_STORE(wanted, put, 0);
+static inline void put_float(global float* to, lane_float value, const Places* places) {
+    put_uint((global uint*)to, LANES_AS_UINT(value), places);
+}
+
+static inline void put_rays(const RayQueue* q, const NewRays* r, const Places* places) {
     const size_t n = q->stride;
-    put_float(q->rays + VXL_RAY_OX * n, r->origin.x, put, places);
-    put_float(q->rays + VXL_RAY_OY * n, r->origin.y, put, places);
-    put_float(q->rays + VXL_RAY_OZ * n, r->origin.z, put, places);
-    put_float(q->rays + VXL_RAY_DX * n, r->direction.x, put, places);
-    put_float(q->rays + VXL_RAY_DY * n, r->direction.y, put, places);
-    put_float(q->rays + VXL_RAY_DZ * n, r->direction.z, put, places);
-    put_float(q->rays + VXL_RAY_END * n, r->t_end, put, places);
-    put_uint(q->paths + VXL_PATH_SOURCE * n, r->source, put, places);
-    put_uint(q->paths + VXL_PATH_FLAGS * n, r->flags, put, places);
-    put_uint(q->paths + VXL_PATH_WEIGHT * n, LANES_AS_UINT(r->weight), put, places);
-    if (VXL_INSTANCES) put_uint(q->paths + VXL_PATH_INSTANCE * n, r->instance, put, places);
+    put_float(q->rays + VXL_RAY_OX * n, r->origin.x, places);
+    put_float(q->rays + VXL_RAY_OY * n, r->origin.y, places);
+    put_float(q->rays + VXL_RAY_OZ * n, r->origin.z, places);
+    put_float(q->rays + VXL_RAY_DX * n, r->direction.x, places);
+    put_float(q->rays + VXL_RAY_DY * n, r->direction.y, places);
+    put_float(q->rays + VXL_RAY_DZ * n, r->direction.z, places);
+    put_float(q->rays + VXL_RAY_END * n, r->t_end, places);
+    put_uint(q->paths + VXL_PATH_SOURCE * n, r->source, places);
+    put_uint(q->paths + VXL_PATH_FLAGS * n, r->flags, places);
+    put_uint(q->paths + VXL_PATH_WEIGHT * n, LANES_AS_UINT(r->weight), places);
+    if (VXL_INSTANCES) put_uint(q->paths + VXL_PATH_INSTANCE * n, r->instance, places);
     if (!VXL_TRANSMISSION) return;
-    put_uint(q->paths + VXL_PATH_CELL * n, r->cell_xy, put, places);
-    put_uint(q->paths + VXL_PATH_CELL_Z * n, r->cell_z, put, places);
-    put_uint(q->paths + VXL_PATH_TARGET * n, r->target, put, places);
-    put_uint(q->paths + VXL_PATH_CLEAR * n, LANES_AS_UINT(r->clear), put, places);
+    put_uint(q->paths + VXL_PATH_CELL * n, r->cell_xy, places);
+    put_uint(q->paths + VXL_PATH_CELL_Z * n, r->cell_z, places);
+    put_uint(q->paths + VXL_PATH_TARGET * n, r->target, places);
+    put_uint(q->paths + VXL_PATH_CLEAR * n, LANES_AS_UINT(r->clear), places);
     for (uint c = 0; c < 3; ++c)
-        put_uint(q->paths + (VXL_PATH_PASSED + c) * n, LANES_AS_UINT(r->passed[c]), put, places);
+        put_uint(q->paths + (VXL_PATH_PASSED + c) * n, LANES_AS_UINT(r->passed[c]), places);
     for (uint i = 0; i < VXL_INTERIOR_MEMBERS; ++i)
-        put_uint(q->paths + (VXL_PATH_INSIDE + i) * n, r->interior.members[i], put, places);
-    put_float(q->starts, r->start, put, places);
-    put_uint(q->inside, r->medium, put, places);
+        put_uint(q->paths + (VXL_PATH_INSIDE + i) * n, r->interior.members[i], places);
+    put_float(q->starts, r->start, places);
+    put_uint(q->inside, r->medium, places);
 }
 
 #endif

@@ -191,8 +191,22 @@ SlopeFit fit_rows(std::span<const BenchRow> rows, const BenchFit& fit,
     return fit_slope(sizes, errors);
 }
 
+void measure_level(std::span<const BenchRow> rows, BenchFit& fit) {
+    fit.depth_least = INFINITY;
+    for (const BenchRow& row : rows) {
+        if (row.surface != fit.surface || row.placement != fit.placement || row.samples != 1)
+            continue;
+        const BenchErrors& e = row.errors;
+        fit.depth_least = std::min(fit.depth_least, e.depth_rms);
+        fit.depth_most = std::max(fit.depth_most, e.depth_rms);
+        if (e.float_spacing > 0)
+            fit.depth_most_floats = std::max(fit.depth_most_floats, e.depth_rms / e.float_spacing);
+    }
+}
+
 BenchFit fit_of(std::span<const BenchRow> rows, const BenchRow& first) {
-    BenchFit fit{first.scene, first.surface, first.placement, {}, {}, {}, {}};
+    BenchFit fit;
+    fit.scene = first.scene, fit.surface = first.surface, fit.placement = first.placement;
     fit.depth = fit_rows(
         rows, fit, [](const BenchRow& row) { return row.fits_depth ? row.errors.depth_rms : 0; });
     fit.normal = fit_rows(
@@ -200,6 +214,7 @@ BenchFit fit_of(std::span<const BenchRow> rows, const BenchRow& first) {
     fit.volume =
         fit_rows(rows, fit, [](const BenchRow& row) { return std::abs(row.volume_error); });
     fit.area = fit_rows(rows, fit, [](const BenchRow& row) { return std::abs(row.area_error); });
+    measure_level(rows, fit);
     return fit;
 }
 

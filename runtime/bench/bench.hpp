@@ -68,10 +68,13 @@ struct BenchFit {
     std::string scene;
     Surface surface = Surface::cubes;
     Placement placement = Placement::world;
-    SlopeFit depth;   ///< of the RMS, over the rows that count
-    SlopeFit normal;  ///< likewise
-    SlopeFit volume;  ///< of the relative error, over all rows
-    SlopeFit area;    ///< likewise
+    SlopeFit depth;          ///< of the RMS, over the rows that count
+    SlopeFit normal;         ///< likewise
+    SlopeFit volume;         ///< of the relative error, over all rows
+    SlopeFit area;           ///< likewise
+    double depth_least = 0;  ///< of the RMS of depth over all rows, metres
+    double depth_most = 0;
+    double depth_most_floats = 0;  ///< the latter in spacings of floats at the scene's distance
 };
 
 struct BenchReport {

@@ -53,7 +53,7 @@ BenchErrors measure_errors(const BenchTruth& truth, const Image& image, double v
     const std::vector<float>& alpha = image.planes.at("A");
     BenchErrors errors;
     ContourError silhouette(truth.silhouette);
-    double depth_squares = 0, normal_squares = 0;
+    double depth_squares = 0, normal_squares = 0, depths = 0;
     for (size_t pixel = 0; pixel < truth.hits.size(); ++pixel) {
         const std::optional<AnalyticHit>& ideal = truth.hits[pixel];
         const bool hit = alpha[pixel] > 0;
@@ -70,6 +70,7 @@ BenchErrors measure_errors(const BenchTruth& truth, const Image& image, double v
             continue;
         }
         const double angle = angle_between(normals[pixel], ideal->normal);
+        depths += ideal->t;
         depth_squares += depth * depth;
         normal_squares += angle * angle;
         errors.depth_max = std::max(errors.depth_max, std::abs(depth));
@@ -78,6 +79,8 @@ BenchErrors measure_errors(const BenchTruth& truth, const Image& image, double v
     const double count = double(std::max<uint64_t>(errors.compared, 1));
     errors.depth_rms = std::sqrt(depth_squares / count);
     errors.normal_rms = std::sqrt(normal_squares / count);
+    const auto mean_depth = float(depths / count);
+    errors.float_spacing = double(std::nextafter(mean_depth, INFINITY)) - double(mean_depth);
     errors.silhouette_mean = silhouette.mean();
     errors.silhouette_max = silhouette.max();
     if (!truth.radiance.empty()) measure_light(truth, image, errors);

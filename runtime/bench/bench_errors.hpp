@@ -12,6 +12,7 @@ struct BenchErrors {
     uint64_t compared = 0;  ///< pixels hit by both, incidence cosine at least kLeastCosine
     double depth_rms = 0;   ///< metres along the ray
     double depth_max = 0;
+    double float_spacing = 0;    ///< metres between floats at the mean of the compared depths
     double normal_rms = 0;       ///< degrees
     double silhouette_mean = 0;  ///< pixels: area hit by only one of both over the true length
     double silhouette_max = 0;   ///< pixels: farthest such pixel's centre from the true silhouette

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "runtime/bench/bench_fronts.hpp"
 #include "runtime/bench/bench_plots.hpp"
 #include "runtime/bench/bench_tables.hpp"
 #include "runtime/bench/log_plot.hpp"
@@ -50,16 +51,20 @@ std::string heading(const BenchReport& report) {
 std::string slopes(const BenchReport& report) {
     std::string html =
         "<h2>Convergence</h2>\n<p>Slopes of log error against log voxel size, by least squares, "
-        "with 95 % intervals and the number of rows fitted.</p>\n<div class=\"rows\"><table>\n"
+        "with 95 % intervals and the number of rows fitted. <i>Exact</i> promises a level instead: "
+        "its "
+        "depth RMS of all sizes, and the largest of them in spacings of floats at the scene's "
+        "distance, of which it promises 4 at most.</p>\n<div class=\"rows\"><table>\n"
         "<tr><th>scene<th>surface<th>placed<th>depth slope<th>expected<th>normal slope<th>expected"
-        "<th>volume slope<th>area slope</tr>\n";
+        "<th>volume slope<th>area slope<th>depth RMS of all sizes</tr>\n";
     for (const BenchFit& fit : report.fits) {
         const ExpectedSlopes expected = expected_slopes(fit.scene, fit.surface);
         html +=
-            fmt::format("<tr><td>{}<td>{}<td>{}<td>{}<td>{}<td>{}<td>{}<td>{}<td>{}</tr>\n",
+            fmt::format("<tr><td>{}<td>{}<td>{}<td>{}<td>{}<td>{}<td>{}<td>{}<td>{}<td>{}</tr>\n",
                         escape_html(fit.scene), name_of(fit.surface), name_of(fit.placement),
                         slope_text(fit.depth), escape_html(expected.depth), slope_text(fit.normal),
-                        escape_html(expected.normal), slope_text(fit.volume), slope_text(fit.area));
+                        escape_html(expected.normal), slope_text(fit.volume), slope_text(fit.area),
+                        level_text(fit));
     }
     return html + "</table></div>\n";
 }
@@ -68,7 +73,12 @@ std::string peers(const BenchReport& report) {
     if (report.peers.empty()) return {};
     std::string html =
         "<h2>Other programs</h2>\n<p>The same rays and errors; building their structures counts. "
-        "The last columns name the quickest row above whose depth RMS is at most theirs, and how "
+        "Fronts are compared along straight lines of logarithms between their points:</p>\n<ul>\n";
+    for (const FrontComparison& comparison : front_comparisons(report))
+        html += fmt::format("<li>{}</li>\n", escape_html(sentence_of(comparison)));
+    html +=
+        "</ul>\n<p>The last columns name the quickest row above whose depth RMS is at most theirs, "
+        "and how "
         "many times its total they took.</p>\n<div class=\"rows\"><table>\n<tr><th>scene"
         "<th>program<th>setting<th>build ms<th>trace ms<th>depth RMS m<th>normal RMS &deg;"
         "<th>as accurate<th>times</tr>\n";

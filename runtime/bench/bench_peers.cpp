@@ -1,7 +1,10 @@
 #include "runtime/bench/bench_peers.hpp"
 
+#include <fmt/format.h>
+
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 
 #include "runtime/bench/bench.hpp"
 #include "runtime/error.hpp"
@@ -9,16 +12,24 @@
 namespace voxelume {
 namespace {
 
+constexpr const char* kNotOne = "{}: not a file of bench_peers: {}";
+
+double number_of(const nlohmann::json& json, const char* key) {
+    const double value = json.at(key).get<double>();
+    if (!(value >= 0)) throw std::invalid_argument(fmt::format("\"{}\" is below 0", key));
+    return value;
+}
+
 BenchPeerRow row_of(const nlohmann::json& json) {
     BenchPeerRow row;
     json.at("program").get_to(row.program);
     json.at("scene").get_to(row.scene);
     json.at("setting").get_to(row.setting);
-    json.at("build_seconds").get_to(row.build_seconds);
-    json.at("trace_seconds").get_to(row.trace_seconds);
-    json.at("depth_rms_metres").get_to(row.depth_rms);
-    json.at("depth_max_metres").get_to(row.depth_max);
-    json.at("normal_rms_degrees").get_to(row.normal_rms);
+    row.build_seconds = number_of(json, "build_seconds");
+    row.trace_seconds = number_of(json, "trace_seconds");
+    row.depth_rms = number_of(json, "depth_rms_metres");
+    row.depth_max = number_of(json, "depth_max_metres");
+    row.normal_rms = number_of(json, "normal_rms_degrees");
     return row;
 }
 
@@ -27,15 +38,19 @@ BenchPeerRow row_of(const nlohmann::json& json) {
 std::vector<BenchPeerRow> read_peers(const std::filesystem::path& file, glm::ivec2 size) {
     std::ifstream stream(file);
     if (!stream) throw Error(ErrorKind::input, "{}: can't be read", file.string());
+    const auto json = nlohmann::json::parse(stream, nullptr, false);
+    if (!json.is_object() || !json.contains("size") || !json.contains("rows") ||
+        !json["rows"].is_array())
+        throw Error(ErrorKind::input, kNotOne, file.string(),
+                    "it isn't an object with a \"size\" and a list of \"rows\"");
     std::vector<BenchPeerRow> rows;
     glm::ivec2 theirs(0);
     try {
-        const auto json = nlohmann::json::parse(stream);
-        theirs = {json.at("size").at(0).get<int>(), json.at("size").at(1).get<int>()};
-        for (const auto& row : json.at("rows")) rows.push_back(row_of(row));
-    } catch (const nlohmann::json::exception& error) {
-        throw Error(ErrorKind::input, "{}: not a file of bench_peers: {}", file.string(),
-                    error.what());
+        theirs = {json["size"].at(0).get<int>(), json["size"].at(1).get<int>()};
+        for (const auto& row : json["rows"]) rows.push_back(row_of(row));
+    } catch (const std::exception& error) {
+        throw Error(ErrorKind::input, kNotOne, file.string(),
+                    fmt::format("row {}: {}", rows.size(), error.what()));
     }
     if (theirs != size)
         throw Error(ErrorKind::input,

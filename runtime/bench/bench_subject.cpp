@@ -66,7 +66,7 @@ std::span<const BenchEntry> bench_entries() {
          gyroid_subject},
         {"bunny", "of Debian's glmark2-data, 0.9 m long", 16, 1 << 16, false, has_bunny,
          bunny_subject},
-        {"whitted", "scenes/whitted.json, with light", 40, 64, true, always, whitted_subject},
+        {"whitted", "scenes/whitted.json, with light", 16, 64, true, always, whitted_subject},
     }};
     return entries;
 }

@@ -7,6 +7,8 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "runtime/bench/bench_fronts.hpp"
+
 namespace voxelume {
 namespace {
 
@@ -55,6 +57,20 @@ nlohmann::ordered_json json_of(const BenchRow& row) {
             {"pareto", row.is_best}};
 }
 
+nlohmann::ordered_json json_of_fronts(const BenchReport& report) {
+    auto fronts = nlohmann::ordered_json::array();
+    for (const FrontComparison& c : front_comparisons(report)) {
+        auto pieces = nlohmann::ordered_json::array();
+        for (const FrontPiece& piece : c.pieces)
+            pieces.push_back({{"from_depth_rms_metres", piece.coarse},
+                              {"to_depth_rms_metres", piece.fine},
+                              {"least_times_of_ours", piece.least},
+                              {"most_times_of_ours", piece.most}});
+        fronts.push_back({{"program", c.program}, {"scene", c.scene}, {"pieces", pieces}});
+    }
+    return fronts;
+}
+
 }  // namespace
 
 std::string slope_text(const SlopeFit& fit) {
@@ -63,9 +79,15 @@ std::string slope_text(const SlopeFit& fit) {
     return fmt::format("{:.2f} +- {:.2f} ({} rows)", fit.slope, fit.half_width, fit.points);
 }
 
+std::string level_text(const BenchFit& fit) {
+    if (fit.surface != Surface::exact) return {};
+    return fmt::format("{:.1e} to {:.1e} m, at most {:.1f} floats", fit.depth_least, fit.depth_most,
+                       fit.depth_most_floats);
+}
+
 ExpectedSlopes expected_slopes(const std::string& scene, Surface surface) {
-    if (surface == Surface::exact && scene == "gyroid") return {"0 (facets)", "0 (facets)"};
-    if (surface == Surface::exact) return {"0 (float)", "0 (float)"};
+    if (surface == Surface::exact && scene == "gyroid") return {"facets", "facets"};
+    if (surface == Surface::exact) return {"4 floats", "level"};
     if (surface == Surface::cubes) return {"1.0", "0"};
     // Edges and facets are no part of what smooth surfaces promise.
     if (scene != "sphere" && scene != "torus") return {};
@@ -114,15 +136,17 @@ std::string geometry_text(const BenchReport& report) {
 }
 
 std::string slopes_text(const BenchReport& report) {
-    std::string text = fmt::format("{:<7} {:<7} {:<8}  {:<20} {:<10} {:<20} {:<10} {:<20} {}\n",
-                                   "scene", "surface", "placed", "depth slope", "expected",
-                                   "normal slope", "expected", "volume slope", "area slope");
+    constexpr const char* kLine =
+        "{:<7} {:<7} {:<8}  {:<20} {:<10} {:<20} {:<10} {:<20} {:<20} {}\n";
+    std::string text =
+        fmt::format(kLine, "scene", "surface", "placed", "depth slope", "expected", "normal slope",
+                    "expected", "volume slope", "area slope", "depth RMS of all sizes");
     for (const BenchFit& f : report.fits) {
         const ExpectedSlopes expected = expected_slopes(f.scene, f.surface);
-        text += fmt::format("{:<7} {:<7} {:<8}  {:<20} {:<10} {:<20} {:<10} {:<20} {}\n", f.scene,
-                            name_of(f.surface), name_of(f.placement), slope_text(f.depth),
-                            expected.depth, slope_text(f.normal), expected.normal,
-                            slope_text(f.volume), slope_text(f.area));
+        text +=
+            fmt::format(kLine, f.scene, name_of(f.surface), name_of(f.placement),
+                        slope_text(f.depth), expected.depth, slope_text(f.normal), expected.normal,
+                        slope_text(f.volume), slope_text(f.area), level_text(f));
     }
     return text;
 }
@@ -157,6 +181,9 @@ std::string peers_text(const BenchReport& report) {
                               name_of(row->placement), row->resolution, row->seconds.total * 1e3)
                 : fmt::format("{:>9}\n", "-");
     }
+    text += "\n";
+    for (const FrontComparison& comparison : front_comparisons(report))
+        text += sentence_of(comparison) + "\n";
     return text;
 }
 
@@ -206,7 +233,10 @@ nlohmann::ordered_json bench_json(const BenchReport& report) {
                                 {"depth", json_of(fit.depth)},
                                 {"normal", json_of(fit.normal)},
                                 {"volume", json_of(fit.volume)},
-                                {"area", json_of(fit.area)}});
+                                {"area", json_of(fit.area)},
+                                {"depth_rms_least_metres", fit.depth_least},
+                                {"depth_rms_most_metres", fit.depth_most},
+                                {"depth_rms_most_floats", fit.depth_most_floats}});
     json["peers"] = nlohmann::ordered_json::array();
     for (const BenchPeerRow& peer : report.peers) {
         const BenchRow* row = row_as_accurate(report, peer);
@@ -221,6 +251,7 @@ nlohmann::ordered_json bench_json(const BenchReport& report) {
              {"normal_rms_degrees", peer.normal_rms},
              {"times_of_ours", row ? peer.total_seconds() / row->seconds.total : NAN}});
     }
+    json["fronts"] = json_of_fronts(report);
     return json;
 }
 

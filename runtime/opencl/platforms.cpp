@@ -178,7 +178,12 @@ int parts_of_all(std::string_view selector) {
     int parts = 0;
     const char* end = selector.data() + selector.size();
     const auto [stop, error] = std::from_chars(selector.data() + 4, end, parts);
-    return stop == end && error == std::errc() && parts >= 1 ? parts : 0;
+    if (stop != end || error != std::errc() || parts < 1)
+        throw Error(ErrorKind::usage,
+                    "no device is named \"{}\"; write \"all\" for all of them, or \"all/2\" to cut "
+                    "the CPU in two",
+                    selector);
+    return parts;
 }
 
 std::vector<Candidate> find_candidates() {

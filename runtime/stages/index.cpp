@@ -157,6 +157,7 @@ Pyramid build_index(const Device& device, const BrickGrid& grid) {
 
 struct Indexer::Kept {
     VoxelMarks marks;
+    Pyramid pyramid;
 };
 
 Indexer::Indexer(const Device& device) : device_(device) {}
@@ -165,17 +166,16 @@ Indexer::Indexer(Indexer&&) noexcept = default;
 Indexer& Indexer::operator=(Indexer&&) noexcept = default;
 
 Pyramid Indexer::index(const BrickGrid& grid, const std::vector<uint32_t>* changed) {
+    if (kept_ && changed && changed->empty()) return kept_->pyramid;
     const Program program(device_, "index.cl", features(grid));
     std::unique_ptr<Kept> before = std::move(kept_);
-    const bool goes_on = before && changed && grid.primitive_first.empty();
-    VoxelMarks marks =
-        goes_on ? mark_changed_voxels(device_, program, grid, *changed, std::move(before->marks))
-                : mark_voxels(device_, program, grid);
-    Pyramid pyramid = write_pyramid(device_, program, grid, marks);
-    if (grid.primitive_first.empty()) {
-        marks.slots = grid.slots.read();
-        kept_ = std::make_unique<Kept>(Kept{std::move(marks)});
-    }
+    if (before) before->pyramid = {};
+    VoxelMarks marks = before && changed ? mark_changed_voxels(device_, program, grid, *changed,
+                                                               std::move(before->marks))
+                                         : mark_voxels(device_, program, grid);
+    const Pyramid pyramid = write_pyramid(device_, program, grid, marks);
+    marks.slots = grid.slots.read();
+    kept_ = std::make_unique<Kept>(Kept{std::move(marks), pyramid});
     return pyramid;
 }
 

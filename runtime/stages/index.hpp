@@ -39,7 +39,7 @@ class Indexer {
     Indexer& operator=(Indexer&&) noexcept;
 
     /// `changed` has the places of the bricks that changed, came or went since the last call; null
-    /// where nothing is known. Of a grid with primitives all is looked for again.
+    /// where nothing is known. Where it is empty the pyramid is the last call's.
     Pyramid index(const BrickGrid& grid, const std::vector<uint32_t>* changed);
 
   private:

@@ -1,8 +1,6 @@
 #include "runtime/stages/instance_pools.hpp"
 
 #include <algorithm>
-#include <bit>
-#include <glm/common.hpp>
 
 #include "kernels/shared/solid.h"
 #include "kernels/shared/trace.h"
@@ -38,24 +36,15 @@ struct Parts {
     bool colors = false, fields = false, exact = false;
 };
 
-/// The first of the coordinates 0..3 along an axis that a 64-bit mask has a bit at, and the last.
-glm::ivec2 span_of(uint64_t mask, int axis) {
-    constexpr uint64_t kFirst[3] = {0x1111111111111111ull, 0x000F000F000F000Full, 0xFFFFull};
-    glm::ivec2 span{4, -1};
-    for (int i = 0; i < 4; ++i)
-        if (mask & kFirst[axis] << (i << (2 * axis))) span = {std::min(span.x, i), i};
-    return span;
-}
-
 class Joiner {
   public:
-    Joiner(const Device& device, const Pyramid& world, std::span<const Pyramid> models)
+    Joiner(const Device& device, const Pyramid& world, std::span<const ModelPyramid> models)
         : device_(device), program_(device, "instances.cl", {}) {
         total_.add(world);
         note(world);
-        for (const Pyramid& model : models) {
-            total_.add(model);
-            note(model);
+        for (const ModelPyramid& model : models) {
+            total_.add(model.pyramid);
+            note(model.pyramid);
         }
         check_numbers();
         allocate(world.frame);
@@ -75,12 +64,12 @@ class Joiner {
         full_.add(p);
     }
 
-    /// A model, with what is asked of one.
-    void append_model(const Pyramid& p) {
-        InstanceModel model{.frame = p.frame, .first_sector = uint32_t(full_.sectors)};
-        find_box(p, model);
-        append(p);
-        joined_.instances.models.push_back(model);
+    void append_model(const ModelPyramid& model) {
+        joined_.instances.models.push_back({.frame = model.pyramid.frame,
+                                            .first_sector = uint32_t(full_.sectors),
+                                            .low = model.low,
+                                            .high = model.high});
+        append(model.pyramid);
     }
 
     Pyramid take() {
@@ -197,50 +186,6 @@ class Joiner {
         words(p.solids, full_.solids * VXL_SOLID_WORDS, joined_.solids);
     }
 
-    /// The box of a model's voxels.
-    static void find_box(const Pyramid& p, InstanceModel& model) {
-        const std::vector<uint32_t> sectors = p.sectors.read(), bricks = p.bricks.read(),
-                                    leaves = p.leaves.read();
-        const glm::ivec3 table = p.frame.sectors();
-        model.low = p.frame.size;
-        model.high = glm::ivec3(0);
-        for (size_t sector = 0; sector < sectors.size(); ++sector) {
-            if (sectors[sector] & kEmptySector) continue;
-            const auto s = int(sector);
-            const glm::ivec3 corner =
-                glm::ivec3(s % table.x, s / table.x % table.y, s / (table.x * table.y)) *
-                kSectorSize;
-            for (size_t bit = 0; bit < kRecordsPerSector; ++bit) {
-                const glm::ivec3 brick = corner + cell_of_bit(bit) * kBrickSize;
-                const size_t record = sectors[sector] * kRecordsPerSector + bit;
-                add_brick(&bricks[record * kWordsPerRecord], leaves, brick, model);
-            }
-        }
-        model.high = glm::min(model.high, p.frame.size);
-    }
-
-    static glm::ivec3 cell_of_bit(size_t bit) {
-        return {int(bit & 3), int(bit >> 2 & 3), int(bit >> 4)};
-    }
-
-    static void add_brick(const uint32_t* record, const std::vector<uint32_t>& leaves,
-                          const glm::ivec3& corner, InstanceModel& model) {
-        const uint64_t mask = record[0] | uint64_t(record[1]) << 32;
-        size_t leaf = record[2];
-        for (size_t bit = 0; bit < 64; ++bit) {
-            if (!(mask >> bit & 1)) continue;
-            const uint64_t voxels = leaves[2 * leaf] | uint64_t(leaves[2 * leaf + 1]) << 32;
-            ++leaf;
-            const glm::ivec3 first = corner + cell_of_bit(bit) * kLeafSize;
-            for (int axis = 0; axis < 3; ++axis) {
-                const glm::ivec2 span = span_of(voxels, axis);
-                if (span.y < 0) continue;
-                model.low[axis] = std::min(model.low[axis], first[axis] + span.x);
-                model.high[axis] = std::max(model.high[axis], first[axis] + span.y + 1);
-            }
-        }
-    }
-
     const Device& device_;
     Program program_;
     Extent total_, full_;
@@ -250,10 +195,11 @@ class Joiner {
 
 }  // namespace
 
-Pyramid join_models(const Device& device, const Pyramid& world, std::span<const Pyramid> models) {
+Pyramid join_models(const Device& device, const Pyramid& world,
+                    std::span<const ModelPyramid> models) {
     Joiner joiner(device, world, models);
     joiner.append(world);
-    for (const Pyramid& model : models) joiner.append_model(model);
+    for (const ModelPyramid& model : models) joiner.append_model(model);
     return joiner.take();
 }
 

@@ -5,6 +5,7 @@
 
 #include "runtime/grid.hpp"
 #include "runtime/opencl/device.hpp"
+#include "runtime/stages/instance_model.hpp"
 
 namespace voxelume {
 
@@ -12,6 +13,7 @@ namespace voxelume {
 ///
 /// The models' words have the kind of each voxel or primitive, and its group as the material.
 /// Throws Error::limit for more voxels or primitives than can be numbered, or too little memory.
-Pyramid join_models(const Device& device, const Pyramid& world, std::span<const Pyramid> models);
+Pyramid join_models(const Device& device, const Pyramid& world,
+                    std::span<const ModelPyramid> models);
 
 }  // namespace voxelume

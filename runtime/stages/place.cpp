@@ -68,6 +68,11 @@ class Placer::State {
         std::vector<Painter*> changed;
         take_painters(objects, left, changed);
         for (auto& [number, painter] : left) changed.push_back(&painter);
+        if (bricks_ && changed.empty()) {
+            changed_.emplace();
+            painted_ = 0;
+            return;
+        }
         paint(objects, store_bricks(changed));
         join_exact_surfaces(device_, objects, world_);
     }

@@ -45,7 +45,9 @@ Features features_of(const Pyramid& pyramid) {
 }
 
 TraceStage::TraceStage(const Device& device, const Features& features)
-    : packets_(VXL_PACKETS(device.lanes())),
+    // As VXL_SHADOWS_FLY says; a lane's instances come after its walk in the world, which others
+    // may still be in.
+    : packets_(features.paths && !features.instances ? VXL_PACKETS(device.lanes()) : 1),
       program_(device, "trace.cl", features.defines(device)),
       closest_(program_.kernel("trace_closest")),
       shadows_(program_.kernel("trace_shadows")) {
@@ -55,8 +57,6 @@ TraceStage::TraceStage(const Device& device, const Features& features)
 
 void TraceStage::closest(const Pyramid& pyramid, RayBatch& batch, uint32_t count, bool scattered) {
     if (pyramid.voxel_count == 0) return batch.hits.fill(VXL_NO_VOXEL);
-    // A lane's instances come after its walk in the world, which others may still be in.
-    scattered = scattered && pyramid.instances.empty();
     const auto launch = [&](Kernel& kernel, size_t rays, const auto&... beams) {
         kernel.launch_packets(
             rays, shape_of(pyramid), pyramid.sectors, pyramid.bricks, pyramid.leaves,
@@ -65,8 +65,8 @@ void TraceStage::closest(const Pyramid& pyramid, RayBatch& batch, uint32_t count
             pyramid.instances.records, pyramid.instances.nodes, pyramid.instances.materials,
             batch.rays, count, batch.stride, batch.paths, batch.starts, beams..., batch.hits);
     };
-    if (scattered)
-        launch(scattered_.value(), (count + packets_ - 1) / packets_);
+    if (scattered && scattered_)
+        launch(*scattered_, (count + packets_ - 1) / packets_);
     else
         launch(closest_, count, batch.beams);
 }
@@ -85,16 +85,16 @@ void TraceStage::begin_inside(const Pyramid& pyramid, const Surroundings& surrou
 
 void TraceStage::shadows(const Pyramid& pyramid, const Surroundings& surroundings,
                          const ShadowQueue& queue, uint32_t most, RayBatch& batch) {
-    shadows_.launch_packets(most, shape_of(pyramid), pyramid.sectors, pyramid.bricks,
-                            pyramid.leaves, pyramid.leaf_voxels, pyramid.attributes, pyramid.fields,
-                            pyramid.primitive_first, pyramid.primitives, pyramid.triangles,
-                            pyramid.triangle_attributes, pyramid.solids, pyramid.instances.records,
-                            pyramid.instances.nodes, pyramid.instances.materials, pyramid.attribute,
-                            surroundings.materials, pyramid.colors, surroundings.ranks,
-                            surroundings.lost, surroundings.absorption, surroundings.density.shape,
-                            surroundings.density.bricks, surroundings.density.values, queue.rays,
-                            queue.count, batch.stride, queue.targets, queue.sources, batch.paths,
-                            batch.hits, queue.shares, queue.traced, batch.radiance);
+    shadows_.launch_packets(
+        (most + packets_ - 1) / packets_, shape_of(pyramid), pyramid.sectors, pyramid.bricks,
+        pyramid.leaves, pyramid.leaf_voxels, pyramid.attributes, pyramid.fields,
+        pyramid.primitive_first, pyramid.primitives, pyramid.triangles, pyramid.triangle_attributes,
+        pyramid.solids, pyramid.instances.records, pyramid.instances.nodes,
+        pyramid.instances.materials, pyramid.attribute, surroundings.materials, pyramid.colors,
+        surroundings.ranks, surroundings.lost, surroundings.absorption, surroundings.density.shape,
+        surroundings.density.bricks, surroundings.density.values, queue.rays, queue.count,
+        batch.stride, queue.targets, queue.sources, batch.paths, batch.hits, queue.shares,
+        queue.traced, batch.radiance);
 }
 
 }  // namespace voxelume

@@ -51,10 +51,10 @@ class TraceStage {
                  uint32_t most, RayBatch& batch);
 
   private:
-    size_t packets_;  // that a work-item of `scattered_` carries
+    size_t packets_;  // that a work-item of `scattered_` and `shadows_` carries
     Program program_;
     Kernel closest_, shadows_;
-    std::optional<Kernel> scattered_;  ///< of scenes with paths
+    std::optional<Kernel> scattered_;  ///< of scenes with paths and no instances
     std::optional<Kernel> inside_;     ///< of immersed observers
 };
 

@@ -10,7 +10,8 @@
 
 namespace voxelume {
 
-/// Which cases of a test are tried. A case depends on the seed and its number alone.
+/// Which cases of a test are tried. A case depends on the seed and its number alone: one that is
+/// tried again goes through the device beside the same other ones.
 struct StressRun {
     const Device& device;
     uint64_t seed = 1;
@@ -19,13 +20,42 @@ struct StressRun {
     std::function<void(uint64_t)> advance;
 };
 
+/// A case that came out wrong.
+struct StressExample {
+    uint64_t number = 0;  ///< StressRun::first of a run of this case alone
+    std::string text;     ///< the input, and what differs
+
+    friend bool operator==(const StressExample&, const StressExample&) = default;
+};
+
 /// What came out.
 struct StressResult {
     uint64_t cases = 0;
     uint64_t mismatches = 0;
-    uint64_t cells = 0;                 ///< compared, as far as the test counts them
-    std::vector<std::string> examples;  ///< of the first mismatches: the input, and what differs
+    uint64_t cells = 0;                   ///< compared, as far as the test counts them
+    std::vector<StressExample> examples;  ///< of the first mismatches
 };
+
+/// Cases that go through the device together, and which of them are compared.
+struct StressBatch {
+    uint64_t start = 0;         ///< the number of its first case
+    size_t size = 0;            ///< cases that go through the device: always the same of a batch
+    size_t first = 0, end = 0;  ///< those to compare, counted from `start`
+};
+
+/// Calls `work(batch)` for batches of `size` cases that begin at multiples of it, until they hold
+/// all cases of the run.
+template <class Work>
+void for_each_batch(const StressRun& run, size_t size, const Work& work) {
+    const uint64_t end = run.first + run.count;
+    for (uint64_t start = run.first / size * size; start < end; start += size) {
+        StressBatch batch{start, size, 0, size};
+        if (run.first > start) batch.first = size_t(run.first - start);
+        if (end - start < size) batch.end = size_t(end - start);
+        work(batch);
+        if (run.advance) run.advance(batch.end - batch.first);
+    }
+}
 
 inline constexpr size_t kMostExamples = 5;
 
@@ -33,8 +63,7 @@ inline constexpr size_t kMostExamples = 5;
 template <class Describe>
 void note_mismatch(StressResult& result, uint64_t number, const Describe& describe) {
     ++result.mismatches;
-    if (result.examples.size() < kMostExamples)
-        result.examples.push_back("case " + std::to_string(number) + ": " + describe());
+    if (result.examples.size() < kMostExamples) result.examples.push_back({number, describe()});
 }
 
 struct StressTest {

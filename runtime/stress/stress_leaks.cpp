@@ -18,7 +18,7 @@ namespace voxelume {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr uint64_t kBatch = 1u << 16;
+constexpr size_t kBatch = 1u << 14;
 constexpr int64_t kOne = int64_t{1} << 22;  // direction 1
 const glm::ivec3 kSize(87, 83, 45);
 
@@ -154,15 +154,12 @@ StressResult stress_leaks(const VoxelizeOptions& options, const StressRun& run) 
     StressResult result;
     std::vector<InwardRay> inward;
     std::vector<FixedRay> rays;
-    const uint64_t end = run.first + run.count;
-    for (uint64_t first = run.first; first < end; first += kBatch) {
-        const size_t count = size_t(std::min(kBatch, end - first));
-        inward.resize(count);
-        rays.resize(count);
-        for_each_in_parallel((count + 1023) / 1024, [&](uint64_t piece) {
-            for (size_t i = size_t(piece) * 1024; i < std::min(count, size_t(piece + 1) * 1024);
-                 ++i) {
-                StressRandom random(run.seed, 200, first + i);
+    for_each_batch(run, kBatch, [&](const StressBatch& batch) {
+        inward.resize(batch.size);
+        rays.resize(batch.size);
+        for_each_in_parallel(batch.size / 1024, [&](uint64_t piece) {
+            for (size_t i = size_t(piece) * 1024; i < size_t(piece + 1) * 1024; ++i) {
+                StressRandom random(run.seed, 200, batch.start + i);
                 inward[i] = random.below(2) ? from_a_side(ring, grid, share, random)
                                             : through_corners(ring, grid, share, random);
                 rays[i] = inward[i].ray;
@@ -170,17 +167,16 @@ StressResult stress_leaks(const VoxelizeOptions& options, const StressRun& run) 
         });
         device.start(grid, rays);
         const std::vector<std::optional<EnteredCell>> hits = device.hits();
-        for (size_t i = 0; i < count; ++i) {
+        for (size_t i = batch.first; i < batch.end; ++i) {
             const std::string fault = fault_of(ring, grid, inward[i], hits[i]);
             if (fault.empty()) continue;
-            note_mismatch(result, first + i, [&] {
+            note_mismatch(result, batch.start + i, [&] {
                 return fmt::format("{}: {}, though t = {} is inside", describe(grid, rays[i]),
                                    fault, inward[i].inside);
             });
         }
-        result.cases += count;
-        if (run.advance) run.advance(count);
-    }
+        result.cases += batch.end - batch.first;
+    });
     return result;
 }
 

@@ -155,12 +155,10 @@ StressResult stress_placement(const StressRun& run) {
     const VoxelBits lump = random_lump(run.seed);
     const BrickGrid grid = cubes_of(run.device, lump, kObject);
     StressResult result;
-    const uint64_t end = run.first + run.count;
-    for (uint64_t first = run.first; first < end; first += kMapsOfOneWorld) {
-        const size_t count = size_t(std::min(kMapsOfOneWorld, end - first));
+    for_each_batch(run, kMapsOfOneWorld, [&](const StressBatch& batch) {
         std::vector<PlacedObject> objects;
-        for (size_t i = 0; i < count; ++i) {
-            glm::dmat4 map = stress_map(run.seed, first + i).world_from_object;
+        for (size_t i = 0; i < batch.size; ++i) {
+            glm::dmat4 map = stress_map(run.seed, batch.start + i).world_from_object;
             map[3] += glm::dvec4(region_start(i), 0);
             objects.push_back({.grid = &grid,
                                .world_from_object = map,
@@ -168,20 +166,19 @@ StressResult stress_placement(const StressRun& run) {
                                .material_of_group = {0}});
         }
         const ReadOccupancy placed(place(run.device, objects, world_frame()));
-        for (size_t i = 0; i < count; ++i) {
-            const bool is_exact = stress_map(run.seed, first + i).is_exact;
+        for (size_t i = batch.first; i < batch.end; ++i) {
+            const bool is_exact = stress_map(run.seed, batch.start + i).is_exact;
             const uint64_t wrong = wrong_voxels(placed, lump, objects[i].world_from_object,
                                                 is_exact ? 0 : kRounding, region_start(i));
             result.cells += kRegion * kRegion * kRegion;
             if (wrong == 0) continue;
-            note_mismatch(result, first + i, [&] {
+            note_mismatch(result, batch.start + i, [&] {
                 return fmt::format("{}: {} voxels are wrong", text_of(objects[i].world_from_object),
                                    wrong);
             });
         }
-        result.cases += count;
-        if (run.advance) run.advance(count);
-    }
+        result.cases += batch.end - batch.first;
+    });
     return result;
 }
 

@@ -107,53 +107,49 @@ class RayStress {
     RayStress(RayClass kind, const StressRun& run) : kind_(kind), run_(run), walks_(run.device) {}
 
     StressResult all() {
-        const uint64_t end = run_.first + run_.count;
-        for (uint64_t first = run_.first; first < end;) {
-            const uint64_t next = std::min(end, (first / kRaysOfOneGrid + 1) * kRaysOfOneGrid);
-            batch(first, size_t(next - first));
-            if (run_.advance) run_.advance(next - first);
-            first = next;
-        }
+        for_each_batch(run_, kRaysOfOneGrid, [this](const StressBatch& batch) { compare(batch); });
         return std::move(result_);
     }
 
   private:
-    void batch(uint64_t first, size_t count) {
-        const RayGrid& chosen = kGrids[first / kRaysOfOneGrid % kGrids.size()];
+    void compare(const StressBatch& batch) {
+        const RayGrid chosen = grid_of_ray(batch.start);
         const FixedGrid grid = fixed_grid(chosen.size);
-        rays_.resize(count);
-        in_pieces(count,
-                  [&](size_t i) { rays_[i] = ray_of_class(kind_, grid, run_.seed, first + i); });
+        rays_.resize(batch.size);
+        in_pieces(0, batch.size, [&](size_t i) {
+            rays_[i] = ray_of_class(kind_, grid, run_.seed, batch.start + i);
+        });
         if (chosen.compared == Compared::first_hit)
-            compare_hits(grid, first);
+            compare_hits(grid, batch);
         else
-            compare_walks(grid, first, chosen);
-        result_.cases += count;
+            compare_walks(grid, batch, chosen);
+        result_.cases += batch.end - batch.first;
     }
 
+    /// Calls `work(i)` for first .. end-1 on all of the host's cores.
     template <class Work>
-    void in_pieces(size_t count, const Work& work) {
+    void in_pieces(size_t first, size_t end, const Work& work) {
         constexpr size_t kPiece = 1024;
-        for_each_in_parallel((count + kPiece - 1) / kPiece, [&](uint64_t piece) {
-            const size_t end = std::min(count, size_t(piece + 1) * kPiece);
-            for (size_t i = size_t(piece) * kPiece; i < end; ++i) work(i);
+        for_each_in_parallel((end - first + kPiece - 1) / kPiece, [&](uint64_t piece) {
+            const size_t from = first + size_t(piece) * kPiece;
+            for (size_t i = from; i < std::min(end, from + kPiece); ++i) work(i);
         });
     }
 
-    void compare_walks(const FixedGrid& grid, uint64_t first, const RayGrid& chosen) {
+    void compare_walks(const FixedGrid& grid, const StressBatch& batch, const RayGrid& chosen) {
         const Steps steps = chosen.compared == Compared::cells ? Steps::cells : Steps::blocks;
         // No walk is longer than the sides together: a device's that is ends there, too.
         const uint32_t longest = uint32_t(grid.size.x + grid.size.y + grid.size.z);
         const uint32_t most_cells = chosen.most_cells == kAll ? longest : chosen.most_cells;
         walks_.start(grid, rays_, steps, most_cells);
         exact_.resize(rays_.size());
-        in_pieces(rays_.size(),
+        in_pieces(batch.first, batch.end,
                   [&](size_t i) { exact_[i] = exact_digest(grid, rays_[i], steps, most_cells); });
         const std::vector<WalkDigest> device = walks_.digests();
-        for (size_t i = 0; i < rays_.size(); ++i) {
+        for (size_t i = batch.first; i < batch.end; ++i) {
             result_.cells += exact_[i].cells;
             if (device[i] == exact_[i]) continue;
-            note_mismatch(result_, first + i, [&] {
+            note_mismatch(result_, batch.start + i, [&] {
                 const uint32_t most =
                     std::min(most_cells, std::max(device[i].cells, exact_[i].cells) + 1);
                 return describe(grid, rays_[i]) + ": " +
@@ -163,20 +159,20 @@ class RayStress {
         }
     }
 
-    void compare_hits(const FixedGrid& grid, uint64_t first) {
+    void compare_hits(const FixedGrid& grid, const StressBatch& batch) {
         HitWorld& world = world_of(grid.size);
         world.device_hits.start(grid, rays_);
         std::vector<std::optional<EnteredCell>> exact(rays_.size());
-        in_pieces(rays_.size(), [&](size_t i) {
+        in_pieces(batch.first, batch.end, [&](size_t i) {
             EnteredCell hit;
             if (!exact_first_hit(grid, rays_[i], world.voxels, hit)) return;
             if (hit.axis == 3) hit.axis = entry_axis(grid, rays_[i]);
             exact[i] = hit;
         });
         const auto device = world.device_hits.hits();
-        for (size_t i = 0; i < rays_.size(); ++i) {
+        for (size_t i = batch.first; i < batch.end; ++i) {
             if (device[i] == exact[i]) continue;
-            note_mismatch(result_, first + i, [&] {
+            note_mismatch(result_, batch.start + i, [&] {
                 return fmt::format("{}: the device hits {}, exact is {}", describe(grid, rays_[i]),
                                    text_of(device[i]), text_of(exact[i]));
             });

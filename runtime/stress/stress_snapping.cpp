@@ -12,7 +12,7 @@
 namespace voxelume {
 namespace {
 
-constexpr uint64_t kBatch = 1u << 14;
+constexpr size_t kBatch = 1u << 14;
 constexpr uint32_t kMostCells = 300;
 
 constexpr std::array kSizes = {glm::ivec3(64, 61, 37), glm::ivec3(1000, 300, 700),
@@ -69,31 +69,34 @@ std::string text_of(const FloatRay& ray) {
 }
 
 /// Compares a batch's snapped rays, and the walks of those that are not idle.
-void try_batch(DeviceWalks& walks, SnapClass kind, const StressRun& run, uint64_t first,
-               size_t count, StressResult& result) {
-    const FixedGrid grid = grid_of_batch(first);
+void try_batch(DeviceWalks& walks, SnapClass kind, uint64_t seed, const StressBatch& batch,
+               StressResult& result) {
+    const FixedGrid grid = grid_of_batch(batch.start);
     std::vector<FloatRay> rays;
-    for (size_t i = 0; i < count; ++i) rays.push_back(float_ray(kind, grid, run.seed, first + i));
+    for (size_t i = 0; i < batch.size; ++i)
+        rays.push_back(float_ray(kind, grid, seed, batch.start + i));
     const std::vector<std::optional<FixedRay>> snapped = walks.snap(grid, rays);
     std::vector<FixedRay> walked;
     std::vector<size_t> source;
-    for (size_t i = 0; i < count; ++i) {
+    const auto is_compared = [&](size_t i) { return i >= batch.first && i < batch.end; };
+    for (size_t i = 0; i < batch.size; ++i) {
         const std::string fault = snap_fault(grid, rays[i], snapped[i] ? &*snapped[i] : nullptr);
-        if (!fault.empty())
-            note_mismatch(result, first + i, [&] { return text_of(rays[i]) + ": " + fault; });
+        if (!fault.empty() && is_compared(i))
+            note_mismatch(result, batch.start + i, [&] { return text_of(rays[i]) + ": " + fault; });
         if (!fault.empty() || !snapped[i]) continue;
         walked.push_back(*snapped[i]);
         source.push_back(i);
     }
-    result.cases += count;
+    result.cases += batch.end - batch.first;
     if (walked.empty()) return;
     walks.start(grid, walked, Steps::cells, kMostCells);
     const std::vector<WalkDigest> device = walks.digests();
     for (size_t i = 0; i < walked.size(); ++i) {
+        if (!is_compared(source[i])) continue;
         const WalkDigest exact = exact_digest(grid, walked[i], Steps::cells, kMostCells);
         result.cells += exact.cells;
         if (device[i] != exact)
-            note_mismatch(result, first + source[i], [&] {
+            note_mismatch(result, batch.start + source[i], [&] {
                 return fmt::format("{}: {}: {} cells, exact are {}", text_of(rays[source[i]]),
                                    describe(grid, walked[i]), device[i].cells, exact.cells);
             });
@@ -110,13 +113,9 @@ FloatRay float_ray(SnapClass kind, const FixedGrid& grid, uint64_t seed, uint64_
 StressResult stress_snapping(SnapClass kind, const StressRun& run) {
     DeviceWalks walks(run.device);
     StressResult result;
-    const uint64_t end = run.first + run.count;
-    for (uint64_t first = run.first; first < end;) {
-        const uint64_t next = std::min(end, (first / kBatch + 1) * kBatch);
-        try_batch(walks, kind, run, first, size_t(next - first), result);
-        if (run.advance) run.advance(next - first);
-        first = next;
-    }
+    for_each_batch(run, kBatch, [&](const StressBatch& batch) {
+        try_batch(walks, kind, run.seed, batch, result);
+    });
     return result;
 }
 

@@ -126,13 +126,12 @@ std::string describe_difference(const TriangleOnLattice& t, const RegionMasks& d
                        extra);
 }
 
-/// Tries the triangles first .. first + count - 1, all of one grid.
-void try_grid(Voxelizer& voxelizer, const StressRun& run, uint64_t first, size_t count,
-              StressResult& result) {
-    std::vector<TriangleOnLattice> triangles(count);
+/// Tries the triangles of one grid.
+void try_grid(Voxelizer& voxelizer, uint64_t seed, const StressBatch& batch, StressResult& result) {
+    std::vector<TriangleOnLattice> triangles(batch.size);
     Mesh mesh;
-    for (size_t i = 0; i < count; ++i) {
-        triangles[i] = stress_triangle(run.seed, first + i);
+    for (size_t i = 0; i < batch.size; ++i) {
+        triangles[i] = stress_triangle(seed, batch.start + i);
         const auto corner = uint32_t(mesh.positions.size());
         for (const glm::ivec3& p : triangles[i])  // exact floats: below 2^21 units
             mesh.positions.push_back(glm::vec3(p + region_start(i) * kVoxel) / float(kVoxel));
@@ -144,17 +143,19 @@ void try_grid(Voxelizer& voxelizer, const StressRun& run, uint64_t first, size_t
     options.surface = Surface::cubes;
     options.set = VoxelSet::supercover;
     const BrickGrid grid = voxelizer.voxelize(mesh, glm::dmat4(1), frame, options);
-    std::vector<RegionMasks> exact(count);
-    for_each_in_parallel(count, [&](uint64_t i) { exact[i] = exact_masks(triangles[i]); });
+    std::vector<RegionMasks> exact(batch.end);
+    for_each_in_parallel(batch.end - batch.first, [&](uint64_t i) {
+        exact[batch.first + i] = exact_masks(triangles[batch.first + i]);
+    });
     const ReadOccupancy occupancy(grid);
-    for (size_t i = 0; i < count; ++i) {
+    for (size_t i = batch.first; i < batch.end; ++i) {
         const RegionMasks device = region_of(occupancy, region_start(i));
         for (const uint64_t mask : exact[i]) result.cells += __builtin_popcountll(mask);
         if (device != exact[i])
-            note_mismatch(result, first + i,
+            note_mismatch(result, batch.start + i,
                           [&] { return describe_difference(triangles[i], device, exact[i]); });
     }
-    result.cases += count;
+    result.cases += batch.end - batch.first;
 }
 
 }  // namespace
@@ -190,14 +191,8 @@ TriangleOnLattice stress_triangle(uint64_t seed, uint64_t number) {
 StressResult stress_triangles(const StressRun& run) {
     Voxelizer voxelizer(run.device);
     StressResult result;
-    const uint64_t end = run.first + run.count;
-    for (uint64_t first = run.first; first < end;) {
-        const uint64_t next =
-            std::min(end, (first / kTrianglesOfOneGrid + 1) * kTrianglesOfOneGrid);
-        try_grid(voxelizer, run, first, size_t(next - first), result);
-        if (run.advance) run.advance(next - first);
-        first = next;
-    }
+    for_each_batch(run, kTrianglesOfOneGrid,
+                   [&](const StressBatch& batch) { try_grid(voxelizer, run.seed, batch, result); });
     return result;
 }
 

@@ -1,6 +1,6 @@
 // What exact arithmetic costs: the kernels against the same with floats alone, in turns.
 //
-//   bench_exactness MESH [voxels along the longest side, 512] [turns, 15]
+//   bench_exactness MESH [voxels along the longest side, 512] [turns, 15] [part of a line's name]
 //
 // Traversal: sight rays at the mesh, whose crossings are left to floats by VXL_ARBITRATE=0, where
 // cells that would lie behind are refused so that the walk ends at all.
@@ -164,17 +164,20 @@ uint64_t differing_bits(const std::vector<uint64_t>& a, const std::vector<uint64
     return count;
 }
 
-void measure(const Mesh& mesh, int resolution, int turns) {
-    const GridFrame frame = frame_around(mesh, glm::dvec3(longest_side(mesh) / resolution));
+void measure_walks(const Mesh& mesh, const GridFrame& frame, int turns, const std::string& part) {
     const std::pair<const char*, Surface> surfaces[] = {
         {"cubes", Surface::cubes}, {"smooth", Surface::smooth}, {"exact", Surface::exact}};
     for (const auto& [name, surface] : surfaces) {
+        if (("trace " + std::string(name)).find(part) == std::string::npos) continue;
         tell(fmt::format("voxels of {}", name));
         Tracing exact("", mesh, frame, surface);
         Tracing floats("-DVXL_ARBITRATE=0", mesh, frame, surface);
         compare(
             fmt::format("trace {}", name), turns, [&] { exact.run(); }, [&] { floats.run(); });
     }
+}
+
+void measure_covering(const Mesh& mesh, const GridFrame& frame, int turns) {
     const Device device = Device::open();
     Covering covering(device, mesh, frame);
     const auto exact = covering.work(
@@ -194,8 +197,15 @@ void measure(const Mesh& mesh, int resolution, int turns) {
 int main(int argc, char** argv) {
     try {
         if (argc < 2) throw std::runtime_error("give a mesh");
-        voxelume::measure(voxelume::read_mesh(argv[1]), argc > 2 ? std::atoi(argv[2]) : 512,
-                          argc > 3 ? std::atoi(argv[3]) : 15);
+        const voxelume::Mesh mesh = voxelume::read_mesh(argv[1]);
+        const int resolution = argc > 2 ? std::atoi(argv[2]) : 512;
+        const int turns = argc > 3 ? std::atoi(argv[3]) : 15;
+        const std::string part = argc > 4 ? argv[4] : "";
+        const voxelume::GridFrame frame =
+            voxelume::frame_around(mesh, glm::dvec3(voxelume::longest_side(mesh) / resolution));
+        voxelume::measure_walks(mesh, frame, turns, part);
+        if (std::string("voxelize supercover").find(part) != std::string::npos)
+            voxelume::measure_covering(mesh, frame, turns);
         return 0;
     } catch (const std::exception& error) {
         std::fprintf(stderr, "bench_exactness: %s\n", error.what());

@@ -4,7 +4,7 @@
 //
 // The frame is the scene's flat image, with shadows and all; its world is formed before. Times are
 // the process's CPU time over all threads, medians of five runs, with and without compaction in
-// turn, or with it only.
+// turn, or with it only; tracing's part of it is that of the kernel's time in one more run.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -52,6 +52,22 @@ class Frame {
         return cpu_seconds() - start;
     }
 
+    /// The part of a frame's time in kernels that tracing the secondary rays takes.
+    double tracing_part() {
+        device_.time_kernels(true);
+        const auto before = device_.counters().kernel_ms;
+        render();
+        device_.time_kernels(false);
+        double all = 0, tracing = 0;
+        for (const auto& [name, ms] : device_.counters().kernel_ms) {
+            const auto old = before.find(name);
+            const double spent = ms - (old == before.end() ? 0 : old->second);
+            all += spent;
+            if (name == "trace_scattered") tracing += spent;
+        }
+        return tracing / all;
+    }
+
     /// Of the last frame. Without compaction, places that no ray is in count, too.
     uint64_t secondary_rays() const { return rays_; }
 
@@ -89,6 +105,9 @@ void measure(const Scene& scene, bool compacted_only) {
                compact.secondary_rays());
     fmt::print("compacted {:.3f} s, {:.2f} million secondary rays a second and core\n", time,
                double(compact.secondary_rays()) / time / 1e6);
+    const double part = compact.tracing_part();
+    fmt::print("tracing   {:.3f} s, {:.2f} million secondary rays a second and core\n", part * time,
+               double(compact.secondary_rays()) / (part * time) / 1e6);
     if (compacted_only) return;
     const double sparse_time = median(without);
     fmt::print("sparse    {:.3f} s, {:.2f} times as long\n", sparse_time, sparse_time / time);

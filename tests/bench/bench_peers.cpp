@@ -54,6 +54,7 @@ struct Bench {
                         {"depth_rms_metres", errors.depth_rms},
                         {"depth_max_metres", errors.depth_max},
                         {"normal_rms_degrees", errors.normal_rms},
+                        {"other_part_pixels", errors.other_parts},
                         {"silhouette_mean_pixels", errors.silhouette_mean}});
         fmt::print("{:<16} {:<7} {:<22} build {:>9.2f} ms, trace {:>9.2f} ms, depth {:.2e} m\n",
                    program, solid.name, setting, best.build * 1e3, best.trace * 1e3,
@@ -63,7 +64,7 @@ struct Bench {
 };
 
 void measure(const char* output, int side, int repeats) {
-    constexpr double kNoLimit = 1;  // voxel size: no hit counts as another part's
+    constexpr double kNoVoxels = 1e9;  // metres: triangles know no 6 voxels
     const unsigned threads = std::thread::hardware_concurrency();
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
     openvdb::initialize();
@@ -74,12 +75,12 @@ void measure(const char* output, int side, int repeats) {
         for (const int rings : {8, 16, 32, 64, 128, 256, 512, 1024, 2048}) {
             const PeerMesh mesh = tessellated(solid, rings);
             bench.add(solid, truth, embree_name(),
-                      fmt::format("{} triangles", mesh.triangles.size()), kNoLimit,
+                      fmt::format("{} triangles", mesh.triangles.size()), kNoVoxels,
                       [&](Image& image) { return run_embree(mesh, truth, image); });
         }
         for (const int resolution : {8, 16, 32, 64, 128, 256, 512})
             bench.add(solid, truth, openvdb_name(), fmt::format("voxels of 1/{} m", resolution),
-                      kNoLimit,
+                      1.0 / resolution,
                       [&](Image& image) { return run_openvdb(solid, resolution, truth, image); });
     }
     const nlohmann::ordered_json json = {

@@ -102,10 +102,11 @@ kernel void cover_bricks(uint count, int4 size, int4 bricks, global const int* r
         box.last.z = min(box.last.z, first_slice + VXL_SLICES - 1);
         if (any(box.first > box.last)) continue;
         FloatCover cover;
-        prepare_float_cover(&cover, &t, &box);
+        const bool in_line = is_in_line(&t);
+        if (!in_line) prepare_float_cover(&cover, &t, &box);
         for (int z = box.first.z; z <= box.last.z; ++z)
             for (int y = box.first.y; y <= box.last.y; ++y) {
-                const uint row = float_row(&cover, y, z);
+                const uint row = in_line ? bits_between(box.first.x, box.last.x) : float_row(&cover, y, z);
                 if (row) add_row(masks, row, y, z - first_slice);
             }
     }

@@ -2,7 +2,7 @@
 # One hash per scene, whatever compiles and runs it: same_bits.sh [BUILD-FOLDER [BUILD ...]]
 #
 # A BUILD is g++-Release, g++-Debug, clang++-Release or clang++-Debug; without any it is all four.
-# SCENES="solids fog" in the environment takes some of the scenes only.
+# SCENES="solids fog" in the environment takes some of the scenes only, JOBS=1 compiles one file at a time.
 # CMake's environment variable CMAKE_CXX_COMPILER_LAUNCHER=ccache makes the second run short.
 #
 # Builds the program with g++ and clang++, as Debug and Release, and renders every scene of scenes/
@@ -25,8 +25,8 @@ check() {
     shift
     for name in $scenes; do
         env "$@" "$program" render "$source/scenes/$name.json" --assets /usr/share/glmark2/models --size 48x36 --float --no-cache -q \
-            --frames 1 -o "$work/image.exr"
-        hash=$(sha256sum <"$work/image.exr")
+            --frames 1 -o "$work/image.####.exr"
+        hash=$(sha256sum <"$work/image.0001.exr")
         [ -f "$work/$name.hash" ] || echo "$hash" >"$work/$name.hash"
         images=$((images + 1))
         if [ "$hash" != "$(cat "$work/$name.hash")" ]; then
@@ -43,7 +43,7 @@ for build in $builds; do
     command -v "$compiler" >/dev/null || { echo "no $compiler: left out"; continue; }
     cmake -G Ninja -S "$source" -B "$folder" -DCMAKE_BUILD_TYPE="${build#*-}" \
         -DCMAKE_CXX_COMPILER="$compiler" -DBUILD_TESTING=OFF >/dev/null
-    nice ninja -C "$folder" voxelume >/dev/null
+    nice ninja -j "${JOBS:-2}" -C "$folder" voxelume >"$folder/build.log" || { tail -40 "$folder/build.log"; exit 1; }
     program=$folder/voxelume
     check "$program" VOXELUME_DEVICE=cpu
     echo "$build: $images images so far, $differing differ"

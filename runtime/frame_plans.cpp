@@ -1,0 +1,78 @@
+#include "runtime/frame_plans.hpp"
+
+#include <algorithm>
+#include <optional>
+
+#include "runtime/error.hpp"
+#include "runtime/instances.hpp"
+#include "runtime/scene_animation.hpp"
+
+namespace voxelume {
+namespace {
+
+/// Whether both frames have the same plan, as nothing moved that it depends on.
+bool is_planned_like(const Scene& a, const Scene& b) {
+    return a.objects == b.objects && a.models == b.models && a.materials == b.materials &&
+           a.world.medium == b.world.medium;
+}
+
+/// Whether both frames show the same meshes and voxels.
+bool has_files_of(const Scene& a, const Scene& b) {
+    return std::ranges::equal(a.models, b.models, [](const Model& m, const Model& n) {
+        return m.mesh == n.mesh && m.voxels == n.voxels && m.morph == n.morph;
+    });
+}
+
+bool fits(const FramePlan& planned, const DeviceInfo& device) {
+    try {
+        check_memory(planned.scene, planned.plan, device);
+    } catch (const Error&) {
+        return false;
+    }
+    return true;
+}
+
+FramePlan plan_frame(const Scene& scene, int frame, MeshStore& meshes) {
+    return in_frame(scene, frame, [&] {
+        FramePlan planned{frame, scene_at(scene, frame), {}};
+        check_placements(planned.scene);
+        planned.plan = plan_scene(planned.scene, meshes);
+        return planned;
+    });
+}
+
+}  // namespace
+
+FramePlan plan_frames(const Scene& scene, std::span<const int> frames, MeshStore& meshes,
+                      const DeviceInfo& device) {
+    std::optional<FramePlan> most;
+    std::optional<Scene> before;
+    for (const int frame : frames) {
+        if (before) {
+            Scene now = in_frame(scene, frame, [&] { return scene_at(scene, frame); });
+            if (is_planned_like(*before, now)) continue;
+        }
+        FramePlan planned = plan_frame(scene, frame, meshes);
+        meshes.forget_unused();
+        before = planned.scene;
+        if (!fits(planned, device)) return planned;
+        if (!most || planned.plan.peak_bytes() > most->plan.peak_bytes()) most = std::move(planned);
+    }
+    return std::move(*most);
+}
+
+void check_frames(const Scene& scene, std::span<const int> frames, MeshStore& meshes,
+                  const DeviceInfo& device) {
+    std::optional<Scene> first, before;
+    for (const int frame : frames)
+        in_frame(scene, frame, [&] {
+            Scene now = scene_at(scene, frame);
+            if (before && is_planned_like(*before, now)) return;
+            check_placements(now);
+            if (!first) first = now;
+            if (has_files_of(now, *first)) check_memory(now, plan_scene(now, meshes), device);
+            before = std::move(now);
+        });
+}
+
+}  // namespace voxelume

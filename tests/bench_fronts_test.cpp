@@ -1,0 +1,115 @@
+// Other programs beside `voxelume bench`: where they are quicker at equal error, and their files.
+#include "runtime/bench/bench_fronts.hpp"
+
+#include <gmock/gmock.h>
+
+#include <fstream>
+
+#include "runtime/bench/bench.hpp"
+#include "runtime/bench/bench_page.hpp"
+#include "runtime/bench/bench_tables.hpp"
+#include "tests/program_runner.hpp"
+
+namespace voxelume {
+namespace {
+
+using testing::HasSubstr;
+
+TEST(BenchFronts, AFrontIsWhatNothingBeatsFromCoarseToFine) {
+    const ErrorFront front =
+        error_front({{1e-3, 4}, {1e-2, 2}, {1e-1, 3}, {1e-2, 2}, {1e-3, 5}, {0, 1}, {1e-5, 9}});
+    const ErrorFront expected = {{1e-2, 2}, {1e-3, 4}, {1e-5, 9}};
+    EXPECT_EQ(front, expected);
+}
+
+TEST(BenchFronts, TheyCrossWhereStraightLinesOfLogarithmsDo) {
+    // The other takes 1 s at 1e-1 and 10,000 s at 1e-5, ten times as long per decade; ours always
+    // takes 100 s: they are equal at 1e-3.
+    const std::vector<FrontPiece> pieces =
+        compare_fronts({{1e-2, 100}, {1e-6, 100.0000001}}, {{1e-1, 1}, {1e-5, 1e4}}, 1e-1);
+    ASSERT_EQ(pieces.size(), 2u);
+    EXPECT_NEAR(pieces[0].coarse, 1e-1, 1e-9);
+    EXPECT_NEAR(pieces[0].fine, 1e-3, 1e-9);
+    EXPECT_NEAR(pieces[0].least, 0.01, 1e-9);
+    EXPECT_NEAR(pieces[0].most, 1, 1e-9);
+    EXPECT_NEAR(pieces[1].coarse, 1e-3, 1e-9);
+    EXPECT_NEAR(pieces[1].fine, 1e-5, 1e-12);
+    EXPECT_NEAR(pieces[1].least, 1, 1e-9);
+    EXPECT_NEAR(pieces[1].most, 100, 1e-4);
+}
+
+TEST(BenchFronts, OnlyErrorsThatBothReachAreCompared) {
+    const std::vector<FrontPiece> pieces =
+        compare_fronts({{1e-2, 1}, {1e-4, 4}}, {{1e-3, 10}, {1e-6, 100}}, 1e-3);
+    ASSERT_EQ(pieces.size(), 1u);
+    EXPECT_NEAR(pieces[0].coarse, 1e-3, 1e-12);
+    EXPECT_NEAR(pieces[0].fine, 1e-4, 1e-12);
+    EXPECT_NEAR(pieces[0].least, 5, 1e-9);                  // 10 s over 2 s
+    EXPECT_NEAR(pieces[0].most, std::cbrt(1e4) / 4, 1e-9);  // 21.5 s over 4 s
+    // A coarser image takes what the front's coarsest takes.
+    EXPECT_NEAR(compare_fronts({{1e-2, 1}, {1e-4, 4}}, {{1e-3, 10}, {1e-6, 100}}, 1e-1)[0].most, 10,
+                1e-9);
+    EXPECT_TRUE(compare_fronts({{1e-2, 1}}, {{1e-3, 1}}, 1e-3).empty());
+}
+
+BenchReport report_with_peers() {
+    BenchReport report;
+    for (const auto& [error, seconds] : {std::pair(1e-2, 1.0), std::pair(1e-6, 2.0)}) {
+        BenchRow row;
+        row.scene = "sphere";
+        row.errors.depth_rms = error;
+        row.seconds.total = seconds;
+        report.rows.push_back(row);
+    }
+    report.peers = {{"Quick 1.0", "sphere", "few", 0.1, 0.1, 1e-2, 0, 0},
+                    {"Quick 1.0", "sphere", "many", 100, 100, 1e-4, 0, 0},
+                    {"Slow 2.0", "sphere", "voxels", 5, 5, 1e-3, 0, 0}};
+    conclude(report);
+    return report;
+}
+
+TEST(BenchFronts, AreSaidInTheTextAndOnThePage) {
+    const BenchReport report = report_with_peers();
+    const auto comparisons = front_comparisons(report);
+    ASSERT_EQ(comparisons.size(), 2u);
+    const std::string first = sentence_of(comparisons[0]), second = sentence_of(comparisons[1]);
+    EXPECT_THAT(first, testing::MatchesRegex(
+                           "sphere, Quick 1.0: Quick 1.0 is up to 5 times as quick from 0.01 m of "
+                           "depth RMS down to 0.0032 m; Voxelume is up to 141 times as quick from "
+                           "0.0032 m of depth RMS down to 0.0001 m; only Voxelume comes nearer, to "
+                           "1e-06 m\\."));
+    EXPECT_THAT(second, HasSubstr("Voxelume is 8.41 to 8.41 times as quick"));
+    for (const std::string& sentence : {first, second}) {
+        EXPECT_THAT(bench_text(report), HasSubstr(sentence));
+        EXPECT_THAT(bench_page(report), HasSubstr("<li>" + sentence));
+    }
+}
+
+class BenchPeers : public ProgramTest {
+  protected:
+    std::string refusal(const std::string& text) {
+        std::ofstream(folder / "peers.json") << text;
+        const ProgramResult result = run("bench -q --only sphere --peers peers.json --size 4x4");
+        EXPECT_EQ(result.exit_code, 4) << text;
+        return result.err;
+    }
+};
+
+TEST_F(BenchPeers, FilesOfOtherThingsAreRefusedInWords) {
+    for (const char* text : {"null", "[]", "{", "", R"({"size": [4, 4], "rows": null})", "{}"})
+        EXPECT_THAT(refusal(text), HasSubstr("not a file of bench_peers: it isn't an object with"));
+    EXPECT_THAT(refusal(R"({"size": [4, 4], "rows": [{"program": "a"}]})"), HasSubstr("row 0: "));
+    EXPECT_THAT(refusal(R"({"size": [4, 4], "rows": [{"program": "a", "scene": "sphere",
+        "setting": "b", "build_seconds": -1, "trace_seconds": 1, "depth_rms_metres": 1,
+        "depth_max_metres": 1, "normal_rms_degrees": 1}]})"),
+                HasSubstr("row 0: \"build_seconds\" is below 0"));
+    EXPECT_THAT(refusal(R"({"size": [8, 4], "rows": []})"), HasSubstr("add --size 8x4"));
+}
+
+TEST_F(BenchPeers, OutputsMayNotHaveOneNameInAnySpelling) {
+    EXPECT_EQ(run("bench --json a --csv ./a").exit_code, 2);
+    EXPECT_EQ(run("bench --json a --csv \"$PWD/a\"").exit_code, 2);
+}
+
+}  // namespace
+}  // namespace voxelume

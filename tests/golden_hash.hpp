@@ -1,0 +1,28 @@
+// The hashes that the repository keeps: tests/golden/hashes.txt, lines of a name and its hash.
+#pragma once
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+namespace voxelume {
+
+inline std::string golden_hash(const std::string& wanted) {
+    std::ifstream file(std::filesystem::path(VXL_SOURCE_DIR) / "tests/golden/hashes.txt");
+    std::string name, hash;
+    while (file >> name >> hash)
+        if (name == wanted) return hash;
+    return "none";
+}
+
+/// Fails where `hash` isn't the one that the repository has under `name`.
+inline void expect_golden(const std::string& name, uint64_t hash) {
+    EXPECT_EQ(fmt::format("{:016x}", hash), golden_hash(name))
+        << name << ": if it was meant to change, look at what it stands for and write the hash to "
+        << "tests/golden/hashes.txt";
+}
+
+}  // namespace voxelume

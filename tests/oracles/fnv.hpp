@@ -1,0 +1,26 @@
+// FNV-1a, 64 bits: a number that changes when any bit of what was added does.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace voxelume::oracle {
+
+class Fnv {
+  public:
+    void add(const void* data, size_t size) {
+        const auto* bytes = static_cast<const unsigned char*>(data);
+        for (size_t i = 0; i < size; ++i) hash_ = (hash_ ^ bytes[i]) * 0x100000001B3u;
+    }
+    template <class Value>
+    void add(const std::vector<Value>& values) {
+        add(values.data(), values.size() * sizeof(Value));
+    }
+    uint64_t value() const { return hash_; }
+
+  private:
+    uint64_t hash_ = 0xCBF29CE484222325u;
+};
+
+}  // namespace voxelume::oracle

@@ -1,0 +1,65 @@
+// A mismatch that `voxelume stress` finds is found again by its number alone: kernels are built
+// with faults for that.
+#include <gtest/gtest.h>
+
+#include "runtime/stress/stress.hpp"
+#include "tests/setting.hpp"
+#include "tests/test_device.hpp"
+
+namespace voxelume {
+namespace {
+
+constexpr uint64_t kSeed = 20261122;
+
+/// Floats decide alone where a ray leaves a voxel.
+constexpr const char* kNotArbitrated = "-DVXL_ARBITRATE=0";
+/// Voxels reach a unit of the lattice too far.
+constexpr const char* kTooWide = "-DVXL_MARGIN=1";
+/// Voxels of the world are taken from another place of the object.
+constexpr const char* kElsewhere = "-Dvoxel=low";
+
+struct Fault {
+    const char* test;
+    const char* options;
+    uint64_t first, count;
+};
+
+/// Runs begin within a batch, and some go on into the next one, where something else is compared.
+constexpr Fault kFaults[] = {
+    {"random", kNotArbitrated, 32791, 20000},     {"ties", kNotArbitrated, 16381, 40},
+    {"grazing", kNotArbitrated, 21, 1000},        {"corners", kNotArbitrated, 21, 700},
+    {"parallel", kNotArbitrated, 150000, 150000}, {"diagonal", kNotArbitrated, 32771, 700},
+    {"faces", kNotArbitrated, 32791, 20000},      {"far", kNotArbitrated, 49157, 15000},
+    {"denormal", kNotArbitrated, 49157, 15000},   {"thin", kNotArbitrated, 16389, 8000},
+    {"triangles", kTooWide, 1030, 600},           {"placement", kElsewhere, 25, 4},
+};
+
+class StressAgain : public testing::TestWithParam<Fault> {};
+
+TEST_P(StressAgain, EveryMismatchIsFoundAloneAsAmongOthers) {
+    const Fault& fault = GetParam();
+    const Setting setting("VOXELUME_BUILD_OPTIONS", fault.options);
+    const Device device = test_device();
+    for (const StressTest& test : stress_tests()) {
+        if (test.name != fault.test) continue;
+        const StressResult among = test.run({device, kSeed, fault.first, fault.count, {}});
+        EXPECT_EQ(among.cases, fault.count);
+        ASSERT_GT(among.mismatches, 0u);
+        for (const StressExample& example : among.examples) {
+            EXPECT_GE(example.number, fault.first);
+            EXPECT_LT(example.number, fault.first + fault.count);
+            const StressResult alone = test.run({device, kSeed, example.number, 1, {}});
+            EXPECT_EQ(alone.cases, 1u);
+            EXPECT_EQ(alone.mismatches, 1u) << example.number;
+            ASSERT_EQ(alone.examples.size(), 1u);
+            EXPECT_EQ(alone.examples[0].text, example.text);
+            EXPECT_EQ(alone.examples[0].number, example.number);
+        }
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Tests, StressAgain, testing::ValuesIn(kFaults),
+                         [](const auto& fault) { return std::string(fault.param.test); });
+
+}  // namespace
+}  // namespace voxelume
