@@ -33,6 +33,28 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
+/// The channels that some output shows: of PNG files colour alone.
+ImageChannels channels_of(const RenderOptions& options) {
+    ImageChannels channels{false, false, false, false};
+    for (const std::string& name : CLI::detail::split(options.channels, ',')) {
+        if (name == "Z")
+            channels.depth = true;
+        else if (name == "P")
+            channels.position = true;
+        else if (name == "N")
+            channels.normal = true;
+        else if (name == "objectId")
+            channels.object = true;
+        else if (name != "RGBA")
+            throw Error(ErrorKind::usage,
+                        "render: --channels: \"{}\" is none of Z, P, N, objectId and RGBA", name);
+    }
+    const bool has_exr = std::ranges::any_of(options.outputs, [](const std::string& path) {
+        return std::filesystem::path(path).extension() == ".exr";
+    });
+    return has_exr ? channels : ImageChannels{false, false, false, false};
+}
+
 void write(const Image& image, const std::string& path, const RenderOptions& options) {
     if (std::filesystem::path(path).extension() == ".png") {
         PngOptions png;
@@ -184,7 +206,8 @@ size_t count_files(const std::vector<FrameFiles>& list) {
 int run(const RenderOptions& options) {
     const auto start = std::chrono::steady_clock::now();
     check_options(options);
-    const Scene scene = read_with(options.scene, "render");
+    Scene scene = read_with(options.scene, "render");
+    scene.render.channels = channels_of(options);
     const std::vector<FrameFiles> list = frame_files(options, scene);
     check_files(list, scene, options);
     const std::vector<int> frames = numbers_of(list);
@@ -201,15 +224,15 @@ int run(const RenderOptions& options) {
 
     const double open_seconds = seconds_since(start);
 
-    FrameRun frames(devices, scene, list, options, std::move(meshes));
-    const std::vector<FrameReport> reports = frames.run();
+    FrameRun rendering(devices, scene, list, options, std::move(meshes));
+    const std::vector<FrameReport> reports = rendering.run();
     for (const Device& device : devices) device.finish();
     const Outcome outcome{devices,
                           reports,
                           scene.render.size,
                           count_files(list),
                           open_seconds,
-                          frames.write_seconds(),
+                          rendering.write_seconds(),
                           seconds_since(start)};
     if (!options.stats.empty()) write_statistics(options.stats, outcome);
     if (options.quiet) return 0;
@@ -233,6 +256,9 @@ Action add_render(CLI::App& app) {
                    "frames like 1-10,20,30-60x5; #### in an output's name is the number");
     app.add_option("--exposure", options->exposure, "of .png, in stops")->check(in_range(-64, 64));
     app.add_flag("--float", options->float_color, "colour of .exr as 32-bit floats, not halves");
+    app.add_option("--channels", options->channels,
+                   "of .exr beside R G B A, which it always has: some of Z,P,N,objectId; RGBA for "
+                   "none of them");
     app.add_option("--stats-json", options->stats, "file for counts and times");
     app.add_flag("--dry-run", options->plan_only, "say what it takes, as `check` does, and stop");
     app.add_flag("--no-overlap", options->one_by_one,

@@ -1,4 +1,7 @@
 // samples -> pixels: the mean of a pixel's samples, and the geometry of its first sample that hit.
+//
+// Build constants beside the features': VXL_SHOWS_DEPTH, VXL_SHOWS_POSITION, VXL_SHOWS_NORMAL,
+// VXL_SHOWS_OBJECT: the channels asked for beside R G B A.
 #include "lib/exact_exp.h"
 #include "lib/fixed_point.h"
 #include "lib/work_item.h"
@@ -6,8 +9,8 @@
 #include "shared/trace.h"
 #include "shared/voxel.h"
 
-/// One work-item makes one pixel. `image` holds, `pixels` apart: R G B A Z P.X P.Y P.Z N.X N.Y N.Z;
-/// `objects` the number of the object plus 1, 0 for none. Counts values that are not finite, as 0.
+/// One work-item makes one pixel. `image` holds, `pixels` apart, what is asked for of R G B A Z P.X
+/// P.Y P.Z N.X N.Y N.Z; `objects` the number of the object plus 1, 0 for none. Counts values that are not finite, as 0.
 kernel void resolve_pixels(Sight sight, PyramidShape shape, float4 world_origin,
                            global const uint* restrict hits, global const float* restrict positions,
                            global const float* restrict normals, global const uint* restrict words,
@@ -50,6 +53,8 @@ kernel void resolve_pixels(Sight sight, PyramidShape shape, float4 world_origin,
     const uint ray = hit ? shown : 0;
     const float edge[3] = {shape.edge.x, shape.edge.y, shape.edge.z};
     const float origin[3] = {world_origin.x, world_origin.y, world_origin.z};
+    const uint position_plane = 4 + VXL_SHOWS_DEPTH;
+    const uint normal_plane = position_plane + 3 * VXL_SHOWS_POSITION;
     const float eye[3] = {sight.origin.x, sight.origin.y, sight.origin.z};
     const float eye_low[3] = {sight.origin_low.x, sight.origin_low.y, sight.origin_low.z};
     // Z_E in voxels per metre; times the edge twice it measures voxels along Z_E in metres.
@@ -59,9 +64,11 @@ kernel void resolve_pixels(Sight sight, PyramidShape shape, float4 world_origin,
         const float p = positions[a * stride + ray];
         const float from_eye = (p - eye[a] - eye_low[a]) * edge[a];
         depth = fma(from_eye, ahead[a] * edge[a], depth);
-        image[(5 + a) * pixels + pixel] = hit ? fma(p, edge[a], origin[a]) : 0.0f;
-        image[(8 + a) * pixels + pixel] = hit ? normals[a * stride + ray] : 0.0f;
+        if (VXL_SHOWS_POSITION)
+            image[(position_plane + a) * pixels + pixel] = hit ? fma(p, edge[a], origin[a]) : 0.0f;
+        if (VXL_SHOWS_NORMAL)
+            image[(normal_plane + a) * pixels + pixel] = hit ? normals[a * stride + ray] : 0.0f;
     }
-    image[4 * pixels + pixel] = hit ? depth : INFINITY;
-    objects[pixel] = hit ? (words[ray] & VXL_OBJECT_MASK) + 1u : 0u;
+    if (VXL_SHOWS_DEPTH) image[4 * pixels + pixel] = hit ? depth : INFINITY;
+    if (VXL_SHOWS_OBJECT) objects[pixel] = hit ? (words[ray] & VXL_OBJECT_MASK) + 1u : 0u;
 }

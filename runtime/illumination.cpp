@@ -103,6 +103,13 @@ void add_paths(const Scene& scene, Features& features) {
         });
 }
 
+/// Whether any surface that may be shown sends rays on, other than straight through.
+bool scatters(const Features& features, const Scene& scene) {
+    return features.refracts || std::ranges::any_of(shown_materials(scene), [](const Material* m) {
+               return m->reflection > 0;
+           });
+}
+
 /// Arrays of rays on their way.
 RayQueue allocate_queue(const Device& device, const Features& features, uint32_t places) {
     RayQueue queue;
@@ -187,7 +194,7 @@ Illumination::Illumination(const Device& device, const Features& features, const
       world_(world),
       lights_(light_records(device, features, scene, world)),
       most_rays_(most_rays),
-      most_depth_(size_t(scene.render.depth)),
+      most_depth_(scatters(features, scene) ? size_t(scene.render.depth) : 0),
       trace_(device, features),
       shade_(device, features, scene, world.frame),
       surroundings_{shade_.materials(), shade_.ranks(), allocate_lost(device, features)},

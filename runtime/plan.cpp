@@ -38,7 +38,13 @@ constexpr double kVoxelsPerLeaf = 16, kLeaf = 12;
 constexpr double kVoxelsPerSector = 4096, kSectorRecords = 1024;
 
 // Bytes for each ray of a batch with its shadow ray, and for each pixel.
-constexpr double kRay = 136, kPixel = 48;
+constexpr double kRay = 136;
+
+/// Bytes for each pixel on the device.
+double pixel_bytes(const ImageChannels& channels) {
+    return 4.0 * (4 + int(channels.depth) + 3 * int(channels.position) + 3 * int(channels.normal) +
+                  int(channels.object));
+}
 
 double brick_table(const GridFrame& frame) {
     const glm::dvec3 bricks(frame.bricks());
@@ -290,24 +296,31 @@ class Planner {
         if (instances_.any) plan_.index_bytes += plan_.world_bytes;  // before they are joined
         const glm::dvec2 size(scene_.render.size);
         const double pixels = size.x * size.y;
+        const double image = pixel_bytes(scene_.render.channels) * pixels;
         plan_.medium = plan_density(scene_.world);
-        plan_.image_bytes = plan_.world_bytes + plan_.medium.bytes + kPixel * pixels +
+        plan_.halo_bytes = instances_.any ? 0 : sector_bytes();
+        plan_.image_bytes = plan_.world_bytes + plan_.halo_bytes + plan_.medium.bytes + image +
                             kRay * std::min(double(kBatchRays), pixels * scene_.render.samples);
-        plan_.host_bytes = kWorldTable * table + 2 * kPixel * pixels + plan_.medium.host_bytes;
+        plan_.host_bytes = kWorldTable * table + 2 * image + plan_.medium.host_bytes;
         for (const GridPlan& grid : plan_.grids)
             plan_.host_bytes += double(grid.triangles) * 36 + kModelTable * brick_table(grid.frame);
     }
 
-    double pyramid_bytes() const {
+    /// The table of sectors, and the records of those with voxels.
+    double sector_bytes() const {
         const glm::dvec3 sectors(plan_.world.sectors());
         const double table = sectors.x * sectors.y * sectors.z;
+        const double stored = 8 + plan_.voxels / kVoxelsPerSector;
+        return 4 * table + std::min(table, stored) * kSectorRecords;
+    }
+
+    double pyramid_bytes() const {
         double voxel = kLeaf / kVoxelsPerLeaf;
         if (smooth_ || instances_.smooth) voxel += kField;
         if (words_ || (smooth_ && occupied_) || instances_.any) voxel += kWord;
         if (colors_ || instances_.colors) voxel += kWord;
-        return 4 * table + (plan_.voxels + instances_.voxels) * voxel + exact_voxels_ * kWord +
-               exact_bytes_ + instances_.exact_bytes +
-               std::min(table, 8 + plan_.voxels / kVoxelsPerSector) * kSectorRecords;
+        return sector_bytes() + (plan_.voxels + instances_.voxels) * voxel +
+               exact_voxels_ * kWord + exact_bytes_ + instances_.exact_bytes;
     }
 
     const Scene& scene_;

@@ -42,6 +42,7 @@ struct ScenePlan {
     double image_bytes = 0;
 
     double world_bytes = 0;  ///< the pyramid's, part of the last two
+    double halo_bytes = 0;   ///< of the grid that beams of rays are sent through, part of the last
     DensityPlan medium;      ///< part of the last one
     double host_bytes = 0;   ///< tables, meshes and the image in main memory
 

@@ -53,7 +53,7 @@ double main_memory() {
 }
 
 void check_image(const Scene& scene, const ScenePlan& plan, const DeviceInfo& device) {
-    const double image = plan.image_bytes - plan.world_bytes - plan.medium.bytes;
+    const double image = plan.image_bytes - plan.world_bytes - plan.halo_bytes - plan.medium.bytes;
     const double there = std::min(double(device.memory), main_memory() / 2);
     if (image > there)
         throw Error(ErrorKind::limit,

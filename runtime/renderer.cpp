@@ -103,7 +103,7 @@ Image Renderer::part_of_image(const Scene& scene, const FormedWorld& formed, Ren
     if (!report.hits_are_kept && beams_pay(features, world, uint64_t(all_tiles) * rays_per_tile))
         beams.emplace(device_, features, world, halo_of(formed));
     Illumination illumination(device_, features, scene, world, batch.stride);
-    ResolveStage resolve(device_, features, observer);
+    ResolveStage resolve(device_, features, observer, scene.render.channels);
     while (const std::optional<TileRange> range = tiles.share.take(batch_tiles)) {
         const uint32_t first = range->first, now = range->count;
         if (report.hits_are_kept) {

@@ -255,6 +255,16 @@ struct SceneMotion;
 
 inline constexpr int kMaxImageSide = 65536;
 
+/// What a flat image shows of a pixel beside its colour.
+struct ImageChannels {
+    bool depth = true;     ///< Z
+    bool position = true;  ///< P.X P.Y P.Z
+    bool normal = true;    ///< N.X N.Y N.Z
+    bool object = true;    ///< objectId
+
+    friend bool operator==(const ImageChannels&, const ImageChannels&) = default;
+};
+
 struct RenderSettings {
     glm::ivec2 size{640, 480};  ///< pixels
     int samples = 1;            ///< per pixel, 1..4096
@@ -262,6 +272,7 @@ struct RenderSettings {
     bool shadows = true;
     bool filtered_shadows = false;  ///< refracting objects tint and dim light instead of hiding it
     double least_weight = 1.0 / 4096;  ///< paths that would add less than this share of a pixel end
+    ImageChannels channels;            ///< not in scene files: what the outputs have
 
     friend bool operator==(const RenderSettings&, const RenderSettings&) = default;
 };

@@ -76,9 +76,11 @@ WorldFormer::Origin WorldFormer::origin_of(const Scene& scene) {
 std::vector<PlacedObject> WorldFormer::placed_objects(const Scene& scene,
                                                       std::vector<SharedGrid>& grids) {
     std::vector<PlacedObject> objects;
+    const std::vector<VoxelBox> boxes = object_boxes(scene, meshes_);
     for (uint32_t number = 0; number < scene.objects.size(); ++number) {
         const Object& object = scene.objects[number];
         if (is_instanced(scene, object) || !is_in_reach(scene, object)) continue;
+        if (!overlap(boxes[number], boxes[number])) continue;  // nothing of it is in the world
         const Model& model = scene.models[size_t(object.model)];
         const bool has_own_voxels = !model.voxels.empty() && model.surface != Surface::exact;
         grids.push_back(grids_->grid_of(scene, object));

@@ -7,9 +7,9 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "runtime/frame_plans.hpp"
+#include "runtime/renderer.hpp"
 #include "runtime/scene_animation.hpp"
 #include "runtime/surface_extent.hpp"
-#include "runtime/world.hpp"
 #include "tests/file_fixture.hpp"
 #include "tests/test_device.hpp"
 
@@ -108,6 +108,24 @@ TEST_F(PlanTest, EstimatesAreWithinAHalfOfWhatFormingTheWorldTakes) {
         const auto peak = double(device.counters().peak_bytes);
         EXPECT_GT(formed, peak / 1.5) << model;
         EXPECT_LT(formed, peak * 1.5) << model;
+    }
+}
+
+TEST_F(PlanTest, TheImagesBytesAreThoseOfItsChannelsRaysAndHalo) {
+    for (const double voxel : {1.0 / 120, 1.0 / 400}) {
+        Scene scene = scene_of(R"({"shape": "sphere", "radius": 0.35})", voxel);
+        scene.render.size = {320, 240};  // enough rays for beams
+        scene.render.channels = {true, false, true, false};
+        const ScenePlan plan = plan_of(scene);
+        const Device device = test_device();
+        RenderReport report;
+        render(device, scene, report);
+        const auto& bytes = device.counters().allocated_bytes;
+        const auto halo = double(bytes.at("halo sectors") + bytes.at("halo bricks"));
+        EXPECT_GT(plan.halo_bytes, halo / 1.5) << voxel;
+        EXPECT_LT(plan.halo_bytes, halo * 1.5) << voxel;
+        EXPECT_EQ(bytes.at("image"), 8u * 320 * 240 * 4);
+        EXPECT_FALSE(bytes.contains("object numbers"));
     }
 }
 

@@ -82,7 +82,7 @@ TEST_F(ProgramCacheFiles, ASecondRunCompilesNothing) {
     EXPECT_EQ(compiled_by_processes(1, environment), std::vector<int>{0});
 }
 
-/// PoCL 3.1 crashes when it compiles kernels of bitcode that it optimized twice.
+/// What an entry holds must do for kernels that no run before has launched.
 TEST_F(ProgramCacheFiles, AKernelFirstLaunchedByALaterRunIsMadeOfTheKeptBitcode) {
     if (!device_keeps_programs()) GTEST_SKIP() << "this device's programs are not kept";
     const std::string environment = "VOXELUME_CACHE_DIR=" + folder.string();

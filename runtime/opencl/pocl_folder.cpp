@@ -20,7 +20,6 @@ namespace fs = std::filesystem;
 
 constexpr const char* kPrefix = "pocl-";
 constexpr const char* kLock = "lock";
-constexpr const char* kBitcode = "program.bc";
 
 /// Removes the folders that killed processes left: those whose lock nobody holds. A young one may
 /// belong to a process that has not locked it yet.
@@ -53,26 +52,19 @@ std::vector<fs::path> files_worth_keeping(const fs::path& root, const fs::path& 
     for (const fs::directory_entry& entry :
          fs::recursive_directory_iterator(root / folder, error)) {
         const fs::path& path = entry.path();
-        if (path.filename() == kBitcode || path.filename() == "build.log" ||
+        if (path.filename() == "program.bc" || path.filename() == "build.log" ||
             path.extension() == ".so")
             files.insert(path.lexically_relative(root));
     }
     return {files.begin(), files.end()};
 }
 
-std::string whole_text(const fs::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
-}
-
-/// The `files` of a program's `folder` below `root`, as those of the folder `kept`.
-std::string packed(const fs::path& root, const fs::path& folder, const fs::path& kept,
-                   const std::vector<fs::path>& files) {
+std::string packed(const fs::path& root, const std::vector<fs::path>& files) {
     std::string bytes;
     for (const fs::path& path : files) {
-        const std::string text = whole_text(root / path);
-        const fs::path name = kept / path.lexically_relative(folder);
-        bytes += fmt::format("{} {}\n{}", text.size(), name.string(), text);
+        std::ifstream file(root / path, std::ios::binary);
+        const std::string text(std::istreambuf_iterator<char>(file), {});
+        bytes += fmt::format("{} {}\n{}", text.size(), path.string(), text);
     }
     return bytes;
 }
@@ -139,63 +131,47 @@ PoclFolder::~PoclFolder() {
     if (lock_ >= 0) close(lock_);
 }
 
-/// The folder that PoCL made or touched in the build that just ended, when it is not another
-/// program's. PoCL names it by a hash of its own, two letters and the rest, and leaves
-/// `last_accessed` in it.
-fs::path PoclFolder::new_program_folder() {
+/// The folder that PoCL touched in the build that just ended, when it is not another program's.
+/// PoCL names it by a hash of its own, two letters and the rest, and leaves `last_accessed` in it.
+fs::path PoclFolder::new_program_folder() const {
+    std::set<fs::path> known;
+    for (const auto& [key, files] : programs_) known.insert(files.folder);
     std::error_code error;
     for (const fs::directory_entry& letters : fs::directory_iterator(folder_, error))
         for (const fs::directory_entry& rest : fs::directory_iterator(letters.path(), error)) {
-            const fs::path folder = rest.path().lexically_relative(folder_);
-            if (fs::exists(rest.path() / "last_accessed", error) && seen_.insert(folder).second)
+            fs::path folder = rest.path().lexically_relative(folder_);
+            if (fs::exists(rest.path() / "last_accessed", error) && !known.contains(folder))
                 return folder;
         }
     return {};
 }
 
-/// The folder of a program that is built from the bitcode of one that was built from its source.
-fs::path PoclFolder::learn_folder(const fs::path& of_source, const Build& build) {
-    const std::string bitcode = whole_text(folder_ / of_source / kBitcode);
-    if (bitcode.empty() || !build(&bitcode)()) return of_source;
-    const fs::path folder = new_program_folder();
-    if (folder.empty()) return of_source;
-    std::error_code ignored;
-    fs::remove_all(folder_ / folder, ignored);
-    return folder;
-}
-
-/// The program whose files are in `folder` already; none if PoCL doesn't look for them there.
-cl::Program PoclFolder::build_kept(const fs::path& folder, const Build& build) {
-    const std::string bitcode = whole_text(folder_ / folder / kBitcode);
-    if (bitcode.empty()) return {};
-    cl::Program program = build(&bitcode);
-    return new_program_folder() == folder ? program : cl::Program();
-}
-
-PoclFolder::Built PoclFolder::build_with_files(const DiskCache& cache, const std::string& key,
-                                               const Build& build) {
+bool PoclFolder::build_with_files(const DiskCache& cache, const std::string& key,
+                                  const std::function<void()>& build) {
     // One at a time, to know whose folder is new. PoCL's compiler has a global lock anyway.
     const std::lock_guard guard(mutex_);
-    if (folder_.empty()) return {build(nullptr), false};
-    if (programs_.contains(key)) return {build(nullptr), true};
+    if (folder_.empty()) {
+        build();
+        return false;
+    }
+    const auto known = programs_.find(key);
+    if (known != programs_.end()) {
+        build();
+        return true;
+    }
     std::vector<fs::path> unpacked;
     try {
         if (const auto bytes = cache.read(key)) unpacked = unpack(folder_, *bytes);
     } catch (const std::exception&) {
         unpacked.clear();  // a full disk: PoCL compiles what is not there
     }
-    if (!unpacked.empty()) {
-        const fs::path kept = *unpacked[0].begin() / *std::next(unpacked[0].begin());
-        if (cl::Program program = build_kept(kept, build); program()) {
-            programs_[key] = {kept, kept, unpacked.size()};
-            return {std::move(program), true};
-        }
-    }
+    build();
     // An entry for another folder than PoCL's is of no use, and is replaced.
-    cl::Program program = build(nullptr);
     const fs::path folder = new_program_folder();
-    programs_[key] = {folder, folder.empty() ? folder : learn_folder(folder, build), 0};
-    return {std::move(program), false};
+    if (!unpacked.empty() && !unpacked[0].string().starts_with(folder.string() + "/"))
+        unpacked.clear();
+    programs_[key] = {folder, unpacked.size()};
+    return !unpacked.empty();
 }
 
 void PoclFolder::publish(const DiskCache& cache) {
@@ -204,7 +180,7 @@ void PoclFolder::publish(const DiskCache& cache) {
         if (program.folder.empty()) continue;
         const std::vector<fs::path> files = files_worth_keeping(folder_, program.folder);
         if (files.size() <= program.published) continue;
-        cache.write(key, packed(folder_, program.folder, program.kept, files));
+        cache.write(key, packed(folder_, files));
         program.published = files.size();
     }
 }

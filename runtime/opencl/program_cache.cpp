@@ -14,7 +14,7 @@ namespace voxelume {
 namespace {
 
 constexpr uint64_t kMaxCacheBytes = 256u << 20;
-constexpr const char* kCacheVersion = "voxelume programs 2";
+constexpr const char* kCacheVersion = "voxelume programs 1";
 
 DiskCache program_store() {
     const std::filesystem::path folder = cache_folder();
@@ -85,13 +85,12 @@ cl::Program build_with_binary(const Device& device, const std::string& source,
 /// PoCL compiles twice when asked for a binary, and keeps its own files: see PoclFolder.
 cl::Program build_with_pocl(const Device& device, const std::string& source,
                             const std::string& options) {
-    PoclFolder::Built built = PoclFolder::instance().build_with_files(
-        program_store(), key_of(device.info(), source, options), [&](const std::string* bitcode) {
-            if (!bitcode) return compile(device, source, options);
-            return from_binary(device, *bitcode, options).value_or(cl::Program());
-        });
-    if (built.was_kept) ++device.counters().programs_from_cache;
-    return std::move(built.program);
+    cl::Program program;
+    const bool ready = PoclFolder::instance().build_with_files(
+        program_store(), key_of(device.info(), source, options),
+        [&] { program = compile(device, source, options); });
+    if (ready) ++device.counters().programs_from_cache;
+    return program;
 }
 
 }  // namespace

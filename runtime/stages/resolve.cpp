@@ -1,13 +1,28 @@
 #include "runtime/stages/resolve.hpp"
 
-#include <array>
+#include <vector>
 
 #include "runtime/stages/trace.hpp"
 
 namespace voxelume {
 namespace {
 
-constexpr std::array kPlanes = {"R", "G", "B", "A", "Z", "P.X", "P.Y", "P.Z", "N.X", "N.Y", "N.Z"};
+std::vector<const char*> plane_names(const ImageChannels& channels) {
+    std::vector<const char*> names = {"R", "G", "B", "A"};
+    if (channels.depth) names.push_back("Z");
+    if (channels.position) names.insert(names.end(), {"P.X", "P.Y", "P.Z"});
+    if (channels.normal) names.insert(names.end(), {"N.X", "N.Y", "N.Z"});
+    return names;
+}
+
+Defines defines_of(const Device& device, const Features& features, const ImageChannels& channels) {
+    Defines defines = features.defines(device);
+    defines.insert(defines.end(), {{"VXL_SHOWS_DEPTH", channels.depth},
+                                   {"VXL_SHOWS_POSITION", channels.position},
+                                   {"VXL_SHOWS_NORMAL", channels.normal},
+                                   {"VXL_SHOWS_OBJECT", channels.object}});
+    return defines;
+}
 
 size_t pixel_count(const Sight& sight) {
     return size_t(sight.width) * size_t(sight.height);
@@ -15,12 +30,14 @@ size_t pixel_count(const Sight& sight) {
 
 }  // namespace
 
-ResolveStage::ResolveStage(const Device& device, const Features& features, const Sight& sight)
+ResolveStage::ResolveStage(const Device& device, const Features& features, const Sight& sight,
+                           const ImageChannels& channels)
     : sight_(sight),
-      planes_(device, "image", kPlanes.size() * pixel_count(sight)),
-      objects_(device, "object numbers", pixel_count(sight)),
+      names_(plane_names(channels)),
+      planes_(device, "image", names_.size() * pixel_count(sight)),
+      objects_(device, "object numbers", channels.object ? pixel_count(sight) : 0),
       not_finite_(device, "not finite", 1),
-      program_(device, "resolve.cl", features.defines(device)),
+      program_(device, "resolve.cl", defines_of(device, features, channels)),
       pixels_(program_.kernel("resolve_pixels")) {
     not_finite_.fill(0);
 }
@@ -39,9 +56,9 @@ Image ResolveStage::image() const {
     image.width = sight_.width;
     image.height = sight_.height;
     const size_t pixels = pixel_count(sight_);
-    for (size_t i = 0; i < kPlanes.size(); ++i)
-        image.planes[kPlanes[i]] = planes_.read(i * pixels, pixels);
-    image.id_planes["objectId"] = objects_.read();
+    for (size_t i = 0; i < names_.size(); ++i)
+        image.planes[names_[i]] = planes_.read(i * pixels, pixels);
+    if (!objects_.empty()) image.id_planes["objectId"] = objects_.read();
     return image;
 }
 

@@ -5,6 +5,7 @@
 #include "runtime/grid.hpp"
 #include "runtime/image.hpp"
 #include "runtime/opencl/program.hpp"
+#include "runtime/scene.hpp"
 #include "runtime/stages/features.hpp"
 #include "runtime/stages/ray_batch.hpp"
 
@@ -13,7 +14,9 @@ namespace voxelume {
 /// Kernels of resolve.cl and the image they fill, batch by batch.
 class ResolveStage {
   public:
-    ResolveStage(const Device& device, const Features& features, const Sight& sight);
+    /// Only the `channels` asked for are allocated and made.
+    ResolveStage(const Device& device, const Features& features, const Sight& sight,
+                 const ImageChannels& channels = {});
 
     /// Makes the pixels of `tiles` tiles from `first_tile` on.
     void pixels(const Pyramid& pyramid, const RayBatch& batch, uint32_t first_tile, uint32_t tiles);
@@ -26,8 +29,9 @@ class ResolveStage {
 
   private:
     Sight sight_;
-    Buffer<float> planes_;      ///< R G B A Z P.X P.Y P.Z N.X N.Y N.Z, one after another
-    Buffer<uint32_t> objects_;  ///< number of the object plus 1
+    std::vector<const char*> names_;  ///< of the planes
+    Buffer<float> planes_;            ///< one after another
+    Buffer<uint32_t> objects_;        ///< number of the object plus 1
     Buffer<uint32_t> not_finite_;
     Program program_;
     Kernel pixels_;

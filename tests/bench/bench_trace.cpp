@@ -1,7 +1,10 @@
 // Rays a second through a mesh's pyramid: closest hits of the sight rays that hit, of shadow rays
 // and of incoherent bounces, for each surface and number of lanes.
 //
-//   bench_trace MESH [voxels along the longest side, 512] [lanes ... | surfaces ...]
+//   bench_trace MESH [voxels along the longest side, 512] [lanes ... | surfaces ... | peers]
+//
+// `peers` has Embree, OpenVDB and NanoVDB trace the same rays, as far as they are installed. Embree
+// takes the shadow rays by its quicker query, which only says that something was met.
 //
 // The set-up of RESULTS.md: longest side 1, eye at normalize(0.5, 0.35, 1) * 1.8, vertical angle 40
 // degrees, 1024 x 1024, point light at (1.5, 2.5, 2). Ray lists are made beforehand. Times are the
@@ -21,11 +24,13 @@
 
 #include "kernels/shared/voxel.h"
 #include "runtime/io/mesh_reader.hpp"
+#include "runtime/pyramid_bytes.hpp"
 #include "runtime/stages/beam.hpp"
 #include "runtime/stages/index.hpp"
 #include "runtime/stages/trace.hpp"
 #include "runtime/stages/voxelize.hpp"
 #include "tests/bench/cpu_time.hpp"
+#include "tests/bench/trace_peers.hpp"
 
 namespace voxelume {
 namespace {
@@ -187,30 +192,105 @@ Mesh scaled_mesh(const char* path) {
     return mesh;
 }
 
-void bench(const Mesh& mesh, Surface surface, const char* name, int voxels, int lanes) {
+/// Million rays a second: that hit, of shadow, that bounced, of the picture.
+struct Row {
+    std::string name;
+    double build_seconds = 0;  ///< of CPU time: to a pyramid, to a peer's own
+    double rates[4] = {};
+    std::string note;
+};
+
+void print(const Row& row) {
+    fmt::print("{:18} {:7.0f} ", row.name, row.build_seconds * 1e3);
+    for (const double rate : row.rates) fmt::print(" {:7.2f}", rate);
+    fmt::print("  {}\n", row.note);
+    std::fflush(stdout);
+}
+
+Row bench(const Mesh& mesh, Surface surface, const std::string& name, int voxels, int lanes) {
     const Device device = Device::open("cpu", lanes);
     const GridFrame frame = frame_around(mesh, glm::dvec3(1.0 / voxels));
     Voxelizer voxelizer(device);
-    const BrickGrid grid = voxelizer.voxelize(mesh, glm::dmat4(1), frame, {surface, {}});
-    const Pyramid pyramid = build_index(device, grid);
+    const auto build = [&] {
+        const BrickGrid grid = voxelizer.voxelize(mesh, glm::dmat4(1), frame, {surface, {}});
+        Pyramid made = build_index(device, grid);
+        device.finish();
+        return made;
+    };
+    const Pyramid pyramid = build();
+    const double start = cpu_seconds();
+    build();
+    Row row{fmt::format("{}, {}", name, lanes), cpu_seconds() - start, {}, {}};
     TraceStage stage(device, features_of(pyramid));
     const std::vector<Ray> rays = picture_rays(frame);
     RayList all(device, pyramid, rays);
     BeamStage beams(device, features_of(pyramid), pyramid, build_halo(device, pyramid));
-    const double all_seconds = all.time(device, stage, pyramid, &beams);
+    row.rates[3] = kImage * kImage / all.time(device, stage, pyramid, &beams) * 1e-6;
     uint64_t hash = all.hash();
     const RayLists lists = split_rays(rays, all.hits(), frame);
-    fmt::print("{:7} {:2} lanes, {:8} voxels:", name, lanes, pyramid.voxel_count);
+    double* rate = row.rates;
     for (const std::vector<Ray>* list : {&lists.hitting, &lists.shadow, &lists.bounce}) {
         RayList timed(device, pyramid, *list);
-        fmt::print(" {:6.2f}", timed.size() /
-                                   timed.time(device, stage, pyramid,
-                                              list == &lists.hitting ? &beams : nullptr) *
-                                   1e-6);
+        *rate++ = timed.size() /
+                  timed.time(device, stage, pyramid, list == &lists.hitting ? &beams : nullptr) *
+                  1e-6;
         hash ^= timed.hash();
     }
-    fmt::print(" {:6.2f}  {:016x}\n", kImage * kImage / all_seconds * 1e-6, hash);
-    std::fflush(stdout);
+    row.note = fmt::format("{} voxels of {:.2f} bytes, {:016x}", pyramid.voxel_count,
+                           double(bytes_of(pyramid)) / double(pyramid.voxel_count), hash);
+    return row;
+}
+
+std::vector<PeerRay> in_metres(const std::vector<Ray>& rays, const GridFrame& frame) {
+    std::vector<PeerRay> list;
+    for (const Ray& ray : rays)
+        list.push_back({glm::vec3(frame.origin + frame.voxel_edge * ray.origin),
+                        glm::vec3(glm::normalize(frame.voxel_edge * ray.direction))});
+    return list;
+}
+
+/// Million rays a second of a peer's pass: medians of CPU time.
+double rate_of(const PeerPass& pass, size_t rays, size_t& hits) {
+    std::vector<double> seconds;
+    for (int run = 0; run < kRuns; ++run) {
+        const double start = cpu_seconds();
+        hits = pass();
+        seconds.push_back(cpu_seconds() - start);
+    }
+    std::nth_element(seconds.begin(), seconds.begin() + kRuns / 2, seconds.end());
+    return double(rays) / seconds[kRuns / 2] * 1e-6;
+}
+
+/// The peers on the rays that the exact surface gives.
+void bench_peers(const Mesh& mesh, int voxels) {
+    const Device device = Device::open("cpu");
+    const GridFrame frame = frame_around(mesh, glm::dvec3(1.0 / voxels));
+    const BrickGrid grid =
+        Voxelizer(device).voxelize(mesh, glm::dmat4(1), frame, {Surface::exact, {}});
+    const Pyramid pyramid = build_index(device, grid);
+    TraceStage stage(device, features_of(pyramid));
+    const std::vector<Ray> rays = picture_rays(frame);
+    RayList all(device, pyramid, rays);
+    all.time(device, stage, pyramid);
+    const RayLists lists = split_rays(rays, all.hits(), frame);
+    std::vector<TracePeer> peers = level_set_tracers(mesh, 1.0 / voxels);
+#if VXL_BENCH_EMBREE
+    std::ranges::move(embree_tracers(mesh), std::back_inserter(peers));
+#endif
+    for (const TracePeer& peer : peers) {
+        Row row{peer.name, peer.build_seconds, {}, {}};
+        size_t hits = 0;
+        const auto time = [&](const std::vector<Ray>& list, PeerQuery query) {
+            return rate_of(peer.prepare(in_metres(list, frame), query), list.size(), hits);
+        };
+        row.rates[0] = time(lists.hitting, PeerQuery::closest_coherent);
+        row.rates[1] = time(lists.shadow, PeerQuery::occluded_coherent);
+        row.rates[2] = time(lists.bounce, PeerQuery::closest_incoherent);
+        row.rates[3] = time(rays, PeerQuery::closest_coherent) * kImage * kImage /
+                       double(rays.size());
+        row.note = fmt::format("{} of {} rays hit", hits, lists.hitting.size());
+        print(row);
+    }
 }
 
 }  // namespace
@@ -220,6 +300,7 @@ int main(int count, char** arguments) {
     using namespace voxelume;
     if (count < 2) return 2;
     const int voxels = count > 2 ? std::atoi(arguments[2]) : 512;
+    bool with_peers = false;
     std::vector<int> lanes;
     std::vector<std::pair<Surface, std::string>> surfaces;
     for (int i = 3; i < count; ++i) {
@@ -227,6 +308,7 @@ int main(int count, char** arguments) {
         if (word == "cubes") surfaces.emplace_back(Surface::cubes, word);
         if (word == "smooth") surfaces.emplace_back(Surface::smooth, word);
         if (word == "exact") surfaces.emplace_back(Surface::exact, word);
+        with_peers |= word == "peers";
         if (std::atoi(arguments[i]) > 0) lanes.push_back(std::atoi(arguments[i]));
     }
     if (lanes.empty()) lanes = {16, 8, 4, 1};
@@ -234,8 +316,9 @@ int main(int count, char** arguments) {
         surfaces = {
             {Surface::cubes, "cubes"}, {Surface::smooth, "smooth"}, {Surface::exact, "exact"}};
     const Mesh mesh = scaled_mesh(arguments[1]);
-    fmt::print(
-        "million rays a second and core: hitting, shadow, bounce, all of the picture; hash\n");
+    fmt::print("{:18} {:>7}  million rays a second and core: that hit, shadow, bounce, all\n", "",
+               "build");
     for (const auto& [surface, name] : surfaces)
-        for (const int n : lanes) bench(mesh, surface, name.c_str(), voxels, n);
+        for (const int n : lanes) print(bench(mesh, surface, name, voxels, n));
+    if (with_peers) bench_peers(mesh, voxels);
 }

@@ -1,0 +1,85 @@
+#include <openvdb/openvdb.h>
+#include <openvdb/tools/MeshToVolume.h>
+#include <openvdb/tools/RayIntersector.h>
+
+#if VXL_BENCH_NANOVDB
+#include <nanovdb/util/HDDA.h>
+#include <nanovdb/util/OpenToNanoVDB.h>
+#include <nanovdb/util/Ray.h>
+#endif
+
+#include <glm/geometric.hpp>
+
+#include "tests/bench/cpu_time.hpp"
+#include "tests/bench/trace_peers.hpp"
+
+namespace voxelume {
+namespace {
+
+openvdb::FloatGrid::Ptr level_set(const Mesh& mesh, double voxel) {
+    std::vector<openvdb::Vec3s> points;
+    for (const glm::vec3& p : mesh.positions) points.emplace_back(p.x, p.y, p.z);
+    std::vector<openvdb::Vec3I> triangles;
+    for (const auto& t : mesh.triangles) triangles.emplace_back(t[0], t[1], t[2]);
+    return openvdb::tools::meshToLevelSet<openvdb::FloatGrid>(
+        *openvdb::math::Transform::createLinearTransform(voxel), points, triangles, 3.0f);
+}
+
+TracePeer openvdb_peer(const openvdb::FloatGrid::Ptr& grid, double build_seconds) {
+    using Intersector = openvdb::tools::LevelSetRayIntersector<openvdb::FloatGrid>;
+    const auto intersector = std::make_shared<Intersector>(*grid);
+    return {"OpenVDB level set", build_seconds, [grid, intersector](const auto& rays, PeerQuery) {
+                std::vector<Intersector::RayType> list;
+                for (const PeerRay& r : rays)
+                    list.emplace_back(openvdb::Vec3d(r.origin.x, r.origin.y, r.origin.z),
+                                      openvdb::Vec3d(r.direction.x, r.direction.y, r.direction.z));
+                return PeerPass([intersector, list] {
+                    size_t hits = 0;
+                    openvdb::Vec3d at;
+                    for (const auto& ray : list) hits += intersector->intersectsWS(ray, at);
+                    return hits;
+                });
+            }};
+}
+
+#if VXL_BENCH_NANOVDB
+TracePeer nanovdb_peer(const openvdb::FloatGrid& source, double build_seconds) {
+    const double start = cpu_seconds();
+    const auto handle = std::make_shared<nanovdb::GridHandle<>>(nanovdb::openToNanoVDB(source));
+    build_seconds += cpu_seconds() - start;
+    return {"NanoVDB level set", build_seconds, [handle](const auto& rays, PeerQuery) {
+                using Ray = nanovdb::Ray<float>;
+                const auto* grid = handle->template grid<float>();
+                std::vector<Ray> list;
+                for (const PeerRay& r : rays)
+                    list.push_back(Ray({r.origin.x, r.origin.y, r.origin.z},
+                                       {r.direction.x, r.direction.y, r.direction.z})
+                                       .worldToIndexF(*grid));
+                return PeerPass([grid, handle, list] {
+                    auto accessor = grid->tree().getAccessor();
+                    size_t hits = 0;
+                    nanovdb::Coord cell;
+                    float value = 0, t = 0;
+                    for (Ray ray : list)
+                        hits += nanovdb::ZeroCrossing(ray, accessor, cell, value, t);
+                    return hits;
+                });
+            }};
+}
+#endif
+
+}  // namespace
+
+std::vector<TracePeer> level_set_tracers(const Mesh& mesh, double voxel) {
+    openvdb::initialize();
+    const double start = cpu_seconds();
+    const openvdb::FloatGrid::Ptr grid = level_set(mesh, voxel);
+    const double seconds = cpu_seconds() - start;
+    std::vector<TracePeer> peers = {openvdb_peer(grid, seconds)};
+#if VXL_BENCH_NANOVDB
+    peers.push_back(nanovdb_peer(*grid, seconds));
+#endif
+    return peers;
+}
+
+}  // namespace voxelume
