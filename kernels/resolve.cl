@@ -10,7 +10,8 @@
 #include "shared/voxel.h"
 
 /// One work-item makes one pixel. `image` holds, `pixels` apart, what is asked for of R G B A Z P.X
-/// P.Y P.Z N.X N.Y N.Z; `objects` the number of the object plus 1, 0 for none. Counts values that are not finite, as 0.
+/// P.Y P.Z N.X N.Y N.Z; `objects` the number of the object plus 1, 0 for none. Counts values that
+/// are not finite, as 0.
 kernel void resolve_pixels(Sight sight, PyramidShape shape, float4 world_origin,
                            global const uint* restrict hits, global const float* restrict positions,
                            global const float* restrict normals, global const uint* restrict words,

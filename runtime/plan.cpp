@@ -319,8 +319,8 @@ class Planner {
         if (smooth_ || instances_.smooth) voxel += kField;
         if (words_ || (smooth_ && occupied_) || instances_.any) voxel += kWord;
         if (colors_ || instances_.colors) voxel += kWord;
-        return sector_bytes() + (plan_.voxels + instances_.voxels) * voxel +
-               exact_voxels_ * kWord + exact_bytes_ + instances_.exact_bytes;
+        return sector_bytes() + (plan_.voxels + instances_.voxels) * voxel + exact_voxels_ * kWord +
+               exact_bytes_ + instances_.exact_bytes;
     }
 
     const Scene& scene_;

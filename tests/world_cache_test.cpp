@@ -67,7 +67,7 @@ class WorldCacheFiles : public FileTest {
         shared_device().counters().launches.clear();
         RenderReport report;
         const FormedWorld world =
-            WorldFormer(shared_device(), false, from_disk ? cache : ModelCache())
+            WorldFormer(shared_device(), false, MeshStore(from_disk ? cache : ModelCache()))
                 .form(scene, report.world);
         Outcome outcome;
         outcome.hash =

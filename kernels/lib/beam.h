@@ -3,9 +3,9 @@
 // A beam is the straight line in the middle of its rays, along the axis that they mostly follow:
 // at every coordinate s of that axis it is less than 4 voxels from each of them. So as long as its
 // own leaf and all leaves around that are empty, which the halo (runtime/stages/beam.hpp) knows of
-// one leaf, theirs are. The slack of a quarter voxel covers the step of 1/64 past the planes at which
-// the line is looked at, and all rounding: places are sums of numbers up to 16 times the world's
-// length (VXL_BEAM_LEAST_DIRECTION), six roundings of which are 0.1 voxel for 16384 voxels.
+// one leaf, theirs are. The slack of a quarter voxel covers the step of 1/64 past the planes at
+// which the line is looked at, and all rounding: places are sums of numbers up to 16 times the
+// world's length (VXL_BEAM_LEAST_DIRECTION), six roundings of which are 0.1 voxel for 16384 voxels.
 #ifndef VXL_BEAM_H
 #define VXL_BEAM_H
 

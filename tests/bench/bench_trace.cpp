@@ -286,8 +286,8 @@ void bench_peers(const Mesh& mesh, int voxels) {
         row.rates[0] = time(lists.hitting, PeerQuery::closest_coherent);
         row.rates[1] = time(lists.shadow, PeerQuery::occluded_coherent);
         row.rates[2] = time(lists.bounce, PeerQuery::closest_incoherent);
-        row.rates[3] = time(rays, PeerQuery::closest_coherent) * kImage * kImage /
-                       double(rays.size());
+        row.rates[3] =
+            time(rays, PeerQuery::closest_coherent) * kImage * kImage / double(rays.size());
         row.note = fmt::format("{} of {} rays hit", hits, lists.hitting.size());
         print(row);
     }
