@@ -195,7 +195,7 @@ kernel void trace_shadows(VXL_WORLD_ARGUMENTS, uint constant_attribute,
     ShadowFlight f;
     f.flight.ray = LANES_AS_UINT(LANES_NUMBERS + (int)first);
     const lane_int active = LANE_MASK(f.flight.ray < queued);
-    send_shadows(&pyramid, &surface, &filter, shape, &queue, active, &f);
+    send_shadows(&surface, &filter, shape, &queue, active, &f);
     bring_light(&queue, &f, find_lights(&pyramid, &surface, &filter, active, &f), radiance);
 #endif
 }

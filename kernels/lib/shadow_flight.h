@@ -32,9 +32,8 @@ typedef struct {
 } ShadowFlight;
 
 /// Sets the rays that the lanes hold on their way; `fresh` lanes hold new ones.
-static inline void send_shadows(const PyramidView* p, const SurfaceView* s, const FilterView* v,
-                                PyramidShape shape, const ShadowRays* q, lane_int fresh,
-                                ShadowFlight* f) {
+static inline void send_shadows(const SurfaceView* s, const FilterView* v, PyramidShape shape,
+                                const ShadowRays* q, lane_int fresh, ShadowFlight* f) {
     Flight* flight = &f->flight;
     Walk* w = &flight->walk;
     *w = walk_of(q->rays, q->stride, flight->ray);
@@ -121,7 +120,7 @@ static inline void fly_shadows(const PyramidView* p, const SurfaceView* s, const
     Flight* flight = &f.flight;
     flight->ray = (lane_uint)next;
     lane_int held = take_rays((lane_int)-1, end, &next, &flight->ray);
-    send_shadows(p, s, v, shape, q, held, &f);
+    send_shadows(s, v, shape, q, held, &f);
     lane_int walking = held & in_grid(p, &flight->walk), waiting = (lane_int)0;
     while (lanes_any(held)) {
         int steps = lanes_count(walking), tests = 0;
@@ -151,7 +150,7 @@ static inline void fly_shadows(const PyramidView* p, const SurfaceView* s, const
         const Progress before = progress_of(flight);
         const ShadowFlight old = f;
         const lane_int fresh = take_rays(~held, end, &next, &flight->ray);
-        send_shadows(p, s, v, shape, q, fresh, &f);
+        send_shadows(s, v, shape, q, fresh, &f);
         keep_progress(&before, fresh, flight);
         if (VXL_FILTER) keep_filters(&old, fresh, &f);
         held |= fresh;
