@@ -54,6 +54,7 @@ std::vector<FrameFiles> frame_files(const RenderOptions& options, const Scene& s
 
 std::vector<int> numbers_of(const std::vector<FrameFiles>& list) {
     std::vector<int> numbers;
+    numbers.reserve(list.size());
     for (const FrameFiles& files : list) numbers.push_back(files.frame);
     return numbers;
 }
