@@ -53,7 +53,10 @@ std::function<std::string(const std::string&)> in_range(double least, double mos
         const double value = std::strtod(text.c_str(), &end);
         const bool is_whole = text.find_first_not_of("+-0123456789") == std::string::npos;
         const bool is_number = !text.empty() && *end == '\0' && value >= least && value <= most;
-        if (is_number && (is_whole || number == Number::any)) return {};
+        // The parser would read a whole number that begins with 0 as octal.
+        const size_t first = text.find_first_of("0123456789");
+        const bool is_octal = is_whole && first + 1 < text.size() && text[first] == '0';
+        if (is_number && ((is_whole && !is_octal) || number == Number::any)) return {};
         if (number == Number::whole)
             return fmt::format("{} isn't a whole number from {:.0f} to {:.0f} in digits",
                                quote(text), least, most);

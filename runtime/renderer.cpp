@@ -29,10 +29,13 @@ Renderer::View Renderer::view_of(const Scene& scene, const FormedWorld& world,
 namespace {
 
 /// Whether so many sight rays save more time by beams than these take: building the halo, loading
-/// one more kernel.
+/// one more kernel. In larger worlds rounding could come near a beam's slack, see lib/beam.h.
 bool beams_pay(const Features& features, const Pyramid& world, uint64_t rays) {
     constexpr uint64_t kFewRays = 65536;
+    constexpr int kLargest = 16384;
+    const glm::ivec3& size = world.frame.size;
     return !features.instances && world.voxel_count > 0 &&
+           std::max({size.x, size.y, size.z}) <= kLargest &&
            rays >= std::max<uint64_t>(kFewRays, world.leaf_count);
 }
 

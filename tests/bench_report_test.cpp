@@ -183,6 +183,7 @@ BenchRow row_of(Surface surface, int resolution, double depth, double seconds) {
     row.voxel_size = 1.0 / resolution;
     row.least_radius = 0.5;
     row.seconds.total = seconds;
+    row.errors.compared = 1;
     row.errors.depth_rms = depth;
     row.errors.normal_rms = 1;
     return row;

@@ -68,8 +68,8 @@ static inline Filter begin_filter(PyramidShape shape, const Walk* w, lane_float 
 }
 
 /// Filters the light of the `ended` rays on their way to the surface that those of `hit` have
-/// found, or to their light, and lets it go on through that surface: the mask of rays that do. No
-/// ray meets more than VXL_MOST_LAYERS surfaces.
+/// found, or to their light, and lets it go on through that surface: the mask of rays that do. The
+/// surface numbered VXL_MOST_LAYERS ends a ray.
 static inline lane_int pass_surface(const PyramidView* p, const SurfaceView* s, const FilterView* v,
                                     Walk* w, const Found* found, lane_int ended, lane_int hit,
                                     Travel* travel, Filter* filter) {

@@ -64,15 +64,15 @@ static inline void send_shadows(const SurfaceView* s, const FilterView* v, Pyram
     f->filter = begin_filter(shape, w, flight->t_end);
 }
 
-/// Puts lanes that are not `fresh` back to what they had been.
-static inline void keep_filters(const ShadowFlight* before, lane_int fresh, ShadowFlight* f) {
+/// Puts lanes that are not `fresh` back to what their rays have come to on their way.
+static inline void keep_way(const ShadowFlight* before, lane_int fresh, ShadowFlight* f) {
     const Travel* was = &before->flight.travel;
     Travel* travel = &f->flight.travel;
-    travel->goes_on = LANES_SELECT(fresh, travel->goes_on, was->goes_on);
-    if (VXL_EXACT) {
-        travel->source = LANES_SELECT(fresh, travel->source, was->source);
+    if (VXL_EXACT)
         travel->within_source = LANES_SELECT(fresh, travel->within_source, was->within_source);
-    }
+    if (!VXL_FILTER) return;
+    travel->goes_on = LANES_SELECT(fresh, travel->goes_on, was->goes_on);
+    if (VXL_EXACT) travel->source = LANES_SELECT(fresh, travel->source, was->source);
     travel->t_first = LANES_SELECT(fresh, travel->t_first, was->t_first);
     for (int i = 0; i < VXL_INTERIOR_MEMBERS; ++i)
         travel->interior.members[i] =
@@ -152,7 +152,7 @@ static inline void fly_shadows(const PyramidView* p, const SurfaceView* s, const
         const lane_int fresh = take_rays(~held, end, &next, &flight->ray);
         send_shadows(s, v, shape, q, fresh, &f);
         keep_progress(&before, fresh, flight);
-        if (VXL_FILTER) keep_filters(&old, fresh, &f);
+        keep_way(&old, fresh, &f);
         held |= fresh;
         walking |= fresh & in_grid(p, &flight->walk);
     }

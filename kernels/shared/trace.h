@@ -91,7 +91,8 @@
 #define VXL_PATH_FROM_CELL 8u      // begins in the cell named
 #define VXL_PATH_JOINED 16u        // inside of cubes whose inner faces are no surfaces
 
-#define VXL_MOST_LAYERS 1024  // surfaces that one ray goes straight on through
+// Surfaces that one ray goes straight on through: more than there are cells on its way.
+#define VXL_MOST_LAYERS 65536
 
 // Members of a set of objects that a ray is inside of: the first is the smooth one (smooth objects
 // are one body), the others are exact or of cubes, as many as Features::other_members says.

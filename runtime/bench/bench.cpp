@@ -170,7 +170,7 @@ void mark_front(std::span<BenchRow> rows) {
     std::vector<double> seconds, errors;
     std::vector<BenchRow*> compared;
     for (BenchRow& row : rows) {
-        if (row.samples != 1) continue;
+        if (row.samples != 1 || row.errors.compared == 0) continue;
         compared.push_back(&row);
         seconds.push_back(row.seconds.total);
         errors.push_back(row.errors.depth_rms);
@@ -197,11 +197,13 @@ void measure_level(std::span<const BenchRow> rows, BenchFit& fit) {
         if (row.surface != fit.surface || row.placement != fit.placement || row.samples != 1)
             continue;
         const BenchErrors& e = row.errors;
+        if (e.compared == 0) continue;
         fit.depth_least = std::min(fit.depth_least, e.depth_rms);
         fit.depth_most = std::max(fit.depth_most, e.depth_rms);
         if (e.float_spacing > 0)
             fit.depth_most_floats = std::max(fit.depth_most_floats, e.depth_rms / e.float_spacing);
     }
+    if (std::isinf(fit.depth_least)) fit.depth_least = 0;
 }
 
 BenchFit fit_of(std::span<const BenchRow> rows, const BenchRow& first) {

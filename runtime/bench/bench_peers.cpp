@@ -62,7 +62,7 @@ std::vector<BenchPeerRow> read_peers(const std::filesystem::path& file, glm::ive
 const BenchRow* row_as_accurate(const BenchReport& report, const BenchPeerRow& peer) {
     const BenchRow* best = nullptr;
     for (const BenchRow& row : report.rows) {
-        if (row.scene != peer.scene || row.samples != 1) continue;
+        if (row.scene != peer.scene || row.samples != 1 || row.errors.compared == 0) continue;
         if (row.errors.depth_rms > peer.depth_rms) continue;
         if (!best || row.seconds.total < best->seconds.total) best = &row;
     }

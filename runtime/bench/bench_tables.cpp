@@ -80,7 +80,7 @@ std::string slope_text(const SlopeFit& fit) {
 }
 
 std::string level_text(const BenchFit& fit) {
-    if (fit.surface != Surface::exact) return {};
+    if (fit.surface != Surface::exact || fit.depth_most == 0) return {};
     return fmt::format("{:.1e} to {:.1e} m, at most {:.1f} floats", fit.depth_least, fit.depth_most,
                        fit.depth_most_floats);
 }
