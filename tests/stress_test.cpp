@@ -12,6 +12,7 @@
 #include "runtime/stress/device_walks.hpp"
 #include "runtime/stress/exact_cover.hpp"
 #include "runtime/stress/ray_classes.hpp"
+#include "runtime/stress/stress_rays.hpp"
 #include "runtime/stress/triangle_classes.hpp"
 #include "tests/oracles/triangle_overlap.hpp"
 #include "tests/test_device.hpp"
@@ -33,7 +34,8 @@ TEST_P(Stress, FindsNothing) {
     const StressTest& test = test_named(GetParam());
     const Device device = test_device();
     // All grids of the rays' classes; all classes of triangles; both kinds of maps.
-    const uint64_t count = std::max<uint64_t>(200000 / test.rays_per_case, 27);
+    const uint64_t rays = kRayGrids * kRaysOfOneGrid;
+    const uint64_t count = std::max<uint64_t>(rays / test.rays_per_case, 27);
     const uint64_t cases =
         GetParam() == "triangles" ? kTriangleClasses * kTrianglesOfOneGrid : count;
     uint64_t told = 0;
