@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <glm/common.hpp>
 
+#include "runtime/grid.hpp"
+
 namespace voxelume {
 namespace {
 
@@ -38,7 +40,7 @@ class LongTriangle {
 
     TriangleOnLattice any() {
         const glm::ivec3 a = point(1, units_.x / 8), b = point(units_.x * 7 / 8, units_.x);
-        switch (random_.below(8)) {
+        switch (random_.below(9)) {
             case 0:
                 return held({a, b, beside(a, b, 4)});
             case 1:
@@ -53,6 +55,8 @@ class LongTriangle {
                 return on_corners(a, b);
             case 6:
                 return without_area(a, b);
+            case 7:
+                return through_a_bricks_corner();
             default:
                 return about_128_voxels(a);
         }
@@ -99,6 +103,21 @@ class LongTriangle {
         glm::ivec3 first = a, way = (b - a) / parts;
         first.x = std::max(step_, a.x / step_ * step_), way.x = way.x / step_ * step_;
         return {first, first + way * parts, first + way * part};
+    }
+    /// Some of the bricks around that corner are met nowhere else.
+    TriangleOnLattice through_a_bricks_corner() {
+        const int before = 1 << random_.below(11), behind = 1 << random_.below(11);
+        glm::ivec3 corner, way;
+        for (int axis = 0; axis < 3; ++axis) {
+            const int bricks = units_[axis] / (kBrickSize * kVoxel);
+            corner[axis] = int(random_.between(1, bricks - 1)) * kBrickSize * kVoxel;
+            const int room = std::min(corner[axis], units_[axis] - corner[axis]) - step_;
+            const int most = room / std::max(before, behind);
+            way[axis] = int(random_.between(axis == 0 ? most / 2 : -most, most));
+        }
+        way.x = way.x / step_ * step_;
+        const glm::ivec3 a = corner - way * before, b = corner + way * behind;
+        return held({a, b, beside(a, b, width())});
     }
     /// On both sides of where planes go over to 128 bits.
     TriangleOnLattice about_128_voxels(const glm::ivec3& a) {
