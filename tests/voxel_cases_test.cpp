@@ -1,7 +1,8 @@
-// The voxel sets of the stress cases V4, V6, V14, V17, S2 and S3 (tests/CASES.md).
+// The voxel sets of the stress cases V3, V4, V6, V14, V17, S2 and S3 (tests/CASES.md).
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <glm/matrix.hpp>
 
 #include "runtime/io/mesh_reader.hpp"
 #include "runtime/stress/exact_cover.hpp"
@@ -68,11 +69,16 @@ TEST(VoxelCases, SliversOfUpTo16384VoxelsAreInEveryBrickThatTheyTouch) {
     EXPECT_EQ(result.mismatches, 0u) << result.examples.front().text;
 }
 
-TEST(VoxelCases, V14TheSymmetriesOfTheCubeCarryVoxelsAlong) {
-    Mesh mesh;
-    add_triangle(mesh, {1.3f, 2.1f, 3.7f}, {9.2f, 4.4f, 5.5f}, {3.1f, 8.7f, 10.2f});
-    add_triangle(mesh, {2, 2, 2}, {9, 2, 2}, {2, 8, 2});
-    const VoxelSetOf expected = voxels_of(mesh, ivec3(12), VoxelSet::supercover);
+/// Turned inside out.
+Mesh reversed(Mesh mesh) {
+    for (glm::uvec3& t : mesh.triangles) std::swap(t.y, t.z);
+    return mesh;
+}
+
+/// The 48 symmetries of a cube of `n` voxels carry the mesh's voxels along. Mirrors turn a mesh
+/// inside out, and it is turned back then.
+void expect_carried(const Mesh& mesh, int n, VoxelSet set) {
+    const VoxelSetOf expected = voxels_of(mesh, ivec3(n), set);
     int axes[3] = {0, 1, 2};
     do {
         for (int mirrored = 0; mirrored < 8; ++mirrored) {
@@ -81,21 +87,36 @@ TEST(VoxelCases, V14TheSymmetriesOfTheCubeCarryVoxelsAlong) {
             for (int a = 0; a < 3; ++a) {
                 const bool mirror = mirrored >> a & 1;
                 map[axes[a]][a] = mirror ? -1 : 1;
-                map[3][a] = mirror ? 12 : 0;
+                map[3][a] = mirror ? n : 0;
             }
             map[3][3] = 1;
             for (const ivec3& v : expected) {
                 ivec3 m;
-                for (int a = 0; a < 3; ++a) m[a] = mirrored >> a & 1 ? 11 - v[axes[a]] : v[axes[a]];
+                for (int a = 0; a < 3; ++a)
+                    m[a] = mirrored >> a & 1 ? n - 1 - v[axes[a]] : v[axes[a]];
                 moved.insert(m);
             }
-            EXPECT_EQ(
-                difference(occupied_voxels(shared_voxelizer().voxelize(
-                               mesh, map, unit_frame(ivec3(12)), cubes(VoxelSet::supercover))),
-                           moved),
-                "");
+            const Mesh outward = glm::determinant(map) < 0 ? reversed(mesh) : mesh;
+            EXPECT_EQ(difference(occupied_voxels(shared_voxelizer().voxelize(
+                                     outward, map, unit_frame(ivec3(n)), cubes(set))),
+                                 moved),
+                      "");
         }
     } while (std::next_permutation(axes, axes + 3));
+}
+
+TEST(VoxelCases, V14TheSymmetriesOfTheCubeCarryVoxelsAlong) {
+    Mesh mesh;
+    add_triangle(mesh, {1.3f, 2.1f, 3.7f}, {9.2f, 4.4f, 5.5f}, {3.1f, 8.7f, 10.2f});
+    add_triangle(mesh, {2, 2, 2}, {9, 2, 2}, {2, 8, 2});
+    expect_carried(mesh, 12, VoxelSet::supercover);
+}
+
+TEST(VoxelCases, V3TheSymmetriesOfTheCubeLeaveABoxOnGridPlanesAsItIs) {
+    const Mesh box = box_mesh({1, 1, 1}, {3, 3, 3});
+    EXPECT_EQ(voxels_of(box, ivec3(4), VoxelSet::solid).size(), 8u);
+    EXPECT_EQ(voxels_of(box, ivec3(4), VoxelSet::supercover).size(), 64u);
+    for (const VoxelSet set : {VoxelSet::solid, VoxelSet::supercover}) expect_carried(box, 4, set);
 }
 
 /// The voxels of a mesh as bits.
