@@ -61,7 +61,7 @@ uint64_t count_of(const Json& row, const char* key, const Place& place) {
 }
 
 std::string scene_of(const Json& row, const Place& place) {
-    const std::string scene = text_of(row, "scene", place);
+    std::string scene = text_of(row, "scene", place);
     std::vector<std::string_view> names;
     for (const BenchEntry& entry : bench_entries()) names.emplace_back(entry.name);
     if (std::ranges::find(names, scene) == names.end())

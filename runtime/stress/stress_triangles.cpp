@@ -21,8 +21,7 @@ using BrickMasks = std::array<uint64_t, 64>;
 class ExactVoxels {
   public:
     ExactVoxels(const TriangleOnLattice& t, const glm::ivec3& region)
-        : region_(region),
-          bricks_(region / kBrickSize),
+        : bricks_(region / kBrickSize),
           slots_(size_t(bricks_.x) * size_t(bricks_.y) * size_t(bricks_.z), 0),
           masks_(1, BrickMasks{}) {
         const int low = std::min({t[0].z, t[1].z, t[2].z}) - 1;
@@ -58,7 +57,7 @@ class ExactVoxels {
         }
     }
 
-    glm::ivec3 region_, bricks_;
+    glm::ivec3 bricks_;
     std::vector<uint32_t> slots_;  // 0: a brick without voxels
     std::vector<BrickMasks> masks_;
     uint64_t count_ = 0;
