@@ -47,7 +47,9 @@ install_packages() {
 configure() {
     [ -f "$build/build.ninja" ] && return
     say "Configuring $build"
-    cmake --preset "$preset" -DVXL_WERROR="${VXL_WERROR:-OFF}"
+    # Several files at a time: what they include is read once.
+    cmake --preset "$preset" -DVXL_WERROR="${VXL_WERROR:-OFF}" -DCMAKE_UNITY_BUILD=ON \
+        -DCMAKE_UNITY_BUILD_BATCH_SIZE=12
 }
 
 build_targets() {

@@ -173,11 +173,11 @@ Weights balanced(Weights all) {
 }
 
 /// How strongly each pixel is an edge, or a point, whatever its direction.
-struct Features {
+struct ImageFeatures {
     std::vector<double> edges, points;
 };
 
-Features features_of(const Plane& opponent, double pixels_per_degree) {
+ImageFeatures image_features(const Plane& opponent, double pixels_per_degree) {
     Plane lightness = opponent;
     for (double& value : lightness.values) value = (value + 16) / 116;
     const double deviation = 0.5 * kFeatureDegrees * pixels_per_degree;
@@ -214,8 +214,8 @@ double color_difference(const glm::dvec3& a, const glm::dvec3& b) {
 std::vector<float> flip_map(const Image& image, const Image& reference, double pixels_per_degree) {
     const Opponents a = opponents_of(image), b = opponents_of(reference);
     const auto seen_a = perceived(a, pixels_per_degree), seen_b = perceived(b, pixels_per_degree);
-    const Features of_a = features_of(a[0], pixels_per_degree);
-    const Features of_b = features_of(b[0], pixels_per_degree);
+    const ImageFeatures of_a = image_features(a[0], pixels_per_degree);
+    const ImageFeatures of_b = image_features(b[0], pixels_per_degree);
     std::vector<float> map;
     for (size_t i = 0; i < seen_a.size(); ++i) {
         const double color = color_difference(seen_a[i], seen_b[i]);

@@ -22,6 +22,8 @@ namespace voxelume {
 inline constexpr int kLeafSize = 4;     ///< voxels along a leaf's edge
 inline constexpr int kBrickSize = 16;   ///< voxels along a brick's edge
 inline constexpr int kSectorSize = 64;  ///< voxels along a sector's edge
+inline constexpr size_t kVoxelsPerBrick = 4096, kLeavesPerBrick = 64;
+inline constexpr size_t kFloatsPerTriangle = 9;
 
 /// Where a grid's voxels are: voxel (i,j,k) fills origin + edge * [(i,j,k), (i,j,k)+1].
 struct GridFrame {

@@ -7,17 +7,17 @@
 namespace voxelume {
 namespace {
 
-struct Header {
+struct GridHeader {
     GridFrame frame;
     uint32_t brick_count = 0;
     uint32_t attribute = 0;
     uint64_t transparent = 0;
 };
-static_assert(std::is_trivially_copyable_v<Header>);
+static_assert(std::is_trivially_copyable_v<GridHeader>);
 
 /// Shows all buffers of a grid to `visit`, in the order of their bytes.
 template <class Grid, class Visit>
-void visit_buffers(Grid& grid, const Visit& visit) {
+void visit_grid(Grid& grid, const Visit& visit) {
     visit("model slots", grid.slots);
     visit("model coordinates", grid.coordinates);
     visit("model occupancy", grid.occupancy);
@@ -34,7 +34,7 @@ void visit_buffers(Grid& grid, const Visit& visit) {
 }  // namespace
 
 std::string bytes_of_grid(const BrickGrid& grid) {
-    Header header;
+    GridHeader header;
     std::memset(static_cast<void*>(&header), 0, sizeof header);  // padding, too
     header.frame.origin = grid.frame.origin;
     header.frame.voxel_edge = grid.frame.voxel_edge;
@@ -44,20 +44,20 @@ std::string bytes_of_grid(const BrickGrid& grid) {
     header.transparent = grid.transparent;
     PackedWriter writer;
     writer.put(header);
-    visit_buffers(grid, [&](const char*, const auto& buffer) { writer.put(buffer); });
+    visit_grid(grid, [&](const char*, const auto& buffer) { writer.put(buffer); });
     return writer.take();
 }
 
 std::optional<BrickGrid> grid_of_bytes(const Device& device, std::string_view bytes) {
     PackedReader reader(bytes);
-    Header header;
+    GridHeader header;
     reader.take(header);
     BrickGrid grid;
     grid.frame = header.frame;
     grid.brick_count = header.brick_count;
     grid.attribute = header.attribute;
     grid.transparent = header.transparent != 0;
-    visit_buffers(grid, [&](const char* name, auto& buffer) { reader.take(device, name, buffer); });
+    visit_grid(grid, [&](const char* name, auto& buffer) { reader.take(device, name, buffer); });
     const glm::ivec3 bricks = grid.frame.bricks();
     const bool fits = grid.slots.size() == size_t(bricks.x) * bricks.y * bricks.z &&
                       grid.coordinates.size() == grid.brick_count;
@@ -67,7 +67,7 @@ std::optional<BrickGrid> grid_of_bytes(const Device& device, std::string_view by
 
 uint64_t device_bytes(const BrickGrid& grid) {
     uint64_t sum = 0;
-    visit_buffers(grid, [&]<class T>(const char*, const Buffer<T>& buffer) {
+    visit_grid(grid, [&]<class T>(const char*, const Buffer<T>& buffer) {
         sum += buffer.size() * sizeof(T);
     });
     return sum;

@@ -7,16 +7,16 @@
 namespace voxelume {
 namespace {
 
-struct Header {
+struct PyramidHeader {
     GridFrame frame;
     uint32_t leaf_count = 0, voxel_count = 0;
     uint32_t attribute = 0, transparent = 0;
 };
-static_assert(std::is_trivially_copyable_v<Header>);
+static_assert(std::is_trivially_copyable_v<PyramidHeader>);
 
 /// Shows the buffers of a pyramid's voxels to `visit`, in the order of their bytes.
 template <class AnyPyramid, class Visit>
-void visit_buffers(AnyPyramid& pyramid, const Visit& visit) {
+void visit_pyramid(AnyPyramid& pyramid, const Visit& visit) {
     visit("sectors", pyramid.sectors);
     visit("brick records", pyramid.bricks);
     visit("leaves", pyramid.leaves);
@@ -38,7 +38,7 @@ uint64_t bytes_of(const Pyramid& pyramid) {
     const auto add = [&]<class T>(const char*, const Buffer<T>& buffer) {
         sum += uint64_t(buffer.size() * sizeof(T));
     };
-    visit_buffers(pyramid, add);
+    visit_pyramid(pyramid, add);
     add("", pyramid.instances.records);
     add("", pyramid.instances.nodes);
     add("", pyramid.instances.materials);
@@ -46,7 +46,7 @@ uint64_t bytes_of(const Pyramid& pyramid) {
 }
 
 std::string bytes_of_pyramid(const Pyramid& pyramid) {
-    Header header;
+    PyramidHeader header;
     std::memset(static_cast<void*>(&header), 0, sizeof header);  // padding, too
     header.frame.origin = pyramid.frame.origin;
     header.frame.voxel_edge = pyramid.frame.voxel_edge;
@@ -57,13 +57,13 @@ std::string bytes_of_pyramid(const Pyramid& pyramid) {
     header.transparent = pyramid.transparent;
     PackedWriter writer;
     writer.put(header);
-    visit_buffers(pyramid, [&](const char*, const auto& buffer) { writer.put(buffer); });
+    visit_pyramid(pyramid, [&](const char*, const auto& buffer) { writer.put(buffer); });
     return writer.take();
 }
 
 std::optional<Pyramid> pyramid_of_bytes(const Device& device, std::string_view bytes) {
     PackedReader reader(bytes);
-    Header header;
+    PyramidHeader header;
     reader.take(header);
     Pyramid pyramid;
     pyramid.frame = header.frame;
@@ -71,7 +71,7 @@ std::optional<Pyramid> pyramid_of_bytes(const Device& device, std::string_view b
     pyramid.voxel_count = header.voxel_count;
     pyramid.attribute = header.attribute;
     pyramid.transparent = header.transparent != 0;
-    visit_buffers(pyramid,
+    visit_pyramid(pyramid,
                   [&](const char* name, auto& buffer) { reader.take(device, name, buffer); });
     const bool fits = pyramid.leaves.size() == size_t(pyramid.leaf_count) * 2 &&
                       pyramid.leaf_voxels.size() == pyramid.leaf_count;

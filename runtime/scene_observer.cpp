@@ -69,10 +69,10 @@ void read_angles(const SceneFields& fields, glm::ivec2 image_size, Display& disp
 
 /// How the display's voxels are ordered, and which of them it has.
 void read_volume(const SceneFields& fields, Display& display) {
-    using Names = std::array<std::string_view, 2>;
+    using Pair = std::array<std::string_view, 2>;
     using Sights = std::array<std::string_view, 3>;
     if (const auto layout = fields.find("layout"))
-        display.layout = static_cast<VolumeLayout>(layout->choice(Names{"rays", "lattice"}));
+        display.layout = static_cast<VolumeLayout>(layout->choice(Pair{"rays", "lattice"}));
     const bool is_lattice = display.layout == VolumeLayout::lattice;
     const auto visibility = fields.find("visibility");
     if (visibility)
@@ -81,7 +81,7 @@ void read_volume(const SceneFields& fields, Display& display) {
     if (display.visibility != Visibility::observer && !is_lattice)
         visibility->fail("needs \"layout\": \"lattice\": rays show what their observer sees");
     const auto clip = fields.find("clip");
-    if (clip) display.cylinder = clip->choice(Names{"shape", "cylinder"}) == 1;
+    if (clip) display.cylinder = clip->choice(Pair{"shape", "cylinder"}) == 1;
     if (display.cylinder && !is_lattice)
         clip->fail("needs \"layout\": \"lattice\": rays end with their display's shape");
 }

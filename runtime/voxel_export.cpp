@@ -13,8 +13,6 @@
 namespace voxelume {
 namespace {
 
-constexpr uint32_t kVoxelsPerBrick = 4096, kLeavesPerBrick = 64;
-
 template <class Vector>
 std::string vector_text(const Vector& v) {
     return fmt::format("{} {} {}", v.x, v.y, v.z);

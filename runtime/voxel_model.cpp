@@ -17,8 +17,7 @@ namespace {
 constexpr int kMostVoxelsPerAxis = 65536;
 constexpr double kMostBricks = 1 << 28, kFarthestCell = 1 << 30;
 constexpr size_t kMostStoredBricks = 1 << 18;  // 4 GiB of colours
-constexpr size_t kVoxelsPerBrick = 4096, kLeavesPerBrick = 64;
-constexpr int kMargin = 4;  // voxels around a volume, as around other models
+constexpr int kMargin = 4;                     // voxels around a volume, as around other models
 
 uint32_t srgb_byte(float linear) {
     const double v = std::clamp(double(linear), 0.0, 1.0);

@@ -59,7 +59,7 @@ std::vector<PlotSeries> curves(const BenchReport& report, const std::string& sce
     return all;
 }
 
-double size_of(const BenchRow& row) {
+double voxel_size_of(const BenchRow& row) {
     return row.voxel_size;
 }
 
@@ -89,7 +89,8 @@ void add_fits(LogPlot& plot, const BenchReport& report, const std::string& scene
 
 LogPlot size_plot(const BenchReport& report, const std::string& scene, const char* title,
                   const char* label, const Value& error) {
-    return {scene + ": " + title, "voxel size, m", label, curves(report, scene, size_of, error)};
+    return {scene + ": " + title, "voxel size, m", label,
+            curves(report, scene, voxel_size_of, error)};
 }
 
 LogPlot fitted_plot(const BenchReport& report, const std::string& scene, const char* title,

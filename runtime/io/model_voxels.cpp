@@ -12,7 +12,6 @@ namespace voxelume {
 namespace {
 
 constexpr uint64_t kMostModelBytes = uint64_t{12} << 30;  // of a file's arrays
-constexpr size_t kVoxelsPerBrick = 4096, kLeavesPerBrick = 64;
 constexpr const char* kSurfaceNames[] = {"cubes", "smooth", "exact"};
 
 /// Throws, before memory is taken for them, where arrays are more than a model may have.

@@ -16,19 +16,19 @@ namespace {
 
 /// Passes bytes on to the file, through gzip when asked. No time is stored, so the same bytes give
 /// the same file.
-class NrrdData {
+class NrrdWriter {
   public:
-    NrrdData(AtomicFile& file, bool compress) : file_(file), compress_(compress) {
+    NrrdWriter(AtomicFile& file, bool compress) : file_(file), compress_(compress) {
         constexpr int kGzip = 15 + 16, kMemoryLevel = 8, kLevel = 1;
         if (compress && deflateInit2(&stream_, kLevel, Z_DEFLATED, kGzip, kMemoryLevel,
                                      Z_DEFAULT_STRATEGY) != Z_OK)
             file.fail("zlib doesn't start");
     }
-    ~NrrdData() {
+    ~NrrdWriter() {
         if (compress_) deflateEnd(&stream_);
     }
-    NrrdData(const NrrdData&) = delete;
-    NrrdData& operator=(const NrrdData&) = delete;
+    NrrdWriter(const NrrdWriter&) = delete;
+    NrrdWriter& operator=(const NrrdWriter&) = delete;
 
     void write(const std::vector<float>& values) {
         if (!compress_) {
@@ -130,7 +130,7 @@ void write_volume_nrrd(const VolumePath& path, const Volume& volume, const Volum
     AtomicFile file(path);
     const std::string header = header_text(file, volume, options);
     file.write(header.data(), header.size());
-    NrrdData data(file, options.compress);
+    NrrdWriter data(file, options.compress);
     const size_t channels = options.all_values ? 7 : 4;
     const glm::ivec3& size = volume.frame.size;
     std::vector<float> row(channels * size_t(size.x));

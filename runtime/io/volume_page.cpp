@@ -125,7 +125,7 @@ std::string frame_json(const Volume& volume, const PageVoxels& voxels, const Pag
     return json.dump();
 }
 
-std::string escape(const std::string& text) {
+std::string escape_html(const std::string& text) {
     std::string escaped;
     for (const char c : text) {
         if (c == '<' || c == '>' || c == '&')
@@ -140,8 +140,8 @@ std::string title_of(const Volume& volume) {
     const glm::ivec3& size = volume.frame.size;
     const auto scene = volume.attributes.find("scene");
     return fmt::format("{}{} x {} x {} voxels, {} shown",
-                       scene == volume.attributes.end() ? "" : escape(scene->second) + ": ", size.x,
-                       size.y, size.z, volume.places.size());
+                       scene == volume.attributes.end() ? "" : escape_html(scene->second) + ": ",
+                       size.x, size.y, size.z, volume.places.size());
 }
 
 }  // namespace

@@ -12,7 +12,6 @@ namespace voxelume {
 namespace {
 
 constexpr uint32_t kWhite = 0x00FFFFFF;
-constexpr uint32_t kVoxelsPerBrick = 4096, kLeavesPerBrick = 64;
 constexpr double kFarVoxels = 64;  // beyond the frame, where no distance matters
 
 /// What a grid says of a brick: that of two is no more than either says, or no less.

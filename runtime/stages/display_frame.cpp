@@ -7,14 +7,11 @@
 #include <glm/trigonometric.hpp>
 #include <limits>
 
+#include "runtime/stages/float4.hpp"
 #include "runtime/stages/sight.hpp"
 
 namespace voxelume {
 namespace {
-
-float4 to_float4(const glm::dvec3& v) {
-    return {float(v.x), float(v.y), float(v.z), 0};
-}
 
 /// The box around a display's shape, in the observer's coordinates, metres.
 Bounds bounds_of(const Display& display) {

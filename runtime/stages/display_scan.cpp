@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "runtime/error.hpp"
+#include "runtime/stages/float4.hpp"
 #include "runtime/stages/trace.hpp"
 
 namespace voxelume {
@@ -17,10 +18,6 @@ constexpr int kMostParts = 64;
 /// only those few are scanned again.
 constexpr uint32_t kBatchParts = 4;
 
-float4 to_float4(const glm::dvec3& v) {
-    return {float(v.x), float(v.y), float(v.z), 0};
-}
-
 /// Parts of a display voxel's edge of which none is longer than a voxel of the world.
 int parts_of(double edge, const GridFrame& world) {
     const glm::dvec3& e = world.voxel_edge;
@@ -28,13 +25,13 @@ int parts_of(double edge, const GridFrame& world) {
     return std::clamp(int(parts), 1, kMostParts);
 }
 
-struct Range {
+struct LineRange {
     int first, last;
 };
 
 /// Numbers of the lines that meet the world across one axis of the lattice, which has `count` parts
 /// of a voxel along it; `first` is above `last` where there are none.
-Range lines_across(const float4& row, int parts, int count, const GridFrame& world) {
+LineRange lines_across(const float4& row, int parts, int count, const GridFrame& world) {
     const glm::dvec3 along(row.x, row.y, row.z);
     double least = double(row.w), most = least;
     for (int axis = 0; axis < 3; ++axis) {
@@ -81,9 +78,9 @@ DisplayScanStage::Family DisplayScanStage::family(int axis, const VolumeFrame& f
     result.axis = axis;
     result.parts = {parts_of(frame.edge[a], world), parts_of(frame.edge[b], world)};
     const std::array rows = {lattice_.row_x, lattice_.row_y, lattice_.row_z};
-    const Range across_a =
+    const LineRange across_a =
         lines_across(rows[size_t(a)], result.parts.x, frame.size[a] * result.parts.x, world);
-    const Range across_b =
+    const LineRange across_b =
         lines_across(rows[size_t(b)], result.parts.y, frame.size[b] * result.parts.y, world);
     result.last = {across_a.last, across_b.last};
     glm::dvec3 corner = frame.origin;

@@ -13,7 +13,6 @@ namespace {
 
 constexpr uint32_t kEmptySector = 0x80000000u;
 constexpr size_t kRecordsPerSector = 64, kWordsPerRecord = 4;
-constexpr size_t kFloatsPerTriangle = 9;
 constexpr uint32_t kWhite = 0xFFFFFF;
 
 /// Sizes of the joined buffers, and during the joining how much of them is full.

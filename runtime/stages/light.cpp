@@ -2,16 +2,11 @@
 
 #include <cmath>
 
+#include "runtime/stages/float4.hpp"
 #include "runtime/stages/trace.hpp"
 
 namespace voxelume {
-namespace {
-
-float4 to_float4(const glm::dvec3& v) {
-    return {float(v.x), float(v.y), float(v.z), 0};
-}
-
-}  // namespace
+namespace {}  // namespace
 
 LightRecord light_record(const Light& light, const GridFrame& world) {
     LightRecord record{};

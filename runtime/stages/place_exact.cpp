@@ -8,8 +8,6 @@
 namespace voxelume {
 namespace {
 
-constexpr size_t kFloatsPerTriangle = 9;
-
 Program program_for(const Device& device, const BrickGrid& grid) {
     return Program(
         device, "place_exact.cl",

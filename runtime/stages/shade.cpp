@@ -4,14 +4,11 @@
 #include <cmath>
 #include <numeric>
 
+#include "runtime/stages/float4.hpp"
 #include "runtime/stages/trace.hpp"
 
 namespace voxelume {
 namespace {
-
-float4 to_float4(const glm::dvec3& v) {
-    return {float(v.x), float(v.y), float(v.z), 0};
-}
 
 void copy(const glm::vec3& from, float (&to)[3]) {
     for (int i = 0; i < 3; ++i) to[i] = from[i];

@@ -6,12 +6,10 @@
 #include <glm/trigonometric.hpp>
 #include <limits>
 
+#include "runtime/stages/float4.hpp"
+
 namespace voxelume {
 namespace {
-
-float4 to_float4(const glm::dvec3& v) {
-    return {float(v.x), float(v.y), float(v.z), 0};
-}
 
 /// How far the world's nearest corner is ahead of the observer along Z_E, metres; 0 if it is not.
 double depth_of_world(const Observer& observer, const GridFrame& world) {

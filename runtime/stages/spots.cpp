@@ -6,15 +6,12 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
+#include "runtime/stages/float4.hpp"
 #include "runtime/stages/spot_pieces.hpp"
 #include "runtime/stages/trace.hpp"
 
 namespace voxelume {
 namespace {
-
-float4 to_float4(const glm::dvec3& v) {
-    return {float(v.x), float(v.y), float(v.z), 0};
-}
 
 LightRecord patch_record(const glm::dvec3& position, const glm::dvec3& normal,
                          const glm::dvec3& energy, double area) {

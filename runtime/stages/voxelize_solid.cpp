@@ -19,7 +19,6 @@ namespace voxelume {
 namespace {
 
 constexpr double kBand = 2.8;  // voxels around the surface whose distances are stored
-constexpr size_t kVoxelsPerBrick = 4096, kLeavesPerBrick = 64;
 
 cl_int4 int4_of(const glm::ivec3& v) {
     return cl_int4{{v.x, v.y, v.z, 0}};

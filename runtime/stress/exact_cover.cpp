@@ -7,7 +7,7 @@ namespace {
 
 __extension__ using Wide = __int128;
 
-constexpr int64_t kVoxel = 4096;
+constexpr int64_t kUnit = kUnitsPerVoxel;
 
 /// The closed range of voxels whose cubes hold some of the points given, along one axis.
 class RowBounds {
@@ -15,7 +15,7 @@ class RowBounds {
     /// The point at numerator / denominator lattice units.
     void add(Wide numerator, Wide denominator) {
         if (denominator < 0) numerator = -numerator, denominator = -denominator;
-        const Wide per_voxel = denominator * kVoxel;
+        const Wide per_voxel = denominator * kUnit;
         const Wide floor = numerator / per_voxel - (numerator % per_voxel < 0);
         const bool on_plane = floor * per_voxel == numerator;
         // A point on a plane touches the voxels on both sides of it.
@@ -69,7 +69,7 @@ int64_t turn(const glm::ivec3& a, const glm::ivec3& b, int64_t y, int64_t z) {
 }  // namespace
 
 VoxelRow exact_row(const TriangleOnLattice& t, int y, int z) {
-    const Prism prism{{y * kVoxel, z * kVoxel}, {(y + 1) * kVoxel, (z + 1) * kVoxel}};
+    const Prism prism{{y * kUnit, z * kUnit}, {(y + 1) * kUnit, (z + 1) * kUnit}};
     RowBounds bounds;
     for (size_t i = 0; i < 3; ++i) {
         const glm::ivec3& p = t[i];
@@ -92,7 +92,7 @@ VoxelRow exact_row(const TriangleOnLattice& t, int y, int z) {
 }
 
 VoxelRow exact_rows(const TriangleOnLattice& t, int z) {
-    const int64_t low = z * kVoxel, high = low + kVoxel;
+    const int64_t low = z * kUnit, high = low + kUnit;
     RowBounds bounds;  // of the corners of what the layer holds of the triangle
     for (size_t i = 0; i < 3; ++i) {
         const glm::ivec3 &a = t[i], &b = t[(i + 1) % 3];

@@ -7,6 +7,8 @@
 
 namespace voxelume {
 
+inline constexpr int kUnitsPerVoxel = 4096;
+
 /// Corners in 1/4096 voxel.
 using TriangleOnLattice = std::array<glm::ivec3, 3>;
 

@@ -23,6 +23,8 @@ struct FixedGrid {
 /// The fixed point that grids of this size have.
 FixedGrid fixed_grid(const glm::ivec3& size);
 
+inline constexpr int64_t kDirectionOne = int64_t{1} << 22;  ///< a direction's component of 1
+
 /// A ray in fixed point: the origin in 2^-fraction_bits voxels, in the grid, the direction in 2^-22
 /// with the largest component from 2^21 to 2^22.
 struct FixedRay {

@@ -7,15 +7,14 @@
 namespace voxelume {
 namespace {
 
-constexpr int kVoxel = 4096;
-constexpr int kReach = 16384;  // voxels from the grid's origin, the most that there may be
+constexpr int kFarthest = 16384;  // voxels from the grid's origin, the most that there may be
 
 /// Units between corners' coordinates: floats hold 24 bits.
 constexpr int kStep = 4;
 
 /// Before its axes are turned.
 constexpr TriangleGrid kPillar = {{48, 48, 32}, {1, 1, int(kTrianglesOfOneGrid)}};
-static_assert(uint64_t(kPillar.region.z) * kTrianglesOfOneGrid == kReach);
+static_assert(uint64_t(kPillar.region.z) * kTrianglesOfOneGrid == kFarthest);
 
 int turns_of(uint64_t grid) {
     return int(grid % 3);
@@ -35,7 +34,8 @@ class GiantTriangle {
   public:
     /// Rises by at most `rise` voxels on the way to a corner.
     GiantTriangle(StressRandom& random, int rise) : random_(random) {
-        const std::array<int, 4> heights = {0, 1, kVoxel / kStep, rise * (kVoxel / kStep)};
+        const std::array<int, 4> heights = {0, 1, kUnitsPerVoxel / kStep,
+                                            rise * (kUnitsPerVoxel / kStep)};
         height_ = heights[random.below(heights.size())];
     }
 
@@ -60,11 +60,11 @@ class GiantTriangle {
     }
     int steps(int most) { return kStep * int(random_.between(-most, most)); }
     glm::ivec3 far() {
-        constexpr int kFar = (kReach / 2 - 64) * (kVoxel / kStep);
+        constexpr int kFar = (kFarthest / 2 - 64) * (kUnitsPerVoxel / kStep);
         return {steps(kFar), steps(kFar), steps(height_)};
     }
     glm::ivec3 near(const glm::ivec3& p) {
-        constexpr int kNear = 8 * (kVoxel / kStep);
+        constexpr int kNear = 8 * (kUnitsPerVoxel / kStep);
         return p + glm::ivec3(steps(kNear), steps(kNear), steps(std::min(height_, 256)));
     }
 
@@ -80,9 +80,9 @@ TriangleGrid grid_of_giant_triangles(uint64_t grid) {
 }
 
 TriangleOnLattice giant_triangle(StressRandom& random, uint64_t grid, uint64_t number) {
-    const int above = kReach - kPillar.start(number).z - kPillar.region.z;
+    const int above = kFarthest - kPillar.start(number).z - kPillar.region.z;
     TriangleOnLattice t = GiantTriangle(random, std::min(4000, above / 2)).any();
-    for (glm::ivec3& p : t) p = turned(p + kPillar.region * kVoxel / 2, turns_of(grid));
+    for (glm::ivec3& p : t) p = turned(p + kPillar.region * kUnitsPerVoxel / 2, turns_of(grid));
     return t;
 }
 

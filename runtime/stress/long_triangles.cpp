@@ -8,8 +8,6 @@
 namespace voxelume {
 namespace {
 
-constexpr int kVoxel = 4096;
-
 /// Regions of long triangles, whose longest axis is x before they are turned: some 4000 bricks
 /// each, for the device visits all of a triangle's box, and no axis of the grid beyond 16384.
 constexpr std::array kLongGrids = {
@@ -34,7 +32,7 @@ class LongTriangle {
   public:
     LongTriangle(StressRandom& random, const TriangleGrid& grid)
         : random_(random),
-          units_(grid.region * kVoxel),
+          units_(grid.region * kUnitsPerVoxel),
           // Floats hold 24 bits: all lattice units of 4096 voxels, every fourth of 16384.
           step_(std::max(1, grid.size().x / 4096)) {}
 
@@ -46,7 +44,7 @@ class LongTriangle {
             case 1:
                 return held({a, b, beside(a, b, width())});
             case 2:
-                return held({a, b, near(b, kVoxel)});
+                return held({a, b, near(b, kUnitsPerVoxel)});
             case 3:
                 return in_plane(a, b, 0);
             case 4:
@@ -64,7 +62,7 @@ class LongTriangle {
 
   private:
     /// How far from its longest edge a corner may lie for some 10^4 voxels to be met.
-    int width() const { return std::min(16, 65536 * kVoxel / units_.x) * kVoxel; }
+    int width() const { return std::min(16, 65536 * kUnitsPerVoxel / units_.x) * kUnitsPerVoxel; }
 
     glm::ivec3 point(int low_x, int high_x) {
         return {int(random_.between(low_x, high_x)), int(random_.between(1, units_.y - 1)),
@@ -87,14 +85,15 @@ class LongTriangle {
     TriangleOnLattice in_plane(const glm::ivec3& a, const glm::ivec3& b, int tilt) {
         const int axis = 1 + int(random_.below(2));
         TriangleOnLattice t = {a, b, beside(a, b, width())};
-        const int plane = std::max(kVoxel, a[axis] / kVoxel * kVoxel);
+        const int plane = std::max(kUnitsPerVoxel, a[axis] / kUnitsPerVoxel * kUnitsPerVoxel);
         for (glm::ivec3& p : t) p[axis] = plane + int(random_.between(-tilt, tilt));
         return held(t);
     }
     TriangleOnLattice on_corners(const glm::ivec3& a, const glm::ivec3& b) {
         TriangleOnLattice t = {a, b, beside(a, b, width())};
         for (glm::ivec3& p : t)
-            p = glm::clamp(p / kVoxel, glm::ivec3(1), units_ / kVoxel - 1) * kVoxel;
+            p = glm::clamp(p / kUnitsPerVoxel, glm::ivec3(1), units_ / kUnitsPerVoxel - 1) *
+                kUnitsPerVoxel;
         return t;
     }
     /// Three points of a line.
@@ -109,8 +108,8 @@ class LongTriangle {
         const int before = 1 << random_.below(11), behind = 1 << random_.below(11);
         glm::ivec3 corner, way;
         for (int axis = 0; axis < 3; ++axis) {
-            const int bricks = units_[axis] / (kBrickSize * kVoxel);
-            corner[axis] = int(random_.between(1, bricks - 1)) * kBrickSize * kVoxel;
+            const int bricks = units_[axis] / (kBrickSize * kUnitsPerVoxel);
+            corner[axis] = int(random_.between(1, bricks - 1)) * kBrickSize * kUnitsPerVoxel;
             const int room = std::min(corner[axis], units_[axis] - corner[axis]) - step_;
             const int most = room / std::max(before, behind);
             way[axis] = int(random_.between(axis == 0 ? most / 2 : -most, most));
@@ -121,8 +120,8 @@ class LongTriangle {
     }
     /// On both sides of where planes go over to 128 bits.
     TriangleOnLattice about_128_voxels(const glm::ivec3& a) {
-        glm::ivec3 b = near(a, 2 * kVoxel);
-        b.x = a.x + 128 * kVoxel + step_ * int(random_.between(-1, 1));
+        glm::ivec3 b = near(a, 2 * kUnitsPerVoxel);
+        b.x = a.x + 128 * kUnitsPerVoxel + step_ * int(random_.between(-1, 1));
         return held({a, b, beside(a, b, width())});
     }
     /// In the region, along x in whole steps.

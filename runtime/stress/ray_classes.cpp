@@ -8,8 +8,6 @@
 namespace voxelume {
 namespace {
 
-constexpr int64_t kOne = int64_t{1} << 22;  // direction 1
-
 using Components = std::array<int64_t, 3>;
 
 int64_t largest(const Components& d) {
@@ -25,14 +23,15 @@ Components any_origin(const FixedGrid& grid, StressRandom& random) {
 
 Components any_direction(StressRandom& random) {
     Components d;
-    for (int64_t& c : d) c = random.between(-kOne, kOne);
-    if (largest(d) < kOne / 2) d[random.below(3)] = random.sign() * random.between(kOne / 2, kOne);
+    for (int64_t& c : d) c = random.between(-kDirectionOne, kDirectionOne);
+    if (largest(d) < kDirectionOne / 2)
+        d[random.below(3)] = random.sign() * random.between(kDirectionOne / 2, kDirectionOne);
     return d;
 }
 
 /// A direction's largest component doubled into [1/2, 1], which loses nothing.
 Components scaled_up(Components d) {
-    while (largest(d) < kOne / 2)
+    while (largest(d) < kDirectionOne / 2)
         for (int64_t& c : d) c *= 2;
     return d;
 }
@@ -63,8 +62,9 @@ FixedRay in_a_plane(const FixedGrid& grid, StressRandom& random) {
     const int64_t plane = random.between(0, grid.size[int(axis)]) * grid.unit();
     ray.origin[axis] = std::clamp<int64_t>(plane + random.between(-2, 2), 0, side);
     ray.direction[axis] = random.between(-4, 4);
-    if (largest(ray.direction) < kOne / 2)
-        ray.direction[(axis + 1) % 3] = random.sign() * random.between(kOne / 2, kOne);
+    if (largest(ray.direction) < kDirectionOne / 2)
+        ray.direction[(axis + 1) % 3] =
+            random.sign() * random.between(kDirectionOne / 2, kDirectionOne);
     return ray;
 }
 
@@ -75,7 +75,8 @@ FixedRay through_a_corner(const FixedGrid& grid, StressRandom& random) {
     // With few bits some rays pass exactly through the corner, with all of them within half a unit.
     const int64_t step = int64_t{1} << random.below(23);
     for (int64_t& c : ray.direction) c = c / step * step;
-    if (largest(ray.direction) < kOne / 2) ray.direction[random.below(3)] = random.sign() * kOne;
+    if (largest(ray.direction) < kDirectionOne / 2)
+        ray.direction[random.below(3)] = random.sign() * kDirectionOne;
     const size_t free_axis = random.below(6);
     Components target;
     for (size_t a = 0; a < 3; ++a)
@@ -85,15 +86,16 @@ FixedRay through_a_corner(const FixedGrid& grid, StressRandom& random) {
     for (size_t a = 0; a < 3; ++a) {
         const int64_t d = ray.direction[a], side = int64_t(grid.size[int(a)]) * grid.unit();
         if (d != 0)
-            way = std::min(way, (d > 0 ? target[a] : side - target[a]) * kOne / std::abs(d));
+            way =
+                std::min(way, (d > 0 ? target[a] : side - target[a]) * kDirectionOne / std::abs(d));
     }
     way = random.between(0, way);
     const bool exact = random.below(2) == 0;
-    if (exact) way -= way % (kOne / step);  // so far every component is whole
+    if (exact) way -= way % (kDirectionOne / step);  // so far every component is whole
     for (size_t a = 0; a < 3; ++a)
-        ray.origin[a] = std::clamp<int64_t>(
-            target[a] - way * ray.direction[a] / kOne + (exact ? 0 : random.between(-1, 1)), 0,
-            int64_t(grid.size[int(a)]) * grid.unit());
+        ray.origin[a] = std::clamp<int64_t>(target[a] - way * ray.direction[a] / kDirectionOne +
+                                                (exact ? 0 : random.between(-1, 1)),
+                                            0, int64_t(grid.size[int(a)]) * grid.unit());
     return ray;
 }
 
@@ -105,7 +107,7 @@ FixedRay along_an_axis(const FixedGrid& grid, StressRandom& random) {
         if (random.below(4) == 0)
             ray.origin[a] = random.between(0, grid.size[int(a)]) * grid.unit();
     }
-    ray.direction[axis] = random.sign() * (kOne - random.between(0, 3));
+    ray.direction[axis] = random.sign() * (kDirectionOne - random.between(0, 3));
     return ray;
 }
 
@@ -113,7 +115,7 @@ FixedRay along_a_diagonal(const FixedGrid& grid, StressRandom& random) {
     FixedRay ray{any_origin(grid, random), {}};
     const bool on_lattice = random.below(2) == 0;
     for (size_t a = 0; a < 3; ++a) {
-        ray.direction[a] = random.sign() * (kOne - random.between(0, 3));
+        ray.direction[a] = random.sign() * (kDirectionOne - random.between(0, 3));
         if (on_lattice)
             ray.origin[a] = std::clamp<int64_t>(
                 random.between(0, grid.size[int(a)]) * grid.unit() + random.between(-1, 1), 0,
@@ -132,8 +134,9 @@ FixedRay from_a_side(const FixedGrid& grid, StressRandom& random) {
         ray.origin[a] = random.below(2) ? int64_t(grid.size[int(a)]) * grid.unit() : 0;
         if (random.below(3) == 0) ray.direction[a] = random.between(-1, 1);
     }
-    if (largest(ray.direction) < kOne / 2)
-        ray.direction[random.below(3)] = random.sign() * random.between(kOne / 2, kOne);
+    if (largest(ray.direction) < kDirectionOne / 2)
+        ray.direction[random.below(3)] =
+            random.sign() * random.between(kDirectionOne / 2, kDirectionOne);
     return ray;
 }
 

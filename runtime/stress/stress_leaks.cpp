@@ -19,7 +19,6 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 constexpr size_t kBatch = 1u << 14;
-constexpr int64_t kOne = int64_t{1} << 22;  // direction 1
 const glm::ivec3 kSize(87, 83, 45);
 
 /// A ring with an elliptic tube around z, in voxels.
@@ -89,7 +88,7 @@ InwardRay from_a_side(const Ring& ring, const FixedGrid& grid, double share, Str
     const double longest = std::max({std::abs(way.x), std::abs(way.y), std::abs(way.z)});
     inward.inside = std::exp2(std::ceil(std::log2(longest)));
     for (size_t a = 0; a < 3; ++a)
-        ray.direction[a] = std::llround(way[int(a)] / inward.inside * double(kOne));
+        ray.direction[a] = std::llround(way[int(a)] / inward.inside * double(kDirectionOne));
     return inward;
 }
 
@@ -115,7 +114,7 @@ InwardRay through_corners(const Ring& ring, const FixedGrid& grid, double share,
         if (ring.outside(origin) < 1.5) continue;
         for (size_t a = 0; a < 3; ++a) {
             inward.ray.origin[a] = std::llround(origin[int(a)] * double(grid.unit()));
-            inward.ray.direction[a] = quarters[int(a)] * (kOne / 4);
+            inward.ray.direction[a] = quarters[int(a)] * (kDirectionOne / 4);
         }
         return inward;
     }
@@ -125,7 +124,7 @@ glm::dvec3 point_at(const FixedGrid& grid, const FixedRay& ray, double t) {
     glm::dvec3 point;
     for (size_t a = 0; a < 3; ++a)
         point[int(a)] = double(ray.origin[a]) / double(grid.unit()) +
-                        double(ray.direction[a]) / double(kOne) * t;
+                        double(ray.direction[a]) / double(kDirectionOne) * t;
     return point;
 }
 

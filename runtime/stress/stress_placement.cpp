@@ -16,7 +16,7 @@
 namespace voxelume {
 namespace {
 
-constexpr int kRegion = 48;  // voxels along the edge of what one map's lump stands in
+constexpr int kLumpRegion = 48;  // voxels along the edge of what one map's lump stands in
 constexpr int kRegionsAlong = 3;
 constexpr uint64_t kMapsOfOneWorld = kRegionsAlong * kRegionsAlong * kRegionsAlong;
 constexpr double kOrigin = -24;  // of the world, metres and voxels
@@ -26,7 +26,7 @@ const GridFrame kObject{.origin = {-4, -3, -4}, .voxel_edge = {1, 1, 1}, .size =
 GridFrame world_frame() {
     return {.origin = glm::dvec3(kOrigin),
             .voxel_edge = glm::dvec3(1),
-            .size = glm::ivec3(kRegion * kRegionsAlong)};
+            .size = glm::ivec3(kLumpRegion * kRegionsAlong)};
 }
 
 /// Where the region of the i-th map of a world begins, in voxels.
@@ -34,7 +34,7 @@ glm::ivec3 region_start(uint64_t i) {
     const int n = int(i);
     return glm::ivec3(n % kRegionsAlong, n / kRegionsAlong % kRegionsAlong,
                       n / (kRegionsAlong * kRegionsAlong)) *
-           kRegion;
+           kLumpRegion;
 }
 
 VoxelBits random_lump(uint64_t seed) {
@@ -119,17 +119,17 @@ bool is_right(const VoxelBits& lump, const glm::dvec3& p, double bound, bool fou
 }
 
 /// Coefficients and offsets are rounded to 2^-24: half of that for every step through the world.
-constexpr double kRounding = 0x1p-25 * (1 + 3 * kRegion * kRegionsAlong);
+constexpr double kRounding = 0x1p-25 * (1 + 3 * kLumpRegion * kRegionsAlong);
 
 /// How many voxels of a region are not what its map makes of the lump.
 uint64_t wrong_voxels(const ReadOccupancy& placed, const VoxelBits& lump, const glm::dmat4& map,
                       double bound, const glm::ivec3& start) {
     const Image image(map);
     std::atomic<uint64_t> wrong{0};
-    for_each_in_parallel(uint64_t(kRegion), [&](uint64_t z) {
+    for_each_in_parallel(uint64_t(kLumpRegion), [&](uint64_t z) {
         uint64_t of_layer = 0;
-        for (int y = 0; y < kRegion; ++y)
-            for (int x = 0; x < kRegion; ++x) {
+        for (int y = 0; y < kLumpRegion; ++y)
+            for (int x = 0; x < kLumpRegion; ++x) {
                 const glm::ivec3 v = start + glm::ivec3(x, y, int(z));
                 of_layer += !is_right(lump, image.of_centre(v), bound, placed.is_set(v));
             }
@@ -170,7 +170,7 @@ StressResult stress_placement(const StressRun& run) {
             const bool is_exact = stress_map(run.seed, batch.start + i).is_exact;
             const uint64_t wrong = wrong_voxels(placed, lump, objects[i].world_from_object,
                                                 is_exact ? 0 : kRounding, region_start(i));
-            result.cells += kRegion * kRegion * kRegion;
+            result.cells += kLumpRegion * kLumpRegion * kLumpRegion;
             if (wrong == 0) continue;
             note_mismatch(result, batch.start + i, [&] {
                 return fmt::format("{}: {} voxels are wrong", text_of(objects[i].world_from_object),

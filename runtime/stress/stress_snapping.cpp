@@ -12,7 +12,7 @@
 namespace voxelume {
 namespace {
 
-constexpr size_t kBatch = 1u << 14;
+constexpr size_t kSnapBatch = 1u << 14;
 constexpr uint32_t kMostCells = 300;
 
 constexpr std::array kSizes = {glm::ivec3(64, 61, 37), glm::ivec3(1000, 300, 700),
@@ -20,7 +20,7 @@ constexpr std::array kSizes = {glm::ivec3(64, 61, 37), glm::ivec3(1000, 300, 700
                                glm::ivec3(65536, 40000, 65536)};
 
 FixedGrid grid_of_batch(uint64_t first) {
-    return fixed_grid(kSizes[first / kBatch % kSizes.size()]);
+    return fixed_grid(kSizes[first / kSnapBatch % kSizes.size()]);
 }
 
 /// Towards a point of the grid, or past it.
@@ -114,7 +114,7 @@ FloatRay float_ray(SnapClass kind, const FixedGrid& grid, uint64_t seed, uint64_
 StressResult stress_snapping(SnapClass kind, const StressRun& run) {
     DeviceWalks walks(run.device);
     StressResult result;
-    for_each_batch(run, kBatch, [&](const StressBatch& batch) {
+    for_each_batch(run, kSnapBatch, [&](const StressBatch& batch) {
         try_batch(walks, kind, run.seed, batch, result);
     });
     return result;

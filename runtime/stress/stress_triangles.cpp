@@ -13,8 +13,6 @@
 namespace voxelume {
 namespace {
 
-constexpr int kVoxel = 4096;
-
 using BrickMasks = std::array<uint64_t, 64>;
 
 /// The voxels of a triangle in its region, brick by brick.
@@ -26,7 +24,8 @@ class ExactVoxels {
           masks_(1, BrickMasks{}) {
         const int low = std::min({t[0].z, t[1].z, t[2].z}) - 1;
         const int high = std::max({t[0].z, t[1].z, t[2].z});
-        for (int z = std::max(0, low / kVoxel); z <= std::min(region.z - 1, high / kVoxel); ++z) {
+        for (int z = std::max(0, low / kUnitsPerVoxel);
+             z <= std::min(region.z - 1, high / kUnitsPerVoxel); ++z) {
             const VoxelRow rows = within(exact_rows(t, z), region.y);
             for (int64_t y = rows.first; y <= rows.last; ++y)
                 set_row(within(exact_row(t, int(y), z), region.x), int(y), z);
@@ -103,7 +102,8 @@ void try_grid(Voxelizer& voxelizer, uint64_t seed, const StressBatch& batch, Str
         triangles[i] = stress_triangle(seed, batch.start + i);
         const auto corner = uint32_t(mesh.positions.size());
         for (const glm::ivec3& p : triangles[i])  // exact floats
-            mesh.positions.push_back(glm::vec3(p + grid.start(i) * kVoxel) / float(kVoxel));
+            mesh.positions.push_back(glm::vec3(p + grid.start(i) * kUnitsPerVoxel) /
+                                     float(kUnitsPerVoxel));
         mesh.triangles.emplace_back(corner, corner + 1, corner + 2);
     }
     GridFrame frame;

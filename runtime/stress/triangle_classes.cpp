@@ -10,9 +10,8 @@
 namespace voxelume {
 namespace {
 
-constexpr int kVoxel = 4096;
 constexpr int kRegion = 48;  // voxels along the regions of all classes but the last two
-constexpr int kRegionUnits = kRegion * kVoxel;
+constexpr int kRegionUnits = kRegion * kUnitsPerVoxel;
 constexpr uint64_t kLongClass = 8, kGiantClass = 9;
 
 /// The class of triangle `number`, and which grid of that class holds it.
@@ -44,8 +43,8 @@ void turn_axes(TriangleOnLattice& t, StressRandom& random) {
 
 /// Longer than wide by 10^4 and more.
 TriangleOnLattice sliver(StressRandom& random, const glm::ivec3& middle) {
-    const glm::ivec3 half(int(random.between(-15, 15)) * kVoxel, int(random.between(-61000, 61000)),
-                          int(random.between(-61000, 61000)));
+    const glm::ivec3 half(int(random.between(-15, 15)) * kUnitsPerVoxel,
+                          int(random.between(-61000, 61000)), int(random.between(-61000, 61000)));
     const glm::ivec3 low(1), high(kRegionUnits - 1);
     return {glm::clamp(middle - half, low, high), glm::clamp(middle + half, low, high),
             any_point(random, middle, 4)};
@@ -55,8 +54,8 @@ TriangleOnLattice sliver(StressRandom& random, const glm::ivec3& middle) {
 TriangleOnLattice in_plane(StressRandom& random, const glm::ivec3& middle, int tilt) {
     TriangleOnLattice t;
     for (glm::ivec3& p : t) {
-        p = any_point(random, middle, 20 * kVoxel);
-        p.z = middle.z / kVoxel * kVoxel + int(random.between(-tilt, tilt));
+        p = any_point(random, middle, 20 * kUnitsPerVoxel);
+        p.z = middle.z / kUnitsPerVoxel * kUnitsPerVoxel + int(random.between(-tilt, tilt));
     }
     turn_axes(t, random);
     return t;
@@ -64,15 +63,16 @@ TriangleOnLattice in_plane(StressRandom& random, const glm::ivec3& middle, int t
 
 /// A segment or a point.
 TriangleOnLattice without_area(StressRandom& random, const glm::ivec3& middle) {
-    const glm::ivec3 step = any_point(random, glm::ivec3(0), 3 * kVoxel) - 1;
+    const glm::ivec3 step = any_point(random, glm::ivec3(0), 3 * kUnitsPerVoxel) - 1;
     const glm::ivec3 a = glm::clamp(middle, glm::ivec3(1), glm::ivec3(kRegionUnits / 2));
     switch (random.below(4)) {
         case 0:
             return {a, a, a};
         case 1:
-            return {a, a, any_point(random, a, 15 * kVoxel)};
+            return {a, a, any_point(random, a, 15 * kUnitsPerVoxel)};
         case 2:
-            return {multiple_of(a, kVoxel), multiple_of(a, kVoxel), multiple_of(a, kVoxel)};
+            return {multiple_of(a, kUnitsPerVoxel), multiple_of(a, kUnitsPerVoxel),
+                    multiple_of(a, kUnitsPerVoxel)};
         default:
             return {a, a + step, a + step * int(random.between(2, 6))};
     }
@@ -92,7 +92,7 @@ TriangleOnLattice stress_triangle(uint64_t seed, uint64_t number) {
     const auto [kind, grid] = class_of(number);
     if (kind == kLongClass) return long_triangle(random, grid);
     if (kind == kGiantClass) return giant_triangle(random, grid, number % kTrianglesOfOneGrid);
-    const glm::ivec3 middle = any_point(random, glm::ivec3(kRegionUnits / 2), 6 * kVoxel);
+    const glm::ivec3 middle = any_point(random, glm::ivec3(kRegionUnits / 2), 6 * kUnitsPerVoxel);
     const auto corners = [&](int reach, int step) {
         TriangleOnLattice t;
         for (glm::ivec3& p : t) p = multiple_of(any_point(random, middle, reach), step);
@@ -100,7 +100,7 @@ TriangleOnLattice stress_triangle(uint64_t seed, uint64_t number) {
     };
     switch (kind) {
         case 0:
-            return corners(4 * kVoxel, 1);
+            return corners(4 * kUnitsPerVoxel, 1);
         case 1:
             return sliver(random, middle);
         case 2:
@@ -108,13 +108,13 @@ TriangleOnLattice stress_triangle(uint64_t seed, uint64_t number) {
         case 3:
             return in_plane(random, middle, 0);
         case 4:
-            return corners(8 * kVoxel, kVoxel / 2);
+            return corners(8 * kUnitsPerVoxel, kUnitsPerVoxel / 2);
         case 5:
             return corners(kRegionUnits, 1);
         case 6:
             return without_area(random, middle);
         default:
-            return corners(12 * kVoxel, kVoxel);
+            return corners(12 * kUnitsPerVoxel, kUnitsPerVoxel);
     }
 }
 
