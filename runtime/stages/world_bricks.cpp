@@ -1,5 +1,7 @@
 #include "runtime/stages/world_bricks.hpp"
 
+#include <algorithm>
+
 #include "runtime/stages/place_painter.hpp"
 
 namespace voxelume {
@@ -93,10 +95,13 @@ void WorldBricks::clear(const std::vector<uint32_t>& places) {
                 world_.distance, world_.occupancy, world_.attributes, world_.colors);
 }
 
-/// A world that grows once may grow again: then with room for a quarter more.
+/// A world that grows once may grow again: then with room for a quarter more, if a buffer may be so
+/// large.
 void WorldBricks::reserve(uint32_t bricks) {
     if (bricks <= reserved_) return;
-    const size_t places = reserved_ == 0 ? bricks : bricks + bricks / 4;
+    const size_t brick_bytes = kVoxels * (words_ || colors_ ? 4 : smooth_ ? 2 : 1);
+    const size_t most = std::max<size_t>(device_.info().max_allocation / brick_bytes, bricks);
+    const size_t places = reserved_ == 0 ? bricks : std::min<size_t>(bricks + bricks / 4, most);
     const size_t voxels = places * kVoxels;
     if (occupancy_)
         world_.occupancy = enlarged(device_, "world occupancy", world_.occupancy, voxels / 64);
