@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -89,6 +90,7 @@ class FrameRun {
           options_(options),
           meshes_(std::move(meshes)),
           bar_("rendering", 100 * list.size(), stderr, options.quiet),
+          shown_(list.size()),
           reports_(list.size()) {
         for (const Device& device : devices) {
             renderers_.emplace_back(device, list.size() > 1);
@@ -98,6 +100,9 @@ class FrameRun {
 
     /// Seconds of writing files, up to now.
     double write_seconds() const { return write_seconds_; }
+
+    /// The frame from which on they were rendered one at a time, as memory doesn't suffice for two.
+    std::optional<int> one_by_one_from() const { return one_by_one_from_; }
 
     std::vector<FrameReport> run() {
         if (devices_.size() > 1 && list_.size() == 1 && list_[0].volumes.empty()) {
@@ -110,7 +115,10 @@ class FrameRun {
                                              [&] { return render(input); });
                          }};
         if (moves(scene_)) steps.number = [this](size_t n) { return double(list_[n].frame); };
-        run_frames(devices_, list_.size(), steps, {!options_.one_by_one, std::move(meshes_)});
+        steps.forget = [this](size_t device) { forget(device); };
+        const std::optional<size_t> alone =
+            run_frames(devices_, list_.size(), steps, {!options_.one_by_one, std::move(meshes_)});
+        if (alone) one_by_one_from_ = list_[*alone].frame;
         return reports_;
     }
 
@@ -121,7 +129,7 @@ class FrameRun {
         report.world = input.report;
         std::shared_ptr<const Image> image;
         std::shared_ptr<Volume> volume;
-        uint64_t shown = 0;
+        uint64_t& shown = shown_[input.frame];
         if (!files.images.empty())
             image = renderers_[input.device].image(
                 input.scene, input.world, report,
@@ -134,7 +142,7 @@ class FrameRun {
 
     /// The only frame, by all devices.
     std::function<void()> render_tiles() {
-        uint64_t shown = 0;
+        uint64_t& shown = shown_[0];
         RenderReport report;
         auto image = std::make_shared<const Image>(in_frame(scene_, list_[0].frame, [&] {
             return render_together(
@@ -167,11 +175,18 @@ class FrameRun {
                 fmt::print(stderr, "frame {}: {}\n", files.frame, path);
     }
 
-    /// Shows a frame of which `percent` are done and `shown` were, before.
+    /// What a device's renderers keep of frames before.
+    void forget(size_t device) {
+        renderers_[device] = Renderer(devices_[device]);
+        volume_renderers_[device] = VolumeRenderer(devices_[device]);
+    }
+
+    /// Shows a frame of which `percent` are done and `shown` were, before: less, where it is begun
+    /// again.
     void advance(uint64_t percent, uint64_t& shown) {
         const std::lock_guard lock(bar_mutex_);
-        bar_.advance(percent - shown);
-        shown = percent;
+        bar_.advance(percent - std::min(percent, shown));
+        shown = std::max(percent, shown);
     }
 
     void write_images(Image image, const FrameFiles& files) const {
@@ -194,7 +209,9 @@ class FrameRun {
     Progress bar_;
     std::mutex bar_mutex_;
     std::atomic<double> write_seconds_ = 0;
+    std::vector<uint64_t> shown_;  ///< of each frame, percent
     std::vector<FrameReport> reports_;
+    std::optional<int> one_by_one_from_;
 };
 
 size_t count_files(const std::vector<FrameFiles>& list) {
@@ -233,6 +250,7 @@ int run(const RenderOptions& options) {
                           count_files(list),
                           open_seconds,
                           rendering.write_seconds(),
+                          rendering.one_by_one_from(),
                           seconds_since(start)};
     if (!options.stats.empty()) write_statistics(options.stats, outcome);
     if (options.quiet) return 0;

@@ -133,6 +133,7 @@ nlohmann::ordered_json statistics(const Outcome& outcome) {
     json["seconds"]["open"] = outcome.open_seconds;
     json["seconds"]["write"] = outcome.write_seconds;
     json["seconds"]["total"] = outcome.seconds;
+    if (outcome.one_by_one_from) json["one_by_one_from"] = *outcome.one_by_one_from;
     json["frames"] = nlohmann::ordered_json::array();
     for (const FrameReport& frame : outcome.frames)
         json["frames"].push_back(frame_statistics(frame));
@@ -207,6 +208,10 @@ void print_details(const Outcome& outcome) {
                double(report.world_bytes) / 1e6, double(counters.peak_bytes) / 1e6);
     fmt::print(stderr, "  {} programs in {:.0f} ms, {} of them compiled before\n",
                counters.programs_built, counters.build_ms, counters.programs_from_cache);
+    if (outcome.one_by_one_from)
+        fmt::print(stderr,
+                   "  one frame at a time from frame {} on: memory doesn't suffice for two\n",
+                   *outcome.one_by_one_from);
     if (outcome.frames.size() > 1)
         for (const FrameReport& frame : outcome.frames)
             fmt::print(stderr,
