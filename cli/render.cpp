@@ -24,6 +24,7 @@
 #include "runtime/io/progress.hpp"
 #include "runtime/io/volume_file.hpp"
 #include "runtime/scene_animation.hpp"
+#include "runtime/shown_models.hpp"
 #include "runtime/version.hpp"
 #include "runtime/volume_renderer.hpp"
 
@@ -115,6 +116,12 @@ class FrameRun {
                                              [&] { return render(input); });
                          }};
         if (moves(scene_)) steps.number = [this](size_t n) { return double(list_[n].frame); };
+        if (list_.size() > 1)
+            steps.awaited = [until = shown_until(scene_, numbers_of(list_))](size_t n) {
+                std::vector<bool> awaited(until.size());
+                for (size_t i = 0; i < until.size(); ++i) awaited[i] = until[i] > n + 1;
+                return awaited;
+            };
         steps.forget = [this](size_t device) { forget(device); };
         const std::optional<size_t> alone =
             run_frames(devices_, list_.size(), steps, {!options_.one_by_one, std::move(meshes_)});

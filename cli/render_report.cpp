@@ -21,6 +21,7 @@ RenderReport sum_of(const std::vector<FrameReport>& frames) {
         sum.world.voxelize_seconds += report.world.voxelize_seconds;
         sum.world.place_seconds += report.world.place_seconds;
         sum.world.index_seconds += report.world.index_seconds;
+        sum.world.keep_seconds += report.world.keep_seconds;
         sum.world.triangles = std::max(sum.world.triangles, report.world.triangles);
         if (report.world.instances.instances >= sum.world.instances.instances)
             sum.world.instances = report.world.instances;
@@ -57,11 +58,9 @@ std::string names_of(const Outcome& outcome) {
 }
 
 nlohmann::ordered_json seconds_of(const RenderReport& report) {
-    return {{"load", report.world.load_seconds},
-            {"voxelize", report.world.voxelize_seconds},
-            {"place", report.world.place_seconds},
-            {"index", report.world.index_seconds},
-            {"image", report.image_seconds}};
+    return {{"load", report.world.load_seconds},   {"voxelize", report.world.voxelize_seconds},
+            {"place", report.world.place_seconds}, {"index", report.world.index_seconds},
+            {"cache", report.world.keep_seconds},  {"image", report.image_seconds}};
 }
 
 const char* world_text(const FrameReport& frame) {

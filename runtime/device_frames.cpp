@@ -72,7 +72,9 @@ void share_frames(const std::vector<Device>& devices, size_t count, const FrameS
     FrameShare share(count, 2 * devices.size());
     std::mutex scenes;
     const auto work = [&](size_t device) {
-        FrameWorker worker(devices[device], device, steps, meshes, true);
+        // What was read to check the frames counts once.
+        FrameWorker worker(devices[device], device, steps,
+                           device == 0 ? meshes : meshes.recounted(), true);
         while (const std::optional<size_t> frame = share.take()) {
             RenderedFrame rendered;
             try {

@@ -28,6 +28,8 @@ struct FrameSteps {
     std::function<std::function<void()>(const FrameInput&)> render;
     /// The number by which errors of forming its world name a frame. Without it they don't.
     std::function<double(size_t)> number = {};
+    /// Which models a frame after this one shows; without it none is waited for.
+    std::function<std::vector<bool>(size_t)> awaited = {};
     /// Frees what `render` keeps on a device, by its number, for frames that follow. Without it no
     /// frame is tried again when memory lacks.
     std::function<void(size_t)> forget = {};

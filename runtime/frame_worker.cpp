@@ -10,7 +10,8 @@ namespace voxelume {
 FormedWorld form_frame(WorldFormer& former, const FrameSteps& steps, size_t frame,
                        const Scene& scene, WorldReport& report) {
     try {
-        return former.form(scene, report);
+        return former.form(scene, report,
+                           steps.awaited ? steps.awaited(frame) : std::vector<bool>());
     } catch (const Error& error) {
         if (!steps.number) throw;
         throw at_frame(error, steps.number(frame));
