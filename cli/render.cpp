@@ -20,6 +20,7 @@
 #include "runtime/frame_pipeline.hpp"
 #include "runtime/frame_plans.hpp"
 #include "runtime/io/exr.hpp"
+#include "runtime/io/frame_list.hpp"
 #include "runtime/io/png.hpp"
 #include "runtime/io/progress.hpp"
 #include "runtime/io/volume_file.hpp"
@@ -277,8 +278,9 @@ Action add_render(CLI::App& app) {
                    "volumetric image of the scene's display: .vdb .exr .nrrd .raw, name.####.png "
                    "and displays' own formats; may be given again")
         ->allow_extra_args(false);
-    app.add_option("--frames", options->frames,
-                   "frames like 1-10,20,30-60x5; #### in an output's name is the number");
+    const CLI::Option* frames =
+        app.add_option("--frames", options->frames,
+                       "frames like 1-10,20,30-60x5; #### in an output's name is the number");
     app.add_option("--exposure", options->exposure, "of .png, in stops")->check(in_range(-64, 64));
     app.add_flag("--float", options->float_color, "colour of .exr as 32-bit floats, not halves");
     app.add_option("--channels", options->channels,
@@ -286,11 +288,17 @@ Action add_render(CLI::App& app) {
                    "none of them");
     app.add_option("--stats-json", options->stats, "file for counts and times");
     app.add_flag("--dry-run", options->plan_only, "say what it takes, as `check` does, and stop");
-    app.add_flag("--no-overlap", options->one_by_one,
-                 "of several frames, form, render and write one after another: less memory");
+    app.add_flag(
+        "--no-overlap", options->one_by_one,
+        "of several frames, form, render and write one after another: less memory; several "
+        "devices always do, each with its own frames");
     app.add_flag("-v,--verbose", options->verbose, "say more: kernels' times, memory");
     app.add_flag("-q,--quiet", options->quiet, "print errors only");
-    return [options] { return run(*options); };
+    return [options, frames] {
+        // An empty list would be taken for none given.
+        if (frames->count() > 0 && options->frames.empty()) parse_frame_list(options->frames);
+        return run(*options);
+    };
 }
 
 }  // namespace voxelume::cli
