@@ -9,8 +9,7 @@
 #include "lib/filter.h"
 #include "lib/ray_queue.h"
 
-// A lane's instances come after its walk in the world, which others may still be in.
-#define VXL_SHADOWS_FLY (VXL_PATHS && !VXL_INSTANCES)
+#define VXL_SHADOWS_FLY VXL_RAYS_FLY(VXL_PATHS, VXL_INSTANCES)
 #define VXL_SHADOW_PACKETS (VXL_SHADOWS_FLY ? VXL_PACKETS(VXL_LANES) : 1u)
 
 /// A queue of shadow rays, and the paths and hits of the rays that met the surfaces where they

@@ -29,8 +29,11 @@
 #define VXL_BEAM_DOWN 4
 #define VXL_BEAM_NONE 8
 
-// Packets of rays that a work-item of trace_closest carries one after another.
+// Packets of rays that run anywhere, and that a work-item carries one after another.
 #define VXL_PACKETS(lanes) ((lanes) > 1 ? 16u : 1u)
+// Whether lanes take on further rays as theirs end, in scenes with paths. A lane's instances come
+// after its walk in the world, which other lanes may still be in.
+#define VXL_RAYS_FLY(paths, instances) ((paths) && !(instances))
 
 // What a ray met.
 //   VXL_HIT_T      float: where, as the ray's t
@@ -91,8 +94,9 @@
 #define VXL_PATH_FROM_CELL 8u      // begins in the cell named
 #define VXL_PATH_JOINED 16u        // inside of cubes whose inner faces are no surfaces
 
-// Surfaces that one ray goes straight on through: more than there are cells on its way.
-#define VXL_MOST_LAYERS 65536
+// Surfaces that one ray goes straight on through: more than there are cells on its way through the
+// largest world, 3 * 65536.
+#define VXL_MOST_LAYERS 0x40000
 
 // Members of a set of objects that a ray is inside of: the first is the smooth one (smooth objects
 // are one body), the others are exact or of cubes, as many as Features::other_members says.

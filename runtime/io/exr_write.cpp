@@ -55,13 +55,13 @@ class ExrWriter {
             return static_cast<ExrWriter*>(self)->write(bytes, size, position);
         };
         check(exr_start_write(&context_, path.c_str(), EXR_WRITE_FILE_DIRECTLY, &setup));
-        check(exr_add_part(context_, "", EXR_STORAGE_SCANLINE, &part_));
     }
     ~ExrWriter() { exr_finish(&context_); }
     ExrWriter(const ExrWriter&) = delete;
     ExrWriter& operator=(const ExrWriter&) = delete;
 
     void header(const Image& image, const std::vector<ExrPlane>& planes) {
+        check(exr_add_part(context_, "", EXR_STORAGE_SCANLINE, &part_));
         check(exr_initialize_required_attr_simple(context_, part_, image.width, image.height,
                                                   EXR_COMPRESSION_ZIP));
         constexpr exr_attr_chromaticities_t kRec709 = {0.64f, 0.33f, 0.30f,   0.60f,

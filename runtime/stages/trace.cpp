@@ -45,13 +45,12 @@ Features features_of(const Pyramid& pyramid) {
 }
 
 TraceStage::TraceStage(const Device& device, const Features& features)
-    // As VXL_SHADOWS_FLY says; a lane's instances come after its walk in the world, which others
-    // may still be in.
-    : packets_(features.paths && !features.instances ? VXL_PACKETS(device.lanes()) : 1),
+    : packets_(VXL_RAYS_FLY(features.paths, features.instances) ? VXL_PACKETS(device.lanes()) : 1),
       program_(device, "trace.cl", features.defines(device)),
       closest_(program_.kernel("trace_closest")),
       shadows_(program_.kernel("trace_shadows")) {
-    if (features.paths && !features.instances) scattered_ = program_.kernel("trace_scattered");
+    if (VXL_RAYS_FLY(features.paths, features.instances))
+        scattered_ = program_.kernel("trace_scattered");
     if (features.immersed) inside_ = program_.kernel("begin_inside");
 }
 
