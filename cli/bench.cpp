@@ -131,7 +131,7 @@ int run(const BenchCommand& command) {
 }
 
 std::string list_of_scenes() {
-    std::string list = "of these scenes only; may be given again:";
+    std::string list = "of these scenes only: a name, or names with commas; may be given again:";
     for (const BenchEntry& entry : bench_entries())
         list += fmt::format("\n{:<8}{}", entry.name, entry.help);
     return list;
@@ -148,7 +148,9 @@ Action add_bench(CLI::App& app) {
     app.add_option("--json", command->json, "file for everything that was measured");
     app.add_option("--csv", command->csv, "file for the rows");
     app.add_option("--plot", command->plot, "picture of depth against time: .svg");
-    app.add_option("--only", command->only, list_of_scenes())->allow_extra_args(false);
+    app.add_option("--only", command->only, list_of_scenes())
+        ->allow_extra_args(false)
+        ->delimiter(',');
     app.add_option("--resolution", command->resolutions, "voxels a metre, like 16,32,64")
         ->delimiter(',')
         ->check(in_range(2, 4096, Number::whole));

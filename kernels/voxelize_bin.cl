@@ -4,6 +4,14 @@
 // frame: crossings there count for the winding numbers to their right.
 #include "lib/lattice.h"
 
+// What floats may lose, with u = 2^-24. Values come from integers, so each is within u of itself. A
+// term of a sum has two such factors and passes their product and two sums, at most: 5 u of the
+// terms' magnitudes, which are themselves summed within 6 u of that. 8 u are taken.
+#define SUM_ROUNDING 0x1p-21f
+// A term of a radius has one such factor and passes its product and three sums, and the half box in
+// it was rounded three times: 8 u. 16 u are taken.
+#define RADIUS_ROUNDING 0x1p-20f
+
 /// The bricks of one triangle by its bounding box.
 typedef struct {
     int3 first, last;
@@ -23,12 +31,12 @@ static inline BrickRange reached_bricks(const LatticeTriangle* t, int3 reach, in
 
 /// Whether the triangle's plane passes within the brick's box widened by the reach.
 ///
-/// In floats, and conservative: `slack` is above the sum's rounding error.
+/// In floats, and conservative.
 static inline bool plane_reaches(float3 n, float3 to_corner, float3 half_box) {
     const float3 size = fabs(n);
     const float distance = fabs(n.x * to_corner.x + n.y * to_corner.y + n.z * to_corner.z);
-    const float slack = 1e-6f * (size.x * fabs(to_corner.x) + size.y * fabs(to_corner.y) +
-                                 size.z * fabs(to_corner.z));
+    const float slack = SUM_ROUNDING * (size.x * fabs(to_corner.x) + size.y * fabs(to_corner.y) +
+                                        size.z * fabs(to_corner.z));
     return distance <= size.x * half_box.x + size.y * half_box.y + size.z * half_box.z + slack;
 }
 
@@ -38,21 +46,22 @@ static inline bool edge_reaches(float2 edge, float2 to_corner, float2 to_opposit
     const float at = edge.x * to_corner.y - edge.y * to_corner.x;
     const float opposite = edge.x * to_opposite.y - edge.y * to_opposite.x;
     const float radius = fabs(edge.x) * half_box.y + fabs(edge.y) * half_box.x;
-    const float slack = 1e-6f * (fabs(edge.x) * (fabs(to_corner.y) + fabs(to_opposite.y)) +
-                                 fabs(edge.y) * (fabs(to_corner.x) + fabs(to_opposite.x)));
+    const float slack = SUM_ROUNDING * (fabs(edge.x) * (fabs(to_corner.y) + fabs(to_opposite.y)) +
+                                        fabs(edge.y) * (fabs(to_corner.x) + fabs(to_opposite.x)));
     return min(at, opposite) <= radius + slack && max(at, opposite) >= -radius - slack;
 }
 
 static inline bool triangle_reaches(const LatticeTriangle* t, float3 n, int3 brick, int3 reach,
                                     int extent) {
-    const float3 half_box = (convert_float3(reach) + 0.5f * (float)extent) * (1.0f + 1e-6f);
+    const float3 half_box =
+        (convert_float3(reach) + 0.5f * (float)extent) * (1.0f + RADIUS_ROUNDING);
     const int3 center = brick * LATTICE_BRICK + extent / 2;
     const float3 p[3] = {convert_float3(t->corner[0] - center),
                          convert_float3(t->corner[1] - center),
                          convert_float3(t->corner[2] - center)};
     if (!plane_reaches(n, p[0], half_box)) return false;
     for (int i = 0; i < 3; ++i) {
-        // From the integers: corners beyond 2^24 are rounded, and a short edge between two is not.
+        // From the integers: the difference of two corners is only as right as they are.
         const float3 edge = convert_float3(t->corner[(i + 1) % 3] - t->corner[i]);
         const float3 a = p[i], opposite = p[(i + 2) % 3];
         if (!edge_reaches(edge.xy, a.xy, opposite.xy, half_box.xy)) return false;

@@ -18,6 +18,16 @@
 #define TILE_COLUMNS (TILES_X * TILES_Y)
 #define TURNS 0.15915494f  // 1 / 2 pi: from half a solid angle to a winding number
 
+// Above 1 / 4 pi, which is 0.0795775.
+#define INVERSE_SPHERE 0.0796f
+// A length is right within some ten units of 2^-24. An edge's middle is rounded by half a unit
+// of the lattice on each axis, 2.2e-4 voxel, and a gap above 0 is that of a middle at least a
+// brick's half, 8 voxels, away: 2.8e-5 of its distance. Of both a part in 1000 is taken.
+#define LENGTH_ROUNDING 1e-3f
+// Voxels, in place of none: with it an edge of a lattice unit already has a slope of 10^7 a voxel,
+// so the brick is open whatever else there is.
+#define LEAST_GAP 1e-6f
+
 // States of bricks.
 #define STATE_OUTSIDE 0u
 #define STATE_INSIDE 1u
@@ -30,11 +40,12 @@ static inline lane_float slope_bound(const Cap* cap, const LanePoints* p, float 
                                      float3 to_metric) {
     const int3 first = cap->lattice.corner[0], second = cap->lattice.corner[1];
     const float3 edge = convert_float3(second - first) * to_metric;
-    const float length = sqrt(edge.x * edge.x + edge.y * edge.y + edge.z * edge.z) * 1.001f;
+    const float length =
+        sqrt(edge.x * edge.x + edge.y * edge.y + edge.z * edge.z) * (1.0f + LENGTH_ROUNDING);
     const LaneVector middle = vector_to(first + (second - first) / 2, p, to_metric);
-    const lane_float gap =
-        fmax(middle.length * 0.999f - 0.5f * length - radius, (lane_float)(1e-6f));
-    return (0.0796f * length) / (gap * gap);
+    const lane_float gap = fmax(middle.length * (1.0f - LENGTH_ROUNDING) - 0.5f * length - radius,
+                                (lane_float)LEAST_GAP);
+    return (INVERSE_SPHERE * length) / (gap * gap);
 }
 
 /// What decides a brick's state besides the caps.

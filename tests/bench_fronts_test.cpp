@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 
 #include <fstream>
+#include <nlohmann/json.hpp>
 
 #include "runtime/bench/bench.hpp"
 #include "runtime/bench/bench_page.hpp"
@@ -62,9 +63,9 @@ BenchReport report_with_peers() {
         row.seconds.total = seconds;
         report.rows.push_back(row);
     }
-    report.peers = {{"Quick 1.0", "sphere", "few", 0.1, 0.1, 1e-2, 0, 0},
-                    {"Quick 1.0", "sphere", "many", 100, 100, 1e-4, 0, 0},
-                    {"Slow 2.0", "sphere", "voxels", 5, 5, 1e-3, 0, 0}};
+    report.peers = {{"Quick 1.0", "sphere", "few", 0.1, 0.1, 1e-2, 0, 0, 0},
+                    {"Quick 1.0", "sphere", "many", 100, 100, 1e-4, 0, 0, 0},
+                    {"Slow 2.0", "sphere", "voxels", 5, 5, 1e-3, 0, 0, 73}};
     conclude(report);
     return report;
 }
@@ -79,11 +80,18 @@ TEST(BenchFronts, AreSaidInTheTextAndOnThePage) {
                            "depth RMS down to 0.0032 m; Voxelume is up to 141 times as quick from "
                            "0.0032 m of depth RMS down to 0.0001 m; only Voxelume comes nearer, to "
                            "1e-06 m\\."));
-    EXPECT_THAT(second, HasSubstr("Voxelume is 8.41 to 8.41 times as quick"));
+    EXPECT_THAT(second, HasSubstr("Voxelume is 8.41 times as quick at"));
     for (const std::string& sentence : {first, second}) {
         EXPECT_THAT(bench_text(report), HasSubstr(sentence));
         EXPECT_THAT(bench_page(report), HasSubstr("<li>" + sentence));
     }
+}
+
+TEST(BenchFronts, PixelsThatAPeersErrorsLeaveOutAreShown) {
+    const BenchReport report = report_with_peers();
+    EXPECT_THAT(bench_text(report), HasSubstr("1.00e-03          73 "));
+    EXPECT_THAT(bench_page(report), HasSubstr("<td>0.001<td>0<td>73<td>"));
+    EXPECT_EQ(bench_json(report)["peers"][2]["other_part_pixels"], 73);
 }
 
 class BenchPeers : public ProgramTest {
@@ -96,15 +104,65 @@ class BenchPeers : public ProgramTest {
     }
 };
 
+/// A file with one row, of whose values one is replaced, or left out if `text` is empty.
+std::string file_with(const std::string& key, const std::string& text) {
+    std::string row;
+    for (const auto& [name, value] :
+         {std::pair("program", "\"a\""), std::pair("scene", "\"sphere\""),
+          std::pair("setting", "\"b\""), std::pair("build_seconds", "1"),
+          std::pair("trace_seconds", "1"), std::pair("depth_rms_metres", "1"),
+          std::pair("depth_max_metres", "1"), std::pair("normal_rms_degrees", "1"),
+          std::pair("other_part_pixels", "0")}) {
+        if (key == name && text.empty()) continue;
+        row +=
+            fmt::format("{}\"{}\": {}", row.empty() ? "" : ", ", name, key == name ? text : value);
+    }
+    return fmt::format(R"({{"size": [4, 4], "rows": [{{{}}}]}})", row);
+}
+
 TEST_F(BenchPeers, FilesOfOtherThingsAreRefusedInWords) {
     for (const char* text : {"null", "[]", "{", "", R"({"size": [4, 4], "rows": null})", "{}"})
-        EXPECT_THAT(refusal(text), HasSubstr("not a file of bench_peers: it isn't an object with"));
-    EXPECT_THAT(refusal(R"({"size": [4, 4], "rows": [{"program": "a"}]})"), HasSubstr("row 0: "));
-    EXPECT_THAT(refusal(R"({"size": [4, 4], "rows": [{"program": "a", "scene": "sphere",
-        "setting": "b", "build_seconds": -1, "trace_seconds": 1, "depth_rms_metres": 1,
-        "depth_max_metres": 1, "normal_rms_degrees": 1}]})"),
-                HasSubstr("row 0: \"build_seconds\" is below 0"));
-    EXPECT_THAT(refusal(R"({"size": [8, 4], "rows": []})"), HasSubstr("add --size 8x4"));
+        EXPECT_EQ(refusal(text),
+                  "voxelume: peers.json: not a file of bench_peers: it isn't an object with a "
+                  "\"size\" and a list of \"rows\"\n");
+    EXPECT_EQ(run("bench -q --peers missing.json").err, "voxelume: missing.json: can't be read\n");
+    EXPECT_EQ(run("bench -q --peers missing.json").exit_code, 4);
+    EXPECT_EQ(run("bench -q --peers .").exit_code, 4);
+}
+
+TEST_F(BenchPeers, SizesThatAreNoneOrOthersAreRefused) {
+    for (const char* size : {"null", "4", "[4]", "[4,4,4]", "[4,null]", "[4,4.5]", "[-4,4]",
+                             "[0,4]", "[1e300,4]", "\"4x4\"", "[99999999999,4]"})
+        EXPECT_THAT(refusal(fmt::format(R"({{"size": {}, "rows": []}})", size)),
+                    HasSubstr("not two numbers of pixels like [1024, 1024]"));
+    EXPECT_EQ(
+        refusal(R"({"size": [8, 4], "rows": []})"),
+        "voxelume: peers.json: measured with 8 x 4 pixels, and this run has 4 x 4: add --size "
+        "8x4\n");
+}
+
+TEST_F(BenchPeers, EveryWrongValueIsNamedWithItsRow) {
+    const auto fault = [&](const char* key, const char* text) {
+        const std::string err = refusal(file_with(key, text));
+        const std::string start = "voxelume: peers.json: not a file of bench_peers: row 0: ";
+        EXPECT_THAT(err, testing::StartsWith(start));
+        return err.substr(std::min(err.size(), start.size()));
+    };
+    EXPECT_EQ(fault("program", ""), "there is no \"program\"\n");
+    EXPECT_EQ(fault("program", "7"), "\"program\" is a number, not a text\n");
+    EXPECT_EQ(fault("setting", "null"), "\"setting\" is null, not a text\n");
+    EXPECT_EQ(fault("scene", "\"spere\""),
+              "there is no scene named \"spere\"; did you mean \"sphere\"?\n");
+    EXPECT_EQ(fault("depth_rms_metres", "null"), "\"depth_rms_metres\" is null, not a number\n");
+    EXPECT_EQ(fault("depth_max_metres", "[1]"), "\"depth_max_metres\" is an array, not a number\n");
+    EXPECT_EQ(fault("trace_seconds", "\"1\""), "\"trace_seconds\" is a string, not a number\n");
+    EXPECT_EQ(fault("build_seconds", "-1"), "\"build_seconds\" is below 0\n");
+    EXPECT_EQ(fault("other_part_pixels", ""), "there is no \"other_part_pixels\"\n");
+    EXPECT_EQ(fault("other_part_pixels", "0.5"),
+              "\"other_part_pixels\" is 0.5, not a number of pixels\n");
+    EXPECT_EQ(
+        refusal(R"({"size": [4, 4], "rows": [1]})"),
+        "voxelume: peers.json: not a file of bench_peers: row 0: it is a number, not an object\n");
 }
 
 TEST_F(BenchPeers, OutputsMayNotHaveOneNameInAnySpelling) {

@@ -256,11 +256,26 @@ TEST_F(BenchProgram, WritesATableAPageAndFilesThatParse) {
     EXPECT_THAT(bytes_of(folder / "out.svg"), testing::StartsWith("<svg xmlns="));
 }
 
+TEST_F(BenchProgram, TakesScenesWithCommasEachOnce) {
+    const ProgramResult result =
+        run("bench -q --only torus,box --only box --resolution 8 --placement world --size 12x9 "
+            "--repeat "
+            "1 --device cpu --json out.json");
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    const auto json = nlohmann::json::parse(bytes_of(folder / "out.json"));
+    ASSERT_EQ(json["rows"].size(), 6u);
+    EXPECT_EQ(json["rows"][0]["scene"], "torus");
+    EXPECT_EQ(json["rows"][3]["scene"], "box");
+}
+
 TEST_F(BenchProgram, RefusesWhatItCannotDoBeforeItMeasures) {
     const ProgramResult name = run("bench --only spere");
     EXPECT_EQ(name.exit_code, 2);
     EXPECT_EQ(name.err,
               "voxelume: bench: there is no scene named \"spere\"; did you mean \"sphere\"?\n");
+    const ProgramResult names = run("bench --only box,sphere,tours");
+    EXPECT_EQ(names.exit_code, 2);
+    EXPECT_THAT(names.err, HasSubstr("no scene named \"tours\"; did you mean \"torus\"?"));
     EXPECT_EQ(run("bench -o report.pdf").exit_code, 2);
     EXPECT_EQ(run("bench --json a --csv a").exit_code, 2);
     EXPECT_EQ(run("bench --resolution 1").exit_code, 2);

@@ -6,8 +6,11 @@
 #include <fstream>
 #include <numbers>
 
+#include "runtime/renderer.hpp"
+#include "tests/oracles/image_hash.hpp"
 #include "tests/program_runner.hpp"
 #include "tests/setting.hpp"
+#include "tests/test_device.hpp"
 
 namespace voxelume {
 namespace {
@@ -46,10 +49,14 @@ constexpr const char* kRings = R"({"voxelume": 1,
 
 class Determinism : public ProgramTest {
   protected:
-    /// The bytes of solids' and of meshes' images, rendered with something added to the command.
-    std::string image(const std::string& name, const std::string& options = "") {
+    void write_rings() const {
         std::ofstream(folder / "ring.obj") << ring_text();
         std::ofstream(folder / "rings.json") << kRings;
+    }
+
+    /// The bytes of solids' and of meshes' images, rendered with something added to the command.
+    std::string image(const std::string& name, const std::string& options = "") {
+        write_rings();
         std::string bytes;
         for (const std::string scene :
              {VXL_SOURCE_DIR "/scenes/solids.json", "rings.json --no-cache"}) {
@@ -75,9 +82,22 @@ TEST_F(Determinism, D2ThreadsOfTheDeviceDoNotChangeABit) {
     expect_same_image("POCL_MAX_PTHREAD_COUNT", {"1", "2", "3", "16"});
 }
 
-TEST_F(Determinism, D6RunsGiveTheSameBytes) {
+TEST_F(Determinism, D6RunsOfTheProgramGiveTheSameBytes) {
     const std::string expected = image("first");
     for (int i = 1; i < 3; ++i) ASSERT_TRUE(image("again") == expected) << i;
+}
+
+TEST_F(Determinism, D6TenRendersOfTheSameDeviceGiveTheSameBits) {
+    write_rings();
+    Scene scene = read_scene(folder / "rings.json", {});
+    resize(scene, {52, 39});
+    const Device device = test_device();
+    const auto hash = [&] {  // of an image from files on: nothing is kept
+        RenderReport report;
+        return oracle::image_hash(render(device, scene, report));
+    };
+    const uint64_t expected = hash();
+    for (int i = 1; i < 10; ++i) ASSERT_EQ(hash(), expected) << i;
 }
 
 TEST_F(Determinism, WorkGroupsOfAnySizeGiveTheSameBytes) {

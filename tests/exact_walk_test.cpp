@@ -47,7 +47,8 @@ class ExactWalk : public testing::TestWithParam<RayClassName> {};
 
 TEST_P(ExactWalk, EntersTheCellsThatRationalsEnter) {
     for (const glm::ivec3 size : {glm::ivec3(7, 5, 3), glm::ivec3(64, 61, 37),
-                                  glm::ivec3(1024, 700, 1000), glm::ivec3(16384, 3, 9000)})
+                                  glm::ivec3(1024, 700, 1000), glm::ivec3(16384, 3, 9000),
+                                  glm::ivec3(65536, 65536, 65536), glm::ivec3(23, 65535, 40001)})
         for (uint64_t number = 0; number < 150; ++number) {
             const FixedGrid grid = fixed_grid(size);
             const FixedRay ray = ray_of_class(GetParam().kind, grid, kSeed, number);
@@ -62,12 +63,16 @@ TEST_P(ExactWalk, EntersTheCellsThatRationalsEnter) {
 }
 
 TEST_P(ExactWalk, LeavesBlocksWhereTheirLastCellIsLeft) {
-    for (const glm::ivec3 size : {glm::ivec3(33, 64, 50), glm::ivec3(600, 300, 400)})
+    constexpr size_t kMostCells = 2000;  // no walk through the first two has so many
+    for (const glm::ivec3 size :
+         {glm::ivec3(33, 64, 50), glm::ivec3(600, 300, 400), glm::ivec3(65536, 40001, 65536)})
         for (uint64_t number = 0; number < 150; ++number) {
             const FixedGrid grid = fixed_grid(size);
             const FixedRay ray = ray_of_class(GetParam().kind, grid, kSeed, number);
-            const auto expected = first_of_blocks(expected_cells(grid, ray, 1 << 20));
-            const auto cells = exact_cells(grid, ray, Steps::blocks, 1 << 20);
+            const auto all = expected_cells(grid, ray, kMostCells);
+            const auto expected = first_of_blocks(all);
+            const size_t most = all.size() < kMostCells ? 1 << 20 : expected.size();
+            const auto cells = exact_cells(grid, ray, Steps::blocks, uint32_t(most));
             ASSERT_EQ(cells.size(), expected.size()) << size.x << " ray " << number;
             for (size_t i = 0; i < cells.size(); ++i) {
                 ASSERT_EQ(cells[i].cell, expected[i].cell) << size.x << " ray " << number;
@@ -76,10 +81,11 @@ TEST_P(ExactWalk, LeavesBlocksWhereTheirLastCellIsLeft) {
         }
 }
 
-TEST_P(ExactWalk, AgreesWithTheWalkIn128Bits) {
-    const FixedGrid grid = fixed_grid({70, 37, 130});
-    for (uint64_t number = 0; number < 3000; ++number) {
-        const FixedRay ray = ray_of_class(GetParam().kind, grid, kSeed, number);
+/// Holds whole walks against those of the oracle in 128 bits.
+void expect_walks_of_128_bits(RayClass kind, const glm::ivec3& size, uint64_t count) {
+    const FixedGrid grid = fixed_grid(size);
+    for (uint64_t number = 0; number < count; ++number) {
+        const FixedRay ray = ray_of_class(kind, grid, kSeed, number);
         glm::dvec3 o, d;
         for (int a = 0; a < 3; ++a) {
             o[a] = std::ldexp(double(ray.origin[size_t(a)]), -grid.fraction_bits);
@@ -95,9 +101,17 @@ TEST_P(ExactWalk, AgreesWithTheWalkIn128Bits) {
     }
 }
 
+TEST_P(ExactWalk, AgreesWithTheWalkIn128Bits) {
+    expect_walks_of_128_bits(GetParam().kind, {70, 37, 130}, 3000);
+}
+
+TEST_P(ExactWalk, AgreesWithTheWalkIn128BitsThroughTheLargestWorld) {
+    expect_walks_of_128_bits(GetParam().kind, {40001, 300, 65536}, 60);
+}
+
 TEST_P(ExactWalk, HasRaysInTheirFixedPoint) {
-    const FixedGrid grid = fixed_grid({64, 61, 37});
     for (uint64_t number = 0; number < 5000; ++number) {
+        const FixedGrid grid = fixed_grid(number % 2 ? glm::ivec3(64, 61, 37) : glm::ivec3(65536));
         const FixedRay ray = ray_of_class(GetParam().kind, grid, kSeed, number);
         int64_t longest = 0;
         for (size_t a = 0; a < 3; ++a) {

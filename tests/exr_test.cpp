@@ -63,10 +63,11 @@ TEST_F(ExrTest, EveryBitOfAFloatImageComesBack) {
 
 TEST_F(ExrTest, HalvesAreRoundedToNearestAndClamped) {
     // 2049 lies between the halves 2048 and 2050, on the tie that goes to the even one.
-    write_exr(path(), red_row({0.5f, 2049.0f, 2051.0f, 65519.0f, 1e9f, -1e9f, 6e-8f}));
-    EXPECT_EQ(
-        read_exr(path()).planes["R"],
-        (std::vector<float>{0.5f, 2048.0f, 2052.0f, 65504.0f, 65504.0f, -65504.0f, 5.9604645e-8f}));
+    write_exr(path(),
+              red_row({0.5f, 2049.0f, 2051.0f, 65504.0f, 65519.0f, 65520.0f, 1e30f, -1e9f, 6e-8f}));
+    EXPECT_EQ(read_exr(path()).planes["R"],
+              (std::vector<float>{0.5f, 2048.0f, 2052.0f, 65504.0f, 65504.0f, 65504.0f, 65504.0f,
+                                  -65504.0f, 5.9604645e-8f}));
 }
 
 TEST_F(ExrTest, ColoursThatAreNotFiniteAreCountedAndBecomeZero) {

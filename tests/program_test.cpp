@@ -42,6 +42,19 @@ TEST(Program, IsMadeOnceWhileTheDeviceIsOpen) {
     EXPECT_EQ(made("kernel void f(global int* x) { *x += VALUE; }\n", 3), 1u);
 }
 
+TEST(Program, ConstantsThatTheSourceDoesNotMentionMakeNoOther) {
+    const Device device = test_device();
+    const auto made = [&](const Defines& defines) {
+        const uint64_t before = device.counters().programs_built;
+        Program::from_text(device, "kernel void g(global int* x) { *x = VALUE + VALUES_2; }\n",
+                           defines);
+        return device.counters().programs_built - before;
+    };
+    EXPECT_EQ(made({{"VALUE", 3}, {"VALUES_2", 1}}), 1u);
+    EXPECT_EQ(made({{"VALUE", 3}, {"VALUES_2", 1}, {"VALUES", 7}, {"VAL", 5}}), 0u);
+    EXPECT_EQ(made({{"VALUE", 3}, {"VALUES_2", 2}}), 1u);
+}
+
 TEST(Program, NamesTheKernelFileAndLineOfAnError) {
     const Device device = test_device();
     if (device.info().platform == "Oclgrind") GTEST_SKIP() << "its compiler ignores #line";

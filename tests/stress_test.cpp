@@ -2,7 +2,9 @@
 #include "runtime/stress/stress.hpp"
 
 #include <gtest/gtest.h>
+#include <cmath>
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #if defined(__SSE__)
 #include <xmmintrin.h>
 #endif
@@ -10,7 +12,8 @@
 #include "runtime/stress/device_walks.hpp"
 #include "runtime/stress/exact_cover.hpp"
 #include "runtime/stress/ray_classes.hpp"
-#include "runtime/stress/stress_triangles.hpp"
+#include "runtime/stress/stress_rays.hpp"
+#include "runtime/stress/triangle_classes.hpp"
 #include "tests/oracles/triangle_overlap.hpp"
 #include "tests/test_device.hpp"
 
@@ -31,8 +34,10 @@ TEST_P(Stress, FindsNothing) {
     const StressTest& test = test_named(GetParam());
     const Device device = test_device();
     // All grids of the rays' classes; all classes of triangles; both kinds of maps.
-    const uint64_t count = std::max<uint64_t>(200000 / test.rays_per_case, 27);
-    const uint64_t cases = GetParam() == "triangles" ? 8 * kTrianglesOfOneGrid : count;
+    const uint64_t rays = kRayGrids * kRaysOfOneGrid;
+    const uint64_t count = std::max<uint64_t>(rays / test.rays_per_case, 27);
+    const uint64_t cases =
+        GetParam() == "triangles" ? kTriangleClasses * kTrianglesOfOneGrid : count;
     uint64_t told = 0;
     const StressResult result =
         test.run({device, kSeed, 0, cases, [&told](uint64_t tried) { told += tried; }});
@@ -105,22 +110,59 @@ TEST(DeviceWalks, ListTheCellsThatTheirDigestsStandFor) {
             EXPECT_EQ(walks.cells(grid, ray, steps, 170), exact_cells(grid, ray, steps, 170));
 }
 
+/// A point of the triangle's region close to which the triangle passes.
+glm::ivec3 middle_of(const TriangleOnLattice& t, const TriangleGrid& grid) {
+    const glm::ivec3 corner = t[0] / 4096;
+    const bool is_in_region = glm::clamp(corner, glm::ivec3(0), grid.region) == corner;
+    return is_in_region ? corner : grid.region / 2;
+}
+
 TEST(ExactRow, HasTheVoxelsThatSeparatingAxesFind) {
-    for (uint64_t number = 0; number < 8 * kTrianglesOfOneGrid;
+    for (uint64_t number = 0; number < kTriangleClasses * kTrianglesOfOneGrid;
          number += kTrianglesOfOneGrid / 12) {
         const TriangleOnLattice t = stress_triangle(kSeed, number);
-        const glm::ivec3 first = glm::min(glm::min(t[0], t[1]), t[2]) / 4096 - 1;
-        const glm::ivec3 last =
-            glm::min(glm::max(glm::max(t[0], t[1]), t[2]) / 4096 + 1, first + 24);
-        for (int z = first.z; z <= last.z; ++z)
+        const glm::ivec3 middle = middle_of(t, grid_of_triangle(number));
+        const glm::ivec3 lowest = glm::min(glm::min(t[0], t[1]), t[2]) / 4096 - 1;
+        const glm::ivec3 highest = glm::max(glm::max(t[0], t[1]), t[2]) / 4096 + 1;
+        const glm::ivec3 first = glm::max(lowest, middle - 12);
+        const glm::ivec3 last = glm::min(highest, middle + 12);
+        for (int z = first.z; z <= last.z; ++z) {
+            const VoxelRow rows = exact_rows(t, z);
             for (int y = first.y; y <= last.y; ++y) {
                 const VoxelRow row = exact_row(t, y, z);
+                ASSERT_EQ(y >= rows.first && y <= rows.last, row.first <= row.last)
+                    << "triangle " << number << " row " << y << ' ' << z;
                 for (int x = first.x; x <= last.x; ++x)
                     ASSERT_EQ(x >= row.first && x <= row.last,
                               oracle::cube_meets_triangle({x, y, z}, t))
                         << "triangle " << number << " voxel " << x << ' ' << y << ' ' << z;
             }
+        }
     }
+}
+
+/// The largest magnitude of a corner's component times the triangle's area vector: of the terms
+/// that a plane is formed of.
+double largest_plane_term(const TriangleOnLattice& t) {
+    const glm::dvec3 a(t[0]), n = glm::cross(glm::dvec3(t[1]) - a, glm::dvec3(t[2]) - a);
+    const glm::dvec3 terms = glm::abs(n * a);
+    return std::max({terms.x, terms.y, terms.z});
+}
+
+TEST(StressTriangles, NeedMoreThan64BitsAndLieWhereFloatsHoldThem) {
+    int wide = 0;
+    for (uint64_t number = 0; number < 12 * kTriangleClasses * kTrianglesOfOneGrid; number += 7) {
+        const TriangleOnLattice t = stress_triangle(kSeed, number);
+        const glm::ivec3 start = grid_of_triangle(number).start(number % kTrianglesOfOneGrid);
+        wide += largest_plane_term(t) > 0x1p63;
+        for (const glm::ivec3& corner : t)
+            for (int a = 0; a < 3; ++a) {
+                const int placed = corner[a] + 4096 * start[a];
+                ASSERT_EQ(int(float(placed)), placed) << "triangle " << number;
+                ASSERT_LE(std::abs(placed), 16384 * 4096) << "triangle " << number;
+            }
+    }
+    EXPECT_GT(wide, 500);
 }
 
 }  // namespace

@@ -167,6 +167,18 @@ TEST(WalkCases, T15FromAMillionAndTenMillionVoxelsAway) {
     }
 }
 
+TEST(WalkCases, T15ThroughTheLargestWorld) {
+    const ivec3 size(65536, 40000, 300);
+    Cells row;
+    for (int x = 0; x < 1000; ++x) row.push_back({x, 39999, 7});
+    for (const float far : {0.0f, 1e6f, 1e7f}) {
+        EXPECT_EQ(device_cells({-far, 39999.5f, 7.25f}, {1, 0, 0}, size), row);
+        Cells diagonal = exact_cells_of({-far, -far, 2.5f}, {1, 1, 0}, size);
+        diagonal.resize(1000);
+        EXPECT_EQ(device_cells({-far, -far, 2.5f}, {1, 1, 0}, size), diagonal);
+    }
+}
+
 TEST(WalkCases, T17WithinTheGridsSidesAndEdges) {
     for (const float side : {0.0f, 5.0f})
         for (const float along : {-1.0f, 1.0f})

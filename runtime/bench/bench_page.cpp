@@ -81,13 +81,13 @@ std::string peers(const BenchReport& report) {
         "and how "
         "many times its total they took.</p>\n<div class=\"rows\"><table>\n<tr><th>scene"
         "<th>program<th>setting<th>build ms<th>trace ms<th>depth RMS m<th>normal RMS &deg;"
-        "<th>as accurate<th>times</tr>\n";
+        "<th>other parts px<th>as accurate<th>times</tr>\n";
     for (const BenchPeerRow& p : report.peers) {
         const BenchRow* row = row_as_accurate(report, p);
-        html +=
-            fmt::format("<tr><td>{}<td>{}<td>{}<td>{:.2f}<td>{:.2f}<td>{:.3g}<td>{:.3g}",
-                        escape_html(p.scene), escape_html(p.program), escape_html(p.setting),
-                        p.build_seconds * 1e3, p.trace_seconds * 1e3, p.depth_rms, p.normal_rms);
+        html += fmt::format("<tr><td>{}<td>{}<td>{}<td>{:.2f}<td>{:.2f}<td>{:.3g}<td>{:.3g}<td>{}",
+                            escape_html(p.scene), escape_html(p.program), escape_html(p.setting),
+                            p.build_seconds * 1e3, p.trace_seconds * 1e3, p.depth_rms, p.normal_rms,
+                            p.other_parts);
         html += row ? fmt::format("<td>{} {} {}<td>{:.2f}</tr>\n", name_of(row->surface),
                                   name_of(row->placement), row->resolution,
                                   p.total_seconds() / row->seconds.total)

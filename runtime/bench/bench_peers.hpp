@@ -1,6 +1,7 @@
 // What other programs take for the same rays, from a file that tests/bench/bench_peers writes.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <glm/vec2.hpp>
 #include <optional>
@@ -18,13 +19,14 @@ struct BenchPeerRow {
     double trace_seconds = 0;
     double depth_rms = 0;  ///< metres
     double depth_max = 0;
-    double normal_rms = 0;  ///< degrees
+    double normal_rms = 0;     ///< degrees
+    uint64_t other_parts = 0;  ///< pixels that the errors leave out, as `BenchErrors` has them
 
     double total_seconds() const { return build_seconds + trace_seconds; }
 };
 
 /// Reads a file of rows that were measured with images of `size` pixels. Throws Error::input for
-/// one that isn't there, isn't such a file or has another size.
+/// one that isn't there, isn't such a file, names a scene that isn't there or has another size.
 std::vector<BenchPeerRow> read_peers(const std::filesystem::path& file, glm::ivec2 size);
 
 struct BenchReport;

@@ -168,13 +168,15 @@ std::string light_text(const BenchReport& report) {
 
 std::string peers_text(const BenchReport& report) {
     if (report.peers.empty()) return {};
-    std::string text = fmt::format("\n{:<16} {:<7} {:<22} {:>9} {:>9} {:>9} {:>9}  {}\n", "program",
-                                   "scene", "setting", "build ms", "trace ms", "depth m", "times",
-                                   "of the quickest row that is as accurate");
+    std::string text =
+        fmt::format("\n{:<16} {:<7} {:<22} {:>9} {:>9} {:>9} {:>11} {:>9}  {}\n", "program",
+                    "scene", "setting", "build ms", "trace ms", "depth m", "other parts", "times",
+                    "of the quickest row that is as accurate");
     for (const BenchPeerRow& p : report.peers) {
         const BenchRow* row = row_as_accurate(report, p);
-        text += fmt::format("{:<16} {:<7} {:<22} {:>9.1f} {:>9.1f} {:>9.2e} ", p.program, p.scene,
-                            p.setting, p.build_seconds * 1e3, p.trace_seconds * 1e3, p.depth_rms);
+        text += fmt::format("{:<16} {:<7} {:<22} {:>9.1f} {:>9.1f} {:>9.2e} {:>11} ", p.program,
+                            p.scene, p.setting, p.build_seconds * 1e3, p.trace_seconds * 1e3,
+                            p.depth_rms, p.other_parts);
         text +=
             row ? fmt::format("{:>9.2f}  {} {} {}, {:.1f} ms\n",
                               p.total_seconds() / row->seconds.total, name_of(row->surface),
@@ -249,6 +251,7 @@ nlohmann::ordered_json bench_json(const BenchReport& report) {
              {"depth_rms_metres", peer.depth_rms},
              {"depth_max_metres", peer.depth_max},
              {"normal_rms_degrees", peer.normal_rms},
+             {"other_part_pixels", peer.other_parts},
              {"times_of_ours", row ? peer.total_seconds() / row->seconds.total : NAN}});
     }
     json["fronts"] = json_of_fronts(report);

@@ -12,14 +12,29 @@
 namespace voxelume {
 namespace {
 
-std::string build_options(const Device& device, const Defines& defines) {
-    std::string options = "-cl-std=CL1.2";
-    bool has_lanes = false;
-    for (const auto& [name, value] : defines) {
-        options += fmt::format(" -D{}={}", name, value);
-        has_lanes |= name == "VXL_LANES";
+/// Whether the word `name` stands anywhere in the source.
+bool mentions(const std::string& source, const std::string& name) {
+    const auto is_word = [](char c) {
+        return c == '_' || (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') ||
+               (c >= 'a' && c <= 'z');
+    };
+    for (size_t at = source.find(name); at != source.npos; at = source.find(name, at + 1)) {
+        const size_t end = at + name.size();
+        if ((at == 0 || !is_word(source[at - 1])) &&
+            (end == source.size() || !is_word(source[end])))
+            return true;
     }
-    if (!has_lanes) options += fmt::format(" -DVXL_LANES={}", device.lanes());
+    return false;
+}
+
+/// Only the constants that the source mentions, so that scenes which differ in others share what
+/// was compiled.
+std::string build_options(const Device& device, const std::string& source, Defines defines) {
+    std::string options = "-cl-std=CL1.2";
+    if (std::ranges::find(defines, "VXL_LANES", &Defines::value_type::first) == defines.end())
+        defines.emplace_back("VXL_LANES", device.lanes());
+    for (const auto& [name, value] : defines)
+        if (mentions(source, name)) options += fmt::format(" -D{}={}", name, value);
     // Oclgrind 21.10 interprets LLVM code, but not the alias hints that its optimizer leaves.
     if (device.info().platform == "Oclgrind") options += " -cl-opt-disable";
     if (!device.info().build_options.empty()) options += " " + device.info().build_options;
@@ -63,7 +78,7 @@ Program Program::from_text(const Device& device, const std::string& source,
 Program::Program(const Device& device, const std::string& label, const std::string& source,
                  const Defines& defines)
     : device_(device), label_(label) {
-    const std::string options = build_options(device, defines);
+    const std::string options = build_options(device, source, defines);
     const std::array<std::string_view, 2> parts = {source, options};
     const auto locked = device.lock();
     cl::Program& kept = device.programs()[cache_key(parts)];

@@ -9,10 +9,10 @@ __extension__ using Wide = __int128;
 
 constexpr int64_t kVoxel = 4096;
 
-/// The closed range of voxels whose cubes hold some of the points given, along x.
+/// The closed range of voxels whose cubes hold some of the points given, along one axis.
 class RowBounds {
   public:
-    /// The point at x = numerator / denominator lattice units.
+    /// The point at numerator / denominator lattice units.
     void add(Wide numerator, Wide denominator) {
         if (denominator < 0) numerator = -numerator, denominator = -denominator;
         const Wide per_voxel = denominator * kVoxel;
@@ -37,6 +37,12 @@ int64_t at(const glm::ivec3& p, int axis) {
     return p[axis];
 }
 
+/// Whether a plane is met within an edge that goes `way` across it, `to_plane` from the edge's
+/// start.
+bool is_on_edge(int64_t to_plane, int64_t way) {
+    return way > 0 ? to_plane >= 0 && to_plane <= way : to_plane <= 0 && to_plane >= way;
+}
+
 /// Adds the points where the edge from a to b passes the prism's sides at y or z (`axis` 1 or 2).
 void add_edge(RowBounds& bounds, const Prism& prism, const glm::ivec3& a, const glm::ivec3& b,
               int axis) {
@@ -45,7 +51,7 @@ void add_edge(RowBounds& bounds, const Prism& prism, const glm::ivec3& a, const 
     const int other = 3 - axis;
     for (const int64_t side : {prism.low[axis - 1], prism.high[axis - 1]}) {
         const int64_t to_side = side - at(a, axis);  // the point is a + (b - a) to_side / way
-        if (way > 0 ? to_side < 0 || to_side > way : to_side > 0 || to_side < way) continue;
+        if (!is_on_edge(to_side, way)) continue;
         const int64_t place = at(a, other) * way + (at(b, other) - at(a, other)) * to_side;
         const int64_t sign = way > 0 ? 1 : -1;
         if (place * sign < prism.low[other - 1] * way * sign ||
@@ -82,6 +88,21 @@ VoxelRow exact_row(const TriangleOnLattice& t, int y, int z) {
                 continue;
             bounds.add(Wide(w[0]) * t[0].x + Wide(w[1]) * t[1].x + Wide(w[2]) * t[2].x, area);
         }
+    return bounds.row();
+}
+
+VoxelRow exact_rows(const TriangleOnLattice& t, int z) {
+    const int64_t low = z * kVoxel, high = low + kVoxel;
+    RowBounds bounds;  // of the corners of what the layer holds of the triangle
+    for (size_t i = 0; i < 3; ++i) {
+        const glm::ivec3 &a = t[i], &b = t[(i + 1) % 3];
+        if (a.z >= low && a.z <= high) bounds.add(a.y, 1);
+        const int64_t way = at(b, 2) - at(a, 2);
+        if (way == 0) continue;
+        for (const int64_t side : {low, high})
+            if (is_on_edge(side - a.z, way))
+                bounds.add(Wide(a.y) * way + Wide(at(b, 1) - at(a, 1)) * (side - a.z), way);
+    }
     return bounds.row();
 }
 

@@ -15,12 +15,16 @@ struct VoxelRow {
     int64_t first = 0, last = -1;
 };
 
-/// The voxels of row (y, z) along x whose closed cubes the closed triangle meets. The triangle
-/// spans at most 2^8 voxels and lies within 2^12 of the origin.
+/// The voxels of row (y, z) along x whose closed cubes the closed triangle meets. Corners and rows
+/// lie within 2^15 voxels of the origin: coordinates are up to 2^27 units, differences 2^28, so
+/// that products of two fit 58 bits with their sum; those of three are formed in 128.
 ///
 /// The row's prism and the triangle meet in a polygon. Its corners are corners of the triangle,
 /// points where the triangle's edges pass the prism's sides, or points where the prism's edges pass
 /// the triangle; the row's voxels reach from the lowest of them to the highest.
 VoxelRow exact_row(const TriangleOnLattice& triangle, int y, int z);
+
+/// The rows y of layer z that have such voxels.
+VoxelRow exact_rows(const TriangleOnLattice& triangle, int z);
 
 }  // namespace voxelume

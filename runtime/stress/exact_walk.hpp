@@ -10,7 +10,9 @@
 namespace voxelume {
 
 /// A grid and the fixed point of rays through it: integer bits of the longest side and
-/// `fraction_bits` are 24 together.
+/// `fraction_bits` are 24 together. So places are below 2^24 units whatever the grid's size, up to
+/// the 65,536 voxels of the largest worlds, products with directions below 2^47, and 64 bits are
+/// enough for all of it.
 struct FixedGrid {
     glm::ivec3 size{0};  ///< voxels
     int fraction_bits = 0;

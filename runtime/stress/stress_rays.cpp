@@ -17,8 +17,8 @@ namespace {
 
 constexpr uint32_t kAll = 0;
 
-/// Small and large, never a cube where it can be helped.
-constexpr std::array kGrids = {
+/// Small and large, up to the largest worlds, and never a cube where it can be helped.
+constexpr std::array<RayGrid, kRayGrids> kGrids = {{
     RayGrid{{64, 61, 37}, Compared::cells, kAll},
     RayGrid{{70, 37, 130}, Compared::first_hit, kAll},
     RayGrid{{600, 300, 400}, Compared::blocks, kAll},
@@ -31,7 +31,10 @@ constexpr std::array kGrids = {
     RayGrid{{4095, 2047, 3000}, Compared::cells, 256},
     RayGrid{{16383, 3, 9000}, Compared::blocks, 256},
     RayGrid{{17, 16, 15}, Compared::cells, kAll},
-};
+    RayGrid{{65536, 65536, 65536}, Compared::blocks, 256},
+    RayGrid{{65536, 40, 30}, Compared::first_hit, kAll},
+    RayGrid{{23, 65535, 40001}, Compared::cells, 256},
+}};
 
 /// Bricks here and there, a few voxels in each: rays cross empty blocks of every size.
 VoxelBits scattered_voxels(const glm::ivec3& size, uint64_t seed) {

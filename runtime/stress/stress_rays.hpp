@@ -9,6 +9,9 @@ namespace voxelume {
 /// Rays in a row that have one grid and one way of being compared.
 inline constexpr uint64_t kRaysOfOneGrid = 1u << 14;
 
+/// After as many grids the first comes again.
+inline constexpr uint64_t kRayGrids = 15;
+
 /// What is compared of a ray.
 enum class Compared {
     cells,      ///< all cells, one by one

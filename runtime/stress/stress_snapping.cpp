@@ -16,7 +16,8 @@ constexpr size_t kBatch = 1u << 14;
 constexpr uint32_t kMostCells = 300;
 
 constexpr std::array kSizes = {glm::ivec3(64, 61, 37), glm::ivec3(1000, 300, 700),
-                               glm::ivec3(7, 5, 3), glm::ivec3(16384, 16384, 16384)};
+                               glm::ivec3(7, 5, 3), glm::ivec3(16384, 16384, 16384),
+                               glm::ivec3(65536, 40000, 65536)};
 
 FixedGrid grid_of_batch(uint64_t first) {
     return fixed_grid(kSizes[first / kBatch % kSizes.size()]);

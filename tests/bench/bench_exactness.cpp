@@ -1,6 +1,8 @@
 // What exact arithmetic costs: the kernels against the same with floats alone, in turns.
 //
-//   bench_exactness MESH [voxels along the longest side, 512] [turns, 15] [part of a line's name]
+//   bench_exactness MESH [voxels along the longest side, 64,512] [turns, 15] [part of a row's name]
+//
+// Runs every row at each of the sizes, and prints all ratios again at the end.
 //
 // Traversal: sight rays at the mesh, whose crossings are left to floats by VXL_ARBITRATE=0, where
 // cells that would lie behind are refused so that the walk ends at all.
@@ -16,6 +18,7 @@
 #include <functional>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <sstream>
 
 #include "runtime/io/mesh_reader.hpp"
 #include "runtime/stages/index.hpp"
@@ -41,8 +44,17 @@ void tell(const std::string& what) {
     fmt::print(stderr, "{} ...\n", what);
 }
 
+/// What is measured, and what came out.
+struct Run {
+    int turns;
+    std::string part;  ///< of the names of rows that are wanted
+    std::vector<std::pair<std::string, double>> ratios;
+
+    bool wants(const std::string& name) const { return name.find(part) != std::string::npos; }
+};
+
 /// Prints the medians of both, and of their ratios.
-void compare(const std::string& name, int turns, const std::function<void()>& exact,
+void compare(Run& run, const std::string& name, const std::function<void()>& exact,
              const std::function<void()>& floats) {
     const auto timed = [](const std::function<void()>& work) {
         const double start = cpu_seconds();
@@ -52,7 +64,7 @@ void compare(const std::string& name, int turns, const std::function<void()>& ex
     tell(name);
     exact(), floats();  // kernels are compiled on the way
     std::vector<double> exact_seconds, float_seconds, ratios;
-    for (int turn = 0; turn < turns; ++turn) {
+    for (int turn = 0; turn < run.turns; ++turn) {
         exact_seconds.push_back(timed(exact));
         float_seconds.push_back(timed(floats));
         ratios.push_back(exact_seconds.back() / float_seconds.back());
@@ -61,6 +73,7 @@ void compare(const std::string& name, int turns, const std::function<void()>& ex
                name, median(exact_seconds) * 1e3, median(float_seconds) * 1e3, median(ratios),
                *std::ranges::min_element(ratios), *std::ranges::max_element(ratios));
     std::fflush(stdout);
+    run.ratios.emplace_back(name, median(ratios));
 }
 
 double longest_side(const Mesh& mesh) {
@@ -164,31 +177,56 @@ uint64_t differing_bits(const std::vector<uint64_t>& a, const std::vector<uint64
     return count;
 }
 
-void measure_walks(const Mesh& mesh, const GridFrame& frame, int turns, const std::string& part) {
+void measure_walks(Run& run, const Mesh& mesh, const GridFrame& frame, int resolution) {
     const std::pair<const char*, Surface> surfaces[] = {
         {"cubes", Surface::cubes}, {"smooth", Surface::smooth}, {"exact", Surface::exact}};
-    for (const auto& [name, surface] : surfaces) {
-        if (("trace " + std::string(name)).find(part) == std::string::npos) continue;
-        tell(fmt::format("voxels of {}", name));
+    for (const auto& [surface_name, surface] : surfaces) {
+        const std::string name = fmt::format("trace {} {}", surface_name, resolution);
+        if (!run.wants(name)) continue;
+        tell("voxels of " + name);
         Tracing exact("", mesh, frame, surface);
         Tracing floats("-DVXL_ARBITRATE=0", mesh, frame, surface);
         compare(
-            fmt::format("trace {}", name), turns, [&] { exact.run(); }, [&] { floats.run(); });
+            run, name, [&] { exact.run(); }, [&] { floats.run(); });
     }
 }
 
-void measure_covering(const Mesh& mesh, const GridFrame& frame, int turns) {
+void measure_covering(Run& run, const Mesh& mesh, const GridFrame& frame, int resolution) {
+    const std::string name = fmt::format("voxelize supercover {}", resolution);
+    if (!run.wants(name)) return;
     const Device device = Device::open();
     Covering covering(device, mesh, frame);
     const auto exact = covering.work(
         Program(device, "voxelize_cover.cl", {{"VXL_SLICES", kBrickSize}, {"VXL_THIN", 0}}));
     const auto floats =
         covering.work(Program::from_text(device, kFloatCover, {{"VXL_SLICES", kBrickSize}}));
-    compare("voxelize supercover", turns, exact, floats);
+    compare(run, name, exact, floats);
     exact();
     const std::vector<uint64_t> right = covering.occupancy();
     floats();
     fmt::print("voxels that floats have wrong: {}\n", differing_bits(right, covering.occupancy()));
+}
+
+/// "64,512".
+std::vector<int> numbers_of(const std::string& text) {
+    std::vector<int> numbers;
+    std::istringstream stream(text);
+    for (std::string item; std::getline(stream, item, ',');) {
+        numbers.push_back(std::atoi(item.c_str()));
+        if (numbers.back() < 2)
+            throw std::runtime_error("sizes are numbers of voxels, like 64,512");
+    }
+    return numbers;
+}
+
+void measure(const Mesh& mesh, const std::vector<int>& resolutions, Run run) {
+    for (const int resolution : resolutions) {
+        const GridFrame frame = frame_around(mesh, glm::dvec3(longest_side(mesh) / resolution));
+        measure_walks(run, mesh, frame, resolution);
+        measure_covering(run, mesh, frame, resolution);
+    }
+    fmt::print("\nmedians of {} turns, exact over floats:\n", run.turns);
+    for (const auto& [name, ratio] : run.ratios) fmt::print("{:<24} {:.3f}\n", name, ratio);
 }
 
 }  // namespace
@@ -197,15 +235,11 @@ void measure_covering(const Mesh& mesh, const GridFrame& frame, int turns) {
 int main(int argc, char** argv) {
     try {
         if (argc < 2) throw std::runtime_error("give a mesh");
-        const voxelume::Mesh mesh = voxelume::read_mesh(argv[1]);
-        const int resolution = argc > 2 ? std::atoi(argv[2]) : 512;
         const int turns = argc > 3 ? std::atoi(argv[3]) : 15;
-        const std::string part = argc > 4 ? argv[4] : "";
-        const voxelume::GridFrame frame =
-            voxelume::frame_around(mesh, glm::dvec3(voxelume::longest_side(mesh) / resolution));
-        voxelume::measure_walks(mesh, frame, turns, part);
-        if (std::string("voxelize supercover").find(part) != std::string::npos)
-            voxelume::measure_covering(mesh, frame, turns);
+        if (turns < 1) throw std::runtime_error("there is at least one turn");
+        voxelume::measure(voxelume::read_mesh(argv[1]),
+                          voxelume::numbers_of(argc > 2 ? argv[2] : "64,512"),
+                          {turns, argc > 4 ? argv[4] : "", {}});
         return 0;
     } catch (const std::exception& error) {
         std::fprintf(stderr, "bench_exactness: %s\n", error.what());

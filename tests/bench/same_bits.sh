@@ -7,7 +7,7 @@
 # CMake's environment variable CMAKE_CXX_COMPILER_LAUNCHER=ccache makes the second run short.
 #
 # Builds the program with g++ and clang++, as Debug and Release, and renders every scene of scenes/
-# small with lanes {1,4,8,16}, work-groups {own,1,24}, threads {1,2}, one compute unit, and with the
+# small with lanes {1,4,8,16}, work-groups {own,1,24}, threads {own,1,2}, one compute unit, and with the
 # OpenCL compiler's optimizer off. Prints a line per scene and setting that differs from the first, and
 # the number of images; exits with 1 if any differs. The first run compiles for an hour on two cores, and all settings take half an hour more.
 set -eu
@@ -53,6 +53,7 @@ for build in $builds; do
     for lanes in 1 4 8 16; do
         check "$program" VOXELUME_LANES=$lanes
         check "$program" VOXELUME_LANES=$lanes POCL_MAX_PTHREAD_COUNT=1
+        check "$program" VOXELUME_LANES=$lanes POCL_MAX_PTHREAD_COUNT=2
         check "$program" VOXELUME_LANES=$lanes VOXELUME_WORK_GROUP=1
         check "$program" VOXELUME_LANES=$lanes VOXELUME_WORK_GROUP=24
         check "$program" VOXELUME_LANES=$lanes VOXELUME_UNITS=1
