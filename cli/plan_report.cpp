@@ -62,6 +62,9 @@ Report plan_report(const Scene& scene, const ScenePlan& plan, const Device& devi
     add("place", plan.place_bytes);
     add("index", plan.index_bytes);
     add("image", plan.image_bytes);
+    BufferPlan largest = plan.largest;
+    for (const GridPlan& grid : plan.grids) keep_larger(largest, grid.largest);
+    report["largest buffer"] = bytes_text(largest.bytes);
     report["main memory"] = bytes_text(plan.host_bytes);
     return report;
 }

@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,10 +20,12 @@
 #include "runtime/frame_pipeline.hpp"
 #include "runtime/frame_plans.hpp"
 #include "runtime/io/exr.hpp"
+#include "runtime/io/frame_list.hpp"
 #include "runtime/io/png.hpp"
 #include "runtime/io/progress.hpp"
 #include "runtime/io/volume_file.hpp"
 #include "runtime/scene_animation.hpp"
+#include "runtime/shown_models.hpp"
 #include "runtime/version.hpp"
 #include "runtime/volume_renderer.hpp"
 
@@ -89,6 +92,7 @@ class FrameRun {
           options_(options),
           meshes_(std::move(meshes)),
           bar_("rendering", 100 * list.size(), stderr, options.quiet),
+          shown_(list.size()),
           reports_(list.size()) {
         for (const Device& device : devices) {
             renderers_.emplace_back(device, list.size() > 1);
@@ -98,6 +102,9 @@ class FrameRun {
 
     /// Seconds of writing files, up to now.
     double write_seconds() const { return write_seconds_; }
+
+    /// The frame from which on they were rendered one at a time, as memory doesn't suffice for two.
+    std::optional<int> one_by_one_from() const { return one_by_one_from_; }
 
     std::vector<FrameReport> run() {
         if (devices_.size() > 1 && list_.size() == 1 && list_[0].volumes.empty()) {
@@ -110,7 +117,16 @@ class FrameRun {
                                              [&] { return render(input); });
                          }};
         if (moves(scene_)) steps.number = [this](size_t n) { return double(list_[n].frame); };
-        run_frames(devices_, list_.size(), steps, {!options_.one_by_one, std::move(meshes_)});
+        if (list_.size() > 1)
+            steps.awaited = [until = shown_until(scene_, numbers_of(list_))](size_t n) {
+                std::vector<bool> awaited(until.size());
+                for (size_t i = 0; i < until.size(); ++i) awaited[i] = until[i] > n + 1;
+                return awaited;
+            };
+        steps.forget = [this](size_t device) { forget(device); };
+        const std::optional<size_t> alone =
+            run_frames(devices_, list_.size(), steps, {!options_.one_by_one, std::move(meshes_)});
+        if (alone) one_by_one_from_ = list_[*alone].frame;
         return reports_;
     }
 
@@ -121,7 +137,7 @@ class FrameRun {
         report.world = input.report;
         std::shared_ptr<const Image> image;
         std::shared_ptr<Volume> volume;
-        uint64_t shown = 0;
+        uint64_t& shown = shown_[input.frame];
         if (!files.images.empty())
             image = renderers_[input.device].image(
                 input.scene, input.world, report,
@@ -134,7 +150,7 @@ class FrameRun {
 
     /// The only frame, by all devices.
     std::function<void()> render_tiles() {
-        uint64_t shown = 0;
+        uint64_t& shown = shown_[0];
         RenderReport report;
         auto image = std::make_shared<const Image>(in_frame(scene_, list_[0].frame, [&] {
             return render_together(
@@ -167,11 +183,18 @@ class FrameRun {
                 fmt::print(stderr, "frame {}: {}\n", files.frame, path);
     }
 
-    /// Shows a frame of which `percent` are done and `shown` were, before.
+    /// What a device's renderers keep of frames before.
+    void forget(size_t device) {
+        renderers_[device] = Renderer(devices_[device]);
+        volume_renderers_[device] = VolumeRenderer(devices_[device]);
+    }
+
+    /// Shows a frame of which `percent` are done and `shown` were, before: less, where it is begun
+    /// again.
     void advance(uint64_t percent, uint64_t& shown) {
         const std::lock_guard lock(bar_mutex_);
-        bar_.advance(percent - shown);
-        shown = percent;
+        bar_.advance(percent - std::min(percent, shown));
+        shown = std::max(percent, shown);
     }
 
     void write_images(Image image, const FrameFiles& files) const {
@@ -194,7 +217,9 @@ class FrameRun {
     Progress bar_;
     std::mutex bar_mutex_;
     std::atomic<double> write_seconds_ = 0;
+    std::vector<uint64_t> shown_;  ///< of each frame, percent
     std::vector<FrameReport> reports_;
+    std::optional<int> one_by_one_from_;
 };
 
 size_t count_files(const std::vector<FrameFiles>& list) {
@@ -233,6 +258,7 @@ int run(const RenderOptions& options) {
                           count_files(list),
                           open_seconds,
                           rendering.write_seconds(),
+                          rendering.one_by_one_from(),
                           seconds_since(start)};
     if (!options.stats.empty()) write_statistics(options.stats, outcome);
     if (options.quiet) return 0;
@@ -252,8 +278,9 @@ Action add_render(CLI::App& app) {
                    "volumetric image of the scene's display: .vdb .exr .nrrd .raw, name.####.png "
                    "and displays' own formats; may be given again")
         ->allow_extra_args(false);
-    app.add_option("--frames", options->frames,
-                   "frames like 1-10,20,30-60x5; #### in an output's name is the number");
+    const CLI::Option* frames =
+        app.add_option("--frames", options->frames,
+                       "frames like 1-10,20,30-60x5; #### in an output's name is the number");
     app.add_option("--exposure", options->exposure, "of .png, in stops")->check(in_range(-64, 64));
     app.add_flag("--float", options->float_color, "colour of .exr as 32-bit floats, not halves");
     app.add_option("--channels", options->channels,
@@ -261,11 +288,17 @@ Action add_render(CLI::App& app) {
                    "none of them");
     app.add_option("--stats-json", options->stats, "file for counts and times");
     app.add_flag("--dry-run", options->plan_only, "say what it takes, as `check` does, and stop");
-    app.add_flag("--no-overlap", options->one_by_one,
-                 "of several frames, form, render and write one after another: less memory");
+    app.add_flag(
+        "--no-overlap", options->one_by_one,
+        "of several frames, form, render and write one after another: less memory; several "
+        "devices always do, each with its own frames");
     app.add_flag("-v,--verbose", options->verbose, "say more: kernels' times, memory");
     app.add_flag("-q,--quiet", options->quiet, "print errors only");
-    return [options] { return run(*options); };
+    return [options, frames] {
+        // An empty list would be taken for none given.
+        if (frames->count() > 0 && options->frames.empty()) parse_frame_list(options->frames);
+        return run(*options);
+    };
 }
 
 }  // namespace voxelume::cli

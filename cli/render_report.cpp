@@ -21,6 +21,7 @@ RenderReport sum_of(const std::vector<FrameReport>& frames) {
         sum.world.voxelize_seconds += report.world.voxelize_seconds;
         sum.world.place_seconds += report.world.place_seconds;
         sum.world.index_seconds += report.world.index_seconds;
+        sum.world.keep_seconds += report.world.keep_seconds;
         sum.world.triangles = std::max(sum.world.triangles, report.world.triangles);
         if (report.world.instances.instances >= sum.world.instances.instances)
             sum.world.instances = report.world.instances;
@@ -57,11 +58,9 @@ std::string names_of(const Outcome& outcome) {
 }
 
 nlohmann::ordered_json seconds_of(const RenderReport& report) {
-    return {{"load", report.world.load_seconds},
-            {"voxelize", report.world.voxelize_seconds},
-            {"place", report.world.place_seconds},
-            {"index", report.world.index_seconds},
-            {"image", report.image_seconds}};
+    return {{"load", report.world.load_seconds},   {"voxelize", report.world.voxelize_seconds},
+            {"place", report.world.place_seconds}, {"index", report.world.index_seconds},
+            {"cache", report.world.keep_seconds},  {"image", report.image_seconds}};
 }
 
 const char* world_text(const FrameReport& frame) {
@@ -133,6 +132,7 @@ nlohmann::ordered_json statistics(const Outcome& outcome) {
     json["seconds"]["open"] = outcome.open_seconds;
     json["seconds"]["write"] = outcome.write_seconds;
     json["seconds"]["total"] = outcome.seconds;
+    if (outcome.one_by_one_from) json["one_by_one_from"] = *outcome.one_by_one_from;
     json["frames"] = nlohmann::ordered_json::array();
     for (const FrameReport& frame : outcome.frames)
         json["frames"].push_back(frame_statistics(frame));
@@ -207,6 +207,10 @@ void print_details(const Outcome& outcome) {
                double(report.world_bytes) / 1e6, double(counters.peak_bytes) / 1e6);
     fmt::print(stderr, "  {} programs in {:.0f} ms, {} of them compiled before\n",
                counters.programs_built, counters.build_ms, counters.programs_from_cache);
+    if (outcome.one_by_one_from)
+        fmt::print(stderr,
+                   "  one frame at a time from frame {} on: memory doesn't suffice for two\n",
+                   *outcome.one_by_one_from);
     if (outcome.frames.size() > 1)
         for (const FrameReport& frame : outcome.frames)
             fmt::print(stderr,

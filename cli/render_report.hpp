@@ -1,6 +1,7 @@
 // What a render came to: the summary line, -v and --stats-json.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,7 +21,9 @@ struct Outcome {
     size_t files;
     double open_seconds;   ///< reading the scene, finding and opening devices
     double write_seconds;  ///< writing files, perhaps beside other work
-    double seconds;        ///< of all of it
+    std::optional<int>
+        one_by_one_from;  ///< frame from which on none overlapped, for want of memory
+    double seconds;       ///< of all of it
 };
 
 void write_statistics(const std::string& path, const Outcome& outcome);

@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "runtime/closing.hpp"
+#include "runtime/frame_worker.hpp"
 
 namespace voxelume {
 namespace {
@@ -71,7 +72,9 @@ void share_frames(const std::vector<Device>& devices, size_t count, const FrameS
     FrameShare share(count, 2 * devices.size());
     std::mutex scenes;
     const auto work = [&](size_t device) {
-        WorldFormer former(devices[device], true, meshes);
+        // What was read to check the frames counts once.
+        FrameWorker worker(devices[device], device, steps,
+                           device == 0 ? meshes : meshes.recounted(), true);
         while (const std::optional<size_t> frame = share.take()) {
             RenderedFrame rendered;
             try {
@@ -80,9 +83,7 @@ void share_frames(const std::vector<Device>& devices, size_t count, const FrameS
                     const std::lock_guard lock(scenes);
                     scene = steps.scene(*frame);
                 }
-                WorldReport report;
-                const FormedWorld world = form_frame(former, steps, *frame, scene, report);
-                rendered.write = steps.render({*frame, device, scene, world, report});
+                rendered.write = worker.take(*frame, scene);
             } catch (...) {
                 rendered.error = std::current_exception();
             }

@@ -61,7 +61,7 @@ void copy_tiles(const Part& part, Image& image) {
 void add_report(const RenderReport& part, RenderReport& sum) {
     const auto seconds = [](const WorldReport& world) {
         return world.load_seconds + world.voxelize_seconds + world.place_seconds +
-               world.index_seconds;
+               world.index_seconds + world.keep_seconds;
     };
     if (seconds(part.world) > seconds(sum.world)) sum.world = part.world;
     sum.image_seconds = std::max(sum.image_seconds, part.image_seconds);

@@ -9,7 +9,8 @@
 
 #include "runtime/closing.hpp"
 #include "runtime/device_frames.hpp"
-#include "runtime/scene_animation.hpp"
+#include "runtime/error.hpp"
+#include "runtime/frame_worker.hpp"
 
 namespace voxelume {
 namespace {
@@ -69,11 +70,23 @@ FormedFrame form_next(WorldFormer& former, const FrameSteps& steps, size_t frame
     return formed;
 }
 
-void run_one_by_one(const Device& device, size_t count, const FrameSteps& steps, MeshStore meshes) {
-    WorldFormer former(device, count > 1, std::move(meshes));
-    for (size_t frame = 0; frame < count; ++frame) {
-        const FormedFrame formed = form_next(former, steps, frame);
-        steps.render({frame, 0, formed.scene, formed.world, formed.report})();
+/// The frames from `first` on.
+void run_one_by_one(const Device& device, size_t first, size_t count, const FrameSteps& steps,
+                    MeshStore meshes) {
+    FrameWorker worker(device, 0, steps, std::move(meshes), count - first > 1);
+    for (size_t frame = first; frame < count; ++frame) {
+        const Scene scene = steps.scene(frame);
+        worker.take(frame, scene)();
+    }
+}
+
+bool is_limit(const std::exception_ptr& error) {
+    try {
+        std::rethrow_exception(error);
+    } catch (const Error& limit) {
+        return limit.kind() == ErrorKind::limit;
+    } catch (...) {
+        return false;
     }
 }
 
@@ -90,10 +103,14 @@ class Worker {
     std::thread thread_;
 };
 
-void run_overlapped(const Device& device, size_t count, const FrameSteps& steps, MeshStore meshes) {
+/// Returns how many frames were rendered: fewer than all where memory doesn't suffice for two.
+size_t run_overlapped(const Device& device, size_t count, const FrameSteps& steps,
+                      MeshStore meshes) {
     Handoff<FormedFrame> formed;
     Handoff<std::function<void()>> writes;
     std::exception_ptr write_error, error;
+    size_t frame = 0;
+    bool is_alone = true;  // nothing is in memory beside the first world that is formed
     try {
         const Worker writer([&] {
             const Closing closing(writes);
@@ -108,9 +125,9 @@ void run_overlapped(const Device& device, size_t count, const FrameSteps& steps,
             const Closing closing(formed);
             try {
                 WorldFormer former(device.with_own_queue(), true, std::move(meshes));
-                for (size_t frame = 0; frame < count; ++frame) {
+                for (size_t next = 0; next < count; ++next) {
                     // Two worlds at a time: the next is begun when this one is being rendered.
-                    if (!formed.put(form_next(former, steps, frame))) return;
+                    if (!formed.put(form_next(former, steps, next))) return;
                     if (!formed.wait_until_taken()) return;
                 }
             } catch (...) {
@@ -120,10 +137,11 @@ void run_overlapped(const Device& device, size_t count, const FrameSteps& steps,
             }
         });
         const Closing end_forming(formed);
-        for (size_t frame = 0; frame < count; ++frame) {
+        for (; frame < count; ++frame) {
             std::optional<FormedFrame> next = formed.take();
             if (!next) break;
             if (next->error) std::rethrow_exception(next->error);
+            is_alone = false;
             if (!writes.put(steps.render({frame, 0, next->scene, next->world, next->report})))
                 break;
         }
@@ -132,29 +150,28 @@ void run_overlapped(const Device& device, size_t count, const FrameSteps& steps,
     }
     // The writer's frame comes before all others.
     if (write_error) std::rethrow_exception(write_error);
-    if (error) std::rethrow_exception(error);
+    if (error && (is_alone || !steps.forget || !is_limit(error))) std::rethrow_exception(error);
+    return frame;
 }
 
 }  // namespace
 
-FormedWorld form_frame(WorldFormer& former, const FrameSteps& steps, size_t frame,
-                       const Scene& scene, WorldReport& report) {
-    try {
-        return former.form(scene, report);
-    } catch (const Error& error) {
-        if (!steps.number) throw;
-        throw at_frame(error, steps.number(frame));
-    }
-}
-
-void run_frames(const std::vector<Device>& devices, size_t count, const FrameSteps& steps,
-                FrameOptions options) {
-    if (devices.size() > 1 && count > 1)
+std::optional<size_t> run_frames(const std::vector<Device>& devices, size_t count,
+                                 const FrameSteps& steps, FrameOptions options) {
+    if (devices.size() > 1 && count > 1) {
         share_frames(devices, count, steps, options.meshes);
-    else if (options.overlap && count > 1)
-        run_overlapped(devices[0], count, steps, std::move(options.meshes));
-    else
-        run_one_by_one(devices[0], count, steps, std::move(options.meshes));
+        return std::nullopt;
+    }
+    if (!options.overlap || count < 2) {
+        run_one_by_one(devices[0], 0, count, steps, std::move(options.meshes));
+        return std::nullopt;
+    }
+    const ModelCache cache = options.meshes.cache();
+    const size_t first = run_overlapped(devices[0], count, steps, std::move(options.meshes));
+    if (first == count) return std::nullopt;
+    steps.forget(0);
+    run_one_by_one(devices[0], first, count, steps, MeshStore(cache));
+    return first;
 }
 
 }  // namespace voxelume

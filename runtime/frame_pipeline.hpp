@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "runtime/renderer.hpp"
@@ -27,6 +28,11 @@ struct FrameSteps {
     std::function<std::function<void()>(const FrameInput&)> render;
     /// The number by which errors of forming its world name a frame. Without it they don't.
     std::function<double(size_t)> number = {};
+    /// Which models a frame after this one shows; without it none is waited for.
+    std::function<std::vector<bool>(size_t)> awaited = {};
+    /// Frees what `render` keeps on a device, by its number, for frames that follow. Without it no
+    /// frame is tried again when memory lacks.
+    std::function<void(size_t)> forget = {};
 };
 
 struct FrameOptions {
@@ -34,14 +40,14 @@ struct FrameOptions {
     MeshStore meshes = MeshStore();  ///< what was read already, and the cache of models
 };
 
-/// Forms the world of a frame.
-FormedWorld form_frame(WorldFormer& former, const FrameSteps& steps, size_t frame,
-                       const Scene& scene, WorldReport& report);
-
 /// Takes `count` frames through their steps. The files are the same with all options.
 ///
+/// Frames overlap as long as the device has the memory for two. From the first on that it hasn't,
+/// they are taken one at a time, so that each that fits alone is rendered. Returns that frame's
+/// place in the run, where there was one.
+///
 /// Rethrows the first error of the frames in order, once the frames before it are written.
-void run_frames(const std::vector<Device>& devices, size_t count, const FrameSteps& steps,
-                FrameOptions options);
+std::optional<size_t> run_frames(const std::vector<Device>& devices, size_t count,
+                                 const FrameSteps& steps, FrameOptions options);
 
 }  // namespace voxelume

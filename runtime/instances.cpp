@@ -85,6 +85,10 @@ ListedInstances list_instances(const Scene& scene, MeshStore& meshes, ObjectGrid
 Pyramid InstanceModels::join(const Scene& scene, const ListedInstances& listed, Pyramid world,
                              InstanceReport& report) {
     const std::vector<Kept> before = std::exchange(kept_, {});
+    for (const Kept& kept : before) {
+        const bool is_listed = std::ranges::find(listed.grids, kept.grid) != listed.grids.end();
+        if (!is_listed && kept.grid.use_count() > 1) kept_.push_back(kept);
+    }
     if (listed.list.empty()) return world;
     const auto start = std::chrono::steady_clock::now();
     std::vector<ModelPyramid> models;

@@ -39,7 +39,8 @@ struct ListedInstances {
 /// light through.
 ListedInstances list_instances(const Scene& scene, MeshStore& meshes, ObjectGrids& grids);
 
-/// Puts instances behind worlds, and keeps the pyramids of their models while they are shown.
+/// Puts instances behind worlds, and keeps the pyramids of their models while they are shown, or
+/// others keep their grids.
 class InstanceModels {
   public:
     explicit InstanceModels(const Device& device) : device_(device) {}

@@ -145,6 +145,18 @@ std::string MeshStore::source_of(const Model& model) {
     return morph_source(from, morph.mesh.empty() ? std::string() : file(morph.mesh).source, morph);
 }
 
+void MeshStore::use(const Model& model) {
+    used_.insert({model.mesh, model.voxels});
+    if (model.morph) used_.insert(model.morph->mesh);
+}
+
+MeshStore MeshStore::recounted() const {
+    MeshStore store = *this;
+    store.load_seconds_ = 0;
+    store.meshes_read_ = 0;
+    return store;
+}
+
 void MeshStore::forget_unused() {
     const auto is_unused = [&](const auto& entry) { return !used_.contains(entry.first); };
     std::erase_if(files_, is_unused);

@@ -36,8 +36,12 @@ class MeshStore {
     /// where nothing is kept on disk.
     std::string source_of(const Model& model);
 
+    /// What is in memory of a model's files outlives the next call of `forget_unused`.
+    void use(const Model& model);
     /// Forgets what wasn't asked for since the last call.
     void forget_unused();
+    /// The same store, which counts what it reads from here on.
+    MeshStore recounted() const;
 
     const ModelCache& cache() const { return cache_; }
     double load_seconds() const { return load_seconds_; }

@@ -64,11 +64,11 @@ class ModelCache {
 
     /// The grid on a device. Throws Error::limit when the device has not enough memory.
     std::optional<BrickGrid> grid(const Device& device, const std::string& key) const;
-    /// `seconds` is what making it took.
+    /// `seconds` is what making it took. One that would take more than an eighth of the cache isn't
+    /// kept: few such would drive out all others.
     void keep(const std::string& key, const BrickGrid& grid, double seconds) const;
 
-    /// The same for worlds, without instances. One that would take an eighth of the cache or more
-    /// isn't kept.
+    /// The same for worlds, without instances; they count by what they take on the device.
     std::optional<Pyramid> world(const Device& device, const std::string& key) const;
     void keep(const std::string& key, const Pyramid& world, double seconds) const;
 

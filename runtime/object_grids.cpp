@@ -10,6 +10,8 @@
 namespace voxelume {
 namespace {
 
+using Seconds = std::chrono::duration<double>;
+
 bool has_own_voxels(const Model& model) {
     return !model.voxels.empty() && model.surface != Surface::exact;
 }
@@ -90,8 +92,9 @@ BrickGrid ObjectGrids::read_or_make(const Model& model, const Source& source, bo
     BrickGrid grid = make(model, source);
     device_.finish();
     ++voxelized_;
-    const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
-    if (!key.empty()) cache.keep(key, grid, taken.count());
+    const auto made = std::chrono::steady_clock::now();
+    if (!key.empty()) cache.keep(key, grid, Seconds(made - start).count());
+    keep_seconds_ += Seconds(std::chrono::steady_clock::now() - made).count();
     return grid;
 }
 
@@ -134,8 +137,26 @@ BrickGrid ObjectGrids::make_cut(const Model& model, const Source& source, bool k
     return common_cubes(device_, {*whole, *body(VoxelSet::solid)}, {space, left(VoxelSet::solid)});
 }
 
-void ObjectGrids::forget_unused() {
-    std::erase_if(kept_, [](const Kept& kept) { return !kept.is_used; });
+/// Whether a grid is one of a model, and no other of it was asked for: that is old.
+bool ObjectGrids::is_awaited(const Model& model, const Source& source) const {
+    const Model own = source_of(model);
+    if (source.model != own && source.model != source_of(whole_of(model, source.model.set)))
+        return false;
+    return std::ranges::none_of(
+        kept_, [&](const Kept& kept) { return kept.is_used && kept.source.model == own; });
+}
+
+void ObjectGrids::forget_unused(const Scene& scene, const std::vector<bool>& awaited) {
+    std::vector<const BrickGrid*> forgotten;
+    for (const Kept& kept : kept_) {
+        bool stays = kept.is_used;
+        for (size_t model = 0; model < awaited.size() && !stays; ++model)
+            stays = awaited[model] && is_awaited(scene.models[model], kept.source);
+        if (!stays) forgotten.push_back(kept.grid.get());
+    }
+    std::erase_if(kept_, [&](const Kept& kept) {
+        return std::ranges::find(forgotten, kept.grid.get()) != forgotten.end();
+    });
     for (Kept& kept : kept_) kept.is_used = false;
 }
 

@@ -27,11 +27,13 @@ class ObjectGrids {
     /// The grid of a model in its own space, of exact ones, too: an instance's.
     SharedGrid own_grid_of(const Model& model);
 
-    /// Forgets the grids that weren't asked for since the last call.
-    void forget_unused();
+    /// Forgets the grids that weren't asked for since the last call, but those of models that are
+    /// `awaited` as they are in `scene` and had none of them asked for.
+    void forget_unused(const Scene& scene, const std::vector<bool>& awaited);
 
-    uint64_t voxelized() const { return voxelized_; }    ///< grids made so far
-    uint64_t from_cache() const { return from_cache_; }  ///< grids taken from the cache so far
+    uint64_t voxelized() const { return voxelized_; }      ///< grids made so far
+    uint64_t from_cache() const { return from_cache_; }    ///< grids taken from the cache so far
+    double keep_seconds() const { return keep_seconds_; }  ///< of writing grids to the cache so far
 
   private:
     /// All that a grid depends on.
@@ -51,6 +53,7 @@ class ObjectGrids {
     /// object that moves is another one in every frame, and takes many times its mesh's bytes.
     SharedGrid find_or_make(const Model& model, const Source& source, const std::string& where,
                             bool keeps = true);
+    bool is_awaited(const Model& model, const Source& source) const;
     static Source body_source(const Model& model, const Source& source, VoxelSet set);
     void use(const Source& source);
     BrickGrid read_or_make(const Model& model, const Source& source, bool keeps);
@@ -63,6 +66,7 @@ class ObjectGrids {
     std::vector<Kept> kept_;
     uint64_t voxelized_ = 0;
     uint64_t from_cache_ = 0;
+    double keep_seconds_ = 0;
 };
 
 }  // namespace voxelume

@@ -8,102 +8,21 @@
 
 #include "runtime/instances.hpp"
 #include "runtime/stages/ray_batch.hpp"
-#include "runtime/surface_extent.hpp"
 
 namespace voxelume {
 namespace {
 
-// Bytes that a stored brick of 16³ voxels takes.
-constexpr double kOccupancy = 512;   // a bit for each voxel
-constexpr double kDistance = 8192;   // 2 bytes for each node
-constexpr double kWords = 16384;     // 4 bytes for each voxel: attributes, colours, list starts
-constexpr double kWinding = 9216;    // winding numbers, their totals and signs, while voxelizing
-constexpr double kIndexMarks = 544;  // masks, counts and starts, while indexing
-constexpr double kBand = 2.8;        // voxels around a smooth surface with stored distances
-constexpr double kPlacedBand = 5;    // around cubes: placing looks at whole leaves of them
+constexpr double kIndexMarks = 544;  // bytes for each brick: masks, counts, starts, while indexing
+constexpr double kPlacedBand = 5;    // voxels around cubes: placing looks at whole leaves of them
+constexpr double kWorldTable = 5;    // bytes for each brick of the lattice: slots and states
 
-// Bytes for each brick of a lattice, stored or not.
-constexpr double kModelTable = 12;  // slots, bins' numbers and cursors
-constexpr double kWorldTable = 5;   // slots and states
-
-// Bytes for each triangle of an exact surface, as long as it is there.
-constexpr double kExactTriangle = 40;
-
-// Bytes for each triangle while voxelizing: corners, shape, places in the lists of two bricks.
-constexpr double kTriangle = 112;
-
-// Bytes for each voxel of the pyramid, and for the list of triangles of an exact one.
-constexpr double kField = 32, kWord = 4, kPrimitives = 10;
+// Bytes for each voxel of the pyramid.
+constexpr double kField = 32, kWord = 4;
 constexpr double kVoxelsPerLeaf = 16, kLeaf = 12;
 constexpr double kVoxelsPerSector = 4096, kSectorRecords = 1024;
 
 // Bytes for each ray of a batch with its shadow ray, and for each pixel.
 constexpr double kRay = 136;
-
-/// Bytes for each pixel on the device.
-double pixel_bytes(const ImageChannels& channels) {
-    return 4.0 * (4 + int(channels.depth) + 3 * int(channels.position) + 3 * int(channels.normal) +
-                  int(channels.object));
-}
-
-double brick_table(const GridFrame& frame) {
-    const glm::dvec3 bricks(frame.bricks());
-    return bricks.x * bricks.y * bricks.z;
-}
-
-/// What the voxels of a model carry besides their place.
-struct Extras {
-    bool words = false, colors = false;
-};
-
-Extras extras_of(const Model& model, const MeshSummary* mesh) {
-    if (model.solid) return {};
-    return {.words = mesh->group_names.size() > 1, .colors = mesh->has_colors};
-}
-
-double band_of(const Model& model) {
-    return model.surface == Surface::smooth ? kBand : 0;
-}
-
-/// In the model's own space.
-SurfaceArea model_area(const Model& model, const MeshSummary* mesh) {
-    if (mesh) return mesh->area;
-    return solid_area(*model.solid, glm::dmat4(1), {model.reach.min, model.reach.max});
-}
-
-/// The memory of a grid whose surface is as large as `extent`.
-GridPlan plan_grid(const Model& model, const MeshSummary* mesh, const GridFrame& frame,
-                   const SurfaceExtent& extent) {
-    GridPlan grid{.frame = frame,
-                  .triangles = mesh ? mesh->triangles : 0,
-                  .voxels = extent.voxels,
-                  .bricks = extent.bricks};
-    const Extras extras = extras_of(model, mesh);
-    const bool smooth = model.surface == Surface::smooth, exact = model.surface == Surface::exact;
-    const bool counts_windings = mesh && (smooth || model.set == VoxelSet::solid);
-    const double brick = (smooth ? kDistance : kOccupancy) +
-                         kWords * (int(extras.words) + int(extras.colors) + int(exact));
-    const double lists = extent.voxels * kPrimitives + double(grid.triangles) * kExactTriangle;
-    grid.kept_bytes = brick_table(frame) * 4 + extent.bricks * brick + (exact ? lists : 0);
-    grid.made_bytes = grid.kept_bytes + brick_table(frame) * (kModelTable - 4) +
-                      double(grid.triangles) * kTriangle +
-                      extent.bricks * (counts_windings ? kWinding : kOccupancy) +
-                      (extras.words || extras.colors ? extent.bricks * kWords : 0);
-    if (!model.cuts.empty()) {
-        // The mesh's own grids stay beside the cut one; those of the rest of space make it.
-        const bool is_shell = !smooth && model.set != VoxelSet::solid;
-        const double operands = (is_shell ? 2 : 1) * grid.kept_bytes;
-        grid.kept_bytes += operands;
-        grid.made_bytes += 2 * operands;
-    }
-    return grid;
-}
-
-GridPlan plan_model_of(const Model& model, const MeshSummary* mesh, const SurfaceArea& area) {
-    const GridFrame frame = model_frame(model, mesh);
-    return plan_grid(model, mesh, frame,
-                     surface_extent(area, glm::dmat4(1), frame, band_of(model)));
-}
 
 class Planner {
   public:
@@ -184,9 +103,9 @@ class Planner {
         if (!model.voxels.empty() && model.surface != Surface::exact)
             return add_voxels(object, meshes_.voxels(model));
         const MeshSummary* mesh = meshes_.summary_of(model);
-        const Extras extras = extras_of(model, mesh);
+        const GridExtras extras = extras_of(model, mesh);
         const SurfaceExtent in_world =
-            world_extent(object, model.surface == Surface::smooth ? kBand : kPlacedBand);
+            world_extent(object, model.surface == Surface::smooth ? kSurfaceBand : kPlacedBand);
         plan_.voxels += in_world.voxels;
         plan_.bricks += in_world.bricks;
         if (shows_inside(scene_, object)) {
@@ -200,12 +119,11 @@ class Planner {
         words_ |= objects_++ > 0 || extras.words;
         if (model.surface == Surface::exact) {
             exact_voxels_ += in_world.voxels;
-            exact_bytes_ += in_world.voxels * kPrimitives;
-            if (mesh) exact_bytes_ += double(mesh->triangles) * kExactTriangle;
+            if (mesh) exact_triangles_ += double(mesh->triangles);
             plan_.grids.push_back(plan_grid(model, mesh, plan_.world, world_extent(object, 0)));
             plan_.grids.back().object = number;
         } else if (made_.insert(object.model).second) {
-            plan_.grids.push_back(plan_model_of(model, mesh, area_of(object.model)));
+            plan_.grids.push_back(plan_grid(model, mesh, area_of(object.model)));
         } else {
             return;
         }
@@ -222,15 +140,16 @@ class Planner {
         GridPlan grid;
         if (!model.voxels.empty() && model.surface != Surface::exact) {
             const VoxelModel& voxels = meshes_.voxels(model);
-            grid = plan_voxels(voxels);
+            grid = plan_grid(voxels);
             instances_.colors |= !voxels.colors.empty();
         } else {
             const MeshSummary* mesh = meshes_.summary_of(model);
-            grid = plan_model_of(model, mesh, area_of(object.model));
+            grid = plan_grid(model, mesh, area_of(object.model));
             instances_.colors |= extras_of(model, mesh).colors;
-            if (model.surface == Surface::exact)
-                instances_.exact_bytes +=
-                    grid.voxels * (kPrimitives + kWord) + double(grid.triangles) * kExactTriangle;
+            if (model.surface == Surface::exact) {
+                instances_.exact_voxels += grid.voxels;
+                instances_.exact_triangles += double(grid.triangles);
+            }
         }
         instances_.voxels += grid.voxels;
         grid.model = object.model;
@@ -255,21 +174,9 @@ class Planner {
         colors_ |= !voxels.colors.empty();
         words_ |= objects_++ > 0 || !voxels.attributes.empty();
         if (!made_.insert(object.model).second) return;
-        GridPlan grid = plan_voxels(voxels);
+        GridPlan grid = plan_grid(voxels);
         grid.model = object.model;
         plan_.grids.push_back(grid);
-    }
-
-    static GridPlan plan_voxels(const VoxelModel& voxels) {
-        const auto stored = double(voxels.coordinates.size());
-        GridPlan grid{.frame = voxels.frame, .voxels = double(voxels.voxels())};
-        grid.bricks = stored;
-        grid.kept_bytes =
-            brick_table(voxels.frame) * 4 +
-            stored * ((voxels.surface == Surface::smooth ? kDistance : kOccupancy) +
-                      kWords * (int(!voxels.attributes.empty()) + int(!voxels.colors.empty())));
-        grid.made_bytes = grid.kept_bytes;
-        return grid;
     }
 
     void add_stages() {
@@ -281,29 +188,51 @@ class Planner {
         const double table = brick_table(plan_.world);
         plan_.bricks = std::min(plan_.bricks, table);
         double brick = 0;
-        if (occupied_) brick += kOccupancy;
-        if (smooth_) brick += kDistance;
-        if (words_) brick += kWords;
-        if (colors_) brick += kWords;
-        if (exact_voxels_ > 0) brick += kWords;
+        if (occupied_) brick += kOccupancyBytes;
+        if (smooth_) brick += kDistanceBytes;
+        if (words_) brick += kWordBytes;
+        if (colors_) brick += kWordBytes;
+        if (exact_voxels_ > 0) brick += kWordBytes;
         const bool measures_nearest = smooth_ && (words_ || colors_ || occupied_);
-        const double world = 4 * table + plan_.bricks * brick + exact_bytes_;
+        const double lists = exact_voxels_ * kListBytes + exact_triangles_ * kExactTriangleBytes;
+        const double world = 4 * table + plan_.bricks * brick + lists;
         plan_.place_bytes = kept + world + (kWorldTable - 4) * table +
-                            (measures_nearest ? plan_.bricks * kDistance : 0) +
-                            (exact_voxels_ > 0 ? plan_.bricks * kWords : 0);
+                            (measures_nearest ? plan_.bricks * kDistanceBytes : 0) +
+                            (exact_voxels_ > 0 ? plan_.bricks * kWordBytes : 0);
         plan_.world_bytes = pyramid_bytes();
         plan_.index_bytes = world + plan_.bricks * kIndexMarks + plan_.world_bytes;
         if (instances_.any) plan_.index_bytes += plan_.world_bytes;  // before they are joined
+        add_largest();
         const glm::dvec2 size(scene_.render.size);
         const double pixels = size.x * size.y;
-        const double image = pixel_bytes(scene_.render.channels) * pixels;
+        const ImageChannels& channels = scene_.render.channels;
+        const double image = (pixel_bytes(channels) + (channels.object ? 4 : 0)) * pixels;
         plan_.medium = plan_density(scene_.world);
         plan_.halo_bytes = instances_.any ? 0 : sector_bytes();
         plan_.image_bytes = plan_.world_bytes + plan_.halo_bytes + plan_.medium.bytes + image +
                             kRay * std::min(double(kBatchRays), pixels * scene_.render.samples);
         plan_.host_bytes = kWorldTable * table + 2 * image + plan_.medium.host_bytes;
         for (const GridPlan& grid : plan_.grids)
-            plan_.host_bytes += double(grid.triangles) * 36 + kModelTable * brick_table(grid.frame);
+            plan_.host_bytes += double(grid.triangles) * 36 + kTableBytes * brick_table(grid.frame);
+    }
+
+    /// The largest buffer of the world, its pyramid's with the models of instances behind it.
+    void add_largest() {
+        const double voxels = plan_.voxels + instances_.voxels;
+        const auto keep = [&](bool is_there, const BufferPlan& buffer) {
+            if (is_there) keep_larger(plan_.largest, buffer);
+        };
+        keep(occupied_, {"its voxels", plan_.bricks * kOccupancyBytes});
+        keep(smooth_, {"its distances", plan_.bricks * kDistanceBytes});
+        keep(words_, {"its voxels' materials", plan_.bricks * kWordBytes});
+        keep(colors_, {"its voxels' colors", plan_.bricks * kWordBytes});
+        keep(exact_voxels_ > 0, {"the starts of its voxels' lists", plan_.bricks * kWordBytes});
+        keep(true, {"its voxels' lists", (exact_voxels_ + instances_.exact_voxels) * kListBytes});
+        keep(true,
+             {"its triangles", (exact_triangles_ + instances_.exact_triangles) * kTriangleBytes,
+              BufferGrowth::triangles});
+        keep(smooth_ || instances_.smooth, {"its voxels' fields", voxels * kField});
+        keep(has_words(), {"its voxels' words", voxels * kWord});
     }
 
     /// The table of sectors, and the records of those with voxels.
@@ -314,13 +243,18 @@ class Planner {
         return 4 * table + std::min(table, stored) * kSectorRecords;
     }
 
+    /// Whether each voxel of the pyramid has a word of its own.
+    bool has_words() const { return words_ || (smooth_ && occupied_) || instances_.any; }
+
     double pyramid_bytes() const {
         double voxel = kLeaf / kVoxelsPerLeaf;
         if (smooth_ || instances_.smooth) voxel += kField;
-        if (words_ || (smooth_ && occupied_) || instances_.any) voxel += kWord;
+        if (has_words()) voxel += kWord;
         if (colors_ || instances_.colors) voxel += kWord;
-        return sector_bytes() + (plan_.voxels + instances_.voxels) * voxel + exact_voxels_ * kWord +
-               exact_bytes_ + instances_.exact_bytes;
+        const double exact_voxels = exact_voxels_ + instances_.exact_voxels;
+        const double triangles = exact_triangles_ + instances_.exact_triangles;
+        return sector_bytes() + (plan_.voxels + instances_.voxels) * voxel +
+               exact_voxels * (kWord + kListBytes) + triangles * kExactTriangleBytes;
     }
 
     const Scene& scene_;
@@ -330,10 +264,10 @@ class Planner {
     std::map<int, SurfaceArea> areas_;
     std::set<int> made_;
     int objects_ = 0;
-    double exact_voxels_ = 0, exact_bytes_ = 0;
+    double exact_voxels_ = 0, exact_triangles_ = 0;
     struct {
         bool any = false, smooth = false, colors = false;
-        double voxels = 0, exact_bytes = 0;
+        double voxels = 0, exact_voxels = 0, exact_triangles = 0;
     } instances_;           ///< their models
     std::set<int> shared_;  ///< those counted
     bool smooth_ = false, occupied_ = false, words_ = false, colors_ = false;
@@ -341,13 +275,17 @@ class Planner {
 
 }  // namespace
 
+double pixel_bytes(const ImageChannels& channels) {
+    return 4.0 * (4 + int(channels.depth) + 3 * int(channels.position) + 3 * int(channels.normal));
+}
+
 double ScenePlan::peak_bytes() const {
     return std::max({voxelize_bytes, place_bytes, index_bytes, image_bytes});
 }
 
 GridPlan plan_model(const Model& model, const Mesh& mesh) {
     const MeshSummary summary = summary_of(mesh);
-    return plan_model_of(model, &summary, summary.area);
+    return plan_grid(model, &summary, summary.area);
 }
 
 ScenePlan plan_scene(const Scene& scene, MeshStore& meshes) {

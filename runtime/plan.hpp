@@ -1,33 +1,18 @@
 // scene -> what rendering it takes: the grids of every step and their memory, before any is taken.
 //
 // An estimate: surfaces are counted by runtime/surface_extent.hpp, bytes by what the stages store
-// for each brick, voxel, triangle and pixel (listed in plan.cpp).
+// for each brick, voxel, triangle and pixel (listed in plan_grid.hpp and plan.cpp).
 #pragma once
 
-#include <cstdint>
 #include <string>
 #include <vector>
 
-#include "runtime/grid.hpp"
 #include "runtime/mesh_store.hpp"
-#include "runtime/model_frame.hpp"
 #include "runtime/opencl/device.hpp"
-#include "runtime/scene.hpp"
+#include "runtime/plan_grid.hpp"
 #include "runtime/stages/density_grid.hpp"
 
 namespace voxelume {
-
-/// One grid that is voxelized: a model's, or an exact object's in the world's lattice.
-struct GridPlan {
-    int model = 0;
-    int object = -1;  ///< whose grid it is alone; -1 for a model's, which objects share
-    GridFrame frame;
-    uint64_t triangles = 0;
-    double voxels = 0;      ///< surface voxels
-    double bricks = 0;      ///< stored
-    double made_bytes = 0;  ///< device memory while it is made, its own included
-    double kept_bytes = 0;  ///< device memory that it keeps until the world is formed
-};
 
 struct ScenePlan {
     std::vector<GridPlan> grids;
@@ -45,6 +30,8 @@ struct ScenePlan {
     double halo_bytes = 0;   ///< of the grid that beams of rays are sent through, part of the last
     DensityPlan medium;      ///< part of the last one
     double host_bytes = 0;   ///< tables, meshes and the image in main memory
+
+    BufferPlan largest;  ///< of the world's buffers, but those of its tables and medium
 
     double peak_bytes() const;
 };
@@ -67,6 +54,9 @@ void check_tables(const Scene& scene, const DeviceInfo& device);
 
 /// Throws Error::limit, saying what is too large and what to do, when a plan doesn't fit.
 void check_memory(const Scene& scene, const ScenePlan& plan, const DeviceInfo& device);
+
+/// Bytes for each pixel in the largest buffer of an image.
+double pixel_bytes(const ImageChannels& channels);
 
 /// "1.5 GB", three digits at most.
 std::string bytes_text(double bytes);

@@ -13,14 +13,6 @@ namespace {
 /// Bricks of a lattice are numbered by signed 32-bit integers.
 constexpr double kMostBricks = 2147483647.0;
 
-/// Bytes of a pixel's eleven floats, which lie in one buffer for the whole image.
-constexpr double kPlanes = 44;
-
-double brick_count(const GridFrame& frame) {
-    const glm::dvec3 bricks(frame.bricks());
-    return bricks.x * bricks.y * bricks.z;
-}
-
 std::string size_text(const glm::ivec3& size) {
     return fmt::format("{}x{}x{}", size.x, size.y, size.z);
 }
@@ -48,6 +40,32 @@ double surface_factor(double bytes, double there) {
     return 1.05 * std::sqrt(bytes / there);
 }
 
+/// What makes a buffer fit into `piece` bytes.
+std::string smaller_buffer(const BufferPlan& buffer, double piece, const glm::dvec3& edge) {
+    switch (buffer.growth) {
+        case BufferGrowth::surface:
+            return "use " + larger_voxels(edge, surface_factor(buffer.bytes, piece));
+        case BufferGrowth::table:
+            return "use " + larger_voxels(edge, table_factor(buffer.bytes, piece));
+        case BufferGrowth::triangles:
+            break;
+    }
+    return fmt::format("use meshes with {:.2g} of the triangles", 0.95 * piece / buffer.bytes);
+}
+
+/// Refuses what has a buffer that the device allows no piece for; `subject` names it with its
+/// place: "room.json:9:12: a model".
+void check_piece(const std::string& subject, const GridFrame& frame, const BufferPlan& largest,
+                 const DeviceInfo& device) {
+    const double piece = double(device.max_allocation);
+    if (largest.bytes <= piece) return;
+    throw Error(ErrorKind::limit,
+                "{} of {} voxels needs a buffer of {} for {}, and \"{}\" allows {} in one piece: "
+                "{}",
+                subject, size_text(frame.size), bytes_text(largest.bytes), largest.name,
+                device.name, bytes_text(piece), smaller_buffer(largest, piece, frame.voxel_edge));
+}
+
 double main_memory() {
     return double(sysconf(_SC_PHYS_PAGES)) * double(sysconf(_SC_PAGE_SIZE));
 }
@@ -62,7 +80,8 @@ void check_image(const Scene& scene, const ScenePlan& plan, const DeviceInfo& de
                     scene.render.size.x, scene.render.size.y, bytes_text(image), device.name,
                     bytes_text(there));
     const glm::dvec2 size(scene.render.size);
-    const double planes = kPlanes * size.x * size.y, piece = double(device.max_allocation);
+    const double planes = pixel_bytes(scene.render.channels) * size.x * size.y;
+    const double piece = double(device.max_allocation);
     if (planes > piece)
         throw Error(ErrorKind::limit,
                     "an image of {}x{} pixels needs a buffer of {}, and \"{}\" allows {} in one "
@@ -91,7 +110,7 @@ std::string bytes_text(double bytes) {
 }
 
 void check_model(const Model& model, const GridPlan& plan, const DeviceInfo& device) {
-    const double bricks = brick_count(plan.frame), memory = double(device.memory);
+    const double bricks = brick_table(plan.frame), memory = double(device.memory);
     if (bricks > kMostBricks)
         throw Error(ErrorKind::limit,
                     "{}: a model of {} voxels has more than 2^31 bricks of 16x16x16: use {}",
@@ -103,13 +122,14 @@ void check_model(const Model& model, const GridPlan& plan, const DeviceInfo& dev
                     model.where, size_text(plan.frame.size), bytes_text(plan.made_bytes),
                     device.name, bytes_text(memory),
                     larger_voxels(plan.frame.voxel_edge, surface_factor(plan.made_bytes, memory)));
+    check_piece(model.where + ": a model", plan.frame, plan.largest, device);
 }
 
 void check_tables(const Scene& scene, const DeviceInfo& device) {
     const World& world = scene.world;
     const GridFrame frame = world_frame(world);
     // 4 bytes for each brick, in one buffer, and again in main memory with what is made of them.
-    const double bricks = brick_count(frame), bytes = 4 * bricks;
+    const double bricks = brick_table(frame), bytes = 4 * bricks;
     const double there = double(std::min(device.memory, device.max_allocation));
     if (bytes > there) {
         throw Error(ErrorKind::limit,
@@ -126,8 +146,13 @@ void check_tables(const Scene& scene, const DeviceInfo& device) {
 }
 
 void check_memory(const Scene& scene, const ScenePlan& plan, const DeviceInfo& device) {
-    for (const GridPlan& grid : plan.grids)
-        if (grid.object < 0) check_model(scene.models[size_t(grid.model)], grid, device);
+    for (const GridPlan& grid : plan.grids) {
+        if (grid.object < 0)
+            check_model(scene.models[size_t(grid.model)], grid, device);
+        else
+            check_piece(scene.objects[size_t(grid.object)].where + ": an object in a world",
+                        grid.frame, grid.largest, device);
+    }
     check_medium(scene, plan, device);
     check_image(scene, plan, device);
     const double memory = double(device.memory), peak = plan.peak_bytes();
@@ -139,6 +164,7 @@ void check_memory(const Scene& scene, const ScenePlan& plan, const DeviceInfo& d
     if (host > main_memory())
         refuse_world(scene.world, host, "of this machine's main memory", main_memory(),
                      surface_factor(host, main_memory()));
+    check_piece(scene.world.where + ": a world", plan.world, plan.largest, device);
 }
 
 }  // namespace voxelume

@@ -45,6 +45,8 @@ class VoxelizingReport {
         report_.voxelized += uint64_t(sign) * grids_.voxelized();
         report_.from_cache += uint64_t(sign) * grids_.from_cache();
         report_.meshes_read += uint64_t(sign) * meshes_.meshes_read();
+        report_.keep_seconds += double(sign) * grids_.keep_seconds();
+        report_.voxelize_seconds -= double(sign) * grids_.keep_seconds();
     }
 
     const ObjectGrids& grids_;
@@ -117,7 +119,8 @@ FormedWorld WorldFormer::kept_world(const Scene& scene, WorldReport& report) {
     return world_;
 }
 
-FormedWorld WorldFormer::form(const Scene& scene, WorldReport& report) {
+FormedWorld WorldFormer::form(const Scene& scene, WorldReport& report,
+                              const std::vector<bool>& awaited) {
     Origin origin = origin_of(scene);
     if (origin_ == origin) return kept_world(scene, report);
     origin_.reset();
@@ -141,7 +144,8 @@ FormedWorld WorldFormer::form(const Scene& scene, WorldReport& report) {
         listed = list_instances(scene, meshes_, *grids_);
     }
     std::vector<VoxelBox> boxes = object_boxes(scene, meshes_);
-    FormedWorld formed{kept_or_new_world(scene, keeps, report, indexer), ++world_.version};
+    FormedWorld formed{kept_or_new_world({scene, awaited, keeps, report}, indexer),
+                       ++world_.version};
     load_seconds_ = meshes_.load_seconds();
     meshes_read_ = meshes_.meshes_read();
     Stopwatch indexing(report.index_seconds);
@@ -163,40 +167,45 @@ FormedWorld WorldFormer::form(const Scene& scene, WorldReport& report) {
 }
 
 /// The world's voxels as an earlier run formed them, else new ones, which are kept for later runs.
-Pyramid WorldFormer::kept_or_new_world(const Scene& scene, bool keeps, WorldReport& report,
-                                       Indexer& indexer) {
-    const std::string key = placer_ ? std::string() : world_source(scene, meshes_);
-    if (key.empty()) return new_world(scene, keeps, report, indexer);
-    Stopwatch reading(report.index_seconds);
-    std::optional<Pyramid> kept = meshes_.cache().world(device_, key);
+Pyramid WorldFormer::kept_or_new_world(const Task& task, Indexer& indexer) {
+    const std::string key = placer_ ? std::string() : world_source(task.scene, meshes_);
+    if (key.empty()) return new_world(task, indexer);
+    Stopwatch reading(task.report.index_seconds);
+    if (read_ && read_->key != key) read_.reset();
+    task.report.is_from_cache = !read_;
+    if (!read_)
+        if (auto kept = meshes_.cache().world(device_, key)) read_ = ReadWorld{key, *kept};
     reading.stop();
-    report.is_from_cache = kept.has_value();
-    if (kept) {
-        forget_sources(keeps);
-        return std::move(*kept);
+    if (read_) {
+        Pyramid world = read_->pyramid;
+        if (!task.keeps) read_.reset();
+        forget_sources(task);
+        return world;
     }
-    Pyramid world = new_world(scene, keeps, report, indexer);
-    Stopwatch keeping(report.index_seconds);
-    meshes_.cache().keep(key, world, report.place_seconds + report.index_seconds);
+    task.report.is_from_cache = false;
+    Pyramid world = new_world(task, indexer);
+    Stopwatch keeping(task.report.keep_seconds);
+    meshes_.cache().keep(key, world, task.report.place_seconds + task.report.index_seconds);
     keeping.stop();
     return world;
 }
 
-Pyramid WorldFormer::new_world(const Scene& scene, bool keeps, WorldReport& report,
-                               Indexer& indexer) {
+Pyramid WorldFormer::new_world(const Task& task, Indexer& indexer) {
+    WorldReport& report = task.report;
+    read_.reset();
     std::vector<SharedGrid> shown;
     std::vector<PlacedObject> objects;
     {
         const VoxelizingReport voxelizing(*grids_, meshes_, report);
-        objects = placed_objects(scene, shown);
+        objects = placed_objects(task.scene, shown);
     }
     Stopwatch placing(report.place_seconds);
     if (!placer_) placer_.emplace(device_);
-    BrickGrid world = placer_->place(objects, world_frame(scene.world));
+    BrickGrid world = placer_->place(objects, world_frame(task.scene.world));
     device_.finish();
     report.painted_bricks = placer_->painted_bricks();
     shown_ = std::move(shown);
-    forget_sources(keeps);
+    forget_sources(task);
     placing.stop();
 
     Stopwatch indexing(report.index_seconds);
@@ -206,11 +215,14 @@ Pyramid WorldFormer::new_world(const Scene& scene, bool keeps, WorldReport& repo
     return pyramid;
 }
 
-/// Frees what wasn't used in this frame, and unless it `keeps` what the next may use, all of it.
-void WorldFormer::forget_sources(bool keeps) {
-    grids_->forget_unused();
+/// Frees what wasn't used in this frame, but for models that are awaited; unless the task keeps
+/// what the next frame may use, all of it.
+void WorldFormer::forget_sources(const Task& task) {
+    grids_->forget_unused(task.scene, task.awaited);
+    for (size_t model = 0; model < task.awaited.size(); ++model)
+        if (task.awaited[model]) meshes_.use(task.scene.models[model]);
     meshes_.forget_unused();
-    if (keeps) return;
+    if (task.keeps) return;
     placer_.reset();
     shown_.clear();
     grids_.reset();

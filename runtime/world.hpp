@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "runtime/grid.hpp"
@@ -26,6 +27,7 @@ struct WorldReport {
     double voxelize_seconds = 0;  ///< waiting for the device included
     double place_seconds = 0;
     double index_seconds = 0;
+    double keep_seconds = 0;  ///< writing models and the world to the cache on disk
     uint64_t triangles = 0;
     uint64_t meshes_read = 0;
     uint64_t voxelized = 0;       ///< models and exact objects that were voxelized
@@ -61,9 +63,11 @@ class WorldFormer {
     /// Forms S from the scene's objects. Models that no object shows inside the world are not read.
     ///
     /// The plan is made and checked first (runtime/plan.hpp), so a world that doesn't fit costs
-    /// nothing. Throws Error::input for a damaged model, Error::scene for a placement or group name
-    /// that doesn't fit, Error::limit for a world that the device has no memory for.
-    FormedWorld form(const Scene& scene, WorldReport& report);
+    /// nothing. What was made of models that are `awaited`, by their numbers, is kept while no
+    /// object shows them. Throws Error::input for a damaged model, Error::scene for a placement or
+    /// group name that doesn't fit, Error::limit for a world that the device has no memory for.
+    FormedWorld form(const Scene& scene, WorldReport& report,
+                     const std::vector<bool>& awaited = {});
 
   private:
     /// What the kept world was formed from, if nothing else of a scene matters to it but where its
@@ -80,10 +84,16 @@ class WorldFormer {
     static Origin origin_of(const Scene& scene);
     std::vector<PlacedObject> placed_objects(const Scene& scene, std::vector<SharedGrid>& grids);
     FormedWorld kept_world(const Scene& scene, WorldReport& report);
-    Pyramid kept_or_new_world(const Scene& scene, bool keeps, WorldReport& report,
-                              Indexer& indexer);
-    Pyramid new_world(const Scene& scene, bool keeps, WorldReport& report, Indexer& indexer);
-    void forget_sources(bool keeps);
+    /// What forming a world is asked for.
+    struct Task {
+        const Scene& scene;
+        const std::vector<bool>& awaited;
+        bool keeps;  ///< what the next frame may use
+        WorldReport& report;
+    };
+    Pyramid kept_or_new_world(const Task& task, Indexer& indexer);
+    Pyramid new_world(const Task& task, Indexer& indexer);
+    void forget_sources(const Task& task);
 
     Device device_;
     bool follows_;
@@ -92,6 +102,12 @@ class WorldFormer {
     uint64_t meshes_read_ = 0;
     std::optional<ObjectGrids> grids_;
     std::vector<SharedGrid> shown_;  ///< that the placer's objects name
+    /// The world's voxels as they were read from the cache on disk.
+    struct ReadWorld {
+        std::string key;
+        Pyramid pyramid;
+    };
+    std::optional<ReadWorld> read_;
     std::optional<Placer> placer_;
     Indexer indexer_;
     std::optional<Origin> origin_;

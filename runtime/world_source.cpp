@@ -1,9 +1,12 @@
 #include "runtime/world_source.hpp"
 
+#include <algorithm>
+
 #include "runtime/instances.hpp"
 #include "runtime/key_words.hpp"
 #include "runtime/model_frame.hpp"
 #include "runtime/scene_animation.hpp"
+#include "runtime/scene_motion.hpp"
 
 namespace voxelume {
 namespace {
@@ -28,10 +31,27 @@ void add_model(KeyWords& words, const Model& model, MeshStore& meshes) {
     if (model.solid) add_solid(words, *model.solid);
 }
 
+bool is_placed(const Scene& scene, const Object& object) {
+    return !is_instanced(scene, object);
+}
+
+/// Whether objects that are placed in the world change, or the models of such: lights, observers,
+/// the space and instances leave its voxels alone, and materials all but which are seen inside.
+bool world_moves(const Scene& scene) {
+    if (!moves(scene)) return false;
+    return std::ranges::any_of(scene.motion->parts, [&](const MovingPart& part) {
+        if (part.part == ScenePart::object) return is_placed(scene, scene.objects[part.place]);
+        return part.part == ScenePart::model &&
+               std::ranges::any_of(scene.objects, [&](const Object& object) {
+                   return size_t(object.model) == part.place && is_placed(scene, object);
+               });
+    });
+}
+
 }  // namespace
 
 std::string world_source(const Scene& scene, MeshStore& meshes) {
-    if (!meshes.cache().keeps_worlds() || moves(scene)) return {};
+    if (!meshes.cache().keeps_worlds() || world_moves(scene)) return {};
     KeyWords words;
     add_frame(words, world_frame(scene.world));
     for (uint32_t number = 0; number < scene.objects.size(); ++number) {

@@ -11,8 +11,9 @@ namespace voxelume {
 /// Names all that the voxels of a scene's world are made of: sources, lattices and places of the
 /// objects that are placed in it. Meshes whose summaries are known aren't read.
 ///
-/// Empty where nothing is kept: of a scene that moves, whose worlds would fill the disk, and of one
-/// with a file of voxels, which no hash is taken of.
+/// Empty where nothing is kept: of a scene whose tracks change objects in the world or their
+/// models, since its worlds would fill the disk, and of one with a file of voxels, which no hash is
+/// taken of.
 std::string world_source(const Scene& scene, MeshStore& meshes);
 
 }  // namespace voxelume

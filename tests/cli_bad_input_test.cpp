@@ -59,6 +59,17 @@ TEST_F(CliBadInputTest, WorldsBeyondMemoryAreRefusedBeforeItIsTaken) {
     world_of(15000);  // the surface
     EXPECT_THAT(expect_render_failure(8), HasSubstr("use voxels larger than"));
     EXPECT_EQ(run("check scene.json").exit_code, 8);
+    world_of(400);
+    EXPECT_EQ(run("check scene.json").exit_code, 0);
+    setenv("VOXELUME_BUFFER_MB", "16", 1);
+    EXPECT_THAT(expect_render_failure(8),
+                AllOf(HasSubstr(" for its distances, and \""),
+                      HasSubstr(" allows 16.8 MB in one piece: use voxels larger than 0.00")));
+    const ProgramResult check = run("check scene.json");
+    EXPECT_EQ(check.exit_code, 8);
+    EXPECT_THAT(check.out, Not(HasSubstr("fits")));
+    EXPECT_THAT(check.err, HasSubstr(" for its distances, and \""));
+    unsetenv("VOXELUME_BUFFER_MB");
     world_of(100);
     EXPECT_THAT(expect_failure(8, "render scene.json --size 65536x65536 -o out.exr"),
                 HasSubstr("render a smaller one"));

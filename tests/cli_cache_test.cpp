@@ -43,8 +43,19 @@ class CliCache : public ProgramTest {
         return bytes_of(folder / (name + ".exr"));
     }
 
-    nlohmann::json frame(const std::string& name) const {
-        return nlohmann::json::parse(bytes_of(folder / (name + ".json"))).at("frames").at(0);
+    nlohmann::json frames(const std::string& name) const {
+        return nlohmann::json::parse(bytes_of(folder / (name + ".json"))).at("frames");
+    }
+    nlohmann::json frame(const std::string& name) const { return frames(name).at(0); }
+
+    /// Moves the observer around in three frames.
+    void turn_observer() const {
+        std::string text = bytes_of(folder / "s.json");
+        text.replace(text.find("\"render\""), 8, R"("animation": {"frames": 3, "tracks": [
+            {"target": "observer.position", "keys": [{"frame": 1, "value": [0.5, 1, -2]},
+                                                     {"frame": 3, "value": [2, 1, 0.5]}]}]},
+            "render")");
+        put_bytes(folder / "s.json", text);
     }
 
     fs::path cache_;
@@ -58,6 +69,35 @@ TEST_F(CliCache, ASecondRunTakesTheModelFromIt) {
     EXPECT_EQ(frame("warm")["meshes_read"], 0);
     EXPECT_EQ(frame("warm")["voxelized"], 0);
     EXPECT_EQ(frame("warm")["world_from_cache"], true);
+    EXPECT_GT(frame("cold")["seconds"]["cache"], 0.0);
+    EXPECT_EQ(frame("warm")["seconds"]["cache"], 0.0);
+}
+
+TEST_F(CliCache, ASecondRunOfAMovingObserverReadsTheWorldAndFormsNothing) {
+    turn_observer();
+    for (const std::string name : {"cold", "warm"}) {
+        render(name + ".#", "--frames 1-3");
+        const nlohmann::json frames = this->frames(name + ".#");
+        EXPECT_EQ(frames[0]["world_from_cache"], name == "warm");
+        EXPECT_EQ(frames[0]["voxelized"], name == "warm" ? 0 : 1);
+        EXPECT_EQ(frames[0]["painted_bricks"] > 0, name == "cold");
+        for (const size_t later : {1, 2}) {
+            EXPECT_EQ(frames[later]["world"], "kept");
+            EXPECT_EQ(frames[later]["world_from_cache"], false);
+        }
+    }
+    for (const char* frame : {"1", "2", "3"})
+        EXPECT_TRUE(bytes_of(folder / fmt::format("cold.{}.exr", frame)) ==
+                    bytes_of(folder / fmt::format("warm.{}.exr", frame)));
+}
+
+TEST_F(CliCache, AMeshIsReadOnceForAllDevices) {
+    turn_observer();
+    if (std::thread::hardware_concurrency() < 2) GTEST_SKIP() << "a device that can't be cut";
+    render("f.#", "--frames 1-3 --device all/2 --no-cache");
+    int meshes_read = 0;
+    for (const nlohmann::json& frame : frames("f.#")) meshes_read += int(frame["meshes_read"]);
+    EXPECT_EQ(meshes_read, 1);
 }
 
 TEST_F(CliCache, AnotherPlaceIsAnotherWorldOfTheSameModel) {

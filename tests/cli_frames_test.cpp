@@ -66,6 +66,24 @@ TEST_F(CliFramesTest, ChosenFramesAreTheSameFramesAndMayLieOutside) {
     EXPECT_EQ(read_exr(folder / "some.3.exr").planes, read_exr(folder / "some.5.exr").planes);
 }
 
+TEST_F(CliFramesTest, AnEmptyListIsAMistake) {
+    write_moving_scene(3);
+    for (const char* line :
+         {"render scene.json --frames '' -o f.#.exr", "render scene.json --frames 1,, -o f.#.exr"})
+        EXPECT_THAT(expect_failure(2, line),
+                    HasSubstr("--frames: can't read \"\"; write a frame or a range, like 1-10"));
+    EXPECT_THAT(expect_failure(2, "render scene.json -o f.#.exr --frames="),
+                HasSubstr("--frames: 1 required TEXT missing"));
+}
+
+TEST_F(CliFramesTest, ANameWithoutAPlaceForTheNumberGetsItBesideOneThatHasIt) {
+    write_moving_scene(2);
+    ASSERT_EQ(run("render scene.json -o x.exr -o y.##.exr -q").exit_code, 0);
+    EXPECT_THAT(names(),
+                ElementsAre("scene.json", "x0001.exr", "x0002.exr", "y.01.exr", "y.02.exr"));
+    EXPECT_EQ(bytes_of(folder / "x0002.exr"), bytes_of(folder / "y.02.exr"));
+}
+
 TEST_F(CliFramesTest, AFrameThatIsWrongIsToldBeforeAnyIsRendered) {
     write_moving_scene(3, -1);
     for (const char* line :

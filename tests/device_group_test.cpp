@@ -186,6 +186,15 @@ TEST_F(DeviceGroupProgram, WritesTheFilesOfOneDevice) {
                         scene, name, device));
         EXPECT_EQ(frames.exit_code, 0) << frames.err;
     }
+    // Each device takes its frames in turn in any case.
+    const ProgramResult in_turn = run(
+        fmt::format("render {} --frames 3-7 --size 40x30 -q --float -o three.#.exr --device all/2 "
+                    "--no-overlap",
+                    scene));
+    EXPECT_EQ(in_turn.exit_code, 0) << in_turn.err;
+    for (int frame = 3; frame <= 7; ++frame)
+        EXPECT_TRUE(bytes_of(folder / fmt::format("one.{}.exr", frame)) ==
+                    bytes_of(folder / fmt::format("three.{}.exr", frame)));
     EXPECT_TRUE(bytes_of(folder / "one.exr") == bytes_of(folder / "two.exr"));
     for (int frame = 3; frame <= 7; ++frame)
         EXPECT_TRUE(bytes_of(folder / fmt::format("one.{}.exr", frame)) ==

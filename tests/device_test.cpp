@@ -86,6 +86,20 @@ TEST(Device, LanesWithoutKernelsAreRefused) {
     EXPECT_NE(refusal("").second.find("many"), std::string::npos);
 }
 
+TEST(Device, TheEnvironmentKeepsItWithinSomeOfItsMemory) {
+    const DeviceInfo whole = Device::open("").info();
+    const Environment buffer("VOXELUME_BUFFER_MB", "3");
+    EXPECT_EQ(Device::open("").info().memory, whole.memory);
+    EXPECT_EQ(Device::open("").info().max_allocation, 3u << 20);
+    const Environment memory("VOXELUME_MEMORY_MB", "2");
+    EXPECT_EQ(Device::open("").info().memory, 2u << 20);
+    EXPECT_EQ(Device::open("").info().max_allocation, 2u << 20);
+    const Environment more("VOXELUME_MEMORY_MB", "2000000000");
+    EXPECT_EQ(Device::open("").info().memory, whole.memory);
+    const Environment wrong("VOXELUME_MEMORY_MB", "2.5");
+    EXPECT_EQ(refusal("").first, 2);
+}
+
 TEST(Device, TimesItsKernelsWhenAsked) {
     const Device device = test_device();
     Kernel spin = Program::from_text(device,

@@ -209,17 +209,33 @@ TEST_F(ModelCacheFiles, WhatIsQuicklyMadeIsNotKept) {
 }
 
 TEST_F(ModelCacheFiles, ItsSizeIsBounded) {
-    const ModelCache small(folder / "models", 60000, 0);
+    const ModelCache small(folder / "models", 100000, 0);
     uint64_t written = 0;
-    for (int resolution = 16; resolution < 24; ++resolution) {
-        const Scene scene = scene_of(fmt::format(R"("resolution": {})", resolution));
-        EXPECT_EQ(show(scene, small).hash, show(scene, {}).hash);
+    for (int i = 0; i < 40; ++i) {
+        const Scene scene = scene_of(fmt::format(R"("voxel_size": {})", 1 / (16 + 0.19 * i)));
+        const uint64_t hash = show(scene, small).hash;
+        if (i % 8 == 0) {
+            EXPECT_EQ(hash, show(scene, {}).hash);
+        }
         uint64_t bytes = 0;
         for (const fs::path& entry : entries()) bytes += fs::file_size(entry);
-        EXPECT_LE(bytes, 60000u);
+        EXPECT_LE(bytes, 100000u);
         written = std::max(written, bytes);
     }
-    EXPECT_GT(written, 20000u) << "nothing was kept";
+    EXPECT_GT(written, 50000u) << "nothing was kept";
+    EXPECT_LT(entries().size(), 35u) << "nothing was dropped";
+}
+
+TEST_F(ModelCacheFiles, AModelThatWouldTakeAnEighthOfItIsNotKept) {
+    const Scene scene = scene_of(R"("resolution": 16)");
+    show(scene, cache());
+    uint64_t largest = 0;
+    for (const fs::path& entry : entries()) largest = std::max(largest, fs::file_size(entry));
+    for (const uint64_t percent : {80, 120}) {
+        fs::remove_all(folder / "models");
+        show(scene, ModelCache(folder / "models", 8 * largest * percent / 100, 0));
+        EXPECT_EQ(entries().size(), percent < 100 ? 1u : 2u) << "with the mesh's summary";
+    }
 }
 
 TEST_F(ModelCacheFiles, AFolderThatCannotBeWrittenKeepsNothing) {

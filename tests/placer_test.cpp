@@ -231,6 +231,64 @@ TEST(Placer, FollowsRandomChangesOfExactObjects) {
     }
 }
 
+/// A block of cubes with a colour for each voxel.
+BrickGrid colored_block() {
+    const GridFrame frame = frame_at(glm::dvec3(0), glm::dvec3(kEdge), glm::ivec3(9, 7, 5));
+    VoxelMap voxels;
+    for (int i = 0; i < 9 * 7 * 5; ++i) voxels[{i % 9, i / 9 % 7, i / 63}] = 0;
+    HostBricks bricks = occupied_bricks(frame, voxels);
+    bricks.attributes.clear();
+    bricks.colors.resize(bricks.coordinates.size() * 4096);
+    for (uint32_t i = 0; i < bricks.colors.size(); ++i) bricks.colors[i] = i * 40503u & 0xFFFFFF;
+    return bricks.upload(shared_device());
+}
+
+// Objects of every kind, few enough that each is often the only one of its kind, or of all.
+TEST(Placer, FollowsObjectsThatComeAndGoAsTheOnlyOnesOfTheirKind) {
+    constexpr uint32_t kSeed = 11;
+    std::mt19937 random(kSeed);
+    const GridFrame frame = world_of(100);
+    Solid solid;
+    solid.radius = 0.3;
+    const BrickGrid smooth = ball(0.3, Surface::smooth), cubes = ball(0.25, Surface::cubes);
+    const BrickGrid colored = colored_block();
+    const BrickGrid exact = voxelize_solid(shared_device(), solid,
+                                           glm::translate(glm::dmat4(1), glm::dvec3(-.4, .3, 0)),
+                                           frame, {Surface::exact, VoxelSet::supercover});
+    std::vector<PlacedObject> all = {at(smooth, 0, {.5, 0, 0}), at(cubes, 1, {-.5, -.4, .3}),
+                                     at(colored, 2, {.4, .1, .2}), at(exact, 3, {0, 0, 0}),
+                                     at(smooth, 4, {-.3, 0, .1})};
+    all[3].in_world_frame = true;
+    Follower follower;
+    uint32_t shown = 0b00101;
+    for (int step = 0; step < 40; ++step) {
+        std::vector<PlacedObject> objects;
+        for (size_t i = 0; i < all.size(); ++i)
+            if (shown >> i & 1) objects.push_back(all[i]);
+        const bool is_first = step == 0;
+        expect_as_placed_afresh(follower, objects, frame,
+                                fmt::format("seed {}, step {}, objects {:b}", kSeed, step, shown));
+        EXPECT_EQ(follower.placer.changed_bricks() == nullptr, is_first) << "begun afresh";
+        shown ^= 1u << random() % all.size();
+        if (random() % 4 == 0) shown = uint32_t(random()) & 31u;
+    }
+}
+
+TEST(Placer, PaintsOnlyItsOwnBricksWhenTheLastOfAKindComesOrGoes) {
+    const BrickGrid smooth = ball(0.2, Surface::smooth), cubes = ball(0.2, Surface::cubes);
+    const std::vector<PlacedObject> both = {at(smooth, 0, {-.6, 0, 0}), at(cubes, 1, {.6, 0, 0})};
+    const std::vector<PlacedObject> one = {both[0]}, other = {both[1]};
+    const GridFrame frame = world_of(100);
+    Placer placer(shared_device());
+    const uint32_t of_one = placer.place(one, frame).brick_count;
+    const uint32_t of_both = placer.place(both, frame).brick_count;
+    EXPECT_EQ(placer.painted_bricks(), of_both - of_one);
+    EXPECT_EQ(placer.place(other, frame).brick_count, of_both - of_one);
+    EXPECT_EQ(placer.painted_bricks(), 0u);
+    EXPECT_TRUE(placer.place(one, frame).occupancy.empty());
+    EXPECT_EQ(placer.painted_bricks(), of_one);
+}
+
 TEST(Placer, StartsAfreshAfterAnError) {
     const BrickGrid grid = ball(0.2, Surface::smooth);
     std::vector<PlacedObject> objects = {at(grid, 0, {0, 0, 0}), at(grid, 1, {.3, 0, 0})};

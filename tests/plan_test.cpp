@@ -12,6 +12,7 @@
 #include "runtime/surface_extent.hpp"
 #include "tests/file_fixture.hpp"
 #include "tests/test_device.hpp"
+#include "tests/test_meshes.hpp"
 
 namespace voxelume {
 namespace {
@@ -95,7 +96,8 @@ TEST_F(PlanTest, EstimatesAreWithinAHalfOfWhatFormingTheWorldTakes) {
     for (const char* model :
          {R"({"shape": "sphere", "radius": 0.35})",
           R"({"shape": "box", "size": [0.803,0.302,0.507], "surface": "cubes"})",
-          R"({"shape": "torus", "radius": 0.3, "tube": 0.09})"}) {
+          R"({"shape": "torus", "radius": 0.3, "tube": 0.09})",
+          R"({"shape": "ellipsoid", "radii": [0.3, 0.2, 0.25], "surface": "exact"})"}) {
         const Scene scene = scene_of(model, 1.0 / 200);
         const ScenePlan plan = plan_of(scene);
         const Device device = test_device();
@@ -108,6 +110,13 @@ TEST_F(PlanTest, EstimatesAreWithinAHalfOfWhatFormingTheWorldTakes) {
         const auto peak = double(device.counters().peak_bytes);
         EXPECT_GT(formed, peak / 1.5) << model;
         EXPECT_LT(formed, peak * 1.5) << model;
+        BufferPlan planned = plan.largest;
+        for (const GridPlan& grid : plan.grids) keep_larger(planned, grid.largest);
+        uint64_t largest = 0;
+        for (const auto& [name, bytes] : device.counters().allocated_bytes)
+            largest = std::max(largest, bytes);
+        EXPECT_GT(planned.bytes, double(largest) / 1.5) << model << ": " << planned.name;
+        EXPECT_LT(planned.bytes, double(largest) * 1.5) << model << ": " << planned.name;
     }
 }
 
@@ -132,14 +141,54 @@ TEST_F(PlanTest, TheImagesBytesAreThoseOfItsChannelsRaysAndHalo) {
 TEST_F(PlanTest, APlanBeyondADevicesMemoryNamesBothAndTheWayOut) {
     DeviceInfo device;
     device.name = "Small One";
-    device.memory = 20'000'000;
-    device.max_allocation = 5'000'000;
+    device.memory = device.max_allocation = 20'000'000;
     const Scene scene = scene_of(R"({"shape": "sphere", "radius": 0.35})", 1.0 / 400);
     const Error error = error_of([&] { check_memory(scene, plan_of(scene), device); });
     EXPECT_EQ(error.kind(), ErrorKind::limit);
     EXPECT_THAT(error.what(), HasSubstr("on \"Small One\", which has 20.0 MB: use voxels larger"));
-    device.memory = 8'000'000'000;
+    device.memory = device.max_allocation = 8'000'000'000;
     EXPECT_NO_THROW(check_memory(scene, plan_of(scene), device));
+}
+
+TEST_F(PlanTest, ABufferBeyondOnePieceIsNamedWithItsOwnerAndTheWayOut) {
+    DeviceInfo device;
+    device.name = "Small One";
+    device.memory = 8'000'000'000;
+    const auto refusal = [&](const std::string& model, double most) {
+        const Scene scene = scene_of(model, 1.0 / 400);
+        const ScenePlan plan = plan_of(scene);
+        device.max_allocation = uint64_t(most * 1e6);
+        const Error error = error_of([&] { check_memory(scene, plan, device); });
+        EXPECT_EQ(error.kind(), ErrorKind::limit);
+        return std::string(error.what());
+    };
+    const std::string ball = R"({"shape": "sphere", "radius": 0.35, "surface": ")";
+    // 246,000 voxels of 280² pi, 2.8 about them: 2,300 bricks of 8,192 bytes
+    EXPECT_THAT(refusal(ball + "smooth\"}", 12),
+                HasSubstr(": models.thing: a model of 288x288x288 voxels needs a buffer of "
+                          "18.6 MB for its distances, and \"Small One\" allows 12.0 MB in "
+                          "one piece: use voxels larger than 0.0033 m"));
+    EXPECT_THAT(refusal(ball + "smooth\", \"voxel_size\": 0.02}", 9),
+                HasSubstr(": world: a world of 400x360x320 voxels needs a buffer of 18.6 MB for "
+                          "its distances"));
+    EXPECT_THAT(refusal(ball + "cubes\", \"voxel_size\": 0.02}", 1),
+                HasSubstr(": world: a world of 400x360x320 voxels needs a buffer of 1.3 MB for "
+                          "its voxels"));
+    EXPECT_THAT(refusal(ball + "exact\"}", 12),
+                HasSubstr("an object in a world of 400x360x320 voxels needs a buffer of"));
+}
+
+TEST_F(PlanTest, ABufferOfTrianglesAsksForFewerOfThem) {
+    write_obj(folder / "ring.obj", wavy_ring(300, 200));
+    DeviceInfo device;
+    device.name = "Small One";
+    device.memory = 8'000'000'000;
+    device.max_allocation = 2'400'000;
+    const Scene scene = scene_of(R"({"mesh": "ring.obj", "voxel_size": 0.2})", 0.05);
+    const Error error = error_of([&] { check_memory(scene, plan_of(scene), device); });
+    // 120,000 triangles of 80 bytes
+    EXPECT_THAT(error.what(), HasSubstr("needs a buffer of 9.6 MB for its triangles"));
+    EXPECT_THAT(error.what(), testing::EndsWith("use meshes with 0.24 of the triangles"));
 }
 
 TEST_F(PlanTest, AnImageBeyondOneBufferIsToBeSmaller) {

@@ -1,140 +1,27 @@
 // What each kind of change makes anew: exactly these kernels, and this many of the world's bricks.
-//
-// Bricks are 0.8 m. All objects but one stand where eight of them meet, and are so small that these
-// are all that they have a part in, wherever they go; a brick that nothing is left in isn't painted
-// but dropped. The block stands in the middle of one, and goes to where two meet.
-#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <set>
-
+#include "runtime/io/mesh_reader.hpp"
 #include "runtime/renderer.hpp"
-#include "runtime/scene_animation.hpp"
+#include "runtime/stages/voxelize.hpp"
 #include "runtime/volume_renderer.hpp"
-#include "tests/file_fixture.hpp"
+#include "runtime/voxel_export.hpp"
 #include "tests/oracles/image_hash.hpp"
+#include "tests/reuse_fixture.hpp"
 #include "tests/shared_device.hpp"
 
 namespace voxelume {
 namespace {
 
-using Kernels = std::set<std::string>;
-
-constexpr const char* kScene = R"({"voxelume": 1,
-"world": {"voxel_size": 0.05, "bounds": {"min": [-3.2, -0.8, -3.2], "max": [3.2, 0.8, 3.2]},
-          "background": [0.2, 0.3, 0.5], "ambient": [0.1, 0.1, 0.1],
-          "medium": {"absorption": [0.05, 0.02, 0.01]}},
-"materials": {"red": {"color": [0.8, 0.2, 0.2]}, "blue": {"color": [0.2, 0.2, 0.8]},
-              "glow": {"emission": [3, 2, 1]}},
-"models": {"ball": {"shape": "sphere", "radius": 0.2},
-           "small": {"shape": "sphere", "radius": 0.15},
-           "block": {"shape": "box", "size": [0.4, 0.3, 0.2], "surface": "cubes", "set": "solid"},
-           "stone": {"shape": "ellipsoid", "radii": [0.3, 0.2, 0.25], "surface": "exact"},
-           "cone": {"shape": "cone", "radius": 0.2, "height": 0.5},
-           "gem": {"mesh": "gem.1.obj", "morph": {"center": [0, 0, 0], "radius": 0.2, "amount": 0}, "voxel_size": 0.05},
-           "plain": {"mesh": "gem.1.obj", "voxel_size": 0.05},
-           "drilled": {"mesh": "gem.1.obj", "voxel_size": 0.05,
-                       "cut": [{"shape": "sphere", "radius": 0.1, "position": [0.1, 0, 0]}]}},
-"objects": [
-  {"name": "ball", "model": "ball", "material": "red", "placement": "world",
-   "position": [-2.4, 0, -2.4]},
-  {"name": "block", "model": "block", "material": "blue", "placement": "world",
-   "position": [2, -0.4, -2]},
-  {"name": "stone", "model": "stone", "material": "red", "placement": "world",
-   "position": [-2.4, 0, 0.8]},
-  {"name": "gem", "model": "gem", "material": "blue", "placement": "world",
-   "position": [-0.8, 0, -0.8]},
-  {"name": "plain", "model": "plain", "material": "blue", "placement": "world",
-   "position": [-0.8, 0, 2.4]},
-  {"name": "drilled", "model": "drilled", "material": "red", "placement": "world",
-   "position": [0.8, 0, 0.8]},
-  {"name": "lamp", "model": "ball", "material": "glow", "placement": "world", "spots": 8,
-   "position": [0.8, 0, -0.8]},
-  {"name": "cone", "model": "cone", "material": "red", "placement": "instance",
-   "position": [1.2, 0.4, 1.2]},
-  {"name": "other cone", "model": "cone", "material": "blue", "placement": "instance",
-   "position": [1.2, -0.3, 1.2]}],
-"lights": [{"name": "sun", "type": "point", "position": [1, 3, -3], "intensity": 20},
-           {"name": "disk", "type": "disk", "position": [0, 3, 0], "direction": [0, -1, 0.1],
-            "radius": 0.3, "intensity": 5, "spots": 4}],
-"observer": {"position": [0, 0.3, -5], "turn": [0, 2, 0],
-             "display": {"shape": "pyramid", "angles": [50, 40], "near": 0.5, "far": 20,
-                         "voxels": [8, 8, 8]}},
-"render": {"size": [64, 48], "depth": 2},
-"animation": {"frames": 2, "tracks": [{"target": "TARGET", "interpolation": "step",
-    "keys": [{"frame": 1, "value": FROM}, {"frame": 2, "value": TO}]}]}})";
-
-/// A closed octahedron with corners at six different distances.
-std::string gem(double top) {
-    return fmt::format(
-        "v 0.2 0 0\nv -0.25 0 0\nv 0 {} 0\nv 0 -0.15 0\nv 0 0 0.22\nv 0 0 -0.18\n"
-        "f 1 3 5\nf 3 2 5\nf 2 4 5\nf 4 1 5\nf 3 1 6\nf 2 3 6\nf 4 2 6\nf 1 4 6\n",
-        top);
-}
-
-/// A value of the scene that changes from the first to the second frame, and what follows.
-struct Change {
-    const char* name;
-    const char* target;
-    const char* from;
-    const char* to;
-    Kernels kernels;
-    WorldChange world = WorldChange::none;
-    bool hits_are_kept = false;
-    uint64_t voxelized = 0, painted_bricks = 0;
-    uint32_t instances_moved = 0;
-};
-
-Kernels all_of(std::initializer_list<Kernels> parts) {
-    Kernels all;
-    for (const Kernels& part : parts) all.insert(part.begin(), part.end());
-    return all;
-}
-
-// The lamp's spots are found anew with the light.
-const Kernels kShade = {"absorb_shadows", "absorb_sight",   "add_light",     "find_surface",
-                        "list_glowing",   "resolve_pixels", "shade_surface", "trace_shadows"};
-const Kernels kTrace = all_of({kShade, {"cast_sight", "trace_closest"}});
-// The models of instances behind the world's voxels.
-const Kernels kJoin = all_of(
-    {kTrace,
-     {"append_bricks", "append_copies", "append_numbers", "append_primitives", "append_words"}});
-// Bricks, the lists of the exact objects in them, and what rays read of them.
-const Kernels kEmpty = all_of({kJoin,
-                               {"classify_bricks", "count_primitives", "sum_counts", "start_lists",
-                                "set_solid_attributes", "mark_voxels", "write_voxels"}});
-const Kernels kCubes = all_of({kEmpty, {"clear_bricks", "close_distances", "paint_cubes"}});
-const Kernels kSmooth = all_of({kCubes, {"paint_distances", "paint_smooth_voxels"}});
-const Kernels kNewCubes = all_of({kCubes, {"occupy_solid", "mark_near_leaves"}});
-const Kernels kNewExact = all_of({kNewCubes, {"count_voxels", "number_voxels"}});
-const Kernels kNewSmooth = all_of({kSmooth, {"mark_near_leaves"}});
-const Kernels kNewMesh = all_of({kNewSmooth,
-                                 {"carry_rows", "count_crossings", "count_pairs", "find_inside",
-                                  "list_pairs", "measure_distances", "shape_triangles"}});
-
-class ReusedFrames : public FileTest {
-  protected:
-    Scene scene(const Change& change) {
-        put_bytes(folder / "gem.1.obj", gem(0.2));
-        put_bytes(folder / "gem.2.obj", gem(0.12));
-        std::string text = kScene;
-        const auto put = [&](const std::string& place, const char* value) {
-            text.replace(text.find(place), place.size(), value);
-        };
-        put("TARGET", change.target);
-        put("FROM", change.from);
-        put("TO}", (change.to + std::string("}")).c_str());
-        return parse_scene(text, folder / "scene.json", {});
-    }
-};
+constexpr const char* kDensity =
+    R"("medium": {"density": {"kind": "height", "base": -0.2, "scale_height": 0.5}, )";
+constexpr const char* kNumberedVoxels =
+    R"("plain": {"voxels": "gem.#.vxm", "surface": "smooth", "sequence": {"first": 1, "last": 2}})";
+constexpr const char* kRedBall = R"("model": "ball", "material": "red")";
+constexpr const char* kFogBall = R"("model": "ball", "material": "fog")";
 
 class ReuseKernels : public ReusedFrames, public testing::WithParamInterface<Change> {};
-
-/// For the name of a test.
-void PrintTo(const Change& change, std::ostream* out) {
-    *out << change.name;
-}
 
 std::string text_of(const Kernels& kernels) {
     std::string text;
@@ -147,8 +34,21 @@ uint64_t hash_alone(const Scene& scene) {
     return oracle::image_hash(render(shared_device(), scene, report));
 }
 
+/// The voxels of gem.N.obj as gem.N.vxm.
+void voxelize_gem(const std::filesystem::path& folder, int number) {
+    const std::string name = fmt::format("gem.{}", number);
+    const Mesh mesh = read_mesh(folder / (name + ".obj"));
+    const BrickGrid grid =
+        voxelize_mesh(shared_device(), mesh, glm::dmat4(1), frame_around(mesh, glm::dvec3(0.05)),
+                      {Surface::smooth, VoxelSet::supercover});
+    VoxelExport(grid, mesh, Surface::smooth, VoxelSet::supercover)
+        .write_model(folder / (name + ".vxm"));
+}
+
 TEST_P(ReuseKernels, AreThoseThatTheChangeReaches) {
     const Change& change = GetParam();
+    if (change.by == kNumberedVoxels)
+        for (const int number : {1, 2}) voxelize_gem(folder, number);
     const Scene moving = scene(change);
     WorldFormer former(shared_device());
     Renderer renderer(shared_device());
@@ -279,6 +179,35 @@ INSTANTIATE_TEST_SUITE_P(
                WorldChange::formed, false, 1, 8},
         Change{"Morph", "models.gem.morph.amount", "0", "0.5", kNewMesh, WorldChange::formed, false,
                1, 8},
+        Change{"MediumDensity", "world.medium.density.base", "-0.2", "0.2", kShade,
+               WorldChange::none, true, 0, 0, 0, "\"medium\": {", kDensity},
+        Change{"MediumDensityScale", "world.medium.density.scale_height", "0.5", "0.2", kShade,
+               WorldChange::none, true, 0, 0, 0, "\"medium\": {", kDensity},
+        Change{"LookAt", "observer.look_at", "[0, 0, 0]", "[0.3, 0.1, 0]", kTrace,
+               WorldChange::none, false, 0, 0, 0, "\"turn\": [0, 2, 0]", "\"look_at\": [0, 0, 0]"},
+        Change{"Up", "observer.up", "[0, 1, 0]", "[0.2, 1, 0]", kTrace, WorldChange::none, false, 0,
+               0, 0, "\"turn\": [0, 2, 0]", "\"look_at\": [0, 0, 0], \"up\": [0, 1, 0]"},
+        Change{"NumberedVoxels", "lights.sun.intensity", "20", "20", kNewSmooth,
+               WorldChange::formed, false, 1, 8, 0,
+               "\"plain\": {\"mesh\": \"gem.1.obj\", \"voxel_size\": 0.05}", kNumberedVoxels},
+        Change{"InstanceModelSwap", "objects.cone.model", "\"cone\"", "\"small\"",
+               all_of({kJoin, {"sample_solid", "classify_bricks", "mark_voxels", "write_voxels"}}),
+               WorldChange::formed, false, 1, 0},
+        Change{"OpacityBelow1", "materials.fog.opacity", "1", "0.5", kPaths, WorldChange::formed,
+               false, 0, 0, 0, kRedBall, kFogBall},
+        Change{"OpacityAgain1", "materials.fog.opacity", "0.5", "1", kJoin, WorldChange::formed,
+               false, 0, 0, 0, kRedBall, kFogBall},
+        Change{"ReflectionAbove0", "materials.fog.reflection", "0", "0.5",
+               all_of({kTrace, {"begin_paths", "scatter_rays"}}), WorldChange::none, false, 0, 0, 0,
+               kRedBall, kFogBall},
+        Change{"ReflectionAgain0", "materials.fog.reflection", "0.5", "0", kTrace,
+               WorldChange::none, false, 0, 0, 0, kRedBall, kFogBall},
+        Change{"AbsorptionAbove0", "world.medium.absorption", "[0, 0, 0]", "[0.1, 0.2, 0.1]",
+               kTrace, WorldChange::none},
+        Change{"EmissionAbove0", "materials.fog.emission", "[0, 0, 0]", "[1, 2, 1]", kShade,
+               WorldChange::none, true, 0, 0, 0, kRedBall, kFogBall},
+        Change{"EmissionAgain0", "materials.fog.emission", "[1, 2, 1]", "[0, 0, 0]", kShade,
+               WorldChange::none, true, 0, 0, 0, kRedBall, kFogBall},
         Change{"Cut", "models.drilled.cut[0].radius", "0.1", "0.12",
                all_of({kNewSmooth, {"sample_solid", "join_distances"}}), WorldChange::formed, false,
                1, 8}),

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "runtime/renderer.hpp"
+#include "runtime/scene_animation.hpp"
 #include "runtime/world_source.hpp"
 #include "tests/file_fixture.hpp"
 #include "tests/oracles/image_hash.hpp"
@@ -136,15 +137,76 @@ TEST_F(WorldCacheFiles, LightsMaterialsAndObserversKeepIt) {
     }
 }
 
-TEST_F(WorldCacheFiles, AWorldThatMovesIsNotKept) {
-    const Change moving = {"\"render\":",
-                           R"("animation": {"frames": 3, "tracks": [
-{"target": "objects.b.position", "keys": [{"frame": 1, "value": [0.3, 0.2, 0.1]},
-                                          {"frame": 3, "value": [0.2, 0.2, 0.1]}]}]}, "render":)"};
-    const Scene scene = this->scene("smooth", moving);
-    MeshStore meshes(ModelCache(folder / "models", 64 << 20, 0).with_worlds());
-    EXPECT_EQ(world_source(scene, meshes), "");
-    EXPECT_NE(world_source(this->scene("smooth"), meshes), "");
+/// The value of a track at frames 1 and 3.
+struct Motion {
+    const char* target;
+    const char* from;
+    const char* to;
+    const char* placement = "world";  ///< of the ball
+};
+
+class MovingWorldFiles : public WorldCacheFiles {
+  protected:
+    Scene moving_scene(const Motion& motion) const {
+        std::string text = replaced(kScene, "SURFACE", "smooth");
+        text = replaced(text, "\"name\": \"b\"",
+                        fmt::format(R"("name": "b", "placement": "{}")", motion.placement));
+        const std::string animation = fmt::format(
+            R"("animation": {{"frames": 3, "tracks": [{{"target": "{}", "keys": [
+                {{"frame": 1, "value": {}}}, {{"frame": 3, "value": {}}}]}}]}}, "render":)",
+            motion.target, motion.from, motion.to);
+        return parse_scene(replaced(text, "\"render\":", animation), folder / "s.json", {});
+    }
+    ModelCache cache() const { return ModelCache(folder / "models", 64 << 20, 0).with_worlds(); }
+};
+
+TEST_F(MovingWorldFiles, AreNotKeptWhereTracksChangeTheirVoxels) {
+    MeshStore meshes(cache());
+    for (const Motion& motion : {Motion{"objects.b.position", "[0.3, 0.2, 0.1]", "[0.2, 0.2, 0.1]"},
+                                 Motion{"objects.b.visible", "true", "false"},
+                                 Motion{"objects.b.model", "\"ball\"", "\"thing\""},
+                                 Motion{"objects.b.material", "\"m\"", "\"n\""},
+                                 Motion{"models.ball.radius", "0.3", "0.2"}})
+        EXPECT_EQ(world_source(moving_scene(motion), meshes), "") << motion.target;
+}
+
+TEST_F(MovingWorldFiles, AreThoseOfAStillWorldWhereTracksLeaveTheirVoxelsAlone) {
+    MeshStore meshes(cache());
+    const std::string still = world_source(this->scene("smooth"), meshes);
+    EXPECT_NE(still, "");
+    for (const Motion& motion : {Motion{"observer.position", "[1.2, 1, -2]", "[-1.2, 1, -2]"},
+                                 Motion{"observer.display.angle", "30", "20"},
+                                 Motion{"lights[0].direction", "[0.3, -1, 0.4]", "[0, -1, 0.4]"},
+                                 Motion{"materials.m.color", "[1, 0, 0]", "[0, 1, 0]"},
+                                 Motion{"world.ambient", "[0, 0, 0]", "[1, 1, 1]"},
+                                 Motion{"world.background", "[0, 0, 0]", "[1, 1, 1]"}})
+        EXPECT_EQ(world_source(moving_scene(motion), meshes), still) << motion.target;
+    // Without the ball, which is an instance.
+    const Motion moves{"objects.b.position", "[0.3, 0.2, 0.1]", "[0.2, 0.2, 0.1]", "instance"};
+    const Motion stretches{"models.ball.radius", "0.3", "0.2", "instance"};
+    EXPECT_NE(world_source(moving_scene(moves), meshes), "");
+    EXPECT_EQ(world_source(moving_scene(moves), meshes),
+              world_source(moving_scene(stretches), meshes));
+}
+
+TEST_F(MovingWorldFiles, AreReadOnceForAllFrames) {
+    const Motion motion{"objects.b.visible", "true", "false", "instance"};
+    const Scene scene = moving_scene(motion);
+    for (const bool is_warm : {false, true}) {
+        WorldFormer former(shared_device(), true, MeshStore(cache()));
+        Renderer renderer(shared_device());
+        bool is_first = true;
+        for (const int frame : {1, 3, 4, 1}) {
+            const Scene now = scene_at(scene, frame);
+            RenderReport report, alone;
+            const FormedWorld world = former.form(now, report.world);
+            EXPECT_EQ(oracle::image_hash(*renderer.image(now, world, report)),
+                      oracle::image_hash(render(shared_device(), now, alone)));
+            EXPECT_EQ(report.world.is_from_cache, is_warm && is_first) << frame;
+            EXPECT_EQ(report.world.painted_bricks > 0, !is_warm && is_first) << frame;
+            is_first = false;
+        }
+    }
 }
 
 TEST_F(WorldCacheFiles, DamagedEntriesAreMadeAgain) {

@@ -1,5 +1,6 @@
 #include "runtime/opencl/device.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <cstdlib>
 #include <mutex>
@@ -56,6 +57,17 @@ cl::Device part_of(const cl::Device& device) {
     std::vector<cl::Device> parts;
     cl::Device(device).createSubDevices(properties, &parts);
     return parts.at(0);
+}
+
+/// Takes a device for a smaller one, as VOXELUME_MEMORY_MB and VOXELUME_BUFFER_MB ask.
+void limit_memory(DeviceInfo& info) {
+    const auto limit = [](const char* name, uint64_t& bytes) {
+        const auto megabytes = uint64_t(number_in_environment(name));
+        if (megabytes != 0) bytes = std::min(bytes, megabytes << 20);
+    };
+    limit("VOXELUME_MEMORY_MB", info.memory);
+    limit("VOXELUME_BUFFER_MB", info.max_allocation);
+    info.max_allocation = std::min(info.max_allocation, info.memory);
 }
 
 }  // namespace
@@ -139,6 +151,7 @@ Device Device::open(const cl::Device& device, const DeviceInfo& info, int lanes)
     auto opened = std::make_shared<Opened>();
     opened->info = info;
     opened->info.lanes = lanes_for(info, lanes);
+    limit_memory(opened->info);
     opened->info.work_group = number_in_environment("VOXELUME_WORK_GROUP");
     opened->info.build_options = environment("VOXELUME_BUILD_OPTIONS");
     try {

@@ -64,7 +64,9 @@ class Device {
     /// lowest index. `lanes` overrides the lanes per work-item (1, 4, 8 or 16); 0 takes
     /// VOXELUME_LANES, else the device's own. To look into a driver's faults, VOXELUME_WORK_GROUP
     /// gives the size of every work-group, VOXELUME_UNITS takes only so many compute units (a
-    /// sub-device), and VOXELUME_BUILD_OPTIONS is added to the compiler's options.
+    /// sub-device), and VOXELUME_BUILD_OPTIONS is added to the compiler's options. Of the device's
+    /// memory no more than VOXELUME_MEMORY_MB megabytes are used, and in one buffer no more than
+    /// VOXELUME_BUFFER_MB.
     /// Throws Error::device when nothing fits, naming what is there or the package to install.
     static Device open(std::string_view selector = {}, int lanes = 0);
 

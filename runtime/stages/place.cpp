@@ -51,11 +51,9 @@ class Placer::State {
   public:
     State(const Device& device, const GridFrame& frame) : device_(device) { world_.frame = frame; }
 
-    bool continues_with(const GridFrame& frame, const WorldParts& parts) const {
-        return bricks_ && frame == world_.frame && parts.is_stored_like(parts_);
-    }
+    bool continues_with(const GridFrame& frame) const { return bricks_ && frame == world_.frame; }
 
-    /// An object's own buffers are all of the world.
+    /// An object's own buffers are all of the world, which the next call begins afresh.
     void share(const PlacedObject& object, const WorldParts& parts) {
         world_ = *object.grid;
         world_.attributes = {};
@@ -63,7 +61,7 @@ class Placer::State {
     }
 
     void place(std::span<const PlacedObject> objects, const WorldParts& parts) {
-        parts_ = parts;
+        follow(parts);
         std::map<uint32_t, Painter> left = std::exchange(painters_, {});
         std::vector<Painter*> changed;
         take_painters(objects, left, changed);
@@ -82,6 +80,16 @@ class Placer::State {
     const std::vector<uint32_t>* changed() const { return changed_ ? &*changed_ : nullptr; }
 
   private:
+    /// Stores what the objects of now need, and nothing else. What no object has had yet is the
+    /// same in every brick, so none is painted for that.
+    void follow(const WorldParts& parts) {
+        const bool is_stored_anew = bricks_ && !parts.is_stored_like(parts_);
+        parts_ = parts;
+        if (!is_stored_anew) return;
+        bricks_->store_like(parts);
+        for (auto& [number, painter] : painters_) painter.follow(device_, parts);
+    }
+
     /// Painters for the objects, those that didn't change from `left`.
     void take_painters(std::span<const PlacedObject> objects, std::map<uint32_t, Painter>& left,
                        std::vector<Painter*>& changed) {
@@ -182,7 +190,7 @@ class Placer::State {
     void paint(std::span<const PlacedObject> objects, const std::vector<uint32_t>& bricks) {
         painted_ = uint32_t(bricks.size());
         world_.transparent = parts_.transparent;
-        if (!parts_.has_words() && !parts_.words.empty()) world_.attribute = *parts_.words.begin();
+        world_.attribute = parts_.words.size() == 1 ? *parts_.words.begin() : 0;
         if (bricks.empty()) return;
         bricks_->clear(bricks);
         Painting painting;
@@ -224,7 +232,7 @@ const BrickGrid& Placer::place(std::span<const PlacedObject> objects, const Grid
         state = std::make_unique<State>(device_, world);
         state->share(objects[0], parts);
     } else {
-        if (!state || !state->continues_with(world, parts))
+        if (!state || !state->continues_with(world))
             state = std::make_unique<State>(device_, world);
         state->place(objects, parts);
     }

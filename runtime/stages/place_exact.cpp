@@ -100,6 +100,9 @@ void join_exact_surfaces(const Device& device, std::span<const PlacedObject> obj
         floats += object.grid->triangles.size();
         solid_words += object.grid->solids.size();
     }
+    world.primitive_first = world.primitives = {};
+    world.triangles = {};
+    world.triangle_attributes = world.solids = {};
     if (exact.empty()) return;
     world.triangles = Buffer<float>(device, "world triangles", floats);
     world.triangle_attributes =

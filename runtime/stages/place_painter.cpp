@@ -139,6 +139,10 @@ void Painter::classify(const GridFrame& world, uint32_t count, const Buffer<uint
                 grid.slots, near_, grid.distance, states);
 }
 
+void Painter::follow(const Device& device, const WorldParts& parts) {
+    program_ = program_for(device, object_, surface_, map_, parts);
+}
+
 void Painter::paint(const PaintedBricks& painted, BrickGrid& world) {
     if (surface_ == Surface::smooth)
         paint_smooth(painted, world);

@@ -18,7 +18,7 @@ struct WorldParts {
     std::set<uint32_t> words;  ///< that voxels can have
 
     bool has_words() const { return words.size() > 1; }
-    /// Whether bricks of the one world are bricks of the other.
+    /// Whether bricks of both worlds have the same buffers.
     bool is_stored_like(const WorldParts& other) const;
 };
 
@@ -63,6 +63,9 @@ class Painter {
     /// Raises the states of `count` of the world's bricks: those listed, or, without a list, all.
     void classify(const GridFrame& world, uint32_t count, const Buffer<uint32_t>& listed,
                   const Buffer<uint8_t>& states);
+
+    /// Goes on in a world that stores something else.
+    void follow(const Device& device, const WorldParts& parts);
 
     void paint(const PaintedBricks& painted, BrickGrid& world);
 

@@ -1,5 +1,7 @@
 #include "runtime/stages/world_bricks.hpp"
 
+#include <algorithm>
+
 #include "runtime/stages/place_painter.hpp"
 
 namespace voxelume {
@@ -7,6 +9,22 @@ namespace {
 
 constexpr uint8_t kFull = 1, kSurface = 2;  // lib/placed.h
 constexpr size_t kVoxels = 4096;            // of a brick
+constexpr int16_t kSaturated = 32767;       // distances far from any surface
+constexpr uint32_t kWhite = 0xFFFFFF;       // of voxels without a colour of their own
+
+constexpr const char* kOccupancy = "world occupancy";
+constexpr const char* kDistances = "world distances";
+constexpr const char* kAttributes = "world attributes";
+constexpr const char* kColors = "world colors";
+
+Program program_for(const Device& device, const WorldParts& parts) {
+    return {device,
+            "place_bricks.cl",
+            {{"VXL_SMOOTH", parts.smooth},
+             {"VXL_OCCUPANCY", parts.occupancy},
+             {"VXL_ATTRIBUTES", parts.has_words()},
+             {"VXL_COLORS", parts.colors}}};
+}
 
 /// A buffer for `size` values that begins with those of `old`.
 template <class T>
@@ -25,13 +43,28 @@ WorldBricks::WorldBricks(const Device& device, const WorldParts& parts, BrickGri
       words_(parts.has_words()),
       colors_(parts.colors),
       world_(world),
-      program_(device, "place_bricks.cl",
-               {{"VXL_SMOOTH", smooth_},
-                {"VXL_OCCUPANCY", occupancy_},
-                {"VXL_ATTRIBUTES", words_},
-                {"VXL_COLORS", colors_}}) {
+      program_(program_for(device, parts)) {
     const glm::ivec3 table = world.frame.bricks();
     slots_.assign(size_t(table.x) * size_t(table.y) * size_t(table.z), kBrickOutside);
+}
+
+void WorldBricks::store_like(const WorldParts& parts) {
+    const size_t voxels = size_t(reserved_) * kVoxels;
+    const auto store = [&](auto& buffer, bool& has, bool needs, const char* name, size_t size,
+                           auto value) {
+        if (has == needs) return;
+        buffer = {};
+        if (needs) {
+            buffer = {device_, name, size};
+            buffer.fill(value);
+        }
+        has = needs;
+    };
+    store(world_.occupancy, occupancy_, parts.occupancy, kOccupancy, voxels / 64, uint64_t{0});
+    store(world_.distance, smooth_, parts.smooth, kDistances, voxels, kSaturated);
+    store(world_.attributes, words_, parts.has_words(), kAttributes, voxels, world_.attribute);
+    store(world_.colors, colors_, parts.colors, kColors, voxels, kWhite);
+    program_ = program_for(device_, parts);
 }
 
 std::vector<uint32_t> WorldBricks::store(const std::vector<uint32_t>& places,
@@ -93,17 +126,18 @@ void WorldBricks::clear(const std::vector<uint32_t>& places) {
                 world_.distance, world_.occupancy, world_.attributes, world_.colors);
 }
 
-/// A world that grows once may grow again: then with room for a quarter more.
+/// A world that grows once may grow again: then with room for a quarter more, if a buffer may be so
+/// large.
 void WorldBricks::reserve(uint32_t bricks) {
     if (bricks <= reserved_) return;
-    const size_t places = reserved_ == 0 ? bricks : bricks + bricks / 4;
+    const size_t brick_bytes = kVoxels * (words_ || colors_ ? 4 : smooth_ ? 2 : 1);
+    const size_t most = std::max<size_t>(device_.info().max_allocation / brick_bytes, bricks);
+    const size_t places = reserved_ == 0 ? bricks : std::min<size_t>(bricks + bricks / 4, most);
     const size_t voxels = places * kVoxels;
-    if (occupancy_)
-        world_.occupancy = enlarged(device_, "world occupancy", world_.occupancy, voxels / 64);
-    if (smooth_) world_.distance = enlarged(device_, "world distances", world_.distance, voxels);
-    if (words_)
-        world_.attributes = enlarged(device_, "world attributes", world_.attributes, voxels);
-    if (colors_) world_.colors = enlarged(device_, "world colors", world_.colors, voxels);
+    if (occupancy_) world_.occupancy = enlarged(device_, kOccupancy, world_.occupancy, voxels / 64);
+    if (smooth_) world_.distance = enlarged(device_, kDistances, world_.distance, voxels);
+    if (words_) world_.attributes = enlarged(device_, kAttributes, world_.attributes, voxels);
+    if (colors_) world_.colors = enlarged(device_, kColors, world_.colors, voxels);
     reserved_ = uint32_t(places);
 }
 

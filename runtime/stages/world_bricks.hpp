@@ -16,6 +16,11 @@ class WorldBricks {
     /// No brick is stored yet; `world` has its frame.
     WorldBricks(const Device& device, const WorldParts& parts, BrickGrid& world);
 
+    /// Has the buffers that a world of these parts needs, and no others. A new one holds what such
+    /// a world has where none of the objects are that need it: `attribute` in every voxel, if
+    /// words.
+    void store_like(const WorldParts& parts);
+
     /// Stores the bricks of `places` whose state is VXL_SURFACE, marks those that are VXL_FULL as
     /// inside and drops the others; `states` has those of all bricks of the world. The contents of
     /// bricks that aren't named stay. Returns those of `places` that are stored.

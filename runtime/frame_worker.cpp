@@ -1,0 +1,56 @@
+#include "runtime/frame_worker.hpp"
+
+#include <utility>
+
+#include "runtime/error.hpp"
+#include "runtime/scene_animation.hpp"
+
+namespace voxelume {
+
+FormedWorld form_frame(WorldFormer& former, const FrameSteps& steps, size_t frame,
+                       const Scene& scene, WorldReport& report) {
+    try {
+        return former.form(scene, report,
+                           steps.awaited ? steps.awaited(frame) : std::vector<bool>());
+    } catch (const Error& error) {
+        if (!steps.number) throw;
+        throw at_frame(error, steps.number(frame));
+    }
+}
+
+FrameWorker::FrameWorker(const Device& device, size_t number, const FrameSteps& steps,
+                         MeshStore meshes, bool follows)
+    : device_(device),
+      number_(number),
+      steps_(steps),
+      cache_(meshes.cache()),
+      former_(std::in_place, device, follows, std::move(meshes)),
+      keeps_(follows) {}
+
+std::function<void()> FrameWorker::take(size_t frame, const Scene& scene) {
+    if (has_any_ && !keeps_) forget();
+    try {
+        return form_and_render(frame, scene);
+    } catch (const Error& error) {
+        if (error.kind() != ErrorKind::limit || !has_any_ || !keeps_ || !steps_.forget) throw;
+    }
+    keeps_ = false;
+    forget();
+    return form_and_render(frame, scene);
+}
+
+std::function<void()> FrameWorker::form_and_render(size_t frame, const Scene& scene) {
+    WorldReport report;
+    const FormedWorld world = form_frame(*former_, steps_, frame, scene, report);
+    auto write = steps_.render({frame, number_, scene, world, report});
+    has_any_ = true;
+    return write;
+}
+
+void FrameWorker::forget() {
+    former_.emplace(device_, false, MeshStore(cache_));
+    steps_.forget(number_);
+    has_any_ = false;
+}
+
+}  // namespace voxelume
