@@ -102,7 +102,7 @@ std::string base64(const std::vector<uint8_t>& bytes) {
 
 /// What the script's `point` needs; angles in radians, but tangents for a pyramid.
 std::string frame_json(const Volume& volume, const PageVoxels& voxels, const PageOptions& options) {
-    constexpr std::array<const char*, 4> kShapes = {"pyramid", "sector", "ball", "box"};
+    constexpr std::array<const char*, 4> kShapeNames = {"pyramid", "sector", "ball", "box"};
     const VolumeFrame& frame = volume.frame;
     const Display& display = frame.display;
     glm::dvec2 half = display.half_angles;
@@ -111,7 +111,7 @@ std::string frame_json(const Volume& volume, const PageVoxels& voxels, const Pag
     if (display.shape == DisplayShape::box) half = display.half_size;
     nlohmann::ordered_json json;
     json["layout"] = frame.layout == VolumeLayout::lattice ? "lattice" : "rays";
-    json["shape"] = kShapes[size_t(display.shape)];
+    json["shape"] = kShapeNames[size_t(display.shape)];
     json["size"] = {frame.size.x, frame.size.y, frame.size.z};
     json["origin"] = {frame.origin.x, frame.origin.y, frame.origin.z};
     json["edge"] = {frame.edge.x, frame.edge.y, frame.edge.z};

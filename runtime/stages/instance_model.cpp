@@ -5,12 +5,10 @@
 #include <glm/vec2.hpp>
 
 #include "runtime/stages/index.hpp"
+#include "runtime/stages/sector_table.hpp"
 
 namespace voxelume {
 namespace {
-
-constexpr uint32_t kEmptySector = 0x80000000u;
-constexpr size_t kRecordsPerSector = 64, kWordsPerRecord = 4;
 
 /// The first of the coordinates 0..3 along an axis that a 64-bit mask has a bit at, and the last.
 glm::ivec2 span_of(uint64_t mask, int axis) {
@@ -51,7 +49,7 @@ void find_box(ModelPyramid& model) {
     model.low = p.frame.size;
     model.high = glm::ivec3(0);
     for (size_t sector = 0; sector < sectors.size(); ++sector) {
-        if (sectors[sector] & kEmptySector) continue;
+        if (sectors[sector] & kEmptyCube) continue;
         const auto s = int(sector);
         const glm::ivec3 corner =
             glm::ivec3(s % table.x, s / table.x % table.y, s / (table.x * table.y)) * kSectorSize;

@@ -7,12 +7,11 @@
 #include "kernels/shared/voxel.h"
 #include "runtime/error.hpp"
 #include "runtime/opencl/program.hpp"
+#include "runtime/stages/sector_table.hpp"
 
 namespace voxelume {
 namespace {
 
-constexpr uint32_t kEmptySector = 0x80000000u;
-constexpr size_t kRecordsPerSector = 64, kWordsPerRecord = 4;
 constexpr uint32_t kWhite = 0xFFFFFF;
 
 /// Sizes of the joined buffers, and during the joining how much of them is full.
@@ -51,7 +50,7 @@ class Joiner {
 
     void append(const Pyramid& p) {
         const auto first_block = uint32_t(full_.records / kRecordsPerSector);
-        numbers(p.sectors, full_.sectors, first_block, kEmptySector, joined_.sectors);
+        numbers(p.sectors, full_.sectors, first_block, kEmptyCube, joined_.sectors);
         program_.kernel("append_bricks")
             .launch(WorkItem::light, p.bricks.size() / kWordsPerRecord,
                     uint32_t(p.bricks.size() / kWordsPerRecord), uint32_t(full_.records),
