@@ -164,7 +164,8 @@ Action add_bench(CLI::App& app) {
     app.add_option("--size", command->size, "of the images, like 640x480");
     app.add_option("--repeat", command->repeats, "renders of each row, the fastest of which counts")
         ->check(in_range(1, 1000, Number::whole));
-    app.add_option("--device", command->device, "auto, cpu, gpu, a number, or part of a name");
+    app.add_option("--device", command->device, "auto, cpu, gpu, a number, or part of a name")
+        ->check(one_device);
     app.add_flag("-q,--quiet", command->quiet, "no progress bar");
     return [command] { return run(*command); };
 }

@@ -7,6 +7,7 @@
 #include <map>
 
 #include "runtime/io/atomic_file.hpp"
+#include "runtime/opencl/platforms.hpp"
 #include "runtime/scene.hpp"
 
 namespace voxelume::cli {
@@ -45,6 +46,11 @@ glm::ivec2 parse_size(const std::string& text, const char* command) {
         throw Error(ErrorKind::usage, "{}: --size {}: give WIDTHxHEIGHT, 1 to {} each", command,
                     text, kMaxImageSide);
     return size;
+}
+
+std::string one_device(const std::string& selector) {
+    if (parts_of_all(selector) == 0) return {};
+    return fmt::format("{} names several devices; give one", quote(selector));
 }
 
 std::function<std::string(const std::string&)> in_range(double least, double most, Number number) {

@@ -34,6 +34,9 @@ enum class Number { whole, any };
 std::function<std::string(const std::string&)> in_range(double least, double most,
                                                         Number number = Number::any);
 
+/// For CLI::Option::check, where "all" and "all/2" are no answer.
+std::string one_device(const std::string& selector);
+
 /// The value that an option's text names. Throws Error::usage with the nearest name.
 template <class Value, size_t count>
 Value choose(const std::string& text,

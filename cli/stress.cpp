@@ -104,7 +104,8 @@ Action add_stress(CLI::App& app) {
         ->delimiter(',');
     app.add_option("--first", command->first, "number of the first case, to try one again")
         ->check(in_range(0, 1e18, Number::whole));
-    app.add_option("--device", command->device, "auto, cpu, gpu, a number, or part of a name");
+    app.add_option("--device", command->device, "auto, cpu, gpu, a number, or part of a name")
+        ->check(one_device);
     app.add_flag("-q,--quiet", command->quiet, "no progress bar");
     return [command] { return run(*command); };
 }

@@ -6,7 +6,9 @@
 #include <glm/matrix.hpp>
 #include <set>
 
+#include "runtime/error.hpp"
 #include "runtime/instances.hpp"
+#include "runtime/stages/mesh_lattice.hpp"
 #include "runtime/stages/ray_batch.hpp"
 
 namespace voxelume {
@@ -118,6 +120,7 @@ class Planner {
         colors_ |= extras.colors;
         words_ |= objects_++ > 0 || extras.words;
         if (model.surface == Surface::exact) {
+            if (mesh) check_reach(object);
             exact_voxels_ += in_world.voxels;
             if (mesh) exact_triangles_ += double(mesh->triangles);
             plan_.grids.push_back(plan_grid(model, mesh, plan_.world, world_extent(object, 0)));
@@ -128,6 +131,17 @@ class Planner {
             return;
         }
         plan_.grids.back().model = object.model;
+    }
+
+    /// An exact mesh is voxelized in the world's own lattice.
+    void check_reach(const Object& object) const {
+        const glm::ivec3& size = plan_.world.size;
+        if (std::max({size.x, size.y, size.z}) > kLatticeReach)
+            throw Error(ErrorKind::limit,
+                        "{}: an exact mesh in a world of {} x {} x {} voxels, and {} along an axis "
+                        "are the most for it: give it \"placement\": \"instance\", or the world a "
+                        "larger \"voxel_size\"",
+                        object.where, size.x, size.y, size.z, kLatticeReach);
     }
 
     /// An object that keeps its model's voxels: they count once.

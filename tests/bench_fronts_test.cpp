@@ -157,6 +157,9 @@ TEST_F(BenchPeers, EveryWrongValueIsNamedWithItsRow) {
     EXPECT_EQ(fault("depth_max_metres", "[1]"), "\"depth_max_metres\" is an array, not a number\n");
     EXPECT_EQ(fault("trace_seconds", "\"1\""), "\"trace_seconds\" is a string, not a number\n");
     EXPECT_EQ(fault("build_seconds", "-1"), "\"build_seconds\" is below 0\n");
+    for (const char* extreme : {"1e31", "1e-310"})
+        EXPECT_THAT(fault("depth_rms_metres", extreme),
+                    HasSubstr("what was measured lies from 1e-30 to 1e+30, or is 0\n"));
     EXPECT_EQ(fault("other_part_pixels", ""), "there is no \"other_part_pixels\"\n");
     EXPECT_EQ(fault("other_part_pixels", "0.5"),
               "\"other_part_pixels\" is 0.5, not a number of pixels\n");

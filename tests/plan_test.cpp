@@ -219,6 +219,17 @@ TEST_F(PlanTest, TablesAreCheckedBeforeAnyMeshIsRead) {
     EXPECT_THAT(error_of([&] { check_tables(largest, device); }).what(), HasSubstr("2^31 bricks"));
 }
 
+TEST_F(PlanTest, AnExactMeshInAWorldBeyondItsLatticeIsToBeAnInstance) {
+    write_obj(folder / "ring.obj", wavy_ring(30, 20));
+    const std::string model = R"({"mesh": "ring.obj", "surface": "exact"})";
+    EXPECT_NO_THROW(plan_of(scene_of(model, 1.0 / 1024)));
+    const Scene larger = scene_of(model, 1.0 / 16385);
+    EXPECT_THAT(
+        error_of([&] { plan_of(larger); }).what(),
+        testing::AllOf(HasSubstr("objects[0]: an exact mesh in a world of 16385 x 14747 x "),
+                       HasSubstr("\"placement\": \"instance\"")));
+}
+
 /// A ball whose radius grows from frame 1 to 3 and is small again in frame 5.
 constexpr const char* kGrowth = R"("animation": {"frames": 5, "tracks": [
     {"target": "models.thing.radius", "keys": [{"frame": 1, "value": 0.1}, {"frame": 3, "value": 0.35},

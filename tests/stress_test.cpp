@@ -102,6 +102,28 @@ TEST(DeviceWalks, DoNotDependOnTheHostsTreatmentOfDenormals) {
 #endif
 }
 
+/// As far as the largest world reaches, where floats are coarsest.
+TEST(DeviceWalks, AreExactToTheEndOfTheLargestWorlds) {
+    constexpr uint32_t kMost = 3 * 65536;
+    constexpr uint64_t kRays = 24;
+    const Device device = test_device();
+    DeviceWalks walks(device);
+    uint32_t longest = 0;
+    for (const glm::ivec3 size : {glm::ivec3(65536), glm::ivec3(65536, 65535, 40001)})
+        for (const Steps steps : {Steps::cells, Steps::blocks}) {
+            const FixedGrid grid = fixed_grid(size);
+            const std::vector<FixedRay> rays = rays_of_all_classes(grid, kRays);
+            walks.start(grid, rays, steps, kMost);
+            const std::vector<WalkDigest> found = walks.digests();
+            for (size_t i = 0; i < rays.size(); ++i) {
+                const WalkDigest expected = exact_digest(grid, rays[i], steps, kMost);
+                longest = std::max(longest, expected.cells);
+                EXPECT_EQ(found[i], expected) << size.z << ", ray " << i;
+            }
+        }
+    EXPECT_GT(longest, 140'000u);
+}
+
 TEST(DeviceWalks, ListTheCellsThatTheirDigestsStandFor) {
     const FixedGrid grid = fixed_grid({64, 61, 37});
     DeviceWalks walks(test_device());

@@ -131,10 +131,10 @@ TEST_F(StackedVoxels, KeepOpacityAndColourWhenTurnedAndStretched) {
 TEST_F(StackedVoxels, CoverWhatAMirrorShowsToo) {
     Stack stack;
     stack.opacities = {0.2f, 0.6f, 0.4f};
-    const Image image = rendered_stack(
-        stack, fmt::format(R"({}, {{"model": "mirror", "material": "mirror",
+    const Image image =
+        rendered_stack(stack, fmt::format(R"({}, {{"model": "mirror", "material": "mirror",
 "position": [0.3, 0.2, 0.5]}})",
-                           kStack));
+                                          kStack));
     Laid laid;
     for (const size_t plate : {0, 1, 2, 2, 1, 0}) laid.add(stack, plate);
     expect_seen(image, laid);
