@@ -31,7 +31,9 @@ struct ScenePlan {
     DensityPlan medium;      ///< part of the last one
     double host_bytes = 0;   ///< tables, meshes and the image in main memory
 
-    BufferPlan largest;  ///< of the world's buffers, but those of its tables and medium
+    /// Of the world's buffers, but those of its tables and medium: what the one object with most
+    /// takes of them, as others may lie in its bricks.
+    BufferPlan largest;
 
     double peak_bytes() const;
 };

@@ -120,6 +120,33 @@ TEST_F(PlanTest, EstimatesAreWithinAHalfOfWhatFormingTheWorldTakes) {
     }
 }
 
+TEST_F(PlanTest, ObjectsInEachOthersBricksPlanNoLargerBuffersThanAreMade) {
+    for (const char* surface : {"smooth", "cubes", "exact"}) {
+        Scene scene = scene_of(
+            fmt::format(R"({{"shape": "sphere", "radius": 0.03, "surface": "{}"}})", surface),
+            1.0 / 200);
+        const Object ball = scene.objects[0];
+        for (int i = 1; i < 60; ++i) {
+            const glm::dvec3 step = {0.07 * (i % 4), 0.05 * (i / 4 % 5), 0.06 * (i / 20)};
+            scene.objects.push_back(ball);
+            scene.objects.back().world_from_object =
+                glm::translate(glm::dmat4(1), step) * ball.world_from_object;
+        }
+        const ScenePlan plan = plan_of(scene);
+        const Device device = test_device();
+        WorldReport report;
+        form_world(device, scene, report);
+        uint64_t largest = 0;
+        for (const auto& [name, bytes] : device.counters().allocated_bytes)
+            if (name.starts_with("world")) largest = std::max(largest, bytes);
+        EXPECT_GT(plan.largest.bytes, 0) << surface;
+        EXPECT_LE(plan.largest.bytes, double(largest)) << surface << ": " << plan.largest.name;
+        DeviceInfo info = device.info();
+        info.max_allocation = largest;
+        EXPECT_NO_THROW(check_memory(scene, plan, info)) << surface;
+    }
+}
+
 TEST_F(PlanTest, TheImagesBytesAreThoseOfItsChannelsRaysAndHalo) {
     for (const double voxel : {1.0 / 120, 1.0 / 400}) {
         Scene scene = scene_of(R"({"shape": "sphere", "radius": 0.35})", voxel);
