@@ -112,6 +112,21 @@ TEST_P(AwaitedMemory, IsAnEighthOfTheDevices) {
     EXPECT_EQ(large.hashes, twice.hashes);
 }
 
+TEST_P(AwaitedMemory, MakesRoomForAWorldThatHasNone) {
+    const Scene moving = parse_scene(scene_text(GetParam()), folder / "scene.json", {});
+    const Device device = device_of("64");
+    WorldFormer former(device);
+    const std::vector<bool> awaited(kModels, true);
+    WorldReport report;
+    for (const int frame : {1, 2, 3, 4}) former.form(scene_at(moving, frame), report, awaited);
+    const uint64_t left = device.info().memory - device.counters().bytes_in_use;
+    const Buffer<uint8_t> filling(device, "filling", left - (1 << 16));
+    WorldReport fifth, again;
+    EXPECT_NO_THROW(former.form(scene_at(moving, 5), fifth, awaited));
+    former.form(scene_at(moving, 1), again, awaited);
+    EXPECT_EQ(again.voxelized, 1u);
+}
+
 INSTANTIATE_TEST_SUITE_P(Placements, AwaitedMemory, testing::Values("world", "instance"),
                          [](const auto& name) { return std::string(name.param); });
 
