@@ -46,8 +46,8 @@ void check_model(const Model& model, const GridPlan& plan, const DeviceInfo& dev
 
 /// Plans a scene; reads the meshes that the world shows, unless the store knows enough of them.
 ///
-/// Throws as MeshStore and model_frame do, and Error::limit for a lattice with more bricks than can
-/// be numbered.
+/// Throws as MeshStore, model_frame and materials_of_groups do, and Error::limit for a lattice with
+/// more bricks than can be numbered.
 ScenePlan plan_scene(const Scene& scene, MeshStore& meshes);
 
 /// Refuses lattices whose tables can't be numbered, or are larger than the device's memory, before

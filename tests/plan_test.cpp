@@ -271,6 +271,37 @@ TEST_F(PlanTest, OfFramesTheLargestCountsAndTheFirstThatDoesNotFitIsNamed) {
     EXPECT_NO_THROW(check_frames(scene, std::vector<int>{1, 5}, meshes, device));
 }
 
+TEST_F(PlanTest, AGroupThatAMeshDoesNotHaveIsNamedBeforeAnyFrameIsRendered) {
+    put_bytes(folder / "plate.obj",
+              "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nusemtl near\nf 1 2 3\nusemtl far\nf 2 4 3\n");
+    constexpr const char* kText = R"({{"voxelume": 1,
+        "world": {{"voxel_size": 0.1, "bounds": {{"min": [0,0,0], "max": [1,0.9,0.8]}}}},
+        "materials": {{"red": {{}}}}, "models": {{"plate": {{"mesh": "plate.obj"}}}},
+        "objects": [{{"name": "plate", "model": "plate", "placement": "{}",
+                     "materials": {{"{}": "red"}}}}],
+        "observer": {{"position": [0.5,0.4,3], "look_at": [0.5,0.4,0.4],
+                     "display": {{"shape": "pyramid", "angle": 40}}}},
+        "animation": {{"frames": 4, "tracks": [{{"target": "objects.plate.visible",
+            "keys": [{{"frame": 1, "value": false}}, {{"frame": 3, "value": true}}]}}]}}}})";
+    DeviceInfo device;
+    device.memory = device.max_allocation = 8'000'000'000;
+    const std::vector<int> frames = {1, 2, 3, 4};
+    for (const char* placement : {"world", "instance"}) {
+        const auto scene = [&](const char* group) {
+            return parse_scene(fmt::format(kText, placement, group), folder / "scene.json", {});
+        };
+        MeshStore meshes;
+        EXPECT_NO_THROW(check_frames(scene("far"), frames, meshes, device));
+        const Scene wrong = scene("fare");
+        for (const Error& error : {error_of([&] { check_frames(wrong, frames, meshes, device); }),
+                                   error_of([&] { plan_frames(wrong, frames, meshes, device); })}) {
+            EXPECT_EQ(error.kind(), ErrorKind::scene);
+            EXPECT_THAT(error.what(), HasSubstr("the mesh has no group of faces named \"fare\"; "
+                                                "did you mean \"far\"? (at frame 3)"));
+        }
+    }
+}
+
 TEST(BytesText, HasAboutThreeDigits) {
     EXPECT_EQ(bytes_text(1234), "1.2 kB");
     EXPECT_EQ(bytes_text(31.25e6), "31.2 MB");
