@@ -1,4 +1,5 @@
 // Voxels with an opacity of their own, against what is laid over one another by hand.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -131,8 +132,9 @@ TEST_F(StackedVoxels, CoverWhatAMirrorShowsToo) {
     Stack stack;
     stack.opacities = {0.2f, 0.6f, 0.4f};
     const Image image = rendered_stack(
-        stack, std::string(kStack) +
-                   R"(, {"model": "mirror", "material": "mirror", "position": [0.3, 0.2, 0.5]})");
+        stack, fmt::format(R"({}, {{"model": "mirror", "material": "mirror",
+"position": [0.3, 0.2, 0.5]}})",
+                           kStack));
     Laid laid;
     for (const size_t plate : {0, 1, 2, 2, 1, 0}) laid.add(stack, plate);
     expect_seen(image, laid);

@@ -28,6 +28,8 @@ struct Place {
     }
 };
 
+constexpr double kMost = 1e30;  // of what a row may say: plots' logarithms and ratios stay finite
+
 /// "null", "a string": for messages.
 std::string kind_of(const Json& value) {
     if (value.is_null()) return "null";
@@ -49,8 +51,12 @@ std::string text_of(const Json& row, const char* key, const Place& place) {
 double number_of(const Json& row, const char* key, const Place& place) {
     const Json& value = value_of(row, key, place);
     if (!value.is_number()) place.refuse("\"{}\" is {}, not a number", key, kind_of(value));
-    if (!(value.get<double>() >= 0)) place.refuse("\"{}\" is below 0", key);
-    return value.get<double>();
+    const auto number = value.get<double>();
+    if (!(number >= 0)) place.refuse("\"{}\" is below 0", key);
+    if (number > kMost || (number > 0 && number < 1 / kMost))
+        place.refuse("\"{}\" is {}; what was measured lies from {} to {}, or is 0", key, number,
+                     1 / kMost, kMost);
+    return number;
 }
 
 uint64_t count_of(const Json& row, const char* key, const Place& place) {

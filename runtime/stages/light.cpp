@@ -6,8 +6,6 @@
 #include "runtime/stages/trace.hpp"
 
 namespace voxelume {
-namespace {}  // namespace
-
 LightRecord light_record(const Light& light, const GridFrame& world) {
     LightRecord record{};
     const bool directional = light.kind == LightKind::directional;

@@ -48,7 +48,7 @@ const std::vector<StressTest>& stress_tests() {
                                return stress_leaks({leaks.surface, leaks.set}, run);
                            }});
         all.push_back(
-            {"triangles", "voxels of triangles of ten nasty classes", 100, stress_triangles});
+            {"triangles", "voxels of triangles of ten nasty classes", 80, stress_triangles});
         all.push_back(
             {"placement", "voxels of a lump placed by affine maps", 20000, stress_placement});
         return all;
