@@ -42,7 +42,7 @@ std::string scene_text(const std::string& placement) {
 
 Device device_of(const char* megabytes) {
     setenv("VOXELUME_MEMORY_MB", megabytes, 1);
-    const Device device = test_device();
+    Device device = test_device();
     unsetenv("VOXELUME_MEMORY_MB");
     return device;
 }
@@ -77,8 +77,8 @@ class AwaitedMemory : public FileTest, public testing::WithParamInterface<const 
                              return [&rendered, hash] { rendered.hashes.push_back(hash); };
                          }};
         steps.awaited = [&](size_t frame) {
-            std::vector<bool> awaited;
-            for (const size_t passed : until) awaited.push_back(passed > frame + 1);
+            std::vector<bool> awaited(until.size());
+            for (size_t i = 0; i < until.size(); ++i) awaited[i] = until[i] > frame + 1;
             return awaited;
         };
         steps.forget = [&](size_t) {
