@@ -82,12 +82,22 @@ ListedInstances list_instances(const Scene& scene, MeshStore& meshes, ObjectGrid
     return listed;
 }
 
+void InstanceModels::forget_unused(const ListedInstances& listed, uint64_t room) {
+    for (Kept& kept : std::exchange(kept_, {})) {
+        const bool is_listed = std::ranges::find(listed.grids, kept.grid) != listed.grids.end();
+        const uint64_t bytes = is_listed ? 0 : bytes_of(kept.model.pyramid);
+        if (!is_listed && (kept.grid.use_count() == 1 || bytes > room)) continue;
+        room -= bytes;
+        kept_.push_back(std::move(kept));
+    }
+}
+
 Pyramid InstanceModels::join(const Scene& scene, const ListedInstances& listed, Pyramid world,
                              InstanceReport& report) {
     const std::vector<Kept> before = std::exchange(kept_, {});
     for (const Kept& kept : before) {
         const bool is_listed = std::ranges::find(listed.grids, kept.grid) != listed.grids.end();
-        if (!is_listed && kept.grid.use_count() > 1) kept_.push_back(kept);
+        if (!is_listed) kept_.push_back(kept);
     }
     if (listed.list.empty()) return world;
     const auto start = std::chrono::steady_clock::now();

@@ -39,11 +39,14 @@ struct ListedInstances {
 /// light through.
 ListedInstances list_instances(const Scene& scene, MeshStore& meshes, ObjectGrids& grids);
 
-/// Puts instances behind worlds, and keeps the pyramids of their models while they are shown, or
-/// others keep their grids.
+/// Puts instances behind worlds, and keeps the pyramids of their models.
 class InstanceModels {
   public:
     explicit InstanceModels(const Device& device) : device_(device) {}
+
+    /// Forgets the pyramids of models that aren't `listed`, but those whose grids others keep; of
+    /// these it keeps the first made that take no more than `room` bytes of the device.
+    void forget_unused(const ListedInstances& listed, uint64_t room);
 
     /// The world with the scene's instances. Without any it stays as it is. Throws Error::limit for
     /// too little memory.

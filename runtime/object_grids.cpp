@@ -4,6 +4,7 @@
 #include <chrono>
 
 #include "runtime/error.hpp"
+#include "runtime/grid_bytes.hpp"
 #include "runtime/stages/cut.hpp"
 #include "runtime/stages/voxelize_solid.hpp"
 
@@ -138,7 +139,7 @@ BrickGrid ObjectGrids::make_cut(const Model& model, const Source& source, bool k
 }
 
 /// Whether a grid is one of a model, and no other of it was asked for: that is old.
-bool ObjectGrids::is_awaited(const Model& model, const Source& source) const {
+bool ObjectGrids::is_old(const Model& model, const Source& source) const {
     const Model own = source_of(model);
     if (source.model != own && source.model != source_of(whole_of(model, source.model.set)))
         return false;
@@ -146,13 +147,24 @@ bool ObjectGrids::is_awaited(const Model& model, const Source& source) const {
         kept_, [&](const Kept& kept) { return kept.is_used && kept.source.model == own; });
 }
 
-void ObjectGrids::forget_unused(const Scene& scene, const std::vector<bool>& awaited) {
+bool ObjectGrids::is_awaited(const Scene& scene, const std::vector<bool>& awaited,
+                             const Source& source) const {
+    for (size_t model = 0; model < awaited.size(); ++model)
+        if (awaited[model] && is_old(scene.models[model], source)) return true;
+    return false;
+}
+
+void ObjectGrids::forget_unused(const Scene& scene, const std::vector<bool>& awaited,
+                                uint64_t room) {
     std::vector<const BrickGrid*> forgotten;
+    awaited_bytes_ = 0;
     for (const Kept& kept : kept_) {
-        bool stays = kept.is_used;
-        for (size_t model = 0; model < awaited.size() && !stays; ++model)
-            stays = awaited[model] && is_awaited(scene.models[model], kept.source);
-        if (!stays) forgotten.push_back(kept.grid.get());
+        if (kept.is_used) continue;
+        const uint64_t bytes = device_bytes(*kept.grid);
+        if (awaited_bytes_ + bytes <= room && is_awaited(scene, awaited, kept.source))
+            awaited_bytes_ += bytes;
+        else
+            forgotten.push_back(kept.grid.get());
     }
     std::erase_if(kept_, [&](const Kept& kept) {
         return std::ranges::find(forgotten, kept.grid.get()) != forgotten.end();

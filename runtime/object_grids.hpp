@@ -28,8 +28,13 @@ class ObjectGrids {
     SharedGrid own_grid_of(const Model& model);
 
     /// Forgets the grids that weren't asked for since the last call, but those of models that are
-    /// `awaited` as they are in `scene` and had none of them asked for.
-    void forget_unused(const Scene& scene, const std::vector<bool>& awaited);
+    /// `awaited` as they are in `scene` and had none of them asked for. Of these it keeps the first
+    /// made that take no more than `room` bytes of the device: what comes back in turns, the last
+    /// made would drive each other out.
+    void forget_unused(const Scene& scene, const std::vector<bool>& awaited, uint64_t room);
+
+    /// What the last call kept though nothing asked for it, in bytes of the device.
+    uint64_t awaited_bytes() const { return awaited_bytes_; }
 
     uint64_t voxelized() const { return voxelized_; }      ///< grids made so far
     uint64_t from_cache() const { return from_cache_; }    ///< grids taken from the cache so far
@@ -53,7 +58,9 @@ class ObjectGrids {
     /// object that moves is another one in every frame, and takes many times its mesh's bytes.
     SharedGrid find_or_make(const Model& model, const Source& source, const std::string& where,
                             bool keeps = true);
-    bool is_awaited(const Model& model, const Source& source) const;
+    bool is_awaited(const Scene& scene, const std::vector<bool>& awaited,
+                    const Source& source) const;
+    bool is_old(const Model& model, const Source& source) const;
     static Source body_source(const Model& model, const Source& source, VoxelSet set);
     void use(const Source& source);
     BrickGrid read_or_make(const Model& model, const Source& source, bool keeps);
@@ -63,7 +70,8 @@ class ObjectGrids {
     Device device_;
     MeshStore& meshes_;
     Voxelizer voxelizer_;
-    std::vector<Kept> kept_;
+    std::vector<Kept> kept_;  ///< in the order in which they were made
+    uint64_t awaited_bytes_ = 0;
     uint64_t voxelized_ = 0;
     uint64_t from_cache_ = 0;
     double keep_seconds_ = 0;

@@ -39,6 +39,8 @@ class Planner {
         for (size_t number = 0; number < scene_.objects.size(); ++number) {
             const Object& object = scene_.objects[number];
             if (!is_in_reach(scene_, object)) continue;
+            // Refuses names of groups that aren't there, before any frame is rendered.
+            materials_of_groups(object, meshes_.groups_of(scene_.models[size_t(object.model)]));
             if (is_instanced(scene_, object))
                 add_instance(object);
             else
@@ -110,6 +112,8 @@ class Planner {
             world_extent(object, model.surface == Surface::smooth ? kSurfaceBand : kPlacedBand);
         plan_.voxels += in_world.voxels;
         plan_.bricks += in_world.bricks;
+        most_.voxels = std::max(most_.voxels, in_world.voxels);
+        most_.bricks = std::max(most_.bricks, in_world.bricks);
         if (shows_inside(scene_, object)) {
             const double inside = inside_voxels(object);
             plan_.voxels += inside;
@@ -122,6 +126,7 @@ class Planner {
         if (model.surface == Surface::exact) {
             if (mesh) check_reach(object);
             exact_voxels_ += in_world.voxels;
+            most_.exact_voxels = std::max(most_.exact_voxels, in_world.voxels);
             if (mesh) exact_triangles_ += double(mesh->triangles);
             plan_.grids.push_back(plan_grid(model, mesh, plan_.world, world_extent(object, 0)));
             plan_.grids.back().object = number;
@@ -231,17 +236,22 @@ class Planner {
     }
 
     /// The largest buffer of the world, its pyramid's with the models of instances behind it.
+    ///
+    /// At least as much is made: objects that overlap share bricks and voxels, so the one with most
+    /// stands for all. What is more than that, the buffer itself refuses.
     void add_largest() {
-        const double voxels = plan_.voxels + instances_.voxels;
+        const double bricks = std::min(most_.bricks, brick_table(plan_.world));
+        const double voxels = most_.voxels + instances_.voxels;
+        const double exact_voxels = most_.exact_voxels + instances_.exact_voxels;
         const auto keep = [&](bool is_there, const BufferPlan& buffer) {
             if (is_there) keep_larger(plan_.largest, buffer);
         };
-        keep(occupied_, {"its voxels", plan_.bricks * kOccupancyBytes});
-        keep(smooth_, {"its distances", plan_.bricks * kDistanceBytes});
-        keep(words_, {"its voxels' materials", plan_.bricks * kWordBytes});
-        keep(colors_, {"its voxels' colors", plan_.bricks * kWordBytes});
-        keep(exact_voxels_ > 0, {"the starts of its voxels' lists", plan_.bricks * kWordBytes});
-        keep(true, {"its voxels' lists", (exact_voxels_ + instances_.exact_voxels) * kListBytes});
+        keep(occupied_, {"its voxels", bricks * kOccupancyBytes});
+        keep(smooth_, {"its distances", bricks * kDistanceBytes});
+        keep(words_, {"its voxels' materials", bricks * kWordBytes});
+        keep(colors_, {"its voxels' colors", bricks * kWordBytes});
+        keep(exact_voxels_ > 0, {"the starts of its voxels' lists", bricks * kWordBytes});
+        keep(true, {"its voxels' lists", exact_voxels * kListBytes});
         keep(true,
              {"its triangles", (exact_triangles_ + instances_.exact_triangles) * kTriangleBytes,
               BufferGrowth::triangles});
@@ -279,6 +289,9 @@ class Planner {
     std::set<int> made_;
     int objects_ = 0;
     double exact_voxels_ = 0, exact_triangles_ = 0;
+    struct {
+        double voxels = 0, bricks = 0, exact_voxels = 0;
+    } most_;  ///< of any one object's surface in the world, but of voxels from files
     struct {
         bool any = false, smooth = false, colors = false;
         double voxels = 0, exact_voxels = 0, exact_triangles = 0;

@@ -31,7 +31,9 @@ struct ScenePlan {
     DensityPlan medium;      ///< part of the last one
     double host_bytes = 0;   ///< tables, meshes and the image in main memory
 
-    BufferPlan largest;  ///< of the world's buffers, but those of its tables and medium
+    /// Of the world's buffers, but those of its tables and medium: what the one object with most
+    /// takes of them, as others may lie in its bricks.
+    BufferPlan largest;
 
     double peak_bytes() const;
 };
@@ -44,8 +46,8 @@ void check_model(const Model& model, const GridPlan& plan, const DeviceInfo& dev
 
 /// Plans a scene; reads the meshes that the world shows, unless the store knows enough of them.
 ///
-/// Throws as MeshStore and model_frame do, and Error::limit for a lattice with more bricks than can
-/// be numbered.
+/// Throws as MeshStore, model_frame and materials_of_groups do, and Error::limit for a lattice with
+/// more bricks than can be numbered.
 ScenePlan plan_scene(const Scene& scene, MeshStore& meshes);
 
 /// Refuses lattices whose tables can't be numbered, or are larger than the device's memory, before

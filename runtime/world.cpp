@@ -1,8 +1,10 @@
 #include "runtime/world.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <utility>
 
+#include "runtime/error.hpp"
 #include "runtime/object_boxes.hpp"
 #include "runtime/plan.hpp"
 #include "runtime/stages/index.hpp"
@@ -55,10 +57,15 @@ class VoxelizingReport {
     Stopwatch stopwatch_;
 };
 
-/// Whether grids, bricks and the pyramid can stay while the next world is formed beside them.
-bool fits_twice(const ScenePlan& plan, const DeviceInfo& device) {
-    return plan.place_bytes + plan.index_bytes + plan.image_bytes < double(device.memory);
+/// Device memory left where grids, bricks and the pyramid stay while the next world is formed
+/// beside them; none, where they can't.
+double spare_bytes(const ScenePlan& plan, const DeviceInfo& device) {
+    const double used = plan.place_bytes + plan.index_bytes + plan.image_bytes;
+    return std::max(double(device.memory) - used, 0.0);
 }
+
+/// The part of a device's memory that may keep what no frame shows just now.
+constexpr uint64_t kAwaitedPart = 8;
 
 }  // namespace
 
@@ -121,8 +128,24 @@ FormedWorld WorldFormer::kept_world(const Scene& scene, WorldReport& report) {
 
 FormedWorld WorldFormer::form(const Scene& scene, WorldReport& report,
                               const std::vector<bool>& awaited) {
-    Origin origin = origin_of(scene);
+    const Origin origin = origin_of(scene);
     if (origin_ == origin) return kept_world(scene, report);
+    try {
+        return form_anew(scene, origin, report, awaited);
+    } catch (const Error& error) {
+        const bool makes_room = grids_ && grids_->awaited_bytes() > 0;
+        if (error.kind() != ErrorKind::limit || !makes_room) throw;
+    }
+    awaits_ = false;
+    placer_.reset();
+    shown_.clear();
+    grids_->forget_unused(scene, {}, 0);
+    report.instances = {};
+    return form_anew(scene, origin, report, awaited);
+}
+
+FormedWorld WorldFormer::form_anew(const Scene& scene, const Origin& origin, WorldReport& report,
+                                   const std::vector<bool>& awaited) {
     origin_.reset();
     world_.pyramid = {};
     // What an error leaves in the middle is begun afresh.
@@ -135,7 +158,10 @@ FormedWorld WorldFormer::form(const Scene& scene, WorldReport& report,
     report.load_seconds = meshes_.load_seconds() - load_seconds_;
     report.meshes_read = meshes_.meshes_read() - meshes_read_;
     report.triangles = meshes_.triangles();
-    const bool keeps = follows_ && fits_twice(plan, device_.info());
+    const double spare = spare_bytes(plan, device_.info());
+    const bool keeps = follows_ && spare > 0;
+    const uint64_t room =
+        keeps && awaits_ ? std::min(uint64_t(spare), device_.info().memory / kAwaitedPart) : 0;
 
     if (!grids_) grids_.emplace(device_, meshes_);
     ListedInstances listed;
@@ -144,11 +170,12 @@ FormedWorld WorldFormer::form(const Scene& scene, WorldReport& report,
         listed = list_instances(scene, meshes_, *grids_);
     }
     std::vector<VoxelBox> boxes = object_boxes(scene, meshes_);
-    FormedWorld formed{kept_or_new_world({scene, awaited, keeps, report}, indexer),
+    FormedWorld formed{kept_or_new_world({scene, awaited, keeps, room, report}, indexer),
                        ++world_.version};
     load_seconds_ = meshes_.load_seconds();
     meshes_read_ = meshes_.meshes_read();
     Stopwatch indexing(report.index_seconds);
+    models.forget_unused(listed, keeps ? room - grids_->awaited_bytes() : 0);
     formed.pyramid = models.join(scene, listed, std::move(formed.pyramid), report.instances);
     std::vector<InstancePlace> places = instance_places(scene, formed.pyramid);
     report.instances.moved = count_moved(instance_places_, places);
@@ -161,7 +188,7 @@ FormedWorld WorldFormer::form(const Scene& scene, WorldReport& report,
         indexer_ = std::move(indexer);
         models_ = std::move(models);
         instances_ = report.instances;
-        origin_ = std::move(origin);
+        origin_ = origin;
     }
     return formed;
 }
@@ -218,7 +245,7 @@ Pyramid WorldFormer::new_world(const Task& task, Indexer& indexer) {
 /// Frees what wasn't used in this frame, but for models that are awaited; unless the task keeps
 /// what the next frame may use, all of it.
 void WorldFormer::forget_sources(const Task& task) {
-    grids_->forget_unused(task.scene, task.awaited);
+    grids_->forget_unused(task.scene, task.awaited, task.room);
     for (size_t model = 0; model < task.awaited.size(); ++model)
         if (task.awaited[model]) meshes_.use(task.scene.models[model]);
     meshes_.forget_unused();

@@ -64,8 +64,10 @@ class WorldFormer {
     ///
     /// The plan is made and checked first (runtime/plan.hpp), so a world that doesn't fit costs
     /// nothing. What was made of models that are `awaited`, by their numbers, is kept while no
-    /// object shows them. Throws Error::input for a damaged model, Error::scene for a placement or
-    /// group name that doesn't fit, Error::limit for a world that the device has no memory for.
+    /// object shows them, in an eighth of the device's memory where a frame and the next leave as
+    /// much, and none of it once forming a world took all memory. Throws Error::input for a damaged
+    /// model, Error::scene for a placement or group name that doesn't fit, Error::limit for a world
+    /// that the device has no memory for.
     FormedWorld form(const Scene& scene, WorldReport& report,
                      const std::vector<bool>& awaited = {});
 
@@ -82,13 +84,16 @@ class WorldFormer {
     };
 
     static Origin origin_of(const Scene& scene);
+    FormedWorld form_anew(const Scene& scene, const Origin& origin, WorldReport& report,
+                          const std::vector<bool>& awaited);
     std::vector<PlacedObject> placed_objects(const Scene& scene, std::vector<SharedGrid>& grids);
     FormedWorld kept_world(const Scene& scene, WorldReport& report);
     /// What forming a world is asked for.
     struct Task {
         const Scene& scene;
         const std::vector<bool>& awaited;
-        bool keeps;  ///< what the next frame may use
+        bool keeps;     ///< what the next frame may use
+        uint64_t room;  ///< for what is awaited, in bytes of the device
         WorldReport& report;
     };
     Pyramid kept_or_new_world(const Task& task, Indexer& indexer);
@@ -97,6 +102,7 @@ class WorldFormer {
 
     Device device_;
     bool follows_;
+    bool awaits_ = true;  ///< whether models that aren't shown are kept
     MeshStore meshes_;
     double load_seconds_ = 0;  ///< of meshes_, in reports so far
     uint64_t meshes_read_ = 0;

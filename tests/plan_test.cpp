@@ -120,6 +120,33 @@ TEST_F(PlanTest, EstimatesAreWithinAHalfOfWhatFormingTheWorldTakes) {
     }
 }
 
+TEST_F(PlanTest, ObjectsInEachOthersBricksPlanNoLargerBuffersThanAreMade) {
+    for (const char* surface : {"smooth", "cubes", "exact"}) {
+        Scene scene = scene_of(
+            fmt::format(R"({{"shape": "sphere", "radius": 0.03, "surface": "{}"}})", surface),
+            1.0 / 200);
+        const Object ball = scene.objects[0];
+        for (int i = 1; i < 60; ++i) {
+            const glm::dvec3 step = {0.07 * (i % 4), 0.05 * (i / 4 % 5), 0.06 * (i / 20)};
+            scene.objects.push_back(ball);
+            scene.objects.back().world_from_object =
+                glm::translate(glm::dmat4(1), step) * ball.world_from_object;
+        }
+        const ScenePlan plan = plan_of(scene);
+        const Device device = test_device();
+        WorldReport report;
+        form_world(device, scene, report);
+        uint64_t largest = 0;
+        for (const auto& [name, bytes] : device.counters().allocated_bytes)
+            if (name.starts_with("world")) largest = std::max(largest, bytes);
+        EXPECT_GT(plan.largest.bytes, 0) << surface;
+        EXPECT_LE(plan.largest.bytes, double(largest)) << surface << ": " << plan.largest.name;
+        DeviceInfo info = device.info();
+        info.max_allocation = largest;
+        EXPECT_NO_THROW(check_memory(scene, plan, info)) << surface;
+    }
+}
+
 TEST_F(PlanTest, TheImagesBytesAreThoseOfItsChannelsRaysAndHalo) {
     for (const double voxel : {1.0 / 120, 1.0 / 400}) {
         Scene scene = scene_of(R"({"shape": "sphere", "radius": 0.35})", voxel);
@@ -253,6 +280,37 @@ TEST_F(PlanTest, OfFramesTheLargestCountsAndTheFirstThatDoesNotFitIsNamed) {
     EXPECT_EQ(error.kind(), ErrorKind::limit);
     EXPECT_THAT(error.what(), testing::EndsWith("(at frame 2)"));
     EXPECT_NO_THROW(check_frames(scene, std::vector<int>{1, 5}, meshes, device));
+}
+
+TEST_F(PlanTest, AGroupThatAMeshDoesNotHaveIsNamedBeforeAnyFrameIsRendered) {
+    put_bytes(folder / "plate.obj",
+              "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nusemtl near\nf 1 2 3\nusemtl far\nf 2 4 3\n");
+    constexpr const char* kText = R"({{"voxelume": 1,
+        "world": {{"voxel_size": 0.1, "bounds": {{"min": [0,0,0], "max": [1,0.9,0.8]}}}},
+        "materials": {{"red": {{}}}}, "models": {{"plate": {{"mesh": "plate.obj"}}}},
+        "objects": [{{"name": "plate", "model": "plate", "placement": "{}",
+                     "materials": {{"{}": "red"}}}}],
+        "observer": {{"position": [0.5,0.4,3], "look_at": [0.5,0.4,0.4],
+                     "display": {{"shape": "pyramid", "angle": 40}}}},
+        "animation": {{"frames": 4, "tracks": [{{"target": "objects.plate.visible",
+            "keys": [{{"frame": 1, "value": false}}, {{"frame": 3, "value": true}}]}}]}}}})";
+    DeviceInfo device;
+    device.memory = device.max_allocation = 8'000'000'000;
+    const std::vector<int> frames = {1, 2, 3, 4};
+    for (const char* placement : {"world", "instance"}) {
+        const auto scene = [&](const char* group) {
+            return parse_scene(fmt::format(kText, placement, group), folder / "scene.json", {});
+        };
+        MeshStore meshes;
+        EXPECT_NO_THROW(check_frames(scene("far"), frames, meshes, device));
+        const Scene wrong = scene("fare");
+        for (const Error& error : {error_of([&] { check_frames(wrong, frames, meshes, device); }),
+                                   error_of([&] { plan_frames(wrong, frames, meshes, device); })}) {
+            EXPECT_EQ(error.kind(), ErrorKind::scene);
+            EXPECT_THAT(error.what(), HasSubstr("the mesh has no group of faces named \"fare\"; "
+                                                "did you mean \"far\"? (at frame 3)"));
+        }
+    }
 }
 
 TEST(BytesText, HasAboutThreeDigits) {
