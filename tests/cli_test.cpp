@@ -132,7 +132,7 @@ TEST_F(CliTest, StressSaysWhatItTriedAndHowOften) {
     EXPECT_EQ(result.exit_code, 0);
     EXPECT_THAT(result.out,
                 testing::MatchesRegex("ties +3000 cases +0 mismatches +[0-9.]+ s\n"
-                                      "triangles +30 cases +0 mismatches +[0-9.]+ s\n"));
+                                      "triangles +37 cases +0 mismatches +[0-9.]+ s\n"));
     EXPECT_THAT(result.err, Not(HasSubstr("%")));  // no bar where nobody watches
     EXPECT_EQ(run("stress -q --rays 1 --first 40000 --only corners").err, "");
 }
