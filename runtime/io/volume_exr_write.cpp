@@ -55,9 +55,9 @@ std::vector<float> step_bounds(AtomicFile& file, const VolumeFrame& frame) {
 }
 
 /// One row of pixels: its samples, channel by channel, and OpenEXR's pointers to them.
-class DeepRowToWrite {
+class DeepRowWriter {
   public:
-    DeepRowToWrite(const Volume& volume, std::vector<float> bounds)
+    DeepRowWriter(const Volume& volume, std::vector<float> bounds)
         : volume_(volume),
           bounds_(std::move(bounds)),
           pixels_(uint64_t(volume.frame.size.x)),
@@ -148,7 +148,7 @@ Imf::Header make_header(const Volume& volume) {
 
 void write_rows(AtomicFile& file, const VolumePath& path, const Volume& volume) {
     const PixelOrder order = order_by_pixel(volume);
-    DeepRowToWrite row(volume, step_bounds(file, volume.frame));
+    DeepRowWriter row(volume, step_bounds(file, volume.frame));
     ExrStream stream(file, path.string());
     Imf::DeepScanLineOutputFile output(stream, make_header(volume));
     output.setFrameBuffer(row.frame_buffer());
