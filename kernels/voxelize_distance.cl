@@ -27,7 +27,8 @@ typedef struct {
     float first, last;
 } SliceRange;
 
-/// Narrows the range to where at + slope z <= limit. A slope too small to matter is taken as 0.
+/// Narrows the range to where at + slope z <= limit. A slope below 1e-6, which moves `at` by
+/// less than 8e-6 within the brick, is taken as 0: `limit` has a margin of 0.01.
 static inline void narrow(SliceRange* range, float at, float slope, float limit) {
     if (fabs(slope) < 1e-6f) {
         if (at > limit) range->last = -100.0f;
