@@ -31,12 +31,12 @@ static inline CoverBox cover_box(const LatticeTriangle* t, int3 last) {
     return box;
 }
 
-/// Whether the triangle's bounding box, as far as it goes, meets one line of voxels along an axis:
-/// then the triangle meets each of them, for it is connected.
-static inline bool is_in_line(const LatticeTriangle* t) {
+/// The axes along which the triangle's bounding box, as far as it goes, meets more than one voxel,
+/// -1 each.
+static inline int3 long_axes(const LatticeTriangle* t) {
     const int3 first = (lowest_corner(t) - 1 - VXL_MARGIN) >> LATTICE_BITS;
     const int3 last = (highest_corner(t) + VXL_MARGIN) >> LATTICE_BITS;
-    return (first.x < last.x) + (first.y < last.y) + (first.z < last.z) <= 1;
+    return first < last;
 }
 
 /// Bits first .. last.
@@ -47,7 +47,9 @@ static inline uint bits_between(int first, int last) {
 /// A triangle prepared for tests of rows of voxels along x.
 typedef struct {
     CoverBox box;
-    bool is_in_line;  // SUPERCOVER: it meets all voxels of the box, and nothing else is prepared
+    // SUPERCOVER: what is tested. Within one layer of voxels the triangle meets those that its
+    // silhouette seen across the layer does, and in one line of voxels, being connected, all.
+    bool sees_xy, sees_yz, sees_zx, meets_plane;
     long3 n;
     long low, high;  // SUPERCOVER: bounds on n·(v - box.first) for the plane to meet voxel v
     Silhouette xy, yz, zx;  // seen along z, x, y
@@ -55,12 +57,11 @@ typedef struct {
     ushort xy_rows[16];     // SUPERCOVER: the silhouette seen along z, bit x of row y
 } Cover;
 
-static inline void prepare_supercover(Cover* c, const LatticeTriangle* t) {
-    const int3* p = t->corner;
+static inline void prepare_plane(Cover* c, const LatticeTriangle* t) {
     const long3 n = c->n;
     const long3 positive = max(n, (long3)(0)), negative = min(n, (long3)(0));
     const int3 outwards = VXL_MARGIN * convert_int3((n < 0L) - (n > 0L));
-    const int3 near = p[0] - c->box.first * LATTICE_VOXEL;
+    const int3 near = t->corner[0] - c->box.first * LATTICE_VOXEL;
     long low, high;
     if (is_short(t)) {
         low = (dot_long(n, near - outwards) + (LATTICE_VOXEL - 1)) >> LATTICE_BITS;
@@ -71,17 +72,31 @@ static inline void prepare_supercover(Cover* c, const LatticeTriangle* t) {
     }
     c->low = low - (positive.x + positive.y + positive.z);
     c->high = high - (negative.x + negative.y + negative.z);
-    c->xy = silhouette_of_cells(p[0].xy, p[1].xy, p[2].xy, n.z, VXL_MARGIN);
-    c->yz = silhouette_of_cells(p[0].yz, p[1].yz, p[2].yz, n.x, VXL_MARGIN);
-    c->zx = silhouette_of_cells(p[0].zx, p[1].zx, p[2].zx, n.y, VXL_MARGIN);
+}
+
+static inline void prepare_supercover(Cover* c, const LatticeTriangle* t) {
+    const int3* p = t->corner;
+    const int3 is_long = long_axes(t);
+    c->sees_xy = is_long.x & is_long.y;
+    c->sees_yz = is_long.y & is_long.z;
+    c->sees_zx = is_long.z & is_long.x;
+    c->meets_plane = c->sees_xy & is_long.z;
+    if (!(c->sees_xy | c->sees_yz | c->sees_zx)) return;
+    c->n = area_vector(t);
+    if (c->meets_plane) prepare_plane(c, t);
+    if (c->sees_yz) c->yz = silhouette_of_cells(p[0].yz, p[1].yz, p[2].yz, c->n.x, VXL_MARGIN);
+    if (c->sees_zx) c->zx = silhouette_of_cells(p[0].zx, p[1].zx, p[2].zx, c->n.y, VXL_MARGIN);
+    if (!c->sees_xy) return;
+    c->xy = silhouette_of_cells(p[0].xy, p[1].xy, p[2].xy, c->n.z, VXL_MARGIN);
     for (int y = c->box.first.y; y <= c->box.last.y; ++y)
         c->xy_rows[y] = (ushort)silhouette_row(&c->xy, y, c->box.first.x, c->box.last.x);
 }
 
 static inline void prepare_thin(Cover* c, const LatticeTriangle* t) {
     const int3* p = t->corner;
-    const long3 n = c->n;
+    const long3 n = area_vector(t);
     const int center = LATTICE_VOXEL / 2;
+    c->n = n;
     c->xy = silhouette_of_points(p[0].xy, p[1].xy, p[2].xy, n.z, center, true);
     c->yz = silhouette_of_points(p[0].yz, p[1].yz, p[2].yz, n.x, center, true);
     c->zx = silhouette_of_points(p[0].zx, p[1].zx, p[2].zx, n.y, center, false);
@@ -93,9 +108,6 @@ static inline void prepare_thin(Cover* c, const LatticeTriangle* t) {
 static inline void prepare_cover(Cover* c, const LatticeTriangle* t, const CoverBox* box,
                                  bool thin) {
     c->box = *box;
-    c->is_in_line = !thin && is_in_line(t);
-    if (c->is_in_line) return;
-    c->n = area_vector(t);
     if (thin)
         prepare_thin(c, t);
     else
@@ -104,16 +116,20 @@ static inline void prepare_cover(Cover* c, const LatticeTriangle* t, const Cover
 
 /// The voxels of row (y, z) whose closed cubes the closed triangle meets, bit x each.
 static inline uint supercover_row(const Cover* c, int y, int z) {
-    if (c->is_in_line) return bits_between(c->box.first.x, c->box.last.x);
-    if (!c->xy_rows[y] || !cell_in_silhouette(&c->yz, y, z)) return 0u;
+    const uint seen = c->sees_xy ? c->xy_rows[y] : bits_between(c->box.first.x, c->box.last.x);
+    if (!seen || (c->sees_yz && !cell_in_silhouette(&c->yz, y, z))) return 0u;
+    if (!c->sees_zx) return seen;
     const long row_at = c->n.y * (y - c->box.first.y) + c->n.z * (z - c->box.first.z);
     uint row = 0;
     for (int x = c->box.first.x; x <= c->box.last.x; ++x) {
-        const long at = row_at + c->n.x * (x - c->box.first.x);
-        const bool inside = (at >= c->low) & (at <= c->high) & cell_in_silhouette(&c->zx, z, x);
+        bool inside = cell_in_silhouette(&c->zx, z, x);
+        if (c->meets_plane) {
+            const long at = row_at + c->n.x * (x - c->box.first.x);
+            inside = inside & (at >= c->low) & (at <= c->high);
+        }
         row |= (uint)inside << x;
     }
-    return row & c->xy_rows[y];
+    return row & seen;
 }
 
 /// The voxels of row (y, z) whose crosshairs (the three segments through the centre, half-open)

@@ -8,34 +8,28 @@ inline constexpr const char* kFloatCover = R"(
 #include "lib/cover.h"
 
 typedef struct {
-    float u[3], w[3], low[3], high[3];
+    float3 u, w, low, high;
 } FloatSilhouette;
 
 static inline FloatSilhouette float_silhouette(float2 a, float2 b, float2 c, float area) {
+    const float3 u = (float3)(a.x, b.x, c.x), w = (float3)(a.y, b.y, c.y);
     FloatSilhouette s;
-    const float2 p[3] = {a, b, c};
-    for (int i = 0; i < 3; ++i) {
-        const float2 edge = p[(i + 1) % 3] - p[i];
-        s.u[i] = -edge.y;
-        s.w[i] = edge.x;
-        const float at = s.u[i] * p[i].x + s.w[i] * p[i].y;
-        s.low[i] = at + fmin(area, 0.0f) - fmax(s.u[i], 0.0f) - fmax(s.w[i], 0.0f);
-        s.high[i] = at + fmax(area, 0.0f) - fmin(s.u[i], 0.0f) - fmin(s.w[i], 0.0f);
-    }
+    s.u = w - w.yzx;
+    s.w = u.yzx - u;
+    const float3 at = s.u * u + s.w * w;
+    s.low = at + fmin(area, 0.0f) - fmax(s.u, 0.0f) - fmax(s.w, 0.0f);
+    s.high = at + fmax(area, 0.0f) - fmin(s.u, 0.0f) - fmin(s.w, 0.0f);
     return s;
 }
 
 static inline bool float_cell_in(const FloatSilhouette* s, int u, int w) {
-    bool inside = true;
-    for (int i = 0; i < 3; ++i) {
-        const float at = s->u[i] * (float)u + s->w[i] * (float)w;
-        inside = inside & (at >= s->low[i]) & (at <= s->high[i]);
-    }
-    return inside;
+    const float3 at = s->u * (float)u + s->w * (float)w;
+    return all((at >= s->low) & (at <= s->high));
 }
 
 typedef struct {
     CoverBox box;
+    bool sees_xy, sees_yz, sees_zx, meets_plane;
     float3 n;
     float low, high;
     FloatSilhouette xy, yz, zx;
@@ -44,19 +38,28 @@ typedef struct {
 
 static inline void prepare_float_cover(FloatCover* c, const LatticeTriangle* t,
                                        const CoverBox* box) {
+    const int3 is_long = long_axes(t);
+    c->box = *box;
+    c->sees_xy = is_long.x & is_long.y;
+    c->sees_yz = is_long.y & is_long.z;
+    c->sees_zx = is_long.z & is_long.x;
+    c->meets_plane = c->sees_xy & is_long.z;
+    if (!(c->sees_xy | c->sees_yz | c->sees_zx)) return;
     const float3 a = convert_float3(t->corner[0]) * (1.0f / LATTICE_VOXEL);
     const float3 b = convert_float3(t->corner[1]) * (1.0f / LATTICE_VOXEL);
     const float3 d = convert_float3(t->corner[2]) * (1.0f / LATTICE_VOXEL);
     const float3 u = b - a, v = d - a;
-    c->box = *box;
     c->n = (float3)(u.y * v.z - u.z * v.y, u.z * v.x - u.x * v.z, u.x * v.y - u.y * v.x);
-    const float at = c->n.x * a.x + c->n.y * a.y + c->n.z * a.z;
-    const float3 positive = fmax(c->n, 0.0f), negative = fmin(c->n, 0.0f);
-    c->low = at - (positive.x + positive.y + positive.z);
-    c->high = at - (negative.x + negative.y + negative.z);
+    if (c->meets_plane) {
+        const float at = c->n.x * a.x + c->n.y * a.y + c->n.z * a.z;
+        const float3 positive = fmax(c->n, 0.0f), negative = fmin(c->n, 0.0f);
+        c->low = at - (positive.x + positive.y + positive.z);
+        c->high = at - (negative.x + negative.y + negative.z);
+    }
+    if (c->sees_yz) c->yz = float_silhouette(a.yz, b.yz, d.yz, c->n.x);
+    if (c->sees_zx) c->zx = float_silhouette(a.zx, b.zx, d.zx, c->n.y);
+    if (!c->sees_xy) return;
     c->xy = float_silhouette(a.xy, b.xy, d.xy, c->n.z);
-    c->yz = float_silhouette(a.yz, b.yz, d.yz, c->n.x);
-    c->zx = float_silhouette(a.zx, b.zx, d.zx, c->n.y);
     for (int y = box->first.y; y <= box->last.y; ++y) {
         uint row = 0;
         for (int x = box->first.x; x <= box->last.x; ++x)
@@ -66,15 +69,21 @@ static inline void prepare_float_cover(FloatCover* c, const LatticeTriangle* t,
 }
 
 static inline uint float_row(const FloatCover* c, int y, int z) {
-    if (!c->xy_rows[y] || !float_cell_in(&c->yz, y, z)) return 0u;
+    const uint seen =
+        c->sees_xy ? c->xy_rows[y] : bits_between(c->box.first.x, c->box.last.x);
+    if (!seen || (c->sees_yz && !float_cell_in(&c->yz, y, z))) return 0u;
+    if (!c->sees_zx) return seen;
     const float row_at = c->n.y * (float)y + c->n.z * (float)z;
     uint row = 0;
     for (int x = c->box.first.x; x <= c->box.last.x; ++x) {
-        const float at = row_at + c->n.x * (float)x;
-        const bool inside = (at >= c->low) & (at <= c->high) & float_cell_in(&c->zx, z, x);
+        bool inside = float_cell_in(&c->zx, z, x);
+        if (c->meets_plane) {
+            const float at = row_at + c->n.x * (float)x;
+            inside = inside & (at >= c->low) & (at <= c->high);
+        }
         row |= (uint)inside << x;
     }
-    return row & c->xy_rows[y];
+    return row & seen;
 }
 
 static inline void add_row(ulong* masks, uint row, int y, int z) {
@@ -102,11 +111,10 @@ kernel void cover_bricks(uint count, int4 size, int4 bricks, global const int* r
         box.last.z = min(box.last.z, first_slice + VXL_SLICES - 1);
         if (any(box.first > box.last)) continue;
         FloatCover cover;
-        const bool in_line = is_in_line(&t);
-        if (!in_line) prepare_float_cover(&cover, &t, &box);
+        prepare_float_cover(&cover, &t, &box);
         for (int z = box.first.z; z <= box.last.z; ++z)
             for (int y = box.first.y; y <= box.last.y; ++y) {
-                const uint row = in_line ? bits_between(box.first.x, box.last.x) : float_row(&cover, y, z);
+                const uint row = float_row(&cover, y, z);
                 if (row) add_row(masks, row, y, z - first_slice);
             }
     }
