@@ -67,7 +67,7 @@ BenchOptions options_of(const BenchCommand& command) {
     BenchOptions options;
     options.subjects = chosen_entries(command.only);
     // The steps are halved where smooth surfaces have not yet reached their floor.
-    options.resolutions = {8, 11, 16, 23, 32, 45, 64, 128, 256, 512, 1024};
+    options.resolutions = {4, 8, 11, 16, 23, 32, 45, 64, 128, 256, 512, 1024};
     options.samples = {1, 4, 16};
     if (command.is_quick) make_quick(options);
     if (!command.resolutions.empty()) options.resolutions = command.resolutions;
