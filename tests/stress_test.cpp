@@ -5,12 +5,14 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <set>
 #if defined(__SSE__)
 #include <xmmintrin.h>
 #endif
 
 #include "runtime/stress/device_walks.hpp"
 #include "runtime/stress/exact_cover.hpp"
+#include "runtime/stress/exact_thin.hpp"
 #include "runtime/stress/ray_classes.hpp"
 #include "runtime/stress/stress_rays.hpp"
 #include "runtime/stress/triangle_classes.hpp"
@@ -36,8 +38,8 @@ TEST_P(Stress, FindsNothing) {
     // All grids of the rays' classes; all classes of triangles; both kinds of maps.
     const uint64_t rays = kRayGrids * kRaysOfOneGrid;
     const uint64_t count = std::max<uint64_t>(rays / test.rays_per_case, 27);
-    const uint64_t cases =
-        GetParam() == "triangles" ? kTriangleClasses * kTrianglesOfOneGrid : count;
+    const bool has_triangles = GetParam() == "triangles" || GetParam() == "crosshairs";
+    const uint64_t cases = has_triangles ? kTriangleClasses * kTrianglesOfOneGrid : count;
     uint64_t told = 0;
     const StressResult result =
         test.run({device, kSeed, 0, cases, [&told](uint64_t tried) { told += tried; }});
@@ -161,6 +163,28 @@ TEST(ExactRow, HasTheVoxelsThatSeparatingAxesFind) {
             }
         }
     }
+}
+
+TEST(ExactThin, HasTheVoxelsWhoseCrosshairsRationalsMeet) {
+    uint64_t count = 0;
+    for (uint64_t number = 0; number < kTriangleClasses * kTrianglesOfOneGrid;
+         number += kTrianglesOfOneGrid / 16) {
+        const TriangleOnLattice t = stress_triangle(kSeed, number);
+        const glm::ivec3 region = grid_of_triangle(number).region;
+        const glm::ivec3 middle = middle_of(t, grid_of_triangle(number));
+        const glm::ivec3 first = glm::max(middle - 6, 0), last = glm::min(middle + 6, region - 1);
+        std::set<std::array<int, 3>> found;
+        for (const glm::ivec3& v : exact_thin(t, region)) found.insert({v.x, v.y, v.z});
+        for (glm::ivec3 v = first; v.z <= last.z; ++v.z)
+            for (v.y = first.y; v.y <= last.y; ++v.y)
+                for (v.x = first.x; v.x <= last.x; ++v.x) {
+                    const bool is_met = oracle::crosshair_meets_triangle(v, t);
+                    count += is_met;
+                    ASSERT_EQ(found.contains({v.x, v.y, v.z}), is_met)
+                        << "triangle " << number << " voxel " << v.x << ' ' << v.y << ' ' << v.z;
+                }
+    }
+    EXPECT_GT(count, 2000u);
 }
 
 /// The largest magnitude of a corner's component times the triangle's area vector: of the terms

@@ -33,7 +33,7 @@ constexpr std::array kLeaks = {
 const std::vector<StressTest>& stress_tests() {
     static const std::vector<StressTest> tests = [] {
         std::vector<StressTest> all;
-        all.reserve(kRayClasses.size() + kLeaks.size() + 4);
+        all.reserve(kRayClasses.size() + kLeaks.size() + 5);
         for (const RayClassName& named : kRayClasses)
             all.push_back({named.name, named.help, 1, [kind = named.kind](const StressRun& run) {
                                return stress_rays(kind, run);
@@ -48,7 +48,10 @@ const std::vector<StressTest>& stress_tests() {
                                return stress_leaks({leaks.surface, leaks.set}, run);
                            }});
         all.push_back(
-            {"triangles", "voxels of triangles of ten nasty classes", 80, stress_triangles});
+            {"triangles", "voxels of triangles of ten nasty classes", 80,
+             [](const StressRun& run) { return stress_triangles(VoxelSet::supercover, run); }});
+        all.push_back({"crosshairs", "thin voxels of the same triangles", 80,
+                       [](const StressRun& run) { return stress_triangles(VoxelSet::thin, run); }});
         all.push_back(
             {"placement", "voxels of a lump placed by affine maps", 20000, stress_placement});
         return all;

@@ -7,6 +7,7 @@
 #include <glm/common.hpp>
 
 #include "runtime/stages/voxelize.hpp"
+#include "runtime/stress/exact_thin.hpp"
 #include "runtime/stress/occupancy.hpp"
 #include "runtime/stress/triangle_classes.hpp"
 
@@ -15,21 +16,24 @@ namespace {
 
 using BrickMasks = std::array<uint64_t, 64>;
 
-/// The voxels of a triangle in its region, brick by brick.
+/// Voxels of a region, brick by brick.
 class ExactVoxels {
   public:
-    ExactVoxels(const TriangleOnLattice& t, const glm::ivec3& region)
+    explicit ExactVoxels(const glm::ivec3& region)
         : bricks_(region / kBrickSize),
           slots_(size_t(bricks_.x) * size_t(bricks_.y) * size_t(bricks_.z), 0),
-          masks_(1, BrickMasks{}) {
-        const int low = std::min({t[0].z, t[1].z, t[2].z}) - 1;
-        const int high = std::max({t[0].z, t[1].z, t[2].z});
-        for (int z = std::max(0, low / kUnitsPerVoxel);
-             z <= std::min(region.z - 1, high / kUnitsPerVoxel); ++z) {
-            const VoxelRow rows = within(exact_rows(t, z), region.y);
-            for (int64_t y = rows.first; y <= rows.last; ++y)
-                set_row(within(exact_row(t, int(y), z), region.x), int(y), z);
+          masks_(1, BrickMasks{}) {}
+
+    void set(const glm::ivec3& v) {
+        uint32_t& slot = slots_[brick_number(v / kBrickSize, bricks_)];
+        if (slot == 0) {
+            slot = uint32_t(masks_.size());
+            masks_.push_back({});
         }
+        const VoxelPlace place(v);
+        uint64_t& mask = masks_[slot][place.leaf];
+        count_ += (mask & place.bit) == 0;
+        mask |= place.bit;
     }
 
     const BrickMasks& masks(const glm::ivec3& brick) const {
@@ -39,37 +43,45 @@ class ExactVoxels {
     uint64_t count() const { return count_; }
 
   private:
-    static VoxelRow within(const VoxelRow& row, int size) {
-        return {std::max<int64_t>(row.first, 0), std::min<int64_t>(row.last, size - 1)};
-    }
-    void set_row(const VoxelRow& row, int y, int z) {
-        for (int64_t x = row.first; x <= row.last; ++x) {
-            const glm::ivec3 v(int(x), y, z);
-            uint32_t& slot = slots_[brick_number(v / kBrickSize, bricks_)];
-            if (slot == 0) {
-                slot = uint32_t(masks_.size());
-                masks_.push_back({});
-            }
-            const VoxelPlace place(v);
-            masks_[slot][place.leaf] |= place.bit;
-            ++count_;
-        }
-    }
-
     glm::ivec3 bricks_;
     std::vector<uint32_t> slots_;  // 0: a brick without voxels
     std::vector<BrickMasks> masks_;
     uint64_t count_ = 0;
 };
 
+VoxelRow within(const VoxelRow& row, int size) {
+    return {std::max<int64_t>(row.first, 0), std::min<int64_t>(row.last, size - 1)};
+}
+
+ExactVoxels exact_supercover(const TriangleOnLattice& t, const glm::ivec3& region) {
+    ExactVoxels voxels(region);
+    const int low = std::min({t[0].z, t[1].z, t[2].z}) - 1;
+    const int high = std::max({t[0].z, t[1].z, t[2].z});
+    for (int z = std::max(0, low / kUnitsPerVoxel);
+         z <= std::min(region.z - 1, high / kUnitsPerVoxel); ++z) {
+        const VoxelRow rows = within(exact_rows(t, z), region.y);
+        for (int64_t y = rows.first; y <= rows.last; ++y) {
+            const VoxelRow row = within(exact_row(t, int(y), z), region.x);
+            for (int64_t x = row.first; x <= row.last; ++x) voxels.set({int(x), int(y), z});
+        }
+    }
+    return voxels;
+}
+
+ExactVoxels exact_voxels(VoxelSet set, const TriangleOnLattice& t, const glm::ivec3& region) {
+    if (set == VoxelSet::supercover) return exact_supercover(t, region);
+    ExactVoxels voxels(region);
+    for (const glm::ivec3& v : exact_thin(t, region)) voxels.set(v);
+    return voxels;
+}
+
 /// What a triangle's region of the device's grid has.
 struct Comparison {
     uint64_t cells = 0, missing = 0, extra = 0;
 };
 
-Comparison compare(const TriangleOnLattice& t, const TriangleGrid& grid, uint64_t number,
+Comparison compare(const ExactVoxels& voxels, const TriangleGrid& grid, uint64_t number,
                    const ReadOccupancy& occupancy) {
-    const ExactVoxels voxels(t, grid.region);
     const glm::ivec3 first = grid.start(number) / kBrickSize, count = grid.region / kBrickSize;
     Comparison c{voxels.count(), 0, 0};
     for (glm::ivec3 b{0}; b.z < count.z; ++b.z)
@@ -94,7 +106,8 @@ std::string describe(const TriangleOnLattice& t, const Comparison& c) {
 }
 
 /// Tries the triangles of one grid.
-void try_grid(Voxelizer& voxelizer, uint64_t seed, const StressBatch& batch, StressResult& result) {
+void try_grid(Voxelizer& voxelizer, VoxelSet set, uint64_t seed, const StressBatch& batch,
+              StressResult& result) {
     const TriangleGrid grid = grid_of_triangle(batch.start);
     std::vector<TriangleOnLattice> triangles(batch.size);
     Mesh mesh;
@@ -110,12 +123,12 @@ void try_grid(Voxelizer& voxelizer, uint64_t seed, const StressBatch& batch, Str
     frame.size = grid.size();
     VoxelizeOptions options;
     options.surface = Surface::cubes;
-    options.set = VoxelSet::supercover;
+    options.set = set;
     const ReadOccupancy occupancy(voxelizer.voxelize(mesh, glm::dmat4(1), frame, options));
     std::vector<Comparison> compared(batch.size);
     for_each_in_parallel(batch.end - batch.first, [&](uint64_t i) {
         const size_t n = batch.first + i;
-        compared[n] = compare(triangles[n], grid, n, occupancy);
+        compared[n] = compare(exact_voxels(set, triangles[n], grid.region), grid, n, occupancy);
     });
     for (size_t i = batch.first; i < batch.end; ++i) {
         result.cells += compared[i].cells;
@@ -128,11 +141,12 @@ void try_grid(Voxelizer& voxelizer, uint64_t seed, const StressBatch& batch, Str
 
 }  // namespace
 
-StressResult stress_triangles(const StressRun& run) {
+StressResult stress_triangles(VoxelSet set, const StressRun& run) {
     Voxelizer voxelizer(run.device);
     StressResult result;
-    for_each_batch(run, kTrianglesOfOneGrid,
-                   [&](const StressBatch& batch) { try_grid(voxelizer, run.seed, batch, result); });
+    for_each_batch(run, kTrianglesOfOneGrid, [&](const StressBatch& batch) {
+        try_grid(voxelizer, set, run.seed, batch, result);
+    });
     return result;
 }
 

@@ -2,10 +2,11 @@
 #pragma once
 
 #include "runtime/stress/stress.hpp"
+#include "runtime/surface.hpp"
 
 namespace voxelume {
 
-/// Tries the SUPERCOVER of triangles.
-StressResult stress_triangles(const StressRun& run);
+/// Tries the SUPERCOVER of triangles, or their THIN voxels.
+StressResult stress_triangles(VoxelSet set, const StressRun& run);
 
 }  // namespace voxelume
