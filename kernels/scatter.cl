@@ -306,8 +306,7 @@ kernel void scatter_rays(PyramidShape shape, global const float* restrict materi
         to = LANES_SELECT(open, to, ((word >> VXL_MATERIAL_SHIFT) & VXL_MATERIAL_MASK) + 1u);
         eta = exact_divide(medium_ior(materials, from),
                            medium_ior(materials, to & LANES_AS_UINT(hit)));
-        // Along the surface Fresnel's ratio is 0 / 0 between equal media: they reflect nothing.
-        bend = refraction_at(eta, fmax(cosine, 1e-6f));
+        bend = refraction_at(eta, cosine);
         const lane_int fresnel =
             LANE_MASK(LANES_GATHER_FLOAT(materials, material + VXL_MATERIAL_FRESNEL) != 0.0f);
         const lane_int total = bend.total & LANE_MASK(refracted.share > 0.0f);

@@ -305,6 +305,22 @@ TEST(Optics, O6EqualIndicesNeitherBendNorReflect) {
     }
 }
 
+TEST(Optics, AlongASurfaceAllIsReflectedUnlessIndicesAreEqual) {
+    std::vector<float> etas, cosines;
+    for (const float eta : {0.1f, 0.75f, 1 - kUlpOfOne / 2, 1.0f, 1 + kUlpOfOne, 1.5f, 10.0f})
+        for (const float c : {0.0f, 1e-40f, 0x1p-126f, 1e-20f, 1e-10f}) {
+            etas.push_back(eta);
+            cosines.push_back(c);
+        }
+    const std::vector<Met> all = Boundaries().met(etas, cosines);
+    for (size_t i = 0; i < all.size(); ++i) {
+        const double reflected = etas[i] == 1 ? 0 : 1;
+        EXPECT_EQ(all[i].total, etas[i] > 1) << etas[i] << ' ' << cosines[i];
+        EXPECT_NEAR(all[i].reflected, reflected, 1e-5) << etas[i] << ' ' << cosines[i];
+        EXPECT_NEAR(all[i].refracted, 1 - reflected, 1e-5) << etas[i] << ' ' << cosines[i];
+    }
+}
+
 TEST(Optics, HasTheSameBitsForEveryNumberOfLanes) {
     const auto [etas, cosines] = all_sorts(1 << 16);
     const std::vector<Met> expected = Boundaries(1).met(etas, cosines);

@@ -31,7 +31,9 @@ static inline lane_float squared_cosine(lane_float eta, lane_float c) {
     return LANES_SELECT(denser, from_denser, from_rarer);
 }
 
-/// `eta` is the index before the surface over the one behind it, `c` the cosine of incidence, > 0.
+/// `eta` is the index before the surface over the one behind it, `c` the cosine of incidence. At
+/// c = 0 ratios are 0 / 0 between equal media and where all is reflected, which need none;
+/// elsewhere floats are 2^-24 apart from 1 or more, so that c or the cosine behind is above 3e-4.
 static inline Refraction refraction_at(lane_float eta, lane_float c) {
     const lane_float square = squared_cosine(eta, c);
     const lane_int same = LANE_MASK(eta == 1.0f);
