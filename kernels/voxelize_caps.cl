@@ -27,6 +27,8 @@
 // Voxels, in place of none: with it an edge of a lattice unit already has a slope of 10^7 a voxel,
 // so the brick is open whatever else there is.
 #define LEAST_GAP 1e-6f
+// Four times 2^-24 of each sum: one for it, the others for the product with TURNS and this bound.
+#define SUM_ROUNDING 2.4e-7f
 
 // States of bricks.
 #define STATE_OUTSIDE 0u
@@ -54,11 +56,12 @@ typedef struct {
     float closed;  // winding number of the closed mesh at the middle point
 } BrickFacts;
 
-static inline uint brick_state(BrickFacts f, float caps, float change) {
-    const float margin = 1e-3f + change;
+/// `caps` is their winding number at the middle point; that of no point of the brick differs from
+/// it by more than `margin`, which may be NaN.
+static inline uint brick_state(BrickFacts f, float caps, float margin) {
     if (f.has_surface) return !f.has_caps && fabs(caps) + margin < 0.5f ? STATE_CLOSED : STATE_OPEN;
     const float winding = f.closed - caps;
-    if (fabs(winding - 0.5f) < margin) return STATE_OPEN;
+    if (!(fabs(winding - 0.5f) >= margin)) return STATE_OPEN;
     return winding > 0.5f ? STATE_INSIDE : STATE_OUTSIDE;
 }
 
@@ -86,10 +89,12 @@ kernel void classify_bricks(uint count, int4 bricks, float4 scale, float radius,
         ((int*)&p.z)[i] = at.z;
     }
     const float3 to_metric = scale.xyz * (1.0f / LATTICE_VOXEL);
-    lane_float caps = (lane_float)(0.0f), slope = (lane_float)(0.0f);
+    lane_float caps = (lane_float)(0.0f), slope = (lane_float)(0.0f), error = (lane_float)(0.0f);
     for (uint i = cap_first; i < cap_first + cap_count; ++i) {
         const Cap cap = make_cap(load_triangle(vertices, triangles, i, (int3)(0, 0, 0)), scale.xyz);
-        caps += half_solid_angle(&cap, &p, to_metric);
+        const HalfAngle seen = half_solid_angle(&cap, &p, to_metric);
+        caps += seen.angle;
+        error += seen.error + SUM_ROUNDING * fabs(caps);
         slope += slope_bound(&cap, &p, radius, to_metric);
     }
     for (uint i = 0; i < VXL_LANES && first + i < count; ++i) {
@@ -102,8 +107,8 @@ kernel void classify_bricks(uint count, int4 bricks, float4 scale, float radius,
         f.closed = number == VXL_BRICK_OUTSIDE
                        ? (float)passing[first + i]
                        : (float)(winding[4096u * number + 2184u] + carried[256u * number + 136u]);
-        states[first + i] =
-            brick_state(f, ((const float*)&caps)[i] * TURNS, ((const float*)&slope)[i] * radius);
+        const float margin = ((const float*)&error)[i] * TURNS + ((const float*)&slope)[i] * radius;
+        states[first + i] = brick_state(f, ((const float*)&caps)[i] * TURNS, margin);
     }
 }
 
@@ -139,7 +144,7 @@ kernel void find_inside_open(uint count, int4 bricks, float4 scale, uint cap_fir
             p.y =
                 LATTICE_VOXEL * (LANES_INT(TILE_LANE_Y) + column / TILES_X * TILE_Y) + POINT_OFFSET;
             p.z = (lane_int)(LATTICE_VOXEL * z + POINT_OFFSET);
-            caps[k] += half_solid_angle(&cap, &p, to_metric);
+            caps[k] += half_solid_angle(&cap, &p, to_metric).angle;
         }
     }
     for (uint z = (uint)first_slice; z < (uint)first_slice + VXL_SLICES; ++z)

@@ -95,6 +95,18 @@ TEST(OpenMesh, FarBricksThatTheHalfWindingCrossesAreStored) {
     EXPECT_EQ(wrong, 0u);
 }
 
+TEST(OpenMesh, ABrickAroundTheMiddleOfALidIsHalfInside) {
+    // Caps meet at the brick's middle point, from where they have no angles.
+    const glm::vec3 middle(72.5f, 72.5f, 72.5f);
+    const Mesh mesh = ball_mesh(middle, 60, 256, 64, 0, 32);
+    const VoxelSetOf voxels = voxels_of(mesh, {145, 145, 90}, VoxelSet::solid);
+    size_t wrong = 0;
+    for (int z = 64; z < 80; ++z)
+        for (int y = 64; y < 80; ++y)
+            for (int x = 64; x < 80; ++x) wrong += z != 72 && (z < 72) != voxels.contains({x, y, z});
+    EXPECT_EQ(wrong, 0u);
+}
+
 TEST(OpenMesh, SmoothSignsAreThoseOfTheSum) {
     const Mesh mesh = without_triangles(ball_mesh({18.3f, 17.1f, 13.2f}, 9.7f, 24, 14), 300, 60);
     GridFrame frame = unit_frame(kSize);

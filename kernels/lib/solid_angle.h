@@ -85,24 +85,42 @@ static inline lane_float exact_sides(const Cap* cap, const LanePoints* p) {
     return sides;
 }
 
+// Rounding, with u = 2^-24. A vector's components are off by 2 u of themselves, the normal's by 3 u
+// and their product's sum by 3 u of its terms: 8 u. Lengths are off by 2.5 u beyond that, products
+// of three by 9.5 u, those of a length and a dot product, three of them, by 6.5 u, and their sums
+// by 10 u; the vectors' own 2 u make 24 u of the four terms: below 64 u of the product of lengths.
+#define HEIGHT_ROUNDING 5e-7f
+#define REACH_ROUNDING 4e-6f
+#define ARC_ROUNDING 3e-7f
+
+/// An angle, and a bound on its error that is infinite or NaN where nothing is known.
+typedef struct {
+    lane_float angle, error;
+} HalfAngle;
+
 /// Half the solid angle of the cap seen from each point, positive from behind (van Oosterom and
 /// Strackee 1983). Beside the cap the angle jumps; there its side is decided in integers, so that
-/// it agrees with the crossings.
-static inline lane_float half_solid_angle(const Cap* cap, const LanePoints* p, float3 to_metric) {
+/// it agrees with the crossings. Near the cap's edges its legs vanish, and nothing is known.
+static inline HalfAngle half_solid_angle(const Cap* cap, const LanePoints* p, float3 to_metric) {
     const LaneVector a = vector_to(cap->lattice.corner[0], p, to_metric);
     const LaneVector b = vector_to(cap->lattice.corner[1], p, to_metric);
     const LaneVector c = vector_to(cap->lattice.corner[2], p, to_metric);
     const float3 n = cap->normal;
     lane_float height = fma((lane_float)(n.x), a.x, fma((lane_float)(n.y), a.y, n.z * a.z));
     const lane_float bound =
-        4e-7f * (fabs(n.x) * fabs(a.x) + fabs(n.y) * fabs(a.y) + fabs(n.z) * fabs(a.z));
+        HEIGHT_ROUNDING * (fabs(n.x) * fabs(a.x) + fabs(n.y) * fabs(a.y) + fabs(n.z) * fabs(a.z));
     const lane_float reach = fma(a.length * b.length, c.length,
                                  fma(lane_dot(&a, &b), c.length,
                                      fma(lane_dot(&b, &c), a.length, lane_dot(&c, &a) * b.length)));
     if (lanes_any(LANE_MASK(fabs(height) <= bound) & LANE_MASK(reach <= 0.0f)))
         height = LANES_SELECT(LANE_MASK(fabs(height) <= bound),
                               take_sign(height, exact_sides(cap, p)), height);
-    return lanes_atan2(height, reach);
+    // The turn that both legs' errors make, to first order, and as much again for the others.
+    const lane_float slack = REACH_ROUNDING * a.length * b.length * c.length;
+    const lane_float turn = (bound * (fabs(reach) + slack) + slack * (fabs(height) + bound)) /
+                            fma(height, height, reach * reach);
+    const HalfAngle seen = {lanes_atan2(height, reach), 2.0f * turn + ARC_ROUNDING};
+    return seen;
 }
 
 #endif
