@@ -33,17 +33,14 @@ struct BenchCommand {
 };
 
 std::vector<const BenchEntry*> chosen_entries(const std::vector<std::string>& only) {
-    std::vector<const BenchEntry*> chosen;
     std::vector<std::string_view> names;
+    for (const BenchEntry& entry : bench_entries()) names.emplace_back(entry.name);
+    const std::vector<std::string> wanted = chosen_names(only, names, "bench", "scene");
+    std::vector<const BenchEntry*> chosen;
     for (const BenchEntry& entry : bench_entries()) {
-        names.emplace_back(entry.name);
-        const bool is_named = std::ranges::find(only, entry.name) != only.end();
+        const bool is_named = std::ranges::find(wanted, entry.name) != wanted.end();
         if (is_named || (only.empty() && entry.is_there())) chosen.push_back(&entry);
     }
-    for (const std::string& name : only)
-        if (std::ranges::find(names, name) == names.end())
-            throw Error(ErrorKind::usage, "bench: there is no scene named {}{}", quote(name),
-                        suggest(name, names));
     return chosen;
 }
 
@@ -148,9 +145,7 @@ Action add_bench(CLI::App& app) {
     app.add_option("--json", command->json, "file for everything that was measured");
     app.add_option("--csv", command->csv, "file for the rows");
     app.add_option("--plot", command->plot, "picture of depth against time: .svg");
-    app.add_option("--only", command->only, list_of_scenes())
-        ->allow_extra_args(false)
-        ->delimiter(',');
+    app.add_option("--only", command->only, list_of_scenes())->allow_extra_args(false);
     app.add_option("--resolution", command->resolutions, "voxels a metre, like 16,32,64")
         ->delimiter(',')
         ->check(in_range(2, 4096, Number::whole));

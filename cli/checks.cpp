@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <map>
+#include <sstream>
 
 #include "runtime/io/atomic_file.hpp"
 #include "runtime/opencl/platforms.hpp"
@@ -23,6 +24,30 @@ void check_output(const std::string& path, std::initializer_list<const char*> ex
                     list);
     }
     const AtomicFile trial(path);  // leaves nothing behind without commit()
+}
+
+std::vector<std::string> chosen_names(const std::vector<std::string>& texts,
+                                      const std::vector<std::string_view>& names,
+                                      const char* command, const char* kind) {
+    std::vector<std::string> chosen;
+    for (const std::string& text : texts) {
+        const size_t before = chosen.size();
+        std::istringstream stream(text);
+        for (std::string name; std::getline(stream, name, ',');) {
+            if (name.empty()) continue;
+            if (std::ranges::find(names, name) == names.end()) {
+                const std::string nearest = suggest(name, names);
+                throw Error(
+                    ErrorKind::usage, "{}: there is no {} named {}{}", command, kind, quote(name),
+                    nearest.empty() ? fmt::format(", only {}", fmt::join(names, ", ")) : nearest);
+            }
+            chosen.push_back(name);
+        }
+        if (chosen.size() == before)
+            throw Error(ErrorKind::usage, "{}: --only {} names no {}; there are {}", command,
+                        quote(text), kind, fmt::join(names, ", "));
+    }
+    return chosen;
 }
 
 void check_distinct(const std::vector<std::string>& paths, const char* command) {

@@ -37,6 +37,13 @@ std::function<std::string(const std::string&)> in_range(double least, double mos
 /// For CLI::Option::check, where "all" and "all/2" are no answer.
 std::string one_device(const std::string& selector);
 
+/// The names that the texts of an option --only have between commas. Throws Error::usage, saying
+/// which `names` there are, where one isn't among them or a text has none; `command` opens the
+/// message, and each is a `kind`.
+std::vector<std::string> chosen_names(const std::vector<std::string>& texts,
+                                      const std::vector<std::string_view>& names,
+                                      const char* command, const char* kind);
+
 /// The value that an option's text names. Throws Error::usage with the nearest name.
 template <class Value, size_t count>
 Value choose(const std::string& text,

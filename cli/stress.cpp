@@ -31,11 +31,8 @@ std::vector<const StressTest*> chosen_tests(const std::vector<std::string>& only
         names.push_back(test.name);
         if (only.empty()) chosen.push_back(&test);
     }
-    for (const std::string& name : only) {
+    for (const std::string& name : chosen_names(only, names, "stress", "test")) {
         const auto known = std::ranges::find(names, name);
-        if (known == names.end())
-            throw Error(ErrorKind::usage, "stress: there is no test named {}{}", quote(name),
-                        suggest(name, names));
         const StressTest* test = &stress_tests()[size_t(known - names.begin())];
         if (std::ranges::find(chosen, test) == chosen.end()) chosen.push_back(test);
     }
@@ -99,9 +96,7 @@ Action add_stress(CLI::App& app) {
         ->check(in_range(1, 1e15));
     app.add_option("--seed", command->seed, "of the cases, 1 without")
         ->check(in_range(0, 1e18, Number::whole));
-    app.add_option("--only", command->only, list_of_tests())
-        ->allow_extra_args(false)
-        ->delimiter(',');
+    app.add_option("--only", command->only, list_of_tests())->allow_extra_args(false);
     app.add_option("--first", command->first, "number of the first case, to try one again")
         ->check(in_range(0, 1e18, Number::whole));
     app.add_option("--device", command->device, "auto, cpu, gpu, a number, or part of a name")

@@ -87,6 +87,14 @@ TEST(BenchFronts, AreSaidInTheTextAndOnThePage) {
     }
 }
 
+TEST(BenchFronts, ThatTakeTheSameTimeAreNotCalledUpToOneTimesAsQuick) {
+    for (const double most : {1.004, 1 / 1.004}) {
+        const FrontComparison equal{
+            "Twin", "box", {{1e-2, 1e-3, std::min(most, 1.0), std::max(most, 1.0)}}, 1e-6, 1e-3};
+        EXPECT_THAT(sentence_of(equal), HasSubstr(" is as quick from 0.01 m of depth RMS"));
+    }
+}
+
 TEST(BenchFronts, PixelsThatAPeersErrorsLeaveOutAreShown) {
     const BenchReport report = report_with_peers();
     EXPECT_THAT(bench_text(report), HasSubstr("1.00e-03          73 "));

@@ -168,6 +168,11 @@ TEST_F(CliTest, StressKnowsItsTests) {
     EXPECT_EQ(result.exit_code, 2);
     EXPECT_EQ(result.err,
               "voxelume: stress: there is no test named \"tie\"; did you mean \"ties\"?\n");
+    for (const char* none : {"stress --only ,", "stress --only quux"}) {
+        EXPECT_EQ(run(none).exit_code, 2);
+        EXPECT_THAT(run(none).err, HasSubstr("random, ties, grazing, "));
+    }
+    EXPECT_THAT(run("bench --only ,").err, HasSubstr("\",\" names no scene; there are sphere, "));
     EXPECT_THAT(run("help stress").out, HasSubstr("rays between lattice points"));
     EXPECT_EQ(run("stress --rays 0").exit_code, 2);
 }

@@ -33,11 +33,13 @@ std::vector<double> bends(const ErrorFront& ours, const ErrorFront& other, doubl
     return errors;
 }
 
-/// "1.9 to 5.6 times as quick", or "5.6 times" where both read alike, from a ratio that favours it.
+/// "1.9 to 5.6 times as quick", "5.6 times" where both read alike, or "as quick" where that is 1,
+/// from a ratio that favours it.
 std::string times_text(double least, double most) {
     const auto digits = [](double times) {
         return times < 100 ? fmt::format("{:.3g}", times) : fmt::format("{:.0f}", times);
     };
+    if (most < 1.005) return "as quick";
     if (least < 1.005) return fmt::format("up to {} times as quick", digits(most));
     if (digits(least) == digits(most)) return digits(most) + " times as quick";
     return fmt::format("{} to {} times as quick", digits(least), digits(most));
