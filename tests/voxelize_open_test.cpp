@@ -103,7 +103,8 @@ TEST(OpenMesh, ABrickAroundTheMiddleOfALidIsHalfInside) {
     size_t wrong = 0;
     for (int z = 64; z < 80; ++z)
         for (int y = 64; y < 80; ++y)
-            for (int x = 64; x < 80; ++x) wrong += z != 72 && (z < 72) != voxels.contains({x, y, z});
+            for (int x = 64; x < 80; ++x)
+                wrong += z != 72 && (z < 72) != voxels.contains({x, y, z});
     EXPECT_EQ(wrong, 0u);
 }
 
