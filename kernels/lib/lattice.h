@@ -136,7 +136,9 @@ static inline Silhouette silhouette_of_cells(int2 a, int2 b, int2 c, long area, 
     Silhouette s;
     silhouette_edges(&s, &p);
     const long3 at = s.u * convert_long3(p.u) + s.w * convert_long3(p.w);
-    const long3 positive = max(s.u, 0L) + max(s.w, 0L), negative = min(s.u, 0L) + min(s.w, 0L);
+    // oclgrind takes max(v, 0L) of a vector for one of a scalar.
+    const long3 positive = max(s.u, (long3)(0)) + max(s.w, (long3)(0));
+    const long3 negative = min(s.u, (long3)(0)) + min(s.w, (long3)(0));
     const long3 widened = margin * (positive - negative);
     s.low = ((at + (min(area, 0L) + (LATTICE_VOXEL - 1)) - widened) >> LATTICE_BITS) - positive;
     s.high = ((at + max(area, 0L) + widened) >> LATTICE_BITS) - negative;
