@@ -40,9 +40,13 @@ bool is_png(const std::string& path) {
 Image image_from(const Picture& picture) {
     Image image{picture.width, picture.height, {}, {}, {}};
     constexpr const char* kNames[] = {"R", "G", "B", "A"};
-    for (size_t channel = 0; channel < 4; ++channel)
+    for (size_t channel = 0; channel < 4; ++channel) {
+        std::vector<float> values;
+        values.reserve(picture.pixels.size());
         for (const auto& pixel : picture.pixels)
-            image.planes[kNames[channel]].push_back(static_cast<float>(pixel[channel]) / 255.0f);
+            values.push_back(static_cast<float>(pixel[channel]) / 255.0f);
+        image.planes[kNames[channel]] = std::move(values);
+    }
     return image;
 }
 

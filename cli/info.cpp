@@ -27,12 +27,11 @@ Report numbers(const Vector& v) {
     return {v.x, v.y, v.z};
 }
 
-template <class Value>
-Report describe_plane(const std::string& name, const std::string& type,
-                      const std::vector<Value>& plane) {
+template <class Values>
+Report describe_plane(const std::string& name, const std::string& type, const Values& plane) {
     double smallest = 0.0, largest = 0.0, sum = 0.0;
     size_t finite = 0;
-    for (const Value value : plane) {
+    for (const auto value : plane) {
         const double v = value;
         if (!std::isfinite(v)) continue;
         smallest = finite == 0 ? v : std::min(smallest, v);

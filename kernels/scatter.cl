@@ -197,7 +197,7 @@ typedef struct {
 } Scattered;
 
 /// A ray from a surface point along `direction` in metres, on the `side` that a vector points to.
-static inline void set_out(NewRays* r, PyramidShape shape, Vector position, Vector side,
+static inline void set_out_child(NewRays* r, PyramidShape shape, Vector position, Vector side,
                            Vector direction) {
     const lane_float x = direction.x * shape.inverse_edge.x;
     const lane_float y = direction.y * shape.inverse_edge.y;
@@ -350,7 +350,7 @@ kernel void scatter_rays(PyramidShape shape, global const float* restrict materi
     }
     const lane_float twice = 2.0f * cosine;
     const Vector mirrored = {fma(twice, n.x, v.x), fma(twice, n.y, v.y), fma(twice, n.z, v.z)};
-    set_out(&ray, shape, lifted(shape, position, n, hits, stride, first), n, mirrored);
+    set_out_child(&ray, shape, lifted(shape, position, n, hits, stride, first), n, mirrored);
     put_children(&queue, &ray, reflected, valid, compact, first - begin, counters, children + first,
                  shares + first);
     if (!VXL_REFRACTS) return;
@@ -362,7 +362,7 @@ kernel void scatter_rays(PyramidShape shape, global const float* restrict materi
     ray.medium = medium_inside(&behind, ranks);
     const Vector bent = refracted_direction(v, n, eta, cosine, &bend);
     const Vector into = {-n.x, -n.y, -n.z};
-    set_out(&ray, shape, lifted(shape, position, into, hits, stride, first), into, bent);
+    set_out_child(&ray, shape, lifted(shape, position, into, hits, stride, first), into, bent);
     // Between equal media the very same ray goes on.
     const lane_int same = LANE_MASK(eta == 1.0f);
     ray.origin = select_vector(same, load_vector(rays, stride, first), ray.origin);

@@ -35,8 +35,7 @@ Part render_part(const Device& device, const ModelCache& cache, const Scene& sce
 }
 
 template <class Value>
-void copy_tile(const Image& image, uint32_t tile, const std::vector<Value>& from,
-               std::vector<Value>& to) {
+void copy_tile(const Image& image, uint32_t tile, const Plane<Value>& from, Plane<Value>& to) {
     const uint32_t tiles_x = uint32_t(image.width + kTileSize - 1) / kTileSize;
     const int x = int(tile % tiles_x) * kTileSize, y = int(tile / tiles_x) * kTileSize;
     const int end_x = std::min(x + kTileSize, image.width);

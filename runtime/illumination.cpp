@@ -163,6 +163,14 @@ Features features_of(const Scene& scene, const Pyramid& world) {
     return features;
 }
 
+void build_programs(const Device& device, const Features& features, const Scene& scene) {
+    std::vector<const char*> files = {"sight.cl", "trace.cl", "shade.cl"};
+    if (has_light(scene)) files.push_back("light.cl");
+    if (features.absorbs) files.push_back("medium.cl");
+    if (features.paths) files.push_back("scatter.cl");
+    Program::build_together(device, files, features.defines(device));
+}
+
 RayBatch allocate_batch(const Device& device, const Features& features, uint32_t stride) {
     RayBatch batch;
     static_cast<RayQueue&>(batch) = allocate_queue(device, features, stride);

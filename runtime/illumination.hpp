@@ -20,6 +20,10 @@ namespace voxelume {
 /// What the scene and its world really contain.
 Features features_of(const Scene& scene, const Pyramid& world);
 
+/// Makes the programs of the stages that sight rays go through in one piece: PoCL reads its own
+/// megabyte of headers for each.
+void build_programs(const Device& device, const Features& features, const Scene& scene);
+
 /// An empty batch for up to `stride` rays, with the arrays that the features need.
 RayBatch allocate_batch(const Device& device, const Features& features, uint32_t stride);
 

@@ -5,7 +5,8 @@
 #include <glm/vec3.hpp>
 #include <map>
 #include <string>
-#include <vector>
+
+#include "runtime/plane.hpp"
 
 namespace voxelume {
 
@@ -16,8 +17,8 @@ namespace voxelume {
 struct Image {
     int width = 0;
     int height = 0;
-    std::map<std::string, std::vector<float>> planes;
-    std::map<std::string, std::vector<uint32_t>> id_planes;  ///< objectId
+    std::map<std::string, Plane<float>> planes;
+    std::map<std::string, Plane<uint32_t>> id_planes;  ///< objectId
     std::map<std::string, std::string> attributes;  ///< text for the header: scene, version, ...
 };
 

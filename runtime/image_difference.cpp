@@ -7,8 +7,8 @@ namespace voxelume {
 
 namespace {
 
-ChannelDifference compare_values(const std::string& name, const std::vector<float>& a,
-                                 const std::vector<float>& b) {
+ChannelDifference compare_values(const std::string& name, const Plane<float>& a,
+                                 const Plane<float>& b) {
     ChannelDifference result{name};
     double squares = 0.0, sum = 0.0, relative_squares = 0.0;
     size_t counted = 0;
@@ -34,8 +34,8 @@ ChannelDifference compare_values(const std::string& name, const std::vector<floa
     return result;
 }
 
-ChannelDifference compare_values(const std::string& name, const std::vector<uint32_t>& a,
-                                 const std::vector<uint32_t>& b) {
+ChannelDifference compare_values(const std::string& name, const Plane<uint32_t>& a,
+                                 const Plane<uint32_t>& b) {
     ChannelDifference result{name};
     for (size_t i = 0; i < a.size(); ++i)
         if (a[i] != b[i]) ++result.differing;

@@ -123,8 +123,7 @@ Image ViewCanvas::image() const {
     Image image{size_.x / kSamples, size_.y / kSamples, {}, {}, {}};
     const std::array<const char*, 3> names = {"R", "G", "B"};
     for (int c = 0; c < 3; ++c) {
-        std::vector<float>& plane = image.planes[names[size_t(c)]];
-        plane.resize(size_t(image.width) * size_t(image.height));
+        std::vector<float> plane(size_t(image.width) * size_t(image.height));
         for (size_t i = 0; i < plane.size(); ++i) {
             const size_t x = i % size_t(image.width) * kSamples;
             const size_t y = i / size_t(image.width) * kSamples;
@@ -134,6 +133,7 @@ Image ViewCanvas::image() const {
                     sum += samples_[(y + sy) * size_t(size_.x) + x + sx][c];
             plane[i] = sum / (kSamples * kSamples);
         }
+        image.planes[names[size_t(c)]] = std::move(plane);
     }
     return image;
 }

@@ -126,7 +126,7 @@ inline SurfaceErrors measure_surface(const Scene& scene, const Image& image,
     const double edge = scene.world.voxel_size.x;
     const glm::dvec3 eye = scene.observer.position;
     const std::vector<oracle::Edge> silhouette = oracle::silhouette_edges(tree.triangles(), eye);
-    const std::vector<float>&px = image.planes.at("P.X"), &py = image.planes.at("P.Y"),
+    const Plane<float>&px = image.planes.at("P.X"), &py = image.planes.at("P.Y"),
           &pz = image.planes.at("P.Z"), &alpha = image.planes.at("A");
     SurfaceErrors errors;
     std::vector<double> along;

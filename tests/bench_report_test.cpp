@@ -117,7 +117,7 @@ TEST(BenchErrors, AreThoseThatWerePutIn) {
     const BenchTruth truth = bench_truth(subject_of(bench_solids()[0]), {40, 30});
     Image image;
     for (const char* name : {"A", "P.X", "P.Y", "P.Z", "N.X", "N.Y", "N.Z"})
-        image.planes[name].resize(40 * 30);
+        image.planes[name] = std::vector<float>(40 * 30);
     const auto put = [&](const char* plane, size_t pixel, const glm::dvec3& v) {
         for (int axis = 0; axis < 3; ++axis)
             image.planes[std::string(plane) + "." + "XYZ"[axis]][pixel] = float(v[axis]);

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <numeric>
 
 #include "runtime/opencl/program.hpp"
@@ -24,6 +25,20 @@ TEST(Buffer, GivesBackMegabytesUnchanged) {
     std::iota(numbers.begin(), numbers.end(), 5u);
     const Buffer<uint32_t> buffer(test_device(), "numbers", numbers);
     EXPECT_EQ(buffer.read(), numbers);
+}
+
+TEST(Buffer, ContentsOutliveTheBufferSmallOrLarge) {
+    for (const size_t size : {size_t{5}, size_t{3'000'017}}) {
+        std::vector<uint32_t> numbers(size);
+        std::iota(numbers.begin(), numbers.end(), 7u);
+        std::shared_ptr<uint32_t> contents;
+        {
+            const Device device = test_device();
+            const Buffer<uint32_t> buffer(device, "numbers", numbers);
+            contents = buffer.contents();
+        }
+        EXPECT_TRUE(std::equal(numbers.begin(), numbers.end(), contents.get())) << size;
+    }
 }
 
 TEST(Buffer, AWriteIsSeenByTheNextKernelAndItsResultByTheNextRead) {

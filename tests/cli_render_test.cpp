@@ -103,9 +103,9 @@ TEST_F(CliRenderTest, ShadowRaysAreCountedOverAllBatchesAndLights) {
         scene["render"]["samples"] = 4;
     });
     // Two batches; without shadows none.
-    ASSERT_EQ(run("render scene.json -o a.exr --size 512x256 --stats-json two.json").exit_code, 0);
+    ASSERT_EQ(run("render scene.json -o a.exr --size 512x128 --stats-json two.json").exit_code, 0);
     write_scene([](Json& scene) { scene["render"]["samples"] = 4; });
-    ASSERT_EQ(run("render scene.json -o a.exr --size 512x256 --stats-json one.json").exit_code, 0);
+    ASSERT_EQ(run("render scene.json -o a.exr --size 512x128 --stats-json one.json").exit_code, 0);
     const Json two = Json::parse(bytes_of(folder / "two.json"));
     const Json one = Json::parse(bytes_of(folder / "one.json"));
     EXPECT_EQ(one["launches"]["trace_closest"], 2);

@@ -22,15 +22,16 @@ Image random_image(int width = 7, int height = 5) {
     std::mt19937 random(20170613);
     Image image{width, height, {}, {}, {{"scene", "bunny.json"}, {"version", "voxelume 0.1.0"}}};
     const size_t pixels = static_cast<size_t>(width) * static_cast<size_t>(height);
-    for (const char* name : {"R", "G", "B", "A", "Z", "P.X", "P.Y", "P.Z", "N.X", "N.Y", "N.Z"})
-        for (size_t i = 0; i < pixels; ++i) {
-            float value = kNan;
+    for (const char* name : {"R", "G", "B", "A", "Z", "P.X", "P.Y", "P.Z", "N.X", "N.Y", "N.Z"}) {
+        std::vector<float> values(pixels, kNan);
+        for (float& value : values)
             while (value != value || std::abs(value) == kInfinity)
                 value = std::bit_cast<float>(static_cast<uint32_t>(random()));
-            image.planes[name].push_back(value);
-        }
-    for (size_t i = 0; i < pixels; ++i)
-        image.id_planes["objectId"].push_back(static_cast<uint32_t>(random()));
+        image.planes[name] = std::move(values);
+    }
+    std::vector<uint32_t> ids(pixels);
+    for (uint32_t& id : ids) id = static_cast<uint32_t>(random());
+    image.id_planes["objectId"] = std::move(ids);
     image.planes["Z"][3] = kInfinity;
     return image;
 }
@@ -66,14 +67,14 @@ TEST_F(ExrTest, HalvesAreRoundedToNearestAndClamped) {
     write_exr(path(),
               red_row({0.5f, 2049.0f, 2051.0f, 65504.0f, 65519.0f, 65520.0f, 1e30f, -1e9f, 6e-8f}));
     EXPECT_EQ(read_exr(path()).planes["R"],
-              (std::vector<float>{0.5f, 2048.0f, 2052.0f, 65504.0f, 65504.0f, 65504.0f, 65504.0f,
-                                  -65504.0f, 5.9604645e-8f}));
+              (Plane<float>{0.5f, 2048.0f, 2052.0f, 65504.0f, 65504.0f, 65504.0f, 65504.0f,
+                            -65504.0f, 5.9604645e-8f}));
 }
 
 TEST_F(ExrTest, ColoursThatAreNotFiniteAreCountedAndBecomeZero) {
     for (const ColorDepth depth : {ColorDepth::float16, ColorDepth::float32}) {
         EXPECT_EQ(write_exr(path(), red_row({1.0f, kNan, kInfinity, -kInfinity}), depth), 3u);
-        EXPECT_EQ(read_exr(path()).planes["R"], (std::vector<float>{1, 0, 0, 0}));
+        EXPECT_EQ(read_exr(path()).planes["R"], (Plane<float>{1, 0, 0, 0}));
     }
 }
 

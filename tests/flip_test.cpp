@@ -13,15 +13,13 @@ constexpr int kWidth = 37, kHeight = 23;
 
 template <class Color>
 Image image_of(const Color& color) {
-    Image image{kWidth, kHeight, {}, {}, {}};
+    std::vector<float> values[3];
     for (int y = 0; y < kHeight; ++y)
         for (int x = 0; x < kWidth; ++x) {
             const glm::vec3 c = color(x, y);
-            image.planes["R"].push_back(c.r);
-            image.planes["G"].push_back(c.g);
-            image.planes["B"].push_back(c.b);
+            for (int channel = 0; channel < 3; ++channel) values[channel].push_back(c[channel]);
         }
-    return image;
+    return {kWidth, kHeight, {{"R", values[0]}, {"G", values[1]}, {"B", values[2]}}, {}, {}};
 }
 
 Image flat(glm::vec3 color) {

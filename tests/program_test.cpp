@@ -2,9 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cstdlib>
 #include <numeric>
 
+#include "runtime/stages/features.hpp"
 #include "tests/test_device.hpp"
 
 namespace voxelume {
@@ -53,6 +55,22 @@ TEST(Program, ConstantsThatTheSourceDoesNotMentionMakeNoOther) {
     EXPECT_EQ(made({{"VALUE", 3}, {"VALUES_2", 1}}), 1u);
     EXPECT_EQ(made({{"VALUE", 3}, {"VALUES_2", 1}, {"VALUES", 7}, {"VAL", 5}}), 0u);
     EXPECT_EQ(made({{"VALUE", 3}, {"VALUES_2", 2}}), 1u);
+}
+
+TEST(Program, FilesBuiltTogetherAreOneUntilTheirConstantsDiffer) {
+    const Device device = test_device();
+    Features features;
+    features.cubes = true;
+    const std::array<const char*, 2> files = {"trace.cl", "shade.cl"};
+    Program::build_together(device, files, features.defines(device));
+    EXPECT_EQ(device.counters().programs_built, 1u);
+    Program(device, "shade.cl", features.defines(device)).kernel("shade_surface");
+    Program(device, "trace.cl", features.defines(device)).kernel("trace_closest");
+    Program::build_together(device, files, features.defines(device));
+    EXPECT_EQ(device.counters().programs_built, 1u);
+    features.smooth = true;
+    Program(device, "trace.cl", features.defines(device));
+    EXPECT_EQ(device.counters().programs_built, 2u);
 }
 
 TEST(Program, NamesTheKernelFileAndLineOfAnError) {

@@ -44,11 +44,11 @@ Scene room(bool veils, const std::string& hidden, const std::string& placement =
                        "room.json", {});
 }
 
-std::map<std::string, std::vector<float>> colors(const Scene& scene, int lanes = 0) {
+std::map<std::string, Plane<float>> colors(const Scene& scene, int lanes = 0) {
     RenderReport report;
     const Image image = render(test_device(lanes), scene, report);
     EXPECT_GE(report.shadow_rays, scene.render.size.x * scene.render.size.y);
-    std::map<std::string, std::vector<float>> colors;
+    std::map<std::string, Plane<float>> colors;
     for (const char* channel : {"R", "G", "B"}) colors[channel] = image.planes.at(channel);
     return colors;
 }
@@ -88,7 +88,7 @@ double light_behind(int voxels) {
 "render": {{"size": [8, 8]}}}})",
                                                 voxels + 8, voxels, 2 + voxels / 2.0),
                                     "veil.json", {});
-    return colors(scene).at("R").at(27);
+    return colors(scene).at("R")[27];
 }
 
 TEST(ShadowFlight, LightPassesThousandsOfSurfaces) {

@@ -52,7 +52,7 @@ TEST_P(ShippedScenes, HaveTheirGoldenBitsAndOnlyFiniteValuesInTheFile) {
         }
         EXPECT_EQ(not_finite, 0u) << name;
     }
-    const std::vector<float>& shown = image.planes.at("A");
+    const Plane<float>& shown = image.planes.at("A");
     EXPECT_GT(std::ranges::count_if(shown, [](float a) { return a > 0; }), 500);
 }
 

@@ -26,7 +26,7 @@ class VectorPlanes {
     glm::dvec3 operator[](size_t pixel) const { return {x_[pixel], y_[pixel], z_[pixel]}; }
 
   private:
-    const std::vector<float>&x_, &y_, &z_;
+    const Plane<float>&x_, &y_, &z_;
 };
 
 void measure_light(const BenchTruth& truth, const Image& image, BenchErrors& errors) {
@@ -34,13 +34,14 @@ void measure_light(const BenchTruth& truth, const Image& image, BenchErrors& err
     double squares = 0;
     constexpr const char* kNames[] = {"R", "G", "B"};
     for (int channel = 0; channel < 3; ++channel) {
-        const std::vector<float>& shown = image.planes.at(kNames[channel]);
-        std::vector<float>& plane = ideal.planes[kNames[channel]];
+        const Plane<float>& shown = image.planes.at(kNames[channel]);
+        std::vector<float> plane;
         for (size_t pixel = 0; pixel < truth.radiance.size(); ++pixel) {
             const double value = truth.radiance[pixel][channel];
             plane.push_back(float(value));
             squares += (shown[pixel] - value) * (shown[pixel] - value);
         }
+        ideal.planes[kNames[channel]] = std::move(plane);
     }
     errors.color_rmse = std::sqrt(squares / (3 * double(truth.radiance.size())));
     errors.flip = mean_flip(image, ideal);
@@ -50,7 +51,7 @@ void measure_light(const BenchTruth& truth, const Image& image, BenchErrors& err
 
 BenchErrors measure_errors(const BenchTruth& truth, const Image& image, double voxel_size) {
     const VectorPlanes positions(image, "P"), normals(image, "N");
-    const std::vector<float>& alpha = image.planes.at("A");
+    const Plane<float>& alpha = image.planes.at("A");
     BenchErrors errors;
     ContourError silhouette(truth.silhouette);
     double depth_squares = 0, normal_squares = 0, depths = 0;

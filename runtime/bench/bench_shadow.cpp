@@ -104,8 +104,8 @@ ShadowTruth shadow_truth(const BenchSubject& subject, glm::ivec2 size) {
 
 ShadowErrors measure_shadow(const ShadowTruth& truth, const Image& image) {
     constexpr uint32_t kGroundId = 2;  // the second object
-    const std::vector<uint32_t>& objects = image.id_planes.at("objectId");
-    const std::vector<float>& light = image.planes.at("G");
+    const Plane<uint32_t>& objects = image.id_planes.at("objectId");
+    const Plane<float>& light = image.planes.at("G");
     ContourError error(truth.edge);
     for (size_t pixel = 0; pixel < truth.sides.size(); ++pixel) {
         if (truth.sides[pixel] == PixelSide::unknown || objects[pixel] != kGroundId) continue;

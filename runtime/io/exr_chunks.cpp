@@ -48,10 +48,18 @@ void append_row(const ExrPlane& plane, size_t first, size_t width, std::string& 
 /// Bytes as OpenEXR's ZIP wants them: those of even places first, then each as its difference from
 /// the one before, plus 128.
 std::string predicted(const std::string& bytes) {
-    std::string result(bytes.size(), '\0');
-    const size_t half_size = (bytes.size() + 1) / 2;
-    for (size_t i = 0; i < bytes.size(); ++i) result[i % 2 * half_size + i / 2] = bytes[i];
-    for (size_t i = bytes.size(); i-- > 1;) result[i] = char(result[i] - result[i - 1] + 128);
+    const size_t size = bytes.size(), odd_places = size / 2, even_places = size - odd_places;
+    std::string result(size, '\0');
+    if (size == 0) return result;
+    // Loops that compilers turn into vectors, from one array to another.
+    const char* __restrict from = bytes.data();
+    char* __restrict even = result.data();
+    char* __restrict odd = even + even_places;
+    even[0] = from[0];
+    for (size_t i = 1; i < even_places; ++i) even[i] = char(from[2 * i] - from[2 * i - 2] + 128);
+    if (odd_places == 0) return result;
+    odd[0] = char(from[1] - from[2 * (even_places - 1)] + 128);
+    for (size_t i = 1; i < odd_places; ++i) odd[i] = char(from[2 * i + 1] - from[2 * i - 1] + 128);
     return result;
 }
 

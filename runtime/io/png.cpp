@@ -32,10 +32,10 @@ std::array<float, 255> make_thresholds() {
 
 /// The planes that a picture needs, with their defaults.
 struct ColorPlanes {
-    const std::vector<float>& red;
-    const std::vector<float>& green;
-    const std::vector<float>& blue;
-    const std::vector<float>* alpha;  ///< null: opaque
+    const Plane<float>& red;
+    const Plane<float>& green;
+    const Plane<float>& blue;
+    const Plane<float>* alpha;  ///< null: opaque
 
     glm::vec3 color(size_t i) const { return {red[i], green[i], blue[i]}; }
 };

@@ -15,7 +15,7 @@ Image make_slice(const Volume& volume, VolumeRows& rows) {
     const bool lattice = volume.frame.layout == VolumeLayout::lattice;
     Image image{size.x, size.y, {}, {}, {}};
     const size_t width = size_t(size.x), pixels = width * size_t(size.y);
-    for (const char* name : {"R", "G", "B", "A"}) image.planes[name].resize(pixels);
+    for (const char* name : {"R", "G", "B", "A"}) image.planes[name] = std::vector<float>(pixels);
     auto& planes = image.planes;
     for (size_t y = 0; y < size_t(size.y); ++y) {
         const auto [first, last] = rows.next();

@@ -16,25 +16,28 @@ std::string megabytes(uint64_t bytes) {
 
 constexpr size_t kHugePage = size_t{2} << 20;
 
-void CL_CALLBACK free_memory(cl_mem, void* memory) {
-    std::free(memory);
-}
-
-/// A buffer of a CPU device in huge pages where the system gives them: rays read their voxels from
-/// all over the world, and would find a page's address in no cache.
-cl::Buffer allocate_in_huge_pages(const cl::Context& context, size_t bytes) {
+/// Memory in huge pages where the system gives them: rays read their voxels from all over the
+/// world, and would find a page's address in no cache.
+std::shared_ptr<void> allocate_huge_pages(size_t bytes) {
     const size_t whole = (bytes + kHugePage - 1) / kHugePage * kHugePage;
     void* memory = std::aligned_alloc(kHugePage, whole);
     if (!memory) throw cl::Error(CL_MEM_OBJECT_ALLOCATION_FAILURE, "aligned_alloc");
     madvise(memory, whole, MADV_HUGEPAGE);
-    try {
-        cl::Buffer buffer(context, CL_MEM_READ_WRITE | CL_MEM_USE_HOST_PTR, bytes, memory);
-        buffer.setDestructorCallback(free_memory, memory);
-        return buffer;
-    } catch (...) {
-        std::free(memory);
-        throw;
-    }
+    return {memory, std::free};
+}
+
+void CL_CALLBACK let_go(cl_mem, void* owner) {
+    delete static_cast<std::shared_ptr<void>*>(owner);
+}
+
+/// A buffer in the host's memory, which it keeps for as long as the driver uses it.
+cl::Buffer buffer_around(const cl::Context& context, size_t bytes,
+                         const std::shared_ptr<void>& memory) {
+    cl::Buffer buffer(context, CL_MEM_READ_WRITE | CL_MEM_USE_HOST_PTR, bytes, memory.get());
+    auto owner = std::make_unique<std::shared_ptr<void>>(memory);
+    buffer.setDestructorCallback(let_go, owner.get());
+    (void)owner.release();
+    return buffer;
 }
 
 }  // namespace
@@ -53,10 +56,12 @@ BufferStorage::BufferStorage(Device device, std::string name, size_t bytes)
                     "the {} buffer needs {} on \"{}\", which has {} left: use larger voxels", name_,
                     megabytes(bytes), info.name, megabytes(info.memory - counters.bytes_in_use));
     try {
-        if (device_.is_cpu() && bytes >= kHugePage)
-            buffer_ = allocate_in_huge_pages(device_.context(), bytes);
-        else
+        if (device_.is_cpu() && bytes >= kHugePage) {
+            memory_ = allocate_huge_pages(bytes);
+            buffer_ = buffer_around(device_.context(), bytes, memory_);
+        } else {
             buffer_ = cl::Buffer(device_.context(), CL_MEM_READ_WRITE, bytes);
+        }
     } catch (const cl::Error& error) {
         throw_device_error(error, info, fmt::format("allocating the {} buffer", name_));
     }
@@ -84,6 +89,22 @@ void BufferStorage::read(size_t offset, void* data, size_t bytes) const {
     } catch (const cl::Error& error) {
         throw_device_error(error, device_.info(), fmt::format("reading the {} buffer", name_));
     }
+}
+
+std::shared_ptr<void> BufferStorage::contents() const {
+    if (!memory_) {
+        const std::shared_ptr<char[]> bytes(new char[bytes_]);
+        read(0, bytes.get(), bytes_);
+        return bytes;
+    }
+    try {
+        const cl::CommandQueue& queue = device_.queue();
+        void* const place = queue.enqueueMapBuffer(buffer_, CL_TRUE, CL_MAP_READ, 0, bytes_);
+        queue.enqueueUnmapMemObject(buffer_, place);
+    } catch (const cl::Error& error) {
+        throw_device_error(error, device_.info(), fmt::format("reading the {} buffer", name_));
+    }
+    return memory_;
 }
 
 void BufferStorage::fill(const void* pattern, size_t pattern_bytes, size_t bytes) {

@@ -23,6 +23,9 @@ class BufferStorage {
 
     void write(size_t offset, const void* data, size_t bytes);
     void read(size_t offset, void* data, size_t bytes) const;
+    /// All bytes, as the queue leaves them; where kernels' memory is the host's own, that memory.
+    /// Nothing may write them from now on.
+    std::shared_ptr<void> contents() const;
     void fill(const void* pattern, size_t pattern_bytes, size_t bytes);
     void copy(const BufferStorage& from, size_t bytes);
     /// Shows `fill` memory of so many bytes, which become the first of these.
@@ -33,6 +36,7 @@ class BufferStorage {
     Device device_;
     std::string name_;
     size_t bytes_;
+    std::shared_ptr<void> memory_;  ///< the host's, which the device uses; or none
     cl::Buffer buffer_;
 };
 
@@ -84,6 +88,12 @@ class Buffer {
         std::vector<T> values(count);
         if (count) storage_->read(first * sizeof(T), values.data(), count * sizeof(T));
         return values;
+    }
+    /// All values, not copied where kernels' memory is the host's own; nothing may write them again.
+    std::shared_ptr<T> contents() const {
+        if (!storage_) return {};
+        const std::shared_ptr<void> bytes = storage_->contents();
+        return {bytes, static_cast<T*>(bytes.get())};
     }
     T read_one(size_t index) const { return read(index, 1).front(); }
     const cl::Buffer& handle() const {

@@ -1,5 +1,6 @@
 #include "runtime/opencl/kernel_source.hpp"
 
+#include <array>
 #include <set>
 
 #include "runtime/error.hpp"
@@ -45,9 +46,15 @@ void append_text(const std::string& label, std::string_view rest, std::set<std::
 }  // namespace
 
 std::string kernel_source(const std::string& file) {
+    const std::array files = {file.c_str()};
+    return kernel_source(files);
+}
+
+std::string kernel_source(std::span<const char* const> files) {
     std::string source;
-    std::set<std::string> seen = {file};
-    append_text("kernels/" + file, file_text(file), seen, source);
+    std::set<std::string> seen;
+    for (const std::string file : files)
+        if (seen.insert(file).second) append_text("kernels/" + file, file_text(file), seen, source);
     return source;
 }
 

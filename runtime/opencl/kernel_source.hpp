@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -15,6 +16,9 @@ const std::map<std::string, std::string_view>& embedded_kernels();
 /// `#line` directives keep the compiler's messages at `kernels/trace.cl:88`. Paths are from
 /// kernels/. Throws Error::build for a file that is not embedded.
 std::string kernel_source(const std::string& file);
+
+/// Several files, one after another, and what they include.
+std::string kernel_source(std::span<const char* const> files);
 
 /// The same for a `text` that is no embedded file: the source of a test's own kernel.
 std::string expand_includes(std::string_view text);

@@ -41,6 +41,11 @@ std::string build_options(const Device& device, const std::string& source, Defin
     return options;
 }
 
+std::string program_key(const std::string& source, const std::string& options) {
+    const std::array<std::string_view, 2> parts = {source, options};
+    return cache_key(parts);
+}
+
 size_t group_size(const Device& device, WorkItem work) {
     if (device.info().work_group > 0) return size_t(device.info().work_group);
     return device.is_cpu() ? (work == WorkItem::heavy ? 1 : 16) : 64;
@@ -70,6 +75,24 @@ void Kernel::enqueue(WorkItem work, size_t count) {
 Program::Program(const Device& device, const std::string& file, const Defines& defines)
     : Program(device, "kernels/" + file, kernel_source(file), defines) {}
 
+void Program::build_together(const Device& device, std::span<const char* const> files,
+                             const Defines& defines) {
+    std::vector<cl::Program*> places;
+    const auto locked = device.lock();
+    for (const std::string file : files) {
+        const std::string source = kernel_source(file);
+        cl::Program& place =
+            device.programs()[program_key(source, build_options(device, source, defines))];
+        if (!place()) places.push_back(&place);
+    }
+    if (places.empty()) return;
+    const std::string source = kernel_source(files);
+    const cl::Program program =
+        build_program(device, fmt::format("kernels/{}", fmt::join(files, " with kernels/")), source,
+                      build_options(device, source, defines));
+    for (cl::Program* place : places) *place = program;
+}
+
 Program Program::from_text(const Device& device, const std::string& source,
                            const Defines& defines) {
     return Program(device, "a test's kernel", expand_includes(source), defines);
@@ -79,9 +102,8 @@ Program::Program(const Device& device, const std::string& label, const std::stri
                  const Defines& defines)
     : device_(device), label_(label) {
     const std::string options = build_options(device, source, defines);
-    const std::array<std::string_view, 2> parts = {source, options};
     const auto locked = device.lock();
-    cl::Program& kept = device.programs()[cache_key(parts)];
+    cl::Program& kept = device.programs()[program_key(source, options)];
     if (!kept()) kept = build_program(device, label, source, options);
     program_ = kept;
 }

@@ -4,6 +4,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <map>
+#include <span>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -69,6 +70,11 @@ class Program {
   public:
     /// Compiles kernels/`file` (e.g. "trace.cl"). Throws Error::build with the compiler's log.
     Program(const Device& device, const std::string& file, const Defines& defines = {});
+
+    /// Compiles several files into one program; whoever asks for one of them with these constants,
+    /// as long as the device is open, gets that. Names of functions may be used once in all.
+    static void build_together(const Device& device, std::span<const char* const> files,
+                               const Defines& defines);
 
     /// Compiles `source`, a text that may include kernels/ files. For tests of device functions.
     static Program from_text(const Device& device, const std::string& source,

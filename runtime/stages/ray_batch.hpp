@@ -8,7 +8,7 @@ namespace voxelume {
 
 /// Rays that go through the stages together: enough to fill any device, few enough to stay in a
 /// CPU's caches on their way.
-inline constexpr uint32_t kBatchRays = 1u << 18;
+inline constexpr uint32_t kBatchRays = 1u << 17;
 
 /// Rays as they set out; shared/trace.h has the components, `stride` values apart.
 struct RayQueue {

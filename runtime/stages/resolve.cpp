@@ -56,9 +56,11 @@ Image ResolveStage::image() const {
     image.width = sight_.width;
     image.height = sight_.height;
     const size_t pixels = pixel_count(sight_);
+    const std::shared_ptr<float> planes = planes_.contents();
     for (size_t i = 0; i < names_.size(); ++i)
-        image.planes[names_[i]] = planes_.read(i * pixels, pixels);
-    if (!objects_.empty()) image.id_planes["objectId"] = objects_.read();
+        image.planes[names_[i]] = {std::shared_ptr<float>(planes, planes.get() + i * pixels),
+                                   pixels};
+    if (!objects_.empty()) image.id_planes["objectId"] = {objects_.contents(), pixels};
     return image;
 }
 

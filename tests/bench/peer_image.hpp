@@ -27,7 +27,7 @@ inline constexpr const char* kPeerPlanes[] = {"A", "P.X", "P.Y", "P.Z", "N.X", "
 inline Image empty_peer_image(glm::ivec2 size) {
     Image image{size.x, size.y, {}, {}, {}};
     for (const char* name : kPeerPlanes)
-        image.planes[name].assign(size_t(size.x) * size_t(size.y), 0.0f);
+        image.planes[name] = std::vector<float>(size_t(size.x) * size_t(size.y));
     return image;
 }
 

@@ -12,7 +12,7 @@ template <class Planes>
 void add_planes(const Planes& planes, Fnv& hash) {
     for (const auto& [name, values] : planes) {
         hash.add(name.data(), name.size());
-        hash.add(values);
+        hash.add(values.data(), values.size() * sizeof values[0]);
     }
 }
 
