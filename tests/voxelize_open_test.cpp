@@ -151,6 +151,15 @@ TEST(Caps, AreNoneForSeamsAndClosedMeshes) {
     EXPECT_EQ(lattice.triangles.size(), ball.triangles.size());
 }
 
+TEST(Caps, HaveAnArea) {
+    // The outline's middle, (3, 0) of whole lattice units, lies on its first edge.
+    MeshLattice lattice;
+    lattice.vertices = {{0, 0, 0}, {6, 0, 0}, {6, 6, 0}, {3, -6, 0}, {2, 2, 9}};
+    lattice.triangles = {{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}};
+    cap_open_outlines(lattice);
+    EXPECT_EQ(lattice.triangles.size(), 4u + 3u);
+}
+
 TEST(Caps, FanFromTheMiddleOfEachOutline) {
     const Mesh ball = ball_mesh({8, 7, 6}, 4, 12, 7, 1, 6);
     MeshLattice lattice = snap_to_lattice(ball, glm::dmat4(1), unit_frame({16, 15, 14}));

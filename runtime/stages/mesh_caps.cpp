@@ -78,6 +78,14 @@ class Outlines {
     std::map<uint32_t, uint32_t> root_of_;
 };
 
+/// Corners in one line: a triangle that no point sees at an angle.
+bool has_area(const MeshLattice& mesh, const glm::uvec3& triangle) {
+    const glm::i64vec3 corner(mesh.vertices[triangle.x]);
+    const glm::i64vec3 u = glm::i64vec3(mesh.vertices[triangle.y]) - corner;
+    const glm::i64vec3 v = glm::i64vec3(mesh.vertices[triangle.z]) - corner;
+    return u.y * v.z != u.z * v.y || u.z * v.x != u.x * v.z || u.x * v.y != u.y * v.x;
+}
+
 /// The middle of an outline's corners.
 struct Middle {
     glm::i64vec3 sum{0};
@@ -103,8 +111,10 @@ void cap_open_outlines(MeshLattice& mesh) {
         m.vertex = static_cast<uint32_t>(mesh.vertices.size());
         mesh.vertices.emplace_back(m.sum / m.count);
     }
-    for (const Edge& e : open)
-        mesh.triangles.emplace_back(e.to, e.from, middles[outlines.find(e.from)].vertex);
+    for (const Edge& e : open) {
+        const glm::uvec3 cap(e.to, e.from, middles[outlines.find(e.from)].vertex);
+        if (has_area(mesh, cap)) mesh.triangles.push_back(cap);
+    }
 }
 
 }  // namespace voxelume

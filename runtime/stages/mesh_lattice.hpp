@@ -39,7 +39,7 @@ glm::dvec3 to_voxels(const glm::vec3& position, const glm::dmat4& frame_from_mes
 /// that the whole has no boundary and integer winding numbers. A closed mesh gets none.
 ///
 /// Vertices at one lattice point count as one, and opposite edges cancel, so neither seams nor
-/// doubled sheets count as holes.
+/// doubled sheets count as holes. A triangle with its corners in one line is left out.
 void cap_open_outlines(MeshLattice& mesh);
 
 }  // namespace voxelume
