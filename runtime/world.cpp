@@ -160,6 +160,7 @@ FormedWorld WorldFormer::form_anew(const Scene& scene, const Origin& origin, Wor
     report.triangles = meshes_.triangles();
     const double spare = spare_bytes(plan, device_.info());
     const bool keeps = follows_ && spare > 0;
+    report.lacks_room = follows_ && !keeps;
     const uint64_t room =
         keeps && awaits_ ? std::min(uint64_t(spare), device_.info().memory / kAwaitedPart) : 0;
 

@@ -35,6 +35,7 @@ struct WorldReport {
     uint64_t painted_bricks = 0;  ///< of the world, that objects were painted into
     WorldChange change = WorldChange::formed;
     bool is_from_cache = false;  ///< an earlier run formed it
+    bool lacks_room = false;     ///< for what the next frame may use of it: memory doesn't suffice
     InstanceReport instances;
 };
 
