@@ -85,9 +85,10 @@ void print_plan(const Scene& scene, std::span<const int> frames, const Device& d
     if (as_json) return;
     const std::string of_frames =
         frames.size() > 1 ? fmt::format(" by frame {}", planned.frame) : "";
-    fmt::print("\nfits: at most {} of {} are needed{}; counts and memory are estimates\n",
-               bytes_text(planned.plan.peak_bytes()), bytes_text(double(device.info().memory)),
-               of_frames);
+    const double peak = planned.plan.peak_bytes(), memory = double(device.info().memory);
+    fmt::print("\n{}: at most {} of {} are needed{}; counts and memory are estimates\n",
+               peak <= memory ? "fits" : "may fit, as objects or parts overlap", bytes_text(peak),
+               bytes_text(memory), of_frames);
 }
 
 }  // namespace voxelume::cli

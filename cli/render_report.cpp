@@ -96,6 +96,13 @@ nlohmann::ordered_json frame_statistics(const FrameReport& frame) {
             {"seconds", seconds_of(report)}};
 }
 
+/// The first frame that had no room for what the next one may use of it.
+std::optional<int> nothing_kept_from(const std::vector<FrameReport>& frames) {
+    for (const FrameReport& frame : frames)
+        if (frame.report.world.lacks_room && &frame != &frames.back()) return frame.frame;
+    return std::nullopt;
+}
+
 nlohmann::ordered_json statistics(const Outcome& outcome) {
     const DeviceCounters counters = counters_of(outcome);
     const RenderReport report = sum_of(outcome.frames);
@@ -133,6 +140,7 @@ nlohmann::ordered_json statistics(const Outcome& outcome) {
     json["seconds"]["write"] = outcome.write_seconds;
     json["seconds"]["total"] = outcome.seconds;
     if (outcome.one_by_one_from) json["one_by_one_from"] = *outcome.one_by_one_from;
+    if (const auto frame = nothing_kept_from(outcome.frames)) json["nothing_kept_from"] = *frame;
     json["frames"] = nlohmann::ordered_json::array();
     for (const FrameReport& frame : outcome.frames)
         json["frames"].push_back(frame_statistics(frame));
@@ -211,6 +219,11 @@ void print_details(const Outcome& outcome) {
         fmt::print(stderr,
                    "  one frame at a time from frame {} on: memory doesn't suffice for two\n",
                    *outcome.one_by_one_from);
+    if (const auto frame = nothing_kept_from(outcome.frames))
+        fmt::print(
+            stderr,
+            "  nothing is kept for the next frame from frame {} on: memory doesn't suffice\n",
+            *frame);
     if (outcome.frames.size() > 1)
         for (const FrameReport& frame : outcome.frames)
             fmt::print(stderr,

@@ -236,7 +236,8 @@ kernel void paint_cubes(const uint count, const int4 world_bricks, const int fra
         set |= 1ul << i;
         const size_t number = (size_t)(leaf >> 6) * VXL_BRICK_VOXELS + leaf_place(leaf) + voxel.x +
                               (voxel.y << 4) + (voxel.z << 8);
-        const size_t kept = (size_t)(item >> 6) * VXL_BRICK_VOXELS + number % VXL_BRICK_VOXELS;
+        const size_t kept =
+            (size_t)painted_place(item, painted) * VXL_BRICK_VOXELS + number % VXL_BRICK_VOXELS;
         if (VXL_AMONG_SMOOTH && nearest[kept] != VXL_SATURATED &&
             world_attributes[number] >> VXL_KIND_SHIFT != VXL_KIND_CUBES) {
             const uint word = world_attributes[number] & ~(3u << VXL_KIND_SHIFT);

@@ -72,18 +72,20 @@ void share_frames(const std::vector<Device>& devices, size_t count, const FrameS
     FrameShare share(count, 2 * devices.size());
     std::mutex scenes;
     const auto work = [&](size_t device) {
-        // What was read to check the frames counts once.
-        FrameWorker worker(devices[device], device, steps,
-                           device == 0 ? meshes : meshes.recounted(), true);
+        std::optional<FrameWorker> worker;
         while (const std::optional<size_t> frame = share.take()) {
             RenderedFrame rendered;
             try {
+                // What was read to check the frames counts once.
+                if (!worker)
+                    worker.emplace(devices[device], device, steps,
+                                   device == 0 ? meshes : meshes.recounted(), true);
                 Scene scene;
                 {
                     const std::lock_guard lock(scenes);
                     scene = steps.scene(*frame);
                 }
-                rendered.write = worker.take(*frame, scene);
+                rendered.write = worker->take(*frame, scene);
             } catch (...) {
                 rendered.error = std::current_exception();
             }

@@ -6,6 +6,7 @@
 #include "runtime/error.hpp"
 #include "runtime/instances.hpp"
 #include "runtime/scene_animation.hpp"
+#include "runtime/shown_models.hpp"
 
 namespace voxelume {
 namespace {
@@ -30,6 +31,13 @@ bool fits(const FramePlan& planned, const DeviceInfo& device) {
         return false;
     }
     return true;
+}
+
+/// Leaves in main memory the meshes of a frame, and as many of others as may wait for theirs.
+void forget_most(const Scene& scene, const DeviceInfo& device, MeshStore& meshes) {
+    uint64_t room = device.memory / kAwaitedPart;
+    for (const Model& model : scene.models) meshes.await(model, room);
+    meshes.forget_unused();
 }
 
 FramePlan plan_frame(const Scene& scene, int frame, MeshStore& meshes) {
@@ -70,7 +78,10 @@ void check_frames(const Scene& scene, std::span<const int> frames, MeshStore& me
             if (before && is_planned_like(*before, now)) return;
             check_placements(now);
             if (!first) first = now;
-            if (has_files_of(now, *first)) check_memory(now, plan_scene(now, meshes), device);
+            if (has_files_of(now, *first)) {
+                check_memory(now, plan_scene(now, meshes), device);
+                forget_most(now, device, meshes);
+            }
             before = std::move(now);
         });
 }

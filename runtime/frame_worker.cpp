@@ -35,6 +35,7 @@ std::function<void()> FrameWorker::take(size_t frame, const Scene& scene) {
         if (error.kind() != ErrorKind::limit || !has_any_ || !keeps_ || !steps_.forget) throw;
     }
     keeps_ = false;
+    lacks_room_ = true;
     forget();
     return form_and_render(frame, scene);
 }
@@ -42,6 +43,7 @@ std::function<void()> FrameWorker::take(size_t frame, const Scene& scene) {
 std::function<void()> FrameWorker::form_and_render(size_t frame, const Scene& scene) {
     WorldReport report;
     const FormedWorld world = form_frame(*former_, steps_, frame, scene, report);
+    report.lacks_room |= lacks_room_;
     auto write = steps_.render({frame, number_, scene, world, report});
     has_any_ = true;
     return write;

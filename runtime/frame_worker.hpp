@@ -32,8 +32,9 @@ class FrameWorker {
     const FrameSteps& steps_;
     ModelCache cache_;
     std::optional<WorldFormer> former_;
-    bool keeps_;            ///< frames may keep something for those that follow
-    bool has_any_ = false;  ///< of frames before
+    bool keeps_;               ///< frames may keep something for those that follow
+    bool lacks_room_ = false;  ///< for that
+    bool has_any_ = false;     ///< of frames before
 };
 
 }  // namespace voxelume

@@ -9,8 +9,9 @@
 
 namespace voxelume {
 
-/// A header, then each buffer. Waits for the device's queue.
-std::string bytes_of_grid(const BrickGrid& grid);
+/// A header, then each buffer; nothing, where that is more than `most_bytes`. Waits for the
+/// device's queue.
+std::optional<std::string> bytes_of_grid(const BrickGrid& grid, uint64_t most_bytes);
 
 /// The grid on a device; nothing for bytes that are no whole grid. Throws Error::limit when the
 /// device has not enough memory.

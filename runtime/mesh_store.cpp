@@ -26,6 +26,20 @@ class LoadTimer {
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
+template <class... Values>
+uint64_t bytes_in(const std::vector<Values>&... arrays) {
+    return (... + (arrays.size() * sizeof(Values)));
+}
+
+uint64_t mesh_bytes(const Mesh& mesh) {
+    return bytes_in(mesh.positions, mesh.triangles, mesh.vertex_colors, mesh.triangle_group);
+}
+
+uint64_t voxel_bytes(const VoxelModel& voxels) {
+    return mesh_bytes(voxels.mesh) + bytes_in(voxels.slots, voxels.coordinates, voxels.occupancy,
+                                              voxels.distance, voxels.attributes, voxels.colors);
+}
+
 }  // namespace
 
 MeshStore::MeshFile& MeshStore::file(const std::filesystem::path& name) {
@@ -84,6 +98,7 @@ const VoxelModel& MeshStore::voxels(const Model& model) {
 
 MeshStore::Morphed& MeshStore::morphed(const Model& model) {
     used_.insert({model.mesh, model.morph->mesh});
+    used_morphs_.insert(model.name);
     const auto found = morphed_.find(model.name);
     if (found != morphed_.end() && found->second.file == model.mesh &&
         found->second.morph == *model.morph)
@@ -145,9 +160,33 @@ std::string MeshStore::source_of(const Model& model) {
     return morph_source(from, morph.mesh.empty() ? std::string() : file(morph.mesh).source, morph);
 }
 
-void MeshStore::use(const Model& model) {
-    used_.insert({model.mesh, model.voxels});
-    if (model.morph) used_.insert(model.morph->mesh);
+/// Bytes that what was read of a file takes in memory.
+uint64_t MeshStore::bytes_of(const std::filesystem::path& name) const {
+    uint64_t bytes = 0;
+    if (const auto found = files_.find(name); found != files_.end() && found->second.mesh)
+        bytes += mesh_bytes(*found->second.mesh);
+    if (const auto found = voxels_.find(name); found != voxels_.end())
+        bytes += voxel_bytes(found->second.voxels);
+    return bytes;
+}
+
+void MeshStore::await(const Model& model, uint64_t& room) {
+    std::set<std::filesystem::path> files = {model.mesh, model.voxels};
+    if (model.morph) files.insert(model.morph->mesh);
+    uint64_t bytes = 0;
+    for (const auto& name : files)
+        if (!used_.contains(name)) bytes += bytes_of(name);
+    if (bytes <= room) {
+        room -= bytes;
+    } else {
+        for (const auto& name : files) {
+            if (used_.contains(name)) continue;
+            if (const auto found = files_.find(name); found != files_.end())
+                found->second.mesh.reset();
+            voxels_.erase(name);
+        }
+    }
+    used_.merge(files);
 }
 
 MeshStore MeshStore::recounted() const {
@@ -161,7 +200,10 @@ void MeshStore::forget_unused() {
     const auto is_unused = [&](const auto& entry) { return !used_.contains(entry.first); };
     std::erase_if(files_, is_unused);
     std::erase_if(voxels_, is_unused);
+    for (auto& [model, morphed] : morphed_)
+        if (!used_morphs_.contains(model)) morphed.mesh.reset();
     used_.clear();
+    used_morphs_.clear();
 }
 
 /// Of a file of which only the morphed mesh's summary is known it is as many as that has.

@@ -36,8 +36,10 @@ class MeshStore {
     /// where nothing is kept on disk.
     std::string source_of(const Model& model);
 
-    /// What is in memory of a model's files outlives the next call of `forget_unused`.
-    void use(const Model& model);
+    /// What is in memory of a model's files outlives the next call of `forget_unused`: of those
+    /// that weren't asked for since the last one, meshes and voxels only if they take no more than
+    /// `room` bytes, which are counted off.
+    void await(const Model& model, uint64_t& room);
     /// Forgets what wasn't asked for since the last call.
     void forget_unused();
     /// The same store, which counts what it reads from here on.
@@ -67,6 +69,7 @@ class MeshStore {
 
     MeshFile& file(const std::filesystem::path& name);
     uint64_t triangles_of(const std::filesystem::path& name, const MeshFile& file) const;
+    uint64_t bytes_of(const std::filesystem::path& name) const;
     const MeshSummary& summary_of_file(const std::filesystem::path& name);
     const VoxelFile& voxel_file(const Model& model);
     Morphed& morphed(const Model& model);
@@ -78,6 +81,7 @@ class MeshStore {
     std::map<std::string, Morphed> morphed_;  ///< by the model's name, as last asked for
     std::map<std::filesystem::path, VoxelFile> voxels_;
     std::set<std::filesystem::path> used_;
+    std::set<std::string> used_morphs_;  ///< models' names
     double load_seconds_ = 0;
     uint64_t meshes_read_ = 0;
 };

@@ -160,8 +160,7 @@ bool ModelCache::is_quick(double seconds, uint64_t bytes) const {
 void ModelCache::keep(const std::string& key, const BrickGrid& grid, double seconds) const {
     if (!is_open_ || is_quick(seconds, device_bytes(grid))) return;
     try {
-        const std::string bytes = bytes_of_grid(grid);
-        if (bytes.size() <= max_bytes_ / 8) store_.write(key, bytes);
+        if (const auto bytes = bytes_of_grid(grid, max_bytes_ / 8)) store_.write(key, *bytes);
     } catch (const std::bad_alloc&) {
         return;  // memory for a second copy is no reason to stop
     }

@@ -47,7 +47,7 @@ bool unpack_all(const std::vector<Piece>& pieces) {
 
 void PackedWriter::put_array(std::span<const std::byte> array) {
     put(uint64_t(array.size()));
-    while (!array.empty()) {
+    while (!array.empty() && !is_too_large()) {
         const auto piece = array.first(std::min<uint64_t>(array.size(), kPieceBytes));
         const size_t start = bytes_.size() + sizeof(uint64_t);
         bytes_.resize(start + ZSTD_compressBound(piece.size()));

@@ -11,9 +11,12 @@
 
 namespace voxelume {
 
-/// Puts values and buffers one behind the other.
+/// Puts values and buffers one behind the other, and stops where they become more than
+/// `most_bytes`.
 class PackedWriter {
   public:
+    explicit PackedWriter(uint64_t most_bytes = UINT64_MAX) : most_bytes_(most_bytes) {}
+
     template <class Value>
     void put(const Value& value) {
         static_assert(std::is_trivially_copyable_v<Value>);
@@ -22,14 +25,17 @@ class PackedWriter {
     /// Waits for the device's queue.
     template <class T>
     void put(const Buffer<T>& buffer) {
+        if (is_too_large()) return;
         const std::vector<T> values = buffer.read();
         put_array(std::as_bytes(std::span(values)));
     }
+    bool is_too_large() const { return bytes_.size() > most_bytes_; }
     std::string take() { return std::move(bytes_); }
 
   private:
     void put_array(std::span<const std::byte> array);
     std::string bytes_;
+    uint64_t most_bytes_;
 };
 
 /// Takes values and buffers apart from the front of `bytes`; after a failure everything fails.

@@ -8,6 +8,8 @@
 
 #include "runtime/error.hpp"
 #include "runtime/instances.hpp"
+#include "runtime/object_boxes.hpp"
+#include "runtime/plan_extent.hpp"
 #include "runtime/stages/mesh_lattice.hpp"
 #include "runtime/stages/ray_batch.hpp"
 
@@ -58,12 +60,14 @@ class Planner {
         return entry->second;
     }
 
-    /// What an object's surface takes of the world.
-    SurfaceExtent world_extent(const Object& object, double band) {
+    /// What an object's surface takes of the world; `area_of_solid` is solid_area or
+    /// least_solid_area.
+    SurfaceExtent world_extent(const Object& object, double band,
+                               decltype(solid_area)& area_of_solid = solid_area) {
         const Model& model = scene_.models[size_t(object.model)];
         const glm::dmat4& map = object.world_from_object;
         if (model.solid)
-            return surface_extent(solid_area(*model.solid, map, world_box_), glm::dmat4(1),
+            return surface_extent(area_of_solid(*model.solid, map, world_box_), glm::dmat4(1),
                                   plan_.world, band);
         SurfaceExtent extent = surface_extent(area_of(object.model), map, plan_.world, band);
         const double inside = part_in_world(object.model, map);
@@ -87,33 +91,48 @@ class Planner {
         return size.x * size.y * size.z / voxel;
     }
 
+    /// Whether the map takes all of a box into the world.
+    bool lies_in_world(const glm::dvec3& low, const glm::dvec3& high, const glm::dmat4& map) const {
+        for (int corner = 0; corner < 8; ++corner) {
+            const glm::dvec3 p(map * glm::dvec4(corner & 1 ? high.x : low.x,
+                                                corner & 2 ? high.y : low.y,
+                                                corner & 4 ? high.z : low.z, 1.0));
+            if (glm::any(glm::lessThan(p, world_box_.min)) ||
+                glm::any(glm::greaterThan(p, world_box_.max)))
+                return false;
+        }
+        return true;
+    }
+
     double part_in_world(int model_number, const glm::dmat4& map) {
         const Model& model = scene_.models[size_t(model_number)];
         const Bounds& box = meshes_.summary_of(model)->surface;
-        for (int corner = 0; corner < 8; ++corner) {
-            const glm::dvec3 p(map * glm::dvec4(corner & 1 ? box.max.x : box.min.x,
-                                                corner & 2 ? box.max.y : box.min.y,
-                                                corner & 4 ? box.max.z : box.min.z, 1.0));
-            if (glm::any(glm::lessThan(p, world_box_.min)) ||
-                glm::any(glm::greaterThan(p, world_box_.max)))
-                return part_inside(*meshes_.mesh_of(model), map, world_box_);
-        }
-        return 1;
+        if (lies_in_world(box.min, box.max, map)) return 1;
+        return part_inside(*meshes_.mesh_of(model), map, world_box_);
+    }
+
+    void add_least(int number, const WorldExtent& extent) {
+        if (boxes_.empty()) boxes_ = object_boxes(scene_, meshes_);
+        const VoxelBox& box = boxes_[size_t(number)];
+        if (overlap(box, box)) extents_.push_back({box, extent});
     }
 
     void add_object(int number) {
         const Object& object = scene_.objects[size_t(number)];
         const Model& model = scene_.models[size_t(object.model)];
         if (!model.voxels.empty() && model.surface != Surface::exact)
-            return add_voxels(object, meshes_.voxels(model));
+            return add_voxels(number, meshes_.voxels(model));
         const MeshSummary* mesh = meshes_.summary_of(model);
         const GridExtras extras = extras_of(model, mesh);
-        const SurfaceExtent in_world =
-            world_extent(object, model.surface == Surface::smooth ? kSurfaceBand : kPlacedBand);
+        const bool is_exact = model.surface == Surface::exact;
+        const double band = model.surface == Surface::smooth ? kSurfaceBand : kPlacedBand;
+        const SurfaceExtent in_world = world_extent(object, band);
+        const bool has_parts = model.solid && is_combination(model.solid->kind);
+        const SurfaceExtent least =
+            has_parts ? world_extent(object, band, least_solid_area) : in_world;
         plan_.voxels += in_world.voxels;
         plan_.bricks += in_world.bricks;
-        most_.voxels = std::max(most_.voxels, in_world.voxels);
-        most_.bricks = std::max(most_.bricks, in_world.bricks);
+        add_least(number, {least.voxels, least.bricks, is_exact ? least.voxels : 0});
         if (shows_inside(scene_, object)) {
             const double inside = inside_voxels(object);
             plan_.voxels += inside;
@@ -123,12 +142,15 @@ class Planner {
         occupied_ |= model.surface != Surface::smooth;
         colors_ |= extras.colors;
         words_ |= objects_++ > 0 || extras.words;
-        if (model.surface == Surface::exact) {
+        if (is_exact) {
             if (mesh) check_reach(object);
             exact_voxels_ += in_world.voxels;
-            most_.exact_voxels = std::max(most_.exact_voxels, in_world.voxels);
             if (mesh) exact_triangles_ += double(mesh->triangles);
-            plan_.grids.push_back(plan_grid(model, mesh, plan_.world, world_extent(object, 0)));
+            GridPlan grid = plan_grid(model, mesh, plan_.world, world_extent(object, 0));
+            if (has_parts)
+                set_least(grid, plan_grid(model, mesh, plan_.world,
+                                          world_extent(object, 0, least_solid_area)));
+            plan_.grids.push_back(grid);
             plan_.grids.back().object = number;
         } else if (made_.insert(object.model).second) {
             plan_.grids.push_back(plan_grid(model, mesh, area_of(object.model)));
@@ -166,28 +188,35 @@ class Planner {
             grid = plan_grid(model, mesh, area_of(object.model));
             instances_.colors |= extras_of(model, mesh).colors;
             if (model.surface == Surface::exact) {
-                instances_.exact_voxels += grid.voxels;
+                instances_.exact_voxels += grid.least.voxels;
                 instances_.exact_triangles += double(grid.triangles);
             }
         }
         instances_.voxels += grid.voxels;
+        instances_.least_voxels += grid.least.voxels;
         grid.model = object.model;
         if (model.surface == Surface::exact || made_.insert(object.model).second)
             plan_.grids.push_back(grid);
     }
 
     /// An object whose voxels come from a file: in the world it has as many in its volume, and no
-    /// fewer bricks.
-    void add_voxels(const Object& object, const VoxelModel& voxels) {
+    /// fewer bricks. At least it has as many as a larger voxel holds of its own, if the world shows
+    /// all of it.
+    void add_voxels(int number, const VoxelModel& voxels) {
+        const Object& object = scene_.objects[size_t(number)];
         const auto volume = [](const glm::dvec3& edge) { return edge.x * edge.y * edge.z; };
-        const double finer =
-            std::max(1.0, volume(voxels.frame.voxel_edge) / volume(plan_.world.voxel_edge) *
-                              std::abs(glm::determinant(object.world_from_object)));
+        const double own = volume(voxels.frame.voxel_edge) / volume(plan_.world.voxel_edge) *
+                           std::abs(glm::determinant(object.world_from_object));
+        const double finer = std::max(1.0, own), least = std::min(1.0, own);
         const double count = double(voxels.voxels());
         const auto stored = double(voxels.coordinates.size());
         const bool smooth = voxels.surface == Surface::smooth;
         plan_.voxels += count * finer;
         plan_.bricks += 2 * stored * finer;
+        const GridFrame& frame = voxels.frame;
+        if (lies_in_world(frame.origin, frame.origin + frame.voxel_edge * glm::dvec3(frame.size),
+                          object.world_from_object))
+            add_least(number, {count * least, stored * least, 0});
         smooth_ |= smooth;
         occupied_ |= !smooth;
         colors_ |= !voxels.colors.empty();
@@ -198,14 +227,48 @@ class Planner {
         plan_.grids.push_back(grid);
     }
 
+    /// Bytes of the world's stages at their height.
+    struct StageBytes {
+        double place = 0, index = 0, world = 0, halo = 0, image = 0;
+    };
+
     void add_stages() {
-        double kept = 0;
+        double kept = 0, least_kept = 0;
         for (const GridPlan& grid : plan_.grids) {
             plan_.voxelize_bytes = std::max(plan_.voxelize_bytes, kept + grid.made_bytes);
+            plan_.least_bytes = std::max(plan_.least_bytes, least_kept + grid.least.made_bytes);
             kept += grid.kept_bytes;
+            least_kept += grid.least.kept_bytes;
         }
         const double table = brick_table(plan_.world);
         plan_.bricks = std::min(plan_.bricks, table);
+        plan_.medium = plan_density(scene_.world);
+        const StageBytes all =
+            stages({plan_.voxels, plan_.bricks, exact_voxels_}, instances_.voxels, kept);
+        plan_.place_bytes = all.place;
+        plan_.index_bytes = all.index;
+        plan_.image_bytes = all.image;
+        plan_.world_bytes = all.world;
+        plan_.halo_bytes = all.halo;
+        const WorldExtent least = extent_at_least(std::move(extents_));
+        const StageBytes fewest = stages(least, instances_.least_voxels, least_kept);
+        plan_.least_bytes = std::max({plan_.least_bytes, fewest.place, fewest.index, fewest.image});
+        add_largest(least);
+        plan_.host_bytes = kWorldTable * table + 2 * image_bytes() + plan_.medium.host_bytes;
+        for (const GridPlan& grid : plan_.grids)
+            plan_.host_bytes += double(grid.triangles) * 36 + kTableBytes * brick_table(grid.frame);
+    }
+
+    double pixels() const { return double(scene_.render.size.x) * double(scene_.render.size.y); }
+
+    double image_bytes() const {
+        const ImageChannels& channels = scene_.render.channels;
+        return (pixel_bytes(channels) + (channels.object ? 4 : 0)) * pixels();
+    }
+
+    /// Of a world of such an extent with its instances' models, beside `kept` bytes of models.
+    StageBytes stages(const WorldExtent& extent, double instanced, double kept) const {
+        const double table = brick_table(plan_.world);
         double brick = 0;
         if (occupied_) brick += kOccupancyBytes;
         if (smooth_) brick += kDistanceBytes;
@@ -213,36 +276,28 @@ class Planner {
         if (colors_) brick += kWordBytes;
         if (exact_voxels_ > 0) brick += kWordBytes;
         const bool measures_nearest = smooth_ && (words_ || colors_ || occupied_);
-        const double lists = exact_voxels_ * kListBytes + exact_triangles_ * kExactTriangleBytes;
-        const double world = 4 * table + plan_.bricks * brick + lists;
-        plan_.place_bytes = kept + world + (kWorldTable - 4) * table +
-                            (measures_nearest ? plan_.bricks * kDistanceBytes : 0) +
-                            (exact_voxels_ > 0 ? plan_.bricks * kWordBytes : 0);
-        plan_.world_bytes = pyramid_bytes();
-        plan_.index_bytes = world + plan_.bricks * kIndexMarks + plan_.world_bytes;
-        if (instances_.any) plan_.index_bytes += plan_.world_bytes;  // before they are joined
-        add_largest();
-        const glm::dvec2 size(scene_.render.size);
-        const double pixels = size.x * size.y;
-        const ImageChannels& channels = scene_.render.channels;
-        const double image = (pixel_bytes(channels) + (channels.object ? 4 : 0)) * pixels;
-        plan_.medium = plan_density(scene_.world);
-        plan_.halo_bytes = instances_.any ? 0 : sector_bytes();
-        plan_.image_bytes = plan_.world_bytes + plan_.halo_bytes + plan_.medium.bytes + image +
-                            kRay * std::min(double(kBatchRays), pixels * scene_.render.samples);
-        plan_.host_bytes = kWorldTable * table + 2 * image + plan_.medium.host_bytes;
-        for (const GridPlan& grid : plan_.grids)
-            plan_.host_bytes += double(grid.triangles) * 36 + kTableBytes * brick_table(grid.frame);
+        const double lists =
+            extent.exact_voxels * kListBytes + exact_triangles_ * kExactTriangleBytes;
+        const double world = 4 * table + extent.bricks * brick + lists;
+        StageBytes bytes;
+        bytes.place = kept + world + (kWorldTable - 4) * table +
+                      (measures_nearest ? extent.bricks * kDistanceBytes : 0) +
+                      (exact_voxels_ > 0 ? extent.bricks * kWordBytes : 0);
+        bytes.world = pyramid_bytes(extent, instanced);
+        bytes.index = world + extent.bricks * kIndexMarks + bytes.world;
+        if (instances_.any) bytes.index += bytes.world;  // before they are joined
+        bytes.halo = instances_.any ? 0 : sector_bytes(extent.voxels);
+        bytes.image = bytes.world + bytes.halo + plan_.medium.bytes + image_bytes() +
+                      kRay * std::min(double(kBatchRays), pixels() * scene_.render.samples);
+        return bytes;
     }
 
-    /// The largest buffer of the world, its pyramid's with the models of instances behind it.
-    ///
-    /// At least as much is made: objects that overlap share bricks and voxels, so the one with most
-    /// stands for all. What is more than that, the buffer itself refuses.
-    void add_largest() {
-        const double bricks = std::min(most_.bricks, brick_table(plan_.world));
-        const double voxels = most_.voxels + instances_.voxels;
-        const double exact_voxels = most_.exact_voxels + instances_.exact_voxels;
+    /// The largest buffer of the world, its pyramid's with the models of instances behind it. What
+    /// is more than that, the buffer itself refuses.
+    void add_largest(const WorldExtent& least) {
+        const double bricks = std::min(least.bricks, brick_table(plan_.world));
+        const double voxels = least.voxels + instances_.least_voxels;
+        const double exact_voxels = least.exact_voxels + instances_.exact_voxels;
         const auto keep = [&](bool is_there, const BufferPlan& buffer) {
             if (is_there) keep_larger(plan_.largest, buffer);
         };
@@ -260,24 +315,24 @@ class Planner {
     }
 
     /// The table of sectors, and the records of those with voxels.
-    double sector_bytes() const {
+    double sector_bytes(double voxels) const {
         const glm::dvec3 sectors(plan_.world.sectors());
         const double table = sectors.x * sectors.y * sectors.z;
-        const double stored = 8 + plan_.voxels / kVoxelsPerSector;
+        const double stored = 8 + voxels / kVoxelsPerSector;
         return 4 * table + std::min(table, stored) * kSectorRecords;
     }
 
     /// Whether each voxel of the pyramid has a word of its own.
     bool has_words() const { return words_ || (smooth_ && occupied_) || instances_.any; }
 
-    double pyramid_bytes() const {
+    double pyramid_bytes(const WorldExtent& extent, double instanced) const {
         double voxel = kLeaf / kVoxelsPerLeaf;
         if (smooth_ || instances_.smooth) voxel += kField;
         if (has_words()) voxel += kWord;
         if (colors_ || instances_.colors) voxel += kWord;
-        const double exact_voxels = exact_voxels_ + instances_.exact_voxels;
+        const double exact_voxels = extent.exact_voxels + instances_.exact_voxels;
         const double triangles = exact_triangles_ + instances_.exact_triangles;
-        return sector_bytes() + (plan_.voxels + instances_.voxels) * voxel +
+        return sector_bytes(extent.voxels) + (extent.voxels + instanced) * voxel +
                exact_voxels * (kWord + kListBytes) + triangles * kExactTriangleBytes;
     }
 
@@ -289,12 +344,11 @@ class Planner {
     std::set<int> made_;
     int objects_ = 0;
     double exact_voxels_ = 0, exact_triangles_ = 0;
-    struct {
-        double voxels = 0, bricks = 0, exact_voxels = 0;
-    } most_;  ///< of any one object's surface in the world, but of voxels from files
+    std::vector<VoxelBox> boxes_;        ///< of all objects; none before the first is needed
+    std::vector<ObjectExtent> extents_;  ///< of what is seen of objects in the world
     struct {
         bool any = false, smooth = false, colors = false;
-        double voxels = 0, exact_voxels = 0, exact_triangles = 0;
+        double voxels = 0, least_voxels = 0, exact_voxels = 0, exact_triangles = 0;
     } instances_;           ///< their models
     std::set<int> shared_;  ///< those counted
     bool smooth_ = false, occupied_ = false, words_ = false, colors_ = false;

@@ -31,8 +31,10 @@ struct ScenePlan {
     DensityPlan medium;      ///< part of the last one
     double host_bytes = 0;   ///< tables, meshes and the image in main memory
 
-    /// Of the world's buffers, but those of its tables and medium: what the one object with most
-    /// takes of them, as others may lie in its bricks.
+    /// At the height of all stages, and of the world's buffers but those of its tables and medium,
+    /// at least: what objects take that can't lie in each other's bricks. No more than that is
+    /// refused before it is tried.
+    double least_bytes = 0;
     BufferPlan largest;
 
     double peak_bytes() const;

@@ -116,12 +116,13 @@ void check_model(const Model& model, const GridPlan& plan, const DeviceInfo& dev
                     "{}: a model of {} voxels has more than 2^31 bricks of 16x16x16: use {}",
                     model.where, size_text(plan.frame.size),
                     larger_voxels(plan.frame.voxel_edge, table_factor(bricks, kMostBricks)));
-    if (plan.made_bytes > memory)
-        throw Error(ErrorKind::limit,
-                    "{}: this model of {} voxels needs {} on \"{}\", which has {}: use {}",
-                    model.where, size_text(plan.frame.size), bytes_text(plan.made_bytes),
-                    device.name, bytes_text(memory),
-                    larger_voxels(plan.frame.voxel_edge, surface_factor(plan.made_bytes, memory)));
+    if (plan.least.made_bytes > memory)
+        throw Error(
+            ErrorKind::limit,
+            "{}: this model of {} voxels needs {} on \"{}\", which has {}: use {}", model.where,
+            size_text(plan.frame.size), bytes_text(plan.least.made_bytes), device.name,
+            bytes_text(memory),
+            larger_voxels(plan.frame.voxel_edge, surface_factor(plan.least.made_bytes, memory)));
     check_piece(model.where + ": a model", plan.frame, plan.largest, device);
 }
 
@@ -155,7 +156,7 @@ void check_memory(const Scene& scene, const ScenePlan& plan, const DeviceInfo& d
     }
     check_medium(scene, plan, device);
     check_image(scene, plan, device);
-    const double memory = double(device.memory), peak = plan.peak_bytes();
+    const double memory = double(device.memory), peak = plan.least_bytes;
     if (peak > memory)
         refuse_world(scene.world, peak, fmt::format("on \"{}\"", device.name), memory,
                      surface_factor(peak, memory));

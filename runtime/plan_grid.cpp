@@ -31,6 +31,11 @@ void keep_larger(BufferPlan& largest, const BufferPlan& buffer) {
     if (buffer.bytes > largest.bytes) largest = buffer;
 }
 
+void set_least(GridPlan& grid, const GridPlan& least) {
+    grid.least = {least.voxels, least.made_bytes, least.kept_bytes};
+    grid.largest = least.largest;
+}
+
 GridExtras extras_of(const Model& model, const MeshSummary* mesh) {
     if (model.solid) return {};
     return {.words = mesh->group_names.size() > 1, .colors = mesh->has_colors};
@@ -81,13 +86,21 @@ GridPlan plan_grid(const Model& model, const MeshSummary* mesh, const GridFrame&
                     {"its voxels' lists", exact ? extent.voxels * kListBytes : 0},
                     {"its triangles", triangles * (smooth ? kShape : kTriangleBytes),
                      BufferGrowth::triangles}});
+    set_least(grid, grid);
     return grid;
 }
 
 GridPlan plan_grid(const Model& model, const MeshSummary* mesh, const SurfaceArea& area) {
     const GridFrame frame = model_frame(model, mesh);
     const double band = model.surface == Surface::smooth ? kSurfaceBand : 0;
-    return plan_grid(model, mesh, frame, surface_extent(area, glm::dmat4(1), frame, band));
+    const auto plan_of = [&](const SurfaceArea& of) {
+        return plan_grid(model, mesh, frame, surface_extent(of, glm::dmat4(1), frame, band));
+    };
+    GridPlan grid = plan_of(area);
+    if (model.solid && is_combination(model.solid->kind))
+        set_least(grid, plan_of(least_solid_area(*model.solid, glm::dmat4(1),
+                                                 {model.reach.min, model.reach.max})));
+    return grid;
 }
 
 GridPlan plan_grid(const VoxelModel& voxels) {
@@ -102,6 +115,7 @@ GridPlan plan_grid(const VoxelModel& voxels) {
         {{"the table of its bricks", table, BufferGrowth::table},
          {"its voxels", stored * brick},
          {"its voxels' materials and colors", words || colors ? stored * kWordBytes : 0}});
+    set_least(grid, grid);
     return grid;
 }
 

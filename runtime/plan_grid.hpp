@@ -40,6 +40,11 @@ struct BufferPlan {
 /// Keeps the larger of two.
 void keep_larger(BufferPlan& largest, const BufferPlan& buffer);
 
+/// Of a grid, at least: less than planned where a solid's parts may lie in each other.
+struct LeastGrid {
+    double voxels = 0, made_bytes = 0, kept_bytes = 0;
+};
+
 /// One grid that is voxelized: a model's, or an exact object's in the world's lattice.
 struct GridPlan {
     int model = 0;
@@ -50,8 +55,12 @@ struct GridPlan {
     double bricks = 0;        ///< stored
     double made_bytes = 0;    ///< device memory while it is made, its own included
     double kept_bytes = 0;    ///< device memory that it keeps until the world is formed
+    LeastGrid least = {};     ///< of these three
     BufferPlan largest = {};  ///< of the buffers that it takes while it is made
 };
+
+/// Takes what a grid needs at least, and its largest buffer, from another plan for it.
+void set_least(GridPlan& grid, const GridPlan& least);
 
 /// What the voxels of a model carry besides their place.
 struct GridExtras {

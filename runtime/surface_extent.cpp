@@ -67,6 +67,18 @@ SurfaceArea solid_area(const Solid& solid, const glm::dmat4& frame_from_solid,
     return area;
 }
 
+SurfaceArea least_solid_area(const Solid& solid, const glm::dmat4& frame_from_solid,
+                             const SolidBounds& clip) {
+    if (!is_combination(solid.kind)) return solid_area(solid, frame_from_solid, clip);
+    SurfaceArea most;
+    for (const Solid& part : solid.parts) {
+        const SurfaceArea of_part =
+            least_solid_area(part, frame_from_solid * solid.parent_from_solid, clip);
+        if (of_part.total >= most.total) most = of_part;
+    }
+    return most;
+}
+
 double part_inside(const Mesh& mesh, const glm::dmat4& box_from_mesh, const SolidBounds& box) {
     double inside = 0, total = 0;
     for (const glm::uvec3& triangle : mesh.triangles) {

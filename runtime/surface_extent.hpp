@@ -28,6 +28,10 @@ SurfaceArea mesh_area(const Mesh& mesh);
 SurfaceArea solid_area(const Solid& solid, const glm::dmat4& frame_from_solid,
                        const SolidBounds& clip);
 
+/// The same, but of parts, which may lie in each other, the largest alone.
+SurfaceArea least_solid_area(const Solid& solid, const glm::dmat4& frame_from_solid,
+                             const SolidBounds& clip);
+
 /// The part of the mesh's area whose triangles' boxes lie in `box` after the map.
 double part_inside(const Mesh& mesh, const glm::dmat4& box_from_mesh, const SolidBounds& box);
 

@@ -7,6 +7,7 @@
 #include "runtime/error.hpp"
 #include "runtime/object_boxes.hpp"
 #include "runtime/plan.hpp"
+#include "runtime/shown_models.hpp"
 #include "runtime/stages/index.hpp"
 #include "runtime/world_source.hpp"
 
@@ -63,9 +64,6 @@ double spare_bytes(const ScenePlan& plan, const DeviceInfo& device) {
     const double used = plan.place_bytes + plan.index_bytes + plan.image_bytes;
     return std::max(double(device.memory) - used, 0.0);
 }
-
-/// The part of a device's memory that may keep what no frame shows just now.
-constexpr uint64_t kAwaitedPart = 8;
 
 }  // namespace
 
@@ -160,6 +158,7 @@ FormedWorld WorldFormer::form_anew(const Scene& scene, const Origin& origin, Wor
     report.triangles = meshes_.triangles();
     const double spare = spare_bytes(plan, device_.info());
     const bool keeps = follows_ && spare > 0;
+    report.lacks_room = follows_ && !keeps;
     const uint64_t room =
         keeps && awaits_ ? std::min(uint64_t(spare), device_.info().memory / kAwaitedPart) : 0;
 
@@ -246,8 +245,9 @@ Pyramid WorldFormer::new_world(const Task& task, Indexer& indexer) {
 /// what the next frame may use, all of it.
 void WorldFormer::forget_sources(const Task& task) {
     grids_->forget_unused(task.scene, task.awaited, task.room);
+    uint64_t room = device_.info().memory / kAwaitedPart;  // a CPU's memory is the meshes', too
     for (size_t model = 0; model < task.awaited.size(); ++model)
-        if (task.awaited[model]) meshes_.use(task.scene.models[model]);
+        if (task.awaited[model]) meshes_.await(task.scene.models[model], room);
     meshes_.forget_unused();
     if (task.keeps) return;
     placer_.reset();

@@ -35,6 +35,7 @@ struct WorldReport {
     uint64_t painted_bricks = 0;  ///< of the world, that objects were painted into
     WorldChange change = WorldChange::formed;
     bool is_from_cache = false;  ///< an earlier run formed it
+    bool lacks_room = false;     ///< for what the next frame may use of it: memory doesn't suffice
     InstanceReport instances;
 };
 
@@ -65,7 +66,8 @@ class WorldFormer {
     /// The plan is made and checked first (runtime/plan.hpp), so a world that doesn't fit costs
     /// nothing. What was made of models that are `awaited`, by their numbers, is kept while no
     /// object shows them, in an eighth of the device's memory where a frame and the next leave as
-    /// much, and none of it once forming a world took all memory. Throws Error::input for a damaged
+    /// much, and none of it once forming a world took all memory; their meshes stay in main memory,
+    /// as many as take no more bytes than that. Throws Error::input for a damaged
     /// model, Error::scene for a placement or group name that doesn't fit, Error::limit for a world
     /// that the device has no memory for.
     FormedWorld form(const Scene& scene, WorldReport& report,

@@ -11,6 +11,7 @@ namespace voxelume {
 using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::Not;
 
 /// The fixture's scene with an object that turns until frame 3.
 class CliFramesTest : public SceneProgramTest {
@@ -117,6 +118,28 @@ TEST_F(CliFramesTest, ThePlanIsThatOfTheFrameThatTakesTheMost) {
     });
     EXPECT_EQ(Json::parse(run("check scene.json --json").out)["frame"], 2);
     EXPECT_THAT(run("render scene.json --dry-run --frames 1,3").out, HasSubstr("by frame 1;"));
+}
+
+TEST_F(CliFramesTest, WhatCantBeKeptForTheNextFrameIsToldWithAndWithoutOverlap) {
+    write_scene([](Json& scene) {
+        scene["world"]["voxel_size"] = 0.007;  // planned: 0.7 MB at once, 1.2 MB kept
+        scene["animation"] = Json::parse(R"({"frames": 2, "tracks": [
+            {"target": "objects[0].turn", "keys": [{"frame": 1, "value": [0, 0, 0]},
+                                                   {"frame": 2, "value": [90, 40, 0]}]}]})");
+    });
+    for (const char* option : {"", "--no-overlap"}) {
+        SCOPED_TRACE(option);
+        const std::string line =
+            fmt::format("render scene.json -o f.#.exr -v --stats-json stats.json {}", option);
+        EXPECT_THAT(run(line).err, Not(HasSubstr("nothing is kept")));
+        EXPECT_FALSE(Json::parse(bytes_of(folder / "stats.json")).contains("nothing_kept_from"));
+        setenv("VOXELUME_MEMORY_MB", "1", 1);
+        const ProgramResult crowded = run(line);
+        unsetenv("VOXELUME_MEMORY_MB");
+        EXPECT_THAT(crowded.err,
+                    HasSubstr("nothing is kept for the next frame from frame 1 on: memory"));
+        EXPECT_EQ(Json::parse(bytes_of(folder / "stats.json"))["nothing_kept_from"], 1);
+    }
 }
 
 }  // namespace voxelume

@@ -94,10 +94,15 @@ TEST(Device, TheEnvironmentKeepsItWithinSomeOfItsMemory) {
     const Environment memory("VOXELUME_MEMORY_MB", "2");
     EXPECT_EQ(Device::open("").info().memory, 2u << 20);
     EXPECT_EQ(Device::open("").info().max_allocation, 2u << 20);
+    for (const DeviceInfo& listed : list_devices()) EXPECT_EQ(listed.memory, 2u << 20);
     const Environment more("VOXELUME_MEMORY_MB", "2000000000");
     EXPECT_EQ(Device::open("").info().memory, whole.memory);
-    const Environment wrong("VOXELUME_MEMORY_MB", "2.5");
-    EXPECT_EQ(refusal("").first, 2);
+    for (const char* text : {"2.5", "3e9", "3000000000", "0", "-1"}) {
+        const Environment wrong("VOXELUME_MEMORY_MB", text);
+        EXPECT_EQ(refusal("").first, 2) << text;
+        EXPECT_NE(refusal("").second.find("a whole number from 1 to 2147483647, in digits"),
+                  std::string::npos);
+    }
 }
 
 TEST(Device, TimesItsKernelsWhenAsked) {

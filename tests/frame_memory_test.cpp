@@ -62,6 +62,7 @@ class CrowdedFrames : public testing::Test {
         const uint64_t hash =
             oracle::image_hash(*renderer_.image(input.scene, input.world, report));
         if (input.frame == 2 && forgotten_ == 0) meet(end);
+        if (input.report.lacks_room) crowded_.push_back(input.frame);
         return [this, hash] { hashes_.push_back(hash); };
     }
 
@@ -81,6 +82,7 @@ class CrowdedFrames : public testing::Test {
     std::optional<size_t> run(End end, bool overlap = true) {
         forgotten_ = 0;
         hashes_.clear();
+        crowded_.clear();
         return run_frames({device_}, kFrames, steps(end), {.overlap = overlap});
     }
 
@@ -97,6 +99,7 @@ class CrowdedFrames : public testing::Test {
     Buffer<uint8_t> filling_;
     int forgotten_ = 0;
     std::vector<uint64_t> hashes_;
+    std::vector<size_t> crowded_;  ///< frames that are told to keep nothing
 };
 
 TEST_F(CrowdedFrames, AWorldThatCantBeFormedBesideAFrameIsFormedAlone) {
@@ -116,6 +119,7 @@ TEST_F(CrowdedFrames, OverlapWhereThereIsRoom) {
     EXPECT_EQ(run(End::none), std::nullopt);
     EXPECT_EQ(hashes_, hashes);
     EXPECT_EQ(forgotten_, 0);
+    EXPECT_THAT(crowded_, testing::IsEmpty());
 }
 
 TEST_F(CrowdedFrames, WhatIsKeptMakesRoomForAFrame) {
@@ -123,6 +127,7 @@ TEST_F(CrowdedFrames, WhatIsKeptMakesRoomForAFrame) {
     EXPECT_EQ(run(End::kept, false), std::nullopt);
     EXPECT_EQ(hashes_, hashes);
     EXPECT_EQ(forgotten_, int(kFrames) - 2) << "each from the third on";
+    EXPECT_THAT(crowded_, testing::ElementsAre(2, 3, 4, 5));
 }
 
 TEST_F(CrowdedFrames, WhatDoesNotFitAloneIsAnError) {

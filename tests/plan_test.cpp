@@ -141,8 +141,43 @@ TEST_F(PlanTest, ObjectsInEachOthersBricksPlanNoLargerBuffersThanAreMade) {
             if (name.starts_with("world")) largest = std::max(largest, bytes);
         EXPECT_GT(plan.largest.bytes, 0) << surface;
         EXPECT_LE(plan.largest.bytes, double(largest)) << surface << ": " << plan.largest.name;
+        EXPECT_LT(plan.least_bytes, plan.peak_bytes() / 2) << surface;
         DeviceInfo info = device.info();
         info.max_allocation = largest;
+        info.memory = device.counters().peak_bytes * 3 / 2;
+        EXPECT_NO_THROW(check_memory(scene, plan, info)) << surface;
+    }
+}
+
+TEST_F(PlanTest, ObjectsApartAreAllRefusedWithTheirMemory) {
+    Scene scene = scene_of(R"({"shape": "sphere", "radius": 0.05})", 1.0 / 200);
+    const Object ball = scene.objects[0];
+    for (const glm::dvec3 step : {glm::dvec3(0.25, 0, 0), glm::dvec3(-0.25, 0, 0),
+                                  glm::dvec3(0, 0.25, 0), glm::dvec3(0, 0, -0.25)}) {
+        scene.objects.push_back(ball);
+        scene.objects.back().world_from_object =
+            glm::translate(glm::dmat4(1), step) * ball.world_from_object;
+    }
+    const ScenePlan plan = plan_of(scene);
+    EXPECT_DOUBLE_EQ(plan.least_bytes, plan.peak_bytes());
+}
+
+TEST_F(PlanTest, ASolidWhosePartsLieInEachOtherIsRefusedForTheLargestAlone) {
+    std::string parts;
+    for (int i = 0; i < 40; ++i)
+        parts += fmt::format(R"({}{{"shape": "sphere", "radius": 0.3, "position": [{}, 0, 0]}})",
+                             i == 0 ? "" : ", ", 0.001 * i);
+    for (const char* surface : {"smooth", "cubes", "exact"}) {
+        const Scene scene = scene_of(
+            fmt::format(R"({{"shape": "union", "parts": [{}], "surface": "{}"}})", parts, surface),
+            1.0 / 100);
+        const ScenePlan plan = plan_of(scene);
+        const Device device = test_device();
+        WorldReport report;
+        form_world(device, scene, report);
+        DeviceInfo info = device.info();
+        info.memory = device.counters().peak_bytes * 3 / 2;
+        EXPECT_GT(plan.peak_bytes(), double(info.memory)) << surface;
         EXPECT_NO_THROW(check_memory(scene, plan, info)) << surface;
     }
 }

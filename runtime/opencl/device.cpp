@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cstdlib>
+#include <limits>
 #include <mutex>
 #include <utility>
 
@@ -44,7 +45,8 @@ int number_in_environment(const char* name) {
     int number = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
     if (error != std::errc() || end != text.data() + text.size() || number < 1)
-        throw Error(ErrorKind::usage, "{}={}: must be a whole number from 1 on", name, text);
+        throw Error(ErrorKind::usage, "{}={}: must be a whole number from 1 to {}, in digits", name,
+                    text, std::numeric_limits<int>::max());
     return number;
 }
 
@@ -126,7 +128,10 @@ struct Device::Queue {
 
 std::vector<DeviceInfo> list_devices() {
     std::vector<DeviceInfo> infos;
-    for (Candidate& candidate : find_candidates()) infos.push_back(std::move(candidate.info));
+    for (Candidate& candidate : find_candidates()) {
+        infos.push_back(std::move(candidate.info));
+        limit_memory(infos.back());
+    }
     return infos;
 }
 

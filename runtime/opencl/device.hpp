@@ -36,7 +36,8 @@ struct DeviceInfo {
 /// The name of PoCL's platform, the one for CPUs.
 inline constexpr std::string_view kPoclPlatform = "Portable Computing Language";
 
-/// Every device of every platform; a platform that fails is passed over.
+/// Every device of every platform; a platform that fails is passed over. Their memory is what
+/// Device::open leaves them of it.
 std::vector<DeviceInfo> list_devices();
 
 /// What was done on a device since it was opened: the tests read it, and so does `--stats-json`.

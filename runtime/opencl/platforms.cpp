@@ -114,8 +114,9 @@ void append_platforms(std::vector<Candidate>& found) {
 std::vector<Candidate> parts_of(const Candidate& whole, int parts) {
     const int units = whole.info.compute_units / parts;
     if (units < 1)
-        throw Error(ErrorKind::device, "\"{}\" has {} compute units, too few for {} devices",
-                    whole.info.name, whole.info.compute_units, parts);
+        throw Error(ErrorKind::device, "\"{}\" has {} compute unit{}, too few for {} devices",
+                    whole.info.name, whole.info.compute_units,
+                    whole.info.compute_units == 1 ? "" : "s", parts);
     std::vector<cl::Device> devices;
     try {
         const cl_device_partition_property equally[] = {CL_DEVICE_PARTITION_EQUALLY, units, 0};

@@ -1,0 +1,55 @@
+// Meshes in memory: what waits for its model's return, and what is read again.
+#include <gtest/gtest.h>
+
+#include "runtime/mesh_store.hpp"
+#include "tests/file_fixture.hpp"
+
+namespace voxelume {
+namespace {
+
+class MeshStoreTest : public FileTest {
+  protected:
+    /// A model of a mesh of one triangle, 3 * 12 + 12 bytes.
+    Model triangle(const char* name) {
+        put_bytes(folder / name, "v 0 0 0\nv 1 0 0\nv 0 0.7 0\nf 1 2 3\n");
+        Model model;
+        model.name = name;
+        model.mesh = folder / name;
+        return model;
+    }
+    static constexpr uint64_t kBytes = 48;
+};
+
+TEST_F(MeshStoreTest, MeshesWaitWhereThereIsRoomAndSummariesAlways) {
+    const Model a = triangle("a.obj"), b = triangle("b.obj"), c = triangle("c.obj");
+    MeshStore store;
+    for (const Model& model : {a, b, c}) store.summary_of(model);
+    EXPECT_EQ(store.meshes_read(), 3u);
+    store.forget_unused();
+    store.mesh_of(c);
+    uint64_t room = kBytes + 1;
+    for (const Model& model : {a, b, c}) store.await(model, room);
+    EXPECT_EQ(room, 1u) << "c was asked for";
+    store.forget_unused();
+    for (const Model& model : {a, b, c}) store.summary_of(model);
+    EXPECT_EQ(store.meshes_read(), 3u);
+    store.mesh_of(a);
+    store.mesh_of(c);
+    EXPECT_EQ(store.meshes_read(), 3u);
+    store.mesh_of(b);
+    EXPECT_EQ(store.meshes_read(), 4u);
+}
+
+TEST_F(MeshStoreTest, AMeshOnItsWayIsMadeAgainForItsOwnFramesOnly) {
+    Model model = triangle("a.obj");
+    model.morph = Morph{.mesh = {}, .center = glm::dvec3(0), .radius = 1, .amount = 0.5};
+    MeshStore store;
+    const glm::vec3 moved = store.mesh_of(model)->positions[1];
+    store.forget_unused();
+    store.forget_unused();
+    EXPECT_EQ(store.mesh_of(model)->positions[1], moved);
+    EXPECT_EQ(store.meshes_read(), 2u);
+}
+
+}  // namespace
+}  // namespace voxelume
