@@ -52,7 +52,8 @@ TEST(VoxelCases, V6FourThousandSliversAreExact) {
     const Device device = test_device();
     for (uint64_t grid = 0; grid < 8; ++grid) {  // slivers are the second class
         const uint64_t first = (kTriangleClasses * grid + 1) * kTrianglesOfOneGrid;
-        const StressResult result = stress_triangles({device, 6, first, kTrianglesOfOneGrid, {}});
+        const StressResult result =
+            stress_triangles(VoxelSet::supercover, {device, 6, first, kTrianglesOfOneGrid, {}});
         EXPECT_EQ(result.mismatches, 0u) << result.examples.front().text;
         EXPECT_GT(result.cells, 10000u);
     }
@@ -65,7 +66,7 @@ TEST(VoxelCases, SliversOfUpTo16384VoxelsAreInEveryBrickThatTheyTouch) {
     const ivec3 region = grid_of_triangle(kFirst).region;
     ASSERT_EQ(std::max({region.x, region.y, region.z}), 16384);
     const StressResult result =
-        stress_triangles({test_device(), 3, kFirst, kTrianglesOfOneGrid, {}});
+        stress_triangles(VoxelSet::supercover, {test_device(), 3, kFirst, kTrianglesOfOneGrid, {}});
     EXPECT_EQ(result.mismatches, 0u) << result.examples.front().text;
 }
 
