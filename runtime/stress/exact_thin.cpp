@@ -7,7 +7,7 @@ namespace {
 
 __extension__ using Wide = __int128;
 
-constexpr int64_t kUnit = kUnitsPerVoxel, kCenter = kUnit / 2;
+constexpr int64_t kCenter = kUnitsPerVoxel / 2;
 
 /// The axis of the lines, and those across it.
 struct Axes {
@@ -24,8 +24,8 @@ Integer floor_of(Integer numerator, Integer denominator) {
 int64_t first_beyond(const glm::ivec3& a, const glm::ivec3& b, const Axes& axes, int64_t w) {
     const int64_t du = int64_t{b[axes.u]} - a[axes.u], dw = int64_t{b[axes.w]} - a[axes.w];
     const int64_t edge = (a[axes.u] - kCenter) * dw + du * (w - a[axes.w]);
-    const int64_t voxel = floor_of(edge, kUnit * dw);
-    const bool is_on_edge = voxel * kUnit * dw == edge;
+    const int64_t voxel = floor_of(edge, kUnitsPerVoxel * dw);
+    const bool is_on_edge = voxel * kUnitsPerVoxel * dw == edge;
     const bool moves_beyond = axes.u < axes.w || du <= 0;
     return is_on_edge && moves_beyond ? voxel : voxel + 1;
 }
@@ -62,9 +62,10 @@ Plane plane_of(const TriangleOnLattice& t) {
 
 /// The voxel along the line through the centre of voxel `v` in which the plane crosses it.
 int64_t crossed_voxel(const Plane& plane, const Axes& axes, const glm::ivec3& v) {
-    const Wide rest = plane.at - Wide(plane.normal[axes.u]) * (v[axes.u] * kUnit + kCenter) -
-                      Wide(plane.normal[axes.w]) * (v[axes.w] * kUnit + kCenter);
-    const Wide per_voxel = Wide(plane.normal[axes.along]) * kUnit;
+    const Wide rest = plane.at -
+                      Wide(plane.normal[axes.u]) * (v[axes.u] * kUnitsPerVoxel + kCenter) -
+                      Wide(plane.normal[axes.w]) * (v[axes.w] * kUnitsPerVoxel + kCenter);
+    const Wide per_voxel = Wide(plane.normal[axes.along]) * kUnitsPerVoxel;
     const Wide voxel = per_voxel < 0 ? floor_of(-rest, -per_voxel) : floor_of(rest, per_voxel);
     return int64_t(voxel);
 }
@@ -78,11 +79,11 @@ std::vector<glm::ivec3> exact_thin(const TriangleOnLattice& t, const glm::ivec3&
         const Axes axes{along, (along + 1) % 3, (along + 2) % 3};
         const auto [low, high] = std::minmax({t[0][axes.w], t[1][axes.w], t[2][axes.w]});
         if (plane.normal[along] == 0) continue;
-        const int first = std::max(0, int(floor_of<int64_t>(low, kUnit)));
-        const int last = std::min(region[axes.w] - 1, int(floor_of<int64_t>(high, kUnit)));
+        const int first = std::max(0, int(floor_of<int64_t>(low, kUnitsPerVoxel)));
+        const int last = std::min(region[axes.w] - 1, int(floor_of<int64_t>(high, kUnitsPerVoxel)));
         glm::ivec3 v(0);
         for (v[axes.w] = first; v[axes.w] <= last; ++v[axes.w]) {
-            const VoxelRow row = lines_of_row(t, axes, v[axes.w] * kUnit + kCenter);
+            const VoxelRow row = lines_of_row(t, axes, v[axes.w] * kUnitsPerVoxel + kCenter);
             if (row.first > row.last) continue;
             const int end = int(std::min<int64_t>(row.last, region[axes.u] - 1));
             for (v[axes.u] = int(std::max<int64_t>(row.first, 0)); v[axes.u] <= end; ++v[axes.u]) {
