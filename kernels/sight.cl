@@ -129,10 +129,12 @@ kernel void start_beams(PyramidShape shape, global const uint* restrict sectors,
 
     Span b_span = empty_span(), c_span = empty_span();
     lane_float s_first = s_far;
+    lane_int idle = (lane_int)-1;
     lane_int active = LANE_MASK(sign != 0.0f);
     for (uint i = 0; i < VXL_BEAM_RAYS; ++i) {
         const lane_uint ray = first_ray + i;
-        const lane_int held = is_ray(&r, ray) & active;
+        const lane_int found = is_ray(&r, ray), held = found & active;
+        idle &= ~found;
         const lane_float s0 = sign * ray_value(&r, axis, ray);
         const lane_float d = sign * ray_value(&r, axis + VXL_RAY_DX, ray);
         active &= ~held | LANE_MASK(d >= VXL_BEAM_LEAST_DIRECTION);
@@ -148,10 +150,15 @@ kernel void start_beams(PyramidShape shape, global const uint* restrict sectors,
     const BeamAxis c = beam_axis(&c_span, s_near, s_far, active);
     const lane_float s_last =
         fmin(fmin(narrow_until(&b, s_first), narrow_until(&c, s_first)), s_far);
-    const lane_float start = run_beams(&halo, axis, sign, &b, &c, s_first, s_last, active);
+    const lane_float end = run_beams(&halo, axis, sign, &b, &c, s_first, s_last, active);
+    const lane_float start = fmin(end, s_last) - 2.0f * VXL_BEAM_STEP;
     const uint places = VXL_BEAM_PLACES(stride);
     LANES_STORE(LANES_AS_UINT(start), beams, VXL_BEAM_START * places + first);
-    const lane_int towards = axis | (~up & VXL_BEAM_DOWN);
-    LANES_STORE(LANES_AS_UINT(LANES_SELECT(active, towards, (lane_int)VXL_BEAM_NONE)), beams,
-                VXL_BEAM_AXIS * places + first);
+    // At the world's far side a last step's planes lie within the leaf around the last cell.
+    const lane_int clear = LANE_MASK(s_last >= s_far) & LANE_MASK(end >= s_far) &
+                           LANE_MASK(s_first + VXL_BEAM_STEP < s_far);
+    lane_int towards = axis | (~up & VXL_BEAM_DOWN);
+    towards = LANES_SELECT(active, towards, (lane_int)VXL_BEAM_NONE);
+    towards = LANES_SELECT((active & clear) | idle, (lane_int)VXL_BEAM_CLEAR, towards);
+    LANES_STORE(LANES_AS_UINT(towards), beams, VXL_BEAM_AXIS * places + first);
 }

@@ -45,6 +45,18 @@ static inline Hit hit_of(const Flight* f, lane_int hit) {
 #define VXL_STORED_COMPONENTS \
     (VXL_INSTANCES ? VXL_HIT_COMPONENTS : (VXL_EXACT ? VXL_HIT_INSTANCE : VXL_HIT_PRIMITIVE))
 
+/// Stores that a packet has met nothing.
+static inline void store_misses(uint stride, uint first, global uint* restrict hits) {
+    Hit miss;
+    miss.values[VXL_HIT_T] = LANES_AS_UINT((lane_float)INFINITY);
+    miss.values[VXL_HIT_VOXEL] = (lane_uint)VXL_NO_VOXEL;
+    miss.values[VXL_HIT_CELL] = miss.values[VXL_HIT_FACE] = (lane_uint)0;
+    miss.values[VXL_HIT_PRIMITIVE] = (lane_uint)VXL_NO_PRIMITIVE;
+    miss.values[VXL_HIT_INSTANCE] = (lane_uint)VXL_NO_INSTANCE;
+    for (uint i = 0; i < VXL_STORED_COMPONENTS; ++i)
+        LANES_STORE(miss.values[i], hits, i * stride + first);
+}
+
 /// The closest hit of rays 0 .. count-1 that run beside each other. Arrays hold a multiple of 16
 /// rays. Hits don't depend on whether there are `beams`.
 kernel void trace_closest(VXL_WORLD_ARGUMENTS, global const float* restrict rays, uint count,
@@ -53,6 +65,7 @@ kernel void trace_closest(VXL_WORLD_ARGUMENTS, global const float* restrict rays
                           global uint* restrict hits) {
     const uint first = work_item() * VXL_LANES;
     if (first >= count) return;
+    if (beams && beam_is_clear(beams, stride, first)) return store_misses(stride, first, hits);
     VXL_WORLD_VIEWS;
     Flight f;
     f.ray = LANES_AS_UINT(LANES_NUMBERS + (int)first);

@@ -150,9 +150,8 @@ struct OneVoxel {
     Pyramid pyramid;
     RayList rays{VXL_BEAM_RAYS};
 
-    OneVoxel() {
+    explicit OneVoxel(const glm::ivec3& voxel = {130, 70, 200}) {
         HostBricks bricks(frame_of({230, 137, 301}));
-        const glm::ivec3 voxel(130, 70, 200);
         bricks.slots[bricks.brick_index(voxel)] = 0;
         bricks.number_slots();
         bricks.occupancy.assign(64, 0);
@@ -183,7 +182,36 @@ TEST(Beam, StartsItsRaysOneLeafBeforeTheFirstThatHoldsVoxels) {
 TEST(Beam, ThatSeesNothingBringsItsRaysOutOfTheWorld) {
     OneVoxel world;
     world.aim({20, 20, 0}, {0, 0, 1}, 0.5);
-    EXPECT_NEAR(first_start(world.device, world.pyramid, world.rays).s, 301, 0.1);
+    const Start start = first_start(world.device, world.pyramid, world.rays);
+    EXPECT_NEAR(start.s, 301, 0.1);
+    EXPECT_EQ(start.axis, uint32_t{VXL_BEAM_CLEAR});
+}
+
+TEST(Beam, ThatBeginsInTheLastStepBeforeTheWorldsEndIsNotCalledClear) {
+    for (const bool up : {false, true}) {
+        OneVoxel world({130, 70, up ? 300 : 0});
+        world.aim({130.25, 70.25, up ? 301 - 0x1p-8 : 0x1p-8}, {0, 0, up ? 1 : -1}, 0.125);
+        EXPECT_NE(first_start(world.device, world.pyramid, world.rays).axis,
+                  uint32_t{VXL_BEAM_CLEAR});
+        RayBatch batch = world.rays.batch(world.device);
+        TraceStage trace(world.device, features_of(world.pyramid));
+        BeamStage(world.device, features_of(world.pyramid), world.pyramid,
+                  build_halo(world.device, world.pyramid))
+            .start(batch, batch.stride);
+        trace.closest(world.pyramid, batch, batch.stride);
+        for (uint32_t i = 0; i < VXL_BEAM_RAYS; ++i)
+            EXPECT_NE(batch.hits.read_one(VXL_HIT_VOXEL * batch.stride + i), VXL_NO_VOXEL) << i;
+    }
+}
+
+TEST(Beam, ThatEndsForItsWidthIsNotCalledClear) {
+    OneVoxel world({130, 70, 300});
+    for (uint32_t i = 0; i < VXL_BEAM_RAYS; ++i)
+        world.rays.set(i, {20 + i % 4, 20 + i / 4, 0}, {0.02 * (i % 4), 0.02 * (i / 4), 1},
+                       shape_of(world.pyramid).fixed_point);
+    const Start start = first_start(world.device, world.pyramid, world.rays);
+    EXPECT_LT(start.s, 300);
+    EXPECT_EQ(start.axis, 2u);
 }
 
 TEST(Beam, EndsWhereItsRaysAreTooFarApart) {
@@ -192,8 +220,10 @@ TEST(Beam, EndsWhereItsRaysAreTooFarApart) {
     EXPECT_LE(first_start(world.device, world.pyramid, world.rays).s, 0);
 }
 
-TEST(Beam, OfIdlePlacesIsNone) {
-    const OneVoxel world;
+TEST(Beam, OfIdlePlacesIsClearAndOfIdleCornersNone) {
+    OneVoxel world;
+    EXPECT_EQ(first_start(world.device, world.pyramid, world.rays).axis, uint32_t{VXL_BEAM_CLEAR});
+    world.rays.set(5, {20, 20, 0}, {0, 0, 1}, shape_of(world.pyramid).fixed_point);
     EXPECT_EQ(first_start(world.device, world.pyramid, world.rays).axis, uint32_t{VXL_BEAM_NONE});
 }
 

@@ -125,8 +125,8 @@ static inline lane_int cell_inside(lane_float position, lane_int size) {
     return LANES_INT(clamp(position, (lane_float)0.0f, LANES_FLOAT(size - 1)));
 }
 
-/// How far the beams of the `active` lanes run from s0 on through the halo's empty space. s counts
-/// along `axis`, against it where `sign` is negative.
+/// How far the beams of the `active` lanes run from s0 on through the halo's empty space: s_last or
+/// more where all is empty till there. s counts along `axis`, against it where `sign` is negative.
 static inline lane_float run_beams(const PyramidView* p, lane_int axis, lane_float sign,
                                    const BeamAxis* b, const BeamAxis* c, lane_float s0,
                                    lane_float s_last, lane_int active) {
@@ -158,7 +158,7 @@ static inline lane_float run_beams(const PyramidView* p, lane_int axis, lane_flo
         s = LANES_SELECT(running, next, s);
         running &= LANE_MASK(s < s_last);
     }
-    return fmin(s, s_last) - 2.0f * VXL_BEAM_STEP;
+    return s;
 }
 
 #endif

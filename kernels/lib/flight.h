@@ -230,6 +230,11 @@ static inline void set_out(const PyramidView* p, global const float* restrict ra
     f->found = found_nothing(&f->travel);
 }
 
+static inline bool beam_is_clear(global const uint* restrict beams, uint stride, uint first) {
+    const uint beam = first / VXL_BEAM_RAYS;
+    return beams[VXL_BEAM_AXIS * VXL_BEAM_PLACES(stride) + beam] == VXL_BEAM_CLEAR;
+}
+
 /// Brings walks to where the beam of their rays ended: all on their way there is empty space. The
 /// cell may be wrong by rounding; the next one is again the walk's own.
 static inline void ride_beam(global const uint* restrict beams, uint stride, uint first, Walk* w) {

@@ -20,7 +20,8 @@
 // VXL_BEAM_PLACES(stride) words.
 //   VXL_BEAM_START  float: all that they meet lies at this coordinate or beyond it ...
 //   VXL_BEAM_AXIS   ... along axis 0, 1 or 2 towards larger coordinates; with VXL_BEAM_DOWN towards
-//                   smaller ones. VXL_BEAM_NONE: they start where they start
+//                   smaller ones. VXL_BEAM_NONE: they start where they start; VXL_BEAM_CLEAR: they
+//                   meet nothing
 #define VXL_BEAM_RAYS 16
 #define VXL_BEAM_PLACES(stride) ((stride) / 256 * 16 + 16)
 #define VXL_BEAM_START 0
@@ -28,6 +29,7 @@
 #define VXL_BEAM_COMPONENTS 2
 #define VXL_BEAM_DOWN 4
 #define VXL_BEAM_NONE 8
+#define VXL_BEAM_CLEAR 16
 
 // Packets of rays that run anywhere, and that a work-item carries one after another.
 #define VXL_PACKETS(lanes) ((lanes) > 1 ? 16u : 1u)

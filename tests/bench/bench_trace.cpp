@@ -124,7 +124,7 @@ class RayList {
     RayBatch batch_;
 };
 
-/// All rays of the picture in 4 x 4 tiles, entering the grid's box; rays past it are left out.
+/// All rays of the picture in 4 x 4 tiles, entering the grid's box; rays past it have an end of -1.
 std::vector<Ray> picture_rays(const GridFrame& frame) {
     const glm::dvec3 eye = glm::normalize(glm::dvec3(0.5, 0.35, 1)) * 1.8;
     const glm::dvec3 ahead = glm::normalize(-eye);
@@ -147,9 +147,9 @@ std::vector<Ray> picture_rays(const GridFrame& frame) {
             first = std::max(first, std::min(p, q));
             last = std::min(last, std::max(p, q));
         }
-        if (first > last) continue;
-        const glm::dvec3 entry = origin + direction * first;
-        rays.push_back({glm::clamp(entry, glm::dvec3(0), glm::dvec3(frame.size)), direction});
+        const glm::dvec3 entry = origin + direction * (first > last ? 0 : first);
+        rays.push_back({glm::clamp(entry, glm::dvec3(0), glm::dvec3(frame.size)), direction,
+                        first > last ? -1.0f : INFINITY});
     }
     return rays;
 }
@@ -269,7 +269,8 @@ void bench_peers(const Mesh& mesh, int voxels) {
         Voxelizer(device).voxelize(mesh, glm::dmat4(1), frame, {Surface::exact, {}});
     const Pyramid pyramid = build_index(device, grid);
     TraceStage stage(device, features_of(pyramid));
-    const std::vector<Ray> rays = picture_rays(frame);
+    std::vector<Ray> rays = picture_rays(frame);
+    std::erase_if(rays, [](const Ray& ray) { return ray.end < 0; });
     RayList all(device, pyramid, rays);
     all.time(device, stage, pyramid);
     const RayLists lists = split_rays(rays, all.hits(), frame);
