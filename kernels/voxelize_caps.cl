@@ -92,10 +92,11 @@ kernel void classify_bricks(uint count, int4 bricks, float4 scale, float radius,
     lane_float caps = (lane_float)(0.0f), slope = (lane_float)(0.0f), error = (lane_float)(0.0f);
     for (uint i = cap_first; i < cap_first + cap_count; ++i) {
         const Cap cap = make_cap(load_triangle(vertices, triangles, i, (int3)(0, 0, 0)), scale.xyz);
+        slope += slope_bound(&cap, &p, radius, to_metric);
+        if (all(cap.area == 0L)) continue;  // no angle, but a part of the outline
         const HalfAngle seen = half_solid_angle(&cap, &p, to_metric);
         caps += seen.angle;
         error += seen.error + SUM_ROUNDING * fabs(caps);
-        slope += slope_bound(&cap, &p, radius, to_metric);
     }
     for (uint i = 0; i < VXL_LANES && first + i < count; ++i) {
         const int3 brick = brick_of(first + i, bricks);
@@ -136,6 +137,7 @@ kernel void find_inside_open(uint count, int4 bricks, float4 scale, uint cap_fir
     const uint end = states[brick] == STATE_OPEN ? cap_first + cap_count : cap_first;
     for (uint i = cap_first; i < end; ++i) {
         const Cap cap = make_cap(load_triangle(vertices, triangles, i, origin), scale.xyz);
+        if (all(cap.area == 0L)) continue;
         for (int k = 0; k < TILE_COLUMNS * VXL_SLICES; ++k) {
             const int column = k / VXL_SLICES, z = first_slice + k % VXL_SLICES;
             LanePoints p;

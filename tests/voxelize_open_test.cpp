@@ -95,17 +95,85 @@ TEST(OpenMesh, FarBricksThatTheHalfWindingCrossesAreStored) {
     EXPECT_EQ(wrong, 0u);
 }
 
-TEST(OpenMesh, ABrickAroundTheMiddleOfALidIsHalfInside) {
-    // Caps meet at the brick's middle point, from where they have no angles.
+TEST(OpenMesh, BricksAroundALidAreHalfInside) {
+    // The lid lies in a plane of bricks' middle points, at one of which all caps meet.
     const glm::vec3 middle(72.5f, 72.5f, 72.5f);
     const Mesh mesh = ball_mesh(middle, 60, 256, 64, 0, 32);
     const VoxelSetOf voxels = voxels_of(mesh, {145, 145, 90}, VoxelSet::solid);
     size_t wrong = 0;
     for (int z = 64; z < 80; ++z)
-        for (int y = 64; y < 80; ++y)
-            for (int x = 64; x < 80; ++x)
-                wrong += z != 72 && (z < 72) != voxels.contains({x, y, z});
+        for (int y = 0; y < 145; ++y)
+            for (int x = 0; x < 145; ++x) {
+                const glm::vec3 p(float(x) + 0.5f, float(y) + 0.5f, float(z) + 0.5f);
+                const float height = p.z - middle.z;
+                const bool clear = glm::length(p - middle) < 59 && height != 0;
+                wrong += clear && (height < 0) != voxels.contains({x, y, z});
+            }
     EXPECT_EQ(wrong, 0u);
+}
+
+using Outline = std::vector<glm::vec2>;
+
+/// Walls along the outline, counter-clockwise, from a floor up to a rim; corners every 2 voxels.
+Mesh tray_mesh(const Outline& outline, float floor, float rim) {
+    Mesh mesh;
+    for (size_t i = 0; i < outline.size(); ++i) {
+        const glm::vec2 from = outline[i], to = outline[(i + 1) % outline.size()];
+        const int steps = int(std::lround(glm::length(to - from) / 2));
+        for (int k = 0; k < steps; ++k) {
+            const glm::vec2 p = glm::mix(from, to, float(k) / float(steps));
+            mesh.positions.emplace_back(p, floor);
+            mesh.positions.emplace_back(p, rim);
+        }
+    }
+    const uint32_t size = uint32_t(mesh.positions.size());
+    mesh.positions.emplace_back(outline[0] + glm::vec2(-20, 60), floor);  // sees all of it
+    for (uint32_t i = 0; i < size; i += 2) {
+        const uint32_t next = (i + 2) % size;
+        mesh.triangles.emplace_back(i, next, next + 1);
+        mesh.triangles.emplace_back(i, next + 1, i + 1);
+        mesh.triangles.emplace_back(size, next, i);
+    }
+    return mesh;
+}
+
+bool is_within(const Outline& outline, glm::vec2 p) {
+    bool within = false;
+    for (size_t i = 0; i < outline.size(); ++i) {
+        const glm::vec2 a = outline[i], b = outline[(i + 1) % outline.size()];
+        if ((a.y > p.y) != (b.y > p.y))
+            within ^= p.x < a.x + (b.x - a.x) * (p.y - a.y) / (b.y - a.y);
+    }
+    return within;
+}
+
+TEST(OpenMesh, ATrayWhoseLidsMiddleLiesOnTheLineOfAnEdgeIsFilledToItsRim) {
+    Outline outline = {{0, 0}, {60, 0}, {60, 40}, {-20, 40}, {-20, -60}, {0, -60}};
+    for (glm::vec2& p : outline) p = p * 4.0f + glm::vec2(87.5f, 255.5f);
+    const ivec3 size(337, 420, 96);
+    const VoxelSetOf voxels = voxels_of(tray_mesh(outline, 40.3f, 66.5f), size, VoxelSet::solid);
+    size_t wrong = 0;
+    for (int z = 42; z < size.z; ++z)
+        for (int y = 0; y < size.y; ++y)
+            for (int x = 0; x < size.x; ++x) {
+                const glm::vec2 corner{float(x), float(y)};
+                const bool expected = is_within(outline, corner + 0.6f);
+                const bool beside = is_within(outline, corner + 0.4f) != expected;
+                wrong += z != 66 && !beside && (z < 66 && expected) != voxels.contains({x, y, z});
+            }
+    EXPECT_EQ(wrong, 0u);
+}
+
+TEST(OpenMesh, CentresOnTheEdgesOfALidAreOnTheSideOfTheSum) {
+    // An outline of eight corners, half of them up and down; its middle is a voxel's centre.
+    Mesh mesh;
+    const glm::vec3 middle(18.5f, 17.5f, 12.5f);
+    const glm::vec3 outline[] = {{12, 0, 0},  {8, 8, 3},    {0, 12, 0},  {-8, 8, -3},
+                                 {-12, 0, 0}, {-8, -8, -3}, {0, -12, 0}, {8, -8, 3}};
+    for (const glm::vec3& corner : outline) mesh.positions.push_back(middle + corner * 1.03125f);
+    mesh.positions.push_back(middle - glm::vec3(0.2f, 0.3f, 10.4f));
+    for (uint32_t i = 0; i < 8; ++i) mesh.triangles.emplace_back(8, (i + 1) % 8, i);
+    EXPECT_GT(expect_solid(mesh), 500u);
 }
 
 TEST(OpenMesh, SmoothSignsAreThoseOfTheSum) {
@@ -149,15 +217,6 @@ TEST(Caps, AreNoneForSeamsAndClosedMeshes) {
     MeshLattice lattice = snap_to_lattice(ball, glm::dmat4(1), unit_frame({16, 15, 14}));
     cap_open_outlines(lattice);
     EXPECT_EQ(lattice.triangles.size(), ball.triangles.size());
-}
-
-TEST(Caps, HaveAnArea) {
-    // The outline's middle, (3, 0) of whole lattice units, lies on its first edge.
-    MeshLattice lattice;
-    lattice.vertices = {{0, 0, 0}, {6, 0, 0}, {6, 6, 0}, {3, -6, 0}, {2, 2, 9}};
-    lattice.triangles = {{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}};
-    cap_open_outlines(lattice);
-    EXPECT_EQ(lattice.triangles.size(), 4u + 3u);
 }
 
 TEST(Caps, FanFromTheMiddleOfEachOutline) {

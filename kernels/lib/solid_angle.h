@@ -100,7 +100,7 @@ typedef struct {
 
 /// Half the solid angle of the cap seen from each point, positive from behind (van Oosterom and
 /// Strackee 1983). Beside the cap the angle jumps; there its side is decided in integers, so that
-/// it agrees with the crossings. Near the cap's edges its legs vanish, and nothing is known.
+/// it agrees with the crossings. Near the cap's edges both legs may vanish, and nothing is known.
 static inline HalfAngle half_solid_angle(const Cap* cap, const LanePoints* p, float3 to_metric) {
     const LaneVector a = vector_to(cap->lattice.corner[0], p, to_metric);
     const LaneVector b = vector_to(cap->lattice.corner[1], p, to_metric);
@@ -115,10 +115,13 @@ static inline HalfAngle half_solid_angle(const Cap* cap, const LanePoints* p, fl
     if (lanes_any(LANE_MASK(fabs(height) <= bound) & LANE_MASK(reach <= 0.0f)))
         height = LANES_SELECT(LANE_MASK(fabs(height) <= bound),
                               take_sign(height, exact_sides(cap, p)), height);
-    // The turn that both legs' errors make, to first order, and as much again for the others.
+    // The turn that both legs' errors make where the legs are as short as they may be, and as much
+    // again for the rounding of this bound.
     const lane_float slack = REACH_ROUNDING * a.length * b.length * c.length;
+    const lane_float least_height = fmax(fabs(height) - bound, (lane_float)(0.0f));
+    const lane_float least_reach = fmax(fabs(reach) - slack, (lane_float)(0.0f));
     const lane_float turn = (bound * (fabs(reach) + slack) + slack * (fabs(height) + bound)) /
-                            fma(height, height, reach * reach);
+                            fma(least_height, least_height, least_reach * least_reach);
     const HalfAngle seen = {lanes_atan2(height, reach), 2.0f * turn + ARC_ROUNDING};
     return seen;
 }

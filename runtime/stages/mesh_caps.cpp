@@ -78,13 +78,10 @@ class Outlines {
     std::map<uint32_t, uint32_t> root_of_;
 };
 
-/// Corners in one line: a triangle that no point sees at an angle.
-bool has_area(const MeshLattice& mesh, const glm::uvec3& triangle) {
-    const glm::i64vec3 corner(mesh.vertices[triangle.x]);
-    const glm::i64vec3 u = glm::i64vec3(mesh.vertices[triangle.y]) - corner;
-    const glm::i64vec3 v = glm::i64vec3(mesh.vertices[triangle.z]) - corner;
-    return u.y * v.z != u.z * v.y || u.z * v.x != u.x * v.z || u.x * v.y != u.y * v.x;
-}
+/// Lattice units from an outline's middle to where its caps meet. Winding numbers don't depend on
+/// that place; beside the middle itself, centres of voxels seldom lie on edges between caps, where
+/// neither has an angle.
+constexpr glm::i64vec3 kAside(37, 53, 71);
 
 /// The middle of an outline's corners.
 struct Middle {
@@ -109,12 +106,10 @@ void cap_open_outlines(MeshLattice& mesh) {
     }
     for (auto& [root, m] : middles) {
         m.vertex = static_cast<uint32_t>(mesh.vertices.size());
-        mesh.vertices.emplace_back(m.sum / m.count);
+        mesh.vertices.emplace_back(m.sum / m.count + kAside);
     }
-    for (const Edge& e : open) {
-        const glm::uvec3 cap(e.to, e.from, middles[outlines.find(e.from)].vertex);
-        if (has_area(mesh, cap)) mesh.triangles.push_back(cap);
-    }
+    for (const Edge& e : open)
+        mesh.triangles.emplace_back(e.to, e.from, middles[outlines.find(e.from)].vertex);
 }
 
 }  // namespace voxelume

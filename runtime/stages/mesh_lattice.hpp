@@ -35,11 +35,11 @@ MeshLattice snap_to_lattice(const Mesh& mesh, const glm::dmat4& frame_from_mesh,
 glm::dvec3 to_voxels(const glm::vec3& position, const glm::dmat4& frame_from_mesh,
                      const GridFrame& frame);
 
-/// Closes the mesh: appends triangles that fan from each open outline's middle to its edges, so
-/// that the whole has no boundary and integer winding numbers. A closed mesh gets none.
+/// Closes the mesh: appends triangles that fan from beside each open outline's middle to its edges,
+/// so that the whole has no boundary and integer winding numbers. A closed mesh gets none.
 ///
 /// Vertices at one lattice point count as one, and opposite edges cancel, so neither seams nor
-/// doubled sheets count as holes. A triangle with its corners in one line is left out.
+/// doubled sheets count as holes.
 void cap_open_outlines(MeshLattice& mesh);
 
 }  // namespace voxelume
