@@ -100,13 +100,26 @@ void write_text(const std::string& path, const std::string& text) {
     file.commit();
 }
 
+/// Refuses options that leave no row, or none of a scene that was asked for.
+void check_rows(const BenchCommand& command, const BenchOptions& options) {
+    constexpr const char* kAdvice = "scenes/BENCH.md names what each has";
+    if (count_rows(options) == 0)
+        throw Error(ErrorKind::usage, "bench: no scene has rows of these sizes and placements; {}",
+                    kAdvice);
+    if (command.only.empty()) return;
+    BenchOptions of_one = options;
+    for (const BenchEntry* entry : options.subjects) {
+        of_one.subjects = {entry};
+        if (count_rows(of_one) == 0)
+            throw Error(ErrorKind::usage, "bench: {} has no row of these sizes and placements; {}",
+                        entry->name, kAdvice);
+    }
+}
+
 int run(const BenchCommand& command) {
     const BenchOptions options = options_of(command);
     check_outputs(command);
-    if (count_rows(options) == 0)
-        throw Error(ErrorKind::usage,
-                    "bench: no scene has rows of these sizes and placements; scenes/BENCH.md names "
-                    "what each has");
+    check_rows(command, options);
     const Device device = Device::open(command.device);
     BenchReport report;
     {
@@ -148,7 +161,7 @@ Action add_bench(CLI::App& app) {
     app.add_option("--only", command->only, list_of_scenes())->allow_extra_args(false);
     app.add_option("--resolution", command->resolutions, "voxels a metre, like 16,32,64")
         ->delimiter(',')
-        ->check(in_range(2, 4096, Number::whole));
+        ->check(in_range(4, 4096, Number::whole));
     app.add_option("--placement", command->placements, "world, instance, or both with a comma")
         ->delimiter(',')
         ->check(CLI::IsMember({"world", "instance"}));

@@ -58,13 +58,17 @@ ImageChannels channels_of(const RenderOptions& options) {
     return has_exr ? channels : ImageChannels{false, false, false, false};
 }
 
-void write(const Image& image, const std::string& path, const RenderOptions& options) {
+using Attributes = std::map<std::string, std::string>;
+
+void write(const Image& image, const Attributes& attributes, const std::string& path,
+           const RenderOptions& options) {
     if (std::filesystem::path(path).extension() == ".png") {
         PngOptions png;
         png.exposure = options.exposure;
         write_png(path, image, png);
     } else {
-        write_exr(path, image, options.float_color ? ColorDepth::float32 : ColorDepth::float16);
+        write_exr(path, image, options.float_color ? ColorDepth::float32 : ColorDepth::float16,
+                  attributes);
     }
 }
 
@@ -74,7 +78,7 @@ void write(const Image& image, const std::string& path, const RenderOptions& opt
                 count);
 }
 
-void add_attributes(const Scene& scene, int frame, std::map<std::string, std::string>& attributes) {
+void add_attributes(const Scene& scene, int frame, Attributes& attributes) {
     attributes["scene"] = scene.file.filename().string();
     if (moves(scene)) attributes["frame"] = std::to_string(frame);
     attributes["software"] = "voxelume " + std::string(version());
@@ -197,9 +201,10 @@ class FrameRun {
         shown = std::max(percent, shown);
     }
 
-    void write_images(Image image, const FrameFiles& files) const {
-        add_attributes(scene_, files.frame, image.attributes);
-        for (const std::string& path : files.images) write(image, path, options_);
+    void write_images(const Image& image, const FrameFiles& files) const {
+        Attributes attributes;
+        add_attributes(scene_, files.frame, attributes);
+        for (const std::string& path : files.images) write(image, attributes, path, options_);
     }
 
     void write_volumes(Volume& volume, const FrameFiles& files) const {

@@ -278,7 +278,10 @@ TEST_F(BenchProgram, RefusesWhatItCannotDoBeforeItMeasures) {
     EXPECT_THAT(names.err, HasSubstr("no scene named \"tours\"; did you mean \"torus\"?"));
     EXPECT_EQ(run("bench -o report.pdf").exit_code, 2);
     EXPECT_EQ(run("bench --json a --csv a").exit_code, 2);
-    EXPECT_EQ(run("bench --resolution 1").exit_code, 2);
+    EXPECT_EQ(run("bench --resolution 3").exit_code, 2);
+    const ProgramResult nothing = run("bench --only whitted,sphere --resolution 4");
+    EXPECT_EQ(nothing.exit_code, 2);
+    EXPECT_THAT(nothing.err, HasSubstr("sphere has no row"));
     EXPECT_EQ(run("bench --placement both").exit_code, 2);
     EXPECT_EQ(run("bench --plot report.png").exit_code, 2);
     EXPECT_EQ(run("bench --csv missing/a.csv").exit_code, 5);

@@ -17,13 +17,14 @@ enum class ColorDepth { float16, float32 };
 void set_exr_threads(int threads);
 
 /// Writes `image` with ZIP compression, the chromaticities of Rec. 709 and its attributes as
-/// strings.
+/// strings, beside others that the file shall have.
 ///
 /// Returns how many values of R G B A weren't finite: they are written as 0, and the caller tells
 /// the user. Halves are rounded to nearest and clamped to +-65504. The same image gives the same
 /// bytes. The file is verified before it appears under its name. Throws Error::output.
 size_t write_exr(const std::filesystem::path& path, const Image& image,
-                 ColorDepth color = ColorDepth::float16);
+                 ColorDepth color = ColorDepth::float16,
+                 const std::map<std::string, std::string>& others = {});
 
 /// Reads every channel of a flat, single-part or first-part OpenEXR file, scanline or tiled; text
 /// attributes come along.

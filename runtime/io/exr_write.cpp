@@ -60,7 +60,9 @@ class ExrWriter {
     ExrWriter(const ExrWriter&) = delete;
     ExrWriter& operator=(const ExrWriter&) = delete;
 
-    void header(const Image& image, const std::vector<ExrPlane>& planes) {
+    using Attributes = std::map<std::string, std::string>;
+
+    void header(const Image& image, const Attributes& others, const std::vector<ExrPlane>& planes) {
         check(exr_add_part(context_, "", EXR_STORAGE_SCANLINE, &part_));
         check(exr_initialize_required_attr_simple(context_, part_, image.width, image.height,
                                                   EXR_COMPRESSION_ZIP));
@@ -74,7 +76,9 @@ class ExrWriter {
             check(exr_add_channel(context_, part_, plane.name.c_str(), type,
                                   EXR_PERCEPTUALLY_LOGARITHMIC, 1, 1));
         }
-        for (const auto& [name, text] : image.attributes)
+        Attributes attributes = image.attributes;
+        attributes.insert(others.begin(), others.end());
+        for (const auto& [name, text] : attributes)
             check(exr_attr_set_string(context_, part_, name.c_str(), text.c_str()));
         check(exr_write_header(context_));
     }
@@ -111,14 +115,15 @@ void set_exr_threads(int threads) {
     Imf::setGlobalThreadCount(threads);
 }
 
-size_t write_exr(const std::filesystem::path& path, const Image& image, ColorDepth color) {
+size_t write_exr(const std::filesystem::path& path, const Image& image, ColorDepth color,
+                 const std::map<std::string, std::string>& others) {
     AtomicFile file(path);
     check_image(file, image);
     const std::vector<ExrPlane> planes = planes_of(image, color);
     size_t replaced = 0;
     {
         ExrWriter writer(file, path);
-        writer.header(image, planes);
+        writer.header(image, others, planes);
         compress_chunks(planes, image.width, image.height, Imf::globalThreadCount(),
                         [&](const ExrChunk& chunk) {
                             writer.chunk(chunk);

@@ -6,8 +6,8 @@
 
 namespace voxelume {
 
-/// Rays that go through the stages together: enough to fill any device, few enough to stay in a
-/// CPU's caches on their way.
+/// Rays that go through the stages together: few enough for a CPU's memory and caches, half of the
+/// work-items that the largest GPUs hold at once.
 inline constexpr uint32_t kBatchRays = 1u << 17;
 
 /// Rays as they set out; shared/trace.h has the components, `stride` values apart.
