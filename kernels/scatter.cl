@@ -198,7 +198,7 @@ typedef struct {
 
 /// A ray from a surface point along `direction` in metres, on the `side` that a vector points to.
 static inline void set_out_child(NewRays* r, PyramidShape shape, Vector position, Vector side,
-                           Vector direction) {
+                                 Vector direction) {
     const lane_float x = direction.x * shape.inverse_edge.x;
     const lane_float y = direction.y * shape.inverse_edge.y;
     const lane_float z = direction.z * shape.inverse_edge.z;

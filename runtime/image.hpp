@@ -19,7 +19,7 @@ struct Image {
     int height = 0;
     std::map<std::string, Plane<float>> planes;
     std::map<std::string, Plane<uint32_t>> id_planes;  ///< objectId
-    std::map<std::string, std::string> attributes;  ///< text for the header: scene, version, ...
+    std::map<std::string, std::string> attributes;     ///< text for the header: scene, version, ...
 };
 
 }  // namespace voxelume

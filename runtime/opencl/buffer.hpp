@@ -89,7 +89,8 @@ class Buffer {
         if (count) storage_->read(first * sizeof(T), values.data(), count * sizeof(T));
         return values;
     }
-    /// All values, not copied where kernels' memory is the host's own; nothing may write them again.
+    /// All values, not copied where kernels' memory is the host's own; nothing may write them
+    /// again.
     std::shared_ptr<T> contents() const {
         if (!storage_) return {};
         const std::shared_ptr<void> bytes = storage_->contents();
