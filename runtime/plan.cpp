@@ -74,6 +74,12 @@ class Planner {
         return {extent.voxels * inside, extent.bricks * inside};
     }
 
+    /// No more than it takes; nothing of a mesh that is cut.
+    SurfaceExtent least_extent(const Object& object, double band) {
+        if (!scene_.models[size_t(object.model)].cuts.empty()) return {};
+        return world_extent(object, band, least_solid_area);
+    }
+
     /// Voxels of the world inside of an object whose inside rays see: those of its box.
     double inside_voxels(const Object& object) {
         const Model& model = scene_.models[size_t(object.model)];
@@ -127,9 +133,7 @@ class Planner {
         const bool is_exact = model.surface == Surface::exact;
         const double band = model.surface == Surface::smooth ? kSurfaceBand : kPlacedBand;
         const SurfaceExtent in_world = world_extent(object, band);
-        const bool has_parts = model.solid && is_combination(model.solid->kind);
-        const SurfaceExtent least =
-            has_parts ? world_extent(object, band, least_solid_area) : in_world;
+        const SurfaceExtent least = least_extent(object, band);
         plan_.voxels += in_world.voxels;
         plan_.bricks += in_world.bricks;
         add_least(number, {least.voxels, least.bricks, is_exact ? least.voxels : 0});
@@ -147,9 +151,7 @@ class Planner {
             exact_voxels_ += in_world.voxels;
             if (mesh) exact_triangles_ += double(mesh->triangles);
             GridPlan grid = plan_grid(model, mesh, plan_.world, world_extent(object, 0));
-            if (has_parts)
-                set_least(grid, plan_grid(model, mesh, plan_.world,
-                                          world_extent(object, 0, least_solid_area)));
+            set_least(grid, plan_grid(model, mesh, plan_.world, least_extent(object, 0)));
             plan_.grids.push_back(grid);
             plan_.grids.back().object = number;
         } else if (made_.insert(object.model).second) {

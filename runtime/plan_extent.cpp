@@ -36,10 +36,12 @@ WorldExtent extent_at_least(std::vector<ObjectExtent> objects) {
         if (!std::ranges::all_of(taken, [&](const BrickRange& r) { return are_apart(r, range); }))
             continue;
         taken.push_back(range);
-        const glm::dvec3 bricks = glm::max(range.last - range.first + 1.0, 0.0);
-        sum.voxels += object.extent.voxels;
-        sum.bricks += std::min(object.extent.bricks, bricks.x * bricks.y * bricks.z);
-        sum.exact_voxels += object.extent.exact_voxels;
+        const glm::dvec3 size = glm::max(range.last - range.first + 1.0, 0.0);
+        const double bricks = std::min(object.extent.bricks, size.x * size.y * size.z);
+        const double most = bricks * kBrickSize * kBrickSize * kBrickSize;
+        sum.voxels += std::min(object.extent.voxels, most);
+        sum.bricks += bricks;
+        sum.exact_voxels += std::min(object.extent.exact_voxels, most);
     }
     return sum;
 }

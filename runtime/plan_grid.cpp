@@ -97,9 +97,11 @@ GridPlan plan_grid(const Model& model, const MeshSummary* mesh, const SurfaceAre
         return plan_grid(model, mesh, frame, surface_extent(of, glm::dmat4(1), frame, band));
     };
     GridPlan grid = plan_of(area);
-    if (model.solid && is_combination(model.solid->kind))
+    if (model.solid)
         set_least(grid, plan_of(least_solid_area(*model.solid, glm::dmat4(1),
                                                  {model.reach.min, model.reach.max})));
+    else if (!model.cuts.empty())
+        set_least(grid, plan_of({}));
     return grid;
 }
 

@@ -16,6 +16,7 @@ template <class T>
 class Plane {
   public:
     Plane() = default;
+    // NOLINTNEXTLINE(google-explicit-constructor): values become a plane wherever one is wanted
     Plane(std::vector<T> values) {
         const auto owner = std::make_shared<std::vector<T>>(std::move(values));
         size_ = owner->size();

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/gtc/constants.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 
@@ -42,6 +43,43 @@ SurfaceArea box_area(const SolidBounds& box, const SolidBounds& clip) {
     return area;
 }
 
+/// Which part of its box' shadows along its own axes a shape throws at least.
+glm::dvec3 own_shadows(const Solid& solid) {
+    constexpr double kDisk = glm::pi<double>() / 4;
+    switch (solid.kind) {
+        case SolidKind::box:
+        case SolidKind::slab:
+            return glm::dvec3(1);
+        case SolidKind::cylinder:
+            return {1, kDisk, 1};
+        case SolidKind::cone:
+            return {0.5, kDisk, 0.5};
+        case SolidKind::torus: {
+            const double ring = solid.radius, tube = solid.tube, reach = ring + tube;
+            const double side = (ring + kDisk * tube) / reach;
+            return {side, glm::pi<double>() * ring * tube / (reach * reach), side};
+        }
+        default:
+            return glm::dvec3(kDisk);
+    }
+}
+
+/// The same along the axes that `map` turns them to; nothing where it turns them to no axes.
+glm::dvec3 least_shadows(const Solid& solid, const glm::dmat4& map) {
+    const glm::dvec3 own = own_shadows(solid);
+    glm::dvec3 shadows(0);
+    for (int column = 0; column < 3; ++column) {
+        int numbers = 0;
+        for (int row = 0; row < 3; ++row) {
+            if (map[column][row] == 0) continue;
+            ++numbers;
+            shadows[row] = own[column];
+        }
+        if (numbers > 1) return glm::dvec3(0);
+    }
+    return shadows;
+}
+
 }  // namespace
 
 SurfaceArea mesh_area(const Mesh& mesh) {
@@ -69,11 +107,17 @@ SurfaceArea solid_area(const Solid& solid, const glm::dmat4& frame_from_solid,
 
 SurfaceArea least_solid_area(const Solid& solid, const glm::dmat4& frame_from_solid,
                              const SolidBounds& clip) {
-    if (!is_combination(solid.kind)) return solid_area(solid, frame_from_solid, clip);
+    const glm::dmat4 map = frame_from_solid * solid.parent_from_solid;
     SurfaceArea most;
+    if (!is_combination(solid.kind)) {
+        most = solid_area(solid, frame_from_solid, clip);
+        most.shadows *= least_shadows(solid, map);
+        most.total = most.shadows.x + most.shadows.y + most.shadows.z;
+        return most;
+    }
+    if (solid.kind != SolidKind::union_of) return most;  // they may leave nothing
     for (const Solid& part : solid.parts) {
-        const SurfaceArea of_part =
-            least_solid_area(part, frame_from_solid * solid.parent_from_solid, clip);
+        const SurfaceArea of_part = least_solid_area(part, map, clip);
         if (of_part.total >= most.total) most = of_part;
     }
     return most;

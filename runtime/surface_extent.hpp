@@ -28,7 +28,8 @@ SurfaceArea mesh_area(const Mesh& mesh);
 SurfaceArea solid_area(const Solid& solid, const glm::dmat4& frame_from_solid,
                        const SolidBounds& clip);
 
-/// The same, but of parts, which may lie in each other, the largest alone.
+/// No more than it has: of a union's parts, which may lie in each other, the largest alone; nothing
+/// of other combinations and turned shapes.
 SurfaceArea least_solid_area(const Solid& solid, const glm::dmat4& frame_from_solid,
                              const SolidBounds& clip);
 

@@ -115,7 +115,7 @@ TEST_F(PlanTest, EstimatesAreWithinAHalfOfWhatFormingTheWorldTakes) {
         uint64_t largest = 0;
         for (const auto& [name, bytes] : device.counters().allocated_bytes)
             largest = std::max(largest, bytes);
-        EXPECT_GT(planned.bytes, double(largest) / 1.5) << model << ": " << planned.name;
+        EXPECT_GT(planned.bytes, double(largest) / 2) << model << ": " << planned.name;
         EXPECT_LT(planned.bytes, double(largest) * 1.5) << model << ": " << planned.name;
     }
 }
@@ -150,7 +150,7 @@ TEST_F(PlanTest, ObjectsInEachOthersBricksPlanNoLargerBuffersThanAreMade) {
 }
 
 TEST_F(PlanTest, ObjectsApartAreAllRefusedWithTheirMemory) {
-    Scene scene = scene_of(R"({"shape": "sphere", "radius": 0.05})", 1.0 / 200);
+    Scene scene = scene_of(R"({"shape": "box", "size": [0.1, 0.1, 0.1]})", 1.0 / 200);
     const Object ball = scene.objects[0];
     for (const glm::dvec3 step : {glm::dvec3(0.25, 0, 0), glm::dvec3(-0.25, 0, 0),
                                   glm::dvec3(0, 0.25, 0), glm::dvec3(0, 0, -0.25)}) {
@@ -160,6 +160,28 @@ TEST_F(PlanTest, ObjectsApartAreAllRefusedWithTheirMemory) {
     }
     const ScenePlan plan = plan_of(scene);
     EXPECT_DOUBLE_EQ(plan.least_bytes, plan.peak_bytes());
+}
+
+TEST_F(PlanTest, WhatMayLeaveLittleOrLieAslantIsNotRefusedForItsBox) {
+    const char* lens = R"([{"shape": "sphere", "radius": 0.3},
+                           {"shape": "sphere", "radius": 0.3, "position": [0, 0.59, 0]}])";
+    const char* rod =
+        R"({"shape": "cylinder", "radius": 0.004, "height": 0.7, "surface": "exact"})";
+    for (const std::string& model :
+         {fmt::format(R"({{"shape": "intersection", "parts": {}}})", lens),
+          fmt::format(R"({{"shape": "difference", "surface": "exact", "parts": {}}})", lens),
+          std::string(rod)}) {
+        Scene scene = scene_of(model, 1.0 / 200);
+        scene.objects[0].world_from_object *=
+            glm::rotate(glm::dmat4(1), 0.7, glm::dvec3(1, 0.3, 0.8));
+        const ScenePlan plan = plan_of(scene);
+        const Device device = test_device();
+        WorldReport report;
+        form_world(device, scene, report);
+        DeviceInfo info = device.info();
+        info.memory = info.max_allocation = device.counters().peak_bytes + 100'000;
+        EXPECT_NO_THROW(check_memory(scene, plan, info)) << model;
+    }
 }
 
 TEST_F(PlanTest, ASolidWhosePartsLieInEachOtherIsRefusedForTheLargestAlone) {
@@ -225,16 +247,16 @@ TEST_F(PlanTest, ABufferBeyondOnePieceIsNamedWithItsOwnerAndTheWayOut) {
         return std::string(error.what());
     };
     const std::string ball = R"({"shape": "sphere", "radius": 0.35, "surface": ")";
-    // 246,000 voxels of 280² pi, 2.8 about them: 2,300 bricks of 8,192 bytes
+    // 369,000 voxels in three pairs of disks 280 wide, 2.8 about them: 1,780 bricks of 8,192 bytes
     EXPECT_THAT(refusal(ball + "smooth\"}", 12),
                 HasSubstr(": models.thing: a model of 288x288x288 voxels needs a buffer of "
-                          "18.6 MB for its distances, and \"Small One\" allows 12.0 MB in "
-                          "one piece: use voxels larger than 0.0033 m"));
+                          "14.6 MB for its distances, and \"Small One\" allows 12.0 MB in "
+                          "one piece: use voxels larger than 0.0029 m"));
     EXPECT_THAT(refusal(ball + "smooth\", \"voxel_size\": 0.02}", 9),
-                HasSubstr(": world: a world of 400x360x320 voxels needs a buffer of 18.6 MB for "
+                HasSubstr(": world: a world of 400x360x320 voxels needs a buffer of 14.6 MB for "
                           "its distances"));
     EXPECT_THAT(refusal(ball + "cubes\", \"voxel_size\": 0.02}", 1),
-                HasSubstr(": world: a world of 400x360x320 voxels needs a buffer of 1.3 MB for "
+                HasSubstr(": world: a world of 400x360x320 voxels needs a buffer of 1.1 MB for "
                           "its voxels"));
     EXPECT_THAT(refusal(ball + "exact\"}", 12),
                 HasSubstr("an object in a world of 400x360x320 voxels needs a buffer of"));

@@ -1,8 +1,10 @@
 // Rays a second through a mesh's pyramid: closest hits of the sight rays that hit, of shadow rays
 // and of incoherent bounces, for each surface and number of lanes.
 //
-//   bench_trace MESH [voxels along the longest side, 512] [lanes ... | surfaces ... | peers]
+//   bench_trace MESH [voxels along the longest side, 512] [lanes ... | surfaces ... | peers |
+//   halved]
 //
+// `halved`, as often as it is there, cuts each triangle into four at the middles of its edges.
 // `peers` has Embree, OpenVDB and NanoVDB trace the same rays, as far as they are installed. Embree
 // takes the shadow rays by its quicker query, which only says that something was met.
 //
@@ -20,6 +22,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
+#include <map>
 #include <random>
 
 #include "kernels/shared/voxel.h"
@@ -192,6 +195,25 @@ Mesh scaled_mesh(const char* path) {
     return mesh;
 }
 
+/// Each triangle as the four between its corners and the middles of its edges.
+Mesh halved(const Mesh& mesh) {
+    Mesh result;
+    result.positions = mesh.positions;
+    std::map<std::pair<uint32_t, uint32_t>, uint32_t> middles;
+    const auto middle = [&](uint32_t a, uint32_t b) {
+        const auto [at, is_new] =
+            middles.emplace(std::minmax(a, b), uint32_t(result.positions.size()));
+        if (is_new) result.positions.push_back(0.5f * (mesh.positions[a] + mesh.positions[b]));
+        return at->second;
+    };
+    for (const glm::uvec3& t : mesh.triangles) {
+        const uint32_t xy = middle(t.x, t.y), yz = middle(t.y, t.z), zx = middle(t.z, t.x);
+        result.triangles.insert(result.triangles.end(),
+                                {{t.x, xy, zx}, {xy, t.y, yz}, {zx, yz, t.z}, {xy, yz, zx}});
+    }
+    return result;
+}
+
 /// Million rays a second: that hit, of shadow, that bounced, of the picture.
 struct Row {
     std::string name;
@@ -302,6 +324,7 @@ int main(int count, char** arguments) {
     if (count < 2) return 2;
     const int voxels = count > 2 ? std::atoi(arguments[2]) : 512;
     bool with_peers = false;
+    int halvings = 0;
     std::vector<int> lanes;
     std::vector<std::pair<Surface, std::string>> surfaces;
     for (int i = 3; i < count; ++i) {
@@ -310,13 +333,16 @@ int main(int count, char** arguments) {
         if (word == "smooth") surfaces.emplace_back(Surface::smooth, word);
         if (word == "exact") surfaces.emplace_back(Surface::exact, word);
         with_peers |= word == "peers";
+        halvings += word == "halved";
         if (std::atoi(arguments[i]) > 0) lanes.push_back(std::atoi(arguments[i]));
     }
     if (lanes.empty()) lanes = {16, 8, 4, 1};
     if (surfaces.empty())
         surfaces = {
             {Surface::cubes, "cubes"}, {Surface::smooth, "smooth"}, {Surface::exact, "exact"}};
-    const Mesh mesh = scaled_mesh(arguments[1]);
+    Mesh mesh = scaled_mesh(arguments[1]);
+    for (int i = 0; i < halvings; ++i) mesh = halved(mesh);
+    fmt::print("{} triangles\n", mesh.triangles.size());
     fmt::print("{:18} {:>7}  million rays a second and core: that hit, shadow, bounce, all\n", "",
                "build");
     for (const auto& [surface, name] : surfaces)
