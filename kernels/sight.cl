@@ -154,7 +154,8 @@ kernel void start_beams(PyramidShape shape, global const uint* restrict sectors,
     const lane_float start = fmin(end, s_last) - 2.0f * VXL_BEAM_STEP;
     const uint places = VXL_BEAM_PLACES(stride);
     LANES_STORE(LANES_AS_UINT(start), beams, VXL_BEAM_START * places + first);
-    // At the world's far side a last step's planes lie within the leaf around the last cell.
+    // The halo's last leaf knows of 4 voxels more, and so of the step past its planes. A beam that
+    // begins within a step of the far side has looked at nothing.
     const lane_int clear = LANE_MASK(s_last >= s_far) & LANE_MASK(end >= s_far) &
                            LANE_MASK(s_first + VXL_BEAM_STEP < s_far);
     lane_int towards = axis | (~up & VXL_BEAM_DOWN);

@@ -65,7 +65,10 @@ kernel void trace_closest(VXL_WORLD_ARGUMENTS, global const float* restrict rays
                           global uint* restrict hits) {
     const uint first = work_item() * VXL_LANES;
     if (first >= count) return;
-    if (beams && beam_is_clear(beams, stride, first)) return store_misses(stride, first, hits);
+    if (beams && beam_is_clear(beams, stride, first)) {
+        store_misses(stride, first, hits);
+        return;
+    }
     VXL_WORLD_VIEWS;
     Flight f;
     f.ray = LANES_AS_UINT(LANES_NUMBERS + (int)first);
