@@ -86,8 +86,11 @@ void print_plan(const Scene& scene, std::span<const int> frames, const Device& d
     const std::string of_frames =
         frames.size() > 1 ? fmt::format(" by frame {}", planned.frame) : "";
     const double peak = planned.plan.peak_bytes(), memory = double(device.info().memory);
-    fmt::print("\n{}: at most {} of {} are needed{}; counts and memory are estimates\n",
-               peak <= memory ? "fits" : "may fit, as objects or parts overlap", bytes_text(peak),
+    const std::string needed =
+        peak <= memory ? fmt::format("fits: at most {}", bytes_text(peak))
+                       : fmt::format("may fit: {} to {}", bytes_text(planned.plan.least_bytes),
+                                     bytes_text(peak));
+    fmt::print("\n{} of {} are needed{}; counts and memory are estimates\n", needed,
                bytes_text(memory), of_frames);
 }
 
