@@ -13,10 +13,10 @@
 #define VXL_REFILL ((VXL_LANES + 3) / 4)
 
 // Values of the rays that a packet's lanes hold: side by side, unless they are taken on one by one.
-#define VXL_RAY_FLOATS(p, ray) \
-    (VXL_PATHS ? LANES_GATHER_FLOAT(p, ray) : LANES_LOAD(p, LANES_FIRST(ray)))
-#define VXL_RAY_UINTS(p, ray) \
-    (VXL_PATHS ? LANES_GATHER_UINT(p, ray) : LANES_LOAD(p, LANES_FIRST(ray)))
+#define VXL_RAY_FLOATS(p, ray, one_by_one) \
+    ((one_by_one) ? LANES_GATHER_FLOAT(p, ray) : LANES_LOAD(p, LANES_FIRST(ray)))
+#define VXL_RAY_UINTS(p, ray, one_by_one) \
+    ((one_by_one) ? LANES_GATHER_UINT(p, ray) : LANES_LOAD(p, LANES_FIRST(ray)))
 
 /// Before a walk.
 static inline Found found_nothing(const Travel* travel) {
@@ -97,13 +97,15 @@ static inline Found find_first(const PyramidView* p, const SurfaceView* s, Walk*
     return found;
 }
 
-static inline Walk walk_of(global const float* restrict rays, uint stride, lane_uint ray) {
-    return begin_walk(VXL_RAY_FLOATS(rays + VXL_RAY_OX * stride, ray),
-                      VXL_RAY_FLOATS(rays + VXL_RAY_OY * stride, ray),
-                      VXL_RAY_FLOATS(rays + VXL_RAY_OZ * stride, ray),
-                      VXL_RAY_FLOATS(rays + VXL_RAY_DX * stride, ray),
-                      VXL_RAY_FLOATS(rays + VXL_RAY_DY * stride, ray),
-                      VXL_RAY_FLOATS(rays + VXL_RAY_DZ * stride, ray));
+/// `one_by_one` says how the lanes were given their rays.
+static inline Walk walk_of(global const float* restrict rays, uint stride, lane_uint ray,
+                           bool one_by_one) {
+    return begin_walk(VXL_RAY_FLOATS(rays + VXL_RAY_OX * stride, ray, one_by_one),
+                      VXL_RAY_FLOATS(rays + VXL_RAY_OY * stride, ray, one_by_one),
+                      VXL_RAY_FLOATS(rays + VXL_RAY_OZ * stride, ray, one_by_one),
+                      VXL_RAY_FLOATS(rays + VXL_RAY_DX * stride, ray, one_by_one),
+                      VXL_RAY_FLOATS(rays + VXL_RAY_DY * stride, ray, one_by_one),
+                      VXL_RAY_FLOATS(rays + VXL_RAY_DZ * stride, ray, one_by_one));
 }
 
 /// Mask: a coordinate of a ray's origin lies on the side of the world across which it comes in.
@@ -150,11 +152,11 @@ static inline Travel load_travel(global const uint* restrict paths,
     Travel travel = sight_travel();
     travel.on_surface = has_flag(flags, VXL_PATH_ON_SURFACE);
     travel.within_source = has_flag(flags, VXL_PATH_WITHIN_SOURCE);
-    if (VXL_EXACT) travel.source = VXL_RAY_UINTS(paths + VXL_PATH_SOURCE * stride, ray);
-    if (VXL_INSTANCES) travel.instance = VXL_RAY_UINTS(paths + VXL_PATH_INSTANCE * stride, ray);
+    if (VXL_EXACT) travel.source = LANES_GATHER_UINT(paths + VXL_PATH_SOURCE * stride, ray);
+    if (VXL_INSTANCES) travel.instance = LANES_GATHER_UINT(paths + VXL_PATH_INSTANCE * stride, ray);
     if (VXL_TRANSMISSION) {
         travel.goes_on = has_flag(flags, VXL_PATH_GOES_ON);
-        if (lanes_any(travel.goes_on)) travel.t_first = VXL_RAY_FLOATS(starts, ray);
+        if (lanes_any(travel.goes_on)) travel.t_first = LANES_GATHER_FLOAT(starts, ray);
         travel.interior = gather_interior(paths, stride, ray, LANE_MASK(ray < count));
     }
     if (VXL_CUBE_BODIES) {
@@ -213,20 +215,20 @@ static inline lane_int take_rays(lane_int idle, uint end, uint* next, lane_uint*
 static inline void set_out(const PyramidView* p, global const float* restrict rays, uint count,
                            uint stride, global const uint* restrict paths,
                            global const float* restrict starts, Flight* f) {
-    f->walk = walk_of(rays, stride, f->ray);
+    f->walk = walk_of(rays, stride, f->ray, VXL_PATHS);
     f->travel = sight_travel();
     lane_uint flags = (lane_uint)0;
     if (VXL_PATHS) {
-        flags = VXL_RAY_UINTS(paths + VXL_PATH_FLAGS * stride, f->ray);
+        flags = LANES_GATHER_UINT(paths + VXL_PATH_FLAGS * stride, f->ray);
         f->travel = load_travel(paths, starts, count, stride, f->ray, flags);
     }
     enter_world(p, &f->walk, ~f->travel.on_surface);
     f->travel.unsure = ~f->travel.on_surface & LANE_MASK(f->walk.axis == 3);
     const lane_int resuming = has_flag(flags, VXL_PATH_GOES_ON | VXL_PATH_FROM_CELL);
     if (VXL_TRANSMISSION && lanes_any(resuming))
-        resume_walk(&f->walk, &f->travel, VXL_RAY_UINTS(paths + VXL_PATH_CELL * stride, f->ray),
-                    VXL_RAY_UINTS(paths + VXL_PATH_CELL_Z * stride, f->ray), resuming);
-    f->t_end = VXL_RAY_FLOATS(rays + VXL_RAY_END * stride, f->ray);
+        resume_walk(&f->walk, &f->travel, LANES_GATHER_UINT(paths + VXL_PATH_CELL * stride, f->ray),
+                    LANES_GATHER_UINT(paths + VXL_PATH_CELL_Z * stride, f->ray), resuming);
+    f->t_end = VXL_RAY_FLOATS(rays + VXL_RAY_END * stride, f->ray, VXL_PATHS);
     f->found = found_nothing(&f->travel);
 }
 

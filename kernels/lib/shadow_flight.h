@@ -9,7 +9,7 @@
 #include "lib/filter.h"
 #include "lib/ray_queue.h"
 
-#define VXL_SHADOWS_FLY VXL_RAYS_FLY(VXL_PATHS, VXL_INSTANCES)
+#define VXL_SHADOWS_FLY VXL_SHADOW_RAYS_FLY(VXL_PATHS, VXL_SMOOTH, VXL_EXACT, VXL_INSTANCES)
 #define VXL_SHADOW_PACKETS (VXL_SHADOWS_FLY ? VXL_PACKETS(VXL_LANES) : 1u)
 
 /// A queue of shadow rays, and the paths and hits of the rays that met the surfaces where they
@@ -35,13 +35,14 @@ static inline void send_shadows(const SurfaceView* s, const FilterView* v, Pyram
                                 const ShadowRays* q, lane_int fresh, ShadowFlight* f) {
     Flight* flight = &f->flight;
     Walk* w = &flight->walk;
-    *w = walk_of(q->rays, q->stride, flight->ray);
-    flight->t_end = VXL_RAY_FLOATS(q->rays + VXL_RAY_END * q->stride, flight->ray);
+    *w = walk_of(q->rays, q->stride, flight->ray, VXL_SHADOWS_FLY);
+    flight->t_end = VXL_RAY_FLOATS(q->rays + VXL_RAY_END * q->stride, flight->ray, VXL_SHADOWS_FLY);
     Travel* travel = &flight->travel;
     *travel = sight_travel();
     travel->on_surface = (lane_int)-1;
-    const lane_uint target = VXL_RAY_UINTS(q->targets, flight->ray) & LANES_AS_UINT(fresh);
-    if (VXL_EXACT) travel->source = VXL_RAY_UINTS(q->sources, flight->ray);
+    const lane_uint target =
+        VXL_RAY_UINTS(q->targets, flight->ray, VXL_SHADOWS_FLY) & LANES_AS_UINT(fresh);
+    if (VXL_EXACT) travel->source = VXL_RAY_UINTS(q->sources, flight->ray, VXL_SHADOWS_FLY);
     if (VXL_INSTANCES)
         travel->instance = LANES_GATHER_UINT(q->hits + VXL_HIT_INSTANCE * q->stride, target);
     if (VXL_SOLIDS) {
@@ -95,18 +96,17 @@ static inline void keep_way(const ShadowFlight* before, lane_int fresh, ShadowFl
 static inline void bring_light(const ShadowRays* q, const ShadowFlight* f, lane_int arrived,
                                global float* restrict radiance) {
     const Places places = places_from(0, arrived);
-    uint rays[VXL_LANES];
-    LANES_STORE(f->flight.ray, rays, 0);
+    uint targets[VXL_LANES];
+    LANES_STORE(VXL_RAY_UINTS(q->targets, f->flight.ray, VXL_SHADOWS_FLY), targets, 0);
     for (int channel = 0; channel < 3; ++channel) {
-        float left[VXL_LANES];
-        lane_float part = (lane_float)1.0f;
-        if (VXL_FILTER) part = f->filter.passed[channel] * exact_exp(-f->filter.depth[channel]);
-        LANES_STORE(part, left, 0);
-        for (uint i = 0; i < places.count; ++i) {
-            const uint lane = places.lane[i], ray = rays[lane];
-            radiance[channel * q->stride + q->targets[ray]] +=
-                q->shares[channel * q->stride + ray] * left[lane];
-        }
+        lane_float share =
+            VXL_RAY_FLOATS(q->shares + channel * q->stride, f->flight.ray, VXL_SHADOWS_FLY);
+        if (VXL_FILTER) share *= f->filter.passed[channel] * exact_exp(-f->filter.depth[channel]);
+        float shares[VXL_LANES];
+        LANES_STORE(share, shares, 0);
+        global float* restrict sums = radiance + channel * q->stride;
+        for (uint i = 0; i < places.count; ++i)
+            sums[targets[places.lane[i]]] += shares[places.lane[i]];
     }
 }
 

@@ -36,6 +36,10 @@
 // Whether lanes take on further rays as theirs end, in scenes with paths. A lane's instances come
 // after its walk in the world, which other lanes may still be in.
 #define VXL_RAYS_FLY(paths, instances) ((paths) && !(instances))
+// The same of shadow rays, also where surfaces' tests take long: rays that pass beside a surface
+// meet many.
+#define VXL_SHADOW_RAYS_FLY(paths, smooth, exact, instances) \
+    (((paths) || (smooth) || (exact)) && !(instances))
 
 // What a ray met.
 //   VXL_HIT_T      float: where, as the ray's t

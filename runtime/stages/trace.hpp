@@ -51,7 +51,7 @@ class TraceStage {
                  uint32_t most, RayBatch& batch);
 
   private:
-    size_t packets_;  // that a work-item of `scattered_` and `shadows_` carries
+    size_t packets_, shadow_packets_;  // that a work-item of `scattered_`, of `shadows_` carries
     Program program_;
     Kernel closest_, shadows_;
     std::optional<Kernel> scattered_;  ///< of scenes with paths and no instances

@@ -1,0 +1,59 @@
+// The kernels of one feature set at work on lists of rays, timed.
+#pragma once
+
+#include <algorithm>
+#include <vector>
+
+#include "runtime/illumination.hpp"
+#include "runtime/stages/beam.hpp"
+#include "tests/bench/cpu_time.hpp"
+#include "tests/bench/trace_rays.hpp"
+
+namespace voxelume {
+
+/// Median CPU seconds of seven passes, after one to warm up, which builds the kernel.
+template <class Pass>
+double median_seconds(const Pass& pass) {
+    constexpr int kRuns = 7;
+    std::vector<double> seconds;
+    for (int run = 0; run <= kRuns; ++run) {
+        const double start = cpu_seconds();
+        pass();
+        seconds.push_back(cpu_seconds() - start);
+    }
+    seconds.erase(seconds.begin());
+    std::nth_element(seconds.begin(), seconds.begin() + kRuns / 2, seconds.end());
+    return seconds[kRuns / 2];
+}
+
+/// A batch that holds rays as a frame's stages would hand them on.
+RayBatch batch_of(const Device& device, const Features& features, const Pyramid& pyramid,
+                  const std::vector<Ray>& rays);
+
+/// What the batch's rays have met.
+std::vector<Hit> hits_of(const RayBatch& batch, size_t count);
+
+/// Each list goes through the kernel that a frame sends such rays through; rates are million rays
+/// a second and core. The pyramid must outlive it.
+class TraceKernels {
+  public:
+    TraceKernels(const Device& device, const Pyramid& pyramid);
+
+    double sight(const std::vector<Ray>& rays, std::vector<Hit>* hits = nullptr);
+    double bounce(const std::vector<Ray>& rays);
+    double shadow(const std::vector<Ray>& rays);
+
+    /// Of the closest hits of all lists so far.
+    uint64_t hash() const { return hash_; }
+
+  private:
+    double rate(const std::vector<Ray>& rays, double seconds, const RayBatch& batch);
+
+    Device device_;
+    const Pyramid& pyramid_;
+    Features direct_, bouncing_;
+    BeamStage beams_;
+    uint64_t hash_ = 0;
+};
+
+}  // namespace voxelume

@@ -1,0 +1,45 @@
+// The rays and meshes of bench_trace.
+#pragma once
+
+#include <cmath>
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include "runtime/grid.hpp"
+#include "runtime/mesh.hpp"
+
+namespace voxelume {
+
+/// A ray in the pyramid's voxels.
+struct Ray {
+    glm::dvec3 origin, direction;
+    float end = INFINITY;
+};
+
+struct Hit {
+    bool met = false;
+    float t = 0;
+    glm::dvec3 at{0};
+};
+
+constexpr int kPictureSide = 1024;  ///< pixels
+
+/// All rays of the picture in 4 x 4 tiles, entering the grid's box; rays past it have an end of -1.
+std::vector<Ray> picture_rays(const GridFrame& frame);
+
+/// The rays of `rays` that met something, and from where they did: bounces and shadow rays start
+/// two voxels back towards the eye, on the outside.
+struct RayLists {
+    std::vector<Ray> hitting, shadow, bounce;
+};
+
+RayLists split_rays(const std::vector<Ray>& rays, const std::vector<Hit>& hits,
+                    const GridFrame& frame);
+
+/// A mesh file's mesh with its longest side 1, centred at the origin.
+Mesh scaled_mesh(const char* path);
+
+/// Each triangle as the four between its corners and the middles of its edges.
+Mesh halved(const Mesh& mesh);
+
+}  // namespace voxelume
