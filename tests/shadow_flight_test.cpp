@@ -53,6 +53,16 @@ std::map<std::string, Plane<float>> colors(const Scene& scene, int lanes = 0) {
     return colors;
 }
 
+/// In scenes with instances packets keep their rays.
+TEST(ShadowFlight, AnInstanceThatNobodySeesChangesNothing) {
+    Scene flying = room(false, "wall"), keeping = room(false, "wall", "instance");
+    for (const Surface surface : {Surface::exact, Surface::smooth}) {
+        for (Scene* scene : {&flying, &keeping})
+            for (Model& model : scene->models) model.surface = surface;
+        EXPECT_EQ(colors(flying), colors(keeping));
+    }
+}
+
 TEST(ShadowFlight, AMirrorThatNobodySeesChangesNothing) {
     EXPECT_EQ(colors(room(false, "mirror")), colors(room(false, "wall")));
 }
