@@ -51,7 +51,8 @@ void sort_once(std::vector<int>& values) {
 
 /// What a run of under a minute has: programs not compiled yet take half of it.
 void make_quick(BenchOptions& options) {
-    options.resolutions = {8, 16, 32, 64, 128};
+    options.resolutions = {4, 8, 16, 32, 64, 128};
+    options.finest_with_light = 64;
     options.samples = {1, 4};
     options.placements = {Placement::world};
     options.size = glm::ivec2(160);
@@ -67,7 +68,10 @@ BenchOptions options_of(const BenchCommand& command) {
     options.resolutions = {4, 8, 11, 16, 23, 32, 45, 64, 128, 256, 512, 1024};
     options.samples = {1, 4, 16};
     if (command.is_quick) make_quick(options);
-    if (!command.resolutions.empty()) options.resolutions = command.resolutions;
+    if (!command.resolutions.empty()) {
+        options.resolutions = command.resolutions;
+        options.finest_with_light = BenchOptions().finest_with_light;
+    }
     sort_once(options.resolutions);
     if (!command.samples.empty()) options.samples = command.samples;
     sort_once(options.samples);
@@ -152,8 +156,8 @@ std::string list_of_scenes() {
 Action add_bench(CLI::App& app) {
     const auto command = std::make_shared<BenchCommand>();
     app.add_flag("--quick", command->is_quick,
-                 "every scene in under a minute: 8 to 128 voxels a metre, 160x160 pixels (80x80 "
-                 "with light), no repeats, no instances, no shadow edges");
+                 "every scene in under a minute: 8 to 128 voxels a metre, 160x160 pixels (4 to 64 "
+                 "and 80x80 with light), no repeats, no instances, no shadow edges");
     app.add_option("-o,--output", command->page, "report with plots: .html");
     app.add_option("--json", command->json, "file for everything that was measured");
     app.add_option("--csv", command->csv, "file for the rows");

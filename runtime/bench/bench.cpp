@@ -146,13 +146,15 @@ void measure(const Device& device, const Measured& measured, int repeats, BenchR
 /// The combinations of one subject in the order in which they are measured.
 std::vector<BenchRow> planned_rows(const BenchOptions& options, const BenchEntry& entry) {
     std::vector<BenchRow> rows;
+    const int finest =
+        entry.has_light ? std::min(entry.finest, options.finest_with_light) : entry.finest;
     for (const Surface surface : kBenchSurfaces)
         for (const Placement placement : options.placements) {
             // Glass can't be an instance.
             if (entry.has_light && placement == Placement::instance) continue;
             for (const int samples : entry.has_light ? options.samples : std::vector<int>{1})
                 for (const int resolution : options.resolutions) {
-                    if (resolution < entry.coarsest || resolution > entry.finest) continue;
+                    if (resolution < entry.coarsest || resolution > finest) continue;
                     BenchRow row;
                     row.scene = entry.name;
                     row.surface = surface;

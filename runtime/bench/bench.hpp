@@ -20,6 +20,7 @@ namespace voxelume {
 struct BenchOptions {
     std::vector<const BenchEntry*> subjects;
     std::vector<int> resolutions;  ///< voxels a metre, ascending; each subject takes its part
+    int finest_with_light = 1024;  ///< of subjects with light: no more than that
     std::vector<int> samples = {
         1};  ///< rays a pixel, ascending; more than 1 for subjects with light
     std::vector<BenchPeerRow> peers;  ///< of other programs, for the same plots
