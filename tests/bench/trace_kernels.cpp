@@ -10,14 +10,18 @@
 namespace voxelume {
 namespace {
 
-/// Of the hits' t, voxels, cells and faces.
-uint64_t hash_of(const RayBatch& batch) {
+/// Of the hits' t, voxels, cells and faces; what a miss leaves beside its voxel doesn't count.
+uint64_t hash_of(const RayBatch& batch, size_t count) {
     std::vector<uint32_t> words = batch.hits.read();
-    for (uint32_t i = 0; i < batch.stride; ++i)
-        if (words[VXL_HIT_VOXEL * batch.stride + i] == VXL_NO_VOXEL)
-            for (uint32_t c = 0; c < VXL_HIT_PRIMITIVE; ++c)
-                words[c * batch.stride + i] = VXL_NO_VOXEL;
-    return XXH3_64bits(words.data(), size_t(batch.stride) * VXL_HIT_PRIMITIVE * 4);
+    uint64_t hash = 0;
+    for (uint32_t c = 0; c < VXL_HIT_PRIMITIVE; ++c) {
+        uint32_t* values = &words[size_t(c) * batch.stride];
+        for (size_t i = 0; i < count; ++i)
+            if (words[VXL_HIT_VOXEL * size_t(batch.stride) + i] == VXL_NO_VOXEL)
+                values[i] = VXL_NO_VOXEL;
+        hash = XXH3_64bits_withSeed(values, count * 4, hash);
+    }
+    return hash;
 }
 
 template <class T>
@@ -131,7 +135,7 @@ double TraceKernels::shadow(const std::vector<Ray>& rays) {
 }
 
 double TraceKernels::rate(const std::vector<Ray>& rays, double seconds, const RayBatch& batch) {
-    hash_ ^= hash_of(batch);
+    hash_ ^= hash_of(batch, rays.size());
     return double(rays.size()) / seconds * 1e-6;
 }
 
