@@ -255,6 +255,7 @@ class Planner {
         const WorldExtent least = extent_at_least(std::move(extents_));
         const StageBytes fewest = stages(least, instances_.least_voxels, least_kept);
         plan_.least_bytes = std::max({plan_.least_bytes, fewest.place, fewest.index, fewest.image});
+        plan_.least_with_next = fewest.place + fewest.index + fewest.image;
         add_largest(least);
         plan_.host_bytes = kWorldTable * table + 2 * image_bytes() + plan_.medium.host_bytes;
         for (const GridPlan& grid : plan_.grids)

@@ -35,9 +35,12 @@ struct ScenePlan {
     /// at least: what objects take that can't lie in each other's bricks. No more than that is
     /// refused before it is tried.
     double least_bytes = 0;
+    double least_with_next = 0;  ///< of bytes_with_next, the same way
     BufferPlan largest;
 
     double peak_bytes() const;
+    /// Where grids, bricks and the pyramid stay while the next world is formed beside them.
+    double bytes_with_next() const { return place_bytes + index_bytes + image_bytes; }
 };
 
 /// Plans the voxelization of one mesh. Throws as model_frame does.

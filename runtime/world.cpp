@@ -58,13 +58,6 @@ class VoxelizingReport {
     Stopwatch stopwatch_;
 };
 
-/// Device memory left where grids, bricks and the pyramid stay while the next world is formed
-/// beside them; none, where they can't.
-double spare_bytes(const ScenePlan& plan, const DeviceInfo& device) {
-    const double used = plan.place_bytes + plan.index_bytes + plan.image_bytes;
-    return std::max(double(device.memory) - used, 0.0);
-}
-
 }  // namespace
 
 WorldFormer::Origin WorldFormer::origin_of(const Scene& scene) {
@@ -146,6 +139,7 @@ FormedWorld WorldFormer::form_anew(const Scene& scene, const Origin& origin, Wor
                                    const std::vector<bool>& awaited) {
     origin_.reset();
     world_.pyramid = {};
+    keeps_ = false;
     // What an error leaves in the middle is begun afresh.
     Indexer indexer = std::exchange(indexer_, Indexer(device_));
     InstanceModels models = std::exchange(models_, InstanceModels(device_));
@@ -156,11 +150,12 @@ FormedWorld WorldFormer::form_anew(const Scene& scene, const Origin& origin, Wor
     report.load_seconds = meshes_.load_seconds() - load_seconds_;
     report.meshes_read = meshes_.meshes_read() - meshes_read_;
     report.triangles = meshes_.triangles();
-    const double spare = spare_bytes(plan, device_.info());
-    const bool keeps = follows_ && spare > 0;
-    report.lacks_room = follows_ && !keeps;
+    const double memory = double(device_.info().memory);
+    keeps_ = follows_ && plan.least_with_next < memory;
+    report.lacks_room = follows_ && !keeps_;
+    const double spare = std::max(memory - plan.bytes_with_next(), 0.0);
     const uint64_t room =
-        keeps && awaits_ ? std::min(uint64_t(spare), device_.info().memory / kAwaitedPart) : 0;
+        keeps_ && awaits_ ? std::min(uint64_t(spare), device_.info().memory / kAwaitedPart) : 0;
 
     if (!grids_) grids_.emplace(device_, meshes_);
     ListedInstances listed;
@@ -169,12 +164,12 @@ FormedWorld WorldFormer::form_anew(const Scene& scene, const Origin& origin, Wor
         listed = list_instances(scene, meshes_, *grids_);
     }
     std::vector<VoxelBox> boxes = object_boxes(scene, meshes_);
-    FormedWorld formed{kept_or_new_world({scene, awaited, keeps, room, report}, indexer),
+    FormedWorld formed{kept_or_new_world({scene, awaited, keeps_, room, report}, indexer),
                        ++world_.version};
     load_seconds_ = meshes_.load_seconds();
     meshes_read_ = meshes_.meshes_read();
     Stopwatch indexing(report.index_seconds);
-    models.forget_unused(listed, keeps ? room - grids_->awaited_bytes() : 0);
+    models.forget_unused(listed, keeps_ ? room - grids_->awaited_bytes() : 0);
     formed.pyramid = models.join(scene, listed, std::move(formed.pyramid), report.instances);
     std::vector<InstancePlace> places = instance_places(scene, formed.pyramid);
     report.instances.moved = count_moved(instance_places_, places);
@@ -182,7 +177,7 @@ FormedWorld WorldFormer::form_anew(const Scene& scene, const Origin& origin, Wor
     formed.pyramid.object_boxes = std::move(boxes);
     device_.finish();
     indexing.stop();
-    if (keeps) {
+    if (keeps_) {
         world_.pyramid = formed.pyramid;
         indexer_ = std::move(indexer);
         models_ = std::move(models);
