@@ -7,11 +7,11 @@
 #include <set>
 
 #include "runtime/error.hpp"
+#include "runtime/illumination.hpp"
 #include "runtime/instances.hpp"
 #include "runtime/object_boxes.hpp"
 #include "runtime/plan_extent.hpp"
 #include "runtime/stages/mesh_lattice.hpp"
-#include "runtime/stages/ray_batch.hpp"
 
 namespace voxelume {
 namespace {
@@ -24,9 +24,6 @@ constexpr double kWorldTable = 5;    // bytes for each brick of the lattice: slo
 constexpr double kField = 32, kWord = 4;
 constexpr double kVoxelsPerLeaf = 16, kLeaf = 12;
 constexpr double kVoxelsPerSector = 4096, kSectorRecords = 1024;
-
-// Bytes for each ray of a batch with its shadow ray, and for each pixel.
-constexpr double kRay = 136;
 
 class Planner {
   public:
@@ -117,9 +114,13 @@ class Planner {
         return part_inside(*meshes_.mesh_of(model), map, world_box_);
     }
 
-    void add_least(int number, const WorldExtent& extent) {
+    const std::vector<VoxelBox>& boxes() {
         if (boxes_.empty()) boxes_ = object_boxes(scene_, meshes_);
-        const VoxelBox& box = boxes_[size_t(number)];
+        return boxes_;
+    }
+
+    void add_least(int number, const WorldExtent& extent) {
+        const VoxelBox& box = boxes()[size_t(number)];
         if (overlap(box, box)) extents_.push_back({box, extent});
     }
 
@@ -143,6 +144,7 @@ class Planner {
             plan_.bricks += inside / (kBrickSize * kBrickSize * kBrickSize);
         }
         smooth_ |= model.surface == Surface::smooth;
+        exact_ |= is_exact;
         occupied_ |= model.surface != Surface::smooth;
         colors_ |= extras.colors;
         words_ |= objects_++ > 0 || extras.words;
@@ -190,6 +192,7 @@ class Planner {
             grid = plan_grid(model, mesh, area_of(object.model));
             instances_.colors |= extras_of(model, mesh).colors;
             if (model.surface == Surface::exact) {
+                exact_ = true;
                 instances_.exact_voxels += grid.least.voxels;
                 instances_.exact_triangles += double(grid.triangles);
             }
@@ -222,6 +225,7 @@ class Planner {
         smooth_ |= smooth;
         occupied_ |= !smooth;
         colors_ |= !voxels.colors.empty();
+        transparent_ |= voxels.transparent;
         words_ |= objects_++ > 0 || !voxels.attributes.empty();
         if (!made_.insert(object.model).second) return;
         GridPlan grid = plan_grid(voxels);
@@ -245,32 +249,46 @@ class Planner {
         const double table = brick_table(plan_.world);
         plan_.bricks = std::min(plan_.bricks, table);
         plan_.medium = plan_density(scene_.world);
-        const StageBytes all =
-            stages({plan_.voxels, plan_.bricks, exact_voxels_}, instances_.voxels, kept);
+        plan_.rays = ray_bytes(scene_, features());
+        const StageBytes all = stages({plan_.voxels, plan_.bricks, exact_voxels_},
+                                      instances_.voxels, kept, plan_.rays.most());
         plan_.place_bytes = all.place;
         plan_.index_bytes = all.index;
         plan_.image_bytes = all.image;
         plan_.world_bytes = all.world;
         plan_.halo_bytes = all.halo;
         const WorldExtent least = extent_at_least(std::move(extents_));
-        const StageBytes fewest = stages(least, instances_.least_voxels, least_kept);
+        const StageBytes fewest =
+            stages(least, instances_.least_voxels, least_kept, plan_.rays.least());
         plan_.least_bytes = std::max({plan_.least_bytes, fewest.place, fewest.index, fewest.image});
+        plan_.least_image_bytes = fewest.image;
         plan_.least_with_next = fewest.place + fewest.index + fewest.image;
         add_largest(least);
-        plan_.host_bytes = kWorldTable * table + 2 * image_bytes() + plan_.medium.host_bytes;
+        plan_.host_bytes =
+            kWorldTable * table + 2 * image_bytes(scene_.render) + plan_.medium.host_bytes;
         for (const GridPlan& grid : plan_.grids)
             plan_.host_bytes += double(grid.triangles) * 36 + kTableBytes * brick_table(grid.frame);
     }
 
-    double pixels() const { return double(scene_.render.size.x) * double(scene_.render.size.y); }
-
-    double image_bytes() const {
-        const ImageChannels& channels = scene_.render.channels;
-        return (pixel_bytes(channels) + (channels.object ? 4 : 0)) * pixels();
+    /// What the image's kernels are made for, as far as it decides what rays take.
+    Features features() {
+        Features features;
+        features.smooth = smooth_ || instances_.smooth;
+        features.solids = exact_;
+        features.attributes = has_words();
+        features.colors = colors_ || instances_.colors;
+        features.voxel_opacity = transparent_;
+        features.instances = instances_.any;
+        Pyramid world;
+        world.frame = plan_.world;
+        world.object_boxes = boxes();
+        add_scene(scene_, world, features);
+        return features;
     }
 
-    /// Of a world of such an extent with its instances' models, beside `kept` bytes of models.
-    StageBytes stages(const WorldExtent& extent, double instanced, double kept) const {
+    /// Of a world of such an extent with its instances' models, beside `kept` bytes of models, and
+    /// with so many of rays.
+    StageBytes stages(const WorldExtent& extent, double instanced, double kept, double rays) const {
         const double table = brick_table(plan_.world);
         double brick = 0;
         if (occupied_) brick += kOccupancyBytes;
@@ -290,8 +308,8 @@ class Planner {
         bytes.index = world + extent.bricks * kIndexMarks + bytes.world;
         if (instances_.any) bytes.index += bytes.world;  // before they are joined
         bytes.halo = instances_.any ? 0 : sector_bytes(extent.voxels);
-        bytes.image = bytes.world + bytes.halo + plan_.medium.bytes + image_bytes() +
-                      kRay * std::min(double(kBatchRays), pixels() * scene_.render.samples);
+        bytes.image =
+            bytes.world + bytes.halo + plan_.medium.bytes + image_bytes(scene_.render) + rays;
         return bytes;
     }
 
@@ -355,12 +373,18 @@ class Planner {
     } instances_;           ///< their models
     std::set<int> shared_;  ///< those counted
     bool smooth_ = false, occupied_ = false, words_ = false, colors_ = false;
+    bool exact_ = false, transparent_ = false;  ///< some object, or instance
 };
 
 }  // namespace
 
 double pixel_bytes(const ImageChannels& channels) {
     return 4.0 * (4 + int(channels.depth) + 3 * int(channels.position) + 3 * int(channels.normal));
+}
+
+double image_bytes(const RenderSettings& render) {
+    const double pixels = double(render.size.x) * double(render.size.y);
+    return (pixel_bytes(render.channels) + (render.channels.object ? 4 : 0)) * pixels;
 }
 
 double ScenePlan::peak_bytes() const {

@@ -10,6 +10,7 @@
 #include "runtime/mesh_store.hpp"
 #include "runtime/opencl/device.hpp"
 #include "runtime/plan_grid.hpp"
+#include "runtime/ray_arrays.hpp"
 #include "runtime/stages/density_grid.hpp"
 
 namespace voxelume {
@@ -28,6 +29,7 @@ struct ScenePlan {
 
     double world_bytes = 0;  ///< the pyramid's, part of the last two
     double halo_bytes = 0;   ///< of the grid that beams of rays are sent through, part of the last
+    RayBytes rays;           ///< of which the most are part of the last
     DensityPlan medium;      ///< part of the last one
     double host_bytes = 0;   ///< tables, meshes and the image in main memory
 
@@ -35,7 +37,8 @@ struct ScenePlan {
     /// at least: what objects take that can't lie in each other's bricks. No more than that is
     /// refused before it is tried.
     double least_bytes = 0;
-    double least_with_next = 0;  ///< of bytes_with_next, the same way
+    double least_image_bytes = 0;  ///< of the last one, the same way
+    double least_with_next = 0;    ///< of bytes_with_next, the same way
     BufferPlan largest;
 
     double peak_bytes() const;
@@ -64,6 +67,9 @@ void check_memory(const Scene& scene, const ScenePlan& plan, const DeviceInfo& d
 
 /// Bytes for each pixel in the largest buffer of an image.
 double pixel_bytes(const ImageChannels& channels);
+
+/// Bytes of the device for an image.
+double image_bytes(const RenderSettings& render);
 
 /// "1.5 GB", three digits at most.
 std::string bytes_text(double bytes);
