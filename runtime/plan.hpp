@@ -71,6 +71,9 @@ double pixel_bytes(const ImageChannels& channels);
 /// Bytes of the device for an image.
 double image_bytes(const RenderSettings& render);
 
+/// "400x360x320"
+std::string size_text(const glm::ivec3& size);
+
 /// "1.5 GB", three digits at most.
 std::string bytes_text(double bytes);
 

@@ -13,10 +13,6 @@ namespace {
 /// Bricks of a lattice are numbered by signed 32-bit integers.
 constexpr double kMostBricks = 2147483647.0;
 
-std::string size_text(const glm::ivec3& size) {
-    return fmt::format("{}x{}x{}", size.x, size.y, size.z);
-}
-
 /// Voxels `factor` times as large: "voxels larger than 0.002 m".
 std::string larger_voxels(const glm::dvec3& edge, double factor) {
     const glm::dvec3 e = edge * factor;
@@ -117,6 +113,10 @@ void check_medium(const Scene& scene, const ScenePlan& plan, const DeviceInfo& d
 }
 
 }  // namespace
+
+std::string size_text(const glm::ivec3& size) {
+    return fmt::format("{}x{}x{}", size.x, size.y, size.z);
+}
 
 std::string bytes_text(double bytes) {
     if (bytes >= 1e9) return fmt::format("{:.{}f} GB", bytes / 1e9, bytes < 1e11 ? 1 : 0);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 
+#include "runtime/error.hpp"
 #include "runtime/illumination.hpp"
 #include "runtime/plan.hpp"
 #include "runtime/pyramid_bytes.hpp"
@@ -88,8 +89,15 @@ Image Renderer::new_image(const Scene& scene, const FormedWorld& world, RenderRe
     return part_of_image(scene, world, report, {all, taken});
 }
 
-Image Renderer::part_of_image(const Scene& scene, const FormedWorld& formed, RenderReport& report,
+Image Renderer::part_of_image(const Scene& scene, const FormedWorld& world, RenderReport& report,
                               const Tiles& tiles) {
+    const glm::ivec2& size = scene.render.size;
+    return with_limits_of(fmt::format("an image of {}x{} pixels", size.x, size.y),
+                          [&] { return image_of_tiles(scene, world, report, tiles); });
+}
+
+Image Renderer::image_of_tiles(const Scene& scene, const FormedWorld& formed, RenderReport& report,
+                               const Tiles& tiles) {
     const auto start = std::chrono::steady_clock::now();
     image_.reset();
     const Pyramid& world = formed.pyramid;

@@ -29,6 +29,13 @@ class Stopwatch {
     Clock::time_point start_ = Clock::now();
 };
 
+/// Does a part of forming the world, whose limits are the world's.
+template <class Part>
+auto for_world(const World& world, const Part& part) {
+    const std::string size = size_text(world.voxels);
+    return with_limits_of(fmt::format("{}: a world of {} voxels", world.where, size), part);
+}
+
 /// Adds to a report the models that are voxelized while it lives, and the time that takes.
 class VoxelizingReport {
   public:
@@ -170,7 +177,9 @@ FormedWorld WorldFormer::form_anew(const Scene& scene, const Origin& origin, Wor
     meshes_read_ = meshes_.meshes_read();
     Stopwatch indexing(report.index_seconds);
     models.forget_unused(listed, keeps_ ? room - grids_->awaited_bytes() : 0);
-    formed.pyramid = models.join(scene, listed, std::move(formed.pyramid), report.instances);
+    for_world(scene.world, [&] {
+        formed.pyramid = models.join(scene, listed, std::move(formed.pyramid), report.instances);
+    });
     std::vector<InstancePlace> places = instance_places(scene, formed.pyramid);
     report.instances.moved = count_moved(instance_places_, places);
     instance_places_ = std::move(places);
@@ -195,7 +204,9 @@ Pyramid WorldFormer::kept_or_new_world(const Task& task, Indexer& indexer) {
     if (read_ && read_->key != key) read_.reset();
     task.report.is_from_cache = !read_;
     if (!read_)
-        if (auto kept = meshes_.cache().world(device_, key)) read_ = ReadWorld{key, *kept};
+        for_world(task.scene.world, [&] {
+            if (auto kept = meshes_.cache().world(device_, key)) read_ = ReadWorld{key, *kept};
+        });
     reading.stop();
     if (read_) {
         Pyramid world = read_->pyramid;
@@ -220,16 +231,23 @@ Pyramid WorldFormer::new_world(const Task& task, Indexer& indexer) {
         const VoxelizingReport voxelizing(*grids_, meshes_, report);
         objects = placed_objects(task.scene, shown);
     }
-    Stopwatch placing(report.place_seconds);
+    return for_world(task.scene.world,
+                     [&] { return placed_and_indexed(task, objects, std::move(shown), indexer); });
+}
+
+/// `shown` are the objects' grids.
+Pyramid WorldFormer::placed_and_indexed(const Task& task, const std::vector<PlacedObject>& objects,
+                                        std::vector<SharedGrid> shown, Indexer& indexer) {
+    Stopwatch placing(task.report.place_seconds);
     if (!placer_) placer_.emplace(device_);
     BrickGrid world = placer_->place(objects, world_frame(task.scene.world));
     device_.finish();
-    report.painted_bricks = placer_->painted_bricks();
+    task.report.painted_bricks = placer_->painted_bricks();
     shown_ = std::move(shown);
     forget_sources(task);
     placing.stop();
 
-    Stopwatch indexing(report.index_seconds);
+    Stopwatch indexing(task.report.index_seconds);
     Pyramid pyramid = indexer.index(world, placer_ ? placer_->changed_bricks() : nullptr);
     device_.finish();
     indexing.stop();

@@ -104,6 +104,8 @@ class WorldFormer {
     };
     Pyramid kept_or_new_world(const Task& task, Indexer& indexer);
     Pyramid new_world(const Task& task, Indexer& indexer);
+    Pyramid placed_and_indexed(const Task& task, const std::vector<PlacedObject>& objects,
+                               std::vector<SharedGrid> shown, Indexer& indexer);
     void forget_sources(const Task& task);
 
     Device device_;

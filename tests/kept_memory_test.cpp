@@ -1,9 +1,10 @@
 // What stays for the next frame: where worlds take less memory than they may, and where they take
 // all.
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include <cstdlib>
 
+#include "runtime/error.hpp"
 #include "runtime/frame_pipeline.hpp"
 #include "runtime/plan.hpp"
 #include "tests/oracles/image_hash.hpp"
@@ -99,6 +100,31 @@ TEST(KeptMemory, TheFirstFrameIsRenderedWithoutKeepingWhatLeavesItNoRoom) {
         EXPECT_EQ(still.hashes, std::vector(3, expected)) << overlap;
         EXPECT_EQ(still.lacks_room, std::vector(3, true)) << overlap;
     }
+}
+
+TEST(KeptMemory, WhatDoesNotFitLaterIsToldWithItsPlaceItsSizeAndItsFrame) {
+    FrameSteps steps{[](size_t frame) { return lens(frame == 0 ? 0.65 : 0.1, 64); },
+                     [](const FrameInput&) { return [] {}; }};
+    steps.number = [](size_t frame) { return double(frame + 7); };
+    steps.forget = [](size_t) {};
+    bool is_models = false, is_worlds = false;
+    for (uint64_t megabytes = 1;; ++megabytes) {
+        std::string told;
+        try {
+            run_frames({device_of(megabytes)}, 2, steps, {.overlap = megabytes % 2 == 0});
+            break;
+        } catch (const Error& error) {
+            EXPECT_EQ(error.kind(), ErrorKind::limit);
+            told = error.what();
+        }
+        is_models |= told.find(": models.lens: a grid of 148x128x148 voxels: ") < 20;
+        is_worlds |= told.find(": world: a world of 200x220x180 voxels: ") < 20;
+        EXPECT_THAT(told, testing::AllOf(testing::HasSubstr(" voxels: the "),
+                                         testing::HasSubstr(" buffer needs "),
+                                         testing::EndsWith("use larger voxels (at frame 8)")));
+    }
+    EXPECT_TRUE(is_models);
+    EXPECT_TRUE(is_worlds);
 }
 
 }  // namespace

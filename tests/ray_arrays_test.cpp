@@ -159,7 +159,8 @@ TEST(RayArrays, ThatDoNotFitAskForFewerRays) {
     scene = scene_of({.wall = kMirror, .lights = kLamp, .depth = 16, .size = {256, 128}});
     EXPECT_NO_THROW(check_memory(scene, plan_scene(scene, meshes), device.info()));
     EXPECT_THAT(error_of([&] { render(device, scene, report); }).what(),
-                testing::AllOf(testing::HasSubstr(" buffer needs "),
+                testing::AllOf(testing::StartsWith("an image of 256x128 pixels: the "),
+                               testing::HasSubstr(" buffer needs "),
                                testing::EndsWith(": render a smaller image, or with fewer samples "
                                                  "a pixel or less depth")));
 }
