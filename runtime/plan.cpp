@@ -57,16 +57,18 @@ class Planner {
         return entry->second;
     }
 
-    /// What an object's surface takes of the world; `area_of_solid` is solid_area or
-    /// least_solid_area.
-    SurfaceExtent world_extent(const Object& object, double band,
-                               decltype(solid_area)& area_of_solid = solid_area) {
+    /// What an object's surface takes of the world, at least or as planned.
+    SurfaceExtent world_extent(const Object& object, double band, bool at_least = false) {
         const Model& model = scene_.models[size_t(object.model)];
         const glm::dmat4& map = object.world_from_object;
-        if (model.solid)
+        if (model.solid) {
+            const auto& area_of_solid = at_least ? least_solid_area : solid_area;
             return surface_extent(area_of_solid(*model.solid, map, world_box_), glm::dmat4(1),
                                   plan_.world, band);
-        SurfaceExtent extent = surface_extent(area_of(object.model), map, plan_.world, band);
+        }
+        const SurfaceArea& area =
+            at_least ? meshes_.summary_of(model)->least_area : area_of(object.model);
+        SurfaceExtent extent = surface_extent(area, map, plan_.world, band);
         const double inside = part_in_world(object.model, map);
         return {extent.voxels * inside, extent.bricks * inside};
     }
@@ -74,7 +76,7 @@ class Planner {
     /// No more than it takes; nothing of a mesh that is cut.
     SurfaceExtent least_extent(const Object& object, double band) {
         if (!scene_.models[size_t(object.model)].cuts.empty()) return {};
-        return world_extent(object, band, least_solid_area);
+        return world_extent(object, band, true);
     }
 
     /// Voxels of the world inside of an object whose inside rays see: those of its box.

@@ -69,6 +69,33 @@ TEST(SurfaceExtent, FacesThatTheWorldCutsAreNoSurface) {
     EXPECT_EQ(area.shadows, glm::dvec3(0, 2 * 4 * 6, 0));
 }
 
+/// The mesh with every triangle once more: by corners of its own, or turned over by the same ones.
+Mesh doubled(Mesh mesh, bool has_own_corners) {
+    const auto positions = mesh.positions;
+    const auto triangles = mesh.triangles;
+    const auto first = uint32_t(has_own_corners ? positions.size() : 0);
+    if (has_own_corners)
+        mesh.positions.insert(mesh.positions.end(), positions.begin(), positions.end());
+    for (const glm::uvec3& t : triangles)
+        mesh.triangles.emplace_back(t.y + first, t.x + first, t.z + first);
+    return mesh;
+}
+
+TEST(SurfaceExtent, TrianglesThatLieOnOneAnotherCountOnceAtLeast) {
+    const Mesh ring = wavy_ring(300, 200);
+    const double once = mesh_area(ring).total;
+    EXPECT_LE(least_mesh_area(ring).total, once);
+    EXPECT_GT(least_mesh_area(ring).total, 0.95 * once);
+    for (const bool has_own_corners : {false, true}) {
+        const Mesh twice = doubled(ring, has_own_corners);
+        EXPECT_NEAR(mesh_area(twice).total, 2 * once, 1e-9);
+        EXPECT_LE(least_mesh_area(twice).total, once);
+        EXPECT_GT(least_mesh_area(twice).total, 0.95 * once);
+    }
+    EXPECT_EQ(least_mesh_area(rectangle()).total, 6);
+    EXPECT_EQ(least_mesh_area(doubled(rectangle(), true)).total, 6);
+}
+
 }  // namespace
 
 class PlanTest : public FileTest {
@@ -199,6 +226,22 @@ TEST_F(PlanTest, ASolidWhosePartsLieInEachOtherIsRefusedForTheLargestAlone) {
         form_world(device, scene, report);
         DeviceInfo info = device.info();
         info.memory = device.counters().peak_bytes * 3 / 2;
+        EXPECT_GT(plan.peak_bytes(), double(info.memory)) << surface;
+        EXPECT_NO_THROW(check_memory(scene, plan, info)) << surface;
+    }
+}
+
+TEST_F(PlanTest, AMeshThatHoldsEveryTriangleTwiceIsRefusedForOneAlone) {
+    write_obj(folder / "ring.obj", doubled(wavy_ring(60, 40), true));
+    for (const char* surface : {"smooth", "cubes", "exact"}) {
+        const Scene scene =
+            scene_of(fmt::format(R"({{"mesh": "ring.obj", "surface": "{}"}})", surface), 1.0 / 200);
+        const ScenePlan plan = plan_of(scene);
+        const Device device = test_device();
+        WorldReport report;
+        form_world(device, scene, report);
+        DeviceInfo info = device.info();
+        info.memory = device.counters().peak_bytes * 11 / 10;
         EXPECT_GT(plan.peak_bytes(), double(info.memory)) << surface;
         EXPECT_NO_THROW(check_memory(scene, plan, info)) << surface;
     }
