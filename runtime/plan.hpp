@@ -1,7 +1,8 @@
 // scene -> what rendering it takes: the grids of every step and their memory, before any is taken.
 //
 // An estimate: surfaces are counted by runtime/surface_extent.hpp, bytes by what the stages store
-// for each brick, voxel, triangle and pixel (listed in plan_grid.hpp and plan.cpp).
+// for each brick, voxel, triangle, ray and pixel (listed in plan_grid.hpp, plan_stages.cpp and
+// ray_arrays.cpp).
 #pragma once
 
 #include <string>
