@@ -2,6 +2,7 @@
 #include <CLI/CLI.hpp>
 #include <chrono>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -47,25 +48,48 @@ std::string command_for(const StressTest& test, uint64_t number, const StressCom
     return text;
 }
 
-/// Runs a test and prints its line; the number of mismatches.
-uint64_t run_test(const StressTest& test, const StressCommand& command, const Device& device) {
-    const auto start = std::chrono::steady_clock::now();
-    const uint64_t count = std::max<uint64_t>(1, uint64_t(command.rays) / test.rays_per_case);
-    StressResult result;
-    {
-        Progress bar(test.name, count, stderr, command.quiet);
-        result = test.run({device, command.seed, command.first, count,
-                           [&bar](uint64_t cases) { bar.advance(cases); }});
-    }
-    const double seconds =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    fmt::print("{:<12}{:>14} cases {:>10} mismatches {:>10.1f} s\n", test.name, result.cases,
-               result.mismatches, seconds);
-    for (const StressExample& example : result.examples)
+void print_examples(const StressTest& test, std::span<const StressExample> examples,
+                    const StressCommand& command) {
+    for (const StressExample& example : examples)
         fmt::print("  {} case {}: {}\n    again: {}\n", test.name, example.number, example.text,
                    command_for(test, example.number, command));
     std::fflush(stdout);
-    return result.mismatches;
+}
+
+/// Runs a test and prints its line; the number of mismatches. Of long runs the first mismatches are
+/// printed on the way, so that one that is ended early has told them.
+uint64_t run_test(const StressTest& test, const StressCommand& command, const Device& device) {
+    constexpr uint64_t kRaysAtOnce = 1 << 25;
+    const auto start = std::chrono::steady_clock::now();
+    const uint64_t count = std::max<uint64_t>(1, uint64_t(command.rays) / test.rays_per_case);
+    const uint64_t at_once = std::max<uint64_t>(1, kRaysAtOnce / test.rays_per_case);
+    StressResult all;
+    for (uint64_t done = 0; done < count; done += at_once) {
+        const uint64_t now = std::min(count - done, at_once);
+        StressResult part;
+        {
+            Progress bar(count > at_once
+                             ? fmt::format("{}, {} of {}", test.name, done / at_once + 1,
+                                           (count + at_once - 1) / at_once)
+                             : test.name,
+                         now, stderr, command.quiet);
+            part = test.run({device, command.seed, command.first + done, now,
+                             [&bar](uint64_t cases) { bar.advance(cases); }});
+        }
+        all.cases += part.cases;
+        all.mismatches += part.mismatches;
+        const size_t left = kMostExamples - std::min(kMostExamples, all.examples.size());
+        part.examples.resize(std::min(left, part.examples.size()));
+        all.examples.insert(all.examples.end(), part.examples.begin(), part.examples.end());
+        if (count > at_once) print_examples(test, part.examples, command);
+    }
+    const double seconds =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    fmt::print("{:<12}{:>14} cases {:>10} mismatches {:>10.1f} s\n", test.name, all.cases,
+               all.mismatches, seconds);
+    if (count <= at_once) print_examples(test, all.examples, command);
+    std::fflush(stdout);
+    return all.mismatches;
 }
 
 int run(const StressCommand& command) {

@@ -209,6 +209,29 @@ TEST(Render, ADistantObserverSeesWhatANearOneDoesWithTheSameAngle) {
         ASSERT_NEAR(near.image.planes.at("P.X")[i], far.image.planes.at("P.X")[i], 5e-4);
 }
 
+/// A ball of 4 voxels with one light, all moved by as many metres along each axis.
+Scene ball_moved_by(int metres, const std::string& surface) {
+    return scene_of(fmt::format(R"({{"voxelume": 1,
+"world": {{"voxel_size": 1, "bounds": {{"min": [{0}, {0}, {0}], "max": [{1}, {1}, {1}]}}}},
+"materials": {{"paint": {{"color": [0.8, 0.4, 0.2]}}}},
+"models": {{"ball": {{"shape": "sphere", "radius": 4, "surface": "{4}"}}}},
+"objects": [{{"model": "ball", "material": "paint", "position": [{2}.25, {2}.75, {2}.375]}}],
+"lights": [{{"type": "point", "position": [{1}, {1}, {0}], "intensity": 50}}],
+"observer": {{"position": [{2}, {2}, {3}], "look_at": [{2}, {2}, {2}],
+             "display": {{"shape": "pyramid", "angles": [50, 40]}}}},
+"render": {{"size": [80, 64]}}}})",
+                                metres - 8, metres + 8, metres, metres - 12, surface));
+}
+
+TEST(Render, G8AWorldFarFromTheOriginLooksAsOneAroundIt) {
+    for (const char* surface : {"cubes", "smooth", "exact"}) {
+        const Rendered near = rendered(ball_moved_by(0, surface));
+        const Rendered far = rendered(ball_moved_by(100000, surface));
+        for (const char* plane : {"R", "A", "Z", "N.X", "N.Y", "N.Z"})
+            EXPECT_EQ(near.image.planes.at(plane), far.image.planes.at(plane)) << surface << plane;
+    }
+}
+
 TEST(Render, WhatASceneDoesNotHaveIsNotAllocatedOrLaunched) {
     const Rendered plain = rendered(scene_of(box_scene("cubes", "")));
     for (const char* kernel : {"add_light", "trace_shadows", "absorb_sight", "absorb_shadows"})
