@@ -7,7 +7,9 @@
 
 #include "kernels/shared/solid.h"
 #include "kernels/shared/voxel.h"
+#include "runtime/instances.hpp"
 #include "runtime/interior.hpp"
+#include "runtime/object_boxes.hpp"
 #include "runtime/stages/spots.hpp"
 
 namespace voxelume {
@@ -21,13 +23,27 @@ bool has_area(const Light& light) {
     return light.kind == LightKind::disk || light.kind == LightKind::rectangle;
 }
 
-bool has_lamp(const Scene& scene) {
-    return std::ranges::any_of(scene.objects,
-                               [&](const Object& object) { return is_lamp(scene, object); });
+/// The objects that the world may show. Instances come into it and leave it without its being
+/// formed anew, so all of them are among these.
+std::vector<const Object*> shown_objects(const Scene& scene, const Pyramid& world) {
+    std::vector<const Object*> shown;
+    for (size_t i = 0; i < scene.objects.size(); ++i) {
+        const Object& object = scene.objects[i];
+        if (!object.visible) continue;
+        const bool is_known = !world.object_boxes.empty() && !is_instanced(scene, object);
+        if (is_known && is_empty(world.object_boxes[i])) continue;
+        shown.push_back(&object);
+    }
+    return shown;
 }
 
-bool has_light(const Scene& scene) {
-    return std::ranges::any_of(scene.lights, shines) || has_lamp(scene);
+bool has_lamp(const Scene& scene, const Pyramid& world) {
+    return std::ranges::any_of(shown_objects(scene, world),
+                               [&](const Object* object) { return is_lamp(scene, *object); });
+}
+
+bool has_light(const Scene& scene, const Pyramid& world) {
+    return std::ranges::any_of(scene.lights, shines) || has_lamp(scene, world);
 }
 
 ShadowQueue allocate_shadow_queue(const Device& device, const Features& features, uint32_t stride) {
@@ -55,18 +71,17 @@ std::vector<LightRecord> light_records(const Device& device, const Features& fea
         else
             records.push_back(light_record(light, world.frame));
     }
-    if (has_lamp(scene))
+    if (has_lamp(scene, world))
         std::ranges::copy(lamp_spots(device, features, scene, world), std::back_inserter(records));
     return records;
 }
 
-/// The materials that some object may show.
-std::vector<const Material*> shown_materials(const Scene& scene) {
+/// The materials of objects that the world may show.
+std::vector<const Material*> shown_materials(const Scene& scene, const Pyramid& world) {
     std::set<int> numbers;
-    for (const Object& object : scene.objects) {
-        if (!object.visible) continue;
-        numbers.insert(object.material);
-        for (const GroupMaterial& group : object.groups) numbers.insert(group.material);
+    for (const Object* object : shown_objects(scene, world)) {
+        numbers.insert(object->material);
+        for (const GroupMaterial& group : object->groups) numbers.insert(group.material);
     }
     std::vector<const Material*> materials;
     materials.reserve(numbers.size());
@@ -75,12 +90,12 @@ std::vector<const Material*> shown_materials(const Scene& scene) {
 }
 
 /// The features that the materials decide.
-void add_paths(const Scene& scene, Features& features) {
+void add_paths(const Scene& scene, const Pyramid& world, Features& features) {
     const bool follows = scene.render.depth > 0;
     bool refraction = false, opacity = false, reflection = false, fresnel = false;
     bool absorption = false;
     opacity = features.voxel_opacity;
-    for (const Material* m : shown_materials(scene)) {
+    for (const Material* m : shown_materials(scene, world)) {
         features.checker |= m->checker.has_value();
         refraction |= m->refraction > 0;
         opacity |= m->opacity < 1;
@@ -97,17 +112,18 @@ void add_paths(const Scene& scene, Features& features) {
     features.filter = filters;
     features.filtered_refraction = filters && scene.render.filtered_shadows;
     features.cube_bodies =
-        features.transmission && std::ranges::any_of(scene.objects, [&](const Object& object) {
-            return object.visible && scene.models[size_t(object.model)].surface == Surface::cubes &&
-                   (features.voxel_opacity || transmits(scene, object));
+        features.transmission &&
+        std::ranges::any_of(shown_objects(scene, world), [&](const Object* object) {
+            return scene.models[size_t(object->model)].surface == Surface::cubes &&
+                   (features.voxel_opacity || transmits(scene, *object));
         });
 }
 
 /// Whether any surface that may be shown sends rays on, other than straight through.
-bool scatters(const Features& features, const Scene& scene) {
-    return features.refracts || std::ranges::any_of(shown_materials(scene), [](const Material* m) {
-               return m->reflection > 0;
-           });
+bool scatters(const Features& features, const Scene& scene, const Pyramid& world) {
+    return features.refracts ||
+           std::ranges::any_of(shown_materials(scene, world),
+                               [](const Material* m) { return m->reflection > 0; });
 }
 
 /// Arrays of rays on their way.
@@ -152,20 +168,22 @@ Buffer<uint32_t> transmitting_solids(const Device& device, const Scene& scene,
 
 Features features_of(const Scene& scene, const Pyramid& world) {
     Features features = features_of(world);
-    features.shadows = scene.render.shadows && has_light(scene);
-    features.patches = has_lamp(scene) || std::ranges::any_of(scene.lights, [](const Light& light) {
-                           return shines(light) && has_area(light);
-                       });
+    features.shadows = scene.render.shadows && has_light(scene, world);
+    features.patches =
+        has_lamp(scene, world) || std::ranges::any_of(scene.lights, [](const Light& light) {
+            return shines(light) && has_area(light);
+        });
     features.medium = scene.world.medium.absorption != glm::vec3(0);
     features.medium_grid = features.medium && has_density(scene.world.medium);
-    add_paths(scene, features);
+    add_paths(scene, world, features);
     add_interior(scene, world, features);
     return features;
 }
 
-void build_programs(const Device& device, const Features& features, const Scene& scene) {
+void build_programs(const Device& device, const Features& features, const Scene& scene,
+                    const Pyramid& world) {
     std::vector<const char*> files = {"sight.cl", "trace.cl", "shade.cl"};
-    if (has_light(scene)) files.push_back("light.cl");
+    if (has_light(scene, world)) files.push_back("light.cl");
     if (features.absorbs) files.push_back("medium.cl");
     if (features.paths) files.push_back("scatter.cl");
     Program::build_together(device, files, features.defines(device));
@@ -202,7 +220,7 @@ Illumination::Illumination(const Device& device, const Features& features, const
       world_(world),
       lights_(light_records(device, features, scene, world)),
       most_rays_(most_rays),
-      most_depth_(scatters(features, scene) ? size_t(scene.render.depth) : 0),
+      most_depth_(scatters(features, scene, world) ? size_t(scene.render.depth) : 0),
       trace_(device, features),
       shade_(device, features, scene, world.frame),
       surroundings_{shade_.materials(), shade_.ranks(), allocate_lost(device, features)},

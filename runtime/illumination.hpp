@@ -17,12 +17,13 @@
 
 namespace voxelume {
 
-/// What the scene and its world really contain.
+/// What the scene and its world really contain: of objects that lie outside of the world, nothing.
 Features features_of(const Scene& scene, const Pyramid& world);
 
 /// Makes the programs of the stages that sight rays go through in one piece: PoCL reads its own
 /// megabyte of headers for each.
-void build_programs(const Device& device, const Features& features, const Scene& scene);
+void build_programs(const Device& device, const Features& features, const Scene& scene,
+                    const Pyramid& world);
 
 /// An empty batch for up to `stride` rays, with the arrays that the features need.
 RayBatch allocate_batch(const Device& device, const Features& features, uint32_t stride);

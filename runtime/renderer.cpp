@@ -101,7 +101,7 @@ Image Renderer::part_of_image(const Scene& scene, const FormedWorld& formed, Ren
     if (!report.hits_are_kept) hits_.clear();
     const bool keeps_hits = has_room(uint64_t(all_tiles) * rays_per_tile);
 
-    build_programs(device_, features, scene);
+    build_programs(device_, features, scene, world);
     SightStage sight(device_, features, observer);
     std::optional<BeamStage> beams;
     if (!report.hits_are_kept && beams_pay(features, world, uint64_t(all_tiles) * rays_per_tile))

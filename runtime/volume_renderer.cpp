@@ -79,7 +79,7 @@ void render_rays(Work& work, Volume& volume) {
     const uint32_t tiles = tile_count(work.sight.width, work.sight.height);
     const uint32_t batch_tiles = std::clamp(batch_rays(work.features) / 16, 1u, tiles);
     RayBatch batch = allocate_batch(work.device, work.features, batch_tiles * 16);
-    build_programs(work.device, work.features, work.scene);
+    build_programs(work.device, work.features, work.scene, work.world);
     SightStage sight(work.device, work.features, work.sight);
     Illumination illumination(work.device, work.features, work.scene, work.world, batch.stride);
     DisplayRaysStage display(work.device, work.features, work.sight, work.frame,
@@ -122,7 +122,7 @@ void render_lattice(Work& work, Volume& volume) {
     };
     std::vector<ProbePoints> pieces = scan.scan(work.world, batch);
     report_progress(1);
-    build_programs(work.device, work.features, work.scene);
+    build_programs(work.device, work.features, work.scene, work.world);
     Illumination illumination(work.device, work.features, work.scene, work.world, batch.stride);
     LookAhead look = [&](RayBatch& rays, uint32_t count) { illumination.find_hits(rays, count); };
     std::optional<Illumination> clear;

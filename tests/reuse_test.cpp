@@ -199,6 +199,20 @@ TEST(Reuse, NeverShowsInTheImage) {
     }
 }
 
+TEST(Reuse, AGlassBringsItsKernelsWhenItComesIntoTheWorldAndTakesThemAlong) {
+    Scene scene = scene_of("glass"), without = scene;
+    without.objects[2].visible = false;
+    Frames frames(without);
+    for (const double y : {9.0, 0.1, 9.0}) {
+        const bool is_outside = y > 1;
+        scene.objects[2].world_from_object[3].y = y;
+        frames.render(scene);
+        EXPECT_EQ(frames.kernels().contains("pass_layer"), !is_outside);
+        EXPECT_EQ(frames.kernels().contains("scatter_rays"), !is_outside);
+        EXPECT_EQ(frames.hash(), hash_alone(is_outside ? without : scene));
+    }
+}
+
 // A lamp's spots are found in the world's voxels, so it can't stay an instance.
 TEST(Reuse, AnInstanceThatBeginsToShineIsPlacedInTheWorld) {
     Scene scene = scene_of("blue");
