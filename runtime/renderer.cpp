@@ -19,14 +19,16 @@ void add_counts(const RenderReport& report, RenderReport& sum) {
     sum.not_finite += report.not_finite;
 }
 
-Renderer::View Renderer::view_of(const Scene& scene, const FormedWorld& world,
-                                 const Features& features) {
-    View view{world.version, scene.observer, scene.render, features, {}};
-    for (const Material& material : scene.materials) view.transmits.push_back(transmits(material));
-    return view;
-}
-
 namespace {
+
+/// The features that sight rays' hits and batches depend on: without those that decide the light on
+/// them alone.
+Features without_light(Features features) {
+    features.shadows = features.patches = features.checker = false;
+    features.medium = features.medium_grid = features.absorbs = false;
+    features.filter = features.filtered_refraction = false;
+    return features;
+}
 
 /// Whether so many sight rays save more time by beams than these take: building the halo, loading
 /// one more kernel. In larger worlds rounding could come near a beam's slack, see lib/beam.h.
@@ -40,6 +42,13 @@ bool beams_pay(const Features& features, const Pyramid& world, uint64_t rays) {
 }
 
 }  // namespace
+
+Renderer::View Renderer::view_of(const Scene& scene, const FormedWorld& world,
+                                 const Features& features) {
+    View view{world.version, scene.observer, scene.render, without_light(features), {}};
+    for (const Material& material : scene.materials) view.transmits.push_back(transmits(material));
+    return view;
+}
 
 /// Hits are kept where they take little of the device's memory.
 bool Renderer::has_room(uint64_t rays) const {

@@ -68,7 +68,7 @@ class Renderer {
         uint64_t world = 0;
         Observer observer;
         RenderSettings settings;
-        Features features;
+        Features features;            ///< those that hits depend on
         std::vector<bool> transmits;  ///< of each material
         friend bool operator==(const View&, const View&) = default;
     };

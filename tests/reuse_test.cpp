@@ -109,6 +109,24 @@ TEST(Reuse, LightsMaterialsAndTheMediumOnlyLightTheHitsAgain) {
     }
 }
 
+TEST(Reuse, TheFirstLightAndTheLastOnlyLightTheHitsAgain) {
+    for (const char* material : {"blue", "glass"})
+        for (const bool filtered : {false, true}) {
+            Scene dark = scene_of(material);
+            dark.render.filtered_shadows = filtered;
+            const Scene lit = dark;
+            dark.lights[0].energy = glm::vec3(0);
+            Frames frames(dark);
+            for (const Scene* scene : {&lit, &std::as_const(dark), &lit}) {
+                const RenderReport report = frames.render(*scene);
+                EXPECT_EQ(frames.kernels().contains("trace_shadows"), scene == &lit);
+                EXPECT_FALSE(frames.kernels().contains("cast_sight"));
+                EXPECT_TRUE(report.hits_are_kept);
+                EXPECT_EQ(frames.hash(), hash_alone(*scene)) << material << ' ' << filtered;
+            }
+        }
+}
+
 TEST(Reuse, AnObserverThatMovesTracesAgainInTheSameWorld) {
     Scene scene = scene_of("blue");
     Frames frames(scene);
