@@ -12,6 +12,7 @@
 
 #include "runtime/opencl/buffer.hpp"
 #include "runtime/opencl/device.hpp"
+#include "runtime/opencl/kernel_source.hpp"
 
 namespace voxelume {
 
@@ -83,7 +84,7 @@ class Program {
     Kernel kernel(const std::string& name) const;
 
   private:
-    Program(const Device& device, const std::string& label, const std::string& source,
+    Program(const Device& device, const std::string& label, const KernelSource& source,
             const Defines& defines);
 
     Device device_;
