@@ -29,7 +29,7 @@ std::vector<const Object*> shown_objects(const Scene& scene, const Pyramid& worl
     std::vector<const Object*> shown;
     for (size_t i = 0; i < scene.objects.size(); ++i) {
         const Object& object = scene.objects[i];
-        if (!object.visible) continue;
+        if (!object.visible || !object.in_reach) continue;
         const bool is_known = !world.object_boxes.empty() && !is_instanced(scene, object);
         if (is_known && is_empty(world.object_boxes[i])) continue;
         shown.push_back(&object);

@@ -5,6 +5,7 @@
 
 #include "runtime/illumination.hpp"
 #include "runtime/pyramid_bytes.hpp"
+#include "runtime/reach.hpp"
 #include "runtime/stages/resolve.hpp"
 #include "runtime/stages/sight.hpp"
 
@@ -154,8 +155,11 @@ Image Renderer::part_of_image(const Scene& scene, const FormedWorld& formed, Ren
 
 Image render(const Device& device, const Scene& scene, RenderReport& report,
              const FrameProgress& progress) {
-    const FormedWorld world = WorldFormer(device, false).form(scene, report.world);
-    return Renderer(device, false).new_image(scene, world, report, progress);
+    MeshStore meshes;
+    const Scene shown = with_objects_in_reach(scene, meshes);
+    const FormedWorld world =
+        WorldFormer(device, false, std::move(meshes)).form(shown, report.world);
+    return Renderer(device, false).new_image(shown, world, report, progress);
 }
 
 }  // namespace voxelume

@@ -9,6 +9,7 @@
 #include "runtime/error.hpp"
 #include "runtime/illumination.hpp"
 #include "runtime/interior.hpp"
+#include "runtime/reach.hpp"
 #include "runtime/stages/display_lattice.hpp"
 #include "runtime/stages/display_rays.hpp"
 #include "runtime/stages/sight.hpp"
@@ -199,8 +200,11 @@ std::shared_ptr<Volume> VolumeRenderer::volume(const Scene& scene, const FormedW
 
 Volume render_volume(const Device& device, const Scene& scene, RenderReport& report,
                      const FrameProgress& progress) {
-    const FormedWorld world = WorldFormer(device, false).form(scene, report.world);
-    return render_volume(device, scene, world, report, progress);
+    MeshStore meshes;
+    const Scene shown = with_objects_in_reach(scene, meshes);
+    const FormedWorld world =
+        WorldFormer(device, false, std::move(meshes)).form(shown, report.world);
+    return render_volume(device, shown, world, report, progress);
 }
 
 }  // namespace voxelume
