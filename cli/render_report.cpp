@@ -124,6 +124,8 @@ nlohmann::ordered_json statistics(const Outcome& outcome) {
     json["triangles"] = report.world.triangles;
     json["objects_out_of_reach"] = report.world.out_of_reach;
     json["sight_rays"] = report.sight_rays;
+    json["beams"] = report.beams;
+    json["clear_beams"] = report.clear_beams;
     json["shadow_rays"] = report.shadow_rays;
     json["secondary_rays"] = report.secondary_rays;
     json["ended_paths"] = report.ended_paths;

@@ -13,6 +13,8 @@ namespace voxelume {
 
 void add_counts(const RenderReport& report, RenderReport& sum) {
     sum.sight_rays += report.sight_rays;
+    sum.beams += report.beams;
+    sum.clear_beams += report.clear_beams;
     sum.shadow_rays += report.shadow_rays;
     sum.secondary_rays += report.secondary_rays;
     sum.ended_paths += report.ended_paths;
@@ -142,6 +144,10 @@ Image Renderer::part_of_image(const Scene& scene, const FormedWorld& formed, Ren
     view_ = std::move(view);
     Image image = resolve.image();
     report.not_finite = resolve.not_finite();
+    if (beams) {
+        report.beams = beams->sent();
+        report.clear_beams = beams->cleared();
+    }
     report.shadow_rays = illumination.shadow_rays();
     report.secondary_rays = illumination.secondary_rays();
     report.ended_paths = illumination.ended_paths();

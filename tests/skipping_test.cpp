@@ -2,6 +2,7 @@
 // that are zero after it and weren't before.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <numeric>
 
@@ -192,7 +193,9 @@ TEST_F(SkippingFiles, WhateverItsMaterialAnObjectOutsideTheWorldIsNotInThePictur
         [](Material& m) { m.refraction = 0.9f, m.reflection = 0.1f, m.fresnel = true; },
         [](Material& m) { m.opacity = 0.3f; },
         [](Material& m) { m.emission = glm::vec3(3, 2, 1); },
-        [](Material& m) { m.checker = {glm::vec3(0, 1, 0), glm::dvec3(0.2), glm::dvec3(0)}; },
+        [](Material& m) {
+            m.checker = {glm::vec3(0, 1, 0), glm::dvec3(0.2), glm::dvec3(0)};
+        },
     });
     Scene scene = scene_of(kLamp);
     scene.objects[1].visible = false;
@@ -237,6 +240,22 @@ TEST_F(SkippingFiles, ChannelsNotAskedForAreNeitherMadeNorStored) {
                         EXPECT_EQ(plane, all.planes.at(name)) << name;
                 }
     EXPECT_EQ(with["buffer image"], 11u * 48 * 36 * 4);
+}
+
+TEST_F(SkippingFiles, TilesThatSeeNothingEndAtOnce) {
+    Scene scene = scene_of(kFloor);
+    resize(scene, {256, 256});
+    RenderReport report;
+    const Image image = render(shared_device(), scene, report);
+    const Plane<uint32_t>& objects = image.id_planes.at("objectId");
+    std::vector<bool> is_empty(64 * 64, true);
+    for (size_t i = 0; i < objects.size(); ++i)
+        if (objects[i] != 0) is_empty[i / 1024 * 64 + i % 256 / 4] = false;
+    const auto empty = uint64_t(std::ranges::count(is_empty, true));
+    EXPECT_GT(empty, 2000u);
+    EXPECT_EQ(report.beams, is_empty.size());
+    EXPECT_LE(report.clear_beams, empty);
+    EXPECT_GT(report.clear_beams, empty * 3 / 5);
 }
 
 TEST_F(SkippingFiles, EmptySpaceTakesNoVoxelsLeavesOrFields) {
