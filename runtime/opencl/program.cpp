@@ -62,17 +62,20 @@ Program::Program(const Device& device, const std::string& file, const Defines& d
 void Program::build_together(const Device& device, std::span<const char* const> files,
                              const Defines& defines) {
     std::vector<cl::Program*> places;
+    std::vector<const char*> missing;
     const auto locked = device.lock();
-    for (const std::string file : files) {
+    for (const char* file : files) {
         const KernelSource& source = kernel_source(file);
         cl::Program& place =
             device.programs()[program_key(source, build_options(device, source, defines))];
-        if (!place()) places.push_back(&place);
+        if (place()) continue;
+        places.push_back(&place);
+        missing.push_back(file);
     }
-    if (places.empty()) return;
-    const KernelSource source = kernel_source(files);
+    if (missing.empty()) return;
+    const KernelSource source = kernel_source(missing);
     const cl::Program program =
-        build_program(device, fmt::format("kernels/{}", fmt::join(files, " with kernels/")),
+        build_program(device, fmt::format("kernels/{}", fmt::join(missing, " with kernels/")),
                       source.text(), build_options(device, source, defines));
     for (cl::Program* place : places) *place = program;
 }

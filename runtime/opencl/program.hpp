@@ -72,8 +72,9 @@ class Program {
     /// Compiles kernels/`file` (e.g. "trace.cl"). Throws Error::build with the compiler's log.
     Program(const Device& device, const std::string& file, const Defines& defines = {});
 
-    /// Compiles several files into one program; whoever asks for one of them with these constants,
-    /// as long as the device is open, gets that. Names of functions may be used once in all.
+    /// Compiles those of several files that weren't with these constants before into one program;
+    /// whoever asks for one of them with these constants, as long as the device is open, gets that.
+    /// Names of functions may be used once in all.
     static void build_together(const Device& device, std::span<const char* const> files,
                                const Defines& defines);
 
