@@ -10,10 +10,6 @@
 namespace voxelume::cli {
 namespace {
 
-std::string size_text(const glm::ivec3& size) {
-    return fmt::format("{}x{}x{}", size.x, size.y, size.z);
-}
-
 /// Three digits are what an estimate is good for.
 double three_digits(double value) {
     return std::stod(fmt::format("{:.3g}", value));
@@ -69,6 +65,17 @@ Report plan_report(const Scene& scene, const ScenePlan& plan, const Device& devi
     return report;
 }
 
+/// What the text ends with, for programs.
+void add_verdict(const FramePlan& planned, const DeviceInfo& device, Report& report) {
+    const double peak = planned.plan.peak_bytes(), memory = double(device.memory);
+    report["verdict"] = is_refused(planned, device) ? "doesn't fit"
+                        : peak <= memory            ? "fits"
+                                                    : "may fit";
+    report["least MB"] = megabytes(planned.plan.least_bytes);
+    report["most MB"] = megabytes(peak);
+    report["device MB"] = megabytes(memory);
+}
+
 }  // namespace
 
 void print_plan(const Scene& scene, std::span<const int> frames, const Device& device,
@@ -79,6 +86,7 @@ void print_plan(const Scene& scene, std::span<const int> frames, const Device& d
     if (!as_json) fmt::print("{}\n", describe(scene));
     Report report = plan_report(planned.scene, planned.plan, device);
     if (moves(scene)) report["frame"] = planned.frame;
+    if (as_json) add_verdict(planned, device.info(), report);
     print_report(report, as_json);
     in_frame(scene, planned.frame,
              [&] { check_memory(planned.scene, planned.plan, device.info()); });

@@ -151,7 +151,8 @@ class FrameRun {
         if (!files.volumes.empty())
             volume = volume_renderers_[input.device].volume(input.scene, input.world, report);
         advance(100, shown);
-        return written(input.frame, report, std::move(image), std::move(volume));
+        return written(input.frame, {files.frame, input.device, report}, std::move(image),
+                       std::move(volume));
     }
 
     /// The only frame, by all devices.
@@ -163,15 +164,15 @@ class FrameRun {
                 {devices_, meshes_.cache()}, scene_at(scene_, list_[0].frame), report,
                 [&](uint32_t i, uint32_t of) { advance(i * 100ull / of, shown); });
         }));
-        return written(0, report, std::move(image), nullptr);
+        return written(0, {list_[0].frame, 0, report}, std::move(image), nullptr);
     }
 
     /// Takes a frame's report; returns what writes its files.
-    std::function<void()> written(size_t n, const RenderReport& report,
+    std::function<void()> written(size_t n, const FrameReport& report,
                                   std::shared_ptr<const Image> image,
                                   std::shared_ptr<Volume> volume) {
-        if (report.not_finite != 0) refuse_not_finite(report.not_finite);
-        reports_[n] = {list_[n].frame, report};
+        if (report.report.not_finite != 0) refuse_not_finite(report.report.not_finite);
+        reports_[n] = report;
         return [this, image = std::move(image), volume = std::move(volume), n] {
             const auto start = std::chrono::steady_clock::now();
             if (image) write_images(*image, list_[n]);

@@ -85,6 +85,7 @@ const char* image_text(const FrameReport& frame) {
 nlohmann::ordered_json frame_statistics(const FrameReport& frame) {
     const RenderReport& report = frame.report;
     return {{"frame", frame.frame},
+            {"device", frame.device},
             {"world", world_text(frame)},
             {"image", image_text(frame)},
             {"meshes_read", report.world.meshes_read},
@@ -97,11 +98,16 @@ nlohmann::ordered_json frame_statistics(const FrameReport& frame) {
             {"seconds", seconds_of(report)}};
 }
 
-/// The first frame that had no room for what the next one may use of it.
-std::optional<int> nothing_kept_from(const std::vector<FrameReport>& frames) {
-    for (const FrameReport& frame : frames)
-        if (frame.report.world.lacks_room && &frame != &frames.back()) return frame.frame;
-    return std::nullopt;
+/// The frames that had no room for what their device's next one may use of them.
+std::vector<int> frames_that_keep_nothing(const std::vector<FrameReport>& frames) {
+    std::vector<int> numbers;
+    for (auto frame = frames.begin(); frame != frames.end(); ++frame) {
+        const bool has_next = std::any_of(frame + 1, frames.end(), [&](const FrameReport& later) {
+            return later.device == frame->device;
+        });
+        if (has_next && frame->report.world.lacks_room) numbers.push_back(frame->frame);
+    }
+    return numbers;
 }
 
 nlohmann::ordered_json statistics(const Outcome& outcome) {
@@ -144,7 +150,8 @@ nlohmann::ordered_json statistics(const Outcome& outcome) {
     json["seconds"]["write"] = outcome.write_seconds;
     json["seconds"]["total"] = outcome.seconds;
     if (outcome.one_by_one_from) json["one_by_one_from"] = *outcome.one_by_one_from;
-    if (const auto frame = nothing_kept_from(outcome.frames)) json["nothing_kept_from"] = *frame;
+    if (const std::vector<int> frames = frames_that_keep_nothing(outcome.frames); !frames.empty())
+        json["nothing_kept_from"] = frames.front();
     json["frames"] = nlohmann::ordered_json::array();
     for (const FrameReport& frame : outcome.frames)
         json["frames"].push_back(frame_statistics(frame));
@@ -226,11 +233,11 @@ void print_details(const Outcome& outcome) {
         fmt::print(stderr,
                    "  one frame at a time from frame {} on: memory doesn't suffice for two\n",
                    *outcome.one_by_one_from);
-    if (const auto frame = nothing_kept_from(outcome.frames))
-        fmt::print(
-            stderr,
-            "  nothing is kept for the next frame from frame {} on: memory doesn't suffice\n",
-            *frame);
+    if (const std::vector<int> frames = frames_that_keep_nothing(outcome.frames); !frames.empty())
+        fmt::print(stderr,
+                   "  {} of {} frames keep nothing for the next, frame {} the first: memory "
+                   "doesn't suffice\n",
+                   frames.size(), outcome.frames.size(), frames.front());
     if (outcome.frames.size() > 1)
         for (const FrameReport& frame : outcome.frames)
             fmt::print(stderr,

@@ -11,6 +11,7 @@ namespace voxelume::cli {
 
 struct FrameReport {
     int frame = 1;
+    size_t device = 0;  ///< its number among the outcome's
     RenderReport report;
 };
 

@@ -40,4 +40,16 @@ class Error : public std::runtime_error {
     ErrorKind kind_;
 };
 
+/// Does something for `subject`, with which the sentence of a limit that it meets begins:
+/// "room.json: world: the rays buffer needs 3.7 MB on ...".
+template <class Action>
+auto with_limits_of(const std::string& subject, const Action& action) {
+    try {
+        return action();
+    } catch (const Error& error) {
+        if (error.kind() != ErrorKind::limit) throw;
+        throw Error(ErrorKind::limit, "{}: {}", subject, error.what());
+    }
+}
+
 }  // namespace voxelume

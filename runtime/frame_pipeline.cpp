@@ -110,7 +110,6 @@ size_t run_overlapped(const Device& device, size_t count, const FrameSteps& step
     Handoff<std::function<void()>> writes;
     std::exception_ptr write_error, error;
     size_t frame = 0;
-    bool is_alone = true;  // nothing is in memory beside the first world that is formed
     try {
         const Worker writer([&] {
             const Closing closing(writes);
@@ -141,7 +140,6 @@ size_t run_overlapped(const Device& device, size_t count, const FrameSteps& step
             std::optional<FormedFrame> next = formed.take();
             if (!next) break;
             if (next->error) std::rethrow_exception(next->error);
-            is_alone = false;
             if (!writes.put(steps.render({frame, 0, next->scene, next->world, next->report})))
                 break;
         }
@@ -150,7 +148,7 @@ size_t run_overlapped(const Device& device, size_t count, const FrameSteps& step
     }
     // The writer's frame comes before all others.
     if (write_error) std::rethrow_exception(write_error);
-    if (error && (is_alone || !steps.forget || !is_limit(error))) std::rethrow_exception(error);
+    if (error && (!steps.forget || !is_limit(error))) std::rethrow_exception(error);
     return frame;
 }
 

@@ -24,15 +24,6 @@ bool has_files_of(const Scene& a, const Scene& b) {
     });
 }
 
-bool fits(const FramePlan& planned, const DeviceInfo& device) {
-    try {
-        check_memory(planned.scene, planned.plan, device);
-    } catch (const Error&) {
-        return false;
-    }
-    return true;
-}
-
 /// Leaves in main memory the meshes of a frame, and as many of others as may wait for theirs.
 void forget_most(const Scene& scene, const DeviceInfo& device, MeshStore& meshes) {
     uint64_t room = device.memory / kAwaitedPart;
@@ -51,6 +42,15 @@ FramePlan plan_frame(const Scene& scene, int frame, MeshStore& meshes) {
 
 }  // namespace
 
+bool is_refused(const FramePlan& planned, const DeviceInfo& device) {
+    try {
+        check_memory(planned.scene, planned.plan, device);
+    } catch (const Error&) {
+        return true;
+    }
+    return false;
+}
+
 FramePlan plan_frames(const Scene& scene, std::span<const int> frames, MeshStore& meshes,
                       const DeviceInfo& device) {
     std::optional<FramePlan> most;
@@ -63,7 +63,7 @@ FramePlan plan_frames(const Scene& scene, std::span<const int> frames, MeshStore
         FramePlan planned = plan_frame(scene, frame, meshes);
         meshes.forget_unused();
         before = planned.scene;
-        if (!fits(planned, device)) return planned;
+        if (is_refused(planned, device)) return planned;
         if (!most || planned.plan.peak_bytes() > most->plan.peak_bytes()) most = std::move(planned);
     }
     return std::move(*most);

@@ -14,6 +14,9 @@ struct FramePlan {
     ScenePlan plan;
 };
 
+/// Whether check_memory refuses the frame.
+bool is_refused(const FramePlan& planned, const DeviceInfo& device);
+
 /// Plans all `frames` of a scene, one or more, and returns the first that doesn't fit the device,
 /// or else the one that needs the most memory. Reads every file of models that they show.
 ///

@@ -32,7 +32,8 @@ std::function<void()> FrameWorker::take(size_t frame, const Scene& scene) {
     try {
         return form_and_render(frame, scene);
     } catch (const Error& error) {
-        if (error.kind() != ErrorKind::limit || !has_any_ || !keeps_ || !steps_.forget) throw;
+        const bool makes_room = has_any_ || former_->keeps();
+        if (error.kind() != ErrorKind::limit || !makes_room || !keeps_ || !steps_.forget) throw;
     }
     keeps_ = false;
     lacks_room_ = true;

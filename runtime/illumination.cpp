@@ -1,7 +1,7 @@
 #include "runtime/illumination.hpp"
 
 #include <algorithm>
-#include <bit>
+#include <cmath>
 #include <cstring>
 #include <set>
 
@@ -10,6 +10,7 @@
 #include "runtime/instances.hpp"
 #include "runtime/interior.hpp"
 #include "runtime/object_boxes.hpp"
+#include "runtime/stages/sight.hpp"
 #include "runtime/stages/spots.hpp"
 
 namespace voxelume {
@@ -44,21 +45,6 @@ bool has_lamp(const Scene& scene, const Pyramid& world) {
 
 bool has_light(const Scene& scene, const Pyramid& world) {
     return std::ranges::any_of(scene.lights, shines) || has_lamp(scene, world);
-}
-
-ShadowQueue allocate_shadow_queue(const Device& device, const Features& features, uint32_t stride) {
-    ShadowQueue queue;
-    if (!features.shadows && !features.medium) return queue;
-    queue.count = Buffer<uint32_t>(device, "shadow queue", 1);
-    if (features.shadows) {
-        queue.traced = Buffer<uint32_t>(device, "shadow rays", 2);
-        queue.traced.fill(0);
-    }
-    queue.rays = Buffer<float>(device, "shadow queue", size_t(stride) * VXL_RAY_COMPONENTS);
-    queue.targets = Buffer<uint32_t>(device, "shadow queue", stride);
-    if (features.exact()) queue.sources = Buffer<uint32_t>(device, "shadow queue", stride);
-    queue.shares = Buffer<float>(device, "shadow queue", size_t(stride) * 3);
-    return queue;
 }
 
 std::vector<LightRecord> light_records(const Device& device, const Features& features,
@@ -119,27 +105,25 @@ void add_paths(const Scene& scene, const Pyramid& world, Features& features) {
         });
 }
 
-/// Whether any surface that may be shown sends rays on, other than straight through.
-bool scatters(const Features& features, const Scene& scene, const Pyramid& world) {
-    return features.refracts ||
-           std::ranges::any_of(shown_materials(scene, world),
-                               [](const Material* m) { return m->reflection > 0; });
+/// Reflections and refractions in a row: none where no surface that may be shown sends rays on,
+/// other than straight through.
+size_t most_depth(const Features& features, const Scene& scene, const Pyramid& world) {
+    const bool scatters = features.refracts ||
+                          std::ranges::any_of(shown_materials(scene, world),
+                                              [](const Material* m) { return m->reflection > 0; });
+    return scatters ? size_t(scene.render.depth) : 0;
 }
 
-/// Arrays of rays on their way.
-RayQueue allocate_queue(const Device& device, const Features& features, uint32_t places) {
-    RayQueue queue;
-    queue.rays = Buffer<float>(device, "rays", size_t(places) * VXL_RAY_COMPONENTS);
-    if (!features.paths) return queue;
-    const size_t components = features.transmission
-                                  ? VXL_PATH_INSIDE + 1 + size_t(features.other_members)
-                              : features.instances ? VXL_PATH_INSIDE
-                                                   : VXL_PATH_CELL;
-    queue.paths = Buffer<uint32_t>(device, "paths", places * components);
-    if (!features.transmission) return queue;
-    queue.starts = Buffer<float>(device, "path starts", places);
-    queue.inside = Buffer<uint32_t>(device, "path media", places);
-    return queue;
+/// Those that have arrays, at most: rays end whose weight is too small.
+size_t reserved_depth(const Features& features, const Scene& scene, const Pyramid& world) {
+    constexpr double kRounding = 1e-3;  // of the weights
+    const auto depth = double(most_depth(features, scene, world));
+    double share = 0;  // of a surface's light that one ray may bring
+    for (const Material* m : shown_materials(scene, world))
+        share = std::max(share, double(m->reflection) + double(m->refraction));
+    if (depth == 0 || share >= 1) return size_t(depth);
+    const double followed = std::log(scene.render.least_weight) / std::log(share);
+    return size_t(std::min(depth, std::floor(followed + kRounding) + 1));
 }
 
 /// Surroundings::lost.
@@ -168,6 +152,11 @@ Buffer<uint32_t> transmitting_solids(const Device& device, const Scene& scene,
 
 Features features_of(const Scene& scene, const Pyramid& world) {
     Features features = features_of(world);
+    add_scene(scene, world, features);
+    return features;
+}
+
+void add_scene(const Scene& scene, const Pyramid& world, Features& features) {
     features.shadows = scene.render.shadows && has_light(scene, world);
     features.patches =
         has_lamp(scene, world) || std::ranges::any_of(scene.lights, [](const Light& light) {
@@ -177,7 +166,15 @@ Features features_of(const Scene& scene, const Pyramid& world) {
     features.medium_grid = features.medium && has_density(scene.world.medium);
     add_paths(scene, world, features);
     add_interior(scene, world, features);
-    return features;
+}
+
+RayBytes ray_bytes(const Scene& scene, const Features& features) {
+    const Pyramid any;  // which may show all objects
+    const RenderSettings& render = scene.render;
+    const uint32_t tiles =
+        batch_tiles(features, render.samples, tile_count(render.size.x, render.size.y));
+    return ray_bytes(features, has_light(scene, any), tiles * 16 * uint32_t(render.samples),
+                     reserved_depth(features, scene, any));
 }
 
 void build_programs(const Device& device, const Features& features, const Scene& scene,
@@ -189,30 +186,6 @@ void build_programs(const Device& device, const Features& features, const Scene&
     Program::build_together(device, files, features.defines(device));
 }
 
-RayBatch allocate_batch(const Device& device, const Features& features, uint32_t stride) {
-    RayBatch batch;
-    static_cast<RayQueue&>(batch) = allocate_queue(device, features, stride);
-    batch.stride = stride;
-    const size_t hit_components = features.instances ? VXL_HIT_COMPONENTS
-                                  : features.exact() ? VXL_HIT_INSTANCE
-                                                     : VXL_HIT_PRIMITIVE;
-    batch.hits = Buffer<uint32_t>(device, "hits", stride * hit_components);
-    batch.positions = Buffer<float>(device, "positions", size_t(stride) * 3);
-    batch.normals = Buffer<float>(device, "normals", size_t(stride) * 3);
-    batch.words = Buffer<uint32_t>(device, "words", stride);
-    batch.radiance = Buffer<float>(device, "radiance", size_t(stride) * 3);
-    if (features.paths) batch.sides = Buffer<uint32_t>(device, "sides", stride);
-    if (features.paths && features.absorbs)
-        batch.passed = Buffer<float>(device, "passed", size_t(stride) * 3);
-    if (features.transmission) batch.coverage = Buffer<float>(device, "coverage", stride);
-    return batch;
-}
-
-void renew_sight(const Device& device, RayBatch& batch) {
-    batch.rays = Buffer<float>(device, "rays", batch.rays.size());
-    batch.hits = Buffer<uint32_t>(device, "hits", batch.hits.size());
-}
-
 Illumination::Illumination(const Device& device, const Features& features, const Scene& scene,
                            const Pyramid& world, uint32_t most_rays, bool compact)
     : device_(device),
@@ -220,14 +193,11 @@ Illumination::Illumination(const Device& device, const Features& features, const
       world_(world),
       lights_(light_records(device, features, scene, world)),
       most_rays_(most_rays),
-      most_depth_(scatters(features, scene, world) ? size_t(scene.render.depth) : 0),
+      most_depth_(most_depth(features, scene, world)),
       trace_(device, features),
       shade_(device, features, scene, world.frame),
       surroundings_{shade_.materials(), shade_.ranks(), allocate_lost(device, features)},
-      queue_(lights_.empty()
-                 ? ShadowQueue{}
-                 : allocate_shadow_queue(device, features,
-                                         std::bit_ceil((features.refracts ? 2 : 1) * most_rays))) {
+      queue_(lights_.empty() ? ShadowQueue{} : allocate_shadow_queue(device, features, most_rays)) {
     if (!lights_.empty()) lighting_.emplace(device, features, shade_.materials());
     if (features.absorbs)
         medium_.emplace(device, features, scene.world, shade_.space(), shade_.materials());
@@ -258,7 +228,7 @@ void Illumination::light_all(RayBatch& batch, uint32_t count, const LayerSink& s
         trace_.begin_inside(world_, surroundings_, hollow_flags_, hollow_.most, batch, count);
     reserve_nodes(0, batch.stride);
     follow(0, batch, count, hits_are_known, sink);
-    Depth& depth = *depths_[0];
+    PathDepth& depth = *depths_[0];
     if (!features_.transmission) return;
     std::swap(batch.radiance, depth.nodes.radiance);
     std::swap(batch.coverage, depth.nodes.coverage);
@@ -278,7 +248,7 @@ void Illumination::direct(RayBatch& entries, uint32_t count) {
 /// Fills the nodes of a depth, whose rays are in `first`.
 void Illumination::follow(size_t number, RayBatch& first, uint32_t count, bool hits_are_known,
                           const LayerSink& sink) {
-    Depth& depth = *depths_[number];
+    PathDepth& depth = *depths_[number];
     RayBatch* entries = &first;
     for (bool is_first = true; count > 0; is_first = false) {
         if (!is_first || !hits_are_known) trace_.closest(world_, *entries, count, number > 0);
@@ -300,12 +270,12 @@ void Illumination::follow(size_t number, RayBatch& first, uint32_t count, bool h
 
 /// Blocks 6.1 to 9: follows what surfaces reflect and refract, as much at a time as fits.
 void Illumination::scatter(size_t number, RayBatch& entries, uint32_t count) {
-    const uint32_t branches = features_.refracts ? 2 : 1;
+    const uint32_t branches = branches_of(features_);
     for (uint32_t begin = 0; begin < count; begin += most_rays_) {
         const uint32_t end = std::min(count, begin + most_rays_);
         reserve_nodes(number + 1, branches * (end - begin));
-        Depth& depth = *depths_[number];
-        Depth& below = *depths_[number + 1];
+        PathDepth& depth = *depths_[number];
+        PathDepth& below = *depths_[number + 1];
         const uint32_t sent =
             scatter_->rays(world_, entries, begin, end, depth.children, below.entries);
         if (sent == 0) continue;
@@ -318,24 +288,12 @@ void Illumination::scatter(size_t number, RayBatch& entries, uint32_t count) {
 /// Makes room for `count` nodes of a depth; of the first, whose arrays are exchanged with the
 /// caller's, exactly so much.
 void Illumination::reserve_nodes(size_t number, uint32_t count) {
-    if (depths_.size() <= number) depths_.push_back(std::make_unique<Depth>());
-    Depth& depth = *depths_[number];
+    if (depths_.size() <= number) depths_.push_back(std::make_unique<PathDepth>());
+    PathDepth& depth = *depths_[number];
     const bool is_first = number == 0;
     if (is_first ? count == depth.nodes.stride : count <= depth.nodes.stride) return;
-    const uint32_t places = is_first ? count : std::max(std::bit_ceil(count), 16u);
-    depth = Depth{};
-    if (features_.transmission || !is_first)
-        depth.entries = allocate_batch(device_, features_, places);
-    depth.nodes.stride = places;
-    if (features_.transmission) {
-        depth.next = allocate_queue(device_, features_, places);
-        depth.nodes.radiance = Buffer<float>(device_, "node light", size_t(places) * 3);
-        if (is_first) depth.nodes.coverage = Buffer<float>(device_, "node coverage", places);
-        depth.children.gains = Buffer<float>(device_, "path gains", size_t(places) * 3);
-    }
-    const size_t branches = features_.refracts ? 2 : 1;
-    depth.children.nodes = Buffer<uint32_t>(device_, "path children", places * branches);
-    depth.children.shares = Buffer<float>(device_, "path shares", places * branches);
+    depth = {};  // frees what it had
+    depth = allocate_depth(device_, features_, is_first, is_first ? count : depth_places(count));
 }
 
 uint64_t Illumination::lost_members() const {

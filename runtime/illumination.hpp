@@ -8,6 +8,7 @@
 
 #include "runtime/grid.hpp"
 #include "runtime/interior.hpp"
+#include "runtime/ray_arrays.hpp"
 #include "runtime/scene.hpp"
 #include "runtime/stages/light.hpp"
 #include "runtime/stages/medium.hpp"
@@ -20,21 +21,17 @@ namespace voxelume {
 /// What the scene and its world really contain: of objects that lie outside of the world, nothing.
 Features features_of(const Scene& scene, const Pyramid& world);
 
+/// Adds to the features of a world's voxels what the scene decides; of the world it asks where
+/// objects are, and no voxels.
+void add_scene(const Scene& scene, const Pyramid& world, Features& features);
+
 /// Makes the programs of the stages that sight rays go through in one piece: PoCL reads its own
 /// megabyte of headers for each.
 void build_programs(const Device& device, const Features& features, const Scene& scene,
                     const Pyramid& world);
 
-/// An empty batch for up to `stride` rays, with the arrays that the features need.
-RayBatch allocate_batch(const Device& device, const Features& features, uint32_t stride);
-
-/// Gives the batch other arrays for its rays and hits; whoever holds the old ones keeps them.
-void renew_sight(const Device& device, RayBatch& batch);
-
-/// Rays that go through the stages together.
-inline uint32_t batch_rays(const Features& features) {
-    return features.paths ? kBatchRays / 2 : kBatchRays;
-}
+/// Bytes of the device that the rays of the scene's flat image take on their way.
+RayBytes ray_bytes(const Scene& scene, const Features& features);
 
 /// Called for each layer of surfaces along the rays of an observer, the nearest first, once its
 /// light is added to the nodes. Entry n of the first layer is ray n; others name theirs in `paths`.
@@ -78,14 +75,6 @@ class Illumination {
     uint64_t lost_members() const;
 
   private:
-    /// The arrays of one depth. Their sizes follow what has been needed.
-    struct Depth {
-        RayBatch entries;
-        RayQueue next;  ///< the layer behind them
-        Children children;
-        NodeLight nodes;
-    };
-
     void light_all(RayBatch& batch, uint32_t count, const LayerSink& sink, bool hits_are_known);
     void direct(RayBatch& entries, uint32_t count);
     void follow(size_t depth, RayBatch& first, uint32_t count, bool hits_are_known = false,
@@ -108,7 +97,7 @@ class Illumination {
     ShadowQueue queue_;
     HollowObjects hollow_;  ///< of immersed observers
     Buffer<uint32_t> hollow_flags_;
-    std::vector<std::unique_ptr<Depth>> depths_;
+    std::vector<std::unique_ptr<PathDepth>> depths_;  ///< as large as has been needed
     uint64_t secondary_rays_ = 0;
 };
 

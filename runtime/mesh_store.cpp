@@ -83,13 +83,14 @@ const MeshSummary& MeshStore::summary_of_file(const std::filesystem::path& name)
 
 const MeshStore::VoxelFile& MeshStore::voxel_file(const Model& model) {
     used_.insert(model.voxels);
-    const auto found = voxels_.find(model.voxels);
-    if (found != voxels_.end() && found->second.voxels.surface == model.surface)
-        return found->second;
+    const std::pair key(model.voxels, model.surface);
+    const auto found = voxels_.find(key);
+    if (found != voxels_.end()) return found->second;
     const LoadTimer timer(load_seconds_);
     VoxelFile read{read_voxel_model(model.voxels, model.surface), {}};
     if (model.surface == Surface::exact) read.summary = voxelume::summary_of(read.voxels.mesh);
-    return voxels_.insert_or_assign(model.voxels, std::move(read)).first->second;
+    ++meshes_read_;
+    return voxels_.emplace(key, std::move(read)).first->second;
 }
 
 const VoxelModel& MeshStore::voxels(const Model& model) {
@@ -165,8 +166,8 @@ uint64_t MeshStore::bytes_of(const std::filesystem::path& name) const {
     uint64_t bytes = 0;
     if (const auto found = files_.find(name); found != files_.end() && found->second.mesh)
         bytes += mesh_bytes(*found->second.mesh);
-    if (const auto found = voxels_.find(name); found != voxels_.end())
-        bytes += voxel_bytes(found->second.voxels);
+    for (const auto& [key, file] : voxels_)
+        if (key.first == name) bytes += voxel_bytes(file.voxels);
     return bytes;
 }
 
@@ -183,7 +184,7 @@ void MeshStore::await(const Model& model, uint64_t& room) {
             if (used_.contains(name)) continue;
             if (const auto found = files_.find(name); found != files_.end())
                 found->second.mesh.reset();
-            voxels_.erase(name);
+            std::erase_if(voxels_, [&](const auto& entry) { return entry.first.first == name; });
         }
     }
     used_.merge(files);
@@ -197,9 +198,8 @@ MeshStore MeshStore::recounted() const {
 }
 
 void MeshStore::forget_unused() {
-    const auto is_unused = [&](const auto& entry) { return !used_.contains(entry.first); };
-    std::erase_if(files_, is_unused);
-    std::erase_if(voxels_, is_unused);
+    std::erase_if(files_, [&](const auto& entry) { return !used_.contains(entry.first); });
+    std::erase_if(voxels_, [&](const auto& entry) { return !used_.contains(entry.first.first); });
     for (auto& [model, morphed] : morphed_)
         if (!used_morphs_.contains(model)) morphed.mesh.reset();
     used_.clear();
@@ -219,7 +219,7 @@ uint64_t MeshStore::triangles_of(const std::filesystem::path& name, const MeshFi
 uint64_t MeshStore::triangles() const {
     uint64_t sum = 0;
     for (const auto& [name, file] : files_) sum += triangles_of(name, file);
-    for (const auto& [name, file] : voxels_) sum += file.summary.triangles;
+    for (const auto& [key, file] : voxels_) sum += file.summary.triangles;
     return sum;
 }
 

@@ -6,6 +6,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "runtime/mesh_summary.hpp"
@@ -47,8 +48,8 @@ class MeshStore {
 
     const ModelCache& cache() const { return cache_; }
     double load_seconds() const { return load_seconds_; }
-    uint64_t meshes_read() const { return meshes_read_; }
-    uint64_t triangles() const;  ///< of the meshes that are in use
+    uint64_t meshes_read() const { return meshes_read_; }  ///< and files of voxels
+    uint64_t triangles() const;                            ///< of the meshes that are in use
 
   private:
     struct MeshFile {
@@ -79,7 +80,7 @@ class MeshStore {
     ModelCache cache_;
     std::map<std::filesystem::path, MeshFile> files_;
     std::map<std::string, Morphed> morphed_;  ///< by the model's name, as last asked for
-    std::map<std::filesystem::path, VoxelFile> voxels_;
+    std::map<std::pair<std::filesystem::path, Surface>, VoxelFile> voxels_;  ///< read as a surface
     std::set<std::filesystem::path> used_;
     std::set<std::string> used_morphs_;  ///< models' names
     double load_seconds_ = 0;

@@ -19,7 +19,7 @@
 namespace voxelume {
 namespace {
 
-constexpr const char* kFormat = "voxelume models 2";
+constexpr const char* kFormat = "voxelume models 3";
 constexpr uint64_t kDefaultMegabytes = 4096;
 
 /// Bytes of a grid on the device that are read, unpacked and sent there in a second, at least.
@@ -50,12 +50,20 @@ glm::dvec3 vector_of(const nlohmann::json& json) {
     return {json.at(0).get<double>(), json.at(1).get<double>(), json.at(2).get<double>()};
 }
 
+nlohmann::json json_of(const SurfaceArea& area) {
+    return {json_of(area.shadows), area.total};
+}
+
+SurfaceArea area_of(const nlohmann::json& json) {
+    return {vector_of(json.at(0)), json.at(1).get<double>()};
+}
+
 /// In CBOR, numbers keep all their bits.
 std::string bytes_of(const MeshSummary& summary) {
     const nlohmann::json json = {summary.triangles,
                                  {json_of(summary.surface.min), json_of(summary.surface.max)},
                                  {json_of(summary.vertices.min), json_of(summary.vertices.max)},
-                                 {json_of(summary.area.shadows), summary.area.total},
+                                 {json_of(summary.area), json_of(summary.least_area)},
                                  summary.has_colors,
                                  // A name is the file's bytes, in whatever encoding.
                                  nlohmann::json::array()};
@@ -72,7 +80,8 @@ MeshSummary summary_of_bytes(const std::string& bytes) {
     summary.triangles = json.at(0).get<uint64_t>();
     summary.surface = {vector_of(json.at(1).at(0)), vector_of(json.at(1).at(1))};
     summary.vertices = {vector_of(json.at(2).at(0)), vector_of(json.at(2).at(1))};
-    summary.area = {vector_of(json.at(3).at(0)), json.at(3).at(1).get<double>()};
+    summary.area = area_of(json.at(3).at(0));
+    summary.least_area = area_of(json.at(3).at(1));
     summary.has_colors = json.at(4).get<bool>();
     for (const nlohmann::json& name : json.at(5))
         summary.group_names.emplace_back(name.get_binary().begin(), name.get_binary().end());

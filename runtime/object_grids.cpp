@@ -73,6 +73,10 @@ SharedGrid ObjectGrids::find_or_make(const Model& model, const Source& source,
     } catch (const Error& error) {
         const bool is_users = error.kind() == ErrorKind::input || error.kind() == ErrorKind::limit;
         if (!is_users || where.empty()) throw;
+        const glm::ivec3& size = source.frame.size;
+        if (error.kind() == ErrorKind::limit && size != glm::ivec3(0))
+            throw Error(ErrorKind::limit, "{}: a grid of {}x{}x{} voxels: {}", where, size.x,
+                        size.y, size.z, error.what());
         throw Error(error.kind(), "{}: {}", where, error.what());
     }
 }

@@ -7,34 +7,22 @@
 #include <set>
 
 #include "runtime/error.hpp"
+#include "runtime/illumination.hpp"
 #include "runtime/instances.hpp"
-#include "runtime/object_boxes.hpp"
-#include "runtime/plan_extent.hpp"
+#include "runtime/plan_object.hpp"
+#include "runtime/plan_stages.hpp"
 #include "runtime/stages/mesh_lattice.hpp"
-#include "runtime/stages/ray_batch.hpp"
 
 namespace voxelume {
 namespace {
 
-constexpr double kIndexMarks = 544;  // bytes for each brick: masks, counts, starts, while indexing
-constexpr double kPlacedBand = 5;    // voxels around cubes: placing looks at whole leaves of them
-constexpr double kWorldTable = 5;    // bytes for each brick of the lattice: slots and states
-
-// Bytes for each voxel of the pyramid.
-constexpr double kField = 32, kWord = 4;
-constexpr double kVoxelsPerLeaf = 16, kLeaf = 12;
-constexpr double kVoxelsPerSector = 4096, kSectorRecords = 1024;
-
-// Bytes for each ray of a batch with its shadow ray, and for each pixel.
-constexpr double kRay = 136;
+constexpr double kPlacedBand = 5;  // voxels around cubes: placing looks at whole leaves of them
 
 class Planner {
   public:
-    Planner(const Scene& scene, MeshStore& meshes) : scene_(scene), meshes_(meshes) {
-        plan_.world = world_frame(scene.world);
-        world_box_ = {
-            scene.world.bounds.min,
-            scene.world.bounds.min + glm::dvec3(scene.world.voxels) * scene.world.voxel_size};
+    Planner(const Scene& scene, MeshStore& meshes)
+        : scene_(scene), meshes_(meshes), extents_(scene, meshes) {
+        contents_.frame = plan_.world = world_frame(scene.world);
     }
 
     ScenePlan run() {
@@ -53,74 +41,9 @@ class Planner {
     }
 
   private:
-    const SurfaceArea& area_of(int model_number) {
-        const auto [entry, added] = areas_.try_emplace(model_number);
-        const Model& model = scene_.models[size_t(model_number)];
-        if (added) entry->second = model_area(model, meshes_.summary_of(model));
-        return entry->second;
-    }
-
-    /// What an object's surface takes of the world; `area_of_solid` is solid_area or
-    /// least_solid_area.
-    SurfaceExtent world_extent(const Object& object, double band,
-                               decltype(solid_area)& area_of_solid = solid_area) {
-        const Model& model = scene_.models[size_t(object.model)];
-        const glm::dmat4& map = object.world_from_object;
-        if (model.solid)
-            return surface_extent(area_of_solid(*model.solid, map, world_box_), glm::dmat4(1),
-                                  plan_.world, band);
-        SurfaceExtent extent = surface_extent(area_of(object.model), map, plan_.world, band);
-        const double inside = part_in_world(object.model, map);
-        return {extent.voxels * inside, extent.bricks * inside};
-    }
-
-    /// No more than it takes; nothing of a mesh that is cut.
-    SurfaceExtent least_extent(const Object& object, double band) {
-        if (!scene_.models[size_t(object.model)].cuts.empty()) return {};
-        return world_extent(object, band, least_solid_area);
-    }
-
-    /// Voxels of the world inside of an object whose inside rays see: those of its box.
-    double inside_voxels(const Object& object) {
-        const Model& model = scene_.models[size_t(object.model)];
-        const glm::dmat4& map = object.world_from_object;
-        const glm::dvec3 edge = plan_.world.voxel_edge;
-        const double voxel = edge.x * edge.y * edge.z;
-        if (!model.solid) {
-            const Bounds& box = meshes_.summary_of(model)->surface;
-            const glm::dvec3 size = box.max - box.min, world = world_box_.max - world_box_.min;
-            const double volume = size.x * size.y * size.z * std::abs(glm::determinant(map));
-            return std::min(volume, world.x * world.y * world.z) / voxel;
-        }
-        const SolidBounds box = bounds(*model.solid, map, world_box_);
-        const glm::dvec3 size = glm::max(box.max - box.min, 0.0);
-        return size.x * size.y * size.z / voxel;
-    }
-
-    /// Whether the map takes all of a box into the world.
-    bool lies_in_world(const glm::dvec3& low, const glm::dvec3& high, const glm::dmat4& map) const {
-        for (int corner = 0; corner < 8; ++corner) {
-            const glm::dvec3 p(map * glm::dvec4(corner & 1 ? high.x : low.x,
-                                                corner & 2 ? high.y : low.y,
-                                                corner & 4 ? high.z : low.z, 1.0));
-            if (glm::any(glm::lessThan(p, world_box_.min)) ||
-                glm::any(glm::greaterThan(p, world_box_.max)))
-                return false;
-        }
-        return true;
-    }
-
-    double part_in_world(int model_number, const glm::dmat4& map) {
-        const Model& model = scene_.models[size_t(model_number)];
-        const Bounds& box = meshes_.summary_of(model)->surface;
-        if (lies_in_world(box.min, box.max, map)) return 1;
-        return part_inside(*meshes_.mesh_of(model), map, world_box_);
-    }
-
     void add_least(int number, const WorldExtent& extent) {
-        if (boxes_.empty()) boxes_ = object_boxes(scene_, meshes_);
-        const VoxelBox& box = boxes_[size_t(number)];
-        if (overlap(box, box)) extents_.push_back({box, extent});
+        const VoxelBox& box = extents_.boxes()[size_t(number)];
+        if (overlap(box, box)) least_.push_back({box, extent});
     }
 
     void add_object(int number) {
@@ -132,30 +55,32 @@ class Planner {
         const GridExtras extras = extras_of(model, mesh);
         const bool is_exact = model.surface == Surface::exact;
         const double band = model.surface == Surface::smooth ? kSurfaceBand : kPlacedBand;
-        const SurfaceExtent in_world = world_extent(object, band);
-        const SurfaceExtent least = least_extent(object, band);
+        const SurfaceExtent in_world = extents_.planned(object, band);
+        const SurfaceExtent least = extents_.least(object, band);
         plan_.voxels += in_world.voxels;
         plan_.bricks += in_world.bricks;
         add_least(number, {least.voxels, least.bricks, is_exact ? least.voxels : 0});
         if (shows_inside(scene_, object)) {
-            const double inside = inside_voxels(object);
+            const double inside = extents_.inside_voxels(object);
             plan_.voxels += inside;
             plan_.bricks += inside / (kBrickSize * kBrickSize * kBrickSize);
         }
-        smooth_ |= model.surface == Surface::smooth;
-        occupied_ |= model.surface != Surface::smooth;
-        colors_ |= extras.colors;
-        words_ |= objects_++ > 0 || extras.words;
+        contents_.smooth |= model.surface == Surface::smooth;
+        exact_ |= is_exact;
+        contents_.occupied |= model.surface != Surface::smooth;
+        contents_.colors |= extras.colors;
+        contents_.words |= objects_++ > 0 || extras.words;
         if (is_exact) {
             if (mesh) check_reach(object);
             exact_voxels_ += in_world.voxels;
-            if (mesh) exact_triangles_ += double(mesh->triangles);
-            GridPlan grid = plan_grid(model, mesh, plan_.world, world_extent(object, 0));
-            set_least(grid, plan_grid(model, mesh, plan_.world, least_extent(object, 0)));
+            contents_.lists |= in_world.voxels > 0;
+            if (mesh) contents_.exact_triangles += double(mesh->triangles);
+            GridPlan grid = plan_grid(model, mesh, plan_.world, extents_.planned(object, 0));
+            set_least(grid, plan_grid(model, mesh, plan_.world, extents_.least(object, 0)));
             plan_.grids.push_back(grid);
             plan_.grids.back().object = number;
         } else if (made_.insert(object.model).second) {
-            plan_.grids.push_back(plan_grid(model, mesh, area_of(object.model)));
+            plan_.grids.push_back(plan_grid(model, mesh, extents_.area_of(object.model)));
         } else {
             return;
         }
@@ -177,25 +102,26 @@ class Planner {
     void add_instance(const Object& object) {
         const Model& model = scene_.models[size_t(object.model)];
         const bool is_smooth = model.surface == Surface::smooth;
-        instances_.any = true;
-        instances_.smooth |= is_smooth;
+        contents_.instances.any = true;
+        contents_.instances.smooth |= is_smooth;
         if (!shared_.insert(object.model).second) return;
         GridPlan grid;
         if (!model.voxels.empty() && model.surface != Surface::exact) {
             const VoxelModel& voxels = meshes_.voxels(model);
             grid = plan_grid(voxels);
-            instances_.colors |= !voxels.colors.empty();
+            contents_.instances.colors |= !voxels.colors.empty();
         } else {
             const MeshSummary* mesh = meshes_.summary_of(model);
-            grid = plan_grid(model, mesh, area_of(object.model));
-            instances_.colors |= extras_of(model, mesh).colors;
+            grid = plan_grid(model, mesh, extents_.area_of(object.model));
+            contents_.instances.colors |= extras_of(model, mesh).colors;
             if (model.surface == Surface::exact) {
-                instances_.exact_voxels += grid.least.voxels;
-                instances_.exact_triangles += double(grid.triangles);
+                exact_ = true;
+                contents_.instances.exact_voxels += grid.least.voxels;
+                contents_.instances.exact_triangles += double(grid.triangles);
             }
         }
-        instances_.voxels += grid.voxels;
-        instances_.least_voxels += grid.least.voxels;
+        contents_.instances.voxels += grid.voxels;
+        contents_.instances.least_voxels += grid.least.voxels;
         grid.model = object.model;
         if (model.surface == Surface::exact || made_.insert(object.model).second)
             plan_.grids.push_back(grid);
@@ -216,23 +142,20 @@ class Planner {
         plan_.voxels += count * finer;
         plan_.bricks += 2 * stored * finer;
         const GridFrame& frame = voxels.frame;
-        if (lies_in_world(frame.origin, frame.origin + frame.voxel_edge * glm::dvec3(frame.size),
-                          object.world_from_object))
+        if (extents_.lies_in_world(frame.origin,
+                                   frame.origin + frame.voxel_edge * glm::dvec3(frame.size),
+                                   object.world_from_object))
             add_least(number, {count * least, stored * least, 0});
-        smooth_ |= smooth;
-        occupied_ |= !smooth;
-        colors_ |= !voxels.colors.empty();
-        words_ |= objects_++ > 0 || !voxels.attributes.empty();
+        contents_.smooth |= smooth;
+        contents_.occupied |= !smooth;
+        contents_.colors |= !voxels.colors.empty();
+        transparent_ |= voxels.transparent;
+        contents_.words |= objects_++ > 0 || !voxels.attributes.empty();
         if (!made_.insert(object.model).second) return;
         GridPlan grid = plan_grid(voxels);
         grid.model = object.model;
         plan_.grids.push_back(grid);
     }
-
-    /// Bytes of the world's stages at their height.
-    struct StageBytes {
-        double place = 0, index = 0, world = 0, halo = 0, image = 0;
-    };
 
     void add_stages() {
         double kept = 0, least_kept = 0;
@@ -245,121 +168,67 @@ class Planner {
         const double table = brick_table(plan_.world);
         plan_.bricks = std::min(plan_.bricks, table);
         plan_.medium = plan_density(scene_.world);
-        const StageBytes all =
-            stages({plan_.voxels, plan_.bricks, exact_voxels_}, instances_.voxels, kept);
+        plan_.rays = ray_bytes(scene_, features());
+        const double shown = plan_.medium.bytes + image_bytes(scene_.render);
+        const StageBytes all = stage_bytes(contents_, {plan_.voxels, plan_.bricks, exact_voxels_},
+                                           contents_.instances.voxels, kept);
         plan_.place_bytes = all.place;
         plan_.index_bytes = all.index;
-        plan_.image_bytes = all.image;
+        plan_.image_bytes = all.world + all.halo + shown + plan_.rays.most();
         plan_.world_bytes = all.world;
         plan_.halo_bytes = all.halo;
-        const WorldExtent least = extent_at_least(std::move(extents_));
-        const StageBytes fewest = stages(least, instances_.least_voxels, least_kept);
-        plan_.least_bytes = std::max({plan_.least_bytes, fewest.place, fewest.index, fewest.image});
-        add_largest(least);
-        plan_.host_bytes = kWorldTable * table + 2 * image_bytes() + plan_.medium.host_bytes;
+        const WorldExtent least = extent_at_least(std::move(least_));
+        const StageBytes fewest =
+            stage_bytes(contents_, least, contents_.instances.least_voxels, least_kept);
+        plan_.least_image_bytes = fewest.world + fewest.halo + shown + plan_.rays.least();
+        plan_.least_bytes =
+            std::max({plan_.least_bytes, fewest.place, fewest.index, plan_.least_image_bytes});
+        plan_.least_with_next = fewest.place + fewest.index + plan_.least_image_bytes;
+        plan_.largest = largest_buffer(contents_, least);
+        plan_.host_bytes =
+            kWorldTable * table + 2 * image_bytes(scene_.render) + plan_.medium.host_bytes;
         for (const GridPlan& grid : plan_.grids)
             plan_.host_bytes += double(grid.triangles) * 36 + kTableBytes * brick_table(grid.frame);
     }
 
-    double pixels() const { return double(scene_.render.size.x) * double(scene_.render.size.y); }
-
-    double image_bytes() const {
-        const ImageChannels& channels = scene_.render.channels;
-        return (pixel_bytes(channels) + (channels.object ? 4 : 0)) * pixels();
-    }
-
-    /// Of a world of such an extent with its instances' models, beside `kept` bytes of models.
-    StageBytes stages(const WorldExtent& extent, double instanced, double kept) const {
-        const double table = brick_table(plan_.world);
-        double brick = 0;
-        if (occupied_) brick += kOccupancyBytes;
-        if (smooth_) brick += kDistanceBytes;
-        if (words_) brick += kWordBytes;
-        if (colors_) brick += kWordBytes;
-        if (exact_voxels_ > 0) brick += kWordBytes;
-        const bool measures_nearest = smooth_ && (words_ || colors_ || occupied_);
-        const double lists =
-            extent.exact_voxels * kListBytes + exact_triangles_ * kExactTriangleBytes;
-        const double world = 4 * table + extent.bricks * brick + lists;
-        StageBytes bytes;
-        bytes.place = kept + world + (kWorldTable - 4) * table +
-                      (measures_nearest ? extent.bricks * kDistanceBytes : 0) +
-                      (exact_voxels_ > 0 ? extent.bricks * kWordBytes : 0);
-        bytes.world = pyramid_bytes(extent, instanced);
-        bytes.index = world + extent.bricks * kIndexMarks + bytes.world;
-        if (instances_.any) bytes.index += bytes.world;  // before they are joined
-        bytes.halo = instances_.any ? 0 : sector_bytes(extent.voxels);
-        bytes.image = bytes.world + bytes.halo + plan_.medium.bytes + image_bytes() +
-                      kRay * std::min(double(kBatchRays), pixels() * scene_.render.samples);
-        return bytes;
-    }
-
-    /// The largest buffer of the world, its pyramid's with the models of instances behind it. What
-    /// is more than that, the buffer itself refuses.
-    void add_largest(const WorldExtent& least) {
-        const double bricks = std::min(least.bricks, brick_table(plan_.world));
-        const double voxels = least.voxels + instances_.least_voxels;
-        const double exact_voxels = least.exact_voxels + instances_.exact_voxels;
-        const auto keep = [&](bool is_there, const BufferPlan& buffer) {
-            if (is_there) keep_larger(plan_.largest, buffer);
-        };
-        keep(occupied_, {"its voxels", bricks * kOccupancyBytes});
-        keep(smooth_, {"its distances", bricks * kDistanceBytes});
-        keep(words_, {"its voxels' materials", bricks * kWordBytes});
-        keep(colors_, {"its voxels' colors", bricks * kWordBytes});
-        keep(exact_voxels_ > 0, {"the starts of its voxels' lists", bricks * kWordBytes});
-        keep(true, {"its voxels' lists", exact_voxels * kListBytes});
-        keep(true,
-             {"its triangles", (exact_triangles_ + instances_.exact_triangles) * kTriangleBytes,
-              BufferGrowth::triangles});
-        keep(smooth_ || instances_.smooth, {"its voxels' fields", voxels * kField});
-        keep(has_words(), {"its voxels' words", voxels * kWord});
-    }
-
-    /// The table of sectors, and the records of those with voxels.
-    double sector_bytes(double voxels) const {
-        const glm::dvec3 sectors(plan_.world.sectors());
-        const double table = sectors.x * sectors.y * sectors.z;
-        const double stored = 8 + voxels / kVoxelsPerSector;
-        return 4 * table + std::min(table, stored) * kSectorRecords;
-    }
-
-    /// Whether each voxel of the pyramid has a word of its own.
-    bool has_words() const { return words_ || (smooth_ && occupied_) || instances_.any; }
-
-    double pyramid_bytes(const WorldExtent& extent, double instanced) const {
-        double voxel = kLeaf / kVoxelsPerLeaf;
-        if (smooth_ || instances_.smooth) voxel += kField;
-        if (has_words()) voxel += kWord;
-        if (colors_ || instances_.colors) voxel += kWord;
-        const double exact_voxels = extent.exact_voxels + instances_.exact_voxels;
-        const double triangles = exact_triangles_ + instances_.exact_triangles;
-        return sector_bytes(extent.voxels) + (extent.voxels + instanced) * voxel +
-               exact_voxels * (kWord + kListBytes) + triangles * kExactTriangleBytes;
+    /// What the image's kernels are made for, as far as it decides what rays take.
+    Features features() {
+        Features features;
+        features.smooth = contents_.smooth || contents_.instances.smooth;
+        features.solids = exact_;
+        features.attributes = contents_.has_words();
+        features.colors = contents_.colors || contents_.instances.colors;
+        features.voxel_opacity = transparent_;
+        features.instances = contents_.instances.any;
+        Pyramid world;
+        world.frame = plan_.world;
+        world.object_boxes = extents_.boxes();
+        add_scene(scene_, world, features);
+        return features;
     }
 
     const Scene& scene_;
     MeshStore& meshes_;
     ScenePlan plan_;
-    SolidBounds world_box_;
-    std::map<int, SurfaceArea> areas_;
+    ObjectExtents extents_;
+    WorldContents contents_;
     std::set<int> made_;
     int objects_ = 0;
-    double exact_voxels_ = 0, exact_triangles_ = 0;
-    std::vector<VoxelBox> boxes_;        ///< of all objects; none before the first is needed
-    std::vector<ObjectExtent> extents_;  ///< of what is seen of objects in the world
-    struct {
-        bool any = false, smooth = false, colors = false;
-        double voxels = 0, least_voxels = 0, exact_voxels = 0, exact_triangles = 0;
-    } instances_;           ///< their models
-    std::set<int> shared_;  ///< those counted
-    bool smooth_ = false, occupied_ = false, words_ = false, colors_ = false;
+    double exact_voxels_ = 0;
+    std::vector<ObjectExtent> least_;           ///< of what is seen of objects in the world
+    std::set<int> shared_;                      ///< those counted
+    bool exact_ = false, transparent_ = false;  ///< some object, or instance
 };
 
 }  // namespace
 
 double pixel_bytes(const ImageChannels& channels) {
     return 4.0 * (4 + int(channels.depth) + 3 * int(channels.position) + 3 * int(channels.normal));
+}
+
+double image_bytes(const RenderSettings& render) {
+    const double pixels = double(render.size.x) * double(render.size.y);
+    return (pixel_bytes(render.channels) + (render.channels.object ? 4 : 0)) * pixels;
 }
 
 double ScenePlan::peak_bytes() const {

@@ -1,7 +1,8 @@
 // scene -> what rendering it takes: the grids of every step and their memory, before any is taken.
 //
 // An estimate: surfaces are counted by runtime/surface_extent.hpp, bytes by what the stages store
-// for each brick, voxel, triangle and pixel (listed in plan_grid.hpp and plan.cpp).
+// for each brick, voxel, triangle, ray and pixel (listed in plan_grid.hpp, plan_stages.cpp and
+// ray_arrays.cpp).
 #pragma once
 
 #include <string>
@@ -10,6 +11,7 @@
 #include "runtime/mesh_store.hpp"
 #include "runtime/opencl/device.hpp"
 #include "runtime/plan_grid.hpp"
+#include "runtime/ray_arrays.hpp"
 #include "runtime/stages/density_grid.hpp"
 
 namespace voxelume {
@@ -28,6 +30,7 @@ struct ScenePlan {
 
     double world_bytes = 0;  ///< the pyramid's, part of the last two
     double halo_bytes = 0;   ///< of the grid that beams of rays are sent through, part of the last
+    RayBytes rays;           ///< of which the most are part of the last
     DensityPlan medium;      ///< part of the last one
     double host_bytes = 0;   ///< tables, meshes and the image in main memory
 
@@ -35,9 +38,13 @@ struct ScenePlan {
     /// at least: what objects take that can't lie in each other's bricks. No more than that is
     /// refused before it is tried.
     double least_bytes = 0;
+    double least_image_bytes = 0;  ///< of the last one, the same way
+    double least_with_next = 0;    ///< of bytes_with_next, the same way
     BufferPlan largest;
 
     double peak_bytes() const;
+    /// Where grids, bricks and the pyramid stay while the next world is formed beside them.
+    double bytes_with_next() const { return place_bytes + index_bytes + image_bytes; }
 };
 
 /// Plans the voxelization of one mesh. Throws as model_frame does.
@@ -61,6 +68,12 @@ void check_memory(const Scene& scene, const ScenePlan& plan, const DeviceInfo& d
 
 /// Bytes for each pixel in the largest buffer of an image.
 double pixel_bytes(const ImageChannels& channels);
+
+/// Bytes of the device for an image.
+double image_bytes(const RenderSettings& render);
+
+/// "400x360x320"
+std::string size_text(const glm::ivec3& size);
 
 /// "1.5 GB", three digits at most.
 std::string bytes_text(double bytes);

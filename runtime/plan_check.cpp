@@ -13,10 +13,6 @@ namespace {
 /// Bricks of a lattice are numbered by signed 32-bit integers.
 constexpr double kMostBricks = 2147483647.0;
 
-std::string size_text(const glm::ivec3& size) {
-    return fmt::format("{}x{}x{}", size.x, size.y, size.z);
-}
-
 /// Voxels `factor` times as large: "voxels larger than 0.002 m".
 std::string larger_voxels(const glm::dvec3& edge, double factor) {
     const glm::dvec3 e = edge * factor;
@@ -70,15 +66,30 @@ double main_memory() {
     return double(sysconf(_SC_PHYS_PAGES)) * double(sysconf(_SC_PAGE_SIZE));
 }
 
+/// What makes an image and its rays take less.
+std::string smaller_image(const RenderSettings& render, const RayBytes& rays) {
+    std::string text = "render a smaller one";
+    if (rays.least() < image_bytes(render)) return text;
+    if (render.samples > 1) text += ", or with fewer samples a pixel";
+    if (rays.depth > 0) text += ", or with less depth";
+    return text;
+}
+
 void check_image(const Scene& scene, const ScenePlan& plan, const DeviceInfo& device) {
-    const double image = plan.image_bytes - plan.world_bytes - plan.halo_bytes - plan.medium.bytes;
-    const double there = std::min(double(device.memory), main_memory() / 2);
-    if (image > there)
+    const double memory = double(device.memory), there = std::min(memory, main_memory() / 2);
+    const double image = image_bytes(scene.render) + plan.rays.least();
+    // Where the image takes more than its world, larger voxels are not the way out.
+    const bool crowds =
+        image <= there && plan.least_image_bytes > memory && image > plan.least_image_bytes / 2;
+    if (image > there || crowds)
         throw Error(ErrorKind::limit,
-                    "an image of {}x{} pixels needs {} on \"{}\", where {} can be used: render a "
-                    "smaller one",
-                    scene.render.size.x, scene.render.size.y, bytes_text(image), device.name,
-                    bytes_text(there));
+                    "an image of {}x{} pixels{} {} on \"{}\", {} of them for rays, where {} can be "
+                    "used: {}",
+                    scene.render.size.x, scene.render.size.y,
+                    crowds ? " and its world need" : " needs",
+                    bytes_text(crowds ? plan.least_image_bytes : image), device.name,
+                    bytes_text(plan.rays.least()), bytes_text(there),
+                    smaller_image(scene.render, plan.rays));
     const glm::dvec2 size(scene.render.size);
     const double planes = pixel_bytes(scene.render.channels) * size.x * size.y;
     const double piece = double(device.max_allocation);
@@ -102,6 +113,10 @@ void check_medium(const Scene& scene, const ScenePlan& plan, const DeviceInfo& d
 }
 
 }  // namespace
+
+std::string size_text(const glm::ivec3& size) {
+    return fmt::format("{}x{}x{}", size.x, size.y, size.z);
+}
 
 std::string bytes_text(double bytes) {
     if (bytes >= 1e9) return fmt::format("{:.{}f} GB", bytes / 1e9, bytes < 1e11 ? 1 : 0);

@@ -10,9 +10,9 @@ constexpr double kWindingNumbers = 8192, kWinding = 9216;
 
 constexpr double kSlot = 4;  // bytes for each brick of a lattice, stored or not
 
-// Bytes for each triangle while voxelizing: its shape; with corners and places in the lists of two
-// bricks.
-constexpr double kShape = 80, kTriangle = 112;
+// Bytes for each triangle while voxelizing: its corners and places in the lists of two bricks; its
+// shape, where distances are measured.
+constexpr double kTriangle = 32, kShape = 80;
 
 /// Lists of an exact surface's voxels, with all that they name.
 double list_bytes(const GridPlan& grid) {
@@ -63,11 +63,12 @@ GridPlan plan_grid(const Model& model, const MeshSummary* mesh, const GridFrame&
     const bool labels = extras.words || extras.colors;
     const double table = brick_table(frame), bricks = extent.bricks;
     const double triangles = double(grid.triangles);
+    const double shapes = smooth || labels ? triangles * kShape : 0;
     const double brick = (smooth ? kDistanceBytes : kOccupancyBytes) +
                          kWordBytes * (int(extras.words) + int(extras.colors) + int(exact));
     grid.kept_bytes = table * kSlot + bricks * brick + (exact ? list_bytes(grid) : 0);
     grid.made_bytes = grid.kept_bytes + table * (kTableBytes - kSlot) + triangles * kTriangle +
-                      bricks * (counts_windings ? kWinding : kOccupancyBytes) +
+                      shapes + bricks * (counts_windings ? kWinding : kOccupancyBytes) +
                       (labels ? bricks * kWordBytes : 0);
     if (!model.cuts.empty()) {
         // The mesh's own grids stay beside the cut one; those of the rest of space make it.
@@ -100,8 +101,8 @@ GridPlan plan_grid(const Model& model, const MeshSummary* mesh, const SurfaceAre
     if (model.solid)
         set_least(grid, plan_of(least_solid_area(*model.solid, glm::dmat4(1),
                                                  {model.reach.min, model.reach.max})));
-    else if (!model.cuts.empty())
-        set_least(grid, plan_of({}));
+    else
+        set_least(grid, plan_of(model.cuts.empty() ? mesh->least_area : SurfaceArea{}));
     return grid;
 }
 

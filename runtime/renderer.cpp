@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <chrono>
 
+#include "runtime/error.hpp"
 #include "runtime/illumination.hpp"
+#include "runtime/plan.hpp"
 #include "runtime/pyramid_bytes.hpp"
 #include "runtime/reach.hpp"
 #include "runtime/stages/resolve.hpp"
@@ -53,10 +55,16 @@ Renderer::View Renderer::view_of(const Scene& scene, const FormedWorld& world,
     return view;
 }
 
-/// Hits are kept where they take little of the device's memory.
-bool Renderer::has_room(uint64_t rays) const {
-    constexpr uint64_t kBytes = (VXL_RAY_COMPONENTS + VXL_HIT_COMPONENTS) * 4;
-    return follows_ && rays * kBytes <= device_.info().memory / 16;
+/// Hits are kept where they take little of the device's memory, and nothing of what the frame needs
+/// beside the world.
+bool Renderer::has_room(const Scene& scene, const Features& features, uint64_t rays) const {
+    if (!follows_) return false;
+    const double bytes = double(rays) * sight_bytes(features),
+                 memory = double(device_.info().memory);
+    const double needed = ray_bytes(scene, features).most() + image_bytes(scene.render);
+    const auto locked = device_.lock();
+    return bytes <= memory / 16 &&
+           double(device_.counters().bytes_in_use) + needed + bytes <= memory;
 }
 
 Halo Renderer::halo_of(const FormedWorld& world) {
@@ -93,8 +101,15 @@ Image Renderer::new_image(const Scene& scene, const FormedWorld& world, RenderRe
     return part_of_image(scene, world, report, {all, taken});
 }
 
-Image Renderer::part_of_image(const Scene& scene, const FormedWorld& formed, RenderReport& report,
+Image Renderer::part_of_image(const Scene& scene, const FormedWorld& world, RenderReport& report,
                               const Tiles& tiles) {
+    const glm::ivec2& size = scene.render.size;
+    return with_limits_of(fmt::format("an image of {}x{} pixels", size.x, size.y),
+                          [&] { return image_of_tiles(scene, world, report, tiles); });
+}
+
+Image Renderer::image_of_tiles(const Scene& scene, const FormedWorld& formed, RenderReport& report,
+                               const Tiles& tiles) {
     const auto start = std::chrono::steady_clock::now();
     image_.reset();
     const Pyramid& world = formed.pyramid;
@@ -103,15 +118,14 @@ Image Renderer::part_of_image(const Scene& scene, const FormedWorld& formed, Ren
 
     const uint32_t all_tiles = tiles.share.tiles();
     const uint32_t rays_per_tile = 16 * uint32_t(observer.samples);
-    const uint32_t batch_tiles =
-        std::clamp(batch_rays(features) / rays_per_tile, 1u, tiles.share.most());
-    RayBatch batch = allocate_batch(device_, features, batch_tiles * rays_per_tile);
+    const uint32_t in_batch = batch_tiles(features, observer.samples, tiles.share.most());
+    RayBatch batch = allocate_batch(device_, features, in_batch * rays_per_tile);
 
     View view = view_of(scene, formed, features);
     report.hits_are_kept = view_ == view && !hits_.empty();
     view_.reset();  // an error may leave the hits half done
     if (!report.hits_are_kept) hits_.clear();
-    const bool keeps_hits = has_room(uint64_t(all_tiles) * rays_per_tile);
+    const bool keeps_hits = has_room(scene, features, uint64_t(all_tiles) * rays_per_tile);
 
     build_programs(device_, features, scene, world);
     SightStage sight(device_, features, observer);
@@ -120,11 +134,11 @@ Image Renderer::part_of_image(const Scene& scene, const FormedWorld& formed, Ren
         beams.emplace(device_, features, world, halo_of(formed));
     Illumination illumination(device_, features, scene, world, batch.stride);
     ResolveStage resolve(device_, features, observer, scene.render.channels);
-    while (const std::optional<TileRange> range = tiles.share.take(batch_tiles)) {
+    while (const std::optional<TileRange> range = tiles.share.take(in_batch)) {
         const uint32_t first = range->first, now = range->count;
         if (report.hits_are_kept) {
-            batch.rays = hits_[first / batch_tiles].rays;
-            batch.hits = hits_[first / batch_tiles].hits;
+            batch.rays = hits_[first / in_batch].rays;
+            batch.hits = hits_[first / in_batch].hits;
             illumination.light_hits(batch, now * rays_per_tile);
         } else {
             if (keeps_hits && first > 0) renew_sight(device_, batch);

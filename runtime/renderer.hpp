@@ -86,8 +86,10 @@ class Renderer {
     };
 
     static View view_of(const Scene& scene, const FormedWorld& world, const Features& features);
-    bool has_room(uint64_t rays) const;
+    bool has_room(const Scene& scene, const Features& features, uint64_t rays) const;
     Halo halo_of(const FormedWorld& world);
+    Image image_of_tiles(const Scene& scene, const FormedWorld& world, RenderReport& report,
+                         const Tiles& tiles);
 
     Device device_;
     bool follows_;

@@ -1,12 +1,14 @@
 #include "runtime/surface_extent.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
+#include <vector>
 
 namespace voxelume {
 namespace {
@@ -80,14 +82,46 @@ glm::dvec3 least_shadows(const Solid& solid, const glm::dmat4& map) {
     return shadows;
 }
 
+/// The same for triangles of the same corners, whatever their order.
+uint64_t corner_hash(const Mesh& mesh, const glm::uvec3& triangle) {
+    uint64_t sum = 0;
+    for (int corner = 0; corner < 3; ++corner) {
+        const glm::vec3 p = mesh.positions[triangle[corner]] + 0.0f;  // -0 is 0
+        uint64_t hash = std::bit_cast<uint32_t>(p.x);
+        for (const float value : {p.y, p.z})
+            hash = (hash ^ hash >> 29) * 0x9E3779B97F4A7C15u + std::bit_cast<uint32_t>(value);
+        hash = (hash ^ hash >> 32) * 0xD6E8FEB86659FD93u;
+        sum += hash ^ hash >> 32;
+    }
+    return sum * 0x9E3779B97F4A7C15u;
+}
+
+void add_triangle(const Mesh& mesh, const glm::uvec3& triangle, SurfaceArea& area) {
+    const glm::dvec3 vector = area_vector(mesh, triangle);
+    area.shadows += glm::abs(vector);
+    area.total += glm::length(vector);
+}
+
 }  // namespace
 
 SurfaceArea mesh_area(const Mesh& mesh) {
     SurfaceArea area;
+    for (const glm::uvec3& triangle : mesh.triangles) add_triangle(mesh, triangle, area);
+    return area;
+}
+
+SurfaceArea least_mesh_area(const Mesh& mesh) {
+    constexpr size_t kPlacesPerTriangle =
+        16;  // of bits: one in 32 is taken for another's double, at most
+    const size_t places =
+        std::bit_ceil(std::max<size_t>(mesh.triangles.size(), 2)) * kPlacesPerTriangle;
+    const int shift = 64 - std::countr_zero(places);
+    std::vector<bool> seen(places);
+    SurfaceArea area;
     for (const glm::uvec3& triangle : mesh.triangles) {
-        const glm::dvec3 vector = area_vector(mesh, triangle);
-        area.shadows += glm::abs(vector);
-        area.total += glm::length(vector);
+        auto place = seen[corner_hash(mesh, triangle) >> shift];
+        if (!place) add_triangle(mesh, triangle, area);
+        place = true;
     }
     return area;
 }

@@ -24,6 +24,10 @@ struct SurfaceArea {
 
 SurfaceArea mesh_area(const Mesh& mesh);
 
+/// No more than the mesh's triangles cover where some lie on one another, corner by corner: by a
+/// table that takes few of the others for such, too.
+SurfaceArea least_mesh_area(const Mesh& mesh);
+
 /// Of a solid after its map: the area of its parts' boxes where they aren't cut by `clip`.
 SurfaceArea solid_area(const Solid& solid, const glm::dmat4& frame_from_solid,
                        const SolidBounds& clip);

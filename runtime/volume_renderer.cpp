@@ -78,15 +78,15 @@ void count_rays(const Illumination& illumination, RenderReport& report) {
 void render_rays(Work& work, Volume& volume) {
     check_rays(work.frame);
     const uint32_t tiles = tile_count(work.sight.width, work.sight.height);
-    const uint32_t batch_tiles = std::clamp(batch_rays(work.features) / 16, 1u, tiles);
-    RayBatch batch = allocate_batch(work.device, work.features, batch_tiles * 16);
+    const uint32_t in_batch = batch_tiles(work.features, 1, tiles);
+    RayBatch batch = allocate_batch(work.device, work.features, in_batch * 16);
     build_programs(work.device, work.features, work.scene, work.world);
     SightStage sight(work.device, work.features, work.sight);
     Illumination illumination(work.device, work.features, work.scene, work.world, batch.stride);
     DisplayRaysStage display(work.device, work.features, work.sight, work.frame,
                              work.scene.world.medium, space_of(work.scene.world));
-    for (uint32_t first = 0; first < tiles; first += batch_tiles) {
-        const uint32_t now = std::min(batch_tiles, tiles - first);
+    for (uint32_t first = 0; first < tiles; first += in_batch) {
+        const uint32_t now = std::min(in_batch, tiles - first);
         const uint32_t rays = sight.cast(shape_of(work.world), first, now, batch);
         const auto keep_layer = [&](const RayBatch& entries, uint32_t count, bool is_first,
                                     const NodeLight& nodes) {

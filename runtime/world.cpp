@@ -29,6 +29,13 @@ class Stopwatch {
     Clock::time_point start_ = Clock::now();
 };
 
+/// Does a part of forming the world, whose limits are the world's.
+template <class Part>
+auto for_world(const World& world, const Part& part) {
+    const std::string size = size_text(world.voxels);
+    return with_limits_of(fmt::format("{}: a world of {} voxels", world.where, size), part);
+}
+
 /// Adds to a report the models that are voxelized while it lives, and the time that takes.
 class VoxelizingReport {
   public:
@@ -57,13 +64,6 @@ class VoxelizingReport {
     WorldReport& report_;
     Stopwatch stopwatch_;
 };
-
-/// Device memory left where grids, bricks and the pyramid stay while the next world is formed
-/// beside them; none, where they can't.
-double spare_bytes(const ScenePlan& plan, const DeviceInfo& device) {
-    const double used = plan.place_bytes + plan.index_bytes + plan.image_bytes;
-    return std::max(double(device.memory) - used, 0.0);
-}
 
 }  // namespace
 
@@ -148,6 +148,7 @@ FormedWorld WorldFormer::form_anew(const Scene& scene, const Origin& origin, Wor
                                    const std::vector<bool>& awaited) {
     origin_.reset();
     world_.pyramid = {};
+    keeps_ = false;
     // What an error leaves in the middle is begun afresh.
     Indexer indexer = std::exchange(indexer_, Indexer(device_));
     InstanceModels models = std::exchange(models_, InstanceModels(device_));
@@ -158,11 +159,12 @@ FormedWorld WorldFormer::form_anew(const Scene& scene, const Origin& origin, Wor
     report.load_seconds = meshes_.load_seconds() - load_seconds_;
     report.meshes_read = meshes_.meshes_read() - meshes_read_;
     report.triangles = meshes_.triangles();
-    const double spare = spare_bytes(plan, device_.info());
-    const bool keeps = follows_ && spare > 0;
-    report.lacks_room = follows_ && !keeps;
+    const double memory = double(device_.info().memory);
+    keeps_ = follows_ && plan.least_with_next < memory;
+    report.lacks_room = follows_ && !keeps_;
+    const double spare = std::max(memory - plan.bytes_with_next(), 0.0);
     const uint64_t room =
-        keeps && awaits_ ? std::min(uint64_t(spare), device_.info().memory / kAwaitedPart) : 0;
+        keeps_ && awaits_ ? std::min(uint64_t(spare), device_.info().memory / kAwaitedPart) : 0;
 
     if (!grids_) grids_.emplace(device_, meshes_);
     ListedInstances listed;
@@ -171,20 +173,22 @@ FormedWorld WorldFormer::form_anew(const Scene& scene, const Origin& origin, Wor
         listed = list_instances(scene, meshes_, *grids_);
     }
     std::vector<VoxelBox> boxes = object_boxes(scene, meshes_);
-    FormedWorld formed{kept_or_new_world({scene, awaited, keeps, room, report}, indexer),
+    FormedWorld formed{kept_or_new_world({scene, awaited, keeps_, room, report}, indexer),
                        ++world_.version};
     load_seconds_ = meshes_.load_seconds();
     meshes_read_ = meshes_.meshes_read();
     Stopwatch indexing(report.index_seconds);
-    models.forget_unused(listed, keeps ? room - grids_->awaited_bytes() : 0);
-    formed.pyramid = models.join(scene, listed, std::move(formed.pyramid), report.instances);
+    models.forget_unused(listed, keeps_ ? room - grids_->awaited_bytes() : 0);
+    for_world(scene.world, [&] {
+        formed.pyramid = models.join(scene, listed, std::move(formed.pyramid), report.instances);
+    });
     std::vector<InstancePlace> places = instance_places(scene, formed.pyramid);
     report.instances.moved = count_moved(instance_places_, places);
     instance_places_ = std::move(places);
     formed.pyramid.object_boxes = std::move(boxes);
     device_.finish();
     indexing.stop();
-    if (keeps) {
+    if (keeps_) {
         world_.pyramid = formed.pyramid;
         indexer_ = std::move(indexer);
         models_ = std::move(models);
@@ -202,7 +206,9 @@ Pyramid WorldFormer::kept_or_new_world(const Task& task, Indexer& indexer) {
     if (read_ && read_->key != key) read_.reset();
     task.report.is_from_cache = !read_;
     if (!read_)
-        if (auto kept = meshes_.cache().world(device_, key)) read_ = ReadWorld{key, *kept};
+        for_world(task.scene.world, [&] {
+            if (auto kept = meshes_.cache().world(device_, key)) read_ = ReadWorld{key, *kept};
+        });
     reading.stop();
     if (read_) {
         Pyramid world = read_->pyramid;
@@ -227,16 +233,23 @@ Pyramid WorldFormer::new_world(const Task& task, Indexer& indexer) {
         const VoxelizingReport voxelizing(*grids_, meshes_, report);
         objects = placed_objects(task.scene, shown);
     }
-    Stopwatch placing(report.place_seconds);
+    return for_world(task.scene.world,
+                     [&] { return placed_and_indexed(task, objects, std::move(shown), indexer); });
+}
+
+/// `shown` are the objects' grids.
+Pyramid WorldFormer::placed_and_indexed(const Task& task, const std::vector<PlacedObject>& objects,
+                                        std::vector<SharedGrid> shown, Indexer& indexer) {
+    Stopwatch placing(task.report.place_seconds);
     if (!placer_) placer_.emplace(device_);
     BrickGrid world = placer_->place(objects, world_frame(task.scene.world));
     device_.finish();
-    report.painted_bricks = placer_->painted_bricks();
+    task.report.painted_bricks = placer_->painted_bricks();
     shown_ = std::move(shown);
     forget_sources(task);
     placing.stop();
 
-    Stopwatch indexing(report.index_seconds);
+    Stopwatch indexing(task.report.index_seconds);
     Pyramid pyramid = indexer.index(world, placer_ ? placer_->changed_bricks() : nullptr);
     device_.finish();
     indexing.stop();

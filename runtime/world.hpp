@@ -49,8 +49,8 @@ struct FormedWorld {
 /// Forms the world of one frame after another, and of each only what differs from the one before.
 ///
 /// Models' grids, the world's bricks and its pyramid stay as long as frames show them, if the
-/// device has the memory; instances that move then cost no more than their maps. What a frame shows
-/// is the same, bit for bit, whatever came before it.
+/// device has the memory by the least that they may take; instances that move then cost no more
+/// than their maps. What a frame shows is the same, bit for bit, whatever came before it.
 class WorldFormer {
   public:
     /// Where nothing `follows` the first frame, nothing is kept.
@@ -73,6 +73,10 @@ class WorldFormer {
     /// that the device has no memory for.
     FormedWorld form(const Scene& scene, WorldReport& report,
                      const std::vector<bool>& awaited = {});
+
+    /// Whether the last world that was formed, or was to be, keeps memory for the next frame. What
+    /// it takes may be more than is left for the frame itself.
+    bool keeps() const { return keeps_; }
 
   private:
     /// What the kept world was formed from, if nothing else of a scene matters to it but where its
@@ -101,10 +105,13 @@ class WorldFormer {
     };
     Pyramid kept_or_new_world(const Task& task, Indexer& indexer);
     Pyramid new_world(const Task& task, Indexer& indexer);
+    Pyramid placed_and_indexed(const Task& task, const std::vector<PlacedObject>& objects,
+                               std::vector<SharedGrid> shown, Indexer& indexer);
     void forget_sources(const Task& task);
 
     Device device_;
     bool follows_;
+    bool keeps_ = false;
     bool awaits_ = true;  ///< whether models that aren't shown are kept
     MeshStore meshes_;
     double load_seconds_ = 0;  ///< of meshes_, in reports so far

@@ -69,6 +69,7 @@ TEST_F(CliBadInputTest, WorldsBeyondMemoryAreRefusedBeforeItIsTaken) {
     EXPECT_EQ(check.exit_code, 8);
     EXPECT_THAT(check.out, Not(HasSubstr("fits")));
     EXPECT_THAT(check.err, HasSubstr(" for its distances, and \""));
+    EXPECT_EQ(Json::parse(run("check scene.json --json").out)["verdict"], "doesn't fit");
     unsetenv("VOXELUME_BUFFER_MB");
     world_of(100);
     EXPECT_THAT(expect_failure(8, "render scene.json --size 65536x65536 -o out.exr"),

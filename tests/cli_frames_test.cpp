@@ -5,6 +5,7 @@
 
 #include "runtime/io/exr.hpp"
 #include "tests/scene_program.hpp"
+#include "tests/test_device.hpp"
 
 namespace voxelume {
 
@@ -131,14 +132,50 @@ TEST_F(CliFramesTest, WhatCantBeKeptForTheNextFrameIsToldWithAndWithoutOverlap) 
         SCOPED_TRACE(option);
         const std::string line =
             fmt::format("render scene.json -o f.#.exr -v --stats-json stats.json {}", option);
-        EXPECT_THAT(run(line).err, Not(HasSubstr("nothing is kept")));
+        EXPECT_THAT(run(line).err, Not(HasSubstr("keep nothing")));
         EXPECT_FALSE(Json::parse(bytes_of(folder / "stats.json")).contains("nothing_kept_from"));
         setenv("VOXELUME_MEMORY_MB", "1", 1);
         const ProgramResult crowded = run(line);
         unsetenv("VOXELUME_MEMORY_MB");
         EXPECT_THAT(crowded.err,
-                    HasSubstr("nothing is kept for the next frame from frame 1 on: memory"));
+                    HasSubstr("1 of 2 frames keep nothing for the next, frame 1 the first: mem"));
         EXPECT_EQ(Json::parse(bytes_of(folder / "stats.json"))["nothing_kept_from"], 1);
+    }
+}
+
+TEST_F(CliFramesTest, OfSeveralDevicesOnlyFramesThatTheirOwnNextFollowsKeepNothing) {
+    if (test_device().info().compute_units < 2) GTEST_SKIP() << "a device that can't be cut";
+    write_scene([](Json& scene) {
+        scene["world"]["voxel_size"] = 0.007;
+        scene["animation"] = Json::parse(R"({"frames": 6, "tracks": [
+            {"target": "objects[0].turn", "keys": [{"frame": 1, "value": [0, 0, 0]},
+                                                   {"frame": 6, "value": [90, 40, 0]}]}]})");
+    });
+    for (const char* frames : {"1-2", "1-6"}) {
+        setenv("VOXELUME_MEMORY_MB", "1", 1);  // for each half
+        const ProgramResult result =
+            run(fmt::format("render scene.json -o f.#.exr -v --stats-json stats.json --device "
+                            "all/2 --frames {}",
+                            frames));
+        unsetenv("VOXELUME_MEMORY_MB");
+        ASSERT_EQ(result.exit_code, 0) << result.err;
+        const Json stats = Json::parse(bytes_of(folder / "stats.json"));
+        std::vector<int> crowded;
+        for (size_t i = 0; i < stats["frames"].size(); ++i)
+            for (size_t j = i + 1; j < stats["frames"].size(); ++j)
+                if (stats["frames"][i]["device"] == stats["frames"][j]["device"]) {
+                    crowded.push_back(stats["frames"][i]["frame"]);
+                    break;
+                }
+        EXPECT_EQ(stats.contains("nothing_kept_from"), !crowded.empty());
+        const size_t told = result.err.find("keep nothing");
+        EXPECT_EQ(told != std::string::npos, !crowded.empty()) << result.err;
+        if (crowded.empty()) continue;
+        EXPECT_EQ(stats["nothing_kept_from"], crowded[0]);
+        EXPECT_THAT(result.err,
+                    HasSubstr(fmt::format("{} of {} frames keep nothing for the next, frame {} the",
+                                          crowded.size(), stats["frames"].size(), crowded[0])));
+        EXPECT_EQ(result.err.find("keep nothing", told + 1), std::string::npos);
     }
 }
 

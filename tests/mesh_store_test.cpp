@@ -1,7 +1,9 @@
 // Meshes in memory: what waits for its model's return, and what is read again.
-#include <gtest/gtest.h>
-
 #include "runtime/mesh_store.hpp"
+
+#include <gtest/gtest.h>
+#include <openvdb/openvdb.h>
+
 #include "tests/file_fixture.hpp"
 
 namespace voxelume {
@@ -38,6 +40,42 @@ TEST_F(MeshStoreTest, MeshesWaitWhereThereIsRoomAndSummariesAlways) {
     EXPECT_EQ(store.meshes_read(), 3u);
     store.mesh_of(b);
     EXPECT_EQ(store.meshes_read(), 4u);
+}
+
+/// A file of a ball as a level set, and of a fog beside it.
+void write_ball_and_fog(const std::filesystem::path& path) {
+    openvdb::initialize();
+    const auto ball = openvdb::FloatGrid::create(3.0f), fog = openvdb::FloatGrid::create(0.0f);
+    ball->setGridClass(openvdb::GRID_LEVEL_SET);
+    for (int x = -5; x <= 5; ++x)
+        for (int y = -5; y <= 5; ++y)
+            for (int z = -5; z <= 5; ++z) {
+                ball->tree().setValue({x, y, z}, std::sqrt(float(x * x + y * y + z * z)) - 3.0f);
+                if (x < 0) fog->tree().setValue({x, y, z}, 1.0f);
+            }
+    openvdb::io::File(path.string()).write({ball, fog});
+}
+
+TEST_F(MeshStoreTest, AFileOfTwoSurfacesIsReadOnceForEach) {
+    write_ball_and_fog(folder / "both.vdb");
+    Model ball, fog;
+    ball.voxels = fog.voxels = folder / "both.vdb";
+    ball.surface = Surface::smooth;
+    fog.surface = Surface::cubes;
+    MeshStore store;
+    const VoxelModel& first = store.voxels(ball);
+    for (int i = 0; i < 3; ++i) {
+        EXPECT_EQ(&store.voxels(ball), &first);
+        EXPECT_EQ(store.voxels(fog).voxels(), size_t{5 * 11 * 11});
+        store.forget_unused();
+    }
+    EXPECT_EQ(first.surface, Surface::smooth);
+    EXPECT_EQ(store.meshes_read(), 2u);
+    uint64_t room = 0;
+    store.forget_unused();
+    store.await(ball, room);
+    store.voxels(fog);
+    EXPECT_EQ(store.meshes_read(), 3u) << "without room both go";
 }
 
 TEST_F(MeshStoreTest, AMeshOnItsWayIsMadeAgainForItsOwnFramesOnly) {

@@ -39,6 +39,18 @@ inline Mesh wavy_ring(int around, int across) {
     });
 }
 
+/// The mesh with every triangle once more: by corners of its own, or turned over by the same ones.
+inline Mesh doubled(Mesh mesh, bool has_own_corners) {
+    const auto positions = mesh.positions;
+    const auto triangles = mesh.triangles;
+    const auto first = uint32_t(has_own_corners ? positions.size() : 0);
+    if (has_own_corners)
+        mesh.positions.insert(mesh.positions.end(), positions.begin(), positions.end());
+    for (const glm::uvec3& t : triangles)
+        mesh.triangles.emplace_back(t.y + first, t.x + first, t.z + first);
+    return mesh;
+}
+
 /// A ball of `columns` x `rows` quadrilaterals, its poles along Y.
 inline Mesh ball(const glm::dvec3& center, double radius, int columns, int rows) {
     Mesh mesh;

@@ -42,19 +42,18 @@ cl::Buffer buffer_around(const cl::Context& context, size_t bytes,
 
 }  // namespace
 
-BufferStorage::BufferStorage(Device device, std::string name, size_t bytes)
+BufferStorage::BufferStorage(Device device, std::string name, size_t bytes, const char* remedy)
     : device_(std::move(device)), name_(std::move(name)), bytes_(bytes) {
     const DeviceInfo& info = device_.info();
     const auto locked = device_.lock();
     DeviceCounters& counters = device_.counters();
     if (bytes > info.max_allocation)
-        throw Error(ErrorKind::limit,
-                    "the {} buffer needs {} in one piece, \"{}\" allows {}: use larger voxels",
-                    name_, megabytes(bytes), info.name, megabytes(info.max_allocation));
+        throw Error(ErrorKind::limit, "the {} buffer needs {} in one piece, \"{}\" allows {}: {}",
+                    name_, megabytes(bytes), info.name, megabytes(info.max_allocation), remedy);
     if (counters.bytes_in_use + bytes > info.memory)
-        throw Error(ErrorKind::limit,
-                    "the {} buffer needs {} on \"{}\", which has {} left: use larger voxels", name_,
-                    megabytes(bytes), info.name, megabytes(info.memory - counters.bytes_in_use));
+        throw Error(ErrorKind::limit, "the {} buffer needs {} on \"{}\", which has {} left: {}",
+                    name_, megabytes(bytes), info.name,
+                    megabytes(info.memory - counters.bytes_in_use), remedy);
     try {
         if (device_.is_cpu() && bytes >= kHugePage) {
             memory_ = allocate_huge_pages(bytes);

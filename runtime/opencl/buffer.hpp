@@ -13,10 +13,14 @@
 
 namespace voxelume {
 
-/// Bytes on a device. Freed with its last owner. `name` appears in the counters and in messages.
+/// What makes most buffers smaller.
+inline constexpr const char* kLargerVoxels = "use larger voxels";
+
+/// Bytes on a device. Freed with its last owner. `name` appears in the counters and in messages,
+/// `remedy` where memory doesn't suffice.
 class BufferStorage {
   public:
-    BufferStorage(Device device, std::string name, size_t bytes);
+    BufferStorage(Device device, std::string name, size_t bytes, const char* remedy);
     ~BufferStorage();
     BufferStorage(const BufferStorage&) = delete;
     BufferStorage& operator=(const BufferStorage&) = delete;
@@ -51,11 +55,11 @@ class Buffer {
 
   public:
     Buffer() = default;
-    Buffer(const Device& device, std::string name, size_t size)
+    Buffer(const Device& device, std::string name, size_t size, const char* remedy = kLargerVoxels)
         : size_(size),
           storage_(size == 0 ? nullptr
                              : std::make_shared<BufferStorage>(device, std::move(name),
-                                                               size * sizeof(T))) {}
+                                                               size * sizeof(T), remedy)) {}
     Buffer(const Device& device, std::string name, std::span<const T> values)
         : Buffer(device, std::move(name), values.size()) {
         write(values);

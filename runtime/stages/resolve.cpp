@@ -7,6 +7,8 @@
 namespace voxelume {
 namespace {
 
+constexpr const char* kSmallerImage = "render a smaller image";
+
 std::vector<const char*> plane_names(const ImageChannels& channels) {
     std::vector<const char*> names = {"R", "G", "B", "A"};
     if (channels.depth) names.push_back("Z");
@@ -34,8 +36,8 @@ ResolveStage::ResolveStage(const Device& device, const Features& features, const
                            const ImageChannels& channels)
     : sight_(sight),
       names_(plane_names(channels)),
-      planes_(device, "image", names_.size() * pixel_count(sight)),
-      objects_(device, "object numbers", channels.object ? pixel_count(sight) : 0),
+      planes_(device, "image", names_.size() * pixel_count(sight), kSmallerImage),
+      objects_(device, "object numbers", channels.object ? pixel_count(sight) : 0, kSmallerImage),
       not_finite_(device, "not finite", 1),
       program_(device, "resolve.cl", defines_of(device, features, channels)),
       pixels_(program_.kernel("resolve_pixels")) {

@@ -46,10 +46,10 @@ Features features_of(const Pyramid& pyramid) {
 
 TraceStage::TraceStage(const Device& device, const Features& features)
     : packets_(VXL_PACKETS(device.lanes())),
-      shadow_packets_(VXL_SHADOW_RAYS_FLY(features.paths, features.smooth, features.exact(),
-                                          features.instances)
-                          ? packets_
-                          : 1),
+      shadow_packets_(
+          VXL_SHADOW_RAYS_FLY(features.paths, features.smooth, features.exact(), features.instances)
+              ? packets_
+              : 1),
       program_(device, "trace.cl", features.defines(device)),
       closest_(program_.kernel("trace_closest")),
       shadows_(program_.kernel("trace_shadows")) {
@@ -89,8 +89,8 @@ void TraceStage::begin_inside(const Pyramid& pyramid, const Surroundings& surrou
 void TraceStage::shadows(const Pyramid& pyramid, const Surroundings& surroundings,
                          const ShadowQueue& queue, uint32_t most, RayBatch& batch) {
     shadows_.launch_packets(
-        (most + shadow_packets_ - 1) / shadow_packets_, shape_of(pyramid), pyramid.sectors, pyramid.bricks,
-        pyramid.leaves, pyramid.leaf_voxels, pyramid.attributes, pyramid.fields,
+        (most + shadow_packets_ - 1) / shadow_packets_, shape_of(pyramid), pyramid.sectors,
+        pyramid.bricks, pyramid.leaves, pyramid.leaf_voxels, pyramid.attributes, pyramid.fields,
         pyramid.primitive_first, pyramid.primitives, pyramid.triangles, pyramid.triangle_attributes,
         pyramid.solids, pyramid.instances.records, pyramid.instances.nodes,
         pyramid.instances.materials, pyramid.attribute, surroundings.materials, pyramid.colors,
