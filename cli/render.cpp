@@ -24,6 +24,7 @@
 #include "runtime/io/png.hpp"
 #include "runtime/io/progress.hpp"
 #include "runtime/io/volume_file.hpp"
+#include "runtime/reach.hpp"
 #include "runtime/scene_animation.hpp"
 #include "runtime/shown_models.hpp"
 #include "runtime/version.hpp"
@@ -88,10 +89,10 @@ void add_attributes(const Scene& scene, int frame, Attributes& attributes) {
 class FrameRun {
   public:
     /// `meshes` has what was read to check the frames.
-    FrameRun(const std::vector<Device>& devices, const Scene& scene,
-             const std::vector<FrameFiles>& list, const RenderOptions& options, MeshStore meshes)
+    FrameRun(const std::vector<Device>& devices, Scene scene, const std::vector<FrameFiles>& list,
+             const RenderOptions& options, MeshStore meshes)
         : devices_(devices),
-          scene_(scene),
+          scene_(std::move(scene)),
           list_(list),
           options_(options),
           meshes_(std::move(meshes)),
@@ -115,6 +116,7 @@ class FrameRun {
             render_tiles()();
             return reports_;
         }
+        find_objects_in_reach(scene_, numbers_of(list_), meshes_);
         FrameSteps steps{[this](size_t n) { return scene_at(scene_, list_[n].frame); },
                          [this](const FrameInput& input) {
                              return in_frame(scene_, list_[input.frame].frame,
@@ -214,7 +216,7 @@ class FrameRun {
     }
 
     const std::vector<Device>& devices_;
-    const Scene& scene_;
+    Scene scene_;
     const std::vector<FrameFiles>& list_;
     const RenderOptions& options_;
     MeshStore meshes_;

@@ -23,6 +23,7 @@ RenderReport sum_of(const std::vector<FrameReport>& frames) {
         sum.world.index_seconds += report.world.index_seconds;
         sum.world.keep_seconds += report.world.keep_seconds;
         sum.world.triangles = std::max(sum.world.triangles, report.world.triangles);
+        sum.world.out_of_reach = std::max(sum.world.out_of_reach, report.world.out_of_reach);
         if (report.world.instances.instances >= sum.world.instances.instances)
             sum.world.instances = report.world.instances;
         sum.image_seconds += report.image_seconds;
@@ -127,7 +128,10 @@ nlohmann::ordered_json statistics(const Outcome& outcome) {
     json["files"] = outcome.files;
     json["voxels"] = report.voxels;
     json["triangles"] = report.world.triangles;
+    json["objects_out_of_reach"] = report.world.out_of_reach;
     json["sight_rays"] = report.sight_rays;
+    json["beams"] = report.beams;
+    json["clear_beams"] = report.clear_beams;
     json["shadow_rays"] = report.shadow_rays;
     json["secondary_rays"] = report.secondary_rays;
     json["ended_paths"] = report.ended_paths;
@@ -222,6 +226,9 @@ void print_details(const Outcome& outcome) {
                double(report.world_bytes) / 1e6, double(counters.peak_bytes) / 1e6);
     fmt::print(stderr, "  {} programs in {:.0f} ms, {} of them compiled before\n",
                counters.programs_built, counters.build_ms, counters.programs_from_cache);
+    if (report.world.out_of_reach > 0)
+        fmt::print(stderr, "  {} objects out of every ray's reach, not voxelized\n",
+                   report.world.out_of_reach);
     if (outcome.one_by_one_from)
         fmt::print(stderr,
                    "  one frame at a time from frame {} on: memory doesn't suffice for two\n",

@@ -107,9 +107,11 @@ kernel void cast_sight(Sight sight, PyramidShape shape, global const float* rest
 }
 
 /// One work-item sends VXL_LANES beams, each along the 16 rays of its group; see shared/trace.h.
+/// Adds the number of clear ones, low word and high word, to `cleared`.
 kernel void start_beams(PyramidShape shape, global const uint* restrict sectors,
                         global const uint* restrict bricks, global const float* restrict rays,
-                        uint count, uint stride, global uint* restrict beams) {
+                        uint count, uint stride, global uint* restrict beams,
+                        global uint* restrict cleared) {
     const uint first = work_item() * VXL_LANES;
     if (first >= count) return;
     const PyramidView halo = pyramid_view(shape, sectors, bricks, 0, 0);
@@ -160,6 +162,10 @@ kernel void start_beams(PyramidShape shape, global const uint* restrict sectors,
                            LANE_MASK(s_first + VXL_BEAM_STEP < s_far);
     lane_int towards = axis | (~up & VXL_BEAM_DOWN);
     towards = LANES_SELECT(active, towards, (lane_int)VXL_BEAM_NONE);
-    towards = LANES_SELECT((active & clear) | idle, (lane_int)VXL_BEAM_CLEAR, towards);
+    const lane_int ended = (active & clear) | idle;
+    towards = LANES_SELECT(ended, (lane_int)VXL_BEAM_CLEAR, towards);
     LANES_STORE(LANES_AS_UINT(towards), beams, VXL_BEAM_AXIS * places + first);
+    const uint sum =
+        (uint)lanes_count(ended & LANE_MASK(LANES_AS_UINT(LANES_NUMBERS + (int)first) < count));
+    if (sum > 0 && atomic_add(&cleared[0], sum) > ~0u - sum) atomic_inc(&cleared[1]);
 }

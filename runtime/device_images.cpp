@@ -4,6 +4,7 @@
 #include <exception>
 #include <thread>
 
+#include "runtime/reach.hpp"
 #include "runtime/stages/sight.hpp"
 
 namespace voxelume {
@@ -23,10 +24,12 @@ Part render_part(const Device& device, const ModelCache& cache, const Scene& sce
                  TileShare& share) {
     Part part;
     try {
+        MeshStore meshes(cache);
+        const Scene shown = with_objects_in_reach(scene, meshes);
         const FormedWorld world =
-            WorldFormer(device, false, MeshStore(cache)).form(scene, part.report.world);
+            WorldFormer(device, false, std::move(meshes)).form(shown, part.report.world);
         part.image =
-            Renderer(device, false).part_of_image(scene, world, part.report, {share, part.tiles});
+            Renderer(device, false).part_of_image(shown, world, part.report, {share, part.tiles});
     } catch (...) {
         part.error = std::current_exception();
         share.close();

@@ -18,7 +18,7 @@
 
 namespace voxelume {
 
-/// What the scene and its world really contain.
+/// What the scene and its world really contain: of objects that lie outside of the world, nothing.
 Features features_of(const Scene& scene, const Pyramid& world);
 
 /// Adds to the features of a world's voxels what the scene decides; of the world it asks where
@@ -27,7 +27,8 @@ void add_scene(const Scene& scene, const Pyramid& world, Features& features);
 
 /// Makes the programs of the stages that sight rays go through in one piece: PoCL reads its own
 /// megabyte of headers for each.
-void build_programs(const Device& device, const Features& features, const Scene& scene);
+void build_programs(const Device& device, const Features& features, const Scene& scene,
+                    const Pyramid& world);
 
 /// Bytes of the device that the rays of the scene's flat image take on their way.
 RayBytes ray_bytes(const Scene& scene, const Features& features);

@@ -61,7 +61,7 @@ ListedInstances list_instances(const Scene& scene, MeshStore& meshes, ObjectGrid
     std::map<int, uint32_t> numbers;
     for (uint32_t number = 0; number < scene.objects.size(); ++number) {
         const Object& object = scene.objects[number];
-        if (!object.visible || !is_instanced(scene, object)) continue;
+        if (!object.visible || !object.in_reach || !is_instanced(scene, object)) continue;
         const Model& model = scene.models[size_t(object.model)];
         const auto [entry, added] =
             numbers.emplace(object.model, static_cast<uint32_t>(listed.grids.size()));

@@ -35,7 +35,8 @@ const std::string& makers() {
         std::string text = maker_sources();
         for (const auto& [file, content] : embedded_kernels())
             for (const char* stage : {"voxelize", "cut", "place", "index"})
-                if (file.starts_with(stage) && file.ends_with(".cl")) text += kernel_source(file);
+                if (file.starts_with(stage) && file.ends_with(".cl"))
+                    text += kernel_source(file).text();
         return key_of({kFormat, text});
     }();
     return key;

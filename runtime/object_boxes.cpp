@@ -53,6 +53,10 @@ bool overlap(const VoxelBox& a, const VoxelBox& b) {
     return glm::all(glm::lessThanEqual(glm::max(a.low, b.low), glm::min(a.high, b.high)));
 }
 
+bool is_empty(const VoxelBox& box) {
+    return !overlap(box, box);
+}
+
 std::vector<VoxelBox> object_boxes(const Scene& scene, MeshStore& meshes) {
     const GridFrame world = world_frame(scene.world);
     std::vector<VoxelBox> boxes(scene.objects.size());

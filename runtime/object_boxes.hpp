@@ -20,4 +20,6 @@ std::vector<VoxelBox> object_boxes(const Scene& scene, MeshStore& meshes);
 /// Whether two boxes share a point.
 bool overlap(const VoxelBox& a, const VoxelBox& b);
 
+bool is_empty(const VoxelBox& box);
+
 }  // namespace voxelume

@@ -7,6 +7,7 @@
 #include "runtime/illumination.hpp"
 #include "runtime/plan.hpp"
 #include "runtime/pyramid_bytes.hpp"
+#include "runtime/reach.hpp"
 #include "runtime/stages/resolve.hpp"
 #include "runtime/stages/sight.hpp"
 
@@ -14,6 +15,8 @@ namespace voxelume {
 
 void add_counts(const RenderReport& report, RenderReport& sum) {
     sum.sight_rays += report.sight_rays;
+    sum.beams += report.beams;
+    sum.clear_beams += report.clear_beams;
     sum.shadow_rays += report.shadow_rays;
     sum.secondary_rays += report.secondary_rays;
     sum.ended_paths += report.ended_paths;
@@ -21,14 +24,16 @@ void add_counts(const RenderReport& report, RenderReport& sum) {
     sum.not_finite += report.not_finite;
 }
 
-Renderer::View Renderer::view_of(const Scene& scene, const FormedWorld& world,
-                                 const Features& features) {
-    View view{world.version, scene.observer, scene.render, features, {}};
-    for (const Material& material : scene.materials) view.transmits.push_back(transmits(material));
-    return view;
-}
-
 namespace {
+
+/// The features that sight rays' hits and batches depend on: without those that decide the light on
+/// them alone.
+Features without_light(Features features) {
+    features.shadows = features.patches = features.checker = false;
+    features.medium = features.medium_grid = features.absorbs = false;
+    features.filter = features.filtered_refraction = false;
+    return features;
+}
 
 /// Whether so many sight rays save more time by beams than these take: building the halo, loading
 /// one more kernel. In larger worlds rounding could come near a beam's slack, see lib/beam.h.
@@ -42,6 +47,13 @@ bool beams_pay(const Features& features, const Pyramid& world, uint64_t rays) {
 }
 
 }  // namespace
+
+Renderer::View Renderer::view_of(const Scene& scene, const FormedWorld& world,
+                                 const Features& features) {
+    View view{world.version, scene.observer, scene.render, without_light(features), {}};
+    for (const Material& material : scene.materials) view.transmits.push_back(transmits(material));
+    return view;
+}
 
 /// Hits are kept where they take little of the device's memory, and nothing of what the frame needs
 /// beside the world.
@@ -115,7 +127,7 @@ Image Renderer::image_of_tiles(const Scene& scene, const FormedWorld& formed, Re
     if (!report.hits_are_kept) hits_.clear();
     const bool keeps_hits = has_room(scene, features, uint64_t(all_tiles) * rays_per_tile);
 
-    build_programs(device_, features, scene);
+    build_programs(device_, features, scene, world);
     SightStage sight(device_, features, observer);
     std::optional<BeamStage> beams;
     if (!report.hits_are_kept && beams_pay(features, world, uint64_t(all_tiles) * rays_per_tile))
@@ -146,6 +158,10 @@ Image Renderer::image_of_tiles(const Scene& scene, const FormedWorld& formed, Re
     view_ = std::move(view);
     Image image = resolve.image();
     report.not_finite = resolve.not_finite();
+    if (beams) {
+        report.beams = beams->sent();
+        report.clear_beams = beams->cleared();
+    }
     report.shadow_rays = illumination.shadow_rays();
     report.secondary_rays = illumination.secondary_rays();
     report.ended_paths = illumination.ended_paths();
@@ -159,8 +175,11 @@ Image Renderer::image_of_tiles(const Scene& scene, const FormedWorld& formed, Re
 
 Image render(const Device& device, const Scene& scene, RenderReport& report,
              const FrameProgress& progress) {
-    const FormedWorld world = WorldFormer(device, false).form(scene, report.world);
-    return Renderer(device, false).new_image(scene, world, report, progress);
+    MeshStore meshes;
+    const Scene shown = with_objects_in_reach(scene, meshes);
+    const FormedWorld world =
+        WorldFormer(device, false, std::move(meshes)).form(shown, report.world);
+    return Renderer(device, false).new_image(shown, world, report, progress);
 }
 
 }  // namespace voxelume

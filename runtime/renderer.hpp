@@ -22,6 +22,8 @@ struct RenderReport {
     uint64_t voxels = 0;       ///< surface voxels in the world's pyramid
     uint64_t world_bytes = 0;  ///< of the pyramid on the device
     uint64_t sight_rays = 0;
+    uint64_t beams = 0;        ///< sent along 16 sight rays each; none where they don't pay
+    uint64_t clear_beams = 0;  ///< of these, those that see nothing: their rays ended at once
     uint64_t shadow_rays = 0;
     uint64_t secondary_rays = 0;  ///< reflected, refracted, and gone on through surfaces
     uint64_t ended_paths = 0;     ///< not followed for their small weight
@@ -68,7 +70,7 @@ class Renderer {
         uint64_t world = 0;
         Observer observer;
         RenderSettings settings;
-        Features features;
+        Features features;            ///< those that hits depend on
         std::vector<bool> transmits;  ///< of each material
         friend bool operator==(const View&, const View&) = default;
     };

@@ -93,9 +93,10 @@ class FrameReader {
             return;
         }
         if (!objects_) objects_.emplace(scene_);
-        const bool moves = object.moves;
+        const bool moves = object.moves, in_reach = object.in_reach;
         object = objects_->read(value, part.place);
         object.moves = moves;
+        object.in_reach = in_reach;
     }
 
     void read_view(const SceneValue& value) {

@@ -9,6 +9,7 @@
 #include "runtime/error.hpp"
 #include "runtime/illumination.hpp"
 #include "runtime/interior.hpp"
+#include "runtime/reach.hpp"
 #include "runtime/stages/display_lattice.hpp"
 #include "runtime/stages/display_rays.hpp"
 #include "runtime/stages/sight.hpp"
@@ -79,7 +80,7 @@ void render_rays(Work& work, Volume& volume) {
     const uint32_t tiles = tile_count(work.sight.width, work.sight.height);
     const uint32_t in_batch = batch_tiles(work.features, 1, tiles);
     RayBatch batch = allocate_batch(work.device, work.features, in_batch * 16);
-    build_programs(work.device, work.features, work.scene);
+    build_programs(work.device, work.features, work.scene, work.world);
     SightStage sight(work.device, work.features, work.sight);
     Illumination illumination(work.device, work.features, work.scene, work.world, batch.stride);
     DisplayRaysStage display(work.device, work.features, work.sight, work.frame,
@@ -122,7 +123,7 @@ void render_lattice(Work& work, Volume& volume) {
     };
     std::vector<ProbePoints> pieces = scan.scan(work.world, batch);
     report_progress(1);
-    build_programs(work.device, work.features, work.scene);
+    build_programs(work.device, work.features, work.scene, work.world);
     Illumination illumination(work.device, work.features, work.scene, work.world, batch.stride);
     LookAhead look = [&](RayBatch& rays, uint32_t count) { illumination.find_hits(rays, count); };
     std::optional<Illumination> clear;
@@ -199,8 +200,11 @@ std::shared_ptr<Volume> VolumeRenderer::volume(const Scene& scene, const FormedW
 
 Volume render_volume(const Device& device, const Scene& scene, RenderReport& report,
                      const FrameProgress& progress) {
-    const FormedWorld world = WorldFormer(device, false).form(scene, report.world);
-    return render_volume(device, scene, world, report, progress);
+    MeshStore meshes;
+    const Scene shown = with_objects_in_reach(scene, meshes);
+    const FormedWorld world =
+        WorldFormer(device, false, std::move(meshes)).form(shown, report.world);
+    return render_volume(device, shown, world, report, progress);
 }
 
 }  // namespace voxelume

@@ -126,6 +126,8 @@ FormedWorld WorldFormer::kept_world(const Scene& scene, WorldReport& report) {
 
 FormedWorld WorldFormer::form(const Scene& scene, WorldReport& report,
                               const std::vector<bool>& awaited) {
+    report.out_of_reach = uint64_t(std::ranges::count_if(
+        scene.objects, [](const Object& o) { return o.visible && !o.in_reach; }));
     const Origin origin = origin_of(scene);
     if (origin_ == origin) return kept_world(scene, report);
     try {

@@ -30,6 +30,7 @@ struct WorldReport {
     double keep_seconds = 0;  ///< writing models and the world to the cache on disk
     uint64_t triangles = 0;
     uint64_t meshes_read = 0;
+    uint64_t out_of_reach = 0;    ///< objects to be seen that no ray meets: not voxelized
     uint64_t voxelized = 0;       ///< models and exact objects that were voxelized
     uint64_t from_cache = 0;      ///< those whose voxels the model cache had
     uint64_t painted_bricks = 0;  ///< of the world, that objects were painted into

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <random>
@@ -123,6 +124,10 @@ TEST_P(BeamLanes, LeaveTheHitsAsTheyAre) {
                 ASSERT_EQ(hits[c * batch.stride + i], expected[c * batch.stride + i])
                     << "seed " << kSeed << ", " << voxels << " voxels, ray " << i << ", component "
                     << c;
+        const std::vector<uint32_t> words = batch.beams.read();
+        const auto axes = words.begin() + VXL_BEAM_AXIS * VXL_BEAM_PLACES(batch.stride);
+        EXPECT_EQ(beams.sent(), 1500u);
+        EXPECT_EQ(beams.cleared(), uint64_t(std::count(axes, axes + 1500, VXL_BEAM_CLEAR)));
     }
 }
 

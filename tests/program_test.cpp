@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdlib>
 #include <numeric>
+#include <set>
 
 #include "runtime/stages/features.hpp"
 #include "tests/test_device.hpp"
@@ -71,6 +72,25 @@ TEST(Program, FilesBuiltTogetherAreOneUntilTheirConstantsDiffer) {
     features.smooth = true;
     Program(device, "trace.cl", features.defines(device));
     EXPECT_EQ(device.counters().programs_built, 2u);
+}
+
+TEST(Program, FilesBuiltTogetherAreThoseThatWereNotBuiltBefore) {
+    const Device device = test_device();
+    Features features;
+    features.cubes = true;
+    const std::array<const char*, 2> files = {"sight.cl", "light.cl"};
+    Program::build_together(device, files, features.defines(device));
+    features.shadows = true;  // which only light.cl mentions
+    Program::build_together(device, files, features.defines(device));
+    const auto programs_with = [&](const std::string& kernel) {
+        std::set<cl_program> found;
+        for (const auto& [key, program] : device.programs())
+            if (program.getInfo<CL_PROGRAM_SOURCE>().find(kernel) != std::string::npos)
+                found.insert(program());
+        return found.size();
+    };
+    EXPECT_EQ(programs_with("kernel void add_light"), 2u);
+    EXPECT_EQ(programs_with("kernel void cast_sight"), 1u);
 }
 
 TEST(Program, NamesTheKernelFileAndLineOfAnError) {

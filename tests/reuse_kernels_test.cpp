@@ -203,7 +203,7 @@ INSTANTIATE_TEST_SUITE_P(
         Change{"ReflectionAgain0", "materials.fog.reflection", "0.5", "0", kTrace,
                WorldChange::none, false, 0, 0, 0, kRedBall, kFogBall},
         Change{"AbsorptionAbove0", "world.medium.absorption", "[0, 0, 0]", "[0.1, 0.2, 0.1]",
-               kTrace, WorldChange::none},
+               kShade, WorldChange::none, true},
         Change{"EmissionAbove0", "materials.fog.emission", "[0, 0, 0]", "[1, 2, 1]", kShade,
                WorldChange::none, true, 0, 0, 0, kRedBall, kFogBall},
         Change{"EmissionAgain0", "materials.fog.emission", "[1, 2, 1]", "[0, 0, 0]", kShade,

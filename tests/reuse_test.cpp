@@ -109,6 +109,24 @@ TEST(Reuse, LightsMaterialsAndTheMediumOnlyLightTheHitsAgain) {
     }
 }
 
+TEST(Reuse, TheFirstLightAndTheLastOnlyLightTheHitsAgain) {
+    for (const char* material : {"blue", "glass"})
+        for (const bool filtered : {false, true}) {
+            Scene dark = scene_of(material);
+            dark.render.filtered_shadows = filtered;
+            const Scene lit = dark;
+            dark.lights[0].energy = glm::vec3(0);
+            Frames frames(dark);
+            for (const Scene* scene : {&lit, &std::as_const(dark), &lit}) {
+                const RenderReport report = frames.render(*scene);
+                EXPECT_EQ(frames.kernels().contains("trace_shadows"), scene == &lit);
+                EXPECT_FALSE(frames.kernels().contains("cast_sight"));
+                EXPECT_TRUE(report.hits_are_kept);
+                EXPECT_EQ(frames.hash(), hash_alone(*scene)) << material << ' ' << filtered;
+            }
+        }
+}
+
 TEST(Reuse, AnObserverThatMovesTracesAgainInTheSameWorld) {
     Scene scene = scene_of("blue");
     Frames frames(scene);
@@ -196,6 +214,20 @@ TEST(Reuse, NeverShowsInTheImage) {
             EXPECT_EQ(frames.hash(), hash_alone(scene))
                 << material << ", seed " << kSeed << ", step " << step << ", kind " << kind;
         }
+    }
+}
+
+TEST(Reuse, AGlassBringsItsKernelsWhenItComesIntoTheWorldAndTakesThemAlong) {
+    Scene scene = scene_of("glass"), without = scene;
+    without.objects[2].visible = false;
+    Frames frames(without);
+    for (const double y : {9.0, 0.1, 9.0}) {
+        const bool is_outside = y > 1;
+        scene.objects[2].world_from_object[3].y = y;
+        frames.render(scene);
+        EXPECT_EQ(frames.kernels().contains("pass_layer"), !is_outside);
+        EXPECT_EQ(frames.kernels().contains("scatter_rays"), !is_outside);
+        EXPECT_EQ(frames.hash(), hash_alone(is_outside ? without : scene));
     }
 }
 

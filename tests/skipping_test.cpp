@@ -2,6 +2,8 @@
 // that are zero after it and weren't before.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <numeric>
 
 #include "kernels/shared/voxel.h"
@@ -37,6 +39,18 @@ constexpr const char* kFloor = R"({"voxelume": 1,
 "models": {"floor": {"shape": "box", "size": [1.8, 0.1, 2], "surface": "cubes"}},
 "objects": [{"model": "floor", "material": "clay", "position": [0, -0.8, 0]}],
 "lights": [{"type": "point", "position": [0.5, 3, -1], "intensity": 9}],
+"observer": {"position": [0.2, 0.7, -3], "look_at": [0, -0.3, 0],
+             "display": {"shape": "pyramid", "angle": 40}},
+"render": {"size": [48, 36], "depth": 2}})";
+
+/// A lamp above the floor.
+constexpr const char* kLamp = R"({"voxelume": 1,
+"world": {"voxel_size": 0.05, "bounds": {"min": [-1, -1, -1], "max": [1, 1.2, 1.4]}},
+"materials": {"clay": {"color": [0.8, 0.6, 0.4]}, "glow": {"emission": [3, 2, 1]}},
+"models": {"floor": {"shape": "box", "size": [1.8, 0.1, 2], "surface": "cubes"},
+           "ball": {"shape": "sphere", "radius": 0.3, "surface": "smooth"}},
+"objects": [{"model": "floor", "material": "clay", "position": [0, -0.8, 0]},
+            {"model": "ball", "material": "glow", "position": [0, 0.2, 0]}],
 "observer": {"position": [0.2, 0.7, -3], "look_at": [0, -0.3, 0],
              "display": {"shape": "pyramid", "angle": 40}},
 "render": {"size": [48, 36], "depth": 2}})";
@@ -120,7 +134,18 @@ const Row kRows[] = {
      kScene,
      "[-0.7, -0.5, 0]",
      "[-0.7, -5, 0]",
-     {"kernel measure_distances"}},
+     {"kernel measure_distances", "kernel pass_layer", "buffer coverage", "buffer path media"}},
+    {"a mirror outside the world",
+     kScene,
+     "[0.1, -0.2, 0.2]",
+     "[0.1, -9, 0.2]",
+     {"kernel scatter_rays", "kernel gather_light"}},
+    {"a lamp outside the world",
+     kLamp,
+     "[0, 0.2, 0]",
+     "[0, 9, 0]",
+     {"kernel find_surface", "kernel list_glowing", "kernel add_light", "kernel trace_shadows",
+      "buffer shadow queue"}},
     {"a mesh that isn't shown",
      kScene,
      "\"model\": \"thing\"",
@@ -149,8 +174,8 @@ const Row kRows[] = {
 };
 
 TEST_F(SkippingFiles, WhatAChangeMakesNeedlessIsNotDone) {
-    const std::map<const char*, Counters> all = {{kScene, show(scene_of(kScene))},
-                                                 {kFloor, show(scene_of(kFloor))}};
+    std::map<const char*, Counters> all;
+    for (const char* scene : {kScene, kFloor, kLamp}) all[scene] = show(scene_of(scene));
     for (const Row& row : kRows) {
         const Counters& before = all.at(row.scene);
         Counters after = show(scene_of(replaced(row.scene, row.from, row.to)));
@@ -158,6 +183,32 @@ TEST_F(SkippingFiles, WhatAChangeMakesNeedlessIsNotDone) {
             EXPECT_TRUE(before.contains(name) && before.at(name) > 0) << row.name << ": " << name;
             EXPECT_EQ(after[name], 0u) << row.name << ": " << name;
         }
+    }
+}
+
+TEST_F(SkippingFiles, WhateverItsMaterialAnObjectOutsideTheWorldIsNotInThePicture) {
+    const auto changes = std::to_array<void (*)(Material&)>({
+        [](Material& m) { m.reflection = 0.5f; },
+        [](Material& m) { m.refraction = 0.9f, m.absorption = glm::vec3(1, 2, 3); },
+        [](Material& m) { m.refraction = 0.9f, m.reflection = 0.1f, m.fresnel = true; },
+        [](Material& m) { m.opacity = 0.3f; },
+        [](Material& m) { m.emission = glm::vec3(3, 2, 1); },
+        [](Material& m) {
+            m.checker = {glm::vec3(0, 1, 0), glm::dvec3(0.2), glm::dvec3(0)};
+        },
+    });
+    Scene scene = scene_of(kLamp);
+    scene.objects[1].visible = false;
+    Image without;
+    show(scene, &without);
+    for (const auto& change : changes) {
+        scene = scene_of(replaced(kLamp, "[0, 0.2, 0]", "[0, 9, 0]"));
+        Material& material = scene.materials[size_t(scene.objects[1].material)];
+        material.emission = glm::vec3(0);
+        change(material);
+        Image image;
+        show(scene, &image);
+        EXPECT_EQ(image.planes, without.planes);
     }
 }
 
@@ -189,6 +240,22 @@ TEST_F(SkippingFiles, ChannelsNotAskedForAreNeitherMadeNorStored) {
                         EXPECT_EQ(plane, all.planes.at(name)) << name;
                 }
     EXPECT_EQ(with["buffer image"], 11u * 48 * 36 * 4);
+}
+
+TEST_F(SkippingFiles, TilesThatSeeNothingEndAtOnce) {
+    Scene scene = scene_of(kFloor);
+    resize(scene, {256, 256});
+    RenderReport report;
+    const Image image = render(shared_device(), scene, report);
+    const Plane<uint32_t>& objects = image.id_planes.at("objectId");
+    std::vector<bool> is_empty(64 * 64, true);
+    for (size_t i = 0; i < objects.size(); ++i)
+        if (objects[i] != 0) is_empty[i / 1024 * 64 + i % 256 / 4] = false;
+    const auto empty = uint64_t(std::ranges::count(is_empty, true));
+    EXPECT_GT(empty, 2000u);
+    EXPECT_EQ(report.beams, is_empty.size());
+    EXPECT_LE(report.clear_beams, empty);
+    EXPECT_GT(report.clear_beams, empty * 3 / 5);
 }
 
 TEST_F(SkippingFiles, EmptySpaceTakesNoVoxelsLeavesOrFields) {

@@ -1,7 +1,9 @@
 #include "runtime/opencl/kernel_source.hpp"
 
 #include <array>
-#include <set>
+#include <mutex>
+#include <unordered_set>
+#include <utility>
 
 #include "runtime/error.hpp"
 
@@ -43,26 +45,50 @@ void append_text(const std::string& label, std::string_view rest, std::set<std::
     }
 }
 
-}  // namespace
-
-std::string kernel_source(const std::string& file) {
-    const std::array files = {file.c_str()};
-    return kernel_source(files);
+bool is_of_word(char c) {
+    return c == '_' || (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z');
 }
 
-std::string kernel_source(std::span<const char* const> files) {
+}  // namespace
+
+KernelSource::KernelSource(std::string text) : text_(std::move(text)) {
+    std::unordered_set<std::string_view> found;
+    for (const char* end = text_.data(); *end != 0;) {
+        const char* word = end;
+        while (*end != 0 && is_of_word(*end)) ++end;
+        if (*word >= 'A' && *word <= 'Z') found.emplace(word, size_t(end - word));
+        while (*end != 0 && !is_of_word(*end)) ++end;
+    }
+    constants_.insert(found.begin(), found.end());
+}
+
+bool KernelSource::mentions(const std::string& constant) const {
+    return constants_.contains(constant);
+}
+
+const KernelSource& kernel_source(const std::string& file) {
+    static std::mutex mutex;
+    static std::map<std::string, KernelSource> sources;
+    const std::lock_guard lock(mutex);
+    const auto found = sources.find(file);
+    if (found != sources.end()) return found->second;
+    const std::array files = {file.c_str()};
+    return sources.emplace(file, kernel_source(files)).first->second;
+}
+
+KernelSource kernel_source(std::span<const char* const> files) {
     std::string source;
     std::set<std::string> seen;
     for (const std::string file : files)
         if (seen.insert(file).second) append_text("kernels/" + file, file_text(file), seen, source);
-    return source;
+    return KernelSource(std::move(source));
 }
 
-std::string expand_includes(std::string_view text) {
+KernelSource expand_includes(std::string_view text) {
     std::string source;
     std::set<std::string> seen;
     append_text("text", text, seen, source);
-    return source;
+    return KernelSource(std::move(source));
 }
 
 }  // namespace voxelume

@@ -5,44 +5,28 @@
 
 #include "runtime/disk_cache.hpp"
 #include "runtime/error.hpp"
-#include "runtime/opencl/kernel_source.hpp"
 #include "runtime/opencl/program_cache.hpp"
 #include "runtime/opencl/status.hpp"
 
 namespace voxelume {
 namespace {
 
-/// Whether the word `name` stands anywhere in the source.
-bool mentions(const std::string& source, const std::string& name) {
-    const auto is_word = [](char c) {
-        return c == '_' || (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') ||
-               (c >= 'a' && c <= 'z');
-    };
-    for (size_t at = source.find(name); at != source.npos; at = source.find(name, at + 1)) {
-        const size_t end = at + name.size();
-        if ((at == 0 || !is_word(source[at - 1])) &&
-            (end == source.size() || !is_word(source[end])))
-            return true;
-    }
-    return false;
-}
-
 /// Only the constants that the source mentions, so that scenes which differ in others share what
 /// was compiled.
-std::string build_options(const Device& device, const std::string& source, Defines defines) {
+std::string build_options(const Device& device, const KernelSource& source, Defines defines) {
     std::string options = "-cl-std=CL1.2";
     if (std::ranges::find(defines, "VXL_LANES", &Defines::value_type::first) == defines.end())
         defines.emplace_back("VXL_LANES", device.lanes());
     for (const auto& [name, value] : defines)
-        if (mentions(source, name)) options += fmt::format(" -D{}={}", name, value);
+        if (source.mentions(name)) options += fmt::format(" -D{}={}", name, value);
     // Oclgrind 21.10 interprets LLVM code, but not the alias hints that its optimizer leaves.
     if (device.info().platform == "Oclgrind") options += " -cl-opt-disable";
     if (!device.info().build_options.empty()) options += " " + device.info().build_options;
     return options;
 }
 
-std::string program_key(const std::string& source, const std::string& options) {
-    const std::array<std::string_view, 2> parts = {source, options};
+std::string program_key(const KernelSource& source, const std::string& options) {
+    const std::array<std::string_view, 2> parts = {source.text(), options};
     return cache_key(parts);
 }
 
@@ -78,18 +62,21 @@ Program::Program(const Device& device, const std::string& file, const Defines& d
 void Program::build_together(const Device& device, std::span<const char* const> files,
                              const Defines& defines) {
     std::vector<cl::Program*> places;
+    std::vector<const char*> missing;
     const auto locked = device.lock();
-    for (const std::string file : files) {
-        const std::string source = kernel_source(file);
+    for (const char* file : files) {
+        const KernelSource& source = kernel_source(file);
         cl::Program& place =
             device.programs()[program_key(source, build_options(device, source, defines))];
-        if (!place()) places.push_back(&place);
+        if (place()) continue;
+        places.push_back(&place);
+        missing.push_back(file);
     }
-    if (places.empty()) return;
-    const std::string source = kernel_source(files);
+    if (missing.empty()) return;
+    const KernelSource source = kernel_source(missing);
     const cl::Program program =
-        build_program(device, fmt::format("kernels/{}", fmt::join(files, " with kernels/")), source,
-                      build_options(device, source, defines));
+        build_program(device, fmt::format("kernels/{}", fmt::join(missing, " with kernels/")),
+                      source.text(), build_options(device, source, defines));
     for (cl::Program* place : places) *place = program;
 }
 
@@ -98,13 +85,13 @@ Program Program::from_text(const Device& device, const std::string& source,
     return Program(device, "a test's kernel", expand_includes(source), defines);
 }
 
-Program::Program(const Device& device, const std::string& label, const std::string& source,
+Program::Program(const Device& device, const std::string& label, const KernelSource& source,
                  const Defines& defines)
     : device_(device), label_(label) {
     const std::string options = build_options(device, source, defines);
     const auto locked = device.lock();
     cl::Program& kept = device.programs()[program_key(source, options)];
-    if (!kept()) kept = build_program(device, label, source, options);
+    if (!kept()) kept = build_program(device, label, source.text(), options);
     program_ = kept;
 }
 

@@ -12,6 +12,7 @@
 
 #include "runtime/opencl/buffer.hpp"
 #include "runtime/opencl/device.hpp"
+#include "runtime/opencl/kernel_source.hpp"
 
 namespace voxelume {
 
@@ -71,8 +72,9 @@ class Program {
     /// Compiles kernels/`file` (e.g. "trace.cl"). Throws Error::build with the compiler's log.
     Program(const Device& device, const std::string& file, const Defines& defines = {});
 
-    /// Compiles several files into one program; whoever asks for one of them with these constants,
-    /// as long as the device is open, gets that. Names of functions may be used once in all.
+    /// Compiles those of several files that weren't with these constants before into one program;
+    /// whoever asks for one of them with these constants, as long as the device is open, gets that.
+    /// Names of functions may be used once in all.
     static void build_together(const Device& device, std::span<const char* const> files,
                                const Defines& defines);
 
@@ -83,7 +85,7 @@ class Program {
     Kernel kernel(const std::string& name) const;
 
   private:
-    Program(const Device& device, const std::string& label, const std::string& source,
+    Program(const Device& device, const std::string& label, const KernelSource& source,
             const Defines& defines);
 
     Device device_;

@@ -104,8 +104,15 @@ BeamStage::BeamStage(const Device& device, const Features& features, const Pyram
     : device_(device),
       shape_(shape_of(pyramid)),
       halo_(std::move(halo)),
+      cleared_(device, "clear beams", 2),
       program_(device, "sight.cl", features.defines(device)),
-      start_(program_.kernel("start_beams")) {}
+      start_(program_.kernel("start_beams")) {
+    cleared_.fill(0);
+}
+
+uint64_t BeamStage::cleared() const {
+    return cleared_.read_one(0) | uint64_t(cleared_.read_one(1)) << 32;
+}
 
 void BeamStage::start(RayBatch& batch, uint32_t count) {
     if (batch.beams.empty())
@@ -113,7 +120,8 @@ void BeamStage::start(RayBatch& batch, uint32_t count) {
                                        size_t(VXL_BEAM_PLACES(batch.stride)) * VXL_BEAM_COMPONENTS);
     const uint32_t beams = (count + VXL_BEAM_RAYS - 1) / VXL_BEAM_RAYS;
     start_.launch_packets(beams, shape_, halo_.sectors, halo_.bricks, batch.rays, beams,
-                          batch.stride, batch.beams);
+                          batch.stride, batch.beams, cleared_);
+    sent_ += beams;
 }
 
 }  // namespace voxelume

@@ -29,10 +29,16 @@ class BeamStage {
     /// it came. The beams are those of these rays only.
     void start(RayBatch& batch, uint32_t count);
 
+    uint64_t sent() const { return sent_; }
+    /// Those whose rays meet nothing, and end at once; waits for the device.
+    uint64_t cleared() const;
+
   private:
     Device device_;
     PyramidShape shape_;
     Halo halo_;
+    uint64_t sent_ = 0;
+    Buffer<uint32_t> cleared_;
     Program program_;
     Kernel start_;
 };

@@ -1,0 +1,134 @@
+#include "runtime/reach.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+
+#include "runtime/instances.hpp"
+#include "runtime/object_boxes.hpp"
+#include "runtime/reach_hull.hpp"
+#include "runtime/scene_animation.hpp"
+#include "runtime/scene_motion.hpp"
+#include "runtime/stages/spots.hpp"
+#include "runtime/world_source.hpp"
+
+namespace voxelume {
+namespace {
+
+/// Voxels around an object's box in which it may have a say: distances are painted by whole leaves,
+/// and gradients of smooth surfaces look two nodes further.
+constexpr double kInfluence = 8;
+
+/// Of coordinates, by how much rays may be off for their floats: some hundred times their rounding.
+constexpr double kRounding = 0x1p-17;
+
+/// Whether rays go on from surfaces of the object; of voxels in a file that isn't read, they may.
+bool sends_rays_on(const Scene& scene, const Object& object, MeshStore& meshes, bool reads) {
+    const Model& model = scene.models[size_t(object.model)];
+    if (!model.voxels.empty() && (!reads || meshes.voxels(model).transparent)) return true;
+    const auto sends = [&](int number) {
+        const Material& material = scene.materials[size_t(number)];
+        return transmits(material) || (scene.render.depth > 0 && material.reflection > 0);
+    };
+    return sends(object.material) ||
+           std::ranges::any_of(object.groups,
+                               [&](const GroupMaterial& group) { return sends(group.material); });
+}
+
+/// The hull that no ray leaves, and how far from it a box has to be.
+class RayHull {
+  public:
+    RayHull(const Scene& scene, const std::vector<VoxelBox>& lamps) {
+        const GridFrame world = world_frame(scene.world);
+        hull_ = hull_of_sight(scene.observer, world);
+        if (scene.render.shadows) add_shadow_rays(scene, lamps, world, hull_);
+        const glm::dvec3 eye = (scene.observer.position - world.origin) / world.voxel_edge;
+        double largest = 0;
+        const auto include = [&](const glm::dvec3& p) {
+            largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+        };
+        include(eye);
+        for (const glm::dvec3& point : hull_) include(point);
+        gap_ = 1 + kRounding * largest;
+    }
+
+    bool meets(const VoxelBox& box) const {
+        return !are_apart(hull_, {box.low - kInfluence, box.high + kInfluence}, gap_);
+    }
+
+  private:
+    Hull hull_;
+    double gap_ = 1;
+};
+
+/// Adds the objects that rays may reach in a frame to those reached before, whose boxes don't
+/// matter any more.
+void add_reached(Scene scene, MeshStore& meshes, std::vector<bool>& reached) {
+    const std::vector<Object> objects = scene.objects;
+    for (size_t i = 0; i < objects.size(); ++i)
+        if (reached[i] && !is_lamp(scene, objects[i])) scene.objects[i].visible = false;
+    const std::vector<VoxelBox> boxes = object_boxes(scene, meshes);
+
+    std::vector<VoxelBox> lamps;
+    for (size_t i = 0; i < objects.size(); ++i)
+        if (is_lamp(scene, objects[i]) && !is_empty(boxes[i])) lamps.push_back(boxes[i]);
+    const RayHull hull(scene, lamps);
+    std::vector<bool> met = reached;
+    bool all = scene.observer.display.layout == VolumeLayout::lattice, instances = false;
+    for (size_t i = 0; i < objects.size(); ++i) {
+        const Object& object = objects[i];
+        if (!met[i])
+            met[i] = !is_empty(boxes[i]) && (is_lamp(scene, object) || hull.meets(boxes[i]));
+        if (!met[i] || !object.visible) continue;
+        all = all || sends_rays_on(scene, object, meshes, !reached[i]);
+        instances = instances || is_instanced(scene, object);
+    }
+    for (size_t i = 0; i < objects.size(); ++i)
+        reached[i] = met[i] || (!is_empty(boxes[i]) &&
+                                (all || (instances && is_instanced(scene, objects[i]))));
+}
+
+/// Whether the store's cache has the world of all objects.
+bool has_world(const Scene& scene, MeshStore& meshes) {
+    const std::string key = world_source(scene, meshes);
+    return !key.empty() && meshes.cache().has_world(key);
+}
+
+/// Objects of models that change. Their files may be many, and aren't read before their frames.
+std::vector<bool> objects_of_moving_models(const Scene& scene) {
+    std::vector<bool> found(scene.objects.size());
+    if (!moves(scene)) return found;
+    for (const MovingPart& part : scene.motion->parts)
+        for (size_t i = 0; i < found.size(); ++i)
+            found[i] = found[i] || (part.part == ScenePart::model &&
+                                    size_t(scene.objects[i].model) == part.place);
+    return found;
+}
+
+}  // namespace
+
+void find_objects_in_reach(Scene& scene, std::span<const int> frames, MeshStore& meshes) {
+    std::vector<bool> reached = frames.size() > 1 ? objects_of_moving_models(scene)
+                                                  : std::vector<bool>(scene.objects.size());
+    for (const int frame : frames) {
+        if (std::ranges::find(reached, false) == reached.end()) return;
+        in_frame(scene, frame, [&] {
+            const Scene now = scene_at(scene, frame);
+            if (frame == frames.front() && has_world(now, meshes))
+                reached.assign(reached.size(), true);
+            else
+                add_reached(now, meshes, reached);
+        });
+    }
+    for (size_t i = 0; i < reached.size(); ++i) scene.objects[i].in_reach = reached[i];
+}
+
+Scene with_objects_in_reach(Scene scene, MeshStore& meshes) {
+    std::vector<bool> reached(scene.objects.size());
+    if (has_world(scene, meshes)) return scene;
+    add_reached(scene, meshes, reached);
+    for (size_t i = 0; i < reached.size(); ++i) scene.objects[i].in_reach = reached[i];
+    return scene;
+}
+
+}  // namespace voxelume
