@@ -14,7 +14,7 @@ namespace {
 /// Whether both frames have the same plan, as nothing moved that it depends on.
 bool is_planned_like(const Scene& a, const Scene& b) {
     return a.objects == b.objects && a.models == b.models && a.materials == b.materials &&
-           a.world.medium == b.world.medium;
+           a.lights == b.lights && a.observer == b.observer && a.world.medium == b.world.medium;
 }
 
 /// Whether both frames show the same meshes and voxels.

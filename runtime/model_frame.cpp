@@ -30,9 +30,16 @@ GridFrame solid_frame(const Model& model) {
     return frame_around(*model.solid, identity, edge, kModelMargin, reach);
 }
 
+/// Voxels of a given size lie as those of a world whose bounds are multiples of it, so that they
+/// are the same wherever an object moves by whole voxels. A resolution counts from the mesh's side.
 GridFrame mesh_frame(const Model& model, const MeshSummary& mesh) {
     const glm::dvec3 edge = voxel_edge(model, mesh.surface.max - mesh.surface.min);
-    return frame_around(mesh.vertices.min, mesh.vertices.max, edge, kModelMargin);
+    const glm::dvec3 low = mesh.vertices.min, high = mesh.vertices.max;
+    if (model.resolution > 0) return frame_around(low, high, edge, kModelMargin);
+    const glm::dvec3 first = glm::floor(low / edge);
+    GridFrame frame = frame_around(first * edge, high, edge, kModelMargin);
+    frame.origin = (first - double(kModelMargin)) * edge;
+    return frame;
 }
 
 }  // namespace

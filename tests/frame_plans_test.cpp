@@ -37,6 +37,21 @@ TEST_F(FramePlans, OfFramesTheLargestCountsAndTheFirstThatDoesNotFitIsNamed) {
     EXPECT_NO_THROW(check_frames(scene, std::vector<int>{1, 5}, meshes, device));
 }
 
+TEST_F(FramePlans, ALampThatIsSwitchedOnTakesItsShadowRays) {
+    Scene scene = scene_of(R"({"shape": "sphere", "radius": 0.1})", 1.0 / 50,
+                           R"("animation": {"frames": 3, "tracks": [
+    {"target": "lights.lamp.intensity", "interpolation": "step",
+     "keys": [{"frame": 1, "value": 0}, {"frame": 3, "value": 9}]}]},
+    "lights": [{"name": "lamp", "type": "point", "position": [0.5, 2, 0.5], "intensity": 1}],)");
+    scene.render.size = {320, 240};
+    DeviceInfo device;
+    device.memory = device.max_allocation = 8'000'000'000;
+    MeshStore meshes;
+    const FramePlan most = plan_frames(scene, std::vector<int>{1, 2, 3}, meshes, device);
+    EXPECT_EQ(most.frame, 3);
+    EXPECT_GT(most.plan.image_bytes, plan_of(scene_at(scene, 1)).image_bytes);
+}
+
 TEST_F(FramePlans, AGroupThatAMeshDoesNotHaveIsNamedBeforeAnyFrameIsRendered) {
     put_bytes(folder / "plate.obj",
               "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nusemtl near\nf 1 2 3\nusemtl far\nf 2 4 3\n");

@@ -7,7 +7,9 @@
 #include <random>
 
 #include "runtime/error.hpp"
+#include "tests/file_fixture.hpp"
 #include "tests/instance_scenes.hpp"
+#include "tests/test_meshes.hpp"
 
 namespace voxelume {
 namespace {
@@ -49,6 +51,52 @@ TEST_P(Instances, WholeVoxelPlacementsShowTheWorldsImage) {
         // Shadow and reflected rays leave an instance a thousandth of a voxel above it, and an edge
         // may fall between.
         EXPECT_LE(count_different(own, world), has_light_rays ? seen / 2000 : 0);
+    }
+}
+
+struct MeshSurface {
+    const char* surface;
+    const char* set;  ///< in JSON
+};
+
+class InstancesOfAMesh : public FileTest, public testing::WithParamInterface<MeshSurface> {};
+INSTANTIATE_TEST_SUITE_P(Surfaces, InstancesOfAMesh,
+                         testing::Values(MeshSurface{"cubes", R"(, "set": "supercover")"},
+                                         MeshSurface{"cubes", R"(, "set": "thin")"},
+                                         MeshSurface{"cubes", R"(, "set": "solid")"},
+                                         MeshSurface{"smooth", ""}, MeshSurface{"exact", ""}));
+
+/// A mesh whose bounds are no multiples of a voxel.
+TEST_P(InstancesOfAMesh, WholeVoxelPlacementsShowTheWorldsImage) {
+    write_obj(folder / "ring.obj", wavy_ring(48, 24));
+    for (const char* place : {R"("position": [0, 0, 0])", R"("position": [-0.5, 0.1, 0.05])",
+                              R"("position": [0.1, 0.1, 0.05], "turn": [90, 0, 0])",
+                              R"("position": [0.1, 0.1, 0.05], "scale": [-1, 1, 1])"}) {
+        const auto image = [&](const char* placement) {
+            return rendered(
+                parse_scene(fmt::format(R"({{"voxelume": 1,
+"world": {{"voxel_size": 0.05, "bounds": {{"min": [-1.8, -1.8, -1.8], "max": [1.8, 1.8, 1.8]}},
+          "ambient": [0.3, 0.3, 0.3]}},
+"models": {{"ring": {{"mesh": "ring.obj", "surface": "{}"{}, "voxel_size": 0.05}}}},
+"objects": [{{"model": "ring", "placement": "{}", {}}}],
+"lights": [{{"type": "point", "position": [1, 2, -3], "intensity": 12}}],
+"observer": {{"position": [0.2, 0.3, -2.5], "look_at": [0, 0, 0],
+             "display": {{"shape": "pyramid", "angles": [40, 30]}}}},
+"render": {{"size": [96, 72], "shadows": false}}}})",
+                                        GetParam().surface, GetParam().set, placement, place),
+                            folder / "scene.json", {}));
+        };
+        const Image world = image("world"), own = image("instance");
+        EXPECT_EQ(own.id_planes.at("objectId"), world.id_planes.at("objectId")) << place;
+        size_t seen = 0;
+        for (size_t i = 0; i < own.planes.at("R").size(); ++i) {
+            if (world.id_planes.at("objectId")[i] == 0) continue;
+            ++seen;
+            EXPECT_LT(glm::distance(vector_at(own, "P", i), vector_at(world, "P", i)), 1e-5)
+                << place << i;
+        }
+        EXPECT_GT(seen, 500u);
+        EXPECT_EQ(count_different(own, world), 0u) << place;
     }
 }
 
