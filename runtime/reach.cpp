@@ -61,6 +61,16 @@ class RayHull {
     double gap_ = 1;
 };
 
+/// Whether an object may have a say in where a lamp's surface lies, or is a lamp.
+bool is_near(const VoxelBox& box, const std::vector<VoxelBox>& lamps) {
+    const VoxelBox wide = {box.low - kInfluence, box.high + kInfluence};
+    return std::ranges::any_of(lamps, [&](const VoxelBox& lamp) { return overlap(wide, lamp); });
+}
+
+bool is_shown_instance(const Scene& scene, const Object& object) {
+    return object.visible && is_instanced(scene, object);
+}
+
 /// Adds the objects that rays may reach in a frame to those reached before, whose boxes don't
 /// matter any more.
 void add_reached(Scene scene, MeshStore& meshes, std::vector<bool>& reached) {
@@ -74,18 +84,21 @@ void add_reached(Scene scene, MeshStore& meshes, std::vector<bool>& reached) {
         if (is_lamp(scene, objects[i]) && !is_empty(boxes[i])) lamps.push_back(boxes[i]);
     const RayHull hull(scene, lamps);
     std::vector<bool> met = reached;
-    bool all = scene.observer.display.layout == VolumeLayout::lattice, instances = false;
+    bool all = scene.observer.display.layout == VolumeLayout::lattice;
     for (size_t i = 0; i < objects.size(); ++i) {
-        const Object& object = objects[i];
         if (!met[i])
-            met[i] = !is_empty(boxes[i]) && (is_lamp(scene, object) || hull.meets(boxes[i]));
-        if (!met[i] || !object.visible) continue;
-        all = all || sends_rays_on(scene, object, meshes, !reached[i]);
-        instances = instances || is_instanced(scene, object);
+            met[i] = !is_empty(boxes[i]) && (is_near(boxes[i], lamps) || hull.meets(boxes[i]));
+        all = all || (met[i] && objects[i].visible &&
+                      sends_rays_on(scene, objects[i], meshes, !reached[i]));
     }
+    bool instances = false;
+    for (size_t i = 0; i < objects.size(); ++i) {
+        reached[i] = met[i] || (all && !is_empty(boxes[i]));
+        instances = instances || (reached[i] && is_shown_instance(scene, objects[i]));
+    }
+    // Rays leave instances from a height that all of them decide, also those outside of the world.
     for (size_t i = 0; i < objects.size(); ++i)
-        reached[i] = met[i] || (!is_empty(boxes[i]) &&
-                                (all || (instances && is_instanced(scene, objects[i]))));
+        reached[i] = reached[i] || (instances && is_shown_instance(scene, objects[i]));
 }
 
 /// Whether the store's cache has the world of all objects.

@@ -113,6 +113,33 @@ TEST(Reach, GoesOnToLampsWhichAreAlwaysInIt) {
     expect_same_bits(scene);
 }
 
+TEST(Reach, HoldsWhatCoversPartOfALampAlsoWithoutShadows) {
+    for (const int cover : {1, 3}) {  // of cubes, smooth
+        Scene scene = scene_of();
+        scene.render.shadows = false;
+        scene.materials[2].emission = {3, 2, 1};
+        scene.objects[4].material = 2;
+        scene.objects[4].world_from_object[3] = {1.5, 0.2, -1, 1};
+        scene.objects[size_t(cover)].priority = 5;
+        scene.objects[size_t(cover)].world_from_object[3] = {1.2, 0.2, -0.9, 1};
+        EXPECT_EQ(reached(scene),
+                  cover == 1 ? "seen left right beyond " : "seen right behind beyond ");
+        expect_same_bits(scene);
+        Scene without = scene;
+        without.objects[size_t(cover)].visible = false;
+        EXPECT_NE(hash_of_all(without), hash_of_all(scene)) << "the lamp's spots are others";
+    }
+}
+
+TEST(Reach, HoldsInstancesOutsideOfTheWorldWithTheOthers) {
+    Scene scene = scene_of(kPointLight);
+    for (const int i : {0, 4}) scene.objects[size_t(i)].placement = Placement::instance;
+    scene.objects[4].world_from_object = glm::dmat4(300);
+    scene.objects[4].world_from_object[3] = {5000, 0, 0, 1};
+    EXPECT_EQ(reached(scene), "seen left beyond ");
+    expect_same_bits(scene);
+}
+
 TEST(Reach, IsTheWholeWorldWhereASurfaceInItSendsRaysOn) {
     const auto changes = std::to_array<void (*)(Material&)>(
         {[](Material& m) { m.reflection = 0.5f; }, [](Material& m) { m.refraction = 0.5f; },
