@@ -56,8 +56,8 @@ void print_examples(const StressTest& test, std::span<const StressExample> examp
     std::fflush(stdout);
 }
 
-/// Runs a test and prints its line; the number of mismatches. Of long runs the first mismatches are
-/// printed on the way, so that one that is ended early has told them.
+/// Runs a test and prints its line; the number of mismatches. The first ones are printed as they
+/// are found, every half a minute or so, so that a run that is ended early has told them.
 uint64_t run_test(const StressTest& test, const StressCommand& command, const Device& device) {
     constexpr uint64_t kRaysAtOnce = 1 << 25;
     const auto start = std::chrono::steady_clock::now();
@@ -68,26 +68,22 @@ uint64_t run_test(const StressTest& test, const StressCommand& command, const De
         const uint64_t now = std::min(count - done, at_once);
         StressResult part;
         {
-            Progress bar(count > at_once
-                             ? fmt::format("{}, {} of {}", test.name, done / at_once + 1,
-                                           (count + at_once - 1) / at_once)
-                             : test.name,
+            Progress bar(fmt::format("{} {} of {}", test.name, done / at_once + 1,
+                                     (count + at_once - 1) / at_once),
                          now, stderr, command.quiet);
             part = test.run({device, command.seed, command.first + done, now,
                              [&bar](uint64_t cases) { bar.advance(cases); }});
         }
         all.cases += part.cases;
         all.mismatches += part.mismatches;
-        const size_t left = kMostExamples - std::min(kMostExamples, all.examples.size());
-        part.examples.resize(std::min(left, part.examples.size()));
+        part.examples.resize(std::min(part.examples.size(), kMostExamples - all.examples.size()));
         all.examples.insert(all.examples.end(), part.examples.begin(), part.examples.end());
-        if (count > at_once) print_examples(test, part.examples, command);
+        print_examples(test, part.examples, command);
     }
     const double seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     fmt::print("{:<12}{:>14} cases {:>10} mismatches {:>10.1f} s\n", test.name, all.cases,
                all.mismatches, seconds);
-    if (count <= at_once) print_examples(test, all.examples, command);
     std::fflush(stdout);
     return all.mismatches;
 }

@@ -56,11 +56,15 @@ GridFrame model_frame(const Model& model, const MeshSummary* mesh) {
     }
 }
 
-bool is_in_reach(const Scene& scene, const Object& object) {
+bool may_be_shown(const Scene& scene, const Object& object) {
     const Model& model = scene.models[size_t(object.model)];
     const SolidBounds reach = {model.reach.min, model.reach.max};
-    if (!object.visible || !object.in_reach || reach.is_empty()) return false;
+    if (!object.visible || reach.is_empty()) return false;
     return !model.solid || !bounds(*model.solid, glm::dmat4(1), reach).is_empty();
+}
+
+bool is_in_reach(const Scene& scene, const Object& object) {
+    return object.in_reach && may_be_shown(scene, object);
 }
 
 bool shows_inside(const Scene& scene, const Object& object) {

@@ -22,6 +22,9 @@ GridFrame model_frame(const Model& model, const MeshSummary* mesh);
 /// Whether rays see the voxels inside of the object, too: solid cubes that let light through.
 bool shows_inside(const Scene& scene, const Object& object);
 
+/// Whether the object is visible, and its model not empty within the world's bounds.
+bool may_be_shown(const Scene& scene, const Object& object);
+
 /// Whether any part of the object can be seen inside the world; models that aren't are not read.
 bool is_in_reach(const Scene& scene, const Object& object);
 

@@ -28,9 +28,7 @@ class Planner {
     ScenePlan run() {
         for (size_t number = 0; number < scene_.objects.size(); ++number) {
             const Object& object = scene_.objects[number];
-            Object asked = object;
-            asked.in_reach = true;
-            if (!is_in_reach(scene_, asked)) continue;
+            if (!may_be_shown(scene_, object)) continue;
             // Refuses names of groups that aren't there, before any frame is rendered.
             materials_of_groups(object, meshes_.groups_of(scene_.models[size_t(object.model)]));
             if (!object.in_reach) continue;
