@@ -6,15 +6,18 @@
 #include "runtime/error.hpp"
 #include "runtime/instances.hpp"
 #include "runtime/scene_animation.hpp"
+#include "runtime/scene_features.hpp"
 #include "runtime/shown_models.hpp"
 
 namespace voxelume {
 namespace {
 
-/// Whether both frames have the same plan, as nothing moved that it depends on.
+/// Whether both frames have the same plan, as nothing changed that it depends on: neither on where
+/// the observer is, nor on more of lights than whether they shine.
 bool is_planned_like(const Scene& a, const Scene& b) {
     return a.objects == b.objects && a.models == b.models && a.materials == b.materials &&
-           a.lights == b.lights && a.observer == b.observer && a.world.medium == b.world.medium;
+           std::ranges::equal(a.lights, b.lights, {}, shines, shines) &&
+           a.world.medium == b.world.medium;
 }
 
 /// Whether both frames show the same meshes and voxels.
@@ -55,17 +58,20 @@ FramePlan plan_frames(const Scene& scene, std::span<const int> frames, MeshStore
                       const DeviceInfo& device) {
     std::optional<FramePlan> most;
     std::optional<Scene> before;
+    int plans = 0;
     for (const int frame : frames) {
         if (before) {
             Scene now = in_frame(scene, frame, [&] { return scene_at(scene, frame); });
             if (is_planned_like(*before, now)) continue;
         }
         FramePlan planned = plan_frame(scene, frame, meshes);
+        planned.plans = ++plans;
         meshes.forget_unused();
         before = planned.scene;
         if (is_refused(planned, device)) return planned;
         if (!most || planned.plan.peak_bytes() > most->plan.peak_bytes()) most = std::move(planned);
     }
+    most->plans = plans;
     return std::move(*most);
 }
 

@@ -12,6 +12,7 @@ struct FramePlan {
     int frame = 1;
     Scene scene;  ///< as it is then
     ScenePlan plan;
+    int plans = 1;  ///< made for this and other frames; the rest have the plans of those before
 };
 
 /// Whether check_memory refuses the frame.

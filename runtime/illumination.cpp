@@ -1,51 +1,14 @@
 #include "runtime/illumination.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <cstring>
-#include <set>
 
 #include "kernels/shared/solid.h"
 #include "kernels/shared/voxel.h"
-#include "runtime/instances.hpp"
-#include "runtime/interior.hpp"
-#include "runtime/object_boxes.hpp"
-#include "runtime/stages/sight.hpp"
 #include "runtime/stages/spots.hpp"
 
 namespace voxelume {
 namespace {
-
-bool shines(const Light& light) {
-    return light.energy != glm::vec3(0);
-}
-
-bool has_area(const Light& light) {
-    return light.kind == LightKind::disk || light.kind == LightKind::rectangle;
-}
-
-/// The objects that the world may show. Instances come into it and leave it without its being
-/// formed anew, so all of them are among these.
-std::vector<const Object*> shown_objects(const Scene& scene, const Pyramid& world) {
-    std::vector<const Object*> shown;
-    for (size_t i = 0; i < scene.objects.size(); ++i) {
-        const Object& object = scene.objects[i];
-        if (!object.visible || !object.in_reach) continue;
-        const bool is_known = !world.object_boxes.empty() && !is_instanced(scene, object);
-        if (is_known && is_empty(world.object_boxes[i])) continue;
-        shown.push_back(&object);
-    }
-    return shown;
-}
-
-bool has_lamp(const Scene& scene, const Pyramid& world) {
-    return std::ranges::any_of(shown_objects(scene, world),
-                               [&](const Object* object) { return is_lamp(scene, *object); });
-}
-
-bool has_light(const Scene& scene, const Pyramid& world) {
-    return std::ranges::any_of(scene.lights, shines) || has_lamp(scene, world);
-}
 
 std::vector<LightRecord> light_records(const Device& device, const Features& features,
                                        const Scene& scene, const Pyramid& world) {
@@ -60,70 +23,6 @@ std::vector<LightRecord> light_records(const Device& device, const Features& fea
     if (has_lamp(scene, world))
         std::ranges::copy(lamp_spots(device, features, scene, world), std::back_inserter(records));
     return records;
-}
-
-/// The materials of objects that the world may show.
-std::vector<const Material*> shown_materials(const Scene& scene, const Pyramid& world) {
-    std::set<int> numbers;
-    for (const Object* object : shown_objects(scene, world)) {
-        numbers.insert(object->material);
-        for (const GroupMaterial& group : object->groups) numbers.insert(group.material);
-    }
-    std::vector<const Material*> materials;
-    materials.reserve(numbers.size());
-    for (const int number : numbers) materials.push_back(&scene.materials[size_t(number)]);
-    return materials;
-}
-
-/// The features that the materials decide.
-void add_paths(const Scene& scene, const Pyramid& world, Features& features) {
-    const bool follows = scene.render.depth > 0;
-    bool refraction = false, opacity = false, reflection = false, fresnel = false;
-    bool absorption = false;
-    opacity = features.voxel_opacity;
-    for (const Material* m : shown_materials(scene, world)) {
-        features.checker |= m->checker.has_value();
-        refraction |= m->refraction > 0;
-        opacity |= m->opacity < 1;
-        reflection |= m->reflection > 0;
-        fresnel |= m->fresnel && (m->reflection > 0 || m->refraction > 0);
-        absorption |= m->absorption != glm::vec3(0) && (transmits(*m) || features.voxel_opacity);
-    }
-    features.transmission =
-        opacity || (refraction && (follows || (features.shadows && scene.render.filtered_shadows)));
-    const bool filters = features.shadows && features.transmission;
-    features.refracts = follows && (refraction || fresnel);
-    features.paths = features.transmission || (follows && reflection);
-    features.absorbs = features.medium || (features.transmission && absorption);
-    features.filter = filters;
-    features.filtered_refraction = filters && scene.render.filtered_shadows;
-    features.cube_bodies =
-        features.transmission &&
-        std::ranges::any_of(shown_objects(scene, world), [&](const Object* object) {
-            return scene.models[size_t(object->model)].surface == Surface::cubes &&
-                   (features.voxel_opacity || transmits(scene, *object));
-        });
-}
-
-/// Reflections and refractions in a row: none where no surface that may be shown sends rays on,
-/// other than straight through.
-size_t most_depth(const Features& features, const Scene& scene, const Pyramid& world) {
-    const bool scatters = features.refracts ||
-                          std::ranges::any_of(shown_materials(scene, world),
-                                              [](const Material* m) { return m->reflection > 0; });
-    return scatters ? size_t(scene.render.depth) : 0;
-}
-
-/// Those that have arrays, at most: rays end whose weight is too small.
-size_t reserved_depth(const Features& features, const Scene& scene, const Pyramid& world) {
-    constexpr double kRounding = 1e-3;  // of the weights
-    const auto depth = double(most_depth(features, scene, world));
-    double share = 0;  // of a surface's light that one ray may bring
-    for (const Material* m : shown_materials(scene, world))
-        share = std::max(share, double(m->reflection) + double(m->refraction));
-    if (depth == 0 || share >= 1) return size_t(depth);
-    const double followed = std::log(scene.render.least_weight) / std::log(share);
-    return size_t(std::min(depth, std::floor(followed + kRounding) + 1));
 }
 
 /// Surroundings::lost.
@@ -149,33 +48,6 @@ Buffer<uint32_t> transmitting_solids(const Device& device, const Scene& scene,
 }
 
 }  // namespace
-
-Features features_of(const Scene& scene, const Pyramid& world) {
-    Features features = features_of(world);
-    add_scene(scene, world, features);
-    return features;
-}
-
-void add_scene(const Scene& scene, const Pyramid& world, Features& features) {
-    features.shadows = scene.render.shadows && has_light(scene, world);
-    features.patches =
-        has_lamp(scene, world) || std::ranges::any_of(scene.lights, [](const Light& light) {
-            return shines(light) && has_area(light);
-        });
-    features.medium = scene.world.medium.absorption != glm::vec3(0);
-    features.medium_grid = features.medium && has_density(scene.world.medium);
-    add_paths(scene, world, features);
-    add_interior(scene, world, features);
-}
-
-RayBytes ray_bytes(const Scene& scene, const Features& features) {
-    const Pyramid any;  // which may show all objects
-    const RenderSettings& render = scene.render;
-    const uint32_t tiles =
-        batch_tiles(features, render.samples, tile_count(render.size.x, render.size.y));
-    return ray_bytes(features, has_light(scene, any), tiles * 16 * uint32_t(render.samples),
-                     reserved_depth(features, scene, any));
-}
 
 void build_programs(const Device& device, const Features& features, const Scene& scene,
                     const Pyramid& world) {

@@ -10,6 +10,7 @@
 #include "runtime/interior.hpp"
 #include "runtime/ray_arrays.hpp"
 #include "runtime/scene.hpp"
+#include "runtime/scene_features.hpp"
 #include "runtime/stages/light.hpp"
 #include "runtime/stages/medium.hpp"
 #include "runtime/stages/scatter.hpp"
@@ -18,20 +19,10 @@
 
 namespace voxelume {
 
-/// What the scene and its world really contain: of objects that lie outside of the world, nothing.
-Features features_of(const Scene& scene, const Pyramid& world);
-
-/// Adds to the features of a world's voxels what the scene decides; of the world it asks where
-/// objects are, and no voxels.
-void add_scene(const Scene& scene, const Pyramid& world, Features& features);
-
 /// Makes the programs of the stages that sight rays go through in one piece: PoCL reads its own
 /// megabyte of headers for each.
 void build_programs(const Device& device, const Features& features, const Scene& scene,
                     const Pyramid& world);
-
-/// Bytes of the device that the rays of the scene's flat image take on their way.
-RayBytes ray_bytes(const Scene& scene, const Features& features);
 
 /// Called for each layer of surfaces along the rays of an observer, the nearest first, once its
 /// light is added to the nodes. Entry n of the first layer is ray n; others name theirs in `paths`.

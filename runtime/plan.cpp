@@ -7,10 +7,10 @@
 #include <set>
 
 #include "runtime/error.hpp"
-#include "runtime/illumination.hpp"
 #include "runtime/instances.hpp"
 #include "runtime/plan_object.hpp"
 #include "runtime/plan_stages.hpp"
+#include "runtime/scene_features.hpp"
 #include "runtime/stages/mesh_lattice.hpp"
 
 namespace voxelume {

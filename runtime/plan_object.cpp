@@ -34,7 +34,7 @@ SurfaceExtent ObjectExtents::extent(const Object& object, double band, bool at_l
     const SurfaceArea& area =
         at_least ? meshes_.summary_of(model)->least_area : area_of(object.model);
     const SurfaceExtent extent = surface_extent(area, map, frame_, band);
-    const double inside = part_in_world(model, map);
+    const double inside = part_in_world(object);
     return {extent.voxels * inside, extent.bricks * inside};
 }
 
@@ -71,10 +71,14 @@ bool ObjectExtents::lies_in_world(const glm::dvec3& low, const glm::dvec3& high,
     return true;
 }
 
-double ObjectExtents::part_in_world(const Model& model, const glm::dmat4& map) {
+double ObjectExtents::part_in_world(const Object& object) {
+    const Model& model = scene_.models[size_t(object.model)];
+    const glm::dmat4& map = object.world_from_object;
     const Bounds& box = meshes_.summary_of(model)->surface;
     if (lies_in_world(box.min, box.max, map)) return 1;
-    return part_inside(*meshes_.mesh_of(model), map, box_);
+    const auto [part, added] = parts_.try_emplace(&object);
+    if (added) part->second = part_inside(*meshes_.mesh_of(model), map, box_);
+    return part->second;
 }
 
 const std::vector<VoxelBox>& ObjectExtents::boxes() {

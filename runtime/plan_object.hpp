@@ -35,14 +35,15 @@ class ObjectExtents {
 
   private:
     SurfaceExtent extent(const Object& object, double band, bool at_least);
-    double part_in_world(const Model& model, const glm::dmat4& map);
+    double part_in_world(const Object& object);
 
     const Scene& scene_;
     MeshStore& meshes_;
     GridFrame frame_;
     SolidBounds box_;  ///< the world's
     std::map<int, SurfaceArea> areas_;
-    std::vector<VoxelBox> boxes_;  ///< none before they are asked for
+    std::map<const Object*, double> parts_;  ///< of meshes, in the world
+    std::vector<VoxelBox> boxes_;            ///< none before they are asked for
 };
 
 }  // namespace voxelume

@@ -3,6 +3,8 @@
 
 #include <gmock/gmock.h>
 
+#include <numeric>
+
 #include "runtime/scene_animation.hpp"
 #include "tests/plan_fixture.hpp"
 
@@ -50,6 +52,26 @@ TEST_F(FramePlans, ALampThatIsSwitchedOnTakesItsShadowRays) {
     const FramePlan most = plan_frames(scene, std::vector<int>{1, 2, 3}, meshes, device);
     EXPECT_EQ(most.frame, 3);
     EXPECT_GT(most.plan.image_bytes, plan_of(scene_at(scene, 1)).image_bytes);
+}
+
+TEST_F(FramePlans, AnObserverWhoMovesAndALampThatDimsChangeNothing) {
+    Scene scene = scene_of(R"({"shape": "sphere", "radius": 0.1, "surface": "smooth"})", 1.0 / 50,
+                           R"("animation": {"frames": 40, "tracks": [
+    {"target": "observer.position", "keys": [{"frame": 1, "value": [0.5, 0.5, 3]},
+                                             {"frame": 40, "value": [0.5, 0.4, 0.42]}]},
+    {"target": "lights.lamp.intensity", "keys": [{"frame": 1, "value": 0}, {"frame": 2, "value": 1},
+                                                 {"frame": 40, "value": 9}]}]},
+    "lights": [{"name": "lamp", "type": "point", "position": [0.5, 2, 0.5], "intensity": 1}],)");
+    DeviceInfo device;
+    device.memory = device.max_allocation = 8'000'000'000;
+    for (Material& material : scene.materials) material.opacity = 0.5;  // the last view is inside
+    std::vector<int> frames(40);
+    std::iota(frames.begin(), frames.end(), 1);
+    MeshStore meshes;
+    const FramePlan most = plan_frames(scene, frames, meshes, device);
+    EXPECT_EQ(most.plans, 2);  // without light, and with it
+    for (const int frame : {2, 20, 40})
+        EXPECT_EQ(most.plan.peak_bytes(), plan_of(scene_at(scene, frame)).peak_bytes()) << frame;
 }
 
 TEST_F(FramePlans, AGroupThatAMeshDoesNotHaveIsNamedBeforeAnyFrameIsRendered) {
