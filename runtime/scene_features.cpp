@@ -73,14 +73,14 @@ void add_paths(const Scene& scene, const Pyramid& world, Features& features) {
 
 /// Those that have arrays, at most: rays end whose weight is too small.
 size_t reserved_depth(const Features& features, const Scene& scene, const Pyramid& world) {
-    constexpr double kRounding = 1e-3;  // of the weights
+    constexpr double kWeightRounding = 1e-3;  // of the weights
     const auto depth = double(most_depth(features, scene, world));
     double share = 0;  // of a surface's light that one ray may bring
     for (const Material* m : shown_materials(scene, world))
         share = std::max(share, double(m->reflection) + double(m->refraction));
     if (depth == 0 || share >= 1) return size_t(depth);
     const double followed = std::log(scene.render.least_weight) / std::log(share);
-    return size_t(std::min(depth, std::floor(followed + kRounding) + 1));
+    return size_t(std::min(depth, std::floor(followed + kWeightRounding) + 1));
 }
 
 }  // namespace

@@ -35,7 +35,7 @@ bool is_shown(const Volume& volume, size_t i) {
     return volume.opacities[i] > 0 && volume.kinds[i] != VoxelKind::unseen;
 }
 
-struct Extent {
+struct VolumeBox {
     glm::dvec3 low{std::numeric_limits<double>::infinity()};
     glm::dvec3 high{-std::numeric_limits<double>::infinity()};
     void add(const glm::dvec3& p) { low = glm::min(low, p), high = glm::max(high, p); }
@@ -87,7 +87,7 @@ std::vector<std::vector<glm::dvec3>> outline_of(const VolumeFrame& frame) {
 /// Looks at a sphere so that it fills the picture.
 class Camera {
   public:
-    Camera(const Extent& extent, const ViewPoint& view, glm::ivec2 size) {
+    Camera(const VolumeBox& extent, const ViewPoint& view, glm::ivec2 size) {
         const double radius = std::max(glm::length(extent.high - extent.low) / 2, 1e-9);
         const double distance = 3 * radius;
         ahead_ = {std::sin(view.around) * std::cos(view.above), -std::sin(view.above),
@@ -133,8 +133,8 @@ std::vector<uint32_t> painting_order(const Volume& volume, const Camera& camera)
     return numbers;
 }
 
-Extent extent_of(const Volume& volume) {
-    Extent extent;
+VolumeBox box_of_volume(const Volume& volume) {
+    VolumeBox extent;
     for (size_t i = 0; i < volume.places.size(); ++i)
         if (is_shown(volume, i))
             for (const glm::dvec3& p :
@@ -170,7 +170,7 @@ void paste(const Image& part, glm::ivec2 corner, Image& whole) {
 
 Image view_volume(const Volume& volume, const ViewPoint& view, glm::ivec2 size) {
     ViewCanvas canvas(size);
-    const Camera camera(extent_of(volume), view, size);
+    const Camera camera(box_of_volume(volume), view, size);
     for (const auto& line : outline_of(volume.frame))
         for (size_t i = 1; i < line.size(); ++i) {
             const glm::dvec3 a = camera.project(line[i - 1]), b = camera.project(line[i]);

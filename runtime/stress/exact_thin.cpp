@@ -10,7 +10,7 @@ __extension__ using Wide = __int128;
 constexpr int64_t kCenter = kUnitsPerVoxel / 2;
 
 /// The axis of the lines, and those across it.
-struct Axes {
+struct RowAxes {
     int along, u, w;
 };
 
@@ -21,7 +21,7 @@ Integer floor_of(Integer numerator, Integer denominator) {
 
 /// The first voxel u whose line lies beyond an edge, in the row of lines at `w` lattice units,
 /// which the edge crosses from `a` upwards to `b`.
-int64_t first_beyond(const glm::ivec3& a, const glm::ivec3& b, const Axes& axes, int64_t w) {
+int64_t first_beyond(const glm::ivec3& a, const glm::ivec3& b, const RowAxes& axes, int64_t w) {
     const int64_t du = int64_t{b[axes.u]} - a[axes.u], dw = int64_t{b[axes.w]} - a[axes.w];
     const int64_t edge = (a[axes.u] - kCenter) * dw + du * (w - a[axes.w]);
     const int64_t voxel = floor_of(edge, kUnitsPerVoxel * dw);
@@ -31,7 +31,7 @@ int64_t first_beyond(const glm::ivec3& a, const glm::ivec3& b, const Axes& axes,
 }
 
 /// The voxels u of a row whose lines pass the triangle; first > last for none.
-VoxelRow lines_of_row(const TriangleOnLattice& t, const Axes& axes, int64_t w) {
+VoxelRow lines_of_row(const TriangleOnLattice& t, const RowAxes& axes, int64_t w) {
     VoxelRow row{INT64_MAX, INT64_MIN};
     for (size_t i = 0; i < 3; ++i) {
         const glm::ivec3 &a = t[i], &b = t[(i + 1) % 3];
@@ -61,7 +61,7 @@ Plane plane_of(const TriangleOnLattice& t) {
 }
 
 /// The voxel along the line through the centre of voxel `v` in which the plane crosses it.
-int64_t crossed_voxel(const Plane& plane, const Axes& axes, const glm::ivec3& v) {
+int64_t crossed_voxel(const Plane& plane, const RowAxes& axes, const glm::ivec3& v) {
     const Wide rest = plane.at -
                       Wide(plane.normal[axes.u]) * (v[axes.u] * kUnitsPerVoxel + kCenter) -
                       Wide(plane.normal[axes.w]) * (v[axes.w] * kUnitsPerVoxel + kCenter);
@@ -76,7 +76,7 @@ std::vector<glm::ivec3> exact_thin(const TriangleOnLattice& t, const glm::ivec3&
     std::vector<glm::ivec3> voxels;
     const Plane plane = plane_of(t);
     for (int along = 0; along < 3; ++along) {
-        const Axes axes{along, (along + 1) % 3, (along + 2) % 3};
+        const RowAxes axes{along, (along + 1) % 3, (along + 2) % 3};
         const auto [low, high] = std::minmax({t[0][axes.w], t[1][axes.w], t[2][axes.w]});
         if (plane.normal[along] == 0) continue;
         const int first = std::max(0, int(floor_of<int64_t>(low, kUnitsPerVoxel)));

@@ -86,8 +86,8 @@ StressMap any_map(StressRandom& random) {
 
 /// The place in the object's voxels of a world voxel's centre. Doubles have 28 bits more than the
 /// fixed point that kernels work in.
-struct Image {
-    explicit Image(const glm::dmat4& world_from_object)
+struct PlacedImage {
+    explicit PlacedImage(const glm::dmat4& world_from_object)
         : linear(glm::inverse(glm::dmat3(world_from_object))),
           offset(linear * (glm::dvec3(kOrigin + 0.5) - glm::dvec3(world_from_object[3])) -
                  kObject.origin) {}
@@ -124,7 +124,7 @@ constexpr double kRounding = 0x1p-25 * (1 + 3 * kLumpRegion * kRegionsAlong);
 /// How many voxels of a region are not what its map makes of the lump.
 uint64_t wrong_voxels(const ReadOccupancy& placed, const VoxelBits& lump, const glm::dmat4& map,
                       double bound, const glm::ivec3& start) {
-    const Image image(map);
+    const PlacedImage image(map);
     std::atomic<uint64_t> wrong{0};
     for_each_in_parallel(uint64_t(kLumpRegion), [&](uint64_t z) {
         uint64_t of_layer = 0;
