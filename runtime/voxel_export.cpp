@@ -18,11 +18,11 @@ std::string vector_text(const Vector& v) {
     return fmt::format("{} {} {}", v.x, v.y, v.z);
 }
 
-const char* name_of(Surface surface) {
+const char* surface_name(Surface surface) {
     return surface == Surface::smooth ? "smooth" : surface == Surface::cubes ? "cubes" : "exact";
 }
 
-const char* name_of(VoxelSet set) {
+const char* set_name(VoxelSet set) {
     return set == VoxelSet::solid ? "solid" : set == VoxelSet::thin ? "thin" : "supercover";
 }
 
@@ -56,9 +56,9 @@ VoxelExport::VoxelExport(const BrickGrid& grid, const Mesh& mesh, Surface surfac
       triangles_(grid.triangles.read()) {
     header_ = {
         {"format", "voxelume bricks 1"},        {"software", fmt::format("voxelume {}", version())},
-        {"surface", name_of(surface)},          {"size", vector_text(frame_.size)},
+        {"surface", surface_name(surface)},     {"size", vector_text(frame_.size)},
         {"origin", vector_text(frame_.origin)}, {"voxel_edge", vector_text(frame_.voxel_edge)}};
-    if (surface == Surface::cubes) header_["set"] = name_of(set);
+    if (surface == Surface::cubes) header_["set"] = set_name(set);
     std::string groups;
     for (const std::string& name : mesh.group_names) groups += name + "\n";
     if (!groups.empty()) header_["groups"] = groups;
