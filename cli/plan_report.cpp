@@ -5,6 +5,7 @@
 #include "cli/report.hpp"
 #include "cli/scene_options.hpp"
 #include "runtime/frame_plans.hpp"
+#include "runtime/reach.hpp"
 #include "runtime/scene_animation.hpp"
 
 namespace voxelume::cli {
@@ -78,10 +79,11 @@ void add_verdict(const FramePlan& planned, const DeviceInfo& device, Report& rep
 
 }  // namespace
 
-void print_plan(const Scene& scene, std::span<const int> frames, const Device& device,
+void print_plan(Scene scene, std::span<const int> frames, const Device& device,
                 const ModelCache& cache, bool as_json) {
     check_tables(scene, device.info());
     MeshStore meshes(cache);
+    find_objects_in_reach(scene, frames, meshes);
     const FramePlan planned = plan_frames(scene, frames, meshes, device.info());
     if (!as_json) fmt::print("{}\n", describe(scene));
     Report report = plan_report(planned.scene, planned.plan, device);

@@ -85,6 +85,11 @@ void add_attributes(const Scene& scene, int frame, Attributes& attributes) {
     attributes["software"] = "voxelume " + std::string(version());
 }
 
+/// Whether devices share the tiles of one image, each of which finds what is in reach itself.
+bool is_shared(const std::vector<Device>& devices, const std::vector<FrameFiles>& list) {
+    return devices.size() > 1 && list.size() == 1 && list[0].volumes.empty();
+}
+
 /// Renders the frames that are asked for, and tells of them.
 class FrameRun {
   public:
@@ -112,11 +117,10 @@ class FrameRun {
     std::optional<int> one_by_one_from() const { return one_by_one_from_; }
 
     std::vector<FrameReport> run() {
-        if (devices_.size() > 1 && list_.size() == 1 && list_[0].volumes.empty()) {
+        if (is_shared(devices_, list_)) {
             render_tiles()();
             return reports_;
         }
-        find_objects_in_reach(scene_, numbers_of(list_), meshes_);
         FrameSteps steps{[this](size_t n) { return scene_at(scene_, list_[n].frame); },
                          [this](const FrameInput& input) {
                              return in_frame(scene_, list_[input.frame].frame,
@@ -250,6 +254,7 @@ int run(const RenderOptions& options) {
         return 0;
     }
     MeshStore meshes(model_cache(options.scene));
+    if (!is_shared(devices, list)) find_objects_in_reach(scene, frames, meshes);
     if (frames.size() > 1)
         for (const Device& device : devices) check_frames(scene, frames, meshes, device.info());
     if (options.verbose || !options.stats.empty())

@@ -38,7 +38,7 @@ ModelCache model_cache(const SceneOptions& options);
 /// that takes the most, and whether all fit.
 ///
 /// Throws Error::limit when one doesn't, after saying why.
-void print_plan(const Scene& scene, std::span<const int> frames, const Device& device,
+void print_plan(Scene scene, std::span<const int> frames, const Device& device,
                 const ModelCache& cache, bool as_json);
 
 }  // namespace voxelume::cli

@@ -13,6 +13,7 @@ namespace {
 std::vector<LightRecord> light_records(const Device& device, const Features& features,
                                        const Scene& scene, const Pyramid& world) {
     std::vector<LightRecord> records;
+    if (!has_light(scene, world)) return records;
     for (const Light& light : scene.lights) {
         if (!shines(light)) continue;
         if (has_area(light))

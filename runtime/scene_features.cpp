@@ -41,6 +41,13 @@ std::vector<const Material*> shown_materials(const Scene& scene, const Pyramid& 
     return materials;
 }
 
+/// Whether light that falls on the material comes back.
+bool is_lit(const Material* m) {
+    const bool has_color =
+        m->color != glm::vec3(0) || (m->checker && m->checker->color != glm::vec3(0));
+    return m->specular > 0 || (m->diffuse > 0 && has_color);
+}
+
 /// The features that the materials decide.
 void add_paths(const Scene& scene, const Pyramid& world, Features& features) {
     const bool follows = scene.render.depth > 0;
@@ -99,7 +106,8 @@ bool has_lamp(const Scene& scene, const Pyramid& world) {
 }
 
 bool has_light(const Scene& scene, const Pyramid& world) {
-    return std::ranges::any_of(scene.lights, shines) || has_lamp(scene, world);
+    return std::ranges::any_of(shown_materials(scene, world), is_lit) &&
+           (std::ranges::any_of(scene.lights, shines) || has_lamp(scene, world));
 }
 
 size_t most_depth(const Features& features, const Scene& scene, const Pyramid& world) {
@@ -116,11 +124,12 @@ Features features_of(const Scene& scene, const Pyramid& world) {
 }
 
 void add_scene(const Scene& scene, const Pyramid& world, Features& features) {
-    features.shadows = scene.render.shadows && has_light(scene, world);
+    const bool lit = has_light(scene, world);
+    features.shadows = scene.render.shadows && lit;
     features.patches =
-        has_lamp(scene, world) || std::ranges::any_of(scene.lights, [](const Light& light) {
-            return shines(light) && has_area(light);
-        });
+        lit && (has_lamp(scene, world) || std::ranges::any_of(scene.lights, [](const Light& light) {
+                    return shines(light) && has_area(light);
+                }));
     features.medium = scene.world.medium.absorption != glm::vec3(0);
     features.medium_grid = features.medium && has_density(scene.world.medium);
     add_paths(scene, world, features);

@@ -24,7 +24,7 @@ bool has_area(const Light& light);
 /// Whether some object that the world may show is a lamp.
 bool has_lamp(const Scene& scene, const Pyramid& world);
 
-/// Whether a light or a lamp shines.
+/// Whether a light or a lamp shines, and something that the world may show isn't black.
 bool has_light(const Scene& scene, const Pyramid& world);
 
 /// Reflections and refractions in a row: none where no surface that may be shown sends rays on,

@@ -121,6 +121,33 @@ TEST_F(CliFramesTest, ThePlanIsThatOfTheFrameThatTakesTheMost) {
     EXPECT_THAT(run("render scene.json --dry-run --frames 1,3").out, HasSubstr("by frame 1;"));
 }
 
+TEST_F(CliFramesTest, WhatNoFrameReachesNeedNotFit) {
+    write_scene([](Json& scene) {
+        scene["models"]["fine"] =
+            Json::parse(R"({"shape": "sphere", "radius": 0.2, "voxel_size": 0.0005})");
+        scene["objects"].push_back({{"model", "fine"}, {"position", {0.3, 0.3, 0.5}}});
+        scene["observer"]["display"]["angles"] = {4, 3};
+        scene["render"]["shadows"] = false;
+        scene["animation"] = Json::parse(R"({"frames": 2, "tracks": [
+            {"target": "materials.brick.diffuse", "keys": [{"frame": 1, "value": 1},
+                                                           {"frame": 2, "value": 0.5}]}]})");
+    });
+    const auto in_little_memory = [this](const char* line) {
+        setenv("VOXELUME_MEMORY_MB", "20", 1);
+        const ProgramResult result = run(line);
+        unsetenv("VOXELUME_MEMORY_MB");
+        return result;
+    };
+    for (const char* line :
+         {"render scene.json --frames 1 -o f.#.exr", "render scene.json -o f.#.exr",
+          "render scene.json --dry-run", "check scene.json"}) {
+        const ProgramResult result = in_little_memory(line);
+        EXPECT_EQ(result.exit_code, 0) << line << "\n" << result.err;
+    }
+    write_scene([](Json& scene) { scene["models"]["thing"]["voxel_size"] = 0.0005; });
+    EXPECT_EQ(in_little_memory("check scene.json").exit_code, 8);
+}
+
 TEST_F(CliFramesTest, WhatCantBeKeptForTheNextFrameIsToldWithAndWithoutOverlap) {
     write_scene([](Json& scene) {
         scene["world"]["voxel_size"] = 0.007;  // planned: 0.7 MB at once, 1.2 MB kept
