@@ -24,8 +24,7 @@ struct BenchCommand {
     bool is_quick = false;
     std::string page, json, csv, plot, peers;
     std::vector<std::string> only;
-    std::vector<int> resolutions, samples;
-    std::vector<std::string> placements;
+    std::vector<std::string> resolutions, placements, samples;  ///< with commas
     std::string size;
     int repeats = 0;  ///< 0: as --quick says
     std::string device;
@@ -42,6 +41,12 @@ std::vector<const BenchEntry*> chosen_entries(const std::vector<std::string>& on
         if (is_named || (only.empty() && entry.is_there())) chosen.push_back(&entry);
     }
     return chosen;
+}
+
+std::vector<int> numbers_in(const std::vector<std::string>& texts) {
+    std::vector<int> numbers;
+    for (const std::string& text : listed(texts)) numbers.push_back(std::stoi(text));
+    return numbers;
 }
 
 void sort_once(std::vector<int>& values) {
@@ -69,17 +74,17 @@ BenchOptions options_of(const BenchCommand& command) {
     options.samples = {1, 4, 16};
     if (command.is_quick) make_quick(options);
     if (!command.resolutions.empty()) {
-        options.resolutions = command.resolutions;
+        options.resolutions = numbers_in(command.resolutions);
         options.finest_with_light = BenchOptions().finest_with_light;
     }
     sort_once(options.resolutions);
-    if (!command.samples.empty()) options.samples = command.samples;
+    if (!command.samples.empty()) options.samples = numbers_in(command.samples);
     sort_once(options.samples);
     if (!command.placements.empty()) {
         options.placements.clear();
+        const std::vector<std::string> named = listed(command.placements);
         for (const Placement placement : {Placement::world, Placement::instance})
-            if (std::ranges::find(command.placements, name_of(placement)) !=
-                command.placements.end())
+            if (std::ranges::find(named, name_of(placement)) != named.end())
                 options.placements.push_back(placement);
     }
     if (!command.size.empty())
@@ -166,14 +171,11 @@ Action add_bench(CLI::App& app) {
     app.add_option("--plot", command->plot, "picture of depth against time: .svg");
     app.add_option("--only", command->only, list_of_scenes())->allow_extra_args(false);
     app.add_option("--resolution", command->resolutions, "voxels a metre, like 16,32,64")
-        ->delimiter(',')
-        ->check(in_range(4, 4096, Number::whole));
+        ->check(list_of(in_range(4, 4096, Number::whole), "numbers like 16,32,64"));
     app.add_option("--placement", command->placements, "world, instance, or both with a comma")
-        ->delimiter(',')
-        ->check(CLI::IsMember({"world", "instance"}));
+        ->check(list_of(one_of({"world", "instance"}), "world, instance, or world,instance"));
     app.add_option("--samples", command->samples, "rays a pixel, like 1,4,16; scenes with light")
-        ->delimiter(',')
-        ->check(in_range(1, 4096, Number::whole));
+        ->check(list_of(in_range(1, 4096, Number::whole), "numbers like 1,4,16"));
     app.add_option("--peers", command->peers, "rows of other programs, from bench_peers: .json");
     app.add_option("--size", command->size, "of the images, like 640x480");
     app.add_option("--repeat", command->repeats, "renders of each row, the fastest of which counts")

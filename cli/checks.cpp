@@ -78,7 +78,38 @@ std::string one_device(const std::string& selector) {
     return fmt::format("{} names several devices; give one", quote(selector));
 }
 
-std::function<std::string(const std::string&)> in_range(double least, double most, Number number) {
+std::vector<std::string> listed(const std::vector<std::string>& texts) {
+    std::vector<std::string> values;
+    for (const std::string& text : texts) {
+        values.emplace_back();
+        for (const char c : text)
+            if (c == ',')
+                values.emplace_back();
+            else
+                values.back() += c;
+    }
+    return values;
+}
+
+Check list_of(Check check, const char* example) {
+    return [check = std::move(check), example](const std::string& text) -> std::string {
+        for (const std::string& value : listed({text})) {
+            const std::string fault =
+                value.empty() ? quote(text) + " lacks a value beside a comma" : check(value);
+            if (!fault.empty()) return fmt::format("{}; give {}", fault, example);
+        }
+        return {};
+    };
+}
+
+Check one_of(std::vector<std::string_view> names) {
+    return [names = std::move(names)](const std::string& text) -> std::string {
+        if (std::ranges::find(names, text) != names.end()) return {};
+        return quote(text) + " isn't one";
+    };
+}
+
+Check in_range(double least, double most, Number number) {
     return [=](const std::string& text) -> std::string {
         char* end = nullptr;
         const double value = std::strtod(text.c_str(), &end);

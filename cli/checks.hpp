@@ -30,11 +30,22 @@ glm::ivec2 parse_size(const std::string& text, const char* command);
 
 enum class Number { whole, any };
 
-/// For CLI::Option::check: numbers from `least` to `most`.
-std::function<std::string(const std::string&)> in_range(double least, double most,
-                                                        Number number = Number::any);
+/// For CLI::Option::check: what is wrong with an option's text, if anything is.
+using Check = std::function<std::string(const std::string&)>;
 
-/// For CLI::Option::check, where "all" and "all/2" are no answer.
+/// Numbers from `least` to `most`.
+Check in_range(double least, double most, Number number = Number::any);
+
+/// Values with commas between, each of which passes `check`. `example` is what is accepted.
+Check list_of(Check check, const char* example);
+
+/// The values of such texts.
+std::vector<std::string> listed(const std::vector<std::string>& texts);
+
+/// One of the names.
+Check one_of(std::vector<std::string_view> names);
+
+/// For options where "all" and "all/2" are no answer.
 std::string one_device(const std::string& selector);
 
 /// The names that the texts of an option --only have between commas. Throws Error::usage, saying

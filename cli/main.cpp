@@ -43,7 +43,8 @@ constexpr const char* kExitCodes =
     "  1  rendering or a comparison failed   6  no device, or not the one asked for\n"
     "  2  wrong command line                 7  a kernel doesn't compile on the device\n"
     "  3  invalid scene                      8  memory, or a documented limit\n"
-    "  4  input that is missing, unreadable or damaged\n";
+    "  4  input that is missing, unreadable or damaged\n"
+    "  130  ended by Ctrl-C; `stress` first tells what it has found till then\n";
 
 int print_help() {
     fmt::print("voxelume {}: images of voxel worlds, flat and volumetric\n\n", version());

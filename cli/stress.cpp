@@ -1,6 +1,9 @@
 // voxelume stress: what a device does, held against exact arithmetic, case after case.
 #include <CLI/CLI.hpp>
+#include <array>
 #include <chrono>
+#include <csignal>
+#include <cstdlib>
 #include <memory>
 #include <span>
 #include <string>
@@ -15,6 +18,20 @@
 
 namespace voxelume::cli {
 namespace {
+
+constexpr int kInterruptedCode = 130;
+
+volatile std::sig_atomic_t is_interrupted = 0;
+
+/// Has the first Ctrl-C end a run after the batch that it is in; a second one ends the program.
+/// Where none is to be heard, as in the background of a script, that stays.
+void wait_for_interrupt() {
+    struct sigaction action {};
+    if (sigaction(SIGINT, nullptr, &action) == 0 && action.sa_handler == SIG_IGN) return;
+    action.sa_handler = [](int) { is_interrupted = 1; };
+    action.sa_flags = int(SA_RESETHAND);
+    sigaction(SIGINT, &action, nullptr);
+}
 
 struct StressCommand {
     double rays = 1e6;
@@ -40,11 +57,29 @@ std::vector<const StressTest*> chosen_tests(const std::vector<std::string>& only
     return chosen;
 }
 
-/// What tries one case again, beside those that it was tried with.
+/// Variables of the environment that change what a device does.
+constexpr std::array kSettings = {
+    "VOXELUME_DEVICE",    "VOXELUME_LANES",         "VOXELUME_WORK_GROUP",   "VOXELUME_UNITS",
+    "VOXELUME_BUFFER_MB", "VOXELUME_BUILD_OPTIONS", "POCL_MAX_PTHREAD_COUNT"};
+
+/// A word of a shell's line.
+std::string shell_word(const std::string& text) {
+    const char* plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_=+,./:@%";
+    if (!text.empty() && text.find_first_not_of(plain) == std::string::npos) return text;
+    std::string word = "'";
+    for (const char c : text) word += c == '\'' ? "'\\''" : std::string(1, c);
+    return word + "'";
+}
+
+/// The line that tries one case again, beside those that it was tried with.
 std::string command_for(const StressTest& test, uint64_t number, const StressCommand& command) {
-    std::string text = fmt::format("voxelume stress --only {} --seed {} --rays 1 --first {}",
-                                   test.name, command.seed, number);
-    if (!command.device.empty()) text += fmt::format(" --device \"{}\"", command.device);
+    std::string text;
+    for (const char* name : kSettings)
+        if (const char* value = std::getenv(name); value && *value)
+            text += fmt::format("{}={} ", name, shell_word(value));
+    text += fmt::format("voxelume stress --only {} --seed {} --rays 1 --first {}", test.name,
+                        command.seed, number);
+    if (!command.device.empty()) text += " --device " + shell_word(command.device);
     return text;
 }
 
@@ -56,15 +91,15 @@ void print_examples(const StressTest& test, std::span<const StressExample> examp
     std::fflush(stdout);
 }
 
-/// Runs a test and prints its line; the number of mismatches. The first ones are printed as they
-/// are found, every half a minute or so, so that a run that is ended early has told them.
-uint64_t run_test(const StressTest& test, const StressCommand& command, const Device& device) {
+/// Runs a test and prints its line. The first mismatches are printed as they are found, every half
+/// a minute or so, so that a run that is ended early has told them.
+StressResult run_test(const StressTest& test, const StressCommand& command, const Device& device) {
     constexpr uint64_t kRaysAtOnce = 1 << 25;
     const auto start = std::chrono::steady_clock::now();
     const uint64_t count = std::max<uint64_t>(1, uint64_t(command.rays) / test.rays_per_case);
     const uint64_t at_once = std::max<uint64_t>(1, kRaysAtOnce / test.rays_per_case);
     StressResult all;
-    for (uint64_t done = 0; done < count; done += at_once) {
+    for (uint64_t done = 0; done < count && !is_interrupted; done += at_once) {
         const uint64_t now = std::min(count - done, at_once);
         StressResult part;
         {
@@ -72,7 +107,8 @@ uint64_t run_test(const StressTest& test, const StressCommand& command, const De
                                      (count + at_once - 1) / at_once),
                          now, stderr, command.quiet);
             part = test.run({device, command.seed, command.first + done, now,
-                             [&bar](uint64_t cases) { bar.advance(cases); }});
+                             [&bar](uint64_t cases) { bar.advance(cases); },
+                             [] { return is_interrupted != 0; }});
         }
         all.cases += part.cases;
         all.mismatches += part.mismatches;
@@ -85,17 +121,27 @@ uint64_t run_test(const StressTest& test, const StressCommand& command, const De
     fmt::print("{:<12}{:>14} cases {:>10} mismatches {:>10.1f} s\n", test.name, all.cases,
                all.mismatches, seconds);
     std::fflush(stdout);
-    return all.mismatches;
+    return all;
 }
 
 int run(const StressCommand& command) {
     const std::vector<const StressTest*> tests = chosen_tests(command.only);
+    wait_for_interrupt();
     const Device device = Device::open(command.device);
     if (!command.quiet)
         fmt::print(stderr, "\"{}\", {} lanes, seed {}\n", device.info().name, device.lanes(),
                    command.seed);
-    uint64_t mismatches = 0;
-    for (const StressTest* test : tests) mismatches += run_test(*test, command, device);
+    uint64_t cases = 0, mismatches = 0;
+    for (const StressTest* test : tests) {
+        if (is_interrupted) break;
+        const StressResult result = run_test(*test, command, device);
+        cases += result.cases;
+        mismatches += result.mismatches;
+    }
+    if (is_interrupted) {
+        fmt::print(stderr, "interrupted: {} cases till then, {} mismatches\n", cases, mismatches);
+        return kInterruptedCode;
+    }
     return mismatches == 0 ? 0 : 1;
 }
 

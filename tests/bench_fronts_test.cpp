@@ -133,9 +133,10 @@ TEST_F(BenchPeers, FilesOfOtherThingsAreRefusedInWords) {
         EXPECT_EQ(refusal(text),
                   "voxelume: peers.json: not a file of bench_peers: it isn't an object with a "
                   "\"size\" and a list of \"rows\"\n");
-    EXPECT_EQ(run("bench -q --peers missing.json").err, "voxelume: missing.json: can't be read\n");
+    EXPECT_EQ(run("bench -q --peers missing.json").err, "voxelume: missing.json: no such file\n");
     EXPECT_EQ(run("bench -q --peers missing.json").exit_code, 4);
     EXPECT_EQ(run("bench -q --peers .").exit_code, 4);
+    EXPECT_THAT(run("bench -q --peers .").err, HasSubstr("a folder, not a file of bench_peers"));
 }
 
 TEST_F(BenchPeers, SizesThatAreNoneOrOthersAreRefused) {

@@ -283,6 +283,22 @@ TEST_F(BenchProgram, RefusesWhatItCannotDoBeforeItMeasures) {
     EXPECT_EQ(nothing.exit_code, 2);
     EXPECT_THAT(nothing.err, HasSubstr("sphere has no row"));
     EXPECT_EQ(run("bench --placement both").exit_code, 2);
+    for (const auto& [options, sentence] :
+         {std::pair("--placement worl",
+                    "--placement: \"worl\" isn't one; give world, instance, or world,instance"),
+          std::pair("--samples 4,,1",
+                    "--samples: \"4,,1\" lacks a value beside a comma; give numbers like 1,4,16"),
+          std::pair("--samples 4,x",
+                    "--samples: \"x\" isn't a whole number from 1 to 4096 in "
+                    "digits; give numbers like 1,4,16"),
+          std::pair("--resolution 16,",
+                    "--resolution: \"16,\" lacks a value beside a comma; give "
+                    "numbers like 16,32,64")}) {
+        const ProgramResult refused = run(std::string("bench ") + options);
+        EXPECT_EQ(refused.exit_code, 2) << options;
+        EXPECT_EQ(refused.err,
+                  fmt::format("voxelume: bench: {}; see `voxelume help bench`\n", sentence));
+    }
     EXPECT_EQ(run("bench --plot report.png").exit_code, 2);
     EXPECT_EQ(run("bench --csv missing/a.csv").exit_code, 5);
     EXPECT_THAT(run("help bench").out, HasSubstr("radius 0.47 m"));

@@ -137,19 +137,37 @@ TEST_F(CliTest, StressSaysWhatItTriedAndHowOften) {
     EXPECT_EQ(run("stress -q --rays 1 --first 40000 --only corners").err, "");
 }
 
-TEST_F(CliTest, StressPrintsACommandThatFindsAMismatchAgain) {
-    const Setting fault("VOXELUME_BUILD_OPTIONS", "-DVXL_ARBITRATE=0");
-    const ProgramResult found = run("stress -q --rays 40 --seed 5 --first 16381 --only ties");
-    EXPECT_EQ(found.exit_code, 1);
+TEST_F(CliTest, StressPrintsALineThatFindsAMismatchAgain) {
+    ProgramResult found;
+    {
+        const Setting fault("VOXELUME_BUILD_OPTIONS", "-DVXL_ARBITRATE=0  -DTELLS=\"it's\"");
+        const Setting lanes("VOXELUME_LANES", "4"), work_group("VOXELUME_WORK_GROUP", "3");
+        found = run("stress -q --rays 40 --seed 5 --first 16381 --only ties --device 'cpu'");
+    }
+    EXPECT_EQ(found.exit_code, 1) << found.err;
     const size_t line = found.out.find("  ties case "), end = found.out.find('\n', line);
-    const std::string again = "    again: voxelume ";
+    const std::string again = "    again: ";
     const size_t command = found.out.find(again, end), command_end = found.out.find('\n', command);
     ASSERT_NE(command_end, std::string::npos) << found.out;
-    const ProgramResult result =
-        run(found.out.substr(command + again.size(), command_end - command - again.size()));
-    EXPECT_EQ(result.exit_code, 1);
+    const std::string typed =
+        found.out.substr(command + again.size(), command_end - command - again.size());
+    EXPECT_THAT(typed, HasSubstr("VOXELUME_LANES=4 VOXELUME_WORK_GROUP=3 "));
+    const ProgramResult result = run_line(typed);
+    EXPECT_EQ(result.exit_code, 1) << typed << '\n' << result.err;
+    EXPECT_THAT(result.err, HasSubstr(", 4 lanes, seed 5"));
     EXPECT_THAT(result.out, HasSubstr("1 cases          1 mismatches"));
     EXPECT_THAT(result.out, HasSubstr(found.out.substr(line, end - line)));
+}
+
+TEST_F(CliTest, StressTellsWhatItFoundUntilItIsInterrupted) {
+    const ProgramResult result = run_line(
+        "timeout --preserve-status -k 100 -s INT 4 env --default-signal=INT "
+        "voxelume stress -q --rays 1e12 --only corners,ties");
+    EXPECT_EQ(result.exit_code, 130) << result.err;
+    EXPECT_THAT(result.out, testing::MatchesRegex("corners +[0-9]+ cases +0 mismatches .*\n"));
+    EXPECT_THAT(result.err,
+                testing::MatchesRegex("interrupted: [0-9]+ cases till then, 0 mismatches\n"));
+    EXPECT_THAT(run("help").out, HasSubstr("130  ended by Ctrl-C"));
 }
 
 TEST_F(CliTest, StressTakesEachTestOnceHoweverItIsNamed) {

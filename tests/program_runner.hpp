@@ -22,10 +22,16 @@ class ProgramTest : public FileTest {
   protected:
     /// `arguments` are a shell's words.
     ProgramResult run(const std::string& arguments) const {
-        const std::string line =
-            fmt::format("cd '{}' && '{}' {} >stdout.txt 2>stderr.txt </dev/null", folder.string(),
-                        VXL_BINARY, arguments);
-        const int status = std::system(line.c_str());
+        return run_line(fmt::format("'{}' {}", VXL_BINARY, arguments));
+    }
+
+    /// A whole line of a shell, which finds `voxelume`.
+    ProgramResult run_line(const std::string& line) const {
+        const std::filesystem::path programs = std::filesystem::path(VXL_BINARY).parent_path();
+        const int status = std::system(
+            fmt::format("cd '{}' && PATH='{}':$PATH && {} >stdout.txt 2>stderr.txt </dev/null",
+                        folder.string(), programs.string(), line)
+                .c_str());
         return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, bytes_of(folder / "stdout.txt"),
                 bytes_of(folder / "stderr.txt")};
     }

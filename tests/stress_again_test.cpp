@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "runtime/stress/stress.hpp"
 #include "tests/setting.hpp"
 #include "tests/test_device.hpp"
@@ -16,6 +18,13 @@ constexpr uint64_t kSeed = 20261122;
 constexpr const char* kNotArbitrated = "-DVXL_ARBITRATE=0";
 /// Voxels reach a unit of the lattice too far.
 constexpr const char* kTooWide = "-DVXL_MARGIN=1";
+/// Voxels that list triangles are smaller than their cubes; triangles have too small a box.
+constexpr const char* kTooNarrow = "-DVXL_MARGIN=-16";
+/// Points are decided a voxel beyond the bricks whose triangles are gathered for them.
+constexpr const char* kCornersBeyond = "-DVXL_CENTERS=2";
+constexpr const char* kCentersBeyond = "-DVXL_CENTERS=3";
+/// Beams are wider than what is known around them.
+constexpr const char* kWideBeams = "-DVXL_BEAM_RADIUS=12.0f";
 /// Voxels of the world are taken from another place of the object.
 constexpr const char* kElsewhere = "-Dvoxel=low";
 
@@ -36,13 +45,28 @@ constexpr Fault kFaults[] = {
     {"faces", kNotArbitrated, 32791, 20000},
     {"far", kNotArbitrated, 49157, 15000},
     {"denormal", kNotArbitrated, 49157, 15000},
-    {"thin", kNotArbitrated, 16389, 8000},
+    {"thin", kNotArbitrated, 32773, 8000},
+    {"thin", kWideBeams, 81925, 60000},
+    {"smooth", kCornersBeyond, 16001, 900},
+    {"smooth", kWideBeams, 81925, 60000},
+    {"exact", kTooNarrow, 65541, 60000},
+    {"exact", kWideBeams, 81925, 60000},
+    {"solid", kCentersBeyond, 16001, 900},
+    {"solid", kWideBeams, 81925, 60000},
     {"triangles", kTooWide, 1030, 600},
     {"triangles", kTooWide, 4500, 400},
+    {"crosshairs", kTooNarrow, 1000, 600},
     {"placement", kElsewhere, 25, 4},
 };
 
 class StressAgain : public testing::TestWithParam<Fault> {};
+
+TEST(StressAgainFaults, AreThereForEveryTest) {
+    for (const StressTest& test : stress_tests())
+        EXPECT_TRUE(std::ranges::any_of(kFaults, [&](const Fault& fault) {
+            return test.name == fault.test;
+        })) << test.name;
+}
 
 TEST_P(StressAgain, EveryMismatchIsFoundAloneAsAmongOthers) {
     const Fault& fault = GetParam();
@@ -67,7 +91,7 @@ TEST_P(StressAgain, EveryMismatchIsFoundAloneAsAmongOthers) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Tests, StressAgain, testing::ValuesIn(kFaults), [](const auto& fault) {
-    return fmt::format("{}From{}", fault.param.test, fault.param.first);
+    return fmt::format("{}{}From{}", fault.param.test, fault.index, fault.param.first);
 });
 
 }  // namespace

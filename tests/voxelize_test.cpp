@@ -192,17 +192,19 @@ TEST(Voxelize, OrderOfTrianglesAndCornersMakesNoDifference) {
 
 TEST(Voxelize, AMapMovesVoxelsAlongAndMirrorsAxes) {
     const Mesh mesh = torus_mesh({16, 15, 9}, 9.3f, 4.1f, 23, 11);
-    const VoxelSetOf expected = voxels_of(mesh, {33, 31, 18}, VoxelSet::supercover);
     // x -> y, y -> z, z -> 40 - x; doubled lengths in voxels half as large.
     const glm::dmat4 map(glm::dvec4(0, 2, 0, 0), glm::dvec4(0, 0, 2, 0), glm::dvec4(-2, 0, 0, 0),
                          glm::dvec4(80, 0, 0, 1));
     GridFrame frame = unit_frame({41, 33, 31});
     frame.voxel_edge = glm::dvec3(2);
-    VoxelSetOf back;
-    for (const ivec3& v : occupied_voxels(
-             shared_voxelizer().voxelize(mesh, map, frame, cubes(VoxelSet::supercover))))
-        back.insert({v.y, v.z, 39 - v.x});
-    EXPECT_EQ(difference(back, expected), "");
+    for (const VoxelSet set : {VoxelSet::supercover, VoxelSet::solid}) {
+        const VoxelSetOf expected = voxels_of(mesh, {33, 31, 18}, set);
+        VoxelSetOf back;
+        for (const ivec3& v :
+             occupied_voxels(shared_voxelizer().voxelize(mesh, map, frame, cubes(set))))
+            back.insert({v.y, v.z, 39 - v.x});
+        EXPECT_EQ(difference(back, expected), "");
+    }
 }
 
 TEST(Thin, OfAClosedMeshStopsA6ConnectedFlood) {

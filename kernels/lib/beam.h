@@ -13,7 +13,9 @@
 #include "lib/pyramid.h"
 #include "shared/trace.h"
 
-#define VXL_BEAM_RADIUS 3.75f
+#ifndef VXL_BEAM_RADIUS
+#define VXL_BEAM_RADIUS 3.75f  // another one only to see that beams too wide are found
+#endif
 #define VXL_BEAM_STEP 0.015625f
 // A ray that hardly follows the axis says nothing of where it is at s.
 #define VXL_BEAM_LEAST_DIRECTION 0.0625f

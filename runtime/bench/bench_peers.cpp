@@ -103,8 +103,12 @@ glm::ivec2 size_of(const Json& size, const Place& place) {
 
 std::vector<BenchPeerRow> read_peers(const std::filesystem::path& file, glm::ivec2 size) {
     std::ifstream stream(file);
-    if (!stream || std::filesystem::is_directory(file))
-        throw Error(ErrorKind::input, "{}: can't be read", file.string());
+    if (std::filesystem::is_directory(file))
+        throw Error(ErrorKind::input, "{}: this is a folder, not a file of bench_peers",
+                    file.string());
+    if (!stream)
+        throw Error(ErrorKind::input, "{}: {}", file.string(),
+                    std::filesystem::exists(file) ? "no permission to read it" : "no such file");
     const auto json = Json::parse(stream, nullptr, false);
     const Place place{file.string(), ""};
     if (!json.is_object() || !json.contains("size") || !json.contains("rows") ||

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/matrix.hpp>
+#include <utility>
 
 #include "kernels/shared/voxel.h"
 #include "runtime/error.hpp"
@@ -60,6 +62,12 @@ bool needs_inside(const VoxelizeOptions& options) {
 /// Lattice units by which `exact` voxels are widened: rays meet corners that aren't snapped.
 constexpr int kListMargin = 1;
 
+/// The mesh with its triangles' corners the other way round, which a map that mirrors puts right.
+Mesh turned_over(Mesh mesh) {
+    for (glm::uvec3& t : mesh.triangles) std::swap(t.y, t.z);
+    return mesh;
+}
+
 /// What the mesh's groups and colours give to voxels; shared/voxel.h's words.
 MeshLabels labels_of(const Mesh& mesh, Surface surface) {
     MeshLabels labels;
@@ -102,6 +110,13 @@ Program Voxelizer::program(const std::string& file, const Defines& defines) cons
 
 BrickGrid Voxelizer::voxelize(const Mesh& mesh, const glm::dmat4& frame_from_mesh,
                               const GridFrame& frame, const VoxelizeOptions& options) {
+    return glm::determinant(glm::dmat3(frame_from_mesh)) < 0
+               ? voxelize_outward(turned_over(mesh), frame_from_mesh, frame, options)
+               : voxelize_outward(mesh, frame_from_mesh, frame, options);
+}
+
+BrickGrid Voxelizer::voxelize_outward(const Mesh& mesh, const glm::dmat4& frame_from_mesh,
+                                      const GridFrame& frame, const VoxelizeOptions& options) {
     check_frame(frame);
     const MeshLabels labels = labels_of(mesh, options.surface);
     MeshLattice lattice = snap_to_lattice(mesh, frame_from_mesh, frame);

@@ -43,6 +43,9 @@ class Voxelizer {
                        const VoxelizeOptions& options);
 
   private:
+    /// Of a mesh whose faces look outwards in the frame, not in its own space.
+    BrickGrid voxelize_outward(const Mesh& mesh, const glm::dmat4& frame_from_mesh,
+                               const GridFrame& frame, const VoxelizeOptions& options);
     TriangleBins bin(const VoxelizeJob& job, const DeviceTriangles& triangles,
                      const glm::ivec3& reach, int extent);
     Buffer<uint16_t> inside(VoxelizeJob& job, bool centers, const glm::ivec3& reach);

@@ -151,11 +151,24 @@ BrickGrid cubes_of(const Device& device, const VoxelBits& voxels, const GridFram
 DeviceHits::DeviceHits(const Device& device, const Pyramid& pyramid)
     : device_(device), pyramid_(pyramid), stage_(device, features_of(pyramid)) {}
 
-void DeviceHits::start(const FixedGrid& grid, std::span<const FixedRay> rays) {
+void DeviceHits::upload(const FixedGrid& grid, std::span<const FixedRay> rays) {
     count_ = uint32_t(rays.size());
+    batch_ = {};
     batch_.stride = ray_stride(count_);
     batch_.rays = upload_rays(device_, grid, rays);
     batch_.hits = Buffer<uint32_t>(device_, "hits", size_t(batch_.stride) * VXL_HIT_COMPONENTS);
+}
+
+void DeviceHits::start(const FixedGrid& grid, std::span<const FixedRay> rays) {
+    upload(grid, rays);
+    stage_.closest(pyramid_, batch_, count_);
+}
+
+void DeviceHits::start_along_beams(const FixedGrid& grid, std::span<const FixedRay> rays) {
+    upload(grid, rays);
+    if (!beams_)
+        beams_.emplace(device_, features_of(pyramid_), pyramid_, build_halo(device_, pyramid_));
+    beams_->start(batch_, count_);
     stage_.closest(pyramid_, batch_, count_);
 }
 

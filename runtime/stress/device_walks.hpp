@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "runtime/opencl/program.hpp"
+#include "runtime/stages/beam.hpp"
 #include "runtime/stages/trace.hpp"
 #include "runtime/stress/exact_snap.hpp"
 
@@ -52,13 +53,18 @@ class DeviceHits {
     DeviceHits(const Device& device, const Pyramid& pyramid);
 
     void start(const FixedGrid& grid, std::span<const FixedRay> rays);
+    /// The same behind beams along every 16 of them, as sight rays of frames go.
+    void start_along_beams(const FixedGrid& grid, std::span<const FixedRay> rays);
     /// The hits of the rays started last; nothing for a miss.
     std::vector<std::optional<EnteredCell>> hits() const;
 
   private:
+    void upload(const FixedGrid& grid, std::span<const FixedRay> rays);
+
     Device device_;
     const Pyramid& pyramid_;
     TraceStage stage_;
+    std::optional<BeamStage> beams_;
     RayBatch batch_;
     uint32_t count_ = 0;
 };

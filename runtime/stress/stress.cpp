@@ -22,10 +22,11 @@ struct Leaks {
 };
 
 constexpr std::array kLeaks = {
-    Leaks{"smooth", "rays into a ring's smooth surface", Surface::smooth, VoxelSet::supercover},
-    Leaks{"exact", "rays into a ring of triangles", Surface::exact, VoxelSet::supercover},
-    Leaks{"thin", "rays into a ring's thin shell of cubes", Surface::cubes, VoxelSet::thin},
-    Leaks{"solid", "rays into a solid ring of cubes", Surface::cubes, VoxelSet::solid},
+    Leaks{"smooth", "rays into rings' smooth surfaces, alone and along beams", Surface::smooth,
+          VoxelSet::supercover},
+    Leaks{"exact", "the same into rings of triangles", Surface::exact, VoxelSet::supercover},
+    Leaks{"thin", "the same into rings' thin shells of cubes", Surface::cubes, VoxelSet::thin},
+    Leaks{"solid", "the same into solid rings of cubes", Surface::cubes, VoxelSet::solid},
 };
 
 }  // namespace

@@ -18,6 +18,8 @@ struct StressRun {
     uint64_t first = 0, count = 0;
     /// Told after every batch how many cases it had.
     std::function<void(uint64_t)> advance;
+    /// Asked before every batch whether the run is to end before its time; empty: never.
+    std::function<bool()> is_over{};
 };
 
 /// A case that came out wrong.
@@ -44,11 +46,12 @@ struct StressBatch {
 };
 
 /// Calls `work(batch)` for batches of `size` cases that begin at multiples of it, until they hold
-/// all cases of the run.
+/// all cases of the run, or it is over.
 template <class Work>
 void for_each_batch(const StressRun& run, size_t size, const Work& work) {
     const uint64_t end = run.first + run.count;
     for (uint64_t start = run.first / size * size; start < end; start += size) {
+        if (run.is_over && run.is_over()) return;
         StressBatch batch{start, size, 0, size};
         if (run.first > start) batch.first = size_t(run.first - start);
         if (end - start < size) batch.end = size_t(end - start);

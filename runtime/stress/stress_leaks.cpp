@@ -2,61 +2,18 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-#include <glm/common.hpp>
-#include <glm/vector_relational.hpp>
-#include <numbers>
+#include <memory>
 
 #include "runtime/stages/index.hpp"
 #include "runtime/stages/voxelize.hpp"
 #include "runtime/stress/device_walks.hpp"
-#include "runtime/stress/stress_random.hpp"
+#include "runtime/stress/inward_rays.hpp"
 #include "runtime/stress/stress_rays.hpp"
 
 namespace voxelume {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr size_t kBatch = 1u << 14;
-const glm::ivec3 kSize(87, 83, 45);
-
-/// A ring with an elliptic tube around z, in voxels.
-struct Ring {
-    glm::dvec3 center{43.3, 41.1, 22.6};
-    double radius = 25.2, tube = 11.4, flatness = 1.3;
-
-    glm::dvec3 point(double around, double across, double share) const {
-        const double r = radius + share * tube * std::cos(across);
-        return center + glm::dvec3(r * std::cos(around), r * std::sin(around),
-                                   share * tube * std::sin(across) / flatness);
-    }
-    /// At least so many voxels outside, where positive.
-    double outside(const glm::dvec3& p) const {
-        const glm::dvec3 q = p - center;
-        return (std::hypot(std::hypot(q.x, q.y) - radius, q.z * flatness) - tube) / flatness;
-    }
-};
-
-Mesh mesh_of(const Ring& ring) {
-    constexpr uint32_t kAround = 96, kAcross = 48;
-    Mesh mesh;
-    for (uint32_t i = 0; i < kAround; ++i)
-        for (uint32_t j = 0; j < kAcross; ++j) {
-            mesh.positions.emplace_back(
-                ring.point(2 * kPi * i / kAround, 2 * kPi * j / kAcross, 1));
-            const uint32_t a = i * kAcross, b = (i + 1) % kAround * kAcross, k = (j + 1) % kAcross;
-            mesh.triangles.emplace_back(a + j, b + j, b + k);
-            mesh.triangles.emplace_back(a + j, b + k, a + k);
-        }
-    return mesh;
-}
-
-/// A ray, and the t of a point inside the surface.
-struct InwardRay {
-    FixedRay ray;
-    double inside = 0;
-};
 
 /// How far from the surface a point has to be to be inside for certain, as a share of the tube.
 double safe_share(const VoxelizeOptions& options) {
@@ -68,115 +25,110 @@ double safe_share(const VoxelizeOptions& options) {
 /// some room.
 constexpr double kReach = 2;
 
-glm::dvec3 point_inside(const Ring& ring, double share, StressRandom& random) {
-    return ring.point(random.uniform(0, 2 * kPi), random.uniform(0, 2 * kPi),
-                      random.uniform(0, share));
-}
-
-/// From a side of the grid.
-InwardRay from_a_side(const Ring& ring, const FixedGrid& grid, double share, StressRandom& random) {
-    const glm::dvec3 target = point_inside(ring, share, random);
-    InwardRay inward;
-    FixedRay& ray = inward.ray;
-    const size_t face = random.below(3);
-    glm::dvec3 way;
-    for (size_t a = 0; a < 3; ++a) {
-        const int64_t side = grid.size[int(a)] * grid.unit();
-        ray.origin[a] = a == face ? int64_t(random.below(2)) * side : random.between(0, side);
-        way[int(a)] = target[int(a)] - double(ray.origin[a]) / double(grid.unit());
-    }
-    const double longest = std::max({std::abs(way.x), std::abs(way.y), std::abs(way.z)});
-    inward.inside = std::exp2(std::ceil(std::log2(longest)));
-    for (size_t a = 0; a < 3; ++a)
-        ray.direction[a] = std::llround(way[int(a)] / inward.inside * double(kDirectionOne));
-    return inward;
-}
-
-/// From outside through half-integer places to a lattice point inside: through corners and edges.
-InwardRay through_corners(const Ring& ring, const FixedGrid& grid, double share,
-                          StressRandom& random) {
-    while (true) {
-        glm::dvec3 target = glm::round(point_inside(ring, share, random));
-        if (random.below(3) == 0) target[int(random.below(3))] += 0.5;
-        glm::ivec3 quarters;
-        for (int a = 0; a < 3; ++a) quarters[a] = int(random.between(-4, 4));
-        const glm::ivec3 size = glm::abs(quarters);
-        if (std::max({size.x, size.y, size.z}) < 2 || ring.outside(target) > (share - 1) * 8)
-            continue;
-        const glm::dvec3 step = glm::dvec3(quarters) / 4.0;
-        glm::dvec3 origin = target;
-        InwardRay inward;
-        const auto in_grid = [&](const glm::dvec3& p) {
-            return glm::all(glm::greaterThanEqual(p, glm::dvec3(0))) &&
-                   glm::all(glm::lessThanEqual(p, glm::dvec3(grid.size)));
-        };
-        while (in_grid(origin - step)) origin -= step, inward.inside += 1;
-        if (ring.outside(origin) < 1.5) continue;
-        for (size_t a = 0; a < 3; ++a) {
-            inward.ray.origin[a] = std::llround(origin[int(a)] * double(grid.unit()));
-            inward.ray.direction[a] = quarters[int(a)] * (kDirectionOne / 4);
-        }
-        return inward;
-    }
-}
-
-glm::dvec3 point_at(const FixedGrid& grid, const FixedRay& ray, double t) {
-    glm::dvec3 point;
-    for (size_t a = 0; a < 3; ++a)
-        point[int(a)] = double(ray.origin[a]) / double(grid.unit()) +
-                        double(ray.direction[a]) / double(kDirectionOne) * t;
-    return point;
-}
+using Hits = std::vector<std::optional<EnteredCell>>;
 
 /// What is wrong with where a ray was found to meet the ring; empty if nothing is.
 std::string fault_of(const Ring& ring, const FixedGrid& grid, const InwardRay& inward,
                      const std::optional<EnteredCell>& hit) {
-    if (!hit) return "a miss";
+    if (!hit) return fmt::format("a miss, though t = {} is inside", inward.inside);
     const double t = hit->t;
-    if (!(t >= 0 && t <= inward.inside)) return fmt::format("a hit at t = {} only", t);
+    if (!(t >= 0 && t <= inward.inside))
+        return fmt::format("a hit at t = {} only, though t = {} is inside", t, inward.inside);
     if (ring.outside(point_at(grid, inward.ray, t)) <= kReach) return {};
     return fmt::format("a hit at t = {}, where nothing is", t);
 }
 
+GridFrame frame_of(const Ring& ring) {
+    GridFrame frame;
+    frame.size = ring.grid_size;
+    return frame;
+}
+
+/// A ring in its grid.
+struct RingWorld {
+    RingWorld(const Device& device, const Ring& its, const VoxelizeOptions& options)
+        : ring(its),
+          grid(fixed_grid(its.grid_size)),
+          pyramid(build_index(
+              device, voxelize_mesh(device, its.mesh(), glm::dmat4(1), frame_of(its), options))),
+          hits(device, pyramid) {}
+
+    const Ring& ring;
+    FixedGrid grid;
+    Pyramid pyramid;
+    DeviceHits hits;
+};
+
+class LeakStress {
+  public:
+    LeakStress(const VoxelizeOptions& options, const StressRun& run)
+        : options_(options), share_(safe_share(options)), run_(run) {}
+
+    /// Rings take turns; of each two batches the second goes along beams.
+    StressResult all() {
+        for_each_batch(run_, kBatch, [this](const StressBatch& batch) {
+            const size_t turn = size_t(batch.start / kBatch);
+            compare(world_of(turn / 2 % kRings.size()), turn % 2 == 1, batch);
+            result_.cases += batch.end - batch.first;
+        });
+        return std::move(result_);
+    }
+
+  private:
+    RingWorld& world_of(size_t ring) {
+        std::unique_ptr<RingWorld>& world = worlds_[ring];
+        if (!world) world = std::make_unique<RingWorld>(run_.device, kRings[ring], options_);
+        return *world;
+    }
+
+    void make_rays(const RingWorld& world, bool beams, const StressBatch& batch) {
+        inward_.resize(batch.size);
+        rays_.resize(batch.size);
+        for_each_in_parallel(batch.size / VXL_BEAM_RAYS, [&](uint64_t tile) {
+            const size_t first = size_t(tile) * VXL_BEAM_RAYS;
+            if (beams) {
+                StressRandom random(run_.seed, 201, batch.start + first);
+                const auto rays = inward_tile(world.ring, world.grid, share_, random);
+                std::ranges::copy(rays, &inward_[first]);
+            }
+            for (size_t i = first; i < first + VXL_BEAM_RAYS; ++i) {
+                StressRandom random(run_.seed, 200, batch.start + i);
+                if (!beams) inward_[i] = inward_ray(world.ring, world.grid, share_, random);
+                rays_[i] = inward_[i].ray;
+            }
+        });
+    }
+
+    void compare(RingWorld& world, bool beams, const StressBatch& batch) {
+        make_rays(world, beams, batch);
+        world.hits.start(world.grid, rays_);
+        const Hits alone = world.hits.hits();
+        if (beams) world.hits.start_along_beams(world.grid, rays_);
+        const Hits hits = beams ? world.hits.hits() : alone;
+        for (size_t i = batch.first; i < batch.end; ++i) {
+            std::string fault = fault_of(world.ring, world.grid, inward_[i], hits[i]);
+            if (fault.empty() && hits[i] != alone[i]) fault = "another hit than without its beam";
+            if (fault.empty()) continue;
+            note_mismatch(result_, batch.start + i, [&] {
+                return fmt::format("{}{}: {}", describe(world.grid, rays_[i]),
+                                   beams ? ", along a beam" : "", fault);
+            });
+        }
+    }
+
+    VoxelizeOptions options_;
+    double share_;
+    const StressRun& run_;
+    std::array<std::unique_ptr<RingWorld>, kRings.size()> worlds_;
+    std::vector<InwardRay> inward_;
+    std::vector<FixedRay> rays_;
+    StressResult result_;
+};
+
 }  // namespace
 
 StressResult stress_leaks(const VoxelizeOptions& options, const StressRun& run) {
-    const Ring ring;
-    const FixedGrid grid = fixed_grid(kSize);
-    GridFrame frame;
-    frame.size = kSize;
-    const Pyramid pyramid = build_index(
-        run.device, voxelize_mesh(run.device, mesh_of(ring), glm::dmat4(1), frame, options));
-    DeviceHits device(run.device, pyramid);
-    const double share = safe_share(options);
-
-    StressResult result;
-    std::vector<InwardRay> inward;
-    std::vector<FixedRay> rays;
-    for_each_batch(run, kBatch, [&](const StressBatch& batch) {
-        inward.resize(batch.size);
-        rays.resize(batch.size);
-        for_each_in_parallel(batch.size / 1024, [&](uint64_t piece) {
-            for (size_t i = size_t(piece) * 1024; i < size_t(piece + 1) * 1024; ++i) {
-                StressRandom random(run.seed, 200, batch.start + i);
-                inward[i] = random.below(2) ? from_a_side(ring, grid, share, random)
-                                            : through_corners(ring, grid, share, random);
-                rays[i] = inward[i].ray;
-            }
-        });
-        device.start(grid, rays);
-        const std::vector<std::optional<EnteredCell>> hits = device.hits();
-        for (size_t i = batch.first; i < batch.end; ++i) {
-            const std::string fault = fault_of(ring, grid, inward[i], hits[i]);
-            if (fault.empty()) continue;
-            note_mismatch(result, batch.start + i, [&] {
-                return fmt::format("{}: {}, though t = {} is inside", describe(grid, rays[i]),
-                                   fault, inward[i].inside);
-            });
-        }
-        result.cases += batch.end - batch.first;
-    });
-    return result;
+    return LeakStress(options, run).all();
 }
 
 }  // namespace voxelume

@@ -8,7 +8,8 @@
 
 namespace voxelume {
 
-/// Tries rays towards points inside of a ring: from the grid's sides, and through lattice points.
+/// Tries rays towards points inside of rings: from the grid's sides, and through lattice points;
+/// and groups of rays that a beam is sent along first, as frames send them.
 StressResult stress_leaks(const VoxelizeOptions& options, const StressRun& run);
 
 }  // namespace voxelume
