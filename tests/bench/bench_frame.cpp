@@ -1,13 +1,13 @@
 // A whole frame by stage, and how it grows with the voxels: a mesh with one light and shadow at
 // 1024 x 1024.
 //
-//   bench_frame MESH [voxels along the longest side ... | surfaces ... | frames=N]
+//   bench_frame [MESH] [voxels along the longest side ... | surfaces ... | frames=N]
 //
-// Each row is one resolution: medians over the frames, each from nothing, of the process's CPU
-// time in milliseconds (all threads); with kernels' bytes a voxel, and the ratios to the row
-// before. Programs are made by a first frame that isn't counted. "ns a ray" is that of sight and
-// shadow rays' kernels alone, of wall time with one of PoCL's threads: set
-// POCL_MAX_PTHREAD_COUNT=1.
+// Without a mesh it takes Debian's bunny. Each row is one resolution: medians over the frames, each
+// from nothing, of the process's CPU time in milliseconds (all threads); with kernels' bytes a
+// voxel, and the ratios to the row before. Programs are made by a first frame that isn't counted.
+// "ns a ray" is that of sight and shadow rays' kernels alone, of wall time with one of PoCL's
+// threads: set POCL_MAX_PTHREAD_COUNT=1.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -18,7 +18,7 @@
 #include <vector>
 
 #include "runtime/renderer.hpp"
-#include "tests/bench/cpu_time.hpp"
+#include "tests/bench/mesh_rows.hpp"
 
 namespace voxelume {
 namespace {
@@ -74,11 +74,10 @@ Sample frame(const Device& device, const Scene& scene) {
     return sample;
 }
 
-double median(std::vector<Sample>& samples, auto&& value) {
+double median(const std::vector<Sample>& samples, auto&& value) {
     std::vector<double> values;
     for (const Sample& sample : samples) values.push_back(value(sample));
-    std::ranges::nth_element(values, values.begin() + ptrdiff_t(values.size() / 2));
-    return values[values.size() / 2];
+    return median_of(std::move(values));
 }
 
 void bench(const std::string& mesh, const std::string& surface, const std::vector<int>& voxels,
@@ -118,13 +117,16 @@ void bench(const std::string& mesh, const std::string& surface, const std::vecto
 int run(int count, char** arguments) {
     std::vector<int> voxels;
     std::vector<std::string> surfaces;
+    std::string mesh = kDebianBunny;
     int frames = 5;
-    for (int i = 2; i < count; ++i) {
+    for (int i = 1; i < count; ++i) {
         const std::string word = arguments[i];
         if (word.starts_with("frames="))
             frames = std::max(1, std::atoi(word.c_str() + 7));
         else if (std::atoi(word.c_str()) > 0)
             voxels.push_back(std::atoi(word.c_str()));
+        else if (word.find('.') != std::string::npos)
+            mesh = word;
         else
             surfaces.push_back(word);
     }
@@ -133,7 +135,7 @@ int run(int count, char** arguments) {
     fmt::print("{:7}{:>6}{:>11}{:>8}{:>9}{:>8}{:>8}{:>8}{:>8}{:>9}{:>9}{:>8}\n", "", "n", "voxels",
                "bytes", "form CPU", "load", "voxels", "place", "index", "image", "peak MB",
                "ns/ray");
-    for (const std::string& surface : surfaces) bench(arguments[1], surface, voxels, frames);
+    for (const std::string& surface : surfaces) bench(mesh, surface, voxels, frames);
     return 0;
 }
 
@@ -141,10 +143,6 @@ int run(int count, char** arguments) {
 }  // namespace voxelume
 
 int main(int count, char** arguments) {
-    if (count < 2) {
-        fmt::print(stderr, "usage: bench_frame MESH [voxels ... | surfaces ... | frames=N]\n");
-        return 2;
-    }
     try {
         return voxelume::run(count, arguments);
     } catch (const std::exception& error) {

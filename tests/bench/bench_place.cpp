@@ -1,36 +1,33 @@
-// Run time of placing and indexing, kernels compiled: bench_place MESH-FILE [benchmark options].
-#include <benchmark/benchmark.h>
+// Run time of placing and indexing, kernels compiled; with `peers` beside OpenVDB's resampleToMatch
+// of a level set.
+//
+//   bench_place [MESH] [voxels along the longest side of the world ... | peers]
+//
+// Without a mesh it takes Debian's bunny. Medians of five runs, wall and CPU time; set
+// POCL_MAX_PTHREAD_COUNT=1 for one core.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cstdio>
 #include <exception>
+#include <string>
+#include <utility>
 
 #include "runtime/io/mesh_reader.hpp"
 #include "runtime/scene_affine.hpp"
 #include "runtime/stages/index.hpp"
 #include "runtime/stages/place.hpp"
 #include "runtime/stages/voxelize.hpp"
+#include "tests/bench/mesh_rows.hpp"
+#include "tests/bench/peer_level_set.hpp"
 
 namespace voxelume {
 namespace {
 
-constexpr int kResolution = 512;
-
-double longest_side(const Mesh& mesh) {
-    glm::dvec3 low(mesh.positions.front()), high(low);
-    for (const glm::vec3& p : mesh.positions) {
-        low = glm::min(low, glm::dvec3(p));
-        high = glm::max(high, glm::dvec3(p));
-    }
-    const glm::dvec3 size = high - low;
-    return std::max({size.x, size.y, size.z});
-}
-
 /// A world of the object's voxels that holds it however it is turned.
-GridFrame world_around(const GridFrame& object) {
+GridFrame world_around(const GridFrame& object, int voxels) {
     const glm::dvec3 middle = object.origin + object.voxel_edge * glm::dvec3(object.size) * 0.5;
-    const glm::ivec3 size(kResolution);
+    const glm::ivec3 size(voxels);
     return {.origin = middle - object.voxel_edge * glm::dvec3(size) * 0.5,
             .voxel_edge = object.voxel_edge,
             .size = size};
@@ -43,81 +40,83 @@ glm::dmat4 turned_about_middle(const GridFrame& object, const glm::dvec3& turn, 
     return map;
 }
 
-struct Model {
-    const char* name;
-    BrickGrid grid;
-};
+void index_model(const Device& device, const BrickGrid& grid, const char* name, int voxels) {
+    uint64_t count = 0;
+    const Milliseconds time = median_time([&] {
+        count = build_index(device, grid).voxel_count;
+        device.finish();
+    });
+    print_time(fmt::format("index {}", name), voxels, time, fmt::format("{} voxels", count));
+}
 
-void place_model(benchmark::State& state, const Device& device, const Model& model,
-                 const glm::dmat4& map) {
+Milliseconds place_model(const Device& device, const BrickGrid& grid, const glm::dmat4& map,
+                         const std::string& name, int voxels) {
     const std::vector<PlacedObject> objects = {
-        {.grid = &model.grid, .world_from_object = map, .material_of_group = {0}}};
-    const GridFrame world = world_around(model.grid.frame);
-    const auto once = [&] {
-        const BrickGrid placed = place(device, objects, world);
+        {.grid = &grid, .world_from_object = map, .material_of_group = {0}}};
+    const GridFrame world = world_around(grid.frame, voxels);
+    uint32_t bricks = 0;
+    const Milliseconds time = median_time([&] {
+        bricks = place(device, objects, world).brick_count;
         device.finish();
-        return placed.brick_count;
-    };
-    const uint32_t bricks = once();
-    for (auto _ : state) benchmark::DoNotOptimize(once());
-    state.counters["bricks"] = bricks;
+    });
+    print_time(name, voxels, time, fmt::format("{} bricks", bricks));
+    return time;
 }
 
-void index_model(benchmark::State& state, const Device& device, const Model& model) {
-    const auto once = [&] {
-        Pyramid pyramid = build_index(device, model.grid);
-        device.finish();
-        return pyramid;
-    };
-    const Pyramid pyramid = once();
-    for (auto _ : state) benchmark::DoNotOptimize(once().voxel_count);
-    const size_t words = pyramid.bricks.size() + pyramid.leaves.size() +
-                         pyramid.leaf_voxels.size() + pyramid.fields.size();
-    state.counters["bricks"] = model.grid.brick_count;
-    state.counters["voxels"] = pyramid.voxel_count;
-    state.counters["bytes/voxel"] = 4.0 * double(words) / double(pyramid.voxel_count);
+void bench(const Device& device, const Mesh& mesh, int voxels, bool with_peers) {
+    const double voxel = longest_side(mesh) / (voxels - 16);
+    const GridFrame frame = frame_around(mesh, glm::dvec3(voxel));
+    const std::pair<const char*, glm::dmat4> maps[] = {
+        {"moved", turned_about_middle(frame, {0, 0, 0}, 1)},
+        {"turned", turned_about_middle(frame, {33, 21, 12}, 1)},
+        {"halved", turned_about_middle(frame, {33, 21, 12}, 0.5)}};
+    Voxelizer voxelizer(device);
+    const openvdb::FloatGrid::Ptr theirs = with_peers ? level_set(mesh, voxel) : nullptr;
+    for (const Surface surface : {Surface::cubes, Surface::smooth}) {
+        const char* name = surface == Surface::cubes ? "cubes" : "smooth";
+        const BrickGrid grid = voxelizer.voxelize(mesh, glm::dmat4(1), frame, {.surface = surface});
+        index_model(device, grid, name, voxels);
+        for (const auto& [change, map] : maps) {
+            const Milliseconds ours =
+                place_model(device, grid, map, fmt::format("place {} {}", name, change), voxels);
+            if (!theirs || surface != Surface::smooth) continue;
+            const Milliseconds time =
+                median_time([&, &m = map] { placed_level_set(*theirs, voxel, m); });
+            print_time(fmt::format("OpenVDB {}", change), voxels, time,
+                       fmt::format("{:.1f} times our CPU time", time.cpu / ours.cpu));
+        }
+    }
 }
 
-int benchmark_mesh(const char* path, int argc, char** argv) {
+int run(int count, char** arguments) {
+    std::string path = kDebianBunny;
+    std::vector<int> sizes;
+    bool with_peers = false;
+    for (int i = 1; i < count; ++i) {
+        const std::string word = arguments[i];
+        const int number = std::atoi(word.c_str());
+        if (word == "peers")
+            with_peers = true;
+        else if (number > 16 && word == std::to_string(number))
+            sizes.push_back(number);
+        else
+            path = word;
+    }
+    if (sizes.empty()) sizes = {512};
     const Device device = Device::open();
     const Mesh mesh = read_mesh(path);
-    const GridFrame frame = frame_around(mesh, glm::dvec3(longest_side(mesh) / (kResolution - 16)));
-    Voxelizer voxelizer(device);
-    const Model models[] = {
-        {"cubes", voxelizer.voxelize(mesh, glm::dmat4(1), frame, {.surface = Surface::cubes})},
-        {"smooth", voxelizer.voxelize(mesh, glm::dmat4(1), frame, {.surface = Surface::smooth})}};
-    const auto add = [](const std::string& name, auto&& run) {
-        benchmark::RegisterBenchmark(name.c_str(), run)
-            ->Unit(benchmark::kMillisecond)
-            ->MeasureProcessCPUTime()
-            ->UseRealTime();
-    };
-    for (const Model& model : models) {
-        add(fmt::format("index/{}", model.name),
-            [&](benchmark::State& state) { index_model(state, device, model); });
-        const auto add_place = [&](const char* name, const glm::dmat4& map) {
-            add(fmt::format("place/{}/{}", model.name, name),
-                [&, map](benchmark::State& state) { place_model(state, device, model, map); });
-        };
-        add_place("moved", turned_about_middle(frame, {0, 0, 0}, 1));
-        add_place("turned", turned_about_middle(frame, {33, 21, 12}, 1));
-        add_place("halved", turned_about_middle(frame, {33, 21, 12}, 0.5));
-    }
-    benchmark::Initialize(&argc, argv);
-    benchmark::RunSpecifiedBenchmarks();
+    fmt::print("{}, {} triangles\n{:26}{:>6}{:>10}{:>10}\n", path, mesh.triangles.size(), "", "n",
+               "ms", "CPU ms");
+    for (const int voxels : sizes) bench(device, mesh, voxels, with_peers);
     return 0;
 }
 
 }  // namespace
 }  // namespace voxelume
 
-int main(int argc, char** argv) {
-    if (argc < 2) {
-        std::fputs("usage: bench_place MESH-FILE [benchmark options]\n", stderr);
-        return 2;
-    }
+int main(int count, char** arguments) {
     try {
-        return voxelume::benchmark_mesh(argv[1], argc - 1, argv + 1);
+        return voxelume::run(count, arguments);
     } catch (const std::exception& error) {
         fmt::print(stderr, "bench_place: {}\n", error.what());
         return 1;

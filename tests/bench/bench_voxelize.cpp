@@ -1,82 +1,93 @@
-// Run time of voxelization, kernels compiled: bench_voxelize MESH-FILE [benchmark options].
-#include <benchmark/benchmark.h>
+// Run time of voxelization, kernels compiled, for each surface and voxel set; with `peers` beside
+// OpenVDB's meshToLevelSet.
+//
+//   bench_voxelize [MESH] [voxels along the longest side ... | peers]
+//
+// Without a mesh it takes Debian's bunny. Medians of five runs, wall and CPU time; set
+// POCL_MAX_PTHREAD_COUNT=1 for one core. "with its index" is a complete model, as is OpenVDB's.
 #include <fmt/format.h>
 
 #include <cstdio>
 #include <exception>
+#include <string>
 
 #include "runtime/io/mesh_reader.hpp"
+#include "runtime/stages/index.hpp"
 #include "runtime/stages/voxelize.hpp"
+#include "tests/bench/mesh_rows.hpp"
+#include "tests/bench/peer_level_set.hpp"
 
 namespace voxelume {
 namespace {
 
-struct Case {
+struct Kind {
     const char* name;
     VoxelizeOptions options;
-    int resolution;  ///< voxels along the longest side
 };
 
-double longest_side(const Mesh& mesh) {
-    glm::dvec3 low(mesh.positions.front()), high(low);
-    for (const glm::vec3& p : mesh.positions) {
-        low = glm::min(low, glm::dvec3(p));
-        high = glm::max(high, glm::dvec3(p));
+void bench(const Device& device, const Mesh& mesh, int voxels, bool with_peers) {
+    const Kind kinds[] = {{"supercover", {Surface::cubes, VoxelSet::supercover}},
+                          {"thin", {Surface::cubes, VoxelSet::thin}},
+                          {"solid", {Surface::cubes, VoxelSet::solid}},
+                          {"smooth", {Surface::smooth}},
+                          {"exact", {Surface::exact}}};
+    const double voxel = longest_side(mesh) / voxels;
+    const GridFrame frame = frame_around(mesh, glm::dvec3(voxel));
+    Voxelizer voxelizer(device);
+    for (const Kind& kind : kinds) {
+        uint32_t bricks = 0;
+        const auto make = [&] {
+            BrickGrid grid = voxelizer.voxelize(mesh, glm::dmat4(1), frame, kind.options);
+            bricks = grid.brick_count;
+            return grid;
+        };
+        const Milliseconds made = median_time([&] { make(), device.finish(); });
+        print_time(kind.name, voxels, made, fmt::format("{} bricks", bricks));
+        uint64_t count = 0;
+        const Milliseconds whole = median_time([&] {
+            count = build_index(device, make()).voxel_count;
+            device.finish();
+        });
+        print_time(fmt::format("{} with its index", kind.name), voxels, whole,
+                   fmt::format("{} voxels", count));
+        if (!with_peers || kind.options.surface != Surface::smooth) continue;
+        const Milliseconds theirs = median_time([&] { level_set(mesh, voxel); });
+        print_time("OpenVDB meshToLevelSet", voxels, theirs,
+                   fmt::format("{:.1f} times our CPU time", theirs.cpu / whole.cpu));
     }
-    const glm::dvec3 size = high - low;
-    return std::max({size.x, size.y, size.z});
 }
 
-void run(benchmark::State& state, Voxelizer& voxelizer, const Device& device, const Mesh& mesh,
-         const Case& c) {
-    const GridFrame frame = frame_around(mesh, glm::dvec3(longest_side(mesh) / c.resolution));
-    const auto once = [&] {
-        const BrickGrid grid = voxelizer.voxelize(mesh, glm::dmat4(1), frame, c.options);
-        device.finish();
-        return grid.brick_count;
-    };
-    const uint32_t bricks = once();
-    for (auto _ : state) benchmark::DoNotOptimize(once());
-    state.counters["bricks"] = bricks;
-    state.counters["triangles"] = double(mesh.triangles.size());
-}
-
-int benchmark_mesh(const char* path, int argc, char** argv) {
+int run(int count, char** arguments) {
+    std::string path = kDebianBunny;
+    std::vector<int> sizes;
+    bool with_peers = false;
+    for (int i = 1; i < count; ++i) {
+        const std::string word = arguments[i];
+        const int number = std::atoi(word.c_str());
+        if (word == "peers")
+            with_peers = true;
+        else if (number > 0 && word == std::to_string(number))
+            sizes.push_back(number);
+        else
+            path = word;
+    }
+    if (sizes.empty()) sizes = {512, 1024};
     const Device device = Device::open();
     const Mesh mesh = read_mesh(path);
-    Voxelizer voxelizer(device);
-    std::vector<Case> cases;
-    for (const int n : {128, 256, 512, 1024}) {
-        cases.push_back({"supercover", {Surface::cubes, VoxelSet::supercover}, n});
-        cases.push_back({"thin", {Surface::cubes, VoxelSet::thin}, n});
-        cases.push_back({"solid", {Surface::cubes, VoxelSet::solid}, n});
-        cases.push_back({"smooth", {Surface::smooth}, n});
-        cases.push_back({"exact", {Surface::exact}, n});
-    }
-    for (const Case& c : cases)
-        benchmark::RegisterBenchmark(
-            fmt::format("{}/{}", c.name, c.resolution).c_str(),
-            [&, c](benchmark::State& state) { run(state, voxelizer, device, mesh, c); })
-            ->Unit(benchmark::kMillisecond)
-            ->MeasureProcessCPUTime()
-            ->UseRealTime();
-    benchmark::Initialize(&argc, argv);
-    benchmark::RunSpecifiedBenchmarks();
+    fmt::print("{}, {} triangles\n{:26}{:>6}{:>10}{:>10}\n", path, mesh.triangles.size(), "", "n",
+               "ms", "CPU ms");
+    for (const int voxels : sizes) bench(device, mesh, voxels, with_peers);
     return 0;
 }
 
 }  // namespace
 }  // namespace voxelume
 
-int main(int argc, char** argv) {
-    if (argc < 2) {
-        std::fprintf(stderr, "usage: bench_voxelize MESH-FILE [benchmark options]\n");
-        return 2;
-    }
+int main(int count, char** arguments) {
     try {
-        return voxelume::benchmark_mesh(argv[1], argc - 1, argv + 1);
+        return voxelume::run(count, arguments);
     } catch (const std::exception& error) {
-        std::fprintf(stderr, "bench_voxelize: %s\n", error.what());
+        fmt::print(stderr, "bench_voxelize: {}\n", error.what());
         return 1;
     }
 }

@@ -1,5 +1,3 @@
-#include <openvdb/openvdb.h>
-#include <openvdb/tools/MeshToVolume.h>
 #include <openvdb/tools/RayIntersector.h>
 
 #if VXL_BENCH_NANOVDB
@@ -11,19 +9,11 @@
 #include <glm/geometric.hpp>
 
 #include "tests/bench/cpu_time.hpp"
+#include "tests/bench/peer_level_set.hpp"
 #include "tests/bench/trace_peers.hpp"
 
 namespace voxelume {
 namespace {
-
-openvdb::FloatGrid::Ptr level_set(const Mesh& mesh, double voxel) {
-    std::vector<openvdb::Vec3s> points;
-    for (const glm::vec3& p : mesh.positions) points.emplace_back(p.x, p.y, p.z);
-    std::vector<openvdb::Vec3I> triangles;
-    for (const auto& t : mesh.triangles) triangles.emplace_back(t[0], t[1], t[2]);
-    return openvdb::tools::meshToLevelSet<openvdb::FloatGrid>(
-        *openvdb::math::Transform::createLinearTransform(voxel), points, triangles, 3.0f);
-}
 
 TracePeer openvdb_peer(const openvdb::FloatGrid::Ptr& grid, double build_seconds) {
     using Intersector = openvdb::tools::LevelSetRayIntersector<openvdb::FloatGrid>;
@@ -71,7 +61,6 @@ TracePeer nanovdb_peer(const openvdb::FloatGrid& source, double build_seconds) {
 }  // namespace
 
 std::vector<TracePeer> level_set_tracers(const Mesh& mesh, double voxel) {
-    openvdb::initialize();
     const double start = cpu_seconds();
     const openvdb::FloatGrid::Ptr grid = level_set(mesh, voxel);
     const double seconds = cpu_seconds() - start;

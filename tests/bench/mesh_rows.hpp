@@ -1,0 +1,66 @@
+// What benchmarks of a mesh have in common: the mesh without one, medians, rows.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include "runtime/mesh_summary.hpp"
+#include "tests/bench/cpu_time.hpp"
+
+namespace voxelume {
+
+/// Debian's bunny (glmark2-data), for benchmarks that are given no mesh.
+inline constexpr const char* kDebianBunny = "/usr/share/glmark2/models/bunny.obj";
+
+struct Milliseconds {
+    double wall = 0;
+    double cpu = 0;  ///< of all threads
+};
+
+template <class Run>
+Milliseconds time_of(const Run& run) {
+    const auto start = std::chrono::steady_clock::now();
+    const double cpu = cpu_seconds();
+    run();
+    return {
+        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count(),
+        1e3 * (cpu_seconds() - cpu)};
+}
+
+inline double median_of(std::vector<double> values) {
+    std::ranges::nth_element(values, values.begin() + ptrdiff_t(values.size() / 2));
+    return values[values.size() / 2];
+}
+
+/// Of five runs, after one that isn't counted.
+template <class Run>
+Milliseconds median_time(const Run& run) {
+    constexpr int kTurns = 5;
+    std::vector<double> wall, cpu;
+    run();
+    for (int turn = 0; turn < kTurns; ++turn) {
+        const Milliseconds time = time_of(run);
+        wall.push_back(time.wall);
+        cpu.push_back(time.cpu);
+    }
+    return {median_of(wall), median_of(cpu)};
+}
+
+inline void print_time(const std::string& name, int voxels, const Milliseconds& time,
+                       const std::string& note) {
+    fmt::print("{:26}{:6}{:10.1f}{:10.1f}  {}\n", name, voxels, time.wall, time.cpu, note);
+    std::fflush(stdout);
+}
+
+inline double longest_side(const Mesh& mesh) {
+    const Bounds box = mesh_bounds(mesh);
+    const glm::dvec3 size = box.max - box.min;
+    return std::max({size.x, size.y, size.z});
+}
+
+}  // namespace voxelume
