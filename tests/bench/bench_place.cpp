@@ -83,7 +83,7 @@ void bench(const Device& device, const Mesh& mesh, int voxels, bool with_peers) 
             const Milliseconds time =
                 median_time([&, &m = map] { placed_level_set(*theirs, voxel, m); });
             print_time(fmt::format("OpenVDB {}", change), voxels, time,
-                       fmt::format("{:.1f} times our CPU time", time.cpu / ours.cpu));
+                       fmt::format("{:.3g} times our CPU time", time.cpu / ours.cpu));
         }
     }
 }
