@@ -179,6 +179,33 @@ TEST(LatticeOfCoarseVoxels, ReachesFarBeyondTheWorld) {
     }
 }
 
+/// Of worlds with much room around their objects, along each axis in turn.
+TEST(LatticeOfEmptySpace, IsScannedWhereObjectsAreWithTheSameBits) {
+    constexpr const char* kText = R"({{"voxelume": 1,
+        "world": {{"voxel_size": 0.05, "bounds": {{"min": [-1, -1, -1], "max": [{}, {}, {}]}}}},
+        "models": {{"ball": {{"shape": "sphere", "radius": 0.3, "surface": "smooth"}},
+                   "box": {{"shape": "box", "size": [0.3, 0.4, 0.5], "surface": "exact"}}}},
+        "objects": [{{"model": "ball", "position": [-0.4, -0.5, -0.3]}},
+                    {{"model": "box", "turn": [20, 30, 40], "position": [0.2, 0.4, 0.1]}}],
+        "observer": {{"position": [3, 2.5, -3], "look_at": [0.9, 0.7, 0.8],
+            "display": {{"shape": "box", "size": [9, 8, 11], "near": 0, "layout": "lattice",
+                        "voxels": [120, 110, 130]}}}}}})";
+    for (const glm::dvec3& high : {glm::dvec3(8, 1, 1), glm::dvec3(1, 8, 1), glm::dvec3(1, 1, 8)}) {
+        const Scene scene = parsed(fmt::format(kText, high.x, high.y, high.z));
+        RenderReport report, whole;
+        FormedWorld world = WorldFormer(test_device(), false).form(scene, report.world);
+        const Volume volume = render_volume(test_device(), scene, world, report);
+        world.pyramid.object_boxes.clear();  // not known: the whole world is scanned
+        const Volume expected = render_volume(test_device(), scene, world, whole);
+        EXPECT_GT(volume.places.size(), 200u);
+        EXPECT_EQ(volume.places, expected.places);
+        EXPECT_EQ(volume.colors, expected.colors);
+        EXPECT_EQ(volume.depths, expected.depths);
+        EXPECT_EQ(volume.objects, expected.objects);
+        EXPECT_LT(report.sight_rays, whole.sight_rays * 3 / 4);
+    }
+}
+
 TEST(LatticeOfManyVoxels, WithMoreLinesThanCanBeNumberedIsRefused) {
     Scene scene = parsed(display_scene(R"("shape": "box", "size": [2, 2, 2], "near": 1.5,
                                           "layout": "lattice", "voxels": [65536, 65536, 1])"));

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "runtime/error.hpp"
+#include "runtime/object_boxes.hpp"
 #include "runtime/stages/float4.hpp"
 #include "runtime/stages/trace.hpp"
 
@@ -18,6 +19,9 @@ constexpr int kMostParts = 64;
 /// only those few are scanned again.
 constexpr uint32_t kBatchParts = 4;
 
+/// How far outside of its box an object may have a say in a surface, voxels.
+constexpr double kBoxMargin = 8;
+
 /// Parts of a display voxel's edge of which none is longer than a voxel of the world.
 int parts_of(double edge, const GridFrame& world) {
     const glm::dvec3& e = world.voxel_edge;
@@ -29,15 +33,30 @@ struct LineRange {
     int first, last;
 };
 
-/// Numbers of the lines that meet the world across one axis of the lattice, which has `count` parts
-/// of a voxel along it; `first` is above `last` where there are none.
-LineRange lines_across(const float4& row, int parts, int count, const GridFrame& world) {
+VoxelBox box_of(const GridFrame& world) {
+    return {glm::dvec3(0), glm::dvec3(world.size)};
+}
+
+/// Around all that the world shows.
+VoxelBox box_of_objects(const Pyramid& world) {
+    if (world.object_boxes.empty()) return box_of(world.frame);
+    VoxelBox all{glm::dvec3(INFINITY), glm::dvec3(-INFINITY)};
+    for (const VoxelBox& box : world.object_boxes) {
+        if (is_empty(box)) continue;
+        all = {glm::min(all.low, box.low - kBoxMargin), glm::max(all.high, box.high + kBoxMargin)};
+    }
+    return all;
+}
+
+/// Numbers of the lines that meet a box of the world across one axis of the lattice, which has
+/// `count` parts of a voxel along it; `first` is above `last` where there are none.
+LineRange lines_across(const float4& row, int parts, int count, const VoxelBox& box) {
     const glm::dvec3 along(row.x, row.y, row.z);
     double least = double(row.w), most = least;
     for (int axis = 0; axis < 3; ++axis) {
-        const double reach = along[axis] * double(world.size[axis]);
-        least += std::min(reach, 0.0);
-        most += std::max(reach, 0.0);
+        const double low = along[axis] * box.low[axis], high = along[axis] * box.high[axis];
+        least += std::min(low, high);
+        most += std::max(low, high);
     }
     // One line more on each side than the floats of `row` may be wrong by.
     const double slack = 1 + 1e-5 * (std::abs(double(row.w)) + most - least) * parts;
@@ -78,10 +97,12 @@ DisplayScanStage::Family DisplayScanStage::family(int axis, const VolumeFrame& f
     result.axis = axis;
     result.parts = {parts_of(frame.edge[a], world), parts_of(frame.edge[b], world)};
     const std::array rows = {lattice_.row_x, lattice_.row_y, lattice_.row_z};
+    result.row_second = rows[size_t(b)];
+    result.count = frame.size[b] * result.parts.y;
+    const VoxelBox all = box_of(world);
     const LineRange across_a =
-        lines_across(rows[size_t(a)], result.parts.x, frame.size[a] * result.parts.x, world);
-    const LineRange across_b =
-        lines_across(rows[size_t(b)], result.parts.y, frame.size[b] * result.parts.y, world);
+        lines_across(rows[size_t(a)], result.parts.x, frame.size[a] * result.parts.x, all);
+    const LineRange across_b = lines_across(result.row_second, result.parts.y, result.count, all);
     result.last = {across_a.last, across_b.last};
     glm::dvec3 corner = frame.origin;
     corner[a] += 0.5 * (across_a.first + across_a.last) / result.parts.x * frame.edge[a];
@@ -107,6 +128,16 @@ DisplayScanStage::Family DisplayScanStage::family(int axis, const VolumeFrame& f
     sight.shape = VXL_SHAPE_BOX;
     result.row = rows[size_t(axis)];
     return result;
+}
+
+glm::uvec2 DisplayScanStage::rows_across(const Family& family, const VoxelBox& box) {
+    if (is_empty(box)) return glm::uvec2(0);
+    const LineRange lines = lines_across(family.row_second, family.parts.y, family.count, box);
+    // The last line is the first of a picture's rows.
+    const int first = std::max(family.last.y - lines.last, 0);
+    const int last = std::min(family.last.y - lines.first, family.sight.height - 1);
+    if (first > last) return glm::uvec2(0);
+    return {uint32_t(first) / 4, uint32_t(last) / 4 + 1};
 }
 
 ProbePoints DisplayScanStage::scan_batch(const Pyramid& world, const Family& family,
@@ -146,14 +177,16 @@ ProbePoints DisplayScanStage::scan_batch(const Pyramid& world, const Family& fam
 std::vector<ProbePoints> DisplayScanStage::scan(const Pyramid& world, RayBatch& batch) {
     std::vector<ProbePoints> pieces;
     if (world.voxel_count == 0) return pieces;
+    const VoxelBox shown = box_of_objects(world);
     const uint32_t batch_tiles = std::max(batch.stride / 16 / kBatchParts, 1u);
     for (const Family& family : families_) {
         const Sight& sight = family.sight;
         if (sight.width == 0 || sight.height == 0) continue;
         sight_.look(sight);
-        const uint32_t tiles = tile_count(sight.width, sight.height);
-        for (uint32_t first = 0; first < tiles; first += batch_tiles) {
-            const uint32_t now = std::min(batch_tiles, tiles - first);
+        const glm::uvec2 tiles =
+            rows_across(family, shown) * tile_count(sight.width, 1);  // first, one beyond the last
+        for (uint32_t first = tiles.x; first < tiles.y; first += batch_tiles) {
+            const uint32_t now = std::min(batch_tiles, tiles.y - first);
             const uint32_t count = sight_.cast(shape_of(world), first, now, batch);
             lines_ += count;
             ProbePoints points = scan_batch(world, family, first * 16, count, batch);

@@ -24,7 +24,7 @@ inline constexpr uint32_t kNoView = 0xFFFFFFFFu;
 ///
 /// They are all lines of the lattice's edges, with so many parallels between them that no gap is
 /// wider than a voxel of the world (up to 64 in a voxel). Those that pass the world by are left
-/// out.
+/// out, and rows of four of which all pass its objects by.
 class DisplayScanStage {
   public:
     /// Throws Error::limit where more than 2^31 lines along an axis meet the world.
@@ -42,10 +42,14 @@ class DisplayScanStage {
         int axis;
         glm::ivec2 parts;  ///< lines in a voxel, along the next axis and the one after it
         glm::ivec2 last;   ///< number of the last line along each, counted in parts from the corner
+        int count;         ///< lines along the second in the whole lattice
         Sight sight;
-        float4 row;
+        float4 row;         ///< of the lattice coordinate along the lines
+        float4 row_second;  ///< and along the second axis across them
     };
     Family family(int axis, const VolumeFrame& frame, const GridFrame& world) const;
+    /// The rows of tiles that hold the lines which meet `box`, first and one beyond the last.
+    static glm::uvec2 rows_across(const Family& family, const VoxelBox& box);
     ProbePoints scan_batch(const Pyramid& world, const Family& family, uint32_t first_line,
                            uint32_t count, RayBatch& batch);
 
