@@ -62,6 +62,7 @@ TEST(Solid, TwoBallsWithAGapNeverMerge) {
         frame.size = ivec3(glm::ceil(glm::dvec3(4.5, 2.4, 2.4) / edge));
         const VoxelSetOf voxels = occupied_voxels(
             shared_voxelizer().voxelize(both, glm::dmat4(1), frame, cubes(VoxelSet::solid)));
+        EXPECT_GT(double(voxels.size()) * edge * edge * edge, 6);  // of 8.4 m^3
         for (const ivec3& v : voxels) {
             const double x = (v.x + 0.5) * edge;
             EXPECT_TRUE(x < 2.2001 || x > 2.2999) << x;

@@ -7,6 +7,7 @@
 #include <cstring>
 #include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>
+#include <utility>
 
 namespace voxelume {
 namespace {
@@ -79,8 +80,12 @@ PeerMesh tessellated(const BenchSolid& solid, int rings) {
     const auto number = [columns](int u, int v) { return uint32_t(v * (columns + 1) + u); };
     for (int v = 0; v < rings; ++v)
         for (int u = 0; u < columns; ++u) {
-            mesh.triangles.emplace_back(number(u, v), number(u + 1, v), number(u + 1, v + 1));
-            mesh.triangles.emplace_back(number(u, v), number(u + 1, v + 1), number(u, v + 1));
+            const uint32_t corner = number(u, v), across = number(u + 1, v + 1);
+            uint32_t beside = number(u + 1, v), above = number(u, v + 1);
+            // v runs downwards on the sphere, and upwards on the torus's outer side.
+            if (solid.solid.kind != SolidKind::sphere) std::swap(beside, above);
+            mesh.triangles.emplace_back(corner, beside, across);
+            mesh.triangles.emplace_back(corner, across, above);
         }
     mesh.positions.reserve(mesh.positions.size() + 2);
     return mesh;
