@@ -15,10 +15,6 @@
 namespace voxelume {
 namespace {
 
-/// Voxels around an object's box in which it may have a say: distances are painted by whole leaves,
-/// and gradients of smooth surfaces look two nodes further.
-constexpr double kInfluence = 8;
-
 /// Of coordinates, by how much rays may be off for their floats: some hundred times their rounding.
 constexpr double kRounding = 0x1p-17;
 

@@ -19,9 +19,6 @@ constexpr int kMostParts = 64;
 /// only those few are scanned again.
 constexpr uint32_t kBatchParts = 4;
 
-/// How far outside of its box an object may have a say in a surface, voxels.
-constexpr double kBoxMargin = 8;
-
 /// Parts of a display voxel's edge of which none is longer than a voxel of the world.
 int parts_of(double edge, const GridFrame& world) {
     const glm::dvec3& e = world.voxel_edge;
@@ -43,7 +40,7 @@ VoxelBox box_of_objects(const Pyramid& world) {
     VoxelBox all{glm::dvec3(INFINITY), glm::dvec3(-INFINITY)};
     for (const VoxelBox& box : world.object_boxes) {
         if (is_empty(box)) continue;
-        all = {glm::min(all.low, box.low - kBoxMargin), glm::max(all.high, box.high + kBoxMargin)};
+        all = {glm::min(all.low, box.low - kInfluence), glm::max(all.high, box.high + kInfluence)};
     }
     return all;
 }

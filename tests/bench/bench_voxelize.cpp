@@ -57,26 +57,13 @@ void bench(const Device& device, const Mesh& mesh, int voxels, bool with_peers) 
     }
 }
 
-int run(int count, char** arguments) {
-    std::string path = kDebianBunny;
-    std::vector<int> sizes;
-    bool with_peers = false;
-    for (int i = 1; i < count; ++i) {
-        const std::string word = arguments[i];
-        const int number = std::atoi(word.c_str());
-        if (word == "peers")
-            with_peers = true;
-        else if (number > 0 && word == std::to_string(number))
-            sizes.push_back(number);
-        else
-            path = word;
-    }
-    if (sizes.empty()) sizes = {512, 1024};
+int run(int count, char** words) {
+    MeshArguments arguments(count, words);
+    if (arguments.voxels.empty()) arguments.voxels = {512, 1024};
     const Device device = Device::open();
-    const Mesh mesh = read_mesh(path);
-    fmt::print("{}, {} triangles\n{:26}{:>6}{:>10}{:>10}\n", path, mesh.triangles.size(), "", "n",
-               "ms", "CPU ms");
-    for (const int voxels : sizes) bench(device, mesh, voxels, with_peers);
+    const Mesh mesh = read_mesh(arguments.mesh);
+    print_heading(arguments.mesh, mesh);
+    for (const int voxels : arguments.voxels) bench(device, mesh, voxels, arguments.with_peers);
     return 0;
 }
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <cstdlib>
 #include <string>
 #include <vector>
 
@@ -55,6 +56,31 @@ inline void print_time(const std::string& name, int voxels, const Milliseconds& 
                        const std::string& note) {
     fmt::print("{:26}{:6}{:10.1f}{:10.1f}  {}\n", name, voxels, time.wall, time.cpu, note);
     std::fflush(stdout);
+}
+
+/// [MESH] [voxels ... | peers]
+struct MeshArguments {
+    std::string mesh = kDebianBunny;
+    std::vector<int> voxels;
+    bool with_peers = false;
+
+    MeshArguments(int count, char** words) {
+        for (int i = 1; i < count; ++i) {
+            const std::string word = words[i];
+            const int number = std::atoi(word.c_str());
+            if (word == "peers")
+                with_peers = true;
+            else if (number > 0 && word == std::to_string(number))
+                voxels.push_back(number);
+            else
+                mesh = word;
+        }
+    }
+};
+
+inline void print_heading(const std::string& path, const Mesh& mesh) {
+    fmt::print("{}, {} triangles\n{:26}{:>6}{:>10}{:>10}\n", path, mesh.triangles.size(), "", "n",
+               "ms", "CPU ms");
 }
 
 inline double longest_side(const Mesh& mesh) {
