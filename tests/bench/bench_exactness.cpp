@@ -34,11 +34,6 @@
 namespace voxelume {
 namespace {
 
-double median(std::vector<double> values) {
-    std::ranges::sort(values);
-    return values[values.size() / 2];
-}
-
 /// Says at once what is being measured: kernels take seconds to compile.
 void tell(const std::string& what) {
     fmt::print(stderr, "{} ...\n", what);
@@ -70,10 +65,11 @@ void compare(Run& run, const std::string& name, const std::function<void()>& exa
         ratios.push_back(exact_seconds.back() / float_seconds.back());
     }
     fmt::print("{:<24} exact {:8.2f} ms, floats {:8.2f} ms, ratio {:.3f} ({:.3f} to {:.3f})\n",
-               name, median(exact_seconds) * 1e3, median(float_seconds) * 1e3, median(ratios),
-               *std::ranges::min_element(ratios), *std::ranges::max_element(ratios));
+               name, median_of(exact_seconds) * 1e3, median_of(float_seconds) * 1e3,
+               median_of(ratios), *std::ranges::min_element(ratios),
+               *std::ranges::max_element(ratios));
     std::fflush(stdout);
-    run.ratios.emplace_back(name, median(ratios));
+    run.ratios.emplace_back(name, median_of(ratios));
 }
 
 double longest_side(const Mesh& mesh) {

@@ -81,11 +81,6 @@ class Field {
     std::mt19937 random_{20261121};
 };
 
-double median(std::vector<double> values) {
-    std::nth_element(values.begin(), values.begin() + ptrdiff_t(values.size() / 2), values.end());
-    return values[values.size() / 2];
-}
-
 void measure(const Device& device, Field& field) {
     WorldReport report;
     Pyramid world = form_world(device, field.scene, report);
@@ -119,8 +114,8 @@ void measure(const Device& device, Field& field) {
         "{} instances, model of {} voxels, {} lanes: {:.2f} M rays/s per core, {:.0f} % of "
         "them hits, moving {:.2f} ms (least {:.2f})\n",
         report.instances.instances, report.instances.voxels, device.lanes(),
-        double(rays) / median(ray_seconds) / 1e6, 100.0 * double(met) / double(rays),
-        1e3 * median(move_seconds),
+        double(rays) / median_of(ray_seconds) / 1e6, 100.0 * double(met) / double(rays),
+        1e3 * median_of(move_seconds),
         1e3 * *std::min_element(move_seconds.begin(), move_seconds.end()));
 }
 

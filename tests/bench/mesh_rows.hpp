@@ -33,11 +33,6 @@ Milliseconds time_of(const Run& run) {
         1e3 * (cpu_seconds() - cpu)};
 }
 
-inline double median_of(std::vector<double> values) {
-    std::ranges::nth_element(values, values.begin() + ptrdiff_t(values.size() / 2));
-    return values[values.size() / 2];
-}
-
 /// Of five runs, after one that isn't counted.
 template <class Run>
 Milliseconds median_time(const Run& run) {

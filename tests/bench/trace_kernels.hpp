@@ -22,8 +22,7 @@ double median_seconds(const Pass& pass) {
         seconds.push_back(cpu_seconds() - start);
     }
     seconds.erase(seconds.begin());
-    std::nth_element(seconds.begin(), seconds.begin() + kRuns / 2, seconds.end());
-    return seconds[kRuns / 2];
+    return median_of(std::move(seconds));
 }
 
 /// A batch that holds rays as a frame's stages would hand them on.
