@@ -57,29 +57,68 @@ static inline void store_misses(uint stride, uint first, global uint* restrict h
         LANES_STORE(miss.values[i], hits, i * stride + first);
 }
 
+/// Rays that run beside each other; `beams` may be none.
+typedef struct {
+    global const float* restrict rays;
+    global const uint* restrict paths;
+    global const float* restrict starts;
+    global const uint* restrict beams;
+    uint count, stride;
+} SightRays;
+
+/// Sets the packet of rays from `first` on on their way. False where there is none, or its beam is
+/// clear, which is stored.
+static inline bool send_packet(const PyramidView* p, const SightRays* q, uint first, Flight* f,
+                               global uint* restrict hits) {
+    if (first >= q->count) return false;
+    if (q->beams && beam_is_clear(q->beams, q->stride, first)) {
+        store_misses(q->stride, first, hits);
+        return false;
+    }
+    f->ray = LANES_AS_UINT(LANES_NUMBERS + (int)first);
+    set_out(p, q->rays, q->count, q->stride, q->paths, q->starts, f);
+    if (q->beams) ride_beam(q->beams, q->stride, first, &f->walk);
+    return true;
+}
+
+static inline lane_int are_rays(const SightRays* q, const Flight* f) {
+    return LANE_MASK(f->t_end >= 0.0f) & LANE_MASK(f->ray < q->count);
+}
+
+static inline void store_packet(const SightRays* q, const Flight* f, global uint* restrict hits) {
+    const Hit hit = hit_of(f, f->found.hit);
+    for (uint i = 0; i < VXL_STORED_COMPONENTS; ++i)
+        LANES_STORE(hit.values[i], hits, i * q->stride + LANES_FIRST(f->ray));
+}
+
 /// The closest hit of rays 0 .. count-1 that run beside each other. Arrays hold a multiple of 16
 /// rays. Hits don't depend on whether there are `beams`.
 kernel void trace_closest(VXL_WORLD_ARGUMENTS, global const float* restrict rays, uint count,
                           uint stride, global const uint* restrict paths,
                           global const float* restrict starts, global const uint* restrict beams,
                           global uint* restrict hits) {
-    const uint first = work_item() * VXL_LANES;
+    const uint first = work_item() * (VXL_LANES * VXL_PACKET_TURNS);
     if (first >= count) return;
-    if (beams && beam_is_clear(beams, stride, first)) {
-        store_misses(stride, first, hits);
-        return;
-    }
     VXL_WORLD_VIEWS;
+    const SightRays q = {rays, paths, starts, beams, count, stride};
     Flight f;
-    f.ray = LANES_AS_UINT(LANES_NUMBERS + (int)first);
-    set_out(&pyramid, rays, count, stride, paths, starts, &f);
-    if (beams) ride_beam(beams, stride, first, &f.walk);
-    const lane_int active = LANE_MASK(f.t_end >= 0.0f) & LANE_MASK(f.ray < count);
-    f.found =
-        find_nearest(&pyramid, &surface, &instances, &f.walk, f.t_end, active, false, &f.travel);
-    const Hit hit = hit_of(&f, f.found.hit);
-    for (uint i = 0; i < VXL_STORED_COMPONENTS; ++i)
-        LANES_STORE(hit.values[i], hits, i * stride + first);
+    bool sent = send_packet(&pyramid, &q, first, &f, hits);
+    if (VXL_PACKET_TURNS > 1) {
+        Flight g;
+        const bool also = send_packet(&pyramid, &q, first + VXL_LANES, &g, hits);
+        if (sent && also) {
+            find_by_turns(&pyramid, &surface, &f, are_rays(&q, &f), &g, are_rays(&q, &g));
+            store_packet(&q, &f, hits);
+            store_packet(&q, &g, hits);
+            return;
+        }
+        if (also) f = g;
+        sent |= also;
+    }
+    if (!sent) return;
+    f.found = find_nearest(&pyramid, &surface, &instances, &f.walk, f.t_end, are_rays(&q, &f),
+                           false, &f.travel);
+    store_packet(&q, &f, hits);
 }
 
 #if VXL_PATHS
@@ -97,49 +136,108 @@ static inline void store_hits(const Flight* f, lane_int landing, uint stride,
     }
 }
 
+/// Rays that run anywhere: those from `next` to `end` are still to be taken on.
+typedef struct {
+    SightRays rays;
+    uint next, end;
+} ScatteredRays;
+
+/// A packet whose lanes take on further rays as theirs end.
+typedef struct {
+    Flight flight;
+    lane_int held, walking, waiting;
+} Relay;
+
+/// How many lanes at least a packet keeps on their way.
+static inline int least_walking(const ScatteredRays* q) {
+    return q->next < q->end ? VXL_LANES - VXL_REFILL : 0;
+}
+
+/// Lanes walk while more of them can than wait in occupied voxels.
+static inline bool walks(const Relay* r, int least) {
+    const int steps = lanes_count(r->walking), tests = lanes_count(r->waiting);
+    return steps > tests && steps + tests > least;
+}
+
+static inline void step_relay(const PyramidView* p, Relay* r) {
+    Flight* f = &r->flight;
+    walk_on(p, &f->walk, f->t_end, &f->found, &r->walking, &r->waiting);
+}
+
+/// Gives the lanes that hold no ray the next ones.
+static inline void take_on(const PyramidView* p, ScatteredRays* q, Relay* r) {
+    const SightRays* s = &q->rays;
+    Flight* f = &r->flight;
+    const Progress before = progress_of(f);
+    const lane_int fresh = take_rays(~r->held, q->end, &q->next, &f->ray);
+    set_out(p, s->rays, s->count, s->stride, s->paths, s->starts, f);
+    keep_progress(&before, fresh, f);
+    r->held |= fresh;
+    r->walking |= fresh & are_rays(s, f) & in_grid(p, &f->walk);
+}
+
+static inline Relay begin_relay(const PyramidView* p, ScatteredRays* q) {
+    Relay r;
+    const SightRays* s = &q->rays;
+    Flight* f = &r.flight;
+    f->ray = (lane_uint)(q->end - 1u);
+    r.held = take_rays((lane_int)-1, q->end, &q->next, &f->ray);
+    set_out(p, s->rays, s->count, s->stride, s->paths, s->starts, f);
+    r.walking = r.held & are_rays(s, f) & in_grid(p, &f->walk);
+    r.waiting = (lane_int)0;
+    return r;
+}
+
+/// Tests the surfaces that lanes wait at; where too few walk on, stores what the others have met
+/// and gives them further rays.
+static inline void serve(const PyramidView* p, const SurfaceView* s, ScatteredRays* q, Relay* r,
+                         global uint* restrict hits) {
+    Flight* f = &r->flight;
+    if (lanes_any(r->waiting))
+        meet_surfaces(p, s, &f->walk, f->t_end, &f->travel, &f->found, &r->walking, &r->waiting);
+    if (lanes_count(r->walking) > least_walking(q)) return;
+    store_hits(f, r->held & ~r->walking, q->rays.stride, hits);
+    r->held &= r->walking;
+    if (q->next < q->end) take_on(p, q, r);
+}
+
 /// The closest hit of rays 0 .. count-1 that run anywhere: reflected and refracted ones.
 ///
-/// A work-item carries VXL_PACKETS(VXL_LANES) packets' rays. Lanes whose rays have ended wait until
-/// several have; then their hits are stored, and they go on with the next rays. Lanes walk while
-/// more of them can than wait in occupied voxels. The hits' bits are those of trace_closest.
+/// A work-item carries VXL_PACKETS(VXL_LANES) packets' rays in two packets whose steps take turns.
+/// Lanes whose rays have ended wait until several have; then their hits are stored, and they go on
+/// with the next rays. The hits' bits are those of trace_closest.
 kernel void trace_scattered(VXL_WORLD_ARGUMENTS, global const float* restrict rays, uint count,
                             uint stride, global const uint* restrict paths,
                             global const float* restrict starts, global uint* restrict hits) {
-    uint next = work_item() * (VXL_LANES * VXL_PACKETS(VXL_LANES));
-    if (next >= count) return;
-    const uint end =
-        min(next + VXL_LANES * VXL_PACKETS(VXL_LANES), (count + VXL_LANES - 1u) & -VXL_LANES);
+    const uint first = work_item() * (VXL_LANES * VXL_PACKETS(VXL_LANES));
+    if (first >= count) return;
     VXL_WORLD_VIEWS;
     (void)instances;
-    Flight f;
-    f.ray = LANES_AS_UINT(LANES_NUMBERS + (int)next);
-    set_out(&pyramid, rays, count, stride, paths, starts, &f);
-    next += VXL_LANES;
-    lane_int held = (lane_int)-1, waiting = (lane_int)0;
-    lane_int walking =
-        LANE_MASK(f.t_end >= 0.0f) & LANE_MASK(f.ray < count) & in_grid(&pyramid, &f.walk);
-    while (true) {
-        int steps = lanes_count(walking), tests = 0;
-        const int least = next < end ? VXL_LANES - VXL_REFILL : 0;
-        while (steps > tests && steps + tests > least) {
-            walk_on(&pyramid, &f.walk, f.t_end, &f.found, &walking, &waiting);
-            steps = lanes_count(walking), tests = lanes_count(waiting);
+    ScatteredRays q = {
+        {rays, paths, starts, 0, count, stride},
+        first,
+        min(first + VXL_LANES * VXL_PACKETS(VXL_LANES), (count + VXL_LANES - 1u) & -VXL_LANES)};
+    Relay a = begin_relay(&pyramid, &q);
+    if (VXL_LANES > 1 && q.next < q.end) {
+        Relay b = begin_relay(&pyramid, &q);
+        while (lanes_any(a.held) && lanes_any(b.held)) {
+            const int least = least_walking(&q);
+            bool on_a = walks(&a, least), on_b = walks(&b, least);
+            while (on_a && on_b) {
+                step_relay(&pyramid, &a);
+                step_relay(&pyramid, &b);
+                on_a = walks(&a, least);
+                on_b = walks(&b, least);
+            }
+            if (!on_a) serve(&pyramid, &surface, &q, &a, hits);
+            if (!on_b) serve(&pyramid, &surface, &q, &b, hits);
         }
-        if (tests > 0)
-            meet_surfaces(&pyramid, &surface, &f.walk, f.t_end, &f.travel, &f.found, &walking,
-                          &waiting);
-        steps = lanes_count(walking);
-        if (steps > least) continue;
-        store_hits(&f, held & ~walking, stride, hits);
-        held &= walking;
-        if (next >= end) break;
-        const Progress before = progress_of(&f);
-        const lane_int fresh = take_rays(~walking, end, &next, &f.ray);
-        set_out(&pyramid, rays, count, stride, paths, starts, &f);
-        keep_progress(&before, fresh, &f);
-        held |= fresh;
-        walking |= fresh & LANE_MASK(f.t_end >= 0.0f) & LANE_MASK(f.ray < count) &
-                   in_grid(&pyramid, &f.walk);
+        if (lanes_any(b.held)) a = b;
+    }
+    while (lanes_any(a.held)) {
+        const int least = least_walking(&q);
+        while (walks(&a, least)) step_relay(&pyramid, &a);
+        serve(&pyramid, &surface, &q, &a, hits);
     }
 }
 #endif
@@ -212,6 +310,18 @@ kernel void trace_shadows(VXL_WORLD_ARGUMENTS, uint constant_attribute,
     f.flight.ray = LANES_AS_UINT(LANES_NUMBERS + (int)first);
     const lane_int active = LANE_MASK(f.flight.ray < queued);
     send_shadows(&surface, &filter, shape, &queue, active, &f);
+    if (VXL_SHADOW_PACKETS > 1) {
+        ShadowFlight g;
+        g.flight.ray = f.flight.ray + VXL_LANES;
+        const lane_int others = LANE_MASK(g.flight.ray < queued);
+        if (lanes_any(others)) {
+            send_shadows(&surface, &filter, shape, &queue, others, &g);
+            find_by_turns(&pyramid, &surface, &f.flight, active, &g.flight, others);
+            bring_light(&queue, &f, active & ~f.flight.found.hit, radiance);
+            bring_light(&queue, &g, others & ~g.flight.found.hit, radiance);
+            return;
+        }
+    }
     bring_light(&queue, &f, find_lights(&pyramid, &surface, &filter, active, &f), radiance);
 #endif
 }

@@ -232,6 +232,25 @@ static inline void set_out(const PyramidView* p, global const float* restrict ra
     f->found = found_nothing(&f->travel);
 }
 
+#define VXL_PACKET_TURNS VXL_TURNS(VXL_LANES, VXL_SMOOTH, VXL_EXACT, VXL_INSTANCES)
+
+/// Walks the active lanes of two packets to their first surfaces; see VXL_TURNS.
+static inline void find_by_turns(const PyramidView* p, const SurfaceView* s, Flight* a,
+                                 lane_int active_a, Flight* b, lane_int active_b) {
+    lane_int walking_a = active_a & in_grid(p, &a->walk), waiting_a = (lane_int)0;
+    lane_int walking_b = active_b & in_grid(p, &b->walk), waiting_b = (lane_int)0;
+    while (lanes_any(walking_a | walking_b)) {
+        while (lanes_any(walking_a | walking_b)) {
+            walk_on(p, &a->walk, a->t_end, &a->found, &walking_a, &waiting_a);
+            walk_on(p, &b->walk, b->t_end, &b->found, &walking_b, &waiting_b);
+        }
+        meet_surfaces(p, s, &a->walk, a->t_end, &a->travel, &a->found, &walking_a, &waiting_a);
+        meet_surfaces(p, s, &b->walk, b->t_end, &b->travel, &b->found, &walking_b, &waiting_b);
+    }
+    a->found.hit = is_hit(&a->found, a->t_end) & active_a;
+    b->found.hit = is_hit(&b->found, b->t_end) & active_b;
+}
+
 static inline bool beam_is_clear(global const uint* restrict beams, uint stride, uint first) {
     const uint beam = first / VXL_BEAM_RAYS;
     return beams[VXL_BEAM_AXIS * VXL_BEAM_PLACES(stride) + beam] == VXL_BEAM_CLEAR;

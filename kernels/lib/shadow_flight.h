@@ -10,7 +10,8 @@
 #include "lib/ray_queue.h"
 
 #define VXL_SHADOWS_FLY VXL_SHADOW_RAYS_FLY(VXL_PATHS, VXL_SMOOTH, VXL_EXACT, VXL_INSTANCES)
-#define VXL_SHADOW_PACKETS (VXL_SHADOWS_FLY ? VXL_PACKETS(VXL_LANES) : 1u)
+#define VXL_SHADOW_PACKETS \
+    (VXL_SHADOWS_FLY ? VXL_PACKETS(VXL_LANES) : VXL_FILTER ? 1u : VXL_PACKET_TURNS)
 
 /// A queue of shadow rays, and the paths and hits of the rays that met the surfaces where they
 /// begin.

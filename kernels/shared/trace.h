@@ -41,6 +41,11 @@
 #define VXL_SHADOW_RAYS_FLY(paths, smooth, exact, instances) \
     (((paths) || (smooth) || (exact)) && !(instances))
 
+// Packets whose steps take turns in one work-item: where surfaces are cubes, a packet's time is that
+// of its steps, each a long chain of operations that wait for one another.
+#define VXL_TURNS(lanes, smooth, exact, instances) \
+    ((lanes) > 1 && !((smooth) || (exact) || (instances)) ? 2u : 1u)
+
 // What a ray met.
 //   VXL_HIT_T      float: where, as the ray's t
 //   VXL_HIT_VOXEL  the voxel's number in the pyramid, VXL_NO_VOXEL for a miss

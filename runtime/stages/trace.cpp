@@ -44,12 +44,18 @@ Features features_of(const Pyramid& pyramid) {
     return features;
 }
 
+namespace {
+
+bool shadows_fly(const Features& f) {
+    return VXL_SHADOW_RAYS_FLY(f.paths, f.smooth, f.exact(), f.instances);
+}
+
+}  // namespace
+
 TraceStage::TraceStage(const Device& device, const Features& features)
     : packets_(VXL_PACKETS(device.lanes())),
-      shadow_packets_(
-          VXL_SHADOW_RAYS_FLY(features.paths, features.smooth, features.exact(), features.instances)
-              ? packets_
-              : 1),
+      turns_(VXL_TURNS(device.lanes(), features.smooth, features.exact(), features.instances)),
+      shadow_packets_(shadows_fly(features) ? packets_ : features.filter ? 1 : turns_),
       program_(device, "trace.cl", features.defines(device)),
       closest_(program_.kernel("trace_closest")),
       shadows_(program_.kernel("trace_shadows")) {
@@ -71,7 +77,7 @@ void TraceStage::closest(const Pyramid& pyramid, RayBatch& batch, uint32_t count
     if (scattered && scattered_)
         launch(*scattered_, (count + packets_ - 1) / packets_);
     else
-        launch(closest_, count, batch.beams);
+        launch(closest_, (count + turns_ - 1) / turns_, batch.beams);
 }
 
 void TraceStage::begin_inside(const Pyramid& pyramid, const Surroundings& surroundings,

@@ -51,7 +51,8 @@ class TraceStage {
                  uint32_t most, RayBatch& batch);
 
   private:
-    size_t packets_, shadow_packets_;  // that a work-item of `scattered_`, of `shadows_` carries
+    // Packets that a work-item of `scattered_`, of `closest_` and of `shadows_` carries.
+    size_t packets_, turns_, shadow_packets_;
     Program program_;
     Kernel closest_, shadows_;
     std::optional<Kernel> scattered_;  ///< of scenes with paths and no instances
