@@ -107,15 +107,16 @@ kernel void cast_sight(Sight sight, PyramidShape shape, global const float* rest
 }
 
 /// One work-item sends VXL_LANES beams, each along the 16 rays of its group; see shared/trace.h.
-/// Adds the number of clear ones, low word and high word, to `cleared`.
+/// `scale`, a power of two, is what the halo's coordinates are of the rays'. Adds the number of
+/// clear ones, low word and high word, to `cleared`.
 kernel void start_beams(PyramidShape shape, global const uint* restrict sectors,
-                        global const uint* restrict bricks, global const float* restrict rays,
-                        uint count, uint stride, global uint* restrict beams,
-                        global uint* restrict cleared) {
+                        global const uint* restrict bricks, float scale,
+                        global const float* restrict rays, uint count, uint stride,
+                        global uint* restrict beams, global uint* restrict cleared) {
     const uint first = work_item() * VXL_LANES;
     if (first >= count) return;
     const PyramidView halo = pyramid_view(shape, sectors, bricks, 0, 0);
-    const BeamRays r = {rays, stride};
+    const BeamRays r = {rays, stride, scale};
     const lane_uint beam = min(LANES_AS_UINT(LANES_NUMBERS + (int)first), (lane_uint)(count - 1u));
     const lane_uint first_ray = beam * VXL_BEAM_RAYS;
     lane_float sign;
@@ -137,13 +138,13 @@ kernel void start_beams(PyramidShape shape, global const uint* restrict sectors,
         const lane_uint ray = first_ray + i;
         const lane_int found = is_ray(&r, ray), held = found & active;
         idle &= ~found;
-        const lane_float s0 = sign * ray_value(&r, axis, ray);
+        const lane_float s0 = sign * ray_place(&r, axis, ray);
         const lane_float d = sign * ray_value(&r, axis + VXL_RAY_DX, ray);
         active &= ~held | LANE_MASK(d >= VXL_BEAM_LEAST_DIRECTION);
         const lane_float per_s = exact_reciprocal(LANES_SELECT(active & held, d, (lane_float)1.0f));
         const lane_float mb = ray_value(&r, axis_b + VXL_RAY_DX, ray) * per_s;
         const lane_float mc = ray_value(&r, axis_c + VXL_RAY_DX, ray) * per_s;
-        const lane_float b = ray_value(&r, axis_b, ray), c = ray_value(&r, axis_c, ray);
+        const lane_float b = ray_place(&r, axis_b, ray), c = ray_place(&r, axis_c, ray);
         widen(fma(mb, s_near - s0, b), fma(mb, s_far - s0, b), held, &b_span);
         widen(fma(mc, s_near - s0, c), fma(mc, s_far - s0, c), held, &c_span);
         s_first = LANES_SELECT(held, fmin(s_first, s0), s_first);
@@ -153,7 +154,7 @@ kernel void start_beams(PyramidShape shape, global const uint* restrict sectors,
     const lane_float s_last =
         fmin(fmin(narrow_until(&b, s_first), narrow_until(&c, s_first)), s_far);
     const lane_float end = run_beams(&halo, axis, sign, &b, &c, s_first, s_last, active);
-    const lane_float start = fmin(end, s_last) - 2.0f * VXL_BEAM_STEP;
+    const lane_float start = (fmin(end, s_last) - 2.0f * VXL_BEAM_STEP) * (1.0f / scale);
     const uint places = VXL_BEAM_PLACES(stride);
     LANES_STORE(LANES_AS_UINT(start), beams, VXL_BEAM_START * places + first);
     // The halo's last leaf knows of 4 voxels more, and so of the step past its planes. A beam that

@@ -35,15 +35,19 @@ Features without_light(Features features) {
     return features;
 }
 
-/// Whether so many sight rays save more time by beams than these take: building the halo, loading
-/// one more kernel. In larger worlds rounding could come near a beam's slack, see lib/beam.h.
-bool beams_pay(const Features& features, const Pyramid& world, uint64_t rays) {
+/// The halo whose beams save so many sight rays more time than they take: building it, loading one
+/// more kernel. In larger worlds rounding could come near a beam's slack, see lib/beam.h.
+std::optional<HaloOf> halo_that_pays(const Scene& scene, const Features& features,
+                                     const Pyramid& world, uint64_t rays) {
     constexpr uint64_t kFewRays = 65536;
     constexpr int kLargest = 16384;
     const glm::ivec3& size = world.frame.size;
-    return !features.instances && world.voxel_count > 0 &&
-           std::max({size.x, size.y, size.z}) <= kLargest &&
-           rays >= std::max<uint64_t>(kFewRays, world.leaf_count);
+    if (features.instances || world.voxel_count == 0 || rays < kFewRays ||
+        std::max({size.x, size.y, size.z}) > kLargest)
+        return std::nullopt;
+    const std::optional<HaloOf> of = halo_for(voxels_a_pixel(scene, world.frame));
+    const uint32_t parts = of == HaloOf::bricks ? world.leaf_count / 64 : world.leaf_count;
+    return rays >= parts ? of : std::nullopt;
 }
 
 }  // namespace
@@ -67,9 +71,9 @@ bool Renderer::has_room(const Scene& scene, const Features& features, uint64_t r
            double(device_.counters().bytes_in_use) + needed + bytes <= memory;
 }
 
-Halo Renderer::halo_of(const FormedWorld& world) {
-    if (halo_ && halo_->world == world.version) return halo_->halo;
-    Halo halo = build_halo(device_, world.pyramid);
+Halo Renderer::halo_of(const FormedWorld& world, HaloOf of) {
+    if (halo_ && halo_->world == world.version && halo_->halo.of == of) return halo_->halo;
+    Halo halo = build_halo(device_, world.pyramid, of);
     if (follows_) halo_ = WorldHalo{world.version, halo};
     return halo;
 }
@@ -130,8 +134,10 @@ Image Renderer::image_of_tiles(const Scene& scene, const FormedWorld& formed, Re
     build_programs(device_, features, scene, world);
     SightStage sight(device_, features, observer);
     std::optional<BeamStage> beams;
-    if (!report.hits_are_kept && beams_pay(features, world, uint64_t(all_tiles) * rays_per_tile))
-        beams.emplace(device_, features, world, halo_of(formed));
+    const std::optional<HaloOf> halo =
+        halo_that_pays(scene, features, world, uint64_t(all_tiles) * rays_per_tile);
+    if (!report.hits_are_kept && halo)
+        beams.emplace(device_, features, world, halo_of(formed, *halo));
     Illumination illumination(device_, features, scene, world, batch.stride);
     ResolveStage resolve(device_, features, observer, scene.render.channels);
     while (const std::optional<TileRange> range = tiles.share.take(in_batch)) {

@@ -87,7 +87,7 @@ class Renderer {
 
     static View view_of(const Scene& scene, const FormedWorld& world, const Features& features);
     bool has_room(const Scene& scene, const Features& features, uint64_t rays) const;
-    Halo halo_of(const FormedWorld& world);
+    Halo halo_of(const FormedWorld& world, HaloOf of);
     Image image_of_tiles(const Scene& scene, const FormedWorld& world, RenderReport& report,
                          const Tiles& tiles);
 

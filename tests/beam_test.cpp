@@ -106,11 +106,16 @@ class BeamLanes : public testing::TestWithParam<int> {};
 
 TEST_P(BeamLanes, LeaveTheHitsAsTheyAre) {
     const Device device = test_device(GetParam());
-    for (const int voxels : {3, 400, 4000}) {
+    for (const auto& [voxels, of] : {std::pair(3, HaloOf::leaves),
+                                     {400, HaloOf::leaves},
+                                     {4000, HaloOf::leaves},
+                                     {3, HaloOf::bricks},
+                                     {60, HaloOf::bricks},
+                                     {400, HaloOf::bricks}}) {
         const Pyramid pyramid =
             build_index(device, scattered_cubes({230, 137, 301}, voxels).upload(device));
         TraceStage trace(device, features_of(pyramid));
-        BeamStage beams(device, features_of(pyramid), pyramid, build_halo(device, pyramid));
+        BeamStage beams(device, features_of(pyramid), pyramid, build_halo(device, pyramid, of));
         const RayList rays = random_tiles(pyramid, 1500);
         RayBatch batch = rays.batch(device);
         trace.closest(pyramid, batch, batch.stride);
@@ -122,8 +127,8 @@ TEST_P(BeamLanes, LeaveTheHitsAsTheyAre) {
         for (uint32_t i = 0; i < batch.stride; ++i)
             for (uint32_t c = 0; c < VXL_HIT_PRIMITIVE; ++c)
                 ASSERT_EQ(hits[c * batch.stride + i], expected[c * batch.stride + i])
-                    << "seed " << kSeed << ", " << voxels << " voxels, ray " << i << ", component "
-                    << c;
+                    << "seed " << kSeed << ", " << voxels << " voxels, halo " << int(of) << ", ray "
+                    << i << ", component " << c;
         const std::vector<uint32_t> words = batch.beams.read();
         const auto axes = words.begin() + VXL_BEAM_AXIS * VXL_BEAM_PLACES(batch.stride);
         EXPECT_EQ(beams.sent(), 1500u);
@@ -139,9 +144,10 @@ struct Start {
     uint32_t axis;
 };
 
-Start first_start(const Device& device, const Pyramid& pyramid, const RayList& rays) {
+Start first_start(const Device& device, const Pyramid& pyramid, const RayList& rays,
+                  HaloOf of = HaloOf::leaves) {
     RayBatch batch = rays.batch(device);
-    BeamStage(device, features_of(pyramid), pyramid, build_halo(device, pyramid))
+    BeamStage(device, features_of(pyramid), pyramid, build_halo(device, pyramid, of))
         .start(batch, batch.stride);
     const std::vector<uint32_t> words = batch.beams.read();
     Start start{0, words[VXL_BEAM_AXIS * VXL_BEAM_PLACES(batch.stride)]};
@@ -184,6 +190,29 @@ TEST(Beam, StartsItsRaysOneLeafBeforeTheFirstThatHoldsVoxels) {
     EXPECT_NEAR(down.s, -208, 0.1);
 }
 
+TEST(Beam, InAHaloOfBricksStartsItsRaysOneBrickBefore) {
+    OneVoxel world;
+    world.aim({123, 63, 0}, {0, 0, 1}, 4);
+    const Start up = first_start(world.device, world.pyramid, world.rays, HaloOf::bricks);
+    EXPECT_EQ(up.axis, 2u);
+    EXPECT_NEAR(up.s, 176, 0.2);
+    world.aim({123, 63, 301}, {0, 0, -1}, 4);
+    const Start down = first_start(world.device, world.pyramid, world.rays, HaloOf::bricks);
+    EXPECT_EQ(down.axis, 2u | VXL_BEAM_DOWN);
+    EXPECT_NEAR(down.s, -224, 0.2);
+    world.aim({20, 20, 0}, {0, 0, 1}, 4);
+    EXPECT_EQ(first_start(world.device, world.pyramid, world.rays, HaloOf::bricks).axis,
+              uint32_t{VXL_BEAM_CLEAR});
+}
+
+TEST(Beam, HalosFitTheWidthOfPixels) {
+    EXPECT_EQ(halo_for(0.1), HaloOf::leaves);
+    EXPECT_EQ(halo_for(2.4), HaloOf::leaves);
+    EXPECT_EQ(halo_for(2.6), HaloOf::bricks);
+    EXPECT_EQ(halo_for(9.9), HaloOf::bricks);
+    EXPECT_EQ(halo_for(10.1), std::nullopt);
+}
+
 TEST(Beam, ThatSeesNothingBringsItsRaysOutOfTheWorld) {
     OneVoxel world;
     world.aim({20, 20, 0}, {0, 0, 1}, 0.5);
@@ -223,6 +252,8 @@ TEST(Beam, EndsWhereItsRaysAreTooFarApart) {
     OneVoxel world;
     world.aim({10, 20, 0}, {0, 0, 1}, 4);
     EXPECT_LE(first_start(world.device, world.pyramid, world.rays).s, 0);
+    world.aim({10, 20, 0}, {0, 0, 1}, 16);
+    EXPECT_LE(first_start(world.device, world.pyramid, world.rays, HaloOf::bricks).s, 0);
 }
 
 TEST(Beam, OfIdlePlacesIsClearAndOfIdleCornersNone) {

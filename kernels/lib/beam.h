@@ -3,7 +3,8 @@
 // A beam is the straight line in the middle of its rays, along the axis that they mostly follow:
 // at every coordinate s of that axis it is less than 4 voxels from each of them. So as long as its
 // own leaf and all leaves around that are empty, which the halo (runtime/stages/beam.hpp) knows of
-// one leaf, theirs are. The slack of a quarter voxel covers the step of 1/64 past the planes at
+// one leaf, theirs are. In a halo of bricks leaves are bricks, and all that a beam counts in is a
+// quarter: `scale`. The slack of a quarter voxel covers the step of 1/64 past the planes at
 // which the line is looked at, and all rounding: places are sums of numbers up to 16 times the
 // world's length (VXL_BEAM_LEAST_DIRECTION), six roundings of which are 0.1 voxel for 16384 voxels.
 #ifndef VXL_BEAM_H
@@ -23,11 +24,17 @@
 typedef struct {
     global const float* restrict rays;
     uint stride;
+    float scale;  // the halo's coordinates of the rays'
 } BeamRays;
 
 /// A component of rays along an axis: VXL_RAY_OX + axis and VXL_RAY_DX + axis.
 static inline lane_float ray_value(const BeamRays* r, lane_int component, lane_uint ray) {
     return LANES_GATHER_FLOAT(r->rays, LANES_AS_UINT(component) * r->stride + ray);
+}
+
+/// Where rays begin along an axis, in the halo's coordinates.
+static inline lane_float ray_place(const BeamRays* r, lane_int axis, lane_uint ray) {
+    return r->scale * ray_value(r, (lane_int)VXL_RAY_OX + axis, ray);
 }
 
 /// Mask: places that hold a ray.

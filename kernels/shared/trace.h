@@ -41,8 +41,8 @@
 #define VXL_SHADOW_RAYS_FLY(paths, smooth, exact, instances) \
     (((paths) || (smooth) || (exact)) && !(instances))
 
-// Packets whose steps take turns in one work-item: where surfaces are cubes, a packet's time is that
-// of its steps, each a long chain of operations that wait for one another.
+// Packets whose steps take turns in one work-item: where surfaces are cubes, a packet's time is
+// that of its steps, each a long chain of operations that wait for one another.
 #define VXL_TURNS(lanes, smooth, exact, instances) \
     ((lanes) > 1 && !((smooth) || (exact) || (instances)) ? 2u : 1u)
 

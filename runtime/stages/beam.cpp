@@ -9,6 +9,8 @@
 namespace voxelume {
 namespace {
 
+constexpr double kBeamRadius = 3.75;  // VXL_BEAM_RADIUS of lib/beam.h, voxels
+
 /// Leaf masks of a table of sectors, those of sectors without any left out.
 class LeafMasks {
   public:
@@ -46,7 +48,8 @@ class LeafMasks {
         }
         write_empty_cubes(bricks);
         return {{device, "halo sectors", std::span<const uint32_t>(sectors)},
-                {device, "halo bricks", std::span<const uint32_t>(bricks)}};
+                {device, "halo bricks", std::span<const uint32_t>(bricks)},
+                HaloOf::leaves};
     }
 
   private:
@@ -65,6 +68,7 @@ std::array<uint64_t, 3> dilated(uint64_t mask, int step, uint64_t low) {
 }
 
 void add_dilated(const glm::ivec3& brick, uint64_t mask, LeafMasks& masks) {
+    if (mask == 0) return;
     const auto along_x = dilated(mask, 1, 0x1111111111111111ull);
     for (int x = 0; x < 3; ++x) {
         const auto along_y = dilated(along_x[size_t(x)], 4, 0x000F000F000F000Full);
@@ -76,33 +80,78 @@ void add_dilated(const glm::ivec3& brick, uint64_t mask, LeafMasks& masks) {
     }
 }
 
-}  // namespace
-
-Halo build_halo(const Device& device, const Pyramid& pyramid) {
+/// Calls `visit` with each stored sector of a pyramid and its 64 brick records.
+template <class Visit>
+void for_each_sector(const Pyramid& pyramid, const Visit& visit) {
     const glm::ivec3 table = pyramid.frame.sectors();
     const std::vector<uint32_t> sectors = pyramid.sectors.read(), bricks = pyramid.bricks.read();
-    LeafMasks masks(table);
     for (size_t i = 0; i < sectors.size(); ++i) {
         if (sectors[i] & kEmptyCube) continue;
         const int number = int(i);
-        const glm::ivec3 first =
-            glm::ivec3(number % table.x, number / table.x % table.y, number / (table.x * table.y)) *
-            kBricksPerSector;
-        for (int bit = 0; bit < int(kRecordsPerSector); ++bit) {
-            const uint32_t* record =
-                &bricks[(sectors[i] * kRecordsPerSector + size_t(bit)) * kWordsPerRecord];
-            const uint64_t mask = record[0] | uint64_t(record[1]) << 32;
-            if (mask != 0)
-                add_dilated(first + glm::ivec3(bit & 3, bit >> 2 & 3, bit >> 4), mask, masks);
-        }
+        visit(
+            glm::ivec3(number % table.x, number / table.x % table.y, number / (table.x * table.y)),
+            &bricks[sectors[i] * kRecordsPerSector * kWordsPerRecord]);
     }
-    return masks.halo(device);
+}
+
+uint64_t leaves_of(const uint32_t* record) {
+    return record[0] | uint64_t(record[1]) << 32;
+}
+
+/// A pyramid's frame in voxels four times as long.
+glm::ivec3 coarse_size(const GridFrame& frame) {
+    return (frame.size + 3) / 4;
+}
+
+glm::ivec3 coarse_sectors(const GridFrame& frame) {
+    return (coarse_size(frame) + kSectorSize - 1) / kSectorSize;
+}
+
+PyramidShape halo_shape(const Pyramid& pyramid, HaloOf of) {
+    PyramidShape shape = shape_of(pyramid);
+    if (of == HaloOf::leaves) return shape;
+    const glm::ivec3 size = coarse_size(pyramid.frame), sectors = coarse_sectors(pyramid.frame);
+    shape.size_x = size.x, shape.size_y = size.y, shape.size_z = size.z;
+    shape.sectors_x = sectors.x, shape.sectors_y = sectors.y;
+    return shape;
+}
+
+}  // namespace
+
+Halo build_halo(const Device& device, const Pyramid& pyramid, HaloOf of) {
+    if (of == HaloOf::leaves) {
+        LeafMasks masks(pyramid.frame.sectors());
+        for_each_sector(pyramid, [&](const glm::ivec3& sector, const uint32_t* records) {
+            for (int bit = 0; bit < int(kRecordsPerSector); ++bit)
+                add_dilated(sector * kBricksPerSector + glm::ivec3(bit & 3, bit >> 2 & 3, bit >> 4),
+                            leaves_of(&records[size_t(bit) * kWordsPerRecord]), masks);
+        });
+        return masks.halo(device);
+    }
+    // A sector is a brick of the coarse pyramid, and its bricks that brick's leaves.
+    LeafMasks masks(coarse_sectors(pyramid.frame));
+    for_each_sector(pyramid, [&](const glm::ivec3& sector, const uint32_t* records) {
+        uint64_t mask = 0;
+        for (size_t bit = 0; bit < kRecordsPerSector; ++bit)
+            mask |= uint64_t{leaves_of(&records[bit * kWordsPerRecord]) != 0} << bit;
+        add_dilated(sector, mask, masks);
+    });
+    Halo halo = masks.halo(device);
+    halo.of = HaloOf::bricks;
+    return halo;
+}
+
+std::optional<HaloOf> halo_for(double voxels_a_pixel) {
+    const double radius = 1.5 * voxels_a_pixel;  // of the rays through 4 x 4 pixels
+    if (radius <= kBeamRadius) return HaloOf::leaves;
+    if (radius <= 4 * kBeamRadius) return HaloOf::bricks;
+    return std::nullopt;
 }
 
 BeamStage::BeamStage(const Device& device, const Features& features, const Pyramid& pyramid,
                      Halo halo)
     : device_(device),
-      shape_(shape_of(pyramid)),
+      shape_(halo_shape(pyramid, halo.of)),
       halo_(std::move(halo)),
       cleared_(device, "clear beams", 2),
       program_(device, "sight.cl", features.defines(device)),
@@ -119,7 +168,8 @@ void BeamStage::start(RayBatch& batch, uint32_t count) {
         batch.beams = Buffer<uint32_t>(device_, "beams",
                                        size_t(VXL_BEAM_PLACES(batch.stride)) * VXL_BEAM_COMPONENTS);
     const uint32_t beams = (count + VXL_BEAM_RAYS - 1) / VXL_BEAM_RAYS;
-    start_.launch_packets(beams, shape_, halo_.sectors, halo_.bricks, batch.rays, beams,
+    const float scale = halo_.of == HaloOf::leaves ? 1.0f : 0.25f;
+    start_.launch_packets(beams, shape_, halo_.sectors, halo_.bricks, scale, batch.rays, beams,
                           batch.stride, batch.beams, cleared_);
     sent_ += beams;
 }

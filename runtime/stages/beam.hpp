@@ -1,6 +1,8 @@
 // rays -> beams: how far groups of neighbouring rays run through empty space together.
 #pragma once
 
+#include <optional>
+
 #include "kernels/shared/scene.h"
 #include "runtime/grid.hpp"
 #include "runtime/stages/features.hpp"
@@ -8,16 +10,26 @@
 
 namespace voxelume {
 
-/// A pyramid's leaves that hold voxels, and all leaves that touch one: where a point's leaf isn't
-/// among them, no surface is within 4 voxels of it. `sectors` and `bricks` as in Pyramid, but
-/// nothing lies below the masks of leaves.
+/// What a halo is made of: leaves for narrow groups of rays, bricks for those up to four times as
+/// wide.
+enum class HaloOf { leaves, bricks };
+
+/// A pyramid's leaves (or bricks) that hold voxels, and all that touch one: where a point's leaf
+/// isn't among them, no surface is within 4 voxels (16) of it. `sectors` and `bricks` as in
+/// Pyramid, but nothing lies below the masks of leaves; a halo of bricks is that of a pyramid of
+/// voxels four times as long.
 struct Halo {
     Buffer<uint32_t> sectors, bricks;
+    HaloOf of = HaloOf::leaves;
 };
 
 /// The halo of a world without instances. Reads the pyramid's upper levels back; host work of about
-/// 0.3 microseconds a brick.
-Halo build_halo(const Device& device, const Pyramid& pyramid);
+/// 0.3 microseconds a brick, or for a halo of bricks, a sector.
+Halo build_halo(const Device& device, const Pyramid& pyramid, HaloOf of = HaloOf::leaves);
+
+/// The halo for rays that neighbouring pixels send, each so many voxels wide where they meet the
+/// world; none where beams would be too wide for either.
+std::optional<HaloOf> halo_for(double voxels_a_pixel);
 
 /// `start_beams` of sight.cl. Beams change how long rays take, never what they meet.
 class BeamStage {

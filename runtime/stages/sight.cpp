@@ -70,6 +70,17 @@ Sight sight_of(const Scene& scene, const GridFrame& world) {
     return sight;
 }
 
+double voxels_a_pixel(const Scene& scene, const GridFrame& world) {
+    const Observer& observer = scene.observer;
+    const glm::dvec2 pixel = 2.0 * half_extent(observer.display) / glm::dvec2(scene.render.size);
+    const glm::dvec3 middle = world.origin + 0.5 * world.voxel_edge * glm::dvec3(world.size);
+    const double metres = observer.display.shape == DisplayShape::box
+                              ? 1.0
+                              : glm::distance(middle, observer.position);
+    const glm::dvec3& edge = world.voxel_edge;
+    return std::max(pixel.x, pixel.y) * metres / std::min({edge.x, edge.y, edge.z});
+}
+
 std::vector<float> sample_offsets(int samples) {
     constexpr double kPlastic = 1.32471795724474602596;
     std::vector<float> offsets;

@@ -55,7 +55,9 @@ bool shadows_fly(const Features& f) {
 TraceStage::TraceStage(const Device& device, const Features& features)
     : packets_(VXL_PACKETS(device.lanes())),
       turns_(VXL_TURNS(device.lanes(), features.smooth, features.exact(), features.instances)),
-      shadow_packets_(shadows_fly(features) ? packets_ : features.filter ? 1 : turns_),
+      shadow_packets_(shadows_fly(features) ? packets_
+                      : features.filter     ? 1
+                                            : turns_),
       program_(device, "trace.cl", features.defines(device)),
       closest_(program_.kernel("trace_closest")),
       shadows_(program_.kernel("trace_shadows")) {
