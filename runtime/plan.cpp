@@ -224,7 +224,8 @@ class Planner {
 }  // namespace
 
 double pixel_bytes(const ImageChannels& channels) {
-    return 4.0 * (4 + int(channels.depth) + 3 * int(channels.position) + 3 * int(channels.normal));
+    return 4.0 * (4 * int(channels.color) + int(channels.depth) + 3 * int(channels.position) +
+                  3 * int(channels.normal));
 }
 
 double image_bytes(const RenderSettings& render) {

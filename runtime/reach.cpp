@@ -20,6 +20,7 @@ constexpr double kRounding = 0x1p-17;
 
 /// Whether rays go on from surfaces of the object; of voxels in a file that isn't read, they may.
 bool sends_rays_on(const Scene& scene, const Object& object, MeshStore& meshes, bool reads) {
+    if (!scene.render.channels.color) return false;
     const Model& model = scene.models[size_t(object.model)];
     if (!model.voxels.empty() && (!reads || meshes.voxels(model).transparent)) return true;
     const auto sends = [&](int number) {
@@ -37,7 +38,8 @@ class RayHull {
     RayHull(const Scene& scene, const std::vector<VoxelBox>& lamps) {
         const GridFrame world = world_frame(scene.world);
         hull_ = hull_of_sight(scene.observer, world);
-        if (scene.render.shadows) add_shadow_rays(scene, lamps, world, hull_);
+        if (scene.render.shadows && scene.render.channels.color)
+            add_shadow_rays(scene, lamps, world, hull_);
         const glm::dvec3 eye = (scene.observer.position - world.origin) / world.voxel_edge;
         double largest = 0;
         const auto include = [&](const glm::dvec3& p) {
@@ -77,7 +79,8 @@ void add_reached(Scene scene, MeshStore& meshes, std::vector<bool>& reached) {
 
     std::vector<VoxelBox> lamps;
     for (size_t i = 0; i < objects.size(); ++i)
-        if (is_lamp(scene, objects[i]) && !is_empty(boxes[i])) lamps.push_back(boxes[i]);
+        if (scene.render.channels.color && is_lamp(scene, objects[i]) && !is_empty(boxes[i]))
+            lamps.push_back(boxes[i]);
     const RayHull hull(scene, lamps);
     std::vector<bool> met = reached;
     bool all = scene.observer.display.layout == VolumeLayout::lattice;

@@ -14,7 +14,8 @@ namespace voxelume {
 /// In a frame where nothing in reach reflects or lets light through, rays stay within the convex
 /// hull of what the display sees of the world and, with shadows, of the lights; an object is out of
 /// reach if a plane parts its box from that. In other frames, and where the display is a lattice,
-/// every object in the world is in reach. Lamps always are, with what may cover part of one.
+/// every object in the world is in reach. Lamps always are, with what may cover part of one. For
+/// images without colour only sight rays count.
 /// Instances are in reach together, also those outside of the world, and so are all objects of a
 /// world that the store's cache has already.
 ///

@@ -17,6 +17,12 @@
 namespace voxelume {
 namespace {
 
+/// The channels are a flat image's.
+Scene with_all_channels(Scene scene) {
+    scene.render.channels = {};
+    return scene;
+}
+
 /// What both layouts work with.
 struct Work {
     const Device& device;
@@ -153,8 +159,9 @@ uint32_t count_not_finite(const Volume& volume) {
 
 }  // namespace
 
-Volume render_volume(const Device& device, const Scene& scene, const FormedWorld& formed,
+Volume render_volume(const Device& device, const Scene& shown, const FormedWorld& formed,
                      RenderReport& report, const FrameProgress& progress) {
+    const Scene scene = with_all_channels(shown);
     const Pyramid& world = formed.pyramid;
     const auto start = std::chrono::steady_clock::now();
     const VolumeFrame frame = display_frame(scene);
@@ -201,7 +208,7 @@ std::shared_ptr<Volume> VolumeRenderer::volume(const Scene& scene, const FormedW
 Volume render_volume(const Device& device, const Scene& scene, RenderReport& report,
                      const FrameProgress& progress) {
     MeshStore meshes;
-    const Scene shown = with_objects_in_reach(scene, meshes);
+    const Scene shown = with_objects_in_reach(with_all_channels(scene), meshes);
     const FormedWorld world =
         WorldFormer(device, false, std::move(meshes)).form(shown, report.world);
     return render_volume(device, shown, world, report, progress);

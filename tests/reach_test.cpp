@@ -92,6 +92,19 @@ TEST(Reach, GoesOnToALightThroughWhatMayStandBetween) {
     EXPECT_NE(hash_of_all(without), hash_of_all(scene)) << "its shadow is seen";
 }
 
+TEST(Reach, WithoutColourIsWhatTheDisplaySees) {
+    for (const float refraction : {0.0f, 0.8f}) {
+        Scene scene = scene_of(kPointLight);
+        scene.materials[1].refraction = refraction;
+        scene.materials[2].emission = {3, 2, 1};
+        scene.objects[4].material = 2;
+        EXPECT_NE(reached(scene), "seen ");
+        scene.render.channels.color = false;
+        EXPECT_EQ(reached(scene), "seen ");
+        EXPECT_EQ(expect_same_bits(scene).voxelized, 1u);
+    }
+}
+
 TEST(Reach, GoesOnToADistantLight) {
     const Scene scene = scene_of(R"({"type": "directional", "direction": [-1, -0.02, 0]})");
     EXPECT_EQ(reached(scene), "seen right ");
