@@ -10,7 +10,6 @@
 #include "runtime/scene_animation.hpp"
 #include "runtime/scene_motion.hpp"
 #include "runtime/stages/spots.hpp"
-#include "runtime/world_source.hpp"
 
 namespace voxelume {
 namespace {
@@ -100,12 +99,6 @@ void add_reached(Scene scene, MeshStore& meshes, std::vector<bool>& reached) {
         reached[i] = reached[i] || (instances && is_shown_instance(scene, objects[i]));
 }
 
-/// Whether the store's cache has the world of all objects.
-bool has_world(const Scene& scene, MeshStore& meshes) {
-    const std::string key = world_source(scene, meshes);
-    return !key.empty() && meshes.cache().has_world(key);
-}
-
 /// Objects of models that change. Their files may be many, and aren't read before their frames.
 std::vector<bool> objects_of_moving_models(const Scene& scene) {
     std::vector<bool> found(scene.objects.size());
@@ -124,20 +117,26 @@ void find_objects_in_reach(Scene& scene, std::span<const int> frames, MeshStore&
                                                   : std::vector<bool>(scene.objects.size());
     for (const int frame : frames) {
         if (std::ranges::find(reached, false) == reached.end()) return;
-        in_frame(scene, frame, [&] {
-            const Scene now = scene_at(scene, frame);
-            if (frame == frames.front() && has_world(now, meshes))
-                reached.assign(reached.size(), true);
-            else
-                add_reached(now, meshes, reached);
-        });
+        in_frame(scene, frame, [&] { add_reached(scene_at(scene, frame), meshes, reached); });
     }
     for (size_t i = 0; i < reached.size(); ++i) scene.objects[i].in_reach = reached[i];
 }
 
+void leave_out_of_reach(const Scene& scene, Pyramid& world) {
+    const auto has = [&](Surface surface) {
+        return std::ranges::any_of(scene.objects, [&](const Object& object) {
+            return is_in_reach(scene, object) && !is_instanced(scene, object) &&
+                   scene.models[size_t(object.model)].surface == surface;
+        });
+    };
+    if (!has(Surface::smooth)) world.fields = {};
+    if (has(Surface::exact)) return;
+    world.primitive_first = world.primitives = world.triangle_attributes = world.solids = {};
+    world.triangles = {};
+}
+
 Scene with_objects_in_reach(Scene scene, MeshStore& meshes) {
     std::vector<bool> reached(scene.objects.size());
-    if (has_world(scene, meshes)) return scene;
     add_reached(scene, meshes, reached);
     for (size_t i = 0; i < reached.size(); ++i) scene.objects[i].in_reach = reached[i];
     return scene;
