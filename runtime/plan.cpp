@@ -204,6 +204,7 @@ class Planner {
         Pyramid world;
         world.frame = plan_.world;
         world.object_boxes = extents_.boxes();
+        world.clear = plan_.medium.is_zero;
         add_scene(scene_, world, features);
         return features;
     }

@@ -92,7 +92,7 @@ void add_light(const Scene& scene, const Pyramid& world, Features& features) {
         lit && (has_lamp(scene, world) || std::ranges::any_of(scene.lights, [](const Light& light) {
                     return shines(light) && has_area(light);
                 }));
-    features.medium = scene.world.medium.absorption != glm::vec3(0);
+    features.medium = scene.world.medium.absorption != glm::vec3(0) && !world.clear;
     features.medium_grid = features.medium && has_density(scene.world.medium);
     add_paths(scene, world, features);
     add_interior(scene, world, features);

@@ -9,6 +9,7 @@
 #include "runtime/plan.hpp"
 #include "runtime/reach.hpp"
 #include "runtime/shown_models.hpp"
+#include "runtime/stages/density_grid.hpp"
 #include "runtime/stages/index.hpp"
 #include "runtime/world_source.hpp"
 
@@ -109,6 +110,10 @@ std::vector<PlacedObject> WorldFormer::placed_objects(const Scene& scene,
 
 /// The world before, with its instances where they are now.
 FormedWorld WorldFormer::kept_world(const Scene& scene, WorldReport& report) {
+    if (density_ != scene.world.medium.density) {
+        density_ = scene.world.medium.density;
+        world_.pyramid.clear = has_no_medium(scene.world);
+    }
     report.triangles = meshes_.triangles();
     report.instances = instances_;
     report.instances.seconds = 0;
@@ -187,10 +192,12 @@ FormedWorld WorldFormer::form_anew(const Scene& scene, const Origin& origin, Wor
     report.instances.moved = count_moved(instance_places_, places);
     instance_places_ = std::move(places);
     formed.pyramid.object_boxes = std::move(boxes);
+    formed.pyramid.clear = plan.medium.is_zero;
     device_.finish();
     indexing.stop();
     if (keeps_) {
         world_.pyramid = formed.pyramid;
+        density_ = scene.world.medium.density;
         indexer_ = std::move(indexer);
         models_ = std::move(models);
         instances_ = report.instances;

@@ -132,6 +132,7 @@ class WorldFormer {
     std::vector<InstancePlace> instance_places_;
     InstanceReport instances_;
     FormedWorld world_;
+    Density density_;  ///< of the medium, as world_.pyramid.clear has it
 };
 
 /// The world of a single frame.
