@@ -17,6 +17,8 @@ void add_counts(const RenderReport& report, RenderReport& sum) {
     sum.sight_rays += report.sight_rays;
     sum.beams += report.beams;
     sum.clear_beams += report.clear_beams;
+    sum.display_lines += report.display_lines;
+    sum.clear_display_lines += report.clear_display_lines;
     sum.shadow_rays += report.shadow_rays;
     sum.secondary_rays += report.secondary_rays;
     sum.ended_paths += report.ended_paths;
@@ -33,17 +35,6 @@ Features without_light(Features features) {
     features.medium = features.medium_grid = features.absorbs = false;
     features.filter = features.filtered_refraction = false;
     return features;
-}
-
-/// Whether so many sight rays save more time by beams than these take: building the halo, loading
-/// one more kernel. In larger worlds rounding could come near a beam's slack, see lib/beam.h.
-bool beams_pay(const Features& features, const Pyramid& world, uint64_t rays) {
-    constexpr uint64_t kFewRays = 65536;
-    constexpr int kLargest = 16384;
-    const glm::ivec3& size = world.frame.size;
-    return !features.instances && world.voxel_count > 0 &&
-           std::max({size.x, size.y, size.z}) <= kLargest &&
-           rays >= std::max<uint64_t>(kFewRays, world.leaf_count);
 }
 
 }  // namespace

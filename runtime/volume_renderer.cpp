@@ -10,6 +10,7 @@
 #include "runtime/illumination.hpp"
 #include "runtime/interior.hpp"
 #include "runtime/reach.hpp"
+#include "runtime/stages/beam.hpp"
 #include "runtime/stages/display_lattice.hpp"
 #include "runtime/stages/display_rays.hpp"
 #include "runtime/stages/sight.hpp"
@@ -88,6 +89,9 @@ void render_rays(Work& work, Volume& volume) {
     RayBatch batch = allocate_batch(work.device, work.features, in_batch * 16);
     build_programs(work.device, work.features, work.scene, work.world);
     SightStage sight(work.device, work.features, work.sight);
+    std::optional<BeamStage> beams;
+    if (beams_pay(work.features, work.world, 16ull * tiles))
+        beams.emplace(work.device, work.features, work.world, build_halo(work.device, work.world));
     Illumination illumination(work.device, work.features, work.scene, work.world, batch.stride);
     DisplayRaysStage display(work.device, work.features, work.sight, work.frame,
                              work.scene.world.medium, space_of(work.scene.world));
@@ -99,6 +103,7 @@ void render_rays(Work& work, Volume& volume) {
             display.keep_layer(work.world, illumination.density(),
                                {entries, count, is_first, nodes, first * 16});
         };
+        if (beams) beams->start(batch, rays);
         illumination.light(batch, rays, keep_layer);
         if (!display.has_layers())
             display.keep(shape_of(work.world), batch, first * 16, rays);
@@ -111,6 +116,10 @@ void render_rays(Work& work, Volume& volume) {
         }
     }
     count_rays(illumination, work.report);
+    if (beams) {
+        work.report.beams = beams->sent();
+        work.report.clear_beams = beams->cleared();
+    }
     display.read(volume);
 }
 
@@ -146,6 +155,8 @@ void render_lattice(Work& work, Volume& volume) {
     pieces.clear();
     display.light(look, illumination, space_of(work.scene.world), batch, shown);
     report_progress(3);
+    work.report.display_lines = scan.lines();
+    work.report.clear_display_lines = scan.clear_lines();
     work.report.sight_rays += scan.lines() + display.rays();
     count_rays(illumination, work.report);
     read_voxels(shown.voxels, volume);

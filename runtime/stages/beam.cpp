@@ -78,6 +78,15 @@ void add_dilated(const glm::ivec3& brick, uint64_t mask, LeafMasks& masks) {
 
 }  // namespace
 
+bool beams_pay(const Features& features, const Pyramid& world, uint64_t rays) {
+    constexpr uint64_t kFewRays = 65536;
+    constexpr int kLargest = 16384;
+    const glm::ivec3& size = world.frame.size;
+    return !features.instances && world.voxel_count > 0 &&
+           std::max({size.x, size.y, size.z}) <= kLargest &&
+           rays >= std::max<uint64_t>(kFewRays, world.leaf_count);
+}
+
 Halo build_halo(const Device& device, const Pyramid& pyramid) {
     const glm::ivec3 table = pyramid.frame.sectors();
     const std::vector<uint32_t> sectors = pyramid.sectors.read(), bricks = pyramid.bricks.read();

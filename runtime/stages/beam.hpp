@@ -19,6 +19,10 @@ struct Halo {
 /// 0.3 microseconds a brick.
 Halo build_halo(const Device& device, const Pyramid& pyramid);
 
+/// Whether so many sight rays save more time by beams than these take: building the halo, loading
+/// one more kernel. In larger worlds rounding could come near a beam's slack, see lib/beam.h.
+bool beams_pay(const Features& features, const Pyramid& world, uint64_t rays);
+
 /// `start_beams` of sight.cl. Beams change how long rays take, never what they meet.
 class BeamStage {
   public:
