@@ -14,7 +14,7 @@ struct RenderOptions {
     std::string frames;
     float exposure = 0;
     bool float_color = false;
-    std::string channels = "Z,P,N,objectId";
+    std::string channels = "RGBA,Z,P,N,objectId";
     std::string stats;
     bool plan_only = false;
     bool one_by_one = false;

@@ -37,11 +37,15 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-/// The channels that some output shows: of PNG files colour alone.
-ImageChannels channels_of(const RenderOptions& options) {
-    ImageChannels channels{false, false, false, false};
+constexpr ImageChannels kColorAlone{true, false, false, false, false};
+
+/// Of OpenEXR files.
+ImageChannels listed_channels(const RenderOptions& options) {
+    ImageChannels channels{false, false, false, false, false};
     for (const std::string& name : CLI::detail::split(options.channels, ',')) {
-        if (name == "Z")
+        if (name == "RGBA")
+            channels.color = true;
+        else if (name == "Z")
             channels.depth = true;
         else if (name == "P")
             channels.position = true;
@@ -49,14 +53,30 @@ ImageChannels channels_of(const RenderOptions& options) {
             channels.normal = true;
         else if (name == "objectId")
             channels.object = true;
-        else if (name != "RGBA")
+        else
             throw Error(ErrorKind::usage,
                         "render: --channels: \"{}\" is none of Z, P, N, objectId and RGBA", name);
     }
-    const bool has_exr = std::ranges::any_of(options.outputs, [](const std::string& path) {
-        return std::filesystem::path(path).extension() == ".exr";
-    });
-    return has_exr ? channels : ImageChannels{false, false, false, false};
+    return channels;
+}
+
+/// Those that some output shows: of PNG files colour alone.
+ImageChannels channels_of(const RenderOptions& options) {
+    ImageChannels channels = listed_channels(options);
+    const auto has = [&](const char* extension) {
+        return std::ranges::any_of(options.outputs, [&](const std::string& path) {
+            return std::filesystem::path(path).extension() == extension;
+        });
+    };
+    if (!has(".exr")) return kColorAlone;
+    channels.color |= has(".png");
+    return channels;
+}
+
+/// The image as an OpenEXR file shows it, where a PNG file beside it is what shows colour.
+Image without_color(Image image) {
+    for (const char* name : {"R", "G", "B", "A"}) image.planes.erase(name);
+    return image;
 }
 
 using Attributes = std::map<std::string, std::string>;
@@ -68,8 +88,8 @@ void write(const Image& image, const Attributes& attributes, const std::string& 
         png.exposure = options.exposure;
         write_png(path, image, png);
     } else {
-        write_exr(path, image, options.float_color ? ColorDepth::float32 : ColorDepth::float16,
-                  attributes);
+        write_exr(path, listed_channels(options).color ? image : without_color(image),
+                  options.float_color ? ColorDepth::float32 : ColorDepth::float16, attributes);
     }
 }
 
@@ -254,7 +274,12 @@ int run(const RenderOptions& options) {
         return 0;
     }
     MeshStore meshes(model_cache(options.scene));
-    if (!is_shared(devices, list)) find_objects_in_reach(scene, frames, meshes);
+    if (!is_shared(devices, list)) {
+        Scene reached = scene;
+        if (!options.volumes.empty()) reached.render.channels.color = true;
+        find_objects_in_reach(reached, frames, meshes);
+        scene.objects = std::move(reached.objects);
+    }
     if (frames.size() > 1)
         for (const Device& device : devices) check_frames(scene, frames, meshes, device.info());
     if (options.verbose || !options.stats.empty())
@@ -297,8 +322,7 @@ Action add_render(CLI::App& app) {
     app.add_option("--exposure", options->exposure, "of .png, in stops")->check(in_range(-64, 64));
     app.add_flag("--float", options->float_color, "colour of .exr as 32-bit floats, not halves");
     app.add_option("--channels", options->channels,
-                   "of .exr beside R G B A, which it always has: some of Z,P,N,objectId; RGBA for "
-                   "none of them");
+                   "of .exr: some of RGBA,Z,P,N,objectId; without RGBA nothing is lit");
     app.add_option("--stats-json", options->stats, "file for counts and times");
     app.add_flag("--dry-run", options->plan_only, "say what it takes, as `check` does, and stop");
     app.add_flag(

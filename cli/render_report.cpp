@@ -132,6 +132,8 @@ nlohmann::ordered_json statistics(const Outcome& outcome) {
     json["sight_rays"] = report.sight_rays;
     json["beams"] = report.beams;
     json["clear_beams"] = report.clear_beams;
+    json["display_lines"] = report.display_lines;
+    json["clear_display_lines"] = report.clear_display_lines;
     json["shadow_rays"] = report.shadow_rays;
     json["secondary_rays"] = report.secondary_rays;
     json["ended_paths"] = report.ended_paths;

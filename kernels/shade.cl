@@ -14,9 +14,10 @@
 #include "shared/trace.h"
 #include "shared/voxel.h"
 
-/// Finds the point and normal of every hit, and starts its radiance with ambient light and
-/// emission; rays that hit nothing take the background. `words` keeps each hit's attribute word,
-/// `sides` how the surface was met, where the scene has transmitting objects or mirrors.
+/// Finds of every hit what is asked for: its point, normal and word, and the ambient light and
+/// emission that start its radiance; rays that hit nothing take the background. `words` keeps each
+/// hit's attribute word, `sides` how the surface was met, where the scene has transmitting objects
+/// or mirrors.
 kernel void shade_surface(PyramidShape shape, Space space, global const float* restrict materials,
                           global const uint* restrict attributes, uint constant_attribute,
                           global const uint* restrict colors, global const uint* restrict fields,
@@ -140,6 +141,18 @@ kernel void shade_surface(PyramidShape shape, Space space, global const float* r
     const Vector flipped = {-normal.x, -normal.y, -normal.z};
     normal = select_vector(behind, flipped, normal);
 
+    Vector position = {cx + s.x, cy + s.y, cz + s.z};
+    if (VXL_INSTANCES) {
+        const Vector on_ray = {fma(world_d.x, world_at, world_o.x),
+                               fma(world_d.y, world_at, world_o.y),
+                               fma(world_d.z, world_at, world_o.z)};
+        position = select_vector(of_instance, on_ray, position);
+    }
+    if (VXL_POSITIONS) store_vector(position, positions, stride, first);
+    if (VXL_NORMALS) store_vector(normal, normals, stride, first);
+    if (VXL_WORDS) LANES_STORE(word, words, first);
+    if (!VXL_RADIANCE) return;
+
     const lane_uint material = material_place(word) & LANES_AS_UINT(hit);
     lane_float opacity = surface_opacity(materials, material, colors, voxel);
     lane_uint side = LANES_AS_UINT(behind) & VXL_SIDE_LEAVING;
@@ -170,16 +183,6 @@ kernel void shade_surface(PyramidShape shape, Space space, global const float* r
     }
     if (VXL_PATHS) LANES_STORE(side, sides, first);
 
-    Vector position = {cx + s.x, cy + s.y, cz + s.z};
-    if (VXL_INSTANCES) {
-        const Vector on_ray = {fma(world_d.x, world_at, world_o.x),
-                               fma(world_d.y, world_at, world_o.y),
-                               fma(world_d.z, world_at, world_o.z)};
-        position = select_vector(of_instance, on_ray, position);
-    }
-    store_vector(position, positions, stride, first);
-    store_vector(normal, normals, stride, first);
-    LANES_STORE(word, words, first);
     const lane_float diffuse = LANES_GATHER_FLOAT(materials, material + VXL_MATERIAL_DIFFUSE);
     const lane_uint place = color_place(materials, material, position.x, position.y, position.z);
     const float ambient[3] = {space.ambient.x, space.ambient.y, space.ambient.z};

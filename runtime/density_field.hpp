@@ -24,6 +24,9 @@ class DensityField {
     virtual void sample(const glm::dvec3& first, const glm::dvec3& step,
                         std::span<float, 4096> densities) const = 0;
 
+    /// Whether it is known to be 0 everywhere.
+    virtual bool is_zero() const { return false; }
+
     /// Main memory that it takes.
     virtual double bytes() const { return 0; }
 };

@@ -72,12 +72,6 @@ std::string cache_key(std::span<const std::string_view> parts) {
     return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
 }
 
-bool DiskCache::has(const std::string& key) const noexcept try {
-    return !folder_.empty() && fs::exists(folder_ / key);
-} catch (const std::exception&) {
-    return false;
-}
-
 std::optional<std::string> DiskCache::read(const std::string& key) const noexcept try {
     if (folder_.empty()) return std::nullopt;
     const fs::path path = folder_ / key;

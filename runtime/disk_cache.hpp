@@ -31,8 +31,6 @@ class DiskCache {
     DiskCache(std::filesystem::path folder, uint64_t max_bytes)
         : folder_(std::move(folder)), max_bytes_(max_bytes) {}
 
-    /// Whether there is an entry, damaged or not.
-    bool has(const std::string& key) const noexcept;
     std::optional<std::string> read(const std::string& key) const noexcept;
     void write(const std::string& key, std::string_view bytes) const noexcept;
 

@@ -133,6 +133,7 @@ struct Pyramid {
     Buffer<uint32_t> solids;
     InstanceSet instances;
     std::vector<VoxelBox> object_boxes;  ///< around each of the scene's objects; none if not known
+    bool clear = false;                  ///< the space between them is known to hold no medium
 };
 
 }  // namespace voxelume

@@ -92,19 +92,23 @@ Illumination::Illumination(const Device& device, const Features& features, const
 
 void Illumination::light_all(RayBatch& batch, uint32_t count, const LayerSink& sink,
                              bool hits_are_known) {
-    if (!features_.paths) {
+    if (features_.paths) begin_paths(batch, count);
+    if (!features_.paths || !features_.radiance) {
         if (!hits_are_known) trace_.closest(world_, batch, count);
         return direct(batch, count);
     }
-    scatter_->begin(world_, batch, count);
-    if (features_.immersed)
-        trace_.begin_inside(world_, surroundings_, hollow_flags_, hollow_.most, batch, count);
     reserve_nodes(0, batch.stride);
     follow(0, batch, count, hits_are_known, sink);
     PathDepth& depth = *depths_[0];
     if (!features_.transmission) return;
     std::swap(batch.radiance, depth.nodes.radiance);
     std::swap(batch.coverage, depth.nodes.coverage);
+}
+
+void Illumination::begin_paths(RayBatch& batch, uint32_t count) {
+    scatter_->begin(world_, batch, count);
+    if (features_.immersed)
+        trace_.begin_inside(world_, surroundings_, hollow_flags_, hollow_.most, batch, count);
 }
 
 /// Blocks 4 and 5: lights what the rays have met.

@@ -41,8 +41,9 @@ class Illumination {
     Illumination(const Device& device, const Features& features, const Scene& scene,
                  const Pyramid& world, uint32_t most_rays, bool compact = true);
 
-    /// Fills hits, positions, normals, words and radiance of rays 0 .. count-1, which come from an
-    /// observer. `sink` hears of layers in scenes with `transmission`.
+    /// Fills hits, and what the features ask for of positions, normals, words and radiance, of rays
+    /// 0 .. count-1, which come from an observer. `sink` hears of layers in scenes with
+    /// `transmission`.
     void light(RayBatch& batch, uint32_t count, const LayerSink& sink = {}) {
         light_all(batch, count, sink, false);
     }
@@ -67,6 +68,7 @@ class Illumination {
 
   private:
     void light_all(RayBatch& batch, uint32_t count, const LayerSink& sink, bool hits_are_known);
+    void begin_paths(RayBatch& batch, uint32_t count);
     void direct(RayBatch& entries, uint32_t count);
     void follow(size_t depth, RayBatch& first, uint32_t count, bool hits_are_known = false,
                 const LayerSink& sink = {});

@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <glm/vector_relational.hpp>
 
+#include "runtime/instances.hpp"
 #include "runtime/object_boxes.hpp"
 
 namespace voxelume {
@@ -82,6 +83,18 @@ HollowObjects hollow_objects(const Scene& scene) {
 Features begun_anywhere(Features features, const Scene& scene) {
     features.immersed = features.transmission && hollow_objects(scene).most > 0;
     return features;
+}
+
+bool may_begin_inside(const Scene& scene, const Pyramid& world) {
+    for (size_t i = 0; i < scene.objects.size(); ++i) {
+        const Object& object = scene.objects[i];
+        const bool has_inside = model_of(scene, object).surface != Surface::cubes;
+        if (!object.visible || !object.in_reach || !has_inside || !transmits(scene, object))
+            continue;
+        const bool is_known = !world.object_boxes.empty() && !is_instanced(scene, object);
+        if (!is_known || may_begin_in(world.object_boxes[i], scene, world.frame)) return true;
+    }
+    return false;
 }
 
 void add_interior(const Scene& scene, const Pyramid& world, Features& features) {

@@ -16,6 +16,10 @@ inline constexpr int kMostMembers = 15;
 /// The features that the places of transmitting objects and of the observer decide.
 void add_interior(const Scene& scene, const Pyramid& world, Features& features);
 
+/// Whether an observer's rays may begin inside of a transmitting object. If none does, the first
+/// surfaces that they meet are the same as if nothing transmitted light.
+bool may_begin_inside(const Scene& scene, const Pyramid& world);
+
 /// Features of a scene whose rays may begin anywhere in the world, as those for single voxels do.
 Features begun_anywhere(Features features, const Scene& scene);
 

@@ -70,7 +70,6 @@ class ModelCache {
 
     /// The same for worlds, without instances; they count by what they take on the device.
     std::optional<Pyramid> world(const Device& device, const std::string& key) const;
-    bool has_world(const std::string& key) const { return keeps_worlds() && store_.has(key); }
     void keep(const std::string& key, const Pyramid& world, double seconds) const;
 
   private:

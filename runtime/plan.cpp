@@ -204,6 +204,7 @@ class Planner {
         Pyramid world;
         world.frame = plan_.world;
         world.object_boxes = extents_.boxes();
+        world.clear = plan_.medium.is_zero;
         add_scene(scene_, world, features);
         return features;
     }
@@ -224,7 +225,8 @@ class Planner {
 }  // namespace
 
 double pixel_bytes(const ImageChannels& channels) {
-    return 4.0 * (4 + int(channels.depth) + 3 * int(channels.position) + 3 * int(channels.normal));
+    return 4.0 * (4 * int(channels.color) + int(channels.depth) + 3 * int(channels.position) +
+                  3 * int(channels.normal));
 }
 
 double image_bytes(const RenderSettings& render) {

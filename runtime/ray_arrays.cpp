@@ -50,9 +50,10 @@ void make_queue(const Features& features, ArrayMaker& maker, RayQueue& queue) {
 void make_batch(const Features& features, ArrayMaker& maker, RayBatch& batch) {
     make_queue(features, maker, batch);
     maker.make(batch.hits, "hits", hit_components(features));
-    maker.make(batch.positions, "positions", 3);
-    maker.make(batch.normals, "normals", 3);
-    maker.make(batch.words, "words", 1);
+    if (features.positions) maker.make(batch.positions, "positions", 3);
+    if (features.normals) maker.make(batch.normals, "normals", 3);
+    if (features.words) maker.make(batch.words, "words", 1);
+    if (!features.radiance) return;
     maker.make(batch.radiance, "radiance", 3);
     if (features.paths) maker.make(batch.sides, "sides", 1);
     if (features.paths && features.absorbs) maker.make(batch.passed, "passed", 3);
@@ -147,7 +148,7 @@ RayBytes ray_bytes(const Features& features, bool is_lit, uint32_t rays, size_t 
     if (is_lit && has_shadow_queue(features)) make_shadow_queue(features, shadow, queue);
     RayBytes bytes;
     bytes.once = sight.bytes() + shadow.bytes();
-    if (features.paths) bytes.once += depth_bytes(features, true, rays);
+    if (features.paths && features.radiance) bytes.once += depth_bytes(features, true, rays);
     bytes.per_depth = depth_bytes(features, false, depth_places(branches_of(features) * rays));
     bytes.depth = depth;
     return bytes;

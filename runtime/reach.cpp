@@ -10,7 +10,6 @@
 #include "runtime/scene_animation.hpp"
 #include "runtime/scene_motion.hpp"
 #include "runtime/stages/spots.hpp"
-#include "runtime/world_source.hpp"
 
 namespace voxelume {
 namespace {
@@ -20,6 +19,7 @@ constexpr double kRounding = 0x1p-17;
 
 /// Whether rays go on from surfaces of the object; of voxels in a file that isn't read, they may.
 bool sends_rays_on(const Scene& scene, const Object& object, MeshStore& meshes, bool reads) {
+    if (!scene.render.channels.color) return false;
     const Model& model = scene.models[size_t(object.model)];
     if (!model.voxels.empty() && (!reads || meshes.voxels(model).transparent)) return true;
     const auto sends = [&](int number) {
@@ -37,7 +37,8 @@ class RayHull {
     RayHull(const Scene& scene, const std::vector<VoxelBox>& lamps) {
         const GridFrame world = world_frame(scene.world);
         hull_ = hull_of_sight(scene.observer, world);
-        if (scene.render.shadows) add_shadow_rays(scene, lamps, world, hull_);
+        if (scene.render.shadows && scene.render.channels.color)
+            add_shadow_rays(scene, lamps, world, hull_);
         const glm::dvec3 eye = (scene.observer.position - world.origin) / world.voxel_edge;
         double largest = 0;
         const auto include = [&](const glm::dvec3& p) {
@@ -77,7 +78,8 @@ void add_reached(Scene scene, MeshStore& meshes, std::vector<bool>& reached) {
 
     std::vector<VoxelBox> lamps;
     for (size_t i = 0; i < objects.size(); ++i)
-        if (is_lamp(scene, objects[i]) && !is_empty(boxes[i])) lamps.push_back(boxes[i]);
+        if (scene.render.channels.color && is_lamp(scene, objects[i]) && !is_empty(boxes[i]))
+            lamps.push_back(boxes[i]);
     const RayHull hull(scene, lamps);
     std::vector<bool> met = reached;
     bool all = scene.observer.display.layout == VolumeLayout::lattice;
@@ -95,12 +97,6 @@ void add_reached(Scene scene, MeshStore& meshes, std::vector<bool>& reached) {
     // Rays leave instances from a height that all of them decide, also those outside of the world.
     for (size_t i = 0; i < objects.size(); ++i)
         reached[i] = reached[i] || (instances && is_shown_instance(scene, objects[i]));
-}
-
-/// Whether the store's cache has the world of all objects.
-bool has_world(const Scene& scene, MeshStore& meshes) {
-    const std::string key = world_source(scene, meshes);
-    return !key.empty() && meshes.cache().has_world(key);
 }
 
 /// Objects of models that change. Their files may be many, and aren't read before their frames.
@@ -121,20 +117,26 @@ void find_objects_in_reach(Scene& scene, std::span<const int> frames, MeshStore&
                                                   : std::vector<bool>(scene.objects.size());
     for (const int frame : frames) {
         if (std::ranges::find(reached, false) == reached.end()) return;
-        in_frame(scene, frame, [&] {
-            const Scene now = scene_at(scene, frame);
-            if (frame == frames.front() && has_world(now, meshes))
-                reached.assign(reached.size(), true);
-            else
-                add_reached(now, meshes, reached);
-        });
+        in_frame(scene, frame, [&] { add_reached(scene_at(scene, frame), meshes, reached); });
     }
     for (size_t i = 0; i < reached.size(); ++i) scene.objects[i].in_reach = reached[i];
 }
 
+void leave_out_of_reach(const Scene& scene, Pyramid& world) {
+    const auto has = [&](Surface surface) {
+        return std::ranges::any_of(scene.objects, [&](const Object& object) {
+            return is_in_reach(scene, object) && !is_instanced(scene, object) &&
+                   scene.models[size_t(object.model)].surface == surface;
+        });
+    };
+    if (!has(Surface::smooth)) world.fields = {};
+    if (has(Surface::exact)) return;
+    world.primitive_first = world.primitives = world.triangle_attributes = world.solids = {};
+    world.triangles = {};
+}
+
 Scene with_objects_in_reach(Scene scene, MeshStore& meshes) {
     std::vector<bool> reached(scene.objects.size());
-    if (has_world(scene, meshes)) return scene;
     add_reached(scene, meshes, reached);
     for (size_t i = 0; i < reached.size(); ++i) scene.objects[i].in_reach = reached[i];
     return scene;

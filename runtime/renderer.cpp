@@ -17,6 +17,8 @@ void add_counts(const RenderReport& report, RenderReport& sum) {
     sum.sight_rays += report.sight_rays;
     sum.beams += report.beams;
     sum.clear_beams += report.clear_beams;
+    sum.display_lines += report.display_lines;
+    sum.clear_display_lines += report.clear_display_lines;
     sum.shadow_rays += report.shadow_rays;
     sum.secondary_rays += report.secondary_rays;
     sum.ended_paths += report.ended_paths;
@@ -33,21 +35,6 @@ Features without_light(Features features) {
     features.medium = features.medium_grid = features.absorbs = false;
     features.filter = features.filtered_refraction = false;
     return features;
-}
-
-/// The halo whose beams save so many sight rays more time than they take: building it, loading one
-/// more kernel. In larger worlds rounding could come near a beam's slack, see lib/beam.h.
-std::optional<HaloOf> halo_that_pays(const Scene& scene, const Features& features,
-                                     const Pyramid& world, uint64_t rays) {
-    constexpr uint64_t kFewRays = 65536;
-    constexpr int kLargest = 16384;
-    const glm::ivec3& size = world.frame.size;
-    if (features.instances || world.voxel_count == 0 || rays < kFewRays ||
-        std::max({size.x, size.y, size.z}) > kLargest)
-        return std::nullopt;
-    const std::optional<HaloOf> of = halo_for(voxels_a_pixel(scene, world.frame));
-    const uint32_t parts = of == HaloOf::bricks ? world.leaf_count / 64 : world.leaf_count;
-    return rays >= parts ? of : std::nullopt;
 }
 
 }  // namespace
@@ -135,7 +122,8 @@ Image Renderer::image_of_tiles(const Scene& scene, const FormedWorld& formed, Re
     SightStage sight(device_, features, observer);
     std::optional<BeamStage> beams;
     const std::optional<HaloOf> halo =
-        halo_that_pays(scene, features, world, uint64_t(all_tiles) * rays_per_tile);
+        halo_that_pays(features, world, uint64_t(all_tiles) * rays_per_tile,
+                       voxels_a_pixel(scene, observer, world.frame));
     if (!report.hits_are_kept && halo)
         beams.emplace(device_, features, world, halo_of(formed, *halo));
     Illumination illumination(device_, features, scene, world, batch.stride);

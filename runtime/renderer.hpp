@@ -22,8 +22,10 @@ struct RenderReport {
     uint64_t voxels = 0;       ///< surface voxels in the world's pyramid
     uint64_t world_bytes = 0;  ///< of the pyramid on the device
     uint64_t sight_rays = 0;
-    uint64_t beams = 0;        ///< sent along 16 sight rays each; none where they don't pay
-    uint64_t clear_beams = 0;  ///< of these, those that see nothing: their rays ended at once
+    uint64_t beams = 0;          ///< sent along 16 sight rays each; none where they don't pay
+    uint64_t clear_beams = 0;    ///< of these, those that see nothing: their rays ended at once
+    uint64_t display_lines = 0;  ///< probe lines along a display's lattice
+    uint64_t clear_display_lines = 0;  ///< not sent, as they pass all objects by
     uint64_t shadow_rays = 0;
     uint64_t secondary_rays = 0;  ///< reflected, refracted, and gone on through surfaces
     uint64_t ended_paths = 0;     ///< not followed for their small weight

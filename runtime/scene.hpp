@@ -256,8 +256,9 @@ struct SceneMotion;
 
 inline constexpr int kMaxImageSide = 65536;
 
-/// What a flat image shows of a pixel beside its colour.
+/// What a flat image shows of a pixel. What none of it needs isn't computed.
 struct ImageChannels {
+    bool color = true;     ///< R G B A
     bool depth = true;     ///< Z
     bool position = true;  ///< P.X P.Y P.Z
     bool normal = true;    ///< N.X N.Y N.Z

@@ -78,6 +78,49 @@ void add_paths(const Scene& scene, const Pyramid& world, Features& features) {
         });
 }
 
+/// Whether a light or a lamp shines on something that isn't black.
+bool lights_surfaces(const Scene& scene, const Pyramid& world) {
+    return std::ranges::any_of(shown_materials(scene, world), is_lit) &&
+           (std::ranges::any_of(scene.lights, shines) || has_lamp(scene, world));
+}
+
+/// The features that decide light, and where rays go on.
+void add_light(const Scene& scene, const Pyramid& world, Features& features) {
+    const bool lit = lights_surfaces(scene, world);
+    features.shadows = scene.render.shadows && lit;
+    features.patches =
+        lit && (has_lamp(scene, world) || std::ranges::any_of(scene.lights, [](const Light& light) {
+                    return shines(light) && has_area(light);
+                }));
+    features.medium = scene.world.medium.absorption != glm::vec3(0) && !world.clear;
+    features.medium_grid = features.medium && has_density(scene.world.medium);
+    add_paths(scene, world, features);
+    add_interior(scene, world, features);
+}
+
+/// `voxels`, the features of the world's voxels, and of the light's no more than decides what
+/// observers' rays meet first: rays that begin inside of an object that transmits light know of it.
+Features without_light(Features voxels, const Scene& scene, const Pyramid& world,
+                       const Features& all) {
+    if (all.transmission && may_begin_inside(scene, world)) {
+        voxels.paths = voxels.transmission = true;
+        voxels.immersed = all.immersed;
+        voxels.other_members = all.other_members;
+        voxels.interior_capped = all.interior_capped;
+    }
+    voxels.radiance = voxels.colors = voxels.voxel_opacity = false;
+    return voxels;
+}
+
+/// What of the points that rays meet is asked for, or is a step to what is.
+void add_points(const Scene& scene, const Pyramid& world, Features& features) {
+    const ImageChannels& channels = scene.render.channels;
+    const bool all = features.radiance && (features.paths || has_light(scene, world));
+    features.positions = all || channels.depth || channels.position;
+    features.normals = all || channels.normal;
+    features.words = all || channels.object;
+}
+
 /// Those that have arrays, at most: rays end whose weight is too small.
 size_t reserved_depth(const Features& features, const Scene& scene, const Pyramid& world) {
     constexpr double kWeightRounding = 1e-3;  // of the weights
@@ -106,15 +149,14 @@ bool has_lamp(const Scene& scene, const Pyramid& world) {
 }
 
 bool has_light(const Scene& scene, const Pyramid& world) {
-    return std::ranges::any_of(shown_materials(scene, world), is_lit) &&
-           (std::ranges::any_of(scene.lights, shines) || has_lamp(scene, world));
+    return scene.render.channels.color && lights_surfaces(scene, world);
 }
 
 size_t most_depth(const Features& features, const Scene& scene, const Pyramid& world) {
     const bool scatters = features.refracts ||
                           std::ranges::any_of(shown_materials(scene, world),
                                               [](const Material* m) { return m->reflection > 0; });
-    return scatters ? size_t(scene.render.depth) : 0;
+    return features.radiance && scatters ? size_t(scene.render.depth) : 0;
 }
 
 Features features_of(const Scene& scene, const Pyramid& world) {
@@ -124,16 +166,10 @@ Features features_of(const Scene& scene, const Pyramid& world) {
 }
 
 void add_scene(const Scene& scene, const Pyramid& world, Features& features) {
-    const bool lit = has_light(scene, world);
-    features.shadows = scene.render.shadows && lit;
-    features.patches =
-        lit && (has_lamp(scene, world) || std::ranges::any_of(scene.lights, [](const Light& light) {
-                    return shines(light) && has_area(light);
-                }));
-    features.medium = scene.world.medium.absorption != glm::vec3(0);
-    features.medium_grid = features.medium && has_density(scene.world.medium);
-    add_paths(scene, world, features);
-    add_interior(scene, world, features);
+    const Features voxels = features;
+    add_light(scene, world, features);
+    if (!scene.render.channels.color) features = without_light(voxels, scene, world, features);
+    add_points(scene, world, features);
 }
 
 RayBytes ray_bytes(const Scene& scene, const Features& features) {

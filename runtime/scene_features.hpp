@@ -8,7 +8,8 @@
 
 namespace voxelume {
 
-/// What the scene and its world really contain: of objects that lie outside of the world, nothing.
+/// What the scene and its world really contain, of objects that lie outside of the world nothing;
+/// and of that what the image's channels need.
 Features features_of(const Scene& scene, const Pyramid& world);
 
 /// Adds to the features of a world's voxels what the scene decides; of the world it asks where
@@ -24,7 +25,8 @@ bool has_area(const Light& light);
 /// Whether some object that the world may show is a lamp.
 bool has_lamp(const Scene& scene, const Pyramid& world);
 
-/// Whether a light or a lamp shines, and something that the world may show isn't black.
+/// Whether colour is asked for, a light or a lamp shines, and something that the world may show
+/// isn't black.
 bool has_light(const Scene& scene, const Pyramid& world);
 
 /// Reflections and refractions in a row: none where no surface that may be shown sends rays on,

@@ -10,12 +10,19 @@
 #include "runtime/illumination.hpp"
 #include "runtime/interior.hpp"
 #include "runtime/reach.hpp"
+#include "runtime/stages/beam.hpp"
 #include "runtime/stages/display_lattice.hpp"
 #include "runtime/stages/display_rays.hpp"
 #include "runtime/stages/sight.hpp"
 
 namespace voxelume {
 namespace {
+
+/// The channels are a flat image's.
+Scene with_all_channels(Scene scene) {
+    scene.render.channels = {};
+    return scene;
+}
 
 /// What both layouts work with.
 struct Work {
@@ -82,6 +89,11 @@ void render_rays(Work& work, Volume& volume) {
     RayBatch batch = allocate_batch(work.device, work.features, in_batch * 16);
     build_programs(work.device, work.features, work.scene, work.world);
     SightStage sight(work.device, work.features, work.sight);
+    std::optional<BeamStage> beams;
+    const double pixel = voxels_a_pixel(work.scene, work.sight, work.world.frame);
+    if (const auto halo = halo_that_pays(work.features, work.world, 16ull * tiles, pixel))
+        beams.emplace(work.device, work.features, work.world,
+                      build_halo(work.device, work.world, *halo));
     Illumination illumination(work.device, work.features, work.scene, work.world, batch.stride);
     DisplayRaysStage display(work.device, work.features, work.sight, work.frame,
                              work.scene.world.medium, space_of(work.scene.world));
@@ -93,6 +105,7 @@ void render_rays(Work& work, Volume& volume) {
             display.keep_layer(work.world, illumination.density(),
                                {entries, count, is_first, nodes, first * 16});
         };
+        if (beams) beams->start(batch, rays);
         illumination.light(batch, rays, keep_layer);
         if (!display.has_layers())
             display.keep(shape_of(work.world), batch, first * 16, rays);
@@ -105,6 +118,10 @@ void render_rays(Work& work, Volume& volume) {
         }
     }
     count_rays(illumination, work.report);
+    if (beams) {
+        work.report.beams = beams->sent();
+        work.report.clear_beams = beams->cleared();
+    }
     display.read(volume);
 }
 
@@ -140,6 +157,8 @@ void render_lattice(Work& work, Volume& volume) {
     pieces.clear();
     display.light(look, illumination, space_of(work.scene.world), batch, shown);
     report_progress(3);
+    work.report.display_lines = scan.lines();
+    work.report.clear_display_lines = scan.clear_lines();
     work.report.sight_rays += scan.lines() + display.rays();
     count_rays(illumination, work.report);
     read_voxels(shown.voxels, volume);
@@ -153,8 +172,9 @@ uint32_t count_not_finite(const Volume& volume) {
 
 }  // namespace
 
-Volume render_volume(const Device& device, const Scene& scene, const FormedWorld& formed,
+Volume render_volume(const Device& device, const Scene& shown, const FormedWorld& formed,
                      RenderReport& report, const FrameProgress& progress) {
+    const Scene scene = with_all_channels(shown);
     const Pyramid& world = formed.pyramid;
     const auto start = std::chrono::steady_clock::now();
     const VolumeFrame frame = display_frame(scene);
@@ -201,7 +221,7 @@ std::shared_ptr<Volume> VolumeRenderer::volume(const Scene& scene, const FormedW
 Volume render_volume(const Device& device, const Scene& scene, RenderReport& report,
                      const FrameProgress& progress) {
     MeshStore meshes;
-    const Scene shown = with_objects_in_reach(scene, meshes);
+    const Scene shown = with_objects_in_reach(with_all_channels(scene), meshes);
     const FormedWorld world =
         WorldFormer(device, false, std::move(meshes)).form(shown, report.world);
     return render_volume(device, shown, world, report, progress);

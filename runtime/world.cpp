@@ -7,7 +7,9 @@
 #include "runtime/error.hpp"
 #include "runtime/object_boxes.hpp"
 #include "runtime/plan.hpp"
+#include "runtime/reach.hpp"
 #include "runtime/shown_models.hpp"
+#include "runtime/stages/density_grid.hpp"
 #include "runtime/stages/index.hpp"
 #include "runtime/world_source.hpp"
 
@@ -108,6 +110,10 @@ std::vector<PlacedObject> WorldFormer::placed_objects(const Scene& scene,
 
 /// The world before, with its instances where they are now.
 FormedWorld WorldFormer::kept_world(const Scene& scene, WorldReport& report) {
+    if (density_ != scene.world.medium.density) {
+        density_ = scene.world.medium.density;
+        world_.pyramid.clear = has_no_medium(scene.world);
+    }
     report.triangles = meshes_.triangles();
     report.instances = instances_;
     report.instances.seconds = 0;
@@ -186,10 +192,12 @@ FormedWorld WorldFormer::form_anew(const Scene& scene, const Origin& origin, Wor
     report.instances.moved = count_moved(instance_places_, places);
     instance_places_ = std::move(places);
     formed.pyramid.object_boxes = std::move(boxes);
+    formed.pyramid.clear = plan.medium.is_zero;
     device_.finish();
     indexing.stop();
     if (keeps_) {
         world_.pyramid = formed.pyramid;
+        density_ = scene.world.medium.density;
         indexer_ = std::move(indexer);
         models_ = std::move(models);
         instances_ = report.instances;
@@ -198,20 +206,34 @@ FormedWorld WorldFormer::form_anew(const Scene& scene, const Origin& origin, Wor
     return formed;
 }
 
-/// The world's voxels as an earlier run formed them, else new ones, which are kept for later runs.
+/// The first of these worlds that the cache has and the device has room for.
+std::optional<WorldFormer::ReadWorld> WorldFormer::read_world(
+    const std::vector<std::string>& keys) {
+    for (const std::string& key : keys) {
+        try {
+            if (auto kept = meshes_.cache().world(device_, key)) return ReadWorld{key, *kept};
+        } catch (const Error& error) {
+            const bool is_wide = key != keys.front();
+            if (error.kind() != ErrorKind::limit || !is_wide) throw;
+        }
+    }
+    return std::nullopt;
+}
+
+/// The world's voxels as an earlier run formed them, of no more objects than are in reach if it
+/// has such, else new ones, which are kept for later runs.
 Pyramid WorldFormer::kept_or_new_world(const Task& task, Indexer& indexer) {
-    const std::string key = placer_ ? std::string() : world_source(task.scene, meshes_);
-    if (key.empty()) return new_world(task, indexer);
+    const std::vector<std::string> keys =
+        placer_ ? std::vector<std::string>() : world_sources(task.scene, meshes_);
+    if (keys.empty()) return new_world(task, indexer);
     Stopwatch reading(task.report.index_seconds);
-    if (read_ && read_->key != key) read_.reset();
+    if (read_ && std::ranges::find(keys, read_->key) == keys.end()) read_.reset();
     task.report.is_from_cache = !read_;
-    if (!read_)
-        for_world(task.scene.world, [&] {
-            if (auto kept = meshes_.cache().world(device_, key)) read_ = ReadWorld{key, *kept};
-        });
+    if (!read_) read_ = for_world(task.scene.world, [&] { return read_world(keys); });
     reading.stop();
     if (read_) {
         Pyramid world = read_->pyramid;
+        if (read_->key != keys.front()) leave_out_of_reach(task.scene, world);
         if (!task.keeps) read_.reset();
         forget_sources(task);
         return world;
@@ -219,7 +241,8 @@ Pyramid WorldFormer::kept_or_new_world(const Task& task, Indexer& indexer) {
     task.report.is_from_cache = false;
     Pyramid world = new_world(task, indexer);
     Stopwatch keeping(task.report.keep_seconds);
-    meshes_.cache().keep(key, world, task.report.place_seconds + task.report.index_seconds);
+    meshes_.cache().keep(keys.front(), world,
+                         task.report.place_seconds + task.report.index_seconds);
     keeping.stop();
     return world;
 }

@@ -103,6 +103,12 @@ class WorldFormer {
         uint64_t room;  ///< for what is awaited, in bytes of the device
         WorldReport& report;
     };
+    /// The world's voxels as they were read from the cache on disk.
+    struct ReadWorld {
+        std::string key;
+        Pyramid pyramid;
+    };
+    std::optional<ReadWorld> read_world(const std::vector<std::string>& keys);
     Pyramid kept_or_new_world(const Task& task, Indexer& indexer);
     Pyramid new_world(const Task& task, Indexer& indexer);
     Pyramid placed_and_indexed(const Task& task, const std::vector<PlacedObject>& objects,
@@ -118,11 +124,6 @@ class WorldFormer {
     uint64_t meshes_read_ = 0;
     std::optional<ObjectGrids> grids_;
     std::vector<SharedGrid> shown_;  ///< that the placer's objects name
-    /// The world's voxels as they were read from the cache on disk.
-    struct ReadWorld {
-        std::string key;
-        Pyramid pyramid;
-    };
     std::optional<ReadWorld> read_;
     std::optional<Placer> placer_;
     Indexer indexer_;
@@ -131,6 +132,7 @@ class WorldFormer {
     std::vector<InstancePlace> instance_places_;
     InstanceReport instances_;
     FormedWorld world_;
+    Density density_;  ///< of the medium, as world_.pyramid.clear has it
 };
 
 /// The world of a single frame.

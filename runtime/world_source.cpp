@@ -68,4 +68,15 @@ std::string world_source(const Scene& scene, MeshStore& meshes) {
     return world_key(words.bytes());
 }
 
+std::vector<std::string> world_sources(const Scene& scene, MeshStore& meshes) {
+    std::vector<std::string> sources = {world_source(scene, meshes)};
+    if (sources[0].empty()) return {};
+    Scene whole = scene;
+    for (Object& object : whole.objects) object.in_reach = true;
+    if (whole == scene) return sources;
+    if (std::string source = world_source(whole, meshes); !source.empty())
+        sources.push_back(std::move(source));
+    return sources;
+}
+
 }  // namespace voxelume

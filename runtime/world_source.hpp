@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "runtime/mesh_store.hpp"
 #include "runtime/scene.hpp"
@@ -15,5 +16,9 @@ namespace voxelume {
 /// models, since its worlds would fill the disk, and of one with a file of voxels, which no hash is
 /// taken of.
 std::string world_source(const Scene& scene, MeshStore& meshes);
+
+/// Names of worlds that show the same to the observer: of the objects in reach, and that of all
+/// objects, if there are others.
+std::vector<std::string> world_sources(const Scene& scene, MeshStore& meshes);
 
 }  // namespace voxelume

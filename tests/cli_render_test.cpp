@@ -32,6 +32,30 @@ TEST_F(CliRenderTest, OneSceneRendersToBothFormatsAtOnce) {
     EXPECT_EQ(read_png(folder / "out.png").width, 20);
 }
 
+TEST_F(CliRenderTest, AFileHasTheChannelsThatAreAskedFor) {
+    ASSERT_EQ(run("render scene.json -o all.exr --stats-json all.json").exit_code, 0);
+    ASSERT_EQ(run("render scene.json -o z.exr --channels Z,N --stats-json z.json").exit_code, 0);
+    ASSERT_EQ(run("render scene.json -o zp.exr -o zp.png --channels Z,N").exit_code, 0);
+    ASSERT_EQ(run("render scene.json -o all.png").exit_code, 0);
+    const Image all = read_exr(folder / "all.exr");
+    for (const char* name : {"z.exr", "zp.exr"}) {
+        const Image some = read_exr(folder / name);
+        EXPECT_EQ(some.planes.size(), 4u) << name;
+        EXPECT_TRUE(some.id_planes.empty()) << name;
+        for (const auto& [channel, plane] : some.planes)
+            EXPECT_EQ(plane, all.planes.at(channel)) << name << " " << channel;
+    }
+    EXPECT_EQ(bytes_of(folder / "zp.png"), bytes_of(folder / "all.png"));
+    const Json full = Json::parse(bytes_of(folder / "all.json"));
+    const Json unlit = Json::parse(bytes_of(folder / "z.json"));
+    EXPECT_TRUE(full["launches"].contains("trace_shadows"));
+    EXPECT_FALSE(unlit["launches"].contains("trace_shadows"));
+    EXPECT_EQ(unlit["shadow_rays"], 0);
+    EXPECT_EQ(unlit["allocated_bytes"]["image"], 4 * 20 * 12 * 4);
+    EXPECT_THAT(expect_failure(2, "render scene.json -o a.exr --channels Z,Q"),
+                HasSubstr("\"Q\" is none of"));
+}
+
 TEST_F(CliRenderTest, OptionsComeInAnyOrder) {
     const std::vector<std::string> lines = {
         "render scene.json -o out.exr --size 8x6 -q", "render -q --size 8x6 -o out.exr scene.json",

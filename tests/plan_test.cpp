@@ -144,7 +144,7 @@ TEST_F(PlanTest, TheImagesBytesAreThoseOfItsChannelsRaysAndHalo) {
     for (const double voxel : {1.0 / 120, 1.0 / 400}) {
         Scene scene = scene_of(R"({"shape": "sphere", "radius": 0.35})", voxel);
         scene.render.size = {320, 240};  // enough rays for beams
-        scene.render.channels = {true, false, true, false};
+        scene.render.channels = {true, true, false, true, false};
         const ScenePlan plan = plan_of(scene);
         const Device device = test_device();
         RenderReport report;

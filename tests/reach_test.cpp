@@ -9,41 +9,13 @@
 #include "runtime/scene_animation.hpp"
 #include "runtime/scene_parts.hpp"
 #include "runtime/volume_renderer.hpp"
-#include "tests/file_fixture.hpp"
-#include "tests/oracles/image_hash.hpp"
-#include "tests/shared_device.hpp"
+#include "tests/reach_scene.hpp"
 
 namespace voxelume {
 namespace {
 
-/// Five balls, of a model each: in view, left and right of it, behind the observer, and beyond what
-/// the display shows.
-constexpr const char* kScene = R"({"voxelume": 1,
-"world": {"voxel_size": 0.05, "bounds": {"min": [-4, -1, -4], "max": [4, 1.5, 4]},
-          "background": [0.2, 0.3, 0.5], "ambient": [0.1, 0.1, 0.1]},
-"materials": {"red": {"color": [0.8, 0.2, 0.2]}, "special": {}},
-"models": {"a": {"shape": "sphere", "radius": 0.30, "surface": "smooth"},
-           "b": {"shape": "sphere", "radius": 0.31, "surface": "cubes"},
-           "c": {"shape": "sphere", "radius": 0.32, "surface": "exact"},
-           "d": {"shape": "sphere", "radius": 0.33, "surface": "smooth", "voxel_size": 0.02},
-           "e": {"shape": "sphere", "radius": 0.34, "surface": "cubes"}},
-"objects": [{"name": "seen", "model": "a", "material": "red", "position": [0, 0.1, 0]},
-            {"name": "left", "model": "b", "position": [-2.5, 0.1, 0]},
-            {"name": "right", "model": "c", "position": [2.5, 0.1, 0.2]},
-            {"name": "behind", "model": "d", "position": [0, 0.2, -3.4]},
-            {"name": "beyond", "model": "e", "position": [0, 0, 3]}],
-"lights": [LIGHTS],
-"observer": {"position": [0, 0.3, -2], "look_at": [0, 0.1, 0],
-             "display": {"shape": "pyramid", "angle": 24, "far": 2.7, "voxels": [12, 12, 9]}},
-"animation": {"frames": 3, "tracks": [TRACKS]},
-"render": {"size": [40, 30], "depth": 2}})";
-
-Scene scene_of(const std::string& lights = "", const std::string& tracks = "") {
-    std::string text = kScene;
-    text.replace(text.find("LIGHTS"), 6, lights);
-    text.replace(text.find("TRACKS"), 6, tracks);
-    return parse_scene(text, "s.json", {});
-}
+using reach_scene::hash_of_all;
+using reach_scene::scene_of;
 
 constexpr const char* kPointLight =  // beside the left ball
     R"({"type": "point", "position": [-3.6, 0.1, 0], "intensity": 20})";
@@ -56,13 +28,6 @@ std::string reached(const Scene& scene) {
     for (const Object& object : shown.objects)
         if (object.in_reach) names += object.name + " ";
     return names;
-}
-
-uint64_t hash_of_all(const Scene& scene) {
-    RenderReport report;
-    const FormedWorld world = WorldFormer(shared_device(), false).form(scene, report.world);
-    EXPECT_EQ(report.world.out_of_reach, 0u);
-    return oracle::image_hash(Renderer(shared_device(), false).new_image(scene, world, report));
 }
 
 /// Renders what rays reach; the bits are those of all objects.
@@ -90,6 +55,19 @@ TEST(Reach, GoesOnToALightThroughWhatMayStandBetween) {
     Scene without = scene;
     without.objects[1].visible = false;
     EXPECT_NE(hash_of_all(without), hash_of_all(scene)) << "its shadow is seen";
+}
+
+TEST(Reach, WithoutColourIsWhatTheDisplaySees) {
+    for (const float refraction : {0.0f, 0.8f}) {
+        Scene scene = scene_of(kPointLight);
+        scene.materials[1].refraction = refraction;
+        scene.materials[2].emission = {3, 2, 1};
+        scene.objects[4].material = 2;
+        EXPECT_NE(reached(scene), "seen ");
+        scene.render.channels.color = false;
+        EXPECT_EQ(reached(scene), "seen ");
+        EXPECT_EQ(expect_same_bits(scene).voxelized, 1u);
+    }
 }
 
 TEST(Reach, GoesOnToADistantLight) {
@@ -253,21 +231,6 @@ TEST(Reach, NeverShowsInThePicture) {
         out_of_reach += report.out_of_reach;
     }
     EXPECT_GT(out_of_reach, 16u * 4);
-}
-
-class ReachFiles : public FileTest {};
-
-TEST_F(ReachFiles, IsTheWholeWorldWhereTheCacheHasThat) {
-    const Scene scene = scene_of();
-    MeshStore meshes(ModelCache(folder / "models", 64 << 20, 0).with_worlds());
-    const auto in_reach = [&] {
-        const Scene shown = with_objects_in_reach(scene, meshes);
-        return std::ranges::count_if(shown.objects, &Object::in_reach);
-    };
-    EXPECT_EQ(in_reach(), 1);
-    RenderReport report;
-    WorldFormer(shared_device(), false, MeshStore(meshes.cache())).form(scene, report.world);
-    EXPECT_EQ(in_reach(), 5);
 }
 
 }  // namespace

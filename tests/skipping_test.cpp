@@ -230,28 +230,6 @@ TEST_F(SkippingFiles, AFloorOfOneColourHasNoBuffersForMore) {
         EXPECT_EQ(counters[std::string("buffer ") + name], 0u) << name;
 }
 
-TEST_F(SkippingFiles, ChannelsNotAskedForAreNeitherMadeNorStored) {
-    Scene scene = scene_of(kScene);
-    Image all;
-    Counters with = show(scene, &all);
-    for (const bool depth : {false, true})
-        for (const bool position : {false, true})
-            for (const bool normal : {false, true})
-                for (const bool object : {false, true}) {
-                    scene.render.channels = {depth, position, normal, object};
-                    Image image;
-                    Counters counters = show(scene, &image);
-                    const uint64_t planes = 4u + depth + 3u * position + 3u * normal;
-                    EXPECT_EQ(counters["buffer image"], planes * 48 * 36 * 4);
-                    EXPECT_EQ(counters["buffer object numbers"], object ? 48u * 36 * 4 : 0u);
-                    EXPECT_EQ(image.planes.size(), planes);
-                    EXPECT_EQ(image.id_planes.size(), object ? 1u : 0u);
-                    for (const auto& [name, plane] : image.planes)
-                        EXPECT_EQ(plane, all.planes.at(name)) << name;
-                }
-    EXPECT_EQ(with["buffer image"], 11u * 48 * 36 * 4);
-}
-
 TEST_F(SkippingFiles, TilesThatSeeNothingEndAtOnce) {
     Scene scene = scene_of(kFloor);
     resize(scene, {256, 256});

@@ -58,6 +58,12 @@ class VdbField : public DensityField {
         }
     }
 
+    bool is_zero() const override {
+        for (auto value = grid_->cbeginValueAll(); value; ++value)
+            if (density_of(*value) > 0) return false;
+        return density_of(grid_->background()) == 0;
+    }
+
     double bytes() const override { return double(grid_->memUsage()); }
 
   private:

@@ -148,6 +148,19 @@ std::optional<HaloOf> halo_for(double voxels_a_pixel) {
     return std::nullopt;
 }
 
+std::optional<HaloOf> halo_that_pays(const Features& features, const Pyramid& world, uint64_t rays,
+                                     double voxels_a_pixel) {
+    constexpr uint64_t kFewRays = 65536;
+    constexpr int kLargest = 16384;
+    const glm::ivec3& size = world.frame.size;
+    if (features.instances || world.voxel_count == 0 || rays < kFewRays ||
+        std::max({size.x, size.y, size.z}) > kLargest)
+        return std::nullopt;
+    const std::optional<HaloOf> of = halo_for(voxels_a_pixel);
+    const uint32_t parts = of == HaloOf::bricks ? world.leaf_count / 64 : world.leaf_count;
+    return rays >= parts ? of : std::nullopt;
+}
+
 BeamStage::BeamStage(const Device& device, const Features& features, const Pyramid& pyramid,
                      Halo halo)
     : device_(device),

@@ -31,6 +31,11 @@ Halo build_halo(const Device& device, const Pyramid& pyramid, HaloOf of = HaloOf
 /// world; none where beams would be too wide for either.
 std::optional<HaloOf> halo_for(double voxels_a_pixel);
 
+/// The halo whose beams save so many sight rays more time than they take: building it, loading one
+/// more kernel. In larger worlds rounding could come near a beam's slack, see lib/beam.h.
+std::optional<HaloOf> halo_that_pays(const Features& features, const Pyramid& world, uint64_t rays,
+                                     double voxels_a_pixel);
+
 /// `start_beams` of sight.cl. Beams change how long rays take, never what they meet.
 class BeamStage {
   public:

@@ -37,6 +37,12 @@ class DensityLattice {
     const glm::ivec3& shift() const { return shift_; }
     size_t brick_count() const { return size_t(bricks_.x) * bricks_.y * bricks_.z; }
     double field_bytes() const { return field_->bytes(); }
+    bool is_zero() const {
+        if (field_->is_zero()) return true;
+        for (size_t number = 0; number < brick_count(); ++number)
+            if (constant_in(number) != 0.0f) return false;
+        return true;
+    }
 
     std::optional<float> constant_in(size_t number) const {
         const glm::dvec3 first = first_center(number);
@@ -158,9 +164,14 @@ class BrickWriter {
 
 }  // namespace
 
+bool has_no_medium(const World& world) {
+    return has_density(world.medium) && DensityLattice(world).is_zero();
+}
+
 DensityPlan plan_density(const World& world) {
     if (!has_density(world.medium) || world.medium.absorption == glm::vec3(0)) return {};
     const DensityLattice lattice(world);
+    if (lattice.is_zero()) return {.is_zero = true};
     const SlotCount slots = count_slots(lattice);
     if (double(slots.total()) > kMostSlots)
         throw Error(ErrorKind::limit,
@@ -169,7 +180,11 @@ DensityPlan plan_density(const World& world) {
                     world.where);
     const double table = double(lattice.brick_count()) * sizeof(uint32_t);
     const double values = double(slots.total() * kBrickCells) * sizeof(float);
-    return {lattice.bricks(), double(slots.bricks), std::max(table, values), table + values,
+    return {lattice.bricks(),
+            false,
+            double(slots.bricks),
+            std::max(table, values),
+            table + values,
             table + lattice.field_bytes() + double(kBricksAtOnce * kBrickCells) * sizeof(float)};
 }
 

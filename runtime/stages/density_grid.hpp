@@ -19,6 +19,7 @@ struct DensityGrid {
 /// What the grid takes, found without taking it.
 struct DensityPlan {
     glm::ivec3 bricks{0};      ///< of the lattice
+    bool is_zero = false;      ///< known to be 0 everywhere: nothing is formed
     double stored_bricks = 0;  ///< at most, besides constants
     double buffer_bytes = 0;   ///< of the larger buffer
     double bytes = 0;          ///< on the device
@@ -30,6 +31,10 @@ struct DensityPlan {
 /// Throws Error::input, opened by the place in the scene, for a damaged file or one without a float
 /// grid of the name; Error::limit for more bricks than can be numbered.
 DensityPlan plan_density(const World& world);
+
+/// Whether the medium is known to have density 0 at all voxels, without a look at all of them; a
+/// file of all zeros is. Throws Error::input as plan_density.
+bool has_no_medium(const World& world);
 
 /// Forms the density's lattice: the density at a voxel is that at its centre. Throws as
 /// plan_density.

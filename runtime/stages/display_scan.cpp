@@ -173,8 +173,7 @@ ProbePoints DisplayScanStage::scan_batch(const Pyramid& world, const Family& fam
 
 std::vector<ProbePoints> DisplayScanStage::scan(const Pyramid& world, RayBatch& batch) {
     std::vector<ProbePoints> pieces;
-    if (world.voxel_count == 0) return pieces;
-    const VoxelBox shown = box_of_objects(world);
+    const VoxelBox shown = world.voxel_count == 0 ? VoxelBox{} : box_of_objects(world);
     const uint32_t batch_tiles = std::max(batch.stride / 16 / kBatchParts, 1u);
     for (const Family& family : families_) {
         const Sight& sight = family.sight;
@@ -182,6 +181,7 @@ std::vector<ProbePoints> DisplayScanStage::scan(const Pyramid& world, RayBatch& 
         sight_.look(sight);
         const glm::uvec2 tiles =
             rows_across(family, shown) * tile_count(sight.width, 1);  // first, one beyond the last
+        clear_lines_ += 16ull * (tile_count(sight.width, sight.height) - (tiles.y - tiles.x));
         for (uint32_t first = tiles.x; first < tiles.y; first += batch_tiles) {
             const uint32_t now = std::min(batch_tiles, tiles.y - first);
             const uint32_t count = sight_.cast(shape_of(world), first, now, batch);

@@ -34,7 +34,8 @@ class DisplayScanStage {
     /// The crossings of all lines, in pieces of a part of a batch each. `batch` serves for rays.
     std::vector<ProbePoints> scan(const Pyramid& world, RayBatch& batch);
 
-    uint64_t lines() const { return lines_; }  ///< cast so far
+    uint64_t lines() const { return lines_; }              ///< cast so far
+    uint64_t clear_lines() const { return clear_lines_; }  ///< left out
 
   private:
     /// The lines along one axis.
@@ -62,7 +63,7 @@ class DisplayScanStage {
     uint32_t slots_ = 64;  ///< crossings of a line that have a place; grows
     Buffer<float> crossings_;
     Buffer<uint32_t> counts_;
-    uint64_t lines_ = 0;
+    uint64_t lines_ = 0, clear_lines_ = 0;
 };
 
 }  // namespace voxelume

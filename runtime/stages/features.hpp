@@ -33,6 +33,11 @@ struct Features {
                             ///< the smooth body
     bool interior_capped = false;  ///< ... which may not be enough
     bool instances = false;        ///< some objects keep voxels of their own
+    // what is asked for
+    bool radiance = true;   ///< the light along rays, and how much of what is behind they cover
+    bool positions = true;  ///< of the points that rays meet ...
+    bool normals = true;
+    bool words = true;  ///< ... and which object and material
 
     friend bool operator==(const Features&, const Features&) = default;
 
@@ -63,6 +68,10 @@ struct Features {
                 {"VXL_OTHER_MEMBERS", other_members},
                 {"VXL_INTERIOR_CAPPED", interior_capped},
                 {"VXL_INSTANCES", instances},
+                {"VXL_RADIANCE", radiance},
+                {"VXL_POSITIONS", positions},
+                {"VXL_NORMALS", normals},
+                {"VXL_WORDS", words},
                 {"VXL_NATIVE_DIVIDE", device.is_cpu()}};
     }
 };

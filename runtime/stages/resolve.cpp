@@ -10,7 +10,8 @@ namespace {
 constexpr const char* kSmallerImage = "render a smaller image";
 
 std::vector<const char*> plane_names(const ImageChannels& channels) {
-    std::vector<const char*> names = {"R", "G", "B", "A"};
+    std::vector<const char*> names;
+    if (channels.color) names = {"R", "G", "B", "A"};
     if (channels.depth) names.push_back("Z");
     if (channels.position) names.insert(names.end(), {"P.X", "P.Y", "P.Z"});
     if (channels.normal) names.insert(names.end(), {"N.X", "N.Y", "N.Z"});
@@ -19,7 +20,8 @@ std::vector<const char*> plane_names(const ImageChannels& channels) {
 
 Defines defines_of(const Device& device, const Features& features, const ImageChannels& channels) {
     Defines defines = features.defines(device);
-    defines.insert(defines.end(), {{"VXL_SHOWS_DEPTH", channels.depth},
+    defines.insert(defines.end(), {{"VXL_SHOWS_COLOR", channels.color},
+                                   {"VXL_SHOWS_DEPTH", channels.depth},
                                    {"VXL_SHOWS_POSITION", channels.position},
                                    {"VXL_SHOWS_NORMAL", channels.normal},
                                    {"VXL_SHOWS_OBJECT", channels.object}});

@@ -70,9 +70,10 @@ Sight sight_of(const Scene& scene, const GridFrame& world) {
     return sight;
 }
 
-double voxels_a_pixel(const Scene& scene, const GridFrame& world) {
+double voxels_a_pixel(const Scene& scene, const Sight& sight, const GridFrame& world) {
     const Observer& observer = scene.observer;
-    const glm::dvec2 pixel = 2.0 * half_extent(observer.display) / glm::dvec2(scene.render.size);
+    const glm::dvec2 pixel =
+        2.0 * half_extent(observer.display) / glm::dvec2(sight.width, sight.height);
     const glm::dvec3 middle = world.origin + 0.5 * world.voxel_edge * glm::dvec3(world.size);
     const double metres = observer.display.shape == DisplayShape::box
                               ? 1.0

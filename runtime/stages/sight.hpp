@@ -17,7 +17,7 @@ int shape_number(DisplayShape shape);
 Sight sight_of(const Scene& scene, const GridFrame& world);
 
 /// How wide the rays of neighbouring pixels are apart at the middle of the world, in voxels.
-double voxels_a_pixel(const Scene& scene, const GridFrame& world);
+double voxels_a_pixel(const Scene& scene, const Sight& sight, const GridFrame& world);
 
 /// Where the samples of a pixel lie: x and y in [0, 1), the same for every pixel. One sample is the
 /// centre; more are the R2 sequence of Roberts 2018, which fills a square evenly for any number.
