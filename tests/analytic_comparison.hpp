@@ -10,7 +10,7 @@
 
 #include "runtime/renderer.hpp"
 #include "tests/oracles/analytic_image.hpp"
-#include "tests/test_device.hpp"
+#include "tests/shared_device.hpp"
 
 namespace voxelume {
 
@@ -41,7 +41,7 @@ inline std::string in_words(const char* where, const ColorError& error, int widt
 inline void expect_image(const Scene& scene, const oracle::AnalyticImage& expected, double rms,
                          double worst) {
     RenderReport report;
-    const Image image = render(test_device(), scene, report);
+    const Image image = render(shared_device(), scene, report);
     const auto &red = image.planes.at("R"), &green = image.planes.at("G"),
                &blue = image.planes.at("B");
     ASSERT_EQ(red.size(), expected.radiance.size());

@@ -11,7 +11,7 @@
 
 #include "runtime/volume_renderer.hpp"
 #include "tests/oracles/display_oracle.hpp"
-#include "tests/test_device.hpp"
+#include "tests/shared_device.hpp"
 
 namespace voxelume {
 
@@ -64,7 +64,7 @@ inline Scene parsed(const std::string& text) {
 
 inline Volume volume_of(const Scene& scene, int lanes = 0) {
     RenderReport report;
-    return render_volume(test_device(lanes), scene, report);
+    return render_volume(lanes == 0 ? shared_device() : test_device(lanes), scene, report);
 }
 
 }  // namespace voxelume

@@ -158,11 +158,11 @@ TEST(Instance, TheNearestOfManyIsSeen) {
     EXPECT_GT(seen, 5000u);
 }
 
-TEST(Instance, LanesDoNotChangeABit) {
+TEST_P(Instances, LanesDoNotChangeABit) {
     std::vector<std::string> objects = turned_objects();
     const std::vector<std::string> whole = whole_voxel_objects();
     objects.insert(objects.end(), whole.begin(), whole.end());
-    const Scene scene = instance_scene("smooth", "instance", objects);
+    const Scene scene = instance_scene(GetParam(), "instance", objects);
     const Image own = rendered(scene);
     for (const int lanes : {1, 4, 8, 16}) {
         const Image other = rendered(scene, test_device(lanes));

@@ -7,7 +7,7 @@
 
 #include "runtime/renderer.hpp"
 #include "tests/oracles/image_hash.hpp"
-#include "tests/test_device.hpp"
+#include "tests/shared_device.hpp"
 
 namespace voxelume {
 
@@ -38,7 +38,7 @@ inline Scene floor_scene(const std::string& models, const std::string& objects,
 
 inline Image image_of(const Scene& scene, int lanes = 0) {
     RenderReport report;
-    return render(test_device(lanes), scene, report);
+    return render(lanes == 0 ? shared_device() : test_device(lanes), scene, report);
 }
 
 inline glm::dvec3 point_at(const Image& image, size_t pixel) {

@@ -2,11 +2,14 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <array>
 #include <cstdlib>
 #include <fstream>
 #include <thread>
 
+#include "runtime/disk_cache.hpp"
 #include "runtime/opencl/program.hpp"
+#include "runtime/stages/features.hpp"
 #include "tests/file_fixture.hpp"
 #include "tests/test_device.hpp"
 
@@ -52,13 +55,52 @@ TEST(ProgramCacheProcess, DISABLED_BuildsAndRuns) {
     if (!HasFailure()) std::exit(10 + compiled);
 }
 
+/// Compiled files of the kernel `keep_words` that lie ready for PoCL.
+int count_ready() {
+    int count = 0;
+    for (const auto& entry : fs::recursive_directory_iterator(cache_folder()))
+        count += entry.path().filename() == "keep_words.so";
+    return count;
+}
+
+/// Two programs joined of cut.cl and a file with other constants, each on a device of its own that
+/// stays open; keep_words runs in both. It returns how many of it were ready when they were built.
+std::array<int, 2> ready_when_joined() {
+    constexpr std::array kFiles = {"cut.cl", "shade.cl"};
+    const std::vector<uint32_t> slot = {0}, numbers(4096, 7);
+    std::vector<Device> devices;
+    std::array<int, 2> ready{};
+    for (size_t i = 0; i < 2; ++i) {
+        const Device& device = devices.emplace_back(test_device());
+        Features features;
+        (i == 0 ? features.cubes : features.smooth) = true;
+        Program::build_together(device, kFiles, features.defines(device));
+        ready[i] = count_ready();
+        const Buffer<uint32_t> slots(device, "slots", std::span(slot)),
+            from(device, "from", std::span(numbers)), words(device, "words", 4096);
+        Program(device, "cut.cl", features.defines(device))
+            .kernel("keep_words")
+            .launch(WorkItem::heavy, 1, 1u, slots, from, 9u, words);
+        EXPECT_EQ(words.read(), numbers);
+    }
+    return ready;
+}
+
+/// Run in a process of its own; its exit code is 10 + 3 x those ready for the first program + those
+/// for the second.
+TEST(ProgramCacheProcess, DISABLED_JoinsAndRuns) {
+    const auto [first, second] = ready_when_joined();
+    if (!HasFailure()) std::exit(10 + 3 * first + second);
+}
+
 /// Starts `processes` at once on one cache folder; returns what each compiled, -1 for a failure.
-std::vector<int> compiled_by_processes(int processes, const std::string& environment) {
+std::vector<int> compiled_by_processes(int processes, const std::string& environment,
+                                       const char* work = "BuildsAndRuns") {
     const std::string self = fs::read_symlink("/proc/self/exe").string();
     const std::string command = fmt::format(
         "env -u POCL_CACHE_DIR {} \"{}\" --gtest_also_run_disabled_tests "
-        "--gtest_filter=ProgramCacheProcess.DISABLED_BuildsAndRuns >/dev/null",
-        environment, self);
+        "--gtest_filter=ProgramCacheProcess.DISABLED_{} >/dev/null",
+        environment, self, work);
     std::vector<int> results(size_t(processes), -1);
     std::vector<std::thread> threads;
     for (int& result : results)
@@ -134,6 +176,14 @@ TEST_F(ProgramCacheFiles, DamagedEntriesAreCompiledAgain) {
 TEST(ProgramCache, WithoutAFolderEveryRunCompiles) {
     EXPECT_EQ(compiled_by_processes(1, "VOXELUME_CACHE_DIR="), std::vector<int>{2});
     EXPECT_EQ(compiled_by_processes(1, "VOXELUME_CACHE_DIR=/proc/none"), std::vector<int>{2});
+}
+
+TEST_F(ProgramCacheFiles, KernelsOfAFileServeEveryProgramThatItIsJoinedTo) {
+    if (test_device().info().platform != kPoclPlatform) GTEST_SKIP() << "files are PoCL's";
+    const std::string environment = "VOXELUME_CACHE_DIR=" + folder.string();
+    EXPECT_EQ(compiled_by_processes(1, environment, "JoinsAndRuns"), std::vector<int>{0 + 2})
+        << "the second's from the first's";
+    EXPECT_EQ(compiled_by_processes(1, environment, "JoinsAndRuns"), std::vector<int>{3 + 2});
 }
 
 TEST_F(ProgramCacheFiles, LeavesNoFolderOfPoclBehind) {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "runtime/illumination.hpp"
+#include "tests/interpreted.hpp"
 #include "tests/test_device.hpp"
 
 namespace voxelume {
@@ -36,6 +37,11 @@ std::string box_scene(const std::string& surface, const std::string& lights,
 
 Scene scene_of(const std::string& text) {
     return parse_scene(text, "test.json", {});
+}
+
+/// Pixels along an edge.
+int pixels(int count) {
+    return int(full_or(uint32_t(count) / 4, uint32_t(count)));
 }
 
 struct Rendered {
@@ -170,14 +176,15 @@ TEST(Render, AnExactSurfaceOnTheWorldsBoundsHasNoHoles) {
     replace(R"("position": [0, 0, -3], "look_at": [0, 0, 0])",
             R"("position": [-2, 1.3, -3], "look_at": [0.05, -0.05, 0.05])");
     Scene scene = scene_of(text);
-    resize(scene, {160, 120});
+    const int columns = pixels(160), rows = pixels(120);
+    resize(scene, {columns, rows});
     const Rendered exact = rendered(scene);
     const glm::dmat3& axes = scene.observer.world_from_observer;
-    for (int y = 0; y < 120; ++y) {
-        for (int x = 0; x < 160; ++x) {
+    for (int y = 0; y < rows; ++y) {
+        for (int x = 0; x < columns; ++x) {
             const glm::dvec3 start = scene.observer.position +
-                                     axes[0] * (0.8 - 1.6 * (x + 0.5) / 160) +
-                                     axes[1] * (0.6 - 1.2 * (y + 0.5) / 120);
+                                     axes[0] * (0.8 - 1.6 * (x + 0.5) / columns) +
+                                     axes[1] * (0.6 - 1.2 * (y + 0.5) / rows);
             double first = -1e9, last = 1e9;
             for (int a = 0; a < 3; ++a) {
                 const double low = a == 0 ? -0.3 : a == 1 ? -0.3 : -0.1;
@@ -196,7 +203,7 @@ TEST(Render, ADistantObserverSeesWhatANearOneDoesWithTheSameAngle) {
     Scene scene = scene_of(box_scene("exact", ""));
     scene.observer.display.shape = DisplayShape::pyramid;
     scene.observer.display.far = 1e9;
-    resize(scene, {64, 48});
+    resize(scene, {pixels(64), pixels(48)});
     const auto seen_from = [&scene](double distance) {
         scene.observer.position = {0, 0, -distance};
         scene.observer.display.half_angles = {std::atan(0.6 / distance),
@@ -219,8 +226,9 @@ Scene ball_moved_by(int metres, const std::string& surface) {
 "lights": [{{"type": "point", "position": [{1}, {1}, {0}], "intensity": 50}}],
 "observer": {{"position": [{2}, {2}, {3}], "look_at": [{2}, {2}, {2}],
              "display": {{"shape": "pyramid", "angles": [50, 40]}}}},
-"render": {{"size": [80, 64]}}}})",
-                                metres - 8, metres + 8, metres, metres - 12, surface));
+"render": {{"size": [{5}, {6}]}}}})",
+                                metres - 8, metres + 8, metres, metres - 12, surface, pixels(80),
+                                pixels(64)));
 }
 
 TEST(Render, G8AWorldFarFromTheOriginLooksAsOneAroundIt) {

@@ -135,11 +135,11 @@ std::vector<DeviceInfo> list_devices() {
     return infos;
 }
 
-Device Device::open(std::string_view selector, int lanes) {
+Device Device::open(std::string_view selector, int lanes, const Device* beside) {
     const std::string wanted = selector_or_default(selector);
     const std::vector<Candidate> candidates = find_candidates();
     const Candidate& chosen = choose(candidates, wanted);
-    return open(chosen.device, chosen.info, lanes);
+    return open(chosen.device, chosen.info, lanes, beside);
 }
 
 std::vector<Device> Device::open_all(std::string_view selector, int lanes) {
@@ -148,11 +148,12 @@ std::vector<Device> Device::open_all(std::string_view selector, int lanes) {
     if (parts == 0) return {open(wanted, lanes)};
     std::vector<Device> devices;
     for (const Candidate& chosen : choose_all(find_candidates(), parts))
-        devices.push_back(open(chosen.device, chosen.info, lanes));
+        devices.push_back(open(chosen.device, chosen.info, lanes, nullptr));
     return devices;
 }
 
-Device Device::open(const cl::Device& device, const DeviceInfo& info, int lanes) {
+Device Device::open(const cl::Device& device, const DeviceInfo& info, int lanes,
+                    const Device* beside) {
     auto opened = std::make_shared<Opened>();
     opened->info = info;
     opened->info.lanes = lanes_for(info, lanes);
@@ -161,7 +162,8 @@ Device Device::open(const cl::Device& device, const DeviceInfo& info, int lanes)
     opened->info.build_options = environment("VOXELUME_BUILD_OPTIONS");
     try {
         opened->device = part_of(device);
-        opened->context = cl::Context(opened->device);
+        const bool shares = beside && beside->handle()() == opened->device();
+        opened->context = shares ? beside->context() : cl::Context(opened->device);
     } catch (const cl::Error& error) {
         throw_device_error(error, opened->info, "opening it");
     }

@@ -68,8 +68,11 @@ class Device {
     /// sub-device), and VOXELUME_BUILD_OPTIONS is added to the compiler's options. Of the device's
     /// memory no more than VOXELUME_MEMORY_MB megabytes are used, and in one buffer no more than
     /// VOXELUME_BUFFER_MB.
+    /// Where it is the device of `beside`, they share an OpenCL context: PoCL reads its library of
+    /// functions, 0.7 s, once for each.
     /// Throws Error::device when nothing fits, naming what is there or the package to install.
-    static Device open(std::string_view selector = {}, int lanes = 0);
+    static Device open(std::string_view selector = {}, int lanes = 0,
+                       const Device* beside = nullptr);
 
     /// Opens all devices that share the work: for the selector `all` every GPU and the best CPU,
     /// for `all/N` likewise with the CPU cut into N equal devices (one for each memory node of a
@@ -108,7 +111,8 @@ class Device {
   private:
     struct Opened;
     struct Queue;
-    static Device open(const cl::Device& device, const DeviceInfo& info, int lanes);
+    static Device open(const cl::Device& device, const DeviceInfo& info, int lanes,
+                       const Device* beside);
     explicit Device(std::shared_ptr<Queue> queue) : queue_(std::move(queue)) {}
     std::shared_ptr<Queue> queue_;
 };

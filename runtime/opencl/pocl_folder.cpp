@@ -11,7 +11,6 @@
 #include <iterator>
 #include <set>
 #include <system_error>
-#include <vector>
 
 namespace voxelume {
 namespace {
@@ -59,6 +58,16 @@ std::vector<fs::path> files_worth_keeping(const fs::path& root, const fs::path& 
     return {files.begin(), files.end()};
 }
 
+/// The files of compiled kernels of `part` by path from the program's folder, which begins with the
+/// kernel's name.
+std::vector<fs::path> kernels_of(const fs::path& program, const ProgramPart& part) {
+    std::vector<fs::path> files = files_worth_keeping(program, "");
+    std::erase_if(files, [&](const fs::path& file) {
+        return file.extension() != ".so" || !part.kernels.contains(file.begin()->string());
+    });
+    return files;
+}
+
 std::string packed(const fs::path& root, const std::vector<fs::path>& files) {
     std::string bytes;
     for (const fs::path& path : files) {
@@ -69,16 +78,22 @@ std::string packed(const fs::path& root, const std::vector<fs::path>& files) {
     return bytes;
 }
 
+/// The file appears whole, since PoCL may look for it meanwhile.
 void write_whole(const fs::path& path, std::string_view text) {
-    std::ofstream file(path, std::ios::binary);
+    const fs::path unfinished = path.string() + ".part";
+    std::ofstream file(unfinished, std::ios::binary);
     file.write(text.data(), static_cast<std::streamsize>(text.size()));
     file.close();
-    if (file) return fs::permissions(path, fs::perms::owner_all);
-    fs::remove(path);
-    throw fs::filesystem_error("not written", path, std::make_error_code(std::errc::io_error));
+    if (!file) {
+        fs::remove(unfinished);
+        throw fs::filesystem_error("not written", path, std::make_error_code(std::errc::io_error));
+    }
+    fs::permissions(unfinished, fs::perms::owner_all);
+    fs::rename(unfinished, path);
 }
 
-/// Writes the files of `packed` below `root`; returns their paths from there.
+/// Writes those files of `packed` below `root` that aren't there, since kernels run from them;
+/// returns the paths of all from there.
 std::vector<fs::path> unpack(const fs::path& root, std::string_view bytes) {
     std::vector<fs::path> files;
     while (!bytes.empty()) {
@@ -88,7 +103,7 @@ std::vector<fs::path> unpack(const fs::path& root, std::string_view bytes) {
         files.emplace_back(bytes.substr(space + 1, end - space - 1));
         const fs::path path = root / files.back();
         fs::create_directories(path.parent_path());
-        write_whole(path, bytes.substr(end + 1, size));
+        if (!fs::exists(path)) write_whole(path, bytes.substr(end + 1, size));
         bytes.remove_prefix(end + 1 + size);
     }
     return files;
@@ -146,7 +161,18 @@ fs::path PoclFolder::new_program_folder() const {
     return {};
 }
 
+/// Puts the kernels in place that were compiled of the program's parts for others.
+void PoclFolder::take_kernels(const DiskCache& cache, const ProgramFiles& program) const {
+    try {
+        for (const ProgramPart& part : program.parts)
+            if (const auto bytes = cache.read(part.key)) unpack(folder_ / program.folder, *bytes);
+    } catch (const std::exception&) {
+        return;  // a full disk: PoCL compiles what is not there
+    }
+}
+
 bool PoclFolder::build_with_files(const DiskCache& cache, const std::string& key,
+                                  std::span<const ProgramPart> parts,
                                   const std::function<void()>& build) {
     // One at a time, to know whose folder is new. PoCL's compiler has a global lock anyway.
     const std::lock_guard guard(mutex_);
@@ -170,19 +196,48 @@ bool PoclFolder::build_with_files(const DiskCache& cache, const std::string& key
     const fs::path folder = new_program_folder();
     if (!unpacked.empty() && !unpacked[0].string().starts_with(folder.string() + "/"))
         unpacked.clear();
-    programs_[key] = {folder, unpacked.size()};
+    ProgramFiles program = {folder, unpacked.size(), {parts.begin(), parts.end()}};
+    if (!parts.empty() && !folder.empty()) {
+        publish_changes(cache);  // what this process compiled of these parts, too
+        take_kernels(cache, program);
+        if (!unpacked.empty())
+            program.published = files_worth_keeping(folder_, program.folder).size();
+    }
+    programs_[key] = std::move(program);
     return !unpacked.empty();
+}
+
+void PoclFolder::publish_kernels(const DiskCache& cache, const ProgramFiles& program) const {
+    const fs::path own = folder_ / program.folder;
+    for (const ProgramPart& part : program.parts) {
+        if (kernels_of(own, part).empty()) continue;
+        const auto bytes = cache.read(part.key);  // others may have added to it since
+        const size_t known = bytes ? unpack(own, *bytes).size() : 0;
+        const std::vector<fs::path> files = kernels_of(own, part);
+        if (files.size() > known) cache.write(part.key, packed(own, files));
+    }
+}
+
+void PoclFolder::publish_changes(const DiskCache& cache) {
+    for (auto& [key, program] : programs_) {
+        if (program.folder.empty()) continue;
+        std::vector<fs::path> files = files_worth_keeping(folder_, program.folder);
+        if (files.size() <= program.published) continue;
+        program.published = files.size();
+        try {
+            publish_kernels(cache, program);
+        } catch (const std::exception&) {
+            continue;  // a full disk
+        }
+        if (!program.parts.empty())
+            std::erase_if(files, [](const fs::path& file) { return file.extension() == ".so"; });
+        cache.write(key, packed(folder_, files));
+    }
 }
 
 void PoclFolder::publish(const DiskCache& cache) {
     const std::lock_guard guard(mutex_);
-    for (auto& [key, program] : programs_) {
-        if (program.folder.empty()) continue;
-        const std::vector<fs::path> files = files_worth_keeping(folder_, program.folder);
-        if (files.size() <= program.published) continue;
-        cache.write(key, packed(folder_, files));
-        program.published = files.size();
-    }
+    publish_changes(cache);
 }
 
 }  // namespace voxelume

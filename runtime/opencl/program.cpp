@@ -63,20 +63,22 @@ void Program::build_together(const Device& device, std::span<const char* const> 
                              const Defines& defines) {
     std::vector<cl::Program*> places;
     std::vector<const char*> missing;
+    std::vector<ProgramText> parts;
     const auto locked = device.lock();
     for (const char* file : files) {
         const KernelSource& source = kernel_source(file);
-        cl::Program& place =
-            device.programs()[program_key(source, build_options(device, source, defines))];
+        const std::string options = build_options(device, source, defines);
+        cl::Program& place = device.programs()[program_key(source, options)];
         if (place()) continue;
         places.push_back(&place);
         missing.push_back(file);
+        parts.push_back({source.text(), options});
     }
     if (missing.empty()) return;
     const KernelSource source = kernel_source(missing);
     const cl::Program program =
         build_program(device, fmt::format("kernels/{}", fmt::join(missing, " with kernels/")),
-                      source.text(), build_options(device, source, defines));
+                      {source.text(), build_options(device, source, defines)}, parts);
     for (cl::Program* place : places) *place = program;
 }
 
@@ -91,7 +93,7 @@ Program::Program(const Device& device, const std::string& label, const KernelSou
     const std::string options = build_options(device, source, defines);
     const auto locked = device.lock();
     cl::Program& kept = device.programs()[program_key(source, options)];
-    if (!kept()) kept = build_program(device, label, source.text(), options);
+    if (!kept()) kept = build_program(device, label, {source.text(), options});
     program_ = kept;
 }
 

@@ -3,7 +3,9 @@
 #include <array>
 #include <chrono>
 #include <optional>
+#include <set>
 #include <utility>
+#include <vector>
 
 #include "runtime/disk_cache.hpp"
 #include "runtime/error.hpp"
@@ -14,18 +16,31 @@ namespace voxelume {
 namespace {
 
 constexpr uint64_t kMaxCacheBytes = 256u << 20;
-constexpr const char* kCacheVersion = "voxelume programs 1";
+constexpr const char* kCacheVersion = "voxelume programs 2";
 
 DiskCache program_store() {
     const std::filesystem::path folder = cache_folder();
     return DiskCache(folder.empty() ? folder : folder / "programs", kMaxCacheBytes);
 }
 
-std::string key_of(const DeviceInfo& info, const std::string& source, const std::string& options) {
-    const std::array<std::string_view, 7> parts = {
-        kCacheVersion, info.platform, info.platform_version, info.name, info.driver,
-        options,       source};
+/// `what` is kept: a program, or compiled kernels.
+std::string key_of(const DeviceInfo& info, std::string_view what, const ProgramText& text) {
+    const std::array<std::string_view, 8> parts = {kCacheVersion,         what,       info.platform,
+                                                   info.platform_version, info.name,  info.driver,
+                                                   text.options,          text.source};
     return cache_key(parts);
+}
+
+/// The words after "kernel void".
+std::set<std::string> kernel_names(std::string_view source) {
+    constexpr std::string_view kBefore = "kernel void ";
+    std::set<std::string> names;
+    for (size_t at = source.find(kBefore); at != std::string_view::npos;
+         at = source.find(kBefore, at)) {
+        at += kBefore.size();
+        names.emplace(source.substr(at, source.find('(', at) - at));
+    }
+    return names;
 }
 
 std::string log_of(const cl::Program& program, const cl::Device& device) {
@@ -35,7 +50,8 @@ std::string log_of(const cl::Program& program, const cl::Device& device) {
     return log;
 }
 
-cl::Program compile(const Device& device, const std::string& source, const std::string& options) {
+cl::Program compile(const Device& device, const ProgramText& text) {
+    const auto& [source, options] = text;
     cl::Program program(device.context(), source);
     const cl_device_id id = device.handle()();
     cl_int status = clBuildProgram(program(), 1, &id, options.c_str(), nullptr, nullptr);
@@ -62,16 +78,15 @@ std::optional<cl::Program> from_binary(const Device& device, const std::string& 
 }
 
 /// Ordinary drivers: the binary is asked for right after the build.
-cl::Program build_with_binary(const Device& device, const std::string& source,
-                              const std::string& options) {
+cl::Program build_with_binary(const Device& device, const ProgramText& text) {
     const DiskCache store = program_store();
-    const std::string key = key_of(device.info(), source, options);
+    const std::string key = key_of(device.info(), "program", text);
     if (const auto bytes = store.read(key))
-        if (auto program = from_binary(device, *bytes, options)) {
+        if (auto program = from_binary(device, *bytes, text.options)) {
             ++device.counters().programs_from_cache;
             return std::move(*program);
         }
-    cl::Program program = compile(device, source, options);
+    cl::Program program = compile(device, text);
     try {
         const auto binaries = program.getInfo<CL_PROGRAM_BINARIES>();
         if (binaries.size() == 1 && !binaries[0].empty())
@@ -83,32 +98,35 @@ cl::Program build_with_binary(const Device& device, const std::string& source,
 }
 
 /// PoCL compiles twice when asked for a binary, and keeps its own files: see PoclFolder.
-cl::Program build_with_pocl(const Device& device, const std::string& source,
-                            const std::string& options) {
+cl::Program build_with_pocl(const Device& device, const ProgramText& text,
+                            std::span<const ProgramText> texts_of_parts) {
+    std::vector<ProgramPart> parts;
+    for (const ProgramText& part : texts_of_parts)
+        parts.push_back({key_of(device.info(), "kernels", part), kernel_names(part.source)});
     cl::Program program;
     const bool ready = PoclFolder::instance().build_with_files(
-        program_store(), key_of(device.info(), source, options),
-        [&] { program = compile(device, source, options); });
+        program_store(), key_of(device.info(), "program", text), parts,
+        [&] { program = compile(device, text); });
     if (ready) ++device.counters().programs_from_cache;
     return program;
 }
 
 }  // namespace
 
-cl::Program build_program(const Device& device, const std::string& label, const std::string& source,
-                          const std::string& options) {
+cl::Program build_program(const Device& device, const std::string& label, const ProgramText& text,
+                          std::span<const ProgramText> parts) {
     const auto start = std::chrono::steady_clock::now();
     cl::Program program;
     try {
         if (device.info().platform == kPoclPlatform)
-            program = build_with_pocl(device, source, options);
+            program = build_with_pocl(device, text, parts);
         else if (device.info().platform == "Oclgrind")  // interprets; a binary loses the lines
-            program = compile(device, source, options);
+            program = compile(device, text);
         else
-            program = build_with_binary(device, source, options);
+            program = build_with_binary(device, text);
     } catch (const Error& error) {
         throw Error(ErrorKind::build, "{} does not compile on \"{}\" with {}: {}", label,
-                    device.info().name, options, error.what());
+                    device.info().name, text.options, error.what());
     } catch (const cl::Error& error) {
         throw_device_error(error, device.info(), "compiling " + label);
     }
