@@ -5,6 +5,7 @@
 
 #include "kernels/shared/solid.h"
 #include "kernels/shared/voxel.h"
+#include "runtime/stages/resolve.hpp"
 #include "runtime/stages/spots.hpp"
 
 namespace voxelume {
@@ -51,12 +52,14 @@ Buffer<uint32_t> transmitting_solids(const Device& device, const Scene& scene,
 }  // namespace
 
 void build_programs(const Device& device, const Features& features, const Scene& scene,
-                    const Pyramid& world) {
+                    const Pyramid& world, bool makes_image) {
     std::vector<const char*> files = {"sight.cl", "trace.cl", "shade.cl"};
     if (has_light(scene, world)) files.push_back("light.cl");
     if (features.absorbs) files.push_back("medium.cl");
     if (features.paths) files.push_back("scatter.cl");
-    Program::build_together(device, files, features.defines(device));
+    if (makes_image) files.push_back("resolve.cl");
+    Program::build_together(device, files,
+                            resolve_defines(device, features, scene.render.channels));
 }
 
 Illumination::Illumination(const Device& device, const Features& features, const Scene& scene,

@@ -20,9 +20,9 @@
 namespace voxelume {
 
 /// Makes the programs of the stages that sight rays go through in one piece: PoCL reads its own
-/// megabyte of headers for each.
+/// megabyte of headers for each. `makes_image`: they end in a flat image of the scene's channels.
 void build_programs(const Device& device, const Features& features, const Scene& scene,
-                    const Pyramid& world);
+                    const Pyramid& world, bool makes_image);
 
 /// Called for each layer of surfaces along the rays of an observer, the nearest first, once its
 /// light is added to the nodes. Entry n of the first layer is ray n; others name theirs in `paths`.

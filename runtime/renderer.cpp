@@ -118,7 +118,7 @@ Image Renderer::image_of_tiles(const Scene& scene, const FormedWorld& formed, Re
     if (!report.hits_are_kept) hits_.clear();
     const bool keeps_hits = has_room(scene, features, uint64_t(all_tiles) * rays_per_tile);
 
-    build_programs(device_, features, scene, world);
+    build_programs(device_, features, scene, world, true);
     SightStage sight(device_, features, observer);
     std::optional<BeamStage> beams;
     const std::optional<HaloOf> halo =

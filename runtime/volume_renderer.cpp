@@ -87,7 +87,7 @@ void render_rays(Work& work, Volume& volume) {
     const uint32_t tiles = tile_count(work.sight.width, work.sight.height);
     const uint32_t in_batch = batch_tiles(work.features, 1, tiles);
     RayBatch batch = allocate_batch(work.device, work.features, in_batch * 16);
-    build_programs(work.device, work.features, work.scene, work.world);
+    build_programs(work.device, work.features, work.scene, work.world, false);
     SightStage sight(work.device, work.features, work.sight);
     std::optional<BeamStage> beams;
     const double pixel = voxels_a_pixel(work.scene, work.sight, work.world.frame);
@@ -140,7 +140,7 @@ void render_lattice(Work& work, Volume& volume) {
     };
     std::vector<ProbePoints> pieces = scan.scan(work.world, batch);
     report_progress(1);
-    build_programs(work.device, work.features, work.scene, work.world);
+    build_programs(work.device, work.features, work.scene, work.world, false);
     Illumination illumination(work.device, work.features, work.scene, work.world, batch.stride);
     LookAhead look = [&](RayBatch& rays, uint32_t count) { illumination.find_hits(rays, count); };
     std::optional<Illumination> clear;

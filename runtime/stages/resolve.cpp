@@ -18,7 +18,14 @@ std::vector<const char*> plane_names(const ImageChannels& channels) {
     return names;
 }
 
-Defines defines_of(const Device& device, const Features& features, const ImageChannels& channels) {
+size_t pixel_count(const Sight& sight) {
+    return size_t(sight.width) * size_t(sight.height);
+}
+
+}  // namespace
+
+Defines resolve_defines(const Device& device, const Features& features,
+                        const ImageChannels& channels) {
     Defines defines = features.defines(device);
     defines.insert(defines.end(), {{"VXL_SHOWS_COLOR", channels.color},
                                    {"VXL_SHOWS_DEPTH", channels.depth},
@@ -28,12 +35,6 @@ Defines defines_of(const Device& device, const Features& features, const ImageCh
     return defines;
 }
 
-size_t pixel_count(const Sight& sight) {
-    return size_t(sight.width) * size_t(sight.height);
-}
-
-}  // namespace
-
 ResolveStage::ResolveStage(const Device& device, const Features& features, const Sight& sight,
                            const ImageChannels& channels)
     : sight_(sight),
@@ -41,7 +42,7 @@ ResolveStage::ResolveStage(const Device& device, const Features& features, const
       planes_(device, "image", names_.size() * pixel_count(sight), kSmallerImage),
       objects_(device, "object numbers", channels.object ? pixel_count(sight) : 0, kSmallerImage),
       not_finite_(device, "not finite", 1),
-      program_(device, "resolve.cl", defines_of(device, features, channels)),
+      program_(device, "resolve.cl", resolve_defines(device, features, channels)),
       pixels_(program_.kernel("resolve_pixels")) {
     not_finite_.fill(0);
 }

@@ -11,6 +11,10 @@
 
 namespace voxelume {
 
+/// The features' build constants, and those of resolve.cl alone.
+Defines resolve_defines(const Device& device, const Features& features,
+                        const ImageChannels& channels);
+
 /// Kernels of resolve.cl and the image they fill, batch by batch.
 class ResolveStage {
   public:
