@@ -60,7 +60,7 @@ ImageChannels listed_channels(const RenderOptions& options) {
     return channels;
 }
 
-/// Those that some output shows: of PNG files colour alone.
+/// Those that some output shows: PNG files and volumes colour.
 ImageChannels channels_of(const RenderOptions& options) {
     ImageChannels channels = listed_channels(options);
     const auto has = [&](const char* extension) {
@@ -69,11 +69,11 @@ ImageChannels channels_of(const RenderOptions& options) {
         });
     };
     if (!has(".exr")) return kColorAlone;
-    channels.color |= has(".png");
+    channels.color |= has(".png") || !options.volumes.empty();
     return channels;
 }
 
-/// The image as an OpenEXR file shows it, where a PNG file beside it is what shows colour.
+/// The image as an OpenEXR file shows it, where what is beside it shows colour.
 Image without_color(Image image) {
     for (const char* name : {"R", "G", "B", "A"}) image.planes.erase(name);
     return image;
@@ -274,12 +274,7 @@ int run(const RenderOptions& options) {
         return 0;
     }
     MeshStore meshes(model_cache(options.scene));
-    if (!is_shared(devices, list)) {
-        Scene reached = scene;
-        if (!options.volumes.empty()) reached.render.channels.color = true;
-        find_objects_in_reach(reached, frames, meshes);
-        scene.objects = std::move(reached.objects);
-    }
+    if (!is_shared(devices, list)) find_objects_in_reach(scene, frames, meshes);
     if (frames.size() > 1)
         for (const Device& device : devices) check_frames(scene, frames, meshes, device.info());
     if (options.verbose || !options.stats.empty())

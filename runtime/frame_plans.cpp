@@ -12,10 +12,12 @@
 namespace voxelume {
 namespace {
 
-/// Whether both frames have the same plan, as nothing changed that it depends on: neither on where
-/// the observer is, nor on more of lights than whether they shine.
+/// Whether both frames have the same plan, as nothing changed that it depends on: of lights that is
+/// whether they shine, and of the observer nothing, but where without colour rays are only followed
+/// through surfaces that he may be behind.
 bool is_planned_like(const Scene& a, const Scene& b) {
-    return a.objects == b.objects && a.models == b.models && a.materials == b.materials &&
+    return (a.render.channels.color || a.observer == b.observer) && a.objects == b.objects &&
+           a.models == b.models && a.materials == b.materials &&
            std::ranges::equal(a.lights, b.lights, {}, shines, shines) &&
            a.world.medium == b.world.medium;
 }

@@ -56,6 +56,15 @@ TEST_F(CliRenderTest, AFileHasTheChannelsThatAreAskedFor) {
                 HasSubstr("\"Q\" is none of"));
 }
 
+TEST_F(CliRenderTest, AVolumeBesideAFileWithoutColorIsPlannedAndMadeWithAllItNeeds) {
+    const std::string both = "render scene.json -o z.exr --volume v.nrrd --channels ";
+    EXPECT_EQ(run(both + "Z --dry-run").out, run(both + "RGBA,Z --dry-run").out);
+    ASSERT_EQ(run(both + "Z").exit_code, 0);
+    ASSERT_EQ(run("render scene.json --volume alone.nrrd").exit_code, 0);
+    EXPECT_EQ(bytes_of(folder / "v.nrrd"), bytes_of(folder / "alone.nrrd"));
+    EXPECT_EQ(read_exr(folder / "z.exr").planes.size(), 1u);
+}
+
 TEST_F(CliRenderTest, OptionsComeInAnyOrder) {
     const std::vector<std::string> lines = {
         "render scene.json -o out.exr --size 8x6 -q", "render -q --size 8x6 -o out.exr scene.json",

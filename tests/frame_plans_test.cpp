@@ -74,6 +74,22 @@ TEST_F(FramePlans, AnObserverWhoMovesAndALampThatDimsChangeNothing) {
         EXPECT_EQ(most.plan.peak_bytes(), plan_of(scene_at(scene, frame)).peak_bytes()) << frame;
 }
 
+TEST_F(FramePlans, WithoutColorAnObserverWhoComesInsideOfAnObjectCounts) {
+    Scene scene = scene_of(R"({"shape": "sphere", "radius": 0.1, "surface": "smooth"})", 1.0 / 50,
+                           R"("animation": {"frames": 3, "tracks": [
+    {"target": "observer.position", "keys": [{"frame": 1, "value": [0.5, 0.5, 3]},
+                                             {"frame": 3, "value": [0.5, 0.4, 0.42]}]}]},)");
+    scene.render.size = {320, 240};
+    scene.render.channels.color = false;
+    for (Material& material : scene.materials) material.opacity = 0.5;
+    DeviceInfo device;
+    device.memory = device.max_allocation = 8'000'000'000;
+    MeshStore meshes;
+    const FramePlan most = plan_frames(scene, std::vector<int>{1, 2, 3}, meshes, device);
+    EXPECT_EQ(most.frame, 3);
+    EXPECT_GT(most.plan.image_bytes, plan_of(scene_at(scene, 1)).image_bytes);
+}
+
 TEST_F(FramePlans, AGroupThatAMeshDoesNotHaveIsNamedBeforeAnyFrameIsRendered) {
     put_bytes(folder / "plate.obj",
               "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nusemtl near\nf 1 2 3\nusemtl far\nf 2 4 3\n");

@@ -35,10 +35,13 @@ void remove_stale_folders(const fs::path& parent) {
     }
 }
 
-/// A new folder in `parent`, readable by this user alone; empty when that fails.
+/// A new folder in `parent`, readable by this user alone; empty when that fails, or on a disk so
+/// full that PoCL might end the program for want of room.
 fs::path make_folder(const fs::path& parent) {
+    constexpr uintmax_t kRoom = 32u << 20;
     std::error_code error;
     fs::create_directories(parent, error);
+    if (fs::space(parent, error).available < kRoom || error) return {};
     std::string name = (parent / fmt::format("{}{}-XXXXXX", kPrefix, getpid())).string();
     return mkdtemp(name.data()) ? fs::path(name) : fs::path();
 }
@@ -167,7 +170,7 @@ void PoclFolder::take_kernels(const DiskCache& cache, const ProgramFiles& progra
         for (const ProgramPart& part : program.parts)
             if (const auto bytes = cache.read(part.key)) unpack(folder_ / program.folder, *bytes);
     } catch (const std::exception&) {
-        return;  // a full disk: PoCL compiles what is not there
+        return;  // the disk is full by now: PoCL compiles what is not there
     }
 }
 
@@ -189,7 +192,7 @@ bool PoclFolder::build_with_files(const DiskCache& cache, const std::string& key
     try {
         if (const auto bytes = cache.read(key)) unpacked = unpack(folder_, *bytes);
     } catch (const std::exception&) {
-        unpacked.clear();  // a full disk: PoCL compiles what is not there
+        unpacked.clear();  // the disk is full by now: PoCL compiles what is not there
     }
     build();
     // An entry for another folder than PoCL's is of no use, and is replaced.
