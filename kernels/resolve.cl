@@ -4,14 +4,48 @@
 // VXL_SHOWS_NORMAL, VXL_SHOWS_OBJECT: the channels asked for.
 #include "lib/exact_exp.h"
 #include "lib/fixed_point.h"
+#include "lib/lanes.h"
 #include "lib/work_item.h"
 #include "shared/scene.h"
 #include "shared/trace.h"
 #include "shared/voxel.h"
 
-/// One work-item makes one pixel. `image` holds, `pixels` apart, what is asked for of R G B A Z P.X
-/// P.Y P.Z N.X N.Y N.Z; `objects` the number of the object plus 1, 0 for none. Counts values that
-/// are not finite, as 0.
+/// The pixels of a packet, some of a tile of 4 x 4.
+typedef struct {
+    size_t place[VXL_LANES];
+    bool is_in_image[VXL_LANES];
+    bool is_whole;  // all are, and their rows begin at every fourth
+} Pixels;
+
+static inline Pixels pixels_of(const Sight* sight, uint tile, uint first) {
+    const uint tiles_x = ((uint)sight->width + 3u) / 4u;
+    Pixels p;
+    p.is_whole = VXL_LANES > 1;
+    for (uint i = 0; i < VXL_LANES; ++i) {
+        const uint column = tile % tiles_x * 4u + ((first + i) & 3u);
+        const uint row = tile / tiles_x * 4u + ((first + i) >> 2);
+        p.is_in_image[i] = column < (uint)sight->width && row < (uint)sight->height;
+        p.place[i] = row * (size_t)sight->width + column;
+        p.is_whole &= p.is_in_image[i];
+    }
+    return p;
+}
+
+static inline void store_pixels(lane_float value, const Pixels* p, global float* restrict plane) {
+    float values[VXL_LANES];
+    LANES_STORE(value, values, 0);
+    if (p->is_whole) {
+        for (uint i = 0; i + 4 <= VXL_LANES; i += 4)
+            vstore4(vload4(0, values + i), 0, plane + p->place[i]);
+        return;
+    }
+    for (uint i = 0; i < VXL_LANES; ++i)
+        if (p->is_in_image[i]) plane[p->place[i]] = values[i];
+}
+
+/// One work-item makes VXL_LANES pixels. `image` holds, `pixels` apart, what is asked for of R G B
+/// A Z P.X P.Y P.Z N.X N.Y N.Z; `objects` the number of the object plus 1, 0 for none. Counts
+/// values that are not finite, as 0.
 kernel void resolve_pixels(Sight sight, PyramidShape shape, float4 world_origin,
                            global const uint* restrict hits, global const float* restrict positions,
                            global const float* restrict normals, global const uint* restrict words,
@@ -19,41 +53,41 @@ kernel void resolve_pixels(Sight sight, PyramidShape shape, float4 world_origin,
                            global const float* restrict coverage, uint first_tile, uint tile_count,
                            uint stride, global float* restrict image, global uint* restrict objects,
                            global uint* restrict not_finite) {
-    const uint item = work_item();
+    const uint item = work_item() * VXL_LANES;
     if (item >= tile_count * 16u) return;
-    const uint tiles_x = ((uint)sight.width + 3u) / 4u;
-    const uint tile = first_tile + item / 16u;
-    const uint column = tile % tiles_x * 4u + (item & 3u);
-    const uint row = tile / tiles_x * 4u + ((item >> 2) & 3u);
-    if (column >= (uint)sight.width || row >= (uint)sight.height) return;
+    const Pixels at = pixels_of(&sight, first_tile + item / 16u, item % 16u);
     const size_t pixels = (size_t)sight.width * (size_t)sight.height;
-    const size_t pixel = row * (size_t)sight.width + column;
     const uint first_ray = item / 16u * (uint)sight.samples * 16u + item % 16u;
 
-    float color[3] = {0.0f, 0.0f, 0.0f};
-    float covered = 0.0f;
-    uint shown = VXL_NO_VOXEL;
+    lane_float color[3] = {(lane_float)0.0f, (lane_float)0.0f, (lane_float)0.0f};
+    lane_float covered = (lane_float)0.0f;
+    lane_uint shown = (lane_uint)VXL_NO_VOXEL;
     for (uint sample = 0; sample < (uint)sight.samples; ++sample) {
         const uint ray = first_ray + sample * 16u;
         if (VXL_SHOWS_COLOR) {
             for (uint channel = 0; channel < 3; ++channel)
-                color[channel] += radiance[channel * stride + ray];
-            if (VXL_TRANSMISSION) covered += coverage[ray];
+                color[channel] += LANES_LOAD(radiance, channel * stride + ray);
+            if (VXL_TRANSMISSION) covered += LANES_LOAD(coverage, ray);
         }
-        if (hits[VXL_HIT_VOXEL * stride + ray] == VXL_NO_VOXEL) continue;
-        if (!VXL_TRANSMISSION) covered += 1.0f;
-        if (shown == VXL_NO_VOXEL) shown = ray;
+        const lane_int hit =
+            LANE_MASK(LANES_LOAD(hits, VXL_HIT_VOXEL * stride + ray) != VXL_NO_VOXEL);
+        if (!VXL_TRANSMISSION) covered = LANES_SELECT(hit, covered + 1.0f, covered);
+        shown = LANES_SELECT(hit & LANE_MASK(shown == VXL_NO_VOXEL),
+                             LANES_AS_UINT(LANES_NUMBERS + (int)ray), shown);
     }
     const float share = sight.sample_share;
     for (uint channel = 0; VXL_SHOWS_COLOR && channel < 3; ++channel) {
-        const float value = color[channel] * share;
-        const bool finite = isfinite(value);
-        if (!finite) atomic_inc(not_finite);
-        image[channel * pixels + pixel] = finite ? value : 0.0f;
+        const lane_float value = color[channel] * share;
+        const lane_int finite = LANE_MASK(fabs(value) < INFINITY);
+        int is_finite[VXL_LANES];
+        LANES_STORE(finite, is_finite, 0);
+        for (uint i = 0; i < VXL_LANES; ++i)
+            if (at.is_in_image[i] && !is_finite[i]) atomic_inc(not_finite);
+        store_pixels(LANES_SELECT(finite, value, (lane_float)0.0f), &at, image + channel * pixels);
     }
-    if (VXL_SHOWS_COLOR) image[3 * pixels + pixel] = covered * share;
-    const bool hit = shown != VXL_NO_VOXEL;
-    const uint ray = hit ? shown : 0;
+    if (VXL_SHOWS_COLOR) store_pixels(covered * share, &at, image + 3 * pixels);
+    const lane_int hit = LANE_MASK(shown != VXL_NO_VOXEL);
+    const lane_uint ray = shown & LANES_AS_UINT(hit);
     const float edge[3] = {shape.edge.x, shape.edge.y, shape.edge.z};
     const float origin[3] = {world_origin.x, world_origin.y, world_origin.z};
     const uint depth_plane = 4 * VXL_SHOWS_COLOR;
@@ -63,17 +97,28 @@ kernel void resolve_pixels(Sight sight, PyramidShape shape, float4 world_origin,
     const float eye_low[3] = {sight.origin_low.x, sight.origin_low.y, sight.origin_low.z};
     // Z_E in voxels per metre; times the edge twice it measures voxels along Z_E in metres.
     const float ahead[3] = {sight.axis_z.x, sight.axis_z.y, sight.axis_z.z};
-    float depth = sight.lead;
+    const lane_float nothing = (lane_float)0.0f;
+    lane_float depth = (lane_float)sight.lead;
     for (uint a = 0; a < 3; ++a) {
-        const bool is_placed = VXL_SHOWS_DEPTH || VXL_SHOWS_POSITION;
-        const float p = is_placed ? positions[a * stride + ray] : 0.0f;
-        const float from_eye = (p - eye[a] - eye_low[a]) * edge[a];
-        depth = fma(from_eye, ahead[a] * edge[a], depth);
+        lane_float p = nothing;
+        if (VXL_SHOWS_DEPTH || VXL_SHOWS_POSITION)
+            p = LANES_GATHER_FLOAT(positions + a * stride, ray);
+        const lane_float from_eye = (p - eye[a] - eye_low[a]) * edge[a];
+        depth = fma(from_eye, (lane_float)(ahead[a] * edge[a]), depth);
         if (VXL_SHOWS_POSITION)
-            image[(position_plane + a) * pixels + pixel] = hit ? fma(p, edge[a], origin[a]) : 0.0f;
+            store_pixels(
+                LANES_SELECT(hit, fma(p, (lane_float)edge[a], (lane_float)origin[a]), nothing), &at,
+                image + (position_plane + a) * pixels);
         if (VXL_SHOWS_NORMAL)
-            image[(normal_plane + a) * pixels + pixel] = hit ? normals[a * stride + ray] : 0.0f;
+            store_pixels(LANES_SELECT(hit, LANES_GATHER_FLOAT(normals + a * stride, ray), nothing),
+                         &at, image + (normal_plane + a) * pixels);
     }
-    if (VXL_SHOWS_DEPTH) image[depth_plane * pixels + pixel] = hit ? depth : INFINITY;
-    if (VXL_SHOWS_OBJECT) objects[pixel] = hit ? (words[ray] & VXL_OBJECT_MASK) + 1u : 0u;
+    if (VXL_SHOWS_DEPTH)
+        store_pixels(LANES_SELECT(hit, depth, (lane_float)INFINITY), &at,
+                     image + depth_plane * pixels);
+    if (VXL_SHOWS_OBJECT) {
+        const lane_uint object = (LANES_GATHER_UINT(words, ray) & VXL_OBJECT_MASK) + 1u;
+        store_pixels(LANES_AS_FLOAT(LANES_SELECT(hit, object, (lane_uint)0)), &at,
+                     (global float*)objects);
+    }
 }

@@ -51,9 +51,10 @@ void ResolveStage::pixels(const Pyramid& pyramid, const RayBatch& batch, uint32_
                           uint32_t tiles) {
     const glm::dvec3& o = pyramid.frame.origin;
     const float4 origin = {float(o.x), float(o.y), float(o.z), 0};
-    pixels_.launch(WorkItem::light, size_t(tiles) * 16, sight_, shape_of(pyramid), origin,
-                   batch.hits, batch.positions, batch.normals, batch.words, batch.radiance,
-                   batch.coverage, first_tile, tiles, batch.stride, planes_, objects_, not_finite_);
+    pixels_.launch_packets(size_t(tiles) * 16, sight_, shape_of(pyramid), origin, batch.hits,
+                           batch.positions, batch.normals, batch.words, batch.radiance,
+                           batch.coverage, first_tile, tiles, batch.stride, planes_, objects_,
+                           not_finite_);
 }
 
 Image ResolveStage::image() const {
