@@ -60,9 +60,11 @@ ImageChannels listed_channels(const RenderOptions& options) {
     return channels;
 }
 
-/// Those that some output shows: PNG files and volumes colour.
+/// Those that some output shows: PNG files colour, volumes without an image what they are made of;
+/// of a dry run without any, those of OpenEXR files.
 ImageChannels channels_of(const RenderOptions& options) {
     ImageChannels channels = listed_channels(options);
+    if (options.outputs.empty()) return options.volumes.empty() ? channels : ImageChannels{};
     const auto has = [&](const char* extension) {
         return std::ranges::any_of(options.outputs, [&](const std::string& path) {
             return std::filesystem::path(path).extension() == extension;

@@ -2,8 +2,6 @@
 //
 // Build constants beside the features': VXL_SHOWS_COLOR, VXL_SHOWS_DEPTH, VXL_SHOWS_POSITION,
 // VXL_SHOWS_NORMAL, VXL_SHOWS_OBJECT: the channels asked for.
-#include "lib/exact_exp.h"
-#include "lib/fixed_point.h"
 #include "lib/lanes.h"
 #include "lib/work_item.h"
 #include "shared/scene.h"

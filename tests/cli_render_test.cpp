@@ -59,6 +59,7 @@ TEST_F(CliRenderTest, AFileHasTheChannelsThatAreAskedFor) {
 TEST_F(CliRenderTest, AVolumeBesideAFileWithoutColorIsPlannedAndMadeWithAllItNeeds) {
     const std::string both = "render scene.json -o z.exr --volume v.nrrd --channels ";
     EXPECT_EQ(run(both + "Z --dry-run").out, run(both + "RGBA,Z --dry-run").out);
+    EXPECT_EQ(run("render scene.json --dry-run").out, run("check scene.json").out);
     ASSERT_EQ(run(both + "Z").exit_code, 0);
     ASSERT_EQ(run("render scene.json --volume alone.nrrd").exit_code, 0);
     EXPECT_EQ(bytes_of(folder / "v.nrrd"), bytes_of(folder / "alone.nrrd"));

@@ -39,6 +39,14 @@ TEST_F(FramePlans, OfFramesTheLargestCountsAndTheFirstThatDoesNotFitIsNamed) {
     EXPECT_NO_THROW(check_frames(scene, std::vector<int>{1, 5}, meshes, device));
 }
 
+/// The frame of 1 to 3 that takes most, where there is room for any.
+FramePlan most_of_three(const Scene& scene) {
+    DeviceInfo device;
+    device.memory = device.max_allocation = 8'000'000'000;
+    MeshStore meshes;
+    return plan_frames(scene, std::vector<int>{1, 2, 3}, meshes, device);
+}
+
 TEST_F(FramePlans, ALampThatIsSwitchedOnTakesItsShadowRays) {
     Scene scene = scene_of(R"({"shape": "sphere", "radius": 0.1})", 1.0 / 50,
                            R"("animation": {"frames": 3, "tracks": [
@@ -46,10 +54,7 @@ TEST_F(FramePlans, ALampThatIsSwitchedOnTakesItsShadowRays) {
      "keys": [{"frame": 1, "value": 0}, {"frame": 3, "value": 9}]}]},
     "lights": [{"name": "lamp", "type": "point", "position": [0.5, 2, 0.5], "intensity": 1}],)");
     scene.render.size = {320, 240};
-    DeviceInfo device;
-    device.memory = device.max_allocation = 8'000'000'000;
-    MeshStore meshes;
-    const FramePlan most = plan_frames(scene, std::vector<int>{1, 2, 3}, meshes, device);
+    const FramePlan most = most_of_three(scene);
     EXPECT_EQ(most.frame, 3);
     EXPECT_GT(most.plan.image_bytes, plan_of(scene_at(scene, 1)).image_bytes);
 }
@@ -82,10 +87,7 @@ TEST_F(FramePlans, WithoutColorAnObserverWhoComesInsideOfAnObjectCounts) {
     scene.render.size = {320, 240};
     scene.render.channels.color = false;
     for (Material& material : scene.materials) material.opacity = 0.5;
-    DeviceInfo device;
-    device.memory = device.max_allocation = 8'000'000'000;
-    MeshStore meshes;
-    const FramePlan most = plan_frames(scene, std::vector<int>{1, 2, 3}, meshes, device);
+    const FramePlan most = most_of_three(scene);
     EXPECT_EQ(most.frame, 3);
     EXPECT_GT(most.plan.image_bytes, plan_of(scene_at(scene, 1)).image_bytes);
 }

@@ -3,20 +3,19 @@
 // A beam is the straight line in the middle of its rays, along the axis that they mostly follow:
 // at every coordinate s of that axis it is less than 4 voxels from each of them. So as long as its
 // own leaf and all leaves around that are empty, which the halo (runtime/stages/beam.hpp) knows of
-// one leaf, theirs are. In a halo of bricks leaves are bricks, and all that a beam counts in is a
-// quarter: `scale`. The slack of a quarter voxel covers the step of 1/64 past the planes at
-// which the line is looked at, and all rounding: places are sums of numbers up to 16 times the
-// world's length (VXL_BEAM_LEAST_DIRECTION), six roundings of which are 0.1 voxel for 16384 voxels.
+// one leaf, theirs are. A halo of bricks is one of voxels four times as long, and so are the beams'
+// coordinates there: `scale` is 1/4. The slack of a quarter voxel covers the step of 1/64 past the
+// planes at which the line is looked at, and all rounding: places are sums of numbers up to 16
+// times the world's length (VXL_BEAM_LEAST_DIRECTION), six roundings of which are 0.1 voxel for
+// 16384 voxels.
 #ifndef VXL_BEAM_H
 #define VXL_BEAM_H
 
 #include "lib/exact_float.h"
 #include "lib/pyramid.h"
+#include "shared/beam.h"
 #include "shared/trace.h"
 
-#ifndef VXL_BEAM_RADIUS
-#define VXL_BEAM_RADIUS 3.75f  // another one only to see that beams too wide are found
-#endif
 #define VXL_BEAM_STEP 0.015625f
 // A ray that hardly follows the axis says nothing of where it is at s.
 #define VXL_BEAM_LEAST_DIRECTION 0.0625f

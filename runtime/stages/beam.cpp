@@ -3,13 +3,12 @@
 #include <array>
 #include <utility>
 
+#include "kernels/shared/beam.h"
 #include "runtime/stages/sector_table.hpp"
 #include "runtime/stages/trace.hpp"
 
 namespace voxelume {
 namespace {
-
-constexpr double kBeamRadius = 3.75;  // VXL_BEAM_RADIUS of lib/beam.h, voxels
 
 /// Leaf masks of a table of sectors, those of sectors without any left out.
 class LeafMasks {
@@ -143,8 +142,8 @@ Halo build_halo(const Device& device, const Pyramid& pyramid, HaloOf of) {
 
 std::optional<HaloOf> halo_for(double voxels_a_pixel) {
     const double radius = 1.5 * voxels_a_pixel;  // of the rays through 4 x 4 pixels
-    if (radius <= kBeamRadius) return HaloOf::leaves;
-    if (radius <= 4 * kBeamRadius) return HaloOf::bricks;
+    if (radius <= VXL_BEAM_RADIUS) return HaloOf::leaves;
+    if (radius <= 4 * VXL_BEAM_RADIUS) return HaloOf::bricks;
     return std::nullopt;
 }
 

@@ -1,0 +1,10 @@
+// How wide beams may be, see lib/beam.h. Read by kernels and host code.
+#ifndef VXL_SHARED_BEAM_H
+#define VXL_SHARED_BEAM_H
+
+// Of a beam, in voxels of its halo. Tests have others, to see that beams too wide are found.
+#ifndef VXL_BEAM_RADIUS
+#define VXL_BEAM_RADIUS 3.75f
+#endif
+
+#endif
