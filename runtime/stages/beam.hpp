@@ -24,7 +24,7 @@ struct Halo {
 };
 
 /// The halo of a world without instances. Reads the pyramid's upper levels back; host work of about
-/// 0.3 microseconds a brick, or for a halo of bricks, a sector.
+/// 16 nanoseconds a leaf that holds voxels, 2 for a halo of bricks.
 Halo build_halo(const Device& device, const Pyramid& pyramid, HaloOf of = HaloOf::leaves);
 
 /// The halo for rays that neighbouring pixels send, each so many voxels wide where they meet the
