@@ -135,6 +135,7 @@ nlohmann::ordered_json statistics(const Outcome& outcome) {
     json["display_lines"] = report.display_lines;
     json["clear_display_lines"] = report.clear_display_lines;
     json["shadow_rays"] = report.shadow_rays;
+    json["light_beams"] = report.light_beams;
     json["secondary_rays"] = report.secondary_rays;
     json["ended_paths"] = report.ended_paths;
     json["lost_members"] = report.lost_members;

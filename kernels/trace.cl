@@ -278,7 +278,8 @@ kernel void begin_inside(VXL_WORLD_ARGUMENTS, uint constant_attribute,
 /// light, `shares` (three components `stride` apart), to the radiance of the ray it was sent for.
 ///
 /// Every target stands in the queue at most once, so no two work-items add to the same place. The
-/// first work-item alone adds the queue's length to `traced`, low word and high word.
+/// first work-item alone adds the queue's length to `traced`, low word and high word. `beam_grid`
+/// and `beam_ends` are those of the rays' light, if they are known.
 kernel void trace_shadows(VXL_WORLD_ARGUMENTS, uint constant_attribute,
                           global const float* restrict materials,
                           global const uint* restrict colors, global const uint* restrict ranks,
@@ -289,6 +290,7 @@ kernel void trace_shadows(VXL_WORLD_ARGUMENTS, uint constant_attribute,
                           uint stride, global const uint* restrict targets,
                           global const uint* restrict sources, global const uint* restrict paths,
                           global const uint* restrict hits, global const float* restrict shares,
+                          BeamGrid beam_grid, global const float* restrict beam_ends,
                           global uint* restrict traced, global float* restrict radiance) {
     const uint first = work_item() * (VXL_LANES * VXL_SHADOW_PACKETS);
     const uint queued = *count;
@@ -301,7 +303,8 @@ kernel void trace_shadows(VXL_WORLD_ARGUMENTS, uint constant_attribute,
     const MediumView medium = {absorption, {density_shape, density_bricks, density_values}};
     const FilterView filter = {constant_attribute, materials, colors, ranks, lost, medium,
                                instances};
-    const ShadowRays queue = {rays, targets, sources, paths, hits, shares, stride};
+    const ShadowRays queue = {rays,   targets, sources,   paths,    hits,
+                              shares, stride,  beam_grid, beam_ends};
 #if VXL_SHADOWS_FLY
     const uint end = min(first + VXL_LANES * VXL_SHADOW_PACKETS, queued);
     fly_shadows(&pyramid, &surface, &filter, shape, &queue, first, end, radiance);

@@ -52,9 +52,10 @@ Buffer<uint32_t> transmitting_solids(const Device& device, const Scene& scene,
 }  // namespace
 
 void build_programs(const Device& device, const Features& features, const Scene& scene,
-                    const Pyramid& world, bool makes_image) {
+                    const Pyramid& world, bool makes_image, bool has_halo) {
     std::vector<const char*> files = {"sight.cl", "trace.cl", "shade.cl"};
     if (has_light(scene, world)) files.push_back("light.cl");
+    if (has_halo && lights_send_beams(features)) files.push_back("light_beams.cl");
     if (features.absorbs) files.push_back("medium.cl");
     if (features.paths) files.push_back("scatter.cl");
     if (makes_image) files.push_back("resolve.cl");
@@ -93,6 +94,29 @@ Illumination::Illumination(const Device& device, const Features& features, const
         scatter_->set_bodies(transmitting_solids(device, scene, world));
 }
 
+void Illumination::send_beams(const Halo& halo, uint32_t most, std::vector<LightBeams>& sent) {
+    const std::vector<LightBeams> before = std::exchange(sent, {});
+    std::optional<LightBeamStage> stage;
+    uint32_t left = kLightsOfMostBeams * most;
+    for (const LightRecord& light : lights_) {
+        LightBeams beams{
+            beam_grid(light, world_.frame.size, scale_of(halo.of), std::min(most, left)), {}};
+        const auto known = std::ranges::find_if(before, [&](const LightBeams& kept) {
+            return std::memcmp(&kept.grid, &beams.grid, sizeof beams.grid) == 0;
+        });
+        if (known != before.end()) {
+            beams = *known;
+        } else if (beams.grid.columns > 0) {
+            if (!stage) stage.emplace(device_, features_, world_, halo);
+            beams.ends = stage->send(beams.grid);
+        }
+        left -= uint32_t(beams.grid.columns * beams.grid.rows);
+        sent.push_back(std::move(beams));
+    }
+    if (stage) light_beams_ = stage->sent();
+    beams_ = sent;
+}
+
 void Illumination::light_all(RayBatch& batch, uint32_t count, const LayerSink& sink,
                              bool hits_are_known) {
     if (features_.paths) begin_paths(batch, count);
@@ -117,8 +141,9 @@ void Illumination::begin_paths(RayBatch& batch, uint32_t count) {
 /// Blocks 4 and 5: lights what the rays have met.
 void Illumination::direct(RayBatch& entries, uint32_t count) {
     shade_.surface(world_, entries, count);
-    for (const LightRecord& light : lights_) {
-        lighting_->add(world_, light, entries, count, queue_);
+    for (size_t i = 0; i < lights_.size(); ++i) {
+        lighting_->add(world_, lights_[i], entries, count, queue_);
+        if (!beams_.empty()) queue_.beams = beams_[i];
         if (features_.medium && !features_.filter) medium_->shadows(world_, queue_, count, entries);
         if (features_.shadows) trace_.shadows(world_, surroundings_, queue_, count, entries);
     }

@@ -12,6 +12,7 @@
 #include "runtime/scene.hpp"
 #include "runtime/scene_features.hpp"
 #include "runtime/stages/light.hpp"
+#include "runtime/stages/light_beams.hpp"
 #include "runtime/stages/medium.hpp"
 #include "runtime/stages/scatter.hpp"
 #include "runtime/stages/shade.hpp"
@@ -20,9 +21,15 @@
 namespace voxelume {
 
 /// Makes the programs of the stages that sight rays go through in one piece: PoCL reads its own
-/// megabyte of headers for each. `makes_image`: they end in a flat image of the scene's channels.
+/// megabyte of headers for each. `makes_image`: they end in a flat image of the scene's channels;
+/// `has_halo`: lights may send beams.
 void build_programs(const Device& device, const Features& features, const Scene& scene,
-                    const Pyramid& world, bool makes_image);
+                    const Pyramid& world, bool makes_image, bool has_halo);
+
+/// Whether beams of lights can tell where shadow rays end: not where these gather what they pass.
+inline bool lights_send_beams(const Features& features) {
+    return features.shadows && !features.filter;
+}
 
 /// Called for each layer of surfaces along the rays of an observer, the nearest first, once its
 /// light is added to the nodes. Entry n of the first layer is ray n; others name theirs in `paths`.
@@ -40,6 +47,14 @@ class Illumination {
     /// `compact` see ScatterStage.
     Illumination(const Device& device, const Features& features, const Scene& scene,
                  const Pyramid& world, uint32_t most_rays, bool compact = true);
+
+    /// So many lights alone may send as many beams as one may.
+    static constexpr uint32_t kLightsOfMostBeams = 4;
+
+    /// Sends beams from the lights, at most `most` from one: shadow rays end where their light's
+    /// tell that nothing more is before them. `sent` holds beams that were sent through this halo
+    /// before, afterwards those of these lights. For features with `lights_send_beams`.
+    void send_beams(const Halo& halo, uint32_t most, std::vector<LightBeams>& sent);
 
     /// Fills hits, and what the features ask for of positions, normals, words and radiance, of rays
     /// 0 .. count-1, which come from an observer. `sink` hears of layers in scenes with
@@ -61,6 +76,7 @@ class Illumination {
     }
     uint64_t shadow_rays() const;  ///< traced so far; waits for the device
     uint64_t secondary_rays() const { return secondary_rays_; }  ///< and rays that went straight on
+    uint64_t light_beams() const { return light_beams_; }        ///< sent, without those kept
     uint64_t ended_paths() const { return scatter_ ? scatter_->ended() : 0; }
     /// How often a ray came into more overlapping objects than it can remember; waits for the
     /// device.
@@ -79,6 +95,7 @@ class Illumination {
     Features features_;
     const Pyramid& world_;
     std::vector<LightRecord> lights_;
+    std::vector<LightBeams> beams_;  ///< of each light, or none at all
     uint32_t most_rays_;
     size_t most_depth_;
     TraceStage trace_;
@@ -91,7 +108,7 @@ class Illumination {
     HollowObjects hollow_;  ///< of immersed observers
     Buffer<uint32_t> hollow_flags_;
     std::vector<std::unique_ptr<PathDepth>> depths_;  ///< as large as has been needed
-    uint64_t secondary_rays_ = 0;
+    uint64_t secondary_rays_ = 0, light_beams_ = 0;
 };
 
 }  // namespace voxelume

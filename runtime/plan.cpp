@@ -7,11 +7,13 @@
 #include <set>
 
 #include "runtime/error.hpp"
+#include "runtime/illumination.hpp"
 #include "runtime/instances.hpp"
 #include "runtime/plan_object.hpp"
 #include "runtime/plan_stages.hpp"
 #include "runtime/scene_features.hpp"
 #include "runtime/stages/mesh_lattice.hpp"
+#include "runtime/stages/sight.hpp"
 
 namespace voxelume {
 namespace {
@@ -169,13 +171,16 @@ class Planner {
         const double table = brick_table(plan_.world);
         plan_.bricks = std::min(plan_.bricks, table);
         plan_.medium = plan_density(scene_.world);
-        plan_.rays = ray_bytes(scene_, features());
+        const Features made_for = features();
+        plan_.rays = ray_bytes(scene_, made_for);
         const double shown = plan_.medium.bytes + image_bytes(scene_.render);
         const StageBytes all = stage_bytes(contents_, {plan_.voxels, plan_.bricks, exact_voxels_},
                                            contents_.instances.voxels, kept);
         plan_.place_bytes = all.place;
         plan_.index_bytes = all.index;
         plan_.image_bytes = all.world + all.halo + shown + plan_.rays.most();
+        if (lights_send_beams(made_for) && !made_for.instances)
+            plan_.image_bytes += light_beam_bytes();
         plan_.world_bytes = all.world;
         plan_.halo_bytes = all.halo;
         const WorldExtent least = extent_at_least(std::move(least_));
@@ -190,6 +195,16 @@ class Planner {
             kWorldTable * table + 2 * image_bytes(scene_.render) + plan_.medium.host_bytes;
         for (const GridPlan& grid : plan_.grids)
             plan_.host_bytes += double(grid.triangles) * 36 + kTableBytes * brick_table(grid.frame);
+    }
+
+    /// What the beams of lights take at most.
+    double light_beam_bytes() const {
+        const Sight sight = sight_of(scene_, plan_.world);
+        const uint64_t rays =
+            16ull * tile_count(sight.width, sight.height) * uint64_t(sight.samples);
+        return sizeof(float) * Illumination::kLightsOfMostBeams *
+               double(light_beams_that_pay(plan_.world, rays, sight.samples,
+                                           voxels_a_pixel(scene_, sight, plan_.world)));
     }
 
     /// What the image's kernels are made for, as far as it decides what rays take.

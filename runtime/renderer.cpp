@@ -20,6 +20,7 @@ void add_counts(const RenderReport& report, RenderReport& sum) {
     sum.display_lines += report.display_lines;
     sum.clear_display_lines += report.clear_display_lines;
     sum.shadow_rays += report.shadow_rays;
+    sum.light_beams += report.light_beams;
     sum.secondary_rays += report.secondary_rays;
     sum.ended_paths += report.ended_paths;
     sum.lost_members += report.lost_members;
@@ -58,11 +59,12 @@ bool Renderer::has_room(const Scene& scene, const Features& features, uint64_t r
            double(device_.counters().bytes_in_use) + needed + bytes <= memory;
 }
 
-Halo Renderer::halo_of(const FormedWorld& world, HaloOf of) {
-    if (halo_ && halo_->world == world.version && halo_->halo.of == of) return halo_->halo;
-    Halo halo = build_halo(device_, world.pyramid, of);
-    if (follows_) halo_ = WorldHalo{world.version, halo};
-    return halo;
+Renderer::WorldHalo& Renderer::halo_of(const FormedWorld& world, HaloOf of) {
+    if (!halo_ || halo_->world != world.version || halo_->halo.of != of) {
+        halo_.reset();
+        halo_ = WorldHalo{world.version, build_halo(device_, world.pyramid, of), {}};
+    }
+    return *halo_;
 }
 
 std::shared_ptr<const Image> Renderer::image(const Scene& scene, const FormedWorld& world,
@@ -116,17 +118,23 @@ Image Renderer::image_of_tiles(const Scene& scene, const FormedWorld& formed, Re
     report.hits_are_kept = view_ == view && !hits_.empty();
     view_.reset();  // an error may leave the hits half done
     if (!report.hits_are_kept) hits_.clear();
-    const bool keeps_hits = has_room(scene, features, uint64_t(all_tiles) * rays_per_tile);
+    const uint64_t rays = uint64_t(all_tiles) * rays_per_tile;
+    const bool keeps_hits = has_room(scene, features, rays);
 
-    build_programs(device_, features, scene, world, true);
+    const double pixel = voxels_a_pixel(scene, observer, world.frame);
+    const std::optional<HaloOf> halo = halo_that_pays(features, world, rays, pixel);
+    build_programs(device_, features, scene, world, true, halo.has_value());
     SightStage sight(device_, features, observer);
     std::optional<BeamStage> beams;
-    const std::optional<HaloOf> halo =
-        halo_that_pays(features, world, uint64_t(all_tiles) * rays_per_tile,
-                       voxels_a_pixel(scene, observer, world.frame));
     if (!report.hits_are_kept && halo)
-        beams.emplace(device_, features, world, halo_of(formed, *halo));
+        beams.emplace(device_, features, world, halo_of(formed, *halo).halo);
     Illumination illumination(device_, features, scene, world, batch.stride);
+    if (halo && lights_send_beams(features)) {
+        WorldHalo& sent = halo_of(formed, *halo);
+        illumination.send_beams(sent.halo,
+                                light_beams_that_pay(world.frame, rays, observer.samples, pixel),
+                                sent.light_beams);
+    }
     ResolveStage resolve(device_, features, observer, scene.render.channels);
     while (const std::optional<TileRange> range = tiles.share.take(in_batch)) {
         const uint32_t first = range->first, now = range->count;
@@ -157,6 +165,7 @@ Image Renderer::image_of_tiles(const Scene& scene, const FormedWorld& formed, Re
         report.clear_beams = beams->cleared();
     }
     report.shadow_rays = illumination.shadow_rays();
+    report.light_beams = illumination.light_beams();
     report.secondary_rays = illumination.secondary_rays();
     report.ended_paths = illumination.ended_paths();
     report.lost_members = illumination.lost_members();

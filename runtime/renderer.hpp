@@ -27,6 +27,7 @@ struct RenderReport {
     uint64_t display_lines = 0;  ///< probe lines along a display's lattice
     uint64_t clear_display_lines = 0;  ///< not sent, as they pass all objects by
     uint64_t shadow_rays = 0;
+    uint64_t light_beams = 0;     ///< sent from lights, where shadow rays end; without those kept
     uint64_t secondary_rays = 0;  ///< reflected, refracted, and gone on through surfaces
     uint64_t ended_paths = 0;     ///< not followed for their small weight
     uint64_t lost_members = 0;    ///< rays that came into more overlapping objects than they can
@@ -85,11 +86,12 @@ class Renderer {
     struct WorldHalo {
         uint64_t world = 0;
         Halo halo;
+        std::vector<LightBeams> light_beams;  ///< of the last frame's lights
     };
 
     static View view_of(const Scene& scene, const FormedWorld& world, const Features& features);
     bool has_room(const Scene& scene, const Features& features, uint64_t rays) const;
-    Halo halo_of(const FormedWorld& world, HaloOf of);
+    WorldHalo& halo_of(const FormedWorld& world, HaloOf of);
     Image image_of_tiles(const Scene& scene, const FormedWorld& world, RenderReport& report,
                          const Tiles& tiles);
 

@@ -77,6 +77,7 @@ void check_rays(const VolumeFrame& frame) {
 
 void count_rays(const Illumination& illumination, RenderReport& report) {
     report.shadow_rays = illumination.shadow_rays();
+    report.light_beams = illumination.light_beams();
     report.secondary_rays = illumination.secondary_rays();
     report.ended_paths = illumination.ended_paths();
     report.lost_members = illumination.lost_members();
@@ -87,14 +88,20 @@ void render_rays(Work& work, Volume& volume) {
     const uint32_t tiles = tile_count(work.sight.width, work.sight.height);
     const uint32_t in_batch = batch_tiles(work.features, 1, tiles);
     RayBatch batch = allocate_batch(work.device, work.features, in_batch * 16);
-    build_programs(work.device, work.features, work.scene, work.world, false);
+    const double pixel = voxels_a_pixel(work.scene, work.sight, work.world.frame);
+    const auto halo_of = halo_that_pays(work.features, work.world, 16ull * tiles, pixel);
+    build_programs(work.device, work.features, work.scene, work.world, false, halo_of.has_value());
     SightStage sight(work.device, work.features, work.sight);
     std::optional<BeamStage> beams;
-    const double pixel = voxels_a_pixel(work.scene, work.sight, work.world.frame);
-    if (const auto halo = halo_that_pays(work.features, work.world, 16ull * tiles, pixel))
-        beams.emplace(work.device, work.features, work.world,
-                      build_halo(work.device, work.world, *halo));
     Illumination illumination(work.device, work.features, work.scene, work.world, batch.stride);
+    if (halo_of) {
+        const Halo halo = build_halo(work.device, work.world, *halo_of);
+        beams.emplace(work.device, work.features, work.world, halo);
+        std::vector<LightBeams> sent;
+        if (lights_send_beams(work.features))
+            illumination.send_beams(
+                halo, light_beams_that_pay(work.world.frame, 16ull * tiles, 1, pixel), sent);
+    }
     DisplayRaysStage display(work.device, work.features, work.sight, work.frame,
                              work.scene.world.medium, space_of(work.scene.world));
     for (uint32_t first = 0; first < tiles; first += in_batch) {
@@ -140,7 +147,7 @@ void render_lattice(Work& work, Volume& volume) {
     };
     std::vector<ProbePoints> pieces = scan.scan(work.world, batch);
     report_progress(1);
-    build_programs(work.device, work.features, work.scene, work.world, false);
+    build_programs(work.device, work.features, work.scene, work.world, false, false);
     Illumination illumination(work.device, work.features, work.scene, work.world, batch.stride);
     LookAhead look = [&](RayBatch& rays, uint32_t count) { illumination.find_hits(rays, count); };
     std::optional<Illumination> clear;

@@ -7,6 +7,7 @@
 #define VXL_SHADOW_FLIGHT_H
 
 #include "lib/filter.h"
+#include "lib/light_beams.h"
 #include "lib/ray_queue.h"
 
 #define VXL_SHADOWS_FLY VXL_SHADOW_RAYS_FLY(VXL_PATHS, VXL_SMOOTH, VXL_EXACT, VXL_INSTANCES)
@@ -23,6 +24,8 @@ typedef struct {
     global const uint* restrict hits;
     global const float* restrict shares;
     uint stride;
+    BeamGrid beam_grid;  // of the light that they run to
+    global const float* restrict beam_ends;
 } ShadowRays;
 
 /// Shadow rays on their way.
@@ -38,6 +41,8 @@ static inline void send_shadows(const SurfaceView* s, const FilterView* v, Pyram
     Walk* w = &flight->walk;
     *w = walk_of(q->rays, q->stride, flight->ray, VXL_SHADOWS_FLY);
     flight->t_end = VXL_RAY_FLOATS(q->rays + VXL_RAY_END * q->stride, flight->ray, VXL_SHADOWS_FLY);
+    if (!VXL_FILTER && q->beam_grid.columns > 0)
+        flight->t_end = fmin(flight->t_end, clear_from(&q->beam_grid, q->beam_ends, w));
     Travel* travel = &flight->travel;
     *travel = sight_travel();
     travel->on_surface = (lane_int)-1;

@@ -106,6 +106,8 @@ glm::ivec3 coarse_sectors(const GridFrame& frame) {
     return (coarse_size(frame) + kSectorSize - 1) / kSectorSize;
 }
 
+}  // namespace
+
 PyramidShape halo_shape(const Pyramid& pyramid, HaloOf of) {
     PyramidShape shape = shape_of(pyramid);
     if (of == HaloOf::leaves) return shape;
@@ -114,8 +116,6 @@ PyramidShape halo_shape(const Pyramid& pyramid, HaloOf of) {
     shape.sectors_x = sectors.x, shape.sectors_y = sectors.y;
     return shape;
 }
-
-}  // namespace
 
 Halo build_halo(const Device& device, const Pyramid& pyramid, HaloOf of) {
     if (of == HaloOf::leaves) {
@@ -181,9 +181,8 @@ void BeamStage::start(RayBatch& batch, uint32_t count) {
         batch.beams = Buffer<uint32_t>(device_, "beams",
                                        size_t(VXL_BEAM_PLACES(batch.stride)) * VXL_BEAM_COMPONENTS);
     const uint32_t beams = (count + VXL_BEAM_RAYS - 1) / VXL_BEAM_RAYS;
-    const float scale = halo_.of == HaloOf::leaves ? 1.0f : 0.25f;
-    start_.launch_packets(beams, shape_, halo_.sectors, halo_.bricks, scale, batch.rays, beams,
-                          batch.stride, batch.beams, cleared_);
+    start_.launch_packets(beams, shape_, halo_.sectors, halo_.bricks, scale_of(halo_.of),
+                          batch.rays, beams, batch.stride, batch.beams, cleared_);
     sent_ += beams;
 }
 

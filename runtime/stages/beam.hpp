@@ -36,6 +36,14 @@ std::optional<HaloOf> halo_for(double voxels_a_pixel);
 std::optional<HaloOf> halo_that_pays(const Features& features, const Pyramid& world, uint64_t rays,
                                      double voxels_a_pixel);
 
+/// A halo's coordinates of the world's.
+inline float scale_of(HaloOf of) {
+    return of == HaloOf::leaves ? 1.0f : 0.25f;
+}
+
+/// The shape of a pyramid's halo.
+PyramidShape halo_shape(const Pyramid& pyramid, HaloOf of);
+
 /// `start_beams` of sight.cl. Beams change how long rays take, never what they meet.
 class BeamStage {
   public:

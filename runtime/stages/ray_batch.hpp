@@ -1,6 +1,7 @@
 // The arrays that a batch of sight rays fills on its way through the stages.
 #pragma once
 
+#include "kernels/shared/light_beams.h"
 #include "kernels/shared/trace.h"
 #include "runtime/opencl/buffer.hpp"
 
@@ -34,6 +35,12 @@ struct RayBatch : RayQueue {
     Buffer<float> coverage;  ///< how much of what lies behind is covered
 };
 
+/// How far from a light the world is empty, see light_beams.cl; no columns where that isn't known.
+struct LightBeams {
+    BeamGrid grid{};
+    Buffer<float> ends;
+};
+
 /// Shadow rays waiting to be traced, left-packed. Not allocated where nothing can keep light back.
 struct ShadowQueue {
     Buffer<uint32_t> count;    ///< one value, kept on the device
@@ -43,6 +50,7 @@ struct ShadowQueue {
     Buffer<uint32_t> targets;  ///< the sight ray whose radiance each would add to
     Buffer<uint32_t> sources;  ///< the primitive that each begins on; exact surfaces only
     Buffer<float> shares;      ///< 3: the light that arrives if nothing is in the way
+    LightBeams beams;          ///< of the light that they run to
 };
 
 }  // namespace voxelume

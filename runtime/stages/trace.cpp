@@ -105,7 +105,7 @@ void TraceStage::shadows(const Pyramid& pyramid, const Surroundings& surrounding
         surroundings.ranks, surroundings.lost, surroundings.absorption, surroundings.density.shape,
         surroundings.density.bricks, surroundings.density.values, queue.rays, queue.count,
         batch.stride, queue.targets, queue.sources, batch.paths, batch.hits, queue.shares,
-        queue.traced, batch.radiance);
+        queue.beams.grid, queue.beams.ends, queue.traced, batch.radiance);
 }
 
 }  // namespace voxelume

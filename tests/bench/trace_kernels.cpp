@@ -31,6 +31,13 @@ Buffer<T> filled(const Device& device, size_t size, const T& value) {
     return buffer;
 }
 
+/// The light that `split_rays` sends shadow rays to.
+LightRecord light_of(const Pyramid& pyramid) {
+    Light light;
+    light.position = kLightPosition;
+    return light_record(light, pyramid.frame);
+}
+
 }  // namespace
 
 RayBatch batch_of(const Device& device, const Features& features, const Pyramid& pyramid,
@@ -81,7 +88,8 @@ TraceKernels::TraceKernels(const Device& device, const Pyramid& pyramid)
     : device_(device),
       pyramid_(pyramid),
       direct_(features_of(pyramid)),
-      beams_(device, direct_, pyramid, build_halo(device, pyramid)) {
+      halo_(build_halo(device, pyramid)),
+      beams_(device, direct_, pyramid, halo_) {
     direct_.shadows = true;
     bouncing_ = direct_;
     bouncing_.paths = true;
@@ -126,7 +134,11 @@ double TraceKernels::shadow(const std::vector<Ray>& rays) {
     batch.radiance.fill(0.0f);
     const Surroundings surroundings{filled<MaterialRecord>(device_, 1, {}),
                                     filled<uint32_t>(device_, 1, 0)};
+    LightBeamStage beams(device_, direct_, pyramid_, halo_);
+    const BeamGrid grid =
+        beam_grid(light_of(pyramid_), pyramid_.frame.size, scale_of(halo_.of), count / 4);
     const double seconds = median_seconds([&] {
+        if (grid.columns > 0) queue.beams = {grid, beams.send(grid)};
         trace.shadows(pyramid_, surroundings, queue, count, batch);
         device_.finish();
     });

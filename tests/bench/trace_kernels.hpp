@@ -40,6 +40,7 @@ class TraceKernels {
 
     double sight(const std::vector<Ray>& rays, std::vector<Hit>* hits = nullptr);
     double bounce(const std::vector<Ray>& rays);
+    /// With the beams of their light.
     double shadow(const std::vector<Ray>& rays);
 
     /// Of the closest hits of all lists so far.
@@ -51,6 +52,7 @@ class TraceKernels {
     Device device_;
     const Pyramid& pyramid_;
     Features direct_, bouncing_;
+    Halo halo_;
     BeamStage beams_;
     uint64_t hash_ = 0;
 };

@@ -46,7 +46,7 @@ RayLists split_rays(const std::vector<Ray>& rays, const std::vector<Hit>& hits,
     RayLists lists;
     std::mt19937 random(7);
     const auto uniform = [&] { return double(random()) / 4294967296.0; };
-    const glm::dvec3 light = (glm::dvec3(1.5, 2.5, 2) - frame.origin) / frame.voxel_edge;
+    const glm::dvec3 light = (kLightPosition - frame.origin) / frame.voxel_edge;
     for (size_t i = 0; i < rays.size(); ++i) {
         if (!hits[i].met) continue;
         lists.hitting.push_back(rays[i]);

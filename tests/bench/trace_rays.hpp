@@ -23,6 +23,7 @@ struct Hit {
 };
 
 constexpr int kPictureSide = 1024;  ///< pixels
+constexpr glm::dvec3 kLightPosition{1.5, 2.5, 2};
 
 /// All rays of the picture in 4 x 4 tiles, entering the grid's box; rays past it have an end of -1.
 std::vector<Ray> picture_rays(const GridFrame& frame);

@@ -1,0 +1,38 @@
+// a light -> beams: how far from it the world is empty.
+#include "lib/beam.h"
+#include "lib/work_item.h"
+#include "shared/light_beams.h"
+
+/// Sends beams 0 .. count-1 of the grid and leaves in `ends` how far they come: what their rays
+/// meet lies at this coordinate of the grid's axis or beyond it, of minus that axis where its sign
+/// is negative; +infinity where they meet nothing. `shape`, `sectors` and `bricks` are the halo's.
+kernel void send_light_beams(PyramidShape shape, global const uint* restrict sectors,
+                             global const uint* restrict bricks, BeamGrid grid, uint count,
+                             global float* restrict ends) {
+    const uint first = work_item() * VXL_LANES;
+    if (first >= count) return;
+    const PyramidView halo = pyramid_view(shape, sectors, bricks, 0, 0);
+    const lane_int beam = LANES_NUMBERS + (int)first;
+    const lane_int tile = beam >> 4;
+    const int tiles = grid.columns >> 2;
+    const lane_int tile_row = LANES_INT((LANES_FLOAT(tile) + 0.5f) * (1.0f / (float)tiles));
+    const lane_int row = (tile_row << 2) + ((beam >> 2) & 3);
+    const lane_int column = ((tile - tile_row * tiles) << 2) + (beam & 3);
+    const lane_float at_b = grid.low_b + (LANES_FLOAT(column) + 0.5f) * grid.edge;
+    const lane_float at_c = grid.low_c + (LANES_FLOAT(row) + 0.5f) * grid.edge;
+
+    const int size = grid.axis == 0 ? shape.size_x : grid.axis == 1 ? shape.size_y : shape.size_z;
+    const float s_near = grid.sign > 0.0f ? 0.0f : -(float)size;
+    const float s_far = s_near + (float)size;
+    BeamAxis b, c;
+    b.m = grid.sign * (grid.slope_b - at_b * grid.converging);
+    c.m = grid.sign * (grid.slope_c - at_c * grid.converging);
+    b.b0 = grid.scale * at_b - b.m * s_far;
+    c.b0 = grid.scale * at_c - c.m * s_far;
+    b.r0 = c.r0 = b.e = c.e = (lane_float)0.0f;  // the squares are as wide as beams may be
+    const lane_float s =
+        run_beams(&halo, (lane_int)grid.axis, (lane_float)grid.sign, &b, &c, (lane_float)s_near,
+                  (lane_float)s_far, LANE_MASK(beam < (int)count));
+    const lane_float end = (s - 2.0f * VXL_BEAM_STEP) * (1.0f / grid.scale);
+    LANES_STORE(LANES_SELECT(LANE_MASK(s >= s_far), (lane_float)INFINITY, end), ends, first);
+}

@@ -1,0 +1,33 @@
+// Beams from a light through the world, see light_beams.cl. Read by kernels and host code.
+#ifndef VXL_SHARED_LIGHT_BEAMS_H
+#define VXL_SHARED_LIGHT_BEAMS_H
+
+#ifdef __cplusplus
+#include <kernels/shared/scene.h>
+namespace voxelume {
+#else
+#include "shared/scene.h"
+#endif
+
+// Where a light's beams end if nothing is in their way: in the middles of the squares of a grid on
+// the world's far side. Places are in the world's voxels, b and c the axes beside `axis` in order.
+// Beams stand in tiles of 4 x 4, tile by tile along b, then along c.
+typedef struct BeamGrid {
+    int axis;            // that the beams mostly follow ...
+    float sign;          // ... towards larger coordinates (1) or smaller ones (-1)
+    float far_side;      // its coordinate on the far side
+    int columns, rows;   // squares along b and c, multiples of 4; no columns: there are no beams
+    float low_b, low_c;  // where the grid begins
+    float edge;          // of a square
+    // From (b, c) on the grid towards the light, b changes by slope_b - b * converging, and c by
+    // slope_c - c * converging, for each voxel along the axis towards larger coordinates.
+    float slope_b, slope_c, converging;
+    float scale;  // the halo's coordinates of the world's
+} BeamGrid;
+VXL_SIZE_IS(BeamGrid, 48);
+
+#ifdef __cplusplus
+}  // namespace voxelume
+#endif
+
+#endif

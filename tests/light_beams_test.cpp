@@ -1,0 +1,354 @@
+#include "runtime/stages/light_beams.hpp"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <random>
+
+#include "runtime/illumination.hpp"
+#include "runtime/ray_arrays.hpp"
+#include "runtime/renderer.hpp"
+#include "runtime/stages/index.hpp"
+#include "runtime/stages/light.hpp"
+#include "runtime/stages/sight.hpp"
+#include "runtime/stages/trace.hpp"
+#include "tests/brick_grids.hpp"
+#include "tests/test_device.hpp"
+
+namespace voxelume {
+namespace {
+
+constexpr uint32_t kSeed = 20261123;
+constexpr uint32_t kRays = 16 * 301;  // odd: the last packet has none to take turns with
+constexpr glm::ivec3 kSize{230, 137, 301};
+
+class Random {
+  public:
+    double uniform() { return double(engine_()) / 0x1p32; }
+    glm::dvec3 point(const glm::dvec3& size) {
+        const double x = uniform(), y = uniform(), z = uniform();
+        return size * glm::dvec3(x, y, z);
+    }
+
+  private:
+    std::mt19937 engine_{kSeed};
+};
+
+HostBricks scattered_cubes(int count) {
+    Random random;
+    HostBricks bricks(frame_of(kSize));
+    std::vector<glm::ivec3> voxels;
+    for (int i = 0; i < count; ++i) voxels.emplace_back(random.point(kSize));
+    for (const glm::ivec3& v : voxels) bricks.slots[bricks.brick_index(v)] = 0;
+    bricks.number_slots();
+    bricks.occupancy.assign(bricks.coordinates.size() * 64, 0);
+    for (const glm::ivec3& v : voxels) {
+        const glm::ivec3 leaf = v / 4 % 4, in = v % 4;
+        bricks.occupancy[size_t(bricks.slots[bricks.brick_index(v)]) * 64 +
+                         size_t(leaf.x + 4 * leaf.y + 16 * leaf.z)] |=
+            uint64_t{1} << (in.x + 4 * in.y + 16 * in.z);
+    }
+    return bricks;
+}
+
+Light point_light(const glm::dvec3& position) {
+    Light light;
+    light.position = position;
+    return light;
+}
+
+Light distant_light(const glm::dvec3& direction) {
+    Light light;
+    light.kind = LightKind::directional;
+    light.direction = glm::normalize(direction);
+    return light;
+}
+
+/// Lights around the world, near and far, and such that shine from everywhere.
+std::vector<Light> lights_outside() {
+    Random random;
+    const glm::dvec3 size(kSize), middle = 0.5 * size;
+    std::vector<Light> lights;
+    for (int axis = 0; axis < 3; ++axis)
+        for (const double side : {-1.0, 1.0}) {
+            for (const double distance : {0.3, 1.0, 1000.0}) {
+                glm::dvec3 at = random.point(size);
+                at[axis] = middle[axis] + side * (0.5 + distance) * size[axis];
+                lights.push_back(point_light(at));
+            }
+            glm::dvec3 direction = random.point({1, 1, 1}) - 0.5;
+            direction[axis] = -side;
+            lights.push_back(distant_light(direction));
+        }
+    lights.push_back(distant_light({0, 1, 0}));
+    lights.push_back(distant_light({1, 1, 1}));
+    return lights;
+}
+
+/// A world of cubes, and shadow rays from its points to a light.
+class ShadowedCubes {
+  public:
+    ShadowedCubes(const Device& device, int voxels)
+        : device_(device),
+          pyramid_(build_index(device, scattered_cubes(voxels).upload(device))),
+          features_(features_of(pyramid_)) {
+        features_.shadows = true;
+        batch_ = allocate_batch(device, features_, kRays);
+        queue_ = allocate_shadow_queue(device, features_, kRays);
+        queue_.count.fill(kRays);
+        queue_.traced.fill(0);
+        std::vector<uint32_t> targets(kRays);
+        std::iota(targets.begin(), targets.end(), 0u);
+        queue_.targets.write(std::span<const uint32_t>(targets));
+        queue_.shares.fill(1.0f);
+    }
+
+    const Pyramid& pyramid() const { return pyramid_; }
+
+    /// Sets rays from random points to the light, snapped as shared/trace.h has it.
+    void aim(const Light& light) {
+        Random random;
+        const LightRecord record = light_record(light, pyramid_.frame);
+        const glm::dvec3 at(record.position.x, record.position.y, record.position.z);
+        const double unit = double(shape_of(pyramid_).fixed_point);
+        const double step = std::ldexp(1.0, -VXL_DIRECTION_BITS);
+        std::vector<float> values(size_t(kRays) * VXL_RAY_COMPONENTS);
+        for (uint32_t i = 0; i < kRays; ++i) {
+            const glm::dvec3 from = glm::round(random.point(kSize) * unit) / unit;
+            const bool distant = light.kind == LightKind::directional;
+            const glm::dvec3 to_light = distant ? at : at - from;
+            int exponent = 0;
+            std::frexp(std::max({std::abs(to_light.x), std::abs(to_light.y), std::abs(to_light.z)}),
+                       &exponent);
+            for (uint32_t a = 0; a < 3; ++a) {
+                values[(VXL_RAY_OX + a) * kRays + i] = float(from[int(a)]);
+                values[(VXL_RAY_DX + a) * kRays + i] =
+                    float(std::round(std::ldexp(to_light[int(a)], -exponent) / step) * step);
+            }
+            values[VXL_RAY_END * kRays + i] = distant ? INFINITY : std::ldexp(1.0f, exponent);
+        }
+        queue_.rays.write(std::span<const float>(values));
+    }
+
+    /// Of each ray, whether it reaches the light.
+    std::vector<float> reached(const LightBeams& beams = {}) {
+        TraceStage trace(device_, features_);
+        queue_.beams = beams;
+        batch_.radiance.fill(0.0f);
+        const Surroundings surroundings{
+            Buffer<MaterialRecord>(device_, "materials", std::vector<MaterialRecord>(1)),
+            Buffer<uint32_t>(device_, "ranks", std::vector<uint32_t>(1))};
+        trace.shadows(pyramid_, surroundings, queue_, kRays, batch_);
+        return batch_.radiance.read(0, kRays);
+    }
+
+    LightBeams send(const BeamGrid& grid, HaloOf of) {
+        LightBeamStage stage(device_, features_, pyramid_, build_halo(device_, pyramid_, of));
+        LightBeams beams{grid, stage.send(grid)};
+        EXPECT_EQ(stage.sent(), uint64_t(grid.columns) * uint64_t(grid.rows));
+        return beams;
+    }
+
+  private:
+    Device device_;
+    Pyramid pyramid_;
+    Features features_;
+    RayBatch batch_;
+    ShadowQueue queue_;
+};
+
+int count_of(const std::vector<float>& values, float value) {
+    return int(std::ranges::count(values, value));
+}
+
+class LightBeamLanes : public testing::TestWithParam<int> {};
+INSTANTIATE_TEST_SUITE_P(Lanes, LightBeamLanes, testing::Values(1, 4, 8, 16));
+
+TEST_P(LightBeamLanes, LeaveEveryShadowAsItIs) {
+    const Device device = test_device(GetParam());
+    int shadowed = 0, lit = 0, shortened = 0;
+    for (const auto& [voxels, of] : {std::pair(3, HaloOf::leaves),
+                                     {400, HaloOf::leaves},
+                                     {4000, HaloOf::leaves},
+                                     {3, HaloOf::bricks},
+                                     {60, HaloOf::bricks}}) {
+        ShadowedCubes world(device, voxels);
+        for (const Light& light : lights_outside()) {
+            const BeamGrid grid = beam_grid(light_record(light, world.pyramid().frame), kSize,
+                                            scale_of(of), 1u << 20);
+            const auto& at = light.position;
+            ASSERT_GT(grid.columns, 0) << at.x << ' ' << at.y << ' ' << at.z;
+            const LightBeams beams = world.send(grid, of);
+            world.aim(light);
+            const std::vector<float> expected = world.reached();
+            EXPECT_EQ(world.reached(beams), expected)
+                << "seed " << kSeed << ", " << voxels << " voxels, halo " << int(of)
+                << ", light at " << at.x << ' ' << at.y << ' ' << at.z;
+            lit += count_of(expected, 1.0f);
+            shadowed += count_of(expected, 0.0f);
+            for (const float end : beams.ends.read()) shortened += end > -400.0f && end < INFINITY;
+        }
+    }
+    EXPECT_GT(lit, 10000);
+    EXPECT_GT(shadowed, 5000);
+    EXPECT_GT(shortened, 1000);
+}
+
+/// What the test above would find if beams were too narrow for their rays.
+TEST(LightBeams, OfSquaresTooWideLetLightThroughVoxels) {
+    ShadowedCubes world(test_device(), 4000);
+    int wrong = 0;
+    for (const Light& light : lights_outside()) {
+        BeamGrid grid =
+            beam_grid(light_record(light, world.pyramid().frame), kSize, 1.0f, 1u << 20);
+        grid.edge *= 4;
+        const LightBeams beams = world.send(grid, HaloOf::leaves);
+        world.aim(light);
+        const std::vector<float> expected = world.reached(), found = world.reached(beams);
+        for (uint32_t i = 0; i < kRays; ++i) wrong += expected[i] != found[i];
+    }
+    EXPECT_GT(wrong, 100);
+}
+
+TEST(LightBeams, EndOneLeafBeforeVoxels) {
+    const Device device = test_device();
+    HostBricks bricks(frame_of(kSize));
+    const glm::ivec3 voxel(130, 70, 200), leaf = voxel / 4 % 4, in = voxel % 4;
+    bricks.slots[bricks.brick_index(voxel)] = 0;
+    bricks.number_slots();
+    bricks.occupancy.assign(64, 0);
+    bricks.occupancy[size_t(leaf.x + 4 * leaf.y + 16 * leaf.z)] = uint64_t{1}
+                                                                  << (in.x + 4 * in.y + 16 * in.z);
+    const Pyramid pyramid = build_index(device, bricks.upload(device));
+    LightBeamStage stage(device, features_of(pyramid), pyramid, build_halo(device, pyramid));
+    for (const double side : {-1.0, 1.0}) {
+        const BeamGrid grid = beam_grid(light_record(distant_light({0, 0, side}), pyramid.frame),
+                                        kSize, 1.0f, 1u << 20);
+        EXPECT_EQ(grid.axis, 2);
+        EXPECT_EQ(grid.columns, 36);  // 33 squares of 7 voxels
+        EXPECT_EQ(grid.rows, 20);
+        const std::vector<float> ends = stage.send(grid).read();
+        const float nearest = *std::ranges::min_element(ends);
+        EXPECT_NEAR(nearest, side > 0 ? 196 : -208, 0.1);
+        // Its leaf and those around it, 12 voxels wide, are in the way of 2 x 2 or 3 x 3 beams.
+        const auto ended = std::ranges::count_if(ends, [](float end) { return end < INFINITY; });
+        EXPECT_GE(ended, 1);
+        EXPECT_LE(ended, 9);
+    }
+}
+
+TEST(LightBeams, AreNotSentFromLightsInTheWorldOrTooNear) {
+    const GridFrame frame = frame_of(kSize);
+    const auto grid_of = [&](const Light& light, uint32_t most) {
+        return beam_grid(light_record(light, frame), kSize, 1.0f, most);
+    };
+    constexpr uint32_t kMany = 1u << 30;
+    EXPECT_EQ(grid_of(point_light({100, 100, 100}), kMany).columns, 0) << "inside";
+    EXPECT_EQ(grid_of(point_light({100, 137, 100}), kMany).columns, 0) << "on a side";
+    EXPECT_EQ(grid_of(point_light({100, 138, 100}), kMany).columns, 0) << "beams too oblique";
+    const BeamGrid grid = grid_of(point_light({100, 300, 100}), kMany);
+    const auto count = uint32_t(grid.columns * grid.rows);
+    EXPECT_GT(count, 0u);
+    EXPECT_EQ(grid_of(point_light({100, 300, 100}), count).columns, grid.columns);
+    EXPECT_EQ(grid_of(point_light({100, 300, 100}), count - 1).columns, 0);
+    EXPECT_EQ(grid_of(distant_light({0, 0, 0}), kMany).columns, 0) << "no direction";
+}
+
+TEST(LightBeams, AreAsManyAsRaysMayPayFor) {
+    const GridFrame frame = frame_of({100, 200, 400});
+    EXPECT_EQ(light_beams_that_pay(frame, 1u << 20, 1, 1.0), 400u * 200 / 16);
+    EXPECT_EQ(light_beams_that_pay(frame, 1u << 20, 4, 2.0), 400u * 200 / 16);
+    EXPECT_EQ(light_beams_that_pay(frame, 1600, 1, 1.0), 100u) << "a part of the world is seen";
+}
+
+/// Balls of a surface, some of which mirror, above a floor, with two lights outside of the world.
+Scene balls(const std::string& surface, double reflection, const std::string& light) {
+    Random random;
+    std::string objects;
+    for (int i = 0; i < 30; ++i) {
+        const glm::dvec3 p = random.point({1, 1, 1});
+        objects +=
+            fmt::format(R"(, {{"model": "ball", "material": "{}", "position": [{}, {}, {}]}})",
+                        i % 3 == 0 ? "mirror" : "wall", 3 * p.x - 1.5, 2 * p.y - 0.2, 2 * p.z);
+    }
+    return parse_scene(fmt::format(R"({{"voxelume": 1,
+"world": {{"voxel_size": 0.02, "bounds": {{"min": [-2, -1, -2], "max": [2, 2, 2.4]}}}},
+"materials": {{"wall": {{"color": [0.8, 0.7, 0.6]}}, "mirror": {{"reflection": {}}}}},
+"models": {{"floor": {{"shape": "box", "size": [4, 0.2, 4], "surface": "{}"}},
+           "ball": {{"shape": "sphere", "radius": 0.15, "surface": "{}"}}}},
+"objects": [{{"model": "floor", "material": "wall", "position": [0, -0.7, 0.2]}}{}],
+"lights": [{{"type": "point", "position": [1.5, 12, -1], "intensity": 90}}, {}],
+"observer": {{"position": [0, 0.6, -1.5], "look_at": [0, 0.1, 1],
+             "display": {{"shape": "pyramid", "angles": [80, 80]}}}},
+"render": {{"size": [256, 256], "depth": 1}}}})",
+                                   reflection, surface, surface, objects, light),
+                       "balls.json", {});
+}
+
+constexpr const char* kDistant =
+    R"({"type": "directional", "direction": [-1, -2, 0.5], "intensity": 1})";
+
+/// The light that the observer's rays bring, 3 components.
+std::vector<float> light_of(const Scene& scene, const FormedWorld& formed, bool with_beams) {
+    const Device device = test_device();
+    const Pyramid& world = formed.pyramid;
+    const Features features = features_of(scene, world);
+    const Sight observer = sight_of(scene, world.frame);
+    const uint32_t tiles = tile_count(observer.width, observer.height);
+    RayBatch batch = allocate_batch(device, features, tiles * 16);
+    Illumination illumination(device, features, scene, world, batch.stride);
+    if (with_beams) {
+        std::vector<LightBeams> sent;
+        illumination.send_beams(build_halo(device, world), 1u << 20, sent);
+        EXPECT_GT(illumination.light_beams(), 1000u);
+    }
+    SightStage(device, features, observer).cast(shape_of(world), 0, tiles, batch);
+    illumination.light(batch, tiles * 16);
+    EXPECT_GT(illumination.shadow_rays(), 50000u);
+    return batch.radiance.read();
+}
+
+using SurfaceAndReflection = std::tuple<const char*, double>;
+class LightBeamSurfaces : public testing::TestWithParam<SurfaceAndReflection> {};
+INSTANTIATE_TEST_SUITE_P(LightBeams, LightBeamSurfaces,
+                         testing::Values(SurfaceAndReflection("cubes", 0),
+                                         SurfaceAndReflection("smooth", 0),
+                                         SurfaceAndReflection("smooth", 0.5),
+                                         SurfaceAndReflection("exact", 0.5)));
+
+TEST_P(LightBeamSurfaces, AreLitAsWithoutBeams) {
+    const auto [surface, reflection] = GetParam();
+    const Scene scene = balls(surface, reflection, kDistant);
+    WorldReport report;
+    const FormedWorld world = WorldFormer(test_device(), false, MeshStore()).form(scene, report);
+    EXPECT_EQ(light_of(scene, world, true), light_of(scene, world, false));
+}
+
+/// What didn't change isn't sent again: a light that stays keeps its beams while another moves.
+TEST(LightBeams, AreKeptForLightsThatStay) {
+    const Device device = test_device();
+    WorldFormer former(device, true, MeshStore());
+    Renderer renderer(device);
+    std::vector<uint64_t> sent;
+    for (const double x : {0.0, 0.1, 0.1, 0.2}) {
+        Scene scene = balls(
+            "cubes", 0,
+            fmt::format(R"({{"type": "point", "position": [{}, 12, 0], "intensity": 9}})", x));
+        if (sent.size() == 2) scene.observer.position.x += 0.01;
+        RenderReport report;
+        const FormedWorld world = former.form(scene, report.world);
+        renderer.image(scene, world, report);
+        sent.push_back(report.light_beams);
+    }
+    EXPECT_GT(sent[0], sent[1]);
+    EXPECT_GT(sent[1], 0u);
+    EXPECT_EQ(sent[2], 0u) << "the observer moved, no light did";
+    EXPECT_GT(sent[3], 0u);
+}
+
+}  // namespace
+}  // namespace voxelume
