@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "runtime/io/atomic_file.hpp"
+#include "runtime/io/vdb.hpp"
 #include "runtime/opencl/platforms.hpp"
 #include "runtime/scene.hpp"
 
@@ -24,6 +25,7 @@ void check_output(const std::string& path, std::initializer_list<const char*> ex
                     list);
     }
     const AtomicFile trial(path);  // leaves nothing behind without commit()
+    if (extension == ".vdb") check_vdb_output(path);
 }
 
 std::vector<std::string> chosen_names(const std::vector<std::string>& texts,

@@ -7,7 +7,7 @@
 #include "runtime/io/input_file.hpp"
 #include "runtime/io/vdb_stream.hpp"
 
-namespace voxelume {
+namespace voxelume::vdb {
 
 namespace {
 
@@ -133,4 +133,4 @@ std::vector<VdbSummary> read_vdb_summary(const std::filesystem::path& path) {
     });
 }
 
-}  // namespace voxelume
+}  // namespace voxelume::vdb

@@ -37,6 +37,10 @@ struct VdbVolume {
 /// by one from the content. Throws Error::output.
 void write_vdb(const std::filesystem::path& path, const VdbVolume& volume);
 
+/// Throws Error::output where write_vdb and write_volume_vdb would for any volume, as OpenVDB can't
+/// be loaded.
+void check_vdb_output(const std::filesystem::path& path);
+
 /// One grid of a file.
 struct VdbSummary {
     std::string name;

@@ -8,7 +8,7 @@
 
 #include "runtime/io/vdb_read.hpp"
 
-namespace voxelume {
+namespace voxelume::vdb {
 namespace {
 
 using openvdb::Coord;
@@ -141,4 +141,4 @@ std::unique_ptr<DensityField> read_vdb_density(const GridDensity& density) {
     return std::make_unique<VdbField>(read_grid(density, readable), density.world_from_grid);
 }
 
-}  // namespace voxelume
+}  // namespace voxelume::vdb

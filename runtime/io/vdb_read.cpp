@@ -11,7 +11,7 @@
 
 #include "runtime/io/vdb_stream.hpp"
 
-namespace voxelume {
+namespace voxelume::vdb {
 namespace {
 
 constexpr const char* kEndsEarly = "it ends too early";
@@ -82,4 +82,4 @@ openvdb::GridPtrVecPtr read_vdb_grids(const std::filesystem::path& path,
     return grids;
 }
 
-}  // namespace voxelume
+}  // namespace voxelume::vdb

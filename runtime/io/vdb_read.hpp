@@ -8,7 +8,7 @@
 
 #include "runtime/io/input_file.hpp"
 
-namespace voxelume {
+namespace voxelume::vdb {
 
 /// Reads all grids. Damaged files make OpenVDB corrupt memory, so one that doesn't have the
 /// identifier that voxelume gave it is read by a child process first.
@@ -16,4 +16,4 @@ namespace voxelume {
 /// Throws Error::input for a file that is damaged, truncated or too large for the memory.
 openvdb::GridPtrVecPtr read_vdb_grids(const std::filesystem::path& path, const InputFile& readable);
 
-}  // namespace voxelume
+}  // namespace voxelume::vdb

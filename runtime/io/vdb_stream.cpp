@@ -10,7 +10,7 @@
 #include <streambuf>
 #include <vector>
 
-namespace voxelume {
+namespace voxelume::vdb {
 
 namespace {
 
@@ -111,4 +111,4 @@ bool vdb_identifier_holds(const InputFile& file) {
     return uuid == hash.uuid();
 }
 
-}  // namespace voxelume
+}  // namespace voxelume::vdb

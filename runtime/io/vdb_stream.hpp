@@ -7,7 +7,7 @@
 #include "runtime/io/atomic_file.hpp"
 #include "runtime/io/input_file.hpp"
 
-namespace voxelume {
+namespace voxelume::vdb {
 
 /// Writes through a stream of ours: OpenVDB's own file reports success on a full disk. Its random
 /// identifier is replaced by one from the content, so the same grids give the same bytes. Throws
@@ -19,4 +19,4 @@ void write_vdb_grids(AtomicFile& file, const openvdb::GridCPtrVec& grids,
 /// To be asked before OpenVDB reads a file in earnest, as damaged ones corrupt its memory.
 bool vdb_identifier_holds(const InputFile& file);
 
-}  // namespace voxelume
+}  // namespace voxelume::vdb

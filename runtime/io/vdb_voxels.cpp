@@ -4,7 +4,7 @@
 
 #include "runtime/io/vdb_read.hpp"
 
-namespace voxelume {
+namespace voxelume::vdb {
 namespace {
 
 using openvdb::FloatGrid;
@@ -89,4 +89,4 @@ VdbVoxels read_vdb_voxels(const std::filesystem::path& path, Surface surface) {
     return take_voxels(*read_vdb_grids(path, readable), surface, readable);
 }
 
-}  // namespace voxelume
+}  // namespace voxelume::vdb

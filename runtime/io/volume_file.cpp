@@ -7,6 +7,7 @@
 #include "runtime/io/atomic_file.hpp"
 #include "runtime/io/frame_path.hpp"
 #include "runtime/io/input_file.hpp"
+#include "runtime/io/vdb.hpp"
 #include "runtime/io/volume_formats.hpp"
 #include "runtime/io/volume_json.hpp"
 #include "runtime/scene_fields.hpp"
@@ -106,6 +107,7 @@ void check_path(const VolumePath& path, VolumeFormat format) {
     const std::string name = path.filename().string();
     if (format != VolumeFormat::slices) {
         const AtomicFile trial(path);
+        if (format == VolumeFormat::vdb) check_vdb_output(path);
         if (format == VolumeFormat::raw)
             check_header(path.extension() == ".json" ? path : header_path_of(path), format);
         else if (format >= VolumeFormat::planes)

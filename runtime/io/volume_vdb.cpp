@@ -11,7 +11,7 @@
 #include "runtime/io/volume_frame_text.hpp"
 #include "runtime/volume_geometry.hpp"
 
-namespace voxelume {
+namespace voxelume::vdb {
 
 namespace {
 
@@ -227,4 +227,4 @@ Volume read_volume_vdb(const VolumePath& path) {
     }
 }
 
-}  // namespace voxelume
+}  // namespace voxelume::vdb

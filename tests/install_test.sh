@@ -1,0 +1,36 @@
+#!/usr/bin/env bash
+# Installs the program elsewhere and has it write and read .vdb there, by the module that was installed with it: once
+# that is gone, both are refused before any work, and what needs no .vdb goes on.
+# Usage: install_test.sh BUILD_FOLDER SOURCE_FOLDER
+set -euo pipefail
+build=$1
+scenes=$2/scenes
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+cmake --install "$build" --prefix "$folder" >"$folder/log"
+cd "$folder"
+printf '%s\n' 'v 0 0 0' 'v 3 0 0' 'v 0 2 0' 'v 0 0 1' 'f 1 3 2' 'f 1 2 4' 'f 2 3 4' 'f 3 1 4' >a.obj
+failed=0
+
+# expect CODE TEXT ARGUMENT...: the program, given the arguments, exits with the code and prints the text.
+expect() {
+    local code=0 said
+    said=$(bin/voxelume "${@:3}" 2>&1) || code=$?
+    [ "$code" -eq "$1" ] && [[ $said == *"$2"* ]] && return
+    echo "voxelume ${*:3}: exit code $code instead of $1, or not \"$2\": $said"
+    failed=1
+}
+
+expect 0 '' voxelize a.obj --resolution 16 -o a.vdb -q
+expect 0 'OpenVDB volume' info a.vdb
+head -c 1000 a.vdb >cut.vdb
+expect 4 'cut.vdb: not a readable OpenVDB file' info cut.vdb
+
+rm "$(find . -name libvoxelume_vdb.so)"
+gone="the part of voxelume for OpenVDB can't be loaded: libvoxelume_vdb.so:"
+expect 4 "a.vdb: can't be read: $gone" info a.vdb
+expect 5 "b.vdb: can't be written: $gone" voxelize no.obj -o b.vdb
+expect 5 "b.1.vdb: can't be written: $gone" render "$scenes/turntable.json" --frames 1 --volume b.#.vdb
+expect 0 '' voxelize a.obj --resolution 16 -o a.vxm -q
+expect 0 'voxelized model' info a.vxm
+exit "$failed"
