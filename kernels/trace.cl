@@ -320,11 +320,12 @@ kernel void trace_shadows(VXL_WORLD_ARGUMENTS, uint constant_attribute,
         if (lanes_any(others)) {
             send_shadows(&surface, &filter, shape, &queue, others, &g);
             find_by_turns(&pyramid, &surface, &f.flight, active, &g.flight, others);
-            bring_light(&queue, &f, active & ~f.flight.found.hit, radiance);
-            bring_light(&queue, &g, others & ~g.flight.found.hit, radiance);
+            bring_light(&queue, &f, active, active & ~f.flight.found.hit, radiance);
+            bring_light(&queue, &g, others, others & ~g.flight.found.hit, radiance);
             return;
         }
     }
-    bring_light(&queue, &f, find_lights(&pyramid, &surface, &filter, active, &f), radiance);
+    const lane_int arrived = find_lights(&pyramid, &surface, &filter, active, &f);
+    bring_light(&queue, &f, active, arrived, radiance);
 #endif
 }

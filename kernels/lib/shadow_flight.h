@@ -98,19 +98,29 @@ static inline void keep_way(const ShadowFlight* before, lane_int fresh, ShadowFl
     f->filter.layers = LANES_SELECT(fresh, f->filter.layers, old->layers);
 }
 
-/// Adds what the `arrived` rays bring to the radiance of the rays that they were sent for.
-static inline void bring_light(const ShadowRays* q, const ShadowFlight* f, lane_int arrived,
-                               global float* restrict radiance) {
-    const Places places = places_from(0, arrived);
+/// Adds what the `arrived` ones of the `held` rays bring to the radiance of the rays that they were
+/// sent for: all at once where these are in a row.
+static inline void bring_light(const ShadowRays* q, const ShadowFlight* f, lane_int held,
+                               lane_int arrived, global float* restrict radiance) {
+    const lane_uint target = VXL_RAY_UINTS(q->targets, f->flight.ray, VXL_SHADOWS_FLY);
+    const uint first = LANES_FIRST(target);
+    const lane_int beside = LANE_MASK(target - first == LANES_AS_UINT(LANES_NUMBERS));
+    const bool in_a_row = VXL_LANES > 1 && !lanes_any(~(held & beside));
+    const Places places = places_from(0, in_a_row ? (lane_int)0 : arrived);
     uint targets[VXL_LANES];
-    LANES_STORE(VXL_RAY_UINTS(q->targets, f->flight.ray, VXL_SHADOWS_FLY), targets, 0);
+    LANES_STORE(target, targets, 0);
     for (int channel = 0; channel < 3; ++channel) {
         lane_float share =
             VXL_RAY_FLOATS(q->shares + channel * q->stride, f->flight.ray, VXL_SHADOWS_FLY);
         if (VXL_FILTER) share *= f->filter.passed[channel] * exact_exp(-f->filter.depth[channel]);
+        global float* restrict sums = radiance + channel * q->stride;
+        if (in_a_row) {
+            const lane_float sum = LANES_LOAD(sums, first);
+            LANES_STORE(LANES_SELECT(arrived, sum + share, sum), sums, first);
+            continue;
+        }
         float shares[VXL_LANES];
         LANES_STORE(share, shares, 0);
-        global float* restrict sums = radiance + channel * q->stride;
         for (uint i = 0; i < places.count; ++i)
             sums[targets[places.lane[i]]] += shares[places.lane[i]];
     }
@@ -144,7 +154,7 @@ static inline void fly_shadows(const PyramidView* p, const SurfaceView* s, const
         if (VXL_FILTER)
             passing = pass_surface(p, s, v, &flight->walk, &flight->found, ended, hit,
                                    &flight->travel, &f.filter);
-        if (lanes_any(ended & ~hit)) bring_light(q, &f, ended & ~hit, radiance);
+        if (lanes_any(ended & ~hit)) bring_light(q, &f, held, ended & ~hit, radiance);
         held &= walking | passing;
         if (VXL_FILTER) {
             const Found nothing = found_nothing(&flight->travel);
