@@ -3,21 +3,21 @@
 #include "lib/work_item.h"
 #include "shared/light_beams.h"
 
-/// Sends beams 0 .. count-1 of the grid and leaves in `ends` how far they come: what their rays
-/// meet lies at this coordinate of the grid's axis or beyond it, of minus that axis where its sign
-/// is negative; +infinity where they meet nothing. `shape`, `sectors` and `bricks` are the halo's.
+/// Sends the beams of `count` tiles of the grid and leaves in `ends`, at their places in it, how
+/// far they come: what their rays meet lies at this coordinate of the grid's axis or beyond it, of
+/// minus that axis where its sign is negative; +infinity where they meet nothing. `shape`,
+/// `sectors` and `bricks` are the halo's.
 kernel void send_light_beams(PyramidShape shape, global const uint* restrict sectors,
-                             global const uint* restrict bricks, BeamGrid grid, uint count,
+                             global const uint* restrict bricks, BeamGrid grid,
+                             global const uint* restrict tiles, uint count,
                              global float* restrict ends) {
     const uint first = work_item() * VXL_LANES;
-    if (first >= count) return;
+    if (first >= count * VXL_BEAM_TILE) return;
     const PyramidView halo = pyramid_view(shape, sectors, bricks, 0, 0);
-    const lane_int beam = LANES_NUMBERS + (int)first;
-    const lane_int tile = beam >> 4;
-    const int tiles = grid.columns >> 2;
-    const lane_int tile_row = LANES_INT((LANES_FLOAT(tile) + 0.5f) * (1.0f / (float)tiles));
-    const lane_int row = (tile_row << 2) + ((beam >> 2) & 3);
-    const lane_int column = ((tile - tile_row * tiles) << 2) + (beam & 3);
+    const uint tile = tiles[first / VXL_BEAM_TILE], beside = grid.columns / 4;
+    const lane_int beam = LANES_NUMBERS + (int)(first % VXL_BEAM_TILE);
+    const lane_int column = (int)(tile % beside * 4) + (beam & 3);
+    const lane_int row = (int)(tile / beside * 4) + (beam >> 2);
     const lane_float at_b = grid.low_b + (LANES_FLOAT(column) + 0.5f) * grid.edge;
     const lane_float at_c = grid.low_c + (LANES_FLOAT(row) + 0.5f) * grid.edge;
 
@@ -30,9 +30,9 @@ kernel void send_light_beams(PyramidShape shape, global const uint* restrict sec
     b.b0 = grid.scale * at_b - b.m * s_far;
     c.b0 = grid.scale * at_c - c.m * s_far;
     b.r0 = c.r0 = b.e = c.e = (lane_float)0.0f;  // the squares are as wide as beams may be
-    const lane_float s =
-        run_beams(&halo, (lane_int)grid.axis, (lane_float)grid.sign, &b, &c, (lane_float)s_near,
-                  (lane_float)s_far, LANE_MASK(beam < (int)count));
+    const lane_float s = run_beams(&halo, (lane_int)grid.axis, (lane_float)grid.sign, &b, &c,
+                                   (lane_float)s_near, (lane_float)s_far, (lane_int)-1);
     const lane_float end = (s - 2.0f * VXL_BEAM_STEP) * (1.0f / grid.scale);
-    LANES_STORE(LANES_SELECT(LANE_MASK(s >= s_far), (lane_float)INFINITY, end), ends, first);
+    LANES_STORE(LANES_SELECT(LANE_MASK(s >= s_far), (lane_float)INFINITY, end), ends,
+                tile * VXL_BEAM_TILE + first % VXL_BEAM_TILE);
 }

@@ -38,11 +38,15 @@ class Random {
     std::mt19937 engine_{kSeed};
 };
 
-HostBricks scattered_cubes(int count) {
+std::vector<glm::ivec3> scattered_voxels(int count) {
     Random random;
-    HostBricks bricks(frame_of(kSize));
     std::vector<glm::ivec3> voxels;
     for (int i = 0; i < count; ++i) voxels.emplace_back(random.point(kSize));
+    return voxels;
+}
+
+HostBricks bricks_of(const std::vector<glm::ivec3>& voxels) {
+    HostBricks bricks(frame_of(kSize));
     for (const glm::ivec3& v : voxels) bricks.slots[bricks.brick_index(v)] = 0;
     bricks.number_slots();
     bricks.occupancy.assign(bricks.coordinates.size() * 64, 0);
@@ -94,7 +98,8 @@ class ShadowedCubes {
   public:
     ShadowedCubes(const Device& device, int voxels)
         : device_(device),
-          pyramid_(build_index(device, scattered_cubes(voxels).upload(device))),
+          voxels_(scattered_voxels(voxels)),
+          pyramid_(build_index(device, bricks_of(voxels_).upload(device))),
           features_(features_of(pyramid_)) {
         features_.shadows = true;
         batch_ = allocate_batch(device, features_, kRays);
@@ -109,7 +114,9 @@ class ShadowedCubes {
 
     const Pyramid& pyramid() const { return pyramid_; }
 
-    /// Sets rays from random points to the light, snapped as shared/trace.h has it.
+    const std::vector<glm::ivec3>& voxels() const { return voxels_; }
+
+    /// Sets rays from random points beside voxels to the light, snapped as shared/trace.h has it.
     void aim(const Light& light) {
         Random random;
         const LightRecord record = light_record(light, pyramid_.frame);
@@ -118,7 +125,9 @@ class ShadowedCubes {
         const double step = std::ldexp(1.0, -VXL_DIRECTION_BITS);
         std::vector<float> values(size_t(kRays) * VXL_RAY_COMPONENTS);
         for (uint32_t i = 0; i < kRays; ++i) {
-            const glm::dvec3 from = glm::round(random.point(kSize) * unit) / unit;
+            const glm::dvec3 voxel(voxels_[i % voxels_.size()]), aside = random.point({60, 60, 60});
+            const glm::dvec3 place = glm::clamp(voxel + aside - 30.0, {0, 0, 0}, glm::dvec3(kSize));
+            const glm::dvec3 from = glm::round(place * unit) / unit;
             const bool distant = light.kind == LightKind::directional;
             const glm::dvec3 to_light = distant ? at : at - from;
             int exponent = 0;
@@ -149,12 +158,15 @@ class ShadowedCubes {
     LightBeams send(const BeamGrid& grid, HaloOf of) {
         LightBeamStage stage(device_, features_, pyramid_, build_halo(device_, pyramid_, of));
         LightBeams beams{grid, stage.send(grid)};
-        EXPECT_EQ(stage.sent(), uint64_t(grid.columns) * uint64_t(grid.rows));
+        const std::vector<float> ends = beams.ends.read();
+        const auto unsent = std::ranges::count(ends, -INFINITY);
+        EXPECT_EQ(stage.sent() + uint64_t(unsent), ends.size());
         return beams;
     }
 
   private:
     Device device_;
+    std::vector<glm::ivec3> voxels_;
     Pyramid pyramid_;
     Features features_;
     RayBatch batch_;
@@ -216,14 +228,7 @@ TEST(LightBeams, OfSquaresTooWideLetLightThroughVoxels) {
 
 TEST(LightBeams, EndOneLeafBeforeVoxels) {
     const Device device = test_device();
-    HostBricks bricks(frame_of(kSize));
-    const glm::ivec3 voxel(130, 70, 200), leaf = voxel / 4 % 4, in = voxel % 4;
-    bricks.slots[bricks.brick_index(voxel)] = 0;
-    bricks.number_slots();
-    bricks.occupancy.assign(64, 0);
-    bricks.occupancy[size_t(leaf.x + 4 * leaf.y + 16 * leaf.z)] = uint64_t{1}
-                                                                  << (in.x + 4 * in.y + 16 * in.z);
-    const Pyramid pyramid = build_index(device, bricks.upload(device));
+    const Pyramid pyramid = build_index(device, bricks_of({{130, 70, 200}}).upload(device));
     LightBeamStage stage(device, features_of(pyramid), pyramid, build_halo(device, pyramid));
     for (const double side : {-1.0, 1.0}) {
         const BeamGrid grid = beam_grid(light_record(distant_light({0, 0, side}), pyramid.frame),
@@ -231,13 +236,38 @@ TEST(LightBeams, EndOneLeafBeforeVoxels) {
         EXPECT_EQ(grid.axis, 2);
         EXPECT_EQ(grid.columns, 36);  // 33 squares of 7 voxels
         EXPECT_EQ(grid.rows, 20);
-        const std::vector<float> ends = stage.send(grid).read();
-        const float nearest = *std::ranges::min_element(ends);
-        EXPECT_NEAR(nearest, side > 0 ? 196 : -208, 0.1);
+        std::vector<float> ends = stage.send(grid).read();
+        std::erase(ends, -INFINITY);
+        EXPECT_EQ(ends.size(), stage.sent() / (side > 0 ? 2 : 1));
+        // The voxel's sector spans 64 x 64 voxels, which are 3 or 4 tiles of 28 along each axis.
+        EXPECT_LE(ends.size(), 16u * 16);
+        EXPECT_NEAR(*std::ranges::min_element(ends), side > 0 ? 196 : -208, 0.1);
         // Its leaf and those around it, 12 voxels wide, are in the way of 2 x 2 or 3 x 3 beams.
         const auto ended = std::ranges::count_if(ends, [](float end) { return end < INFINITY; });
         EXPECT_GE(ended, 1);
         EXPECT_LE(ended, 9);
+    }
+}
+
+TEST(LightBeams, AreSentToAllVoxels) {
+    ShadowedCubes world(test_device(), 40);
+    for (const Light& light : lights_outside()) {
+        const LightRecord record = light_record(light, world.pyramid().frame);
+        const BeamGrid grid = beam_grid(record, kSize, 1.0f, 1u << 20);
+        const std::vector<float> ends = world.send(grid, HaloOf::leaves).ends.read();
+        const glm::dvec3 at(record.position.x, record.position.y, record.position.z);
+        const int b = grid.axis == 0 ? 1 : 0, c = grid.axis == 2 ? 1 : 2;
+        for (const glm::ivec3& voxel : world.voxels()) {
+            const glm::dvec3 from = glm::dvec3(voxel) + 0.5;
+            const glm::dvec3 way = light.kind == LightKind::directional ? at : at - from;
+            const glm::dvec3 met =
+                from + way * ((double(grid.far_side) - from[grid.axis]) / way[grid.axis]);
+            const int x = int((met[b] - double(grid.low_b)) / double(grid.edge));
+            const int y = int((met[c] - double(grid.low_c)) / double(grid.edge));
+            ASSERT_TRUE(x >= 0 && x < grid.columns && y >= 0 && y < grid.rows);
+            const int tile = y / 4 * (grid.columns / 4) + x / 4;
+            EXPECT_GT(ends[size_t(tile * VXL_BEAM_TILE + y % 4 * 4 + x % 4)], -INFINITY);
+        }
     }
 }
 

@@ -48,7 +48,8 @@ class LeafMasks {
         write_empty_cubes(bricks);
         return {{device, "halo sectors", std::span<const uint32_t>(sectors)},
                 {device, "halo bricks", std::span<const uint32_t>(bricks)},
-                HaloOf::leaves};
+                HaloOf::leaves,
+                {}};
     }
 
   private:
@@ -118,25 +119,25 @@ PyramidShape halo_shape(const Pyramid& pyramid, HaloOf of) {
 }
 
 Halo build_halo(const Device& device, const Pyramid& pyramid, HaloOf of) {
-    if (of == HaloOf::leaves) {
-        LeafMasks masks(pyramid.frame.sectors());
-        for_each_sector(pyramid, [&](const glm::ivec3& sector, const uint32_t* records) {
-            for (int bit = 0; bit < int(kRecordsPerSector); ++bit)
-                add_dilated(sector * kBricksPerSector + glm::ivec3(bit & 3, bit >> 2 & 3, bit >> 4),
-                            leaves_of(&records[size_t(bit) * kWordsPerRecord]), masks);
-        });
-        return masks.halo(device);
-    }
-    // A sector is a brick of the coarse pyramid, and its bricks that brick's leaves.
-    LeafMasks masks(coarse_sectors(pyramid.frame));
+    // In the coarse pyramid of a halo of bricks a sector is a brick, and its bricks that one's
+    // leaves.
+    LeafMasks masks(of == HaloOf::leaves ? pyramid.frame.sectors() : coarse_sectors(pyramid.frame));
+    std::vector<glm::ivec3> sectors;
     for_each_sector(pyramid, [&](const glm::ivec3& sector, const uint32_t* records) {
-        uint64_t mask = 0;
-        for (size_t bit = 0; bit < kRecordsPerSector; ++bit)
-            mask |= uint64_t{leaves_of(&records[bit * kWordsPerRecord]) != 0} << bit;
-        add_dilated(sector, mask, masks);
+        sectors.push_back(sector);
+        uint64_t bricks = 0;
+        for (int bit = 0; bit < int(kRecordsPerSector); ++bit) {
+            const uint64_t leaves = leaves_of(&records[size_t(bit) * kWordsPerRecord]);
+            bricks |= uint64_t{leaves != 0} << bit;
+            if (of == HaloOf::leaves)
+                add_dilated(sector * kBricksPerSector + glm::ivec3(bit & 3, bit >> 2 & 3, bit >> 4),
+                            leaves, masks);
+        }
+        if (of == HaloOf::bricks) add_dilated(sector, bricks, masks);
     });
     Halo halo = masks.halo(device);
-    halo.of = HaloOf::bricks;
+    halo.of = of;
+    halo.sectors_with_voxels = std::move(sectors);
     return halo;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "kernels/shared/scene.h"
 #include "runtime/grid.hpp"
@@ -21,6 +22,7 @@ enum class HaloOf { leaves, bricks };
 struct Halo {
     Buffer<uint32_t> sectors, bricks;
     HaloOf of = HaloOf::leaves;
+    std::vector<glm::ivec3> sectors_with_voxels;  ///< of the pyramid
 };
 
 /// The halo of a world without instances. Reads the pyramid's upper levels back; host work of about

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
+#include <vector>
 
 #include "kernels/shared/beam.h"
 
@@ -28,6 +29,36 @@ int common_axis(const LightRecord& light, const glm::dvec3& size) {
     const glm::dvec3 least = glm::max(low, -high);
     const int axis = least.x >= least.y && least.x >= least.z ? 0 : least.y >= least.z ? 1 : 2;
     return least[axis] > 0 ? axis : -1;
+}
+
+/// The tiles of a grid whose beams pass any of the sectors of a world of `size`, in ascending
+/// order.
+std::vector<uint32_t> tiles_through(const BeamGrid& grid, const glm::dvec3& size,
+                                    const std::vector<glm::ivec3>& sectors) {
+    const int b = grid.axis == 0 ? 1 : 0, c = grid.axis == 2 ? 1 : 2;
+    const glm::ivec2 tiles(grid.columns / 4, grid.rows / 4);
+    const glm::dvec2 low(grid.low_b, grid.low_c), slope(grid.slope_b, grid.slope_c);
+    std::vector<bool> passing(size_t(tiles.x) * size_t(tiles.y));
+    for (const glm::ivec3& sector : sectors) {
+        glm::dvec2 least(INFINITY), most(-INFINITY);
+        for (int corner = 0; corner < 8; ++corner) {
+            const glm::ivec3 far(corner & 1, corner >> 1 & 1, corner >> 2);
+            const glm::dvec3 place = glm::min(glm::dvec3(kSectorSize * (sector + far)), size);
+            const double up = place[grid.axis] - double(grid.far_side);
+            const glm::dvec2 met =
+                (glm::dvec2(place[b], place[c]) - slope * up) / (1 - double(grid.converging) * up);
+            least = glm::min(least, met), most = glm::max(most, met);
+        }
+        const double edge = 4 * double(grid.edge);
+        const glm::ivec2 from = glm::max(glm::ivec2(glm::floor((least - low) / edge)), 0);
+        const glm::ivec2 to = glm::min(glm::ivec2(glm::floor((most - low) / edge)), tiles - 1);
+        for (int y = from.y; y <= to.y; ++y)
+            for (int x = from.x; x <= to.x; ++x) passing[size_t(x + tiles.x * y)] = true;
+    }
+    std::vector<uint32_t> numbers;
+    for (size_t i = 0; i < passing.size(); ++i)
+        if (passing[i]) numbers.push_back(uint32_t(i));
+    return numbers;
 }
 
 }  // namespace
@@ -85,16 +116,21 @@ uint32_t light_beams_that_pay(const GridFrame& world, uint64_t rays, int samples
 LightBeamStage::LightBeamStage(const Device& device, const Features& features,
                                const Pyramid& pyramid, Halo halo)
     : device_(device),
+      size_(pyramid.frame.size),
       shape_(halo_shape(pyramid, halo.of)),
       halo_(std::move(halo)),
       program_(device, "light_beams.cl", features.defines(device)),
       send_(program_.kernel("send_light_beams")) {}
 
 Buffer<float> LightBeamStage::send(const BeamGrid& grid) {
-    const auto count = uint32_t(grid.columns * grid.rows);
-    Buffer<float> ends(device_, "light beams", count);
-    send_.launch_packets(count, shape_, halo_.sectors, halo_.bricks, grid, count, ends);
-    sent_ += count;
+    const std::vector<uint32_t> passing = tiles_through(grid, size_, halo_.sectors_with_voxels);
+    const auto count = uint32_t(passing.size());
+    Buffer<float> ends(device_, "light beams", size_t(grid.columns) * size_t(grid.rows));
+    ends.fill(-INFINITY);
+    const Buffer<uint32_t> tiles(device_, "light beams", std::span<const uint32_t>(passing));
+    send_.launch_packets(size_t(count) * VXL_BEAM_TILE, shape_, halo_.sectors, halo_.bricks, grid,
+                         tiles, count, ends);
+    sent_ += uint64_t(count) * VXL_BEAM_TILE;
     return ends;
 }
 

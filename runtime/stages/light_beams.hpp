@@ -23,13 +23,15 @@ class LightBeamStage {
     LightBeamStage(const Device& device, const Features& features, const Pyramid& pyramid,
                    Halo halo);
 
-    /// Sends the beams of a grid with columns; how far they come.
+    /// Sends the beams of a grid with columns that pass sectors with voxels, where shadow rays
+    /// begin; how far they come.
     Buffer<float> send(const BeamGrid& grid);
 
     uint64_t sent() const { return sent_; }
 
   private:
     Device device_;
+    glm::dvec3 size_;  // of the world, voxels
     PyramidShape shape_;
     Halo halo_;
     uint64_t sent_ = 0;
