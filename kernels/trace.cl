@@ -1,8 +1,8 @@
 // rays -> hits: the discrete walk of every ray through the world to the first surface it meets.
 #include "lib/begin_inside.h"
-#include "lib/ray_queue.h"
+#include "lib/relay.h"
 #include "lib/shadow_flight.h"
-#include "lib/vector.h"
+#include "lib/sight_rays.h"
 #include "lib/work_item.h"
 #include "shared/scene.h"
 
@@ -22,74 +22,6 @@
     const SurfaceView surface = {                                                                 \
         attributes, fields, primitive_first, primitives, triangles, triangle_attributes, solids}; \
     const InstanceView instances = {instance_records, instance_nodes, group_materials}
-
-/// What a ray met, as shared/trace.h describes it.
-typedef struct {
-    lane_uint values[VXL_HIT_COMPONENTS];
-} Hit;
-
-static inline Hit hit_of(const Flight* f, lane_int hit) {
-    Hit h;
-    Walk walk = f->walk;
-    lane_uint face = hit_face(&walk, f->found.exit & hit);
-    if (VXL_SMOOTH) face |= LANES_AS_UINT(within_smooth(&f->found, &f->travel)) & VXL_FACE_WITHIN;
-    h.values[VXL_HIT_T] = LANES_AS_UINT(f->found.t);
-    h.values[VXL_HIT_VOXEL] = LANES_SELECT(hit, f->found.voxel, (lane_uint)VXL_NO_VOXEL);
-    h.values[VXL_HIT_CELL] = LANES_AS_UINT(walk.x | (walk.y << 16));
-    h.values[VXL_HIT_FACE] = face;
-    h.values[VXL_HIT_PRIMITIVE] = f->found.primitive;
-    h.values[VXL_HIT_INSTANCE] = f->found.instance;
-    return h;
-}
-
-#define VXL_STORED_COMPONENTS \
-    (VXL_INSTANCES ? VXL_HIT_COMPONENTS : (VXL_EXACT ? VXL_HIT_INSTANCE : VXL_HIT_PRIMITIVE))
-
-/// Stores that a packet has met nothing.
-static inline void store_misses(uint stride, uint first, global uint* restrict hits) {
-    Hit miss;
-    miss.values[VXL_HIT_T] = LANES_AS_UINT((lane_float)INFINITY);
-    miss.values[VXL_HIT_VOXEL] = (lane_uint)VXL_NO_VOXEL;
-    miss.values[VXL_HIT_CELL] = miss.values[VXL_HIT_FACE] = (lane_uint)0;
-    miss.values[VXL_HIT_PRIMITIVE] = (lane_uint)VXL_NO_PRIMITIVE;
-    miss.values[VXL_HIT_INSTANCE] = (lane_uint)VXL_NO_INSTANCE;
-    for (uint i = 0; i < VXL_STORED_COMPONENTS; ++i)
-        LANES_STORE(miss.values[i], hits, i * stride + first);
-}
-
-/// Rays that run beside each other; `beams` may be none.
-typedef struct {
-    global const float* restrict rays;
-    global const uint* restrict paths;
-    global const float* restrict starts;
-    global const uint* restrict beams;
-    uint count, stride;
-} SightRays;
-
-/// Sets the packet of rays from `first` on on their way. False where there is none, or its beam is
-/// clear, which is stored.
-static inline bool send_packet(const PyramidView* p, const SightRays* q, uint first, Flight* f,
-                               global uint* restrict hits) {
-    if (first >= q->count) return false;
-    if (q->beams && beam_is_clear(q->beams, q->stride, first)) {
-        store_misses(q->stride, first, hits);
-        return false;
-    }
-    f->ray = LANES_AS_UINT(LANES_NUMBERS + (int)first);
-    set_out(p, q->rays, q->count, q->stride, q->paths, q->starts, f);
-    if (q->beams) ride_beam(q->beams, q->stride, first, &f->walk);
-    return true;
-}
-
-static inline lane_int are_rays(const SightRays* q, const Flight* f) {
-    return LANE_MASK(f->t_end >= 0.0f) & LANE_MASK(f->ray < q->count);
-}
-
-static inline void store_packet(const SightRays* q, const Flight* f, global uint* restrict hits) {
-    const Hit hit = hit_of(f, f->found.hit);
-    for (uint i = 0; i < VXL_STORED_COMPONENTS; ++i)
-        LANES_STORE(hit.values[i], hits, i * q->stride + LANES_FIRST(f->ray));
-}
 
 /// The closest hit of rays 0 .. count-1 that run beside each other. Arrays hold a multiple of 16
 /// rays. Hits don't depend on whether there are `beams`.
@@ -122,85 +54,6 @@ kernel void trace_closest(VXL_WORLD_ARGUMENTS, global const float* restrict rays
 }
 
 #if VXL_PATHS
-/// Stores what the rays of the `landing` lanes have met.
-static inline void store_hits(const Flight* f, lane_int landing, uint stride,
-                              global uint* restrict hits) {
-    const Hit hit = hit_of(f, is_hit(&f->found, f->t_end));
-    const Places stored = places_from(0, landing);
-    uint rays[VXL_LANES], values[VXL_LANES];
-    LANES_STORE(f->ray, rays, 0);
-    for (uint i = 0; i < VXL_STORED_COMPONENTS; ++i) {
-        LANES_STORE(hit.values[i], values, 0);
-        for (uint k = 0; k < stored.count; ++k)
-            hits[i * stride + rays[stored.lane[k]]] = values[stored.lane[k]];
-    }
-}
-
-/// Rays that run anywhere: those from `next` to `end` are still to be taken on.
-typedef struct {
-    SightRays rays;
-    uint next, end;
-} ScatteredRays;
-
-/// A packet whose lanes take on further rays as theirs end.
-typedef struct {
-    Flight flight;
-    lane_int held, walking, waiting;
-} Relay;
-
-/// How many lanes at least a packet keeps on their way.
-static inline int least_walking(const ScatteredRays* q) {
-    return q->next < q->end ? VXL_LANES - VXL_REFILL : 0;
-}
-
-/// Lanes walk while more of them can than wait in occupied voxels.
-static inline bool walks(const Relay* r, int least) {
-    const int steps = lanes_count(r->walking), tests = lanes_count(r->waiting);
-    return steps > tests && steps + tests > least;
-}
-
-static inline void step_relay(const PyramidView* p, Relay* r) {
-    Flight* f = &r->flight;
-    walk_on(p, &f->walk, f->t_end, &f->found, &r->walking, &r->waiting);
-}
-
-/// Gives the lanes that hold no ray the next ones.
-static inline void take_on(const PyramidView* p, ScatteredRays* q, Relay* r) {
-    const SightRays* s = &q->rays;
-    Flight* f = &r->flight;
-    const Progress before = progress_of(f);
-    const lane_int fresh = take_rays(~r->held, q->end, &q->next, &f->ray);
-    set_out(p, s->rays, s->count, s->stride, s->paths, s->starts, f);
-    keep_progress(&before, fresh, f);
-    r->held |= fresh;
-    r->walking |= fresh & are_rays(s, f) & in_grid(p, &f->walk);
-}
-
-static inline Relay begin_relay(const PyramidView* p, ScatteredRays* q) {
-    Relay r;
-    const SightRays* s = &q->rays;
-    Flight* f = &r.flight;
-    f->ray = (lane_uint)(q->end - 1u);
-    r.held = take_rays((lane_int)-1, q->end, &q->next, &f->ray);
-    set_out(p, s->rays, s->count, s->stride, s->paths, s->starts, f);
-    r.walking = r.held & are_rays(s, f) & in_grid(p, &f->walk);
-    r.waiting = (lane_int)0;
-    return r;
-}
-
-/// Tests the surfaces that lanes wait at; where too few walk on, stores what the others have met
-/// and gives them further rays.
-static inline void serve(const PyramidView* p, const SurfaceView* s, ScatteredRays* q, Relay* r,
-                         global uint* restrict hits) {
-    Flight* f = &r->flight;
-    if (lanes_any(r->waiting))
-        meet_surfaces(p, s, &f->walk, f->t_end, &f->travel, &f->found, &r->walking, &r->waiting);
-    if (lanes_count(r->walking) > least_walking(q)) return;
-    store_hits(f, r->held & ~r->walking, q->rays.stride, hits);
-    r->held &= r->walking;
-    if (q->next < q->end) take_on(p, q, r);
-}
-
 /// The closest hit of rays 0 .. count-1 that run anywhere: reflected and refracted ones.
 ///
 /// A work-item carries VXL_PACKETS(VXL_LANES) packets' rays in two packets whose steps take turns.
