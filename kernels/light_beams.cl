@@ -24,11 +24,13 @@ kernel void send_light_beams(PyramidShape shape, global const uint* restrict sec
     const int size = grid.axis == 0 ? shape.size_x : grid.axis == 1 ? shape.size_y : shape.size_z;
     const float s_near = grid.sign > 0.0f ? 0.0f : -(float)size;
     const float s_far = s_near + (float)size;
+    // The far side itself: a coarse halo's grid may end beyond it.
+    const float s_grid = grid.sign * grid.scale * grid.far_side;
     BeamAxis b, c;
     b.m = grid.sign * (grid.slope_b - at_b * grid.converging);
     c.m = grid.sign * (grid.slope_c - at_c * grid.converging);
-    b.b0 = grid.scale * at_b - b.m * s_far;
-    c.b0 = grid.scale * at_c - c.m * s_far;
+    b.b0 = grid.scale * at_b - b.m * s_grid;
+    c.b0 = grid.scale * at_c - c.m * s_grid;
     b.r0 = c.r0 = b.e = c.e = (lane_float)0.0f;  // the squares are as wide as beams may be
     const lane_float s = run_beams(&halo, (lane_int)grid.axis, (lane_float)grid.sign, &b, &c,
                                    (lane_float)s_near, (lane_float)s_far, (lane_int)-1);

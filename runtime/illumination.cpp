@@ -24,6 +24,8 @@ std::vector<LightRecord> light_records(const Device& device, const Features& fea
     }
     if (has_lamp(scene, world))
         std::ranges::copy(lamp_spots(device, features, scene, world), std::back_inserter(records));
+    std::erase_if(records,
+                  [&](const LightRecord& light) { return !may_light(light, world.frame); });
     return records;
 }
 
@@ -95,26 +97,27 @@ Illumination::Illumination(const Device& device, const Features& features, const
 }
 
 void Illumination::send_beams(const Halo& halo, uint32_t most, std::vector<LightBeams>& sent) {
-    const std::vector<LightBeams> before = std::exchange(sent, {});
-    std::optional<LightBeamStage> stage;
+    const auto same = [](const BeamGrid& a, const BeamGrid& b) {
+        return std::memcmp(&a, &b, sizeof a) == 0;
+    };
     uint32_t left = kLightsOfMostBeams * most;
     for (const LightRecord& light : lights_) {
-        LightBeams beams{
-            beam_grid(light, world_.frame.size, scale_of(halo.of), std::min(most, left)), {}};
-        const auto known = std::ranges::find_if(before, [&](const LightBeams& kept) {
-            return std::memcmp(&kept.grid, &beams.grid, sizeof beams.grid) == 0;
-        });
-        if (known != before.end()) {
-            beams = *known;
-        } else if (beams.grid.columns > 0) {
-            if (!stage) stage.emplace(device_, features_, world_, halo);
-            beams.ends = stage->send(beams.grid);
-        }
-        left -= uint32_t(beams.grid.columns * beams.grid.rows);
-        sent.push_back(std::move(beams));
+        const BeamGrid grid =
+            beam_grid(light, world_.frame.size, scale_of(halo.of), std::min(most, left));
+        const auto known = std::ranges::find_if(
+            sent, [&](const LightBeams& kept) { return same(kept.grid, grid); });
+        beams_.push_back({grid, known == sent.end() ? Buffer<float>() : known->ends});
+        left -= uint32_t(grid.columns * grid.rows);
+    }
+    sent.clear();  // before others take memory
+    std::optional<LightBeamStage> stage;
+    for (LightBeams& beams : beams_) {
+        if (beams.grid.columns == 0 || !beams.ends.empty()) continue;
+        if (!stage) stage.emplace(device_, features_, world_, halo);
+        beams.ends = stage->send(beams.grid);
     }
     if (stage) light_beams_ = stage->sent();
-    beams_ = sent;
+    sent = beams_;
 }
 
 void Illumination::light_all(RayBatch& batch, uint32_t count, const LayerSink& sink,
@@ -130,6 +133,11 @@ void Illumination::light_all(RayBatch& batch, uint32_t count, const LayerSink& s
     if (!features_.transmission) return;
     std::swap(batch.radiance, depth.nodes.radiance);
     std::swap(batch.coverage, depth.nodes.coverage);
+}
+
+void Illumination::find_hits(RayBatch& batch, uint32_t count) {
+    if (features_.paths) begin_paths(batch, count);
+    trace_.closest(world_, batch, count);
 }
 
 void Illumination::begin_paths(RayBatch& batch, uint32_t count) {

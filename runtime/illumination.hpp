@@ -67,7 +67,7 @@ class Illumination {
     void light_hits(RayBatch& batch, uint32_t count) { light_all(batch, count, {}, true); }
 
     /// Fills only the hits, without light.
-    void find_hits(RayBatch& batch, uint32_t count) { trace_.closest(world_, batch, count); }
+    void find_hits(RayBatch& batch, uint32_t count);
 
     const Features& features() const { return features_; }
     /// The medium's, null where its density is 1 everywhere.

@@ -206,6 +206,28 @@ TEST(LatticeOfEmptySpace, IsScannedWhereObjectsAreWithTheSameBits) {
     }
 }
 
+/// Rays that look ahead begin as those that are lit do, whatever was in their memory: those that
+/// come upon a ball where the world cuts it off aren't taken to begin on it.
+TEST(LatticeOfMirrors, ShowsTheVoxelsOfDullSurfaces) {
+    constexpr const char* kText = R"({{"voxelume": 1,
+        "world": {{"voxel_size": 0.04, "bounds": {{"min": [-0.4, -0.4, -0.4], "max": [0.4, 0.4, 0.4]}}}},
+        "models": {{"ball": {{"shape": "sphere", "radius": 0.5, "surface": "{}"}}}},
+        "materials": {{"mirror": {{"reflection": {}}}}},
+        "objects": [{{"model": "ball", "material": "mirror"}}],
+        "observer": {{"position": [0.6, 0.9, -1.5], "look_at": [0, 0, 0],
+            "display": {{"shape": "pyramid", "angles": [50, 50], "layout": "lattice",
+                        "voxels": [41, 37, 33]}}}},
+        "render": {{"depth": 2}}}})";
+    for (const char* surface : {"cubes", "smooth", "exact"}) {
+        const Volume dull = volume_of(parsed(fmt::format(kText, surface, 0)));
+        const Volume mirror = volume_of(parsed(fmt::format(kText, surface, 0.6)));
+        EXPECT_GT(dull.places.size(), 100u) << surface;
+        EXPECT_EQ(mirror.places, dull.places) << surface;
+        EXPECT_EQ(mirror.depths, dull.depths) << surface;
+        EXPECT_EQ(mirror.objects, dull.objects) << surface;
+    }
+}
+
 TEST(LatticeOfManyVoxels, WithMoreLinesThanCanBeNumberedIsRefused) {
     Scene scene = parsed(display_scene(R"("shape": "box", "size": [2, 2, 2], "near": 1.5,
                                           "layout": "lattice", "voxels": [65536, 65536, 1])"));

@@ -18,8 +18,8 @@ namespace voxelume {
 namespace {
 
 constexpr uint32_t kSeed = 20261123;
-constexpr uint32_t kRays = 16 * 301;  // odd: the last packet has none to take turns with
-constexpr glm::ivec3 kSize{230, 137, 301};
+constexpr uint32_t kRays = 16 * 301;        // odd: the last packet has none to take turns with
+constexpr glm::ivec3 kSize{230, 137, 301};  // a halo of bricks ends beyond it on all axes
 
 class Random {
   public:
@@ -74,7 +74,7 @@ std::vector<Light> lights_outside() {
     std::vector<Light> lights;
     for (int axis = 0; axis < 3; ++axis)
         for (const double side : {-1.0, 1.0}) {
-            for (const double distance : {0.3, 1.0, 1000.0}) {
+            for (const double distance : {0.15, 0.3, 1.0, 1000.0}) {
                 glm::dvec3 at = random.point(size);
                 at[axis] = middle[axis] + side * (0.5 + distance) * size[axis];
                 lights.push_back(point_light(at));
@@ -182,7 +182,8 @@ TEST_P(LightBeamLanes, LeaveEveryShadowAsItIs) {
                                      {400, HaloOf::leaves},
                                      {4000, HaloOf::leaves},
                                      {3, HaloOf::bricks},
-                                     {60, HaloOf::bricks}}) {
+                                     {60, HaloOf::bricks},
+                                     {150, HaloOf::bricks}}) {
         ShadowedCubes world(device, voxels);
         for (const Light& light : lights_outside()) {
             const BeamGrid grid = beam_grid(light_record(light, world.pyramid().frame), kSize,

@@ -158,5 +158,37 @@ TEST(Light, AHardSpotIsAllOrNothing) {
     EXPECT_EQ(lit.add(spot), 0u);
 }
 
+TEST(Light, ThatTurnsFromTheWorldMayNotLightIt) {
+    GridFrame world;
+    world.size = {40, 20, 10};
+    world.voxel_edge = {0.25, 0.5, 1};  // 10 metres along each axis
+    Light spot = point_light({5, 30, 5});
+    spot.kind = LightKind::spot;
+    spot.inner_half_angle = 0.05, spot.outer_half_angle = 0.1;
+    const auto may = [&](const glm::dvec3& direction) {
+        spot.direction = glm::normalize(direction);
+        return may_light(light_record(spot, world), world);
+    };
+    EXPECT_TRUE(may({0, -1, 0}));
+    EXPECT_TRUE(may({6, -20, 0})) << "a corner's side";
+    EXPECT_FALSE(may({20, -20, 0}));
+    EXPECT_FALSE(may({0, 1, 0}));
+    spot.position = {5, 12, 5};
+    EXPECT_TRUE(may({0, 1, 0})) << "too near to be told apart";
+    spot.position = {5, 30, 5};
+    spot.outer_half_angle = 3;
+    EXPECT_TRUE(may({0, 1, 0.4}));
+
+    LightRecord patch = light_record(point_light({5, 30, 5}), world);
+    patch.kind = VXL_LIGHT_PATCH;
+    patch.direction = {0, -1, 0, 0};
+    EXPECT_TRUE(may_light(patch, world));
+    patch.direction = {0, 1, 0, 0};
+    EXPECT_FALSE(may_light(patch, world));
+    patch.direction = {1, 0, 0, 0};
+    EXPECT_TRUE(may_light(patch, world)) << "half of the world is before it";
+    EXPECT_TRUE(may_light(light_record(point_light({5, 30, 5}), world), world));
+}
+
 }  // namespace
 }  // namespace voxelume

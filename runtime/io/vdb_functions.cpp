@@ -17,7 +17,7 @@ decltype(voxelume::read_volume_vdb) read_volume_vdb;
 }  // namespace vdb
 
 const VdbFunctions voxelume_vdb_functions = {
-    vdb::write_vdb,       vdb::read_vdb_metadata, vdb::read_vdb_summary, vdb::read_vdb_density,
-    vdb::read_vdb_voxels, vdb::write_volume_vdb,  vdb::read_volume_vdb};
+    VXL_VERSION,           vdb::write_vdb,       vdb::read_vdb_metadata, vdb::read_vdb_summary,
+    vdb::read_vdb_density, vdb::read_vdb_voxels, vdb::write_volume_vdb,  vdb::read_volume_vdb};
 
 }  // namespace voxelume

@@ -1,12 +1,15 @@
 #include "runtime/io/vdb_module.hpp"
 
 #include <dlfcn.h>
+#include <fmt/format.h>
 
+#include <cstring>
 #include <tuple>
 
 #include "runtime/io/atomic_file.hpp"
 #include "runtime/io/input_file.hpp"
 #include "runtime/io/volume_frame_text.hpp"
+#include "runtime/version.hpp"
 #include "runtime/volume_geometry.hpp"
 
 namespace voxelume {
@@ -27,7 +30,11 @@ VdbModule open_module() {
     void* module = dlopen("libvoxelume_vdb.so", RTLD_NOW | RTLD_LOCAL);
     void* table = module ? dlsym(module, "voxelume_vdb_functions") : nullptr;
     if (!table) return {nullptr, dlerror()};
-    return {static_cast<const VdbFunctions*>(table), {}};
+    const auto* functions = static_cast<const VdbFunctions*>(table);
+    if (std::strcmp(functions->version, version()) != 0)
+        return {nullptr, fmt::format("libvoxelume_vdb.so is of version {}, the program of {}",
+                                     functions->version, version())};
+    return {functions, {}};
 }
 
 const VdbFunctions& functions_for(const std::filesystem::path& path, ErrorKind kind) {

@@ -1,6 +1,8 @@
 #include "runtime/stages/light.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 
 #include "runtime/stages/float4.hpp"
 #include "runtime/stages/trace.hpp"
@@ -19,6 +21,22 @@ LightRecord light_record(const Light& light, const GridFrame& world) {
                   : light.kind == LightKind::spot ? VXL_LIGHT_SPOT
                                                   : VXL_LIGHT_POINT;
     return record;
+}
+
+bool may_light(const LightRecord& light, const GridFrame& world) {
+    constexpr double kRounding = 1e-6;  // of directions and angles, which the kernel has as floats
+    const glm::dvec3 at(light.position.x, light.position.y, light.position.z);
+    const glm::dvec3 along(light.direction.x, light.direction.y, light.direction.z);
+    const glm::dvec3 extent = world.voxel_edge * glm::dvec3(world.size);
+    const glm::dvec3 to_middle = 0.5 * extent - world.voxel_edge * at;
+    const double distance = glm::length(to_middle), radius = 0.5 * glm::length(extent);
+    const double rounding = kRounding * (distance + radius);
+    if (light.kind == VXL_LIGHT_PATCH) return glm::dot(to_middle, along) + radius + rounding > 0;
+    if (light.kind != VXL_LIGHT_SPOT || distance <= radius + rounding) return true;
+    // The ball around the world is seen at an angle of arcsin(radius / distance) around its middle.
+    const double aside = std::acos(std::clamp(glm::dot(to_middle, along) / distance, -1.0, 1.0));
+    const double half_angle = std::acos(std::clamp(double(light.outer_cosine), -1.0, 1.0));
+    return aside - std::asin(radius / distance) <= half_angle + 1e-3;
 }
 
 LightStage::LightStage(const Device& device, const Features& features,

@@ -13,6 +13,9 @@ namespace voxelume {
 /// A light as kernels take it: in the voxels of the world.
 LightRecord light_record(const Light& light, const GridFrame& world);
 
+/// Whether the light, a spot or patch, is turned so that it may reach any point of the world.
+bool may_light(const LightRecord& light, const GridFrame& world);
+
 /// Kernel of light.cl for one feature set. The paper's blocks 4.1 and 5.
 class LightStage {
   public:

@@ -110,7 +110,9 @@ uint32_t light_beams_that_pay(const GridFrame& world, uint64_t rays, int samples
     const double longest = std::max({size.x, size.y, size.z});
     const double middle = size.x + size.y + size.z - longest - std::min({size.x, size.y, size.z});
     const double met = longest * middle * samples / (voxels_a_pixel * voxels_a_pixel);
-    return uint32_t(std::min(double(rays), met) / 16);
+    // Seen from a light nearby the world's shadow is several times as large as its faces.
+    const double useful = 8 * longest * middle / (kEdge * kEdge);
+    return uint32_t(std::min({double(rays) / 16, met / 16, useful, 0x1p28}));
 }
 
 LightBeamStage::LightBeamStage(const Device& device, const Features& features,

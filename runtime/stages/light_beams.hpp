@@ -11,7 +11,8 @@ namespace voxelume {
 BeamGrid beam_grid(const LightRecord& light, const glm::ivec3& size, float scale, uint32_t most);
 
 /// How many beams of one light save more than they cost where a picture's pixels are so wide and
-/// there are so many sight rays in all: one for every 16 that may meet the world.
+/// there are so many sight rays in all: one for every 16 that may meet the world, and no more than
+/// a grid may have whose light isn't close by.
 uint32_t light_beams_that_pay(const GridFrame& world, uint64_t rays, int samples,
                               double voxels_a_pixel);
 
