@@ -97,15 +97,12 @@ Illumination::Illumination(const Device& device, const Features& features, const
 }
 
 void Illumination::send_beams(const Halo& halo, uint32_t most, std::vector<LightBeams>& sent) {
-    const auto same = [](const BeamGrid& a, const BeamGrid& b) {
-        return std::memcmp(&a, &b, sizeof a) == 0;
-    };
     uint32_t left = kLightsOfMostBeams * most;
     for (const LightRecord& light : lights_) {
         const BeamGrid grid =
             beam_grid(light, world_.frame.size, scale_of(halo.of), std::min(most, left));
         const auto known = std::ranges::find_if(
-            sent, [&](const LightBeams& kept) { return same(kept.grid, grid); });
+            sent, [&](const LightBeams& kept) { return same_beams(kept.grid, grid); });
         beams_.push_back({grid, known == sent.end() ? Buffer<float>() : known->ends});
         left -= uint32_t(grid.columns * grid.rows);
     }

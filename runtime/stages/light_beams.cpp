@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
+#include <tuple>
 #include <vector>
 
 #include "kernels/shared/beam.h"
@@ -53,7 +54,8 @@ std::vector<uint32_t> tiles_through(const BeamGrid& grid, const glm::dvec3& size
         const glm::ivec2 from = glm::max(glm::ivec2(glm::floor((least - low) / edge)), 0);
         const glm::ivec2 to = glm::min(glm::ivec2(glm::floor((most - low) / edge)), tiles - 1);
         for (int y = from.y; y <= to.y; ++y)
-            for (int x = from.x; x <= to.x; ++x) passing[size_t(x + tiles.x * y)] = true;
+            for (int x = from.x; x <= to.x; ++x)
+                passing[size_t(x) + size_t(tiles.x) * size_t(y)] = true;
     }
     std::vector<uint32_t> numbers;
     for (size_t i = 0; i < passing.size(); ++i)
@@ -102,6 +104,14 @@ BeamGrid beam_grid(const LightRecord& light, const glm::ivec3& size, float scale
     grid.converging = light.kind == VXL_LIGHT_DIRECTIONAL ? 0.0f : float(1 / from_origin[axis]);
     grid.scale = scale;
     return grid;
+}
+
+bool same_beams(const BeamGrid& a, const BeamGrid& b) {
+    const auto members = [](const BeamGrid& g) {
+        return std::tie(g.axis, g.sign, g.far_side, g.columns, g.rows, g.low_b, g.low_c, g.edge,
+                        g.slope_b, g.slope_c, g.converging, g.scale);
+    };
+    return members(a) == members(b);
 }
 
 uint32_t light_beams_that_pay(const GridFrame& world, uint64_t rays, int samples,

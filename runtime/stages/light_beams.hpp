@@ -10,6 +10,9 @@ namespace voxelume {
 /// middle on every axis, beams would be too oblique, or more than `most` of them needed.
 BeamGrid beam_grid(const LightRecord& light, const glm::ivec3& size, float scale, uint32_t most);
 
+/// Whether two grids of one halo have the same beams.
+bool same_beams(const BeamGrid& a, const BeamGrid& b);
+
 /// How many beams of one light save more than they cost where a picture's pixels are so wide and
 /// there are so many sight rays in all: one for every 16 that may meet the world, and no more than
 /// a grid may have whose light isn't close by.
