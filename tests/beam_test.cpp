@@ -75,22 +75,11 @@ RayList random_tiles(const Pyramid& pyramid, uint32_t tiles) {
 
 HostBricks scattered_cubes(const glm::ivec3& size, int count) {
     std::mt19937 random(kSeed);
-    HostBricks bricks(frame_of(size));
     std::vector<glm::ivec3> voxels;
-    for (int i = 0; i < count; ++i) {
+    for (int i = 0; i < count; ++i)
         voxels.push_back({int(random() % unsigned(size.x)), int(random() % unsigned(size.y)),
                           int(random() % unsigned(size.z))});
-        bricks.slots[bricks.brick_index(voxels.back())] = 0;
-    }
-    bricks.number_slots();
-    bricks.occupancy.assign(bricks.coordinates.size() * 64, 0);
-    for (const glm::ivec3& v : voxels) {
-        const glm::ivec3 leaf = v / 4 % 4, in = v % 4;
-        bricks.occupancy[size_t(bricks.slots[bricks.brick_index(v)]) * 64 +
-                         size_t(leaf.x + 4 * leaf.y + 16 * leaf.z)] |=
-            uint64_t{1} << (in.x + 4 * in.y + 16 * in.z);
-    }
-    return bricks;
+    return bare_bricks(frame_of(size), voxels);
 }
 
 /// The hits' words; what a miss leaves beside its mark counts as nothing.
@@ -163,13 +152,7 @@ struct OneVoxel {
     RayList rays{VXL_BEAM_RAYS};
 
     explicit OneVoxel(const glm::ivec3& voxel = {130, 70, 200}) {
-        HostBricks bricks(frame_of({230, 137, 301}));
-        bricks.slots[bricks.brick_index(voxel)] = 0;
-        bricks.number_slots();
-        bricks.occupancy.assign(64, 0);
-        const glm::ivec3 leaf = voxel / 4 % 4, in = voxel % 4;
-        bricks.occupancy[size_t(leaf.x + 4 * leaf.y + 16 * leaf.z)] =
-            uint64_t{1} << (in.x + 4 * in.y + 16 * in.z);
+        const HostBricks bricks = bare_bricks(frame_of({230, 137, 301}), {voxel});
         pyramid = build_index(device, bricks.upload(device));
     }
     void aim(const glm::dvec3& origin, const glm::dvec3& direction, double apart) {

@@ -88,6 +88,15 @@ inline HostBricks occupied_bricks(const GridFrame& frame, const VoxelMap& voxels
     return bricks;
 }
 
+/// The same without attributes.
+inline HostBricks bare_bricks(const GridFrame& frame, const std::vector<glm::ivec3>& voxels) {
+    VoxelMap words;
+    for (const glm::ivec3& voxel : voxels) words[voxel] = 0;
+    HostBricks bricks = occupied_bricks(frame, words);
+    bricks.attributes.clear();
+    return bricks;
+}
+
 using NodeDistance = std::function<int16_t(const glm::ivec3&)>;
 
 /// Bricks with a node that is not saturated; the others are inside or outside.

@@ -40,20 +40,6 @@ std::vector<glm::ivec3> scattered_voxels(int count) {
     return voxels;
 }
 
-HostBricks bricks_of(const std::vector<glm::ivec3>& voxels) {
-    HostBricks bricks(frame_of(kSize));
-    for (const glm::ivec3& v : voxels) bricks.slots[bricks.brick_index(v)] = 0;
-    bricks.number_slots();
-    bricks.occupancy.assign(bricks.coordinates.size() * 64, 0);
-    for (const glm::ivec3& v : voxels) {
-        const glm::ivec3 leaf = v / 4 % 4, in = v % 4;
-        bricks.occupancy[size_t(bricks.slots[bricks.brick_index(v)]) * 64 +
-                         size_t(leaf.x + 4 * leaf.y + 16 * leaf.z)] |=
-            uint64_t{1} << (in.x + 4 * in.y + 16 * in.z);
-    }
-    return bricks;
-}
-
 Light point_light(const glm::dvec3& position) {
     Light light;
     light.position = position;
@@ -94,7 +80,7 @@ class ShadowedCubes {
     ShadowedCubes(const Device& device, int voxels)
         : device_(device),
           voxels_(scattered_voxels(voxels)),
-          pyramid_(build_index(device, bricks_of(voxels_).upload(device))),
+          pyramid_(build_index(device, bare_bricks(frame_of(kSize), voxels_).upload(device))),
           features_(features_of(pyramid_)) {
         features_.shadows = true;
         batch_ = allocate_batch(device, features_, kRays);
@@ -224,7 +210,8 @@ TEST(LightBeams, OfSquaresTooWideLetLightThroughVoxels) {
 
 TEST(LightBeams, EndOneLeafBeforeVoxels) {
     const Device device = test_device();
-    const Pyramid pyramid = build_index(device, bricks_of({{130, 70, 200}}).upload(device));
+    const Pyramid pyramid =
+        build_index(device, bare_bricks(frame_of(kSize), {{130, 70, 200}}).upload(device));
     LightBeamStage stage(device, features_of(pyramid), pyramid, build_halo(device, pyramid));
     for (const double side : {-1.0, 1.0}) {
         const BeamGrid grid = beam_grid(light_record(distant_light({0, 0, side}), pyramid.frame),

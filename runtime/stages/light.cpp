@@ -24,7 +24,8 @@ LightRecord light_record(const Light& light, const GridFrame& world) {
 }
 
 bool may_light(const LightRecord& light, const GridFrame& world) {
-    constexpr double kRounding = 1e-6;  // of directions and angles, which the kernel has as floats
+    // The kernel has directions and cosines as floats: 2^-24 of a cosine near 1 is 3.5e-4 radians.
+    constexpr double kRounding = 1e-6, kAngleRounding = 1e-3;
     const glm::dvec3 at(light.position.x, light.position.y, light.position.z);
     const glm::dvec3 along(light.direction.x, light.direction.y, light.direction.z);
     const glm::dvec3 extent = world.voxel_edge * glm::dvec3(world.size);
@@ -36,7 +37,7 @@ bool may_light(const LightRecord& light, const GridFrame& world) {
     // The ball around the world is seen at an angle of arcsin(radius / distance) around its middle.
     const double aside = std::acos(std::clamp(glm::dot(to_middle, along) / distance, -1.0, 1.0));
     const double half_angle = std::acos(std::clamp(double(light.outer_cosine), -1.0, 1.0));
-    return aside - std::asin(radius / distance) <= half_angle + 1e-3;
+    return aside - std::asin(radius / distance) <= half_angle + kAngleRounding;
 }
 
 LightStage::LightStage(const Device& device, const Features& features,

@@ -6,8 +6,8 @@
 namespace voxelume {
 
 /// The grid of a light's beams through a world of `size` voxels, as narrow as a halo asks for whose
-/// voxels are 1 / `scale` of the world's. Without columns where the light is beside the world's
-/// middle on every axis, beams would be too oblique, or more than `most` of them needed.
+/// voxels are 1 / `scale` of the world's. Without columns where no axis tells the light from the
+/// world, beams would be too oblique, or more than `most` of them needed.
 BeamGrid beam_grid(const LightRecord& light, const glm::ivec3& size, float scale, uint32_t most);
 
 /// Whether two grids of one halo have the same beams.
