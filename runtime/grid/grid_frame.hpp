@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cstddef>
+#include <glm/common.hpp>
 #include <glm/vec3.hpp>
+#include <glm/vector_relational.hpp>
 
 namespace voxelume {
 
@@ -29,5 +31,18 @@ struct GridFrame {
 struct VoxelBox {
     glm::dvec3 low{0}, high{-1};
 };
+
+/// Voxels around an object's box in which it may have a say: distances are painted by whole leaves,
+/// and gradients of smooth surfaces look two nodes further.
+inline constexpr double kInfluence = 8;
+
+/// Whether two boxes share a point.
+inline bool overlap(const VoxelBox& a, const VoxelBox& b) {
+    return glm::all(glm::lessThanEqual(glm::max(a.low, b.low), glm::min(a.high, b.high)));
+}
+
+inline bool is_empty(const VoxelBox& box) {
+    return !overlap(box, box);
+}
 
 }  // namespace voxelume
