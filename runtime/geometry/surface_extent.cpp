@@ -113,7 +113,7 @@ SurfaceArea mesh_area(const Mesh& mesh) {
 
 SurfaceArea min_mesh_area(const Mesh& mesh) {
     constexpr size_t kSlotsPerTriangle =
-        16;  // of bits: one in 32 is taken for another's double, at most
+        16;  // in bits: at most one triangle in 32 is mistaken for another's duplicate
     const size_t places =
         std::bit_ceil(std::max<size_t>(mesh.triangles.size(), 2)) * kSlotsPerTriangle;
     const int shift = 64 - std::countr_zero(places);
@@ -150,7 +150,7 @@ SurfaceArea min_solid_area(const Solid& solid, const glm::dmat4& frame_from_soli
         maximum.total = maximum.shadows.x + maximum.shadows.y + maximum.shadows.z;
         return maximum;
     }
-    // an intersection or difference may leave nothing
+    // An intersection or difference may leave nothing.
     if (solid.kind != SolidKind::union_of) return maximum;
     for (const Solid& part : solid.parts) {
         const SurfaceArea of_part = min_solid_area(part, map, clip);
