@@ -37,7 +37,7 @@ int64_t at(const glm::ivec3& p, int axis) {
     return p[axis];
 }
 
-/// Whether a plane is met within an edge that goes `way` across it, `to_plane` from the edge's
+/// True if a plane is met within an edge that goes `way` across it, `to_plane` from the edge's
 /// start.
 bool is_on_edge(int64_t to_plane, int64_t way) {
     return way > 0 ? to_plane >= 0 && to_plane <= way : to_plane <= 0 && to_plane >= way;

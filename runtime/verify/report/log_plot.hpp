@@ -33,7 +33,7 @@ inline constexpr const char* kPlotStyle =
     "svg .grid{stroke:#ddd}svg .frame{fill:none;stroke:#888}"
     "svg polyline{fill:none;stroke-width:1.5}svg .mark{fill:none;stroke:#111;stroke-width:1.5}";
 
-/// Whether anything would be seen.
+/// True if anything would be seen.
 bool has_points(const LogPlot& plot);
 
 /// Text between tags or in an attribute's quotes.

@@ -20,7 +20,7 @@ int turns_of(uint64_t grid) {
     return int(grid % 3);
 }
 
-/// Whether the triangle's plane rises by more than a quarter: it might leave its region upwards.
+/// True if the triangle's plane rises by more than a quarter: it might leave its region upwards.
 bool is_steep(const TriangleOnLattice& t) {
     const auto side = [&](size_t i, int axis) { return int64_t{t[i][axis]} - t[0][axis]; };
     const auto area = [&](int u, int w) {

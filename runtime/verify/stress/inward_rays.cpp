@@ -15,7 +15,7 @@ glm::dvec3 point_inside(const Ring& ring, double share, StressRandom& random) {
                       random.uniform(0, share));
 }
 
-/// Whether a point lies so deep that no surface reaches it.
+/// True if a point lies so deep that no surface reaches it.
 bool is_deep(const Ring& ring, const glm::dvec3& p, double share) {
     return ring.outside(p) <= (share - 1) * 8;
 }

@@ -107,7 +107,7 @@ bool is_set(const VoxelBits& voxels, const glm::ivec3& v) {
            glm::all(glm::lessThan(v, voxels.size())) && voxels.is_set(v);
 }
 
-/// Whether `found` is what the voxel at p has, or one that p may be in when moved by up to `bound`.
+/// True if `found` is what the voxel at p has, or one that p may be in when moved by up to `bound`.
 bool is_right(const VoxelBits& lump, const glm::dvec3& p, double bound, bool found) {
     if (is_set(lump, floor_of(p)) == found) return true;
     for (int corner = 0; corner < 8; ++corner) {
