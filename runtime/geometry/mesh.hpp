@@ -12,7 +12,6 @@ namespace voxelume {
 /// Triangles with optional colours at the vertices and named groups of faces.
 /// Every index is below `positions.size()` and every coordinate is finite: readers refuse other
 /// meshes.
-/// else.
 struct Mesh {
     std::vector<glm::vec3> positions;  ///< object space, metres
     std::vector<glm::uvec3>

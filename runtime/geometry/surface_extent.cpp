@@ -112,8 +112,8 @@ SurfaceArea mesh_area(const Mesh& mesh) {
 }
 
 SurfaceArea min_mesh_area(const Mesh& mesh) {
-    constexpr size_t kSlotsPerTriangle =
-        16;  // in bits: at most one triangle in 32 is mistaken for another's duplicate
+    // A slot is a bit. At most one triangle in 32 is mistaken for another's duplicate.
+    constexpr size_t kSlotsPerTriangle = 16;
     const size_t places =
         std::bit_ceil(std::max<size_t>(mesh.triangles.size(), 2)) * kSlotsPerTriangle;
     const int shift = 64 - std::countr_zero(places);

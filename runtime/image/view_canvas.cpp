@@ -94,8 +94,8 @@ void ViewCanvas::cover_rectangle(glm::dvec2 low, glm::dvec2 high, const glm::vec
     low *= kSamples, high *= kSamples;
     for (int axis = 0; axis < 2; ++axis) {
         if (std::ceil(low[axis] - 0.5) < std::ceil(high[axis] - 0.5)) continue;
-        low[axis] = std::floor(low[axis]) + 0.5;  // no sample's middle lies inside, so the nearest
-                                                  // one is covered
+        // No sample's middle lies inside, so the nearest one is covered.
+        low[axis] = std::floor(low[axis]) + 0.5;
         high[axis] = low[axis] + 0.5;
     }
     const int end = int(std::ceil(std::min(high.y, double(size_.y)) - 0.5));

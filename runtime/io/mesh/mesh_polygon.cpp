@@ -139,8 +139,8 @@ void PolygonCutter::cut_ears(std::span<const uint32_t> corners, Mesh& mesh) {
         before_[next] = previous;
         ear_[previous] = is_ear(previous);
         ear_[next] = is_ear(next);
-        corner = after_[next];  // skips the neighbour: cuts a strip of ears instead of a fan of
-                                // slivers
+        // Skipping the neighbour cuts a strip of ears instead of a fan of slivers.
+        corner = after_[next];
     }
     mesh.triangles.emplace_back(corners[before_[corner]], corners[corner], corners[after_[corner]]);
 }

@@ -28,8 +28,8 @@ struct Place {
     }
 };
 
-constexpr double kMin = 1e-30, kMax = 1e30;  // bounds of a row's numbers, so that ratios stay
-                                             // finite
+/// The bounds of a row's numbers. They keep ratios finite.
+constexpr double kMin = 1e-30, kMax = 1e30;
 
 /// The kind of a value for messages: "null", "a string".
 std::string kind_of(const Json& value) {

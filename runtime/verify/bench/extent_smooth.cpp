@@ -144,8 +144,8 @@ class SurfaceSum {
     explicit SurfaceSum(const glm::dvec3& middle) : middle_(middle) {}
 
     void add(const Cell& cell, int cuts_left) {
-        constexpr double kMinShare = 0.35;  // minimum slope anywhere in the cell, as a share of the
-                                            // gradient at its middle
+        // The minimum slope anywhere in the cell, as a share of the gradient at its middle.
+        constexpr double kMinShare = 0.35;
         const glm::dvec2 bounds = bounds_of(cell.values);
         if (bounds.x > 0 || bounds.y < 0) return;
         const glm::dvec3 gradient = glm::abs(middle_gradient(cell));
@@ -219,7 +219,7 @@ double half_curvature(uint32_t word, int first) {
 
 /// The values of a voxel's record at the 27 points, by the formula in shared/voxel.h.
 std::array<double, 27> field_values(const uint32_t* record) {
-    // By rounding, a surface that lies in a side of voxels would belong to both voxels, or to none.
+    // A surface that lies in a side of voxels would, by rounding, belong to both voxels or to none.
     constexpr double kLift = 1e-6;  // distance units: 1e-10 voxel
     std::array<double, 27> values;
     for (size_t i = 0; i < 27; ++i) {

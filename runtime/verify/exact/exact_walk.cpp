@@ -88,7 +88,7 @@ int32_t cell_at(const FixedGrid& grid, int64_t whole, bool parts, bool crossed) 
 int leave_block(const FixedGrid& grid, Turned& r, int log2) {
     const int32_t edge = 1 << log2;
     int64_t distance[3];
-    for (int a = 0; a < 3; ++a)  // blocks are equal in turned cells, as ~cell has the same blocks
+    for (int a = 0; a < 3; ++a)  // ~cell has the same blocks as cell
         distance[a] = int64_t((r.cell[a] & -edge) + edge) * grid.unit() - r.origin[a];
     const auto not_later = [&](int a, int b) {  // t_a <= t_b; an axis with D = 0 is never left
         return distance[a] * r.direction[b] <= distance[b] * r.direction[a];

@@ -17,10 +17,10 @@ constexpr size_t kBatch = 1u << 14;
 
 /// The share of the tube within which a point is certainly inside.
 double safe_share(const VoxelizeOptions& options) {
-    if (options.surface != Surface::cubes)
-        return 0.96;  // for the mesh's chords and the field's
-                      // error
-    // With other sets only the voxels' centres lie inside, which costs a voxel's diagonal.
+    // Surfaces without cubes deviate by the mesh's chords and the field's error.
+    if (options.surface != Surface::cubes) return 0.96;
+    // Sets other than the supercover hold only voxels with their centre inside, which costs a
+    // voxel's diagonal.
     return options.set == VoxelSet::supercover ? 0.96 : 0.85;
 }
 
