@@ -10,6 +10,7 @@
 namespace voxelume {
 
 /// Triangles with optional colours at the vertices and named groups of faces.
+///
 /// Every index is below `positions.size()` and every coordinate is finite: readers refuse other
 /// meshes.
 struct Mesh {

@@ -97,7 +97,7 @@ class ExrWriter {
         file_.write(bytes, size);
         return int64_t(size);
     } catch (const Error&) {
-        return -1;  // the AtomicFile keeps the error, and check() throws it
+        return -1;  // the AtomicFile keeps the error, and check() reports OpenEXR's
     }
 
     void check(exr_result_t result) {

@@ -19,8 +19,7 @@ constexpr size_t kBatch = 1u << 14;
 double safe_share(const VoxelizeOptions& options) {
     // Surfaces without cubes deviate by the mesh's chords and the field's error.
     if (options.surface != Surface::cubes) return 0.96;
-    // Sets other than the supercover hold only voxels with their centre inside, which costs a
-    // voxel's diagonal.
+    // Other sets than the supercover depend on voxels' centres, which costs a voxel's diagonal.
     return options.set == VoxelSet::supercover ? 0.96 : 0.85;
 }
 
