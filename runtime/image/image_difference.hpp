@@ -18,7 +18,7 @@ struct ChannelDifference {
     double mae = 0.0;        ///< mean of |a - b|
     double mrse = 0.0;       ///< mean of ((a - b) / (|b| + 0.01))^2, b being the reference
     uint64_t differing = 0;  ///< pixels whose values are unequal; two NaNs are equal
-    uint64_t unmatched = 0;  ///< those with a value that isn't finite, which the errors leave out
+    uint64_t unmatched = 0;  ///< those of them with a value that isn't finite; not in the errors
 };
 
 struct ImageDifference {
