@@ -16,7 +16,7 @@ struct Seen {
     glm::dvec3 radiance{0};
     uint64_t signature = 0;  ///< hash of every decision on the way: which surfaces, lit or not,
                              ///< which square of a checker, total reflection, paths ended
-    int object = -1;  ///< index of the first object shown, -1 for none
+    int object = -1;         ///< index of the first object shown, -1 for none
     double t = std::numeric_limits<double>::infinity();  ///< metres to that object
 };
 
