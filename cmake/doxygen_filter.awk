@@ -1,0 +1,13 @@
+# Shows Doxygen a header as its reader sees it: the comment at its head is the description of the
+# file, and that of voxelume.hpp the main page.
+FNR == 1 {
+    in_head = 1
+    is_main = FILENAME ~ /\/voxelume\.hpp$/
+    if (is_main) print "/// \\mainpage The library"; else print "/// \\file"
+}
+in_head && !/^\/\// {
+    in_head = 0
+    if (is_main) print "/// \\namespace voxelume The library.\n/// \\namespace voxelume::v1 Its names, in the version of its interface."
+}
+in_head { sub(/^\/\//, "///") }
+{ print }
