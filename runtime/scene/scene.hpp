@@ -14,6 +14,7 @@
 #include <variant>
 #include <vector>
 
+#include "runtime/base/source_place.hpp"
 #include "runtime/scene/solid.hpp"
 #include "runtime/scene/surface.hpp"
 #include "runtime/scene_file/assets.hpp"
@@ -50,7 +51,7 @@ struct GridDensity {
     std::filesystem::path file;
     std::string grid;               ///< name in the file
     glm::dmat4 world_from_grid{1};  ///< from the grid's metres; affine and safely invertible
-    std::string where;
+    SourcePlace where;
 
     friend bool operator==(const GridDensity&, const GridDensity&) = default;
 };
@@ -80,7 +81,7 @@ struct World {
     glm::vec3 background{0};   ///< radiance where a ray leaves the world
     glm::vec3 ambient{0};      ///< light that reaches every surface
     Medium medium;
-    std::string where;  ///< "file:line:column: world", to open a message with
+    SourcePlace where;  ///< of "world", to open a message with
 
     friend bool operator==(const World&, const World&) = default;
 };
@@ -137,7 +138,7 @@ struct Model {
     /// from all objects that use it. An infinite solid ends there. Empty (min = max) for a model
     /// not used.
     Bounds reach;
-    std::string where;
+    SourcePlace where;
 
     friend bool operator==(const Model&, const Model&) = default;
 };
@@ -146,7 +147,7 @@ struct Model {
 struct GroupMaterial {
     std::string group;  ///< as named in the mesh file
     int material = 0;
-    std::string where;
+    SourcePlace where;
 
     friend bool operator==(const GroupMaterial&, const GroupMaterial&) = default;
 };
@@ -171,7 +172,7 @@ struct Object {
     bool moves = false;    ///< some track changes where it stands
     bool visible = true;   ///< otherwise the world is as if it weren't there
     bool in_reach = true;  ///< not in scene files: whether some ray may meet it, see reach.hpp
-    std::string where;
+    SourcePlace where;
 
     friend bool operator==(const Object&, const Object&) = default;
 };
@@ -194,7 +195,7 @@ struct Light {
     glm::dvec2 size{0};           ///< metres; rectangle: along axis_x, and across it
     glm::dvec3 axis_x{0};         ///< unit vector across `direction`; disk and rectangle
     int spots = 64;               ///< disk and rectangle: points that they shine from
-    std::string where;
+    SourcePlace where;
 
     friend bool operator==(const Light&, const Light&) = default;
 };
@@ -240,7 +241,7 @@ struct Observer {
     glm::dvec3 position{0};             ///< metres
     glm::dmat3 world_from_observer{1};  ///< rotation; its columns are X_E, Y_E, Z_E in the world
     Display display;
-    std::string where;
+    SourcePlace where;
 
     friend bool operator==(const Observer&, const Observer&) = default;
 };

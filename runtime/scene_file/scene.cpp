@@ -21,12 +21,13 @@ constexpr size_t kMaxSceneBytes = size_t{64} << 20;
 std::string read_text(const std::filesystem::path& file) {
     std::error_code error;
     if (std::filesystem::is_directory(file, error)) {
-        throw Error(ErrorKind::input, "{}: this is a folder, not a scene file", file.string());
+        throw Error(ErrorKind::input, "{}: this is a folder, not a scene file",
+                    SourcePlace(file.string()));
     }
     std::ifstream stream(file, std::ios::binary);
     if (!stream) {
         throw Error(
-            ErrorKind::input, "{}: the scene can't be opened: {}", file.string(),
+            ErrorKind::input, "{}: the scene can't be opened: {}", SourcePlace(file.string()),
             std::filesystem::exists(file, error) ? "no permission to read it" : "no such file");
     }
     std::string text;
@@ -37,10 +38,11 @@ std::string read_text(const std::filesystem::path& file) {
         if (text.size() > kMaxSceneBytes) {
             throw Error(ErrorKind::limit,
                         "{}: a scene file has at most 64 MiB; keep meshes in files of their own",
-                        file.string());
+                        SourcePlace(file.string()));
         }
     }
-    if (stream.bad()) throw Error(ErrorKind::input, "{}: reading the scene failed", file.string());
+    if (stream.bad())
+        throw Error(ErrorKind::input, "{}: reading the scene failed", SourcePlace(file.string()));
     return text;
 }
 
@@ -88,8 +90,12 @@ int NameTable::find(const SceneValue& value) const {
 
 Scene parse_scene(std::string_view text, const std::filesystem::path& file,
                   const AssetFolders& assets) {
+    return scene_of(parse_json(text, file.string()), file, assets);
+}
+
+Scene scene_of(const JsonValue& document, const std::filesystem::path& file,
+               const AssetFolders& assets) {
     const std::string file_name = file.string();
-    const JsonValue document = parse_json(text, file_name);
     const SceneValue root(document, "", file_name);
     const SceneFields fields(root, "scene");
     check_version(fields);

@@ -152,7 +152,7 @@ class MotionReader {
             if (overlap(other.target, track.target))
                 SceneFields(value, "track")
                     .get("target")
-                    .fail("another track changes this value already: " + other.where);
+                    .fail("another track changes this value already: " + other.where.text());
         }
         part.tracks.push_back(std::move(track));
     }
@@ -263,7 +263,7 @@ bool moves(const Scene& scene) {
 
 Error at_frame(const Error& error, double frame) {
     const std::string sentence = error.what(), end = fmt::format(" (at frame {})", frame);
-    return {error.kind(), sentence.ends_with(end) ? sentence : sentence + end};
+    return {error.place(), error.kind(), sentence.ends_with(end) ? sentence : sentence + end};
 }
 
 Scene scene_at(const Scene& scene, double frame) {

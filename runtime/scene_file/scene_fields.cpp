@@ -40,9 +40,8 @@ std::string range_text(Range range) {
 
 }  // namespace
 
-std::string SceneValue::where(TextPosition at) const {
-    const std::string place = fmt::format("{}:{}:{}", *file_, at.line, at.column);
-    return path_.empty() ? place : place + ": " + path_;
+SourcePlace SceneValue::where(TextPosition at) const {
+    return {*file_, at.line, at.column, path_};
 }
 
 void SceneValue::fail(const std::string& sentence) const {

@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "runtime/base/source_place.hpp"
 #include "runtime/scene_file/scene_document.hpp"
 #include "runtime/scene_file/scene_keys.hpp"
 
@@ -47,8 +48,8 @@ class SceneValue {
     const JsonValue& json() const { return *value_; }
     bool is(JsonType type) const { return value_->type == type; }
 
-    /// "file:line:column: path", to open a message with.
-    std::string where() const { return where(value_->at); }
+    /// Its place, to open a message with: "file:line:column: path".
+    SourcePlace where() const { return where(value_->at); }
     [[noreturn]] void fail(const std::string& sentence) const;
 
     double number(Range range) const;
@@ -66,7 +67,7 @@ class SceneValue {
     std::vector<std::pair<std::string, SceneValue>> named_members() const;
 
     SceneValue member(const JsonMember& member) const;
-    std::string where(TextPosition at) const;
+    SourcePlace where(TextPosition at) const;
 
   private:
     void expect(JsonType type, std::string_view expected) const;

@@ -56,6 +56,11 @@ class ObjectReader {
     NameTable materials_{"material"};
 };
 
+/// The scene that a document is. Values that no text has, at line 0, stand in messages without line
+/// and column; `file` names it there, and gives the folder of its assets. Throws as parse_scene.
+Scene scene_of(const JsonValue& document, const std::filesystem::path& file,
+               const AssetFolders& assets);
+
 World read_world(const SceneValue& value, const AssetSearch& search);
 Medium read_medium(const SceneValue& value, const AssetSearch& search);
 Material read_material(const std::string& name, const SceneValue& value);

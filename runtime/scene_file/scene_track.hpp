@@ -10,7 +10,7 @@ namespace voxelume {
 /// false, or text.
 struct Track {
     TrackTarget target;
-    std::string where;
+    SourcePlace where;
     Keyframes keys;                 ///< values are empty for true, false and text
     std::vector<JsonValue> values;  ///< as the document has them
 };

@@ -20,7 +20,7 @@ bool has_own_voxels(const Model& model) {
 /// A model without its name, its place in the scene, and what is in its frame already.
 Model source_of(Model model) {
     model.name.clear();
-    model.where.clear();
+    model.where = {};
     model.reach = {};
     model.voxel_size = glm::dvec3(0);
     model.resolution = 0;
@@ -57,7 +57,7 @@ SharedGrid ObjectGrids::own_grid_of(const Model& model) {
 }
 
 SharedGrid ObjectGrids::find_or_make(const Model& model, const Source& source,
-                                     const std::string& where, bool keeps) {
+                                     const SourcePlace& where, bool keeps) {
     const auto found = std::ranges::find(kept_, source, &Kept::source);
     if (found != kept_.end()) {
         found->is_used = true;

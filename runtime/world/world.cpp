@@ -35,7 +35,8 @@ class Stopwatch {
 template <class Part>
 auto for_world(const World& world, const Part& part) {
     const std::string size = size_text(world.voxels);
-    return with_limits_of(fmt::format("{}: a world of {} voxels", world.where, size), part);
+    return with_limits_of(fmt::format("{}: a world of {} voxels", world.where, size), part,
+                          world.where);
 }
 
 /// Adds to a report the models that are voxelized while it lives, and the time that takes.

@@ -163,7 +163,8 @@ void write_volume(const std::filesystem::path& path, const Volume& volume,
                   const VolumeOptions& options) {
     const std::string fault = find_fault(volume);
     if (!fault.empty())
-        throw Error(ErrorKind::output, "{}: can't be written: {}", path.string(), fault);
+        throw Error(ErrorKind::output, "{}: can't be written: {}", SourcePlace(path.string()),
+                    fault);
     check_volume_output(path, volume.frame, options);
     const VolumeFormat format = format_for(path, options);
     switch (format) {
