@@ -70,10 +70,34 @@ const Plane<float>& plane_of(const Image& image, std::string_view channel) {
                 suggest(channel, names));
 }
 
-/// The image as an OpenEXR file shows it, where what is beside it shows colour.
-Image without_color(Image image) {
-    for (const char* name : {"R", "G", "B", "A"}) image.planes.erase(name);
-    return image;
+/// The names of the planes that an OpenEXR file leaves out.
+std::vector<const char*> left_out(const v1::Channels& channels) {
+    std::vector<const char*> names;
+    const auto leave_out = [&names](bool is_shown, std::initializer_list<const char*> planes) {
+        if (!is_shown) names.insert(names.end(), planes);
+    };
+    leave_out(channels.color, {"R", "G", "B", "A"});
+    leave_out(channels.depth, {"Z"});
+    leave_out(channels.position, {"P.X", "P.Y", "P.Z"});
+    leave_out(channels.normal, {"N.X", "N.Y", "N.Z"});
+    leave_out(channels.object, {"objectId"});
+    return names;
+}
+
+void write_channels(const std::filesystem::path& file, const v1::Image::Implementation& image,
+                    const v1::ImageFileOptions& options) {
+    const ColorDepth depth = options.float_color ? ColorDepth::float32 : ColorDepth::float16;
+    std::vector<const char*> names = left_out(options.channels);
+    std::erase_if(names, [&](const char* name) {
+        return !image.image->planes.contains(name) && !image.image->id_planes.contains(name);
+    });
+    if (names.empty()) {
+        write_exr(file, *image.image, depth, image.attributes);
+        return;
+    }
+    Image shown = *image.image;
+    for (const char* name : names) shown.planes.erase(name), shown.id_planes.erase(name);
+    write_exr(file, shown, depth, image.attributes);
 }
 
 void write(const std::filesystem::path& file, const v1::Image::Implementation& image,
@@ -84,11 +108,7 @@ void write(const std::filesystem::path& file, const v1::Image::Implementation& i
         png.exposure = float(options.exposure);
         write_png(file, *image.image, png);
     } else if (extension == ".exr") {
-        const ColorDepth depth = options.float_color ? ColorDepth::float32 : ColorDepth::float16;
-        if (options.with_color)
-            write_exr(file, *image.image, depth, image.attributes);
-        else
-            write_exr(file, without_color(*image.image), depth, image.attributes);
+        write_channels(file, image, options);
     } else {
         throw Error(ErrorKind::usage, "{}: the name of an image ends in .exr or .png",
                     SourcePlace(file.string()));

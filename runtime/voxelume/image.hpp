@@ -31,7 +31,7 @@ inline constexpr Channels kColorAlone{true, false, false, false, false};
 struct ImageFileOptions {
     double exposure = 0;       ///< PNG: stops; colours are multiplied by 2^exposure
     bool float_color = false;  ///< OpenEXR: colour as 32-bit floats, not halves
-    bool with_color = true;    ///< OpenEXR: whether R G B A are written
+    Channels channels{};       ///< OpenEXR: others that the image has aren't written
 };
 
 /// An image: planes of width x height values, row 0 at the top, x fastest. Copies share the planes,

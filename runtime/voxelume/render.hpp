@@ -63,7 +63,6 @@ struct FrameFiles {
 struct FrameJob {
     std::vector<FrameFiles> frames{};  ///< in the order in which they are delivered; one or more
     ImageFileOptions image_files{};
-    Channels exr_channels{};  ///< of OpenEXR files
     /// Called with each frame, in order, after its files were written; by the thread that called
     /// render_frames. What it throws ends the call.
     std::function<void(const RenderedFrame&)> deliver{};
@@ -71,12 +70,15 @@ struct FrameJob {
     bool deliver_volumes = false;  ///< whether `deliver` wants the volumetric images in memory
 };
 
+/// The channels of images that render_frames computes for a job: those that some file or `deliver`
+/// shows. A job without either stands for the OpenEXR files of its options.
+Channels needed_channels(const FrameJob& job, const RenderOptions& options = {});
+
 /// Renders frames of a scene. What a frame shows doesn't depend on the frames before it, nor on the
 /// number of devices: several devices take a frame each, or the tiles of a job's only image.
 ///
-/// Of images, the channels are computed that some file or `deliver` shows. Throws as render_image
-/// does, and as Image::write and Volume::write do; frames before the one that failed are written
-/// and delivered.
+/// Throws as render_image does, and as Image::write and Volume::write do; frames before the one
+/// that failed are written and delivered.
 Statistics render_frames(const Scene& scene, const std::vector<Device>& devices,
                          const FrameJob& job, const RenderOptions& options = {});
 

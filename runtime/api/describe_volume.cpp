@@ -1,4 +1,5 @@
-#include "cli/volume_report.hpp"
+// What is in the file of a volumetric image.
+#include "runtime/api/describe.hpp"
 
 #include <algorithm>
 #include <array>
@@ -8,7 +9,7 @@
 #include "runtime/io/volume/volume_file.hpp"
 #include "runtime/io/volume/volume_frame_text.hpp"
 
-namespace voxelume::cli {
+namespace voxelume::api {
 
 namespace {
 
@@ -79,4 +80,4 @@ Report describe_kv6(const fs::path& path) {
             {"voxels", start[7]}};
 }
 
-}  // namespace voxelume::cli
+}  // namespace voxelume::api

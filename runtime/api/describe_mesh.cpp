@@ -1,4 +1,5 @@
-#include "cli/mesh_report.hpp"
+// What is in a mesh file.
+#include "runtime/api/describe.hpp"
 
 #include <fmt/format.h>
 
@@ -12,7 +13,7 @@
 #include "runtime/io/mesh/mesh_reader.hpp"
 #include "runtime/memory/plan.hpp"
 
-namespace voxelume::cli {
+namespace voxelume::api {
 namespace {
 
 using Point = std::array<float, 3>;
@@ -97,4 +98,4 @@ Report describe_mesh(const std::filesystem::path& path) {
     return report;
 }
 
-}  // namespace voxelume::cli
+}  // namespace voxelume::api

@@ -1,11 +1,15 @@
-// What is in the file of a volumetric image.
+// What is in a file, as JSON values: one function a kind of file.
 #pragma once
 
 #include <filesystem>
+#include <nlohmann/json.hpp>
 
-#include "cli/report.hpp"
+namespace voxelume::api {
 
-namespace voxelume::cli {
+using Report = nlohmann::ordered_json;
+
+/// What is in a mesh file, and how many voxels it would become.
+Report describe_mesh(const std::filesystem::path& path);
 
 /// A deep OpenEXR, OpenVDB, NRRD or JSON header of voxelume. `kind` opens the report.
 Report describe_volume(const std::filesystem::path& path, const char* kind);
@@ -16,4 +20,4 @@ Report describe_volume_header(const std::filesystem::path& path);
 /// The header of a KV6 model.
 Report describe_kv6(const std::filesystem::path& path);
 
-}  // namespace voxelume::cli
+}  // namespace voxelume::api
