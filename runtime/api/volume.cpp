@@ -9,8 +9,8 @@
 #include "runtime/api/handles.hpp"
 #include "runtime/api/process.hpp"
 #include "runtime/image/volume_view.hpp"
-#include "runtime/io/volume/volume_file.hpp"
 #include "runtime/io/volume/volume_page.hpp"
+#include "runtime/io/volume_file.hpp"
 #include "runtime/stages/display/display_frame.hpp"
 
 namespace voxelume {
