@@ -20,7 +20,7 @@ const char* text_of(WorldReuse world) {
             return "kept";
         case WorldReuse::instances_moved:
             return "instances moved";
-        case WorldReuse::formed:
+        case WorldReuse::built:
             break;
     }
     return "formed";
@@ -48,7 +48,7 @@ std::string reuse_text(const std::vector<FrameStatistics>& frames) {
     };
     return fmt::format(
         "{} frames ({} worlds formed, {} with instances moved; {} traced, {} shaded, {} still); ",
-        frames.size(), worlds(WorldReuse::formed), worlds(WorldReuse::instances_moved),
+        frames.size(), worlds(WorldReuse::built), worlds(WorldReuse::instances_moved),
         images(ImageReuse::traced), images(ImageReuse::shaded), images(ImageReuse::kept));
 }
 
@@ -97,9 +97,9 @@ void print_details(const Statistics& statistics) {
                double(statistics.world_bytes) / 1e6, double(statistics.peak_device_bytes) / 1e6);
     fmt::print(stderr, "  {} programs in {:.0f} ms, {} of them compiled before\n",
                statistics.programs_made, statistics.programs_ms, statistics.programs_from_cache);
-    if (statistics.objects_out_of_reach > 0)
+    if (statistics.culled_objects > 0)
         fmt::print(stderr, "  {} objects out of every ray's reach, not voxelized\n",
-                   statistics.objects_out_of_reach);
+                   statistics.culled_objects);
     print_lacks(statistics);
     if (statistics.frames.size() > 1)
         for (const FrameStatistics& frame : statistics.frames)

@@ -10,7 +10,7 @@
 namespace voxelume::cli {
 namespace {
 
-constexpr int kLeastSide = 64;
+constexpr int kMinSide = 64;
 
 struct ViewCommand {
     std::string from, size = "1280x1000";
@@ -21,9 +21,9 @@ struct ViewCommand {
 
 int run(const ViewCommand& command) {
     const Size size = parse_size(command.size, "view");
-    if (size[0] < kLeastSide || size[1] < kLeastSide)
+    if (size[0] < kMinSide || size[1] < kMinSide)
         fail_usage("view: --size {}: a sheet has at least {} pixels a side", command.size,
-                   kLeastSide);
+                   kMinSide);
     for (const std::string& output : command.outputs)
         check_output(output, {".png", ".html"}, "view");
     const Volume volume = Volume::read(command.from);

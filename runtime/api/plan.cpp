@@ -5,7 +5,7 @@
 
 #include <numeric>
 
-#include "runtime/analysis/reach.hpp"
+#include "runtime/analysis/culling.hpp"
 #include "runtime/api/convert.hpp"
 #include "runtime/api/guarded.hpp"
 #include "runtime/api/handles.hpp"
@@ -52,7 +52,7 @@ v1::Plan plan_for_callers(const Scene& scene, const FramePlan& planned, const De
     v1::Plan result;
     result.refusal = refusal_of(scene, planned, device);
     result.frame = planned.frame;
-    result.min_bytes = plan.least_bytes;
+    result.min_bytes = plan.min_bytes;
     result.max_bytes = plan.peak_bytes();
     result.device_bytes = double(device.memory);
     result.verdict = result.refusal                            ? v1::Verdict::does_not_fit
@@ -96,8 +96,8 @@ Plan plan(const Scene& scene, const Device& device, const PlanOptions& options) 
         const std::vector<int> frames = frames_of(planned, options.frames);
         const voxelume::DeviceInfo& info = api::inside(device).info();
         check_tables(planned, info);
-        MeshStore meshes(api::model_cache(options.cache));
-        find_objects_in_reach(planned, frames, meshes);
+        AssetStore meshes(api::model_cache(options.cache));
+        find_potentially_visible(planned, frames, meshes);
         return plan_for_callers(planned, plan_frames(planned, frames, meshes, info), info);
     });
 }

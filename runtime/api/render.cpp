@@ -106,7 +106,7 @@ class Run {
         batch.image = wanted_.images;
         batch.volume = wanted_.volumes;
         batch.overlap = options_.overlap;
-        batch.meshes = MeshStore(api::model_cache(options_.cache));
+        batch.meshes = AssetStore(api::model_cache(options_.cache));
         batch.progress = api::callback(options_.progress);
         batch.stop = options_.stop;
         return batch;

@@ -32,7 +32,7 @@ void add(const RenderReport& report, v1::RayCounts& sum) {
     sum.light_beams += report.light_beams;
     sum.secondary_rays += report.secondary_rays;
     sum.ended_paths += report.ended_paths;
-    sum.medium_overflows += report.lost_members;
+    sum.medium_overflows += report.medium_overflows;
     sum.not_finite += report.not_finite;
 }
 
@@ -42,10 +42,10 @@ v1::WorldReuse reuse_of(WorldChange change) {
             return v1::WorldReuse::kept;
         case WorldChange::instances:
             return v1::WorldReuse::instances_moved;
-        case WorldChange::formed:
+        case WorldChange::built:
             break;
     }
-    return v1::WorldReuse::formed;
+    return v1::WorldReuse::built;
 }
 
 /// Times and rays of all frames together; of sizes the largest.
@@ -55,7 +55,7 @@ void add_frame(const RenderReport& report, v1::Statistics& sum) {
     sum.voxels = std::max(sum.voxels, report.voxels);
     sum.world_bytes = std::max(sum.world_bytes, report.world_bytes);
     sum.triangles = std::max(sum.triangles, report.world.triangles);
-    sum.objects_out_of_reach = std::max(sum.objects_out_of_reach, report.world.out_of_reach);
+    sum.culled_objects = std::max(sum.culled_objects, report.world.culled);
     const InstanceReport& i = report.world.instances;
     if (i.instances >= sum.instances.instances)
         sum.instances = {i.instances, i.models, i.voxels, i.bytes, i.seconds};

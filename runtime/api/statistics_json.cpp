@@ -21,7 +21,7 @@ const char* text_of(WorldReuse world) {
             return "kept";
         case WorldReuse::instances_moved:
             return "instances moved";
-        case WorldReuse::formed:
+        case WorldReuse::built:
             break;
     }
     return "formed";
@@ -70,7 +70,7 @@ void add_rays(const RayCounts& rays, Json& json) {
     json["light_beams"] = rays.light_beams;
     json["secondary_rays"] = rays.secondary_rays;
     json["ended_paths"] = rays.ended_paths;
-    json["lost_members"] = rays.medium_overflows;
+    json["medium_overflows"] = rays.medium_overflows;
     json["not_finite"] = rays.not_finite;
 }
 
@@ -93,7 +93,7 @@ std::string to_json(const Statistics& statistics) {
     json["files"] = statistics.files;
     json["voxels"] = statistics.voxels;
     json["triangles"] = statistics.triangles;
-    json["objects_out_of_reach"] = statistics.objects_out_of_reach;
+    json["culled_objects"] = statistics.culled_objects;
     add_rays(statistics.rays, json);
     json["world_bytes"] = statistics.world_bytes;
     if (const InstanceCounts& i = statistics.instances; i.instances > 0)

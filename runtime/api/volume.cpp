@@ -90,11 +90,11 @@ const VolumeFrame& Volume::frame() const {
 }
 
 size_t Volume::count() const {
-    return api::inside(*this).places.size();
+    return api::inside(*this).indices.size();
 }
 
 std::span<const uint64_t> Volume::indices() const {
-    return api::inside(*this).places;
+    return api::inside(*this).indices;
 }
 
 std::span<const float> Volume::colors() const {

@@ -34,8 +34,8 @@ class PoclFolder {
     /// The process's folder.
     static PoclFolder& instance();
 
-    /// Whether the process has such a folder, of which PoCL learns by a variable of the environment.
-    /// It has one unless this forbids it before `instance` is first called.
+    /// Whether the process has such a folder, of which PoCL learns by a variable of the
+    /// environment. It has one unless this forbids it before `instance` is first called.
     static void allow(bool is_allowed);
 
     /// Runs `first_call`, which has PoCL start up, with POCL_CACHE_DIR set: PoCL reads it once.

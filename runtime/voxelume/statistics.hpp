@@ -13,7 +13,7 @@
 namespace voxelume::v1 {
 
 /// What a frame's world is to the one before on its device.
-enum class WorldReuse { kept, instances_moved, formed };
+enum class WorldReuse { kept, instances_moved, built };
 
 /// What a frame's image is to the one before on its device.
 enum class ImageReuse {
@@ -59,7 +59,7 @@ struct InstanceCounts {
 struct FrameStatistics {
     int frame = 1;
     size_t device = 0;  ///< its place in Statistics::devices
-    WorldReuse world = WorldReuse::formed;
+    WorldReuse world = WorldReuse::built;
     ImageReuse image = ImageReuse::traced;
     uint64_t meshes_read = 0;
     uint64_t voxelized = 0;
@@ -87,7 +87,7 @@ struct Statistics {
     size_t files = 0;  ///< written
     uint64_t voxels = 0;
     uint64_t triangles = 0;
-    uint64_t objects_out_of_reach = 0;  ///< that no ray can meet: not voxelized
+    uint64_t culled_objects = 0;  ///< that no ray can meet: not voxelized
     uint64_t world_bytes = 0;
     RayCounts rays{};
     InstanceCounts instances{};

@@ -23,7 +23,7 @@ const StressTest& test_named(const std::string& name) {
 
 namespace v1 {
 
-static_assert(kMaxStressExamples == kMostExamples);
+static_assert(kMaxStressExamples == kMaxExamples);
 
 std::vector<StressTest> stress_tests() {
     std::vector<StressTest> tests;
