@@ -144,8 +144,7 @@ TEST(ApiErrors, SayWhyAWorldDoesNotFit) {
     EXPECT_EQ(error.key(), "world");
 }
 
-TEST(ApiErrors, NameAChannelThatIsNotThere) {
-    const fs::path folder = fresh_folder("api_channels");
+TEST(ApiErrors, RefuseToRenderNothingOrNowhere) {
     EXPECT_EQ(error_of([] { Device::open("no such device"); }).kind(), ErrorKind::device);
     EXPECT_EQ(error_of([] { render_image(Scene::build(ball_scene()), {}); }).kind(),
               ErrorKind::usage);
