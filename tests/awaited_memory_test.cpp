@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <numeric>
 
-#include "runtime/frame_pipeline.hpp"
+#include "runtime/batch/frame_pipeline.hpp"
 #include "runtime/scene_animation.hpp"
 #include "runtime/shown_models.hpp"
 #include "tests/file_fixture.hpp"

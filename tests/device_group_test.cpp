@@ -4,8 +4,8 @@
 #include <atomic>
 #include <stdexcept>
 
-#include "runtime/device_images.hpp"
-#include "runtime/frame_pipeline.hpp"
+#include "runtime/batch/device_images.hpp"
+#include "runtime/batch/frame_pipeline.hpp"
 #include "tests/oracles/image_hash.hpp"
 #include "tests/program_runner.hpp"
 #include "tests/test_device.hpp"

@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <mutex>
 
-#include "runtime/frame_pipeline.hpp"
+#include "runtime/batch/frame_pipeline.hpp"
 #include "tests/file_fixture.hpp"
 #include "tests/moving_ball.hpp"
 #include "tests/oracles/image_hash.hpp"

@@ -4,8 +4,8 @@
 
 #include <cstdlib>
 
+#include "runtime/batch/frame_pipeline.hpp"
 #include "runtime/error.hpp"
-#include "runtime/frame_pipeline.hpp"
 #include "runtime/plan.hpp"
 #include "tests/oracles/image_hash.hpp"
 #include "tests/test_device.hpp"

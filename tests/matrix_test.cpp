@@ -9,7 +9,7 @@
 #include <set>
 #include <stdexcept>
 
-#include "runtime/device_images.hpp"
+#include "runtime/batch/device_images.hpp"
 #include "tests/golden_hash.hpp"
 #include "tests/oracles/image_hash.hpp"
 #include "tests/setting.hpp"

@@ -1,4 +1,4 @@
-#include "runtime/device_frames.hpp"
+#include "runtime/batch/device_frames.hpp"
 
 #include <condition_variable>
 #include <exception>
@@ -7,8 +7,8 @@
 #include <optional>
 #include <thread>
 
-#include "runtime/closing.hpp"
-#include "runtime/frame_worker.hpp"
+#include "runtime/batch/closing.hpp"
+#include "runtime/batch/frame_worker.hpp"
 
 namespace voxelume {
 namespace {

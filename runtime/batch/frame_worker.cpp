@@ -1,4 +1,4 @@
-#include "runtime/frame_worker.hpp"
+#include "runtime/batch/frame_worker.hpp"
 
 #include <utility>
 

@@ -1,4 +1,4 @@
-#include "runtime/frame_pipeline.hpp"
+#include "runtime/batch/frame_pipeline.hpp"
 
 #include <condition_variable>
 #include <exception>
@@ -7,10 +7,10 @@
 #include <thread>
 #include <utility>
 
-#include "runtime/closing.hpp"
-#include "runtime/device_frames.hpp"
+#include "runtime/batch/closing.hpp"
+#include "runtime/batch/device_frames.hpp"
+#include "runtime/batch/frame_worker.hpp"
 #include "runtime/error.hpp"
-#include "runtime/frame_worker.hpp"
 
 namespace voxelume {
 namespace {

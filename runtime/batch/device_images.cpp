@@ -1,4 +1,4 @@
-#include "runtime/device_images.hpp"
+#include "runtime/batch/device_images.hpp"
 
 #include <algorithm>
 #include <exception>

@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "runtime/frame_pipeline.hpp"
+#include "runtime/batch/frame_pipeline.hpp"
 
 namespace voxelume {
 

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "runtime/frame_pipeline.hpp"
+#include "runtime/batch/frame_pipeline.hpp"
 
 namespace voxelume {
 
