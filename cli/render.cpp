@@ -1,34 +1,27 @@
 // voxelume render: the image of a scene.
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <atomic>
 #include <chrono>
 #include <filesystem>
 #include <map>
 #include <memory>
-#include <mutex>
-#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "cli/checks.hpp"
 #include "cli/commands.hpp"
 #include "cli/frame_files.hpp"
 #include "cli/render_report.hpp"
-#include "runtime/batch/device_images.hpp"
-#include "runtime/batch/frame_pipeline.hpp"
+#include "runtime/batch/render_frames.hpp"
 #include "runtime/error.hpp"
-#include "runtime/frame_plans.hpp"
 #include "runtime/io/exr.hpp"
 #include "runtime/io/frame_list.hpp"
 #include "runtime/io/png.hpp"
 #include "runtime/io/progress.hpp"
 #include "runtime/io/volume_file.hpp"
-#include "runtime/reach.hpp"
 #include "runtime/scene_animation.hpp"
-#include "runtime/shown_models.hpp"
 #include "runtime/version.hpp"
-#include "runtime/volume_renderer.hpp"
 
 namespace voxelume::cli {
 namespace {
@@ -95,166 +88,66 @@ void write(const Image& image, const Attributes& attributes, const std::string& 
     }
 }
 
-[[noreturn]] void refuse_not_finite(uint32_t count) {
-    throw Error(ErrorKind::render,
-                "{} values of the image were not finite and became 0: please report this scene",
-                count);
-}
-
 void add_attributes(const Scene& scene, int frame, Attributes& attributes) {
     attributes["scene"] = scene.file.filename().string();
     if (moves(scene)) attributes["frame"] = std::to_string(frame);
     attributes["software"] = "voxelume " + std::string(version());
 }
 
-/// Whether devices share the tiles of one image, each of which finds what is in reach itself.
-bool is_shared(const std::vector<Device>& devices, const std::vector<FrameFiles>& list) {
-    return devices.size() > 1 && list.size() == 1 && list[0].volumes.empty();
+/// Writes a frame's files.
+void write_files(const FrameResult& result, const FrameFiles& files, const Scene& scene,
+                 const RenderOptions& options) {
+    Attributes attributes;
+    add_attributes(scene, files.frame, attributes);
+    for (const std::string& path : files.images) write(*result.image, attributes, path, options);
+    if (!result.volume) return;
+    result.volume->attributes.insert(attributes.begin(), attributes.end());
+    for (const std::string& path : files.volumes) write_volume(path, *result.volume);
 }
 
-/// Renders the frames that are asked for, and tells of them.
-class FrameRun {
-  public:
-    /// `meshes` has what was read to check the frames.
-    FrameRun(const std::vector<Device>& devices, Scene scene, const std::vector<FrameFiles>& list,
-             const RenderOptions& options, MeshStore meshes)
-        : devices_(devices),
-          scene_(std::move(scene)),
-          list_(list),
-          options_(options),
-          meshes_(std::move(meshes)),
-          bar_("rendering", 100 * list.size(), stderr, options.quiet),
-          shown_(list.size()),
-          reports_(list.size()) {
-        for (const Device& device : devices) {
-            renderers_.emplace_back(device, list.size() > 1);
-            volume_renderers_.emplace_back(device, list.size() > 1);
-        }
-    }
+/// A line for logs, by which a farm follows an animation; a bar shows people as much.
+void tell_written(const FrameFiles& files) {
+    for (const auto* paths : {&files.images, &files.volumes})
+        for (const std::string& path : *paths)
+            fmt::print(stderr, "frame {}: {}\n", files.frame, path);
+}
 
-    /// Seconds of writing files, up to now.
-    double write_seconds() const { return write_seconds_; }
-
-    /// The frame from which on they were rendered one at a time, as memory doesn't suffice for two.
-    std::optional<int> one_by_one_from() const { return one_by_one_from_; }
-
-    std::vector<FrameReport> run() {
-        if (is_shared(devices_, list_)) {
-            render_tiles()();
-            return reports_;
-        }
-        FrameSteps steps{[this](size_t n) { return scene_at(scene_, list_[n].frame); },
-                         [this](const FrameInput& input) {
-                             return in_frame(scene_, list_[input.frame].frame,
-                                             [&] { return render(input); });
-                         }};
-        if (moves(scene_)) steps.number = [this](size_t n) { return double(list_[n].frame); };
-        if (list_.size() > 1)
-            steps.awaited = [until = shown_until(scene_, numbers_of(list_))](size_t n) {
-                std::vector<bool> awaited(until.size());
-                for (size_t i = 0; i < until.size(); ++i) awaited[i] = until[i] > n + 1;
-                return awaited;
-            };
-        steps.forget = [this](size_t device) { forget(device); };
-        const std::optional<size_t> alone =
-            run_frames(devices_, list_.size(), steps, {!options_.one_by_one, std::move(meshes_)});
-        if (alone) one_by_one_from_ = list_[*alone].frame;
-        return reports_;
-    }
-
-  private:
-    std::function<void()> render(const FrameInput& input) {
-        const FrameFiles& files = list_[input.frame];
-        RenderReport report;
-        report.world = input.report;
-        std::shared_ptr<const Image> image;
-        std::shared_ptr<Volume> volume;
-        uint64_t& shown = shown_[input.frame];
-        if (!files.images.empty())
-            image = renderers_[input.device].image(
-                input.scene, input.world, report,
-                [&](uint32_t i, uint32_t of) { advance(uint64_t(i) * 100 / of, shown); });
-        if (!files.volumes.empty())
-            volume = volume_renderers_[input.device].volume(input.scene, input.world, report);
-        advance(100, shown);
-        return written(input.frame, {files.frame, input.device, report}, std::move(image),
-                       std::move(volume));
-    }
-
-    /// The only frame, by all devices.
-    std::function<void()> render_tiles() {
-        uint64_t& shown = shown_[0];
-        RenderReport report;
-        auto image = std::make_shared<const Image>(in_frame(scene_, list_[0].frame, [&] {
-            return render_together(
-                {devices_, meshes_.cache()}, scene_at(scene_, list_[0].frame), report,
-                [&](uint32_t i, uint32_t of) { advance(i * 100ull / of, shown); });
-        }));
-        return written(0, {list_[0].frame, 0, report}, std::move(image), nullptr);
-    }
-
-    /// Takes a frame's report; returns what writes its files.
-    std::function<void()> written(size_t n, const FrameReport& report,
-                                  std::shared_ptr<const Image> image,
-                                  std::shared_ptr<Volume> volume) {
-        if (report.report.not_finite != 0) refuse_not_finite(report.report.not_finite);
-        reports_[n] = report;
-        return [this, image = std::move(image), volume = std::move(volume), n] {
-            const auto start = std::chrono::steady_clock::now();
-            if (image) write_images(*image, list_[n]);
-            if (volume) write_volumes(*volume, list_[n]);
-            write_seconds_ += seconds_since(start);
-            tell_written(list_[n]);
-        };
-    }
-
-    /// A line for logs, by which a farm follows an animation; a bar shows people as much.
-    void tell_written(const FrameFiles& files) const {
-        if (options_.quiet || list_.size() == 1 || describe_terminal(stderr).draws_bars) return;
-        for (const auto* paths : {&files.images, &files.volumes})
-            for (const std::string& path : *paths)
-                fmt::print(stderr, "frame {}: {}\n", files.frame, path);
-    }
-
-    /// What a device's renderers keep of frames before.
-    void forget(size_t device) {
-        renderers_[device] = Renderer(devices_[device]);
-        volume_renderers_[device] = VolumeRenderer(devices_[device]);
-    }
-
-    /// Shows a frame of which `percent` are done and `shown` were, before: less, where it is begun
-    /// again.
-    void advance(uint64_t percent, uint64_t& shown) {
-        const std::lock_guard lock(bar_mutex_);
-        bar_.advance(percent - std::min(percent, shown));
-        shown = std::max(percent, shown);
-    }
-
-    void write_images(const Image& image, const FrameFiles& files) const {
-        Attributes attributes;
-        add_attributes(scene_, files.frame, attributes);
-        for (const std::string& path : files.images) write(image, attributes, path, options_);
-    }
-
-    void write_volumes(Volume& volume, const FrameFiles& files) const {
-        add_attributes(scene_, files.frame, volume.attributes);
-        for (const std::string& path : files.volumes) write_volume(path, volume);
-    }
-
-    const std::vector<Device>& devices_;
-    Scene scene_;
-    const std::vector<FrameFiles>& list_;
-    const RenderOptions& options_;
-    MeshStore meshes_;
-    std::vector<Renderer> renderers_;
-    std::vector<VolumeRenderer> volume_renderers_;
-    Progress bar_;
-    std::mutex bar_mutex_;
-    std::atomic<double> write_seconds_ = 0;
-    std::vector<uint64_t> shown_;  ///< of each frame, percent
-    std::vector<FrameReport> reports_;
-    std::optional<int> one_by_one_from_;
+/// What rendering and writing frames came to.
+struct Rendered {
+    std::vector<FrameReport> reports;
+    double write_seconds = 0;
+    BatchOutcome outcome;
 };
+
+/// Renders the frames that are asked for, and tells of them.
+Rendered render_and_write(const std::vector<Device>& devices, const Scene& scene,
+                          const std::vector<FrameFiles>& list, const RenderOptions& options) {
+    const bool tells = !options.quiet && list.size() > 1 && !describe_terminal(stderr).draws_bars;
+    const uint64_t total = 100 * list.size();
+    uint64_t shown = 0;
+    Progress bar("rendering", total, stderr, options.quiet);
+    Rendered rendered;
+    BatchOptions batch;
+    batch.frames = numbers_of(list);
+    batch.image = !options.outputs.empty();
+    batch.volume = !options.volumes.empty();
+    batch.overlap = !options.one_by_one;
+    batch.meshes = MeshStore(model_cache(options.scene));
+    batch.progress = [&](double done, int) {
+        const auto percent = uint64_t(done * double(total));
+        bar.advance(percent - std::exchange(shown, percent));
+    };
+    rendered.outcome =
+        render_frames(devices, scene, std::move(batch), [&](const FrameResult& result) {
+            const auto start = std::chrono::steady_clock::now();
+            const FrameFiles& files = list[rendered.reports.size()];
+            rendered.reports.push_back(result.report);
+            write_files(result, files, scene, options);
+            rendered.write_seconds += seconds_since(start);
+            if (tells) tell_written(files);
+        });
+    return rendered;
+}
 
 size_t count_files(const std::vector<FrameFiles>& list) {
     size_t count = 0;
@@ -275,25 +168,17 @@ int run(const RenderOptions& options) {
         print_plan(scene, frames, devices[0], model_cache(options.scene), false);
         return 0;
     }
-    MeshStore meshes(model_cache(options.scene));
-    if (!is_shared(devices, list)) find_objects_in_reach(scene, frames, meshes);
-    if (frames.size() > 1)
-        for (const Device& device : devices) check_frames(scene, frames, meshes, device.info());
     if (options.verbose || !options.stats.empty())
         for (const Device& device : devices) device.time_kernels(true);
-
     const double open_seconds = seconds_since(start);
-
-    FrameRun rendering(devices, scene, list, options, std::move(meshes));
-    const std::vector<FrameReport> reports = rendering.run();
-    for (const Device& device : devices) device.finish();
+    const Rendered rendered = render_and_write(devices, scene, list, options);
     const Outcome outcome{devices,
-                          reports,
+                          rendered.reports,
                           scene.render.size,
                           count_files(list),
-                          open_seconds,
-                          rendering.write_seconds(),
-                          rendering.one_by_one_from(),
+                          open_seconds + rendered.outcome.check_seconds,
+                          rendered.write_seconds,
+                          rendered.outcome.one_by_one_from,
                           seconds_since(start)};
     if (!options.stats.empty()) write_statistics(options.stats, outcome);
     if (options.quiet) return 0;

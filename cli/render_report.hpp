@@ -5,15 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "runtime/renderer.hpp"
+#include "runtime/batch/render_frames.hpp"
 
 namespace voxelume::cli {
-
-struct FrameReport {
-    int frame = 1;
-    size_t device = 0;  ///< its number among the outcome's
-    RenderReport report;
-};
 
 struct Outcome {
     const std::vector<Device>& devices;

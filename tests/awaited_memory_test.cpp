@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <numeric>
 
-#include "runtime/batch/frame_pipeline.hpp"
+#include "runtime/batch/frame_schedule.hpp"
 #include "runtime/scene_animation.hpp"
 #include "runtime/shown_models.hpp"
 #include "tests/file_fixture.hpp"
@@ -85,7 +85,8 @@ class AwaitedMemory : public FileTest, public testing::WithParamInterface<const 
             renderer = Renderer(device);
             ++rendered.forgotten;
         };
-        rendered.alone = run_frames({device}, frames.size(), steps, {.overlap = overlap});
+        rendered.alone =
+            run_frames({device}, frames.size(), steps, {.overlap = overlap}).one_by_one_from;
         device.finish();
         rendered.peak = device.counters().peak_bytes;
         rendered.memory = device.info().memory;

@@ -4,7 +4,7 @@
 
 #include <cstdlib>
 
-#include "runtime/batch/frame_pipeline.hpp"
+#include "runtime/batch/frame_schedule.hpp"
 #include "runtime/error.hpp"
 #include "runtime/plan.hpp"
 #include "tests/oracles/image_hash.hpp"
