@@ -101,7 +101,7 @@ void write_files(const FrameResult& result, const FrameFiles& files, const Scene
     add_attributes(scene, files.frame, attributes);
     for (const std::string& path : files.images) write(*result.image, attributes, path, options);
     if (!result.volume) return;
-    result.volume->attributes.insert(attributes.begin(), attributes.end());
+    add_attributes(scene, files.frame, result.volume->attributes);
     for (const std::string& path : files.volumes) write_volume(path, *result.volume);
 }
 
