@@ -10,11 +10,11 @@
 #include <stdexcept>
 #include <thread>
 
-#include "runtime/scene_animation.hpp"
-#include "runtime/volume_renderer.hpp"
-#include "tests/file_fixture.hpp"
+#include "runtime/render/volume_renderer.hpp"
+#include "runtime/scene_file/scene_animation.hpp"
 #include "tests/oracles/image_hash.hpp"
-#include "tests/test_device.hpp"
+#include "tests/support/file_fixture.hpp"
+#include "tests/support/test_device.hpp"
 
 namespace voxelume {
 namespace {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "runtime/batch/frame_queue.hpp"
-#include "runtime/renderer.hpp"
+#include "runtime/render/renderer.hpp"
 
 namespace voxelume {
 

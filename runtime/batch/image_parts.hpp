@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "runtime/renderer.hpp"
+#include "runtime/render/renderer.hpp"
 
 namespace voxelume {
 

@@ -5,15 +5,15 @@
 #include <mutex>
 #include <utility>
 
+#include "runtime/analysis/reach.hpp"
+#include "runtime/analysis/shown_models.hpp"
+#include "runtime/base/error.hpp"
 #include "runtime/batch/frame_schedule.hpp"
 #include "runtime/batch/image_parts.hpp"
-#include "runtime/error.hpp"
-#include "runtime/frame_plans.hpp"
-#include "runtime/reach.hpp"
-#include "runtime/scene_animation.hpp"
-#include "runtime/shown_models.hpp"
-#include "runtime/stages/sight.hpp"
-#include "runtime/volume_renderer.hpp"
+#include "runtime/memory/frame_plans.hpp"
+#include "runtime/render/volume_renderer.hpp"
+#include "runtime/scene_file/scene_animation.hpp"
+#include "runtime/stages/trace/sight.hpp"
 
 namespace voxelume {
 namespace {

@@ -7,9 +7,9 @@
 #include <stop_token>
 #include <vector>
 
-#include "runtime/mesh_store.hpp"
-#include "runtime/renderer.hpp"
-#include "runtime/volume.hpp"
+#include "runtime/assets/mesh_store.hpp"
+#include "runtime/image/volume.hpp"
+#include "runtime/render/renderer.hpp"
 
 namespace voxelume {
 
