@@ -20,7 +20,7 @@
 #include "runtime/batch/render_frames.hpp"
 #include "runtime/io/image/exr.hpp"
 #include "runtime/io/image/png.hpp"
-#include "runtime/io/volume/volume_file.hpp"
+#include "runtime/io/volume_file.hpp"
 #include "runtime/scene_file/scene_animation.hpp"
 
 namespace voxelume::cli {
