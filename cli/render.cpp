@@ -132,7 +132,7 @@ Rendered render_and_write(const std::vector<Device>& devices, const Scene& scene
     batch.image = !options.outputs.empty();
     batch.volume = !options.volumes.empty();
     batch.overlap = !options.one_by_one;
-    batch.meshes = MeshStore(model_cache(options.scene));
+    batch.meshes = AssetStore(model_cache(options.scene));
     batch.progress = [&](double done, int) {
         const auto percent = uint64_t(done * double(total));
         bar.advance(percent - std::exchange(shown, percent));

@@ -36,7 +36,7 @@ struct Run {
 /// A frame whose world is built.
 struct BuiltFrame {
     Scene scene;
-    FormedWorld world;
+    BuiltWorld world;
     WorldReport report;
 };
 
@@ -44,13 +44,13 @@ struct BuiltFrame {
 class Lane {
   public:
     /// `index` is the device's in the run.
-    Lane(const Device& device, size_t index, Run& run, MeshStore meshes)
+    Lane(const Device& device, size_t index, Run& run, AssetStore meshes)
         : device_(device),
           index_(index),
           run_(run),
           cache_(meshes.cache()),
-          former_(std::in_place, run.mode == Mode::overlapped ? device.with_own_queue() : device,
-                  run.retains(), std::move(meshes)),
+          builder_(std::in_place, run.mode == Mode::overlapped ? device.with_own_queue() : device,
+                   run.retains(), std::move(meshes)),
           retains_(run.retains()) {}
 
     /// Returns when there are no more frames for the device.
@@ -119,7 +119,7 @@ class Lane {
         try {
             return render(frame, build(frame));
         } catch (const Error& error) {
-            const bool makes_room = retains_ && (has_any_ || former_->keeps());
+            const bool makes_room = retains_ && (has_any_ || builder_->keeps());
             if (error.kind() != ErrorKind::limit || !makes_room || !run_.steps.forget) throw;
         }
         lacks_room_ = true;
@@ -134,8 +134,8 @@ class Lane {
             const std::lock_guard lock(run_.scenes);
             built.scene = steps.scene(frame);
         }
-        built.world = former_->form(built.scene, built.report,
-                                    steps.awaited ? steps.awaited(frame) : std::vector<bool>());
+        built.world = builder_->form(built.scene, built.report,
+                                     steps.retained ? steps.retained(frame) : std::vector<bool>());
         built.report.lacks_room |= lacks_room_;
         return built;
     }
@@ -148,7 +148,7 @@ class Lane {
     }
 
     void forget(bool retains) {
-        former_.emplace(device_, retains, MeshStore(cache_));
+        builder_.emplace(device_, retains, AssetStore(cache_));
         run_.steps.forget(index_);
         retains_ = retains;
         has_any_ = false;
@@ -158,7 +158,7 @@ class Lane {
     size_t index_;
     Run& run_;
     ModelCache cache_;
-    std::optional<WorldFormer> former_;
+    std::optional<WorldBuilder> builder_;
     bool retains_;             ///< frames may leave something for those that follow
     bool lacks_room_ = false;  ///< for that
     bool has_any_ = false;     ///< of frames before

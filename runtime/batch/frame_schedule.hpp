@@ -16,7 +16,7 @@ struct FrameInput {
     size_t frame = 0;   ///< its index in the run
     size_t device = 0;  ///< index of the device that has its world
     const Scene& scene;
-    const FormedWorld& world;
+    const BuiltWorld& world;
     const WorldReport& report;  ///< of building the world
     std::stop_token stop;       ///< requested when the frame is not wanted any more
 };
@@ -31,7 +31,7 @@ struct FrameSteps {
     /// The number by which errors before the output name a frame. Without it they don't.
     std::function<double(size_t)> number = {};
     /// Which models a frame after this one shows; without it none is retained.
-    std::function<std::vector<bool>(size_t)> awaited = {};
+    std::function<std::vector<bool>(size_t)> retained = {};
     /// Frees what `render` retains on a device, by its index, for frames that follow. Without it no
     /// frame is tried again when memory lacks.
     std::function<void(size_t)> forget = {};
@@ -43,8 +43,8 @@ struct ScheduleOptions {
     bool overlap = true;  ///< of one device: a world is built while another is rendered
     bool one_each =
         false;  ///< there are as many frames as devices, each for the device of its index
-    MeshStore meshes = MeshStore();  ///< what was read already, and the cache of models
-    std::stop_token stop = {};       ///< cancels the run
+    AssetStore meshes = AssetStore();  ///< what was read already, and the cache of models
+    std::stop_token stop = {};         ///< cancels the run
 };
 
 struct ScheduleOutcome {

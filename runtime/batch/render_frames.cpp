@@ -5,8 +5,8 @@
 #include <mutex>
 #include <utility>
 
-#include "runtime/analysis/reach.hpp"
-#include "runtime/analysis/shown_models.hpp"
+#include "runtime/analysis/culling.hpp"
+#include "runtime/analysis/model_last_uses.hpp"
 #include "runtime/base/error.hpp"
 #include "runtime/batch/frame_schedule.hpp"
 #include "runtime/batch/image_parts.hpp"
@@ -61,7 +61,7 @@ class Batch {
 
   private:
     void check() {
-        find_objects_in_reach(scene_, options_.frames, options_.meshes);
+        find_potentially_visible(scene_, options_.frames, options_.meshes);
         if (options_.frames.size() == 1) return;  // it is planned when its world is built
         for (const Device& device : devices_)
             check_frames(scene_, options_.frames, options_.meshes, device.info());
@@ -92,10 +92,10 @@ class Batch {
             renderers[device] = {Renderer(devices_[device]), VolumeRenderer(devices_[device])};
         };
         if (count > 1)
-            steps.awaited = [until = shown_until(scene_, options_.frames)](size_t n) {
-                std::vector<bool> awaited(until.size());
-                for (size_t i = 0; i < until.size(); ++i) awaited[i] = until[i] > n + 1;
-                return awaited;
+            steps.retained = [until = last_uses(scene_, options_.frames)](size_t n) {
+                std::vector<bool> retained(until.size());
+                for (size_t i = 0; i < until.size(); ++i) retained[i] = until[i] > n + 1;
+                return retained;
             };
         const ScheduleOutcome ran = run_frames(devices_, count, steps, schedule(false));
         BatchOutcome outcome;

@@ -7,7 +7,7 @@
 #include <stop_token>
 #include <vector>
 
-#include "runtime/assets/mesh_store.hpp"
+#include "runtime/assets/asset_store.hpp"
 #include "runtime/image/volume.hpp"
 #include "runtime/render/renderer.hpp"
 
@@ -24,7 +24,7 @@ struct BatchOptions {
     bool image = true;              ///< the observer's flat image of each frame
     bool volume = false;            ///< the volumetric image of each frame's display
     bool overlap = true;  ///< on one device, two worlds at a time; false: needs less memory
-    MeshStore meshes = MeshStore();  ///< what was read already, and the cache of models
+    AssetStore meshes = AssetStore();  ///< what was read already, and the cache of models
     BatchProgress progress = {};
     std::stop_token stop = {};  ///< cancels the run
 };

@@ -4,15 +4,15 @@
 #include "runtime/grid/grid.hpp"
 #include "runtime/scene/scene.hpp"
 #include "runtime/stages/instance/instance_model.hpp"
-#include "runtime/world/object_grids.hpp"
+#include "runtime/world/grid_cache.hpp"
 
 namespace voxelume {
 
 /// Whether rays are carried into the object's space, instead of the object into the world's.
 ///
 /// `auto` is `world` for an object that stands still, and for one that can't be an instance: a lamp
-/// (its spots are found in the world's voxels), one that lets light through, one in a scene whose
-/// display is a lattice (which shows the world's voxels).
+/// (its light samples are found in the world's voxels), one that lets light through, one in a scene
+/// whose display is a lattice (which shows the world's voxels).
 bool is_instanced(const Scene& scene, const Object& object);
 
 /// Throws Error::scene, saying why, for an object that is to be an `instance` and can't.
@@ -35,9 +35,9 @@ struct ListedInstances {
 };
 
 /// Lists a scene's instances, and has their models voxelized in their own frames. Throws as
-/// ObjectGrids and materials_of_groups do, and Error::scene for a model some of whose voxels let
+/// GridCache and materials_of_groups do, and Error::scene for a model some of whose voxels let
 /// light through.
-ListedInstances list_instances(const Scene& scene, MeshStore& meshes, ObjectGrids& grids);
+ListedInstances list_instances(const Scene& scene, AssetStore& meshes, GridCache& grids);
 
 /// Puts instances behind worlds, and keeps the pyramids of their models.
 class InstanceModels {

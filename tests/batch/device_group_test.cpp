@@ -72,7 +72,7 @@ TEST(DeviceGroup, TheTilesOfAnImageMakeTheImageOfOneDevice) {
 TEST(DeviceGroup, OneDeviceMakesTheImageInParts) {
     const Scene scene = scene_with(0.1);
     RenderReport report;
-    const FormedWorld world = WorldFormer(test_device(), false).form(scene, report.world);
+    const BuiltWorld world = WorldBuilder(test_device(), false).build(scene, report.world);
     TileShare share(tile_count(61, 43), {}, 11);
     std::vector<TileRange> tiles;
     const Image image =
