@@ -5,7 +5,7 @@
 #include <cstdlib>
 
 #include "runtime/base/error.hpp"
-#include "runtime/batch/frame_pipeline.hpp"
+#include "runtime/batch/frame_schedule.hpp"
 #include "runtime/memory/plan.hpp"
 #include "tests/oracles/image_hash.hpp"
 #include "tests/support/test_device.hpp"

@@ -2,7 +2,7 @@
 // can and overlaps its frames are those of each frame from scratch.
 #include <gtest/gtest.h>
 
-#include "runtime/batch/frame_pipeline.hpp"
+#include "runtime/batch/frame_schedule.hpp"
 #include "runtime/render/volume_renderer.hpp"
 #include "runtime/scene_file/scene_animation.hpp"
 #include "tests/oracles/image_hash.hpp"
