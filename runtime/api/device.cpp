@@ -4,7 +4,7 @@
 #include "runtime/api/guarded.hpp"
 #include "runtime/api/handles.hpp"
 #include "runtime/api/process.hpp"
-#include "runtime/opencl/platforms.hpp"
+#include "runtime/opencl/selector.hpp"
 
 namespace voxelume {
 namespace {
