@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "runtime/base/error.hpp"
-#include "runtime/scene_file/scene_fields.hpp"
+#include "runtime/base/text.hpp"
 
 namespace voxelume::cli {
 

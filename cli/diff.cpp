@@ -9,12 +9,12 @@
 #include "cli/report.hpp"
 #include "runtime/base/error.hpp"
 #include "runtime/base/input_file.hpp"
+#include "runtime/base/text.hpp"
 #include "runtime/image/flip.hpp"
 #include "runtime/image/image_difference.hpp"
 #include "runtime/io/image/exr.hpp"
 #include "runtime/io/image/png.hpp"
 #include "runtime/io/mesh/mesh_color.hpp"
-#include "runtime/scene_file/scene_fields.hpp"
 
 namespace voxelume::cli {
 

@@ -15,9 +15,9 @@
 
 #include "cli/commands.hpp"
 #include "runtime/base/error.hpp"
+#include "runtime/base/text.hpp"
 #include "runtime/base/version.hpp"
 #include "runtime/io/image/exr.hpp"
-#include "runtime/scene_file/scene_fields.hpp"
 
 namespace voxelume::cli {
 

@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "runtime/base/text.hpp"
 #include "runtime/scene_file/scene_document.hpp"
 #include "runtime/scene_file/scene_keys.hpp"
 
@@ -29,13 +30,6 @@ inline constexpr Range kLength{0, kMaxLength, true};
 inline constexpr Range kNotNegative{0, kMaxLength};
 inline constexpr Range kRatio{0, 1};
 inline constexpr Range kDegrees{-1e6, 1e6};
-
-/// Text from a file, in quotes, made safe for a terminal and cut to a readable length.
-std::string quote(std::string_view text);
-
-/// ` did you mean "brick"?` for the nearest of the names, or a list of them, or nothing. Opens with
-/// `; `.
-std::string suggest(std::string_view text, std::span<const std::string_view> names);
 
 /// A value of a scene file together with its path in it. Refers to the document, which must outlive
 /// it.

@@ -7,11 +7,11 @@
 #include "runtime/base/atomic_file.hpp"
 #include "runtime/base/frame_path.hpp"
 #include "runtime/base/input_file.hpp"
+#include "runtime/base/text.hpp"
 #include "runtime/image/volume_geometry.hpp"
 #include "runtime/io/vdb/vdb.hpp"
 #include "runtime/io/volume/volume_formats.hpp"
 #include "runtime/io/volume/volume_json.hpp"
-#include "runtime/scene_file/scene_fields.hpp"
 
 namespace voxelume {
 
