@@ -4,6 +4,8 @@
 
 #include "cli/checks.hpp"
 #include "runtime/base/error.hpp"
+#include "runtime/scene_file/assets.hpp"
+#include "runtime/scene_file/read_scene.hpp"
 
 namespace voxelume::cli {
 void add_scene_options(CLI::App& app, SceneOptions& options) {

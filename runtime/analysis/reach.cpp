@@ -6,10 +6,10 @@
 
 #include "runtime/analysis/object_boxes.hpp"
 #include "runtime/analysis/reach_hull.hpp"
+#include "runtime/grid/world_frame.hpp"
+#include "runtime/scene/predicates.hpp"
 #include "runtime/scene_file/scene_animation.hpp"
 #include "runtime/scene_file/scene_motion.hpp"
-#include "runtime/stages/light/spots.hpp"
-#include "runtime/world/instances.hpp"
 
 namespace voxelume {
 namespace {

@@ -7,9 +7,8 @@
 
 #include "runtime/analysis/interior.hpp"
 #include "runtime/analysis/object_boxes.hpp"
-#include "runtime/stages/light/spots.hpp"
+#include "runtime/scene/predicates.hpp"
 #include "runtime/stages/trace/sight.hpp"
-#include "runtime/world/instances.hpp"
 
 namespace voxelume {
 namespace {
@@ -134,14 +133,6 @@ size_t reserved_depth(const Features& features, const Scene& scene, const Pyrami
 }
 
 }  // namespace
-
-bool shines(const Light& light) {
-    return light.energy != glm::vec3(0);
-}
-
-bool has_area(const Light& light) {
-    return light.kind == LightKind::disk || light.kind == LightKind::rectangle;
-}
 
 bool has_lamp(const Scene& scene, const Pyramid& world) {
     return std::ranges::any_of(shown_objects(scene, world),

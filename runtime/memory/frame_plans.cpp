@@ -6,8 +6,8 @@
 #include "runtime/analysis/scene_features.hpp"
 #include "runtime/analysis/shown_models.hpp"
 #include "runtime/base/error.hpp"
+#include "runtime/scene/predicates.hpp"
 #include "runtime/scene_file/scene_animation.hpp"
-#include "runtime/world/instances.hpp"
 
 namespace voxelume {
 namespace {

@@ -9,6 +9,7 @@
 #include "runtime/analysis/interior.hpp"
 #include "runtime/analysis/scene_features.hpp"
 #include "runtime/grid/grid.hpp"
+#include "runtime/scene/predicates.hpp"
 #include "runtime/scene/scene.hpp"
 #include "runtime/stages/light/light.hpp"
 #include "runtime/stages/light/light_beams.hpp"

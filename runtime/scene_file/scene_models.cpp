@@ -6,6 +6,7 @@
 #include <glm/matrix.hpp>
 #include <unordered_set>
 
+#include "runtime/scene/predicates.hpp"
 #include "runtime/scene/scene_affine.hpp"
 #include "runtime/scene_file/scene_parts.hpp"
 #include "runtime/scene_file/scene_sequence.hpp"
@@ -126,14 +127,6 @@ Model read_model(const std::string& name, const SceneValue& value, const ModelCo
         }
     }
     return model;
-}
-
-bool has_emission(const Scene& scene, const Object& object) {
-    const auto emits = [&](int material) {
-        return scene.materials[size_t(material)].emission != glm::vec3(0);
-    };
-    return emits(object.material) ||
-           std::ranges::any_of(object.groups, emits, &GroupMaterial::material);
 }
 
 std::vector<Model> read_models(const SceneValue& value, const ModelContext& context) {

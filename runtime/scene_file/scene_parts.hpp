@@ -9,6 +9,7 @@
 
 #include "runtime/scene/scene.hpp"
 #include "runtime/scene/scene_affine.hpp"
+#include "runtime/scene_file/assets.hpp"
 #include "runtime/scene_file/scene_fields.hpp"
 
 namespace voxelume {
@@ -71,10 +72,6 @@ Observer read_observer(const SceneValue& value, const Scene& scene);
 Animation read_animation(const SceneValue& value);
 RenderSettings read_render(const SceneValue& value);
 
-/// Sets where each model can be seen: the world's box carried into the space of every object that
-/// shows it.
-void find_reaches(Scene& scene);
-
 /// `position`, `turn` and `scale`.
 Factors read_factors(const SceneFields& fields);
 
@@ -86,13 +83,5 @@ glm::dvec3 direction_to(const SceneValue& target, glm::dvec3 position);
 
 /// Half of an angle above 0 degrees, in radians.
 double half_angle(const SceneValue& value, double max, bool max_is_open);
-
-/// The vertical half angle at which pixels of an image of this size are square.
-double square_pixel_half_angle(double horizontal_half_angle, glm::ivec2 size);
-
-/// The box that the world's whole voxels fill.
-Bounds lattice_bounds(const World& world);
-glm::dvec3 corner(const Bounds& bounds,
-                  int number);  ///< number 0..7: bits choose max over min on x, y, z
 
 }  // namespace voxelume

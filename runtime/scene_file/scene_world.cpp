@@ -132,13 +132,4 @@ RenderSettings read_render(const SceneValue& value) {
     return render;
 }
 
-Bounds lattice_bounds(const World& world) {
-    return {world.bounds.min, world.bounds.min + glm::dvec3(world.voxels) * world.voxel_size};
-}
-
-glm::dvec3 corner(const Bounds& bounds, int number) {
-    return {(number & 1 ? bounds.max : bounds.min).x, (number & 2 ? bounds.max : bounds.min).y,
-            (number & 4 ? bounds.max : bounds.min).z};
-}
-
 }  // namespace voxelume

@@ -4,9 +4,10 @@
 
 #include "runtime/assets/model_frame.hpp"
 #include "runtime/base/key_words.hpp"
+#include "runtime/grid/world_frame.hpp"
+#include "runtime/scene/predicates.hpp"
 #include "runtime/scene_file/scene_animation.hpp"
 #include "runtime/scene_file/scene_motion.hpp"
-#include "runtime/world/instances.hpp"
 
 namespace voxelume {
 namespace {

@@ -1,5 +1,6 @@
 // Models whose voxels come from files.
 #include "runtime/assets/voxel_model.hpp"
+#include "runtime/scene_file/read_scene.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

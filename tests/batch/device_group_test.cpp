@@ -6,6 +6,7 @@
 
 #include "runtime/batch/device_images.hpp"
 #include "runtime/batch/frame_pipeline.hpp"
+#include "runtime/scene_file/read_scene.hpp"
 #include "tests/oracles/image_hash.hpp"
 #include "tests/support/program_runner.hpp"
 #include "tests/support/test_device.hpp"

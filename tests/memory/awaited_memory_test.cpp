@@ -7,6 +7,7 @@
 
 #include "runtime/analysis/shown_models.hpp"
 #include "runtime/batch/frame_pipeline.hpp"
+#include "runtime/scene_file/read_scene.hpp"
 #include "runtime/scene_file/scene_animation.hpp"
 #include "tests/oracles/image_hash.hpp"
 #include "tests/support/file_fixture.hpp"

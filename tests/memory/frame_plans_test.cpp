@@ -1,5 +1,6 @@
 // Frames of a moving scene, planned before the first is rendered.
 #include "runtime/memory/frame_plans.hpp"
+#include "runtime/scene_file/read_scene.hpp"
 
 #include <gmock/gmock.h>
 

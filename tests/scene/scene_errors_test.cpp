@@ -7,6 +7,7 @@
 
 #include "runtime/base/error.hpp"
 #include "runtime/scene/scene.hpp"
+#include "runtime/scene_file/read_scene.hpp"
 #include "runtime/scene_file/scene_animation.hpp"
 
 namespace voxelume {

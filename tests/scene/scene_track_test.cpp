@@ -1,5 +1,6 @@
 // What is said about tracks that are wrong.
 #include "runtime/scene_file/scene_track.hpp"
+#include "runtime/scene_file/read_scene.hpp"
 
 #include <gmock/gmock.h>
 

@@ -1,5 +1,6 @@
 // What solids leave of meshes: volumes, voxels, closed surfaces, labels, and cuts that move.
 #include "runtime/stages/voxelize/cut.hpp"
+#include "runtime/scene_file/read_scene.hpp"
 
 #include <gmock/gmock.h>
 

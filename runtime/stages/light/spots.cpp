@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "runtime/opencl/float4.hpp"
+#include "runtime/scene/predicates.hpp"
 #include "runtime/stages/light/spot_pieces.hpp"
 #include "runtime/stages/trace/trace.hpp"
 
@@ -79,10 +80,6 @@ double area_of(const std::vector<GlowingPiece>& pieces) {
 }
 
 }  // namespace
-
-bool is_lamp(const Scene& scene, const Object& object) {
-    return object.visible && object.spots.value_or(1) > 0 && has_emission(scene, object);
-}
 
 int default_spots(double area, const glm::dvec3& voxel_edge) {
     const double side = 4 * std::max({voxel_edge.x, voxel_edge.y, voxel_edge.z});

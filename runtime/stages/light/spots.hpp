@@ -11,9 +11,6 @@
 
 namespace voxelume {
 
-/// Whether an object's emission lights the world: the paper's source of many spots.
-bool is_lamp(const Scene& scene, const Object& object);
-
 /// The spots that a lamp of so many square metres has when the scene doesn't say: one for each
 /// square of four voxels' edges, but at least 16 and at most 128.
 int default_spots(double area, const glm::dvec3& voxel_edge);

@@ -6,8 +6,8 @@
 #include <map>
 
 #include "runtime/assets/density_field.hpp"
-#include "runtime/assets/model_frame.hpp"
 #include "runtime/base/error.hpp"
+#include "runtime/grid/world_frame.hpp"
 
 namespace voxelume {
 namespace {
