@@ -1,9 +1,13 @@
 // What a surface looks like: the values of Whitted's model, and a checker.
 #pragma once
 
+#include <cstdint>
 #include <glm/vec3.hpp>
 #include <optional>
+#include <span>
 #include <string>
+
+#include "runtime/scene/value_row.hpp"
 
 namespace voxelume {
 
@@ -33,5 +37,26 @@ struct Material {
 
     friend bool operator==(const Material&, const Material&) = default;
 };
+
+/// What a material's values switch on in rays and kernels, as bits.
+enum MaterialEffect : uint32_t {
+    kReflects = 1,        ///< sends rays back
+    kRefracts = 2,        ///< sends rays on into the object
+    kIsSeenThrough = 4,   ///< covers only a part of what lies behind
+    kHasReflectance = 8,  ///< of Fresnel: by the angle
+    kAbsorbs = 16,        ///< dims light on its way inside
+    kEmits = 32,
+};
+
+/// The values of a material but its checker. A value is added with a member above, a row here, and
+/// the kernels that show it.
+std::span<const ValueRow<Material>> material_rows();
+std::span<const ValueRow<Checker>> checker_rows();
+
+/// The effects of the values that differ from the defaults.
+uint32_t effects_of(const Material& material);
+
+/// Refuses a checker without blocks.
+void check_checker(const Checker& checker, const Refuse& refuse);
 
 }  // namespace voxelume

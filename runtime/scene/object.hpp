@@ -6,12 +6,14 @@
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "runtime/scene/bounds.hpp"
 #include "runtime/scene/solid.hpp"
 #include "runtime/scene/surface.hpp"
+#include "runtime/scene/value_row.hpp"
 
 namespace voxelume {
 
@@ -78,5 +80,10 @@ struct Object {
 
     friend bool operator==(const Object&, const Object&) = default;
 };
+
+/// The values of models and objects that tracks may change, but those of solids and placements.
+std::span<const ValueRow<Model>> model_rows();
+std::span<const ValueRow<Morph>> morph_rows();
+std::span<const ValueRow<Object>> object_rows();
 
 }  // namespace voxelume

@@ -5,10 +5,12 @@
 #include <filesystem>
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
+#include <span>
 #include <string>
 #include <variant>
 
 #include "runtime/scene/bounds.hpp"
+#include "runtime/scene/value_row.hpp"
 
 namespace voxelume {
 
@@ -73,5 +75,22 @@ struct World {
 inline Bounds lattice_bounds(const World& world) {
     return {world.bounds.min, world.bounds.min + glm::dvec3(world.voxels) * world.voxel_size};
 }
+
+/// A kind of density, in the order of the alternatives of `Density` after the first.
+struct DensityKind {
+    std::string_view name;  ///< in scene files
+    std::span<const KindKey> keys;
+};
+std::span<const DensityKind> density_kinds();
+
+/// The world's values that are numbers and may change.
+std::span<const ValueRow<World>> world_rows();
+std::span<const ValueRow<Medium>> medium_rows();
+std::span<const ValueRow<HeightDensity>> height_density_rows();
+std::span<const ValueRow<BallDensity>> ball_density_rows();
+std::span<const ValueRow<GridDensity>> grid_density_rows();
+
+/// Refuses a ball whose density falls over more than its radius.
+void check_ball(const BallDensity& ball, const Refuse& refuse);
 
 }  // namespace voxelume

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "runtime/opencl/float4.hpp"
+#include "runtime/scene/light_types.hpp"
 #include "runtime/scene/predicates.hpp"
 #include "runtime/stages/light/spot_pieces.hpp"
 #include "runtime/stages/trace/trace.hpp"
@@ -23,33 +24,6 @@ LightRecord patch_record(const glm::dvec3& position, const glm::dvec3& normal,
     record.kind = VXL_LIGHT_PATCH;
     record.spread = float(area / std::numbers::pi);
     return record;
-}
-
-/// The middles of `count` equal parts of a rectangle, halved across its longer side.
-void divide(glm::dvec2 middle, glm::dvec2 size, int count, std::vector<glm::dvec2>& middles) {
-    if (count == 1) return middles.push_back(middle);
-    const int axis = size.y > size.x ? 1 : 0;
-    const int low_count = count / 2;
-    const double low = size[axis] * low_count / count, first = middle[axis] - size[axis] / 2;
-    const double high = size[axis] - low;
-    size[axis] = low;
-    middle[axis] = first + low / 2;
-    divide(middle, size, low_count, middles);
-    size[axis] = high;
-    middle[axis] = first + low + high / 2;
-    divide(middle, size, count - low_count, middles);
-}
-
-/// Vogel's spiral: points that share a disk evenly, each an angle of pi (3 - sqrt 5) on.
-std::vector<glm::dvec2> points_of_disk(double radius, int count) {
-    const double step = std::numbers::pi * (3 - std::sqrt(5.0));
-    if (count == 1) return {glm::dvec2(0)};
-    std::vector<glm::dvec2> points;
-    for (int i = 0; i < count; ++i) {
-        const double r = radius * std::sqrt((i + 0.5) / count);
-        points.emplace_back(r * std::cos(i * step), r * std::sin(i * step));
-    }
-    return points;
 }
 
 /// How far above its surface a spot stands, in voxels' longest edges.
@@ -87,17 +61,11 @@ int default_spots(double area, const glm::dvec3& voxel_edge) {
 }
 
 std::vector<LightRecord> area_spots(const Light& light, const GridFrame& world) {
-    const bool is_disk = light.kind == LightKind::disk;
-    const double area =
-        is_disk ? std::numbers::pi * light.radius * light.radius : light.size.x * light.size.y;
-    std::vector<glm::dvec2> points;
-    if (is_disk)
-        points = points_of_disk(light.radius, light.spots);
-    else
-        divide({0, 0}, light.size, light.spots, points);
+    const LightArea& shape = *type_of(light).area;
+    const double area = shape.area(light);
     const glm::dvec3 axis_y = glm::cross(light.direction, light.axis_x);
     std::vector<LightRecord> records;
-    for (const glm::dvec2& p : points) {
+    for (const glm::dvec2& p : shape.points(light)) {
         const glm::dvec3 position = light.position + p.x * light.axis_x + p.y * axis_y;
         records.push_back(
             patch_record((position - world.origin) / world.voxel_edge, light.direction,
