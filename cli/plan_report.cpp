@@ -6,7 +6,7 @@
 #include "cli/scene_options.hpp"
 #include "runtime/analysis/reach.hpp"
 #include "runtime/memory/frame_plans.hpp"
-#include "runtime/scene_file/scene_animation.hpp"
+#include "runtime/scene/scene_animation.hpp"
 
 namespace voxelume::cli {
 namespace {

@@ -28,7 +28,7 @@
 #include "runtime/io/volume/volume_file.hpp"
 #include "runtime/memory/frame_plans.hpp"
 #include "runtime/render/volume_renderer.hpp"
-#include "runtime/scene_file/scene_animation.hpp"
+#include "runtime/scene/scene_animation.hpp"
 
 namespace voxelume::cli {
 namespace {

@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "runtime/base/error.hpp"
-#include "runtime/scene_file/scene_animation.hpp"
+#include "runtime/scene/scene_animation.hpp"
 
 namespace voxelume {
 

@@ -7,7 +7,7 @@
 #include "runtime/analysis/shown_models.hpp"
 #include "runtime/base/error.hpp"
 #include "runtime/scene/predicates.hpp"
-#include "runtime/scene_file/scene_animation.hpp"
+#include "runtime/scene/scene_animation.hpp"
 
 namespace voxelume {
 namespace {

@@ -5,6 +5,7 @@
 
 #include "runtime/base/error.hpp"
 #include "runtime/base/text.hpp"
+#include "runtime/scene/light_types.hpp"
 
 namespace voxelume {
 namespace {
@@ -41,7 +42,7 @@ std::vector<int> materials_of_groups(const Object& object,
 }
 
 bool transmits(const Material& material) {
-    return material.refraction > 0 || material.opacity < 1;
+    return (effects_of(material) & (kRefracts | kIsSeenThrough)) != 0;
 }
 
 bool transmits(const Scene& scene, const Object& object) {
@@ -53,7 +54,7 @@ bool transmits(const Scene& scene, const Object& object) {
 
 bool has_emission(const Scene& scene, const Object& object) {
     const auto emits = [&](int material) {
-        return scene.materials[size_t(material)].emission != glm::vec3(0);
+        return (effects_of(scene.materials[size_t(material)]) & kEmits) != 0;
     };
     return emits(object.material) ||
            std::ranges::any_of(object.groups, emits, &GroupMaterial::material);
@@ -68,7 +69,7 @@ bool shines(const Light& light) {
 }
 
 bool has_area(const Light& light) {
-    return light.kind == LightKind::disk || light.kind == LightKind::rectangle;
+    return type_of(light).area != nullptr;
 }
 
 bool shows_inside(const Scene& scene, const Object& object) {

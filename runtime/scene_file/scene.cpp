@@ -5,8 +5,8 @@
 #include <fstream>
 
 #include "runtime/base/error.hpp"
-#include "runtime/scene_file/scene_animation.hpp"
-#include "runtime/scene_file/scene_motion.hpp"
+#include "runtime/scene/scene_animation.hpp"
+#include "runtime/scene_file/read_motion.hpp"
 #include "runtime/scene_file/scene_parts.hpp"
 
 namespace voxelume {
@@ -81,7 +81,7 @@ Scene read_scene(const JsonValue& document, const std::filesystem::path& file,
     if (const auto value = fields.find("animation")) scene.animation = read_animation(*value);
     scene.observer = read_observer(fields.get("observer"), scene);
     find_reaches(scene);
-    scene.motion = read_motion(root, assets, scene);
+    scene.motion = read_motion(root, search, scene);
     return scene.motion ? scene_at(scene, 1) : scene;
 }
 

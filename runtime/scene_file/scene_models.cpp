@@ -42,7 +42,7 @@ void read_lattice(const SceneFields& fields, glm::dvec3 world_voxel_size, Model&
 
 /// A model whose file holds its voxels, with a lattice of their own.
 void read_voxels(const SceneFields& fields, const ModelContext& context, Model& model) {
-    model.voxels = file_at(fields, "voxels", context.search);
+    model.voxels = first_file(fields, "voxels", context.search);
     model.surface = Surface::cubes;
     if (const auto surface = fields.find("surface"))
         model.surface = static_cast<Surface>(surface->choice(Names{"cubes", "smooth", "exact"}));
@@ -62,8 +62,9 @@ Morph read_morph(const SceneValue& value, const AssetSearch& search) {
     }
     if (!fields.has("center") && !fields.has("radius"))
         value.fail("needs a \"mesh\" to end as, or the \"center\" and \"radius\" of a sphere");
-    morph.center = fields.get("center").vector(kCoordinate);
-    morph.radius = fields.get("radius").number(kLength);
+    fields.get("center");
+    fields.get("radius");
+    fields.read_rows(morph_rows(), morph);
     return morph;
 }
 
@@ -114,7 +115,7 @@ Model read_model(const std::string& name, const SceneValue& value, const ModelCo
                      model);
     } else {
         const SceneFields fields(value, "model:mesh");
-        model.mesh = file_at(fields, "mesh", context.search);
+        model.mesh = first_file(fields, "mesh", context.search);
         if (const auto morph = fields.find("morph"))
             model.morph = read_morph(*morph, context.search);
         read_lattice(fields, context.world_voxel_size, model);

@@ -6,8 +6,8 @@
 #include "runtime/base/key_words.hpp"
 #include "runtime/grid/world_frame.hpp"
 #include "runtime/scene/predicates.hpp"
-#include "runtime/scene_file/scene_animation.hpp"
-#include "runtime/scene_file/scene_motion.hpp"
+#include "runtime/scene/scene_animation.hpp"
+#include "runtime/scene/scene_motion.hpp"
 
 namespace voxelume {
 namespace {

@@ -6,7 +6,7 @@
 
 #include <numeric>
 
-#include "runtime/scene_file/scene_animation.hpp"
+#include "runtime/scene/scene_animation.hpp"
 #include "tests/memory/plan_fixture.hpp"
 
 namespace voxelume {

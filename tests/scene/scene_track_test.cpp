@@ -6,7 +6,7 @@
 
 #include "runtime/base/error.hpp"
 #include "runtime/scene/scene.hpp"
-#include "runtime/scene_file/scene_animation.hpp"
+#include "runtime/scene/scene_animation.hpp"
 
 namespace voxelume {
 namespace {

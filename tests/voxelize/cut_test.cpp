@@ -12,7 +12,7 @@
 #include <random>
 
 #include "runtime/render/renderer.hpp"
-#include "runtime/scene_file/scene_animation.hpp"
+#include "runtime/scene/scene_animation.hpp"
 #include "tests/oracles/image_hash.hpp"
 #include "tests/support/brick_grids.hpp"
 #include "tests/support/file_fixture.hpp"
