@@ -75,6 +75,7 @@ class PartMaker {
             add_placement(steps.first(steps.size() - 1), track.solid);
         track.keys = from.keys;
         for (const JsonValue& value : from.values) add_key(value, steps.back().key, track);
+        track.keys.width = track.keys.values.size() / track.keys.frames.size();
         part_.tracks.push_back(std::move(track));
     }
 
