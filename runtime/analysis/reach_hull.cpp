@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "runtime/analysis/object_boxes.hpp"
-#include "runtime/scene/light_types.hpp"
+#include "runtime/scene/light.hpp"
 
 namespace voxelume {
 namespace {

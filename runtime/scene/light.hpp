@@ -1,10 +1,19 @@
-// A light as values.
+// A light as values, and one descriptor row for each type of light.
+//
+// A type is added with an enumerator of LightKind, a row of light_types(), and the function of
+// kernels/light.cl that shades by its `shading` number.
 #pragma once
 
 #include <cstdint>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <optional>
+#include <span>
 #include <string>
+#include <string_view>
+#include <vector>
+
+#include "runtime/scene/value_row.hpp"
 
 namespace voxelume {
 
@@ -30,5 +39,51 @@ struct Light {
 
     friend bool operator==(const Light&, const Light&) = default;
 };
+
+/// What a scene says of a light, of all types.
+struct LightParameters {
+    glm::dvec3 position{0};               ///< metres
+    std::optional<glm::dvec3> direction;  ///< of any length but 0
+    std::optional<glm::dvec3> look_at;    ///< metres; a point instead of a direction
+    std::optional<glm::dvec3> up;
+    glm::vec3 color{1};
+    double intensity = 1;
+    std::optional<double> angle;        ///< degrees, from edge to edge
+    std::optional<double> inner_angle;  ///< likewise, of the full light
+    double radius = 0;                  ///< metres
+    glm::dvec2 size{0};                 ///< metres
+    int spots = 64;
+
+    friend bool operator==(const LightParameters&, const LightParameters&) = default;
+};
+
+std::span<const ValueRow<LightParameters>> light_rows();
+
+/// The part of a light that shines by an area.
+struct LightArea {
+    double (*area)(const Light&);    ///< square metres
+    double (*radius)(const Light&);  ///< metres: no point lies farther from `position`
+    /// Points that share the area evenly, `spots` of them: metres along axis_x and across it.
+    std::vector<glm::dvec2> (*points)(const Light&);
+};
+
+struct LightType {
+    LightKind kind;
+    std::string_view name;          ///< in scene files
+    std::span<const KindKey> keys;  ///< besides those that all lights have
+    bool has_position;              ///< otherwise it shines along one direction everywhere
+    int shading;                    ///< VXL_LIGHT_* of kernels/shared/scene.h
+    /// Sets what the type's own parameters decide, and refuses those that don't go together.
+    void (*place)(const LightParameters& parameters, const Refuse& refuse, Light& light);
+    const LightArea* area = nullptr;  ///< null for a light that shines from one point or direction
+};
+
+/// In the order of LightKind.
+std::span<const LightType> light_types();
+const LightType& type_of(const Light& light);
+
+/// Sets all of a light of a type but its name and place in the scene's text.
+void set_light(const LightType& type, const LightParameters& parameters, const Refuse& refuse,
+               Light& light);
 
 }  // namespace voxelume

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "runtime/base/error.hpp"
-#include "runtime/scene/solid_shapes.hpp"
+#include "runtime/scene/solid.hpp"
 
 namespace voxelume {
 

@@ -5,7 +5,7 @@
 
 #include "runtime/base/error.hpp"
 #include "runtime/base/text.hpp"
-#include "runtime/scene/light_types.hpp"
+#include "runtime/scene/light.hpp"
 
 namespace voxelume {
 namespace {

@@ -4,11 +4,11 @@
 #include <array>
 #include <glm/trigonometric.hpp>
 
-#include "runtime/scene/display_shapes.hpp"
-#include "runtime/scene/light_types.hpp"
+#include "runtime/scene/light.hpp"
+#include "runtime/scene/observer.hpp"
 #include "runtime/scene/scene.hpp"
 #include "runtime/scene/scene_motion.hpp"
-#include "runtime/scene/solid_shapes.hpp"
+#include "runtime/scene/solid.hpp"
 
 namespace voxelume {
 namespace {

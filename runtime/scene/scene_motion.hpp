@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "runtime/base/text.hpp"
-#include "runtime/scene/display_shapes.hpp"
 #include "runtime/scene/keyframes.hpp"
-#include "runtime/scene/light_types.hpp"
+#include "runtime/scene/light.hpp"
+#include "runtime/scene/observer.hpp"
 #include "runtime/scene/scene.hpp"
 #include "runtime/scene/scene_affine.hpp"
 #include "runtime/scene/value_row.hpp"

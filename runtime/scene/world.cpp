@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
+#include <glm/geometric.hpp>
 
 namespace voxelume {
 
@@ -53,6 +55,14 @@ std::span<const ValueRow<GridDensity>> grid_density_rows() {
 void check_ball(const BallDensity& ball, const Refuse& refuse) {
     if (ball.falloff > ball.radius)
         refuse("falloff", fmt::format("must not be larger than the radius, {}", ball.radius));
+}
+
+double distance_to_farthest_corner(const World& world, const glm::dvec3& position) {
+    const Bounds bounds = lattice_bounds(world);
+    double farthest = 0;
+    for (int i = 0; i < 8; ++i)
+        farthest = std::max(farthest, glm::distance(position, corner(bounds, i)));
+    return farthest;
 }
 
 }  // namespace voxelume

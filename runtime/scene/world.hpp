@@ -93,4 +93,7 @@ std::span<const ValueRow<GridDensity>> grid_density_rows();
 /// Refuses a ball whose density falls over more than its radius.
 void check_ball(const BallDensity& ball, const Refuse& refuse);
 
+/// Metres from a position to the farthest corner of the world's voxels.
+double distance_to_farthest_corner(const World& world, const glm::dvec3& position);
+
 }  // namespace voxelume

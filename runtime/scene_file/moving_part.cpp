@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "runtime/scene/solid_shapes.hpp"
+#include "runtime/scene/solid.hpp"
 #include "runtime/scene_file/document_part.hpp"
 #include "runtime/scene_file/scene_sequence.hpp"
 

@@ -5,11 +5,11 @@
 #include <span>
 #include <stdexcept>
 
-#include "runtime/scene/display_shapes.hpp"
-#include "runtime/scene/light_types.hpp"
+#include "runtime/scene/light.hpp"
 #include "runtime/scene/material.hpp"
+#include "runtime/scene/observer.hpp"
 #include "runtime/scene/scene_affine.hpp"
-#include "runtime/scene/solid_shapes.hpp"
+#include "runtime/scene/solid.hpp"
 #include "runtime/scene/world.hpp"
 
 namespace voxelume {

@@ -1,7 +1,7 @@
 // The lights of a scene.
 #include <fmt/format.h>
 
-#include "runtime/scene/light_types.hpp"
+#include "runtime/scene/light.hpp"
 #include "runtime/scene_file/scene_parts.hpp"
 
 namespace voxelume {

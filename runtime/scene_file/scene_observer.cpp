@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "runtime/scene/display_shapes.hpp"
+#include "runtime/scene/observer.hpp"
 #include "runtime/scene_file/scene_parts.hpp"
 
 namespace voxelume {

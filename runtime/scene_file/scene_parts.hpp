@@ -7,8 +7,8 @@
 #include <unordered_map>
 #include <vector>
 
-#include "runtime/scene/display_shapes.hpp"
-#include "runtime/scene/light_types.hpp"
+#include "runtime/scene/light.hpp"
+#include "runtime/scene/observer.hpp"
 #include "runtime/scene/scene.hpp"
 #include "runtime/scene/scene_affine.hpp"
 #include "runtime/scene_file/assets.hpp"

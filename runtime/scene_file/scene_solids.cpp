@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "runtime/scene/scene_affine.hpp"
-#include "runtime/scene/solid_shapes.hpp"
+#include "runtime/scene/solid.hpp"
 #include "runtime/scene_file/scene_parts.hpp"
 
 namespace voxelume {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <charconv>
 
-#include "runtime/scene/solid_shapes.hpp"
+#include "runtime/scene/solid.hpp"
 
 namespace voxelume {
 namespace {

@@ -7,11 +7,11 @@
 #include <set>
 
 #include "runtime/base/error.hpp"
-#include "runtime/scene/display_shapes.hpp"
-#include "runtime/scene/light_types.hpp"
+#include "runtime/scene/light.hpp"
+#include "runtime/scene/observer.hpp"
 #include "runtime/scene/scene_affine.hpp"
 #include "runtime/scene/scene_animation.hpp"
-#include "runtime/scene/solid_shapes.hpp"
+#include "runtime/scene/solid.hpp"
 #include "runtime/scene_file/read_scene.hpp"
 #include "tests/support/file_fixture.hpp"
 

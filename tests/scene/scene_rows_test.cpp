@@ -6,12 +6,12 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "runtime/scene/display_shapes.hpp"
-#include "runtime/scene/light_types.hpp"
+#include "runtime/scene/light.hpp"
 #include "runtime/scene/material.hpp"
 #include "runtime/scene/object.hpp"
+#include "runtime/scene/observer.hpp"
 #include "runtime/scene/scene_affine.hpp"
-#include "runtime/scene/solid_shapes.hpp"
+#include "runtime/scene/solid.hpp"
 #include "runtime/scene/world.hpp"
 #include "tests/support/file_fixture.hpp"
 

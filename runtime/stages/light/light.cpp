@@ -5,7 +5,7 @@
 #include <glm/geometric.hpp>
 
 #include "runtime/opencl/float4.hpp"
-#include "runtime/scene/light_types.hpp"
+#include "runtime/scene/light.hpp"
 #include "runtime/stages/trace/trace.hpp"
 
 namespace voxelume {

@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "runtime/opencl/float4.hpp"
-#include "runtime/scene/light_types.hpp"
+#include "runtime/scene/light.hpp"
 #include "runtime/scene/predicates.hpp"
 #include "runtime/stages/light/spot_pieces.hpp"
 #include "runtime/stages/trace/trace.hpp"

@@ -1,28 +1,59 @@
-#include "runtime/scene/light_types.hpp"
+#include "runtime/scene/light.hpp"
 
 #include <array>
+#include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 #include <numbers>
 
 #include "kernels/shared/scene.h"
-#include "runtime/scene/light_points.hpp"
 
 namespace voxelume {
+
 namespace {
 
-using P = LightParameters;
+/// The middles of `count` equal parts of a rectangle, halved across its longer side.
+void divide(glm::dvec2 middle, glm::dvec2 size, int count, std::vector<glm::dvec2>& middles) {
+    if (count == 1) return middles.push_back(middle);
+    const int axis = size.y > size.x ? 1 : 0;
+    const int low_count = count / 2;
+    const double low = size[axis] * low_count / count, first = middle[axis] - size[axis] / 2;
+    const double high = size[axis] - low;
+    size[axis] = low;
+    middle[axis] = first + low / 2;
+    divide(middle, size, low_count, middles);
+    size[axis] = high;
+    middle[axis] = first + low + high / 2;
+    divide(middle, size, count - low_count, middles);
+}
 
-void place_point(const P& p, const Refuse&, Light& light) {
+std::vector<glm::dvec2> points_of_rectangle(glm::dvec2 size, int count) {
+    std::vector<glm::dvec2> middles;
+    divide({0, 0}, size, count, middles);
+    return middles;
+}
+
+std::vector<glm::dvec2> points_of_disk(double radius, int count) {
+    const double step = std::numbers::pi * (3 - std::sqrt(5.0));
+    if (count == 1) return {glm::dvec2(0)};
+    std::vector<glm::dvec2> points;
+    for (int i = 0; i < count; ++i) {
+        const double r = radius * std::sqrt((i + 0.5) / count);
+        points.emplace_back(r * std::cos(i * step), r * std::sin(i * step));
+    }
+    return points;
+}
+
+void place_point(const LightParameters& p, const Refuse&, Light& light) {
     light.position = p.position;
 }
 
-void place_directional(const P& p, const Refuse& refuse, Light& light) {
+void place_directional(const LightParameters& p, const Refuse& refuse, Light& light) {
     light.direction = unit_vector(p.direction.value_or(glm::dvec3(0)), "direction", refuse);
 }
 
 /// A position, and a direction from it that is given or leads to a point.
-void aim(const P& p, const Refuse& refuse, Light& light) {
+void aim(const LightParameters& p, const Refuse& refuse, Light& light) {
     light.position = p.position;
     refuse_both(p.direction.has_value(), "direction", p.look_at.has_value(), "look_at", refuse);
     if (!p.direction && !p.look_at) refuse("", "needs a \"direction\"");
@@ -30,7 +61,7 @@ void aim(const P& p, const Refuse& refuse, Light& light) {
                                 : unit_vector(*p.direction, "direction", refuse);
 }
 
-void place_spot(const P& p, const Refuse& refuse, Light& light) {
+void place_spot(const LightParameters& p, const Refuse& refuse, Light& light) {
     aim(p, refuse, light);
     light.outer_half_angle = p.angle ? glm::radians(*p.angle / 2) : glm::radians(30.0);
     light.inner_half_angle =
@@ -53,14 +84,14 @@ glm::dvec3 axis_across(const Light& light, const std::optional<glm::dvec3>& up,
     return glm::normalize(x);
 }
 
-void place_disk(const P& p, const Refuse& refuse, Light& light) {
+void place_disk(const LightParameters& p, const Refuse& refuse, Light& light) {
     aim(p, refuse, light);
     light.spots = p.spots;
     light.radius = p.radius;
     light.axis_x = axis_across(light, {}, refuse);
 }
 
-void place_rectangle(const P& p, const Refuse& refuse, Light& light) {
+void place_rectangle(const LightParameters& p, const Refuse& refuse, Light& light) {
     aim(p, refuse, light);
     light.spots = p.spots;
     light.size = p.size;
@@ -108,17 +139,17 @@ const LightType& type_of(const Light& light) {
 
 std::span<const ValueRow<LightParameters>> light_rows() {
     static constexpr std::array<ValueRow<LightParameters>, 11> rows = {{
-        {"position", &P::position, kCoordinate},
-        {"direction", &P::direction, kCoordinate},
-        {"look_at", &P::look_at, kCoordinate},
-        {"up", &P::up, kCoordinate},
-        {"color", &P::color, kNotNegative},
-        {"intensity", &P::intensity, kNotNegative},
-        {"angle", &P::angle, {0, 180, true, true}},
-        {"inner_angle", &P::inner_angle, {0, 180, false, true}},
-        {"radius", &P::radius, kLength},
-        {"size", &P::size, kLength},
-        {"spots", &P::spots, {1, kMaxSpots}, false, false},
+        {"position", &LightParameters::position, kCoordinate},
+        {"direction", &LightParameters::direction, kCoordinate},
+        {"look_at", &LightParameters::look_at, kCoordinate},
+        {"up", &LightParameters::up, kCoordinate},
+        {"color", &LightParameters::color, kNotNegative},
+        {"intensity", &LightParameters::intensity, kNotNegative},
+        {"angle", &LightParameters::angle, {0, 180, true, true}},
+        {"inner_angle", &LightParameters::inner_angle, {0, 180, false, true}},
+        {"radius", &LightParameters::radius, kLength},
+        {"size", &LightParameters::size, kLength},
+        {"spots", &LightParameters::spots, {1, kMaxSpots}, false, false},
     }};
     return rows;
 }
