@@ -74,8 +74,7 @@ bool has_area(const Light& light) {
 
 bool shows_inside(const Scene& scene, const Object& object) {
     const Model& model = scene.models[size_t(object.model)];
-    return model.surface == Surface::cubes && model.set == VoxelSet::solid &&
-           transmits(scene, object);
+    return shows_voxels(model.surface) && model.set == VoxelSet::solid && transmits(scene, object);
 }
 
 bool is_instanced(const Scene& scene, const Object& object) {
@@ -101,9 +100,9 @@ HollowObjects hollow_objects(const Scene& scene) {
     bool has_smooth = false;
     for (const Object& object : scene.objects) {
         const Model& model = scene.models[size_t(object.model)];
-        const bool is_smooth = model.surface == Surface::smooth && transmits(scene, object);
+        const bool is_smooth = stores_distances(model.surface) && transmits(scene, object);
         const bool is_mesh =
-            model.surface == Surface::exact && !model.solid && transmits(scene, object);
+            lists_primitives(model.surface) && !model.solid && transmits(scene, object);
         hollow.flags.push_back(is_smooth || is_mesh);
         hollow.most += is_mesh;
         has_smooth |= is_smooth;

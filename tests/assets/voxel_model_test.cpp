@@ -1,6 +1,5 @@
 // Models whose voxels come from files.
-#include "runtime/assets/voxel_model.hpp"
-#include "runtime/scene_file/read_scene.hpp"
+#include "runtime/assets/voxel_model_file.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -14,6 +13,7 @@
 #include "runtime/base/error.hpp"
 #include "runtime/io/vdb/vdb.hpp"
 #include "runtime/render/renderer.hpp"
+#include "runtime/scene_file/read_scene.hpp"
 #include "runtime/stages/voxelize/voxelize.hpp"
 #include "tests/support/file_fixture.hpp"
 #include "tests/support/test_device.hpp"
