@@ -20,6 +20,6 @@ GridFrame model_frame(const Model& model, const MeshSummary* mesh);
 bool may_be_shown(const Scene& scene, const Object& object);
 
 /// Whether any part of the object can be seen inside the world; models that aren't are not read.
-bool is_in_reach(const Scene& scene, const Object& object);
+bool is_potentially_visible(const Scene& scene, const Object& object);
 
 }  // namespace voxelume

@@ -23,7 +23,7 @@ constexpr double kPlacedBand = 5;  // voxels around cubes: placing looks at whol
 
 class Planner {
   public:
-    Planner(const Scene& scene, MeshStore& meshes)
+    Planner(const Scene& scene, AssetStore& meshes)
         : scene_(scene), meshes_(meshes), extents_(scene, meshes) {
         contents_.frame = plan_.world = world_frame(scene.world);
     }
@@ -34,7 +34,7 @@ class Planner {
             if (!may_be_shown(scene_, object)) continue;
             // Refuses names of groups that aren't there, before any frame is rendered.
             materials_of_groups(object, meshes_.groups_of(scene_.models[size_t(object.model)]));
-            if (!object.in_reach) continue;
+            if (!object.potentially_visible) continue;
             if (is_instanced(scene_, object))
                 add_instance(object);
             else
@@ -45,9 +45,9 @@ class Planner {
     }
 
   private:
-    void add_least(int number, const WorldExtent& extent) {
+    void add_minimum(int number, const WorldExtent& extent) {
         const VoxelBox& box = extents_.boxes()[size_t(number)];
-        if (overlap(box, box)) least_.push_back({box, extent});
+        if (overlap(box, box)) minimum_.push_back({box, extent});
     }
 
     void add_object(int number) {
@@ -60,10 +60,10 @@ class Planner {
         const bool is_exact = model.surface == Surface::exact;
         const double band = model.surface == Surface::smooth ? kSurfaceBand : kPlacedBand;
         const SurfaceExtent in_world = extents_.planned(object, band);
-        const SurfaceExtent least = extents_.least(object, band);
+        const SurfaceExtent minimum = extents_.minimum(object, band);
         plan_.voxels += in_world.voxels;
         plan_.bricks += in_world.bricks;
-        add_least(number, {least.voxels, least.bricks, is_exact ? least.voxels : 0});
+        add_minimum(number, {minimum.voxels, minimum.bricks, is_exact ? minimum.voxels : 0});
         if (shows_inside(scene_, object)) {
             const double inside = extents_.inside_voxels(object);
             plan_.voxels += inside;
@@ -73,14 +73,14 @@ class Planner {
         exact_ |= is_exact;
         contents_.occupied |= model.surface != Surface::smooth;
         contents_.colors |= extras.colors;
-        contents_.words |= objects_++ > 0 || extras.words;
+        contents_.attributes |= objects_++ > 0 || extras.attributes;
         if (is_exact) {
             if (mesh) check_reach(object);
             exact_voxels_ += in_world.voxels;
             contents_.lists |= in_world.voxels > 0;
             if (mesh) contents_.exact_triangles += double(mesh->triangles);
             GridPlan grid = plan_grid(model, mesh, plan_.world, extents_.planned(object, 0));
-            set_least(grid, plan_grid(model, mesh, plan_.world, extents_.least(object, 0)));
+            set_minimum(grid, plan_grid(model, mesh, plan_.world, extents_.minimum(object, 0)));
             plan_.grids.push_back(grid);
             plan_.grids.back().object = number;
         } else if (made_.insert(object.model).second) {
@@ -120,12 +120,12 @@ class Planner {
             contents_.instances.colors |= extras_of(model, mesh).colors;
             if (model.surface == Surface::exact) {
                 exact_ = true;
-                contents_.instances.exact_voxels += grid.least.voxels;
+                contents_.instances.exact_voxels += grid.minimum.voxels;
                 contents_.instances.exact_triangles += double(grid.triangles);
             }
         }
         contents_.instances.voxels += grid.voxels;
-        contents_.instances.least_voxels += grid.least.voxels;
+        contents_.instances.min_voxels += grid.minimum.voxels;
         grid.model = object.model;
         if (model.surface == Surface::exact || made_.insert(object.model).second)
             plan_.grids.push_back(grid);
@@ -139,7 +139,7 @@ class Planner {
         const auto volume = [](const glm::dvec3& edge) { return edge.x * edge.y * edge.z; };
         const double own = volume(voxels.frame.voxel_edge) / volume(plan_.world.voxel_edge) *
                            std::abs(glm::determinant(object.world_from_object));
-        const double finer = std::max(1.0, own), least = std::min(1.0, own);
+        const double finer = std::max(1.0, own), minimum = std::min(1.0, own);
         const double count = double(voxels.voxels());
         const auto stored = double(voxels.coordinates.size());
         const bool smooth = voxels.surface == Surface::smooth;
@@ -149,12 +149,12 @@ class Planner {
         if (extents_.lies_in_world(frame.origin,
                                    frame.origin + frame.voxel_edge * glm::dvec3(frame.size),
                                    object.world_from_object))
-            add_least(number, {count * least, stored * least, 0});
+            add_minimum(number, {count * minimum, stored * minimum, 0});
         contents_.smooth |= smooth;
         contents_.occupied |= !smooth;
         contents_.colors |= !voxels.colors.empty();
         transparent_ |= voxels.transparent;
-        contents_.words |= objects_++ > 0 || !voxels.attributes.empty();
+        contents_.attributes |= objects_++ > 0 || !voxels.attributes.empty();
         if (!made_.insert(object.model).second) return;
         GridPlan grid = plan_grid(voxels);
         grid.model = object.model;
@@ -162,12 +162,12 @@ class Planner {
     }
 
     void add_stages() {
-        double kept = 0, least_kept = 0;
+        double kept = 0, min_kept = 0;
         for (const GridPlan& grid : plan_.grids) {
             plan_.voxelize_bytes = std::max(plan_.voxelize_bytes, kept + grid.made_bytes);
-            plan_.least_bytes = std::max(plan_.least_bytes, least_kept + grid.least.made_bytes);
+            plan_.min_bytes = std::max(plan_.min_bytes, min_kept + grid.minimum.made_bytes);
             kept += grid.kept_bytes;
-            least_kept += grid.least.kept_bytes;
+            min_kept += grid.minimum.kept_bytes;
         }
         const double table = brick_table(plan_.world);
         plan_.bricks = std::min(plan_.bricks, table);
@@ -179,19 +179,20 @@ class Planner {
                                            contents_.instances.voxels, kept);
         plan_.place_bytes = all.place;
         plan_.index_bytes = all.index;
-        plan_.image_bytes = all.world + all.halo + shown + plan_.rays.most();
+        plan_.image_bytes = all.world + all.dilated_occupancy + shown + plan_.rays.maximum();
         if (lights_send_beams(made_for) && !made_for.instances)
             plan_.image_bytes += light_beam_bytes();
         plan_.world_bytes = all.world;
-        plan_.halo_bytes = all.halo;
-        const WorldExtent least = extent_at_least(std::move(least_));
+        plan_.dilated_occupancy_bytes = all.dilated_occupancy;
+        const WorldExtent minimum = min_extent(std::move(minimum_));
         const StageBytes fewest =
-            stage_bytes(contents_, least, contents_.instances.least_voxels, least_kept);
-        plan_.least_image_bytes = fewest.world + fewest.halo + shown + plan_.rays.least();
-        plan_.least_bytes =
-            std::max({plan_.least_bytes, fewest.place, fewest.index, plan_.least_image_bytes});
-        plan_.least_with_next = fewest.place + fewest.index + plan_.least_image_bytes;
-        plan_.largest = largest_buffer(contents_, least);
+            stage_bytes(contents_, minimum, contents_.instances.min_voxels, min_kept);
+        plan_.min_image_bytes =
+            fewest.world + fewest.dilated_occupancy + shown + plan_.rays.minimum();
+        plan_.min_bytes =
+            std::max({plan_.min_bytes, fewest.place, fewest.index, plan_.min_image_bytes});
+        plan_.min_with_next = fewest.place + fewest.index + plan_.min_image_bytes;
+        plan_.largest = largest_buffer(contents_, minimum);
         plan_.host_bytes =
             kWorldTable * table + 2 * image_bytes(scene_.render) + plan_.medium.host_bytes;
         for (const GridPlan& grid : plan_.grids)
@@ -200,12 +201,12 @@ class Planner {
 
     /// What the beams of lights take at most.
     double light_beam_bytes() const {
-        const Sight sight = sight_of(scene_, plan_.world);
+        const Camera camera = camera_of(scene_, plan_.world);
         const uint64_t rays =
-            16ull * tile_count(sight.width, sight.height) * uint64_t(sight.samples);
-        return sizeof(float) * Illumination::kLightsOfMostBeams *
-               double(light_beams_that_pay(plan_.world, rays, sight.samples,
-                                           voxels_a_pixel(scene_, sight, plan_.world)));
+            16ull * tile_count(camera.width, camera.height) * uint64_t(camera.samples);
+        return sizeof(float) * Illumination::kLightsOfMaxBeams *
+               double(light_beams_that_pay(plan_.world, rays, camera.samples,
+                                           voxels_a_pixel(scene_, camera, plan_.world)));
     }
 
     /// What the image's kernels are made for, as far as it decides what rays take.
@@ -213,7 +214,7 @@ class Planner {
         Features features;
         features.smooth = contents_.smooth || contents_.instances.smooth;
         features.solids = exact_;
-        features.attributes = contents_.has_words();
+        features.attributes = contents_.has_attributes();
         features.colors = contents_.colors || contents_.instances.colors;
         features.voxel_opacity = transparent_;
         features.instances = contents_.instances.any;
@@ -226,14 +227,14 @@ class Planner {
     }
 
     const Scene& scene_;
-    MeshStore& meshes_;
+    AssetStore& meshes_;
     ScenePlan plan_;
     ObjectExtents extents_;
     WorldContents contents_;
     std::set<int> made_;
     int objects_ = 0;
     double exact_voxels_ = 0;
-    std::vector<ObjectExtent> least_;           ///< of what is seen of objects in the world
+    std::vector<ObjectExtent> minimum_;         ///< of what is seen of objects in the world
     std::set<int> shared_;                      ///< those counted
     bool exact_ = false, transparent_ = false;  ///< some object, or instance
 };
@@ -259,7 +260,7 @@ GridPlan plan_model(const Model& model, const Mesh& mesh) {
     return plan_grid(model, &summary, summary.area);
 }
 
-ScenePlan plan_scene(const Scene& scene, MeshStore& meshes) {
+ScenePlan plan_scene(const Scene& scene, AssetStore& meshes) {
     return Planner(scene, meshes).run();
 }
 

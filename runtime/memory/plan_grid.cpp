@@ -31,19 +31,19 @@ void keep_larger(BufferPlan& largest, const BufferPlan& buffer) {
     if (buffer.bytes > largest.bytes) largest = buffer;
 }
 
-void set_least(GridPlan& grid, const GridPlan& least) {
-    grid.least = {least.voxels, least.made_bytes, least.kept_bytes};
-    grid.largest = least.largest;
+void set_minimum(GridPlan& grid, const GridPlan& minimum) {
+    grid.minimum = {minimum.voxels, minimum.made_bytes, minimum.kept_bytes};
+    grid.largest = minimum.largest;
 }
 
 GridExtras extras_of(const Model& model, const MeshSummary* mesh) {
     if (model.solid) return {};
-    return {.words = mesh->group_names.size() > 1, .colors = mesh->has_colors};
+    return {.attributes = mesh->group_names.size() > 1, .colors = mesh->has_colors};
 }
 
 SurfaceArea model_area(const Model& model, const MeshSummary* mesh) {
     if (mesh) return mesh->area;
-    return solid_area(*model.solid, glm::dmat4(1), {model.reach.min, model.reach.max});
+    return solid_area(*model.solid, glm::dmat4(1), {model.extent.min, model.extent.max});
 }
 
 double brick_table(const GridFrame& frame) {
@@ -60,12 +60,12 @@ GridPlan plan_grid(const Model& model, const MeshSummary* mesh, const GridFrame&
     const GridExtras extras = extras_of(model, mesh);
     const bool smooth = model.surface == Surface::smooth, exact = model.surface == Surface::exact;
     const bool counts_windings = mesh && (smooth || model.set == VoxelSet::solid);
-    const bool labels = extras.words || extras.colors;
+    const bool labels = extras.attributes || extras.colors;
     const double table = brick_table(frame), bricks = extent.bricks;
     const double triangles = double(grid.triangles);
     const double shapes = smooth || labels ? triangles * kShape : 0;
     const double brick = (smooth ? kDistanceBytes : kOccupancyBytes) +
-                         kWordBytes * (int(extras.words) + int(extras.colors) + int(exact));
+                         kWordBytes * (int(extras.attributes) + int(extras.colors) + int(exact));
     grid.kept_bytes = table * kSlot + bricks * brick + (exact ? list_bytes(grid) : 0);
     grid.made_bytes = grid.kept_bytes + table * (kTableBytes - kSlot) + triangles * kTriangle +
                       shapes + bricks * (counts_windings ? kWinding : kOccupancyBytes) +
@@ -87,7 +87,7 @@ GridPlan plan_grid(const Model& model, const MeshSummary* mesh, const GridFrame&
                     {"its voxels' lists", exact ? extent.voxels * kListBytes : 0},
                     {"its triangles", triangles * (smooth ? kShape : kTriangleBytes),
                      BufferGrowth::triangles}});
-    set_least(grid, grid);
+    set_minimum(grid, grid);
     return grid;
 }
 
@@ -99,10 +99,10 @@ GridPlan plan_grid(const Model& model, const MeshSummary* mesh, const SurfaceAre
     };
     GridPlan grid = plan_of(area);
     if (model.solid)
-        set_least(grid, plan_of(least_solid_area(*model.solid, glm::dmat4(1),
-                                                 {model.reach.min, model.reach.max})));
+        set_minimum(grid, plan_of(min_solid_area(*model.solid, glm::dmat4(1),
+                                                 {model.extent.min, model.extent.max})));
     else
-        set_least(grid, plan_of(model.cuts.empty() ? mesh->least_area : SurfaceArea{}));
+        set_minimum(grid, plan_of(model.cuts.empty() ? mesh->min_area : SurfaceArea{}));
     return grid;
 }
 
@@ -110,15 +110,15 @@ GridPlan plan_grid(const VoxelModel& voxels) {
     const auto stored = double(voxels.coordinates.size());
     const double table = brick_table(voxels.frame) * kSlot;
     const double brick = voxels.surface == Surface::smooth ? kDistanceBytes : kOccupancyBytes;
-    const bool words = !voxels.attributes.empty(), colors = !voxels.colors.empty();
+    const bool attributes = !voxels.attributes.empty(), colors = !voxels.colors.empty();
     GridPlan grid{.frame = voxels.frame, .voxels = double(voxels.voxels()), .bricks = stored};
-    grid.kept_bytes = table + stored * (brick + kWordBytes * (int(words) + int(colors)));
+    grid.kept_bytes = table + stored * (brick + kWordBytes * (int(attributes) + int(colors)));
     grid.made_bytes = grid.kept_bytes;
     grid.largest = largest_of(
         {{"the table of its bricks", table, BufferGrowth::table},
          {"its voxels", stored * brick},
-         {"its voxels' materials and colors", words || colors ? stored * kWordBytes : 0}});
-    set_least(grid, grid);
+         {"its voxels' materials and colors", attributes || colors ? stored * kWordBytes : 0}});
+    set_minimum(grid, grid);
     return grid;
 }
 

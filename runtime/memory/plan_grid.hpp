@@ -41,7 +41,7 @@ struct BufferPlan {
 void keep_larger(BufferPlan& largest, const BufferPlan& buffer);
 
 /// Of a grid, at least: less than planned where a solid's parts may lie in each other.
-struct LeastGrid {
+struct MinGrid {
     double voxels = 0, made_bytes = 0, kept_bytes = 0;
 };
 
@@ -55,16 +55,16 @@ struct GridPlan {
     double bricks = 0;        ///< stored
     double made_bytes = 0;    ///< device memory while it is made, its own included
     double kept_bytes = 0;    ///< device memory that it keeps until the world is formed
-    LeastGrid least = {};     ///< of these three
+    MinGrid minimum = {};     ///< of these three
     BufferPlan largest = {};  ///< of the buffers that it takes while it is made
 };
 
 /// Takes what a grid needs at least, and its largest buffer, from another plan for it.
-void set_least(GridPlan& grid, const GridPlan& least);
+void set_minimum(GridPlan& grid, const GridPlan& minimum);
 
 /// What the voxels of a model carry besides their place.
 struct GridExtras {
-    bool words = false, colors = false;
+    bool attributes = false, colors = false;
 };
 
 /// `mesh` is null for a model that has none.

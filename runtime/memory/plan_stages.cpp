@@ -24,7 +24,7 @@ double pyramid_bytes(const WorldContents& contents, const WorldExtent& extent, d
     const auto& instances = contents.instances;
     double voxel = kLeaf / kVoxelsPerLeaf;
     if (contents.smooth || instances.smooth) voxel += kField;
-    if (contents.has_words()) voxel += kWord;
+    if (contents.has_attributes()) voxel += kWord;
     if (contents.colors || instances.colors) voxel += kWord;
     const double exact_voxels = extent.exact_voxels + instances.exact_voxels;
     const double triangles = contents.exact_triangles + instances.exact_triangles;
@@ -36,7 +36,7 @@ double brick_bytes(const WorldContents& contents) {
     double brick = 0;
     if (contents.occupied) brick += kOccupancyBytes;
     if (contents.smooth) brick += kDistanceBytes;
-    if (contents.words) brick += kWordBytes;
+    if (contents.attributes) brick += kWordBytes;
     if (contents.colors) brick += kWordBytes;
     if (contents.lists) brick += kWordBytes;
     return brick;
@@ -48,7 +48,7 @@ StageBytes stage_bytes(const WorldContents& contents, const WorldExtent& extent,
                        double kept) {
     const double table = brick_table(contents.frame);
     const bool measures_nearest =
-        contents.smooth && (contents.words || contents.colors || contents.occupied);
+        contents.smooth && (contents.attributes || contents.colors || contents.occupied);
     const double lists =
         extent.exact_voxels * kListBytes + contents.exact_triangles * kExactTriangleBytes;
     const double world = 4 * table + extent.bricks * brick_bytes(contents) + lists;
@@ -59,22 +59,23 @@ StageBytes stage_bytes(const WorldContents& contents, const WorldExtent& extent,
     bytes.world = pyramid_bytes(contents, extent, instanced);
     bytes.index = world + extent.bricks * kIndexMarks + bytes.world;
     if (contents.instances.any) bytes.index += bytes.world;  // before they are joined
-    bytes.halo = contents.instances.any ? 0 : sector_bytes(contents.frame, extent.voxels);
+    bytes.dilated_occupancy =
+        contents.instances.any ? 0 : sector_bytes(contents.frame, extent.voxels);
     return bytes;
 }
 
-BufferPlan largest_buffer(const WorldContents& contents, const WorldExtent& least) {
+BufferPlan largest_buffer(const WorldContents& contents, const WorldExtent& minimum) {
     const auto& instances = contents.instances;
-    const double bricks = std::min(least.bricks, brick_table(contents.frame));
-    const double voxels = least.voxels + instances.least_voxels;
-    const double exact_voxels = least.exact_voxels + instances.exact_voxels;
+    const double bricks = std::min(minimum.bricks, brick_table(contents.frame));
+    const double voxels = minimum.voxels + instances.min_voxels;
+    const double exact_voxels = minimum.exact_voxels + instances.exact_voxels;
     BufferPlan largest;
     const auto keep = [&](bool is_there, const BufferPlan& buffer) {
         if (is_there) keep_larger(largest, buffer);
     };
     keep(contents.occupied, {"its voxels", bricks * kOccupancyBytes});
     keep(contents.smooth, {"its distances", bricks * kDistanceBytes});
-    keep(contents.words, {"its voxels' materials", bricks * kWordBytes});
+    keep(contents.attributes, {"its voxels' materials", bricks * kWordBytes});
     keep(contents.colors, {"its voxels' colors", bricks * kWordBytes});
     keep(contents.lists, {"the starts of its voxels' lists", bricks * kWordBytes});
     keep(true, {"its voxels' lists", exact_voxels * kListBytes});
@@ -82,7 +83,7 @@ BufferPlan largest_buffer(const WorldContents& contents, const WorldExtent& leas
          {"its triangles", (contents.exact_triangles + instances.exact_triangles) * kTriangleBytes,
           BufferGrowth::triangles});
     keep(contents.smooth || instances.smooth, {"its voxels' fields", voxels * kField});
-    keep(contents.has_words(), {"its voxels' words", voxels * kWord});
+    keep(contents.has_attributes(), {"its voxels' attributes", voxels * kWord});
     return largest;
 }
 

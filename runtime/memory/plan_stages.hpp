@@ -13,23 +13,23 @@ struct WorldContents {
     GridFrame frame;
     bool smooth = false;    ///< some have distances
     bool occupied = false;  ///< some are occupied, or not
-    bool words = false, colors = false;
+    bool attributes = false, colors = false;
     bool lists = false;  ///< some list their primitives
     double exact_triangles = 0;
     struct {
         bool any = false, smooth = false, colors = false;
-        double voxels = 0, least_voxels = 0, exact_voxels = 0, exact_triangles = 0;
+        double voxels = 0, min_voxels = 0, exact_voxels = 0, exact_triangles = 0;
     } instances;
 
     /// Whether each voxel of the pyramid has a word of its own.
-    bool has_words() const { return words || (smooth && occupied) || instances.any; }
+    bool has_attributes() const { return attributes || (smooth && occupied) || instances.any; }
 };
 
 /// Bytes of the device.
 struct StageBytes {
-    double place = 0, index = 0;  ///< at the height of these stages
-    double world = 0;             ///< of the pyramid, part of the last
-    double halo = 0;              ///< of the grid that beams of rays are sent through
+    double place = 0, index = 0;   ///< at the height of these stages
+    double world = 0;              ///< of the pyramid, part of the last
+    double dilated_occupancy = 0;  ///< of the grid that beams of rays are sent through
 };
 
 /// Of a world of such an extent with `instanced` voxels of instances' models, beside `kept` bytes
@@ -39,6 +39,6 @@ StageBytes stage_bytes(const WorldContents& contents, const WorldExtent& extent,
 
 /// The largest buffer of the world, its pyramid's with the models of instances behind it, where it
 /// has no more than that extent.
-BufferPlan largest_buffer(const WorldContents& contents, const WorldExtent& least);
+BufferPlan largest_buffer(const WorldContents& contents, const WorldExtent& minimum);
 
 }  // namespace voxelume

@@ -73,11 +73,11 @@ void place_spot(const LightParameters& p, const Refuse& refuse, Light& light) {
 /// The unit vector across a light's direction that is to the left when `up` is up.
 glm::dvec3 axis_across(const Light& light, const std::optional<glm::dvec3>& up,
                        const Refuse& refuse) {
-    constexpr double kLeastSine = 1e-6;
+    constexpr double kMinSine = 1e-6;
     const glm::dvec3 y = up ? unit_vector(*up, "up", refuse) : glm::dvec3(0, 1, 0);
     glm::dvec3 x = glm::cross(y, light.direction);
-    if (glm::length(x) < kLeastSine && !up) x = glm::cross(glm::dvec3(0, 0, 1), light.direction);
-    if (glm::length(x) < kLeastSine)
+    if (glm::length(x) < kMinSine && !up) x = glm::cross(glm::dvec3(0, 0, 1), light.direction);
+    if (glm::length(x) < kMinSine)
         refuse("up",
                "the light's direction is parallel to \"up\", which leaves its turn open; give "
                "another \"up\", such as [0, 0, 1]");
@@ -86,14 +86,14 @@ glm::dvec3 axis_across(const Light& light, const std::optional<glm::dvec3>& up,
 
 void place_disk(const LightParameters& p, const Refuse& refuse, Light& light) {
     aim(p, refuse, light);
-    light.spots = p.spots;
+    light.light_samples = p.light_samples;
     light.radius = p.radius;
     light.axis_x = axis_across(light, {}, refuse);
 }
 
 void place_rectangle(const LightParameters& p, const Refuse& refuse, Light& light) {
     aim(p, refuse, light);
-    light.spots = p.spots;
+    light.light_samples = p.light_samples;
     light.size = p.size;
     light.axis_x = axis_across(light, p.up, refuse);
 }
@@ -101,12 +101,12 @@ void place_rectangle(const LightParameters& p, const Refuse& refuse, Light& ligh
 constexpr LightArea kDisk = {
     [](const Light& light) { return std::numbers::pi * light.radius * light.radius; },
     [](const Light& light) { return light.radius; },
-    [](const Light& light) { return points_of_disk(light.radius, light.spots); }};
+    [](const Light& light) { return points_of_disk(light.radius, light.light_samples); }};
 
 constexpr LightArea kRectangle = {
     [](const Light& light) { return light.size.x * light.size.y; },
     [](const Light& light) { return glm::length(light.size) / 2; },
-    [](const Light& light) { return points_of_rectangle(light.size, light.spots); }};
+    [](const Light& light) { return points_of_rectangle(light.size, light.light_samples); }};
 
 constexpr KindKey kPointKeys[] = {{"position", true}};
 constexpr KindKey kSpotKeys[] = {
@@ -122,9 +122,9 @@ constexpr std::array<LightType, 5> kTypes = {{
     {LightKind::spot, "spot", kSpotKeys, true, VXL_LIGHT_SPOT, place_spot},
     {LightKind::directional, "directional", kDirectionalKeys, false, VXL_LIGHT_DIRECTIONAL,
      place_directional},
-    {LightKind::disk, "disk", kDiskKeys, true, VXL_LIGHT_PATCH, place_disk, &kDisk},
-    {LightKind::rectangle, "rectangle", kRectangleKeys, true, VXL_LIGHT_PATCH, place_rectangle,
-     &kRectangle},
+    {LightKind::disk, "disk", kDiskKeys, true, VXL_LIGHT_AREA_SAMPLE, place_disk, &kDisk},
+    {LightKind::rectangle, "rectangle", kRectangleKeys, true, VXL_LIGHT_AREA_SAMPLE,
+     place_rectangle, &kRectangle},
 }};
 
 }  // namespace
@@ -149,7 +149,7 @@ std::span<const ValueRow<LightParameters>> light_rows() {
         {"inner_angle", &LightParameters::inner_angle, {0, 180, false, true}},
         {"radius", &LightParameters::radius, kLength},
         {"size", &LightParameters::size, kLength},
-        {"spots", &LightParameters::spots, {1, kMaxSpots}, false, false},
+        {"spots", &LightParameters::light_samples, {1, kMaxLightSamples}, false, false},
     }};
     return rows;
 }
@@ -157,7 +157,7 @@ std::span<const ValueRow<LightParameters>> light_rows() {
 void set_light(const LightType& type, const LightParameters& parameters, const Refuse& refuse,
                Light& light) {
     light.kind = type.kind;
-    light.energy = parameters.color * static_cast<float>(parameters.intensity);
+    light.intensity = parameters.color * static_cast<float>(parameters.intensity);
     type.place(parameters, refuse, light);
 }
 

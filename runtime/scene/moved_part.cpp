@@ -32,7 +32,7 @@ void MovedPart::set(const Track& track) {
 void MovedPart::form() {
     switch (part_.part) {
         case ScenePart::world:
-            return form_world();
+            return build_world();
         case ScenePart::material:
             if (const auto& checker = scene_.materials[part_.place].checker)
                 check_checker(*checker, refusal("checker"));
@@ -53,7 +53,7 @@ void MovedPart::form() {
     }
 }
 
-void MovedPart::form_world() {
+void MovedPart::build_world() {
     Density& density = scene_.world.medium.density;
     if (const auto* ball = std::get_if<BallDensity>(&density))
         check_ball(*ball, refusal("medium.density."));

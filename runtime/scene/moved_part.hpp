@@ -19,7 +19,7 @@ class MovedPart {
   private:
     void set(const Track& track);
     void form();
-    void form_world();
+    void build_world();
     void form_model();
     void form_display(Observer& observer);
 

@@ -70,12 +70,13 @@ struct Object {
     std::vector<GroupMaterial> groups;
     int priority = 0;  ///< where objects overlap: the higher wins, then the earlier in the list
     Placement placement = Placement::automatic;
-    std::optional<int> spots;  ///< that its emission lights the world by; none: by its size
+    std::optional<int> light_samples;  ///< that its emission lights the world by; none: by its size
     glm::dmat4 world_from_object{
-        1};                ///< affine and safely invertible; mirrors and shears are allowed
-    bool moves = false;    ///< some track changes where it stands
-    bool visible = true;   ///< otherwise the world is as if it weren't there
-    bool in_reach = true;  ///< not in scene files: whether some ray may meet it, see reach.hpp
+        1};               ///< affine and safely invertible; mirrors and shears are allowed
+    bool moves = false;   ///< some track changes where it stands
+    bool visible = true;  ///< otherwise the world is as if it weren't there
+    bool potentially_visible =
+        true;  ///< not in scene files: whether some ray may meet it, see culling.hpp
     std::string where;
 
     friend bool operator==(const Object&, const Object&) = default;

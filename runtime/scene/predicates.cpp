@@ -12,7 +12,7 @@ namespace {
 
 /// Why an object can't be an instance; empty if it can.
 std::string refusal(const Scene& scene, const Object& object) {
-    if (is_lamp(scene, object))
+    if (is_emissive(scene, object))
         return "its emission lights the world, and lamps are found in the world's voxels";
     if (transmits(scene, object))
         return "a material of it lets light through, and rays go through objects in the world's "
@@ -60,12 +60,12 @@ bool has_emission(const Scene& scene, const Object& object) {
            std::ranges::any_of(object.groups, emits, &GroupMaterial::material);
 }
 
-bool is_lamp(const Scene& scene, const Object& object) {
-    return object.visible && object.spots.value_or(1) > 0 && has_emission(scene, object);
+bool is_emissive(const Scene& scene, const Object& object) {
+    return object.visible && object.light_samples.value_or(1) > 0 && has_emission(scene, object);
 }
 
 bool shines(const Light& light) {
-    return light.energy != glm::vec3(0);
+    return light.intensity != glm::vec3(0);
 }
 
 bool has_area(const Light& light) {
@@ -104,10 +104,10 @@ HollowObjects hollow_objects(const Scene& scene) {
         const bool is_mesh =
             lists_primitives(model.surface) && !model.solid && transmits(scene, object);
         hollow.flags.push_back(is_smooth || is_mesh);
-        hollow.most += is_mesh;
+        hollow.maximum += is_mesh;
         has_smooth |= is_smooth;
     }
-    hollow.most += has_smooth;
+    hollow.maximum += has_smooth;
     return hollow;
 }
 

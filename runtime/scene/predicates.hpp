@@ -23,8 +23,8 @@ bool transmits(const Material& material);
 /// Whether a material that the object may show transmits light.
 bool transmits(const Scene& scene, const Object& object);
 
-/// Whether an object's emission lights the world: the paper's source of many spots.
-bool is_lamp(const Scene& scene, const Object& object);
+/// Whether an object's emission lights the world: the paper's source of many light samples.
+bool is_emissive(const Scene& scene, const Object& object);
 
 /// Whether any light comes from it.
 bool shines(const Light& light);
@@ -38,8 +38,8 @@ bool shows_inside(const Scene& scene, const Object& object);
 /// Whether rays are carried into the object's space, instead of the object into the world's.
 ///
 /// `auto` is `world` for an object that stands still, and for one that can't be an instance: a lamp
-/// (its spots are found in the world's voxels), one that lets light through, one in a scene whose
-/// display is a lattice (which shows the world's voxels).
+/// (its light samples are found in the world's voxels), one that lets light through, one in a scene
+/// whose display is a lattice (which shows the world's voxels).
 bool is_instanced(const Scene& scene, const Object& object);
 
 /// Throws Error::scene, saying why, for an object that is to be an `instance` and can't.
@@ -49,7 +49,7 @@ void check_placements(const Scene& scene);
 /// and exact meshes.
 struct HollowObjects {
     std::vector<uint32_t> flags;  ///< per object: 1 or 0
-    uint32_t most = 0;            ///< that a ray may be in at once: the smooth ones count as one
+    uint32_t maximum = 0;         ///< that a ray may be in at once: the smooth ones count as one
 };
 HollowObjects hollow_objects(const Scene& scene);
 

@@ -42,9 +42,9 @@ struct RenderSettings {
     int samples = 1;            ///< per pixel, 1..4096
     int depth = 5;              ///< reflections and refractions in a row, 0..64
     bool shadows = true;
-    bool filtered_shadows = false;  ///< refracting objects tint and dim light instead of hiding it
-    double least_weight = 1.0 / 4096;  ///< paths that would add less than this share of a pixel end
-    ImageChannels channels;            ///< not in scene files: what the outputs have
+    bool filtered_shadows = false;   ///< refracting objects tint and dim light instead of hiding it
+    double min_weight = 1.0 / 4096;  ///< paths that would add less than this share of a pixel end
+    ImageChannels channels;          ///< not in scene files: what the outputs have
 
     friend bool operator==(const RenderSettings&, const RenderSettings&) = default;
 };
@@ -72,7 +72,7 @@ void resize(Scene& scene, glm::ivec2 size);
 
 /// Sets where each model can be seen: the world's box carried into the space of every object that
 /// shows it.
-void find_reaches(Scene& scene);
+void find_extents(Scene& scene);
 
 /// What the scene holds, in lines for people: world, models, objects, lights, observer.
 std::string describe(const Scene& scene);

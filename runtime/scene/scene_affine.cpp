@@ -101,12 +101,12 @@ std::span<const ValueRow<Factors>> factor_rows() {
 
 void check_map(const glm::dmat4& map, std::string_view key, const Refuse& refuse) {
     const Stretch stretch = stretch_of(glm::dmat3(map));
-    if (stretch.min < kLeastStretch)
+    if (stretch.min < kMinStretch)
         refuse(key, "is singular: it flattens the object to nothing in one direction");
-    if (stretch.max > stretch.min * kMostCondition)
+    if (stretch.max > stretch.min * kMaxCondition)
         refuse(key, fmt::format("stretches {:.3g} times as much in one direction as in another, "
                                 "which is close to singular; at most {} times is allowed",
-                                stretch.max / stretch.min, kMostCondition));
+                                stretch.max / stretch.min, kMaxCondition));
 }
 
 }  // namespace voxelume

@@ -35,7 +35,7 @@ Scene scene_at(const Scene& scene, double frame) {
             throw at_frame(error, frame);
         }
     }
-    find_reaches(now);
+    find_extents(now);
     return now;
 }
 

@@ -45,7 +45,7 @@ std::string light_text(const Light& light) {
     const bool has_place = type.has_position;
     return fmt::format(
         "light \"{}\": {}, {} {}, energy {}", light.name, type.name, has_place ? "at" : "along",
-        vector_text(has_place ? light.position : light.direction), vector_text(light.energy));
+        vector_text(has_place ? light.position : light.direction), vector_text(light.intensity));
 }
 
 std::string density_text(const Density& density) {

@@ -80,7 +80,7 @@ Scene read_scene(const JsonValue& document, const std::filesystem::path& file,
     if (const auto value = fields.find("render")) scene.render = read_render(*value);
     if (const auto value = fields.find("animation")) scene.animation = read_animation(*value);
     scene.observer = read_observer(fields.get("observer"), scene);
-    find_reaches(scene);
+    find_extents(scene);
     scene.motion = read_motion(root, search, scene);
     return scene.motion ? scene_at(scene, 1) : scene;
 }

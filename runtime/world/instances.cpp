@@ -18,18 +18,19 @@ constexpr double kFar = 1e9;  // metres
 
 /// The model as an instance shows it: whole, wherever the world ends.
 Model whole(Model model) {
-    model.reach = {glm::dvec3(-kFar), glm::dvec3(kFar)};
+    model.extent = {glm::dvec3(-kFar), glm::dvec3(kFar)};
     return model;
 }
 
 }  // namespace
 
-ListedInstances list_instances(const Scene& scene, MeshStore& meshes, ObjectGrids& grids) {
+ListedInstances list_instances(const Scene& scene, AssetStore& meshes, GridCache& grids) {
     ListedInstances listed;
     std::map<int, uint32_t> numbers;
     for (uint32_t number = 0; number < scene.objects.size(); ++number) {
         const Object& object = scene.objects[number];
-        if (!object.visible || !object.in_reach || !is_instanced(scene, object)) continue;
+        if (!object.visible || !object.potentially_visible || !is_instanced(scene, object))
+            continue;
         const Model& model = scene.models[size_t(object.model)];
         const auto [entry, added] =
             numbers.emplace(object.model, static_cast<uint32_t>(listed.grids.size()));
@@ -117,7 +118,7 @@ void leave_out_places_of_instances(const Scene& scene, std::vector<Model>& model
             is_baked[size_t(objects[number].model)] = true;
     }
     for (size_t model = 0; model < models.size(); ++model)
-        if (!is_baked[model]) models[model].reach = {};
+        if (!is_baked[model]) models[model].extent = {};
 }
 
 void move_instances(const Device& device, const Scene& scene, Pyramid& world) {

@@ -4,7 +4,7 @@
 #include "runtime/grid/grid.hpp"
 #include "runtime/scene/scene.hpp"
 #include "runtime/stages/instance/instance_model.hpp"
-#include "runtime/world/object_grids.hpp"
+#include "runtime/world/grid_cache.hpp"
 
 namespace voxelume {
 
@@ -25,9 +25,9 @@ struct ListedInstances {
 };
 
 /// Lists a scene's instances, and has their models voxelized in their own frames. Throws as
-/// ObjectGrids and materials_of_groups do, and Error::scene for a model some of whose voxels let
+/// GridCache and materials_of_groups do, and Error::scene for a model some of whose voxels let
 /// light through.
-ListedInstances list_instances(const Scene& scene, MeshStore& meshes, ObjectGrids& grids);
+ListedInstances list_instances(const Scene& scene, AssetStore& meshes, GridCache& grids);
 
 /// Puts instances behind worlds, and keeps the pyramids of their models.
 class InstanceModels {

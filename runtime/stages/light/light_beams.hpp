@@ -5,12 +5,12 @@
 
 namespace voxelume {
 
-/// The grid of a light's beams through a world of `size` voxels, as narrow as a halo asks for whose
-/// voxels are 1 / `scale` of the world's. Without columns where no axis tells the light from the
-/// world, beams would be too oblique, or more than `most` of them needed.
-BeamGrid beam_grid(const LightRecord& light, const glm::ivec3& size, float scale, uint32_t most);
+/// The grid of a light's beams through a world of `size` voxels, as narrow as a dilated occupancy
+/// asks for whose voxels are 1 / `scale` of the world's. Without columns where no axis tells the
+/// light from the world, beams would be too oblique, or more than `maximum` of them needed.
+BeamGrid beam_grid(const LightRecord& light, const glm::ivec3& size, float scale, uint32_t maximum);
 
-/// Whether two grids of one halo have the same beams.
+/// Whether two grids of one dilated occupancy have the same beams.
 bool same_beams(const BeamGrid& a, const BeamGrid& b);
 
 /// How many beams of one light save more than they cost where a picture's pixels are so wide and
@@ -23,9 +23,9 @@ uint32_t light_beams_that_pay(const GridFrame& world, uint64_t rays, int samples
 /// meet.
 class LightBeamStage {
   public:
-    /// `halo` is the pyramid's.
+    /// `dilated_occupancy` is the pyramid's.
     LightBeamStage(const Device& device, const Features& features, const Pyramid& pyramid,
-                   Halo halo);
+                   DilatedOccupancy dilated_occupancy);
 
     /// Sends the beams of a grid with columns that pass sectors with voxels, where shadow rays
     /// begin; how far they come.
@@ -37,7 +37,7 @@ class LightBeamStage {
     Device device_;
     glm::dvec3 size_;  // of the world, voxels
     PyramidShape shape_;
-    Halo halo_;
+    DilatedOccupancy dilated_occupancy_;
     uint64_t sent_ = 0;
     Program program_;
     Kernel send_;

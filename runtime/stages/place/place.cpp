@@ -40,7 +40,7 @@ std::vector<const PlacedObject*> painting_order(std::span<const PlacedObject> ob
 
 /// A world that is its only object: its buffers, with its word.
 bool is_only_object(std::span<const PlacedObject> objects, const WorldParts& parts) {
-    return objects.size() == 1 && objects[0].in_world_frame && !parts.has_words() &&
+    return objects.size() == 1 && objects[0].in_world_frame && !parts.has_attributes() &&
            !objects[0].keeps_inside && !lists_primitives(surface_of(*objects[0].grid));
 }
 
@@ -57,7 +57,7 @@ class Placer::State {
     void share(const PlacedObject& object, const WorldParts& parts) {
         world_ = *object.grid;
         world_.attributes = {};
-        world_.attribute = *parts.words.begin();
+        world_.attribute = *parts.attributes.begin();
     }
 
     void place(std::span<const PlacedObject> objects, const WorldParts& parts) {
@@ -190,14 +190,14 @@ class Placer::State {
     void paint(std::span<const PlacedObject> objects, const std::vector<uint32_t>& bricks) {
         painted_ = uint32_t(bricks.size());
         world_.transparent = parts_.transparent;
-        world_.attribute = parts_.words.size() == 1 ? *parts_.words.begin() : 0;
+        world_.attribute = parts_.attributes.size() == 1 ? *parts_.attributes.begin() : 0;
         if (bricks.empty()) return;
         bricks_->clear(bricks);
         Painting painting;
         const glm::ivec3 table = world_.frame.bricks();
         painting.places.assign(size_t(table.x) * size_t(table.y) * size_t(table.z), kBrickOutside);
         for (uint32_t place = 0; place < painted_; ++place) painting.places[bricks[place]] = place;
-        if (parts_.smooth && (parts_.has_words() || parts_.colors || parts_.occupancy)) {
+        if (parts_.smooth && (parts_.has_attributes() || parts_.colors || parts_.occupancy)) {
             painting.nearest =
                 Buffer<int16_t>(device_, "nearest surfaces", size_t(painted_) * 4096);
             painting.nearest.fill(32767);

@@ -22,7 +22,7 @@ Program program_for(const Device& device, const WorldParts& parts) {
             "place_bricks.cl",
             {{"VXL_SMOOTH", parts.smooth},
              {"VXL_OCCUPANCY", parts.occupancy},
-             {"VXL_ATTRIBUTES", parts.has_words()},
+             {"VXL_ATTRIBUTES", parts.has_attributes()},
              {"VXL_COLORS", parts.colors}}};
 }
 
@@ -40,7 +40,7 @@ WorldBricks::WorldBricks(const Device& device, const WorldParts& parts, BrickGri
     : device_(device),
       smooth_(parts.smooth),
       occupancy_(parts.occupancy),
-      words_(parts.has_words()),
+      has_attributes_(parts.has_attributes()),
       colors_(parts.colors),
       world_(world),
       program_(program_for(device, parts)) {
@@ -62,15 +62,16 @@ void WorldBricks::store_like(const WorldParts& parts) {
     };
     store(world_.occupancy, occupancy_, parts.occupancy, kOccupancy, voxels / 64, uint64_t{0});
     store(world_.distance, smooth_, parts.smooth, kDistances, voxels, kSaturated);
-    store(world_.attributes, words_, parts.has_words(), kAttributes, voxels, world_.attribute);
+    store(world_.attributes, has_attributes_, parts.has_attributes(), kAttributes, voxels,
+          world_.attribute);
     store(world_.colors, colors_, parts.colors, kColors, voxels, kWhite);
     program_ = program_for(device_, parts);
 }
 
-std::vector<uint32_t> WorldBricks::store(const std::vector<uint32_t>& places,
+std::vector<uint32_t> WorldBricks::store(const std::vector<uint32_t>& brick_numbers,
                                          const std::vector<uint8_t>& states) {
     std::vector<uint32_t> gaps, added, stored;
-    for (const uint32_t place : places) {
+    for (const uint32_t place : brick_numbers) {
         const bool was_stored = slots_[place] < kBrickInside, is_stored = states[place] == kSurface;
         if (is_stored) stored.push_back(place);
         if (was_stored && !is_stored) gaps.push_back(slots_[place]);
@@ -116,10 +117,10 @@ void WorldBricks::fill_gaps(const std::vector<uint32_t>& gaps) {
                 world_.distance, world_.occupancy, world_.attributes, world_.colors);
 }
 
-void WorldBricks::clear(const std::vector<uint32_t>& places) {
+void WorldBricks::clear(const std::vector<uint32_t>& brick_numbers) {
     std::vector<uint32_t> slots;
-    slots.reserve(places.size());
-    for (const uint32_t place : places) slots.push_back(slots_[place]);
+    slots.reserve(brick_numbers.size());
+    for (const uint32_t place : brick_numbers) slots.push_back(slots_[place]);
     const auto parts = uint32_t(slots.size() * 64);
     program_.kernel("clear_bricks")
         .launch(WorkItem::light, parts, parts, Buffer<uint32_t>(device_, "cleared bricks", slots),
@@ -130,15 +131,17 @@ void WorldBricks::clear(const std::vector<uint32_t>& places) {
 /// large.
 void WorldBricks::reserve(uint32_t bricks) {
     if (bricks <= reserved_) return;
-    const size_t brick_bytes = kVoxels * (words_ || colors_ ? 4 : smooth_ ? 2 : 1);
-    const size_t most = std::max<size_t>(device_.info().max_allocation / brick_bytes, bricks);
-    const size_t places = reserved_ == 0 ? bricks : std::min<size_t>(bricks + bricks / 4, most);
-    const size_t voxels = places * kVoxels;
+    const size_t brick_bytes = kVoxels * (has_attributes_ || colors_ ? 4 : smooth_ ? 2 : 1);
+    const size_t maximum = std::max<size_t>(device_.info().max_allocation / brick_bytes, bricks);
+    const size_t brick_numbers =
+        reserved_ == 0 ? bricks : std::min<size_t>(bricks + bricks / 4, maximum);
+    const size_t voxels = brick_numbers * kVoxels;
     if (occupancy_) world_.occupancy = enlarged(device_, kOccupancy, world_.occupancy, voxels / 64);
     if (smooth_) world_.distance = enlarged(device_, kDistances, world_.distance, voxels);
-    if (words_) world_.attributes = enlarged(device_, kAttributes, world_.attributes, voxels);
+    if (has_attributes_)
+        world_.attributes = enlarged(device_, kAttributes, world_.attributes, voxels);
     if (colors_) world_.colors = enlarged(device_, kColors, world_.colors, voxels);
-    reserved_ = uint32_t(places);
+    reserved_ = uint32_t(brick_numbers);
 }
 
 }  // namespace voxelume

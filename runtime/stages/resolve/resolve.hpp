@@ -19,7 +19,7 @@ Defines resolve_defines(const Device& device, const Features& features,
 class ResolveStage {
   public:
     /// Only the `channels` asked for are allocated and made.
-    ResolveStage(const Device& device, const Features& features, const Sight& sight,
+    ResolveStage(const Device& device, const Features& features, const Camera& camera,
                  const ImageChannels& channels = {});
 
     /// Makes the pixels of `tiles` tiles from `first_tile` on.
@@ -32,7 +32,7 @@ class ResolveStage {
     uint32_t not_finite() const { return not_finite_.read_one(0); }
 
   private:
-    Sight sight_;
+    Camera camera_;
     std::vector<const char*> names_;  ///< of the planes
     Buffer<float> planes_;            ///< one after another
     Buffer<uint32_t> objects_;        ///< number of the object plus 1

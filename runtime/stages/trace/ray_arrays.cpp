@@ -12,11 +12,11 @@ constexpr const char* kFewerRays =
 /// Makes arrays of so many places on a device; without one it only counts their bytes.
 class ArrayMaker {
   public:
-    ArrayMaker(const Device* device, uint32_t places) : device_(device), places_(places) {}
+    ArrayMaker(const Device* device, uint32_t slots) : device_(device), slots_(slots) {}
 
     template <class T>
     void make(Buffer<T>& array, const char* name, size_t components) {
-        const size_t size = size_t(places_) * components;
+        const size_t size = size_t(slots_) * components;
         bytes_ += double(size * sizeof(T));
         if (device_) array = Buffer<T>(*device_, name, size, kFewerRays);
     }
@@ -24,12 +24,12 @@ class ArrayMaker {
 
   private:
     const Device* device_;
-    uint32_t places_;
+    uint32_t slots_;
     double bytes_ = 0;
 };
 
 size_t path_components(const Features& features) {
-    if (features.transmission) return VXL_PATH_INSIDE + 1 + size_t(features.other_members);
+    if (features.transmission) return VXL_PATH_INSIDE + 1 + size_t(features.other_media);
     return features.instances ? VXL_PATH_INSIDE : VXL_PATH_CELL;
 }
 
@@ -52,11 +52,11 @@ void make_batch(const Features& features, ArrayMaker& maker, RayBatch& batch) {
     maker.make(batch.hits, "hits", hit_components(features));
     if (features.positions) maker.make(batch.positions, "positions", 3);
     if (features.normals) maker.make(batch.normals, "normals", 3);
-    if (features.words) maker.make(batch.words, "words", 1);
+    if (features.hit_attributes) maker.make(batch.hit_attributes, "hit attributes", 1);
     if (!features.radiance) return;
     maker.make(batch.radiance, "radiance", 3);
     if (features.paths) maker.make(batch.sides, "sides", 1);
-    if (features.paths && features.absorbs) maker.make(batch.passed, "passed", 3);
+    if (features.paths && features.absorbs) maker.make(batch.transmittance, "transmittance", 3);
     if (features.transmission) maker.make(batch.coverage, "coverage", 1);
 }
 
@@ -68,7 +68,7 @@ void make_shadow_queue(const Features& features, ArrayMaker& maker, ShadowQueue&
     maker.make(queue.rays, "shadow queue", VXL_RAY_COMPONENTS);
     maker.make(queue.targets, "shadow queue", 1);
     if (features.exact()) maker.make(queue.sources, "shadow queue", 1);
-    maker.make(queue.shares, "shadow queue", 3);
+    maker.make(queue.contributions, "shadow queue", 3);
 }
 
 void make_depth(const Features& features, bool is_first, ArrayMaker& maker, PathDepth& depth) {
@@ -77,18 +77,18 @@ void make_depth(const Features& features, bool is_first, ArrayMaker& maker, Path
         make_queue(features, maker, depth.next);
         maker.make(depth.nodes.radiance, "node light", 3);
         if (is_first) maker.make(depth.nodes.coverage, "node coverage", 1);
-        maker.make(depth.children.gains, "path gains", 3);
+        maker.make(depth.children.node_weights, "path node weights", 3);
     }
     maker.make(depth.children.nodes, "path children", branches_of(features));
-    maker.make(depth.children.shares, "path shares", branches_of(features));
+    maker.make(depth.children.child_weights, "path child weights", branches_of(features));
 }
 
-uint32_t shadow_places(const Features& features, uint32_t most_rays) {
-    return std::bit_ceil(branches_of(features) * most_rays);
+uint32_t shadow_slots(const Features& features, uint32_t max_rays) {
+    return std::bit_ceil(branches_of(features) * max_rays);
 }
 
-double depth_bytes(const Features& features, bool is_first, uint32_t places) {
-    ArrayMaker maker(nullptr, places);
+double depth_bytes(const Features& features, bool is_first, uint32_t slots) {
+    ArrayMaker maker(nullptr, slots);
     PathDepth depth;
     make_depth(features, is_first, maker, depth);
     return maker.bytes();
@@ -96,11 +96,11 @@ double depth_bytes(const Features& features, bool is_first, uint32_t places) {
 
 }  // namespace
 
-uint32_t batch_tiles(const Features& features, int samples, uint32_t most) {
-    return std::clamp(batch_rays(features) / (16 * uint32_t(samples)), 1u, most);
+uint32_t batch_tiles(const Features& features, int samples, uint32_t maximum) {
+    return std::clamp(batch_rays(features) / (16 * uint32_t(samples)), 1u, maximum);
 }
 
-uint32_t depth_places(uint32_t count) {
+uint32_t depth_slots(uint32_t count) {
     return std::max(std::bit_ceil(count), 16u);
 }
 
@@ -118,7 +118,7 @@ void renew_sight(const Device& device, RayBatch& batch) {
 }
 
 ShadowQueue allocate_shadow_queue(const Device& device, const Features& features,
-                                  uint32_t most_rays) {
+                                  uint32_t max_rays) {
     ShadowQueue queue;
     if (!has_shadow_queue(features)) return queue;
     queue.count = Buffer<uint32_t>(device, "shadow queue", 1);
@@ -126,22 +126,22 @@ ShadowQueue allocate_shadow_queue(const Device& device, const Features& features
         queue.traced = Buffer<uint32_t>(device, "shadow rays", 2);
         queue.traced.fill(0);
     }
-    ArrayMaker maker(&device, shadow_places(features, most_rays));
+    ArrayMaker maker(&device, shadow_slots(features, max_rays));
     make_shadow_queue(features, maker, queue);
     return queue;
 }
 
 PathDepth allocate_depth(const Device& device, const Features& features, bool is_first,
-                         uint32_t places) {
+                         uint32_t slots) {
     PathDepth depth;
-    ArrayMaker maker(&device, places);
+    ArrayMaker maker(&device, slots);
     make_depth(features, is_first, maker, depth);
-    depth.entries.stride = depth.nodes.stride = places;
+    depth.entries.stride = depth.nodes.stride = slots;
     return depth;
 }
 
 RayBytes ray_bytes(const Features& features, bool is_lit, uint32_t rays, size_t depth) {
-    ArrayMaker sight(nullptr, rays), shadow(nullptr, shadow_places(features, rays));
+    ArrayMaker sight(nullptr, rays), shadow(nullptr, shadow_slots(features, rays));
     RayBatch batch;
     make_batch(features, sight, batch);
     ShadowQueue queue;
@@ -149,7 +149,7 @@ RayBytes ray_bytes(const Features& features, bool is_lit, uint32_t rays, size_t 
     RayBytes bytes;
     bytes.once = sight.bytes() + shadow.bytes();
     if (features.paths && features.radiance) bytes.once += depth_bytes(features, true, rays);
-    bytes.per_depth = depth_bytes(features, false, depth_places(branches_of(features) * rays));
+    bytes.per_depth = depth_bytes(features, false, depth_slots(branches_of(features) * rays));
     bytes.depth = depth;
     return bytes;
 }
