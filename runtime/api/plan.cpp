@@ -12,7 +12,7 @@
 #include "runtime/api/process.hpp"
 #include "runtime/api/render.hpp"
 #include "runtime/memory/frame_plans.hpp"
-#include "runtime/scene_file/scene_animation.hpp"
+#include "runtime/scene/scene_animation.hpp"
 
 namespace voxelume {
 namespace {

@@ -10,7 +10,7 @@
 #include "runtime/api/process.hpp"
 #include "runtime/api/render.hpp"
 #include "runtime/base/version.hpp"
-#include "runtime/scene_file/scene_animation.hpp"
+#include "runtime/scene/scene_animation.hpp"
 
 namespace voxelume {
 namespace {

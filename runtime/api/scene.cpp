@@ -6,8 +6,8 @@
 #include "runtime/api/handles.hpp"
 #include "runtime/api/process.hpp"
 #include "runtime/api/tree.hpp"
-#include "runtime/scene_file/scene_animation.hpp"
-#include "runtime/scene_file/scene_parts.hpp"
+#include "runtime/scene/scene_animation.hpp"
+#include "runtime/scene_file/read_scene.hpp"
 
 namespace voxelume {
 
@@ -37,7 +37,8 @@ Scene Scene::build(const SceneDescription& description, const SceneOptions& opti
     return api::guarded([&] {
         api::apply_process_options();
         const JsonValue document = api::tree(description);
-        return api::handle_of(scene_of(document, description.name, asset_folders(options.assets)));
+        return api::handle_of(
+            read_scene(document, description.name, asset_folders(options.assets)));
     });
 }
 

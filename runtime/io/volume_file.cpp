@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "runtime/base/input_file.hpp"
+#include "runtime/base/text.hpp"
 #include "runtime/image/volume_geometry.hpp"
 #include "runtime/io/volume_format_table.hpp"
-#include "runtime/scene_file/scene_fields.hpp"
 
 namespace voxelume {
 namespace {

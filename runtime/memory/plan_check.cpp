@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "runtime/base/error.hpp"
+#include "runtime/grid/world_frame.hpp"
 #include "runtime/memory/plan.hpp"
 
 namespace voxelume {

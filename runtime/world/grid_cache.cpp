@@ -5,6 +5,7 @@
 
 #include "runtime/base/error.hpp"
 #include "runtime/grid/grid_bytes.hpp"
+#include "runtime/grid/world_frame.hpp"
 #include "runtime/stages/voxelize/cut.hpp"
 #include "runtime/stages/voxelize/voxelize_solid.hpp"
 

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "runtime/api/handles.hpp"
-#include "runtime/scene_file/scene_animation.hpp"
+#include "runtime/scene/scene_animation.hpp"
 #include "runtime/voxelume.hpp"
 
 namespace voxelume {

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "runtime/batch/frame_schedule.hpp"
+#include "runtime/scene_file/read_scene.hpp"
 #include "runtime/stages/trace/sight.hpp"
 #include "tests/device_image.hpp"
 #include "tests/oracles/image_hash.hpp"

@@ -4,8 +4,11 @@
 #include <array>
 #include <glm/trigonometric.hpp>
 
+#include "runtime/scene/light.hpp"
+#include "runtime/scene/observer.hpp"
 #include "runtime/scene/scene.hpp"
-#include "runtime/scene_file/scene_motion.hpp"
+#include "runtime/scene/scene_motion.hpp"
+#include "runtime/scene/solid.hpp"
 
 namespace voxelume {
 namespace {
@@ -15,10 +18,7 @@ std::string vector_text(glm::dvec3 v) {
 }
 
 std::string solid_text(const Solid& solid) {
-    static constexpr std::array names = {"sphere", "ellipsoid",    "box",       "cylinder",
-                                         "cone",   "torus",        "capsule",   "slab",
-                                         "union",  "intersection", "difference"};
-    std::string text = names[static_cast<size_t>(solid.kind)];
+    std::string text(solid_shapes()[static_cast<size_t>(solid.kind)].name);
     if (is_combination(solid.kind)) text += fmt::format(" of {} parts", solid.parts.size());
     return text;
 }
@@ -41,12 +41,11 @@ std::string model_text(const Model& model) {
 }
 
 std::string light_text(const Light& light) {
-    static constexpr std::array kinds = {"point", "spot", "directional", "disk", "rectangle"};
-    const bool has_place = light.kind != LightKind::directional;
-    return fmt::format("light \"{}\": {}, {} {}, energy {}", light.name,
-                       kinds[static_cast<size_t>(light.kind)], has_place ? "at" : "along",
-                       vector_text(has_place ? light.position : light.direction),
-                       vector_text(light.intensity));
+    const LightType& type = type_of(light);
+    const bool has_place = type.has_position;
+    return fmt::format(
+        "light \"{}\": {}, {} {}, energy {}", light.name, type.name, has_place ? "at" : "along",
+        vector_text(has_place ? light.position : light.direction), vector_text(light.intensity));
 }
 
 std::string density_text(const Density& density) {
@@ -68,12 +67,12 @@ std::string medium_text(const Medium& medium) {
 }
 
 std::string observer_text(const Observer& observer) {
-    static constexpr std::array shapes = {"pyramid", "sector", "ball", "box"};
     const Display& d = observer.display;
     return fmt::format(
         "observer: at {}, looking along {}, {} display of {}x{}x{} voxels, from {:.6g} to {:.6g} m",
         vector_text(observer.position), vector_text(observer.world_from_observer[2]),
-        shapes[static_cast<size_t>(d.shape)], d.voxels.x, d.voxels.y, d.voxels.z, d.near, d.far);
+        display_shapes()[static_cast<size_t>(d.shape)].name, d.voxels.x, d.voxels.y, d.voxels.z,
+        d.near, d.far);
 }
 
 }  // namespace

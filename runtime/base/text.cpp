@@ -1,10 +1,9 @@
-// The nearest known name for a misspelt one.
+#include "runtime/base/text.hpp"
+
 #include <algorithm>
 #include <cctype>
 #include <numeric>
-
-#include "runtime/base/error.hpp"
-#include "runtime/scene_file/scene_fields.hpp"
+#include <vector>
 
 namespace voxelume {
 namespace {

@@ -13,8 +13,8 @@ bool moves(const Scene& scene);
 /// animation. What no track changes is kept as it is in `scene`, also where it was changed after
 /// reading: lattices of the world and its models, the image's size, the display's voxels.
 ///
-/// Throws Error::scene, with the frame, for values that are wrong there although they are right at
-/// all keys, and Error::input for a numbered file that is missing.
+/// Nothing is read: files were found when the scene was. Throws Error::scene, with the frame, for
+/// values that don't go together there although they do at all keys.
 Scene scene_at(const Scene& scene, double frame);
 
 /// The error as one of a frame: its sentence ends with "(at frame 7)".
