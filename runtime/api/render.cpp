@@ -79,8 +79,7 @@ class Run {
 
     v1::Statistics render() {
         const auto start = Clock::now();
-        if (options_.time_kernels)
-            for (const Device& device : devices_) device.time_kernels(true);
+        for (const Device& device : devices_) device.time_kernels(options_.time_kernels);
         const BatchOutcome outcome = render_frames(
             devices_, scene_, batch_options(), [this](const FrameResult& result) { take(result); });
         for (const Device& device : devices_) device.finish();

@@ -111,6 +111,8 @@ void check_volume(const Volume& volume) {
     const auto objects = volume.object_ids();
     check(std::ranges::count(objects, 1u) > 20 && std::ranges::count(objects, 2u) > 20,
           "both objects are in it");
+    volume.write("room.vdb");
+    check(Volume::read("room.vdb").count() == volume.count(), "OpenVDB files are read again");
 }
 
 void check_errors() {

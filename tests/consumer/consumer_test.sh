@@ -25,6 +25,11 @@ if nm -D --defined-only "$library/libvoxelume.so" | grep -vE ' A | _Z(N|NK|TI|TS
     fail "the library exports names that aren't in its header"
 fi
 
+# The example at the header's head is a program.
+sed -nE 's#^//     ##p' "$prefix/include/voxelume.hpp" >"$folder/example.cpp"
+grep -q 'int main' "$folder/example.cpp" || fail "the header has no example"
+c++ -std=c++20 -Wall -Wextra -Wpedantic -Werror -fsyntax-only -I"$prefix/include" "$folder/example.cpp"
+
 cmake -S "$consumer" -B "$folder/cmake" -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_BUILD_TYPE=Release >"$folder/log" 2>&1 ||
     fail "$(cat "$folder/log")"
 cmake --build "$folder/cmake" >"$folder/log" 2>&1 || fail "$(cat "$folder/log")"

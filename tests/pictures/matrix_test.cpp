@@ -9,7 +9,7 @@
 #include <set>
 #include <stdexcept>
 
-#include "tests/device_image.hpp"
+#include "tests/batch/device_image.hpp"
 #include "tests/oracles/image_hash.hpp"
 #include "tests/pictures/golden_hash.hpp"
 #include "tests/pictures/small_scene.hpp"
