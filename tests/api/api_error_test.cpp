@@ -5,9 +5,9 @@
 #include <filesystem>
 #include <fstream>
 
-#include "runtime/voxelume.hpp"
+#include "tests/api/api_environment.hpp"
 
-namespace voxelume {
+namespace voxelume::v1 {
 namespace {
 
 namespace fs = std::filesystem;
@@ -106,7 +106,8 @@ TEST(ApiErrors, KeepThePlaceAtALaterFrame) {
         .frames = 3,
         .tracks = {{"objects.ball.scale", Keys<Vec3>{{1, {1, 1, 1}}, {3, {-1, 1, 1}}}, {}}}};
     const Scene moving = Scene::build(scene);
-    const Error error = error_of([&] { plan(moving, Device::open(), {.frames = {2}}); });
+    const Error error =
+        error_of([&] { plan(moving, Device::open(test_selector()), {.frames = {2}}); });
     EXPECT_EQ(error.kind(), ErrorKind::scene);
     EXPECT_EQ(error.file(), "room");
     EXPECT_THAT(error.key(), StartsWith("objects"));
@@ -134,7 +135,7 @@ TEST(ApiErrors, NameFilesThatAreMissingOrDamaged) {
 TEST(ApiErrors, SayWhyAWorldDoesNotFit) {
     SceneDescription scene = ball_scene();
     scene.world.voxel_size = uniform(2.0 / 65536);
-    const Device device = Device::open();
+    const Device device = Device::open(test_selector());
     const Error error = error_of([&] {
         const Plan planned = plan(Scene::build(scene), device);
         EXPECT_EQ(planned.verdict, Verdict::does_not_fit);
@@ -148,9 +149,10 @@ TEST(ApiErrors, RefuseToRenderNothingOrNowhere) {
     EXPECT_EQ(error_of([] { Device::open("no such device"); }).kind(), ErrorKind::device);
     EXPECT_EQ(error_of([] { render_image(Scene::build(ball_scene()), {}); }).kind(),
               ErrorKind::usage);
-    EXPECT_EQ(
-        error_of([] { render_frames(Scene::build(ball_scene()), {Device::open()}, {}); }).kind(),
-        ErrorKind::usage);
+    EXPECT_EQ(error_of([] {
+                  render_frames(Scene::build(ball_scene()), {Device::open(test_selector())}, {});
+              }).kind(),
+              ErrorKind::usage);
 }
 
-}  // namespace voxelume
+}  // namespace voxelume::v1

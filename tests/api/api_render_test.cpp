@@ -3,18 +3,16 @@
 #include <gmock/gmock.h>
 #include <unistd.h>
 
-#include <atomic>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <mutex>
 
-#include "runtime/voxelume.hpp"
+#include "tests/api/api_environment.hpp"
 
 extern char** environ;
 
-namespace voxelume {
+namespace voxelume::v1 {
 namespace {
 
 namespace fs = std::filesystem;
@@ -22,14 +20,10 @@ namespace fs = std::filesystem;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-/// Kernels come from the tests' own cache.
+/// One device for all tests, and a folder for each.
 class ApiRender : public testing::Test {
   protected:
-    static void SetUpTestSuite() {
-        configure({.set_driver_environment = true});
-        const char* name = std::getenv("VXL_TEST_DEVICE");
-        device = new std::vector{Device::open(name ? name : "cpu")};
-    }
+    static void SetUpTestSuite() { device = new std::vector{Device::open(test_selector())}; }
     static void TearDownTestSuite() { delete device; }
     void SetUp() override {
         std::string name = (fs::temp_directory_path() / "voxelume-XXXXXX").string();
@@ -239,4 +233,4 @@ TEST_F(ApiRender, ComparesAndDescribesWhatItWrote) {
     EXPECT_THROW(sheet.write(folder / "a.gif"), Error);
 }
 
-}  // namespace voxelume
+}  // namespace voxelume::v1

@@ -1,10 +1,9 @@
 // Scenes built from plain structs are those that files describe.
-#define VOXELUME_BUILDING
 #include <gmock/gmock.h>
 
 #include "runtime/api/handles.hpp"
 #include "runtime/scene/scene_animation.hpp"
-#include "runtime/voxelume.hpp"
+#include "tests/api/api_environment.hpp"
 
 namespace voxelume {
 namespace {
