@@ -13,11 +13,8 @@
 #include <new>
 #include <thread>
 
+#include "cli/checks.hpp"
 #include "cli/commands.hpp"
-#include "runtime/base/error.hpp"
-#include "runtime/base/version.hpp"
-#include "runtime/io/image/exr.hpp"
-#include "runtime/scene_file/scene_fields.hpp"
 
 namespace voxelume::cli {
 
@@ -61,7 +58,7 @@ const Command& find_command(const std::string& name) {
         if (name == command.name) return command;
         names.emplace_back(command.name);
     }
-    throw Error(ErrorKind::usage, "no command named {}{}", quote(name), suggest(name, names));
+    fail_usage("no command named {}{}", quote(name), suggest(name, names));
 }
 
 /// The first option or argument that `app` doesn't know, as part of a sentence.
@@ -85,17 +82,15 @@ int run_command(const Command& command, std::vector<std::string> arguments) {
         fmt::print("{}", app.help());
         return 0;
     } catch (const CLI::ExtrasError&) {
-        throw Error(ErrorKind::usage, "{}: {}", command.name, describe_extra(app));
+        fail_usage("{}: {}", command.name, describe_extra(app));
     } catch (const CLI::ParseError& error) {
-        throw Error(ErrorKind::usage, "{}: {}; see `voxelume help {}`", command.name, error.what(),
-                    command.name);
+        fail_usage("{}: {}; see `voxelume help {}`", command.name, error.what(), command.name);
     }
     return action();
 }
 
 int run(std::vector<std::string> arguments) {
-    if (arguments.empty())
-        throw Error(ErrorKind::usage, "a command is missing; `voxelume help` lists them");
+    if (arguments.empty()) fail_usage("a command is missing; `voxelume help` lists them");
     const std::string first = arguments.front();
     arguments.erase(arguments.begin());
     if (first == "--version") {
@@ -106,15 +101,15 @@ int run(std::vector<std::string> arguments) {
     if (asks_for_help && arguments.empty()) return print_help();
     if (asks_for_help) return run_command(find_command(arguments.front()), {"--help"});
     if (first.starts_with('-'))
-        throw Error(ErrorKind::usage, "the command comes before its options: voxelume COMMAND {}",
-                    first);
+        fail_usage("the command comes before its options: voxelume COMMAND {}", first);
     return run_command(find_command(first), std::move(arguments));
 }
 
 /// What was printed has to have arrived: `voxelume info x >/dev/full` has failed.
 void flush_stdout() {
     if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
-        throw Error(ErrorKind::output, "can't write to standard output: {}", std::strerror(errno));
+        throw Error(ErrorKind::output,
+                    fmt::format("can't write to standard output: {}", std::strerror(errno)));
 }
 
 /// One line that can't steer the terminal, whatever is in a file's name; a compiler's log has more.
@@ -150,8 +145,10 @@ int main(int count, char** arguments) {
     // A file that reaches `ulimit -f` is a failed write like any other, not the end of the process.
     std::signal(SIGXFSZ, SIG_IGN);
     cli::keep_freed_memory();
-    voxelume::set_exr_threads(int(std::thread::hardware_concurrency()));
     try {
+        voxelume::configure({.set_driver_environment = true,
+                             .isolate_readers = true,
+                             .image_threads = int(std::thread::hardware_concurrency())});
         const int code = cli::run({arguments + (count > 0 ? 1 : 0), arguments + count});
         cli::flush_stdout();
         return code;

@@ -3,9 +3,9 @@
 #include <CLI/CLI.hpp>
 
 #include "cli/checks.hpp"
-#include "runtime/base/error.hpp"
 
 namespace voxelume::cli {
+
 void add_scene_options(CLI::App& app, SceneOptions& options) {
     app.add_option("SCENE", options.scene, "the scene, JSON (see scenes/README.md)")->required();
     app.add_option("--assets", options.assets, "folder of models that the scene names")
@@ -18,16 +18,15 @@ void add_scene_options(CLI::App& app, SceneOptions& options) {
     app.add_flag("--no-cache", options.no_cache, "neither read nor keep models' voxels on disk");
 }
 
-ModelCache model_cache(const SceneOptions& options) {
-    return options.no_cache ? ModelCache() : ModelCache::of_user();
+CacheOptions cache_options(const SceneOptions& options) {
+    return {.enabled = !options.no_cache};
 }
 
 Scene read_with(const SceneOptions& options, const char* command) {
-    const glm::ivec2 size =
-        options.size.empty() ? glm::ivec2(0) : parse_size(options.size, command);
-    Scene scene = read_scene(options.scene, asset_folders(options.assets));
-    if (size.x != 0) resize(scene, size);
-    if (options.samples != 0) scene.render.samples = options.samples;
+    const Size size = options.size.empty() ? Size{} : parse_size(options.size, command);
+    Scene scene = Scene::load(options.scene, {options.assets});
+    if (size[0] != 0) scene = scene.with_size(size);
+    if (options.samples != 0) scene = scene.with_samples(options.samples);
     return scene;
 }
 

@@ -1,16 +1,11 @@
 // voxelume view: a look at a volumetric image, as a picture or as a page for a browser.
 #include <CLI/CLI.hpp>
 #include <filesystem>
-#include <glm/trigonometric.hpp>
 #include <string>
 #include <vector>
 
 #include "cli/checks.hpp"
 #include "cli/commands.hpp"
-#include "runtime/image/volume_view.hpp"
-#include "runtime/io/image/png.hpp"
-#include "runtime/io/volume/volume_page.hpp"
-#include "runtime/io/volume_file.hpp"
 
 namespace voxelume::cli {
 namespace {
@@ -21,25 +16,23 @@ struct ViewCommand {
     std::string from, size = "1280x1000";
     std::vector<std::string> outputs;
     double around = 35, above = 25;
-    float exposure = 0;
+    double exposure = 0;
 };
 
 int run(const ViewCommand& command) {
-    const glm::ivec2 size = parse_size(command.size, "view");
-    if (size.x < kMinSide || size.y < kMinSide)
-        throw Error(ErrorKind::usage, "view: --size {}: a sheet has at least {} pixels a side",
-                    command.size, kMinSide);
+    const Size size = parse_size(command.size, "view");
+    if (size[0] < kMinSide || size[1] < kMinSide)
+        fail_usage("view: --size {}: a sheet has at least {} pixels a side", command.size,
+                   kMinSide);
     for (const std::string& output : command.outputs)
         check_output(output, {".png", ".html"}, "view");
-    const Volume volume = read_volume(command.from);
-    const ViewPoint view{glm::radians(command.around), glm::radians(command.above)};
-    PngOptions png;
-    png.exposure = command.exposure;
+    const Volume volume = Volume::read(command.from);
+    const ViewPoint view{command.around, command.above};
     for (const std::string& output : command.outputs) {
         if (std::filesystem::path(output).extension() == ".html")
-            write_volume_page(output, volume, {view, command.exposure});
+            volume.write_page(output, view, command.exposure);
         else
-            write_png(output, view_sheet(volume, view, size), png);
+            volume.view(view, size).write(output, {.exposure = command.exposure});
     }
     return 0;
 }

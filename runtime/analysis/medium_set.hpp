@@ -23,12 +23,4 @@ bool may_begin_inside(const Scene& scene, const Pyramid& world);
 /// Features of a scene whose rays may begin anywhere in the world, as those for single voxels do.
 Features begun_anywhere(Features features, const Scene& scene);
 
-/// Objects that transmit light of which no formula tells whether a ray begins inside: smooth ones
-/// and exact meshes.
-struct HollowObjects {
-    std::vector<uint32_t> flags;  ///< per object: 1 or 0
-    uint32_t maximum = 0;         ///< that a ray may be in at once: the smooth ones count as one
-};
-HollowObjects hollow_objects(const Scene& scene);
-
 }  // namespace voxelume

@@ -16,12 +16,6 @@ Features features_of(const Scene& scene, const Pyramid& world);
 /// objects are, and no voxels.
 void add_scene(const Scene& scene, const Pyramid& world, Features& features);
 
-/// Whether any light comes from it.
-bool shines(const Light& light);
-
-/// Whether it shines from a patch, not from one point or direction.
-bool has_area(const Light& light);
-
 /// Whether some object that the world may show is an emissive object.
 bool has_emissive_object(const Scene& scene, const Pyramid& world);
 

@@ -10,17 +10,11 @@ namespace voxelume {
 /// Margin of empty voxels around a model, so that the differences of a smooth surface lie inside.
 inline constexpr int kModelMargin = 4;
 
-/// The world's lattice: its first voxel starts at the bounds' minimum corner.
-GridFrame world_frame(const World& world);
-
 /// The lattice of a model in its own space, with kModelMargin. `mesh` is null for a solid.
 ///
 /// Throws Error::input for a model without extent whose voxels `resolution` decides, Error::limit
 /// for more voxels than can be numbered; the sentence begins with the model's place.
 GridFrame model_frame(const Model& model, const MeshSummary* mesh);
-
-/// Whether rays see the voxels inside of the object, too: solid cubes that let light through.
-bool shows_inside(const Scene& scene, const Object& object);
 
 /// Whether the object is visible, and its model not empty within the world's bounds.
 bool may_be_shown(const Scene& scene, const Object& object);

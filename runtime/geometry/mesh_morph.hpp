@@ -13,7 +13,7 @@ namespace voxelume {
 ///
 /// Throws Error::input with both counts when the meshes have not as many vertices and the same
 /// triangles; `where` opens the sentence.
-Mesh morphed(const Mesh& from, const Mesh& to, double amount, const std::string& where);
+Mesh morphed(const Mesh& from, const Mesh& to, double amount, const SourcePlace& where);
 
 /// Vertices the share `amount` of the way to a sphere, straight away from or towards its centre. A
 /// vertex in the centre stays there.

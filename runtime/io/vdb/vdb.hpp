@@ -41,6 +41,10 @@ void write_vdb(const std::filesystem::path& path, const VdbVolume& volume);
 /// be loaded.
 void check_vdb_output(const std::filesystem::path& path);
 
+/// Whether files that voxelume didn't write are read by a child process first, as damaged ones may
+/// end the process that reads them. They are unless this says otherwise.
+void isolate_vdb_readers(bool is_isolated);
+
 /// One grid of a file.
 struct VdbSummary {
     std::string name;

@@ -12,6 +12,7 @@ namespace voxelume {
 /// The functions of the headers above, as namespace vdb has them in the module.
 struct VdbFunctions {
     const char* version;  ///< the program's that it belongs to
+    decltype(voxelume::isolate_vdb_readers)* isolate_vdb_readers;
     decltype(voxelume::write_vdb)* write_vdb;
     decltype(voxelume::read_vdb_metadata)* read_vdb_metadata;
     decltype(voxelume::read_vdb_summary)* read_vdb_summary;

@@ -10,8 +10,11 @@
 
 namespace voxelume::vdb {
 
+/// Whether read_vdb_grids has a child process read files first.
+void isolate_vdb_readers(bool is_isolated);
+
 /// Reads all grids. Damaged files make OpenVDB corrupt memory, so one that doesn't have the
-/// identifier that voxelume gave it is read by a child process first.
+/// identifier that voxelume gave it is read by a child process first, unless isolation is off.
 ///
 /// Throws Error::input for a file that is damaged, truncated or too large for the memory.
 openvdb::GridPtrVecPtr read_vdb_grids(const std::filesystem::path& path, const InputFile& readable);
