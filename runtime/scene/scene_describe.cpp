@@ -17,7 +17,7 @@ std::string vector_text(glm::dvec3 v) {
 }
 
 std::string solid_text(const Solid& solid) {
-    std::string text(solid_shapes()[static_cast<size_t>(solid.kind)].name);
+    std::string text(solid_types()[static_cast<size_t>(solid.kind)].name);
     if (is_combination(solid.kind)) text += fmt::format(" of {} parts", solid.parts.size());
     return text;
 }
