@@ -13,7 +13,7 @@
 
 namespace voxelume {
 
-/// What went wrong, as the program's exit code.
+/// The kind of failure, which is also the program's exit code.
 enum class ErrorKind : int {
     render = 1,  ///< rendering failed: a device was lost, a kernel misbehaved
     usage = 2,   ///< the command line
@@ -37,8 +37,8 @@ SourcePlace place_among(const Args&... args) {
     return place;
 }
 
-/// A finished sentence for the user (where, what, what to do), thrown anywhere, caught once in
-/// `main`. The place that the sentence names is known as data, too.
+/// A failure with a finished sentence for the user (where, what, what to do). It is thrown anywhere
+/// and caught once in `main`. The place that the sentence names is known as data, too.
 class Error : public std::runtime_error {
   public:
     Error(ErrorKind kind, const std::string& sentence)
@@ -66,8 +66,8 @@ class Error : public std::runtime_error {
     std::shared_ptr<const SourcePlace> place_;
 };
 
-/// Does something for `subject`, with which the sentence of a limit that it meets begins:
-/// "room.json: world: the rays buffer needs 3.7 MB on ...". The error stands at `place`.
+/// Calls `action`. If it meets a limit, the error's sentence begins with `subject`: "room.json:
+/// world: the rays buffer needs 3.7 MB on ...". The error stands at `place`.
 template <class Action>
 auto with_limits_of(const std::string& subject, const Action& action,
                     const SourcePlace& place = {}) {

@@ -16,10 +16,11 @@ std::atomic<bool> readers_are_isolated = true;
 
 struct VdbModule {
     const VdbFunctions* functions = nullptr;
-    std::string failure;  ///< why there are none
+    std::string failure;  ///< the reason why `functions` is null; else empty
 };
 
-/// The folder is the one that CMakeLists.txt wrote into the program. It stays open.
+/// Opens the module in the folder that CMakeLists.txt wrote into the program. The module stays
+/// open.
 VdbModule open_module() {
     void* module = dlopen("libvoxelume_vdb.so", RTLD_NOW | RTLD_LOCAL);
     void* table = module ? dlsym(module, "voxelume_vdb_functions") : nullptr;
