@@ -9,7 +9,7 @@
 
 #include "runtime/base/error.hpp"
 #include "runtime/batch/frame_queue.hpp"
-#include "runtime/scene_file/scene_animation.hpp"
+#include "runtime/scene/scene_animation.hpp"
 
 namespace voxelume {
 namespace {

@@ -12,7 +12,7 @@
 #include "runtime/batch/image_parts.hpp"
 #include "runtime/memory/frame_plans.hpp"
 #include "runtime/render/volume_renderer.hpp"
-#include "runtime/scene_file/scene_animation.hpp"
+#include "runtime/scene/scene_animation.hpp"
 #include "runtime/stages/trace/sight.hpp"
 
 namespace voxelume {

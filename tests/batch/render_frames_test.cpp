@@ -11,7 +11,7 @@
 #include <thread>
 
 #include "runtime/render/volume_renderer.hpp"
-#include "runtime/scene_file/scene_animation.hpp"
+#include "runtime/scene/scene_animation.hpp"
 #include "tests/oracles/image_hash.hpp"
 #include "tests/support/file_fixture.hpp"
 #include "tests/support/test_device.hpp"

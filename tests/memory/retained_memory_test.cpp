@@ -7,7 +7,8 @@
 
 #include "runtime/analysis/model_last_uses.hpp"
 #include "runtime/batch/frame_schedule.hpp"
-#include "runtime/scene_file/scene_animation.hpp"
+#include "runtime/scene/scene_animation.hpp"
+#include "runtime/scene_file/read_scene.hpp"
 #include "tests/oracles/image_hash.hpp"
 #include "tests/support/file_fixture.hpp"
 #include "tests/support/test_device.hpp"

@@ -4,7 +4,7 @@
 
 #include "runtime/batch/frame_schedule.hpp"
 #include "runtime/render/volume_renderer.hpp"
-#include "runtime/scene_file/scene_animation.hpp"
+#include "runtime/scene/scene_animation.hpp"
 #include "tests/oracles/image_hash.hpp"
 #include "tests/pictures/small_scene.hpp"
 #include "tests/support/shared_device.hpp"
