@@ -1,7 +1,7 @@
 // The lattice of the world.
 #pragma once
 
-#include "runtime/grid/grid.hpp"
+#include "runtime/grid/grid_frame.hpp"
 #include "runtime/scene/world.hpp"
 
 namespace voxelume {

@@ -42,7 +42,7 @@ struct Model {
     /// Box in object space outside of which no object shows the model: the world's bounds as seen
     /// from all objects that use it. An infinite solid ends there. Empty (min = max) for a model
     /// not used.
-    Bounds reach;
+    Bounds extent;
     SourcePlace where;
 
     friend bool operator==(const Model&, const Model&) = default;

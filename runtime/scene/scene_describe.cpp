@@ -1,7 +1,6 @@
 // Scene -> lines for people.
 #include <fmt/format.h>
 
-#include <array>
 #include <glm/trigonometric.hpp>
 
 #include "runtime/scene/light.hpp"
@@ -18,26 +17,24 @@ std::string vector_text(glm::dvec3 v) {
 }
 
 std::string solid_text(const Solid& solid) {
-    std::string text(solid_shapes()[static_cast<size_t>(solid.kind)].name);
+    std::string text(solid_types()[static_cast<size_t>(solid.kind)].name);
     if (is_combination(solid.kind)) text += fmt::format(" of {} parts", solid.parts.size());
     return text;
 }
 
 std::string model_text(const Model& model) {
-    static constexpr std::array surfaces = {"cubes", "smooth", "exact"};
     const std::string source =
         model.solid ? solid_text(*model.solid)
                     : (model.voxels.empty() ? model.mesh : model.voxels).filename().string();
     if (!model.voxels.empty())
-        return fmt::format("model \"{}\": {}, {}", model.name, source,
-                           surfaces[static_cast<size_t>(model.surface)]);
+        return fmt::format("model \"{}\": {}, {}", model.name, source, kind_of(model.surface).name);
     const std::string cut =
         model.cuts.empty() ? "" : fmt::format(", cut by {} solids", model.cuts.size());
     const std::string pitch =
         model.resolution > 0 ? fmt::format("{} voxels along the longest side", model.resolution)
                              : fmt::format("voxels of {} m", vector_text(model.voxel_size));
     return fmt::format("model \"{}\": {}{}, {}, {}", model.name, source, cut,
-                       surfaces[static_cast<size_t>(model.surface)], pitch);
+                       kind_of(model.surface).name, pitch);
 }
 
 std::string light_text(const Light& light) {

@@ -20,7 +20,7 @@ bool is_infinite(const Solid& solid) {
     }
 }
 
-std::span<const SolidShape> solid_shapes() {
+std::span<const SolidType> solid_types() {
     static constexpr KindKey sphere[] = {{"radius", true}};
     static constexpr KindKey ellipsoid[] = {{"radii", true}};
     static constexpr KindKey box[] = {{"size", true}};
@@ -29,7 +29,7 @@ std::span<const SolidShape> solid_shapes() {
     static constexpr KindKey torus[] = {{"radius", true}, {"tube", true}};
     static constexpr KindKey slab[] = {{"thickness", true}};
     static constexpr KindKey parts[] = {{"parts", true}};
-    static constexpr std::array<SolidShape, 11> shapes = {{
+    static constexpr std::array<SolidType, 11> shapes = {{
         {SolidKind::sphere, "sphere", sphere},
         {SolidKind::ellipsoid, "ellipsoid", ellipsoid},
         {SolidKind::box, "box", box},

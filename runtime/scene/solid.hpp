@@ -63,14 +63,14 @@ constexpr bool is_combination(SolidKind kind) {
 bool is_infinite(const Solid& solid);
 
 /// A shape, or a way to combine parts.
-struct SolidShape {
+struct SolidType {
     SolidKind kind;
     std::string_view name;  ///< in scene files
     std::span<const KindKey> keys;
 };
 
 /// In the order of SolidKind.
-std::span<const SolidShape> solid_shapes();
+std::span<const SolidType> solid_types();
 std::span<const ValueRow<Solid>> solid_rows();
 
 /// Refuses lengths of one shape that don't go together.

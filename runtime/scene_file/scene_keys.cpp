@@ -56,8 +56,8 @@ std::vector<KeyTable> make_tables() {
     tables.push_back({"model:voxels", {"voxels", "sequence", "surface"}});
     tables.push_back({"sequence", {"first", "last", "start", "loop"}});
     tables.push_back({"morph", {"mesh", "center", "radius", "amount"}});
-    add_kinds("model", {"shape"}, solid_shapes(), lattice, tables);
-    add_kinds("part", {"shape"}, solid_shapes(), placement, tables);
+    add_kinds("model", {"shape"}, solid_types(), lattice, tables);
+    add_kinds("part", {"shape"}, solid_types(), placement, tables);
     tables.push_back({"object", Keys{"name", "model", "material", "materials", "priority", "spots",
                                      "placement", "visible"} +
                                     placement});

@@ -16,6 +16,12 @@ namespace {
 
 using Names = std::vector<std::string_view>;
 
+Surface read_surface(const SceneValue& value) {
+    Names names;
+    for (const SurfaceKind& kind : kSurfaceKinds) names.push_back(kind.name);
+    return kSurfaceKinds[value.choice(names)].surface;
+}
+
 /// The pitch, surface and set of a model, whose source is already read.
 void read_lattice(const SceneFields& fields, glm::dvec3 world_voxel_size, Model& model) {
     fields.refuse_both("voxel_size", "resolution");
@@ -30,7 +36,7 @@ void read_lattice(const SceneFields& fields, glm::dvec3 world_voxel_size, Model&
         model.voxel_size = size ? size->number_or_vector(kLength) : world_voxel_size;
     }
     if (const auto surface = fields.find("surface")) {
-        model.surface = static_cast<Surface>(surface->choice(Names{"cubes", "smooth", "exact"}));
+        model.surface = read_surface(*surface);
     }
     if (const auto set = fields.find("set")) {
         model.set = static_cast<VoxelSet>(set->choice(Names{"supercover", "thin", "solid"}));
@@ -44,8 +50,7 @@ void read_lattice(const SceneFields& fields, glm::dvec3 world_voxel_size, Model&
 void read_voxels(const SceneFields& fields, const ModelContext& context, Model& model) {
     model.voxels = first_file(fields, "voxels", context.search);
     model.surface = Surface::cubes;
-    if (const auto surface = fields.find("surface"))
-        model.surface = static_cast<Surface>(surface->choice(Names{"cubes", "smooth", "exact"}));
+    if (const auto surface = fields.find("surface")) model.surface = read_surface(*surface);
 }
 
 Morph read_morph(const SceneValue& value, const AssetSearch& search) {

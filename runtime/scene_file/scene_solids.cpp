@@ -14,7 +14,7 @@ namespace {
 class SolidReader {
   public:
     Solid read(const SceneValue& value, std::string_view prefix, int depth) {
-        const SolidShape& shape = solid_shapes()[kind_of(value, "shape", "part")];
+        const SolidType& shape = solid_types()[kind_of(value, "shape", "part")];
         const SceneFields fields(value, fmt::format("{}:{}", prefix, shape.name));
         if (depth > kMaxSolidDepth) {
             value.fail(fmt::format("solids are nested more than {} levels deep", kMaxSolidDepth));

@@ -144,13 +144,13 @@ TEST_F(SceneRows, HaveTheLimitsAndDefaultsOfTheSchema) {
 TEST_F(SceneRows, OfEachKindAreThoseThatTheSchemaRequires) {
     expect_kinds("light", light_types(), light_rows());
     expect_kinds("display", display_shapes(), display_rows());
-    expect_kinds("part", solid_shapes(), solid_rows());
+    expect_kinds("part", solid_types(), solid_rows());
     expect_kinds("density", density_kinds(), height_density_rows());
 }
 
 TEST_F(SceneRows, OfKindsHaveTheOrderOfTheirEnumerators) {
     for (size_t i = 0; i < light_types().size(); ++i) EXPECT_EQ(size_t(light_types()[i].kind), i);
-    for (size_t i = 0; i < solid_shapes().size(); ++i) EXPECT_EQ(size_t(solid_shapes()[i].kind), i);
+    for (size_t i = 0; i < solid_types().size(); ++i) EXPECT_EQ(size_t(solid_types()[i].kind), i);
     for (size_t i = 0; i < display_shapes().size(); ++i)
         EXPECT_EQ(size_t(display_shapes()[i].shape), i);
     EXPECT_EQ(density_kinds().size() + 1, std::variant_size_v<Density>);
