@@ -121,7 +121,8 @@ int run(const BenchCommand& command) {
 }
 
 std::string list_of_scenes() {
-    std::string list = "of these scenes only: a name, or names with commas; may be given again:";
+    std::string list =
+        "run only these scenes: a name, or names separated by commas; may be given again:";
     for (const BenchScene& scene : bench_scenes())
         list += fmt::format("\n{:<8}{}", scene.name, scene.help);
     return list;
@@ -131,29 +132,32 @@ std::string list_of_scenes() {
 
 Action add_bench(CLI::App& app) {
     const auto command = std::make_shared<BenchCommand>();
-    app.add_flag(
-        "--quick", command->is_quick,
-        "every scene in half a minute (and a minute more where kernels aren't compiled yet): 8 to "
-        "128 voxels a metre, 160x160 pixels (4 to 64 and 80x80 with light), no repeats, no "
-        "instances, no shadow edges");
-    app.add_option("-o,--output", command->page, "report with plots: .html");
-    app.add_option("--json", command->json, "file for everything that was measured");
-    app.add_option("--csv", command->csv, "file for the rows");
-    app.add_option("--plot", command->plot, "picture of depth against time: .svg");
+    app.add_flag("--quick", command->is_quick,
+                 "run every scene in half a minute, and a minute more if kernels must be compiled: "
+                 "8 to 128 voxels a metre, 160x160 pixels (4 to 64 and 80x80 with light), no "
+                 "repeats, no instances, no shadow edges");
+    app.add_option("-o,--output", command->page, "write a report with plots, .html");
+    app.add_option("--json", command->json, "write everything that was measured, .json");
+    app.add_option("--csv", command->csv, "write the rows, .csv");
+    app.add_option("--plot", command->plot, "write the plot of depth against time, .svg");
     app.add_option("--only", command->only, list_of_scenes())->allow_extra_args(false);
-    app.add_option("--resolution", command->resolutions, "voxels a metre, like 16,32,64")
+    app.add_option("--resolution", command->resolutions, "voxels per metre, like 16,32,64")
         ->check(list_of(in_range(4, 4096, Number::whole), "numbers like 16,32,64"));
-    app.add_option("--placement", command->placements, "world, instance, or both with a comma")
+    app.add_option("--placement", command->placements,
+                   "placements: world, instance, or both separated by a comma")
         ->check(list_of(one_of({"world", "instance"}), "world, instance, or world,instance"));
-    app.add_option("--samples", command->samples, "rays a pixel, like 1,4,16; scenes with light")
+    app.add_option("--samples", command->samples,
+                   "rays per pixel in scenes with light, like 1,4,16")
         ->check(list_of(in_range(1, 4096, Number::whole), "numbers like 1,4,16"));
-    app.add_option("--peers", command->peers, "rows of other programs, from bench_peers: .json");
-    app.add_option("--size", command->size, "of the images, like 640x480");
-    app.add_option("--repeat", command->repeats, "renders of each row, the fastest of which counts")
+    app.add_option("--peers", command->peers,
+                   "add the rows of other programs from this file of bench_peers, .json");
+    app.add_option("--size", command->size, "image size, like 640x480");
+    app.add_option("--repeat", command->repeats, "renders of each row; the fastest counts")
         ->check(in_range(1, 1000, Number::whole));
-    app.add_option("--device", command->device, "auto, cpu, gpu, a number, or part of a name")
+    app.add_option("--device", command->device,
+                   "device: auto, cpu, gpu, a number, or part of a name")
         ->check(one_device);
-    app.add_flag("-q,--quiet", command->quiet, "no progress bar");
+    app.add_flag("-q,--quiet", command->quiet, "print no progress bar");
     return [command] { return run(*command); };
 }
 

@@ -39,27 +39,30 @@ int run(const ConvertCommand& command) {
 Action add_convert(CLI::App& app) {
     const auto command = std::make_shared<ConvertCommand>();
     VolumeFileOptions& options = command->options;
-    app.add_option("A", command->from, "volumetric image: .vdb .exr .nrrd .raw or .json")
+    app.add_option("A", command->from, "volumetric image to read: .vdb .exr .nrrd .raw or .json")
         ->required();
     app.add_option("B", command->to,
-                   "the same, or name.####.png .ply .kv6 .planes .cplanes .rgb332 .rgb565")
+                   "volumetric image to write: the same, or name.####.png .ply .kv6 .planes "
+                   ".cplanes .rgb332 .rgb565")
         ->required();
     app.add_option(
         "--format", command->format,
         "for any name of B: vdb, exr, nrrd, raw, slices, ply, kv6, planes, color-planes, "
         "rgb332, rgb565");
-    app.add_flag("--all", options.all_values,
-                 "NRRD: depth, object and kind beside red, green, blue and opacity");
-    app.add_flag("--uncompressed", command->uncompressed, "NRRD: raw instead of gzip");
-    app.add_option("--dither", command->dither, "displays: bayer8 (the default) or none");
-    app.add_option("--exposure", options.exposure, "displays: stops, 0 by default")
+    app.add_flag("--all", options.all_values, "NRRD: also write depth, object and kind");
+    app.add_flag("--uncompressed", command->uncompressed, "NRRD: write raw data, not gzip");
+    app.add_option("--dither", command->dither,
+                   "display formats: dithering, bayer8 (the default) or none");
+    app.add_option("--exposure", options.exposure,
+                   "display formats: exposure in stops, 0 by default")
         ->check(in_range(-64, 64));
     app.add_option(
         "--sweep", command->sweep,
-        "planes: the observer's axis that they are swept along, x, y (the default) or z");
-    app.add_option("--angles", options.angles, "rgb332, rgb565: angles of a turn")
+        "bit planes: the observer's axis along which they sweep: x, y (the default) or z");
+    app.add_option("--angles", options.angles, "rgb332, rgb565: number of angles in a turn")
         ->check(in_range(1, 65536, Number::whole));
-    app.add_option("--radii", options.radii, "rgb332, rgb565: voxels from the axis outwards")
+    app.add_option("--radii", options.radii,
+                   "rgb332, rgb565: number of voxels from the axis outwards")
         ->check(in_range(1, 65536, Number::whole));
     return [command] { return run(*command); };
 }

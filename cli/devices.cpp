@@ -85,7 +85,7 @@ int chosen_index(const std::vector<DeviceInfo>& devices) {
 
 Action add_devices(CLI::App& app) {
     auto json = std::make_shared<bool>(false);
-    app.add_flag("--json", *json, "all that is known of each device, as a JSON array");
+    app.add_flag("--json", *json, "print everything known of each device, as a JSON array");
     return [json]() -> int {
         const std::vector<DeviceInfo> devices = list_devices();
         const int chosen = chosen_index(devices);

@@ -90,13 +90,13 @@ void check_limit(const ImageDifference& difference, double limit) {
 
 Action add_diff(CLI::App& app) {
     auto options = std::make_shared<DiffOptions>();
-    app.add_option("A", options->a, "the image to judge, OpenEXR or PNG")->required();
-    app.add_option("B", options->b, "the reference, of the same kind and size")->required();
-    app.add_option("--channels", options->channels, "compare these only, like R,G,B");
+    app.add_option("A", options->a, "image to judge, OpenEXR or PNG")->required();
+    app.add_option("B", options->b, "reference image, of the same kind and size")->required();
+    app.add_option("--channels", options->channels, "compare only these channels, like R,G,B");
     app.add_option("--fail", options->fail,
-                   "exit with 1 when a channel's RMSE is above this, when a value is finite in one "
-                   "image only, or when a channel is missing; ids only inform");
-    app.add_flag("--json", options->json, "print JSON");
+                   "exit with 1 if a channel's RMSE is above this, a value is finite in one image "
+                   "only, or a channel is missing; ids are listed but never fail");
+    app.add_flag("--json", options->json, "print the result as JSON");
     app.footer(
         "max, rmse, mae: largest, root mean square and mean absolute error; mrse: mean of\n"
         "((A - B) / (|B| + 0.01))^2; differing: pixels that aren't equal; unmatched: those of "

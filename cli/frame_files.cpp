@@ -36,26 +36,31 @@ std::vector<int> frames_of(const RenderCommand& options, const Scene& scene) {
 
 const CLI::Option* add_render_options(CLI::App& app, RenderCommand& command) {
     add_scene_options(app, command.scene);
-    app.add_option("-o,--output", command.outputs, "image: .exr or .png; may be given again")
+    app.add_option("-o,--output", command.outputs, "image file, .exr or .png; may be given again")
         ->allow_extra_args(false);
     app.add_option("--volume", command.volumes,
                    "volumetric image of the scene's display: .vdb .exr .nrrd .raw, name.####.png "
-                   "and displays' own formats; may be given again")
+                   "or a display's own format; may be given again")
         ->allow_extra_args(false);
-    const CLI::Option* frames =
-        app.add_option("--frames", command.frames,
-                       "frames like 1-10,20,30-60x5; #### in an output's name is the number");
-    app.add_option("--exposure", command.exposure, "of .png, in stops")->check(in_range(-64, 64));
-    app.add_flag("--float", command.float_color, "colour of .exr as 32-bit floats, not halves");
-    app.add_option("--channels", command.channels,
-                   "of .exr: some of RGBA,Z,P,N,objectId; without RGBA nothing is lit");
-    app.add_option("--stats-json", command.stats, "file for counts and times");
-    app.add_flag("--dry-run", command.plan_only, "say what it takes, as `check` does, and stop");
-    app.add_flag(
-        "--no-overlap", command.one_by_one,
-        "of several frames, form, render and write one after another: less memory; several "
-        "devices always do, each with its own frames");
-    app.add_flag("-v,--verbose", command.verbose, "say more: kernels' times, memory");
+    const CLI::Option* frames = app.add_option(
+        "--frames", command.frames,
+        "frames to render, like 1-10,20,30-60x5; #### in an output's name becomes the number");
+    app.add_option("--exposure", command.exposure, "exposure of .png files, in stops")
+        ->check(in_range(-64, 64));
+    app.add_flag("--float", command.float_color,
+                 "write the colours of .exr files as 32-bit floats, not halves");
+    app.add_option(
+        "--channels", command.channels,
+        "channels of .exr files: some of RGBA,Z,P,N,objectId; without RGBA nothing is lit");
+    app.add_option("--stats-json", command.stats,
+                   "write counts, times and memory to this file, JSON (see cli/STATISTICS.md)");
+    app.add_flag("--dry-run", command.plan_only,
+                 "print what rendering needs, as `check` does, and stop");
+    app.add_flag("--no-overlap", command.one_by_one,
+                 "build, render and write one frame after another, in less memory; several devices "
+                 "always do so, each with its own frames");
+    app.add_flag("-v,--verbose", command.verbose,
+                 "print more: times of kernels, memory, a line for each frame");
     app.add_flag("-q,--quiet", command.quiet, "print errors only");
     return frames;
 }

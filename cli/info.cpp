@@ -45,7 +45,7 @@ Action add_info(CLI::App& app) {
                    "OpenEXR image, PNG, volumetric image (.vdb .exr .nrrd .json .kv6), voxelized "
                    "model (.vxm) or mesh")
         ->required();
-    app.add_flag("--json", options->json, "print JSON");
+    app.add_flag("--json", options->json, "print the result as JSON");
     return [options] {
         print_report(report_of(describe_file(options->path)), options->json);
         return 0;

@@ -22,15 +22,15 @@ namespace {
 
 /// In the order in which a user meets them.
 constexpr std::array kCommands = {
-    Command{"devices", "list what can render here, and why not otherwise", add_devices},
-    Command{"render", "render the image of a scene", add_render},
-    Command{"check", "check a scene, and say what rendering it takes", add_check},
+    Command{"devices", "list the devices that can render, and say why others can't", add_devices},
+    Command{"render", "render a scene: images, volumetric images, animations", add_render},
+    Command{"check", "check a scene, and say what rendering it needs", add_check},
     Command{"voxelize", "turn a mesh into voxels: a model file or an OpenVDB volume", add_voxelize},
-    Command{"info", "say what is in a file: image, volume, model or mesh", add_info},
-    Command{"convert", "write a volumetric image as another format", add_convert},
-    Command{"view", "show a volumetric image: as a picture, or as a page to turn it in", add_view},
-    Command{"diff", "measure how far two images are from each other", add_diff},
-    Command{"stress", "hold what a device does against exact arithmetic", add_stress},
+    Command{"info", "describe a file: image, volume, model or mesh", add_info},
+    Command{"convert", "convert a volumetric image to another format", add_convert},
+    Command{"view", "show a volumetric image as a picture, or as a page to turn it in", add_view},
+    Command{"diff", "measure how far two images are apart", add_diff},
+    Command{"stress", "compare what a device computes with exact arithmetic", add_stress},
     Command{"bench", "measure run time against error", add_bench},
 };
 
@@ -39,15 +39,15 @@ constexpr const char* kExitCodes =
     "  0  done                               5  output that can't be written\n"
     "  1  rendering or a comparison failed   6  no device, or not the one asked for\n"
     "  2  wrong command line                 7  a kernel doesn't compile on the device\n"
-    "  3  invalid scene                      8  memory, or a documented limit\n"
+    "  3  invalid scene                      8  too little memory, or a limit\n"
     "  4  input that is missing, unreadable or damaged\n"
-    "  130  ended by Ctrl-C; `stress` first tells what it has found till then\n";
+    "  130  ended by Ctrl-C; `stress` first reports what it has found\n";
 
 int print_help() {
     fmt::print("voxelume {}: images of voxel worlds, flat and volumetric\n\n", version());
     fmt::print("Usage: voxelume COMMAND [OPTIONS], options in any order\n\nCommands:\n");
     for (const Command& command : kCommands) fmt::print("  {:<10}{}\n", command.name, command.help);
-    fmt::print("  {:<10}{}\n\n", "help", "say this, or `help COMMAND` for a command's options");
+    fmt::print("  {:<10}{}\n\n", "help", "print this, or a command's options: `help COMMAND`");
     fmt::print("{}", kExitCodes);
     return 0;
 }

@@ -7,15 +7,19 @@
 namespace voxelume::cli {
 
 void add_scene_options(CLI::App& app, SceneOptions& options) {
-    app.add_option("SCENE", options.scene, "the scene, JSON (see scenes/README.md)")->required();
-    app.add_option("--assets", options.assets, "folder of models that the scene names")
+    app.add_option("SCENE", options.scene, "scene file, JSON (see scenes/README.md)")->required();
+    app.add_option("--assets", options.assets,
+                   "folder to look for the scene's models in; may be given again")
         ->allow_extra_args(false);
-    app.add_option("--size", options.size, "WIDTHxHEIGHT in pixels, instead of the scene's");
-    app.add_option("--samples", options.samples, "samples per pixel, instead of the scene's")
+    app.add_option("--size", options.size,
+                   "image size, WIDTHxHEIGHT in pixels; replaces the scene's");
+    app.add_option("--samples", options.samples, "samples per pixel; replaces the scene's")
         ->check(in_range(1, 4096, Number::whole));
-    app.add_option("--device", options.device,
-                   "auto, cpu, gpu, a number, part of a name, or all to share frames and tiles");
-    app.add_flag("--no-cache", options.no_cache, "neither read nor keep models' voxels on disk");
+    app.add_option(
+        "--device", options.device,
+        "device: auto, cpu, gpu, a number, part of a name, or all to share frames and tiles");
+    app.add_flag("--no-cache", options.no_cache,
+                 "neither read nor write the cache of models and worlds");
 }
 
 CacheOptions cache_options(const SceneOptions& options) {

@@ -148,7 +148,7 @@ int run(const StressCommand& command) {
 
 std::string list_of_tests() {
     std::string list =
-        "of these tests only, each once: a name, or names with commas; may be given again:";
+        "run only these tests: a name, or names separated by commas; may be given again:";
     for (const StressTest& test : stress_tests())
         list += fmt::format("\n{:<12}{}", test.name, test.help);
     return list;
@@ -159,16 +159,17 @@ std::string list_of_tests() {
 Action add_stress(CLI::App& app) {
     const auto command = std::make_shared<StressCommand>();
     app.add_option("--rays", command->rays,
-                   "rays of every class, 1e6 without; other tests try in proportion")
+                   "rays of every class, 1e6 by default; other tests scale with it")
         ->check(in_range(1, 1e15));
-    app.add_option("--seed", command->seed, "of the cases, 1 without")
+    app.add_option("--seed", command->seed, "seed of the cases, 1 by default")
         ->check(in_range(0, 1e18, Number::whole));
     app.add_option("--only", command->only, list_of_tests())->allow_extra_args(false);
-    app.add_option("--first", command->first, "number of the first case, to try one again")
+    app.add_option("--first", command->first, "number of the first case, to repeat one")
         ->check(in_range(0, 1e18, Number::whole));
-    app.add_option("--device", command->device, "auto, cpu, gpu, a number, or part of a name")
+    app.add_option("--device", command->device,
+                   "device: auto, cpu, gpu, a number, or part of a name")
         ->check(one_device);
-    app.add_flag("-q,--quiet", command->quiet, "no progress bar");
+    app.add_flag("-q,--quiet", command->quiet, "print no progress bar");
     return [command] { return run(*command); };
 }
 

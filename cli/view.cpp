@@ -41,20 +41,23 @@ int run(const ViewCommand& command) {
 
 Action add_view(CLI::App& app) {
     const auto command = std::make_shared<ViewCommand>();
-    app.add_option("VOLUME", command->from, "volumetric image: .vdb .exr .nrrd .raw or .json")
+    app.add_option("VOLUME", command->from,
+                   "volumetric image to read: .vdb .exr .nrrd .raw or .json")
         ->required();
     app.add_option("-o,--output", command->outputs,
-                   ".png: from the front, from another side, and in slices from near to far; "
+                   ".png: views from the front and from a side, and slices from near to far; "
                    ".html: a page to turn and slice it in; may be given again")
         ->required()
         ->allow_extra_args(false);
     app.add_option("--around", command->around,
-                   "degrees to the observer's right of that other side, 35 by default")
+                   "angle of the side view to the observer's right, in degrees; 35 by default")
         ->check(in_range(-360, 360));
-    app.add_option("--above", command->above, "degrees above, 25 by default")
+    app.add_option("--above", command->above,
+                   "angle of the side view from above, in degrees; 25 by default")
         ->check(in_range(-90, 90));
-    app.add_option("--size", command->size, ".png: WIDTHxHEIGHT in pixels, 1280x1000 by default");
-    app.add_option("--exposure", command->exposure, "stops, 0 by default")
+    app.add_option("--size", command->size,
+                   "size of the .png, WIDTHxHEIGHT in pixels; 1280x1000 by default");
+    app.add_option("--exposure", command->exposure, "exposure in stops, 0 by default")
         ->check(in_range(-64, 64));
     return [command] { return run(*command); };
 }

@@ -62,18 +62,22 @@ Action add_voxelize(CLI::App& app) {
     const auto command = std::make_shared<VoxelizeCommand>();
     app.add_option("MESH", command->mesh, "triangle mesh: .obj, .ply or .stl")->required();
     app.add_option("-o,--output", command->outputs,
-                   "model .vxm, or OpenVDB volume .vdb; may be given again")
+                   "output: model .vxm or OpenVDB volume .vdb; may be given again")
         ->allow_extra_args(false);
-    const auto size = app.add_option("--voxel-size", command->voxel_size, "edge of a voxel, metres")
-                          ->check(in_range(1e-9, 1e9));
+    const auto size =
+        app.add_option("--voxel-size", command->voxel_size, "edge of a voxel in metres")
+            ->check(in_range(1e-9, 1e9));
     app.add_option("--resolution", command->resolution,
-                   "voxels along the longest side, 256 without either")
+                   "voxels along the longest side; 256 if neither is given")
         ->check(in_range(1, 16384, Number::whole))
         ->excludes(size);
-    app.add_option("--surface", command->surface,
-                   "smooth (a distance field; the default), cubes, or exact (triangles' lists)");
-    app.add_option("--set", command->set, "of cubes: supercover (the default), thin or solid");
-    app.add_option("--device", command->device, "auto, cpu, gpu, a number, or part of a name");
+    app.add_option(
+        "--surface", command->surface,
+        "surface: smooth (a distance field; the default), cubes, or exact (lists of triangles)");
+    app.add_option("--set", command->set,
+                   "voxel set of cubes: supercover (the default), thin or solid");
+    app.add_option("--device", command->device,
+                   "device: auto, cpu, gpu, a number, or part of a name");
     app.add_flag("-q,--quiet", command->quiet, "print errors only");
     return [command] { return run(*command); };
 }

@@ -25,7 +25,7 @@ enum class ErrorKind : int {
     limit = 8,   ///< memory, or a documented limit
 };
 
-/// The first place among a message's arguments; none without one.
+/// The first place among a message's arguments; empty if there is none.
 template <class... Args>
 SourcePlace place_among(const Args&... args) {
     SourcePlace place;

@@ -14,11 +14,12 @@ namespace voxelume::v1 {
 /// A value at a frame. Frame 1 is the first; fractions are allowed.
 template <class Value>
 struct Key {
-    double frame = 1;
-    Value value{};
+    double frame = 1;  ///< 1 is the first; fractions are allowed
+    Value value{};     ///< the track's value there
 };
 
 template <class Value>
+/// The keys of one track, in the order of time.
 using Keys = std::vector<Key<Value>>;
 
 /// What a value is between two keys.
@@ -38,7 +39,7 @@ enum class Interpolation {
 /// "world.medium.density.base". Objects and lights without a name have their place in brackets:
 /// "lights[0].color". Names with dots or brackets in them stand in quotes.
 struct Track {
-    std::string target{};
+    std::string target{};  ///< as scene files name it: "objects.ball.position"
     std::variant<Keys<double>, Keys<std::array<double, 2>>, Keys<Vec3>, Keys<bool>,
                  Keys<std::string>>
         keys{};  ///< in the order of time, one or more
@@ -46,10 +47,11 @@ struct Track {
         interpolation{};  ///< without it linear, or step of texts and bools
 };
 
+/// Frames of a scene, and the tracks that move it.
 struct Animation {
-    int frames = 1;  ///< numbered from 1
-    double frames_per_second = 24;
-    std::vector<Track> tracks{};
+    int frames = 1;                 ///< numbered from 1
+    double frames_per_second = 24;  ///< of keys that are given in seconds
+    std::vector<Track> tracks{};    ///< values that change
 };
 
 }  // namespace voxelume::v1

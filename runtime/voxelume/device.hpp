@@ -9,6 +9,7 @@
 
 namespace voxelume::v1 {
 
+/// What a device is.
 enum class DeviceKind { cpu, gpu, other };
 
 /// "cpu", "gpu" or "other".
@@ -17,20 +18,21 @@ const char* name_of(DeviceKind kind);
 /// What an OpenCL platform says of a device, and whether Voxelume can render on it.
 struct DeviceInfo {
     int index = 0;  ///< its number in list_devices(), which Device::open takes
-    DeviceKind kind = DeviceKind::other;
-    std::string name{};
-    std::string vendor{};
-    std::string platform{};
-    std::string platform_version{};
-    std::string version{};  ///< of OpenCL
-    std::string driver{};
-    uint64_t memory_bytes = 0;          ///< at most VOXELUME_MEMORY_MB, where that is set
-    uint64_t max_allocation_bytes = 0;  ///< in one buffer; at most VOXELUME_BUFFER_MB likewise
-    int compute_units = 0;
-    int lanes = 1;                   ///< rays that one work-item carries
-    std::string unusable_because{};  ///< why it can't render; empty when it can
-    std::string note{};              ///< what its user should know; mostly empty
+    DeviceKind kind = DeviceKind::other;  ///< CPU, GPU or other
+    std::string name{};                   ///< as its driver gives it
+    std::string vendor{};                 ///< as its driver gives it
+    std::string platform{};               ///< name of the OpenCL platform that it belongs to
+    std::string platform_version{};       ///< OpenCL version of that platform
+    std::string version{};                ///< of OpenCL
+    std::string driver{};                 ///< version of its driver
+    uint64_t memory_bytes = 0;            ///< at most VOXELUME_MEMORY_MB, where that is set
+    uint64_t max_allocation_bytes = 0;    ///< in one buffer; at most VOXELUME_BUFFER_MB likewise
+    int compute_units = 0;                ///< as OpenCL counts them
+    int lanes = 1;                        ///< rays that one work-item carries
+    std::string unusable_because{};       ///< why it can't render; empty when it can
+    std::string note{};                   ///< what its user should know; mostly empty
 
+    /// True if it can render.
     bool is_usable() const { return unusable_because.empty(); }
 };
 
@@ -61,6 +63,7 @@ class Device {
     /// same with the CPU cut into N parts, for another selector the one device of `open`.
     static std::vector<Device> open_all(std::string_view selector = {});
 
+    /// What it is.
     const DeviceInfo& info() const;
 
     /// Rays that one work-item carries on this device; VOXELUME_LANES overrides info().lanes.
@@ -70,6 +73,7 @@ class Device {
     /// For the library's own use.
     explicit Device(std::shared_ptr<const Implementation> implementation)
         : implementation_(std::move(implementation)) {}
+    /// For the library's own use.
     const Implementation& implementation() const { return *implementation_; }
 
   private:

@@ -40,18 +40,28 @@ struct ErrorPlace {
 /// caller's own callbacks throw: such exceptions end the call and arrive unchanged.
 class VOXELUME_API Error : public std::runtime_error {
   public:
+    /// An error of a kind, with a finished sentence and the place that it is about.
     Error(ErrorKind kind, const std::string& sentence, ErrorPlace place = {});
+    /// Copies share the sentence.
     Error(const Error&) noexcept = default;
+    /// Copies share the sentence.
     Error& operator=(const Error&) noexcept = default;
     ~Error() override;
 
+    /// What went wrong, for programs.
     ErrorKind kind() const noexcept { return kind_; }
+    /// What the command line exits with for this kind.
     int exit_code() const noexcept { return static_cast<int>(kind_); }
 
+    /// The place that the error is about; empty parts don't apply.
     const ErrorPlace& place() const noexcept { return *place_; }
+    /// The file; empty if there is none.
     const std::string& file() const noexcept { return place_->file; }
+    /// The line of the file, from 1; 0 if there is none.
     int line() const noexcept { return place_->line; }
+    /// The column of the line, from 1; 0 if there is none.
     int column() const noexcept { return place_->column; }
+    /// The key of the scene, such as "models.ball.radius"; empty if there is none.
     const std::string& key() const noexcept { return place_->key; }
 
   private:

@@ -15,20 +15,21 @@
 
 namespace voxelume::v1 {
 
+/// How a mesh becomes voxels.
 struct VoxelizeOptions {
-    double voxel_size = 0;  ///< metres; 0: `resolution` decides
-    int resolution = 256;   ///< voxels along the longest side
-    Surface surface = Surface::smooth;
+    double voxel_size = 0;                ///< metres; 0: `resolution` decides
+    int resolution = 256;                 ///< voxels along the longest side
+    Surface surface = Surface::smooth;    ///< what a voxel shows
     VoxelSet set = VoxelSet::supercover;  ///< of cubes
 };
 
 /// What voxelizing a mesh made.
 struct VoxelizeReport {
-    uint64_t triangles = 0;
+    uint64_t triangles = 0;     ///< of the mesh
     std::array<int, 3> size{};  ///< voxels
     double voxel_size = 0;      ///< metres
     uint64_t bricks = 0;        ///< of 16 x 16 x 16 voxels, stored
-    double seconds = 0;
+    double seconds = 0;         ///< without writing files
 };
 
 /// Voxelizes a mesh (.obj, .ply, .stl) and writes its voxels to files: models (.vxm) that scenes
@@ -47,10 +48,11 @@ using Fact =
 /// A value with its name, or a list, or a table: what describe_file tells. Elements of lists have
 /// no names.
 struct Facts {
+    /// What a file is.
     enum class Kind { value, list, object };
-    Kind kind = Kind::value;
-    std::string name{};
-    Fact value{};  ///< lists and objects have a vector of their elements and members
+    Kind kind = Kind::value;  ///< decides which facts are given
+    std::string name{};       ///< of the kind, for people
+    Fact value{};             ///< lists and objects have a vector of their elements and members
 };
 
 /// What is in a file, by what it begins with: an OpenEXR or PNG image, a volumetric image, an

@@ -46,12 +46,15 @@ class Image {
     /// over 255 (`holds_codes`). Throws Error::input.
     static Image read(const std::filesystem::path& file);
 
+    /// Pixels along a row.
     int width() const;
+    /// Rows.
     int height() const;
     bool holds_codes() const;  ///< values are sRGB codes of a PNG file, not light
 
     /// The names of the float channels in alphabetical order: "A", "B", "G", "N.X", ...
     std::vector<std::string> channels() const;
+    /// True if it has a channel of this name, such as "R" or "N.X".
     bool has(std::string_view channel) const;
 
     /// The plane of a float channel. It lives as long as this image or a copy of it. Throws
@@ -73,6 +76,7 @@ class Image {
     /// For the library's own use.
     explicit Image(std::shared_ptr<const Implementation> implementation)
         : implementation_(std::move(implementation)) {}
+    /// For the library's own use.
     const Implementation& implementation() const { return *implementation_; }
 
   private:
@@ -81,7 +85,7 @@ class Image {
 
 /// How far a channel is from that of a reference.
 struct ChannelDifference {
-    std::string channel{};
+    std::string channel{};   ///< its name
     double max = 0;          ///< largest |a - b|
     double rmse = 0;         ///< root of the mean of (a - b)^2
     double mae = 0;          ///< mean of |a - b|
@@ -90,10 +94,11 @@ struct ChannelDifference {
     uint64_t unmatched = 0;  ///< of these, pixels with a value that isn't finite: in no mean
 };
 
+/// How far two images are apart.
 struct ImageDifference {
     std::vector<ChannelDifference> channels{};  ///< by name; numbers of objects come last
-    std::vector<std::string> only_in_a{};
-    std::vector<std::string> only_in_b{};
+    std::vector<std::string> only_in_a{};       ///< channels that the second image lacks
+    std::vector<std::string> only_in_b{};       ///< channels that the first image lacks
     std::optional<double>
         flip;  ///< mean FLIP (Andersson et al. 2020, LDR), where both have colours
 };

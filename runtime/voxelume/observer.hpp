@@ -20,9 +20,9 @@ struct PyramidDisplay {
 
 /// A cone of sight rays around Z_E.
 struct SectorDisplay {
-    double angle = 0;  ///< degrees: whole opening, up to 360
-    double near = 0;   ///< metres along the ray
-    std::optional<double> far{};
+    double angle = 0;             ///< degrees: whole opening, up to 360
+    double near = 0;              ///< metres along the ray
+    std::optional<double> far{};  ///< metres, along the ray; the world's end if not given
 };
 
 /// All directions around the observer.
@@ -51,23 +51,25 @@ enum class Visibility {
 
 /// The space that the observer sees, VS_E, and the voxels of a volumetric image of it.
 struct Display {
-    std::variant<PyramidDisplay, SectorDisplay, BallDisplay, BoxDisplay> shape{};
+    std::variant<PyramidDisplay, SectorDisplay, BallDisplay, BoxDisplay>
+        shape{};  ///< the sight space
     std::optional<std::array<int, 3>>
-        voxels{};  ///< u, v, k, or x, y, z; without it image size, 256
-    VolumeLayout layout = VolumeLayout::rays;
-    std::optional<Visibility> visibility{};  ///< of a lattice; without it `observer`
+        voxels{};                              ///< u, v, k, or x, y, z; without it image size, 256
+    VolumeLayout layout = VolumeLayout::rays;  ///< how the voxels of a volumetric image lie
+    std::optional<Visibility> visibility{};    ///< of a lattice; without it `observer`
     bool cylinder = false;  ///< of a lattice: the upright cylinder inside clips it, too
 };
 
 /// The observer looks along +Z_E with Y_E up, so that the right-hand side of the image is -X_E.
 struct Observer {
-    Vec3 position{};
+    Vec3 position{};                ///< metres
     std::optional<Vec3> look_at{};  ///< a point in the middle of the view
     std::optional<Vec3> up{};       ///< what is up in the image; without it +Y
     std::optional<Vec3> turn{};     ///< degrees [psi, theta, gamma], instead of `look_at` and `up`
-    Display display{};
+    Display display{};              ///< what is seen, and how display voxels lie
 };
 
+/// The flat image.
 struct RenderSettings {
     Size size{640, 480};             ///< pixels, 1..kMaxImageSide each
     int samples = 1;                 ///< sight rays a pixel, 1..4096

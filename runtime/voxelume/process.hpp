@@ -34,7 +34,7 @@ void configure(const ProcessOptions& options);
 /// What a run keeps on disk of voxelized models and of worlds, to be found again by the bytes of
 /// their sources.
 struct CacheOptions {
-    bool enabled = true;
+    bool enabled = true;  ///< false: neither read nor written
     /// Empty: `models` in the user's folder of Voxelume, which is VOXELUME_CACHE_DIR or else
     /// ~/.cache/voxelume. Kernels are always kept in the user's folder.
     std::filesystem::path folder{};

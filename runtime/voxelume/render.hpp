@@ -16,9 +16,10 @@
 
 namespace voxelume::v1 {
 
+/// How frames are rendered.
 struct RenderOptions {
-    Channels channels{};  ///< of images in memory
-    CacheOptions cache{};
+    Channels channels{};        ///< of images in memory
+    CacheOptions cache{};       ///< of models and worlds on disk
     bool overlap = true;        ///< whether one device works on the next frame meanwhile
     bool time_kernels = false;  ///< for Statistics::kernel_ms; costs a little time
     /// Called with the share of the whole call that is done, from 0 to 1, never decreasing, and the
@@ -45,24 +46,24 @@ Volume render_volume(const Scene& scene, const std::vector<Device>& devices, int
 
 /// A frame that was rendered. What the job doesn't ask for is empty.
 struct RenderedFrame {
-    int frame = 1;
-    std::optional<Image> image{};
-    std::optional<Volume> volume{};
-    FrameStatistics statistics{};
+    int frame = 1;                   ///< its number
+    std::optional<Image> image{};    ///< empty if none was asked for
+    std::optional<Volume> volume{};  ///< empty if none was asked for
+    FrameStatistics statistics{};    ///< of this frame
 };
 
 /// A frame to be rendered, and the files to be written of it: images .exr and .png, and volumetric
 /// images of every VolumeFormat.
 struct FrameFiles {
-    int frame = 1;
-    std::vector<std::filesystem::path> images{};
-    std::vector<std::filesystem::path> volumes{};
+    int frame = 1;                                 ///< its number
+    std::vector<std::filesystem::path> images{};   ///< .exr and .png
+    std::vector<std::filesystem::path> volumes{};  ///< in any format of volumes
 };
 
 /// Frames to be rendered, and what becomes of them.
 struct FrameJob {
     std::vector<FrameFiles> frames{};  ///< in the order in which they are delivered; one or more
-    ImageFileOptions image_files{};
+    ImageFileOptions image_files{};    ///< how images are written
     /// Called with each frame, in order, after its files were written; by the thread that called
     /// render_frames. What it throws ends the call.
     std::function<void(const RenderedFrame&)> deliver{};

@@ -18,17 +18,18 @@ namespace voxelume::v1 {
 /// All that a scene file says, as plain structs. Lengths are metres, angles degrees, colours linear
 /// Rec. 709; axes are right-handed with Y up. Defaults and ranges are those of the scene format.
 struct SceneDescription {
-    std::string name = "scene";  ///< what messages call it
-    World world{};
-    std::vector<Material> materials{};
-    std::vector<Model> models{};
-    std::vector<Object> objects{};
-    std::vector<Light> lights{};
-    Observer observer{};
-    Animation animation{};
-    RenderSettings render{};
+    std::string name = "scene";         ///< what messages call it
+    World world{};                      ///< the lattice, and the space in it
+    std::vector<Material> materials{};  ///< by name
+    std::vector<Model> models{};        ///< by name
+    std::vector<Object> objects{};      ///< models placed in the world
+    std::vector<Light> lights{};        ///< sources of light
+    Observer observer{};                ///< who looks, from where, at what
+    Animation animation{};              ///< frames, and what moves
+    RenderSettings render{};            ///< the flat image
 };
 
+/// Where a scene's files are, and what replaces its settings.
 struct SceneOptions {
     /// Folders in which files that the scene names are looked for, after the scene's own and before
     /// those of the environment variable VOXELUME_ASSETS. Files must lie below these folders.
@@ -60,10 +61,13 @@ class Scene {
     /// The same scene with another number of sight rays a pixel, 1..4096.
     Scene with_samples(int samples) const;
 
+    /// The file that it was read from; empty for a scene that was built.
     const std::filesystem::path& file() const;
+    /// Width and height of its image, pixels.
     Size size() const;
     bool moves() const;  ///< whether any frame may differ from another
     int frames() const;  ///< of the animation; 1 without one
+    /// Frames a second of its animation.
     double frames_per_second() const;
     /// Names of the objects, in the order of the numbers that images have for them, from 1 on.
     std::vector<std::string> object_names() const;
@@ -74,6 +78,7 @@ class Scene {
     /// For the library's own use.
     explicit Scene(std::shared_ptr<const Implementation> implementation)
         : implementation_(std::move(implementation)) {}
+    /// For the library's own use.
     const Implementation& implementation() const { return *implementation_; }
 
   private:

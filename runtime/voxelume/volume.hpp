@@ -44,6 +44,7 @@ VolumeFormat volume_format_of(const std::filesystem::path& file);
 /// The format of a name: "vdb", "color-planes", ... Throws Error::usage with the nearest name.
 VolumeFormat volume_format_named(std::string_view name);
 
+/// How light becomes the few levels of a display's voxel.
 enum class Dither {
     none,   ///< the nearest level
     bayer8  ///< ordered: 8 x 8 thresholds, shifted from plane to plane
@@ -58,23 +59,23 @@ struct VolumeFileOptions {
     bool compress = true;                  ///< NRRD: gzip instead of raw
     bool all_values = false;               ///< NRRD: depth, object and kind beside RGBA
     // Of displays' own formats:
-    double exposure = 0;  ///< stops: colours are multiplied by 2^exposure
-    Dither dither = Dither::bayer8;
-    Axis sweep = Axis::y;  ///< along which planes are swept
-    int angles = 0;        ///< of cylinders; 0: as many as the outer voxels need
-    int radii = 0;         ///< of cylinders; 0: half of the shorter side
+    double exposure = 0;             ///< stops: colours are multiplied by 2^exposure
+    Dither dither = Dither::bayer8;  ///< of displays' formats
+    Axis sweep = Axis::y;            ///< along which planes are swept
+    int angles = 0;                  ///< of cylinders; 0: as many as the outer voxels need
+    int radii = 0;                   ///< of cylinders; 0: half of the shorter side
 };
 
 /// Where the voxels of a volumetric image are.
 struct VolumeFrame {
-    VolumeLayout layout = VolumeLayout::lattice;
-    std::array<int, 3> size{};  ///< voxels along the three axes of the layout
+    VolumeLayout layout = VolumeLayout::lattice;  ///< what its voxels' axes are
+    std::array<int, 3> size{};                    ///< voxels along the three axes of the layout
     Vec3
         origin{};  ///< lattice: voxel (i, j, k) fills origin + edge * [(i, j, k), (i, j, k) + 1] in
     Vec3 edge{};   ///< metres of the observer's coordinates
-    double near = 0;  ///< rays: voxel k of a ray spans near + step * [k, k + 1] metres
-    double step = 0;
-    Matrix world_from_observer{};
+    double near = 0;               ///< rays: voxel k of a ray spans near + step * [k, k + 1] metres
+    double step = 0;               ///< metres, of the layout rays
+    Matrix world_from_observer{};  ///< 4 x 4
 };
 
 /// From where a volumetric image is looked at; 0, 0 is the observer's side.
@@ -91,6 +92,7 @@ class Volume {
     /// file that is missing, damaged or none of these, Error::usage for formats that aren't read.
     static Volume read(const std::filesystem::path& file);
 
+    /// Where its voxels lie.
     const VolumeFrame& frame() const;
     size_t count() const;  ///< of the voxels that are listed
 
@@ -101,6 +103,7 @@ class Volume {
     std::span<const float> opacities() const;      ///< 0..1
     std::span<const float> depths() const;         ///< metres from the observer
     std::span<const uint32_t> object_ids() const;  ///< from 1 on; 0: no object
+    /// What each voxel shows.
     std::span<const VoxelKind> kinds() const;
 
     /// Writes a file by the format of its ending. Each file appears whole or not at all, and the
@@ -121,6 +124,7 @@ class Volume {
     /// For the library's own use.
     explicit Volume(std::shared_ptr<const Implementation> implementation)
         : implementation_(std::move(implementation)) {}
+    /// For the library's own use.
     const Implementation& implementation() const { return *implementation_; }
 
   private:
