@@ -16,7 +16,7 @@ namespace {
 /// Only the constants that the source mentions, so that scenes which differ in others share what
 /// was compiled.
 std::string build_options(const Device& device, const KernelSource& source, Defines defines) {
-    std::string options = "-cl-std=CL1.2";
+    std::string options = "-cl-std=CL1.2 -cl-kernel-arg-info";
     if (std::ranges::find(defines, "VXL_LANES", &Defines::value_type::first) == defines.end())
         defines.emplace_back("VXL_LANES", device.lanes());
     for (const auto& [name, value] : defines)

@@ -43,6 +43,13 @@ constexpr std::string_view kernel_type() {
     return {};
 }
 
+/// A buffer of any 32-bit values, for a kernel that moves them as words: `uint*`.
+template <class T>
+struct Words {
+    explicit Words(const Buffer<T>& values) : buffer(values) { static_assert(sizeof(T) == 4); }
+    const Buffer<T>& buffer;
+};
+
 class KernelArguments;
 
 /// One kernel of a program. `launch` enqueues; it does not wait.
@@ -103,6 +110,11 @@ class KernelArguments {
     void add_one(const Buffer<T>& buffer) {
         kernel_.check_type(count_, true, kernel_type<T>());
         kernel_.set_buffer(count_++, buffer.storage());
+    }
+    template <class T>
+    void add_one(const Words<T>& words) {
+        kernel_.check_type(count_, true, kernel_type<uint32_t>());
+        kernel_.set_buffer(count_++, words.buffer.storage());
     }
     template <class T>
     void add_one(const T& value) {

@@ -73,7 +73,6 @@ void measure_distances(VoxelizeJob& job, const Program& distance, const Buffer<u
 
 void list_primitives(VoxelizeJob& job, const Program& exact) {
     const uint32_t count = job.bins.stored;
-    const TriangleBins& b = job.bins;
     job.grid.primitive_first =
         Buffer<uint32_t>(job.device, "primitive starts", size_t(4096) * count + 1);
     Buffer<uint32_t> totals(job.device, "primitive totals", count);
