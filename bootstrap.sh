@@ -11,7 +11,7 @@ usage() {
 Usage: ./bootstrap.sh COMMAND
 
   demo    render scenes/bunny.json to out/bunny.exr and out/bunny.png
-  test    run every test
+  test    run the tests; with --all, every combination of settings too, which takes hours
   build   build the program, build/release/voxelume
   lint    check the format of the code, the host code and each kernel
 
@@ -65,14 +65,20 @@ demo() {
     echo "The pictures are out/bunny.exr and out/bunny.png."
 }
 
+# run_tests [--all]: see tests/README.md for what --all adds.
 run_tests() {
+    local configuration=()
+    if [ "${1:-}" = --all ]; then
+        configuration=(-C exhaustive)
+        export VXL_TEST_ALL=1
+    fi
     build_targets
     say "Testing"
-    ctest --test-dir "$build" --output-on-failure -j "$(nproc)"
+    ctest --test-dir "$build" --output-on-failure -j "$(nproc)" "${configuration[@]}"
 }
 
-case "${1:-}" in
-    demo | build | test | lint) install_packages packages.txt ;;
+case "$*" in
+    demo | build | test | 'test --all' | lint) install_packages packages.txt ;;
     help | -h | --help)
         usage
         exit 0
@@ -89,7 +95,7 @@ case "$1" in
         build_targets voxelume
         echo "The program is $build/voxelume."
         ;;
-    test) run_tests ;;
+    test) run_tests "${2:-}" ;;
     lint)
         install_packages .ci/packages.txt
         build_targets voxelume # the generated sources and compile_commands.json
