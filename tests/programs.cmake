@@ -4,15 +4,17 @@
 # compiled, others find. Tests of the caches themselves take folders of their own.
 set(test_cache ${CMAKE_BINARY_DIR}/test_cache)
 
-# add_test_program(NAME FILE...): a program of test files. `program_of_STEM` and `suites_of_STEM` are set for each
-# file STEM.cpp: the program, and GoogleTest's patterns of the test suites in the file.
+# add_test_program(NAME FILE...): a program of test files. `files_of_NAME` are their stems; for each file STEM.cpp,
+# `program_of_STEM` is the program, `suites_of_STEM` GoogleTest's patterns of the test suites in the file.
 function(add_test_program name)
     add_executable(${name} ${ARGN})
     target_link_libraries(${name} PRIVATE voxelume_runtime voxelume_oracles GTest::gmock_main)
     target_compile_definitions(${name} PRIVATE VXL_SOURCE_DIR="${CMAKE_SOURCE_DIR}"
                                VXL_BINARY="$<TARGET_FILE:voxelume>")
+    set(stems "")
     foreach(file IN LISTS ARGN)
         get_filename_component(stem ${file} NAME_WE)
+        list(APPEND stems ${stem})
         file(READ ${file} text)
         string(REGEX MATCHALL "TEST(_[FP])?\\([ \n]*[A-Za-z0-9_]+," tests "${text}")
         string(REGEX REPLACE "TEST(_[FP])?\\([ \n]*([A-Za-z0-9_]+)," "\\2.*:*/\\2.*" suites "${tests}")
@@ -22,6 +24,7 @@ function(add_test_program name)
         set(suites_of_${stem} ${suites} PARENT_SCOPE)
         set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${file})  # its suites
     endforeach()
+    set(files_of_${name} ${stems} PARENT_SCOPE)
 endfunction()
 
 # patterns_of(VARIABLE FILE...): GoogleTest's patterns of all suites in the files, named by their stems.
@@ -51,7 +54,7 @@ function(add_variant name)
     set(programs "")
     foreach(stem IN LISTS variant_FILES)
         list(APPEND programs ${program_of_${stem}})
-        list(APPEND files_of_${program_of_${stem}} ${stem})
+        list(APPEND chosen_of_${program_of_${stem}} ${stem})
     endforeach()
     list(REMOVE_DUPLICATES programs)
     set(configurations "")
@@ -59,7 +62,7 @@ function(add_variant name)
         set(configurations CONFIGURATIONS exhaustive)
     endif()
     foreach(program IN LISTS programs)
-        patterns_of(patterns ${files_of_${program}})
+        patterns_of(patterns ${chosen_of_${program}})
         if(variant_EXCEPT)
             string(APPEND patterns ":-${variant_EXCEPT}")
         endif()

@@ -30,8 +30,9 @@ GridFrame solid_frame(const Model& model) {
     return frame_around(*model.solid, identity, edge, kModelMargin, extent);
 }
 
-/// Voxels of a given size lie as those of a world whose bounds are multiples of it, so that they
-/// are the same wherever an object moves by whole voxels. A resolution counts from the mesh's side.
+/// The lattice of a mesh. Voxels of a given size lie as in a world whose bounds are multiples of
+/// that size, so they are the same wherever an object moves by whole voxels. A resolution counts
+/// from the mesh's side.
 GridFrame mesh_frame(const Model& model, const MeshSummary& mesh) {
     const glm::dvec3 edge = voxel_edge(model, mesh.surface.max - mesh.surface.min);
     const glm::dvec3 low = mesh.vertices.min, high = mesh.vertices.max;
@@ -43,10 +44,6 @@ GridFrame mesh_frame(const Model& model, const MeshSummary& mesh) {
 }
 
 }  // namespace
-
-GridFrame world_frame(const World& world) {
-    return {world.bounds.min, world.voxel_size, world.voxels};
-}
 
 GridFrame model_frame(const Model& model, const MeshSummary* mesh) {
     try {
@@ -65,11 +62,6 @@ bool may_be_shown(const Scene& scene, const Object& object) {
 
 bool is_potentially_visible(const Scene& scene, const Object& object) {
     return object.potentially_visible && may_be_shown(scene, object);
-}
-
-bool shows_inside(const Scene& scene, const Object& object) {
-    const Model& model = scene.models[size_t(object.model)];
-    return shows_voxels(model.surface) && model.set == VoxelSet::solid && transmits(scene, object);
 }
 
 }  // namespace voxelume

@@ -7,14 +7,15 @@
 namespace voxelume {
 namespace {
 
-/// In double, so that rounding comes once.
+/// The point at the share `amount` of the way from a to b. It is computed in double, so that it is
+/// rounded once.
 glm::vec3 between(const glm::vec3& a, const glm::dvec3& b, double amount) {
     return glm::vec3(glm::dvec3(a) * (1 - amount) + b * amount);
 }
 
 }  // namespace
 
-Mesh morphed(const Mesh& from, const Mesh& to, double amount, const std::string& where) {
+Mesh morphed(const Mesh& from, const Mesh& to, double amount, const SourcePlace& where) {
     if (from.positions.size() != to.positions.size() ||
         from.triangles.size() != to.triangles.size())
         throw Error(ErrorKind::input,

@@ -1,4 +1,4 @@
-// Messages of the mesh readers, and what their text formats share.
+// The messages of the mesh readers, and the scanners that their text formats share.
 #include "runtime/io/mesh/mesh_source.hpp"
 
 #include "runtime/base/decimal.hpp"
@@ -9,15 +9,16 @@
 namespace voxelume {
 
 void MeshSource::fail(std::string_view sentence) const {
-    throw Error(ErrorKind::input, "{}: {}", name, sentence);
+    throw Error(ErrorKind::input, "{}: {}", SourcePlace(name), sentence);
 }
 
 void MeshSource::fail_at_line(const char* at, std::string_view sentence) const {
-    throw Error(ErrorKind::input, "{}:{}: {}", name, 1 + std::count(begin(), at, '\n'), sentence);
+    throw Error(ErrorKind::input, "{}: {}",
+                SourcePlace(name, 1 + int(std::count(begin(), at, '\n')), 0, {}), sentence);
 }
 
 void MeshSource::fail_at_byte(const char* at, std::string_view sentence) const {
-    throw Error(ErrorKind::input, "{}: byte {}: {}", name, at - begin(), sentence);
+    throw Error(ErrorKind::input, "{}: byte {}: {}", SourcePlace(name), at - begin(), sentence);
 }
 
 void MeshSource::require_text() const {

@@ -3,29 +3,24 @@
 #include <dlfcn.h>
 #include <fmt/format.h>
 
+#include <atomic>
 #include <cstring>
-#include <tuple>
 
-#include "runtime/base/atomic_file.hpp"
-#include "runtime/base/input_file.hpp"
+#include "runtime/base/error.hpp"
 #include "runtime/base/version.hpp"
-#include "runtime/image/volume_geometry.hpp"
-#include "runtime/io/volume/volume_frame_text.hpp"
 
 namespace voxelume {
 namespace {
 
-/// Has the linker put into the program what the module takes from there: of a library it puts in
-/// only sources that something names.
-[[gnu::used]] constexpr std::tuple kTakenByModule(&AtomicFile::commit, &InputFile::refuse,
-                                                  &read_frame_text, &world_from_voxels);
+std::atomic<bool> readers_are_isolated = true;
 
 struct VdbModule {
     const VdbFunctions* functions = nullptr;
-    std::string failure;  ///< why there are none
+    std::string failure;  ///< the reason why `functions` is null; else empty
 };
 
-/// The folder is the one that CMakeLists.txt wrote into the program. It stays open.
+/// Opens the module in the folder that CMakeLists.txt wrote into the program. The module stays
+/// open.
 VdbModule open_module() {
     void* module = dlopen("libvoxelume_vdb.so", RTLD_NOW | RTLD_LOCAL);
     void* table = module ? dlsym(module, "voxelume_vdb_functions") : nullptr;
@@ -48,7 +43,9 @@ const VdbFunctions& functions_for(const std::filesystem::path& path, ErrorKind k
 }
 
 const VdbFunctions& reader_of(const std::filesystem::path& path) {
-    return functions_for(path, ErrorKind::input);
+    const VdbFunctions& functions = functions_for(path, ErrorKind::input);
+    functions.isolate_vdb_readers(readers_are_isolated);
+    return functions;
 }
 
 const VdbFunctions& writer_of(const std::filesystem::path& path) {
@@ -56,6 +53,10 @@ const VdbFunctions& writer_of(const std::filesystem::path& path) {
 }
 
 }  // namespace
+
+void isolate_vdb_readers(bool is_isolated) {
+    readers_are_isolated = is_isolated;
+}
 
 void check_vdb_output(const std::filesystem::path& path) {
     writer_of(path);
