@@ -14,6 +14,7 @@ Usage: ./bootstrap.sh COMMAND
   test    run every test
   build   build the program, build/release/voxelume
   lint    check the format of the code, the host code and each kernel
+  docs    write the library's reference to build/docs/html/index.html
 
 Each installs the Debian packages that are missing (as root, or with sudo) and builds first.
 TEXT
@@ -71,8 +72,21 @@ run_tests() {
     ctest --test-dir "$build" --output-on-failure -j "$(nproc)"
 }
 
+# The version that CMakeLists.txt gives the project.
+project_version() {
+    sed -n 's/^project(voxelume VERSION \([0-9.]*\).*/\1/p' CMakeLists.txt
+}
+
+# Fails on a warning: on a name without a description, or a description without its name.
+docs() {
+    mkdir -p build/docs
+    VXL_VERSION=$(project_version) doxygen runtime/Doxyfile
+    echo "The reference is build/docs/html/index.html."
+}
+
 case "${1:-}" in
     demo | build | test | lint) install_packages packages.txt ;;
+    docs) install_packages .ci/docs_packages.txt ;;
     help | -h | --help)
         usage
         exit 0
@@ -90,6 +104,7 @@ case "$1" in
         echo "The program is $build/voxelume."
         ;;
     test) run_tests ;;
+    docs) docs ;;
     lint)
         install_packages .ci/packages.txt
         build_targets voxelume # the generated sources and compile_commands.json

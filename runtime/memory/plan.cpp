@@ -8,12 +8,13 @@
 
 #include "runtime/analysis/scene_features.hpp"
 #include "runtime/base/error.hpp"
+#include "runtime/grid/world_frame.hpp"
 #include "runtime/memory/plan_object.hpp"
 #include "runtime/memory/plan_stages.hpp"
 #include "runtime/render/illumination.hpp"
+#include "runtime/scene/predicates.hpp"
 #include "runtime/stages/trace/sight.hpp"
 #include "runtime/stages/voxelize/mesh_lattice.hpp"
-#include "runtime/world/instances.hpp"
 
 namespace voxelume {
 namespace {

@@ -5,6 +5,7 @@
 #include <sys/file.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <chrono>
 #include <cstdlib>
 #include <fstream>
@@ -19,6 +20,8 @@ namespace fs = std::filesystem;
 
 constexpr const char* kPrefix = "pocl-";
 constexpr const char* kLock = "lock";
+
+std::atomic<bool> folder_is_allowed = true;
 
 /// Removes the folders that killed processes left: those whose lock nobody holds. A young one may
 /// belong to a process that has not locked it yet.
@@ -114,13 +117,17 @@ std::vector<fs::path> unpack(const fs::path& root, std::string_view bytes) {
 
 }  // namespace
 
+void PoclFolder::allow(bool is_allowed) {
+    folder_is_allowed = is_allowed;
+}
+
 PoclFolder& PoclFolder::instance() {
     static PoclFolder folder;
     return folder;
 }
 
 PoclFolder::PoclFolder() : process_(getpid()) {
-    if (std::getenv("POCL_CACHE_DIR")) return;
+    if (!folder_is_allowed || std::getenv("POCL_CACHE_DIR")) return;
     // PoCL loads compiled kernels from here, and systems that forbid programs in the temporary
     // folder allow them at home: that comes second.
     std::error_code error;

@@ -34,6 +34,10 @@ class PoclFolder {
     /// The process's folder.
     static PoclFolder& instance();
 
+    /// Whether the process has such a folder, of which PoCL learns by a variable of the
+    /// environment. It has one unless this forbids it before `instance` is first called.
+    static void allow(bool is_allowed);
+
     /// Runs `first_call`, which has PoCL start up, with POCL_CACHE_DIR set: PoCL reads it once.
     void announce(const std::function<void()>& first_call) const;
 

@@ -8,6 +8,7 @@
 #include "runtime/grid/pyramid_bytes.hpp"
 #include "runtime/memory/plan.hpp"
 #include "runtime/render/illumination.hpp"
+#include "runtime/scene/predicates.hpp"
 #include "runtime/stages/resolve/resolve.hpp"
 #include "runtime/stages/trace/sight.hpp"
 

@@ -24,6 +24,6 @@ bool is_asset(std::string_view name, const std::filesystem::path& scene_folder,
 /// `where` opens the messages. Throws Error::scene for an absolute name, for `..` and for a link
 /// that leads out of its folder, Error::input with the folders searched when there is no such file.
 std::filesystem::path find_asset(std::string_view name, const std::filesystem::path& scene_folder,
-                                 const AssetFolders& assets, const std::string& where);
+                                 const AssetFolders& assets, const SourcePlace& where);
 
 }  // namespace voxelume

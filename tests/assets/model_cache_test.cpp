@@ -1,5 +1,6 @@
 // Models from the cache on disk: the same bits as without, whatever happens to its files.
 #include "runtime/assets/model_cache.hpp"
+#include "runtime/scene_file/read_scene.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

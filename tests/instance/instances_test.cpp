@@ -7,6 +7,8 @@
 #include <random>
 
 #include "runtime/base/error.hpp"
+#include "runtime/scene/predicates.hpp"
+#include "runtime/scene_file/read_scene.hpp"
 #include "tests/support/file_fixture.hpp"
 #include "tests/support/instance_scenes.hpp"
 #include "tests/support/test_meshes.hpp"

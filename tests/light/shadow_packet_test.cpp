@@ -6,6 +6,7 @@
 #include <random>
 
 #include "runtime/render/renderer.hpp"
+#include "runtime/scene_file/read_scene.hpp"
 #include "tests/support/test_device.hpp"
 
 namespace voxelume {

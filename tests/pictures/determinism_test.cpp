@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "runtime/render/renderer.hpp"
+#include "runtime/scene_file/read_scene.hpp"
 #include "tests/oracles/image_hash.hpp"
 #include "tests/support/program_runner.hpp"
 #include "tests/support/setting.hpp"

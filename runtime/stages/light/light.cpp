@@ -5,21 +5,21 @@
 #include <glm/geometric.hpp>
 
 #include "runtime/opencl/float4.hpp"
+#include "runtime/scene/light.hpp"
 #include "runtime/stages/trace/trace.hpp"
 
 namespace voxelume {
 LightRecord light_record(const Light& light, const GridFrame& world) {
     LightRecord record{};
-    const bool directional = light.kind == LightKind::directional;
-    record.position = to_float4(directional ? -light.direction / world.voxel_edge
-                                            : (light.position - world.origin) / world.voxel_edge);
+    const LightType& type = type_of(light);
+    record.position =
+        to_float4(type.has_position ? (light.position - world.origin) / world.voxel_edge
+                                    : -light.direction / world.voxel_edge);
     record.direction = to_float4(light.direction);
     record.intensity = to_float4(glm::dvec3(light.intensity));
     record.inner_cosine = float(std::cos(light.inner_half_angle));
     record.outer_cosine = float(std::cos(light.outer_half_angle));
-    record.kind = directional                     ? VXL_LIGHT_DIRECTIONAL
-                  : light.kind == LightKind::spot ? VXL_LIGHT_SPOT
-                                                  : VXL_LIGHT_POINT;
+    record.kind = type.shading;
     return record;
 }
 

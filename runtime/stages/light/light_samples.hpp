@@ -11,9 +11,6 @@
 
 namespace voxelume {
 
-/// Whether an object's emission lights the world: the paper's source of many light samples.
-bool is_emissive(const Scene& scene, const Object& object);
-
 /// The light samples that an emissive object of so many square metres has when the scene doesn't
 /// say: one for each square of four voxels' edges, but at least 16 and at most 128.
 int default_light_samples(double area, const glm::dvec3& voxel_edge);

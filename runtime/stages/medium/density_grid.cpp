@@ -5,8 +5,8 @@
 #include <bit>
 #include <map>
 
-#include "runtime/assets/model_frame.hpp"
 #include "runtime/base/error.hpp"
+#include "runtime/grid/world_frame.hpp"
 #include "runtime/stages/medium/density_source.hpp"
 
 namespace voxelume {
