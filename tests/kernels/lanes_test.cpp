@@ -59,7 +59,7 @@ std::vector<Case> cases_of(uint32_t lanes) {
         {"f", [](uint32_t i) { return floats()[i]; }},
         {"n", [](uint32_t i) { return integers()[i]; }},
         {"LANES_GATHER_FLOAT(floats, i)", [](uint32_t i) { return floats()[shuffled(i)]; }},
-        {"LANES_GATHER_UINT(places, i)", [](uint32_t i) { return shuffled(shuffled(i)); }},
+        {"LANES_GATHER_UINT(indices, i)", [](uint32_t i) { return shuffled(shuffled(i)); }},
         {"LANES_NUMBERS + (int)first", [](uint32_t i) { return i; }},
 
         // Masks are -1 or 0.
