@@ -135,7 +135,7 @@ TEST_P(Lanes, EveryMacroMeansTheSame) {
         .kernel("evaluate")
         .launch_packets(kCount, kCount, Buffer<float>(device, "floats", std::span(floats())),
                         Buffer<int32_t>(device, "integers", std::span(integers())),
-                        Buffer<uint32_t>(device, "places", std::span<const uint32_t>(indices)),
+                        Buffer<uint32_t>(device, "indices", std::span<const uint32_t>(indices)),
                         buffer);
     const std::vector<uint32_t> results = buffer.read();
     for (size_t c = 0; c < cases.size(); ++c)

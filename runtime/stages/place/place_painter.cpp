@@ -11,7 +11,9 @@
 namespace voxelume {
 namespace {
 
-/// World distances up to here, in voxels, are worth evaluating: what `index` reads of a surface.
+/// The distance from a surface, in voxels, up to which world distances are evaluated: `index` reads
+/// no
+/// farther ones.
 constexpr double kBandVoxels = 2.9;
 
 PlacementMap map_of(const PlacedObject& object, const GridFrame& world, Surface surface) {
@@ -23,7 +25,7 @@ PlacementMap map_of(const PlacedObject& object, const GridFrame& world, Surface 
                          object.object);
 }
 
-/// The bricks that the object's grid comes to stand in, and one voxel around it.
+/// The world's bricks that the object's grid, and a margin around it, lie in.
 BrickBox bricks_of(const PlacedObject& object, const GridFrame& world) {
     const glm::ivec3 last = world.bricks() - 1;
     if (object.in_world_frame) return {glm::ivec3(0), last};
@@ -37,8 +39,11 @@ BrickBox bricks_of(const PlacedObject& object, const GridFrame& world) {
         const glm::dvec3 voxel = (in_world - world.origin) / world.voxel_edge;
         low = glm::min(low, voxel), high = glm::max(high, voxel);
     }
-    // Reach is at most half an object voxel's diagonal as the world sees it: two voxels are enough
-    // for that and for rounding where the object's are no larger; else so many of its own.
+    // The placement map's reach is at most half an object voxel's diagonal, as the world sees it.
+    // Two world
+    // voxels cover that and the rounding if the object's voxels are no larger; the margin adds one
+    // of the
+    // object's voxels along each axis for those that are.
     const glm::dmat3 turn(object.world_from_object);
     glm::dvec3 margin(2);
     for (int axis = 0; axis < 3; ++axis)
@@ -70,7 +75,7 @@ int near_threshold(const PlacementMap& map) {
     return static_cast<int>(std::min(band, 32767.0));
 }
 
-/// Half a voxel's diagonal, in distance units of the grid.
+/// Half a voxel's diagonal, in distance units of the grid, rounded up.
 int half_diagonal(const GridFrame& frame) {
     const glm::dvec3 e = frame.voxel_edge;
     return static_cast<int>(

@@ -6,7 +6,7 @@
 namespace voxelume {
 namespace {
 
-/// Numbers the bins with triangles, and turns counts into the starts of their lists.
+/// The numbers of the bins with triangles, and where their lists start.
 struct BinLayout {
     std::vector<uint32_t> occupied, number_of_bin, coordinates, first, cursors;
     uint32_t stored = 0;

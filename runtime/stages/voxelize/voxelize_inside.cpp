@@ -26,7 +26,7 @@ Windings count_windings(VoxelizeJob& job, const Program& winding, const Triangle
     return w;
 }
 
-// States of kernels/voxelize_caps.cl.
+// The states of kernels/voxelize_caps.cl.
 constexpr uint32_t kStateInside = 1, kStateClosed = 2;
 
 std::vector<uint32_t> classify_bricks(VoxelizeJob& job, const Program& caps,
@@ -44,7 +44,7 @@ std::vector<uint32_t> classify_bricks(VoxelizeJob& job, const Program& caps,
     return states.read();
 }
 
-/// The stored bricks by state: those of the surface, in their order, with others between them.
+/// The stored bricks by state: those with surface, in their order, and the others in between.
 struct Restored {
     std::vector<uint32_t> slots, coordinates, first, numbers;
 };

@@ -7,7 +7,7 @@
 namespace voxelume {
 namespace {
 
-/// The least linear value that each sRGB code above 0 stands for: where rounding turns to it.
+/// For each sRGB code above 0, the smallest linear value that rounds to it.
 std::vector<float> srgb_thresholds() {
     std::vector<float> thresholds;
     for (int code = 1; code <= 255; ++code) {
@@ -18,8 +18,11 @@ std::vector<float> srgb_thresholds() {
     return thresholds;
 }
 
-/// A voxel concerns a surface when it meets it, or when one of its corners is within 0.35 voxel of
-/// it, where the zero of a smooth field can still lie in it. In shortest edges.
+/// The distance, in shortest edges, within which a surface concerns a voxel's centre. A surface
+/// concerns
+/// a voxel that it meets, and one with a corner within 0.35 voxel of it: the zero of a smooth field
+/// can
+/// still lie in that voxel.
 double label_band(const GridFrame& frame) {
     return 0.35 + 0.5 * double(glm::length(glm::vec3(edge_scale(frame))));
 }

@@ -5,7 +5,9 @@
 namespace voxelume {
 namespace {
 
-/// Slices of a brick that one work-item handles: all where cores are few, else one layer of leaves.
+/// The slices of a brick that one work-item handles: all of them where cores are few, else one
+/// layer of
+/// leaves.
 int slices_per_item(const Device& device) {
     return device.is_cpu() ? kBrickSize : kLeafSize;
 }
