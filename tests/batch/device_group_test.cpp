@@ -8,8 +8,8 @@
 #include "runtime/batch/frame_schedule.hpp"
 #include "runtime/scene_file/read_scene.hpp"
 #include "runtime/stages/trace/sight.hpp"
+#include "tests/batch/device_image.hpp"
 #include "tests/oracles/image_hash.hpp"
-#include "tests/support/device_image.hpp"
 #include "tests/support/program_runner.hpp"
 #include "tests/support/test_device.hpp"
 

@@ -9,10 +9,10 @@
 #include <set>
 #include <stdexcept>
 
+#include "tests/batch/device_image.hpp"
 #include "tests/oracles/image_hash.hpp"
 #include "tests/pictures/golden_hash.hpp"
 #include "tests/pictures/small_scene.hpp"
-#include "tests/support/device_image.hpp"
 #include "tests/support/setting.hpp"
 
 namespace voxelume {

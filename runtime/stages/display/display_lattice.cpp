@@ -5,7 +5,7 @@
 #include <numeric>
 
 #include "runtime/base/error.hpp"
-#include "runtime/stages/trace/trace.hpp"
+#include "runtime/grid/grid_arguments.hpp"
 
 namespace voxelume {
 namespace {
@@ -72,8 +72,8 @@ DisplayLatticeStage::DisplayLatticeStage(const Device& device, const Features& f
 
 void DisplayLatticeStage::aim(const ProbePoints& points, uint32_t search, uint32_t first,
                               uint32_t count, RayBatch& batch) {
-    aim_.launch_packets(count, camera_, shape_of(world_), lattice_, views_, points.coordinates,
-                        points.total, points.views, search, first, count, batch.stride, batch.rays);
+    aim_.launch_packets(count, camera_, shape_of(world_), lattice_, views_, points, search, first,
+                        count, batch.stride, batch.rays);
     rays_ += count;
 }
 
@@ -107,8 +107,7 @@ void DisplayLatticeStage::find_views(const LookAhead& look, RayBatch& batch,
 ShownVoxels DisplayLatticeStage::choose(const std::vector<ProbePoints>& pieces) {
     mask_.fill(0);
     for (const ProbePoints& points : pieces)
-        mark_.launch(WorkItem::light, points.count, lattice_, points.coordinates, points.total,
-                     points.views, points.count, mask_);
+        mark_.launch(WorkItem::light, points.count, lattice_, points, mask_);
     Buffer<uint32_t> starts(device_, "display groups", groups_);
     count_.launch(WorkItem::light, groups_, mask_, groups_, starts);
     std::vector<uint32_t> counts = starts.read();
@@ -133,17 +132,15 @@ ShownVoxels DisplayLatticeStage::choose(const std::vector<ProbePoints>& pieces) 
     for (const uint32_t turn : {0u, 1u}) {
         uint32_t first_number = 0;
         for (const ProbePoints& points : pieces) {
-            choose_.launch(WorkItem::light, points.count, lattice_, points.coordinates,
-                           points.total, points.views, points.count, first_number, mask_, starts,
-                           turn, distances, numbers);
+            choose_.launch(WorkItem::light, points.count, lattice_, points, first_number, mask_,
+                           starts, turn, distances, numbers);
             first_number += points.count;
         }
     }
     uint32_t first_number = 0;
     for (const ProbePoints& points : pieces) {
-        take_.launch(WorkItem::light, chosen.count, points.coordinates, points.total, points.views,
-                     points.count, first_number, numbers, chosen.count, chosen.total,
-                     chosen.coordinates, chosen.views);
+        take_.launch(WorkItem::light, chosen.count, points, first_number, numbers, chosen.count,
+                     chosen.total, chosen.coordinates, chosen.views);
         first_number += points.count;
     }
     return shown;
@@ -152,11 +149,8 @@ ShownVoxels DisplayLatticeStage::choose(const std::vector<ProbePoints>& pieces) 
 void DisplayLatticeStage::keep(const Environment& environment, const RayBatch& batch,
                                const NodeLight& nodes, const LightTask& task, uint32_t first,
                                uint32_t count, VoxelArrays& voxels) {
-    keep_.launch_packets(count, camera_, shape_of(world_), environment, batch.rays, batch.hits,
-                         batch.positions, batch.hit_attributes, nodes.radiance, nodes.coverage,
-                         nodes.stride, task.targets, uint32_t(!task.targets.empty()), first, count,
-                         batch.stride, voxels.colors, voxels.opacities, voxels.depths,
-                         voxels.objects);
+    keep_.launch_packets(count, camera_, shape_of(world_), environment, batch, nodes, task.targets,
+                         uint32_t(!task.targets.empty()), first, count, voxels);
 }
 
 void DisplayLatticeStage::light_points(const LightRays& light_rays, const Environment& environment,

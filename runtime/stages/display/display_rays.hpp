@@ -1,6 +1,8 @@
 // lit sight rays -> P in the layout `rays`, voxel by voxel along each ray.
 #pragma once
 
+#include <optional>
+
 #include "runtime/opencl/program.hpp"
 #include "runtime/stages/display/display_frame.hpp"
 #include "runtime/stages/features.hpp"
@@ -21,6 +23,9 @@ struct VoxelArrays {
     Buffer<uint32_t> objects;
 };
 
+/// VXL_VOXEL_PARAMETERS of kernels.
+void bind(KernelArguments& to, const VoxelArrays& voxels);
+
 /// Arrays for `count` voxels. Throws Error::limit for more than can be numbered.
 VoxelArrays allocate_voxels(const Device& device, uint64_t count);
 
@@ -38,7 +43,21 @@ struct LayerRecords {
     std::vector<uint32_t> first_step;
 };
 
-/// Kernels of display_rays.cl, and what they keep of each sight ray. The paper's blocks 2 and 3.
+/// What the voxels of each sight ray need, `total` values or as many times three.
+struct RayDepths {
+    Buffer<uint32_t> steps;    ///< of the surface met, VXL_NO_STEP for none
+    Buffer<float> depths;      ///< of the surface, metres
+    Buffer<uint32_t> objects;  ///< plus 1, 0 for none
+    Buffer<float> colors;      ///< 3: the light along the ray
+    Buffer<float> spans;       ///< VXL_SPAN_COMPONENTS; only in a world with a medium
+    uint32_t total = 0;        ///< places for rays
+};
+
+/// VXL_DEPTHS_PARAMETERS of kernels.
+void bind(KernelArguments& to, const RayDepths& depths);
+
+/// Kernels of display_rays.cl or, for layers, display_layers.cl, and what they keep of each sight
+/// ray. The paper's blocks 2 and 3.
 class DisplayRaysStage {
   public:
     /// `camera` casts the frame's rays: as wide and high as it, one sample each.
@@ -78,14 +97,12 @@ class DisplayRaysStage {
     DisplaySteps steps_;
     float near_depth_;
     Environment environment_;
-    uint32_t total_;  ///< places for rays
-    Buffer<uint32_t> hit_steps_, objects_;
-    Buffer<float> depths_, colors_;
-    Buffer<float> spans_;  ///< only in a world with a medium
-    Buffer<float> seen_;   ///< of the batch's nodes before a layer: light, coverage
+    RayDepths rays_;
+    Buffer<float> seen_;  ///< of the batch's nodes before a layer: light, coverage
     std::vector<LayerRecords> layers_;
     Program program_;
-    Kernel measure_, layer_, density_, count_, place_, fill_;
+    std::optional<Kernel> measure_, count_, place_, fill_;  ///< without layers
+    std::optional<Kernel> layer_, density_;                 ///< with layers
 };
 
 }  // namespace voxelume

@@ -6,8 +6,8 @@
 #include <numeric>
 
 #include "runtime/base/error.hpp"
+#include "runtime/grid/grid_arguments.hpp"
 #include "runtime/opencl/float4.hpp"
-#include "runtime/stages/trace/trace.hpp"
 
 namespace voxelume {
 namespace {
@@ -72,6 +72,10 @@ void check_lines(const Camera& camera, const VolumeFrame& frame) {
 }
 
 }  // namespace
+
+void bind(KernelArguments& to, const ProbePoints& points) {
+    to.add(points.count, points.total, points.coordinates, points.views);
+}
 
 DisplayScanStage::DisplayScanStage(const Device& device, const Features& features,
                                    const VolumeFrame& frame, const GridFrame& world)
@@ -145,11 +149,8 @@ ProbePoints DisplayScanStage::scan_batch(const Pyramid& world, const Family& fam
         if (crossings_.size() < size_t(stride) * slots_)
             crossings_ = Buffer<float>(device_, "probe crossings", size_t(stride) * slots_);
         if (counts_.size() < stride) counts_ = Buffer<uint32_t>(device_, "probe counts", stride);
-        scan_.launch_packets(count, shape_of(world), world.sectors, world.bricks, world.leaves,
-                             world.leaf_voxels, world.attributes, world.fields,
-                             world.primitive_first, world.primitives, world.triangles, world.solids,
-                             family.row, batch.rays, count, batch.stride, slots_, stride, counts_,
-                             crossings_);
+        scan_.launch_packets(count, world, family.row, batch.rays, count, batch.stride, slots_,
+                             stride, counts_, crossings_);
         counts = counts_.read(0, count);
         const uint32_t maximum = *std::ranges::max_element(counts);
         if (maximum <= slots_) break;

@@ -21,6 +21,9 @@ struct ProbePoints {
 };
 inline constexpr uint32_t kNoView = 0xFFFFFFFFu;
 
+/// VXL_POINTS_PARAMETERS of kernels.
+void bind(KernelArguments& to, const ProbePoints& points);
+
 /// Kernel of display_scan.cl: probe lines along the three axes of a lattice.
 ///
 /// They are all lines of the lattice's edges, with so many parallels between them that no gap is

@@ -8,8 +8,8 @@
 
 #include "kernels/shared/light_samples.h"
 #include "kernels/shared/voxel.h"
+#include "runtime/grid/grid_arguments.hpp"
 #include "runtime/opencl/program.hpp"
-#include "runtime/stages/trace/trace.hpp"
 
 namespace voxelume {
 namespace {
@@ -85,10 +85,8 @@ class PieceFinder {
         const uint32_t bricks = uint32_t(sectors.x * sectors.y * sectors.z) * 64;
         Buffer<uint32_t> found(device_, "emissive surface", 1);
         found.fill(0);
-        list_.launch(WorkItem::light, bricks, shape_of(world_), bricks, world_.sectors,
-                     world_.bricks, world_.leaves, world_.leaf_voxels, world_.attributes,
-                     world_.attribute, world_.primitive_first, world_.primitives, world_.solids,
-                     emissive_objects_, emissive_materials_, capacity, found, places);
+        list_.launch(WorkItem::light, bricks, bricks, world_, emissive_objects_,
+                     emissive_materials_, capacity, found, places);
         return found.read_one(0);
     }
 

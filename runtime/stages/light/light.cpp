@@ -4,9 +4,9 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "runtime/grid/grid_arguments.hpp"
 #include "runtime/opencl/float4.hpp"
 #include "runtime/scene/light.hpp"
-#include "runtime/stages/trace/trace.hpp"
 
 namespace voxelume {
 LightRecord light_record(const Light& light, const GridFrame& world) {
@@ -50,10 +50,7 @@ LightStage::LightStage(const Device& device, const Features& features,
 void LightStage::add(const Pyramid& pyramid, const LightRecord& light, RayBatch& batch,
                      uint32_t count, ShadowQueue& queue) {
     if (!queue.count.empty()) queue.count.fill(0);
-    add_.launch_packets(count, shape_of(pyramid), light, materials_, pyramid.colors, batch.rays,
-                        batch.hits, count, batch.stride, batch.positions, batch.normals,
-                        batch.hit_attributes, batch.sides, batch.radiance, queue.count, queue.rays,
-                        queue.targets, queue.sources, queue.contributions);
+    add_.launch_packets(count, pyramid, light, materials_, queue, batch, count);
 }
 
 }  // namespace voxelume

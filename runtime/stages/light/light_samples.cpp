@@ -6,11 +6,11 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
+#include "runtime/grid/grid_arguments.hpp"
 #include "runtime/opencl/float4.hpp"
 #include "runtime/scene/light.hpp"
 #include "runtime/scene/predicates.hpp"
 #include "runtime/stages/light/emissive_pieces.hpp"
-#include "runtime/stages/trace/trace.hpp"
 
 namespace voxelume {
 namespace {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "runtime/grid/grid_arguments.hpp"
 #include "runtime/opencl/float4.hpp"
-#include "runtime/stages/trace/trace.hpp"
 
 namespace voxelume {
 namespace {
@@ -82,12 +82,7 @@ ShadeStage::ShadeStage(const Device& device, const Features& features, const Sce
 }
 
 void ShadeStage::surface(const Pyramid& pyramid, RayBatch& batch, uint32_t count) {
-    surface_.launch_packets(count, shape_of(pyramid), environment_, materials_, pyramid.attributes,
-                            pyramid.attribute, pyramid.colors, pyramid.fields, pyramid.triangles,
-                            pyramid.triangle_attributes, pyramid.solids, pyramid.instances.records,
-                            pyramid.instances.materials, ranks_, batch.rays, batch.hits,
-                            batch.paths, count, batch.stride, batch.positions, batch.normals,
-                            batch.hit_attributes, batch.sides, batch.radiance);
+    surface_.launch_packets(count, pyramid, environment_, materials_, ranks_, batch, count);
 }
 
 }  // namespace voxelume

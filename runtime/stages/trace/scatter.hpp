@@ -19,12 +19,18 @@ struct Children {
     Buffer<float> node_weights;   ///< 3: what that light counts in the entry's node
 };
 
+/// VXL_CHILDREN_PARAMETERS of kernels.
+void bind(KernelArguments& to, const Children& children);
+
 /// The sums of light of nodes.
 struct NodeLight {
     Buffer<float> radiance;  ///< 3, `stride` apart
     Buffer<float> coverage;  ///< empty below the first depth
     uint32_t stride = 0;
 };
+
+/// VXL_NODE_PARAMETERS of kernels.
+void bind(KernelArguments& to, const NodeLight& nodes);
 
 /// Called for each layer of surfaces along the rays of an observer, the nearest first, once its
 /// light is added to the nodes. Entry n of the first layer is ray n; others name theirs in `paths`.
