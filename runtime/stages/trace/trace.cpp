@@ -10,8 +10,8 @@ namespace voxelume {
 PyramidShape shape_of(const Pyramid& pyramid) {
     const GridFrame& frame = pyramid.frame;
     const int longest = std::max({frame.size.x, frame.size.y, frame.size.z});
-    // Coordinates 0 .. longest need integer_bits; the rest of a float's 24 bits is fraction, so
-    // that every coordinate is an exact float and its fixed-point integer an exact float too.
+    // Coordinates 0 .. longest need integer_bits; the rest of a float's 24 bits is the fraction. So
+    // every coordinate is an exact float, and so is its fixed-point integer.
     const int integer_bits = std::bit_width(static_cast<unsigned>(longest));
     PyramidShape shape{};
     const glm::dvec3& edge = frame.voxel_edge;
@@ -22,8 +22,8 @@ PyramidShape shape_of(const Pyramid& pyramid) {
     shape.size_z = frame.size.z;
     shape.sectors_x = frame.sectors().x;
     shape.sectors_y = frame.sectors().y;
-    // t = (K - o) (1/d) has two roundings of half a unit, o + d t one more: together less than
-    // 2.5 * 2^-24 of the longest side; 4 units leave room for the comparison's own rounding.
+    // t = (K - o) (1/d) has two roundings of half a unit, o + d t one more: together they are less
+    // than 2.5 * 2^-24 of the longest side. 4 units leave room for the comparison's own rounding.
     shape.plane_bound = std::ldexp(1.0f, integer_bits + 2 - 24);
     shape.fixed_point = std::ldexp(1.0f, 24 - integer_bits);
     shape.origin_offset = pyramid.instances.origin_offset;
