@@ -11,7 +11,7 @@ usage() {
 Usage: ./bootstrap.sh COMMAND
 
   demo    render scenes/bunny.json to out/bunny.exr and out/bunny.png
-  test    run every test
+  test    run the tests; with --all, every combination of settings too, which takes hours
   build   build the program, build/release/voxelume
   lint    check the format of the code, the host code and each kernel
   docs    write the library's reference to build/docs/html/index.html
@@ -66,10 +66,16 @@ demo() {
     echo "The pictures are out/bunny.exr and out/bunny.png."
 }
 
+# run_tests [--all]: see tests/README.md for what --all adds.
 run_tests() {
+    local configuration=()
+    if [ "${1:-}" = --all ]; then
+        configuration=(-C exhaustive)
+        export VXL_TEST_ALL=1
+    fi
     build_targets
     say "Testing"
-    ctest --test-dir "$build" --output-on-failure -j "$(nproc)"
+    ctest --test-dir "$build" --output-on-failure -j "$(nproc)" "${configuration[@]}"
 }
 
 # The version that CMakeLists.txt gives the project.
@@ -84,8 +90,8 @@ docs() {
     echo "The reference is build/docs/html/index.html."
 }
 
-case "${1:-}" in
-    demo | build | test | lint) install_packages packages.txt ;;
+case "$*" in
+    demo | build | test | 'test --all' | lint) install_packages packages.txt ;;
     docs) install_packages .ci/docs_packages.txt ;;
     help | -h | --help)
         usage
@@ -103,7 +109,7 @@ case "$1" in
         build_targets voxelume
         echo "The program is $build/voxelume."
         ;;
-    test) run_tests ;;
+    test) run_tests "${2:-}" ;;
     docs) docs ;;
     lint)
         install_packages .ci/packages.txt

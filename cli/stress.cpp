@@ -140,7 +140,7 @@ int run(const StressCommand& command) {
         mismatches += result.mismatches;
     }
     if (is_interrupted) {
-        fmt::print(stderr, "interrupted: {} cases till then, {} mismatches\n", cases, mismatches);
+        fmt::print(stderr, "interrupted after {} cases, {} mismatches\n", cases, mismatches);
         return kInterruptedCode;
     }
     return mismatches == 0 ? 0 : 1;

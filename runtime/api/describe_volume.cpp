@@ -16,7 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Places of the display in the frame's own words, without its longer matrix.
-void add_frame(Report& report, const VolumeFrame& frame) {
+void add_volume_frame(Report& report, const VolumeFrame& frame) {
     const Report text = Report::parse(write_frame_text(frame));
     report["layout"] = text["layout"];
     report["display"] = text["shape"];
@@ -46,7 +46,7 @@ Report read_header(const InputFile& file) {
 Report describe_volume(const fs::path& path, const char* kind) {
     const Volume volume = read_volume(path);
     Report report = {{"kind", kind}};
-    add_frame(report, volume.frame);
+    add_volume_frame(report, volume.frame);
     report["voxels"] = volume.indices.size();
     constexpr std::array kKinds = {"space", "object", "unseen"};
     for (size_t k = 0; k < kKinds.size(); ++k)
@@ -67,7 +67,7 @@ Report describe_volume_header(const fs::path& path) {
         if (header.contains(key))
             report[key == std::string("bytes") ? "data bytes" : key] = header[key];
     if (header.contains(kFrameKey))
-        add_frame(report, read_frame_text(header[kFrameKey].dump(), path.string()));
+        add_volume_frame(report, read_frame_text(header[kFrameKey].dump(), path.string()));
     return report;
 }
 

@@ -134,8 +134,8 @@ class Lane {
             const std::lock_guard lock(run_.scenes);
             built.scene = steps.scene(frame);
         }
-        built.world = builder_->form(built.scene, built.report,
-                                     steps.retained ? steps.retained(frame) : std::vector<bool>());
+        built.world = builder_->build(built.scene, built.report,
+                                      steps.retained ? steps.retained(frame) : std::vector<bool>());
         built.report.lacks_room |= lacks_room_;
         return built;
     }

@@ -4,6 +4,7 @@
 #include <glm/vec3.hpp>
 #include <string>
 
+#include "runtime/base/source_place.hpp"
 #include "runtime/geometry/mesh.hpp"
 
 namespace voxelume {

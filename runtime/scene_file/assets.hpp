@@ -6,6 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include "runtime/base/source_place.hpp"
+
 namespace voxelume {
 
 /// Folders to look in after the scene's own, in order.

@@ -4,6 +4,7 @@
 #include "kernels/shared/light_beams.h"
 #include "kernels/shared/trace.h"
 #include "runtime/opencl/buffer.hpp"
+#include "runtime/opencl/program.hpp"
 
 namespace voxelume {
 
@@ -19,11 +20,14 @@ struct RayQueue {
                               ///< set
     Buffer<float> starts;     ///< t at which the ray's segment begins
     Buffer<uint32_t> inside;  ///< 0: open space; else 1 + the material it goes through
+    uint32_t stride = 0;      ///< places for rays, a multiple of 16
 };
+
+/// VXL_QUEUE_PARAMETERS of kernels.
+void bind(KernelArguments& to, const RayQueue& queue);
 
 /// Rays and what they met.
 struct RayBatch : RayQueue {
-    uint32_t stride = 0;      ///< places for rays, a multiple of 16
     Buffer<uint32_t> beams;   ///< VXL_BEAM_COMPONENTS, of sight rays; empty: no beams were sent
     Buffer<uint32_t> hits;    ///< VXL_HIT_COMPONENTS
     Buffer<float> positions;  ///< 3 per hit, voxels
@@ -36,6 +40,9 @@ struct RayBatch : RayQueue {
     Buffer<float> transmittance;  ///< 3: the part of the light that passes through the segment
     Buffer<float> coverage;       ///< the part of what lies behind that is covered
 };
+
+/// VXL_BATCH_PARAMETERS of kernels.
+void bind(KernelArguments& to, const RayBatch& batch);
 
 /// How far from a light the world is empty, see light_beams.cl; no columns where that isn't known.
 struct LightBeams {
@@ -54,5 +61,8 @@ struct ShadowQueue {
     Buffer<float> contributions;  ///< 3: the light that arrives if nothing is in the way
     LightBeams beams;             ///< the beams of the light that they run to
 };
+
+/// VXL_SHADOW_QUEUE_PARAMETERS of kernels.
+void bind(KernelArguments& to, const ShadowQueue& queue);
 
 }  // namespace voxelume

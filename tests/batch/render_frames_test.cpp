@@ -132,9 +132,9 @@ TEST_P(RenderFrames, GivesVolumesAloneOrBesideImages) {
         ASSERT_EQ(results.size(), 2u);
         EXPECT_EQ(last, 1);
         EXPECT_EQ(results[1].image != nullptr, image);
-        EXPECT_EQ(results[1].volume->places, expected.places);
+        EXPECT_EQ(results[1].volume->indices, expected.indices);
         EXPECT_EQ(results[1].volume->colors, expected.colors);
-        EXPECT_NE(results[0].volume->places, expected.places);
+        EXPECT_NE(results[0].volume->indices, expected.indices);
     }
 }
 

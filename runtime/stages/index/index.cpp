@@ -8,6 +8,7 @@
 
 #include "kernels/shared/voxel.h"
 #include "runtime/base/error.hpp"
+#include "runtime/grid/grid_arguments.hpp"
 #include "runtime/grid/sector_table.hpp"
 #include "runtime/stages/index/index_marks.hpp"
 
@@ -139,11 +140,9 @@ Pyramid write_pyramid(const Device& device, const Program& program, const BrickG
                            VXL_KIND_SMOOTH << VXL_KIND_SHIFT};
     const Buffer<uint32_t> starts(device, "index starts", numbers.starts);
     program.kernel("write_voxels")
-        .launch(WorkItem::heavy, grid.brick_count, grid.brick_count, kinds, grid.attribute,
-                glm::ivec4(grid.frame.bricks(), 0), grid.slots, grid.coordinates, grid.occupancy,
-                grid.distance, grid.attributes, grid.colors, grid.primitive_first, grid.primitives,
-                marks.masks, starts, pyramid.leaves, pyramid.leaf_voxels, pyramid.attributes,
-                pyramid.colors, pyramid.fields, pyramid.primitive_first, pyramid.primitives);
+        .launch(WorkItem::heavy, grid.brick_count, grid.brick_count, kinds, grid, marks.masks,
+                starts, pyramid.leaves, pyramid.leaf_voxels, pyramid.attributes, pyramid.colors,
+                pyramid.fields, pyramid.primitive_first, pyramid.primitives);
     if (!pyramid.primitive_first.empty())
         pyramid.primitive_first.write(std::span(&numbers.primitive_count, 1), numbers.voxel_count);
     return pyramid;

@@ -4,6 +4,8 @@
 #include <glm/vec4.hpp>
 #include <utility>
 
+#include "runtime/grid/grid_arguments.hpp"
+
 namespace voxelume {
 namespace {
 
@@ -18,9 +20,7 @@ VoxelMarks mark_listed(const Device& device, const Program& program, const Brick
     Buffer<uint32_t> counts(device, "index counts", size_t(count) * 2);
     program.kernel("mark_voxels")
         .launch(WorkItem::heavy, count, count, Buffer<uint32_t>(device, "marked bricks", listed),
-                glm::ivec4(grid.frame.size, 0), glm::ivec4(grid.frame.bricks(), 0), grid.slots,
-                grid.coordinates, grid.occupancy, grid.distance, grid.primitive_first, marks.masks,
-                leaf_mask, counts);
+                grid, marks.masks, leaf_mask, counts);
     marks.leaf_mask = leaf_mask.read();
     marks.counts = counts.read();
     return marks;

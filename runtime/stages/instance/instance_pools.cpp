@@ -127,7 +127,8 @@ class Joiner {
     template <class T>
     void words(const Buffer<T>& from, uint64_t start, const Buffer<T>& to) {
         program_.kernel("append_words")
-            .launch(WorkItem::light, from.size(), uint32_t(from.size()), uint32_t(start), from, to);
+            .launch(WorkItem::light, from.size(), uint32_t(from.size()), uint32_t(start),
+                    Words(from), Words(to));
     }
 
     void copies(uint64_t count, uint64_t start, uint32_t word, const Buffer<uint32_t>& to) {

@@ -7,9 +7,9 @@
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 
+#include "runtime/grid/grid_arguments.hpp"
 #include "runtime/stages/instance/instance_tree.hpp"
 #include "runtime/stages/place/placement_map.hpp"
-#include "runtime/stages/trace/trace.hpp"
 
 namespace voxelume {
 namespace {

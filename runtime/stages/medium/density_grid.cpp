@@ -164,6 +164,10 @@ class BrickWriter {
 
 }  // namespace
 
+void bind(KernelArguments& to, const DensityGrid& grid) {
+    to.add(grid.shape, grid.bricks, grid.values);
+}
+
 bool has_no_medium(const World& world) {
     return has_density(world.medium) && DensityLattice(world).is_zero();
 }

@@ -5,6 +5,7 @@
 #include "kernels/shared/medium.h"
 #include "runtime/grid/grid.hpp"
 #include "runtime/opencl/buffer.hpp"
+#include "runtime/opencl/program.hpp"
 #include "runtime/scene/scene.hpp"
 
 namespace voxelume {
@@ -15,6 +16,9 @@ struct DensityGrid {
     Buffer<uint32_t> bricks;  ///< shared/medium.h has the words
     Buffer<float> values;     ///< 4096 per slot; constant densities share the first slots
 };
+
+/// VXL_DENSITY_PARAMETERS of kernels.
+void bind(KernelArguments& to, const DensityGrid& grid);
 
 /// The size of a density grid, found without allocating it.
 struct DensityPlan {

@@ -72,7 +72,8 @@ void append_object(const Device& device, const PlacedObject& object, const Buffe
                 joined.solid_records, world.coordinates, grid.slots, grid.primitive_first,
                 grid.primitives, ends, world.primitives);
     const auto append = [&](uint32_t count, uint32_t start, const auto& from, const auto& to) {
-        program.kernel("append_words").launch(WorkItem::light, count, count, start, from, to);
+        program.kernel("append_words")
+            .launch(WorkItem::light, count, count, start, Words(from), Words(to));
     };
     append(triangles * kFloatsPerTriangle, joined.triangles * kFloatsPerTriangle, grid.triangles,
            world.triangles);

@@ -132,13 +132,26 @@ Painter::Painter(const Device& device, const PlacedObject& object, const GridFra
                 grid.distance, near_);
 }
 
+void bind(KernelArguments& to, const Painter& painter) {
+    const BrickGrid& grid = *painter.object_.grid;
+    to.add(painter.rows_, painter.map_.fraction_bits, glm::ivec4(grid.frame.bricks(), 0),
+           grid.slots, painter.near_, grid.occupancy, grid.distance,
+           static_cast<float>(painter.map_.distance_scale), painter.attribute_map_.map,
+           painter.attribute_map_.materials, grid.attributes, grid.colors);
+}
+
+void bind(KernelArguments& to, const PaintedWorld& painted) {
+    const BrickGrid& world = painted.world;
+    to.add(glm::ivec4(world.frame.bricks(), 0), bounds_of(world.frame), painted.painted.slots,
+           world.coordinates, world.distance, painted.painted.nearest, world.occupancy,
+           world.attributes, world.colors);
+}
+
 void Painter::classify(const GridFrame& world, uint32_t count, const Buffer<uint32_t>& listed,
                        const Buffer<uint8_t>& states) {
-    const BrickGrid& grid = *object_.grid;
     program_.kernel("classify_bricks")
         .launch(WorkItem::light, count, count, listed, glm::ivec4(world.bricks(), 0),
-                bounds_of(world), map_.fraction_bits, rows_, glm::ivec4(grid.frame.bricks(), 0),
-                grid.slots, near_, grid.distance, states);
+                bounds_of(world), *this, states);
 }
 
 void Painter::follow(const Device& device, const WorldParts& parts) {
@@ -153,39 +166,24 @@ void Painter::paint(const PaintedBricks& painted, BrickGrid& world) {
 }
 
 void Painter::paint_smooth(const PaintedBricks& painted, BrickGrid& world) {
-    const BrickGrid& grid = *object_.grid;
     const uint32_t leaves = painted.count * 64;
-    const glm::ivec4 table(world.frame.bricks(), 0), object_table(grid.frame.bricks(), 0);
-    const auto scale = static_cast<float>(map_.distance_scale);
-    program_.kernel("paint_distances")
-        .launch(WorkItem::heavy, leaves, leaves, table, map_.fraction_bits, rows_, object_table,
-                grid.slots, near_, grid.distance, scale, painted.slots, world.coordinates,
-                world.distance);
+    const PaintedWorld to{painted, world};
+    program_.kernel("paint_distances").launch(WorkItem::heavy, leaves, leaves, *this, to);
     if (painted.nearest.empty()) return;
     program_.kernel("paint_smooth_voxels")
-        .launch(WorkItem::heavy, leaves, leaves, table, bounds_of(world.frame), map_.fraction_bits,
-                rows_, object_table, grid.slots, near_, grid.distance, scale,
-                half_diagonal(world.frame), attribute_map_.map, attribute_map_.materials,
-                grid.attributes, grid.colors, painted.slots, world.coordinates, world.distance,
-                painted.nearest, world.occupancy, world.attributes, world.colors);
+        .launch(WorkItem::heavy, leaves, leaves, half_diagonal(world.frame), *this, to);
 }
 
 void Painter::paint_cubes(const PaintedBricks& painted, BrickGrid& world) {
-    const BrickGrid& grid = *object_.grid;
     const uint32_t leaves = painted.count * 64;
     program_.kernel("paint_cubes")
-        .launch(WorkItem::heavy, leaves, leaves, glm::ivec4(world.frame.bricks(), 0),
-                map_.fraction_bits, rows_, glm::ivec4(grid.frame.bricks(), 0), grid.slots, near_,
-                grid.occupancy, attribute_map_.map, attribute_map_.materials, grid.attributes,
-                grid.colors, glm::ivec4(world.frame.size, 0), painted.slots, world.coordinates,
-                painted.nearest, world.occupancy, world.attributes, world.colors);
+        .launch(WorkItem::heavy, leaves, leaves, *this, PaintedWorld{painted, world});
 }
 
 void Painter::close_distances(const PaintedBricks& painted, BrickGrid& world) {
     const uint32_t leaves = painted.count * 64;
     program_.kernel("close_distances")
-        .launch(WorkItem::light, leaves, leaves, glm::ivec4(world.frame.bricks(), 0),
-                bounds_of(world.frame), painted.slots, world.coordinates, world.distance);
+        .launch(WorkItem::light, leaves, leaves, PaintedWorld{painted, world});
 }
 
 }  // namespace voxelume

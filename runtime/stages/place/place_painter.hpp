@@ -47,6 +47,15 @@ struct PaintedBricks {
                               ///< it decides nothing
 };
 
+/// The bricks of a world, of which some are painted.
+struct PaintedWorld {
+    const PaintedBricks& painted;
+    const BrickGrid& world;
+};
+
+/// VXL_PAINTED_PARAMETERS of kernels.
+void bind(KernelArguments& to, const PaintedWorld& painted);
+
 /// An object ready to be painted into a world. Its grid must outlive it.
 class Painter {
   public:
@@ -73,6 +82,9 @@ class Painter {
 
     /// Ends the world's distances at its bounds. The painter of any smooth object does it for all.
     void close_distances(const PaintedBricks& painted, BrickGrid& world);
+
+    /// VXL_OBJECT_PARAMETERS of kernels.
+    friend void bind(KernelArguments& to, const Painter& painter);
 
   private:
     void paint_smooth(const PaintedBricks& painted, BrickGrid& world);

@@ -1,8 +1,8 @@
 #include "runtime/stages/resolve/resolve.hpp"
 
-#include <vector>
+#include "runtime/grid/grid_arguments.hpp"
 
-#include "runtime/stages/trace/trace.hpp"
+#include <vector>
 
 namespace voxelume {
 namespace {
@@ -51,10 +51,8 @@ void ResolveStage::pixels(const Pyramid& pyramid, const RayBatch& batch, uint32_
                           uint32_t tiles) {
     const glm::dvec3& o = pyramid.frame.origin;
     const float4 origin = {float(o.x), float(o.y), float(o.z), 0};
-    pixels_.launch_packets(size_t(tiles) * 16, camera_, shape_of(pyramid), origin, batch.hits,
-                           batch.positions, batch.normals, batch.hit_attributes, batch.radiance,
-                           batch.coverage, first_tile, tiles, batch.stride, planes_, objects_,
-                           not_finite_);
+    pixels_.launch_packets(size_t(tiles) * 16, camera_, shape_of(pyramid), origin, batch,
+                           first_tile, tiles, planes_, objects_, not_finite_);
 }
 
 Image ResolveStage::image() const {

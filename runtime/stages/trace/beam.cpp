@@ -4,8 +4,8 @@
 #include <utility>
 
 #include "kernels/shared/beam.h"
+#include "runtime/grid/grid_arguments.hpp"
 #include "runtime/grid/sector_table.hpp"
-#include "runtime/stages/trace/trace.hpp"
 
 namespace voxelume {
 namespace {

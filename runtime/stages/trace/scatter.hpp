@@ -20,12 +20,18 @@ struct Children {
     Buffer<float> node_weights;   ///< 3: the weight of that light in the entry's node
 };
 
+/// VXL_CHILDREN_PARAMETERS of kernels.
+void bind(KernelArguments& to, const Children& children);
+
 /// The sums of light at nodes.
 struct NodeLight {
     Buffer<float> radiance;  ///< 3, `stride` apart
     Buffer<float> coverage;  ///< empty below the first depth
     uint32_t stride = 0;
 };
+
+/// VXL_NODE_PARAMETERS of kernels.
+void bind(KernelArguments& to, const NodeLight& nodes);
 
 /// Called for each layer of surfaces along an observer's rays, the nearest first, after its light
 /// was added to the nodes. Entry n of the first layer is ray n; entries of other layers name their

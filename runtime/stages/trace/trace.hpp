@@ -5,15 +5,13 @@
 
 #include "kernels/shared/scene.h"
 #include "runtime/grid/grid.hpp"
+#include "runtime/grid/grid_arguments.hpp"
 #include "runtime/opencl/program.hpp"
 #include "runtime/stages/features.hpp"
 #include "runtime/stages/medium/density_grid.hpp"
 #include "runtime/stages/ray_batch.hpp"
 
 namespace voxelume {
-
-/// The pyramid's shape for kernels: its size, edges, and the fixed point of rays through it.
-PyramidShape shape_of(const Pyramid& pyramid);
 
 /// The features that the pyramid decides.
 Features features_of(const Pyramid& pyramid);
@@ -28,6 +26,9 @@ struct Surroundings {
     float4 absorption{};     ///< of the medium, per metre
     DensityGrid density{};   ///< ... and its density, if that isn't 1 everywhere
 };
+
+/// VXL_SURROUNDINGS_PARAMETERS of kernels.
+void bind(KernelArguments& to, const Surroundings& surroundings);
 
 /// The kernels of trace.cl for one feature set: the paper's blocks 2, 3 and 4.2.
 class TraceStage {

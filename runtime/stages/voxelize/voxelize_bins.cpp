@@ -53,6 +53,15 @@ Buffer<uint32_t> upload(const Device& device, const char* name,
 
 }  // namespace
 
+void bind(KernelArguments& to, const DeviceTriangles& triangles) {
+    to.add(triangles.first, triangles.count, triangles.vertices, triangles.triangles);
+}
+
+void bind(KernelArguments& to, const TriangleBins& bins) {
+    to.add(bins.size, bins.count, bins.stored, bins.occupied, bins.number_of_bin, bins.coordinates,
+           bins.first, bins.lists);
+}
+
 uint64_t starts_of_counts(std::vector<uint32_t>& counts) {
     uint64_t total = 0;
     for (uint32_t& count : counts) {
@@ -74,8 +83,7 @@ TriangleBins bin_triangles(const Device& device, const Program& program,
     cursors.fill(0);
     const glm::ivec4 reach4(reach, 0);
     program.kernel("count_pairs")
-        .launch(WorkItem::light, triangles.count, triangles.first, triangles.count, bins.size,
-                reach4, extent, triangles.vertices, triangles.triangles, cursors);
+        .launch(WorkItem::light, triangles.count, bins.size, reach4, extent, triangles, cursors);
     const BinLayout layout = lay_out_bins(cursors.read(), static_cast<uint32_t>(bins.size.x));
     bins.count = static_cast<uint32_t>(layout.occupied.size());
     bins.stored = layout.stored;
@@ -87,8 +95,8 @@ TriangleBins bin_triangles(const Device& device, const Program& program,
     bins.lists = Buffer<uint32_t>(device, "bin lists", layout.first.back());
     if (layout.first.back() == 0) return bins;
     program.kernel("list_pairs")
-        .launch(WorkItem::light, triangles.count, triangles.first, triangles.count, bins.size,
-                reach4, extent, triangles.vertices, triangles.triangles, cursors, bins.lists);
+        .launch(WorkItem::light, triangles.count, bins.size, reach4, extent, triangles, cursors,
+                bins.lists);
     return bins;
 }
 

@@ -16,6 +16,9 @@ struct DeviceTriangles {
     Buffer<uint32_t> triangles;  ///< 3 per triangle
 };
 
+/// VXL_MESH_PARAMETERS of kernels.
+void bind(KernelArguments& to, const DeviceTriangles& triangles);
+
 /// Bins that hold triangles: first the frame's bricks, ascending, then the column left of the
 /// frame.
 struct TriangleBins {
@@ -30,6 +33,9 @@ struct TriangleBins {
     Buffer<uint32_t> first;          ///< count + 1: where each bin's triangles start in `lists`
     Buffer<uint32_t> lists;          ///< triangles' numbers, in no particular order
 };
+
+/// VXL_BINS_PARAMETERS of kernels.
+void bind(KernelArguments& to, const TriangleBins& bins);
 
 /// Turns counts into where each one's share starts; returns the total. Throws Error::limit for
 /// 2^32.

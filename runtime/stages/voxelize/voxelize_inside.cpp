@@ -18,8 +18,7 @@ Windings count_windings(VoxelizeJob& job, const Program& winding, const Triangle
     w.carried = Buffer<int16_t>(job.device, "crossing totals", size_t(256) * b.count);
     w.passing = Buffer<int16_t>(job.device, "passing windings", job.grid.slots.size());
     winding.kernel("count_crossings")
-        .launch(WorkItem::heavy, b.count, b.count, b.stored, b.size, job.triangles.vertices,
-                job.triangles.triangles, b.occupied, b.first, b.lists, w.numbers, w.carried);
+        .launch(WorkItem::heavy, b.count, job.triangles, b, w.numbers, w.carried);
     const auto rows = static_cast<uint32_t>(job.bricks.y * job.bricks.z);
     winding.kernel("carry_rows")
         .launch(WorkItem::heavy, rows, rows, b.size, b.number_of_bin, w.carried, job.grid.slots,
@@ -40,9 +39,8 @@ std::vector<uint32_t> classify_bricks(VoxelizeJob& job, const Program& caps,
     states = Buffer<uint32_t>(job.device, "brick states", count);
     caps.kernel("classify_bricks")
         .launch(WorkItem::heavy, (count + lanes - 1) / lanes, count, job.bricks, scale, radius,
-                job.caps.first, job.caps.count, job.caps.vertices, job.caps.triangles,
-                job.bins.number_of_bin, cap_bins.number_of_bin, all_bins.number_of_bin, w.numbers,
-                w.carried, w.passing, states);
+                job.caps, job.bins.number_of_bin, cap_bins.number_of_bin, all_bins.number_of_bin,
+                w.numbers, w.carried, w.passing, states);
     return states.read();
 }
 
@@ -102,8 +100,7 @@ Buffer<uint16_t> find_inside_open(VoxelizeJob& job, const Program& winding, cons
     Buffer<uint16_t> inside(job.device, "inside rows", size_t(256) * job.bins.stored);
     caps.kernel("find_inside_open")
         .launch(WorkItem::heavy, job.items(), job.bins.stored, job.bricks,
-                edge_scale(job.grid.frame), job.caps.first, job.caps.count, job.caps.vertices,
-                job.caps.triangles, job.bins.coordinates, states,
+                edge_scale(job.grid.frame), job.caps, job.bins.coordinates, states,
                 upload(job, "bin numbers", r.numbers), w.numbers, w.carried, w.passing, inside);
     return inside;
 }

@@ -37,11 +37,10 @@ void label_voxels(VoxelizeJob& job, const Program& label, const Program& distanc
     const glm::vec4 scale = edge_scale(job.grid.frame);
     Buffer<uint32_t> nearest(job.device, "nearest triangles", voxels);
     label.kernel("find_nearest")
-        .launch(WorkItem::heavy, job.items(), job.bins.stored, lists.size, job.bricks,
+        .launch(WorkItem::heavy, job.items(), job.bins.stored, job.bricks,
                 glm::ivec4(label_reach(job.grid.frame), 0), scale,
-                static_cast<float>(label_band(job.grid.frame)), job.triangles.vertices,
-                job.triangles.triangles, shape_triangles(job, distance), job.bins.coordinates,
-                lists.number_of_bin, lists.first, lists.lists, nearest);
+                static_cast<float>(label_band(job.grid.frame)), job.triangles, lists,
+                job.bins.coordinates, shape_triangles(job, distance), nearest);
     const auto count = static_cast<uint32_t>(voxels);
     if (!labels.triangle_attributes.empty()) {
         const Buffer<uint32_t> words(job.device, "triangle attributes",
@@ -59,9 +58,8 @@ void label_voxels(VoxelizeJob& job, const Program& label, const Program& distanc
         const Buffer<float> codes(job.device, "sRGB thresholds", std::span(thresholds));
         job.grid.colors = Buffer<uint32_t>(job.device, "voxel colors", voxels);
         label.kernel("color_voxels")
-            .launch(WorkItem::light, voxels, count, job.bricks, scale, job.triangles.vertices,
-                    job.triangles.triangles, job.bins.coordinates, nearest, colors, codes,
-                    job.grid.colors);
+            .launch(WorkItem::light, voxels, count, job.bricks, scale, job.triangles,
+                    job.bins.coordinates, nearest, colors, codes, job.grid.colors);
     }
 }
 

@@ -36,8 +36,7 @@ Buffer<float> shape_triangles(const VoxelizeJob& job, const Program& distance) {
     constexpr size_t kShapeFloats = 20;  // SHAPE_FLOATS of kernels/lib/voxelize/point_triangle.h
     Buffer<float> shapes(job.device, "triangle shapes", kShapeFloats * job.triangles.count);
     distance.kernel("shape_triangles")
-        .launch(WorkItem::light, job.triangles.count, job.triangles.count,
-                edge_scale(job.grid.frame), job.triangles.vertices, job.triangles.triangles,
+        .launch(WorkItem::light, job.triangles.count, edge_scale(job.grid.frame), job.triangles,
                 shapes);
     return shapes;
 }
@@ -45,9 +44,8 @@ Buffer<float> shape_triangles(const VoxelizeJob& job, const Program& distance) {
 void cover_bricks(VoxelizeJob& job, const Program& cover) {
     job.grid.occupancy = Buffer<uint64_t>(job.device, "occupancy", size_t(64) * job.bins.stored);
     cover.kernel("cover_bricks")
-        .launch(WorkItem::heavy, job.items(), job.bins.stored, job.size, job.bricks,
-                job.triangles.vertices, job.triangles.triangles, job.bins.coordinates,
-                job.bins.first, job.bins.lists, job.grid.occupancy);
+        .launch(WorkItem::heavy, job.items(), job.bins.stored, job.size, job.bricks, job.triangles,
+                job.bins, job.grid.occupancy);
 }
 
 void mark_outside(VoxelizeJob& job, const Program& bin) {
@@ -70,29 +68,25 @@ void measure_distances(VoxelizeJob& job, const Program& distance, const Buffer<u
     job.grid.distance = Buffer<int16_t>(job.device, "distances", size_t(4096) * job.bins.stored);
     distance.kernel("measure_distances")
         .launch(WorkItem::heavy, job.items(), job.bins.stored, job.bricks, reach,
-                edge_scale(job.grid.frame), static_cast<float>(band), job.triangles.vertices,
-                job.triangles.triangles, shapes, job.bins.coordinates, job.bins.first,
-                job.bins.lists, inside, job.grid.distance);
+                edge_scale(job.grid.frame), static_cast<float>(band), job.triangles, job.bins,
+                shapes, inside, job.grid.distance);
 }
 
 void list_primitives(VoxelizeJob& job, const Program& exact) {
     const uint32_t count = job.bins.stored;
-    const TriangleBins& b = job.bins;
     job.grid.primitive_first =
         Buffer<uint32_t>(job.device, "primitive starts", size_t(4096) * count + 1);
     Buffer<uint32_t> totals(job.device, "primitive totals", count);
     exact.kernel("count_primitives")
-        .launch(WorkItem::heavy, count, count, job.size, job.bricks, job.triangles.vertices,
-                job.triangles.triangles, b.coordinates, b.first, b.lists, job.grid.primitive_first,
-                totals);
+        .launch(WorkItem::heavy, count, count, job.size, job.bricks, job.triangles, job.bins,
+                job.grid.primitive_first, totals);
     std::vector<uint32_t> bases = totals.read();
     const uint64_t total = starts_of_counts(bases);
     totals.write(bases);
     job.grid.primitives = Buffer<uint32_t>(job.device, "primitives", total);
     exact.kernel("list_primitives")
-        .launch(WorkItem::heavy, count, count, job.size, job.bricks, job.triangles.vertices,
-                job.triangles.triangles, b.coordinates, b.first, b.lists, totals,
-                job.grid.primitive_first, job.grid.primitives);
+        .launch(WorkItem::heavy, count, count, job.size, job.bricks, job.triangles, job.bins,
+                totals, job.grid.primitive_first, job.grid.primitives);
     if (count == 0) job.grid.primitive_first.fill(0);
 }
 
