@@ -67,10 +67,7 @@ class ScatterStage {
     /// Sets which analytic solids transmit light: the numbers of their first records.
     void set_bodies(Buffer<uint32_t> solids) { bodies_ = std::move(solids); }
 
-    uint64_t ended() const {
-        return ended_;
-    }  ///< number of paths that ended because of their
-       ///< small weight
+    uint64_t ended() const { return ended_; }  ///< paths ended for their small weight
 
   private:
     uint32_t take(uint32_t counter);
