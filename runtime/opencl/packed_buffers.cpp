@@ -53,9 +53,7 @@ void PackedWriter::put_array(std::span<const std::byte> array) {
         bytes_.resize(start + ZSTD_compressBound(piece.size()));
         const uint64_t packed = ZSTD_compress(bytes_.data() + start, bytes_.size() - start,
                                               piece.data(), piece.size(), kCompressionLevel);
-        if (ZSTD_isError(packed))
-            throw std::bad_alloc();  // nothing else can fail if there is room
-                                     // enough
+        if (ZSTD_isError(packed)) throw std::bad_alloc();  // there is room: nothing else can fail
         std::memcpy(bytes_.data() + start - sizeof packed, &packed, sizeof packed);
         bytes_.resize(start + packed);
         array = array.subspan(piece.size());
