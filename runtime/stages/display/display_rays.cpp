@@ -10,7 +10,8 @@ namespace voxelume {
 namespace {
 
 constexpr uint32_t kSpanComponents = 3;
-constexpr size_t kMaxAmounts = 1 << 23;  ///< steps of rays whose density is measured together
+constexpr size_t kMaxAmounts = 1 << 23;  ///< number of steps of rays whose density is measured
+                                         ///< together
 
 uint32_t ray_count(const Camera& camera) {
     return tile_count(camera.width, camera.height) * 16;
@@ -28,7 +29,7 @@ RayDepths allocate_depths(const Device& device, const Features& features, uint32
     return rays;
 }
 
-/// Replaces counts by the sums of those before; returns the sum of all.
+/// Replaces each count by the sum of those before it. Returns the sum of all.
 uint64_t make_starts(std::vector<uint32_t>& counts) {
     uint64_t sum = 0;
     for (uint32_t& count : counts) {
@@ -123,7 +124,7 @@ void DisplayRaysStage::keep_layer(const Pyramid& world, const DensityGrid* densi
     layers_.push_back(std::move(records));
 }
 
-/// A few entries at a time, because a step of a ray has a place whether there is medium or not.
+/// Measures a few entries at a time, since a step of a ray takes room whether it has medium or not.
 void DisplayRaysStage::measure_density(const Pyramid& world, const DensityGrid& density,
                                        const Layer& layer, LayerRecords& records) {
     const auto steps = size_t(steps_.count);

@@ -9,7 +9,8 @@
 namespace voxelume {
 namespace {
 
-/// Marks the bricks of the slots `listed`, or all; their leaf masks and counts are in that order.
+/// Marks the bricks of the slots `listed`, or all if it is empty. The leaf masks and counts of the
+/// result are in that order.
 VoxelMarks mark_listed(const Device& device, const Program& program, const BrickGrid& grid,
                        const std::vector<uint32_t>& listed, Buffer<uint64_t> masks) {
     const uint32_t count = listed.empty() ? grid.brick_count : uint32_t(listed.size());
@@ -25,7 +26,7 @@ VoxelMarks mark_listed(const Device& device, const Program& program, const Brick
     return marks;
 }
 
-/// Calls `visit` with the places of a brick and its neighbours.
+/// Calls `visit` with the indices of a brick and its neighbours.
 template <class Visit>
 void for_neighbours(const glm::ivec3& table, uint32_t place, const Visit& visit) {
     const int index = int(place);
@@ -58,7 +59,8 @@ VoxelMarks mark_changed_voxels(const Device& device, const Program& program, con
             listed.push_back(slot);
             continue;
         }
-        // From a slot that is no more to one that is, or the masks might be written before read.
+        // A mask may only move from a slot that is no longer used to one that is: otherwise a mask
+        // might be overwritten before it is read.
         if (old >= kBrickInside || (old != slot && old < grid.brick_count))
             return mark_voxels(device, program, grid);
         leaf_mask[slot] = before.leaf_mask[old];

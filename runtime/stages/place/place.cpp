@@ -39,8 +39,7 @@ std::vector<const PlacedObject*> painting_order(std::span<const PlacedObject> ob
 }
 
 /// True if the world can share its only object's buffers: they are in its frame, and all their
-/// voxels
-/// get one value of packed attributes.
+/// voxels get one value of packed attributes.
 bool is_only_object(std::span<const PlacedObject> objects, const WorldParts& parts) {
     return objects.size() == 1 && objects[0].in_world_frame && !parts.has_attributes() &&
            !objects[0].keeps_inside && !lists_primitives(surface_of(*objects[0].grid));
@@ -83,9 +82,8 @@ class Placer::State {
 
   private:
     /// Makes the world store what the objects now need, and nothing else. A part that no object has
-    /// had
-    /// before has one value in every brick, so no brick is painted for it.
-    /// same in every brick, so none is painted for that.
+    /// had before has one value in every brick, so no brick is painted for it. same in every brick,
+    /// so none is painted for that.
     void follow(const WorldParts& parts) {
         const bool is_stored_anew = bricks_ && !parts.is_stored_like(parts_);
         parts_ = parts;
@@ -95,8 +93,7 @@ class Placer::State {
     }
 
     /// Makes a painter for each object that changed, listed in `changed` too, and takes the others
-    /// from
-    /// `left`.
+    /// from `left`.
     void take_painters(std::span<const PlacedObject> objects, std::map<uint32_t, Painter>& left,
                        std::vector<Painter*>& changed) {
         std::map<const BrickGrid*, const Painter*> of_grid;
@@ -127,8 +124,7 @@ class Placer::State {
     }
 
     /// The states that objects give to the world's bricks: to all if `asked` is empty, else only to
-    /// those
-    /// that are true in it.
+    /// those that are true in it.
     template <class Painters>
     std::vector<uint8_t> states(Painters&& painters, const std::vector<bool>& asked) {
         const glm::ivec3 table = world_.frame.bricks();
@@ -156,9 +152,7 @@ class Placer::State {
     }
 
     /// Stores the bricks that the objects need. Returns the bricks to paint: those that a changed
-    /// painter
-    /// has a part in, or had one in before.
-    /// changed has a part, or had one.
+    /// painter has a part in, or had one in before. changed has a part, or had one.
     std::vector<uint32_t> store_bricks(const std::vector<Painter*>& changed) {
         if (!bricks_) {
             bricks_.emplace(device_, parts_, world_);

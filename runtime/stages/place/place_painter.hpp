@@ -71,8 +71,7 @@ class Painter {
     const BrickBox& bricks() const { return bricks_; }
 
     /// Raises the states of `count` bricks of the world: the first `count` of `listed`, or all
-    /// bricks if
-    /// `listed` is empty.
+    /// bricks if `listed` is empty.
     void classify(const GridFrame& world, uint32_t count, const Buffer<uint32_t>& listed,
                   const Buffer<uint8_t>& states);
 

@@ -128,8 +128,7 @@ void WorldBricks::clear(const std::vector<uint32_t>& brick_numbers) {
 }
 
 /// Makes room for `bricks` slots. A world that grows once may grow again, so from its second growth
-/// on
-/// it gets room for a quarter more, if a buffer may be that large.
+/// on it gets room for a quarter more, if a buffer may be that large.
 void WorldBricks::reserve(uint32_t bricks) {
     if (bricks <= reserved_) return;
     const size_t brick_bytes = kVoxels * (has_attributes_ || colors_ ? 4 : smooth_ ? 2 : 1);

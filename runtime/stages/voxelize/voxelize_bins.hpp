@@ -43,8 +43,7 @@ uint64_t starts_of_counts(std::vector<uint32_t>& counts);
 
 /// Sorts triangles into bricks: a triangle is in the bin of each brick whose closed box of `extent`
 /// lattice units it comes within `reach` of (lattice units along each axis). `bricks` is the
-/// frame's
-/// number of bricks.
+/// frame's number of bricks.
 TriangleBins bin_triangles(const Device& device, const Program& program,
                            const DeviceTriangles& triangles, const glm::ivec3& bricks,
                            const glm::ivec3& reach, int extent);

@@ -19,10 +19,8 @@ std::vector<float> srgb_thresholds() {
 }
 
 /// The distance, in shortest edges, within which a surface concerns a voxel's centre. A surface
-/// concerns
-/// a voxel that it meets, and one with a corner within 0.35 voxel of it: the zero of a smooth field
-/// can
-/// still lie in that voxel.
+/// concerns a voxel that it meets, and one with a corner within 0.35 voxel of it: the zero of a
+/// smooth field can still lie in that voxel.
 double label_band(const GridFrame& frame) {
     return 0.35 + 0.5 * double(glm::length(glm::vec3(edge_scale(frame))));
 }

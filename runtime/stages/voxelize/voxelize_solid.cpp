@@ -64,10 +64,8 @@ class SolidVoxelizer {
     }
 
     /// The slot of a brick that no surface passes through, with the grid's end taken into account.
-    /// A solid
-    /// set has no voxels beyond the grid's size, so bricks across the end are stored (0) and those
-    /// past it
-    /// are outside.
+    /// A solid set has no voxels beyond the grid's size, so bricks across the end are stored (0)
+    /// and those past it are outside.
     uint32_t state_at_end(uint32_t brick, uint32_t state) const {
         const glm::ivec3 corner = brick_corner(grid_.frame, brick), &size = grid_.frame.size;
         if (glm::any(glm::greaterThanEqual(corner, size))) return kBrickOutside;

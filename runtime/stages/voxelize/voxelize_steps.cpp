@@ -6,8 +6,7 @@ namespace voxelume {
 namespace {
 
 /// The slices of a brick that one work-item handles: all of them where cores are few, else one
-/// layer of
-/// leaves.
+/// layer of leaves.
 int slices_per_item(const Device& device) {
     return device.is_cpu() ? kBrickSize : kLeafSize;
 }

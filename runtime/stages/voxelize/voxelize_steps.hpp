@@ -43,14 +43,12 @@ void cover_bricks(VoxelizeJob& job, const Program& cover);
 void mark_outside(VoxelizeJob& job, const Program& bin);
 
 /// Finds which points (voxels' centres or corners, whichever `winding` was built for) are inside,
-/// and
-/// marks the bricks that are not stored.
+/// and marks the bricks that are not stored.
 Buffer<uint16_t> find_inside(VoxelizeJob& job, const Program& winding);
 
 /// Finds the inside of a mesh whose open outlines are closed by the job's caps: the points where
-/// the
-/// generalized winding number is above 1/2. Also stores the bricks that the boundary of this inside
-/// crosses far from any triangle. `cap_bins` holds the caps, `all_bins` caps and triangles.
+/// the generalized winding number is above 1/2. Also stores the bricks that the boundary of this
+/// inside crosses far from any triangle. `cap_bins` holds the caps, `all_bins` caps and triangles.
 Buffer<uint16_t> find_inside_open(VoxelizeJob& job, const Program& winding, const Program& caps,
                                   const TriangleBins& cap_bins, const TriangleBins& all_bins);
 
@@ -77,8 +75,7 @@ void label_voxels(VoxelizeJob& job, const Program& label, const Program& distanc
                   const TriangleBins& lists, const MeshLabels& labels);
 
 /// The maximum distance from a brick, in lattice units, of a triangle that is the closest one of
-/// any of
-/// its voxels that a surface concerns.
+/// any of its voxels that a surface concerns.
 glm::ivec3 label_reach(const GridFrame& frame);
 
 }  // namespace voxelume
