@@ -1,6 +1,7 @@
 // A whole run of frames through its one door: what comes out, in which order, and how it ends
 // early.
 #include "runtime/batch/render_frames.hpp"
+#include "runtime/scene_file/read_scene.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
