@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kFar = 1e9;  // metres
 
-/// The model as an instance shows it: whole, wherever the world ends.
+/// The whole model, as an instance shows it independent of the world's end.
 Model whole(Model model) {
     model.extent = {glm::dvec3(-kFar), glm::dvec3(kFar)};
     return model;
