@@ -12,6 +12,7 @@
 #include "lib/lanes/vector.h"
 #include "lib/lanes/work_item.h"
 #include "lib/light/paths.h"
+#include "lib/traverse/display_shape.h"
 #include "lib/traverse/ray_batch.h"
 #include "shared/display.h"
 #include "shared/scene.h"
@@ -35,7 +36,6 @@ static inline float3 middle_of(const DisplayLattice* l, int4 v) {
 static inline bool is_in_display(const DisplayLattice* l, int4 v) {
     if (v.x < 0 || v.y < 0 || v.z < 0 || v.x >= l->size_x || v.y >= l->size_y || v.z >= l->size_z)
         return false;
-    const float3 p = middle_of(l, v);
     if (l->cylinder) {
         const float x = 2.0f * ((float)v.x + 0.5f) - (float)l->size_x;
         const float z = 2.0f * ((float)v.z + 0.5f) - (float)l->size_z;
@@ -43,15 +43,7 @@ static inline bool is_in_display(const DisplayLattice* l, int4 v) {
         const float radius = (float)l->size_x * (float)l->size_z;
         if (fma(along_x, along_x, along_z * along_z) > radius * radius) return false;
     }
-    if (l->shape == VXL_SHAPE_PYRAMID)
-        return fabs(p.x) <= p.z * l->slope_x && fabs(p.y) <= p.z * l->slope_y;
-    if (l->shape == VXL_SHAPE_BOX) return true;
-    const float squared = fma(p.x, p.x, fma(p.y, p.y, p.z * p.z));
-    if (squared > l->far_depth * l->far_depth) return false;
-    if (l->shape == VXL_SHAPE_BALL) return true;
-    // The angle from Z_E by squares: no root, and the cosine may be negative.
-    const float minimum = l->slope_x * fabs(l->slope_x) * squared;
-    return squared >= l->near_depth * l->near_depth && p.z * fabs(p.z) >= minimum;
+    return is_in_shape(l, middle_of(l, v));
 }
 
 /// Voxel number `which` (0 .. 7) of those that a point lies in or on. Its x is -1 if it is a voxel

@@ -4,6 +4,7 @@
 
 #include "lib/lanes/fixed_point.h"
 #include "lib/lanes/vector.h"
+#include "lib/traverse/display_shape.h"
 #include "shared/display.h"
 #include "shared/scene.h"
 
@@ -25,8 +26,7 @@ static inline lane_float along_sight(const Camera* camera, float4 edge, Vector m
 /// The depth in metres of a point given in voxels from E's `lead`: along Z_E, or along the ray.
 static inline lane_float depth_of(const Camera* camera, float4 edge, Vector from_eye) {
     const Vector metres = scaled(from_eye, edge);
-    if (camera->shape == VXL_SHAPE_SECTOR || camera->shape == VXL_SHAPE_BALL)
-        return exact_sqrt(dot_product(metres, metres));
+    if (!depth_is_along_z(camera)) return exact_sqrt(dot_product(metres, metres));
     return along_sight(camera, edge, metres);
 }
 
@@ -47,8 +47,7 @@ static inline DepthScale depth_scale(const Camera* camera, float4 edge, Vector o
     DepthScale s;
     s.metres = metres_per_t(edge, d);
     s.along = s.metres;
-    if (camera->shape == VXL_SHAPE_PYRAMID || camera->shape == VXL_SHAPE_BOX)
-        s.along = depth_of(camera, edge, d);
+    if (depth_is_along_z(camera)) s.along = depth_of(camera, edge, d);
     s.origin = depth_of(camera, edge, from_eye(camera, o)) - camera->near_plane;
     return s;
 }

@@ -10,9 +10,6 @@
 
 namespace voxelume {
 
-/// The shape's VXL_SHAPE_* of shared/scene.h.
-int shape_number(DisplayShape shape);
-
 /// The observer's camera for kernels, in the voxels of the world.
 Camera camera_of(const Scene& scene, const GridFrame& world);
 
