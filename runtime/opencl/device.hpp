@@ -48,6 +48,8 @@ struct DeviceCounters {
         allocated_bytes;  ///< by buffer name, summed over all allocations
     uint64_t bytes_in_use = 0;
     uint64_t peak_bytes = 0;
+    std::string largest_buffer;  ///< of all so far, by its name
+    uint64_t largest_bytes = 0;
     uint64_t programs_built = 0;       ///< made ready, compiled or not
     uint64_t programs_from_cache = 0;  ///< of these, not compiled again
     double build_ms = 0;               ///< making programs ready; PoCL does most at first launch
@@ -80,6 +82,11 @@ class Device {
     /// Throws Error::device as `open` does.
     static std::vector<Device> open_all(std::string_view selector = {}, int lanes = 0);
 
+    /// A device of no memory and no queue, on which buffers are only counted: as they come and go,
+    /// `counters()` tells what the stages that make them take at their height. Nothing can be read
+    /// from its buffers, nothing launched on it; memory is without end.
+    static Device counting(DeviceInfo info);
+
     /// The same device with another queue, for another thread. Its buffers, once written, serve
     /// kernels of both.
     Device with_own_queue() const;
@@ -87,6 +94,7 @@ class Device {
     const DeviceInfo& info() const;
     int lanes() const { return info().lanes; }
     bool is_cpu() const { return info().kind == DeviceKind::cpu; }
+    bool is_counting() const;
 
     const cl::Context& context() const;
     const cl::Device& handle() const;

@@ -18,6 +18,8 @@ struct WorldParts {
     std::set<uint32_t> words;  ///< that voxels can have
 
     bool has_words() const { return words.size() > 1; }
+    /// Whether voxels take what they have from the smooth surface that is nearest to them.
+    bool measures_nearest() const { return smooth && (has_words() || colors || occupancy); }
     /// Whether bricks of both worlds have the same buffers.
     bool is_stored_like(const WorldParts& other) const;
 };
