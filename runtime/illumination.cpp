@@ -15,13 +15,7 @@ std::vector<LightRecord> light_records(const Device& device, const Features& fea
                                        const Scene& scene, const Pyramid& world) {
     std::vector<LightRecord> records;
     if (!has_light(scene, world)) return records;
-    for (const Light& light : scene.lights) {
-        if (!shines(light)) continue;
-        if (has_area(light))
-            std::ranges::copy(area_spots(light, world.frame), std::back_inserter(records));
-        else
-            records.push_back(light_record(light, world.frame));
-    }
+    records = given_lights(scene, world.frame);
     if (has_lamp(scene, world))
         std::ranges::copy(lamp_spots(device, features, scene, world), std::back_inserter(records));
     std::erase_if(records,
@@ -52,6 +46,18 @@ Buffer<uint32_t> transmitting_solids(const Device& device, const Scene& scene,
 }
 
 }  // namespace
+
+std::vector<LightRecord> given_lights(const Scene& scene, const GridFrame& world) {
+    std::vector<LightRecord> records;
+    for (const Light& light : scene.lights) {
+        if (!shines(light)) continue;
+        if (has_area(light))
+            std::ranges::copy(area_spots(light, world), std::back_inserter(records));
+        else
+            records.push_back(light_record(light, world));
+    }
+    return records;
+}
 
 void build_programs(const Device& device, const Features& features, const Scene& scene,
                     const Pyramid& world, bool makes_image, bool has_halo) {
@@ -97,14 +103,11 @@ Illumination::Illumination(const Device& device, const Features& features, const
 }
 
 void Illumination::send_beams(const Halo& halo, uint32_t most, std::vector<LightBeams>& sent) {
-    uint32_t left = kLightsOfMostBeams * most;
-    for (const LightRecord& light : lights_) {
-        const BeamGrid grid =
-            beam_grid(light, world_.frame.size, scale_of(halo.of), std::min(most, left));
+    for (const BeamGrid& grid : beam_grids(lights_, world_.frame.size, scale_of(halo.of), most,
+                                           kLightsOfMostBeams * most)) {
         const auto known = std::ranges::find_if(
             sent, [&](const LightBeams& kept) { return same_beams(kept.grid, grid); });
         beams_.push_back({grid, known == sent.end() ? Buffer<float>() : known->ends});
-        left -= uint32_t(grid.columns * grid.rows);
     }
     sent.clear();  // before others take memory
     std::optional<LightBeamStage> stage;

@@ -20,6 +20,9 @@
 
 namespace voxelume {
 
+/// The lights that a scene lists, those with an area by their spots.
+std::vector<LightRecord> given_lights(const Scene& scene, const GridFrame& world);
+
 /// Makes the programs of the stages that sight rays go through in one piece: PoCL reads its own
 /// megabyte of headers for each. `makes_image`: they end in a flat image of the scene's channels;
 /// `has_halo`: lights may send beams.

@@ -172,13 +172,13 @@ void add_scene(const Scene& scene, const Pyramid& world, Features& features) {
     add_points(scene, world, features);
 }
 
-RayBytes ray_bytes(const Scene& scene, const Features& features) {
+RayCounts ray_counts(const Scene& scene, const Features& features) {
     const Pyramid any;  // which may show all objects
     const RenderSettings& render = scene.render;
     const uint32_t tiles =
         batch_tiles(features, render.samples, tile_count(render.size.x, render.size.y));
-    return ray_bytes(features, has_light(scene, any), tiles * 16 * uint32_t(render.samples),
-                     reserved_depth(features, scene, any));
+    return {tiles * 16 * uint32_t(render.samples), has_light(scene, any),
+            reserved_depth(features, scene, any)};
 }
 
 }  // namespace voxelume

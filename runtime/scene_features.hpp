@@ -33,7 +33,7 @@ bool has_light(const Scene& scene, const Pyramid& world);
 /// other than straight through.
 size_t most_depth(const Features& features, const Scene& scene, const Pyramid& world);
 
-/// Bytes of the device that the rays of the scene's flat image take on their way.
-RayBytes ray_bytes(const Scene& scene, const Features& features);
+/// The rays of the scene's flat image that go together.
+RayCounts ray_counts(const Scene& scene, const Features& features);
 
 }  // namespace voxelume

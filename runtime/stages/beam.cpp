@@ -46,10 +46,10 @@ class LeafMasks {
             }
         }
         write_empty_cubes(bricks);
-        return {{device, "halo sectors", std::span<const uint32_t>(sectors)},
-                {device, "halo bricks", std::span<const uint32_t>(bricks)},
-                HaloOf::leaves,
-                {}};
+        Halo halo = allocate_halo(device, sectors.size(), stored);
+        halo.sectors.write(sectors);
+        halo.bricks.write(bricks);
+        return halo;
     }
 
   private:
@@ -118,6 +118,18 @@ PyramidShape halo_shape(const Pyramid& pyramid, HaloOf of) {
     return shape;
 }
 
+Halo allocate_halo(const Device& device, size_t sectors, size_t stored) {
+    Halo halo;
+    halo.sectors = Buffer<uint32_t>(device, "halo sectors", sectors);
+    halo.bricks =
+        Buffer<uint32_t>(device, "halo bricks", stored * kRecordsPerSector * kWordsPerRecord);
+    return halo;
+}
+
+Buffer<uint32_t> allocate_beams(const Device& device, uint32_t rays) {
+    return {device, "beams", size_t(VXL_BEAM_PLACES(rays)) * VXL_BEAM_COMPONENTS};
+}
+
 Halo build_halo(const Device& device, const Pyramid& pyramid, HaloOf of) {
     // In the coarse pyramid of a halo of bricks a sector is a brick, and its bricks that one's
     // leaves.
@@ -178,9 +190,7 @@ uint64_t BeamStage::cleared() const {
 }
 
 void BeamStage::start(RayBatch& batch, uint32_t count) {
-    if (batch.beams.empty())
-        batch.beams = Buffer<uint32_t>(device_, "beams",
-                                       size_t(VXL_BEAM_PLACES(batch.stride)) * VXL_BEAM_COMPONENTS);
+    if (batch.beams.empty()) batch.beams = allocate_beams(device_, batch.stride);
     const uint32_t beams = (count + VXL_BEAM_RAYS - 1) / VXL_BEAM_RAYS;
     start_.launch_packets(beams, shape_, halo_.sectors, halo_.bricks, scale_of(halo_.of),
                           batch.rays, beams, batch.stride, batch.beams, cleared_);

@@ -25,6 +25,11 @@ struct Halo {
     std::vector<glm::ivec3> sectors_with_voxels;  ///< of the pyramid
 };
 
+/// The buffers of a halo whose table has so many sectors, and stores some of them; and of the beams
+/// of so many rays.
+Halo allocate_halo(const Device& device, size_t sectors, size_t stored);
+Buffer<uint32_t> allocate_beams(const Device& device, uint32_t rays);
+
 /// The halo of a world without instances. Reads the pyramid's upper levels back; host work of about
 /// 16 nanoseconds a leaf that holds voxels, 2 for a halo of bricks.
 Halo build_halo(const Device& device, const Pyramid& pyramid, HaloOf of = HaloOf::leaves);

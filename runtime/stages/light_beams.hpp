@@ -10,6 +10,12 @@ namespace voxelume {
 /// world, beams would be too oblique, or more than `most` of them needed.
 BeamGrid beam_grid(const LightRecord& light, const glm::ivec3& size, float scale, uint32_t most);
 
+/// The grids of several lights, which have `together` beams at most.
+std::vector<BeamGrid> beam_grids(std::span<const LightRecord> lights, const glm::ivec3& size,
+                                 float scale, uint32_t most, uint32_t together);
+/// What a grid's beams are kept in.
+Buffer<float> allocate_light_beams(const Device& device, const BeamGrid& grid);
+
 /// Whether two grids of one halo have the same beams.
 bool same_beams(const BeamGrid& a, const BeamGrid& b);
 

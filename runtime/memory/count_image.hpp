@@ -1,0 +1,31 @@
+// scene + world on a counting device -> what rendering its flat image takes there.
+#pragma once
+
+#include "runtime/ray_arrays.hpp"
+#include "runtime/scene.hpp"
+#include "runtime/stages/beam.hpp"
+#include "runtime/stages/density_grid.hpp"
+#include "runtime/stages/resolve.hpp"
+
+namespace voxelume {
+
+/// What an image is made with.
+struct ImageMemory {
+    RayArrays rays;
+    Halo halo;
+    Buffer<uint32_t> beams;
+    std::vector<Buffer<float>> light_beams;
+    DensityGrid density;
+    Buffer<uint8_t> tables;  ///< of materials, objects and samples
+    ImageArrays image;
+};
+
+/// All that Renderer's image of a world takes, without the world. `depth` is that of the arrays for
+/// reflections and refractions.
+ImageMemory count_image(const Device& device, const Scene& scene, const Pyramid& world,
+                        const DensityPlan& medium, size_t depth);
+
+/// The buffers of the halo of such a world, where it pays for so many rays.
+Halo count_halo(const Device& device, const Pyramid& world, HaloOf of);
+
+}  // namespace voxelume

@@ -1,0 +1,31 @@
+// object grids on a counting device -> the world's voxels and pyramid there, made as forming a
+// world makes them.
+#pragma once
+
+#include <span>
+
+#include "runtime/instances.hpp"
+#include "runtime/stages/instance_model.hpp"
+#include "runtime/stages/place.hpp"
+
+namespace voxelume {
+
+/// What placing objects, or indexing a grid, is expected to find.
+struct WorldCounts {
+    size_t bricks = 0;      ///< stored
+    size_t voxels = 0;      ///< that rays must see
+    size_t primitives = 0;  ///< listed by them
+};
+
+/// As Placer::place for the first time: the voxels of a world. What only its painters need goes.
+BrickGrid count_placing(const Device& device, std::span<const PlacedObject> objects,
+                        const GridFrame& frame, const WorldCounts& counts);
+
+/// As Indexer::index.
+Pyramid count_index(const Device& device, const BrickGrid& grid, const WorldCounts& counts);
+
+/// As InstanceModels::join.
+Pyramid count_joining(const Device& device, const ListedInstances& listed, const Pyramid& world,
+                      std::span<const WorldCounts> models);
+
+}  // namespace voxelume
