@@ -56,7 +56,7 @@ void check_placements(const Scene& scene) {
     }
 }
 
-ListedInstances list_instances(const Scene& scene, MeshStore& meshes, ObjectGrids& grids) {
+ListedInstances list_instances(const Scene& scene, MeshStore& meshes, const GridSource& grid_of) {
     ListedInstances listed;
     std::map<int, uint32_t> numbers;
     for (uint32_t number = 0; number < scene.objects.size(); ++number) {
@@ -65,7 +65,7 @@ ListedInstances list_instances(const Scene& scene, MeshStore& meshes, ObjectGrid
         const Model& model = scene.models[size_t(object.model)];
         const auto [entry, added] =
             numbers.emplace(object.model, static_cast<uint32_t>(listed.grids.size()));
-        if (added) listed.grids.push_back(grids.own_grid_of(whole(model)));
+        if (added) listed.grids.push_back(grid_of(object, whole(model)));
         if (listed.grids[entry->second]->transparent)
             throw Error(ErrorKind::scene,
                         "{}: some voxels of its model let light through, and rays go through "

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "runtime/grid.hpp"
-#include "runtime/object_grids.hpp"
+#include "runtime/placed_objects.hpp"
 #include "runtime/scene.hpp"
 #include "runtime/stages/instance_model.hpp"
 
@@ -34,10 +34,10 @@ struct ListedInstances {
     std::vector<uint32_t> materials;  ///< of their groups
 };
 
-/// Lists a scene's instances, and has their models voxelized in their own frames. Throws as
-/// ObjectGrids and materials_of_groups do, and Error::scene for a model some of whose voxels let
-/// light through.
-ListedInstances list_instances(const Scene& scene, MeshStore& meshes, ObjectGrids& grids);
+/// Lists a scene's instances with the grids that `grid_of` gives their models, whole, in their own
+/// frames. Throws as that and materials_of_groups do, and Error::scene for a model some of whose
+/// voxels let light through.
+ListedInstances list_instances(const Scene& scene, MeshStore& meshes, const GridSource& grid_of);
 
 /// Puts instances behind worlds, and keeps the pyramids of their models.
 class InstanceModels {

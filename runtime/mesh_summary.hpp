@@ -19,6 +19,7 @@ struct MeshSummary {
     SurfaceArea least_area;  ///< what triangles that lie on one another have once
     bool has_colors = false;
     std::vector<std::string> group_names;
+    uint64_t corners = 0;  ///< positions that triangles share
 };
 
 MeshSummary summary_of(const Mesh& mesh);

@@ -6,6 +6,7 @@
 
 #include "runtime/error.hpp"
 #include "runtime/object_boxes.hpp"
+#include "runtime/placed_objects.hpp"
 #include "runtime/plan.hpp"
 #include "runtime/reach.hpp"
 #include "runtime/shown_models.hpp"
@@ -82,32 +83,6 @@ WorldFormer::Origin WorldFormer::origin_of(const Scene& scene) {
     return origin;
 }
 
-std::vector<PlacedObject> WorldFormer::placed_objects(const Scene& scene,
-                                                      std::vector<SharedGrid>& grids) {
-    std::vector<PlacedObject> objects;
-    const std::vector<VoxelBox> boxes = object_boxes(scene, meshes_);
-    for (uint32_t number = 0; number < scene.objects.size(); ++number) {
-        const Object& object = scene.objects[number];
-        if (is_instanced(scene, object) || !is_in_reach(scene, object)) continue;
-        if (!overlap(boxes[number], boxes[number])) continue;  // nothing of it is in the world
-        const Model& model = scene.models[size_t(object.model)];
-        const bool has_own_voxels = !model.voxels.empty() && model.surface != Surface::exact;
-        grids.push_back(grids_->grid_of(scene, object));
-        PlacedObject placed{.grid = grids.back().get(), .object = number};
-        placed.in_world_frame = model.surface == Surface::exact;
-        placed.world_from_object = placed.in_world_frame ? glm::dmat4(1) : object.world_from_object;
-        placed.priority = object.priority;
-        placed.set = has_own_voxels ? meshes_.voxels(model).set : model.set;
-        placed.keeps_inside =
-            shows_inside(scene, object) ||
-            (has_own_voxels && model.surface == Surface::cubes && transmits(scene, object));
-        for (const int material : materials_of_groups(object, meshes_.groups_of(model)))
-            placed.material_of_group.push_back(uint32_t(material));
-        objects.push_back(std::move(placed));
-    }
-    return objects;
-}
-
 /// The world before, with its instances where they are now.
 FormedWorld WorldFormer::kept_world(const Scene& scene, WorldReport& report) {
     if (density_ != scene.world.medium.density) {
@@ -176,7 +151,9 @@ FormedWorld WorldFormer::form_anew(const Scene& scene, const Origin& origin, Wor
     ListedInstances listed;
     {
         const VoxelizingReport voxelizing(*grids_, meshes_, report);
-        listed = list_instances(scene, meshes_, *grids_);
+        listed = list_instances(scene, meshes_, [&](const Object&, const Model& model) {
+            return grids_->own_grid_of(model);
+        });
     }
     std::vector<VoxelBox> boxes = object_boxes(scene, meshes_);
     FormedWorld formed{kept_or_new_world({scene, awaited, keeps_, room, report}, indexer),
@@ -254,7 +231,11 @@ Pyramid WorldFormer::new_world(const Task& task, Indexer& indexer) {
     std::vector<PlacedObject> objects;
     {
         const VoxelizingReport voxelizing(*grids_, meshes_, report);
-        objects = placed_objects(task.scene, shown);
+        const GridSource grid_of = [&](const Object& object, const Model&) {
+            return grids_->grid_of(task.scene, object);
+        };
+        objects =
+            placed_objects(task.scene, meshes_, object_boxes(task.scene, meshes_), grid_of, shown);
     }
     return for_world(task.scene.world,
                      [&] { return placed_and_indexed(task, objects, std::move(shown), indexer); });

@@ -93,7 +93,6 @@ class WorldFormer {
     static Origin origin_of(const Scene& scene);
     FormedWorld form_anew(const Scene& scene, const Origin& origin, WorldReport& report,
                           const std::vector<bool>& awaited);
-    std::vector<PlacedObject> placed_objects(const Scene& scene, std::vector<SharedGrid>& grids);
     FormedWorld kept_world(const Scene& scene, WorldReport& report);
     /// What forming a world is asked for.
     struct Task {

@@ -103,25 +103,29 @@ class BrickCounter {
         const glm::ivec3 end = glm::min(brick + span - 1, last_);
         for (int z = brick.z; z <= end.z; ++z)
             for (int y = brick.y; y <= end.y; ++y)
-                for (int x = brick.x; x <= end.x; ++x) bricks_ += taken_.take({x, y, z}) ? 1 : 0;
+                for (int x = brick.x; x <= end.x; ++x) {
+                    bricks_ += taken_.take({x, y, z}) ? 1 : 0;
+                    inside_voxels_ += kVoxelsPerBrick;
+                }
     }
 
     /// Those of some bricks, evenly spread, stand for all.
     double voxels() const {
-        if (stored_.empty()) return 0;
+        if (stored_.empty()) return inside_voxels_;
         const size_t sampled = std::min(stored_.size(), kSampledBricks);
         double sum = 0;
         for (size_t i = 0; i < sampled; ++i) {
             const glm::dvec3 corner(stored_[i * stored_.size() / sampled] * kBrickSize);
             sum += voxels_in({corner, corner + double(kBrickSize)});
         }
-        return sum * double(stored_.size()) / double(sampled);
+        return inside_voxels_ + sum * double(stored_.size()) / double(sampled);
     }
 
     double voxels_in(const Cell& cell) const {
-        const double d = distance(cell.middle());
-        if (std::abs(d) > radius(cell)) return 0;
-        if (cell.high.x - cell.low.x < 1.5) return passes(cell.middle(), d) ? 1 : 0;
+        const double d = distance(cell.middle()), size = cell.high.x - cell.low.x;
+        const bool is_inside = rule_.keeps_inside && d < 0;
+        if (std::abs(d) > radius(cell)) return is_inside ? size * size * size : 0;
+        if (size < 1.5) return is_inside || passes(cell.middle(), d) ? 1 : 0;
         double sum = 0;
         for (int part = 0; part < 8; ++part) sum += voxels_in(cell.part(part));
         return sum;
@@ -147,7 +151,7 @@ class BrickCounter {
     double reach_;  ///< metres
     glm::ivec3 first_{0}, last_{0};
     std::vector<glm::ivec3> stored_;  ///< with surface
-    double bricks_ = 0;
+    double bricks_ = 0, inside_voxels_ = 0;
 };
 
 /// Bricks that the surface of a box may pass through.

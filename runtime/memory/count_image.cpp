@@ -12,11 +12,6 @@ namespace {
 /// Tables that have a record for each material, object and sample, and counters, at most.
 constexpr size_t kSmallTables = 8192, kRecordBytes = 160;
 
-Buffer<uint8_t> count_tables(const Device& device, const Scene& scene) {
-    const size_t records = scene.materials.size() + scene.objects.size();
-    return {device, "small tables", kSmallTables + kRecordBytes * records};
-}
-
 /// As Illumination::send_beams. Lamps stand in the world, and send none.
 std::vector<Buffer<float>> count_light_beams(const Device& device, const Scene& scene,
                                              const Pyramid& world, HaloOf of, uint32_t most) {
@@ -30,6 +25,11 @@ std::vector<Buffer<float>> count_light_beams(const Device& device, const Scene& 
 }
 
 }  // namespace
+
+Buffer<uint8_t> count_tables(const Device& device, const Scene& scene) {
+    const size_t records = scene.materials.size() + scene.objects.size();
+    return {device, "small tables", kSmallTables + kRecordBytes * records};
+}
 
 Halo count_halo(const Device& device, const Pyramid& world, HaloOf of) {
     // A leaf's neighbours lie in a sector more on each side of a surface at most.

@@ -25,6 +25,9 @@ struct ImageMemory {
 ImageMemory count_image(const Device& device, const Scene& scene, const Pyramid& world,
                         const DensityPlan& medium, size_t depth);
 
+/// The small tables that light is computed with.
+Buffer<uint8_t> count_tables(const Device& device, const Scene& scene);
+
 /// The buffers of the halo of such a world, where it pays for so many rays.
 Halo count_halo(const Device& device, const Pyramid& world, HaloOf of);
 

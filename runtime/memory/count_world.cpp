@@ -87,8 +87,9 @@ BrickGrid count_placing(const Device& device, std::span<const PlacedObject> obje
     return world;
 }
 
-Pyramid count_index(const Device& device, const BrickGrid& grid, const WorldCounts& counts) {
-    const Buffer<uint64_t> masks = allocate_masks(device, "index masks", grid.brick_count);
+CountedPyramid count_index(const Device& device, const BrickGrid& grid, const WorldCounts& counts) {
+    CountedPyramid indexed;
+    indexed.masks = allocate_masks(device, "index masks", grid.brick_count);
     { const MarkArrays marks = allocate_marks(device, grid.brick_count); }
     const glm::dvec3 sectors(grid.frame.sectors());
     PyramidCounts found;
@@ -97,16 +98,17 @@ Pyramid count_index(const Device& device, const BrickGrid& grid, const WorldCoun
     found.leaves = size_t(double(counts.voxels) / kVoxelsPerLeaf);
     found.voxels = counts.voxels;
     found.primitives = counts.primitives;
-    Pyramid pyramid = allocate_pyramid(device, grid, found);
+    indexed.pyramid = allocate_pyramid(device, grid, found);
     const Buffer<uint32_t> starts(device, "index starts", 3 * size_t(grid.brick_count));
-    return pyramid;
+    return indexed;
 }
 
 Pyramid count_joining(const Device& device, const ListedInstances& listed, const Pyramid& world,
                       std::span<const WorldCounts> counts) {
+    if (listed.list.empty()) return world;
     std::vector<ModelPyramid> models;
     for (size_t i = 0; i < listed.grids.size(); ++i)
-        models.push_back({.pyramid = count_index(device, *listed.grids[i], counts[i])});
+        models.push_back({.pyramid = count_index(device, *listed.grids[i], counts[i]).pyramid});
     Pyramid joined = allocate_joined(device, world, models);
     joined.instances.list = listed.list;
     joined.instances.records = Buffer<InstanceRecord>(device, "instances", listed.list.size());

@@ -21,10 +21,16 @@ struct WorldCounts {
 BrickGrid count_placing(const Device& device, std::span<const PlacedObject> objects,
                         const GridFrame& frame, const WorldCounts& counts);
 
-/// As Indexer::index.
-Pyramid count_index(const Device& device, const BrickGrid& grid, const WorldCounts& counts);
+/// A pyramid, and the marks that it was made from.
+struct CountedPyramid {
+    Pyramid pyramid;
+    Buffer<uint64_t> masks;
+};
 
-/// As InstanceModels::join.
+/// As Indexer::index.
+CountedPyramid count_index(const Device& device, const BrickGrid& grid, const WorldCounts& counts);
+
+/// As InstanceModels::join; `models` are the counts of the listed grids.
 Pyramid count_joining(const Device& device, const ListedInstances& listed, const Pyramid& world,
                       std::span<const WorldCounts> models);
 

@@ -48,11 +48,11 @@ struct DeviceCounters {
         allocated_bytes;  ///< by buffer name, summed over all allocations
     uint64_t bytes_in_use = 0;
     uint64_t peak_bytes = 0;
-    std::string largest_buffer;  ///< of all so far, by its name
-    uint64_t largest_bytes = 0;
     uint64_t programs_built = 0;       ///< made ready, compiled or not
     uint64_t programs_from_cache = 0;  ///< of these, not compiled again
     double build_ms = 0;               ///< making programs ready; PoCL does most at first launch
+    std::string largest_buffer;        ///< of all so far, by its name
+    uint64_t largest_bytes = 0;
 };
 
 /// An open device and an in-order queue of work for it. Shared by the buffers and programs made on

@@ -60,6 +60,14 @@ void read_voxels(const VoxelArrays& voxels, Volume& volume) {
     }
 }
 
+DisplayRayArrays allocate_display_rays(const Device& device, uint32_t rays, bool has_medium) {
+    return {{device, "display steps", rays},
+            {device, "display ray objects", rays},
+            {device, "display ray depths", rays},
+            {device, "display ray colors", size_t(rays) * 3},
+            {device, "display spans", has_medium ? size_t(rays) * kSpanComponents : 0}};
+}
+
 DisplayRaysStage::DisplayRaysStage(const Device& device, const Features& features,
                                    const Sight& sight, const VolumeFrame& frame,
                                    const Medium& medium, const Space& space)
@@ -71,10 +79,7 @@ DisplayRaysStage::DisplayRaysStage(const Device& device, const Features& feature
       near_depth_(float(frame.display.near)),
       space_(space),
       total_(ray_count(sight)),
-      hit_steps_(device, "display steps", total_),
-      objects_(device, "display ray objects", total_),
-      depths_(device, "display ray depths", total_),
-      colors_(device, "display ray colors", size_t(total_) * 3),
+      rays_(allocate_display_rays(device, total_, features.medium)),
       program_(device, "display_rays.cl", features.defines(device)),
       measure_(program_.kernel("measure_steps")),
       layer_(program_.kernel("measure_layer")),
@@ -83,15 +88,14 @@ DisplayRaysStage::DisplayRaysStage(const Device& device, const Features& feature
       place_(program_.kernel("place_voxels")),
       fill_(program_.kernel("fill_voxels")) {
     if (!features.medium) steps_.absorption = 0;
-    if (features.medium)
-        spans_ = Buffer<float>(device, "display spans", size_t(total_) * kSpanComponents);
 }
 
 void DisplayRaysStage::keep(const PyramidShape& world, const RayBatch& batch, uint32_t first_ray,
                             uint32_t count) {
     measure_.launch_packets(count, sight_, world, steps_, batch.rays, batch.hits, batch.positions,
                             batch.words, batch.radiance, count, batch.stride, first_ray, total_,
-                            hit_steps_, depths_, objects_, colors_, spans_);
+                            rays_.hit_steps, rays_.depths, rays_.objects, rays_.colors,
+                            rays_.spans);
 }
 
 void DisplayRaysStage::keep_layer(const Pyramid& world, const DensityGrid* density,
@@ -146,18 +150,19 @@ VoxelArrays DisplayRaysStage::voxels() {
     const uint32_t width = uint32_t(sight_.width), height = uint32_t(sight_.height);
     Buffer<uint32_t> starts(device_, "display counts", size_t(height) * size_t(steps_.count));
     starts.fill(0);
-    count_.launch(WorkItem::heavy, height, width, height, steps_, hit_steps_, spans_, total_,
-                  starts);
+    count_.launch(WorkItem::heavy, height, width, height, steps_, rays_.hit_steps, rays_.spans,
+                  total_, starts);
     std::vector<uint32_t> counts = starts.read();
     VoxelArrays voxels = allocate_voxels(device_, make_starts(counts));
     if (voxels.count == 0) return voxels;
     starts.write(std::span<const uint32_t>(counts));
-    place_.launch(WorkItem::heavy, height, width, height, steps_, hit_steps_, spans_, total_,
-                  starts, voxels.places, voxels.objects);
+    place_.launch(WorkItem::heavy, height, width, height, steps_, rays_.hit_steps, rays_.spans,
+                  total_, starts, voxels.places, voxels.objects);
     const uint32_t count = uint32_t(voxels.count);
     fill_.launch_packets(count, width, height, steps_, near_depth_, space_, voxels.places,
-                         hit_steps_, depths_, objects_, colors_, spans_, total_, count,
-                         voxels.colors, voxels.opacities, voxels.depths, voxels.objects);
+                         rays_.hit_steps, rays_.depths, rays_.objects, rays_.colors, rays_.spans,
+                         total_, count, voxels.colors, voxels.opacities, voxels.depths,
+                         voxels.objects);
     return voxels;
 }
 

@@ -26,6 +26,14 @@ VoxelArrays allocate_voxels(const Device& device, uint64_t count);
 /// Reads the voxels into a volume. Waits for the device.
 void read_voxels(const VoxelArrays& voxels, Volume& volume);
 
+/// What is kept of each sight ray.
+struct DisplayRayArrays {
+    Buffer<uint32_t> hit_steps, objects;
+    Buffer<float> depths, colors;
+    Buffer<float> spans;  ///< only in a world with a medium
+};
+DisplayRayArrays allocate_display_rays(const Device& device, uint32_t rays, bool has_medium);
+
 /// The records of a layer of surfaces along sight rays: VXL_LAYER_WORDS words, `count` apart.
 struct LayerRecords {
     size_t count = 0;
@@ -77,10 +85,8 @@ class DisplayRaysStage {
     float near_depth_;
     Space space_;
     uint32_t total_;  ///< places for rays
-    Buffer<uint32_t> hit_steps_, objects_;
-    Buffer<float> depths_, colors_;
-    Buffer<float> spans_;  ///< only in a world with a medium
-    Buffer<float> seen_;   ///< of the batch's nodes before a layer: light, coverage
+    DisplayRayArrays rays_;
+    Buffer<float> seen_;  ///< of the batch's nodes before a layer: light, coverage
     std::vector<LayerRecords> layers_;
     Program program_;
     Kernel measure_, layer_, density_, count_, place_, fill_;

@@ -73,6 +73,23 @@ void check_lines(const Sight& sight, const VolumeFrame& frame) {
 
 }  // namespace
 
+ProbePoints allocate_points(const Device& device, uint32_t count) {
+    ProbePoints points;
+    points.count = count;
+    points.total = (count + 15) / 16 * 16;
+    points.coordinates = Buffer<float>(device, "probe points", size_t(points.total) * 3);
+    points.views = Buffer<uint32_t>(device, "probe views", points.total);
+    return points;
+}
+
+Buffer<float> allocate_crossings(const Device& device, uint32_t lines, uint32_t slots) {
+    return {device, "probe crossings", size_t(lines) * slots};
+}
+
+uint32_t scanned_lines(uint32_t rays) {
+    return std::max(rays / 16 / kBatchParts, 1u) * 16;
+}
+
 DisplayScanStage::DisplayScanStage(const Device& device, const Features& features,
                                    const VolumeFrame& frame, const GridFrame& world)
     : device_(device),
@@ -143,7 +160,7 @@ ProbePoints DisplayScanStage::scan_batch(const Pyramid& world, const Family& fam
     std::vector<uint32_t> counts;
     for (;;) {
         if (crossings_.size() < size_t(stride) * slots_)
-            crossings_ = Buffer<float>(device_, "probe crossings", size_t(stride) * slots_);
+            crossings_ = allocate_crossings(device_, stride, slots_);
         if (counts_.size() < stride) counts_ = Buffer<uint32_t>(device_, "probe counts", stride);
         scan_.launch_packets(count, shape_of(world), world.sectors, world.bricks, world.leaves,
                              world.leaf_voxels, world.attributes, world.fields,
@@ -157,12 +174,8 @@ ProbePoints DisplayScanStage::scan_batch(const Pyramid& world, const Family& fam
     }
     std::vector<uint32_t> starts(count);
     std::exclusive_scan(counts.begin(), counts.end(), starts.begin(), 0u);
-    ProbePoints points;
-    points.count = starts.back() + counts.back();
-    points.total = (points.count + 15) / 16 * 16;
+    ProbePoints points = allocate_points(device_, starts.back() + counts.back());
     if (points.count == 0) return points;
-    points.coordinates = Buffer<float>(device_, "probe points", size_t(points.total) * 3);
-    points.views = Buffer<uint32_t>(device_, "probe views", points.total);
     points.views.fill(kNoView);
     const Buffer<uint32_t> places(device_, "probe starts", std::span<const uint32_t>(starts));
     pack_.launch(WorkItem::light, count, family.axis, uint32_t(family.sight.width), family.last.x,
@@ -174,7 +187,7 @@ ProbePoints DisplayScanStage::scan_batch(const Pyramid& world, const Family& fam
 std::vector<ProbePoints> DisplayScanStage::scan(const Pyramid& world, RayBatch& batch) {
     std::vector<ProbePoints> pieces;
     const VoxelBox shown = world.voxel_count == 0 ? VoxelBox{} : box_of_objects(world);
-    const uint32_t batch_tiles = std::max(batch.stride / 16 / kBatchParts, 1u);
+    const uint32_t batch_tiles = scanned_lines(batch.stride) / 16;
     for (const Family& family : families_) {
         const Sight& sight = family.sight;
         if (sight.width == 0 || sight.height == 0) continue;

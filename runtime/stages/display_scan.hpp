@@ -20,6 +20,15 @@ struct ProbePoints {
 };
 inline constexpr uint32_t kNoView = 0xFFFFFFFFu;
 
+/// Points without a view, of so many; where lines' crossings are kept before, `slots` of each line,
+/// and their counts.
+ProbePoints allocate_points(const Device& device, uint32_t count);
+Buffer<float> allocate_crossings(const Device& device, uint32_t lines, uint32_t slots);
+inline constexpr uint32_t kFirstSlots = 64;
+
+/// Lines that are scanned together with a batch of so many rays.
+uint32_t scanned_lines(uint32_t rays);
+
 /// Kernel of display_scan.cl: probe lines along the three axes of a lattice.
 ///
 /// They are all lines of the lattice's edges, with so many parallels between them that no gap is
@@ -60,7 +69,7 @@ class DisplayScanStage {
     SightStage sight_;
     Program program_;
     Kernel scan_, pack_;
-    uint32_t slots_ = 64;  ///< crossings of a line that have a place; grows
+    uint32_t slots_ = kFirstSlots;  ///< crossings of a line that have a place; grows
     Buffer<float> crossings_;
     Buffer<uint32_t> counts_;
     uint64_t lines_ = 0, clear_lines_ = 0;

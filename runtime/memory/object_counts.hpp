@@ -1,0 +1,54 @@
+// scene -> how many bricks and voxels its grids and its world are expected to hold, or hold at
+// least.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <vector>
+
+#include "runtime/memory/brick_count.hpp"
+#include "runtime/memory/count_grids.hpp"
+#include "runtime/memory/count_world.hpp"
+#include "runtime/plan_extent.hpp"
+#include "runtime/plan_object.hpp"
+
+namespace voxelume {
+
+enum class Estimate : uint8_t {
+    expected,  ///< with a margin for what surfaces' areas and distances don't tell
+    least      ///< what can't be less
+};
+
+/// Counts for one scene; what its objects share is found once. Reads what ObjectExtents does.
+class ObjectCounts {
+  public:
+    ObjectCounts(const Scene& scene, MeshStore& meshes)
+        : scene_(scene), meshes_(meshes), extents_(scene, meshes) {}
+
+    /// The grid of a model in its own space; of an exact object in the world's frame.
+    GridCounts model_grid(const Model& model, Estimate estimate);
+    GridCounts object_grid(const Object& object, Estimate estimate);
+
+    /// What the objects' voxels take of the world.
+    WorldCounts world(Estimate estimate);
+
+    /// As object_boxes.
+    const std::vector<VoxelBox>& boxes() { return extents_.boxes(); }
+
+  private:
+    SurfaceExtent expected_in_world(const Object& object, TakenBricks& taken);
+    WorldExtent least_in_world(size_t number);
+    SurfaceExtent voxels_in_world(const Object& object, const VoxelModel& voxels, bool at_least);
+
+    const Scene& scene_;
+    MeshStore& meshes_;
+    ObjectExtents extents_;
+};
+
+/// The grid of a mesh of which the surface has such an area.
+GridCounts mesh_grid(const Model& model, const MeshSummary& mesh, const SurfaceArea& area);
+
+/// The voxels that rays must see of a grid, and the primitives that these list.
+WorldCounts indexed_counts(const GridCounts& grid);
+
+}  // namespace voxelume
