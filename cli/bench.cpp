@@ -8,14 +8,14 @@
 
 #include "cli/checks.hpp"
 #include "cli/commands.hpp"
-#include "runtime/bench/bench.hpp"
-#include "runtime/bench/bench_page.hpp"
-#include "runtime/bench/bench_plots.hpp"
-#include "runtime/bench/bench_tables.hpp"
-#include "runtime/error.hpp"
-#include "runtime/io/atomic_file.hpp"
-#include "runtime/io/progress.hpp"
+#include "cli/progress.hpp"
+#include "runtime/base/atomic_file.hpp"
+#include "runtime/base/error.hpp"
 #include "runtime/opencl/device.hpp"
+#include "runtime/verify/bench/bench.hpp"
+#include "runtime/verify/report/bench_page.hpp"
+#include "runtime/verify/report/bench_plots.hpp"
+#include "runtime/verify/report/bench_tables.hpp"
 
 namespace voxelume::cli {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "cli/commands.hpp"
 #include "cli/scene_options.hpp"
-#include "runtime/scene_animation.hpp"
+#include "runtime/scene_file/scene_animation.hpp"
 
 namespace voxelume::cli {
 

@@ -7,10 +7,10 @@
 #include <map>
 #include <sstream>
 
-#include "runtime/io/atomic_file.hpp"
-#include "runtime/io/vdb.hpp"
+#include "runtime/base/atomic_file.hpp"
+#include "runtime/io/vdb/vdb.hpp"
 #include "runtime/opencl/platforms.hpp"
-#include "runtime/scene.hpp"
+#include "runtime/scene/scene.hpp"
 
 namespace voxelume::cli {
 

@@ -12,8 +12,8 @@
 #include <utility>
 #include <vector>
 
-#include "runtime/error.hpp"
-#include "runtime/scene_fields.hpp"
+#include "runtime/base/error.hpp"
+#include "runtime/scene_file/scene_fields.hpp"
 
 namespace voxelume::cli {
 

@@ -7,14 +7,14 @@
 
 #include "cli/commands.hpp"
 #include "cli/report.hpp"
-#include "runtime/error.hpp"
-#include "runtime/flip.hpp"
-#include "runtime/image_difference.hpp"
-#include "runtime/io/exr.hpp"
-#include "runtime/io/input_file.hpp"
-#include "runtime/io/mesh_color.hpp"
-#include "runtime/io/png.hpp"
-#include "runtime/scene_fields.hpp"
+#include "runtime/base/error.hpp"
+#include "runtime/base/input_file.hpp"
+#include "runtime/image/flip.hpp"
+#include "runtime/image/image_difference.hpp"
+#include "runtime/io/image/exr.hpp"
+#include "runtime/io/image/png.hpp"
+#include "runtime/io/mesh/mesh_color.hpp"
+#include "runtime/scene_file/scene_fields.hpp"
 
 namespace voxelume::cli {
 

@@ -8,13 +8,13 @@
 #include "cli/mesh_report.hpp"
 #include "cli/report.hpp"
 #include "cli/volume_report.hpp"
-#include "runtime/error.hpp"
-#include "runtime/io/exr.hpp"
-#include "runtime/io/input_file.hpp"
-#include "runtime/io/model_file.hpp"
-#include "runtime/io/png.hpp"
-#include "runtime/io/vdb.hpp"
-#include "runtime/io/volume_frame_text.hpp"
+#include "runtime/base/error.hpp"
+#include "runtime/base/input_file.hpp"
+#include "runtime/io/image/exr.hpp"
+#include "runtime/io/image/png.hpp"
+#include "runtime/io/vdb/vdb.hpp"
+#include "runtime/io/volume/volume_frame_text.hpp"
+#include "runtime/io/voxels/model_file.hpp"
 
 namespace voxelume::cli {
 

@@ -14,10 +14,10 @@
 #include <thread>
 
 #include "cli/commands.hpp"
-#include "runtime/error.hpp"
-#include "runtime/io/exr.hpp"
-#include "runtime/scene_fields.hpp"
-#include "runtime/version.hpp"
+#include "runtime/base/error.hpp"
+#include "runtime/base/version.hpp"
+#include "runtime/io/image/exr.hpp"
+#include "runtime/scene_file/scene_fields.hpp"
 
 namespace voxelume::cli {
 

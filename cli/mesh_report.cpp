@@ -8,9 +8,9 @@
 #include <glm/common.hpp>
 #include <vector>
 
-#include "runtime/error.hpp"
-#include "runtime/io/mesh_reader.hpp"
-#include "runtime/plan.hpp"
+#include "runtime/base/error.hpp"
+#include "runtime/io/mesh/mesh_reader.hpp"
+#include "runtime/memory/plan.hpp"
 
 namespace voxelume::cli {
 namespace {

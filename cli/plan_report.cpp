@@ -4,9 +4,9 @@
 
 #include "cli/report.hpp"
 #include "cli/scene_options.hpp"
-#include "runtime/frame_plans.hpp"
-#include "runtime/reach.hpp"
-#include "runtime/scene_animation.hpp"
+#include "runtime/analysis/reach.hpp"
+#include "runtime/memory/frame_plans.hpp"
+#include "runtime/scene_file/scene_animation.hpp"
 
 namespace voxelume::cli {
 namespace {

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "runtime/interior.hpp"
-#include "runtime/io/atomic_file.hpp"
-#include "runtime/version.hpp"
+#include "runtime/analysis/interior.hpp"
+#include "runtime/base/atomic_file.hpp"
+#include "runtime/base/version.hpp"
 
 namespace voxelume::cli {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "runtime/renderer.hpp"
+#include "runtime/render/renderer.hpp"
 
 namespace voxelume::cli {
 

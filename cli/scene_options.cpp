@@ -3,7 +3,7 @@
 #include <CLI/CLI.hpp>
 
 #include "cli/checks.hpp"
-#include "runtime/error.hpp"
+#include "runtime/base/error.hpp"
 
 namespace voxelume::cli {
 void add_scene_options(CLI::App& app, SceneOptions& options) {

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "runtime/model_cache.hpp"
+#include "runtime/assets/model_cache.hpp"
 #include "runtime/opencl/device.hpp"
-#include "runtime/scene.hpp"
+#include "runtime/scene/scene.hpp"
 
 // NOLINTNEXTLINE(readability-identifier-naming): the library's own name
 namespace CLI {

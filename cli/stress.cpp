@@ -11,10 +11,10 @@
 
 #include "cli/checks.hpp"
 #include "cli/commands.hpp"
-#include "runtime/error.hpp"
-#include "runtime/io/progress.hpp"
+#include "cli/progress.hpp"
+#include "runtime/base/error.hpp"
 #include "runtime/opencl/device.hpp"
-#include "runtime/stress/stress.hpp"
+#include "runtime/verify/stress/stress.hpp"
 
 namespace voxelume::cli {
 namespace {

@@ -7,10 +7,10 @@
 
 #include "cli/checks.hpp"
 #include "cli/commands.hpp"
-#include "runtime/io/png.hpp"
-#include "runtime/io/volume_file.hpp"
-#include "runtime/io/volume_page.hpp"
-#include "runtime/volume_view.hpp"
+#include "runtime/image/volume_view.hpp"
+#include "runtime/io/image/png.hpp"
+#include "runtime/io/volume/volume_file.hpp"
+#include "runtime/io/volume/volume_page.hpp"
 
 namespace voxelume::cli {
 namespace {

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <array>
 
-#include "runtime/io/input_file.hpp"
-#include "runtime/io/volume_file.hpp"
-#include "runtime/io/volume_frame_text.hpp"
-#include "runtime/volume_geometry.hpp"
+#include "runtime/base/input_file.hpp"
+#include "runtime/image/volume_geometry.hpp"
+#include "runtime/io/volume/volume_file.hpp"
+#include "runtime/io/volume/volume_frame_text.hpp"
 
 namespace voxelume::cli {
 

@@ -8,12 +8,12 @@
 
 #include "cli/checks.hpp"
 #include "cli/commands.hpp"
-#include "runtime/error.hpp"
-#include "runtime/io/mesh_reader.hpp"
+#include "runtime/assets/voxel_export.hpp"
+#include "runtime/base/error.hpp"
+#include "runtime/io/mesh/mesh_reader.hpp"
+#include "runtime/memory/plan.hpp"
 #include "runtime/opencl/device.hpp"
-#include "runtime/plan.hpp"
-#include "runtime/stages/voxelize.hpp"
-#include "runtime/voxel_export.hpp"
+#include "runtime/stages/voxelize/voxelize.hpp"
 
 namespace voxelume::cli {
 namespace {

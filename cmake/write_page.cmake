@@ -1,5 +1,5 @@
 # Run by embed_page: writes the files `page` and `script` into the C++ source `output`.
-set(text "#include \"runtime/io/volume_page.hpp\"\n\nnamespace voxelume {\n\n")
+set(text "#include \"runtime/io/volume/volume_page.hpp\"\n\nnamespace voxelume {\n\n")
 function(add_part name file)
     file(READ ${file} content HEX)
     string(REGEX REPLACE "([0-9a-f][0-9a-f])" "\\\\x\\1" content "${content}")

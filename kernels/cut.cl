@@ -2,7 +2,7 @@
 //
 // A brick of the result names its slots in the operands; an operand that doesn't store it is all
 // inside or all outside there.
-#include "lib/work_item.h"
+#include "lib/lanes/work_item.h"
 #include "shared/voxel.h"
 
 static inline int is_stored(uint slot) {

@@ -4,10 +4,10 @@
 // coordinates are exact, so a point on voxels' edges belongs to all of them. A mask of one bit for
 // every voxel of the lattice, by place x + size_x (y + size_y z), tells which are shown; the voxels
 // of 256 bits are numbered from their group's start.
-#include "lib/exact_exp.h"
-#include "lib/fixed_point.h"
-#include "lib/vector.h"
-#include "lib/work_item.h"
+#include "lib/lanes/exact_exp.h"
+#include "lib/lanes/fixed_point.h"
+#include "lib/lanes/vector.h"
+#include "lib/lanes/work_item.h"
 #include "shared/display.h"
 #include "shared/scene.h"
 #include "shared/trace.h"

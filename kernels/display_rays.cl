@@ -4,11 +4,11 @@
 // Rays lie in the order of sight.cl, one sample a pixel. Space between a ray's way into the world
 // and its end is cut into steps; the voxels of P are written by ascending place, u + width (v +
 // height k).
-#include "lib/density.h"
-#include "lib/exact_exp.h"
-#include "lib/fixed_point.h"
-#include "lib/vector.h"
-#include "lib/work_item.h"
+#include "lib/lanes/exact_exp.h"
+#include "lib/lanes/fixed_point.h"
+#include "lib/lanes/vector.h"
+#include "lib/lanes/work_item.h"
+#include "lib/traverse/density.h"
 #include "shared/display.h"
 #include "shared/scene.h"
 #include "shared/trace.h"

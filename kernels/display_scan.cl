@@ -2,11 +2,11 @@
 //
 // One work-item carries VXL_LANES lines through the world. Lanes that reach an occupied voxel wait
 // until no lane is walking; then the surfaces in those voxels are crossed together.
-#include "lib/smooth.h"
-#include "lib/solid_surface.h"
-#include "lib/triangle.h"
-#include "lib/voxel_kinds.h"
-#include "lib/work_item.h"
+#include "lib/lanes/work_item.h"
+#include "lib/solid/solid_surface.h"
+#include "lib/surface/smooth.h"
+#include "lib/surface/triangle.h"
+#include "lib/traverse/voxel_kinds.h"
 #include "shared/display.h"
 #include "shared/scene.h"
 #include "shared/voxel.h"

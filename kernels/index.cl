@@ -5,9 +5,9 @@
 //
 // Build constants: VXL_OCCUPANCY, VXL_SMOOTH, VXL_ATTRIBUTES, VXL_WRITE_ATTRIBUTES, VXL_COLORS,
 // VXL_PRIMITIVES say which of the grid's buffers exist.
-#include "lib/brick_field.h"
-#include "lib/brick_nodes.h"
-#include "lib/work_item.h"
+#include "lib/lanes/work_item.h"
+#include "lib/surface/brick_field.h"
+#include "lib/voxelize/brick_nodes.h"
 
 // Voxels of a leaf that lie below `room` voxels along each axis from the leaf's minimum corner.
 static inline ulong mask_within(int4 room) {

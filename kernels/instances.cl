@@ -1,5 +1,5 @@
 // pyramids of models -> behind the world's pyramid: joins what instances share.
-#include "lib/work_item.h"
+#include "lib/lanes/work_item.h"
 #include "shared/trace.h"
 #include "shared/voxel.h"
 

@@ -1,10 +1,10 @@
 // surface points + a light -> a queue of shadow rays, each with the light that it would bring.
 //
 // Whitted 1980: ambient, Lambert's cosine, and the highlight of Blinn's half vector.
-#include "lib/lift.h"
-#include "lib/surface_color.h"
-#include "lib/vector.h"
-#include "lib/work_item.h"
+#include "lib/lanes/vector.h"
+#include "lib/lanes/work_item.h"
+#include "lib/surface/surface_color.h"
+#include "lib/traverse/lift.h"
 #include "shared/scene.h"
 #include "shared/trace.h"
 

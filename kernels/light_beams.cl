@@ -1,6 +1,6 @@
 // a light -> beams: how far from it the world is empty.
-#include "lib/beam.h"
-#include "lib/work_item.h"
+#include "lib/lanes/work_item.h"
+#include "lib/traverse/beam.h"
 #include "shared/light_beams.h"
 
 /// Sends the beams of `count` tiles of the grid and leaves in `ends`, at their places in it, how

@@ -3,11 +3,11 @@
 //
 // The density of the medium scales its absorption alone, so the sum of density times length stands
 // for a ray's whole way: passed = exp(-absorption * sum), emitted = color * (1 - passed).
-#include "lib/density.h"
-#include "lib/exact_exp.h"
-#include "lib/fixed_point.h"
-#include "lib/vector.h"
-#include "lib/work_item.h"
+#include "lib/lanes/exact_exp.h"
+#include "lib/lanes/fixed_point.h"
+#include "lib/lanes/vector.h"
+#include "lib/lanes/work_item.h"
+#include "lib/traverse/density.h"
 #include "shared/scene.h"
 #include "shared/trace.h"
 

@@ -9,10 +9,10 @@
 // VXL_WORLD_OCCUPANCY: the world has cubes or exact voxels as well. VXL_REACH: the reach is not 0.
 // VXL_KEEPS_INSIDE: bricks inside of the object are stored, too. VXL_AMONG_SMOOTH: the object is
 // exact in a world with smooth ones.
-#include "lib/placed_attributes.h"
-#include "lib/placed_field.h"
-#include "lib/work_item.h"
-#include "lib/world_bounds.h"
+#include "lib/lanes/work_item.h"
+#include "lib/traverse/world_bounds.h"
+#include "lib/voxelize/placed_attributes.h"
+#include "lib/voxelize/placed_field.h"
 
 // One brick of an object: which of its leaves hold voxels, or distances below `threshold`.
 kernel void mark_near_leaves(const uint count, const int threshold,

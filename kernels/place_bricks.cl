@@ -2,8 +2,8 @@
 // where others have gone, so that slots stay without gaps.
 //
 // Build constants: VXL_SMOOTH, VXL_OCCUPANCY, VXL_ATTRIBUTES, VXL_COLORS: what the world has.
-#include "lib/brick_nodes.h"
-#include "lib/work_item.h"
+#include "lib/lanes/work_item.h"
+#include "lib/voxelize/brick_nodes.h"
 
 // One leaf's worth of a listed brick's values, 64 in their order.
 kernel void clear_bricks(const uint count, global const uint* restrict listed,

@@ -2,8 +2,8 @@
 //
 // All grids are in the world's frame here. Objects are counted and appended one after another in
 // the scene's order, so a list has the first object's primitives first.
-#include "lib/placed_attributes.h"
-#include "lib/work_item.h"
+#include "lib/lanes/work_item.h"
+#include "lib/voxelize/placed_attributes.h"
 #include "shared/solid.h"
 #include "shared/trace.h"
 

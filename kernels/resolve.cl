@@ -2,8 +2,8 @@
 //
 // Build constants beside the features': VXL_SHOWS_COLOR, VXL_SHOWS_DEPTH, VXL_SHOWS_POSITION,
 // VXL_SHOWS_NORMAL, VXL_SHOWS_OBJECT: the channels asked for.
-#include "lib/lanes.h"
-#include "lib/work_item.h"
+#include "lib/lanes/lanes.h"
+#include "lib/lanes/work_item.h"
 #include "shared/scene.h"
 #include "shared/trace.h"
 #include "shared/voxel.h"

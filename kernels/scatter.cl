@@ -5,17 +5,17 @@
 // Whitted 1980 describes. Surfaces that transmit light straight on make further entries of the same
 // node, layer by layer; reflection and refraction make nodes of the next depth. Light is gathered
 // by each entry from its own children, so that no sum depends on the order of the queues.
-#include "lib/cube_body.h"
-#include "lib/fixed_point.h"
-#include "lib/hit_word.h"
-#include "lib/interior.h"
-#include "lib/lift.h"
-#include "lib/optics.h"
-#include "lib/ray_queue.h"
-#include "lib/solid_hit.h"
-#include "lib/surface_color.h"
-#include "lib/vector.h"
-#include "lib/work_item.h"
+#include "lib/lanes/fixed_point.h"
+#include "lib/lanes/vector.h"
+#include "lib/lanes/work_item.h"
+#include "lib/light/interior.h"
+#include "lib/light/optics.h"
+#include "lib/solid/solid_hit.h"
+#include "lib/surface/cube_body.h"
+#include "lib/surface/surface_color.h"
+#include "lib/traverse/hit_word.h"
+#include "lib/traverse/lift.h"
+#include "lib/traverse/ray_queue.h"
 #include "shared/scene.h"
 
 #define VXL_NO_CHILD 0xFFFFFFFFu

@@ -2,11 +2,11 @@
 //
 // Rays come in tiles of 4 x 4 pixels, a tile's samples one after another: place
 // ((tile * samples) + sample) * 16 + pixel of the tile, whatever the number of lanes.
-#include "lib/beam.h"
-#include "lib/exact_exp.h"
-#include "lib/fixed_point.h"
-#include "lib/vector.h"
-#include "lib/work_item.h"
+#include "lib/lanes/exact_exp.h"
+#include "lib/lanes/fixed_point.h"
+#include "lib/lanes/vector.h"
+#include "lib/lanes/work_item.h"
+#include "lib/traverse/beam.h"
 #include "shared/scene.h"
 
 /// A sight ray in the observer's coordinates, metres.

@@ -1,7 +1,7 @@
 // rays -> what their discrete walks leave: `voxelume stress` compares it with exact arithmetic.
-#include "lib/fixed_point.h"
-#include "lib/walk.h"
-#include "lib/work_item.h"
+#include "lib/lanes/fixed_point.h"
+#include "lib/lanes/work_item.h"
+#include "lib/traverse/walk.h"
 #include "shared/scene.h"
 #include "shared/stress.h"
 

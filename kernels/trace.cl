@@ -1,9 +1,9 @@
 // rays -> hits: the discrete walk of every ray through the world to the first surface it meets.
-#include "lib/begin_inside.h"
-#include "lib/relay.h"
-#include "lib/shadow_flight.h"
-#include "lib/sight_rays.h"
-#include "lib/work_item.h"
+#include "lib/lanes/work_item.h"
+#include "lib/surface/begin_inside.h"
+#include "lib/traverse/relay.h"
+#include "lib/traverse/shadow_flight.h"
+#include "lib/traverse/sight_rays.h"
 #include "shared/scene.h"
 
 #define VXL_WORLD_ARGUMENTS                                                                      \

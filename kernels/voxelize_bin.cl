@@ -2,7 +2,7 @@
 //
 // Bins are the frame's bricks and one more column at x = -1, which stands for all space left of the
 // frame: crossings there count for the winding numbers to their right.
-#include "lib/lattice.h"
+#include "lib/voxelize/lattice.h"
 
 // What floats may lose, with u = 2^-24. Values come from integers, so each is within u of itself. A
 // term of a sum has two such factors and passes their product and two sums, at most: 5 u of the

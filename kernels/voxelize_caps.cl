@@ -3,9 +3,9 @@
 // The generalized winding number (Jacobson et al. 2013) of the open mesh is the integer of the
 // closed one less the caps' solid angle. Away from the mesh it changes slowly and smoothly, even
 // through the caps, so most bricks are decided by one point and a bound on the slope.
-#include "lib/cover.h"
-#include "lib/node_tile.h"
-#include "lib/solid_angle.h"
+#include "lib/voxelize/cover.h"
+#include "lib/voxelize/node_tile.h"
+#include "lib/voxelize/solid_angle.h"
 #include "shared/voxel.h"
 
 #ifndef VXL_CENTERS

@@ -2,7 +2,7 @@
 //
 // After Schwarz and Seidel 2010 (projections of the triangle and its plane against the voxel) and
 // Laine 2013 (crosshairs), in exact integers.
-#include "lib/cover.h"
+#include "lib/voxelize/cover.h"
 
 #ifndef VXL_SLICES
 #define VXL_SLICES 16

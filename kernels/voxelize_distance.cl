@@ -3,9 +3,9 @@
 // Gathered: one work-item owns its nodes and goes over the brick's triangles; the smallest squared
 // distance does not depend on their order. A triangle concerns only nodes within the band; tiles
 // surely beyond it are passed over, and all beyond it is stored as saturated.
-#include "lib/cover.h"
-#include "lib/node_tile.h"
-#include "lib/point_triangle.h"
+#include "lib/voxelize/cover.h"
+#include "lib/voxelize/node_tile.h"
+#include "lib/voxelize/point_triangle.h"
 #include "shared/voxel.h"
 
 #ifndef VXL_SLICES

@@ -2,7 +2,7 @@
 //
 // A voxel lists the triangles that its closed cube meets, the SUPERCOVER, widened by VXL_MARGIN.
 // Counted, summed, written.
-#include "lib/cover.h"
+#include "lib/voxelize/cover.h"
 
 static inline uint voxel_index(int x, int y, int z) {
     return (uint)(x | y << 4 | z << 8);

@@ -3,9 +3,9 @@
 // Both come from the triangle closest to the voxel's centre, of equally close ones from that with
 // the lowest number: a rule that no order of work changes. Used only for meshes that have several
 // groups or colours.
-#include "lib/cover.h"
-#include "lib/node_tile.h"
-#include "lib/point_triangle.h"
+#include "lib/voxelize/cover.h"
+#include "lib/voxelize/node_tile.h"
+#include "lib/voxelize/point_triangle.h"
 #include "shared/voxel.h"
 
 #ifndef VXL_SLICES

@@ -1,7 +1,7 @@
 // analytic solid -> bricks with distances at nodes, or masks of voxels
-#include "lib/solid.h"
-#include "lib/solid_cover.h"
-#include "lib/work_item.h"
+#include "lib/lanes/work_item.h"
+#include "lib/solid/solid.h"
+#include "lib/solid/solid_cover.h"
 #include "shared/voxel.h"
 
 static inline LatticePoint lattice_point(lane_int x, lane_int y, lane_int z, float offset) {

@@ -4,7 +4,7 @@
 // The winding number of a point is the signed number of crossings left of it on its row along x.
 // Points on edges, and crossings on points, are decided as if each point were moved by
 // (e, e², e³) for an infinitesimal e.
-#include "lib/cover.h"
+#include "lib/voxelize/cover.h"
 #include "shared/voxel.h"
 
 /// VXL_CENTERS 1: points are voxels' centres, else their minimum corners.

@@ -1,8 +1,8 @@
 #include "runtime/placed_objects.hpp"
 
-#include "runtime/instances.hpp"
-#include "runtime/model_frame.hpp"
-#include "runtime/object_boxes.hpp"
+#include "runtime/analysis/object_boxes.hpp"
+#include "runtime/assets/model_frame.hpp"
+#include "runtime/world/instances.hpp"
 
 namespace voxelume {
 

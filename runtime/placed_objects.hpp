@@ -5,10 +5,10 @@
 #include <span>
 #include <vector>
 
-#include "runtime/mesh_store.hpp"
-#include "runtime/object_grids.hpp"
-#include "runtime/scene.hpp"
-#include "runtime/stages/place.hpp"
+#include "runtime/assets/mesh_store.hpp"
+#include "runtime/scene/scene.hpp"
+#include "runtime/stages/place/place.hpp"
+#include "runtime/world/object_grids.hpp"
 
 namespace voxelume {
 

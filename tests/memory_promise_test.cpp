@@ -5,14 +5,14 @@
 #include <algorithm>
 #include <functional>
 
-#include "runtime/frame_pipeline.hpp"
-#include "runtime/frame_plans.hpp"
-#include "runtime/reach.hpp"
-#include "runtime/volume_renderer.hpp"
-#include "tests/display_fixture.hpp"
-#include "tests/instance_scenes.hpp"
-#include "tests/small_scene.hpp"
-#include "tests/test_device.hpp"
+#include "runtime/analysis/reach.hpp"
+#include "runtime/batch/frame_pipeline.hpp"
+#include "runtime/memory/frame_plans.hpp"
+#include "runtime/render/volume_renderer.hpp"
+#include "tests/pictures/small_scene.hpp"
+#include "tests/support/display_fixture.hpp"
+#include "tests/support/instance_scenes.hpp"
+#include "tests/support/test_device.hpp"
 
 namespace voxelume {
 namespace {

@@ -1,4 +1,4 @@
-// How wide beams may be, see lib/beam.h. Read by kernels and host code.
+// How wide beams may be, see lib/traverse/beam.h. Read by kernels and host code.
 #ifndef VXL_SHARED_BEAM_H
 #define VXL_SHARED_BEAM_H
 

@@ -4,9 +4,9 @@
 
 #include <vector>
 
-#include "runtime/grid.hpp"
+#include "runtime/geometry/surface_extent.hpp"
+#include "runtime/grid/grid.hpp"
 #include "runtime/memory/solid_field.hpp"
-#include "runtime/surface_extent.hpp"
 
 namespace voxelume {
 

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "runtime/illumination.hpp"
-#include "runtime/stages/display_frame.hpp"
-#include "runtime/stages/display_lattice.hpp"
-#include "runtime/stages/display_rays.hpp"
-#include "runtime/stages/sight.hpp"
+#include "runtime/render/illumination.hpp"
+#include "runtime/stages/display/display_frame.hpp"
+#include "runtime/stages/display/display_lattice.hpp"
+#include "runtime/stages/display/display_rays.hpp"
+#include "runtime/stages/trace/sight.hpp"
 
 namespace voxelume {
 namespace {

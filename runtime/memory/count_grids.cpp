@@ -2,7 +2,7 @@
 
 #include "kernels/shared/solid.h"
 #include "runtime/stages/brick_arrays.hpp"
-#include "runtime/stages/voxelize_steps.hpp"
+#include "runtime/stages/voxelize/voxelize_steps.hpp"
 
 namespace voxelume {
 namespace {

@@ -2,8 +2,8 @@
 // it.
 #pragma once
 
-#include "runtime/grid.hpp"
-#include "runtime/scene.hpp"
+#include "runtime/grid/grid.hpp"
+#include "runtime/scene/scene.hpp"
 
 namespace voxelume {
 

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "runtime/illumination.hpp"
-#include "runtime/stages/sector_table.hpp"
-#include "runtime/stages/sight.hpp"
+#include "runtime/grid/sector_table.hpp"
+#include "runtime/render/illumination.hpp"
+#include "runtime/stages/trace/sight.hpp"
 
 namespace voxelume {
 namespace {

@@ -1,11 +1,11 @@
 // scene + world on a counting device -> what rendering its flat image takes there.
 #pragma once
 
-#include "runtime/ray_arrays.hpp"
-#include "runtime/scene.hpp"
-#include "runtime/stages/beam.hpp"
-#include "runtime/stages/density_grid.hpp"
-#include "runtime/stages/resolve.hpp"
+#include "runtime/scene/scene.hpp"
+#include "runtime/stages/medium/density_grid.hpp"
+#include "runtime/stages/resolve/resolve.hpp"
+#include "runtime/stages/trace/beam.hpp"
+#include "runtime/stages/trace/ray_arrays.hpp"
 
 namespace voxelume {
 

@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <set>
 
+#include "runtime/grid/sector_table.hpp"
 #include "runtime/stages/brick_arrays.hpp"
-#include "runtime/stages/index.hpp"
-#include "runtime/stages/index_marks.hpp"
-#include "runtime/stages/instance_pools.hpp"
-#include "runtime/stages/place_exact.hpp"
-#include "runtime/stages/place_painter.hpp"
-#include "runtime/stages/sector_table.hpp"
+#include "runtime/stages/index/index.hpp"
+#include "runtime/stages/index/index_marks.hpp"
+#include "runtime/stages/instance/instance_pools.hpp"
+#include "runtime/stages/place/place_exact.hpp"
+#include "runtime/stages/place/place_painter.hpp"
 
 namespace voxelume {
 namespace {

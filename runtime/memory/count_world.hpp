@@ -4,9 +4,9 @@
 
 #include <span>
 
-#include "runtime/instances.hpp"
-#include "runtime/stages/instance_model.hpp"
-#include "runtime/stages/place.hpp"
+#include "runtime/stages/instance/instance_model.hpp"
+#include "runtime/stages/place/place.hpp"
+#include "runtime/world/instances.hpp"
 
 namespace voxelume {
 

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "runtime/error.hpp"
-#include "runtime/model_frame.hpp"
-#include "runtime/stages/mesh_lattice.hpp"
+#include "runtime/assets/model_frame.hpp"
+#include "runtime/base/error.hpp"
+#include "runtime/stages/voxelize/mesh_lattice.hpp"
 
 namespace voxelume {
 namespace {

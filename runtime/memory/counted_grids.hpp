@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "runtime/memory/object_counts.hpp"
-#include "runtime/object_grids.hpp"
+#include "runtime/world/object_grids.hpp"
 
 namespace voxelume {
 

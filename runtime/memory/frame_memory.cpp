@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
+#include "runtime/analysis/scene_features.hpp"
+#include "runtime/grid/pyramid_bytes.hpp"
 #include "runtime/memory/count_image.hpp"
-#include "runtime/pyramid_bytes.hpp"
-#include "runtime/scene_features.hpp"
 
 namespace voxelume {
 namespace {

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "runtime/memory/counted_grids.hpp"
-#include "runtime/ray_arrays.hpp"
-#include "runtime/stages/density_grid.hpp"
+#include "runtime/stages/medium/density_grid.hpp"
+#include "runtime/stages/trace/ray_arrays.hpp"
 
 namespace voxelume {
 

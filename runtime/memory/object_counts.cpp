@@ -4,9 +4,9 @@
 #include <cmath>
 #include <glm/matrix.hpp>
 
-#include "runtime/instances.hpp"
-#include "runtime/model_frame.hpp"
-#include "runtime/object_boxes.hpp"
+#include "runtime/analysis/object_boxes.hpp"
+#include "runtime/assets/model_frame.hpp"
+#include "runtime/world/instances.hpp"
 
 namespace voxelume {
 namespace {

@@ -9,8 +9,8 @@
 #include "runtime/memory/brick_count.hpp"
 #include "runtime/memory/count_grids.hpp"
 #include "runtime/memory/count_world.hpp"
-#include "runtime/plan_extent.hpp"
-#include "runtime/plan_object.hpp"
+#include "runtime/memory/plan_extent.hpp"
+#include "runtime/memory/plan_object.hpp"
 
 namespace voxelume {
 

@@ -4,7 +4,7 @@
 #include <glm/mat4x4.hpp>
 #include <vector>
 
-#include "runtime/solid.hpp"
+#include "runtime/scene/solid.hpp"
 
 namespace voxelume {
 

@@ -7,7 +7,7 @@
 #include <mutex>
 #include <utility>
 
-#include "runtime/error.hpp"
+#include "runtime/base/error.hpp"
 #include "runtime/opencl/platforms.hpp"
 #include "runtime/opencl/program_cache.hpp"
 #include "runtime/opencl/status.hpp"

@@ -5,7 +5,7 @@
 #include <unordered_set>
 #include <utility>
 
-#include "runtime/error.hpp"
+#include "runtime/base/error.hpp"
 
 namespace voxelume {
 namespace {

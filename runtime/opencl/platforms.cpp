@@ -4,7 +4,7 @@
 #include <cctype>
 #include <charconv>
 
-#include "runtime/error.hpp"
+#include "runtime/base/error.hpp"
 #include "runtime/opencl/pocl_folder.hpp"
 #include "runtime/opencl/status.hpp"
 

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "runtime/disk_cache.hpp"
+#include "runtime/base/disk_cache.hpp"
 
 namespace voxelume {
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <array>
 
-#include "runtime/disk_cache.hpp"
-#include "runtime/error.hpp"
+#include "runtime/base/disk_cache.hpp"
+#include "runtime/base/error.hpp"
 #include "runtime/opencl/program_cache.hpp"
 #include "runtime/opencl/status.hpp"
 

@@ -31,7 +31,8 @@ class Kernel {
     Kernel(Device device, cl::Kernel kernel, std::string name)
         : device_(std::move(device)), kernel_(std::move(kernel)), name_(std::move(name)) {}
 
-    /// Runs `count` work-items, numbered by `work_item()` of lib/work_item.h, on these arguments.
+    /// Runs `count` work-items, numbered by `work_item()` of lib/lanes/work_item.h, on these
+    /// arguments.
     ///
     /// The kernel must return at once when its number is `count` or more; pass the count to it.
     /// Arguments are buffers, and values of exactly the kernel's parameter types.

@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "runtime/disk_cache.hpp"
-#include "runtime/error.hpp"
+#include "runtime/base/disk_cache.hpp"
+#include "runtime/base/error.hpp"
 #include "runtime/opencl/pocl_folder.hpp"
 #include "runtime/opencl/status.hpp"
 

@@ -1,7 +1,7 @@
 // The arrays of a grid's bricks: what each stored brick takes of a device, written once.
 #pragma once
 
-#include "runtime/grid.hpp"
+#include "runtime/grid/grid.hpp"
 
 namespace voxelume {
 

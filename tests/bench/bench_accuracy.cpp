@@ -6,8 +6,8 @@
 #include <cstdlib>
 #include <exception>
 
-#include "runtime/io/mesh_reader.hpp"
-#include "tests/accuracy_fixture.hpp"
+#include "runtime/io/mesh/mesh_reader.hpp"
+#include "tests/support/accuracy_fixture.hpp"
 
 namespace voxelume {
 namespace {

@@ -20,14 +20,14 @@
 #include <glm/geometric.hpp>
 #include <sstream>
 
-#include "runtime/io/mesh_reader.hpp"
-#include "runtime/stages/index.hpp"
-#include "runtime/stages/mesh_lattice.hpp"
-#include "runtime/stages/sight.hpp"
-#include "runtime/stages/trace.hpp"
-#include "runtime/stages/voxelize.hpp"
-#include "runtime/stages/voxelize_bins.hpp"
-#include "runtime/stages/voxelize_steps.hpp"
+#include "runtime/io/mesh/mesh_reader.hpp"
+#include "runtime/stages/index/index.hpp"
+#include "runtime/stages/trace/sight.hpp"
+#include "runtime/stages/trace/trace.hpp"
+#include "runtime/stages/voxelize/mesh_lattice.hpp"
+#include "runtime/stages/voxelize/voxelize.hpp"
+#include "runtime/stages/voxelize/voxelize_bins.hpp"
+#include "runtime/stages/voxelize/voxelize_steps.hpp"
 #include "tests/bench/cpu_time.hpp"
 #include "tests/bench/float_cover.hpp"
 

@@ -17,7 +17,7 @@
 #include <string>
 #include <vector>
 
-#include "runtime/renderer.hpp"
+#include "runtime/render/renderer.hpp"
 #include "tests/bench/mesh_rows.hpp"
 
 namespace voxelume {

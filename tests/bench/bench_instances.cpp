@@ -15,12 +15,12 @@
 #include <glm/ext/matrix_transform.hpp>
 #include <random>
 
-#include "runtime/illumination.hpp"
-#include "runtime/instances.hpp"
-#include "runtime/io/mesh_reader.hpp"
-#include "runtime/model_frame.hpp"
-#include "runtime/stages/sight.hpp"
-#include "runtime/world.hpp"
+#include "runtime/assets/model_frame.hpp"
+#include "runtime/io/mesh/mesh_reader.hpp"
+#include "runtime/render/illumination.hpp"
+#include "runtime/stages/trace/sight.hpp"
+#include "runtime/world/instances.hpp"
+#include "runtime/world/world.hpp"
 #include "tests/bench/cpu_time.hpp"
 
 namespace voxelume {

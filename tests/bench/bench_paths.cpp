@@ -11,10 +11,10 @@
 #include <string_view>
 #include <vector>
 
-#include "runtime/illumination.hpp"
-#include "runtime/stages/resolve.hpp"
-#include "runtime/stages/sight.hpp"
-#include "runtime/world.hpp"
+#include "runtime/render/illumination.hpp"
+#include "runtime/stages/resolve/resolve.hpp"
+#include "runtime/stages/trace/sight.hpp"
+#include "runtime/world/world.hpp"
 #include "tests/bench/cpu_time.hpp"
 
 namespace voxelume {

@@ -16,10 +16,10 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "runtime/bench/bench.hpp"
-#include "runtime/bench/bench_errors.hpp"
-#include "runtime/bench/bench_subject.hpp"
-#include "runtime/io/atomic_file.hpp"
+#include "runtime/base/atomic_file.hpp"
+#include "runtime/verify/bench/bench.hpp"
+#include "runtime/verify/bench/bench_errors.hpp"
+#include "runtime/verify/bench/bench_subject.hpp"
 #include "tests/bench/peer_embree.hpp"
 #include "tests/bench/peer_openvdb.hpp"
 

@@ -13,11 +13,11 @@
 #include <string>
 #include <utility>
 
-#include "runtime/io/mesh_reader.hpp"
-#include "runtime/scene_affine.hpp"
-#include "runtime/stages/index.hpp"
-#include "runtime/stages/place.hpp"
-#include "runtime/stages/voxelize.hpp"
+#include "runtime/io/mesh/mesh_reader.hpp"
+#include "runtime/scene/scene_affine.hpp"
+#include "runtime/stages/index/index.hpp"
+#include "runtime/stages/place/place.hpp"
+#include "runtime/stages/voxelize/voxelize.hpp"
 #include "tests/bench/mesh_rows.hpp"
 #include "tests/bench/peer_level_set.hpp"
 

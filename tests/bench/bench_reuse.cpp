@@ -12,7 +12,7 @@
 #include <functional>
 #include <vector>
 
-#include "runtime/renderer.hpp"
+#include "runtime/render/renderer.hpp"
 
 namespace voxelume {
 namespace {

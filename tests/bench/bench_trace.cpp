@@ -19,9 +19,9 @@
 
 #include <algorithm>
 
-#include "runtime/pyramid_bytes.hpp"
-#include "runtime/stages/index.hpp"
-#include "runtime/stages/voxelize.hpp"
+#include "runtime/grid/pyramid_bytes.hpp"
+#include "runtime/stages/index/index.hpp"
+#include "runtime/stages/voxelize/voxelize.hpp"
 #include "tests/bench/trace_kernels.hpp"
 #include "tests/bench/trace_peers.hpp"
 

@@ -17,7 +17,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "runtime/volume_renderer.hpp"
+#include "runtime/render/volume_renderer.hpp"
 
 namespace voxelume {
 namespace {

@@ -11,9 +11,9 @@
 #include <exception>
 #include <string>
 
-#include "runtime/io/mesh_reader.hpp"
-#include "runtime/stages/index.hpp"
-#include "runtime/stages/voxelize.hpp"
+#include "runtime/io/mesh/mesh_reader.hpp"
+#include "runtime/stages/index/index.hpp"
+#include "runtime/stages/voxelize/voxelize.hpp"
 #include "tests/bench/mesh_rows.hpp"
 #include "tests/bench/peer_level_set.hpp"
 

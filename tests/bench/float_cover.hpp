@@ -5,7 +5,7 @@
 namespace voxelume {
 
 inline constexpr const char* kFloatCover = R"(
-#include "lib/cover.h"
+#include "lib/voxelize/cover.h"
 
 typedef struct {
     float3 u, w, low, high;

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "runtime/mesh_summary.hpp"
+#include "runtime/geometry/mesh_summary.hpp"
 #include "tests/bench/cpu_time.hpp"
 
 namespace voxelume {

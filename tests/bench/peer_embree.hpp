@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "runtime/bench/bench_truth.hpp"
+#include "runtime/verify/bench/bench_truth.hpp"
 #include "tests/bench/peer_image.hpp"
 
 namespace voxelume {

@@ -10,7 +10,7 @@
 #include <thread>
 #include <vector>
 
-#include "runtime/image.hpp"
+#include "runtime/image/image.hpp"
 
 namespace voxelume {
 

@@ -5,7 +5,7 @@
 
 #include <glm/mat4x4.hpp>
 
-#include "runtime/mesh.hpp"
+#include "runtime/geometry/mesh.hpp"
 
 namespace voxelume {
 

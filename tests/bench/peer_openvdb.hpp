@@ -1,7 +1,7 @@
 // OpenVDB's ray intersector on a solid's level set.
 #pragma once
 
-#include "runtime/bench/bench_truth.hpp"
+#include "runtime/verify/bench/bench_truth.hpp"
 #include "tests/bench/peer_image.hpp"
 
 namespace voxelume {

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <vector>
 
-#include "runtime/illumination.hpp"
-#include "runtime/stages/beam.hpp"
+#include "runtime/render/illumination.hpp"
+#include "runtime/stages/trace/beam.hpp"
 #include "tests/bench/cpu_time.hpp"
 #include "tests/bench/trace_rays.hpp"
 

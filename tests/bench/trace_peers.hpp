@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "runtime/mesh.hpp"
+#include "runtime/geometry/mesh.hpp"
 
 namespace voxelume {
 

@@ -7,7 +7,7 @@
 #include <map>
 #include <random>
 
-#include "runtime/io/mesh_reader.hpp"
+#include "runtime/io/mesh/mesh_reader.hpp"
 
 namespace voxelume {
 

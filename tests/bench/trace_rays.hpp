@@ -5,8 +5,8 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
-#include "runtime/grid.hpp"
-#include "runtime/mesh.hpp"
+#include "runtime/geometry/mesh.hpp"
+#include "runtime/grid/grid.hpp"
 
 namespace voxelume {
 

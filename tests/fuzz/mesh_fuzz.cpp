@@ -1,7 +1,7 @@
 // libFuzzer: any bytes under a mesh's name give a valid Mesh or a sentence. Built once per format.
-#include "runtime/error.hpp"
-#include "runtime/io/mesh_reader.hpp"
-#include "tests/mesh_invariants.hpp"
+#include "runtime/base/error.hpp"
+#include "runtime/io/mesh/mesh_reader.hpp"
+#include "tests/support/mesh_invariants.hpp"
 
 #include <cstdio>
 #include <cstdlib>

@@ -5,7 +5,7 @@
 #include <glm/geometric.hpp>
 #include <stdexcept>
 
-#include "runtime/bench/analytic_tracer.hpp"
+#include "runtime/verify/analytic/analytic_tracer.hpp"
 
 namespace voxelume::oracle {
 namespace {

@@ -5,7 +5,7 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
-#include "runtime/scene.hpp"
+#include "runtime/scene/scene.hpp"
 
 namespace voxelume::oracle {
 

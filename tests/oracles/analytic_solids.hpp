@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "runtime/solid.hpp"
+#include "runtime/scene/solid.hpp"
 
 namespace voxelume::oracle {
 

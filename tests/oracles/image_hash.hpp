@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "runtime/image.hpp"
+#include "runtime/image/image.hpp"
 
 namespace oracle {
 

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "runtime/solid.hpp"
+#include "runtime/scene/solid.hpp"
 #include "tests/oracles/rational_map.hpp"
 
 namespace voxelume::oracle {

@@ -1,0 +1,42 @@
+// Vectors of lanes: three components, each a lane type, and how they lie in memory `stride` apart.
+#ifndef VXL_VECTOR_H
+#define VXL_VECTOR_H
+
+#include "lib/lanes/exact_float.h"
+
+typedef struct {
+    lane_float x, y, z;
+} Vector;
+
+static inline lane_float dot_product(Vector a, Vector b) {
+    return fma(a.x, b.x, fma(a.y, b.y, a.z * b.z));
+}
+
+/// v scaled to length 1; a vector without length stays as it is.
+static inline Vector unit(Vector v) {
+    const lane_float length = exact_sqrt(dot_product(v, v));
+    const lane_float inverse =
+        exact_reciprocal(LANES_SELECT(LANE_MASK(length > 0.0f), length, (lane_float)1.0f));
+    Vector result = {v.x * inverse, v.y * inverse, v.z * inverse};
+    return result;
+}
+
+static inline Vector select_vector(lane_int mask, Vector a, Vector b) {
+    Vector result = {LANES_SELECT(mask, a.x, b.x), LANES_SELECT(mask, a.y, b.y),
+                     LANES_SELECT(mask, a.z, b.z)};
+    return result;
+}
+
+static inline Vector load_vector(global const float* restrict p, uint stride, uint first) {
+    Vector v = {LANES_LOAD(p, first), LANES_LOAD(p, stride + first),
+                LANES_LOAD(p, 2 * stride + first)};
+    return v;
+}
+
+static inline void store_vector(Vector v, global float* restrict p, uint stride, uint first) {
+    LANES_STORE(v.x, p, first);
+    LANES_STORE(v.y, p, stride + first);
+    LANES_STORE(v.z, p, 2 * stride + first);
+}
+
+#endif

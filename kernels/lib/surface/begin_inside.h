@@ -1,0 +1,81 @@
+// In which of the objects that have no formula, the smooth body and meshes, rays begin.
+#ifndef VXL_BEGIN_INSIDE_H
+#define VXL_BEGIN_INSIDE_H
+
+#include "lib/lanes/vector.h"
+#include "lib/surface/surface_color.h"
+#include "lib/traverse/flight.h"
+
+/// Mask: the surfaces that rays have met are left by them, each as its kind tells.
+static inline lane_int meets_from_behind(const SurfaceView* s, const Walk* w, const Travel* travel,
+                                         const Found* found, lane_int smooth, lane_int hit) {
+    lane_int behind = smooth & within_smooth(found, travel);
+    if (!VXL_EXACT) return behind;
+    const lane_int exact = hit & LANE_MASK(found->primitive != VXL_NO_PRIMITIVE);
+    const lane_int solid = exact & LANE_MASK((found->primitive & VXL_SOLID_PRIMITIVE) != 0u);
+    if (VXL_TRIANGLES) {
+        const lane_int triangle = exact & ~solid;
+        const Vector n = triangle_normal(s->triangles, found->primitive & LANES_AS_UINT(triangle),
+                                         (float4)(1.0f));
+        const Vector d = {w->dx, w->dy, w->dz};
+        behind |= triangle & LANE_MASK(dot_product(n, d) > 0.0f);
+    }
+    if (VXL_SOLIDS && lanes_any(solid)) {
+        const SolidRay ray = {w->ox, w->oy, w->oz, w->dx, w->dy, w->dz};
+        const SolidPoint n =
+            solid_normals(s->solids, found->primitive & ~VXL_SOLID_PRIMITIVE & LANES_AS_UINT(solid),
+                          &ray, found->t, solid);
+        behind |= solid & LANE_MASK(fma(n.x, ray.dx, fma(n.y, ray.dy, n.z * ray.dz)) > 0.0f);
+    }
+    return behind;
+}
+
+/// The attribute words of the objects that the `active` rays of a packet begin in, of those that
+/// `hollow` asks for: of whose surface a ray meets the back first, whatever else is in its way.
+/// Surfaces of `hollow` objects that don't transmit light tell nothing.
+static inline Interior find_beginnings(const PyramidView* p, const SurfaceView* s, Walk* w,
+                                       lane_int active, Travel* travel, uint constant_attribute,
+                                       global const float* restrict materials,
+                                       global const uint* restrict hollow, uint most,
+                                       global uint* lost) {
+    Interior began = empty_interior(), met = empty_interior();
+    travel->interior = empty_interior();
+    lane_int searching = active, count = (lane_int)0;
+    for (int layer = 0; layer < VXL_MOST_LAYERS && lanes_any(searching); ++layer) {
+        const Found found = find_first(p, s, w, (lane_float)INFINITY, searching, travel);
+        searching &= found.hit;
+        if (!lanes_any(searching)) break;
+        const lane_uint voxel = found.voxel & LANES_AS_UINT(searching);
+        const lane_uint word = hit_word(s->attributes, constant_attribute, s->triangle_attributes,
+                                        s->solids, voxel, found.primitive, searching) &
+                               LANES_AS_UINT(searching);
+        const lane_int smooth = is_smooth(word, found.primitive) & searching;
+        const lane_int leaving = meets_from_behind(s, w, travel, &found, smooth, searching);
+        const lane_int first = searching & ~interior_holds(&met, word, smooth) &
+                               LANE_MASK(LANES_GATHER_UINT(hollow, word & VXL_OBJECT_MASK) != 0u);
+        const lane_uint material = material_place(word);
+        const lane_int inside =
+            first & leaving &
+            transmits(materials, material,
+                      LANES_GATHER_FLOAT(materials, material + VXL_MATERIAL_OPACITY));
+        lane_int full;
+        began = cross_interior_or_lose(began, word, smooth, (lane_int)0, inside, &full);
+        if (VXL_INTERIOR_CAPPED && lanes_any(full)) atomic_add(lost, (uint)lanes_count(full));
+        met = cross_interior(met, word, smooth, (lane_int)0, first);
+        count -= first;
+        searching &= LANE_MASK(count < (int)most);
+
+        travel->interior =
+            cross_interior(travel->interior, word, smooth, leaving, smooth & searching);
+        travel->unsure &= ~smooth;
+        travel->goes_on = travel->on_surface = (lane_int)-1;
+        travel->source = found.primitive;
+        travel->within_source = ~leaving;
+        travel->t_first = LANES_SELECT(searching, found.t, travel->t_first);
+        w->t = LANES_SELECT(searching, fmax(found.t, w->t), w->t);
+        w->axis = LANES_SELECT(searching, (lane_int)3, w->axis);
+    }
+    return began;
+}
+
+#endif

@@ -1,0 +1,71 @@
+// Cubes of one object that a ray is inside of, as one body.
+//
+// Voxels of such an object don't touch the set of objects that the ray is inside of: entering the
+// first of them does, and leaving the last across the face to a cell that isn't the object's. If
+// the material refracts, that is all there is of its surface; else every voxel entered covers what
+// lies behind by its opacity, and the face where the ray leaves does nothing.
+#ifndef VXL_CUBE_BODY_H
+#define VXL_CUBE_BODY_H
+
+#include "lib/light/interior.h"
+#include "lib/surface/surface_color.h"
+#include "lib/traverse/walk.h"
+
+/// Mask: a surface is the face of a cube.
+static inline lane_int is_cube(lane_uint word, lane_uint primitive) {
+    return LANE_MASK((word >> VXL_KIND_SHIFT) == VXL_KIND_CUBES) &
+           LANE_MASK(primitive == VXL_NO_PRIMITIVE);
+}
+
+/// The attribute word of the body that a ray is inside of, VXL_NO_MEMBER for none. A voxel shows
+/// one object, so there is one at most.
+static inline lane_uint body_inside(const Interior* in) {
+    const lane_uint kind = (lane_uint)VXL_KIND_CUBES;
+    lane_uint body = (lane_uint)VXL_NO_MEMBER;
+    for (int i = 1; i < VXL_INTERIOR_MEMBERS; ++i)
+        body = LANES_SELECT(LANE_MASK((in->members[i] >> VXL_KIND_SHIFT) == kind), in->members[i],
+                            body);
+    return body;
+}
+
+/// Mask: the faces between the voxels of a body are no surfaces.
+static inline lane_int is_joined(lane_uint body, global const float* restrict materials) {
+    const lane_int some = LANE_MASK(body != VXL_NO_MEMBER);
+    const lane_uint material = material_place(body) & LANES_AS_UINT(some);
+    return some &
+           LANE_MASK(LANES_GATHER_FLOAT(materials, material + VXL_MATERIAL_REFRACTION) > 0.0f);
+}
+
+/// Mask: the surface of a hit whose VXL_HIT_FACE is `face` was met from inside, by leaving a cell.
+static inline lane_int is_exit(lane_uint face) {
+    return LANE_MASK((face & VXL_FACE_EXIT) != 0u);
+}
+
+/// Moves the `moving` walks by one cell along the axis of their last crossing, towards larger
+/// coordinates where `up`.
+static inline void step_across(Walk* w, lane_int up, lane_int moving) {
+    const lane_int step = (-1 - 2 * up) & moving;
+    w->x += step & LANE_MASK(w->axis == 0);
+    w->y += step & LANE_MASK(w->axis == 1);
+    w->z += step & LANE_MASK(w->axis == 2);
+}
+
+/// Mask: the walk's last crossing led towards larger coordinates.
+static inline lane_int crossed_upwards(const Walk* w) {
+    return LANES_SELECT(LANE_MASK(w->axis == 0), w->px,
+                        LANES_SELECT(LANE_MASK(w->axis == 1), w->py, w->pz));
+}
+
+/// The cell's coordinates and face of a hit, as VXL_HIT_CELL and VXL_HIT_FACE have them. Where a
+/// walk left a body, the cell is the body's last.
+static inline lane_uint hit_face(Walk* w, lane_int exit) {
+    lane_uint flags = (lane_uint)0;
+    if (VXL_CUBE_BODIES) {
+        const lane_int up = crossed_upwards(w);
+        step_across(w, ~up, exit);
+        flags = (LANES_AS_UINT(exit) & VXL_FACE_EXIT) | (LANES_AS_UINT(exit & up) & VXL_FACE_UP);
+    }
+    return LANES_AS_UINT(w->z | (w->axis << VXL_FACE_AXIS_SHIFT)) | flags;
+}
+
+#endif

@@ -1,0 +1,115 @@
+// Where a ray meets the surface inside a smooth voxel.
+#ifndef VXL_SMOOTH_H
+#define VXL_SMOOTH_H
+
+#include "lib/surface/field.h"
+#include "lib/traverse/walk.h"
+
+// Secant steps after the bracket is found. F is nearly linear over half a cell: each step squares
+// the error, and three from a bracket of half a voxel reach the rounding of t.
+#define VXL_SECANT_STEPS 3
+
+// Bound on the rounding of field_value, in distance units: |F| < 2^15, some sixteen roundings of
+// half a unit in the last place each, 2^-10 (1.2e-7 voxel).
+#define VXL_FIELD_ROUNDING 0.015625f
+
+/// A ray inside one voxel: local position s(u) = s0 + d u, u counted from where the ray entered.
+typedef struct {
+    lane_float sx, sy, sz, dx, dy, dz;
+} LocalRay;
+
+static inline LocalRay local_ray(const Walk* w) {
+    LocalRay r;
+    r.dx = w->dx, r.dy = w->dy, r.dz = w->dz;
+    r.sx = clamp(fma(w->dx, w->t, w->ox - LANES_FLOAT(w->x)), 0.0f, 1.0f);
+    r.sy = clamp(fma(w->dy, w->t, w->oy - LANES_FLOAT(w->y)), 0.0f, 1.0f);
+    r.sz = clamp(fma(w->dz, w->t, w->oz - LANES_FLOAT(w->z)), 0.0f, 1.0f);
+    return r;
+}
+
+/// The field along the ray, seen from where the ray comes: -1 for `side` looks from the inside.
+static inline lane_float field_along(const Field* f, const LocalRay* r, lane_float side,
+                                     lane_float u) {
+    return side * field_value(f, clamp(fma(r->dx, u, r->sx), 0.0f, 1.0f),
+                              clamp(fma(r->dy, u, r->sy), 0.0f, 1.0f),
+                              clamp(fma(r->dz, u, r->sz), 0.0f, 1.0f));
+}
+
+/// Mask: a walk that stands in its first smooth voxel came from inside the surface. From outside, F
+/// is not negative there, but for the rounding of the point: plane_bound along each axis, and F
+/// grows by less than two voxels a voxel.
+static inline lane_int begins_within(const Field* f, const Walk* w, float plane_bound) {
+    const LocalRay ray = local_ray(w);
+    const lane_float entry = field_along(f, &ray, (lane_float)1.0f, (lane_float)0.0f);
+    return LANE_MASK(entry < -(6.0f * VXL_DISTANCE_UNITS * plane_bound + VXL_FIELD_ROUNDING));
+}
+
+/// Tests the voxels that the `tested` lanes stand in; the mask of those hit, their t in `t_hit`.
+///
+/// A ray comes from outside the surface, or from inside (`side` -1, F seen with the other sign),
+/// and hits where F turns negative: at the entry point if it is negative there already, so that no
+/// ray slips through between two voxels. A ray that began on the surface in this very voxel
+/// (`beginning`) sees the level of its own origin instead: `level` is set so that F + level is not
+/// negative there, and stays with the ray.
+static inline lane_int hit_smooth(const Field* f, const Walk* w, lane_float side, lane_int tested,
+                                  lane_int beginning, lane_float* level, lane_float* t_hit) {
+    const LocalRay ray = local_ray(w);
+    const lane_float u_exit = fmax(exit_time(w) - w->t, 0.0f);
+    lane_float a = (lane_float)0.0f, b = u_exit;
+    const lane_float f_entry = field_along(f, &ray, side, a);
+    *level = LANES_SELECT(beginning & tested, fmax(-f_entry, 0.0f) + VXL_FIELD_ROUNDING, *level);
+    lane_float fa = f_entry + *level;
+    lane_float fb = field_along(f, &ray, side, b) + *level;
+    const lane_float middle = 0.5f * u_exit;
+    const lane_float fm = field_along(f, &ray, side, middle) + *level;
+
+    // Both ends outside: the ray may still dip below the surface. Look at the parabola's lowest
+    // point.
+    const lane_float bend = fa - 2.0f * fm + fb;
+    const lane_float slope = fb - fa;
+    const lane_int dips = LANE_MASK(fm >= 0.0f) & LANE_MASK(fb >= 0.0f) &
+                          LANE_MASK(fabs(slope) < 2.0f * bend) & tested;
+    lane_float lowest = middle, f_lowest = fm;
+    if (lanes_any(dips)) {
+        lowest = LANES_SELECT(
+            dips,
+            u_exit *
+                (0.5f - 0.25f * exact_divide(slope, LANES_SELECT(dips, bend, (lane_float)1.0f))),
+            lowest);
+        f_lowest = LANES_SELECT(dips, field_along(f, &ray, side, lowest) + *level, f_lowest);
+    }
+    const lane_int entered = LANE_MASK(fa < 0.0f) & ~beginning;
+    const lane_int before = LANE_MASK(f_lowest < 0.0f);
+    const lane_int after = LANE_MASK(fb < 0.0f) & ~before;
+    a = LANES_SELECT(after, lowest, a);
+    fa = LANES_SELECT(after, f_lowest, fa);
+    b = LANES_SELECT(before, lowest, b);
+    fb = LANES_SELECT(before, f_lowest, fb);
+    const lane_int crossed = (before | after | entered) & tested;
+    const lane_int bracketed = crossed & ~entered;
+    if (lanes_any(bracketed)) {
+        // Regula falsi on a bracket with F(a) >= 0 > F(b); an end kept twice has its value halved
+        // (Illinois), so both ends close in. Halved at once it would be as far off on the other
+        // side.
+        lane_int kept_a = (lane_int)0, kept_b = (lane_int)0;
+        for (int step = 0; step < VXL_SECANT_STEPS; ++step) {
+            const lane_float gap = LANES_SELECT(bracketed, fa - fb, (lane_float)1.0f);
+            const lane_float u = fma(exact_divide(fa, gap), b - a, a);
+            const lane_float fu = field_along(f, &ray, side, u) + *level;
+            const lane_int below = LANE_MASK(fu < 0.0f);
+            fa = LANES_SELECT(kept_a & below, 0.5f * fa, LANES_SELECT(below, fa, fu));
+            fb = LANES_SELECT(kept_b & ~below, 0.5f * fb, LANES_SELECT(below, fu, fb));
+            b = LANES_SELECT(below, u, b);
+            a = LANES_SELECT(below, a, u);
+            kept_a = below;
+            kept_b = ~below;
+        }
+    }
+    const lane_float gap = LANES_SELECT(bracketed, fa - fb, (lane_float)1.0f);
+    const lane_float u =
+        LANES_SELECT(bracketed, fma(exact_divide(fa, gap), b - a, a), (lane_float)0.0f);
+    *t_hit = LANES_SELECT(crossed, w->t + u, *t_hit);
+    return crossed;
+}
+
+#endif

@@ -1,0 +1,71 @@
+// The colour of a surface point: its material's, times its voxel's own.
+#ifndef VXL_SURFACE_COLOR_H
+#define VXL_SURFACE_COLOR_H
+
+#include "lib/lanes/exact_exp.h"
+#include "shared/scene.h"
+#include "shared/voxel.h"
+
+/// 8-bit sRGB to linear, one channel of a packed colour.
+static inline lane_float linear_channel(lane_uint color, int shift) {
+    const lane_float s = LANES_FLOAT((color >> shift) & 255u) * (1.0f / 255.0f);
+    const lane_float curved = exact_power(fma(s, 0.947867299f, 0.0521327014f), (lane_float)2.4f);
+    return LANES_SELECT(LANE_MASK(s <= 0.04045f), s * 0.0773993808f, curved);
+}
+
+/// Where the record of an attribute word's material starts, in floats.
+static inline lane_uint material_place(lane_uint word) {
+    return ((word >> VXL_MATERIAL_SHIFT) & VXL_MATERIAL_MASK) * VXL_MATERIAL_FLOATS;
+}
+
+/// The block coordinate of `position` (in voxels) along one axis of a material's checker.
+static inline lane_int checker_block(global const float* restrict materials, lane_uint material,
+                                     uint axis, lane_float position) {
+    const lane_float scale =
+        LANES_GATHER_FLOAT(materials, material + (VXL_MATERIAL_CHECKER_SCALE + axis));
+    const lane_float shift =
+        LANES_GATHER_FLOAT(materials, material + (VXL_MATERIAL_CHECKER_SHIFT + axis));
+    return LANES_INT(floor(fma(position, scale, shift)));
+}
+
+/// Where a material's colour at a point starts, in floats: its own, or that of its checker.
+static inline lane_uint color_place(global const float* restrict materials, lane_uint material,
+                                    lane_float x, lane_float y, lane_float z) {
+    if (!VXL_CHECKER) return material;
+    const lane_int block = checker_block(materials, material, 0u, x) +
+                           checker_block(materials, material, 1u, y) +
+                           checker_block(materials, material, 2u, z);
+    return material + LANES_AS_UINT((block & 1) * VXL_MATERIAL_CHECKER_COLOR);
+}
+
+/// The colour of a surface point: of its material (see color_place), times its voxel's own where
+/// the world has such.
+static inline lane_float surface_color(global const float* restrict materials, lane_uint place,
+                                       global const uint* restrict colors, lane_uint voxel,
+                                       int channel) {
+    lane_float color = LANES_GATHER_FLOAT(materials, place + (uint)channel);
+    if (VXL_COLORS) color *= linear_channel(LANES_GATHER_UINT(colors, voxel), 8 * channel);
+    return color;
+}
+
+/// The share of what lies behind that a surface covers: its material's, times its voxel's own. 1 in
+/// scenes without transmitting objects.
+static inline lane_float surface_opacity(global const float* restrict materials, lane_uint material,
+                                         global const uint* restrict colors, lane_uint voxel) {
+    if (!VXL_TRANSMISSION) return (lane_float)1.0f;
+    lane_float opacity = LANES_GATHER_FLOAT(materials, material + VXL_MATERIAL_OPACITY);
+    if (VXL_VOXEL_OPACITY) {
+        const lane_uint transparency = LANES_GATHER_UINT(colors, voxel) >> VXL_TRANSPARENCY_SHIFT;
+        opacity *= exact_divide(LANES_FLOAT(255u - transparency), (lane_float)255.0f);
+    }
+    return opacity;
+}
+
+/// Mask: light goes through or past a surface of a material that covers by `opacity`.
+static inline lane_int transmits(global const float* restrict materials, lane_uint material,
+                                 lane_float opacity) {
+    return LANE_MASK(opacity < 1.0f) |
+           LANE_MASK(LANES_GATHER_FLOAT(materials, material + VXL_MATERIAL_REFRACTION) > 0.0f);
+}
+
+#endif

@@ -1,0 +1,107 @@
+// Where a ray meets the source triangles that an exact voxel lists.
+//
+// The watertight test of Woop, Benthin and Wald 2013: the ray becomes the z axis by a shear, and
+// the signs of three edge functions decide. Two triangles evaluate a shared edge to opposite bits,
+// so a ray cannot pass between them. Corners are taken from the ray's own origin, whatever voxel
+// lists them.
+#ifndef VXL_TRIANGLE_H
+#define VXL_TRIANGLE_H
+
+#include "lib/lanes/vector.h"
+#include "lib/traverse/walk.h"
+
+/// The normal of triangles of counter-clockwise corners, not of unit length, in units where a voxel
+/// has `edge`s.
+static inline Vector triangle_normal(global const float* restrict triangles, lane_uint number,
+                                     float4 edge) {
+    const lane_uint first = number * 9u;
+    const lane_float ax = LANES_GATHER_FLOAT(triangles, first);
+    const lane_float ay = LANES_GATHER_FLOAT(triangles, first + 1u);
+    const lane_float az = LANES_GATHER_FLOAT(triangles, first + 2u);
+    const lane_float ux = (LANES_GATHER_FLOAT(triangles, first + 3u) - ax) * edge.x;
+    const lane_float uy = (LANES_GATHER_FLOAT(triangles, first + 4u) - ay) * edge.y;
+    const lane_float uz = (LANES_GATHER_FLOAT(triangles, first + 5u) - az) * edge.z;
+    const lane_float vx = (LANES_GATHER_FLOAT(triangles, first + 6u) - ax) * edge.x;
+    const lane_float vy = (LANES_GATHER_FLOAT(triangles, first + 7u) - ay) * edge.y;
+    const lane_float vz = (LANES_GATHER_FLOAT(triangles, first + 8u) - az) * edge.z;
+    Vector n = {uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx};
+    return n;
+}
+
+/// The shear of a ray: its largest direction component is axis z of the sheared space.
+typedef struct {
+    lane_int z_is_x, z_is_y;  // masks
+    lane_float shear_x, shear_y, scale;
+} RayShear;
+
+static inline RayShear ray_shear(const Walk* w) {
+    RayShear s;
+    const lane_float ax = fabs(w->dx), ay = fabs(w->dy), az = fabs(w->dz);
+    s.z_is_x = LANE_MASK(ax >= ay) & LANE_MASK(ax >= az);
+    s.z_is_y = LANE_MASK(ay >= az) & ~s.z_is_x;
+    const lane_float dz = LANES_SELECT(s.z_is_x, w->dx, LANES_SELECT(s.z_is_y, w->dy, w->dz));
+    const lane_float dx = LANES_SELECT(s.z_is_x, w->dy, LANES_SELECT(s.z_is_y, w->dz, w->dx));
+    const lane_float dy = LANES_SELECT(s.z_is_x, w->dz, LANES_SELECT(s.z_is_y, w->dx, w->dy));
+    s.scale = exact_reciprocal(dz);
+    s.shear_x = dx * s.scale;
+    s.shear_y = dy * s.scale;
+    return s;
+}
+
+/// A corner in the ray's sheared space.
+typedef struct {
+    lane_float x, y, z;
+} ShearedCorner;
+
+static inline ShearedCorner shear_corner(global const float* restrict triangles, lane_uint first,
+                                         const Walk* w, const RayShear* s) {
+    const lane_float vx = LANES_GATHER_FLOAT(triangles, first) - w->ox;
+    const lane_float vy = LANES_GATHER_FLOAT(triangles, first + 1u) - w->oy;
+    const lane_float vz = LANES_GATHER_FLOAT(triangles, first + 2u) - w->oz;
+    const lane_float z = LANES_SELECT(s->z_is_x, vx, LANES_SELECT(s->z_is_y, vy, vz));
+    const lane_float x = LANES_SELECT(s->z_is_x, vy, LANES_SELECT(s->z_is_y, vz, vx));
+    const lane_float y = LANES_SELECT(s->z_is_x, vz, LANES_SELECT(s->z_is_y, vx, vy));
+    ShearedCorner corner = {fma(-s->shear_x, z, x), fma(-s->shear_y, z, y), z * s->scale};
+    return corner;
+}
+
+/// The edge function of a and b; exactly the negative of that of b and a.
+static inline lane_float edge_function(ShearedCorner a, ShearedCorner b) {
+    const lane_float left = a.x * b.y;
+    const lane_float right = a.y * b.x;
+    return left - right;
+}
+
+/// Tests triangle `number` of each lane in `tested`; hits in the world beyond t_least, or at it
+/// where `at_least` is set, that are closer than *t replace it. Rays from `within` the triangle's
+/// object meet its back only: the neighbour across an edge that they came in by has its face
+/// towards them.
+static inline lane_int hit_triangle(const PyramidView* p, lane_float t_least, lane_int at_least,
+                                    global const float* triangles, lane_uint number, const Walk* w,
+                                    const RayShear* s, lane_int within, lane_int tested,
+                                    lane_float* t) {
+    const lane_uint first = number * 9u;
+    const ShearedCorner a = shear_corner(triangles, first, w, s);
+    const ShearedCorner b = shear_corner(triangles, first + 3u, w, s);
+    const ShearedCorner c = shear_corner(triangles, first + 6u, w, s);
+    const lane_float u = edge_function(c, b);
+    const lane_float v = edge_function(a, c);
+    const lane_float e = edge_function(b, a);
+    const lane_int one_side = (LANE_MASK(u >= 0.0f) & LANE_MASK(v >= 0.0f) & LANE_MASK(e >= 0.0f)) |
+                              (LANE_MASK(u <= 0.0f) & LANE_MASK(v <= 0.0f) & LANE_MASK(e <= 0.0f));
+    const lane_float determinant = u + v + e;
+    lane_int solid = LANE_MASK(determinant != 0.0f) & one_side & tested;
+    // The determinant's sign is that of -(n . d) times the direction along the sheared z.
+    if (VXL_TRANSMISSION) solid &= ~within | LANE_MASK(determinant * s->scale < 0.0f);
+    if (!lanes_any(solid)) return solid;
+    const lane_float weighted = fma(u, a.z, fma(v, b.z, e * c.z));
+    const lane_float at =
+        exact_divide(weighted, LANES_SELECT(solid, determinant, (lane_float)1.0f));
+    const lane_int closer = solid &
+                            (LANE_MASK(at > t_least) | (at_least & LANE_MASK(at == t_least))) &
+                            LANE_MASK(at < *t) & is_in_world(p, w, at);
+    *t = LANES_SELECT(closer, at, *t);
+    return closer;
+}
+
+#endif

@@ -1,0 +1,98 @@
+// How much medium a ray goes through: the sum of density times length over the voxels on its way.
+//
+// A length is the difference of two crossing times, each carried in two floats, so that a thin
+// layer far along the ray counts as exactly as a thick one near its start.
+#ifndef VXL_DENSITY_H
+#define VXL_DENSITY_H
+
+#include "lib/traverse/walk.h"
+#include "shared/medium.h"
+
+typedef struct {
+    DensityShape shape;
+    global const uint* restrict bricks;
+    global const float* restrict values;
+} DensityView;
+
+/// What the lattice knows of a voxel.
+typedef struct {
+    lane_float density;
+    lane_int log2_size;  // of the aligned cube of cells around it that has one density
+} DensityCell;
+
+/// The density at voxel (x,y,z); lanes that are not `active` read something harmless.
+static inline DensityCell look_up_density(const DensityView* d, lane_int x, lane_int y, lane_int z,
+                                          lane_int active) {
+    const lane_int cx = x >> d->shape.shift_x, cy = y >> d->shape.shift_y,
+                   cz = z >> d->shape.shift_z;
+    const lane_int brick =
+        (((cz >> 4) * d->shape.bricks_y + (cy >> 4)) * d->shape.bricks_x + (cx >> 4)) & active;
+    const lane_uint word = LANES_GATHER_UINT(d->bricks, brick);
+    const lane_int alike = LANE_MASK(LANES_AS_INT(word) < 0);
+    const lane_uint cell = LANES_AS_UINT((cx & 15) | ((cy & 15) << 4) | ((cz & 15) << 8));
+    const lane_uint place = LANES_SELECT(alike, word & VXL_DENSITY_PLACE, (word << 12) | cell);
+    DensityCell result;
+    result.density = LANES_GATHER_FLOAT(d->values, place);
+    result.log2_size = LANES_AS_INT((word >> VXL_DENSITY_SIZE_SHIFT) & 31u) & alike;
+    return result;
+}
+
+/// The plane across which a block of 1 << log2_size voxels, cut by the world's side, is left.
+static inline lane_int exit_plane(lane_int cell, lane_int positive, lane_int log2_size, int size) {
+    const lane_int edge = (lane_int)1 << log2_size;
+    return min((cell & -edge) + (positive & edge), (lane_int)size);
+}
+
+static inline void leave_cells(const PyramidView* p, const DensityView* d, Walk* w,
+                               lane_int log2_size, lane_int moving) {
+    cross_first(p, w, exit_plane(w->x, w->px, log2_size + d->shape.shift_x, p->size_x),
+                exit_plane(w->y, w->py, log2_size + d->shape.shift_y, p->size_y),
+                exit_plane(w->z, w->pz, log2_size + d->shape.shift_z, p->size_z), moving);
+}
+
+/// What the time at which the walk entered its cell, as a float, leaves of the exact one.
+static inline lane_float time_remainder(const Walk* w) {
+    const lane_int x = LANE_MASK(w->axis == 0), y = LANE_MASK(w->axis == 1);
+    const lane_float nx = LANES_FLOAT(w->x - ~w->px) - w->ox;
+    const lane_float ny = LANES_FLOAT(w->y - ~w->py) - w->oy;
+    const lane_float nz = LANES_FLOAT(w->z - ~w->pz) - w->oz;
+    const lane_float n = LANES_SELECT(x, nx, LANES_SELECT(y, ny, nz));
+    const lane_float d = LANES_SELECT(x, w->dx, LANES_SELECT(y, w->dy, w->dz));
+    const lane_float inverse = LANES_SELECT(x, w->ix, LANES_SELECT(y, w->iy, w->iz));
+    return fma(-w->t, d, n) * inverse;
+}
+
+/// Adds `term` to the `adding` lanes of a sum; `lost` holds what roundings took from it (Kahan
+/// 1965).
+static inline void add_exactly(lane_float* sum, lane_float* lost, lane_float term,
+                               lane_int adding) {
+    const lane_float corrected = term - *lost;
+    const lane_float next = *sum + corrected;
+    *lost = LANES_SELECT(adding, (next - *sum) - corrected, *lost);
+    *sum = LANES_SELECT(adding, next, *sum);
+}
+
+/// The sum of density times t over the voxels between t_first and t_last >= t_first of the `active`
+/// walks, which begin at their rays' origins.
+static inline lane_float walk_density(const PyramidView* p, const DensityView* d, Walk* w,
+                                      lane_float t_first, lane_float t_last, lane_int active) {
+    lane_float sum = (lane_float)0.0f, lost = (lane_float)0.0f;
+    lane_float entered = t_first, entered_low = (lane_float)0.0f;
+    lane_int walking = active & in_grid(p, w) & LANE_MASK(t_first < t_last);
+    while (lanes_any(walking)) {
+        const DensityCell cell = look_up_density(d, w->x, w->y, w->z, walking);
+        leave_cells(p, d, w, cell.log2_size, walking);
+        const lane_int counts = walking & LANE_MASK(w->t > t_first);
+        const lane_int ends = LANE_MASK(w->t >= t_last);
+        const lane_float left = LANES_SELECT(ends, t_last, w->t);
+        const lane_float left_low = LANES_SELECT(ends, (lane_float)0.0f, time_remainder(w));
+        const lane_float length = (left - entered) + (left_low - entered_low);
+        add_exactly(&sum, &lost, cell.density * fmax(length, 0.0f), counts);
+        entered = LANES_SELECT(counts, left, entered);
+        entered_low = LANES_SELECT(counts, left_low, entered_low);
+        walking &= ~ends & in_grid(p, w);
+    }
+    return sum - lost;
+}
+
+#endif

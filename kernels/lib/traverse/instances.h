@@ -1,0 +1,254 @@
+// The nearest surface of a packet's rays among the world's and those of instances.
+//
+// The packet goes through a tree over the instances' boxes, the nearer child first, as far as the
+// best hit. At an instance, lanes that meet its own box are carried into its space and walk there
+// by the same code as in the world. A hit replaces another if its t is smaller, or the same and its
+// instance's number smaller (the world's counts as the smallest), so that neither the order of
+// visits nor what lanes travel together has a say.
+#ifndef VXL_INSTANCES_H
+#define VXL_INSTANCES_H
+
+#include "lib/traverse/carried_ray.h"
+#include "lib/traverse/flight.h"
+
+typedef struct {
+    global const InstanceRecord* restrict records;
+    global const InstanceNode* restrict nodes;
+    global const uint* restrict group_materials;
+} InstanceView;
+
+/// A ray as slab tests read it.
+typedef struct {
+    lane_float ix, iy, iz;  // 1 / d
+    lane_float sx, sy, sz;  // -o / d
+} SlabRay;
+
+static inline SlabRay slab_ray(const Walk* w) {
+    SlabRay r;
+    r.ix = clamp(w->ix, -1e30f, 1e30f), r.iy = clamp(w->iy, -1e30f, 1e30f);
+    r.iz = clamp(w->iz, -1e30f, 1e30f);
+    r.sx = -w->ox * r.ix, r.sy = -w->oy * r.iy, r.sz = -w->oz * r.iz;
+    return r;
+}
+
+/// Mask: lanes that meet a child's box before t_last, and when. The boxes are large enough for all
+/// rounding (runtime/stages/instance/instance_tree.hpp).
+static inline lane_int meets_child(const SlabRay* r, global const InstanceNode* node, int child,
+                                   lane_float t_last, lane_float* t) {
+    global const float* low = node->low[child];
+    global const float* high = node->high[child];
+    const lane_float ax = fma(low[0], r->ix, r->sx), bx = fma(high[0], r->ix, r->sx);
+    const lane_float ay = fma(low[1], r->iy, r->sy), by = fma(high[1], r->iy, r->sy);
+    const lane_float az = fma(low[2], r->iz, r->sz), bz = fma(high[2], r->iz, r->sz);
+    const lane_float enter = fmax(fmin(ax, bx), fmax(fmin(ay, by), fmin(az, bz)));
+    const lane_float leave = fmin(fmax(ax, bx), fmin(fmax(ay, by), fmax(az, bz)));
+    *t = fmax(enter, 0.0f);
+    return LANE_MASK(*t <= fmin(leave, t_last));
+}
+
+/// The cell along one axis, of which `nearest` is the plane closest to where the ray is at t_first,
+/// that the ray is in just before.
+static inline lane_int cell_before(lane_int nearest, lane_float o, lane_float inverse,
+                                   lane_int positive, lane_int moves, lane_float t_first,
+                                   lane_int still) {
+    const lane_int crossed = LANE_MASK((LANES_FLOAT(nearest) - o) * inverse < t_first);
+    return LANES_SELECT(moves, cell_beside(nearest, crossed, positive), still);
+}
+
+/// Brings walks whose origins lie outside of an aligned instance's box to the first cell in it, and
+/// those that go on at t_first to the one that they are in just before: what they come to at
+/// t_first itself is ahead of them.
+static inline void enter_box(const PyramidView* p, global const InstanceRecord* r,
+                             lane_float t_first, Walk* w) {
+    Crossing c;
+    c.kx = LANES_SELECT(w->px, (lane_int)(int)r->low[0], (lane_int)(int)r->high[0]);
+    c.ky = LANES_SELECT(w->py, (lane_int)(int)r->low[1], (lane_int)(int)r->high[1]);
+    c.kz = LANES_SELECT(w->pz, (lane_int)(int)r->low[2], (lane_int)(int)r->high[2]);
+    const lane_float none = (lane_float)-INFINITY;
+    c.tx = LANES_SELECT(w->mx, (LANES_FLOAT(c.kx) - w->ox) * w->ix, none);
+    c.ty = LANES_SELECT(w->my, (LANES_FLOAT(c.ky) - w->oy) * w->iy, none);
+    c.tz = LANES_SELECT(w->mz, (LANES_FLOAT(c.kz) - w->oz) * w->iz, none);
+    const lane_float t = fmax(c.tx, fmax(c.ty, c.tz));
+    const lane_int ez = LANE_MASK(c.tz == t);
+    c.ey = LANE_MASK(c.ty == t) & ~ez;
+    c.ex = ~(c.ey | ez);
+    const lane_float at = fmax(t, t_first);
+    const lane_float qx = fma(w->dx, at, w->ox), qy = fma(w->dy, at, w->oy),
+                     qz = fma(w->dz, at, w->oz);
+    c.rx = LANES_INT(floor(qx + 0.5f)), c.ry = LANES_INT(floor(qy + 0.5f));
+    c.rz = LANES_INT(floor(qz + 0.5f));
+    const lane_int goes_on = LANE_MASK(t_first > 0.0f) & LANE_MASK(t_first > t);
+    const lane_int enters = LANE_MASK(t >= 0.0f) & ~goes_on;
+    const AxisCrossing x = axis_crossing(c.kx, c.rx, w->ox, w->dx, w->px, p->fixed_point);
+    const AxisCrossing y = axis_crossing(c.ky, c.ry, w->oy, w->dy, w->py, p->fixed_point);
+    const AxisCrossing z = axis_crossing(c.kz, c.rz, w->oz, w->dz, w->pz, p->fixed_point);
+    settle_cell(w, &x, &y, &z, &c);
+    const lane_int x_on = cell_before(c.rx, w->ox, w->ix, w->px, w->mx, t_first, w->x);
+    const lane_int y_on = cell_before(c.ry, w->oy, w->iy, w->py, w->my, t_first, w->y);
+    const lane_int z_on = cell_before(c.rz, w->oz, w->iz, w->pz, w->mz, t_first, w->z);
+    w->x = LANES_SELECT(enters, c.x, LANES_SELECT(goes_on, x_on, w->x));
+    w->y = LANES_SELECT(enters, c.y, LANES_SELECT(goes_on, y_on, w->y));
+    w->z = LANES_SELECT(enters, c.z, LANES_SELECT(goes_on, z_on, w->z));
+    w->t = LANES_SELECT(enters | goes_on, at, w->t);
+    w->axis = LANES_SELECT(enters, ~c.ex & (2 + c.ey), w->axis);
+}
+
+static inline PyramidView instance_pyramid(const PyramidView* world,
+                                           global const InstanceRecord* r) {
+    PyramidView p = *world;
+    p.sectors += r->first_sector;
+    p.size_x = r->size[0], p.size_y = r->size[1], p.size_z = r->size[2];
+    p.sectors_x = r->sectors_x, p.sectors_y = r->sectors_y;
+    p.plane_bound = r->plane_bound;
+    p.fixed_point = r->fixed_point;
+    return p;
+}
+
+/// How rays set out in the space of instance `number`, or of the world.
+///
+/// A ray that goes on from a surface at t_first has yet to meet what lies at this very t in the
+/// spaces that come after the surface's: the world's is the first, then instances' by number. The
+/// objects that it is inside of are the world's.
+static inline Travel travel_in(const Travel* travel, lane_uint number, lane_int begins) {
+    Travel t = *travel;
+    const lane_int own = LANE_MASK(travel->instance == number);
+    t.on_surface &= own;
+    t.on_cube = t.on_surface & LANE_MASK(number == VXL_NO_INSTANCE);
+    t.within_source &= own;
+    t.source = LANES_SELECT(own, t.source, (lane_uint)VXL_NO_PRIMITIVE);
+    t.unsure = begins & ~t.on_surface;
+    if (VXL_TRANSMISSION) {
+        const lane_int ahead =
+            travel->goes_on & LANE_MASK(LANES_AS_INT(number) > LANES_AS_INT(travel->instance));
+        t.t_first = LANES_SELECT(ahead, float_before(t.t_first), t.t_first);
+        const lane_int of_world = LANE_MASK(number == VXL_NO_INSTANCE);
+        for (int i = 0; i < VXL_INTERIOR_MEMBERS; ++i)
+            t.interior.members[i] =
+                LANES_SELECT(of_world, t.interior.members[i], (lane_uint)VXL_NO_MEMBER);
+        t.body = LANES_SELECT(of_world, t.body, (lane_uint)VXL_NO_MEMBER);
+        t.joined &= of_world;
+    }
+    return t;
+}
+
+/// Replaces what lanes have found by closer hits of their rays on instance `number`.
+static inline lane_int meet_instance(const PyramidView* world, const SurfaceView* s,
+                                     const InstanceView* v, uint number, const Walk* ray,
+                                     lane_float inverse_squared, lane_float t_last, lane_int active,
+                                     const Travel* travel, Found* best, Walk* at) {
+    global const InstanceRecord* r = v->records + number;
+    const Vector o = {ray->ox, ray->oy, ray->oz}, d = {ray->dx, ray->dy, ray->dz};
+    const BoxPassage way = pass_box(r, o, d, inverse_squared, travel->t_first);
+    active &= way.met & LANE_MASK(way.base + way.from <= t_last);
+    if (!lanes_any(active)) return active;
+    const CarriedRay c = carry_ray(r, &way);
+    const PyramidView p = instance_pyramid(world, r);
+    Walk w =
+        begin_walk(c.origin.x, c.origin.y, c.origin.z, c.direction.x, c.direction.y, c.direction.z);
+    w.axis = r->aligned ? (lane_int)3 : way.axis;
+    if (r->aligned) enter_box(&p, r, travel->t_first, &w);
+    Travel outside = *travel;
+    if (!r->aligned) outside.t_first = (lane_float)0.0f;
+    Travel inside = travel_in(&outside, (lane_uint)number, LANE_MASK(w.axis == 3));
+    if (VXL_SOLIDS) {
+        const lane_int asked = active & inside.asks_side & LANE_MASK(w.axis == 3) &
+                               LANE_MASK(travel->instance == number);
+        if (lanes_any(asked)) {
+            const SolidRay carried = {w.ox, w.oy, w.oz, w.dx, w.dy, w.dz};
+            inside.within_source =
+                go_inside(s->solids, inside.source & ~VXL_SOLID_PRIMITIVE & LANES_AS_UINT(asked),
+                          &carried, asked);
+        }
+    }
+    // Later than t_last by more than the rounding of its t: what counts is compared in the world.
+    const lane_float t_end = carried_t(&c, fma(t_last, 0x1p-20f, t_last));
+    const Found found = find_first(&p, s, &w, t_end, active, &inside);
+    const lane_float t = world_t(&c, fmax(found.t, 0.0f));
+    const lane_int closer =
+        found.hit & active & LANE_MASK(t <= t_last) &
+        (~best->hit | LANE_MASK(t < best->t) |
+         (LANE_MASK(t == best->t) & LANE_MASK((int)number < LANES_AS_INT(best->instance))));
+    best->hit |= closer;
+    best->t = LANES_SELECT(closer, t, best->t);
+    best->voxel = LANES_SELECT(closer, found.voxel, best->voxel);
+    best->primitive = LANES_SELECT(closer, found.primitive, best->primitive);
+    best->within = LANES_SELECT(closer, found.within, best->within);
+    best->exit &= ~closer;
+    best->instance = LANES_SELECT(closer, (lane_uint)number, best->instance);
+    at->x = LANES_SELECT(closer, w.x, at->x);
+    at->y = LANES_SELECT(closer, w.y, at->y);
+    at->z = LANES_SELECT(closer, w.z, at->z);
+    at->axis = LANES_SELECT(closer, w.axis, at->axis);
+    return closer;
+}
+
+/// Replaces what lanes have found by closer hits on instances. Lanes that look for `any` are done
+/// with the first.
+static inline void meet_instances(const PyramidView* world, const SurfaceView* s,
+                                  const InstanceView* v, const Walk* ray, lane_float t_end,
+                                  lane_int active, bool any, const Travel* travel, Found* best,
+                                  Walk* at) {
+    const SlabRay slab = slab_ray(ray);
+    const Vector d = {ray->dx, ray->dy, ray->dz};
+    const lane_float inverse_squared = exact_reciprocal(dot_product(d, d));
+    uint nodes[VXL_INSTANCE_DEPTH];
+    lane_int masks[VXL_INSTANCE_DEPTH];
+    lane_float times[VXL_INSTANCE_DEPTH];
+    int waiting = 0;
+    uint node = 0;
+    lane_float t_last = LANES_SELECT(best->hit, fmin(best->t, t_end), t_end);
+    while (true) {
+        if (node & VXL_INSTANCE_LEAF) {
+            const lane_int met = meet_instance(world, s, v, node & ~VXL_INSTANCE_LEAF, ray,
+                                               inverse_squared, t_last, active, travel, best, at);
+            t_last = LANES_SELECT(met, best->t, t_last);
+            active = (lane_int)0;
+        } else {
+            lane_float t_a, t_b;
+            const lane_int a = meets_child(&slab, v->nodes + node, 0, t_last, &t_a) & active;
+            const lane_int b = meets_child(&slab, v->nodes + node, 1, t_last, &t_b) & active;
+            const int any_a = lanes_any(a), any_b = lanes_any(b);
+            if (any_a && any_b) {
+                const lane_int b_first = b & (~a | LANE_MASK(t_b < t_a));
+                const int swap = 2 * lanes_count(b_first) > lanes_count(a | b);
+                nodes[waiting] = v->nodes[node].child[swap ? 0 : 1];
+                masks[waiting] = swap ? a : b;
+                times[waiting] = swap ? t_a : t_b;
+                ++waiting;
+                node = v->nodes[node].child[swap ? 1 : 0];
+                active = swap ? b : a;
+                continue;
+            }
+            active = any_a ? a : b;
+            node = v->nodes[node].child[any_a ? 0 : 1];
+        }
+        while (!lanes_any(active)) {
+            if (waiting == 0) return;
+            --waiting;
+            node = nodes[waiting];
+            active = masks[waiting] & LANE_MASK(times[waiting] <= t_last);
+            if (any) active &= ~best->hit;
+        }
+    }
+}
+
+/// Walks the `active` lanes to their first surface before t_end, in the world or of an instance.
+/// The walk ends in the cell of the surface, in the instance's voxels if it is one's.
+static inline Found find_nearest(const PyramidView* p, const SurfaceView* s, const InstanceView* v,
+                                 Walk* w, lane_float t_end, lane_int active, bool any,
+                                 const Travel* travel) {
+    if (!VXL_INSTANCES) return find_first(p, s, w, t_end, active, travel);
+    const Travel in_world = travel_in(travel, (lane_uint)VXL_NO_INSTANCE, LANE_MASK(w->axis == 3));
+    const Walk ray = *w;
+    Found found = find_first(p, s, w, t_end, active, &in_world);
+    found.instance = (lane_uint)VXL_NO_INSTANCE;
+    // Beyond the world's bounds there is nothing.
+    lane_float t_in = (lane_float)0.0f, t_out = t_end;
+    const Vector o = {ray.ox, ray.oy, ray.oz}, d = {ray.dx, ray.dy, ray.dz};
+    clip_to_world(o, d, p->size_x, p->size_y, p->size_z, &t_in, &t_out);
+    if (any) active &= ~found.hit;
+    if (lanes_any(active)) meet_instances(p, s, v, &ray, t_out, active, any, travel, &found, w);
+    return found;
+}
+
+#endif

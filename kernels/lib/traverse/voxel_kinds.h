@@ -1,0 +1,28 @@
+// Which sorts of surface voxels hold.
+#ifndef VXL_VOXEL_KINDS_H
+#define VXL_VOXEL_KINDS_H
+
+#include "lib/lanes/lanes.h"
+#include "shared/voxel.h"
+
+/// Masks; an exact voxel may hold the smooth body, too.
+typedef struct {
+    lane_int cubes, smooth, exact;
+} VoxelKinds;
+
+/// The kinds of the `tested` lanes' voxels. Read only where a world holds several.
+static inline VoxelKinds kinds_of(global const uint* restrict attributes, lane_uint voxel,
+                                  lane_int tested) {
+    const lane_int none = (lane_int)0;
+    VoxelKinds k = {VXL_CUBES ? tested : none, VXL_SMOOTH ? tested : none,
+                    VXL_EXACT ? tested : none};
+    if (VXL_CUBES + VXL_SMOOTH + VXL_EXACT > 1) {
+        const lane_uint kind = LANES_GATHER_UINT(attributes, voxel) >> VXL_KIND_SHIFT;
+        k.cubes &= LANE_MASK(kind == VXL_KIND_CUBES);
+        k.smooth &= LANE_MASK(kind != VXL_KIND_CUBES);
+        k.exact &= LANE_MASK(kind == VXL_KIND_EXACT);
+    }
+    return k;
+}
+
+#endif

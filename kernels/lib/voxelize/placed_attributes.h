@@ -1,0 +1,83 @@
+// What a world voxel takes from the object's voxel that it shows, and which voxel that is.
+#ifndef VXL_PLACED_ATTRIBUTES_H
+#define VXL_PLACED_ATTRIBUTES_H
+
+#include "lib/voxelize/placed_field.h"
+
+// An object's words in the world: the kind bits and object number, the object's own word if it has
+// one for all its voxels, and the length of its list of materials.
+typedef uint4 WordMap;  // kind and object, own word, materials, 0
+
+static inline uint word_in_world(WordMap map, global const uint* materials, uint own) {
+    const uint group = own >> VXL_MATERIAL_SHIFT & VXL_MATERIAL_MASK;
+    return map.x | materials[min(group, map.z - 1)] << VXL_MATERIAL_SHIFT;
+}
+
+// `from` is the voxel's place in the object's buffers, negative for one that has none.
+static inline uint word_of(WordMap map, global const uint* materials, global const uint* attributes,
+                           long from) {
+    const uint own = VXL_OBJECT_ATTRIBUTES && from >= 0 ? attributes[from] : map.y;
+    return word_in_world(map, materials, own);
+}
+
+static inline uint color_of(global const uint* colors, long from) {
+    return VXL_OBJECT_COLORS && from >= 0 ? colors[from] : 0xFFFFFFu;
+}
+
+// The place of voxel `v` in the object's buffers, or -1.
+static inline long place_of_voxel(const PlacedObject* object, int4 v) {
+    const uint slot = brick_slot(object->slots, object->bricks, v >> 4);
+    if (!brick_is_stored(slot)) return -1;
+    return (long)slot * VXL_BRICK_VOXELS + ((v.x & 15) | (v.y & 15) << 4 | (v.z & 15) << 8);
+}
+
+// Leaves are painted brick by brick: `painted` lists slots, each with the brick's place among all
+// that are painted.
+static inline uint painted_leaf(uint item, global const uint* painted) {
+    return painted[item >> 6 << 1] << 6 | (item & 63u);
+}
+
+static inline uint painted_place(uint item, global const uint* painted) {
+    return painted[(item >> 6 << 1) + 1u];
+}
+
+// Leaf number 64 * slot + bit of the world: its first node in half steps, its place in the brick.
+static inline int4 leaf_in_world(uint leaf, global const uint* coordinates, int4 world_bricks) {
+    const int4 brick = brick_at(coordinates[leaf >> 6], world_bricks);
+    return (brick * 16 + (int4)(leaf << 2 & 12, leaf & 12, leaf >> 2 & 12, 0)) * 2;
+}
+
+static inline int leaf_place(uint leaf) {
+    return (int)((leaf << 2 & 12) | (leaf & 12) << 4 | (leaf >> 2 & 12) << 8);
+}
+
+// floor(½ - numerator / (2 denominator)), the whole cells between a cell's middle and a point at
+// -numerator / (2 denominator) from there.
+static inline int cells_back(long numerator, long denominator) {
+    const long doubled = denominator - numerator;
+    const long low = doubled >= 0 ? doubled : doubled - (2 * denominator - 1);
+    return (int)(low / (2 * denominator));
+}
+
+// The cell of the surface point that one Newton step from the middle of p's cell finds, in whole
+// numbers so that every device finds the same. `node` is that cell's first corner in a gathered
+// block. Only in such cells do voxelizers promise an attribute.
+static inline int4 cell_on_surface(const short* node, int4 cell) {
+    long x = 0, y = 0, z = 0;  // four times the mean differences
+    long sum = 0;              // eight times the mean distance
+    for (int corner = 0; corner < 8; ++corner) {
+        const long f = node[(corner & 1) + (corner >> 1 & 1) * VXL_BLOCK_ROW +
+                            (corner >> 2) * VXL_BLOCK_LAYER];
+        sum += f;
+        x += corner & 1 ? f : -f;
+        y += corner & 2 ? f : -f;
+        z += corner & 4 ? f : -f;
+    }
+    const long size = x * x + y * y + z * z;
+    if (size == 0) return cell;
+    // f g / |g|² voxels with f = sum / 8, g = (x,y,z) / 4: sum * (x,y,z) / (2 size).
+    return cell + (int4)(cells_back(sum * x, size), cells_back(sum * y, size),
+                         cells_back(sum * z, size), 0);
+}
+
+#endif

@@ -1,0 +1,73 @@
+#include "runtime/analysis/object_boxes.hpp"
+
+#include <glm/common.hpp>
+#include <glm/vector_relational.hpp>
+
+#include "runtime/geometry/solid_bounds.hpp"
+
+namespace voxelume {
+namespace {
+
+/// How far surfaces may lie from where they are in a model, in voxels of the model or the world.
+constexpr double kMargin = 1;
+
+VoxelBox in_voxels(const glm::dvec3& min, const glm::dvec3& max, const GridFrame& world) {
+    return {(min - world.origin) / world.voxel_edge - kMargin,
+            (max - world.origin) / world.voxel_edge + kMargin};
+}
+
+/// Around the image of a box under a map into the world.
+VoxelBox mapped(const glm::dvec3& min, const glm::dvec3& max, const glm::dmat4& map,
+                const GridFrame& world) {
+    glm::dvec3 low(INFINITY), high(-INFINITY);
+    for (int corner = 0; corner < 8; ++corner) {
+        const glm::dvec3 p(map * glm::dvec4(corner & 1 ? max.x : min.x, corner & 2 ? max.y : min.y,
+                                            corner & 4 ? max.z : min.z, 1));
+        low = glm::min(low, p);
+        high = glm::max(high, p);
+    }
+    return in_voxels(low, high, world);
+}
+
+VoxelBox box_of(const Scene& scene, const Object& object, MeshStore& meshes,
+                const GridFrame& world) {
+    const Model& model = scene.models[size_t(object.model)];
+    const glm::dvec3 end = world.origin + world.voxel_edge * glm::dvec3(world.size);
+    if (model.solid && model.surface == Surface::exact) {
+        const SolidBounds box =
+            bounds(*model.solid, object.world_from_object, SolidBounds{world.origin, end});
+        return box.is_empty() ? VoxelBox{} : in_voxels(box.min, box.max, world);
+    }
+    const MeshSummary* mesh = meshes.summary_of(model);
+    if (mesh && model.surface == Surface::exact)
+        return mapped(mesh->surface.min, mesh->surface.max, object.world_from_object, world);
+    const bool has_voxels = !model.voxels.empty();
+    const GridFrame frame = has_voxels ? meshes.voxels(model).frame : model_frame(model, mesh);
+    return mapped(frame.origin, frame.origin + frame.voxel_edge * glm::dvec3(frame.size),
+                  object.world_from_object, world);
+}
+
+}  // namespace
+
+bool overlap(const VoxelBox& a, const VoxelBox& b) {
+    return glm::all(glm::lessThanEqual(glm::max(a.low, b.low), glm::min(a.high, b.high)));
+}
+
+bool is_empty(const VoxelBox& box) {
+    return !overlap(box, box);
+}
+
+std::vector<VoxelBox> object_boxes(const Scene& scene, MeshStore& meshes) {
+    const GridFrame world = world_frame(scene.world);
+    std::vector<VoxelBox> boxes(scene.objects.size());
+    for (size_t i = 0; i < boxes.size(); ++i) {
+        const Object& object = scene.objects[i];
+        if (!is_in_reach(scene, object)) continue;
+        const VoxelBox box = box_of(scene, object, meshes, world);
+        boxes[i] = {glm::max(box.low, -kMargin),
+                    glm::min(box.high, glm::dvec3(world.size) + kMargin)};
+    }
+    return boxes;
+}
+
+}  // namespace voxelume

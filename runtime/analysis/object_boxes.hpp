@@ -1,0 +1,29 @@
+// scene -> where in the world's lattice each object is at most.
+#pragma once
+
+#include <vector>
+
+#include "runtime/assets/mesh_store.hpp"
+#include "runtime/assets/model_frame.hpp"
+#include "runtime/grid/grid.hpp"
+#include "runtime/scene/scene.hpp"
+
+namespace voxelume {
+
+/// A box around each object as the world shows it, in the world's voxels, cut to the lattice; empty
+/// for objects that aren't in it.
+///
+/// Surfaces may lie a voxel from where the object's own is, so the boxes are that much larger.
+/// Throws Error::input as MeshStore does.
+std::vector<VoxelBox> object_boxes(const Scene& scene, MeshStore& meshes);
+
+/// Voxels around an object's box in which it may have a say: distances are painted by whole leaves,
+/// and gradients of smooth surfaces look two nodes further.
+inline constexpr double kInfluence = 8;
+
+/// Whether two boxes share a point.
+bool overlap(const VoxelBox& a, const VoxelBox& b);
+
+bool is_empty(const VoxelBox& box);
+
+}  // namespace voxelume

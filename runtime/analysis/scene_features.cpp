@@ -1,0 +1,184 @@
+#include "runtime/analysis/scene_features.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <vector>
+
+#include "runtime/analysis/interior.hpp"
+#include "runtime/analysis/object_boxes.hpp"
+#include "runtime/stages/light/spots.hpp"
+#include "runtime/stages/trace/sight.hpp"
+#include "runtime/world/instances.hpp"
+
+namespace voxelume {
+namespace {
+
+/// The objects that the world may show. Instances come into it and leave it without its being
+/// formed anew, so all of them are among these.
+std::vector<const Object*> shown_objects(const Scene& scene, const Pyramid& world) {
+    std::vector<const Object*> shown;
+    for (size_t i = 0; i < scene.objects.size(); ++i) {
+        const Object& object = scene.objects[i];
+        if (!object.visible || !object.in_reach) continue;
+        const bool is_known = !world.object_boxes.empty() && !is_instanced(scene, object);
+        if (is_known && is_empty(world.object_boxes[i])) continue;
+        shown.push_back(&object);
+    }
+    return shown;
+}
+
+/// The materials of objects that the world may show.
+std::vector<const Material*> shown_materials(const Scene& scene, const Pyramid& world) {
+    std::set<int> numbers;
+    for (const Object* object : shown_objects(scene, world)) {
+        numbers.insert(object->material);
+        for (const GroupMaterial& group : object->groups) numbers.insert(group.material);
+    }
+    std::vector<const Material*> materials;
+    materials.reserve(numbers.size());
+    for (const int number : numbers) materials.push_back(&scene.materials[size_t(number)]);
+    return materials;
+}
+
+/// Whether light that falls on the material comes back.
+bool is_lit(const Material* m) {
+    const bool has_color =
+        m->color != glm::vec3(0) || (m->checker && m->checker->color != glm::vec3(0));
+    return m->specular > 0 || (m->diffuse > 0 && has_color);
+}
+
+/// The features that the materials decide.
+void add_paths(const Scene& scene, const Pyramid& world, Features& features) {
+    const bool follows = scene.render.depth > 0;
+    bool refraction = false, opacity = false, reflection = false, fresnel = false;
+    bool absorption = false;
+    opacity = features.voxel_opacity;
+    for (const Material* m : shown_materials(scene, world)) {
+        features.checker |= m->checker.has_value();
+        refraction |= m->refraction > 0;
+        opacity |= m->opacity < 1;
+        reflection |= m->reflection > 0;
+        fresnel |= m->fresnel && (m->reflection > 0 || m->refraction > 0);
+        absorption |= m->absorption != glm::vec3(0) && (transmits(*m) || features.voxel_opacity);
+    }
+    features.transmission =
+        opacity || (refraction && (follows || (features.shadows && scene.render.filtered_shadows)));
+    const bool filters = features.shadows && features.transmission;
+    features.refracts = follows && (refraction || fresnel);
+    features.paths = features.transmission || (follows && reflection);
+    features.absorbs = features.medium || (features.transmission && absorption);
+    features.filter = filters;
+    features.filtered_refraction = filters && scene.render.filtered_shadows;
+    features.cube_bodies =
+        features.transmission &&
+        std::ranges::any_of(shown_objects(scene, world), [&](const Object* object) {
+            return scene.models[size_t(object->model)].surface == Surface::cubes &&
+                   (features.voxel_opacity || transmits(scene, *object));
+        });
+}
+
+/// Whether a light or a lamp shines on something that isn't black.
+bool lights_surfaces(const Scene& scene, const Pyramid& world) {
+    return std::ranges::any_of(shown_materials(scene, world), is_lit) &&
+           (std::ranges::any_of(scene.lights, shines) || has_lamp(scene, world));
+}
+
+/// The features that decide light, and where rays go on.
+void add_light(const Scene& scene, const Pyramid& world, Features& features) {
+    const bool lit = lights_surfaces(scene, world);
+    features.shadows = scene.render.shadows && lit;
+    features.patches =
+        lit && (has_lamp(scene, world) || std::ranges::any_of(scene.lights, [](const Light& light) {
+                    return shines(light) && has_area(light);
+                }));
+    features.medium = scene.world.medium.absorption != glm::vec3(0) && !world.clear;
+    features.medium_grid = features.medium && has_density(scene.world.medium);
+    add_paths(scene, world, features);
+    add_interior(scene, world, features);
+}
+
+/// `voxels`, the features of the world's voxels, and of the light's no more than decides what
+/// observers' rays meet first: rays that begin inside of an object that transmits light know of it.
+Features without_light(Features voxels, const Scene& scene, const Pyramid& world,
+                       const Features& all) {
+    if (all.transmission && may_begin_inside(scene, world)) {
+        voxels.paths = voxels.transmission = true;
+        voxels.immersed = all.immersed;
+        voxels.other_members = all.other_members;
+        voxels.interior_capped = all.interior_capped;
+    }
+    voxels.radiance = voxels.colors = voxels.voxel_opacity = false;
+    return voxels;
+}
+
+/// What of the points that rays meet is asked for, or is a step to what is.
+void add_points(const Scene& scene, const Pyramid& world, Features& features) {
+    const ImageChannels& channels = scene.render.channels;
+    const bool all = features.radiance && (features.paths || has_light(scene, world));
+    features.positions = all || channels.depth || channels.position;
+    features.normals = all || channels.normal;
+    features.words = all || channels.object;
+}
+
+/// Those that have arrays, at most: rays end whose weight is too small.
+size_t reserved_depth(const Features& features, const Scene& scene, const Pyramid& world) {
+    constexpr double kWeightRounding = 1e-3;  // of the weights
+    const auto depth = double(most_depth(features, scene, world));
+    double share = 0;  // of a surface's light that one ray may bring
+    for (const Material* m : shown_materials(scene, world))
+        share = std::max(share, double(m->reflection) + double(m->refraction));
+    if (depth == 0 || share >= 1) return size_t(depth);
+    const double followed = std::log(scene.render.least_weight) / std::log(share);
+    return size_t(std::min(depth, std::floor(followed + kWeightRounding) + 1));
+}
+
+}  // namespace
+
+bool shines(const Light& light) {
+    return light.energy != glm::vec3(0);
+}
+
+bool has_area(const Light& light) {
+    return light.kind == LightKind::disk || light.kind == LightKind::rectangle;
+}
+
+bool has_lamp(const Scene& scene, const Pyramid& world) {
+    return std::ranges::any_of(shown_objects(scene, world),
+                               [&](const Object* object) { return is_lamp(scene, *object); });
+}
+
+bool has_light(const Scene& scene, const Pyramid& world) {
+    return scene.render.channels.color && lights_surfaces(scene, world);
+}
+
+size_t most_depth(const Features& features, const Scene& scene, const Pyramid& world) {
+    const bool scatters = features.refracts ||
+                          std::ranges::any_of(shown_materials(scene, world),
+                                              [](const Material* m) { return m->reflection > 0; });
+    return features.radiance && scatters ? size_t(scene.render.depth) : 0;
+}
+
+Features features_of(const Scene& scene, const Pyramid& world) {
+    Features features = features_of(world);
+    add_scene(scene, world, features);
+    return features;
+}
+
+void add_scene(const Scene& scene, const Pyramid& world, Features& features) {
+    const Features voxels = features;
+    add_light(scene, world, features);
+    if (!scene.render.channels.color) features = without_light(voxels, scene, world, features);
+    add_points(scene, world, features);
+}
+
+RayCounts ray_counts(const Scene& scene, const Features& features) {
+    const Pyramid any;  // which may show all objects
+    const RenderSettings& render = scene.render;
+    const uint32_t tiles =
+        batch_tiles(features, render.samples, tile_count(render.size.x, render.size.y));
+    return {tiles * 16 * uint32_t(render.samples), has_light(scene, any),
+            reserved_depth(features, scene, any)};
+}
+
+}  // namespace voxelume

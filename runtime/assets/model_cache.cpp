@@ -1,0 +1,197 @@
+#include "runtime/assets/model_cache.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <charconv>
+#include <cstdlib>
+#include <cstring>
+#include <new>
+#include <nlohmann/json.hpp>
+
+#include "runtime/base/error.hpp"
+#include "runtime/base/key_words.hpp"
+#include "runtime/base/maker_sources.hpp"
+#include "runtime/grid/grid_bytes.hpp"
+#include "runtime/grid/pyramid_bytes.hpp"
+#include "runtime/opencl/kernel_source.hpp"
+
+namespace voxelume {
+namespace {
+
+constexpr const char* kFormat = "voxelume models 4";
+constexpr uint64_t kDefaultMegabytes = 4096;
+
+/// Bytes of a grid on the device that are read, unpacked and sent there in a second, at least.
+constexpr double kReadBytesPerSecond = 0.5e9;
+
+std::string key_of(std::initializer_list<std::string_view> parts) {
+    return cache_key(std::span(parts.begin(), parts.size()));
+}
+
+/// A hash of the code that grids and worlds are made by, on the host and on devices.
+const std::string& makers() {
+    static const std::string key = [] {
+        std::string text = maker_sources();
+        for (const auto& [file, content] : embedded_kernels())
+            for (const char* stage : {"voxelize", "cut", "place", "index"})
+                if (file.starts_with(stage) && file.ends_with(".cl"))
+                    text += kernel_source(file).text();
+        return key_of({kFormat, text});
+    }();
+    return key;
+}
+
+nlohmann::json json_of(const glm::dvec3& v) {
+    return {v.x, v.y, v.z};
+}
+
+glm::dvec3 vector_of(const nlohmann::json& json) {
+    return {json.at(0).get<double>(), json.at(1).get<double>(), json.at(2).get<double>()};
+}
+
+nlohmann::json json_of(const SurfaceArea& area) {
+    return {json_of(area.shadows), area.total};
+}
+
+SurfaceArea area_of(const nlohmann::json& json) {
+    return {vector_of(json.at(0)), json.at(1).get<double>()};
+}
+
+/// In CBOR, numbers keep all their bits.
+std::string bytes_of(const MeshSummary& summary) {
+    const nlohmann::json json = {summary.triangles,
+                                 {json_of(summary.surface.min), json_of(summary.surface.max)},
+                                 {json_of(summary.vertices.min), json_of(summary.vertices.max)},
+                                 {json_of(summary.area), json_of(summary.least_area)},
+                                 summary.has_colors,
+                                 // A name is the file's bytes, in whatever encoding.
+                                 nlohmann::json::array(),
+                                 summary.corners};
+    nlohmann::json whole = json;
+    for (const std::string& name : summary.group_names)
+        whole[5].push_back(nlohmann::json::binary({name.begin(), name.end()}));
+    const std::vector<uint8_t> bytes = nlohmann::json::to_cbor(whole);
+    return {bytes.begin(), bytes.end()};
+}
+
+MeshSummary summary_of_bytes(const std::string& bytes) {
+    const nlohmann::json json = nlohmann::json::from_cbor(bytes);
+    MeshSummary summary;
+    summary.triangles = json.at(0).get<uint64_t>();
+    summary.surface = {vector_of(json.at(1).at(0)), vector_of(json.at(1).at(1))};
+    summary.vertices = {vector_of(json.at(2).at(0)), vector_of(json.at(2).at(1))};
+    summary.area = area_of(json.at(3).at(0));
+    summary.least_area = area_of(json.at(3).at(1));
+    summary.has_colors = json.at(4).get<bool>();
+    summary.corners = json.at(6).get<uint64_t>();
+    for (const nlohmann::json& name : json.at(5))
+        summary.group_names.emplace_back(name.get_binary().begin(), name.get_binary().end());
+    return summary;
+}
+
+std::string summary_key(const std::string& source) {
+    return key_of({makers(), "summary", source});
+}
+
+uint64_t megabytes_of_user() {
+    const char* text = std::getenv("VOXELUME_CACHE_MB");
+    if (!text || !*text) return kDefaultMegabytes;
+    uint64_t megabytes = 0;
+    const char* end = text + std::strlen(text);
+    const auto [stop, error] = std::from_chars(text, end, megabytes);
+    if (stop != end || error != std::errc() || megabytes > 1u << 30)
+        throw Error(ErrorKind::usage,
+                    "VOXELUME_CACHE_MB is \"{}\": it must be the megabytes that models may take "
+                    "on disk, 0 for none",
+                    text);
+    return megabytes;
+}
+
+}  // namespace
+
+std::string mesh_source(const std::string& bytes, const std::filesystem::path& name) {
+    std::string extension = name.extension().string();
+    std::ranges::transform(extension, extension.begin(),
+                           [](unsigned char c) { return char(std::tolower(c)); });
+    return key_of({extension, bytes});
+}
+
+std::string morph_source(const std::string& from, const std::string& to, const Morph& morph) {
+    KeyWords words;
+    words.add_all(morph.center).add(morph.radius).add(morph.amount);
+    return key_of({from, to, words.bytes()});
+}
+
+std::string grid_key(const std::string& source, const VoxelizeOptions& options,
+                     const glm::dmat4& frame_from_mesh, const GridFrame& frame) {
+    KeyWords words;
+    words.add(int(options.surface)).add(int(options.set)).add(double(options.band));
+    words.add_columns(frame_from_mesh);
+    words.add_all(frame.origin).add_all(frame.voxel_edge).add_all(frame.size);
+    return key_of({makers(), "grid", source, words.bytes()});
+}
+
+std::string world_key(std::string_view parts) {
+    return key_of({makers(), "world", parts});
+}
+
+ModelCache ModelCache::of_user() {
+    const std::filesystem::path folder = cache_folder();
+    const uint64_t megabytes = megabytes_of_user();
+    return folder.empty() ? ModelCache()
+                          : ModelCache(folder / "models", megabytes << 20).with_worlds();
+}
+
+std::optional<MeshSummary> ModelCache::summary(const std::string& source) const {
+    if (!is_open_) return std::nullopt;
+    const auto bytes = store_.read(summary_key(source));
+    if (!bytes) return std::nullopt;
+    try {
+        return summary_of_bytes(*bytes);
+    } catch (const nlohmann::json::exception&) {
+        return std::nullopt;
+    }
+}
+
+void ModelCache::keep(const std::string& source, const MeshSummary& summary, double seconds) const {
+    if (is_open_ && seconds >= least_seconds_) store_.write(summary_key(source), bytes_of(summary));
+}
+
+std::optional<BrickGrid> ModelCache::grid(const Device& device, const std::string& key) const {
+    if (!is_open_) return std::nullopt;
+    const auto bytes = store_.read(key);
+    return bytes ? grid_of_bytes(device, *bytes) : std::nullopt;
+}
+
+bool ModelCache::is_quick(double seconds, uint64_t bytes) const {
+    const double reading = double(bytes) / kReadBytesPerSecond;
+    return seconds < least_seconds_ || (least_seconds_ > 0 && seconds < reading);
+}
+
+void ModelCache::keep(const std::string& key, const BrickGrid& grid, double seconds) const {
+    if (!is_open_ || is_quick(seconds, device_bytes(grid))) return;
+    try {
+        if (const auto bytes = bytes_of_grid(grid, max_bytes_ / 8)) store_.write(key, *bytes);
+    } catch (const std::bad_alloc&) {
+        return;  // memory for a second copy is no reason to stop
+    }
+}
+
+std::optional<Pyramid> ModelCache::world(const Device& device, const std::string& key) const {
+    if (!keeps_worlds()) return std::nullopt;
+    const auto bytes = store_.read(key);
+    return bytes ? pyramid_of_bytes(device, *bytes) : std::nullopt;
+}
+
+void ModelCache::keep(const std::string& key, const Pyramid& world, double seconds) const {
+    const uint64_t bytes = bytes_of(world);
+    if (!keeps_worlds() || is_quick(seconds, bytes) || bytes > max_bytes_ / 8) return;
+    try {
+        store_.write(key, bytes_of_pyramid(world));
+    } catch (const std::bad_alloc&) {
+        return;
+    }
+}
+
+}  // namespace voxelume

@@ -1,0 +1,144 @@
+#include "runtime/assets/voxel_export.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdlib>
+
+#include "runtime/base/version.hpp"
+#include "runtime/io/mesh/mesh_color.hpp"
+#include "runtime/io/vdb/vdb.hpp"
+#include "runtime/io/voxels/model_file.hpp"
+
+namespace voxelume {
+namespace {
+
+template <class Vector>
+std::string vector_text(const Vector& v) {
+    return fmt::format("{} {} {}", v.x, v.y, v.z);
+}
+
+const char* surface_name(Surface surface) {
+    return surface == Surface::smooth ? "smooth" : surface == Surface::cubes ? "cubes" : "exact";
+}
+
+const char* set_name(VoxelSet set) {
+    return set == VoxelSet::solid ? "solid" : set == VoxelSet::thin ? "thin" : "supercover";
+}
+
+/// Voxel `number` of a brick whose voxels are counted x fastest.
+glm::ivec3 in_brick(uint32_t number) {
+    return {int(number & 15), int(number >> 4 & 15), int(number >> 8)};
+}
+
+glm::vec3 linear_color(uint32_t code) {
+    return linear_from_srgb(glm::dvec3(code & 255, code >> 8 & 255, code >> 16 & 255) / 255.0);
+}
+
+double shortest_edge(const GridFrame& frame) {
+    return std::min({frame.voxel_edge.x, frame.voxel_edge.y, frame.voxel_edge.z});
+}
+
+}  // namespace
+
+VoxelExport::VoxelExport(const BrickGrid& grid, const Mesh& mesh, Surface surface, VoxelSet set)
+    : frame_(grid.frame),
+      surface_(surface),
+      slots_(grid.slots.read()),
+      coordinates_(grid.coordinates.read()),
+      occupancy_(grid.occupancy.read()),
+      distance_(grid.distance.read()),
+      attributes_(grid.attributes.read()),
+      colors_(grid.colors.read()),
+      primitive_first_(grid.primitive_first.read()),
+      primitives_(grid.primitives.read()),
+      triangle_attributes_(grid.triangle_attributes.read()),
+      triangles_(grid.triangles.read()) {
+    header_ = {
+        {"format", "voxelume bricks 1"},        {"software", fmt::format("voxelume {}", version())},
+        {"surface", surface_name(surface)},     {"size", vector_text(frame_.size)},
+        {"origin", vector_text(frame_.origin)}, {"voxel_edge", vector_text(frame_.voxel_edge)}};
+    if (surface == Surface::cubes) header_["set"] = set_name(set);
+    std::string groups;
+    for (const std::string& name : mesh.group_names) groups += name + "\n";
+    if (!groups.empty()) header_["groups"] = groups;
+}
+
+void VoxelExport::write_model(const std::filesystem::path& path) const {
+    ModelFile file;
+    file.header = header_;
+    const auto add = [&](const char* name, const auto& values) {
+        if (!values.empty()) file.arrays[name] = values;
+    };
+    add("slots", slots_);
+    add("coordinates", coordinates_);
+    add("occupancy", occupancy_);
+    add("distance", distance_);
+    add("attributes", attributes_);
+    add("colors", colors_);
+    add("primitive_first", primitive_first_);
+    add("primitives", primitives_);
+    add("triangles", triangles_);
+    add("triangle_attributes", triangle_attributes_);
+    write_model_file(path, file);
+}
+
+glm::ivec3 VoxelExport::brick_corner(uint32_t brick) const {
+    const glm::ivec3 bricks = frame_.bricks();
+    const int index = int(brick);
+    return kBrickSize *
+           glm::ivec3(index % bricks.x, index / bricks.x % bricks.y, index / bricks.x / bricks.y);
+}
+
+void VoxelExport::add_brick(uint32_t slot, Cells& cells) const {
+    const glm::ivec3 corner = brick_corner(coordinates_[slot]);
+    const double unit = shortest_edge(frame_) / kDistanceUnitsPerVoxel;
+    for (uint32_t number = 0; number < kVoxelsPerBrick; ++number) {
+        const size_t place = size_t(slot) * kVoxelsPerBrick + number;
+        const glm::ivec3 p = in_brick(number), leaf = p / kLeafSize, voxel = p % kLeafSize;
+        if (surface_ == Surface::smooth) {
+            const double distance = distance_[place];
+            if (std::abs(distance) >= kExportBand * kDistanceUnitsPerVoxel) continue;
+            cells.values.push_back(float(distance * unit));
+        } else {
+            const size_t mask =
+                size_t(slot) * kLeavesPerBrick + size_t(leaf.x | leaf.y << 2 | leaf.z << 4);
+            if ((occupancy_[mask] >> (voxel.x | voxel.y << 2 | voxel.z << 4) & 1) == 0) continue;
+            cells.values.push_back(1);
+        }
+        cells.cells.push_back(corner + p);
+        if (!colors_.empty()) cells.colors.push_back(linear_color(colors_[place]));
+    }
+}
+
+/// Bricks wholly inside a solid set; those at the grid's end are stored.
+void VoxelExport::add_full_bricks(Cells& cells) const {
+    for (size_t brick = 0; brick < slots_.size(); ++brick) {
+        if (slots_[brick] != kBrickInside) continue;
+        const glm::ivec3 corner = brick_corner(uint32_t(brick));
+        for (uint32_t number = 0; number < kVoxelsPerBrick; ++number)
+            cells.cells.push_back(corner + in_brick(number));
+    }
+    cells.values.resize(cells.cells.size(), 1);
+    if (!colors_.empty()) cells.colors.resize(cells.cells.size(), glm::vec3(1));
+}
+
+void VoxelExport::write_vdb(const std::filesystem::path& path) const {
+    const bool smooth = surface_ == Surface::smooth;
+    Cells cells;
+    for (uint32_t slot = 0; slot < coordinates_.size(); ++slot) add_brick(slot, cells);
+    if (!smooth) add_full_bricks(cells);
+    VdbVolume volume;
+    volume.name = smooth ? "surface" : "density";
+    volume.grid_class = smooth ? VdbClass::level_set : VdbClass::fog;
+    volume.cells = cells.cells;
+    volume.values = cells.values;
+    volume.colors = cells.colors;
+    volume.background = smooth ? float(kExportBand * shortest_edge(frame_)) : 0;
+    volume.voxel_edges = frame_.voxel_edge;
+    volume.origin = frame_.origin + (smooth ? 0.0 : 0.5) * frame_.voxel_edge;
+    volume.metadata = header_;
+    voxelume::write_vdb(path, volume);
+}
+
+}  // namespace voxelume

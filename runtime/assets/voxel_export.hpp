@@ -1,0 +1,54 @@
+// BrickGrid -> files: our own model (.vxm) and OpenVDB.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "runtime/geometry/mesh.hpp"
+#include "runtime/grid/grid.hpp"
+
+namespace voxelume {
+
+/// Voxels around a smooth surface whose distances other programs expect, in shortest edges.
+inline constexpr double kExportBand = 3.0;
+
+/// A voxelized mesh in main memory.
+///
+/// A model file has the arrays of BrickGrid under their names, as far as the grid has them, and the
+/// frame, surface and set in its header. A volume has
+///   smooth  level set `surface`: signed distances at the voxels' minimum corners, metres
+///   cubes, exact  fog `density`: 1 at the middle of each voxel of the set
+/// and `Cd`, linear colours, when the mesh has colours.
+class VoxelExport {
+  public:
+    VoxelExport(const BrickGrid& grid, const Mesh& mesh, Surface surface, VoxelSet set);
+
+    /// Both throw Error::output.
+    void write_model(const std::filesystem::path& path) const;
+    void write_vdb(const std::filesystem::path& path) const;
+
+  private:
+    struct Cells {
+        std::vector<glm::ivec3> cells;
+        std::vector<float> values;
+        std::vector<glm::vec3> colors;
+    };
+
+    glm::ivec3 brick_corner(uint32_t brick) const;
+    void add_brick(uint32_t slot, Cells& cells) const;
+    void add_full_bricks(Cells& cells) const;
+
+    GridFrame frame_;
+    Surface surface_;
+    std::map<std::string, std::string> header_;
+    std::vector<uint32_t> slots_, coordinates_;
+    std::vector<uint64_t> occupancy_;
+    std::vector<int16_t> distance_;
+    std::vector<uint32_t> attributes_, colors_;
+    std::vector<uint32_t> primitive_first_, primitives_, triangle_attributes_;
+    std::vector<float> triangles_;
+};
+
+}  // namespace voxelume

@@ -1,0 +1,196 @@
+#include "runtime/assets/voxel_model.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdlib>
+#include <glm/common.hpp>
+
+#include "kernels/shared/voxel.h"
+#include "runtime/base/input_file.hpp"
+#include "runtime/io/vdb/vdb_voxels.hpp"
+#include "runtime/io/voxels/model_voxels.hpp"
+
+namespace voxelume {
+namespace {
+
+constexpr int kMostVoxelsPerAxis = 65536;
+constexpr double kMostBricks = 1 << 28, kFarthestCell = 1 << 30;
+constexpr size_t kMostStoredBricks = 1 << 18;  // 4 GiB of colours
+constexpr int kMargin = 4;                     // voxels around a volume, as around other models
+
+uint32_t srgb_byte(float linear) {
+    const double v = std::clamp(double(linear), 0.0, 1.0);
+    const double curved = v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1 / 2.4) - 0.055;
+    return uint32_t(std::lround(255 * curved));
+}
+
+/// Gives slots to the bricks of `cells` that `is_kept` keeps, in ascending order.
+template <class IsKept>
+void number_bricks(const std::vector<glm::ivec3>& cells, const glm::ivec3& first,
+                   const IsKept& is_kept, const InputFile& file, VoxelModel& model) {
+    model.slots.assign(bricks_of(model.frame), kBrickOutside);
+    const glm::ivec3 bricks = model.frame.bricks();
+    for (size_t i = 0; i < cells.size(); ++i) {
+        const glm::ivec3 b = (cells[i] - first) / kBrickSize;
+        if (is_kept(i)) model.slots[b.x + size_t(bricks.x) * (b.y + size_t(bricks.y) * b.z)] = 0;
+    }
+    for (size_t brick = 0; brick < model.slots.size(); ++brick) {
+        if (model.slots[brick] != 0) continue;
+        model.slots[brick] = uint32_t(model.coordinates.size());
+        model.coordinates.push_back(uint32_t(brick));
+    }
+    check_stored_bricks(model.coordinates.size(), file);
+}
+
+/// Where cell `v` of the model is among its bricks' voxels.
+size_t place_of(const VoxelModel& model, const glm::ivec3& v) {
+    const glm::ivec3 bricks = model.frame.bricks(), b = v / kBrickSize, in = v % kBrickSize;
+    const uint32_t slot = model.slots[b.x + size_t(bricks.x) * (b.y + size_t(bricks.y) * b.z)];
+    return size_t(slot) * kVoxelsPerBrick + size_t(in.x | in.y << 4 | in.z << 8);
+}
+
+void fill_cubes(const VdbVoxels& voxels, const glm::ivec3& first, const InputFile& file,
+                VoxelModel& model) {
+    number_bricks(
+        voxels.cells, first, [&](size_t i) { return voxels.values[i] > 0; }, file, model);
+    model.occupancy.assign(model.coordinates.size() * kLeavesPerBrick, 0);
+    const auto covers = [&](size_t i) { return std::min(voxels.values[i], 1.0f); };
+    for (size_t i = 0; i < voxels.cells.size(); ++i)
+        model.transparent |= voxels.values[i] > 0 && covers(i) < 1;
+    if (model.transparent || !voxels.colors.empty())
+        model.colors.assign(model.coordinates.size() * kVoxelsPerBrick, 0xFFFFFF);
+    for (size_t i = 0; i < voxels.cells.size(); ++i) {
+        if (!(voxels.values[i] > 0)) continue;
+        const glm::ivec3 v = voxels.cells[i] - first, leaf = v % kBrickSize / kLeafSize,
+                         in = v % kLeafSize;
+        const size_t place = place_of(model, v);
+        model.occupancy[place / kVoxelsPerBrick * kLeavesPerBrick +
+                        size_t(leaf.x | leaf.y << 2 | leaf.z << 4)] |=
+            uint64_t{1} << (in.x | in.y << 2 | in.z << 4);
+        if (model.colors.empty()) continue;
+        uint32_t word = 0xFFFFFF;
+        if (!voxels.colors.empty()) {
+            const glm::vec3& c = voxels.colors[i];
+            word = srgb_byte(c.r) | srgb_byte(c.g) << 8 | srgb_byte(c.b) << 16;
+        }
+        const uint32_t transparency = 255 - uint32_t(std::lround(255 * covers(i)));
+        model.colors[place] = word | transparency << VXL_TRANSPARENCY_SHIFT;
+    }
+}
+
+void fill_distances(const VdbVoxels& voxels, const glm::ivec3& first, const InputFile& file,
+                    VoxelModel& model) {
+    number_bricks(
+        voxels.cells, first, [](size_t) { return true; }, file, model);
+    const glm::ivec3 bricks = model.frame.bricks();
+    for (size_t brick = 0; brick < model.slots.size(); ++brick) {
+        if (model.slots[brick] != kBrickOutside) continue;
+        const int index = int(brick);
+        const glm::ivec3 b(index % bricks.x, index / bricks.x % bricks.y,
+                           index / bricks.x / bricks.y);
+        if (voxels.value_at(first + b * kBrickSize) < 0) model.slots[brick] = kBrickInside;
+    }
+    model.distance.resize(model.coordinates.size() * kVoxelsPerBrick);
+    for (size_t slot = 0; slot < model.coordinates.size(); ++slot) {
+        const int index = int(model.coordinates[slot]);
+        const glm::ivec3 corner =
+            first + kBrickSize * glm::ivec3(index % bricks.x, index / bricks.x % bricks.y,
+                                            index / bricks.x / bricks.y);
+        for (int i = 0; i < int(kVoxelsPerBrick); ++i)
+            model.distance[slot * kVoxelsPerBrick + size_t(i)] =
+                voxels.value_at(corner + glm::ivec3(i & 15, i >> 4 & 15, i >> 8)) < 0 ? -32767
+                                                                                      : 32767;
+    }
+    const glm::dvec3& e = model.frame.voxel_edge;
+    const double units = kDistanceUnitsPerVoxel / std::min({e.x, e.y, e.z});
+    for (size_t i = 0; i < voxels.cells.size(); ++i)
+        model.distance[place_of(model, voxels.cells[i] - first)] =
+            int16_t(std::lround(std::clamp(voxels.values[i] * units, -32767.0, 32767.0)));
+}
+
+VoxelModel model_of(const VdbVoxels& voxels, Surface surface, const InputFile& file) {
+    if (voxels.cells.empty()) file.refuse("its grid has no voxels");
+    glm::dvec3 low(INFINITY), high(-INFINITY);
+    for (const glm::ivec3& cell : voxels.cells) {
+        low = glm::min(low, glm::dvec3(cell));
+        high = glm::max(high, glm::dvec3(cell));
+    }
+    const glm::dvec3 size = high - low + 1.0 + 2.0 * kMargin;
+    check_voxel_span(size, file);
+    if (std::max(-std::min({low.x, low.y, low.z}), std::max({high.x, high.y, high.z})) >
+        kFarthestCell)
+        file.refuse("its voxels lie farther from its origin than can be counted");
+    const glm::ivec3 first = glm::ivec3(low) - kMargin;
+    VoxelModel model;
+    model.surface = surface;
+    model.frame.size = glm::ivec3(size);
+    model.frame.voxel_edge = voxels.voxel_edges;
+    // Cubes have their value in the middle, distances at the voxel's minimum corner.
+    const double to_corner = surface == Surface::smooth ? 0.0 : 0.5;
+    model.frame.origin = voxels.origin + voxels.voxel_edges * (glm::dvec3(first) - to_corner);
+    if (surface == Surface::smooth)
+        fill_distances(voxels, first, file, model);
+    else
+        fill_cubes(voxels, first, file, model);
+    return model;
+}
+
+}  // namespace
+
+size_t bricks_of(const GridFrame& frame) {
+    const glm::ivec3 bricks = frame.bricks();
+    return size_t(bricks.x) * size_t(bricks.y) * size_t(bricks.z);
+}
+
+void check_voxel_span(const glm::dvec3& size, const InputFile& file) {
+    const glm::dvec3 bricks = size / double(kBrickSize) + 1.0;
+    if (!(std::max({size.x, size.y, size.z}) <= kMostVoxelsPerAxis &&
+          std::min({size.x, size.y, size.z}) >= 1 && bricks.x * bricks.y * bricks.z <= kMostBricks))
+        file.refuse(
+            fmt::format("its voxels span {} x {} x {}, at most {} along each axis and {} "
+                        "bricks of 16 in all are possible",
+                        size.x, size.y, size.z, kMostVoxelsPerAxis, kMostBricks));
+}
+
+void check_stored_bricks(size_t stored, const InputFile& file) {
+    if (stored > kMostStoredBricks)
+        file.refuse(
+            fmt::format("its voxels lie in {} bricks of 16 x 16 x 16, at most {} are possible",
+                        stored, kMostStoredBricks));
+}
+
+size_t VoxelModel::voxels() const {
+    size_t count = 0;
+    for (const uint64_t mask : occupancy) count += size_t(std::popcount(mask));
+    for (const int16_t d : distance) count += std::abs(d) < kDistanceUnitsPerVoxel;
+    return count;
+}
+
+BrickGrid VoxelModel::upload(const Device& device) const {
+    BrickGrid grid;
+    grid.frame = frame;
+    grid.brick_count = uint32_t(coordinates.size());
+    grid.slots = {device, "model slots", slots};
+    grid.coordinates = {device, "model coordinates", coordinates};
+    grid.occupancy = {device, "model occupancy", occupancy};
+    grid.distance = {device, "model distances", distance};
+    grid.attributes = {device, "model attributes", attributes};
+    grid.colors = {device, "model colors", colors};
+    grid.transparent = transparent;
+    return grid;
+}
+
+VoxelModel read_voxel_model(const std::filesystem::path& path, Surface surface) {
+    const InputFile file(path);
+    std::string start(std::min<uint64_t>(8, file.size()), '\0');
+    file.read(0, start.data(), start.size());
+    if (start == "\x89VXM\r\n\x1a\n") return read_model_voxels(path, surface);
+    if (start != std::string(" BDV\0\0\0\0", 8))
+        file.refuse("is neither a .vxm nor an OpenVDB file");
+    if (surface == Surface::exact)
+        file.refuse("an OpenVDB file has no exact surface: give it \"cubes\" or \"smooth\"");
+    return model_of(read_vdb_voxels(path, surface), surface, file);
+}
+
+}  // namespace voxelume

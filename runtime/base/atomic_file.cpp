@@ -1,0 +1,142 @@
+#include "runtime/base/atomic_file.hpp"
+
+#include <fcntl.h>
+#include <limits.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <string>
+
+namespace voxelume {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+std::string host_name() {
+    std::array<char, HOST_NAME_MAX + 1> name{};
+    if (gethostname(name.data(), name.size() - 1) != 0 || name[0] == '\0') return "localhost";
+    return name.data();
+}
+
+fs::path folder_of(const fs::path& file) {
+    return file.has_parent_path() ? file.parent_path() : fs::path(".");
+}
+
+/// The name that commit() renames onto; a link that leads nowhere yet is followed as well.
+fs::path follow_links(const fs::path& target) {
+    std::error_code ignored;
+    fs::path file = target;
+    for (int depth = 0; depth < 40 && fs::is_symlink(file, ignored); ++depth)
+        file = folder_of(file) / fs::read_symlink(file, ignored);
+    return file;
+}
+
+std::string reason_for(int code, const fs::path& folder) {
+    switch (code) {
+        case ENOSPC:
+        case EDQUOT:
+            return "the disk is full; free some space or write to another folder";
+        case EFBIG:
+            return "the file grows beyond the size allowed here; see `ulimit -f`";
+        case EROFS:
+            return "the file system is read-only; write to another folder";
+        case EACCES:
+        case EPERM:
+            return fmt::format("the folder {} doesn't allow it; check its permissions",
+                               folder.string());
+        case ENOENT:
+            return fmt::format("there is no folder {}; create it first", folder.string());
+        case ENOTDIR:
+            return fmt::format("{} isn't a folder", folder.string());
+        case ENAMETOOLONG:
+            return "the name is too long";
+        default:
+            return std::strerror(code);
+    }
+}
+
+}  // namespace
+
+AtomicFile::AtomicFile(const fs::path& target) : target_(target), final_(follow_links(target)) {
+    std::error_code ignored;
+    const fs::file_status status = fs::status(final_, ignored);
+    if (!final_.has_filename()) fail("a file name is missing");
+    if (fs::is_directory(status)) fail("a folder has this name");
+    // Renaming onto /dev/null or a pipe would replace it by a plain file.
+    if (fs::exists(status) && !fs::is_regular_file(status)) fail("it isn't a plain file");
+    create_temporary();
+}
+
+AtomicFile::~AtomicFile() {
+    if (descriptor_ >= 0) close(descriptor_);
+    if (!temporary_.empty()) unlink(temporary_.c_str());
+}
+
+void AtomicFile::create_temporary() {
+    const fs::path folder = folder_of(final_);
+    // The file system's limit on names has to hold for the longer temporary name too.
+    const std::string stem = fmt::format(".{}.{}.{}", final_.filename().string().substr(0, 150),
+                                         host_name().substr(0, 64), getpid());
+    // A second writer in this process, or what a killed one with the same number left, has the
+    // first name.
+    for (int attempt = 1; attempt <= 1000; ++attempt) {
+        const std::string ending = attempt == 1 ? ".tmp" : fmt::format("-{}.tmp", attempt);
+        const fs::path candidate = folder / (stem + ending);
+        descriptor_ = open(candidate.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+        if (descriptor_ >= 0) {
+            temporary_ = candidate;
+            return;
+        }
+        if (errno != EEXIST) fail_with_errno(errno);
+    }
+    fail_with_errno(EEXIST);
+}
+
+void AtomicFile::write(const void* data, size_t size) {
+    const char* bytes = static_cast<const char*>(data);
+    while (size > 0) {
+        const ssize_t written = pwrite(descriptor_, bytes, size, static_cast<off_t>(position_));
+        if (written < 0 && errno == EINTR) continue;
+        if (written < 0) fail_with_errno(errno);
+        if (written == 0) fail_with_errno(ENOSPC);
+        bytes += written;
+        size -= static_cast<size_t>(written);
+        position_ += static_cast<uint64_t>(written);
+    }
+}
+
+void AtomicFile::commit() {
+    if (failure_) throw *failure_;
+    if (fsync(descriptor_) != 0) fail_with_errno(errno);
+    const int closing = descriptor_;
+    descriptor_ = -1;
+    if (close(closing) != 0) fail_with_errno(errno);
+    if (rename(temporary_.c_str(), final_.c_str()) != 0) fail_with_errno(errno);
+    temporary_.clear();
+    sync_folder();
+}
+
+void AtomicFile::sync_folder() {
+    const int folder = open(folder_of(final_).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    // A folder that may be written but not listed can't be opened; its file is complete all the
+    // same.
+    if (folder < 0) return;
+    const int code = fsync(folder) == 0 ? 0 : errno;
+    close(folder);
+    if (code != 0 && code != EINVAL && code != ENOTSUP) fail_with_errno(code);
+}
+
+void AtomicFile::fail(const std::string& reason) {
+    const Error error(ErrorKind::output, "{}: can't be written: {}", target_.string(), reason);
+    if (!failure_) failure_ = error;
+    throw error;
+}
+
+void AtomicFile::fail_with_errno(int code) {
+    fail(reason_for(code, folder_of(final_)));
+}
+
+}  // namespace voxelume

@@ -1,0 +1,34 @@
+// A file open for reading, whose size is known before memory is taken for it.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+
+#include "runtime/base/error.hpp"
+
+namespace voxelume {
+
+/// Every failure is an Error::input that names the file.
+class InputFile {
+  public:
+    /// Throws when the file is missing, may not be read or isn't a plain file.
+    explicit InputFile(const std::filesystem::path& path);
+    ~InputFile();
+    InputFile(const InputFile&) = delete;
+    InputFile& operator=(const InputFile&) = delete;
+
+    uint64_t size() const { return size_; }
+
+    /// Fills `data` from `position`; throws when the file ends before that.
+    void read(uint64_t position, void* data, size_t size) const;
+
+    /// Throws "PATH: REASON".
+    [[noreturn]] void refuse(const std::string& reason) const;
+
+  private:
+    std::filesystem::path path_;
+    int descriptor_ = -1;
+    uint64_t size_ = 0;
+};
+
+}  // namespace voxelume

@@ -1,0 +1,9 @@
+#include "runtime/base/version.hpp"
+
+namespace voxelume {
+
+const char* version() {
+    return VXL_VERSION;
+}
+
+}  // namespace voxelume

@@ -1,0 +1,26 @@
+#include "runtime/batch/tile_share.hpp"
+
+#include <algorithm>
+
+namespace voxelume {
+
+std::optional<TileRange> TileShare::take(uint32_t count) {
+    const std::lock_guard lock(mutex_);
+    if (next_ >= tiles_) return std::nullopt;
+    const TileRange range{next_, std::min({count, most_, tiles_ - next_})};
+    next_ += range.count;
+    return range;
+}
+
+void TileShare::done(const TileRange& range) {
+    const std::lock_guard lock(mutex_);
+    done_ += range.count;
+    if (progress_) progress_(done_, tiles_);
+}
+
+void TileShare::close() {
+    const std::lock_guard lock(mutex_);
+    next_ = tiles_;
+}
+
+}  // namespace voxelume

@@ -1,0 +1,30 @@
+// mesh -> what planning and messages ask of it, so that a mesh in the model cache isn't read.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "runtime/geometry/mesh.hpp"
+#include "runtime/geometry/surface_extent.hpp"
+#include "runtime/scene/scene.hpp"
+
+namespace voxelume {
+
+struct MeshSummary {
+    uint64_t triangles = 0;
+    Bounds surface;          ///< the box around the triangles, metres
+    Bounds vertices;         ///< around all positions, those that no triangle uses included
+    SurfaceArea area;        ///< in the mesh's own space
+    SurfaceArea least_area;  ///< what triangles that lie on one another have once
+    bool has_colors = false;
+    std::vector<std::string> group_names;
+    uint64_t corners = 0;  ///< positions that triangles share
+};
+
+MeshSummary summary_of(const Mesh& mesh);
+
+/// The box around the triangles of a mesh.
+Bounds mesh_bounds(const Mesh& mesh);
+
+}  // namespace voxelume

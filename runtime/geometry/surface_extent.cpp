@@ -1,0 +1,204 @@
+#include "runtime/geometry/surface_extent.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/gtc/constants.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
+#include <vector>
+
+namespace voxelume {
+namespace {
+
+/// Shadow of a patch over its area, averaged over all directions, summed over three axes.
+constexpr double kMeanShadow = 1.5;
+
+/// Bricks that even the smallest surface may lie in.
+constexpr double kFewestBricks = 8;
+
+glm::dvec3 area_vector(const Mesh& mesh, const glm::uvec3& t) {
+    const glm::dvec3 a(mesh.positions[t.x]), b(mesh.positions[t.y]), c(mesh.positions[t.z]);
+    return glm::cross(b - a, c - a) / 2.0;
+}
+
+/// How much of [low, high] lies in [from, to]: 0 to 1.
+double part_of(double low, double high, double from, double to) {
+    if (high <= low) return low >= from && low <= to ? 1 : 0;
+    return std::max(0.0, std::min(high, to) - std::max(low, from)) / (high - low);
+}
+
+SurfaceArea box_area(const SolidBounds& box, const SolidBounds& clip) {
+    SurfaceArea area;
+    if (box.is_empty()) return area;
+    const glm::dvec3 size = box.max - box.min;
+    const glm::dvec3 faces{size.y * size.z, size.x * size.z, size.x * size.y};
+    for (int axis = 0; axis < 3; ++axis) {
+        const int seen = (box.min[axis] > clip.min[axis]) + (box.max[axis] < clip.max[axis]);
+        area.shadows[axis] = seen * faces[axis];
+    }
+    // A surface that is cut on all sides still crosses the box.
+    if (area.shadows == glm::dvec3(0)) area.shadows = faces;
+    area.total = area.shadows.x + area.shadows.y + area.shadows.z;
+    return area;
+}
+
+/// Which part of its box' shadows along its own axes a shape throws at least.
+glm::dvec3 own_shadows(const Solid& solid) {
+    constexpr double kDisk = glm::pi<double>() / 4;
+    switch (solid.kind) {
+        case SolidKind::box:
+        case SolidKind::slab:
+            return glm::dvec3(1);
+        case SolidKind::cylinder:
+            return {1, kDisk, 1};
+        case SolidKind::cone:
+            return {0.5, kDisk, 0.5};
+        case SolidKind::torus: {
+            const double ring = solid.radius, tube = solid.tube, reach = ring + tube;
+            const double side = (ring + kDisk * tube) / reach;
+            return {side, glm::pi<double>() * ring * tube / (reach * reach), side};
+        }
+        default:
+            return glm::dvec3(kDisk);
+    }
+}
+
+/// The same along the axes that `map` turns them to; nothing where it turns them to no axes.
+glm::dvec3 least_shadows(const Solid& solid, const glm::dmat4& map) {
+    const glm::dvec3 own = own_shadows(solid);
+    glm::dvec3 shadows(0);
+    for (int column = 0; column < 3; ++column) {
+        int numbers = 0;
+        for (int row = 0; row < 3; ++row) {
+            if (map[column][row] == 0) continue;
+            ++numbers;
+            shadows[row] = own[column];
+        }
+        if (numbers > 1) return glm::dvec3(0);
+    }
+    return shadows;
+}
+
+/// The same for triangles of the same corners, whatever their order.
+uint64_t corner_hash(const Mesh& mesh, const glm::uvec3& triangle) {
+    uint64_t sum = 0;
+    for (int corner = 0; corner < 3; ++corner) {
+        const glm::vec3 p = mesh.positions[triangle[corner]] + 0.0f;  // -0 is 0
+        uint64_t hash = std::bit_cast<uint32_t>(p.x);
+        for (const float value : {p.y, p.z})
+            hash = (hash ^ hash >> 29) * 0x9E3779B97F4A7C15u + std::bit_cast<uint32_t>(value);
+        hash = (hash ^ hash >> 32) * 0xD6E8FEB86659FD93u;
+        sum += hash ^ hash >> 32;
+    }
+    return sum * 0x9E3779B97F4A7C15u;
+}
+
+void add_triangle(const Mesh& mesh, const glm::uvec3& triangle, SurfaceArea& area) {
+    const glm::dvec3 vector = area_vector(mesh, triangle);
+    area.shadows += glm::abs(vector);
+    area.total += glm::length(vector);
+}
+
+}  // namespace
+
+SurfaceArea mesh_area(const Mesh& mesh) {
+    SurfaceArea area;
+    for (const glm::uvec3& triangle : mesh.triangles) add_triangle(mesh, triangle, area);
+    return area;
+}
+
+SurfaceArea least_mesh_area(const Mesh& mesh) {
+    constexpr size_t kPlacesPerTriangle =
+        16;  // of bits: one in 32 is taken for another's double, at most
+    const size_t places =
+        std::bit_ceil(std::max<size_t>(mesh.triangles.size(), 2)) * kPlacesPerTriangle;
+    const int shift = 64 - std::countr_zero(places);
+    std::vector<bool> seen(places);
+    SurfaceArea area;
+    for (const glm::uvec3& triangle : mesh.triangles) {
+        auto place = seen[corner_hash(mesh, triangle) >> shift];
+        if (!place) add_triangle(mesh, triangle, area);
+        place = true;
+    }
+    return area;
+}
+
+SurfaceArea solid_area(const Solid& solid, const glm::dmat4& frame_from_solid,
+                       const SolidBounds& clip) {
+    if (!is_combination(solid.kind)) return box_area(bounds(solid, frame_from_solid, clip), clip);
+    SurfaceArea area;
+    for (const Solid& part : solid.parts) {
+        const SurfaceArea of_part =
+            solid_area(part, frame_from_solid * solid.parent_from_solid, clip);
+        area.shadows += of_part.shadows;
+        area.total += of_part.total;
+    }
+    return area;
+}
+
+SurfaceArea least_solid_area(const Solid& solid, const glm::dmat4& frame_from_solid,
+                             const SolidBounds& clip) {
+    const glm::dmat4 map = frame_from_solid * solid.parent_from_solid;
+    SurfaceArea most;
+    if (!is_combination(solid.kind)) {
+        most = solid_area(solid, frame_from_solid, clip);
+        most.shadows *= least_shadows(solid, map);
+        most.total = most.shadows.x + most.shadows.y + most.shadows.z;
+        return most;
+    }
+    if (solid.kind != SolidKind::union_of) return most;  // they may leave nothing
+    for (const Solid& part : solid.parts) {
+        const SurfaceArea of_part = least_solid_area(part, map, clip);
+        if (of_part.total >= most.total) most = of_part;
+    }
+    return most;
+}
+
+double part_inside(const Mesh& mesh, const glm::dmat4& box_from_mesh, const SolidBounds& box) {
+    double inside = 0, total = 0;
+    for (const glm::uvec3& triangle : mesh.triangles) {
+        glm::dvec3 low(INFINITY), high(-INFINITY);
+        for (int corner = 0; corner < 3; ++corner) {
+            const glm::dvec3 p(box_from_mesh *
+                               glm::dvec4(glm::dvec3(mesh.positions[triangle[corner]]), 1.0));
+            low = glm::min(low, p);
+            high = glm::max(high, p);
+        }
+        const double area = glm::length(area_vector(mesh, triangle));
+        double part = 1;
+        for (int axis = 0; axis < 3; ++axis)
+            part *= part_of(low[axis], high[axis], box.min[axis], box.max[axis]);
+        inside += part * area;
+        total += area;
+    }
+    return total > 0 ? inside / total : 1;
+}
+
+SurfaceExtent surface_extent(const SurfaceArea& area, const glm::dmat4& frame_from_surface,
+                             const GridFrame& frame, double band) {
+    glm::dmat3 voxels_from_surface(frame_from_surface);
+    for (int column = 0; column < 3; ++column) voxels_from_surface[column] /= frame.voxel_edge;
+    // Area vectors map by the matrix of cofactors.
+    const glm::dmat3 cofactors = std::abs(glm::determinant(voxels_from_surface)) *
+                                 glm::transpose(glm::inverse(voxels_from_surface));
+    glm::dvec3 shadows(0);
+    double largest = 0;
+    for (int column = 0; column < 3; ++column) {
+        shadows += glm::abs(cofactors[column]) * area.shadows[column];
+        largest = std::max(largest, glm::length(cofactors[column]));
+    }
+    const double mean = kMeanShadow * area.total * largest;
+    SurfaceExtent extent;
+    extent.voxels = std::min(shadows.x + shadows.y + shadows.z, mean);
+    const double thickness = kBrickSize + 2 * band / kMeanShadow;
+    const glm::ivec3 table = frame.bricks();
+    extent.bricks =
+        std::min(extent.voxels * thickness / (kBrickSize * kBrickSize * kBrickSize) + kFewestBricks,
+                 double(table.x) * table.y * table.z);
+    return extent;
+}
+
+}  // namespace voxelume

@@ -1,0 +1,25 @@
+// A flat image as the renderer hands it to the writers.
+#pragma once
+
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <map>
+#include <string>
+
+#include "runtime/image/plane.hpp"
+
+namespace voxelume {
+
+/// Planes of `width` x `height` values, row 0 at the top, x fastest.
+///
+/// Float planes are named as in the file: R G B A Z P.X P.Y P.Z N.X N.Y N.Z; colour is linear Rec.
+/// 709. Pixels without a hit have Z = +infinity, P = N = 0 and objectId 0; objects count from 1.
+struct Image {
+    int width = 0;
+    int height = 0;
+    std::map<std::string, Plane<float>> planes;
+    std::map<std::string, Plane<uint32_t>> id_planes;  ///< objectId
+    std::map<std::string, std::string> attributes;     ///< text for the header: scene, version, ...
+};
+
+}  // namespace voxelume

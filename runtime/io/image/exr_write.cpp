@@ -1,0 +1,144 @@
+// Image -> scanline OpenEXR.
+#include <IexBaseExc.h>
+#include <ImfInputFile.h>
+#include <ImfThreading.h>
+#include <openexr.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "runtime/base/atomic_file.hpp"
+#include "runtime/io/image/exr.hpp"
+#include "runtime/io/image/exr_chunks.hpp"
+
+namespace voxelume {
+
+namespace {
+
+bool is_color(const std::string& plane) {
+    return plane == "R" || plane == "G" || plane == "B" || plane == "A";
+}
+
+/// The image's planes in the order of their names, as the file has them.
+std::vector<ExrPlane> planes_of(const Image& image, ColorDepth color) {
+    std::vector<ExrPlane> planes;
+    for (const auto& [name, plane] : image.planes)
+        planes.push_back({.name = name,
+                          .values = plane.data(),
+                          .is_half = is_color(name) && color == ColorDepth::float16,
+                          .is_color = is_color(name)});
+    for (const auto& [name, plane] : image.id_planes)
+        planes.push_back({.name = name, .values = plane.data(), .is_id = true});
+    std::ranges::sort(planes, {}, &ExrPlane::name);
+    return planes;
+}
+
+void check_image(AtomicFile& file, const Image& image) {
+    if (image.width <= 0 || image.height <= 0) file.fail("the image has no pixels");
+    const size_t pixels = static_cast<size_t>(image.width) * static_cast<size_t>(image.height);
+    for (const auto& [name, plane] : image.planes)
+        if (plane.size() != pixels) file.fail("plane " + name + " hasn't the image's size");
+    for (const auto& [name, plane] : image.id_planes)
+        if (plane.size() != pixels) file.fail("plane " + name + " hasn't the image's size");
+}
+
+/// OpenEXR's writer of headers and chunks, onto a file of ours: OpenEXR 3.1.5 truncates small files
+/// silently on a full disk.
+class ExrWriter {
+  public:
+    ExrWriter(AtomicFile& file, const std::filesystem::path& path) : file_(file) {
+        exr_context_initializer_t setup = EXR_DEFAULT_CONTEXT_INITIALIZER;
+        setup.user_data = this;
+        setup.error_handler_fn = [](exr_const_context_t, exr_result_t, const char*) {};
+        setup.write_fn = [](exr_const_context_t, void* self, const void* bytes, uint64_t size,
+                            uint64_t position, exr_stream_error_func_ptr_t) {
+            return static_cast<ExrWriter*>(self)->write(bytes, size, position);
+        };
+        check(exr_start_write(&context_, path.c_str(), EXR_WRITE_FILE_DIRECTLY, &setup));
+    }
+    ~ExrWriter() { exr_finish(&context_); }
+    ExrWriter(const ExrWriter&) = delete;
+    ExrWriter& operator=(const ExrWriter&) = delete;
+
+    using Attributes = std::map<std::string, std::string>;
+
+    void header(const Image& image, const Attributes& others, const std::vector<ExrPlane>& planes) {
+        check(exr_add_part(context_, "", EXR_STORAGE_SCANLINE, &part_));
+        check(exr_initialize_required_attr_simple(context_, part_, image.width, image.height,
+                                                  EXR_COMPRESSION_ZIP));
+        constexpr exr_attr_chromaticities_t kRec709 = {0.64f, 0.33f, 0.30f,   0.60f,
+                                                       0.15f, 0.06f, 0.3127f, 0.3290f};
+        check(exr_attr_set_chromaticities(context_, part_, "chromaticities", &kRec709));
+        for (const ExrPlane& plane : planes) {
+            const exr_pixel_type_t type = plane.is_id     ? EXR_PIXEL_UINT
+                                          : plane.is_half ? EXR_PIXEL_HALF
+                                                          : EXR_PIXEL_FLOAT;
+            check(exr_add_channel(context_, part_, plane.name.c_str(), type,
+                                  EXR_PERCEPTUALLY_LOGARITHMIC, 1, 1));
+        }
+        Attributes attributes = image.attributes;
+        attributes.insert(others.begin(), others.end());
+        for (const auto& [name, text] : attributes)
+            check(exr_attr_set_string(context_, part_, name.c_str(), text.c_str()));
+        check(exr_write_header(context_));
+    }
+
+    void chunk(const ExrChunk& chunk) {
+        check(exr_write_scanline_chunk(context_, part_, chunk.row, chunk.bytes.data(),
+                                       chunk.bytes.size()));
+    }
+
+    /// Writes the table of rows.
+    void finish() { check(exr_finish(&context_)); }
+
+  private:
+    int64_t write(const void* bytes, uint64_t size, uint64_t position) noexcept try {
+        file_.seek(position);
+        file_.write(bytes, size);
+        return int64_t(size);
+    } catch (const Error&) {
+        return -1;  // the file keeps it, and throws it below
+    }
+
+    void check(exr_result_t result) {
+        if (result != EXR_ERR_SUCCESS) file_.fail(exr_get_default_error_message(result));
+    }
+
+    AtomicFile& file_;
+    exr_context_t context_ = nullptr;
+    int part_ = 0;
+};
+
+}  // namespace
+
+void set_exr_threads(int threads) {
+    Imf::setGlobalThreadCount(threads);
+}
+
+size_t write_exr(const std::filesystem::path& path, const Image& image, ColorDepth color,
+                 const std::map<std::string, std::string>& others) {
+    AtomicFile file(path);
+    check_image(file, image);
+    const std::vector<ExrPlane> planes = planes_of(image, color);
+    size_t replaced = 0;
+    {
+        ExrWriter writer(file, path);
+        writer.header(image, others, planes);
+        compress_chunks(planes, image.width, image.height, Imf::globalThreadCount(),
+                        [&](const ExrChunk& chunk) {
+                            writer.chunk(chunk);
+                            replaced += chunk.replaced;
+                        });
+        writer.finish();
+    }
+    try {
+        if (!Imf::InputFile(file.temporary().c_str()).isComplete())
+            file.fail("rows are missing when it is read back");
+    } catch (const Iex::BaseExc& error) {
+        file.fail(error.what());
+    }
+    file.commit();
+    return replaced;
+}
+
+}  // namespace voxelume

@@ -1,0 +1,248 @@
+// Wavefront OBJ -> Mesh, in one pass over the text.
+#include "runtime/base/decimal.hpp"
+#include "runtime/io/mesh/mesh_color.hpp"
+#include "runtime/io/mesh/mesh_polygon.hpp"
+#include "runtime/io/mesh/mesh_reader.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <unordered_map>
+
+namespace voxelume {
+namespace {
+
+/// Statements of the format, beside v, f, vn and vt, that say nothing about a triangle mesh.
+constexpr std::string_view kSkippedStatements[] = {
+    "vp",     "deg",        "bmat",      "step",     "cstype", "p",      "l",
+    "fo",     "curv",       "curv2",     "surf",     "parm",   "trim",   "hole",
+    "scrv",   "sp",         "end",       "con",      "g",      "s",      "mg",
+    "o",      "bevel",      "c_interp",  "d_interp", "lod",    "mtllib", "maplib",
+    "usemap", "shadow_obj", "trace_obj", "ctech",    "stech",  "call",   "scmp",
+    "csh",    "bsp",        "bzp",       "cdc",      "cdp",    "res",    "ctexp"};
+
+class ObjParser {
+  public:
+    explicit ObjParser(const MeshSource& source) : source_(source), p_(source.begin()) {}
+
+    Mesh parse() {
+        if (source_.bytes.starts_with("\xEF\xBB\xBF")) {
+            p_ += 3;
+        }
+        while (p_ != source_.end()) {
+            parse_statement();
+        }
+        if (mesh_.triangles.empty()) {
+            source_.fail("the mesh has no triangles: no 'f' statement in the file");
+        }
+        drop_single_group();
+        return std::move(mesh_);
+    }
+
+  private:
+    void parse_statement() {
+        skip_gap();
+        const char* const word = p_;
+        if (word[0] == 'v' && is_blank(word[1])) {
+            parse_vertex();
+        } else if (word[0] == 'f' && is_blank(word[1])) {
+            parse_face();
+        } else if (word[0] == 'v' && (word[1] == 'n' || word[1] == 't') && is_blank(word[2])) {
+            skip_statement();
+        } else if (at_end_of_statement()) {
+            skip_line();
+        } else {
+            parse_other_statement(
+                std::string_view(word, static_cast<size_t>(skip_token(word) - word)));
+        }
+    }
+
+    void parse_other_statement(std::string_view word) {
+        if (word == "v" || word == "f") {
+            source_.fail_at_line(p_, fmt::format("'{}' without numbers", word));
+        }
+        if (word == "usemtl") {
+            parse_material();
+        } else if (word == "vn" || word == "vt" ||
+                   std::ranges::find(kSkippedStatements, word) != std::end(kSkippedStatements)) {
+            skip_statement();
+        } else {
+            source_.fail_at_line(p_, fmt::format("{} is no statement of OBJ", quoted_token(p_)));
+        }
+    }
+
+    void parse_vertex() {
+        std::array<float, 6> numbers;
+        size_t count = 0;
+        for (++p_, skip_gap(); !at_end_of_statement(); skip_gap()) {
+            if (count == numbers.size()) {
+                fail_vertex("more than 6");
+            }
+            numbers[count++] = require_number(source_, p_, '\\');
+        }
+        if (count < 3 || count == 5) {
+            fail_vertex(fmt::format("{}", count));
+        }
+        mesh_.positions.emplace_back(numbers[0], numbers[1], numbers[2]);
+        if (count == 6) {
+            append_color({numbers[3], numbers[4], numbers[5]});
+        } else if (!mesh_.vertex_colors.empty()) {
+            mesh_.vertex_colors.emplace_back(1.0f);
+        }
+    }
+
+    [[noreturn]] void fail_vertex(std::string_view count) const {
+        source_.fail_at_line(p_, fmt::format("'v' has {} numbers; it needs x y z, x y z w or x y z "
+                                             "red green blue",
+                                             count));
+    }
+
+    void append_color(const glm::dvec3& color) {
+        for (int i = 0; i < 3; ++i) {
+            if (!(color[i] >= 0.0 && color[i] <= 1.0)) {
+                source_.fail_at_line(
+                    p_,
+                    fmt::format("the vertex's colour has a {}; colours are from 0 to 1", color[i]));
+            }
+        }
+        mesh_.vertex_colors.resize(mesh_.positions.size() - 1, glm::vec3(1.0f));
+        mesh_.vertex_colors.push_back(linear_from_srgb(color));
+    }
+
+    void parse_face() {
+        corners_.clear();
+        for (++p_, skip_gap(); !at_end_of_statement(); skip_gap()) {
+            corners_.push_back(parse_corner());
+        }
+        if (corners_.size() < 3) {
+            source_.fail_at_line(
+                p_, fmt::format("'f' has {} corners; it needs at least three", corners_.size()));
+        }
+        cutter_.append(source_, corners_, mesh_);
+        mesh_.triangle_group.resize(mesh_.triangles.size(), group());
+    }
+
+    /// `7`, `7/3`, `7//4` or `7/3/4`: the first is the vertex, counted from 1, or backwards from
+    /// -1.
+    uint32_t parse_corner() {
+        const Integer vertex = scan_integer(p_);
+        const char* end = vertex.end;
+        bool valid = end != p_;
+        if (*end == '/') {
+            const Integer texture = scan_integer(end + 1);
+            end = texture.end;
+            if (*end == '/') {
+                const Integer normal = scan_integer(end + 1);
+                valid &= normal.end != end + 1;
+                end = normal.end;
+            }
+        }
+        if (!valid || !(ends_token(*end) || *end == '\\')) {
+            source_.fail_at_line(
+                p_, fmt::format("{} is no corner of a face; write 7, 7/3, 7//4 or 7/3/4",
+                                quoted_token(p_)));
+        }
+        const auto count = static_cast<int64_t>(mesh_.positions.size());
+        const int64_t index = vertex.value < 0 ? count + vertex.value : vertex.value - 1;
+        if (index < 0 || index >= count) {
+            source_.fail_at_line(p_, fmt::format("the face names vertex {}, and {} vertices are "
+                                                 "defined before it",
+                                                 vertex.value, count));
+        }
+        p_ = end;
+        return static_cast<uint32_t>(index);
+    }
+
+    /// The name is the rest of the line, spaces within included.
+    void parse_material() {
+        const char* const begin = skip_blanks(skip_token(p_));
+        skip_line();
+        const char* end = p_;
+        while (end > begin && (is_blank(end[-1]) || end[-1] == '\n')) {
+            --end;
+        }
+        material_.assign(begin, std::max(begin, end));
+        group_known_ = false;
+    }
+
+    /// The current material's group; a group begins to exist with its first face.
+    uint32_t group() {
+        if (!group_known_) {
+            const auto next = static_cast<uint32_t>(mesh_.group_names.size());
+            const auto [entry, is_new] = group_of_name_.try_emplace(material_, next);
+            if (is_new) {
+                mesh_.group_names.push_back(material_);
+            }
+            group_ = entry->second;
+            group_known_ = true;
+        }
+        return group_;
+    }
+
+    void drop_single_group() {
+        if (mesh_.group_names.size() == 1) {
+            mesh_.triangle_group = {};
+            if (mesh_.group_names[0].empty()) {
+                mesh_.group_names = {};
+            }
+        }
+    }
+
+    /// Blanks, and a backslash that joins the next line to this one.
+    void skip_gap() {
+        p_ = skip_blanks(p_);
+        while (*p_ == '\\' && continues(p_)) {
+            p_ = skip_blanks(after_line(p_));
+        }
+    }
+
+    static bool continues(const char* backslash) {
+        const char* const p = skip_blanks(backslash + 1);
+        return *p == '\n' || *p == '\0';
+    }
+
+    /// Behind the end of the line that holds `p`.
+    const char* after_line(const char* p) const {
+        const void* const newline = std::memchr(p, '\n', static_cast<size_t>(source_.end() - p));
+        return newline != nullptr ? static_cast<const char*>(newline) + 1 : source_.end();
+    }
+
+    bool at_end_of_statement() const { return *p_ == '\n' || *p_ == '\0' || *p_ == '#'; }
+
+    void skip_line() { p_ = after_line(p_); }
+
+    void skip_statement() {
+        const char* line = p_;
+        do {
+            line = p_;
+            skip_line();
+        } while (p_ != source_.end() && joins_next(line, p_));
+    }
+
+    /// Whether the line [begin, end) ends in a backslash.
+    static bool joins_next(const char* begin, const char* end) {
+        while (end > begin && (is_blank(end[-1]) || end[-1] == '\n')) {
+            --end;
+        }
+        return end > begin && end[-1] == '\\';
+    }
+
+    const MeshSource& source_;
+    const char* p_;
+    Mesh mesh_;
+    PolygonCutter cutter_;
+    std::vector<uint32_t> corners_;
+    std::string material_;
+    std::unordered_map<std::string, uint32_t> group_of_name_;
+    uint32_t group_ = 0;
+    bool group_known_ = false;
+};
+
+}  // namespace
+
+Mesh parse_obj(const MeshSource& source) {
+    source.require_text();
+    return ObjParser(source).parse();
+}
+
+}  // namespace voxelume

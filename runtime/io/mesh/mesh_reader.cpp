@@ -1,0 +1,105 @@
+// Takes a mesh file into memory and gives it to the reader of its format.
+#include "runtime/io/mesh/mesh_reader.hpp"
+
+#include "runtime/io/mesh/mesh_source.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <new>
+#include <system_error>
+
+namespace voxelume {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// More than the largest allowed mesh takes as binary PLY (13 bytes a triangle); beyond it only
+/// memory would run out.
+constexpr uintmax_t kMaxFileBytes = uintmax_t{16} << 30;
+
+std::string read_bytes(const fs::path& path) {
+    const std::string name = path.string();
+    std::error_code error;
+    const fs::file_status status = fs::status(path, error);
+    if (status.type() == fs::file_type::not_found) {
+        throw Error(ErrorKind::input, "{}: no such mesh file", name);
+    }
+    if (error) {
+        throw Error(ErrorKind::input, "{}: can't be read: {}", name, error.message());
+    }
+    if (!fs::is_regular_file(status)) {
+        throw Error(ErrorKind::input, "{}: {}, not a mesh file", name,
+                    fs::is_directory(status) ? "a directory" : "a device or pipe");
+    }
+    const uintmax_t size = fs::file_size(path, error);
+    if (error) {
+        throw Error(ErrorKind::input, "{}: can't be read: {}", name, error.message());
+    }
+    if (size > kMaxFileBytes) {
+        throw Error(ErrorKind::limit, "{}: {} bytes, and a mesh file has at most {} here; split it",
+                    name, size, kMaxFileBytes);
+    }
+    errno = 0;
+    std::ifstream file(path, std::ios::binary);
+    std::string bytes;
+    if (file) {
+        bytes.resize(size);
+        file.read(bytes.data(), static_cast<std::streamsize>(size));
+    }
+    if (!file) {
+        throw Error(ErrorKind::input, "{}: can't be read: {}", name,
+                    errno != 0 ? std::strerror(errno) : "it became shorter meanwhile");
+    }
+    return bytes;
+}
+
+std::string lower_extension(const fs::path& name) {
+    std::string extension = name.extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
+    return extension;
+}
+
+}  // namespace
+
+Mesh parse_mesh(const std::string& bytes, const fs::path& name) {
+    const MeshSource source{bytes, name.string()};
+    const std::string extension = lower_extension(name);
+    if (bytes.empty()) {
+        source.fail("the file is empty");
+    }
+    try {
+        if (looks_like_ply(bytes)) {
+            return parse_ply(source);
+        }
+        if (looks_like_stl(bytes) || extension == ".stl") {
+            return parse_stl(source);
+        }
+        if (extension == ".obj") {
+            return parse_obj(source);
+        }
+        if (extension == ".ply") {
+            return parse_ply(source);
+        }
+    } catch (const std::bad_alloc&) {
+        throw Error(ErrorKind::limit, "{}: not enough memory to read this mesh of {} bytes",
+                    source.name, bytes.size());
+    }
+    source.fail("neither name nor content is that of a mesh; .obj, .ply and .stl can be read");
+}
+
+std::string read_mesh_bytes(const fs::path& path) {
+    try {
+        return read_bytes(path);
+    } catch (const std::bad_alloc&) {
+        throw Error(ErrorKind::limit, "{}: not enough memory to read this mesh", path.string());
+    }
+}
+
+Mesh read_mesh(const fs::path& path) {
+    return parse_mesh(read_mesh_bytes(path), path);
+}
+
+}  // namespace voxelume

@@ -1,0 +1,136 @@
+#include "runtime/io/vdb/vdb.hpp"
+
+#include <openvdb/openvdb.h>
+#include <openvdb/tools/SignedFloodFill.h>
+
+#include "runtime/base/atomic_file.hpp"
+#include "runtime/base/input_file.hpp"
+#include "runtime/io/vdb/vdb_stream.hpp"
+
+namespace voxelume::vdb {
+
+namespace {
+
+openvdb::math::Transform::Ptr make_transform(const VdbVolume& volume) {
+    const glm::dvec3& edges = volume.voxel_edges;
+    const glm::dvec3& origin = volume.origin;
+    const bool cube = edges.x == edges.y && edges.x == edges.z;
+    auto transform = cube ? openvdb::math::Transform::createLinearTransform(edges.x)
+                          : openvdb::math::Transform::createLinearTransform();
+    if (!cube) transform->preScale(openvdb::Vec3d(edges.x, edges.y, edges.z));
+    transform->postTranslate(openvdb::Vec3d(origin.x, origin.y, origin.z));
+    return transform;
+}
+
+template <class Grid, class Value, class Convert>
+typename Grid::Ptr make_grid(const VdbVolume& volume, std::span<const Value> values,
+                             typename Grid::ValueType background, Convert convert) {
+    auto grid = Grid::create(background);
+    auto accessor = grid->getAccessor();
+    for (size_t i = 0; i < volume.cells.size(); ++i) {
+        const glm::ivec3& cell = volume.cells[i];
+        accessor.setValue(openvdb::Coord(cell.x, cell.y, cell.z), convert(values[i]));
+    }
+    grid->setTransform(make_transform(volume));
+    return grid;
+}
+
+openvdb::GridCPtrVec make_grids(const VdbVolume& volume) {
+    auto values = make_grid<openvdb::FloatGrid>(volume, volume.values, volume.background,
+                                                [](float value) { return value; });
+    if (volume.grid_class == VdbClass::level_set)  // what lies inside has no value yet
+        openvdb::tools::signedFloodFill(values->tree());
+    values->setName(volume.name);
+    values->setGridClass(volume.grid_class == VdbClass::level_set ? openvdb::GRID_LEVEL_SET
+                                                                  : openvdb::GRID_FOG_VOLUME);
+    openvdb::GridCPtrVec grids = {values};
+    if (volume.colors.empty()) return grids;
+    auto colors = make_grid<openvdb::Vec3SGrid>(
+        volume, volume.colors, openvdb::Vec3s(0.0f),
+        [](const glm::vec3& color) { return openvdb::Vec3s(color.r, color.g, color.b); });
+    colors->setName("Cd");
+    colors->setVectorType(openvdb::VEC_INVARIANT);
+    grids.push_back(colors);
+    return grids;
+}
+
+void check_volume(AtomicFile& file, const VdbVolume& volume) {
+    const size_t count = volume.cells.size();
+    if (volume.values.size() != count) file.fail("not every voxel has a value");
+    if (!volume.colors.empty() && volume.colors.size() != count)
+        file.fail("not every voxel has a colour");
+    if (!(volume.voxel_edges.x > 0 && volume.voxel_edges.y > 0 && volume.voxel_edges.z > 0))
+        file.fail("the voxels have no size");
+}
+
+void write_grids(AtomicFile& file, const VdbVolume& volume) {
+    openvdb::initialize();
+    openvdb::MetaMap metadata;
+    for (const auto& [key, text] : volume.metadata)
+        metadata.insertMeta(key, openvdb::StringMetadata(text));
+    write_vdb_grids(file, make_grids(volume), metadata);
+}
+
+VdbSummary summarize(const openvdb::GridBase& grid) {
+    VdbSummary summary;
+    summary.name = grid.getName();
+    summary.value_type = grid.valueType();
+    summary.grid_class = openvdb::GridBase::gridClassToString(grid.getGridClass());
+    summary.active_voxels = grid.activeVoxelCount();
+    if (summary.active_voxels > 0) {
+        const openvdb::CoordBBox box = grid.evalActiveVoxelBoundingBox();
+        summary.min = {box.min().x(), box.min().y(), box.min().z()};
+        summary.max = {box.max().x(), box.max().y(), box.max().z()};
+    }
+    const openvdb::Vec3d edges = grid.voxelSize();
+    summary.voxel_edges = {edges.x(), edges.y(), edges.z()};
+    return summary;
+}
+
+/// What `read` makes of a file, with OpenVDB's failures as ours.
+template <class Read>
+auto read_opened(const InputFile& readable, const std::filesystem::path& path, Read read) {
+    try {
+        openvdb::initialize();
+        openvdb::io::File file(path.string());
+        // Whole: delayed loading would map the file for as long as the grids live.
+        file.open(false);
+        return read(file);
+    } catch (const std::bad_alloc&) {
+        readable.refuse("not a readable OpenVDB file: it declares more than there is memory");
+    } catch (const std::exception& error) {
+        readable.refuse(fmt::format("not a readable OpenVDB file: {}", error.what()));
+    }
+}
+
+}  // namespace
+
+void write_vdb(const std::filesystem::path& path, const VdbVolume& volume) {
+    AtomicFile file(path);
+    check_volume(file, volume);
+    write_grids(file, volume);
+    file.commit();
+}
+
+std::map<std::string, std::string> read_vdb_metadata(const std::filesystem::path& path) {
+    const InputFile readable(path);
+    return read_opened(readable, path, [](openvdb::io::File& file) {
+        std::map<std::string, std::string> texts;
+        const openvdb::MetaMap::Ptr metadata = file.getMetadata();
+        for (auto entry = metadata->beginMeta(); entry != metadata->endMeta(); ++entry)
+            if (entry->second->typeName() == "string") texts[entry->first] = entry->second->str();
+        return texts;
+    });
+}
+
+std::vector<VdbSummary> read_vdb_summary(const std::filesystem::path& path) {
+    const InputFile readable(path);
+    return read_opened(readable, path, [](openvdb::io::File& file) {
+        std::vector<VdbSummary> summaries;
+        for (const openvdb::GridBase::Ptr& grid : *file.getGrids())
+            summaries.push_back(summarize(*grid));
+        return summaries;
+    });
+}
+
+}  // namespace voxelume::vdb

@@ -1,0 +1,144 @@
+#include "runtime/io/vdb/vdb_density.hpp"
+
+#include <openvdb/tools/Interpolation.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/matrix.hpp>
+
+#include "runtime/io/vdb/vdb_read.hpp"
+
+namespace voxelume::vdb {
+namespace {
+
+using openvdb::Coord;
+using openvdb::CoordBBox;
+using openvdb::FloatGrid;
+
+constexpr int kLeafEdge = FloatGrid::TreeType::LeafNodeType::DIM;
+
+float density_of(float value) {
+    return std::fmax(value, 0.0f);
+}
+
+class VdbField : public DensityField {
+  public:
+    VdbField(FloatGrid::ConstPtr grid, const glm::dmat4& world_from_grid)
+        : grid_(std::move(grid)),
+          grid_from_world_(glm::inverse(world_from_grid)),
+          active_(grid_->evalActiveVoxelBoundingBox()) {}
+
+    std::optional<float> constant_in(const Bounds& box) const override {
+        CoordBBox cells = cells_around(box);
+        const float outside = grid_->background();
+        if (!cells.hasOverlap(active_)) return density_of(outside);
+        const bool reaches_out = !active_.isInside(cells);
+        cells.intersect(active_);
+        const auto accessor = grid_->getConstAccessor();
+        const float one = reaches_out ? outside : accessor.getValue(cells.min());
+        const Coord corner = cells.min() & ~(kLeafEdge - 1);
+        for (int z = corner.z(); z <= cells.max().z(); z += kLeafEdge)
+            for (int y = corner.y(); y <= cells.max().y(); y += kLeafEdge)
+                for (int x = corner.x(); x <= cells.max().x(); x += kLeafEdge) {
+                    const Coord leaf(x, y, z);
+                    if (accessor.probeConstLeaf(leaf) || accessor.getValue(leaf) != one)
+                        return std::nullopt;
+                }
+        return density_of(one);
+    }
+
+    void sample(const glm::dvec3& first, const glm::dvec3& step,
+                std::span<float, 4096> densities) const override {
+        const auto accessor = grid_->getConstAccessor();
+        for (size_t i = 0; i < 4096; ++i) {
+            const glm::dvec3 p = first + step * glm::dvec3(i & 15, i >> 4 & 15, i >> 8);
+            float value = 0;
+            openvdb::tools::BoxSampler::sample(accessor, near_active(index_of(p)), value);
+            densities[i] = density_of(value);
+        }
+    }
+
+    bool is_zero() const override {
+        for (auto value = grid_->cbeginValueAll(); value; ++value)
+            if (density_of(*value) > 0) return false;
+        return density_of(grid_->background()) == 0;
+    }
+
+    double bytes() const override { return double(grid_->memUsage()); }
+
+  private:
+    openvdb::Vec3d index_of(const glm::dvec3& world) const {
+        const glm::dvec3 p(grid_from_world_ * glm::dvec4(world, 1));
+        return grid_->worldToIndex(openvdb::Vec3d(p.x, p.y, p.z));
+    }
+
+    /// The point, or one beside the active voxels where it lies so far out that numbers end.
+    openvdb::Vec3d near_active(openvdb::Vec3d p) const {
+        for (int a = 0; a < 3; ++a)
+            p[a] = std::clamp(p[a], active_.min()[a] - 2.0, active_.max()[a] + 2.0);
+        return p;
+    }
+
+    /// All cells whose values count for some point of a box, cut to what coordinates can number.
+    CoordBBox cells_around(const Bounds& box) const {
+        openvdb::BBoxd reach;
+        for (int corner = 0; corner < 8; ++corner)
+            reach.expand(
+                index_of({corner & 1 ? box.max.x : box.min.x, corner & 2 ? box.max.y : box.min.y,
+                          corner & 4 ? box.max.z : box.min.z}));
+        const auto cell = [](double x) { return int(std::clamp(x, -1e9, 1e9)); };
+        Coord low, high;
+        for (int a = 0; a < 3; ++a) {
+            low[a] = cell(std::floor(reach.min()[a]) - 1);
+            high[a] = cell(std::ceil(reach.max()[a]) + 1);
+        }
+        return {low, high};
+    }
+
+    FloatGrid::ConstPtr grid_;
+    glm::dmat4 grid_from_world_;
+    CoordBBox active_;
+};
+
+std::string names_of(const openvdb::GridPtrVec& grids) {
+    std::string names;
+    for (const openvdb::GridBase::Ptr& grid : grids)
+        names += fmt::format("{}\"{}\"", names.empty() ? "" : ", ", grid->getName());
+    return names.empty() ? "none" : names;
+}
+
+void check_values(const FloatGrid& grid, const std::string& name, const InputFile& file) {
+    bool finite = std::isfinite(grid.background());
+    for (auto value = grid.cbeginValueAll(); value && finite; ++value)
+        finite = std::isfinite(*value);
+    if (!finite) file.refuse(fmt::format("grid \"{}\" has a value that is no number", name));
+}
+
+FloatGrid::ConstPtr read_grid(const GridDensity& density, const InputFile& readable) {
+    const openvdb::GridPtrVecPtr grids = read_vdb_grids(density.file, readable);
+    for (const openvdb::GridBase::Ptr& grid : *grids) {
+        if (grid->getName() != density.grid) continue;
+        const auto floats = openvdb::gridPtrCast<FloatGrid>(grid);
+        if (!floats)
+            readable.refuse(fmt::format("grid \"{}\" holds {} values; a density is of float values",
+                                        density.grid, grid->valueType()));
+        if (!floats->transform().isLinear())
+            readable.refuse(
+                fmt::format("grid \"{}\" is bent by its transform; only affine ones "
+                            "can be placed",
+                            density.grid));
+        check_values(*floats, density.grid, readable);
+        return floats;
+    }
+    readable.refuse(
+        fmt::format("has no grid \"{}\"; its grids: {}", density.grid, names_of(*grids)));
+}
+
+}  // namespace
+
+std::unique_ptr<DensityField> read_vdb_density(const GridDensity& density) {
+    const InputFile readable(density.file);
+    return std::make_unique<VdbField>(read_grid(density, readable), density.world_from_grid);
+}
+
+}  // namespace voxelume::vdb

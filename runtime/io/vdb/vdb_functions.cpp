@@ -1,0 +1,23 @@
+// The table that the program takes from the module.
+#include "runtime/io/vdb/vdb_module.hpp"
+
+namespace voxelume {
+
+// Not the program's functions of the same names, which call these.
+namespace vdb {
+
+decltype(voxelume::write_vdb) write_vdb;
+decltype(voxelume::read_vdb_metadata) read_vdb_metadata;
+decltype(voxelume::read_vdb_summary) read_vdb_summary;
+decltype(voxelume::read_vdb_density) read_vdb_density;
+decltype(voxelume::read_vdb_voxels) read_vdb_voxels;
+decltype(voxelume::write_volume_vdb) write_volume_vdb;
+decltype(voxelume::read_volume_vdb) read_volume_vdb;
+
+}  // namespace vdb
+
+const VdbFunctions voxelume_vdb_functions = {
+    VXL_VERSION,           vdb::write_vdb,       vdb::read_vdb_metadata, vdb::read_vdb_summary,
+    vdb::read_vdb_density, vdb::read_vdb_voxels, vdb::write_volume_vdb,  vdb::read_volume_vdb};
+
+}  // namespace voxelume

@@ -1,0 +1,92 @@
+#include "runtime/io/vdb/vdb_module.hpp"
+
+#include <dlfcn.h>
+#include <fmt/format.h>
+
+#include <cstring>
+#include <tuple>
+
+#include "runtime/base/atomic_file.hpp"
+#include "runtime/base/input_file.hpp"
+#include "runtime/base/version.hpp"
+#include "runtime/image/volume_geometry.hpp"
+#include "runtime/io/volume/volume_frame_text.hpp"
+
+namespace voxelume {
+namespace {
+
+/// Has the linker put into the program what the module takes from there: of a library it puts in
+/// only sources that something names.
+[[gnu::used]] constexpr std::tuple kTakenByModule(&AtomicFile::commit, &InputFile::refuse,
+                                                  &read_frame_text, &world_from_voxels);
+
+struct VdbModule {
+    const VdbFunctions* functions = nullptr;
+    std::string failure;  ///< why there are none
+};
+
+/// The folder is the one that CMakeLists.txt wrote into the program. It stays open.
+VdbModule open_module() {
+    void* module = dlopen("libvoxelume_vdb.so", RTLD_NOW | RTLD_LOCAL);
+    void* table = module ? dlsym(module, "voxelume_vdb_functions") : nullptr;
+    if (!table) return {nullptr, dlerror()};
+    const auto* functions = static_cast<const VdbFunctions*>(table);
+    if (std::strcmp(functions->version, version()) != 0)
+        return {nullptr, fmt::format("libvoxelume_vdb.so is of version {}, the program of {}",
+                                     functions->version, version())};
+    return {functions, {}};
+}
+
+const VdbFunctions& functions_for(const std::filesystem::path& path, ErrorKind kind) {
+    static const VdbModule module = open_module();
+    if (!module.functions)
+        throw Error(kind,
+                    "{}: can't be {}: the part of voxelume for OpenVDB can't be loaded: {}; "
+                    "install voxelume and OpenVDB again",
+                    path.string(), kind == ErrorKind::input ? "read" : "written", module.failure);
+    return *module.functions;
+}
+
+const VdbFunctions& reader_of(const std::filesystem::path& path) {
+    return functions_for(path, ErrorKind::input);
+}
+
+const VdbFunctions& writer_of(const std::filesystem::path& path) {
+    return functions_for(path, ErrorKind::output);
+}
+
+}  // namespace
+
+void check_vdb_output(const std::filesystem::path& path) {
+    writer_of(path);
+}
+
+void write_vdb(const std::filesystem::path& path, const VdbVolume& volume) {
+    writer_of(path).write_vdb(path, volume);
+}
+
+std::map<std::string, std::string> read_vdb_metadata(const std::filesystem::path& path) {
+    return reader_of(path).read_vdb_metadata(path);
+}
+
+std::vector<VdbSummary> read_vdb_summary(const std::filesystem::path& path) {
+    return reader_of(path).read_vdb_summary(path);
+}
+
+std::unique_ptr<DensityField> read_vdb_density(const GridDensity& density) {
+    return reader_of(density.file).read_vdb_density(density);
+}
+
+VdbVoxels read_vdb_voxels(const std::filesystem::path& path, Surface surface) {
+    return reader_of(path).read_vdb_voxels(path, surface);
+}
+
+void write_volume_vdb(const VolumePath& path, const Volume& volume) {
+    writer_of(path).write_volume_vdb(path, volume);
+}
+
+Volume read_volume_vdb(const VolumePath& path) {
+    return reader_of(path).read_volume_vdb(path);
+}
+
+}  // namespace voxelume

@@ -1,0 +1,27 @@
+// What uses OpenVDB is a module, libvoxelume_vdb.so, that the program opens when it first reads or
+// writes a .vdb: OpenVDB's 64,000 relocations would cost each start of the program 45 ms.
+#pragma once
+
+#include "runtime/io/vdb/vdb.hpp"
+#include "runtime/io/vdb/vdb_density.hpp"
+#include "runtime/io/vdb/vdb_voxels.hpp"
+#include "runtime/io/volume/volume_formats.hpp"
+
+namespace voxelume {
+
+/// The functions of the headers above, as namespace vdb has them in the module.
+struct VdbFunctions {
+    const char* version;  ///< the program's that it belongs to
+    decltype(voxelume::write_vdb)* write_vdb;
+    decltype(voxelume::read_vdb_metadata)* read_vdb_metadata;
+    decltype(voxelume::read_vdb_summary)* read_vdb_summary;
+    decltype(voxelume::read_vdb_density)* read_vdb_density;
+    decltype(voxelume::read_vdb_voxels)* read_vdb_voxels;
+    decltype(voxelume::write_volume_vdb)* write_volume_vdb;
+    decltype(voxelume::read_volume_vdb)* read_volume_vdb;
+};
+
+/// In the module, found by its name.
+extern "C" const VdbFunctions voxelume_vdb_functions;
+
+}  // namespace voxelume

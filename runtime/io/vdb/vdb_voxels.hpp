@@ -1,0 +1,34 @@
+// OpenVDB -> the voxels of a model.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include "runtime/scene/surface.hpp"
+
+namespace voxelume {
+
+/// The active voxels of one grid.
+struct VdbVoxels {
+    std::vector<glm::ivec3> cells;
+    std::vector<float> values;
+    std::vector<glm::vec3> colors;  ///< linear, of grid `Cd`; empty without it
+    glm::dvec3 voxel_edges{1.0};    ///< metres
+    glm::dvec3 origin{0.0};         ///< place of the value of cell (0, 0, 0), metres
+    std::function<float(const glm::ivec3&)> value_at;  ///< of any cell
+};
+
+/// Active voxels that a model may have.
+inline constexpr uint64_t kMostVdbVoxels = uint64_t{1} << 26;
+
+/// For cubes the float grid `density`, or the first that isn't a level set; for smooth surfaces the
+/// first level set.
+///
+/// Throws Error::input for a file that is missing, damaged, too large, without such a grid, or
+/// whose grid is turned or sheared by its transform.
+VdbVoxels read_vdb_voxels(const std::filesystem::path& path, Surface surface);
+
+}  // namespace voxelume

@@ -1,0 +1,76 @@
+#include "runtime/io/volume/volume_json.hpp"
+
+#include <fstream>
+#include <system_error>
+
+#include "runtime/base/atomic_file.hpp"
+#include "runtime/base/error.hpp"
+#include "runtime/image/volume_geometry.hpp"
+#include "runtime/io/volume/volume_frame_text.hpp"
+
+namespace voxelume {
+
+namespace {
+
+/// Headers are much shorter; scenes may be long.
+constexpr uintmax_t kMostHeaderBytes = 1 << 20;
+
+bool is_header(const VolumePath& path, VolumeFormat format) {
+    std::error_code failed;
+    if (std::filesystem::file_size(path, failed) > kMostHeaderBytes || failed) return false;
+    std::ifstream file(path, std::ios::binary);
+    const VolumeJson json = VolumeJson::parse(file, nullptr, false);
+    return json.is_object() && json.contains("voxelume_volume") &&
+           json.value("format", VolumeJson()) == volume_format_name(format);
+}
+
+}  // namespace
+
+VolumePath header_path_of(const VolumePath& data) {
+    VolumePath header = data;
+    if (data.extension() == ".raw") return header.replace_extension(".json");
+    return header += ".json";
+}
+
+void check_header(const VolumePath& header, VolumeFormat format) {
+    std::error_code failed;
+    if (!std::filesystem::is_regular_file(header, failed) || is_header(header, format)) return;
+    throw Error(ErrorKind::output,
+                "{}: a header of format {} would go there, and this file isn't one; choose another "
+                "name",
+                header.string(), volume_format_name(format));
+}
+
+VolumeJson start_header(const VolumePath& data, const Volume& volume, VolumeFormat format) {
+    const VolumeFrame& frame = volume.frame;
+    VolumeJson header = {{"voxelume_volume", 1},
+                         {"format", volume_format_name(format)},
+                         {"data", data.filename().string()},
+                         {"byte_order", "little"}};
+    VolumeJson matrix = nullptr;
+    if (const auto world = world_from_voxels(frame)) {
+        matrix = VolumeJson::array();
+        for (int row = 0; row < 4; ++row)
+            matrix.push_back(
+                {(*world)[0][row], (*world)[1][row], (*world)[2][row], (*world)[3][row]});
+    }
+    header["units"] = {{"length", "metre"}, {"angle", "radian"}};
+    header["world_from_voxels"] = matrix;
+    header[kFrameKey] = VolumeJson::parse(write_frame_text(frame));
+    header["attributes"] = volume.attributes;
+    return header;
+}
+
+void write_json(const VolumePath& path, const VolumeJson& json) {
+    AtomicFile file(path);
+    std::string text;
+    try {
+        text = json.dump(2) + "\n";
+    } catch (const VolumeJson::type_error& error) {
+        file.fail(fmt::format("a text isn't UTF-8: {}", error.what()));
+    }
+    file.write(text.data(), text.size());
+    file.commit();
+}
+
+}  // namespace voxelume

@@ -1,0 +1,25 @@
+// What the JSON headers beside raw arrays have in common.
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include "runtime/io/volume/volume_formats.hpp"
+
+namespace voxelume {
+
+using VolumeJson = nlohmann::ordered_json;
+
+/// `volume.raw` -> `volume.json`; any other data file gets `.json` behind its name.
+VolumePath header_path_of(const VolumePath& data);
+
+/// Throws Error::output where the header's name is taken by a file that is no header of this
+/// format: a scene, or the header of other files of the same name.
+void check_header(const VolumePath& header, VolumeFormat format);
+
+/// Magic, format, data file, byte order, layout, frame and attributes.
+VolumeJson start_header(const VolumePath& data, const Volume& volume, VolumeFormat format);
+
+/// Writes the text under its name whole or not at all.
+void write_json(const VolumePath& path, const VolumeJson& json);
+
+}  // namespace voxelume

@@ -1,0 +1,36 @@
+// A sparse volume, row by row along its first axis, as dense formats need it.
+#pragma once
+
+#include <cstdint>
+#include <utility>
+
+#include "runtime/image/volume.hpp"
+
+namespace voxelume {
+
+/// Walks once through all size.y * size.z rows in the order of the numbers in `places`.
+class VolumeRows {
+  public:
+    explicit VolumeRows(const Volume& volume)
+        : volume_(volume), width_(uint64_t(volume.frame.size.x)) {}
+
+    /// Where the next row's listed voxels begin and end in the volume's arrays.
+    std::pair<size_t, size_t> next() {
+        const size_t first = position_;
+        row_start_ = row_end_;
+        row_end_ += width_;
+        while (position_ < volume_.places.size() && volume_.places[position_] < row_end_)
+            ++position_;
+        return {first, position_};
+    }
+
+    /// The column of the voxel at that position, for positions of the last row that next() gave.
+    size_t column(size_t position) const { return volume_.places[position] - row_start_; }
+
+  private:
+    const Volume& volume_;
+    uint64_t width_, row_start_ = 0, row_end_ = 0;
+    size_t position_ = 0;
+};
+
+}  // namespace voxelume

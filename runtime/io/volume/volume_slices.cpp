@@ -1,0 +1,61 @@
+// Volumetric image -> a PNG for each slice k, as the observer sees it, and a JSON header.
+#include "runtime/base/frame_path.hpp"
+#include "runtime/image/volume_geometry.hpp"
+#include "runtime/io/image/png.hpp"
+#include "runtime/io/volume/volume_json.hpp"
+#include "runtime/io/volume/volume_rows.hpp"
+
+namespace voxelume {
+
+namespace {
+
+/// Columns to the image's right, rows down: a lattice's X_E and Y_E run the other way.
+Image make_slice(const Volume& volume, VolumeRows& rows) {
+    const glm::ivec3& size = volume.frame.size;
+    const bool lattice = volume.frame.layout == VolumeLayout::lattice;
+    Image image{size.x, size.y, {}, {}, {}};
+    const size_t width = size_t(size.x), pixels = width * size_t(size.y);
+    for (const char* name : {"R", "G", "B", "A"}) image.planes[name] = std::vector<float>(pixels);
+    auto& planes = image.planes;
+    for (size_t y = 0; y < size_t(size.y); ++y) {
+        const auto [first, last] = rows.next();
+        for (size_t i = first; i < last; ++i) {
+            const size_t x = rows.column(i);
+            const size_t pixel = lattice ? pixels - 1 - (y * width + x) : y * width + x;
+            const glm::vec3 color = volume.colors[i] * volume.opacities[i];
+            planes["R"][pixel] = color.r;
+            planes["G"][pixel] = color.g;
+            planes["B"][pixel] = color.b;
+            planes["A"][pixel] = volume.opacities[i];
+        }
+    }
+    return image;
+}
+
+}  // namespace
+
+VolumePath slices_header_of(const VolumePath& pattern) {
+    std::string name = pattern.filename().string();
+    const size_t number = name.find_first_of("#%");
+    name.resize(number == std::string::npos ? 0 : number);
+    while (name.ends_with('.') || name.ends_with('_') || name.ends_with('-')) name.pop_back();
+    return pattern.parent_path() / (name.empty() ? "slices.json" : name + ".json");
+}
+
+void write_volume_slices(const VolumePath& pattern, const Volume& volume) {
+    const glm::ivec3& size = volume.frame.size;
+    PngOptions options;
+    options.keep_alpha = true;
+    VolumeRows rows(volume);
+    for (int k = 0; k < size.z; ++k)
+        write_png(frame_path(pattern.string(), k, true), make_slice(volume, rows), options);
+    VolumeJson header = start_header(pattern, volume, VolumeFormat::slices);
+    header["shape"] = {size.x, size.y, size.z};
+    header["axes"] = volume.frame.layout == VolumeLayout::rays ? VolumeJson{"u", "v", "k"}
+                                                               : VolumeJson{"-X_E", "-Y_E", "+Z_E"};
+    header["axis_order"] = "columns, rows from the top, slices";
+    header["bits"] = "8 each of red, green, blue (sRGB, not multiplied by alpha) and alpha";
+    write_json(slices_header_of(pattern), header);
+}
+
+}  // namespace voxelume

@@ -1,0 +1,14 @@
+// .vxm -> the voxels of a model.
+#pragma once
+
+#include <filesystem>
+
+#include "runtime/assets/voxel_model.hpp"
+
+namespace voxelume {
+
+/// Throws Error::input for a file that is missing, damaged or too large, or whose model has another
+/// surface than `surface`.
+VoxelModel read_model_voxels(const std::filesystem::path& path, Surface surface);
+
+}  // namespace voxelume

@@ -1,0 +1,97 @@
+#include "runtime/memory/frame_plans.hpp"
+
+#include <algorithm>
+#include <optional>
+
+#include "runtime/analysis/scene_features.hpp"
+#include "runtime/analysis/shown_models.hpp"
+#include "runtime/base/error.hpp"
+#include "runtime/scene_file/scene_animation.hpp"
+#include "runtime/world/instances.hpp"
+
+namespace voxelume {
+namespace {
+
+/// Whether both frames have the same plan, as nothing changed that it depends on: of lights that is
+/// whether they shine, and of the observer nothing, but where without colour rays are only followed
+/// through surfaces that he may be behind.
+bool is_planned_like(const Scene& a, const Scene& b) {
+    return (a.render.channels.color || a.observer == b.observer) && a.objects == b.objects &&
+           a.models == b.models && a.materials == b.materials &&
+           std::ranges::equal(a.lights, b.lights, {}, shines, shines) &&
+           a.world.medium == b.world.medium;
+}
+
+/// Whether both frames show the same meshes and voxels.
+bool has_files_of(const Scene& a, const Scene& b) {
+    return std::ranges::equal(a.models, b.models, [](const Model& m, const Model& n) {
+        return m.mesh == n.mesh && m.voxels == n.voxels && m.morph == n.morph;
+    });
+}
+
+/// Leaves in main memory the meshes of a frame, and as many of others as may wait for theirs.
+void forget_most(const Scene& scene, const DeviceInfo& device, MeshStore& meshes) {
+    uint64_t room = device.memory / kAwaitedPart;
+    for (const Model& model : scene.models) meshes.await(model, room);
+    meshes.forget_unused();
+}
+
+FramePlan plan_frame(const Scene& scene, int frame, MeshStore& meshes) {
+    return in_frame(scene, frame, [&] {
+        FramePlan planned{frame, scene_at(scene, frame), {}};
+        check_placements(planned.scene);
+        planned.plan = plan_scene(planned.scene, meshes);
+        return planned;
+    });
+}
+
+}  // namespace
+
+bool is_refused(const FramePlan& planned, const DeviceInfo& device) {
+    try {
+        check_memory(planned.scene, planned.plan, device);
+    } catch (const Error&) {
+        return true;
+    }
+    return false;
+}
+
+FramePlan plan_frames(const Scene& scene, std::span<const int> frames, MeshStore& meshes,
+                      const DeviceInfo& device) {
+    std::optional<FramePlan> most;
+    std::optional<Scene> before;
+    int plans = 0;
+    for (const int frame : frames) {
+        if (before) {
+            Scene now = in_frame(scene, frame, [&] { return scene_at(scene, frame); });
+            if (is_planned_like(*before, now)) continue;
+        }
+        FramePlan planned = plan_frame(scene, frame, meshes);
+        planned.plans = ++plans;
+        meshes.forget_unused();
+        before = planned.scene;
+        if (is_refused(planned, device)) return planned;
+        if (!most || planned.plan.peak_bytes() > most->plan.peak_bytes()) most = std::move(planned);
+    }
+    most->plans = plans;
+    return std::move(*most);
+}
+
+void check_frames(const Scene& scene, std::span<const int> frames, MeshStore& meshes,
+                  const DeviceInfo& device) {
+    std::optional<Scene> first, before;
+    for (const int frame : frames)
+        in_frame(scene, frame, [&] {
+            Scene now = scene_at(scene, frame);
+            if (before && is_planned_like(*before, now)) return;
+            check_placements(now);
+            if (!first) first = now;
+            if (has_files_of(now, *first)) {
+                check_memory(now, plan_scene(now, meshes), device);
+                forget_most(now, device, meshes);
+            }
+            before = std::move(now);
+        });
+}
+
+}  // namespace voxelume

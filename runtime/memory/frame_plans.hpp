@@ -1,0 +1,37 @@
+// frames of a scene -> whether each fits, and which takes the most, before memory is taken.
+#pragma once
+
+#include <span>
+
+#include "runtime/memory/plan.hpp"
+
+namespace voxelume {
+
+/// A frame with its plan.
+struct FramePlan {
+    int frame = 1;
+    Scene scene;  ///< as it is then
+    ScenePlan plan;
+    int plans = 1;  ///< made for this and other frames; the rest have the plans of those before
+};
+
+/// Whether check_memory refuses the frame.
+bool is_refused(const FramePlan& planned, const DeviceInfo& device);
+
+/// Plans all `frames` of a scene, one or more, and returns the first that doesn't fit the device,
+/// or else the one that needs the most memory. Reads every file of models that they show.
+///
+/// Throws as scene_at, check_placements and plan_scene do, with the frame.
+FramePlan plan_frames(const Scene& scene, std::span<const int> frames, MeshStore& meshes,
+                      const DeviceInfo& device);
+
+/// Holds all `frames` against the rules for placements and against the device's memory, as
+/// check_memory does, before the first is rendered.
+///
+/// Frames whose models are of other files, or other shapes of a morph, than the first one's aren't
+/// planned here but when it is their turn: reading their meshes would take as long as rendering.
+/// Throws as plan_frames and check_memory do, with the frame.
+void check_frames(const Scene& scene, std::span<const int> frames, MeshStore& meshes,
+                  const DeviceInfo& device);
+
+}  // namespace voxelume

@@ -1,0 +1,98 @@
+#include "runtime/memory/plan.hpp"
+
+#include <algorithm>
+
+#include "runtime/assets/model_frame.hpp"
+#include "runtime/memory/frame_memory.hpp"
+
+namespace voxelume {
+namespace {
+
+// Bytes of main memory: for each brick of the world's lattice, slots and states; of a model's,
+// while it is made; for each triangle.
+constexpr double kWorldTable = 5, kModelTable = 12, kTriangleBytes = 36;
+
+/// What a grid takes, expected and at least; the largest buffer is the least grid's.
+GridPlan grid_plan(const CountedGrid& expected, const CountedGrid& least) {
+    GridPlan grid{.model = expected.model,
+                  .object = expected.object,
+                  .frame = expected.counts.frame,
+                  .triangles = expected.counts.triangles,
+                  .voxels = double(expected.counts.voxels),
+                  .bricks = double(expected.counts.bricks),
+                  .made_bytes = expected.made_bytes,
+                  .kept_bytes = expected.kept_bytes};
+    grid.least = {double(least.counts.voxels), least.made_bytes, least.kept_bytes};
+    grid.largest = described_buffer(least.largest_buffer, least.largest_bytes);
+    return grid;
+}
+
+/// Refuses names of groups that aren't there, before any frame is rendered.
+void check_groups(const Scene& scene, MeshStore& meshes) {
+    for (const Object& object : scene.objects)
+        if (may_be_shown(scene, object))
+            materials_of_groups(object, meshes.groups_of(scene.models[size_t(object.model)]));
+}
+
+double host_bytes(const Scene& scene, const ScenePlan& plan) {
+    double bytes = kWorldTable * brick_table(plan.world) + 2 * image_bytes(scene.render) +
+                   plan.medium.host_bytes;
+    for (const GridPlan& grid : plan.grids)
+        bytes += double(grid.triangles) * kTriangleBytes + kModelTable * brick_table(grid.frame);
+    return bytes;
+}
+
+}  // namespace
+
+double pixel_bytes(const ImageChannels& channels) {
+    return 4.0 * (4 * int(channels.color) + int(channels.depth) + 3 * int(channels.position) +
+                  3 * int(channels.normal));
+}
+
+double image_bytes(const RenderSettings& render) {
+    const double pixels = double(render.size.x) * double(render.size.y);
+    return (pixel_bytes(render.channels) + (render.channels.object ? 4 : 0)) * pixels;
+}
+
+double ScenePlan::peak_bytes() const {
+    return std::max({voxelize_bytes, place_bytes, index_bytes, image_bytes});
+}
+
+GridPlan plan_model(const Model& model, const Mesh& mesh) {
+    const MeshSummary summary = summary_of(mesh);
+    const Device device = Device::counting({});
+    const auto counted = [&](const SurfaceArea& area) {
+        return count_mesh(device, mesh_grid(model, summary, area));
+    };
+    return grid_plan(counted(summary.area), counted(summary.least_area));
+}
+
+ScenePlan plan_scene(const Scene& scene, MeshStore& meshes) {
+    check_groups(scene, meshes);
+    ScenePlan plan;
+    plan.world = world_frame(scene.world);
+    plan.medium = plan_density(scene.world);
+    ObjectCounts objects(scene, meshes);
+    const FrameMemory expected =
+        walk_frame(scene, meshes, objects, plan.medium, Estimate::expected);
+    const FrameMemory least = walk_frame(scene, meshes, objects, plan.medium, Estimate::least);
+    for (size_t i = 0; i < expected.grids.size(); ++i)
+        plan.grids.push_back(grid_plan(expected.grids[i], least.grids[i]));
+    plan.voxels = double(expected.world.voxels);
+    plan.bricks = double(expected.world.bricks);
+    plan.voxelize_bytes = expected.voxelize;
+    plan.place_bytes = expected.place;
+    plan.index_bytes = expected.index;
+    plan.image_bytes = expected.image;
+    plan.world_bytes = expected.pyramid;
+    plan.halo_bytes = expected.halo;
+    plan.rays = expected.rays;
+    plan.least_image_bytes = least.image;
+    plan.least_bytes = std::max(least.formed(), least.image);
+    plan.least_with_next = least.place + least.index + least.image;
+    plan.largest = described_buffer(least.largest_buffer, least.largest_bytes);
+    plan.host_bytes = host_bytes(scene, plan);
+    return plan;
+}
+
+}  // namespace voxelume

@@ -1,0 +1,26 @@
+// extents of objects -> what they take of the world at least, as they may lie in each other.
+#pragma once
+
+#include <vector>
+
+#include "runtime/grid/grid.hpp"
+
+namespace voxelume {
+
+/// What surfaces take of the world's lattice.
+struct WorldExtent {
+    double voxels = 0;
+    double bricks = 0;
+    double exact_voxels = 0;  ///< of `voxels`, those that list their primitives
+};
+
+struct ObjectExtent {
+    VoxelBox box;  ///< around the object, in the world's voxels
+    WorldExtent extent;
+};
+
+/// The sum over objects of which no two can share a brick: those with most bricks first, each if
+/// its box is apart from those taken before. Of very many the smallest are left out.
+WorldExtent extent_at_least(std::vector<ObjectExtent> objects);
+
+}  // namespace voxelume

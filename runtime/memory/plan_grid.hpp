@@ -1,0 +1,56 @@
+// What voxelizing a model takes: its grid's memory, and the largest buffer of it.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "runtime/assets/model_frame.hpp"
+#include "runtime/assets/voxel_model.hpp"
+#include "runtime/geometry/surface_extent.hpp"
+#include "runtime/grid/grid.hpp"
+
+namespace voxelume {
+
+/// What makes a buffer smaller.
+enum class BufferGrowth : uint8_t {
+    surface,   ///< larger voxels, with the square of their edge
+    table,     ///< larger voxels, with the cube
+    triangles  ///< fewer triangles
+};
+
+/// A buffer, which lies in one piece on a device.
+struct BufferPlan {
+    const char* name = "";  ///< what it holds: "its distances"
+    double bytes = 0;
+    BufferGrowth growth = BufferGrowth::surface;
+};
+
+/// What a message says of a buffer that the counters know by such a name.
+BufferPlan described_buffer(const std::string& name, double bytes);
+
+/// Keeps the larger of two.
+void keep_larger(BufferPlan& largest, const BufferPlan& buffer);
+
+/// Of a grid, at least: less than planned where a solid's parts may lie in each other.
+struct LeastGrid {
+    double voxels = 0, made_bytes = 0, kept_bytes = 0;
+};
+
+/// One grid that is voxelized: a model's, or an exact object's in the world's lattice.
+struct GridPlan {
+    int model = 0;
+    int object = -1;  ///< whose grid it is alone; -1 for a model's, which objects share
+    GridFrame frame;
+    uint64_t triangles = 0;
+    double voxels = 0;        ///< surface voxels
+    double bricks = 0;        ///< stored
+    double made_bytes = 0;    ///< device memory while it is made, its own included
+    double kept_bytes = 0;    ///< device memory that it keeps until the world is formed
+    LeastGrid least = {};     ///< of these three
+    BufferPlan largest = {};  ///< of the buffers that it takes while it is made
+};
+
+/// Bricks of a lattice, stored or not.
+double brick_table(const GridFrame& frame);
+
+}  // namespace voxelume

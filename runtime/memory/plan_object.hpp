@@ -1,0 +1,49 @@
+// object -> what its surface takes of the world, as planned and at least.
+#pragma once
+
+#include <map>
+#include <vector>
+
+#include "runtime/analysis/object_boxes.hpp"
+#include "runtime/assets/mesh_store.hpp"
+#include "runtime/geometry/surface_extent.hpp"
+
+namespace voxelume {
+
+/// The extents of a scene's objects in its world; what they share is found once. Reads the meshes
+/// of those that it is asked for, as MeshStore does.
+class ObjectExtents {
+  public:
+    ObjectExtents(const Scene& scene, MeshStore& meshes);
+
+    /// Of a model's surface in its own space.
+    const SurfaceArea& area_of(int model_number);
+
+    SurfaceExtent planned(const Object& object, double band) { return extent(object, band, false); }
+
+    /// No more than it takes; nothing of a mesh that is cut.
+    SurfaceExtent least(const Object& object, double band);
+
+    /// Voxels of the world inside of an object whose inside rays see: those of its box.
+    double inside_voxels(const Object& object);
+
+    /// Whether the map takes all of a box into the world.
+    bool lies_in_world(const glm::dvec3& low, const glm::dvec3& high, const glm::dmat4& map) const;
+
+    /// As object_boxes.
+    const std::vector<VoxelBox>& boxes();
+
+  private:
+    SurfaceExtent extent(const Object& object, double band, bool at_least);
+    double part_in_world(const Object& object);
+
+    const Scene& scene_;
+    MeshStore& meshes_;
+    GridFrame frame_;
+    SolidBounds box_;  ///< the world's
+    std::map<int, SurfaceArea> areas_;
+    std::map<const Object*, double> parts_;  ///< of meshes, in the world
+    std::vector<VoxelBox> boxes_;            ///< none before they are asked for
+};
+
+}  // namespace voxelume

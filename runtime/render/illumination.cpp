@@ -1,0 +1,221 @@
+#include "runtime/render/illumination.hpp"
+
+#include <algorithm>
+#include <cstring>
+
+#include "kernels/shared/solid.h"
+#include "kernels/shared/voxel.h"
+#include "runtime/stages/light/spots.hpp"
+#include "runtime/stages/resolve/resolve.hpp"
+
+namespace voxelume {
+namespace {
+
+std::vector<LightRecord> light_records(const Device& device, const Features& features,
+                                       const Scene& scene, const Pyramid& world) {
+    std::vector<LightRecord> records;
+    if (!has_light(scene, world)) return records;
+    records = given_lights(scene, world.frame);
+    if (has_lamp(scene, world))
+        std::ranges::copy(lamp_spots(device, features, scene, world), std::back_inserter(records));
+    std::erase_if(records,
+                  [&](const LightRecord& light) { return !may_light(light, world.frame); });
+    return records;
+}
+
+/// Surroundings::lost.
+Buffer<uint32_t> allocate_lost(const Device& device, const Features& features) {
+    if (!features.interior_capped) return {};
+    Buffer<uint32_t> lost(device, "lost members", 1);
+    lost.fill(0);
+    return lost;
+}
+
+/// The first records of the solids that light goes through.
+Buffer<uint32_t> transmitting_solids(const Device& device, const Scene& scene,
+                                     const Pyramid& world) {
+    const std::vector<uint32_t> words = world.solids.read();
+    std::vector<uint32_t> numbers;
+    for (uint32_t i = 0; i < words.size() / VXL_SOLID_WORDS; ++i) {
+        SolidShape shape;
+        std::memcpy(&shape, &words[size_t(i) * VXL_SOLID_WORDS], sizeof shape);
+        const uint32_t material = shape.attribute >> VXL_MATERIAL_SHIFT & VXL_MATERIAL_MASK;
+        if (shape.shape_count > 0 && transmits(scene.materials[material])) numbers.push_back(i);
+    }
+    return {device, "path bodies", std::span<const uint32_t>(numbers)};
+}
+
+}  // namespace
+
+std::vector<LightRecord> given_lights(const Scene& scene, const GridFrame& world) {
+    std::vector<LightRecord> records;
+    for (const Light& light : scene.lights) {
+        if (!shines(light)) continue;
+        if (has_area(light))
+            std::ranges::copy(area_spots(light, world), std::back_inserter(records));
+        else
+            records.push_back(light_record(light, world));
+    }
+    return records;
+}
+
+void build_programs(const Device& device, const Features& features, const Scene& scene,
+                    const Pyramid& world, bool makes_image, bool has_halo) {
+    std::vector<const char*> files = {"sight.cl", "trace.cl", "shade.cl"};
+    if (has_light(scene, world)) files.push_back("light.cl");
+    if (has_halo && lights_send_beams(features)) files.push_back("light_beams.cl");
+    if (features.absorbs) files.push_back("medium.cl");
+    if (features.paths) files.push_back("scatter.cl");
+    if (makes_image) files.push_back("resolve.cl");
+    Program::build_together(device, files,
+                            resolve_defines(device, features, scene.render.channels));
+}
+
+Illumination::Illumination(const Device& device, const Features& features, const Scene& scene,
+                           const Pyramid& world, uint32_t most_rays, bool compact)
+    : device_(device),
+      features_(features),
+      world_(world),
+      lights_(light_records(device, features, scene, world)),
+      most_rays_(most_rays),
+      most_depth_(most_depth(features, scene, world)),
+      trace_(device, features),
+      shade_(device, features, scene, world.frame),
+      surroundings_{shade_.materials(), shade_.ranks(), allocate_lost(device, features)},
+      queue_(lights_.empty() ? ShadowQueue{} : allocate_shadow_queue(device, features, most_rays)) {
+    if (!lights_.empty()) lighting_.emplace(device, features, shade_.materials());
+    if (features.absorbs)
+        medium_.emplace(device, features, scene.world, shade_.space(), shade_.materials());
+    if (features.medium) {
+        surroundings_.absorption = shade_.space().absorption;
+        surroundings_.density = medium_->density();
+    }
+    if (features.paths)
+        scatter_.emplace(device, features, surroundings_, float(scene.render.least_weight),
+                         compact);
+    if (features.immersed) {
+        hollow_ = hollow_objects(scene);
+        hollow_flags_ =
+            Buffer<uint32_t>(device, "hollow objects", std::span<const uint32_t>(hollow_.flags));
+    }
+    if (features.transmission && features.solids)
+        scatter_->set_bodies(transmitting_solids(device, scene, world));
+}
+
+void Illumination::send_beams(const Halo& halo, uint32_t most, std::vector<LightBeams>& sent) {
+    for (const BeamGrid& grid : beam_grids(lights_, world_.frame.size, scale_of(halo.of), most,
+                                           kLightsOfMostBeams * most)) {
+        const auto known = std::ranges::find_if(
+            sent, [&](const LightBeams& kept) { return same_beams(kept.grid, grid); });
+        beams_.push_back({grid, known == sent.end() ? Buffer<float>() : known->ends});
+    }
+    sent.clear();  // before others take memory
+    std::optional<LightBeamStage> stage;
+    for (LightBeams& beams : beams_) {
+        if (beams.grid.columns == 0 || !beams.ends.empty()) continue;
+        if (!stage) stage.emplace(device_, features_, world_, halo);
+        beams.ends = stage->send(beams.grid);
+    }
+    if (stage) light_beams_ = stage->sent();
+    sent = beams_;
+}
+
+void Illumination::light_all(RayBatch& batch, uint32_t count, const LayerSink& sink,
+                             bool hits_are_known) {
+    if (features_.paths) begin_paths(batch, count);
+    if (!features_.paths || !features_.radiance) {
+        if (!hits_are_known) trace_.closest(world_, batch, count);
+        return direct(batch, count);
+    }
+    reserve_nodes(0, batch.stride);
+    follow(0, batch, count, hits_are_known, sink);
+    PathDepth& depth = *depths_[0];
+    if (!features_.transmission) return;
+    std::swap(batch.radiance, depth.nodes.radiance);
+    std::swap(batch.coverage, depth.nodes.coverage);
+}
+
+void Illumination::find_hits(RayBatch& batch, uint32_t count) {
+    if (features_.paths) begin_paths(batch, count);
+    trace_.closest(world_, batch, count);
+}
+
+void Illumination::begin_paths(RayBatch& batch, uint32_t count) {
+    scatter_->begin(world_, batch, count);
+    if (features_.immersed)
+        trace_.begin_inside(world_, surroundings_, hollow_flags_, hollow_.most, batch, count);
+}
+
+/// Blocks 4 and 5: lights what the rays have met.
+void Illumination::direct(RayBatch& entries, uint32_t count) {
+    shade_.surface(world_, entries, count);
+    for (size_t i = 0; i < lights_.size(); ++i) {
+        lighting_->add(world_, lights_[i], entries, count, queue_);
+        if (!beams_.empty()) queue_.beams = beams_[i];
+        if (features_.medium && !features_.filter) medium_->shadows(world_, queue_, count, entries);
+        if (features_.shadows) trace_.shadows(world_, surroundings_, queue_, count, entries);
+    }
+    if (medium_) medium_->sight(world_, entries, count);
+}
+
+/// Fills the nodes of a depth, whose rays are in `first`.
+void Illumination::follow(size_t number, RayBatch& first, uint32_t count, bool hits_are_known,
+                          const LayerSink& sink) {
+    PathDepth& depth = *depths_[number];
+    RayBatch* entries = &first;
+    for (bool is_first = true; count > 0; is_first = false) {
+        if (!is_first || !hits_are_known) trace_.closest(world_, *entries, count, number > 0);
+        direct(*entries, count);
+        uint32_t on = 0;
+        if (features_.transmission)
+            on = scatter_->layer(world_, *entries, count, is_first, depth.children, depth.nodes,
+                                 depth.next);
+        else
+            depth.nodes.radiance = entries->radiance;
+        if (number < most_depth_) scatter(number, *entries, count);
+        if (sink && features_.transmission) sink(*entries, count, is_first, depth.nodes);
+        if (on > 0) std::swap(static_cast<RayQueue&>(depth.entries), depth.next);
+        entries = &depth.entries;
+        count = on;
+        secondary_rays_ += on;
+    }
+}
+
+/// Blocks 6.1 to 9: follows what surfaces reflect and refract, as much at a time as fits.
+void Illumination::scatter(size_t number, RayBatch& entries, uint32_t count) {
+    const uint32_t branches = branches_of(features_);
+    for (uint32_t begin = 0; begin < count; begin += most_rays_) {
+        const uint32_t end = std::min(count, begin + most_rays_);
+        reserve_nodes(number + 1, branches * (end - begin));
+        PathDepth& depth = *depths_[number];
+        PathDepth& below = *depths_[number + 1];
+        const uint32_t sent =
+            scatter_->rays(world_, entries, begin, end, depth.children, below.entries);
+        if (sent == 0) continue;
+        secondary_rays_ += sent;
+        follow(number + 1, below.entries, sent);
+        scatter_->gather(entries, begin, end, depth.children, below.nodes, depth.nodes);
+    }
+}
+
+/// Makes room for `count` nodes of a depth; of the first, whose arrays are exchanged with the
+/// caller's, exactly so much.
+void Illumination::reserve_nodes(size_t number, uint32_t count) {
+    if (depths_.size() <= number) depths_.push_back(std::make_unique<PathDepth>());
+    PathDepth& depth = *depths_[number];
+    const bool is_first = number == 0;
+    if (is_first ? count == depth.nodes.stride : count <= depth.nodes.stride) return;
+    depth = {};  // frees what it had
+    depth = allocate_depth(device_, features_, is_first, is_first ? count : depth_places(count));
+}
+
+uint64_t Illumination::lost_members() const {
+    return surroundings_.lost.empty() ? 0 : surroundings_.lost.read_one(0);
+}
+
+uint64_t Illumination::shadow_rays() const {
+    if (queue_.traced.empty()) return 0;
+    return queue_.traced.read_one(0) | uint64_t(queue_.traced.read_one(1)) << 32;
+}
+
+}  // namespace voxelume

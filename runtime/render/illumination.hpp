@@ -1,0 +1,117 @@
+// rays -> radiance: what each ray meets and the light that comes along it. Blocks 3 to 9.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "runtime/analysis/interior.hpp"
+#include "runtime/analysis/scene_features.hpp"
+#include "runtime/grid/grid.hpp"
+#include "runtime/scene/scene.hpp"
+#include "runtime/stages/light/light.hpp"
+#include "runtime/stages/light/light_beams.hpp"
+#include "runtime/stages/light/shade.hpp"
+#include "runtime/stages/medium/medium.hpp"
+#include "runtime/stages/trace/ray_arrays.hpp"
+#include "runtime/stages/trace/scatter.hpp"
+#include "runtime/stages/trace/trace.hpp"
+
+namespace voxelume {
+
+/// The lights that a scene lists, those with an area by their spots.
+std::vector<LightRecord> given_lights(const Scene& scene, const GridFrame& world);
+
+/// Makes the programs of the stages that sight rays go through in one piece: PoCL reads its own
+/// megabyte of headers for each. `makes_image`: they end in a flat image of the scene's channels;
+/// `has_halo`: lights may send beams.
+void build_programs(const Device& device, const Features& features, const Scene& scene,
+                    const Pyramid& world, bool makes_image, bool has_halo);
+
+/// Whether beams of lights can tell where shadow rays end: not where these gather what they pass.
+inline bool lights_send_beams(const Features& features) {
+    return features.shadows && !features.filter;
+}
+
+/// Called for each layer of surfaces along the rays of an observer, the nearest first, once its
+/// light is added to the nodes. Entry n of the first layer is ray n; others name theirs in `paths`.
+using LayerSink =
+    std::function<void(const RayBatch& entries, uint32_t count, bool is_first, const NodeLight&)>;
+
+/// Traces and lights batches of rays. Flat and volumetric images share it.
+///
+/// Reflected and refracted rays are followed depth by depth, as the tree of Whitted 1980, each
+/// depth as one dense batch. Rays that go straight on through surfaces are further layers of their
+/// depth.
+class Illumination {
+  public:
+    /// For batches of at most `most_rays` rays, a multiple of 16. The world must outlive it. For
+    /// `compact` see ScatterStage.
+    Illumination(const Device& device, const Features& features, const Scene& scene,
+                 const Pyramid& world, uint32_t most_rays, bool compact = true);
+
+    /// So many lights alone may send as many beams as one may.
+    static constexpr uint32_t kLightsOfMostBeams = 4;
+
+    /// Sends beams from the lights, at most `most` from one: shadow rays end where their light's
+    /// tell that nothing more is before them. `sent` holds beams that were sent through this halo
+    /// before, afterwards those of these lights. For features with `lights_send_beams`.
+    void send_beams(const Halo& halo, uint32_t most, std::vector<LightBeams>& sent);
+
+    /// Fills hits, and what the features ask for of positions, normals, words and radiance, of rays
+    /// 0 .. count-1, which come from an observer. `sink` hears of layers in scenes with
+    /// `transmission`.
+    void light(RayBatch& batch, uint32_t count, const LayerSink& sink = {}) {
+        light_all(batch, count, sink, false);
+    }
+
+    /// The same where the hits are there already.
+    void light_hits(RayBatch& batch, uint32_t count) { light_all(batch, count, {}, true); }
+
+    /// Fills only the hits, without light.
+    void find_hits(RayBatch& batch, uint32_t count);
+
+    const Features& features() const { return features_; }
+    /// The medium's, null where its density is 1 everywhere.
+    const DensityGrid* density() const {
+        return features_.medium_grid ? &medium_->density() : nullptr;
+    }
+    uint64_t shadow_rays() const;  ///< traced so far; waits for the device
+    uint64_t secondary_rays() const { return secondary_rays_; }  ///< and rays that went straight on
+    uint64_t light_beams() const { return light_beams_; }        ///< sent, without those kept
+    uint64_t ended_paths() const { return scatter_ ? scatter_->ended() : 0; }
+    /// How often a ray came into more overlapping objects than it can remember; waits for the
+    /// device.
+    uint64_t lost_members() const;
+
+  private:
+    void light_all(RayBatch& batch, uint32_t count, const LayerSink& sink, bool hits_are_known);
+    void begin_paths(RayBatch& batch, uint32_t count);
+    void direct(RayBatch& entries, uint32_t count);
+    void follow(size_t depth, RayBatch& first, uint32_t count, bool hits_are_known = false,
+                const LayerSink& sink = {});
+    void scatter(size_t depth, RayBatch& entries, uint32_t count);
+    void reserve_nodes(size_t depth, uint32_t count);
+
+    Device device_;
+    Features features_;
+    const Pyramid& world_;
+    std::vector<LightRecord> lights_;
+    std::vector<LightBeams> beams_;  ///< of each light, or none at all
+    uint32_t most_rays_;
+    size_t most_depth_;
+    TraceStage trace_;
+    ShadeStage shade_;
+    Surroundings surroundings_;
+    std::optional<LightStage> lighting_;   ///< not even compiled in a scene without lights
+    std::optional<MediumStage> medium_;    ///< nor this where nothing absorbs
+    std::optional<ScatterStage> scatter_;  ///< nor this without paths
+    ShadowQueue queue_;
+    HollowObjects hollow_;  ///< of immersed observers
+    Buffer<uint32_t> hollow_flags_;
+    std::vector<std::unique_ptr<PathDepth>> depths_;  ///< as large as has been needed
+    uint64_t secondary_rays_ = 0, light_beams_ = 0;
+};
+
+}  // namespace voxelume

@@ -1,0 +1,189 @@
+#include "runtime/render/renderer.hpp"
+
+#include <algorithm>
+#include <chrono>
+
+#include "runtime/analysis/reach.hpp"
+#include "runtime/base/error.hpp"
+#include "runtime/grid/pyramid_bytes.hpp"
+#include "runtime/memory/plan.hpp"
+#include "runtime/render/illumination.hpp"
+#include "runtime/stages/resolve/resolve.hpp"
+#include "runtime/stages/trace/sight.hpp"
+
+namespace voxelume {
+
+void add_counts(const RenderReport& report, RenderReport& sum) {
+    sum.sight_rays += report.sight_rays;
+    sum.beams += report.beams;
+    sum.clear_beams += report.clear_beams;
+    sum.display_lines += report.display_lines;
+    sum.clear_display_lines += report.clear_display_lines;
+    sum.shadow_rays += report.shadow_rays;
+    sum.light_beams += report.light_beams;
+    sum.secondary_rays += report.secondary_rays;
+    sum.ended_paths += report.ended_paths;
+    sum.lost_members += report.lost_members;
+    sum.not_finite += report.not_finite;
+}
+
+namespace {
+
+/// The features that sight rays' hits and batches depend on: without those that decide the light on
+/// them alone.
+Features without_light(Features features) {
+    features.shadows = features.patches = features.checker = false;
+    features.medium = features.medium_grid = features.absorbs = false;
+    features.filter = features.filtered_refraction = false;
+    return features;
+}
+
+}  // namespace
+
+Renderer::View Renderer::view_of(const Scene& scene, const FormedWorld& world,
+                                 const Features& features) {
+    View view{world.version, scene.observer, scene.render, without_light(features), {}};
+    for (const Material& material : scene.materials) view.transmits.push_back(transmits(material));
+    return view;
+}
+
+/// Hits are kept where they take little of the device's memory, and nothing of what the frame needs
+/// beside the world.
+bool Renderer::has_room(const Scene& scene, const Features& features, uint64_t rays) const {
+    if (!follows_) return false;
+    const double bytes = double(rays) * sight_bytes(features),
+                 memory = double(device_.info().memory);
+    const double needed =
+        ray_bytes(features, ray_counts(scene, features)).most() + image_bytes(scene.render);
+    const auto locked = device_.lock();
+    return bytes <= memory / 16 &&
+           double(device_.counters().bytes_in_use) + needed + bytes <= memory;
+}
+
+Renderer::WorldHalo& Renderer::halo_of(const FormedWorld& world, HaloOf of) {
+    if (!halo_ || halo_->world != world.version || halo_->halo.of != of) {
+        halo_.reset();
+        halo_ = WorldHalo{world.version, build_halo(device_, world.pyramid, of), {}};
+    }
+    return *halo_;
+}
+
+std::shared_ptr<const Image> Renderer::image(const Scene& scene, const FormedWorld& world,
+                                             RenderReport& report, const FrameProgress& progress) {
+    if (image_ && world_ == world.version && scene_ == scene) {
+        const WorldReport formed = report.world;
+        report = report_;
+        report.world = formed;
+        report.is_kept = report.hits_are_kept = true;
+        report.image_seconds = 0;
+        return image_;
+    }
+    auto image = std::make_shared<const Image>(new_image(scene, world, report, progress));
+    if (follows_) {
+        scene_ = scene;
+        world_ = world.version;
+        image_ = image;
+        report_ = report;
+    }
+    return image;
+}
+
+Image Renderer::new_image(const Scene& scene, const FormedWorld& world, RenderReport& report,
+                          const FrameProgress& progress) {
+    TileShare all(tile_count(scene.render.size.x, scene.render.size.y), progress);
+    std::vector<TileRange> taken;
+    return part_of_image(scene, world, report, {all, taken});
+}
+
+Image Renderer::part_of_image(const Scene& scene, const FormedWorld& world, RenderReport& report,
+                              const Tiles& tiles) {
+    const glm::ivec2& size = scene.render.size;
+    return with_limits_of(fmt::format("an image of {}x{} pixels", size.x, size.y),
+                          [&] { return image_of_tiles(scene, world, report, tiles); });
+}
+
+Image Renderer::image_of_tiles(const Scene& scene, const FormedWorld& formed, RenderReport& report,
+                               const Tiles& tiles) {
+    const auto start = std::chrono::steady_clock::now();
+    image_.reset();
+    const Pyramid& world = formed.pyramid;
+    const Features features = features_of(scene, world);
+    const Sight observer = sight_of(scene, world.frame);
+
+    const uint32_t all_tiles = tiles.share.tiles();
+    const uint32_t rays_per_tile = 16 * uint32_t(observer.samples);
+    const uint32_t in_batch = batch_tiles(features, observer.samples, tiles.share.most());
+    RayBatch batch = allocate_batch(device_, features, in_batch * rays_per_tile);
+
+    View view = view_of(scene, formed, features);
+    report.hits_are_kept = view_ == view && !hits_.empty();
+    view_.reset();  // an error may leave the hits half done
+    if (!report.hits_are_kept) hits_.clear();
+    const uint64_t rays = uint64_t(all_tiles) * rays_per_tile;
+    const bool keeps_hits = has_room(scene, features, rays);
+
+    const double pixel = voxels_a_pixel(scene, observer, world.frame);
+    const std::optional<HaloOf> halo = halo_that_pays(features, world, rays, pixel);
+    build_programs(device_, features, scene, world, true, halo.has_value());
+    SightStage sight(device_, features, observer);
+    std::optional<BeamStage> beams;
+    if (!report.hits_are_kept && halo)
+        beams.emplace(device_, features, world, halo_of(formed, *halo).halo);
+    Illumination illumination(device_, features, scene, world, batch.stride);
+    if (halo && lights_send_beams(features)) {
+        WorldHalo& sent = halo_of(formed, *halo);
+        illumination.send_beams(sent.halo,
+                                light_beams_that_pay(world.frame, rays, observer.samples, pixel),
+                                sent.light_beams);
+    }
+    ResolveStage resolve(device_, features, observer, scene.render.channels);
+    while (const std::optional<TileRange> range = tiles.share.take(in_batch)) {
+        const uint32_t first = range->first, now = range->count;
+        if (report.hits_are_kept) {
+            batch.rays = hits_[first / in_batch].rays;
+            batch.hits = hits_[first / in_batch].hits;
+            illumination.light_hits(batch, now * rays_per_tile);
+        } else {
+            if (keeps_hits && first > 0) renew_sight(device_, batch);
+            sight.cast(shape_of(world), first, now, batch);
+            if (beams) beams->start(batch, now * rays_per_tile);
+            illumination.light(batch, now * rays_per_tile);
+            if (keeps_hits) hits_.push_back({batch.rays, batch.hits});
+        }
+        resolve.pixels(world, batch, first, now);
+        report.sight_rays += now * rays_per_tile;
+        tiles.taken.push_back(*range);
+        if (tiles.share.is_watched()) {
+            device_.finish();
+            tiles.share.done(*range);
+        }
+    }
+    view_ = std::move(view);
+    Image image = resolve.image();
+    report.not_finite = resolve.not_finite();
+    if (beams) {
+        report.beams = beams->sent();
+        report.clear_beams = beams->cleared();
+    }
+    report.shadow_rays = illumination.shadow_rays();
+    report.light_beams = illumination.light_beams();
+    report.secondary_rays = illumination.secondary_rays();
+    report.ended_paths = illumination.ended_paths();
+    report.lost_members = illumination.lost_members();
+    report.voxels = world.voxel_count;
+    report.world_bytes = bytes_of(world);
+    report.image_seconds =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return image;
+}
+
+Image render(const Device& device, const Scene& scene, RenderReport& report,
+             const FrameProgress& progress) {
+    MeshStore meshes;
+    const Scene shown = with_objects_in_reach(scene, meshes);
+    const FormedWorld world =
+        WorldFormer(device, false, std::move(meshes)).form(shown, report.world);
+    return Renderer(device, false).new_image(shown, world, report, progress);
+}
+
+}  // namespace voxelume

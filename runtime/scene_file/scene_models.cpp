@@ -1,0 +1,188 @@
+// The scene's models and the objects that place them in the world.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <glm/common.hpp>
+#include <glm/matrix.hpp>
+#include <unordered_set>
+
+#include "runtime/scene/scene_affine.hpp"
+#include "runtime/scene_file/scene_parts.hpp"
+#include "runtime/scene_file/scene_sequence.hpp"
+
+namespace voxelume {
+namespace {
+
+using Names = std::vector<std::string_view>;
+
+/// The pitch, surface and set of a model, whose source is already read.
+void read_lattice(const SceneFields& fields, glm::dvec3 world_voxel_size, Model& model) {
+    fields.refuse_both("voxel_size", "resolution");
+    if (const auto resolution = fields.find("resolution")) {
+        if (model.solid && is_infinite(*model.solid)) {
+            resolution->fail(
+                "an infinite solid has no longest side; give a \"voxel_size\" instead");
+        }
+        model.resolution = resolution->integer(1, 65536);
+    } else {
+        const auto size = fields.find("voxel_size");
+        model.voxel_size = size ? size->number_or_vector(kLength) : world_voxel_size;
+    }
+    if (const auto surface = fields.find("surface")) {
+        model.surface = static_cast<Surface>(surface->choice(Names{"cubes", "smooth", "exact"}));
+    }
+    if (const auto set = fields.find("set")) {
+        model.set = static_cast<VoxelSet>(set->choice(Names{"supercover", "thin", "solid"}));
+        if (model.surface != Surface::cubes) {
+            set->fail("only a model with \"surface\": \"cubes\" has a set; leave it out");
+        }
+    }
+}
+
+/// A model whose file holds its voxels, with a lattice of their own.
+void read_voxels(const SceneFields& fields, const ModelContext& context, Model& model) {
+    model.voxels = file_at(fields, "voxels", context.search);
+    model.surface = Surface::cubes;
+    if (const auto surface = fields.find("surface"))
+        model.surface = static_cast<Surface>(surface->choice(Names{"cubes", "smooth", "exact"}));
+}
+
+Morph read_morph(const SceneValue& value, const AssetSearch& search) {
+    const SceneFields fields(value, "morph");
+    Morph morph;
+    morph.amount = fields.number("amount", kRatio, 0);
+    if (const auto mesh = fields.find("mesh")) {
+        for (const std::string_view key : {"center", "radius"}) {
+            if (const auto found = fields.find(key))
+                found->fail("is of a sphere; give the morph either a \"mesh\" or a sphere");
+        }
+        morph.mesh = find_asset(mesh->text(), search.scene_folder, search.assets, mesh->where());
+        return morph;
+    }
+    if (!fields.has("center") && !fields.has("radius"))
+        value.fail("needs a \"mesh\" to end as, or the \"center\" and \"radius\" of a sphere");
+    morph.center = fields.get("center").vector(kCoordinate);
+    morph.radius = fields.get("radius").number(kLength);
+    return morph;
+}
+
+void read_materials_of(const SceneFields& fields, const NameTable& materials, Object& object) {
+    if (const auto material = fields.find("material")) object.material = materials.find(*material);
+    if (const auto groups = fields.find("materials")) {
+        for (const auto& [group, member] : groups->named_members()) {
+            object.groups.push_back({group, materials.find(member), member.where()});
+        }
+    }
+}
+
+/// Refuses spots of an object that doesn't shine.
+void check_spots(const SceneValue& value, const Scene& scene, const Object& object) {
+    if (!object.spots || has_emission(scene, object)) return;
+    SceneFields(value, "object")
+        .get("spots")
+        .fail("none of the object's materials has emission, so it has no spots to shine from");
+}
+
+}  // namespace
+
+Model read_model(const std::string& name, const SceneValue& value, const ModelContext& context) {
+    Model model;
+    model.name = name;
+    model.where = value.where();
+    bool has_mesh = false;
+    bool has_voxels = false;
+    bool has_shape = false;
+    for (const JsonMember& member : value.json().members) {
+        has_mesh = has_mesh || member.key == "mesh";
+        has_voxels = has_voxels || member.key == "voxels";
+        has_shape = has_shape || member.key == "shape";
+    }
+    if (has_mesh && has_shape) value.fail("has a \"mesh\" and a \"shape\"; leave one of them out");
+    if (has_voxels && (has_mesh || has_shape))
+        value.fail(fmt::format("has \"voxels\" and a \"{}\"; leave one of them out",
+                               has_mesh ? "mesh" : "shape"));
+    if (!has_mesh && !has_voxels && !has_shape && value.is(JsonType::object)) {
+        value.fail("needs a \"mesh\" or \"voxels\" (a file) or a \"shape\" (sphere, box, ...)");
+    }
+    if (has_voxels) {
+        read_voxels(SceneFields(value, "model:voxels"), context, model);
+    } else if (has_shape) {
+        model.solid = read_solid(value);
+        const std::string_view shape = scene_kinds("part")[kind_of(value, "shape", "part")];
+        read_lattice(SceneFields(value, fmt::format("model:{}", shape)), context.world_voxel_size,
+                     model);
+    } else {
+        const SceneFields fields(value, "model:mesh");
+        model.mesh = file_at(fields, "mesh", context.search);
+        if (const auto morph = fields.find("morph"))
+            model.morph = read_morph(*morph, context.search);
+        read_lattice(fields, context.world_voxel_size, model);
+        if (const auto cut = fields.find("cut")) {
+            model.cuts = read_cuts(*cut);
+            if (model.surface == Surface::exact)
+                cut->fail(
+                    "an \"exact\" mesh shows its triangles and can't be cut; make its surface "
+                    "\"smooth\" or \"cubes\"");
+        }
+    }
+    return model;
+}
+
+bool has_emission(const Scene& scene, const Object& object) {
+    const auto emits = [&](int material) {
+        return scene.materials[size_t(material)].emission != glm::vec3(0);
+    };
+    return emits(object.material) ||
+           std::ranges::any_of(object.groups, emits, &GroupMaterial::material);
+}
+
+std::vector<Model> read_models(const SceneValue& value, const ModelContext& context) {
+    std::vector<Model> models;
+    for (const auto& [name, member] : value.named_members()) {
+        models.push_back(read_model(name, member, context));
+    }
+    return models;
+}
+
+ObjectReader::ObjectReader(const Scene& scene) : scene_(scene) {
+    for (const Model& model : scene.models) models_.add(model.name);
+    for (const Material& material : scene.materials) materials_.add(material.name);
+}
+
+Object ObjectReader::read(const SceneValue& value, size_t number) const {
+    const SceneFields fields(value, "object");
+    Object object;
+    object.where = value.where();
+    const auto name = fields.find("name");
+    object.name = name ? name->text() : fmt::format("objects[{}]", number);
+    object.model = models_.find(fields.get("model"));
+    read_materials_of(fields, materials_, object);
+    if (!object.groups.empty() && scene_.models[object.model].solid)
+        fields.get("materials")
+            .fail("only a mesh has groups of faces; give this object one \"material\"");
+    object.priority = fields.integer("priority", -1'000'000, 1'000'000, 0);
+    if (const auto spots = fields.find("spots")) object.spots = spots->integer(0, kMaxSpots);
+    if (const auto placement = fields.find("placement"))
+        object.placement =
+            static_cast<Placement>(placement->choice(Names{"auto", "world", "instance"}));
+    if (const auto visible = fields.find("visible")) object.visible = visible->boolean();
+    object.world_from_object = read_placement(fields);
+    return object;
+}
+
+std::vector<Object> read_objects(const SceneValue& value, const Scene& scene) {
+    const ObjectReader reader(scene);
+    std::unordered_set<std::string> taken;
+    std::vector<Object> objects;
+    for (const SceneValue& item : value.items()) {
+        objects.push_back(reader.read(item, objects.size()));
+        const Object& object = objects.back();
+        const auto name = SceneFields(item, "object").find("name");
+        if (name && !taken.insert(object.name).second)
+            name->fail(fmt::format("another object is named {} already", quote(object.name)));
+        check_spots(item, scene, object);
+    }
+    return objects;
+}
+
+}  // namespace voxelume

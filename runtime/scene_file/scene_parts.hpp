@@ -1,0 +1,98 @@
+// The readers of the scene's parts, one per subject. Each takes the value of its key and throws
+// Error::scene.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+#include "runtime/scene/scene.hpp"
+#include "runtime/scene/scene_affine.hpp"
+#include "runtime/scene_file/scene_fields.hpp"
+
+namespace voxelume {
+
+/// Names that other parts of the scene refer to, with their indices.
+class NameTable {
+  public:
+    /// `kind` is what messages call them: "material".
+    explicit NameTable(std::string kind) : kind_(std::move(kind)) {}
+
+    void add(const std::string& name) { indices_.emplace(name, static_cast<int>(indices_.size())); }
+    /// Index of the name that the value gives. Throws Error::scene with the nearest one if there is
+    /// none.
+    int find(const SceneValue& value) const;
+
+  private:
+    std::string kind_;
+    std::unordered_map<std::string, int> indices_;
+};
+
+/// Where a part of the scene looks for the files that it names.
+struct AssetSearch {
+    std::filesystem::path scene_folder;
+    const AssetFolders& assets;
+    double frame = 1;       ///< whose files are taken where they are numbered
+    bool all_files = true;  ///< whether those of the other frames must be there, too
+};
+
+/// Where models find their files, and the pitch that they take from the world.
+struct ModelContext {
+    AssetSearch search;
+    glm::dvec3 world_voxel_size;
+};
+
+/// Reads objects with the models and materials of a scene, which must be read before.
+class ObjectReader {
+  public:
+    explicit ObjectReader(const Scene& scene);
+    /// `number` is the object's place in the list. Doesn't compare its name with others.
+    Object read(const SceneValue& value, size_t number) const;
+
+  private:
+    const Scene& scene_;
+    NameTable models_{"model"};
+    NameTable materials_{"material"};
+};
+
+World read_world(const SceneValue& value, const AssetSearch& search);
+Medium read_medium(const SceneValue& value, const AssetSearch& search);
+Material read_material(const std::string& name, const SceneValue& value);
+std::vector<Material> read_materials(const SceneValue& value);
+Model read_model(const std::string& name, const SceneValue& value, const ModelContext& context);
+std::vector<Model> read_models(const SceneValue& value, const ModelContext& context);
+Solid read_solid(const SceneValue& value);  ///< of a model; see scene_solids.cpp for its parts
+std::vector<Solid> read_cuts(const SceneValue& value);  ///< a list of parts, of a mesh
+std::vector<Object> read_objects(const SceneValue& value, const Scene& scene);
+Light read_light(const SceneValue& value, size_t number);  ///< `number`: its place in the list
+std::vector<Light> read_lights(const SceneValue& value);
+Observer read_observer(const SceneValue& value, const Scene& scene);
+Animation read_animation(const SceneValue& value);
+RenderSettings read_render(const SceneValue& value);
+
+/// Sets where each model can be seen: the world's box carried into the space of every object that
+/// shows it.
+void find_reaches(Scene& scene);
+
+/// `position`, `turn` and `scale`.
+Factors read_factors(const SceneFields& fields);
+
+/// The map that `position`, `turn` and `scale`, or `matrix`, give. Refuses singular ones.
+glm::dmat4 read_placement(const SceneFields& fields);
+
+/// Unit vector from a position to the point that the value gives, which must be another.
+glm::dvec3 direction_to(const SceneValue& target, glm::dvec3 position);
+
+/// Half of an angle above 0 degrees, in radians.
+double half_angle(const SceneValue& value, double max, bool max_is_open);
+
+/// The vertical half angle at which pixels of an image of this size are square.
+double square_pixel_half_angle(double horizontal_half_angle, glm::ivec2 size);
+
+/// The box that the world's whole voxels fill.
+Bounds lattice_bounds(const World& world);
+glm::dvec3 corner(const Bounds& bounds,
+                  int number);  ///< number 0..7: bits choose max over min on x, y, z
+
+}  // namespace voxelume

@@ -1,0 +1,265 @@
+#include "runtime/scene_file/scene_target.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+
+namespace voxelume {
+namespace {
+
+using Names = std::vector<std::string_view>;
+
+/// A kind of JSON object: values that can change, and the objects in it that have such values.
+struct Place {
+    std::string_view name;
+    Names values;
+    std::vector<std::pair<std::string_view, std::string_view>> places;  ///< key and Place::name
+};
+
+const Place& place_named(std::string_view name) {
+    static const Names shapes = {"radius", "radii",      "size",     "height",
+                                 "tube",   "top_radius", "thickness"};
+    static const auto with = [](Names names, const Names& more) {
+        names.insert(names.end(), more.begin(), more.end());
+        return names;
+    };
+    static const Names placement = {"position", "turn", "scale"};
+    static const std::vector<Place> places = {
+        {"world", {"background", "ambient"}, {{"medium", "medium"}}},
+        {"medium", {"absorption", "color"}, {{"density", "density"}}},
+        {"density",
+         with(placement, {"base", "scale_height", "center", "radius", "falloff", "file"}),
+         {}},
+        {"materials",
+         {"color", "diffuse", "specular", "shininess", "reflection", "refraction", "ior", "fresnel",
+          "opacity", "absorption", "emission"},
+         {{"checker", "checker"}}},
+        {"checker", {"color", "size", "origin"}, {}},
+        {"models",
+         with(shapes, {"mesh", "voxels"}),
+         {{"parts", "parts"}, {"cut", "parts"}, {"morph", "morph"}}},
+        {"parts", with(shapes, placement), {{"parts", "parts"}}},
+        {"morph", {"amount", "center", "radius"}, {}},
+        {"objects", with(placement, {"visible", "model", "material"}), {}},
+        {"lights",
+         {"position", "direction", "look_at", "up", "color", "intensity", "angle", "inner_angle",
+          "radius", "size"},
+         {}},
+        {"observer", {"position", "look_at", "up", "turn"}, {{"display", "display"}}},
+        {"display", {"angles", "angle", "near", "far", "radius", "size"}, {}},
+    };
+    return *std::ranges::find(places, name, &Place::name);
+}
+
+/// Follows a path through the document.
+class PathWalker {
+  public:
+    PathWalker(const SceneValue& path, const JsonValue& document)
+        : path_(path), steps_(parse()), root_(document) {}
+
+    TrackTarget walk() {
+        const std::string& start = steps_.front().key;
+        static constexpr std::string_view kSections[] = {"world",   "materials", "models",
+                                                         "objects", "lights",    "observer"};
+        const auto section = std::ranges::find(kSections, start);
+        if (section == std::end(kSections))
+            path_.fail(fmt::format("starts with {}, which is no part of a scene that can change{}",
+                                   quote(start), suggest(start, kSections)));
+        target_.part = static_cast<ScenePart>(section - std::begin(kSections));
+        target_.path = start;
+        target_.value = &member(root_, start, "the scene");
+        next_ = 1;
+        if (target_.part != ScenePart::world && target_.part != ScenePart::observer) find_item();
+        follow(place_named(start), *target_.value);
+        return std::move(target_);
+    }
+
+  private:
+    [[noreturn]] void fail_to_read() const {
+        path_.fail(
+            "can't be read; write keys with dots between and places in lists in brackets, as in "
+            "\"objects.ball.position\" or \"models.block.parts[1].height\"");
+    }
+
+    /// Keys end at a dot or bracket, and may be put in quotes if they hold one.
+    std::vector<TargetStep> parse() const {
+        const std::string& text = path_.text();
+        std::vector<TargetStep> steps;
+        for (size_t i = 0; i < text.size();) {
+            const bool is_item = text[i] == '[';
+            if (!steps.empty() && !is_item && text[i++] != '.') fail_to_read();
+            const bool is_quoted = i < text.size() && text[i] == '"';
+            i += is_item || is_quoted ? 1 : 0;
+            const size_t end = text.find_first_of(is_item ? "]" : is_quoted ? "\"" : ".[", i);
+            if ((is_item || is_quoted) && end == text.npos) fail_to_read();
+            const std::string word = text.substr(i, end - i);
+            if (word.empty()) fail_to_read();
+            TargetStep& step = steps.emplace_back();
+            if (is_item) {
+                const char* last = word.data() + word.size();
+                const auto [end_of_number, error] = std::from_chars(word.data(), last, step.item);
+                if (end_of_number != last || error != std::errc()) fail_to_read();
+            } else {
+                step.key = word;
+            }
+            i = end == text.npos ? text.size() : end + (is_item || is_quoted ? 1 : 0);
+        }
+        if (steps.front().key.empty()) fail_to_read();
+        return steps;
+    }
+
+    bool is_at_end() const { return next_ == steps_.size(); }
+
+    const std::string& next_key(const std::string& of, const Names& known) {
+        if (is_at_end() || steps_[next_].key.empty())
+            path_.fail(fmt::format("names no value of {}{}", of, suggest("", known)));
+        return steps_[next_++].key;
+    }
+
+    const JsonValue& member(const JsonValue& of, const std::string& key,
+                            const std::string& what) const {
+        const auto found = std::ranges::find(of.members, key, &JsonMember::key);
+        if (found == of.members.end())
+            path_.fail(fmt::format("{} has no {} to change", what, quote(key)));
+        return found->value;
+    }
+
+    const JsonValue& item(const JsonValue& list, const std::string& what) {
+        if (is_at_end() || !steps_[next_].key.empty())
+            path_.fail(fmt::format("which of {}? Write its place, counted from 0, as in \"{}[0]\"",
+                                   what, what));
+        const size_t place = steps_[next_++].item;
+        if (list.type == JsonType::number)
+            path_.fail(
+                fmt::format("{} is one number here; change it as a whole, or write it as a "
+                            "list of numbers in the scene",
+                            what));
+        if (place >= list.items.size())
+            path_.fail(fmt::format("there is no {}[{}]: {} has {} items", what, place, what,
+                                   list.items.size()));
+        return list.items[place];
+    }
+
+    /// The object, light, material or model that the path names.
+    void find_item() {
+        const std::string section = target_.path;
+        const bool is_list = target_.part == ScenePart::object || target_.part == ScenePart::light;
+        const std::string kind = section.substr(0, section.size() - 1);
+        const JsonValue& all = *target_.value;
+        if (is_list && !is_at_end() && steps_[next_].key.empty()) {
+            target_.value = &item(all, section);
+            target_.number = size_t(target_.value - all.items.data());
+            target_.path = fmt::format("{}[{}]", section, target_.number);
+            return;
+        }
+        const Names names = is_list ? names_of_items(all) : names_of_members(all);
+        const std::string& name = next_key(section, names);
+        const auto found = std::ranges::find(names, name);
+        if (found == names.end())
+            path_.fail(fmt::format("no {} named {}{}", kind, quote(name), suggest(name, names)));
+        target_.number = size_t(found - names.begin());
+        target_.name = name;
+        target_.value = is_list ? &all.items[target_.number] : &all.members[target_.number].value;
+        target_.path =
+            is_list ? fmt::format("{}[{}]", section, target_.number)
+                    : fmt::format("{}.{}", section,
+                                  name.find_first_of(".[") == name.npos ? name : quote(name));
+    }
+
+    /// Items without a name of their own have an empty one.
+    static Names names_of_items(const JsonValue& list) {
+        Names names;
+        for (const JsonValue& item : list.items) {
+            const auto name = std::ranges::find(item.members, "name", &JsonMember::key);
+            names.push_back(name == item.members.end() ? std::string_view()
+                                                       : std::string_view(name->value.text));
+        }
+        return names;
+    }
+
+    static Names names_of_members(const JsonValue& object) {
+        Names names;
+        for (const JsonMember& m : object.members) names.push_back(m.key);
+        return names;
+    }
+
+    void follow(const Place& place, const JsonValue& value) {
+        Names known = place.values;
+        for (const auto& [key, name] : place.places) known.push_back(key);
+        const std::string here = path_so_far(), key = next_key(here, known);
+        const auto inner =
+            std::ranges::find(place.places, key, [](const auto& entry) { return entry.first; });
+        if (inner != place.places.end()) {
+            const JsonValue* child = &member(value, key, here);
+            target_.steps.push_back({key});
+            if (child->type == JsonType::array) {
+                child = &item(*child, key);
+                target_.steps.push_back(steps_[next_ - 1]);
+            }
+            return follow(place_named(inner->second), *child);
+        }
+        if (std::ranges::find(place.values, key) == place.values.end())
+            path_.fail(fmt::format("{} has no value {} that can change{}", here, quote(key),
+                                   suggest(key, known)));
+        check_rivals(value, key);
+        target_.steps.push_back({key});
+        if (is_at_end()) return;
+        item(member(value, key, here), key);
+        target_.steps.push_back(steps_[next_ - 1]);
+        if (!is_at_end()) path_.fail(fmt::format("goes on behind a number of {}", quote(key)));
+    }
+
+    /// Refuses to change what another key of the object decides.
+    void check_rivals(const JsonValue& of, const std::string& key) const {
+        const auto has = [&](std::string_view rival) {
+            return std::ranges::find(of.members, rival, &JsonMember::key) != of.members.end();
+        };
+        if ((key == "position" || key == "turn" || key == "scale") && has("matrix"))
+            path_.fail(
+                fmt::format("{} is placed by its \"matrix\"; write \"position\", \"turn\" "
+                            "and \"scale\" instead of that to change them",
+                            path_so_far()));
+        if ((key == "mesh" || key == "voxels" || key == "file") && has("sequence"))
+            path_.fail(
+                fmt::format("{} has its files from its \"sequence\"; leave out that or this "
+                            "track",
+                            path_so_far()));
+    }
+
+    std::string path_so_far() const {
+        std::string path = target_.path;
+        for (const TargetStep& step : target_.steps)
+            path += step.key.empty() ? fmt::format("[{}]", step.item) : "." + step.key;
+        return path;
+    }
+
+    const SceneValue& path_;
+    std::vector<TargetStep> steps_;
+    const JsonValue& root_;
+    size_t next_ = 0;
+    TrackTarget target_;
+};
+
+}  // namespace
+
+TrackTarget find_target(const SceneValue& path, const JsonValue& document) {
+    return PathWalker(path, document).walk();
+}
+
+void put_value(JsonValue& part, const std::vector<TargetStep>& steps, JsonValue value) {
+    JsonValue* at = &part;
+    for (const TargetStep& step : steps) {
+        if (step.key.empty()) {
+            at = &at->items[step.item];
+            continue;
+        }
+        const auto found = std::ranges::find(at->members, step.key, &JsonMember::key);
+        at = found != at->members.end()
+                 ? &found->value
+                 : &at->members.emplace_back(JsonMember{step.key, value.at, {}}).value;
+    }
+    *at = std::move(value);
+}
+
+}  // namespace voxelume

@@ -1,0 +1,40 @@
+// The value of a scene that a track changes: "objects.ball.position", "models.block.parts[1].turn".
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "runtime/scene_file/scene_fields.hpp"
+
+namespace voxelume {
+
+/// What is read anew as a whole when a value in it changes.
+enum class ScenePart : uint8_t { world, material, model, object, light, observer };
+
+/// A step from a value to one inside of it: a key, or a place in a list where the key is empty.
+struct TargetStep {
+    std::string key;
+    size_t item = 0;
+    bool operator==(const TargetStep&) const = default;
+};
+
+/// A value that a track may change.
+struct TrackTarget {
+    ScenePart part = ScenePart::world;
+    size_t number = 0;                 ///< of the part among its kind, in the order of the document
+    std::string name;                  ///< of a material or model
+    std::string path;                  ///< of the part, as messages have it
+    const JsonValue* value = nullptr;  ///< the part in the document
+    std::vector<TargetStep> steps;     ///< from the part to the value; a last key may be missing
+};
+
+/// Finds what a path names in a document.
+///
+/// Throws Error::scene with the nearest name when there is no such part or value, or none that can
+/// change.
+TrackTarget find_target(const SceneValue& path, const JsonValue& document);
+
+/// Puts a value into a part in the place that `steps` lead to; a missing last key is added.
+void put_value(JsonValue& part, const std::vector<TargetStep>& steps, JsonValue value);
+
+}  // namespace voxelume

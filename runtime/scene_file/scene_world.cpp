@@ -1,0 +1,144 @@
+// The parts of a scene that stand alone: world, materials, animation, render settings.
+#include <array>
+#include <cmath>
+
+#include "runtime/base/error.hpp"
+#include "runtime/scene_file/scene_parts.hpp"
+
+namespace voxelume {
+namespace {
+
+constexpr int kMaxVoxelsPerAxis = 65536;
+constexpr std::array<std::string_view, 2> kShadowNames = {"opaque", "filtered"};
+
+Bounds read_bounds(const SceneValue& value) {
+    const SceneFields fields(value, "bounds");
+    const Bounds bounds{fields.get("min").vector(kCoordinate),
+                        fields.get("max").vector(kCoordinate)};
+    for (int axis = 0; axis < 3; ++axis) {
+        if (bounds.min[axis] >= bounds.max[axis]) {
+            value.fail(fmt::format("empty along {}: min is {} and max is {}; max must be larger",
+                                   "xyz"[axis], bounds.min[axis], bounds.max[axis]));
+        }
+    }
+    return bounds;
+}
+
+/// Voxels that cover a length. Decimal fractions have no exact binary form, so a quotient within a
+/// billionth of a whole number is that number: 0.6 / 0.2 gives 3 voxels, and 0.9 / 0.3 does too.
+double voxels_along(double length, double voxel) {
+    const double quotient = length / voxel;
+    const double whole = std::round(quotient);
+    return whole >= 1 && std::abs(quotient - whole) <= 1e-9 * whole ? whole : std::ceil(quotient);
+}
+
+glm::ivec3 count_voxels(const SceneValue& value, const World& world) {
+    glm::ivec3 voxels;
+    for (int axis = 0; axis < 3; ++axis) {
+        const double length = world.bounds.max[axis] - world.bounds.min[axis];
+        const double count = voxels_along(length, world.voxel_size[axis]);
+        if (count > kMaxVoxelsPerAxis) {
+            throw Error(
+                ErrorKind::limit,
+                "{}: {:.0f} voxels along {} are more than {}; use voxels of at least {:.3g} m",
+                value.where(), count, "xyz"[axis], kMaxVoxelsPerAxis, length / kMaxVoxelsPerAxis);
+        }
+        voxels[axis] = static_cast<int>(count);
+    }
+    return voxels;
+}
+
+Checker read_checker(const SceneValue& value) {
+    const SceneFields fields(value, "checker");
+    const Checker checker{fields.color("color", 1, {}),
+                          fields.get("size").number_or_vector({0, kMaxLength}),
+                          fields.vector("origin", kCoordinate, {})};
+    if (checker.size == glm::dvec3(0)) value.fail("needs a size above 0 along some axis");
+    return checker;
+}
+
+}  // namespace
+
+Material read_material(const std::string& name, const SceneValue& value) {
+    const SceneFields fields(value, "material");
+    const auto ratio = [&](std::string_view key, float fallback) {
+        return static_cast<float>(fields.number(key, kRatio, fallback));
+    };
+    Material m;
+    m.name = name;
+    m.color = fields.color("color", 1, m.color);
+    m.diffuse = ratio("diffuse", m.diffuse);
+    m.specular = ratio("specular", m.specular);
+    m.shininess = static_cast<float>(fields.number("shininess", {1, 1e6}, m.shininess));
+    m.reflection = ratio("reflection", m.reflection);
+    m.refraction = ratio("refraction", m.refraction);
+    m.ior = static_cast<float>(fields.number("ior", {0.1, 10}, m.ior));
+    if (const auto fresnel = fields.find("fresnel")) m.fresnel = fresnel->boolean();
+    m.opacity = ratio("opacity", m.opacity);
+    m.absorption = fields.color("absorption", kMaxLength, m.absorption);
+    m.emission = fields.color("emission", kMaxLength, m.emission);
+    if (const auto checker = fields.find("checker")) m.checker = read_checker(*checker);
+    return m;
+}
+
+World read_world(const SceneValue& value, const AssetSearch& search) {
+    const SceneFields fields(value, "world");
+    World world;
+    world.voxel_size = fields.get("voxel_size").number_or_vector(kLength);
+    world.bounds = read_bounds(fields.get("bounds"));
+    world.voxels = count_voxels(value, world);
+    world.background = fields.color("background", kMaxLength, {});
+    world.ambient = fields.color("ambient", kMaxLength, {});
+    if (const auto medium = fields.find("medium")) world.medium = read_medium(*medium, search);
+    world.where = value.where();
+    return world;
+}
+
+std::vector<Material> read_materials(const SceneValue& value) {
+    std::vector<Material> materials(1);
+    materials[0].name = "default";
+    for (const auto& [name, member] : value.named_members()) {
+        if (name == "default") {
+            materials[0] = read_material(name, member);
+        } else {
+            materials.push_back(read_material(name, member));
+        }
+    }
+    return materials;
+}
+
+Animation read_animation(const SceneValue& value) {
+    const SceneFields fields(value, "animation");
+    Animation animation;
+    animation.frames = fields.integer("frames", 1, 1'000'000, animation.frames);
+    animation.fps = fields.number("fps", {0, 1000, true}, animation.fps);
+    return animation;
+}
+
+RenderSettings read_render(const SceneValue& value) {
+    const SceneFields fields(value, "render");
+    RenderSettings render;
+    if (const auto size = fields.find("size")) {
+        const auto parts = size->items();
+        if (parts.size() != 2) size->fail(fmt::format("needs 2 numbers, not {}", parts.size()));
+        render.size = {parts[0].integer(1, kMaxImageSide), parts[1].integer(1, kMaxImageSide)};
+    }
+    render.samples = fields.integer("samples", 1, 4096, render.samples);
+    render.depth = fields.integer("depth", 0, 64, render.depth);
+    if (const auto shadows = fields.find("shadows")) render.shadows = shadows->boolean();
+    if (const auto shadow = fields.find("shadow"))
+        render.filtered_shadows = shadow->choice(kShadowNames) == 1;
+    render.least_weight = fields.number("least_weight", kRatio, render.least_weight);
+    return render;
+}
+
+Bounds lattice_bounds(const World& world) {
+    return {world.bounds.min, world.bounds.min + glm::dvec3(world.voxels) * world.voxel_size};
+}
+
+glm::dvec3 corner(const Bounds& bounds, int number) {
+    return {(number & 1 ? bounds.max : bounds.min).x, (number & 2 ? bounds.max : bounds.min).y,
+            (number & 4 ? bounds.max : bounds.min).z};
+}
+
+}  // namespace voxelume

@@ -1,0 +1,20 @@
+// display -> the lattice V of its voxels: where they are, for the host and for kernels.
+#pragma once
+
+#include "kernels/shared/display.h"
+#include "runtime/grid/grid.hpp"
+#include "runtime/image/volume.hpp"
+#include "runtime/scene/scene.hpp"
+
+namespace voxelume {
+
+/// The voxels of the scene's display in its layout; what `Volume::frame` says.
+VolumeFrame display_frame(const Scene& scene);
+
+/// How depth becomes steps, for a frame of layout `rays` in a world with this medium.
+DisplaySteps display_steps(const VolumeFrame& frame, const Medium& medium);
+
+/// A frame of layout `lattice` in a world.
+DisplayLattice display_lattice(const VolumeFrame& frame, const GridFrame& world);
+
+}  // namespace voxelume

@@ -1,0 +1,238 @@
+#include "runtime/stages/display/display_lattice.hpp"
+
+#include <algorithm>
+#include <glm/geometric.hpp>
+#include <numeric>
+
+#include "runtime/base/error.hpp"
+#include "runtime/stages/trace/trace.hpp"
+
+namespace voxelume {
+namespace {
+
+/// How much the surfaces in front may cover of a point that is still seen.
+constexpr float kMostCovered = 1 - 1.0f / 1024;
+
+constexpr uint32_t kGroupWords = 8, kGroupBits = 256;
+
+/// Ways from outside of the world to a point in it, in voxels: view 0 is the observer's and has no
+/// way of its own; then along the axes, from above first, along the diagonals of faces, and along
+/// those of the cube.
+std::vector<float4> ways_from_outside(const GridFrame& world) {
+    const double length = glm::length(world.voxel_edge * glm::dvec3(world.size));
+    std::vector<float4> ways = {{0, 0, 0, 0}};
+    for (int axes = 1; axes <= 3; ++axes)
+        for (int y = -1; y <= 1; ++y)
+            for (int x = -1; x <= 1; ++x)
+                for (int z = -1; z <= 1; ++z) {
+                    const glm::dvec3 way(x, y, z);
+                    if (std::abs(x) + std::abs(y) + std::abs(z) != axes) continue;
+                    const glm::dvec3 voxels = length * glm::normalize(way) / world.voxel_edge;
+                    ways.push_back({float(voxels.x), float(voxels.y), float(voxels.z), 0});
+                }
+    return ways;
+}
+
+uint32_t group_count(const Device& device, const glm::ivec3& size) {
+    const double bits = double(size.x) * double(size.y) * double(size.z);
+    const double most = 8 * std::min(double(device.info().max_allocation), double(UINT32_MAX) * 32);
+    if (bits > most)
+        throw Error(ErrorKind::limit,
+                    "a lattice of {}x{}x{} display voxels needs a mask of {:.1f} GB, and \"{}\" "
+                    "allows {:.1f} GB in one piece: use fewer display voxels",
+                    size.x, size.y, size.z, bits / 8e9, device.info().name, most / 8e9);
+    return uint32_t((uint64_t(size.x) * uint64_t(size.y) * uint64_t(size.z) + kGroupBits - 1) /
+                    kGroupBits);
+}
+
+}  // namespace
+
+Buffer<uint32_t> allocate_display_mask(const Device& device, const glm::ivec3& size) {
+    return {device, "display mask", size_t(group_count(device, size)) * kGroupWords};
+}
+
+DisplayLatticeStage::DisplayLatticeStage(const Device& device, const Features& features,
+                                         const Sight& sight, const VolumeFrame& frame,
+                                         const Pyramid& world)
+    : device_(device),
+      sight_(sight),
+      lattice_(display_lattice(frame, world.frame)),
+      visibility_(frame.display.visibility),
+      transmission_(features.transmission),
+      world_(world),
+      views_(device, "display views", std::span<const float4>(ways_from_outside(world.frame))),
+      groups_(group_count(device, frame.size)),
+      mask_(allocate_display_mask(device, frame.size)),
+      program_(device, "display_lattice.cl", features.defines(device)),
+      aim_(program_.kernel("aim_rays")),
+      note_(program_.kernel("note_view")),
+      mark_(program_.kernel("mark_shown")),
+      count_(program_.kernel("count_groups")),
+      list_(program_.kernel("list_places")),
+      choose_(program_.kernel("choose_points")),
+      take_(program_.kernel("take_points")),
+      keep_(program_.kernel("keep_light")) {}
+
+void DisplayLatticeStage::aim(const ProbePoints& points, uint32_t search, uint32_t first,
+                              uint32_t count, RayBatch& batch) {
+    aim_.launch_packets(count, sight_, shape_of(world_), lattice_, views_, points.coordinates,
+                        points.total, points.views, search, first, count, batch.stride, batch.rays);
+    rays_ += count;
+}
+
+void DisplayLatticeStage::search(const LookAhead& look, RayBatch& batch, ProbePoints& points,
+                                 uint32_t view, float most_covered) {
+    for (uint32_t first = 0; first < points.count; first += batch.stride) {
+        const uint32_t count = std::min(batch.stride, points.count - first);
+        aim(points, view + 1, first, count, batch);
+        look(batch, count);
+        note_.launch(WorkItem::light, count, batch.hits, batch.coverage, first, count, batch.stride,
+                     view, most_covered, points.views);
+    }
+}
+
+void DisplayLatticeStage::find_views(const LookAhead& look, RayBatch& batch,
+                                     std::vector<ProbePoints>& pieces) {
+    for (ProbePoints& points : pieces) {
+        if (visibility_ != Visibility::outside) search(look, batch, points, 0, kMostCovered);
+        if (visibility_ == Visibility::observer) continue;
+        // Where a point is seen freely from somewhere, it is not lit as seen through others.
+        for (const float most : {0.0f, kMostCovered})
+            for (uint32_t view = 1; view < views_.size() && (transmission_ || most == 0); ++view)
+                search(look, batch, points, view, most);
+        if (visibility_ != Visibility::all) continue;
+        std::vector<uint32_t> views = points.views.read();  // what no view shows is lit as from E
+        std::ranges::replace(views, kNoView, 0u);
+        points.views.write(views);
+    }
+}
+
+ShownVoxels DisplayLatticeStage::choose(const std::vector<ProbePoints>& pieces) {
+    mask_.fill(0);
+    for (const ProbePoints& points : pieces)
+        mark_.launch(WorkItem::light, points.count, lattice_, points.coordinates, points.total,
+                     points.views, points.count, mask_);
+    Buffer<uint32_t> starts(device_, "display groups", groups_);
+    count_.launch(WorkItem::light, groups_, mask_, groups_, starts);
+    std::vector<uint32_t> counts = starts.read();
+    const uint64_t voxels = std::reduce(counts.begin(), counts.end(), uint64_t(0));
+    ShownVoxels shown;
+    shown.voxels = allocate_voxels(device_, voxels);
+    if (voxels == 0) return shown;
+    std::exclusive_scan(counts.begin(), counts.end(), counts.begin(), 0u);
+    starts.write(counts);
+    list_.launch(WorkItem::light, groups_, mask_, starts, groups_, shown.voxels.places);
+
+    shown.points = allocate_points(device_, uint32_t(voxels));
+    ProbePoints& chosen = shown.points;
+    chosen.views.fill(kNoView);
+    Buffer<uint32_t> distances(device_, "display distances", chosen.count);
+    Buffer<uint32_t> numbers(device_, "display numbers", chosen.count);
+    distances.fill(UINT32_MAX);
+    numbers.fill(UINT32_MAX);
+    for (const uint32_t turn : {0u, 1u}) {
+        uint32_t first_number = 0;
+        for (const ProbePoints& points : pieces) {
+            choose_.launch(WorkItem::light, points.count, lattice_, points.coordinates,
+                           points.total, points.views, points.count, first_number, mask_, starts,
+                           turn, distances, numbers);
+            first_number += points.count;
+        }
+    }
+    uint32_t first_number = 0;
+    for (const ProbePoints& points : pieces) {
+        take_.launch(WorkItem::light, chosen.count, points.coordinates, points.total, points.views,
+                     points.count, first_number, numbers, chosen.count, chosen.total,
+                     chosen.coordinates, chosen.views);
+        first_number += points.count;
+    }
+    return shown;
+}
+
+void DisplayLatticeStage::keep(const Space& space, const RayBatch& batch, const NodeLight& nodes,
+                               const LightTask& task, uint32_t first, uint32_t count,
+                               VoxelArrays& voxels) {
+    keep_.launch_packets(count, sight_, shape_of(world_), space, batch.rays, batch.hits,
+                         batch.positions, batch.words, nodes.radiance, nodes.coverage, nodes.stride,
+                         task.targets, uint32_t(!task.targets.empty()), first, count, batch.stride,
+                         voxels.colors, voxels.opacities, voxels.depths, voxels.objects);
+}
+
+void DisplayLatticeStage::light_points(Illumination& illumination, const Space& space,
+                                       RayBatch& batch, const LightTask& task,
+                                       VoxelArrays& voxels) {
+    for (uint32_t first = 0; first < task.points.count; first += batch.stride) {
+        const uint32_t count = std::min(batch.stride, task.points.count - first);
+        aim(task.points, 0, first, count, batch);
+        if (!transmission_) {
+            illumination.light(batch, count);
+            keep(space, batch, {batch.radiance, {}, batch.stride}, task, first, count, voxels);
+            continue;
+        }
+        // The nearest surface is the voxel's; what lies behind has voxels of its own.
+        illumination.light(
+            batch, count,
+            [&](const RayBatch& entries, uint32_t, bool is_first, const NodeLight& nodes) {
+                if (is_first) keep(space, entries, nodes, task, first, count, voxels);
+            });
+    }
+}
+
+/// The points of voxels that have no light yet, moved a little.
+DisplayLatticeStage::LightTask DisplayLatticeStage::missed_points(const ShownVoxels& shown,
+                                                                  const glm::vec3& shift,
+                                                                  HostPoints& host) {
+    const std::vector<uint32_t> objects = shown.voxels.objects.read(0, shown.voxels.count);
+    std::vector<uint32_t> missed;
+    for (uint32_t voxel = 0; voxel < objects.size(); ++voxel)
+        if (objects[voxel] == 0) missed.push_back(voxel);
+    LightTask task;
+    ProbePoints& points = task.points;
+    points.count = uint32_t(missed.size());
+    if (missed.empty()) return task;
+    points.total = (points.count + 15) / 16 * 16;
+    if (host.coordinates.empty()) {
+        host.coordinates = shown.points.coordinates.read();
+        host.views = shown.points.views.read();
+    }
+    std::vector<float> coordinates(size_t(points.total) * 3);
+    std::vector<uint32_t> views(points.total, kNoView);
+    for (size_t i = 0; i < missed.size(); ++i) {
+        views[i] = host.views[missed[i]];
+        for (int axis = 0; axis < 3; ++axis)
+            coordinates[size_t(axis) * points.total + i] =
+                host.coordinates[size_t(axis) * shown.points.total + missed[i]] + shift[axis];
+    }
+    points.coordinates =
+        Buffer<float>(device_, "probe points", std::span<const float>(coordinates));
+    points.views = Buffer<uint32_t>(device_, "probe views", std::span<const uint32_t>(views));
+    task.targets = Buffer<uint32_t>(device_, "probe targets", std::span<const uint32_t>(missed));
+    return task;
+}
+
+void DisplayLatticeStage::light(const LookAhead& look, Illumination& illumination,
+                                const Space& space, RayBatch& batch, ShownVoxels& shown) {
+    light_points(illumination, space, batch, {shown.points, {}}, shown.voxels);
+    HostPoints host;
+    // A ray along the surface at its point, as at an outline, may pass by: one beside it does not.
+    for (const float by : {1.0f / 512, 1.0f / 64})
+        for (int side = 0; side < 6; ++side) {
+            glm::vec3 shift(0);
+            shift[side / 2] = side % 2 == 0 ? by : -by;
+            const LightTask missed = missed_points(shown, shift, host);
+            if (missed.points.count == 0) return;
+            light_points(illumination, space, batch, missed, shown.voxels);
+        }
+    if (visibility_ == Visibility::observer) return;
+    // Nor may a whole face that a view looks along: other views see it.
+    for (const bool hidden : {false, true})
+        for (uint32_t view = 1; view < views_.size(); ++view) {
+            LightTask missed = missed_points(shown, glm::vec3(0), host);
+            if (missed.points.count == 0) return;
+            missed.points.views.fill(hidden ? view : kNoView);
+            if (!hidden) search(look, batch, missed.points, view, kMostCovered);
+            light_points(illumination, space, batch, missed, shown.voxels);
+        }
+}
+
+}  // namespace voxelume

@@ -1,0 +1,80 @@
+// probe points -> P in the layout `lattice`: the voxels that are shown, and their light.
+#pragma once
+
+#include <functional>
+
+#include "runtime/render/illumination.hpp"
+#include "runtime/stages/display/display_rays.hpp"
+#include "runtime/stages/display/display_scan.hpp"
+
+namespace voxelume {
+
+/// The voxels that a lattice shows, each with the probe point that gives it its light.
+struct ShownVoxels {
+    VoxelArrays voxels;  ///< with `places` alone filled
+    ProbePoints points;  ///< one for each voxel
+};
+
+/// One bit for every voxel of a lattice. Throws Error::limit where it has no room.
+Buffer<uint32_t> allocate_display_mask(const Device& device, const glm::ivec3& size);
+
+/// Traces rays 0 .. count-1 of a batch. Where surfaces let light through, also fills what all
+/// surfaces along each ray cover.
+using LookAhead = std::function<void(RayBatch& batch, uint32_t count)>;
+
+/// Kernels of display_lattice.cl. The paper's blocks 2 and 3.
+class DisplayLatticeStage {
+  public:
+    /// `sight` is the observer's; throws Error::limit for a lattice whose mask has no room.
+    DisplayLatticeStage(const Device& device, const Features& features, const Sight& sight,
+                        const VolumeFrame& frame, const Pyramid& world);
+
+    /// Finds in which view each point is visible, as the display's visibility asks for.
+    void find_views(const LookAhead& look, RayBatch& batch, std::vector<ProbePoints>& pieces);
+
+    /// The voxels of all points that have a view.
+    ShownVoxels choose(const std::vector<ProbePoints>& pieces);
+
+    /// Lights the voxels, batch by batch.
+    void light(const LookAhead& look, Illumination& illumination, const Space& space,
+               RayBatch& batch, ShownVoxels& shown);
+
+    uint64_t rays() const { return rays_; }  ///< aimed so far
+
+  private:
+    void aim(const ProbePoints& points, uint32_t search, uint32_t first, uint32_t count,
+             RayBatch& batch);
+    /// Points and the voxels that their light goes to; of point n to voxel n when there is no list.
+    struct LightTask {
+        ProbePoints points;
+        Buffer<uint32_t> targets;
+    };
+    /// Takes the light of batch rays from `first` on to their voxels. `nodes` holds it.
+    void keep(const Space& space, const RayBatch& batch, const NodeLight& nodes,
+              const LightTask& task, uint32_t first, uint32_t count, VoxelArrays& voxels);
+    void light_points(Illumination& illumination, const Space& space, RayBatch& batch,
+                      const LightTask& task, VoxelArrays& voxels);
+    /// The points of all voxels, read when the first one is missed.
+    struct HostPoints {
+        std::vector<float> coordinates;
+        std::vector<uint32_t> views;
+    };
+    LightTask missed_points(const ShownVoxels& shown, const glm::vec3& shift, HostPoints& host);
+    void search(const LookAhead& look, RayBatch& batch, ProbePoints& points, uint32_t view,
+                float most_covered);
+
+    Device device_;
+    Sight sight_;
+    DisplayLattice lattice_;
+    Visibility visibility_;
+    bool transmission_;
+    const Pyramid& world_;
+    Buffer<float4> views_;
+    uint32_t groups_;
+    Buffer<uint32_t> mask_;  ///< one bit for every voxel of the lattice
+    Program program_;
+    Kernel aim_, note_, mark_, count_, list_, choose_, take_, keep_;
+    uint64_t rays_ = 0;
+};
+
+}  // namespace voxelume

@@ -1,0 +1,176 @@
+#include "runtime/stages/display/display_layers.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/exponential.hpp>
+#include <span>
+
+namespace voxelume {
+namespace {
+
+/// Less than this share of the light behind is not told from none.
+constexpr double kLeastPassed = 1.0 / (1 << 20);
+
+/// What one voxel of a ray shows; of the same place, those that come first lie in front.
+struct Sample {
+    uint64_t place;
+    glm::dvec3 light;  ///< what it adds when nothing covers it
+    double opacity;
+    float depth;      ///< metres
+    uint32_t object;  ///< plus 1, 0 for space
+};
+
+/// The pixel of a ray in the order of sight.cl: tiles of 4 x 4.
+glm::ivec2 pixel_of(uint32_t ray, int width) {
+    const int tiles = (width + 3) / 4, tile = int(ray / 16), within = int(ray % 16);
+    return {tile % tiles * 4 + (within & 3), tile / tiles * 4 + (within >> 2)};
+}
+
+class Assembly {
+  public:
+    Assembly(const LayerSpace& space, const VolumeFrame& frame)
+        : space_(space),
+          size_(frame.size),
+          absorption_(double(space.space.absorption.x), double(space.space.absorption.y),
+                      double(space.space.absorption.z)),
+          color_(double(space.space.color.x), double(space.space.color.y),
+                 double(space.space.color.z)),
+          passed_(size_t(size_.x) * size_t(size_.y), 1.0) {}
+
+    void add(const LayerRecords& layer) {
+        for (size_t n = 0; n < layer.count; ++n) add_record(layer, n);
+    }
+    std::vector<Sample> take() { return std::move(samples_); }
+
+  private:
+    static uint32_t word(const LayerRecords& layer, size_t n, size_t i) {
+        return layer.words[i * layer.count + n];
+    }
+    static double number(const LayerRecords& layer, size_t n, size_t i) {
+        return double(std::bit_cast<float>(word(layer, n, i)));
+    }
+    static glm::dvec3 numbers(const LayerRecords& layer, size_t n, size_t i) {
+        return {number(layer, n, i), number(layer, n, i + 1), number(layer, n, i + 2)};
+    }
+
+    void add_record(const LayerRecords& layer, size_t n) {
+        const glm::ivec2 pixel = pixel_of(word(layer, n, VXL_LAYER_RAY), size_.x);
+        if (pixel.x >= size_.x || pixel.y >= size_.y) return;  // of a tile that sticks out
+        const uint64_t column = uint64_t(pixel.x) + uint64_t(size_.x) * uint64_t(pixel.y);
+        glm::dvec3 light = numbers(layer, n, VXL_LAYER_LIGHT);
+        const bool in_medium = word(layer, n, VXL_LAYER_IN_MEDIUM) != 0;
+        if (in_medium && space_.steps.absorption > 0) light -= add_space(layer, n, column);
+        const double opacity = number(layer, n, VXL_LAYER_OPACITY);
+        const uint32_t object = word(layer, n, VXL_LAYER_OBJECT);
+        if (object == 0 || !(opacity > 0)) return;
+        const auto depth = float(number(layer, n, VXL_LAYER_DEPTH));
+        put(column, word(layer, n, VXL_LAYER_STEP), light, opacity, depth, object);
+    }
+
+    /// Density times metres of the medium in each step of a ray's way to a surface, from `first`
+    /// on.
+    struct Way {
+        uint32_t first = 0;
+        std::vector<double> amounts;
+    };
+    Way way_of(const LayerRecords& layer, size_t n) const {
+        const double begin = number(layer, n, VXL_LAYER_BEGIN),
+                     end = number(layer, n, VXL_LAYER_END),
+                     ratio = number(layer, n, VXL_LAYER_RATIO), step = double(space_.steps.step);
+        if (!(begin < end)) return {};
+        const auto step_at = [&](double depth) {
+            return uint32_t(std::clamp(std::floor(depth / step), 0.0, double(size_.z - 1)));
+        };
+        const bool is_hit = word(layer, n, VXL_LAYER_OBJECT) != 0;
+        const uint32_t last = is_hit ? word(layer, n, VXL_LAYER_STEP) : step_at(end);
+        Way way;
+        if (layer.first_amount.empty()) {
+            way.first = step_at(begin);
+            for (uint32_t k = way.first; k <= last; ++k)
+                way.amounts.push_back(
+                    std::max(std::min((k + 1) * step, end) - std::max(k * step, begin), 0.0) *
+                    ratio);
+            return way;
+        }
+        way.first = std::min(layer.first_step[n], last);
+        const size_t from = layer.first_amount[n], to = layer.first_amount[n + 1];
+        for (size_t i = from; i < to; ++i) {
+            // Rounding may put a little beyond the surface.
+            if (way.first + way.amounts.size() <= last) way.amounts.push_back(0);
+            way.amounts.back() += double(layer.amounts[i]);
+        }
+        return way;
+    }
+
+    /// The voxels of the medium on a ray's way to a surface; returns the light that they add.
+    glm::dvec3 add_space(const LayerRecords& layer, size_t n, uint64_t column) {
+        const glm::dvec3 passed = numbers(layer, n, VXL_LAYER_PASSED);
+        const Way way = way_of(layer, n);
+        glm::dvec3 sum(0);
+        double before = 0;
+        for (size_t i = 0; i < way.amounts.size(); ++i) {
+            const double inside = way.amounts[i];
+            if (!(inside > 0)) continue;
+            const auto k = uint32_t(way.first + i);
+            const glm::dvec3 light = passed * color_ * glm::exp(-absorption_ * before) *
+                                     (1.0 - glm::exp(-absorption_ * inside));
+            put(column, k, light, -std::expm1(-double(space_.steps.absorption) * inside),
+                float((k + 0.5) * double(space_.steps.step) + double(space_.near_depth)), 0);
+            sum += light;
+            before += inside;
+        }
+        return sum;
+    }
+
+    /// `light` is what reaches E; what the voxels before it cover is given back.
+    void put(uint64_t column, uint32_t k, const glm::dvec3& light, double opacity, float depth,
+             uint32_t object) {
+        double& passed = passed_[column];
+        samples_.push_back({column + uint64_t(size_.x) * uint64_t(size_.y) * k,
+                            glm::max(light / std::max(passed, kLeastPassed), 0.0), opacity, depth,
+                            object});
+        passed *= 1 - opacity;
+    }
+
+    LayerSpace space_;
+    glm::ivec3 size_;
+    glm::dvec3 absorption_, color_;
+    std::vector<double> passed_;  ///< of each ray: what its voxels so far leave uncovered
+    std::vector<Sample> samples_;
+};
+
+/// Samples of one place, laid over one another. The first object names the voxel.
+Sample merged(std::span<const Sample> samples) {
+    Sample sum = samples.front();
+    for (const Sample& sample : samples.subspan(1)) {
+        sum.light += (1 - sum.opacity) * sample.light;
+        sum.opacity += (1 - sum.opacity) * sample.opacity;
+        if (sum.object == 0 && sample.object != 0)
+            sum.object = sample.object, sum.depth = sample.depth;
+    }
+    return sum;
+}
+
+}  // namespace
+
+void assemble_layers(const std::vector<LayerRecords>& layers, const LayerSpace& space,
+                     Volume& volume) {
+    Assembly assembly(space, volume.frame);
+    for (const LayerRecords& layer : layers) assembly.add(layer);
+    std::vector<Sample> samples = assembly.take();
+    std::ranges::stable_sort(samples, {}, &Sample::place);
+    for (size_t first = 0, end = 0; first < samples.size(); first = end) {
+        while (end < samples.size() && samples[end].place == samples[first].place) ++end;
+        const Sample voxel = merged(std::span(samples).subspan(first, end - first));
+        volume.places.push_back(voxel.place);
+        volume.colors.emplace_back(voxel.light / voxel.opacity);
+        volume.opacities.push_back(float(voxel.opacity));
+        volume.depths.push_back(voxel.depth);
+        volume.objects.push_back(voxel.object);
+        volume.kinds.push_back(voxel.object == 0 ? VoxelKind::space : VoxelKind::object);
+    }
+}
+
+}  // namespace voxelume

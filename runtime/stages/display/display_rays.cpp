@@ -1,0 +1,169 @@
+#include "runtime/stages/display/display_rays.hpp"
+
+#include <algorithm>
+
+#include "runtime/base/error.hpp"
+#include "runtime/stages/display/display_layers.hpp"
+#include "runtime/stages/trace/sight.hpp"
+
+namespace voxelume {
+namespace {
+
+constexpr uint32_t kSpanComponents = 3;
+constexpr size_t kMostAmounts = 1 << 23;  ///< steps of rays whose density is measured together
+
+uint32_t ray_count(const Sight& sight) {
+    return tile_count(sight.width, sight.height) * 16;
+}
+
+/// Replaces counts by the sums of those before; returns the sum of all.
+uint64_t make_starts(std::vector<uint32_t>& counts) {
+    uint64_t sum = 0;
+    for (uint32_t& count : counts) {
+        const uint32_t here = count;
+        count = uint32_t(sum);
+        sum += here;
+    }
+    return sum;
+}
+
+}  // namespace
+
+VoxelArrays allocate_voxels(const Device& device, uint64_t count) {
+    if (count >= UINT32_MAX)
+        throw Error(ErrorKind::limit,
+                    "this volumetric image has {} voxels, at most {} can be numbered: use larger "
+                    "display voxels, or no medium",
+                    count, UINT32_MAX - 1);
+    const size_t padded = (size_t(count) + 15) / 16 * 16;
+    VoxelArrays voxels;
+    voxels.count = size_t(count);
+    voxels.places = Buffer<uint64_t>(device, "display places", padded);
+    voxels.colors = Buffer<float>(device, "display colors", padded * 3);
+    voxels.opacities = Buffer<float>(device, "display opacities", padded);
+    voxels.depths = Buffer<float>(device, "display depths", padded);
+    voxels.objects = Buffer<uint32_t>(device, "display objects", padded);
+    return voxels;
+}
+
+void read_voxels(const VoxelArrays& voxels, Volume& volume) {
+    volume.places = voxels.places.read(0, voxels.count);
+    volume.opacities = voxels.opacities.read(0, voxels.count);
+    volume.depths = voxels.depths.read(0, voxels.count);
+    volume.objects = voxels.objects.read(0, voxels.count);
+    const std::vector<float> colors = voxels.colors.read(0, voxels.count * 3);
+    volume.colors.resize(voxels.count);
+    volume.kinds.resize(voxels.count);
+    for (size_t i = 0; i < voxels.count; ++i) {
+        volume.colors[i] = {colors[3 * i], colors[3 * i + 1], colors[3 * i + 2]};
+        volume.kinds[i] = volume.objects[i] == 0 ? VoxelKind::space : VoxelKind::object;
+    }
+}
+
+DisplayRayArrays allocate_display_rays(const Device& device, uint32_t rays, bool has_medium) {
+    return {{device, "display steps", rays},
+            {device, "display ray objects", rays},
+            {device, "display ray depths", rays},
+            {device, "display ray colors", size_t(rays) * 3},
+            {device, "display spans", has_medium ? size_t(rays) * kSpanComponents : 0}};
+}
+
+DisplayRaysStage::DisplayRaysStage(const Device& device, const Features& features,
+                                   const Sight& sight, const VolumeFrame& frame,
+                                   const Medium& medium, const Space& space)
+    : device_(device),
+      has_layers_(features.transmission || features.medium_grid),
+      transmission_(features.transmission),
+      sight_(sight),
+      steps_(display_steps(frame, medium)),
+      near_depth_(float(frame.display.near)),
+      space_(space),
+      total_(ray_count(sight)),
+      rays_(allocate_display_rays(device, total_, features.medium)),
+      program_(device, "display_rays.cl", features.defines(device)),
+      measure_(program_.kernel("measure_steps")),
+      layer_(program_.kernel("measure_layer")),
+      density_(program_.kernel("measure_density")),
+      count_(program_.kernel("count_voxels")),
+      place_(program_.kernel("place_voxels")),
+      fill_(program_.kernel("fill_voxels")) {
+    if (!features.medium) steps_.absorption = 0;
+}
+
+void DisplayRaysStage::keep(const PyramidShape& world, const RayBatch& batch, uint32_t first_ray,
+                            uint32_t count) {
+    measure_.launch_packets(count, sight_, world, steps_, batch.rays, batch.hits, batch.positions,
+                            batch.words, batch.radiance, count, batch.stride, first_ray, total_,
+                            rays_.hit_steps, rays_.depths, rays_.objects, rays_.colors,
+                            rays_.spans);
+}
+
+void DisplayRaysStage::keep_layer(const Pyramid& world, const DensityGrid* density,
+                                  const Layer& layer) {
+    const auto& [entries, count, is_first, nodes, first_ray] = layer;
+    if (transmission_ && seen_.size() < size_t(nodes.stride) * 4)
+        seen_ = Buffer<float>(device_, "display layers", size_t(nodes.stride) * 4);
+    const Buffer<uint32_t> words(device_, "display layers", size_t(count) * VXL_LAYER_WORDS);
+    layer_.launch(WorkItem::light, count, sight_, shape_of(world), steps_, uint32_t(is_first),
+                  entries.rays, entries.paths, entries.starts, entries.inside, entries.hits,
+                  entries.positions, entries.words, count, entries.stride, nodes.radiance,
+                  nodes.coverage, nodes.stride, first_ray, seen_, words);
+    LayerRecords records{count, words.read(), {}, {}, {}};
+    if (density) measure_density(world, *density, layer, records);
+    layers_.push_back(std::move(records));
+}
+
+/// A few entries at a time, because a step of a ray has a place whether there is medium or not.
+void DisplayRaysStage::measure_density(const Pyramid& world, const DensityGrid& density,
+                                       const Layer& layer, LayerRecords& records) {
+    const auto steps = size_t(steps_.count);
+    const uint32_t most = std::max(uint32_t(kMostAmounts / steps) / 16, 1u) * 16;
+    Buffer<float> amounts(device_, "display amounts", most * steps);
+    for (uint32_t first = 0; first < layer.count; first += most) {
+        const uint32_t now = std::min(most, layer.count - first);
+        amounts.fill(0);
+        density_.launch_packets(now, sight_, shape_of(world), steps_, density.shape, density.bricks,
+                                density.values, uint32_t(layer.is_first), layer.entries.rays,
+                                layer.entries.starts, layer.entries.inside, layer.entries.hits,
+                                first, now, layer.entries.stride, most, amounts);
+        const std::vector<float> dense = amounts.read();
+        for (uint32_t n = 0; n < now; ++n) {
+            size_t begin = 0, end = steps;
+            while (begin < end && dense[begin * most + n] == 0) ++begin;
+            while (end > begin && dense[(end - 1) * most + n] == 0) --end;
+            records.first_step.push_back(uint32_t(begin));
+            records.first_amount.push_back(records.amounts.size());
+            for (size_t k = begin; k < end; ++k) records.amounts.push_back(dense[k * most + n]);
+        }
+    }
+    records.first_amount.push_back(records.amounts.size());
+}
+
+void DisplayRaysStage::read(Volume& volume) {
+    if (has_layers_)
+        assemble_layers(layers_, {steps_, space_, near_depth_}, volume);
+    else
+        read_voxels(voxels(), volume);
+}
+
+VoxelArrays DisplayRaysStage::voxels() {
+    const uint32_t width = uint32_t(sight_.width), height = uint32_t(sight_.height);
+    Buffer<uint32_t> starts(device_, "display counts", size_t(height) * size_t(steps_.count));
+    starts.fill(0);
+    count_.launch(WorkItem::heavy, height, width, height, steps_, rays_.hit_steps, rays_.spans,
+                  total_, starts);
+    std::vector<uint32_t> counts = starts.read();
+    VoxelArrays voxels = allocate_voxels(device_, make_starts(counts));
+    if (voxels.count == 0) return voxels;
+    starts.write(std::span<const uint32_t>(counts));
+    place_.launch(WorkItem::heavy, height, width, height, steps_, rays_.hit_steps, rays_.spans,
+                  total_, starts, voxels.places, voxels.objects);
+    const uint32_t count = uint32_t(voxels.count);
+    fill_.launch_packets(count, width, height, steps_, near_depth_, space_, voxels.places,
+                         rays_.hit_steps, rays_.depths, rays_.objects, rays_.colors, rays_.spans,
+                         total_, count, voxels.colors, voxels.opacities, voxels.depths,
+                         voxels.objects);
+    return voxels;
+}
+
+}  // namespace voxelume

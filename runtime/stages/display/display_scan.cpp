@@ -1,0 +1,209 @@
+#include "runtime/stages/display/display_scan.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+
+#include "runtime/analysis/object_boxes.hpp"
+#include "runtime/base/error.hpp"
+#include "runtime/opencl/float4.hpp"
+#include "runtime/stages/trace/trace.hpp"
+
+namespace voxelume {
+namespace {
+
+constexpr int kMostParts = 64;
+
+/// Lines have places for many crossings, so fewer of them go together; and where these do not do,
+/// only those few are scanned again.
+constexpr uint32_t kBatchParts = 4;
+
+/// Parts of a display voxel's edge of which none is longer than a voxel of the world.
+int parts_of(double edge, const GridFrame& world) {
+    const glm::dvec3& e = world.voxel_edge;
+    const double parts = std::ceil(edge / std::min({e.x, e.y, e.z}) - 1e-6);
+    return std::clamp(int(parts), 1, kMostParts);
+}
+
+struct LineRange {
+    int first, last;
+};
+
+VoxelBox box_of(const GridFrame& world) {
+    return {glm::dvec3(0), glm::dvec3(world.size)};
+}
+
+/// Around all that the world shows.
+VoxelBox box_of_objects(const Pyramid& world) {
+    if (world.object_boxes.empty()) return box_of(world.frame);
+    VoxelBox all{glm::dvec3(INFINITY), glm::dvec3(-INFINITY)};
+    for (const VoxelBox& box : world.object_boxes) {
+        if (is_empty(box)) continue;
+        all = {glm::min(all.low, box.low - kInfluence), glm::max(all.high, box.high + kInfluence)};
+    }
+    return all;
+}
+
+/// Numbers of the lines that meet a box of the world across one axis of the lattice, which has
+/// `count` parts of a voxel along it; `first` is above `last` where there are none.
+LineRange lines_across(const float4& row, int parts, int count, const VoxelBox& box) {
+    const glm::dvec3 along(row.x, row.y, row.z);
+    double least = double(row.w), most = least;
+    for (int axis = 0; axis < 3; ++axis) {
+        const double low = along[axis] * box.low[axis], high = along[axis] * box.high[axis];
+        least += std::min(low, high);
+        most += std::max(low, high);
+    }
+    // One line more on each side than the floats of `row` may be wrong by.
+    const double slack = 1 + 1e-5 * (std::abs(double(row.w)) + most - least) * parts;
+    const double first = std::floor(least * parts - slack), last = std::ceil(most * parts + slack);
+    return {int(std::clamp(first, 0.0, count + 1.0)), int(std::clamp(last, -1.0, double(count)))};
+}
+
+void check_lines(const Sight& sight, const VolumeFrame& frame) {
+    const double lines = double(sight.width) * double(sight.height);
+    if (lines > double(UINT32_MAX / 2))
+        throw Error(ErrorKind::limit,
+                    "a lattice of {}x{}x{} display voxels is scanned along {:.3g} lines on one of "
+                    "its sides, and 2^31 can be numbered: use fewer display voxels, or a smaller "
+                    "display",
+                    frame.size.x, frame.size.y, frame.size.z, lines);
+}
+
+}  // namespace
+
+ProbePoints allocate_points(const Device& device, uint32_t count) {
+    ProbePoints points;
+    points.count = count;
+    points.total = (count + 15) / 16 * 16;
+    points.coordinates = Buffer<float>(device, "probe points", size_t(points.total) * 3);
+    points.views = Buffer<uint32_t>(device, "probe views", points.total);
+    return points;
+}
+
+Buffer<float> allocate_crossings(const Device& device, uint32_t lines, uint32_t slots) {
+    return {device, "probe crossings", size_t(lines) * slots};
+}
+
+uint32_t scanned_lines(uint32_t rays) {
+    return std::max(rays / 16 / kBatchParts, 1u) * 16;
+}
+
+DisplayScanStage::DisplayScanStage(const Device& device, const Features& features,
+                                   const VolumeFrame& frame, const GridFrame& world)
+    : device_(device),
+      lattice_(display_lattice(frame, world)),
+      families_{family(0, frame, world), family(1, frame, world), family(2, frame, world)},
+      sight_(device, features, families_.front().sight),
+      program_(device, "display_scan.cl", features.defines(device)),
+      scan_(program_.kernel("scan_lines")),
+      pack_(program_.kernel("pack_points")) {}
+
+DisplayScanStage::Family DisplayScanStage::family(int axis, const VolumeFrame& frame,
+                                                  const GridFrame& world) const {
+    const int a = (axis + 1) % 3, b = (axis + 2) % 3;
+    const glm::dmat4& map = frame.world_from_observer;
+    const auto direction = [&](int i) {
+        return glm::dvec3(map[i]) * frame.edge[i] / world.voxel_edge;
+    };
+    Family result{};
+    result.axis = axis;
+    result.parts = {parts_of(frame.edge[a], world), parts_of(frame.edge[b], world)};
+    const std::array rows = {lattice_.row_x, lattice_.row_y, lattice_.row_z};
+    result.row_second = rows[size_t(b)];
+    result.count = frame.size[b] * result.parts.y;
+    const VoxelBox all = box_of(world);
+    const LineRange across_a =
+        lines_across(rows[size_t(a)], result.parts.x, frame.size[a] * result.parts.x, all);
+    const LineRange across_b = lines_across(result.row_second, result.parts.y, result.count, all);
+    result.last = {across_a.last, across_b.last};
+    glm::dvec3 corner = frame.origin;
+    corner[a] += 0.5 * (across_a.first + across_a.last) / result.parts.x * frame.edge[a];
+    corner[b] += 0.5 * (across_b.first + across_b.last) / result.parts.y * frame.edge[b];
+    const glm::dvec3 origin =
+        (glm::dvec3(map * glm::dvec4(corner, 1)) - world.origin) / world.voxel_edge;
+    // A box of parallel rays whose unit of length is a part across, and a lattice voxel along.
+    Sight& sight = result.sight;
+    sight.origin = to_float4(origin);
+    sight.origin_low =
+        to_float4(origin - glm::dvec3(sight.origin.x, sight.origin.y, sight.origin.z));
+    sight.axis_x = to_float4(direction(a) / double(result.parts.x));
+    sight.axis_y = to_float4(direction(b) / double(result.parts.y));
+    sight.axis_z = to_float4(direction(axis));
+    sight.width = std::max(across_a.last - across_a.first + 1, 0);
+    sight.height = std::max(across_b.last - across_b.first + 1, 0);
+    check_lines(sight, frame);
+    sight.half_x = 0.5f * float(sight.width);
+    sight.half_y = 0.5f * float(sight.height);
+    sight.far_plane = float(frame.size[axis]);
+    sight.samples = 1;
+    sight.sample_share = 1;
+    sight.shape = VXL_SHAPE_BOX;
+    result.row = rows[size_t(axis)];
+    return result;
+}
+
+glm::uvec2 DisplayScanStage::rows_across(const Family& family, const VoxelBox& box) {
+    if (is_empty(box)) return glm::uvec2(0);
+    const LineRange lines = lines_across(family.row_second, family.parts.y, family.count, box);
+    // The last line is the first of a picture's rows.
+    const int first = std::max(family.last.y - lines.last, 0);
+    const int last = std::min(family.last.y - lines.first, family.sight.height - 1);
+    if (first > last) return glm::uvec2(0);
+    return {uint32_t(first) / 4, uint32_t(last) / 4 + 1};
+}
+
+ProbePoints DisplayScanStage::scan_batch(const Pyramid& world, const Family& family,
+                                         uint32_t first_line, uint32_t count, RayBatch& batch) {
+    const uint32_t stride = (count + 15) / 16 * 16;
+    std::vector<uint32_t> counts;
+    for (;;) {
+        if (crossings_.size() < size_t(stride) * slots_)
+            crossings_ = allocate_crossings(device_, stride, slots_);
+        if (counts_.size() < stride) counts_ = Buffer<uint32_t>(device_, "probe counts", stride);
+        scan_.launch_packets(count, shape_of(world), world.sectors, world.bricks, world.leaves,
+                             world.leaf_voxels, world.attributes, world.fields,
+                             world.primitive_first, world.primitives, world.triangles, world.solids,
+                             family.row, batch.rays, count, batch.stride, slots_, stride, counts_,
+                             crossings_);
+        counts = counts_.read(0, count);
+        const uint32_t most = *std::ranges::max_element(counts);
+        if (most <= slots_) break;
+        slots_ = std::max(most, 2 * slots_);
+    }
+    std::vector<uint32_t> starts(count);
+    std::exclusive_scan(counts.begin(), counts.end(), starts.begin(), 0u);
+    ProbePoints points = allocate_points(device_, starts.back() + counts.back());
+    if (points.count == 0) return points;
+    points.views.fill(kNoView);
+    const Buffer<uint32_t> places(device_, "probe starts", std::span<const uint32_t>(starts));
+    pack_.launch(WorkItem::light, count, family.axis, uint32_t(family.sight.width), family.last.x,
+                 family.last.y, float(family.parts.x), float(family.parts.y), counts_, places,
+                 crossings_, first_line, count, stride, points.total, points.coordinates);
+    return points;
+}
+
+std::vector<ProbePoints> DisplayScanStage::scan(const Pyramid& world, RayBatch& batch) {
+    std::vector<ProbePoints> pieces;
+    const VoxelBox shown = world.voxel_count == 0 ? VoxelBox{} : box_of_objects(world);
+    const uint32_t batch_tiles = scanned_lines(batch.stride) / 16;
+    for (const Family& family : families_) {
+        const Sight& sight = family.sight;
+        if (sight.width == 0 || sight.height == 0) continue;
+        sight_.look(sight);
+        const glm::uvec2 tiles =
+            rows_across(family, shown) * tile_count(sight.width, 1);  // first, one beyond the last
+        clear_lines_ += 16ull * (tile_count(sight.width, sight.height) - (tiles.y - tiles.x));
+        for (uint32_t first = tiles.x; first < tiles.y; first += batch_tiles) {
+            const uint32_t now = std::min(batch_tiles, tiles.y - first);
+            const uint32_t count = sight_.cast(shape_of(world), first, now, batch);
+            lines_ += count;
+            ProbePoints points = scan_batch(world, family, first * 16, count, batch);
+            if (points.count > 0) pieces.push_back(std::move(points));
+        }
+    }
+    return pieces;
+}
+
+}  // namespace voxelume

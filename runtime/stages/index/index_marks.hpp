@@ -1,0 +1,35 @@
+// The first pass of indexing: which voxels of a grid rays must see.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "runtime/grid/grid.hpp"
+#include "runtime/opencl/program.hpp"
+
+namespace voxelume {
+
+/// What `mark_voxels` found in the bricks.
+struct VoxelMarks {
+    Buffer<uint64_t> masks;           ///< 64 per slot, and room: the leaves' voxels
+    std::vector<uint64_t> leaf_mask;  ///< per slot
+    std::vector<uint32_t> counts;     ///< 2 per slot: voxels, primitives
+    std::vector<uint32_t> slots;      ///< BrickGrid::slots, of marks that are kept
+};
+
+/// What bricks' marks are summed up to, until they are read.
+struct MarkArrays {
+    Buffer<uint64_t> leaf_mask;
+    Buffer<uint32_t> counts;
+};
+MarkArrays allocate_marks(const Device& device, size_t bricks);
+
+/// The marks of all bricks, by the kernels of index.cl that `program` was built from.
+VoxelMarks mark_voxels(const Device& device, const Program& program, const BrickGrid& grid);
+
+/// The same from the marks `before` the bricks at the places `changed` did: a voxel's depend on its
+/// own brick and its neighbours.
+VoxelMarks mark_changed_voxels(const Device& device, const Program& program, const BrickGrid& grid,
+                               const std::vector<uint32_t>& changed, VoxelMarks before);
+
+}  // namespace voxelume

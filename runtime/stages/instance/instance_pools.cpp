@@ -1,0 +1,222 @@
+#include "runtime/stages/instance/instance_pools.hpp"
+
+#include <algorithm>
+
+#include "kernels/shared/solid.h"
+#include "kernels/shared/trace.h"
+#include "kernels/shared/voxel.h"
+#include "runtime/base/error.hpp"
+#include "runtime/grid/sector_table.hpp"
+#include "runtime/opencl/program.hpp"
+
+namespace voxelume {
+namespace {
+
+constexpr uint32_t kWhite = 0xFFFFFF;
+
+/// Sizes of the joined buffers, and during the joining how much of them is full.
+struct Extent {
+    uint64_t sectors = 0, records = 0, leaves = 0, voxels = 0, primitives = 0, triangles = 0,
+             solids = 0;
+
+    void add(const Pyramid& p) {
+        sectors += p.sectors.size();
+        records += p.bricks.size() / kWordsPerRecord;
+        leaves += p.leaf_count;
+        voxels += p.voxel_count;
+        primitives += p.primitives.size();
+        triangles += p.triangles.size() / kFloatsPerTriangle;
+        solids += p.solids.size() / VXL_SOLID_WORDS;
+    }
+};
+
+struct Parts {
+    bool colors = false, fields = false, exact = false;
+};
+
+/// What pyramids are joined to.
+class Total {
+  public:
+    Total(const Pyramid& world, std::span<const ModelPyramid> models) : frame_(world.frame) {
+        add(world);
+        for (const ModelPyramid& model : models) add(model.pyramid);
+    }
+
+    const Parts& parts() const { return parts_; }
+
+    void check_numbers() const {
+        const uint64_t most =
+            std::max({total_.sectors, total_.records, 2 * total_.leaves, total_.voxels,
+                      total_.primitives, total_.triangles * kFloatsPerTriangle,
+                      parts_.fields ? total_.voxels * VXL_FIELD_WORDS : 0});
+        constexpr uint64_t kMostEntries = uint64_t{1} << 31;  // kernels gather by signed indices
+        if (most > kMostEntries)
+            throw Error(ErrorKind::limit,
+                        "this world and the models of its instances need {} entries in one table, "
+                        "at most {} can be numbered: use larger voxels",
+                        most, kMostEntries);
+    }
+
+    Pyramid allocate(const Device& device) const {
+        Pyramid joined;
+        joined.frame = frame_;
+        joined.transparent = transparent_;
+        joined.leaf_count = uint32_t(total_.leaves);
+        joined.voxel_count = uint32_t(total_.voxels);
+        joined.sectors = Buffer<uint32_t>(device, "sectors", total_.sectors);
+        joined.bricks = Buffer<uint32_t>(device, "brick records", total_.records * kWordsPerRecord);
+        joined.leaves = Buffer<uint32_t>(device, "leaves", total_.leaves * 2);
+        joined.leaf_voxels = Buffer<uint32_t>(device, "leaf voxels", total_.leaves);
+        joined.attributes = Buffer<uint32_t>(device, "voxel attributes", total_.voxels);
+        if (parts_.colors) joined.colors = Buffer<uint32_t>(device, "voxel colors", total_.voxels);
+        if (parts_.fields)
+            joined.fields =
+                Buffer<uint32_t>(device, "voxel fields", total_.voxels * VXL_FIELD_WORDS);
+        if (!parts_.exact) return joined;
+        joined.primitive_first = Buffer<uint32_t>(device, "primitive starts", total_.voxels + 1);
+        joined.primitives = Buffer<uint32_t>(device, "primitives", total_.primitives);
+        joined.triangles =
+            Buffer<float>(device, "triangles", total_.triangles * kFloatsPerTriangle);
+        joined.triangle_attributes =
+            Buffer<uint32_t>(device, "triangle attributes", total_.triangles);
+        joined.solids = Buffer<uint32_t>(device, "solids", total_.solids * VXL_SOLID_WORDS);
+        return joined;
+    }
+
+  private:
+    void add(const Pyramid& p) {
+        total_.add(p);
+        parts_.colors |= !p.colors.empty();
+        parts_.fields |= !p.fields.empty();
+        parts_.exact |= !p.primitive_first.empty();
+        transparent_ |= p.transparent;
+    }
+
+    GridFrame frame_;
+    Extent total_;
+    Parts parts_;
+    bool transparent_ = false;
+};
+
+class Joiner {
+  public:
+    Joiner(const Device& device, const Total& total)
+        : program_(device, "instances.cl", {}),
+          parts_(total.parts()),
+          joined_(total.allocate(device)) {}
+
+    void append(const Pyramid& p) {
+        const auto first_block = uint32_t(full_.records / kRecordsPerSector);
+        numbers(p.sectors, full_.sectors, first_block, kEmptyCube, joined_.sectors);
+        program_.kernel("append_bricks")
+            .launch(WorkItem::light, p.bricks.size() / kWordsPerRecord,
+                    uint32_t(p.bricks.size() / kWordsPerRecord), uint32_t(full_.records),
+                    uint32_t(full_.leaves), p.bricks, joined_.bricks);
+        words(p.leaves, 2 * full_.leaves, joined_.leaves);
+        numbers(p.leaf_voxels, full_.leaves, uint32_t(full_.voxels), 0, joined_.leaf_voxels);
+        append_voxels(p);
+        append_primitives(p);
+        full_.add(p);
+    }
+
+    void append_model(const ModelPyramid& model) {
+        joined_.instances.models.push_back({.frame = model.pyramid.frame,
+                                            .first_sector = uint32_t(full_.sectors),
+                                            .low = model.low,
+                                            .high = model.high});
+        append(model.pyramid);
+    }
+
+    Pyramid take() {
+        if (parts_.exact) {
+            const auto end = uint32_t(full_.primitives);
+            joined_.primitive_first.write(std::span(&end, 1), full_.voxels);
+        }
+        return std::move(joined_);
+    }
+
+  private:
+    template <class T>
+    void words(const Buffer<T>& from, uint64_t start, const Buffer<T>& to) {
+        program_.kernel("append_words")
+            .launch(WorkItem::light, from.size(), uint32_t(from.size()), uint32_t(start), from, to);
+    }
+
+    void copies(uint64_t count, uint64_t start, uint32_t word, const Buffer<uint32_t>& to) {
+        program_.kernel("append_copies")
+            .launch(WorkItem::light, count, uint32_t(count), uint32_t(start), word, to);
+    }
+
+    void numbers(const Buffer<uint32_t>& from, uint64_t start, uint32_t first, uint32_t kept,
+                 const Buffer<uint32_t>& to) {
+        program_.kernel("append_numbers")
+            .launch(WorkItem::light, from.size(), uint32_t(from.size()), uint32_t(start), first,
+                    kept, from, to);
+    }
+
+    void append_voxels(const Pyramid& p) {
+        if (p.attributes.empty())
+            copies(p.voxel_count, full_.voxels, p.attribute, joined_.attributes);
+        else
+            words(p.attributes, full_.voxels, joined_.attributes);
+        if (!p.colors.empty())
+            words(p.colors, full_.voxels, joined_.colors);
+        else if (parts_.colors)
+            copies(p.voxel_count, full_.voxels, kWhite, joined_.colors);
+        // An exact voxel has a field, too, where a smooth surface shares it; zeros stand for none.
+        if (!p.fields.empty())
+            words(p.fields, full_.voxels * VXL_FIELD_WORDS, joined_.fields);
+        else if (parts_.fields)
+            copies(uint64_t(p.voxel_count) * VXL_FIELD_WORDS, full_.voxels * VXL_FIELD_WORDS, 0,
+                   joined_.fields);
+        if (p.primitive_first.empty()) {
+            if (parts_.exact)
+                copies(p.voxel_count, full_.voxels, uint32_t(full_.primitives),
+                       joined_.primitive_first);
+            return;
+        }
+        // The list's end is where the next one starts.
+        program_.kernel("append_numbers")
+            .launch(WorkItem::light, p.voxel_count, p.voxel_count, uint32_t(full_.voxels),
+                    uint32_t(full_.primitives), 0u, p.primitive_first, joined_.primitive_first);
+    }
+
+    void append_primitives(const Pyramid& p) {
+        if (p.primitive_first.empty()) return;
+        program_.kernel("append_primitives")
+            .launch(WorkItem::light, p.primitives.size(), uint32_t(p.primitives.size()),
+                    uint32_t(full_.primitives), uint32_t(full_.triangles), uint32_t(full_.solids),
+                    p.primitives, joined_.primitives);
+        words(p.triangles, full_.triangles * kFloatsPerTriangle, joined_.triangles);
+        if (p.triangle_attributes.empty())
+            copies(p.triangles.size() / kFloatsPerTriangle, full_.triangles,
+                   VXL_KIND_EXACT << VXL_KIND_SHIFT, joined_.triangle_attributes);
+        else
+            words(p.triangle_attributes, full_.triangles, joined_.triangle_attributes);
+        words(p.solids, full_.solids * VXL_SOLID_WORDS, joined_.solids);
+    }
+
+    Program program_;
+    Parts parts_;
+    Pyramid joined_;
+    Extent full_;
+};
+
+}  // namespace
+
+Pyramid allocate_joined(const Device& device, const Pyramid& world,
+                        std::span<const ModelPyramid> models) {
+    return Total(world, models).allocate(device);
+}
+
+Pyramid join_models(const Device& device, const Pyramid& world,
+                    std::span<const ModelPyramid> models) {
+    const Total total(world, models);
+    total.check_numbers();
+    Joiner joiner(device, total);
+    joiner.append(world);
+    for (const ModelPyramid& model : models) joiner.append_model(model);
+    return joiner.take();
+}
+
+}  // namespace voxelume

@@ -1,0 +1,23 @@
+// pyramids of models -> behind the world's: the voxels that instances share.
+#pragma once
+
+#include <span>
+
+#include "runtime/grid/grid.hpp"
+#include "runtime/opencl/device.hpp"
+#include "runtime/stages/instance/instance_model.hpp"
+
+namespace voxelume {
+
+/// The buffers of the joined pyramid.
+Pyramid allocate_joined(const Device& device, const Pyramid& world,
+                        std::span<const ModelPyramid> models);
+
+/// The world's pyramid with the models' behind it in every buffer, and no instances yet.
+///
+/// The models' words have the kind of each voxel or primitive, and its group as the material.
+/// Throws Error::limit for more voxels or primitives than can be numbered, or too little memory.
+Pyramid join_models(const Device& device, const Pyramid& world,
+                    std::span<const ModelPyramid> models);
+
+}  // namespace voxelume

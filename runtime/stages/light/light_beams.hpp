@@ -1,0 +1,52 @@
+// a light -> beams: how far from it the world is empty.
+#pragma once
+
+#include "runtime/stages/trace/beam.hpp"
+
+namespace voxelume {
+
+/// The grid of a light's beams through a world of `size` voxels, as narrow as a halo asks for whose
+/// voxels are 1 / `scale` of the world's. Without columns where no axis tells the light from the
+/// world, beams would be too oblique, or more than `most` of them needed.
+BeamGrid beam_grid(const LightRecord& light, const glm::ivec3& size, float scale, uint32_t most);
+
+/// The grids of several lights, which have `together` beams at most.
+std::vector<BeamGrid> beam_grids(std::span<const LightRecord> lights, const glm::ivec3& size,
+                                 float scale, uint32_t most, uint32_t together);
+/// What a grid's beams are kept in.
+Buffer<float> allocate_light_beams(const Device& device, const BeamGrid& grid);
+
+/// Whether two grids of one halo have the same beams.
+bool same_beams(const BeamGrid& a, const BeamGrid& b);
+
+/// How many beams of one light save more than they cost where a picture's pixels are so wide and
+/// there are so many sight rays in all: one for every 16 that may meet the world, and no more than
+/// a grid may have whose light isn't close by.
+uint32_t light_beams_that_pay(const GridFrame& world, uint64_t rays, int samples,
+                              double voxels_a_pixel);
+
+/// `send_light_beams` of light_beams.cl. Beams change how long shadow rays take, never what they
+/// meet.
+class LightBeamStage {
+  public:
+    /// `halo` is the pyramid's.
+    LightBeamStage(const Device& device, const Features& features, const Pyramid& pyramid,
+                   Halo halo);
+
+    /// Sends the beams of a grid with columns that pass sectors with voxels, where shadow rays
+    /// begin; how far they come.
+    Buffer<float> send(const BeamGrid& grid);
+
+    uint64_t sent() const { return sent_; }
+
+  private:
+    Device device_;
+    glm::dvec3 size_;  // of the world, voxels
+    PyramidShape shape_;
+    Halo halo_;
+    uint64_t sent_ = 0;
+    Program program_;
+    Kernel send_;
+};
+
+}  // namespace voxelume

@@ -1,0 +1,93 @@
+#include "runtime/stages/light/shade.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "runtime/opencl/float4.hpp"
+#include "runtime/stages/trace/trace.hpp"
+
+namespace voxelume {
+namespace {
+
+void copy(const glm::vec3& from, float (&to)[3]) {
+    for (int i = 0; i < 3; ++i) to[i] = from[i];
+}
+
+std::vector<MaterialRecord> material_records(const Scene& scene, const GridFrame& world) {
+    std::vector<MaterialRecord> records;
+    for (const Material& material : scene.materials)
+        records.push_back(material_record(material, world));
+    return records;
+}
+
+void set_checker(const Checker& checker, const GridFrame& world, MaterialRecord& record) {
+    copy(checker.color, record.checker_color);
+    for (int a = 0; a < 3; ++a) {
+        if (checker.size[a] == 0) continue;
+        record.checker_scale[a] = float(world.voxel_edge[a] / checker.size[a]);
+        // Two blocks make a period: far from the origin a float would round whole blocks off.
+        const double shift = (world.origin[a] - checker.origin[a]) / checker.size[a];
+        record.checker_shift[a] = float(std::fmod(shift, 2.0));
+    }
+}
+
+/// The objects' places when they are ordered by priority, of equals the earlier first.
+std::vector<uint32_t> object_ranks(const std::vector<Object>& objects) {
+    std::vector<uint32_t> order(objects.size());
+    std::iota(order.begin(), order.end(), 0u);
+    std::ranges::stable_sort(
+        order, [&](uint32_t a, uint32_t b) { return objects[a].priority > objects[b].priority; });
+    std::vector<uint32_t> ranks(objects.size());
+    for (uint32_t rank = 0; rank < order.size(); ++rank) ranks[order[rank]] = rank;
+    return ranks;
+}
+
+}  // namespace
+
+MaterialRecord material_record(const Material& material, const GridFrame& world) {
+    MaterialRecord record{};
+    copy(material.color, record.color);
+    copy(material.absorption, record.absorption);
+    copy(material.emission, record.emission);
+    record.diffuse = material.diffuse;
+    record.specular = material.specular;
+    record.shininess = material.shininess;
+    record.reflection = material.reflection;
+    record.refraction = material.refraction;
+    record.ior = material.ior;
+    record.opacity = material.opacity;
+    record.fresnel = material.fresnel ? 1.0f : 0.0f;
+    copy(material.color, record.checker_color);
+    if (material.checker) set_checker(*material.checker, world, record);
+    return record;
+}
+
+Space space_of(const World& world) {
+    return {to_float4(glm::dvec3(world.background)), to_float4(glm::dvec3(world.ambient)),
+            to_float4(glm::dvec3(world.medium.absorption)),
+            to_float4(glm::dvec3(world.medium.color))};
+}
+
+ShadeStage::ShadeStage(const Device& device, const Features& features, const Scene& scene,
+                       const GridFrame& world)
+    : space_(space_of(scene.world)),
+      materials_(device, "materials",
+                 std::span<const MaterialRecord>(material_records(scene, world))),
+      program_(device, "shade.cl", features.defines(device)),
+      surface_(program_.kernel("shade_surface")) {
+    if (features.paths)
+        ranks_ = Buffer<uint32_t>(device, "ranks",
+                                  std::span<const uint32_t>(object_ranks(scene.objects)));
+}
+
+void ShadeStage::surface(const Pyramid& pyramid, RayBatch& batch, uint32_t count) {
+    surface_.launch_packets(count, shape_of(pyramid), space_, materials_, pyramid.attributes,
+                            pyramid.attribute, pyramid.colors, pyramid.fields, pyramid.triangles,
+                            pyramid.triangle_attributes, pyramid.solids, pyramid.instances.records,
+                            pyramid.instances.materials, ranks_, batch.rays, batch.hits,
+                            batch.paths, count, batch.stride, batch.positions, batch.normals,
+                            batch.words, batch.sides, batch.radiance);
+}
+
+}  // namespace voxelume

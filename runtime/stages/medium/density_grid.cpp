@@ -1,0 +1,220 @@
+#include "runtime/stages/medium/density_grid.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <map>
+
+#include "runtime/assets/density_field.hpp"
+#include "runtime/assets/model_frame.hpp"
+#include "runtime/base/error.hpp"
+
+namespace voxelume {
+namespace {
+
+constexpr size_t kBrickCells = 4096;
+/// A cell's place, slot * 4096 + cell, is a 32-bit number.
+constexpr double kMostSlots = 1 << 20;
+/// Every voxel of a world along one axis: an axis along which nothing changes is one cell.
+constexpr int kWholeAxis = 16;
+/// Bricks sampled before they are written to the device together.
+constexpr size_t kBricksAtOnce = 64;
+
+/// The densities of a world's voxels, brick by brick, in main memory.
+class DensityLattice {
+  public:
+    explicit DensityLattice(const World& world)
+        : field_(density_field(world.medium)), frame_(world_frame(world)) {
+        if (field_->is_layered()) {
+            shift_ = {kWholeAxis, 0, kWholeAxis};
+            frame_.voxel_edge *= glm::dvec3(frame_.size.x, 1, frame_.size.z);
+            frame_.size = {1, frame_.size.y, 1};
+        }
+        bricks_ = (frame_.size + kBrickSize - 1) / kBrickSize;
+    }
+
+    const glm::ivec3& bricks() const { return bricks_; }
+    const glm::ivec3& shift() const { return shift_; }
+    size_t brick_count() const { return size_t(bricks_.x) * bricks_.y * bricks_.z; }
+    double field_bytes() const { return field_->bytes(); }
+    bool is_zero() const {
+        if (field_->is_zero()) return true;
+        for (size_t number = 0; number < brick_count(); ++number)
+            if (constant_in(number) != 0.0f) return false;
+        return true;
+    }
+
+    std::optional<float> constant_in(size_t number) const {
+        const glm::dvec3 first = first_center(number);
+        return field_->constant_in({first, first + frame_.voxel_edge * double(kBrickSize - 1)});
+    }
+    void sample(size_t number, std::span<float, kBrickCells> densities) const {
+        field_->sample(first_center(number), frame_.voxel_edge, densities);
+    }
+
+  private:
+    glm::dvec3 first_center(size_t number) const {
+        const glm::ivec3 brick(number % bricks_.x, number / bricks_.x % bricks_.y,
+                               number / bricks_.x / bricks_.y);
+        return frame_.origin + frame_.voxel_edge * (glm::dvec3(brick * kBrickSize) + 0.5);
+    }
+
+    std::unique_ptr<DensityField> field_;
+    GridFrame frame_;
+    glm::ivec3 bricks_{0}, shift_{0};
+};
+
+/// Numbers the different constant densities.
+class ConstantTable {
+  public:
+    uint32_t word(float density) {
+        const auto place = uint32_t(values_.size());
+        const auto [entry, added] = places_.try_emplace(std::bit_cast<uint32_t>(density), place);
+        if (added) values_.push_back(density);
+        return VXL_DENSITY_CONSTANT | 4u << VXL_DENSITY_SIZE_SHIFT | entry->second;
+    }
+    const std::vector<float>& values() const { return values_; }
+
+  private:
+    std::map<uint32_t, uint32_t> places_;
+    std::vector<float> values_;
+};
+
+/// Slots that a lattice needs: for bricks, and before them for the constants, of which every brick
+/// may turn out to be another.
+struct SlotCount {
+    size_t constants = 0, bricks = 0;
+
+    size_t total() const { return constants + bricks; }
+};
+
+SlotCount count_slots(const DensityLattice& lattice) {
+    SlotCount slots;
+    ConstantTable constants;
+    for (size_t number = 0; number < lattice.brick_count(); ++number) {
+        if (const auto density = lattice.constant_in(number))
+            constants.word(*density);
+        else
+            ++slots.bricks;
+    }
+    slots.constants = (constants.values().size() + slots.bricks + kBrickCells - 1) / kBrickCells;
+    return slots;
+}
+
+/// Gives the bricks of aligned cubes of `edge` bricks that all have one word a new size.
+void join_constants(std::vector<uint32_t>& words, const glm::ivec3& bricks, int edge,
+                    uint32_t log2_size) {
+    const auto at = [&](int x, int y, int z) -> uint32_t& {
+        return words[(size_t(z) * bricks.y + y) * bricks.x + x];
+    };
+    for (int z = 0; z < bricks.z; z += edge)
+        for (int y = 0; y < bricks.y; y += edge)
+            for (int x = 0; x < bricks.x; x += edge) {
+                const glm::ivec3 end = glm::min(glm::ivec3(x, y, z) + edge, bricks);
+                const auto for_each = [&](const auto& action) {
+                    for (int k = z; k < end.z; ++k)
+                        for (int j = y; j < end.y; ++j)
+                            for (int i = x; i < end.x; ++i) action(at(i, j, k));
+                };
+                const uint32_t word = at(x, y, z);
+                bool one = (word & VXL_DENSITY_CONSTANT) != 0;
+                for_each([&](uint32_t other) { one &= other == word; });
+                const uint32_t joined = VXL_DENSITY_CONSTANT | log2_size << VXL_DENSITY_SIZE_SHIFT |
+                                        (word & VXL_DENSITY_PLACE);
+                if (one) for_each([&](uint32_t& other) { other = joined; });
+            }
+}
+
+/// Samples bricks and writes those that vary to their slots.
+class BrickWriter {
+  public:
+    BrickWriter(const DensityLattice& lattice, ConstantTable& constants, size_t first_slot,
+                Buffer<float>& values)
+        : lattice_(lattice), constants_(constants), next_slot_(first_slot), values_(values) {}
+
+    /// The word of a brick.
+    uint32_t add(size_t number) {
+        if (const auto density = lattice_.constant_in(number)) return constants_.word(*density);
+        waiting_.resize(waiting_.size() + kBrickCells);
+        const std::span<float, kBrickCells> cells(waiting_.end() - kBrickCells, kBrickCells);
+        lattice_.sample(number, cells);
+        if (std::ranges::all_of(cells, [&](float value) { return value == cells.front(); })) {
+            const float density = cells.front();
+            waiting_.resize(waiting_.size() - kBrickCells);
+            return constants_.word(density);
+        }
+        const auto slot = uint32_t(next_slot_ + waiting_.size() / kBrickCells - 1);
+        if (waiting_.size() == kBricksAtOnce * kBrickCells) write();
+        return slot;
+    }
+
+    void write() {
+        values_.write(waiting_, next_slot_ * kBrickCells);
+        next_slot_ += waiting_.size() / kBrickCells;
+        waiting_.clear();
+    }
+
+  private:
+    const DensityLattice& lattice_;
+    ConstantTable& constants_;
+    size_t next_slot_;
+    Buffer<float>& values_;
+    std::vector<float> waiting_;
+};
+
+}  // namespace
+
+bool has_no_medium(const World& world) {
+    return has_density(world.medium) && DensityLattice(world).is_zero();
+}
+
+DensityPlan plan_density(const World& world) {
+    if (!has_density(world.medium) || world.medium.absorption == glm::vec3(0)) return {};
+    const DensityLattice lattice(world);
+    if (lattice.is_zero()) return {.is_zero = true};
+    const SlotCount slots = count_slots(lattice);
+    if (double(slots.total()) > kMostSlots)
+        throw Error(ErrorKind::limit,
+                    "{}.medium: the density differs in more than 2^20 bricks of 16x16x16 voxels: "
+                    "use larger voxels",
+                    world.where);
+    const Device counting = Device::counting({});
+    const DensityGrid grid = allocate_density(counting, slots.total(), lattice.brick_count());
+    const DeviceCounters& counters = counting.counters();
+    return {lattice.bricks(),
+            false,
+            slots.total(),
+            lattice.brick_count(),
+            double(slots.bricks),
+            double(counters.largest_bytes),
+            double(counters.bytes_in_use),
+            double(lattice.brick_count() * sizeof(uint32_t)) + lattice.field_bytes() +
+                double(kBricksAtOnce * kBrickCells) * sizeof(float)};
+}
+
+DensityGrid allocate_density(const Device& device, size_t slots, size_t bricks) {
+    DensityGrid grid;
+    grid.values = Buffer<float>(device, "medium densities", slots * kBrickCells);
+    grid.bricks = Buffer<uint32_t>(device, "medium bricks", bricks);
+    return grid;
+}
+
+DensityGrid form_density_grid(const Device& device, const World& world) {
+    const DensityLattice lattice(world);
+    const SlotCount slots = count_slots(lattice);
+    DensityGrid grid = allocate_density(device, slots.total(), lattice.brick_count());
+    ConstantTable constants;
+    BrickWriter writer(lattice, constants, slots.constants, grid.values);
+    std::vector<uint32_t> words(lattice.brick_count());
+    for (size_t number = 0; number < words.size(); ++number) words[number] = writer.add(number);
+    writer.write();
+    grid.values.write(constants.values());
+    join_constants(words, lattice.bricks(), 4, 6);
+    join_constants(words, lattice.bricks(), 16, 8);
+    grid.bricks.write(words);
+    const glm::ivec3 &bricks = lattice.bricks(), &shift = lattice.shift();
+    grid.shape = {bricks.x, bricks.y, shift.x, shift.y, shift.z, {}};
+    return grid;
+}
+
+}  // namespace voxelume

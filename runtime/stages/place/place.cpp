@@ -1,0 +1,256 @@
+#include "runtime/stages/place/place.hpp"
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+#include <optional>
+
+#include "kernels/shared/voxel.h"
+#include "runtime/base/error.hpp"
+#include "runtime/stages/brick_arrays.hpp"
+#include "runtime/stages/place/place_exact.hpp"
+#include "runtime/stages/place/place_painter.hpp"
+#include "runtime/stages/place/world_bricks.hpp"
+
+namespace voxelume {
+namespace {
+
+void check_object(const PlacedObject& object, const GridFrame& world) {
+    if (object.in_world_frame && object.grid->frame != world)
+        throw Error(ErrorKind::scene,
+                    "object {}: its voxels have another frame than the world that they were made "
+                    "for: voxelize it in the world's frame",
+                    object.object);
+    if (!object.in_world_frame && surface_of(*object.grid) == Surface::exact)
+        throw Error(ErrorKind::scene,
+                    "object {}: an exact surface can't be resampled: voxelize it in the world's "
+                    "frame",
+                    object.object);
+    if (object.object > VXL_OBJECT_MASK)
+        throw Error(ErrorKind::limit, "object {}: a world holds at most {} objects", object.object,
+                    VXL_OBJECT_MASK + 1);
+}
+
+/// The objects with the loser of every overlap before its winner.
+std::vector<const PlacedObject*> painting_order(std::span<const PlacedObject> objects) {
+    std::vector<const PlacedObject*> order;
+    for (size_t i = objects.size(); i-- > 0;) order.push_back(&objects[i]);
+    std::ranges::stable_sort(order, {}, &PlacedObject::priority);
+    return order;
+}
+
+/// A world that is its only object: its buffers, with its word.
+bool is_only_object(std::span<const PlacedObject> objects, const WorldParts& parts) {
+    return objects.size() == 1 && objects[0].in_world_frame && !parts.has_words() &&
+           !objects[0].keeps_inside && surface_of(*objects[0].grid) != Surface::exact;
+}
+
+}  // namespace
+
+/// Objects placed, and their world.
+class Placer::State {
+  public:
+    State(const Device& device, const GridFrame& frame) : device_(device) { world_.frame = frame; }
+
+    bool continues_with(const GridFrame& frame) const { return bricks_ && frame == world_.frame; }
+
+    /// An object's own buffers are all of the world, which the next call begins afresh.
+    void share(const PlacedObject& object, const WorldParts& parts) {
+        world_ = *object.grid;
+        world_.attributes = {};
+        world_.attribute = *parts.words.begin();
+    }
+
+    void place(std::span<const PlacedObject> objects, const WorldParts& parts) {
+        follow(parts);
+        std::map<uint32_t, Painter> left = std::exchange(painters_, {});
+        std::vector<Painter*> changed;
+        take_painters(objects, left, changed);
+        for (auto& [number, painter] : left) changed.push_back(&painter);
+        if (bricks_ && changed.empty()) {
+            changed_.emplace();
+            painted_ = 0;
+            return;
+        }
+        paint(objects, store_bricks(changed));
+        join_exact_surfaces(device_, objects, world_);
+    }
+
+    const BrickGrid& world() const { return world_; }
+    uint32_t painted() const { return painted_; }
+    const std::vector<uint32_t>* changed() const { return changed_ ? &*changed_ : nullptr; }
+
+  private:
+    /// Stores what the objects of now need, and nothing else. What no object has had yet is the
+    /// same in every brick, so none is painted for that.
+    void follow(const WorldParts& parts) {
+        const bool is_stored_anew = bricks_ && !parts.is_stored_like(parts_);
+        parts_ = parts;
+        if (!is_stored_anew) return;
+        bricks_->store_like(parts);
+        for (auto& [number, painter] : painters_) painter.follow(device_, parts);
+    }
+
+    /// Painters for the objects, those that didn't change from `left`.
+    void take_painters(std::span<const PlacedObject> objects, std::map<uint32_t, Painter>& left,
+                       std::vector<Painter*>& changed) {
+        std::map<const BrickGrid*, const Painter*> of_grid;
+        for (const auto& [number, painter] : left) of_grid[painter.object().grid] = &painter;
+        for (const PlacedObject& object : objects) {
+            const auto before = left.find(object.object);
+            if (before != left.end() && before->second.object() == object) {
+                painters_.insert(left.extract(before));
+                continue;
+            }
+            const Painter*& same_grid = of_grid[object.grid];
+            const auto added = painters_.try_emplace(object.object, device_, object, world_.frame,
+                                                     parts_, same_grid);
+            same_grid = &added.first->second;
+            changed.push_back(&added.first->second);
+        }
+    }
+
+    /// Calls `visit` with each brick of a box.
+    template <class Visit>
+    void for_each_brick(const BrickBox& box, Visit&& visit) const {
+        const glm::ivec3 table = world_.frame.bricks();
+        for (int z = box.first.z; z <= box.last.z; ++z)
+            for (int y = box.first.y; y <= box.last.y; ++y)
+                for (int x = box.first.x; x <= box.last.x; ++x)
+                    visit(uint32_t(x) +
+                          uint32_t(table.x) * (uint32_t(y) + uint32_t(table.y) * uint32_t(z)));
+    }
+
+    /// The states that objects give to the world's bricks, in all or only those `asked` for.
+    template <class Painters>
+    std::vector<uint8_t> states(Painters&& painters, const std::vector<bool>& asked) {
+        const glm::ivec3 table = world_.frame.bricks();
+        const auto count = uint32_t(table.x) * uint32_t(table.y) * uint32_t(table.z);
+        Buffer<uint8_t> states(device_, "brick states", count);
+        states.fill(0);
+        for (Painter* painter : painters) {
+            std::vector<uint32_t> listed;
+            for_each_brick(painter->bricks(), [&](uint32_t brick) {
+                if (asked.empty() || asked[brick]) listed.push_back(brick);
+            });
+            if (listed.size() == count)
+                painter->classify(world_.frame, count, {}, states);
+            else if (!listed.empty())
+                painter->classify(world_.frame, uint32_t(listed.size()),
+                                  Buffer<uint32_t>(device_, "listed bricks", listed), states);
+        }
+        return states.read();
+    }
+
+    std::vector<Painter*> all_painters() {
+        std::vector<Painter*> all;
+        for (auto& [number, painter] : painters_) all.push_back(&painter);
+        return all;
+    }
+
+    /// Stores the bricks that the objects need, and returns those to paint: in which a painter that
+    /// changed has a part, or had one.
+    std::vector<uint32_t> store_bricks(const std::vector<Painter*>& changed) {
+        if (!bricks_) {
+            bricks_.emplace(device_, parts_, world_);
+            changed_.reset();
+            const std::vector<uint8_t> found = states(all_painters(), {});
+            std::vector<uint32_t> bricks(found.size());
+            std::iota(bricks.begin(), bricks.end(), 0u);
+            return bricks_->store(bricks, found);
+        }
+        changed_.emplace();
+        if (changed.empty()) return {};
+        const std::vector<uint8_t> reached = states(changed, {});
+        std::vector<bool> asked(reached.size());
+        for (uint32_t brick = 0; brick < reached.size(); ++brick) {
+            if (reached[brick] == 0) continue;
+            asked[brick] = true;
+            changed_->push_back(brick);
+        }
+        return bricks_->store(*changed_, states(all_painters(), asked));
+    }
+
+    /// Where each of the world's bricks is in the list of those painted, or kBrickOutside.
+    struct Painting {
+        std::vector<uint32_t> places;
+        Buffer<int16_t> nearest;
+    };
+
+    PaintedBricks painted_bricks(const Painting& painting, const BrickBox& box) {
+        std::vector<uint32_t> slots;
+        for_each_brick(box, [&](uint32_t brick) {
+            if (painting.places[brick] == kBrickOutside) return;
+            slots.push_back(bricks_->slot(brick));
+            slots.push_back(painting.places[brick]);
+        });
+        return {uint32_t(slots.size() / 2), Buffer<uint32_t>(device_, "painted bricks", slots),
+                painting.nearest};
+    }
+
+    void paint(std::span<const PlacedObject> objects, const std::vector<uint32_t>& bricks) {
+        painted_ = uint32_t(bricks.size());
+        world_.transparent = parts_.transparent;
+        world_.attribute = parts_.words.size() == 1 ? *parts_.words.begin() : 0;
+        if (bricks.empty()) return;
+        bricks_->clear(bricks);
+        Painting painting;
+        const glm::ivec3 table = world_.frame.bricks();
+        painting.places.assign(size_t(table.x) * size_t(table.y) * size_t(table.z), kBrickOutside);
+        for (uint32_t place = 0; place < painted_; ++place) painting.places[bricks[place]] = place;
+        if (parts_.measures_nearest()) {
+            painting.nearest = allocate_distances(device_, "nearest surfaces", painted_);
+            painting.nearest.fill(32767);
+        }
+        Painter* smooth = nullptr;
+        for (const PlacedObject* object : painting_order(objects)) {
+            Painter& painter = painters_.at(object->object);
+            painter.paint(painted_bricks(painting, painter.bricks()), world_);
+            if (painter.surface() == Surface::smooth) smooth = &painter;
+        }
+        if (smooth)
+            smooth->close_distances(painted_bricks(painting, {glm::ivec3(0), table - 1}), world_);
+    }
+
+    Device device_;
+    BrickGrid world_;
+    WorldParts parts_;
+    std::optional<WorldBricks> bricks_;     ///< none before the first placing
+    std::map<uint32_t, Painter> painters_;  ///< by their objects' numbers
+    std::optional<std::vector<uint32_t>> changed_;
+    uint32_t painted_ = 0;
+};
+
+Placer::Placer(const Device& device) : device_(device) {}
+Placer::~Placer() = default;
+
+const BrickGrid& Placer::place(std::span<const PlacedObject> objects, const GridFrame& world) {
+    for (const PlacedObject& object : objects) check_object(object, world);
+    const WorldParts parts = parts_of(objects);
+    std::unique_ptr<State> state = std::move(state_);
+    if (is_only_object(objects, parts)) {
+        state = std::make_unique<State>(device_, world);
+        state->share(objects[0], parts);
+    } else {
+        if (!state || !state->continues_with(world))
+            state = std::make_unique<State>(device_, world);
+        state->place(objects, parts);
+    }
+    state_ = std::move(state);
+    return state_->world();
+}
+
+uint32_t Placer::painted_bricks() const {
+    return state_ ? state_->painted() : 0;
+}
+
+const std::vector<uint32_t>* Placer::changed_bricks() const {
+    return state_ ? state_->changed() : nullptr;
+}
+
+BrickGrid place(const Device& device, std::span<const PlacedObject> objects,
+                const GridFrame& world) {
+    return Placer(device).place(objects, world);
+}
+
+}  // namespace voxelume

@@ -1,0 +1,124 @@
+#include "runtime/stages/place/place_exact.hpp"
+
+#include "kernels/shared/solid.h"
+#include "runtime/base/error.hpp"
+#include "runtime/opencl/program.hpp"
+#include "runtime/stages/brick_arrays.hpp"
+#include "runtime/stages/place/placement_words.hpp"
+
+namespace voxelume {
+namespace {
+
+Program program_for(const Device& device, const BrickGrid& grid) {
+    return Program(
+        device, "place_exact.cl",
+        {{"VXL_OBJECT_ATTRIBUTES", !grid.triangle_attributes.empty()}, {"VXL_OBJECT_COLORS", 0}});
+}
+
+/// Lengths of all voxels' lists.
+Buffer<uint32_t> count_primitives(const Device& device, const Program& program,
+                                  std::span<const PlacedObject* const> objects,
+                                  const BrickGrid& world) {
+    Buffer<uint32_t> counts = allocate_words(device, "primitive counts", world.brick_count);
+    counts.fill(0);
+    for (const PlacedObject* object : objects)
+        program.kernel("count_primitives")
+            .launch(WorkItem::heavy, world.brick_count, world.brick_count, world.coordinates,
+                    object->grid->slots, object->grid->primitive_first, counts);
+    return counts;
+}
+
+/// Starts every voxel's list; `counts` becomes the lists' ends so far.
+void start_lists(const Device& device, const Program& program, const Buffer<uint32_t>& counts,
+                 BrickGrid& world) {
+    Buffer<uint32_t> sums(device, "primitive sums", world.brick_count);
+    program.kernel("sum_counts")
+        .launch(WorkItem::heavy, world.brick_count, world.brick_count, counts, sums);
+    std::vector<uint32_t> starts = sums.read();
+    uint64_t total = 0;
+    for (uint32_t& start : starts) {
+        const uint32_t sum = start;
+        start = static_cast<uint32_t>(total);
+        total += sum;
+    }
+    if (total > UINT32_MAX)
+        throw Error(ErrorKind::limit,
+                    "the world's exact surfaces need {} list entries, at most {} can be numbered: "
+                    "use larger voxels",
+                    total, UINT32_MAX);
+    const auto end = static_cast<uint32_t>(total);
+    const size_t voxels = size_t(world.brick_count) * 4096;
+    world.primitives = Buffer<uint32_t>(device, "world primitives", total);
+    world.primitive_first =
+        allocate_list_starts(device, "world primitive starts", world.brick_count);
+    world.primitive_first.write(std::span(&end, 1), voxels);
+    program.kernel("start_lists")
+        .launch(WorkItem::heavy, world.brick_count, world.brick_count,
+                Buffer<uint32_t>(device, "brick starts", starts), counts, world.primitive_first);
+}
+
+/// Words of triangles and shapes in the buffers joined so far.
+struct Joined {
+    uint32_t triangles = 0, solid_records = 0;
+};
+
+void append_object(const Device& device, const PlacedObject& object, const Buffer<uint32_t>& ends,
+                   Joined& joined, BrickGrid& world) {
+    const BrickGrid& grid = *object.grid;
+    const Program program = program_for(device, grid);
+    const auto triangles = static_cast<uint32_t>(grid.triangles.size() / kFloatsPerTriangle);
+    const auto records = static_cast<uint32_t>(grid.solids.size() / VXL_SOLID_WORDS);
+    const WordMap words = word_map(device, object, Surface::exact);
+    program.kernel("append_primitives")
+        .launch(WorkItem::heavy, world.brick_count, world.brick_count, joined.triangles,
+                joined.solid_records, world.coordinates, grid.slots, grid.primitive_first,
+                grid.primitives, ends, world.primitives);
+    const auto append = [&](uint32_t count, uint32_t start, const auto& from, const auto& to) {
+        program.kernel("append_words").launch(WorkItem::light, count, count, start, from, to);
+    };
+    append(triangles * kFloatsPerTriangle, joined.triangles * kFloatsPerTriangle, grid.triangles,
+           world.triangles);
+    program.kernel("append_triangle_attributes")
+        .launch(WorkItem::light, triangles, triangles, joined.triangles, words.map, words.materials,
+                grid.triangle_attributes, world.triangle_attributes);
+    append(records * VXL_SOLID_WORDS, joined.solid_records * VXL_SOLID_WORDS, grid.solids,
+           world.solids);
+    program.kernel("set_solid_attributes")
+        .launch(WorkItem::light, records, records, joined.solid_records, words.map, words.materials,
+                world.solids);
+    joined.triangles += triangles;
+    joined.solid_records += records;
+}
+
+}  // namespace
+
+void allocate_sources(const Device& device, size_t floats, size_t solid_words, BrickGrid& world) {
+    world.triangles = Buffer<float>(device, "world triangles", floats);
+    world.triangle_attributes =
+        Buffer<uint32_t>(device, "world triangle attributes", floats / kFloatsPerTriangle);
+    world.solids = Buffer<uint32_t>(device, "world solids", solid_words);
+}
+
+void join_exact_surfaces(const Device& device, std::span<const PlacedObject> objects,
+                         BrickGrid& world) {
+    std::vector<const PlacedObject*> exact;
+    size_t floats = 0, solid_words = 0;
+    for (const PlacedObject& object : objects) {
+        if (object.grid->primitive_first.empty()) continue;
+        exact.push_back(&object);
+        floats += object.grid->triangles.size();
+        solid_words += object.grid->solids.size();
+    }
+    world.primitive_first = world.primitives = {};
+    world.triangles = {};
+    world.triangle_attributes = world.solids = {};
+    if (exact.empty()) return;
+    allocate_sources(device, floats, solid_words, world);
+    const Program program = program_for(device, *exact.front()->grid);
+    const Buffer<uint32_t> counts = count_primitives(device, program, exact, world);
+    start_lists(device, program, counts, world);
+    Joined joined;
+    for (const PlacedObject* object : exact) append_object(device, *object, counts, joined, world);
+}
+
+}  // namespace voxelume

@@ -1,0 +1,189 @@
+#include "runtime/stages/place/place_painter.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/vec4.hpp>
+
+#include "runtime/base/error.hpp"
+
+namespace voxelume {
+namespace {
+
+/// World distances up to here, in voxels, are worth evaluating: what `index` reads of a surface.
+constexpr double kBandVoxels = 2.9;
+
+PlacementMap map_of(const PlacedObject& object, const GridFrame& world, Surface surface) {
+    const Reach reach = surface == Surface::smooth     ? Reach::none
+                        : object.set == VoxelSet::thin ? Reach::thin
+                                                       : Reach::supercover;
+    return placement_map(object.grid->frame, world,
+                         object.in_world_frame ? glm::dmat4(1.0) : object.world_from_object, reach,
+                         object.object);
+}
+
+/// The bricks that the object's grid comes to stand in, and one voxel around it.
+BrickBox bricks_of(const PlacedObject& object, const GridFrame& world) {
+    const glm::ivec3 last = world.bricks() - 1;
+    if (object.in_world_frame) return {glm::ivec3(0), last};
+    const GridFrame& grid = object.grid->frame;
+    glm::dvec3 low(INFINITY), high(-INFINITY);
+    for (int corner = 0; corner < 8; ++corner) {
+        const glm::dvec3 end(corner & 1 ? grid.size.x : 0, corner & 2 ? grid.size.y : 0,
+                             corner & 4 ? grid.size.z : 0);
+        const glm::dvec3 in_object = grid.origin + grid.voxel_edge * end;
+        const glm::dvec3 in_world(object.world_from_object * glm::dvec4(in_object, 1));
+        const glm::dvec3 voxel = (in_world - world.origin) / world.voxel_edge;
+        low = glm::min(low, voxel), high = glm::max(high, voxel);
+    }
+    // Reach is at most half an object voxel's diagonal as the world sees it: two voxels are enough
+    // for that and for rounding where the object's are no larger; else so many of its own.
+    const glm::dmat3 turn(object.world_from_object);
+    glm::dvec3 margin(2);
+    for (int axis = 0; axis < 3; ++axis)
+        margin += glm::abs(turn[axis]) * grid.voxel_edge[axis] / world.voxel_edge;
+    const glm::dvec3 edge(kBrickSize);
+    const glm::dvec3 first_brick = glm::floor((low - margin) / edge);
+    const glm::dvec3 last_brick = glm::floor((high + margin) / edge);
+    return {glm::ivec3(glm::clamp(first_brick, glm::dvec3(0), glm::dvec3(last + 1))),
+            glm::ivec3(glm::clamp(last_brick, glm::dvec3(-1), glm::dvec3(last)))};
+}
+
+Program program_for(const Device& device, const PlacedObject& object, Surface surface,
+                    const PlacementMap& map, const WorldParts& parts) {
+    return {device,
+            "place.cl",
+            {{"VXL_SMOOTH", surface == Surface::smooth},
+             {"VXL_ATTRIBUTES", parts.has_words()},
+             {"VXL_COLORS", parts.colors},
+             {"VXL_OBJECT_ATTRIBUTES", !object.grid->attributes.empty()},
+             {"VXL_OBJECT_COLORS", !object.grid->colors.empty()},
+             {"VXL_WORLD_OCCUPANCY", parts.occupancy},
+             {"VXL_AMONG_SMOOTH", surface == Surface::exact && parts.smooth},
+             {"VXL_REACH", map.has_reach},
+             {"VXL_KEEPS_INSIDE", object.keeps_inside}}};
+}
+
+int near_threshold(const PlacementMap& map) {
+    const double band = std::ceil(kBandVoxels * kDistanceUnitsPerVoxel / map.distance_scale);
+    return static_cast<int>(std::min(band, 32767.0));
+}
+
+/// Half a voxel's diagonal, in distance units of the grid.
+int half_diagonal(const GridFrame& frame) {
+    const glm::dvec3 e = frame.voxel_edge;
+    return static_cast<int>(
+        std::ceil(glm::length(e) / 2 / std::min({e.x, e.y, e.z}) * kDistanceUnitsPerVoxel));
+}
+
+}  // namespace
+
+Surface surface_of(const BrickGrid& grid) {
+    if (!grid.distance.empty()) return Surface::smooth;
+    return grid.primitive_first.empty() ? Surface::cubes : Surface::exact;
+}
+
+bool WorldParts::is_stored_like(const WorldParts& other) const {
+    return smooth == other.smooth && occupancy == other.occupancy && colors == other.colors &&
+           has_words() == other.has_words();
+}
+
+WorldParts parts_of(std::span<const PlacedObject> objects) {
+    WorldParts parts;
+    for (const PlacedObject& object : objects) {
+        const Surface surface = surface_of(*object.grid);
+        parts.smooth |= surface == Surface::smooth;
+        parts.occupancy |= surface != Surface::smooth;
+        parts.colors |= !object.grid->colors.empty();
+        parts.transparent |= object.grid->transparent;
+        const std::vector<uint32_t> words = possible_words(object, surface);
+        parts.words.insert(words.begin(), words.end());
+    }
+    return parts;
+}
+
+WorldBounds bounds_of(const GridFrame& frame) {
+    const glm::dvec3& e = frame.voxel_edge;
+    const glm::dvec3 units = e / std::min({e.x, e.y, e.z}) * (kDistanceUnitsPerVoxel / 2.0);
+    return {glm::ivec4(frame.size, 0), glm::ivec4(glm::round(units), 0)};
+}
+
+Painter::Painter(const Device& device, const PlacedObject& object, const GridFrame& world,
+                 const WorldParts& parts, const Painter* before)
+    : object_(object),
+      surface_(surface_of(*object.grid)),
+      map_(map_of(object, world, surface_)),
+      bricks_(bricks_of(object, world)),
+      rows_(device, "placement", map_.rows),
+      program_(program_for(device, object, surface_, map_, parts)),
+      words_(word_map(device, object, surface_)),
+      threshold_(near_threshold(map_)) {
+    const BrickGrid& grid = *object.grid;
+    if (before && before->object_.grid == object.grid && before->threshold_ == threshold_) {
+        near_ = before->near_;
+        return;
+    }
+    near_ = Buffer<uint64_t>(device, "near leaves", grid.brick_count);
+    program_.kernel("mark_near_leaves")
+        .launch(WorkItem::heavy, grid.brick_count, grid.brick_count, threshold_, grid.occupancy,
+                grid.distance, near_);
+}
+
+void Painter::classify(const GridFrame& world, uint32_t count, const Buffer<uint32_t>& listed,
+                       const Buffer<uint8_t>& states) {
+    const BrickGrid& grid = *object_.grid;
+    program_.kernel("classify_bricks")
+        .launch(WorkItem::light, count, count, listed, glm::ivec4(world.bricks(), 0),
+                bounds_of(world), map_.fraction_bits, rows_, glm::ivec4(grid.frame.bricks(), 0),
+                grid.slots, near_, grid.distance, states);
+}
+
+void Painter::follow(const Device& device, const WorldParts& parts) {
+    program_ = program_for(device, object_, surface_, map_, parts);
+}
+
+void Painter::paint(const PaintedBricks& painted, BrickGrid& world) {
+    if (surface_ == Surface::smooth)
+        paint_smooth(painted, world);
+    else
+        paint_cubes(painted, world);
+}
+
+void Painter::paint_smooth(const PaintedBricks& painted, BrickGrid& world) {
+    const BrickGrid& grid = *object_.grid;
+    const uint32_t leaves = painted.count * 64;
+    const glm::ivec4 table(world.frame.bricks(), 0), object_table(grid.frame.bricks(), 0);
+    const auto scale = static_cast<float>(map_.distance_scale);
+    program_.kernel("paint_distances")
+        .launch(WorkItem::heavy, leaves, leaves, table, map_.fraction_bits, rows_, object_table,
+                grid.slots, near_, grid.distance, scale, painted.slots, world.coordinates,
+                world.distance);
+    if (painted.nearest.empty()) return;
+    program_.kernel("paint_smooth_voxels")
+        .launch(WorkItem::heavy, leaves, leaves, table, bounds_of(world.frame), map_.fraction_bits,
+                rows_, object_table, grid.slots, near_, grid.distance, scale,
+                half_diagonal(world.frame), words_.map, words_.materials, grid.attributes,
+                grid.colors, painted.slots, world.coordinates, world.distance, painted.nearest,
+                world.occupancy, world.attributes, world.colors);
+}
+
+void Painter::paint_cubes(const PaintedBricks& painted, BrickGrid& world) {
+    const BrickGrid& grid = *object_.grid;
+    const uint32_t leaves = painted.count * 64;
+    program_.kernel("paint_cubes")
+        .launch(WorkItem::heavy, leaves, leaves, glm::ivec4(world.frame.bricks(), 0),
+                map_.fraction_bits, rows_, glm::ivec4(grid.frame.bricks(), 0), grid.slots, near_,
+                grid.occupancy, words_.map, words_.materials, grid.attributes, grid.colors,
+                glm::ivec4(world.frame.size, 0), painted.slots, world.coordinates, painted.nearest,
+                world.occupancy, world.attributes, world.colors);
+}
+
+void Painter::close_distances(const PaintedBricks& painted, BrickGrid& world) {
+    const uint32_t leaves = painted.count * 64;
+    program_.kernel("close_distances")
+        .launch(WorkItem::light, leaves, leaves, glm::ivec4(world.frame.bricks(), 0),
+                bounds_of(world.frame), painted.slots, world.coordinates, world.distance);
+}
+
+}  // namespace voxelume

@@ -1,0 +1,92 @@
+// An object on its way into the world: its inverse map, and the kernels that paint its voxels.
+#pragma once
+
+#include <set>
+
+#include "runtime/opencl/program.hpp"
+#include "runtime/stages/place/place.hpp"
+#include "runtime/stages/place/placement_map.hpp"
+#include "runtime/stages/place/placement_words.hpp"
+
+namespace voxelume {
+
+Surface surface_of(const BrickGrid& grid);
+
+/// What the world stores, taken from what its objects have.
+struct WorldParts {
+    bool smooth = false, occupancy = false, colors = false, transparent = false;
+    std::set<uint32_t> words;  ///< that voxels can have
+
+    bool has_words() const { return words.size() > 1; }
+    /// Whether voxels take what they have from the smooth surface that is nearest to them.
+    bool measures_nearest() const { return smooth && (has_words() || colors || occupancy); }
+    /// Whether bricks of both worlds have the same buffers.
+    bool is_stored_like(const WorldParts& other) const;
+};
+
+WorldParts parts_of(std::span<const PlacedObject> objects);
+
+/// WorldBounds of lib/traverse/world_bounds.h.
+struct WorldBounds {
+    glm::ivec4 size, half_voxel;
+};
+
+WorldBounds bounds_of(const GridFrame& frame);
+
+/// A box of the world's bricks.
+struct BrickBox {
+    glm::ivec3 first{0}, last{-1};
+
+    bool is_empty() const { return first.x > last.x || first.y > last.y || first.z > last.z; }
+};
+
+/// Bricks of the world that are painted, on the device.
+struct PaintedBricks {
+    uint32_t count = 0;
+    Buffer<uint32_t> slots;   ///< 2 each: its slot, its place in `nearest`
+    Buffer<int16_t> nearest;  ///< 4096 for each brick that any object is painted into: distance of
+                              ///< the nearest smooth surface to each voxel's centre; only where
+                              ///< that decides something
+};
+
+/// An object ready to be painted into a world. Its grid must outlive it.
+class Painter {
+  public:
+    /// `before` may be any object's painter; what depends on the same grid is taken from it.
+    Painter(const Device& device, const PlacedObject& object, const GridFrame& world,
+            const WorldParts& parts, const Painter* before);
+
+    const PlacedObject& object() const { return object_; }
+    Surface surface() const { return surface_; }
+
+    /// The bricks of the world outside of which the object has nothing.
+    const BrickBox& bricks() const { return bricks_; }
+
+    /// Raises the states of `count` of the world's bricks: those listed, or, without a list, all.
+    void classify(const GridFrame& world, uint32_t count, const Buffer<uint32_t>& listed,
+                  const Buffer<uint8_t>& states);
+
+    /// Goes on in a world that stores something else.
+    void follow(const Device& device, const WorldParts& parts);
+
+    void paint(const PaintedBricks& painted, BrickGrid& world);
+
+    /// Ends the world's distances at its bounds; any smooth object's painter does.
+    void close_distances(const PaintedBricks& painted, BrickGrid& world);
+
+  private:
+    void paint_smooth(const PaintedBricks& painted, BrickGrid& world);
+    void paint_cubes(const PaintedBricks& painted, BrickGrid& world);
+
+    PlacedObject object_;
+    Surface surface_;
+    PlacementMap map_;
+    BrickBox bricks_;
+    Buffer<int64_t> rows_;
+    Program program_;
+    WordMap words_;
+    int threshold_;          ///< distances below which a leaf is near
+    Buffer<uint64_t> near_;  ///< per slot: leaves with voxels, or with distances in the band
+};
+
+}  // namespace voxelume

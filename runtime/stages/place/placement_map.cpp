@@ -1,0 +1,123 @@
+#include "runtime/stages/place/placement_map.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
+
+#include "runtime/base/error.hpp"
+#include "runtime/scene/scene_affine.hpp"
+
+namespace voxelume {
+namespace {
+
+constexpr double kWorstCondition = 1e5;
+constexpr int kOffsetBits = 24;
+constexpr int kMostFractionBits = 40;
+constexpr int kSumBits = 61;
+
+double shortest(const glm::dvec3& edges) {
+    return std::min({edges.x, edges.y, edges.z});
+}
+
+void check_invertible(const glm::dmat4& map, uint32_t object) {
+    for (int column = 0; column < 4; ++column)
+        for (int row = 0; row < 3; ++row)
+            if (!std::isfinite(map[column][row]))
+                throw Error(ErrorKind::scene,
+                            "object {}: its placement is not finite: check its position, turn, "
+                            "scale or matrix",
+                            object);
+    const Stretch stretch = stretch_of(glm::dmat3(map));
+    if (stretch.min == 0)
+        throw Error(ErrorKind::scene,
+                    "object {}: its placement flattens it to nothing: give every axis a scale "
+                    "other than 0",
+                    object);
+    if (stretch.max > kWorstCondition * stretch.min)
+        throw Error(ErrorKind::scene,
+                    "object {}: its placement stretches one direction {:.3g} times as much as "
+                    "another, at most {:.0e} can be inverted exactly: make the model closer to its "
+                    "final shape",
+                    object, stretch.max / stretch.min, kWorstCondition);
+}
+
+/// The largest bits below the point with which sums over all the world's voxels can't overflow.
+int fraction_bits(const glm::dmat3& linear, const glm::dvec3& offset, const GridFrame& world,
+                  uint32_t object) {
+    const glm::dvec3 size = glm::dvec3(world.bricks() * kBrickSize + 2 * kBrickSize);
+    double largest = 1;
+    for (int axis = 0; axis < 3; ++axis) {
+        double sum = std::abs(offset[axis]);
+        for (int column = 0; column < 3; ++column)
+            sum += std::abs(linear[column][axis]) * size[column];
+        largest = std::max(largest, sum);
+    }
+    const int bits = std::min(kMostFractionBits, kSumBits - std::ilogb(largest) - 2);
+    if (bits < kOffsetBits)
+        throw Error(ErrorKind::scene,
+                    "object {}: it lies {:.3g} of its voxels from the world's origin, which is too "
+                    "far or too small to place: use larger voxels or move it",
+                    object, largest);
+    return bits;
+}
+
+/// Along each object axis: `supercover` closes the gap that steps longer than a voxel would leave,
+/// `thin` covers half of every step.
+glm::dvec3 reach_of(const glm::dmat3& linear, Reach reach) {
+    if (reach == Reach::none) return glm::dvec3(1);
+    glm::dvec3 longest(0);
+    bool on_lattice = true;
+    for (int column = 0; column < 3; ++column)
+        for (int axis = 0; axis < 3; ++axis) {
+            const double step = std::abs(linear[column][axis]);
+            longest[axis] = std::max(longest[axis], step);
+            on_lattice = on_lattice && (step == 0 || step == 1);
+        }
+    if (reach == Reach::thin && !on_lattice) return longest * 0.5;
+    return (glm::max(longest, glm::dvec3(1)) - 1.0) * 0.5;
+}
+
+}  // namespace
+
+PlacementMap placement_map(const GridFrame& object_frame, const GridFrame& world_frame,
+                           const glm::dmat4& world_from_object, Reach reach, uint32_t object) {
+    check_invertible(world_from_object, object);
+    const glm::dmat3 object_from_world = glm::inverse(glm::dmat3(world_from_object));
+    glm::dmat3 linear;  // in voxels of both grids
+    for (int column = 0; column < 3; ++column)
+        linear[column] =
+            object_from_world[column] * world_frame.voxel_edge[column] / object_frame.voxel_edge;
+    const glm::dvec3 offset =
+        (object_from_world * (world_frame.origin - glm::dvec3(world_from_object[3])) -
+         object_frame.origin) /
+        object_frame.voxel_edge;
+
+    PlacementMap map;
+    map.fraction_bits = fraction_bits(linear, offset, world_frame, object);
+    const auto fixed = [&](double value, int bits) {
+        return std::llround(std::ldexp(value, bits)) << (map.fraction_bits - bits);
+    };
+    glm::dmat3 rounded;
+    for (int axis = 0; axis < 3; ++axis) {
+        for (int column = 0; column < 3; ++column) {
+            const int64_t even = fixed(linear[column][axis], map.fraction_bits - 1);
+            map.rows[4 * size_t(axis) + size_t(column)] = even;
+            rounded[column][axis] = std::ldexp(double(even), -map.fraction_bits);
+        }
+        map.rows[4 * size_t(axis) + 3] = fixed(offset[axis], kOffsetBits);
+    }
+    const glm::dvec3 reaches = reach_of(rounded, reach);
+    for (int axis = 0; axis < 3; ++axis) {
+        const int64_t value = fixed(reaches[axis], map.fraction_bits);
+        map.rows[12 + size_t(axis)] = value;
+        map.has_reach = map.has_reach || value != 0;
+    }
+    map.distance_scale = stretch_of(glm::dmat3(world_from_object)).min *
+                         shortest(object_frame.voxel_edge) / shortest(world_frame.voxel_edge);
+    // Whole-voxel moves and quarter turns at one pitch keep every distance as it is.
+    if (std::abs(map.distance_scale - 1) < 1e-12) map.distance_scale = 1;
+    return map;
+}
+
+}  // namespace voxelume

@@ -1,0 +1,144 @@
+#include "runtime/stages/place/world_bricks.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "runtime/stages/brick_arrays.hpp"
+#include "runtime/stages/place/place_painter.hpp"
+
+namespace voxelume {
+namespace {
+
+constexpr uint8_t kFull = 1, kSurface = 2;  // lib/voxelize/placed.h
+constexpr size_t kVoxels = 4096;            // of a brick
+constexpr int16_t kSaturated = 32767;       // distances far from any surface
+constexpr uint32_t kWhite = 0xFFFFFF;       // of voxels without a colour of their own
+
+constexpr const char* kOccupancy = "world occupancy";
+constexpr const char* kDistances = "world distances";
+constexpr const char* kAttributes = "world attributes";
+constexpr const char* kColors = "world colors";
+
+Program program_for(const Device& device, const WorldParts& parts) {
+    return {device,
+            "place_bricks.cl",
+            {{"VXL_SMOOTH", parts.smooth},
+             {"VXL_OCCUPANCY", parts.occupancy},
+             {"VXL_ATTRIBUTES", parts.has_words()},
+             {"VXL_COLORS", parts.colors}}};
+}
+
+/// Puts a larger buffer in the place of an `old` one, whose values it begins with.
+template <class T>
+void enlarge(Buffer<T>& old, Buffer<T> larger) {
+    larger.copy(old);
+    old = std::move(larger);
+}
+
+}  // namespace
+
+WorldBricks::WorldBricks(const Device& device, const WorldParts& parts, BrickGrid& world)
+    : device_(device),
+      smooth_(parts.smooth),
+      occupancy_(parts.occupancy),
+      words_(parts.has_words()),
+      colors_(parts.colors),
+      world_(world),
+      program_(program_for(device, parts)) {
+    const glm::ivec3 table = world.frame.bricks();
+    slots_.assign(size_t(table.x) * size_t(table.y) * size_t(table.z), kBrickOutside);
+}
+
+void WorldBricks::store_like(const WorldParts& parts) {
+    const size_t voxels = size_t(reserved_) * kVoxels;
+    const auto store = [&](auto& buffer, bool& has, bool needs, const char* name, size_t size,
+                           auto value) {
+        if (has == needs) return;
+        buffer = {};
+        if (needs) {
+            buffer = {device_, name, size};
+            buffer.fill(value);
+        }
+        has = needs;
+    };
+    store(world_.occupancy, occupancy_, parts.occupancy, kOccupancy, voxels / 64, uint64_t{0});
+    store(world_.distance, smooth_, parts.smooth, kDistances, voxels, kSaturated);
+    store(world_.attributes, words_, parts.has_words(), kAttributes, voxels, world_.attribute);
+    store(world_.colors, colors_, parts.colors, kColors, voxels, kWhite);
+    program_ = program_for(device_, parts);
+}
+
+std::vector<uint32_t> WorldBricks::store(const std::vector<uint32_t>& places,
+                                         const std::vector<uint8_t>& states) {
+    std::vector<uint32_t> gaps, added, stored;
+    for (const uint32_t place : places) {
+        const bool was_stored = slots_[place] < kBrickInside, is_stored = states[place] == kSurface;
+        if (is_stored) stored.push_back(place);
+        if (was_stored && !is_stored) gaps.push_back(slots_[place]);
+        if (!was_stored && is_stored) added.push_back(place);
+        if (!is_stored) slots_[place] = states[place] == kFull ? kBrickInside : kBrickOutside;
+    }
+    for (const uint32_t place : added) {
+        if (gaps.empty()) {
+            slots_[place] = uint32_t(coordinates_.size());
+            coordinates_.push_back(place);
+        } else {
+            slots_[place] = gaps.back();
+            coordinates_[gaps.back()] = place;
+            gaps.pop_back();
+        }
+    }
+    reserve(uint32_t(coordinates_.size()));
+    fill_gaps(gaps);
+    world_.brick_count = uint32_t(coordinates_.size());
+    world_.slots = Buffer<uint32_t>(device_, "world slots", slots_);
+    world_.coordinates = Buffer<uint32_t>(device_, "world coordinates", coordinates_);
+    return stored;
+}
+
+/// Moves the last bricks into gaps.
+void WorldBricks::fill_gaps(const std::vector<uint32_t>& gaps) {
+    const auto left = uint32_t(coordinates_.size() - gaps.size());
+    std::vector<bool> is_gap(coordinates_.size());
+    for (const uint32_t gap : gaps) is_gap[gap] = true;
+    std::vector<uint32_t> moves;
+    uint32_t last = left;
+    for (const uint32_t gap : gaps) {
+        if (gap >= left) continue;
+        while (is_gap[last]) ++last;
+        moves.insert(moves.end(), {last, gap});
+        coordinates_[gap] = coordinates_[last++];
+        slots_[coordinates_[gap]] = gap;
+    }
+    coordinates_.resize(left);
+    const auto parts = uint32_t(moves.size() / 2 * 64);
+    program_.kernel("move_bricks")
+        .launch(WorkItem::light, parts, parts, Buffer<uint32_t>(device_, "moved bricks", moves),
+                world_.distance, world_.occupancy, world_.attributes, world_.colors);
+}
+
+void WorldBricks::clear(const std::vector<uint32_t>& places) {
+    std::vector<uint32_t> slots;
+    slots.reserve(places.size());
+    for (const uint32_t place : places) slots.push_back(slots_[place]);
+    const auto parts = uint32_t(slots.size() * 64);
+    program_.kernel("clear_bricks")
+        .launch(WorkItem::light, parts, parts, Buffer<uint32_t>(device_, "cleared bricks", slots),
+                world_.distance, world_.occupancy, world_.attributes, world_.colors);
+}
+
+/// A world that grows once may grow again: then with room for a quarter more, if a buffer may be so
+/// large.
+void WorldBricks::reserve(uint32_t bricks) {
+    if (bricks <= reserved_) return;
+    const size_t brick_bytes = kVoxels * (words_ || colors_ ? 4 : smooth_ ? 2 : 1);
+    const size_t most = std::max<size_t>(device_.info().max_allocation / brick_bytes, bricks);
+    const size_t places = reserved_ == 0 ? bricks : std::min<size_t>(bricks + bricks / 4, most);
+    if (occupancy_) enlarge(world_.occupancy, allocate_masks(device_, kOccupancy, places));
+    if (smooth_) enlarge(world_.distance, allocate_distances(device_, kDistances, places));
+    if (words_) enlarge(world_.attributes, allocate_words(device_, kAttributes, places));
+    if (colors_) enlarge(world_.colors, allocate_words(device_, kColors, places));
+    reserved_ = uint32_t(places);
+}
+
+}  // namespace voxelume

@@ -1,0 +1,79 @@
+#include "runtime/stages/resolve/resolve.hpp"
+
+#include <vector>
+
+#include "runtime/stages/trace/trace.hpp"
+
+namespace voxelume {
+namespace {
+
+constexpr const char* kSmallerImage = "render a smaller image";
+
+std::vector<const char*> plane_names(const ImageChannels& channels) {
+    std::vector<const char*> names;
+    if (channels.color) names = {"R", "G", "B", "A"};
+    if (channels.depth) names.push_back("Z");
+    if (channels.position) names.insert(names.end(), {"P.X", "P.Y", "P.Z"});
+    if (channels.normal) names.insert(names.end(), {"N.X", "N.Y", "N.Z"});
+    return names;
+}
+
+size_t pixel_count(const Sight& sight) {
+    return size_t(sight.width) * size_t(sight.height);
+}
+
+}  // namespace
+
+Defines resolve_defines(const Device& device, const Features& features,
+                        const ImageChannels& channels) {
+    Defines defines = features.defines(device);
+    defines.insert(defines.end(), {{"VXL_SHOWS_COLOR", channels.color},
+                                   {"VXL_SHOWS_DEPTH", channels.depth},
+                                   {"VXL_SHOWS_POSITION", channels.position},
+                                   {"VXL_SHOWS_NORMAL", channels.normal},
+                                   {"VXL_SHOWS_OBJECT", channels.object}});
+    return defines;
+}
+
+ImageArrays allocate_image(const Device& device, const glm::ivec2& size,
+                           const ImageChannels& channels) {
+    const size_t pixels = size_t(size.x) * size_t(size.y);
+    return {{device, "image", plane_names(channels).size() * pixels, kSmallerImage},
+            {device, "object numbers", channels.object ? pixels : 0, kSmallerImage},
+            {device, "not finite", 1}};
+}
+
+ResolveStage::ResolveStage(const Device& device, const Features& features, const Sight& sight,
+                           const ImageChannels& channels)
+    : sight_(sight),
+      names_(plane_names(channels)),
+      image_(allocate_image(device, {sight.width, sight.height}, channels)),
+      program_(device, "resolve.cl", resolve_defines(device, features, channels)),
+      pixels_(program_.kernel("resolve_pixels")) {
+    image_.not_finite.fill(0);
+}
+
+void ResolveStage::pixels(const Pyramid& pyramid, const RayBatch& batch, uint32_t first_tile,
+                          uint32_t tiles) {
+    const glm::dvec3& o = pyramid.frame.origin;
+    const float4 origin = {float(o.x), float(o.y), float(o.z), 0};
+    pixels_.launch_packets(size_t(tiles) * 16, sight_, shape_of(pyramid), origin, batch.hits,
+                           batch.positions, batch.normals, batch.words, batch.radiance,
+                           batch.coverage, first_tile, tiles, batch.stride, image_.planes,
+                           image_.objects, image_.not_finite);
+}
+
+Image ResolveStage::image() const {
+    Image image;
+    image.width = sight_.width;
+    image.height = sight_.height;
+    const size_t pixels = pixel_count(sight_);
+    const std::shared_ptr<float> planes = image_.planes.contents();
+    for (size_t i = 0; i < names_.size(); ++i)
+        image.planes[names_[i]] = {std::shared_ptr<float>(planes, planes.get() + i * pixels),
+                                   pixels};
+    if (!image_.objects.empty()) image.id_planes["objectId"] = {image_.objects.contents(), pixels};
+    return image;
+}
+
+}  // namespace voxelume

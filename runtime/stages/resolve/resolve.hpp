@@ -1,0 +1,51 @@
+// samples -> pixels: the flat image.
+#pragma once
+
+#include "kernels/shared/scene.h"
+#include "runtime/grid/grid.hpp"
+#include "runtime/image/image.hpp"
+#include "runtime/opencl/program.hpp"
+#include "runtime/scene/scene.hpp"
+#include "runtime/stages/features.hpp"
+#include "runtime/stages/ray_batch.hpp"
+
+namespace voxelume {
+
+/// The features' build constants, and those of resolve.cl alone.
+Defines resolve_defines(const Device& device, const Features& features,
+                        const ImageChannels& channels);
+
+/// What an image is made in.
+struct ImageArrays {
+    Buffer<float> planes;         ///< one after another
+    Buffer<uint32_t> objects;     ///< number of the object plus 1
+    Buffer<uint32_t> not_finite;  ///< one value
+};
+ImageArrays allocate_image(const Device& device, const glm::ivec2& size,
+                           const ImageChannels& channels);
+
+/// Kernels of resolve.cl and the image they fill, batch by batch.
+class ResolveStage {
+  public:
+    /// Only the `channels` asked for are allocated and made.
+    ResolveStage(const Device& device, const Features& features, const Sight& sight,
+                 const ImageChannels& channels = {});
+
+    /// Makes the pixels of `tiles` tiles from `first_tile` on.
+    void pixels(const Pyramid& pyramid, const RayBatch& batch, uint32_t first_tile, uint32_t tiles);
+
+    /// The image, once every tile is made. Waits for the device.
+    Image image() const;
+
+    /// Values that were not finite and became 0; anything but 0 is a fault of ours.
+    uint32_t not_finite() const { return image_.not_finite.read_one(0); }
+
+  private:
+    Sight sight_;
+    std::vector<const char*> names_;  ///< of the planes
+    ImageArrays image_;
+    Program program_;
+    Kernel pixels_;
+};
+
+}  // namespace voxelume

@@ -1,0 +1,78 @@
+// rays -> beams: how far groups of neighbouring rays run through empty space together.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "kernels/shared/scene.h"
+#include "runtime/grid/grid.hpp"
+#include "runtime/stages/features.hpp"
+#include "runtime/stages/ray_batch.hpp"
+
+namespace voxelume {
+
+/// What a halo is made of: leaves for narrow groups of rays, bricks for those up to four times as
+/// wide.
+enum class HaloOf { leaves, bricks };
+
+/// A pyramid's leaves (or bricks) that hold voxels, and all that touch one: where a point's leaf
+/// isn't among them, no surface is within 4 voxels (16) of it. `sectors` and `bricks` as in
+/// Pyramid, but nothing lies below the masks of leaves; a halo of bricks is that of a pyramid of
+/// voxels four times as long.
+struct Halo {
+    Buffer<uint32_t> sectors, bricks;
+    HaloOf of = HaloOf::leaves;
+    std::vector<glm::ivec3> sectors_with_voxels;  ///< of the pyramid
+};
+
+/// The buffers of a halo whose table has so many sectors, and stores some of them; and of the beams
+/// of so many rays.
+Halo allocate_halo(const Device& device, size_t sectors, size_t stored);
+Buffer<uint32_t> allocate_beams(const Device& device, uint32_t rays);
+
+/// The halo of a world without instances. Reads the pyramid's upper levels back; host work of about
+/// 16 nanoseconds a leaf that holds voxels, 2 for a halo of bricks.
+Halo build_halo(const Device& device, const Pyramid& pyramid, HaloOf of = HaloOf::leaves);
+
+/// The halo for rays that neighbouring pixels send, each so many voxels wide where they meet the
+/// world; none where beams would be too wide for either.
+std::optional<HaloOf> halo_for(double voxels_a_pixel);
+
+/// The halo whose beams save so many sight rays more time than they take: building it, loading one
+/// more kernel. In larger worlds rounding could come near a beam's slack, see lib/traverse/beam.h.
+std::optional<HaloOf> halo_that_pays(const Features& features, const Pyramid& world, uint64_t rays,
+                                     double voxels_a_pixel);
+
+/// A halo's coordinates of the world's.
+inline float scale_of(HaloOf of) {
+    return of == HaloOf::leaves ? 1.0f : 0.25f;
+}
+
+/// The shape of a pyramid's halo.
+PyramidShape halo_shape(const Pyramid& pyramid, HaloOf of);
+
+/// `start_beams` of sight.cl. Beams change how long rays take, never what they meet.
+class BeamStage {
+  public:
+    /// `halo` is the pyramid's.
+    BeamStage(const Device& device, const Features& features, const Pyramid& pyramid, Halo halo);
+
+    /// Sends one beam along every 16 of the rays 0 .. count-1 and leaves in `batch.beams` how far
+    /// it came. The beams are those of these rays only.
+    void start(RayBatch& batch, uint32_t count);
+
+    uint64_t sent() const { return sent_; }
+    /// Those whose rays meet nothing, and end at once; waits for the device.
+    uint64_t cleared() const;
+
+  private:
+    Device device_;
+    PyramidShape shape_;
+    Halo halo_;
+    uint64_t sent_ = 0;
+    Buffer<uint32_t> cleared_;
+    Program program_;
+    Kernel start_;
+};
+
+}  // namespace voxelume

@@ -1,0 +1,162 @@
+#include "runtime/stages/trace/ray_arrays.hpp"
+
+#include <algorithm>
+#include <bit>
+
+namespace voxelume {
+namespace {
+
+constexpr const char* kFewerRays =
+    "render a smaller image, or with fewer samples a pixel or less depth";
+
+/// Makes arrays of so many places on a device.
+class ArrayMaker {
+  public:
+    ArrayMaker(const Device& device, uint32_t places) : device_(device), places_(places) {}
+
+    template <class T>
+    void make(Buffer<T>& array, const char* name, size_t components) {
+        array = Buffer<T>(device_, name, size_t(places_) * components, kFewerRays);
+    }
+
+  private:
+    const Device& device_;
+    uint32_t places_;
+};
+
+size_t path_components(const Features& features) {
+    if (features.transmission) return VXL_PATH_INSIDE + 1 + size_t(features.other_members);
+    return features.instances ? VXL_PATH_INSIDE : VXL_PATH_CELL;
+}
+
+size_t hit_components(const Features& features) {
+    if (features.instances) return VXL_HIT_COMPONENTS;
+    return features.exact() ? VXL_HIT_INSTANCE : VXL_HIT_PRIMITIVE;
+}
+
+void make_queue(const Features& features, ArrayMaker& maker, RayQueue& queue) {
+    maker.make(queue.rays, "rays", VXL_RAY_COMPONENTS);
+    if (!features.paths) return;
+    maker.make(queue.paths, "paths", path_components(features));
+    if (!features.transmission) return;
+    maker.make(queue.starts, "path starts", 1);
+    maker.make(queue.inside, "path media", 1);
+}
+
+void make_batch(const Features& features, ArrayMaker& maker, RayBatch& batch) {
+    make_queue(features, maker, batch);
+    maker.make(batch.hits, "hits", hit_components(features));
+    if (features.positions) maker.make(batch.positions, "positions", 3);
+    if (features.normals) maker.make(batch.normals, "normals", 3);
+    if (features.words) maker.make(batch.words, "words", 1);
+    if (!features.radiance) return;
+    maker.make(batch.radiance, "radiance", 3);
+    if (features.paths) maker.make(batch.sides, "sides", 1);
+    if (features.paths && features.absorbs) maker.make(batch.passed, "passed", 3);
+    if (features.transmission) maker.make(batch.coverage, "coverage", 1);
+}
+
+bool has_shadow_queue(const Features& features) {
+    return features.shadows || features.medium;
+}
+
+void make_shadow_queue(const Features& features, ArrayMaker& maker, ShadowQueue& queue) {
+    maker.make(queue.rays, "shadow queue", VXL_RAY_COMPONENTS);
+    maker.make(queue.targets, "shadow queue", 1);
+    if (features.exact()) maker.make(queue.sources, "shadow queue", 1);
+    maker.make(queue.shares, "shadow queue", 3);
+}
+
+void make_depth(const Features& features, bool is_first, ArrayMaker& maker, PathDepth& depth) {
+    if (features.transmission || !is_first) make_batch(features, maker, depth.entries);
+    if (features.transmission) {
+        make_queue(features, maker, depth.next);
+        maker.make(depth.nodes.radiance, "node light", 3);
+        if (is_first) maker.make(depth.nodes.coverage, "node coverage", 1);
+        maker.make(depth.children.gains, "path gains", 3);
+    }
+    maker.make(depth.children.nodes, "path children", branches_of(features));
+    maker.make(depth.children.shares, "path shares", branches_of(features));
+}
+
+uint32_t shadow_places(const Features& features, uint32_t most_rays) {
+    return std::bit_ceil(branches_of(features) * most_rays);
+}
+
+}  // namespace
+
+uint32_t batch_tiles(const Features& features, int samples, uint32_t most) {
+    return std::clamp(batch_rays(features) / (16 * uint32_t(samples)), 1u, most);
+}
+
+uint32_t depth_places(uint32_t count) {
+    return std::max(std::bit_ceil(count), 16u);
+}
+
+RayBatch allocate_batch(const Device& device, const Features& features, uint32_t stride) {
+    RayBatch batch;
+    batch.stride = stride;
+    ArrayMaker maker(device, stride);
+    make_batch(features, maker, batch);
+    return batch;
+}
+
+void renew_sight(const Device& device, RayBatch& batch) {
+    batch.rays = Buffer<float>(device, "rays", batch.rays.size(), kFewerRays);
+    batch.hits = Buffer<uint32_t>(device, "hits", batch.hits.size(), kFewerRays);
+}
+
+ShadowQueue allocate_shadow_queue(const Device& device, const Features& features,
+                                  uint32_t most_rays) {
+    ShadowQueue queue;
+    if (!has_shadow_queue(features)) return queue;
+    queue.count = Buffer<uint32_t>(device, "shadow queue", 1);
+    if (features.shadows) {
+        queue.traced = Buffer<uint32_t>(device, "shadow rays", 2);
+        queue.traced.fill(0);
+    }
+    ArrayMaker maker(device, shadow_places(features, most_rays));
+    make_shadow_queue(features, maker, queue);
+    return queue;
+}
+
+PathDepth allocate_depth(const Device& device, const Features& features, bool is_first,
+                         uint32_t places) {
+    PathDepth depth;
+    ArrayMaker maker(device, places);
+    make_depth(features, is_first, maker, depth);
+    depth.entries.stride = depth.nodes.stride = places;
+    return depth;
+}
+
+RayArrays allocate_rays(const Device& device, const Features& features, const RayCounts& counts) {
+    RayArrays arrays;
+    arrays.batch = allocate_batch(device, features, counts.rays);
+    if (counts.is_lit) arrays.shadows = allocate_shadow_queue(device, features, counts.rays);
+    if (features.paths && features.radiance)
+        arrays.depths.push_back(allocate_depth(device, features, true, counts.rays));
+    for (size_t depth = 0; depth < counts.depth; ++depth)
+        arrays.depths.push_back(allocate_depth(device, features, false,
+                                               depth_places(branches_of(features) * counts.rays)));
+    return arrays;
+}
+
+RayBytes ray_bytes(const Features& features, const RayCounts& counts) {
+    const auto bytes_of = [&](size_t depth) {
+        const Device device = Device::counting({});
+        const RayArrays arrays =
+            allocate_rays(device, features, {counts.rays, counts.is_lit, depth});
+        return double(device.counters().bytes_in_use);
+    };
+    RayBytes bytes;
+    bytes.once = bytes_of(0);
+    bytes.per_depth = bytes_of(1) - bytes.once;
+    bytes.depth = counts.depth;
+    return bytes;
+}
+
+double sight_bytes(const Features& features) {
+    return 4.0 * double(VXL_RAY_COMPONENTS + hit_components(features));
+}
+
+}  // namespace voxelume

@@ -1,0 +1,115 @@
+#include "runtime/stages/trace/sight.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+#include <limits>
+
+#include "runtime/opencl/float4.hpp"
+
+namespace voxelume {
+namespace {
+
+/// How far the world's nearest corner is ahead of the observer along Z_E, metres; 0 if it is not.
+double depth_of_world(const Observer& observer, const GridFrame& world) {
+    double least = std::numeric_limits<double>::infinity();
+    for (int corner = 0; corner < 8; ++corner) {
+        const glm::dvec3 step(corner & 1, corner >> 1 & 1, corner >> 2);
+        const glm::dvec3 point = world.origin + world.voxel_edge * glm::dvec3(world.size) * step;
+        least =
+            std::min(least, glm::dot(point - observer.position, observer.world_from_observer[2]));
+    }
+    return std::max(least, 0.0);
+}
+
+}  // namespace
+
+int shape_number(DisplayShape shape) {
+    switch (shape) {
+        case DisplayShape::pyramid:
+            return VXL_SHAPE_PYRAMID;
+        case DisplayShape::sector:
+            return VXL_SHAPE_SECTOR;
+        case DisplayShape::ball:
+            return VXL_SHAPE_BALL;
+        case DisplayShape::box:
+            return VXL_SHAPE_BOX;
+    }
+    return VXL_SHAPE_PYRAMID;
+}
+
+Sight sight_of(const Scene& scene, const GridFrame& world) {
+    const Observer& observer = scene.observer;
+    const glm::dmat3& axes = observer.world_from_observer;
+    // Rays of a distant pyramid or box start at the world's depth: float would lose them on the
+    // way.
+    const bool along_z = observer.display.shape == DisplayShape::pyramid ||
+                         observer.display.shape == DisplayShape::box;
+    const double lead = along_z ? depth_of_world(observer, world) : 0.0;
+    const glm::dvec3 origin =
+        (observer.position + axes[2] * lead - world.origin) / world.voxel_edge;
+    const glm::dvec2 half = half_extent(observer.display);
+    Sight sight{};
+    sight.origin = to_float4(origin);
+    sight.origin_low =
+        to_float4(origin - glm::dvec3(sight.origin.x, sight.origin.y, sight.origin.z));
+    sight.axis_x = to_float4(axes[0] / world.voxel_edge);
+    sight.axis_y = to_float4(axes[1] / world.voxel_edge);
+    sight.axis_z = to_float4(axes[2] / world.voxel_edge);
+    sight.half_x = float(half.x);
+    sight.half_y = float(half.y);
+    sight.near_plane = float(observer.display.near - lead);
+    sight.far_plane = float(observer.display.far - lead);
+    sight.lead = float(lead);
+    sight.width = scene.render.size.x;
+    sight.height = scene.render.size.y;
+    sight.samples = scene.render.samples;
+    sight.shape = shape_number(observer.display.shape);
+    sight.sample_share = 1.0f / float(scene.render.samples);
+    return sight;
+}
+
+double voxels_a_pixel(const Scene& scene, const Sight& sight, const GridFrame& world) {
+    const Observer& observer = scene.observer;
+    const glm::dvec2 pixel =
+        2.0 * half_extent(observer.display) / glm::dvec2(sight.width, sight.height);
+    const glm::dvec3 middle = world.origin + 0.5 * world.voxel_edge * glm::dvec3(world.size);
+    const double metres = observer.display.shape == DisplayShape::box
+                              ? 1.0
+                              : glm::distance(middle, observer.position);
+    const glm::dvec3& edge = world.voxel_edge;
+    return std::max(pixel.x, pixel.y) * metres / std::min({edge.x, edge.y, edge.z});
+}
+
+std::vector<float> sample_offsets(int samples) {
+    constexpr double kPlastic = 1.32471795724474602596;
+    std::vector<float> offsets;
+    for (int i = 0; i < samples; ++i) {
+        for (const double step : {1 / kPlastic, 1 / (kPlastic * kPlastic)}) {
+            const double x = 0.5 + i * step;
+            offsets.push_back(float(x - std::floor(x)));
+        }
+    }
+    return offsets;
+}
+
+uint32_t tile_count(int width, int height) {
+    return uint32_t((width + 3) / 4) * uint32_t((height + 3) / 4);
+}
+
+SightStage::SightStage(const Device& device, const Features& features, const Sight& sight)
+    : sight_(sight),
+      offsets_(device, "sample offsets", std::span<const float>(sample_offsets(sight.samples))),
+      program_(device, "sight.cl", features.defines(device)),
+      cast_(program_.kernel("cast_sight")) {}
+
+uint32_t SightStage::cast(const PyramidShape& world, uint32_t first_tile, uint32_t tiles,
+                          RayBatch& batch) {
+    const uint32_t count = tiles * 16u * uint32_t(sight_.samples);
+    cast_.launch_packets(count, sight_, world, offsets_, first_tile, count, batch.stride,
+                         batch.rays);
+    return count;
+}
+
+}  // namespace voxelume

@@ -1,0 +1,48 @@
+// observer -> rays: one sight ray for every sample of every pixel.
+#pragma once
+
+#include "kernels/shared/scene.h"
+#include "runtime/grid/grid.hpp"
+#include "runtime/opencl/program.hpp"
+#include "runtime/scene/scene.hpp"
+#include "runtime/stages/features.hpp"
+#include "runtime/stages/ray_batch.hpp"
+
+namespace voxelume {
+
+/// The shape's VXL_SHAPE_* of shared/scene.h.
+int shape_number(DisplayShape shape);
+
+/// The observer as kernels take it: in the voxels of the world.
+Sight sight_of(const Scene& scene, const GridFrame& world);
+
+/// How wide the rays of neighbouring pixels are apart at the middle of the world, in voxels.
+double voxels_a_pixel(const Scene& scene, const Sight& sight, const GridFrame& world);
+
+/// Where the samples of a pixel lie: x and y in [0, 1), the same for every pixel. One sample is the
+/// centre; more are the R2 sequence of Roberts 2018, which fills a square evenly for any number.
+std::vector<float> sample_offsets(int samples);
+
+/// Tiles of 4 x 4 pixels that cover an image.
+uint32_t tile_count(int width, int height);
+
+/// Kernel of sight.cl. The paper's block 2.
+class SightStage {
+  public:
+    SightStage(const Device& device, const Features& features, const Sight& sight);
+
+    /// Casts for another observer from here on, with as many samples a pixel.
+    void look(const Sight& sight) { sight_ = sight; }
+
+    /// Casts the rays of `tiles` tiles from `first_tile` on, 16 * samples each; returns their
+    /// number.
+    uint32_t cast(const PyramidShape& world, uint32_t first_tile, uint32_t tiles, RayBatch& batch);
+
+  private:
+    Sight sight_;
+    Buffer<float> offsets_;
+    Program program_;
+    Kernel cast_;
+};
+
+}  // namespace voxelume

@@ -1,0 +1,150 @@
+#include "runtime/stages/voxelize/cut.hpp"
+
+#include <CL/cl_platform.h>
+
+#include <algorithm>
+#include <glm/common.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "runtime/opencl/program.hpp"
+#include "runtime/stages/brick_arrays.hpp"
+
+namespace voxelume {
+namespace {
+
+constexpr uint32_t kWhite = 0x00FFFFFF;
+constexpr double kFarVoxels = 64;  // beyond the frame, where no distance matters
+
+/// What a grid says of a brick: that of two is no more than either says, or no less.
+enum class Share { none, some, all };
+
+Share share_of(uint32_t slot) {
+    return slot == kBrickOutside ? Share::none : (slot == kBrickInside ? Share::all : Share::some);
+}
+
+Share both(Share a, Share b) {
+    return std::min(a, b);
+}
+
+Share either(Share a, Share b) {
+    return std::max(a, b);
+}
+
+/// Makes the grid of bricks that some of the operands store.
+class Joiner {
+  public:
+    Joiner(const Device& device, const BrickGrid& body)
+        : device_(device), code_(device, "cut.cl", {}), body_(body) {
+        grid_.frame = body.frame;
+        grid_.attribute = body.attribute;
+        grid_.transparent = body.transparent;
+    }
+
+    BrickGrid fields(const BrickGrid& rest) {
+        const std::vector<uint32_t> a = body_.slots.read(), b = rest.slots.read();
+        std::vector<cl_uint2> sources;
+        store_bricks(a, [&](size_t brick) { return both(share_of(a[brick]), share_of(b[brick])); });
+        for (const uint32_t brick : bricks_) sources.push_back({{a[brick], b[brick]}});
+        grid_.distance = allocate_distances(device_, "distance", grid_.brick_count);
+        code_.kernel("join_distances")
+            .launch(WorkItem::heavy, grid_.brick_count, grid_.brick_count, uploaded(sources),
+                    body_.distance, rest.distance, grid_.distance);
+        return finish();
+    }
+
+    BrickGrid covers(const BrickGrid& inside, const CoveredBody& rest) {
+        const std::vector<uint32_t> a = body_.slots.read(), a_in = inside.slots.read(),
+                                    b = rest.cover.slots.read(), b_in = rest.inside.slots.read();
+        std::vector<cl_uint4> sources;
+        store_bricks(a, [&](size_t brick) {
+            const Share of_a = share_of(a[brick]), of_b = share_of(b[brick]);
+            return either(both(of_a, either(of_b, share_of(b_in[brick]))),
+                          both(of_b, either(of_a, share_of(a_in[brick]))));
+        });
+        for (const uint32_t brick : bricks_)
+            sources.push_back({{a[brick], a_in[brick], b[brick], b_in[brick]}});
+        const size_t leaves = size_t(grid_.brick_count) * kLeavesPerBrick;
+        grid_.occupancy = allocate_masks(device_, "occupancy", grid_.brick_count);
+        code_.kernel("join_covers")
+            .launch(WorkItem::light, leaves, grid_.brick_count, uploaded(sources), body_.occupancy,
+                    inside.occupancy, rest.cover.occupancy, rest.inside.occupancy, grid_.occupancy);
+        return finish();
+    }
+
+  private:
+    /// `body` holds the body's slots. Bricks of which there is neither none nor all are stored.
+    void store_bricks(const std::vector<uint32_t>& body, const auto& share) {
+        std::vector<uint32_t> slots(body.size());
+        for (size_t brick = 0; brick < slots.size(); ++brick) {
+            switch (share(brick)) {
+                case Share::none:
+                    slots[brick] = kBrickOutside;
+                    break;
+                case Share::all:
+                    slots[brick] = kBrickInside;
+                    break;
+                case Share::some:
+                    slots[brick] = static_cast<uint32_t>(bricks_.size());
+                    bricks_.push_back(static_cast<uint32_t>(brick));
+                    body_slots_.push_back(body[brick]);
+            }
+        }
+        grid_.brick_count = static_cast<uint32_t>(bricks_.size());
+        grid_.slots = Buffer<uint32_t>(device_, "slots", slots);
+        grid_.coordinates = Buffer<uint32_t>(device_, "coordinates", bricks_);
+    }
+
+    template <class Slots>
+    Buffer<uint32_t> uploaded(const std::vector<Slots>& sources) const {
+        const auto* words = reinterpret_cast<const uint32_t*>(sources.data());
+        return {device_, "source slots",
+                std::span(words, sources.size() * sizeof(Slots) / sizeof(uint32_t))};
+    }
+
+    Buffer<uint32_t> kept_words(const char* name, const Buffer<uint32_t>& from, uint32_t word) {
+        Buffer<uint32_t> words = allocate_words(device_, name, grid_.brick_count);
+        const Buffer<uint32_t> slots(device_, "source slots", body_slots_);
+        code_.kernel("keep_words")
+            .launch(WorkItem::heavy, grid_.brick_count, grid_.brick_count, slots, from, word,
+                    words);
+        return words;
+    }
+
+    BrickGrid finish() {
+        if (!body_.attributes.empty())
+            grid_.attributes = kept_words("voxel attributes", body_.attributes, body_.attribute);
+        if (!body_.colors.empty()) grid_.colors = kept_words("voxel colors", body_.colors, kWhite);
+        return std::move(grid_);
+    }
+
+    Device device_;
+    Program code_;
+    const BrickGrid& body_;
+    std::vector<uint32_t> bricks_, body_slots_;  // of the bricks that are stored
+    BrickGrid grid_;
+};
+
+}  // namespace
+
+Solid rest_of(const GridFrame& frame, const std::vector<Solid>& cuts) {
+    const glm::dvec3 extent = glm::dvec3(frame.bricks() * kBrickSize) * frame.voxel_edge;
+    Solid space;
+    space.kind = SolidKind::box;
+    space.size = extent + 2 * kFarVoxels * frame.voxel_edge;
+    space.parent_from_solid = glm::translate(glm::dmat4(1), frame.origin + 0.5 * extent);
+    Solid rest;
+    rest.kind = SolidKind::difference_of;
+    rest.parts.push_back(space);
+    rest.parts.insert(rest.parts.end(), cuts.begin(), cuts.end());
+    return rest;
+}
+
+BrickGrid common_field(const Device& device, const BrickGrid& body, const BrickGrid& rest) {
+    return Joiner(device, body).fields(rest);
+}
+
+BrickGrid common_cubes(const Device& device, const CoveredBody& body, const CoveredBody& rest) {
+    return Joiner(device, body.cover).covers(body.inside, rest);
+}
+
+}  // namespace voxelume

@@ -1,0 +1,48 @@
+// Where a straight line enters and leaves an analytic solid, in closed form.
+#pragma once
+
+#include <array>
+#include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
+
+#include "runtime/scene/solid.hpp"
+
+namespace voxelume::oracle {
+
+/// The line origin + direction * t, for all real t.
+struct Line {
+    glm::dvec3 origin{0};
+    glm::dvec3 direction{0};
+};
+
+/// One point where a line goes through a surface.
+struct Crossing {
+    double t = 0;
+    bool enters = false;  ///< along the line's direction
+    int face = 0;         ///< number of the smooth part of the surface, different across edges
+};
+
+/// All crossings of a line, which enter and leave in turn; t doesn't fall.
+struct Crossings {
+    std::array<Crossing, 4> list{};
+    int count = 0;
+};
+
+/// A sphere, ellipsoid, box, cylinder, torus, capsule or slab under any affine map.
+class PlacedSolid {
+  public:
+    /// Throws std::invalid_argument for cones and combinations.
+    PlacedSolid(const Solid& solid, const glm::dmat4& world_from_solid);
+
+    /// A line that only touches the solid has no crossings.
+    Crossings crossings(const Line& line) const;
+
+    /// The unit normal that points out of the solid, at a point of the surface's part `face`.
+    glm::dvec3 normal(const glm::dvec3& point, int face) const;
+
+  private:
+    Solid solid_;
+    glm::dmat4 solid_from_world_;
+};
+
+}  // namespace voxelume::oracle

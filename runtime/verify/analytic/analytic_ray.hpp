@@ -1,0 +1,28 @@
+// Where a ray meets an analytic solid, in double: the truth that `voxelume bench` holds images to.
+#pragma once
+
+#include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
+#include <optional>
+
+#include "runtime/scene/solid.hpp"
+
+namespace voxelume {
+
+struct AnalyticHit {
+    double t = 0;          ///< metres along the ray
+    glm::dvec3 normal{0};  ///< unit vector out of the solid, in the world
+};
+
+/// Whether `analytic_hit` knows the kind: sphere, box, torus.
+bool has_analytic_hit(SolidKind kind);
+
+/// The first point in which a ray from outside meets a solid that is turned and shifted only.
+///
+/// `direction` is a unit vector. Sphere and box are closed forms; a torus's quartic is cut at the
+/// roots of its derivatives, and its first change of sign is bisected to the last bit. Throws
+/// Error::render for a kind without.
+std::optional<AnalyticHit> analytic_hit(const Solid& solid, const glm::dmat4& world_from_solid,
+                                        const glm::dvec3& origin, const glm::dvec3& direction);
+
+}  // namespace voxelume

@@ -1,0 +1,40 @@
+// The scenes of `voxelume bench` that show one thing, which an observer sees whole.
+#pragma once
+
+#include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <span>
+
+#include "runtime/scene/scene.hpp"
+
+namespace voxelume {
+
+/// About a metre across and near the origin, turned and shifted off the world's lattice.
+struct BenchSolid {
+    const char* name;
+    const char* help;
+    Solid solid;
+    double least_radius;          ///< of curvature of its surface, metres; 0 for edges
+    glm::dmat4 world_from_solid;  ///< turns and shifts
+};
+
+std::span<const BenchSolid> bench_solids();
+
+/// A world in voxels of 1/`resolution` metres around what is at most 0.55 m from the origin on each
+/// axis, and an observer 2.4 m away who sees it whole. There are no objects and no lights.
+Scene empty_bench_scene(int resolution, glm::ivec2 size);
+
+/// Adds a model in voxels of 1/`resolution` metres of the world and its only object; `placement`
+/// turns, shifts and scales alike on all axes.
+void add_bench_object(Scene& scene, Model model, Surface surface, int resolution,
+                      const glm::dmat4& placement);
+
+/// The solid in voxels of 1/`resolution` metres, seen by one ray a pixel. There are no lights.
+Scene bench_scene(const BenchSolid& solid, Surface surface, int resolution, glm::ivec2 size);
+
+/// The unit vector from the observer through a point of the image, in pixels from its upper left
+/// corner.
+glm::dvec3 sight_direction(const Scene& scene, double column, double row);
+
+}  // namespace voxelume

@@ -1,0 +1,138 @@
+#include "runtime/verify/report/bench_fronts.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "runtime/verify/bench/bench.hpp"
+
+namespace voxelume {
+namespace {
+
+/// Natural logarithm of the seconds that a front takes for an error of exp(log_error).
+double log_seconds(const ErrorFront& front, double log_error) {
+    if (log_error >= std::log(front.front().first)) return std::log(front.front().second);
+    size_t i = 1;
+    while (i + 1 < front.size() && log_error < std::log(front[i].first)) ++i;
+    const double e0 = std::log(front[i - 1].first), e1 = std::log(front[i].first);
+    const double t0 = std::log(front[i - 1].second), t1 = std::log(front[i].second);
+    return t0 + (t1 - t0) * (log_error - e0) / (e1 - e0);
+}
+
+/// Where the ratio of two fronts bends: logarithms of errors, falling.
+std::vector<double> bends(const ErrorFront& ours, const ErrorFront& other, double coarse) {
+    const double fine = std::log(std::max(ours.back().first, other.back().first));
+    std::vector<double> errors = {coarse, fine};
+    for (const ErrorFront* front : {&ours, &other})
+        for (const auto& [error, seconds] : *front)
+            if (std::log(error) < coarse && std::log(error) > fine)
+                errors.push_back(std::log(error));
+    std::ranges::sort(errors, std::greater());
+    errors.erase(std::unique(errors.begin(), errors.end()), errors.end());
+    return errors;
+}
+
+/// "1.9 to 5.6 times as quick", "5.6 times" where both read alike, or "as quick" where that is 1,
+/// from a ratio that favours it.
+std::string times_text(double least, double most) {
+    const auto digits = [](double times) {
+        return times < 100 ? fmt::format("{:.3g}", times) : fmt::format("{:.0f}", times);
+    };
+    if (most < 1.005) return "as quick";
+    if (least < 1.005) return fmt::format("up to {} times as quick", digits(most));
+    if (digits(least) == digits(most)) return digits(most) + " times as quick";
+    return fmt::format("{} to {} times as quick", digits(least), digits(most));
+}
+
+}  // namespace
+
+ErrorFront error_front(const std::vector<std::pair<double, double>>& errors_and_seconds) {
+    std::vector<double> errors, seconds;
+    for (const auto& [error, time] : errors_and_seconds) {
+        if (!(error > 0 && time > 0)) continue;
+        errors.push_back(error);
+        seconds.push_back(time);
+    }
+    ErrorFront front;
+    for (const size_t i : pareto_front(seconds, errors))
+        if (front.empty() || errors[i] < front.back().first)
+            front.emplace_back(errors[i], seconds[i]);
+    return front;
+}
+
+std::vector<FrontPiece> compare_fronts(const ErrorFront& ours, const ErrorFront& other,
+                                       double coarse) {
+    std::vector<FrontPiece> pieces;
+    if (ours.empty() || other.empty()) return pieces;
+    if (std::max(ours.back().first, other.back().first) > coarse) return pieces;
+    double last_error = 0, last_log = 0;
+    for (const double error : bends(ours, other, std::log(coarse))) {
+        const double log_ratio = log_seconds(other, error) - log_seconds(ours, error);
+        const double ratio = std::exp(log_ratio), metres = std::exp(error);
+        if (pieces.empty()) {
+            pieces.push_back({metres, metres, ratio, ratio});
+        } else if ((log_ratio > 0) != (last_log > 0)) {
+            const double share = last_log / (last_log - log_ratio);
+            const double crossing = std::exp(last_error + share * (error - last_error));
+            FrontPiece& before = pieces.back();
+            before.fine = crossing;
+            (last_log > 0 ? before.least : before.most) = 1;
+            pieces.push_back({crossing, metres, std::min(1.0, ratio), std::max(1.0, ratio)});
+        } else {
+            FrontPiece& piece = pieces.back();
+            piece.fine = metres;
+            piece.least = std::min(piece.least, ratio);
+            piece.most = std::max(piece.most, ratio);
+        }
+        last_error = error;
+        last_log = log_ratio;
+    }
+    return pieces;
+}
+
+std::vector<FrontComparison> front_comparisons(const BenchReport& report) {
+    std::vector<FrontComparison> comparisons;
+    for (const BenchPeerRow& peer : report.peers) {
+        const auto is_known = [&](const FrontComparison& c) {
+            return c.program == peer.program && c.scene == peer.scene;
+        };
+        if (std::ranges::any_of(comparisons, is_known)) continue;
+        std::vector<std::pair<double, double>> ours, theirs;
+        for (const BenchRow& row : report.rows)
+            if (row.scene == peer.scene && row.samples == 1)
+                ours.emplace_back(row.errors.depth_rms, row.seconds.total);
+        for (const BenchPeerRow& row : report.peers)
+            if (row.program == peer.program && row.scene == peer.scene)
+                theirs.emplace_back(row.depth_rms, row.total_seconds());
+        const ErrorFront our_front = error_front(ours), their_front = error_front(theirs);
+        if (our_front.empty() || their_front.empty()) continue;
+        const double coarse = std::ranges::max(theirs).first;
+        comparisons.push_back({peer.program, peer.scene,
+                               compare_fronts(our_front, their_front, coarse),
+                               our_front.back().first, their_front.back().first});
+    }
+    return comparisons;
+}
+
+std::string sentence_of(const FrontComparison& comparison) {
+    std::vector<std::string> parts;
+    for (const FrontPiece& piece : comparison.pieces) {
+        const bool is_ours = piece.most > 1;
+        const std::string range = piece.fine < piece.coarse
+                                      ? fmt::format("from {:.2g} m of depth RMS down to {:.2g} m",
+                                                    piece.coarse, piece.fine)
+                                      : fmt::format("at {:.2g} m of depth RMS", piece.fine);
+        parts.push_back(fmt::format("{} is {} {}", is_ours ? "Voxelume" : comparison.program,
+                                    is_ours ? times_text(piece.least, piece.most)
+                                            : times_text(1 / piece.most, 1 / piece.least),
+                                    range));
+    }
+    const bool ours_is_finer = comparison.finest_ours < comparison.finest_theirs;
+    parts.push_back(fmt::format("only {} comes nearer, to {:.2g} m",
+                                ours_is_finer ? "Voxelume" : comparison.program,
+                                std::min(comparison.finest_ours, comparison.finest_theirs)));
+    return fmt::format("{}, {}: {}.", comparison.scene, comparison.program, fmt::join(parts, "; "));
+}
+
+}  // namespace voxelume

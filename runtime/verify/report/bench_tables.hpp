@@ -1,0 +1,34 @@
+// A bench's rows as text for people, spreadsheets and programs.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+#include "runtime/verify/bench/bench.hpp"
+
+namespace voxelume {
+
+/// Lines of columns: the rows, then the fitted slopes, light, and other programs.
+std::string bench_text(const BenchReport& report);
+
+/// RFC 4180, one line a row after one of names with units.
+std::string bench_csv(const BenchReport& report);
+
+/// Everything in the report. An interval without bounds is null.
+nlohmann::ordered_json bench_json(const BenchReport& report);
+
+/// "2.98 +- 0.03 (5 rows)", "2.98 (2 rows)" without an interval, "- (1 rows)" without a slope.
+std::string slope_text(const SlopeFit& fit);
+
+/// Of `exact`, whose errors don't fall with the size of voxels: "9.2e-08 to 3.4e-07 m, at most 1.4
+/// floats", the last in spacings of floats at the scene's distance. Empty for other surfaces.
+std::string level_text(const BenchFit& fit);
+
+/// What theory promises of a slope, for people; empty when it promises nothing.
+struct ExpectedSlopes {
+    const char* depth = "";
+    const char* normal = "";
+};
+ExpectedSlopes expected_slopes(const std::string& scene, Surface surface);
+
+}  // namespace voxelume

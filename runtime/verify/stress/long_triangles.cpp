@@ -1,0 +1,155 @@
+#include "runtime/verify/stress/long_triangles.hpp"
+
+#include <algorithm>
+#include <glm/common.hpp>
+
+#include "runtime/grid/grid.hpp"
+
+namespace voxelume {
+namespace {
+
+/// Regions of long triangles, whose longest axis is x before they are turned: some 4000 bricks
+/// each, for the device visits all of a triangle's box, and no axis of the grid beyond 16384.
+constexpr std::array kLongGrids = {
+    TriangleGrid{{4096, 48, 64}, {1, 32, 16}},
+    TriangleGrid{{2048, 128, 64}, {2, 16, 16}},
+    TriangleGrid{{16384, 32, 32}, {1, 16, 32}},
+    TriangleGrid{{512, 512, 64}, {8, 4, 16}},
+};
+
+/// One of them as it is, and how often its axes are turned.
+struct LongGrid {
+    const TriangleGrid& grid;
+    int turns;
+};
+
+LongGrid long_grid(uint64_t number) {
+    return {kLongGrids[number % kLongGrids.size()], int(number % 3)};
+}
+
+/// Narrow triangles along x. They meet voxels by the length, or the length times a small width.
+class LongTriangle {
+  public:
+    LongTriangle(StressRandom& random, const TriangleGrid& grid)
+        : random_(random),
+          units_(grid.region * kUnitsPerVoxel),
+          // Floats hold 24 bits: all lattice units of 4096 voxels, every fourth of 16384.
+          step_(std::max(1, grid.size().x / 4096)) {}
+
+    TriangleOnLattice any() {
+        const glm::ivec3 a = point(1, units_.x / 8), b = point(units_.x * 7 / 8, units_.x);
+        switch (random_.below(9)) {
+            case 0:
+                return held({a, b, beside(a, b, 4)});
+            case 1:
+                return held({a, b, beside(a, b, width())});
+            case 2:
+                return held({a, b, near(b, kUnitsPerVoxel)});
+            case 3:
+                return in_plane(a, b, 0);
+            case 4:
+                return in_plane(a, b, 1);
+            case 5:
+                return on_corners(a, b);
+            case 6:
+                return without_area(a, b);
+            case 7:
+                return through_a_bricks_corner();
+            default:
+                return about_128_voxels(a);
+        }
+    }
+
+  private:
+    /// How far from its longest edge a corner may lie for some 10^4 voxels to be met.
+    int width() const { return std::min(16, 65536 * kUnitsPerVoxel / units_.x) * kUnitsPerVoxel; }
+
+    glm::ivec3 point(int low_x, int high_x) {
+        return {int(random_.between(low_x, high_x)), int(random_.between(1, units_.y - 1)),
+                int(random_.between(1, units_.z - 1))};
+    }
+    glm::ivec3 near(const glm::ivec3& p, int reach) {
+        glm::ivec3 q;
+        for (int axis = 0; axis < 3; ++axis)
+            q[axis] = p[axis] + int(random_.between(-reach, reach));
+        return q;
+    }
+    /// At most `reach` from a point of the segment.
+    glm::ivec3 beside(const glm::ivec3& a, const glm::ivec3& b, int reach) {
+        const int64_t part = random_.between(0, 1 << 16);
+        glm::ivec3 p;
+        for (int axis = 0; axis < 3; ++axis)
+            p[axis] = a[axis] + int(int64_t(b[axis] - a[axis]) * part >> 16);
+        return near(p, reach);
+    }
+    TriangleOnLattice in_plane(const glm::ivec3& a, const glm::ivec3& b, int tilt) {
+        const int axis = 1 + int(random_.below(2));
+        TriangleOnLattice t = {a, b, beside(a, b, width())};
+        const int plane = std::max(kUnitsPerVoxel, a[axis] / kUnitsPerVoxel * kUnitsPerVoxel);
+        for (glm::ivec3& p : t) p[axis] = plane + int(random_.between(-tilt, tilt));
+        return held(t);
+    }
+    TriangleOnLattice on_corners(const glm::ivec3& a, const glm::ivec3& b) {
+        TriangleOnLattice t = {a, b, beside(a, b, width())};
+        for (glm::ivec3& p : t)
+            p = glm::clamp(p / kUnitsPerVoxel, glm::ivec3(1), units_ / kUnitsPerVoxel - 1) *
+                kUnitsPerVoxel;
+        return t;
+    }
+    /// Three points of a line.
+    TriangleOnLattice without_area(const glm::ivec3& a, const glm::ivec3& b) {
+        const int parts = int(random_.between(2, 9)), part = int(random_.between(0, parts));
+        glm::ivec3 first = a, way = (b - a) / parts;
+        first.x = std::max(step_, a.x / step_ * step_), way.x = way.x / step_ * step_;
+        return {first, first + way * parts, first + way * part};
+    }
+    /// Some of the bricks around that corner are met nowhere else.
+    TriangleOnLattice through_a_bricks_corner() {
+        const int before = 1 << random_.below(11), behind = 1 << random_.below(11);
+        glm::ivec3 corner, way;
+        for (int axis = 0; axis < 3; ++axis) {
+            const int bricks = units_[axis] / (kBrickSize * kUnitsPerVoxel);
+            corner[axis] = int(random_.between(1, bricks - 1)) * kBrickSize * kUnitsPerVoxel;
+            const int room = std::min(corner[axis], units_[axis] - corner[axis]) - step_;
+            const int most = room / std::max(before, behind);
+            way[axis] = int(random_.between(axis == 0 ? most / 2 : -most, most));
+        }
+        way.x = way.x / step_ * step_;
+        const glm::ivec3 a = corner - way * before, b = corner + way * behind;
+        return held({a, b, beside(a, b, width())});
+    }
+    /// On both sides of where planes go over to 128 bits.
+    TriangleOnLattice about_128_voxels(const glm::ivec3& a) {
+        glm::ivec3 b = near(a, 2 * kUnitsPerVoxel);
+        b.x = a.x + 128 * kUnitsPerVoxel + step_ * int(random_.between(-1, 1));
+        return held({a, b, beside(a, b, width())});
+    }
+    /// In the region, along x in whole steps.
+    TriangleOnLattice held(TriangleOnLattice t) const {
+        for (glm::ivec3& p : t) {
+            p = glm::clamp(p, glm::ivec3(step_, 1, 1), units_ - glm::ivec3(step_, 1, 1));
+            p.x = p.x / step_ * step_;
+        }
+        return t;
+    }
+
+    StressRandom& random_;
+    glm::ivec3 units_;
+    int step_;
+};
+
+}  // namespace
+
+TriangleGrid grid_of_long_triangles(uint64_t grid) {
+    const LongGrid chosen = long_grid(grid);
+    return {turned(chosen.grid.region, chosen.turns), turned(chosen.grid.counts, chosen.turns)};
+}
+
+TriangleOnLattice long_triangle(StressRandom& random, uint64_t grid) {
+    const LongGrid chosen = long_grid(grid);
+    TriangleOnLattice t = LongTriangle(random, chosen.grid).any();
+    for (glm::ivec3& p : t) p = turned(p, chosen.turns);
+    return t;
+}
+
+}  // namespace voxelume

@@ -1,0 +1,15 @@
+// Triangles many times as long as wide: from 128 voxels on their planes are formed in 128 bits.
+#pragma once
+
+#include "runtime/verify/stress/stress_random.hpp"
+#include "runtime/verify/stress/triangle_classes.hpp"
+
+namespace voxelume {
+
+/// Grid number `grid` of long triangles: their regions are up to 16384 voxels long.
+TriangleGrid grid_of_long_triangles(uint64_t grid);
+
+/// A triangle of that grid, in a region from the origin on.
+TriangleOnLattice long_triangle(StressRandom& random, uint64_t grid);
+
+}  // namespace voxelume

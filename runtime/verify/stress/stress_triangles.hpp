@@ -1,0 +1,12 @@
+// triangles of nasty classes -> mismatches between the voxels that they get and the exact ones.
+#pragma once
+
+#include "runtime/scene/surface.hpp"
+#include "runtime/verify/stress/stress.hpp"
+
+namespace voxelume {
+
+/// Tries the SUPERCOVER of triangles, or their THIN voxels.
+StressResult stress_triangles(VoxelSet set, const StressRun& run);
+
+}  // namespace voxelume

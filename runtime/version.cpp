@@ -1,9 +1,0 @@
-#include "runtime/version.hpp"
-
-namespace voxelume {
-
-const char* version() {
-    return VXL_VERSION;
-}
-
-}  // namespace voxelume

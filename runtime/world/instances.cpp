@@ -1,0 +1,162 @@
+#include "runtime/world/instances.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <map>
+#include <utility>
+
+#include "runtime/base/error.hpp"
+#include "runtime/grid/pyramid_bytes.hpp"
+#include "runtime/stages/instance/instance_pools.hpp"
+#include "runtime/stages/instance/instances.hpp"
+#include "runtime/stages/light/spots.hpp"
+
+namespace voxelume {
+namespace {
+
+constexpr double kFar = 1e9;  // metres
+
+/// Why an object can't be an instance; empty if it can.
+std::string refusal(const Scene& scene, const Object& object) {
+    if (is_lamp(scene, object))
+        return "its emission lights the world, and lamps are found in the world's voxels";
+    if (transmits(scene, object))
+        return "a material of it lets light through, and rays go through objects in the world's "
+               "voxels only";
+    const Model& model = scene.models[size_t(object.model)];
+    if (model.solid && is_infinite(*model.solid)) return "its solid has no end";
+    if (scene.observer.display.layout == VolumeLayout::lattice)
+        return "the display's layout is \"lattice\", which shows the world's voxels";
+    return "";
+}
+
+/// The model as an instance shows it: whole, wherever the world ends.
+Model whole(Model model) {
+    model.reach = {glm::dvec3(-kFar), glm::dvec3(kFar)};
+    return model;
+}
+
+}  // namespace
+
+bool is_instanced(const Scene& scene, const Object& object) {
+    if (object.placement == Placement::automatic)
+        return object.moves && refusal(scene, object).empty();
+    return object.placement == Placement::instance;
+}
+
+void check_placements(const Scene& scene) {
+    for (const Object& object : scene.objects) {
+        if (object.placement != Placement::instance) continue;
+        const std::string reason = refusal(scene, object);
+        if (!reason.empty())
+            throw Error(ErrorKind::scene,
+                        "{}: the object \"{}\" can't be placed as an instance: {}; give it "
+                        "\"placement\": \"world\"",
+                        object.where, object.name, reason);
+    }
+}
+
+ListedInstances list_instances(const Scene& scene, MeshStore& meshes, const GridSource& grid_of) {
+    ListedInstances listed;
+    std::map<int, uint32_t> numbers;
+    for (uint32_t number = 0; number < scene.objects.size(); ++number) {
+        const Object& object = scene.objects[number];
+        if (!object.visible || !object.in_reach || !is_instanced(scene, object)) continue;
+        const Model& model = scene.models[size_t(object.model)];
+        const auto [entry, added] =
+            numbers.emplace(object.model, static_cast<uint32_t>(listed.grids.size()));
+        if (added) listed.grids.push_back(grid_of(object, whole(model)));
+        if (listed.grids[entry->second]->transparent)
+            throw Error(ErrorKind::scene,
+                        "{}: some voxels of its model let light through, and rays go through "
+                        "objects in the world's voxels only; give it \"placement\": \"world\"",
+                        object.where);
+        const std::vector<int> groups = materials_of_groups(object, meshes.groups_of(model));
+        listed.list.push_back({.object = number,
+                               .model = entry->second,
+                               .first_material = static_cast<uint32_t>(listed.materials.size()),
+                               .material_count = static_cast<uint32_t>(groups.size())});
+        for (const int material : groups)
+            listed.materials.push_back(static_cast<uint32_t>(material));
+    }
+    return listed;
+}
+
+void InstanceModels::forget_unused(const ListedInstances& listed, uint64_t room) {
+    for (Kept& kept : std::exchange(kept_, {})) {
+        const bool is_listed = std::ranges::find(listed.grids, kept.grid) != listed.grids.end();
+        const uint64_t bytes = is_listed ? 0 : bytes_of(kept.model.pyramid);
+        if (!is_listed && (kept.grid.use_count() == 1 || bytes > room)) continue;
+        room -= bytes;
+        kept_.push_back(std::move(kept));
+    }
+}
+
+Pyramid InstanceModels::join(const Scene& scene, const ListedInstances& listed, Pyramid world,
+                             InstanceReport& report) {
+    const std::vector<Kept> before = std::exchange(kept_, {});
+    for (const Kept& kept : before) {
+        const bool is_listed = std::ranges::find(listed.grids, kept.grid) != listed.grids.end();
+        if (!is_listed) kept_.push_back(kept);
+    }
+    if (listed.list.empty()) return world;
+    const auto start = std::chrono::steady_clock::now();
+    std::vector<ModelPyramid> models;
+    for (const SharedGrid& grid : listed.grids) {
+        const auto found = std::ranges::find(before, grid, &Kept::grid);
+        if (found == before.end()) ++report.indexed;
+        models.push_back(found == before.end() ? index_model(device_, *grid) : found->model);
+        kept_.push_back({grid, models.back()});
+        report.voxels += models.back().pyramid.voxel_count;
+        report.bytes += bytes_of(models.back().pyramid);
+    }
+    Pyramid joined = join_models(device_, world, models);
+    set_instances(device_, listed.list, listed.materials, joined);
+    move_instances(device_, scene, joined);
+    device_.finish();
+    report.instances = static_cast<uint32_t>(joined.instances.list.size());
+    report.models = static_cast<uint32_t>(models.size());
+    report.seconds =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return joined;
+}
+
+std::vector<InstancePlace> instance_places(const Scene& scene, const Pyramid& world) {
+    std::vector<InstancePlace> places;
+    for (const Instance& instance : world.instances.list)
+        places.push_back({instance.object, scene.objects[instance.object].world_from_object});
+    return places;
+}
+
+uint32_t count_moved(const std::vector<InstancePlace>& before,
+                     const std::vector<InstancePlace>& now) {
+    uint32_t moved = 0;
+    auto old = before.begin();
+    for (const InstancePlace& place : now) {
+        while (old != before.end() && old->object < place.object) ++old;
+        moved += old == before.end() || *old != place;
+    }
+    return moved;
+}
+
+void leave_out_places_of_instances(const Scene& scene, std::vector<Model>& models,
+                                   std::vector<Object>& objects) {
+    std::vector<bool> is_baked(models.size(), false);
+    for (size_t number = 0; number < objects.size(); ++number) {
+        if (is_instanced(scene, scene.objects[number]))
+            objects[number].world_from_object = glm::dmat4(1);
+        else
+            is_baked[size_t(objects[number].model)] = true;
+    }
+    for (size_t model = 0; model < models.size(); ++model)
+        if (!is_baked[model]) models[model].reach = {};
+}
+
+void move_instances(const Device& device, const Scene& scene, Pyramid& world) {
+    std::vector<glm::dmat4> maps;
+    maps.reserve(scene.objects.size());
+    for (const Object& object : scene.objects) maps.push_back(object.world_from_object);
+    place_instances(device, maps, world);
+}
+
+}  // namespace voxelume

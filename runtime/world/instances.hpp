@@ -1,0 +1,87 @@
+// scene -> instances: the objects that keep voxels of their own, behind the world's pyramid.
+#pragma once
+
+#include "runtime/grid/grid.hpp"
+#include "runtime/placed_objects.hpp"
+#include "runtime/scene/scene.hpp"
+#include "runtime/stages/instance/instance_model.hpp"
+
+namespace voxelume {
+
+/// Whether rays are carried into the object's space, instead of the object into the world's.
+///
+/// `auto` is `world` for an object that stands still, and for one that can't be an instance: a lamp
+/// (its spots are found in the world's voxels), one that lets light through, one in a scene whose
+/// display is a lattice (which shows the world's voxels).
+bool is_instanced(const Scene& scene, const Object& object);
+
+/// Throws Error::scene, saying why, for an object that is to be an `instance` and can't.
+void check_placements(const Scene& scene);
+
+/// What instances take, for people and tests.
+struct InstanceReport {
+    uint32_t instances = 0, models = 0;
+    uint32_t moved = 0;    ///< instances that stand elsewhere than in the frame before, or are new
+    uint32_t indexed = 0;  ///< models whose pyramid was built for this frame
+    uint64_t voxels = 0, bytes = 0;  ///< of the models, each counted once
+    double seconds = 0;              ///< indexing and joining models, placing instances
+};
+
+/// A scene's instances with the grids of their models.
+struct ListedInstances {
+    std::vector<SharedGrid> grids;  ///< of the models, each once, numbered as in `list`
+    std::vector<Instance> list;
+    std::vector<uint32_t> materials;  ///< of their groups
+};
+
+/// Lists a scene's instances with the grids that `grid_of` gives their models, whole, in their own
+/// frames. Throws as that and materials_of_groups do, and Error::scene for a model some of whose
+/// voxels let light through.
+ListedInstances list_instances(const Scene& scene, MeshStore& meshes, const GridSource& grid_of);
+
+/// Puts instances behind worlds, and keeps the pyramids of their models.
+class InstanceModels {
+  public:
+    explicit InstanceModels(const Device& device) : device_(device) {}
+
+    /// Forgets the pyramids of models that aren't `listed`, but those whose grids others keep; of
+    /// these it keeps the first made that take no more than `room` bytes of the device.
+    void forget_unused(const ListedInstances& listed, uint64_t room);
+
+    /// The world with the scene's instances. Without any it stays as it is. Throws Error::limit for
+    /// too little memory.
+    Pyramid join(const Scene& scene, const ListedInstances& listed, Pyramid world,
+                 InstanceReport& report);
+
+  private:
+    struct Kept {
+        SharedGrid grid;
+        ModelPyramid model;
+    };
+
+    Device device_;
+    std::vector<Kept> kept_;
+};
+
+/// Where an object stands that is an instance.
+struct InstancePlace {
+    uint32_t object = 0;  ///< its number in the scene
+    glm::dmat4 world_from_object{1};
+    friend bool operator==(const InstancePlace&, const InstancePlace&) = default;
+};
+
+/// The places of a world's instances, ascending by object.
+std::vector<InstancePlace> instance_places(const Scene& scene, const Pyramid& world);
+
+/// How many of the places `now` weren't there `before`.
+uint32_t count_moved(const std::vector<InstancePlace>& before,
+                     const std::vector<InstancePlace>& now);
+
+/// Forgets, in a copy of a scene's models and objects, what changes when instances move alone.
+void leave_out_places_of_instances(const Scene& scene, std::vector<Model>& models,
+                                   std::vector<Object>& objects);
+
+/// Moves a world's instances to where the scene's objects are now.
+void move_instances(const Device& device, const Scene& scene, Pyramid& world);
+
+}  // namespace voxelume

@@ -1,0 +1,282 @@
+#include "runtime/world/world.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <utility>
+
+#include "runtime/analysis/object_boxes.hpp"
+#include "runtime/analysis/reach.hpp"
+#include "runtime/analysis/shown_models.hpp"
+#include "runtime/base/error.hpp"
+#include "runtime/memory/plan.hpp"
+#include "runtime/placed_objects.hpp"
+#include "runtime/stages/index/index.hpp"
+#include "runtime/stages/medium/density_grid.hpp"
+#include "runtime/world/world_source.hpp"
+
+namespace voxelume {
+namespace {
+
+/// Adds the time until `stop` to a sum of seconds.
+class Stopwatch {
+  public:
+    explicit Stopwatch(double& seconds) : seconds_(seconds) {}
+    void stop() {
+        seconds_ += std::chrono::duration<double>(Clock::now() - start_).count();
+        start_ = Clock::now();
+    }
+
+  private:
+    using Clock = std::chrono::steady_clock;
+    double& seconds_;
+    Clock::time_point start_ = Clock::now();
+};
+
+/// Does a part of forming the world, whose limits are the world's.
+template <class Part>
+auto for_world(const World& world, const Part& part) {
+    const std::string size = size_text(world.voxels);
+    return with_limits_of(fmt::format("{}: a world of {} voxels", world.where, size), part);
+}
+
+/// Adds to a report the models that are voxelized while it lives, and the time that takes.
+class VoxelizingReport {
+  public:
+    VoxelizingReport(const ObjectGrids& grids, const MeshStore& meshes, WorldReport& report)
+        : grids_(grids), meshes_(meshes), report_(report), stopwatch_(report.voxelize_seconds) {
+        add(-1);
+    }
+    ~VoxelizingReport() {
+        add(1);
+        stopwatch_.stop();
+    }
+    VoxelizingReport(const VoxelizingReport&) = delete;
+    VoxelizingReport& operator=(const VoxelizingReport&) = delete;
+
+  private:
+    void add(int64_t sign) {
+        report_.voxelized += uint64_t(sign) * grids_.voxelized();
+        report_.from_cache += uint64_t(sign) * grids_.from_cache();
+        report_.meshes_read += uint64_t(sign) * meshes_.meshes_read();
+        report_.keep_seconds += double(sign) * grids_.keep_seconds();
+        report_.voxelize_seconds -= double(sign) * grids_.keep_seconds();
+    }
+
+    const ObjectGrids& grids_;
+    const MeshStore& meshes_;
+    WorldReport& report_;
+    Stopwatch stopwatch_;
+};
+
+}  // namespace
+
+WorldFormer::Origin WorldFormer::origin_of(const Scene& scene) {
+    Origin origin{{}, scene.models, scene.objects, {}, {}};
+    origin.world.bounds = scene.world.bounds;
+    origin.world.voxels = scene.world.voxels;
+    origin.world.voxel_size = scene.world.voxel_size;
+    for (const Material& material : scene.materials)
+        origin.transmits.push_back(transmits(material));
+    for (const Object& object : scene.objects)
+        origin.instanced.push_back(is_instanced(scene, object));
+    leave_out_places_of_instances(scene, origin.models, origin.objects);
+    return origin;
+}
+
+/// The world before, with its instances where they are now.
+FormedWorld WorldFormer::kept_world(const Scene& scene, WorldReport& report) {
+    if (density_ != scene.world.medium.density) {
+        density_ = scene.world.medium.density;
+        world_.pyramid.clear = has_no_medium(scene.world);
+    }
+    report.triangles = meshes_.triangles();
+    report.instances = instances_;
+    report.instances.seconds = 0;
+    report.instances.indexed = 0;
+    std::vector<InstancePlace> places = instance_places(scene, world_.pyramid);
+    report.instances.moved = count_moved(instance_places_, places);
+    report.change = report.instances.moved == 0 ? WorldChange::none : WorldChange::instances;
+    if (report.change == WorldChange::none) return world_;
+    Stopwatch moving(report.instances.seconds);
+    move_instances(device_, scene, world_.pyramid);
+    instance_places_ = std::move(places);
+    ++world_.version;
+    moving.stop();
+    return world_;
+}
+
+FormedWorld WorldFormer::form(const Scene& scene, WorldReport& report,
+                              const std::vector<bool>& awaited) {
+    report.out_of_reach = uint64_t(std::ranges::count_if(
+        scene.objects, [](const Object& o) { return o.visible && !o.in_reach; }));
+    const Origin origin = origin_of(scene);
+    if (origin_ == origin) return kept_world(scene, report);
+    try {
+        return form_anew(scene, origin, report, awaited);
+    } catch (const Error& error) {
+        const bool makes_room = grids_ && grids_->awaited_bytes() > 0;
+        if (error.kind() != ErrorKind::limit || !makes_room) throw;
+    }
+    awaits_ = false;
+    placer_.reset();
+    shown_.clear();
+    grids_->forget_unused(scene, {}, 0);
+    report.instances = {};
+    return form_anew(scene, origin, report, awaited);
+}
+
+FormedWorld WorldFormer::form_anew(const Scene& scene, const Origin& origin, WorldReport& report,
+                                   const std::vector<bool>& awaited) {
+    origin_.reset();
+    world_.pyramid = {};
+    keeps_ = false;
+    // What an error leaves in the middle is begun afresh.
+    Indexer indexer = std::exchange(indexer_, Indexer(device_));
+    InstanceModels models = std::exchange(models_, InstanceModels(device_));
+    check_placements(scene);
+    check_tables(scene, device_.info());
+    const ScenePlan plan = plan_scene(scene, meshes_);
+    check_memory(scene, plan, device_.info());
+    report.load_seconds = meshes_.load_seconds() - load_seconds_;
+    report.meshes_read = meshes_.meshes_read() - meshes_read_;
+    report.triangles = meshes_.triangles();
+    const double memory = double(device_.info().memory);
+    keeps_ = follows_ && plan.least_with_next < memory;
+    report.lacks_room = follows_ && !keeps_;
+    const double spare = std::max(memory - plan.bytes_with_next(), 0.0);
+    const uint64_t room =
+        keeps_ && awaits_ ? std::min(uint64_t(spare), device_.info().memory / kAwaitedPart) : 0;
+
+    if (!grids_) grids_.emplace(device_, meshes_);
+    ListedInstances listed;
+    {
+        const VoxelizingReport voxelizing(*grids_, meshes_, report);
+        listed = list_instances(scene, meshes_, [&](const Object&, const Model& model) {
+            return grids_->own_grid_of(model);
+        });
+    }
+    std::vector<VoxelBox> boxes = object_boxes(scene, meshes_);
+    FormedWorld formed{kept_or_new_world({scene, awaited, keeps_, room, report}, indexer),
+                       ++world_.version};
+    load_seconds_ = meshes_.load_seconds();
+    meshes_read_ = meshes_.meshes_read();
+    Stopwatch indexing(report.index_seconds);
+    models.forget_unused(listed, keeps_ ? room - grids_->awaited_bytes() : 0);
+    for_world(scene.world, [&] {
+        formed.pyramid = models.join(scene, listed, std::move(formed.pyramid), report.instances);
+    });
+    std::vector<InstancePlace> places = instance_places(scene, formed.pyramid);
+    report.instances.moved = count_moved(instance_places_, places);
+    instance_places_ = std::move(places);
+    formed.pyramid.object_boxes = std::move(boxes);
+    formed.pyramid.clear = plan.medium.is_zero;
+    device_.finish();
+    indexing.stop();
+    if (keeps_) {
+        world_.pyramid = formed.pyramid;
+        density_ = scene.world.medium.density;
+        indexer_ = std::move(indexer);
+        models_ = std::move(models);
+        instances_ = report.instances;
+        origin_ = origin;
+    }
+    return formed;
+}
+
+/// The first of these worlds that the cache has and the device has room for.
+std::optional<WorldFormer::ReadWorld> WorldFormer::read_world(
+    const std::vector<std::string>& keys) {
+    for (const std::string& key : keys) {
+        try {
+            if (auto kept = meshes_.cache().world(device_, key)) return ReadWorld{key, *kept};
+        } catch (const Error& error) {
+            const bool is_wide = key != keys.front();
+            if (error.kind() != ErrorKind::limit || !is_wide) throw;
+        }
+    }
+    return std::nullopt;
+}
+
+/// The world's voxels as an earlier run formed them, of no more objects than are in reach if it
+/// has such, else new ones, which are kept for later runs.
+Pyramid WorldFormer::kept_or_new_world(const Task& task, Indexer& indexer) {
+    const std::vector<std::string> keys =
+        placer_ ? std::vector<std::string>() : world_sources(task.scene, meshes_);
+    if (keys.empty()) return new_world(task, indexer);
+    Stopwatch reading(task.report.index_seconds);
+    if (read_ && std::ranges::find(keys, read_->key) == keys.end()) read_.reset();
+    task.report.is_from_cache = !read_;
+    if (!read_) read_ = for_world(task.scene.world, [&] { return read_world(keys); });
+    reading.stop();
+    if (read_) {
+        Pyramid world = read_->pyramid;
+        if (read_->key != keys.front()) leave_out_of_reach(task.scene, world);
+        if (!task.keeps) read_.reset();
+        forget_sources(task);
+        return world;
+    }
+    task.report.is_from_cache = false;
+    Pyramid world = new_world(task, indexer);
+    Stopwatch keeping(task.report.keep_seconds);
+    meshes_.cache().keep(keys.front(), world,
+                         task.report.place_seconds + task.report.index_seconds);
+    keeping.stop();
+    return world;
+}
+
+Pyramid WorldFormer::new_world(const Task& task, Indexer& indexer) {
+    WorldReport& report = task.report;
+    read_.reset();
+    std::vector<SharedGrid> shown;
+    std::vector<PlacedObject> objects;
+    {
+        const VoxelizingReport voxelizing(*grids_, meshes_, report);
+        const GridSource grid_of = [&](const Object& object, const Model&) {
+            return grids_->grid_of(task.scene, object);
+        };
+        objects =
+            placed_objects(task.scene, meshes_, object_boxes(task.scene, meshes_), grid_of, shown);
+    }
+    return for_world(task.scene.world,
+                     [&] { return placed_and_indexed(task, objects, std::move(shown), indexer); });
+}
+
+/// `shown` are the objects' grids.
+Pyramid WorldFormer::placed_and_indexed(const Task& task, const std::vector<PlacedObject>& objects,
+                                        std::vector<SharedGrid> shown, Indexer& indexer) {
+    Stopwatch placing(task.report.place_seconds);
+    if (!placer_) placer_.emplace(device_);
+    BrickGrid world = placer_->place(objects, world_frame(task.scene.world));
+    device_.finish();
+    task.report.painted_bricks = placer_->painted_bricks();
+    shown_ = std::move(shown);
+    forget_sources(task);
+    placing.stop();
+
+    Stopwatch indexing(task.report.index_seconds);
+    Pyramid pyramid = indexer.index(world, placer_ ? placer_->changed_bricks() : nullptr);
+    device_.finish();
+    indexing.stop();
+    return pyramid;
+}
+
+/// Frees what wasn't used in this frame, but for models that are awaited; unless the task keeps
+/// what the next frame may use, all of it.
+void WorldFormer::forget_sources(const Task& task) {
+    grids_->forget_unused(task.scene, task.awaited, task.room);
+    uint64_t room = device_.info().memory / kAwaitedPart;  // a CPU's memory is the meshes', too
+    for (size_t model = 0; model < task.awaited.size(); ++model)
+        if (task.awaited[model]) meshes_.await(task.scene.models[model], room);
+    meshes_.forget_unused();
+    if (task.keeps) return;
+    placer_.reset();
+    shown_.clear();
+    grids_.reset();
+    meshes_ = MeshStore(meshes_.cache());
+}
+
+Pyramid form_world(const Device& device, const Scene& scene, WorldReport& report) {
+    return WorldFormer(device, false).form(scene, report).pyramid;
+}
+
+}  // namespace voxelume

@@ -1,0 +1,82 @@
+#include "runtime/world/world_source.hpp"
+
+#include <algorithm>
+
+#include "runtime/assets/model_frame.hpp"
+#include "runtime/base/key_words.hpp"
+#include "runtime/scene_file/scene_animation.hpp"
+#include "runtime/scene_file/scene_motion.hpp"
+#include "runtime/world/instances.hpp"
+
+namespace voxelume {
+namespace {
+
+void add_frame(KeyWords& words, const GridFrame& frame) {
+    words.add_all(frame.origin).add_all(frame.voxel_edge).add_all(frame.size);
+}
+
+void add_solid(KeyWords& words, const Solid& solid) {
+    words.add(int(solid.kind)).add(solid.radius).add(solid.top_radius).add(solid.tube);
+    words.add(solid.height).add(solid.thickness).add_all(solid.radii).add_all(solid.size);
+    words.add_columns(solid.parent_from_solid).add(solid.parts.size());
+    for (const Solid& part : solid.parts) add_solid(words, part);
+}
+
+void add_model(KeyWords& words, const Model& model, MeshStore& meshes) {
+    words.add_text(meshes.source_of(model)).add(int(model.surface)).add(int(model.set));
+    if (model.surface != Surface::exact)
+        add_frame(words, model_frame(model, meshes.summary_of(model)));
+    words.add(model.cuts.size());
+    for (const Solid& cut : model.cuts) add_solid(words, cut);
+    if (model.solid) add_solid(words, *model.solid);
+}
+
+bool is_placed(const Scene& scene, const Object& object) {
+    return !is_instanced(scene, object);
+}
+
+/// Whether objects that are placed in the world change, or the models of such: lights, observers,
+/// the space and instances leave its voxels alone, and materials all but which are seen inside.
+bool world_moves(const Scene& scene) {
+    if (!moves(scene)) return false;
+    return std::ranges::any_of(scene.motion->parts, [&](const MovingPart& part) {
+        if (part.part == ScenePart::object) return is_placed(scene, scene.objects[part.place]);
+        return part.part == ScenePart::model &&
+               std::ranges::any_of(scene.objects, [&](const Object& object) {
+                   return size_t(object.model) == part.place && is_placed(scene, object);
+               });
+    });
+}
+
+}  // namespace
+
+std::string world_source(const Scene& scene, MeshStore& meshes) {
+    if (!meshes.cache().keeps_worlds() || world_moves(scene)) return {};
+    KeyWords words;
+    add_frame(words, world_frame(scene.world));
+    for (uint32_t number = 0; number < scene.objects.size(); ++number) {
+        const Object& object = scene.objects[number];
+        if (is_instanced(scene, object) || !is_in_reach(scene, object)) continue;
+        const Model& model = scene.models[size_t(object.model)];
+        if (!model.voxels.empty()) return {};
+        words.add(number).add(object.priority).add(shows_inside(scene, object));
+        words.add_columns(object.world_from_object);
+        for (const int material : materials_of_groups(object, meshes.groups_of(model)))
+            words.add(material);
+        add_model(words, model, meshes);
+    }
+    return world_key(words.bytes());
+}
+
+std::vector<std::string> world_sources(const Scene& scene, MeshStore& meshes) {
+    std::vector<std::string> sources = {world_source(scene, meshes)};
+    if (sources[0].empty()) return {};
+    Scene whole = scene;
+    for (Object& object : whole.objects) object.in_reach = true;
+    if (whole == scene) return sources;
+    if (std::string source = world_source(whole, meshes); !source.empty())
+        sources.push_back(std::move(source));
+    return sources;
+}
+
+}  // namespace voxelume

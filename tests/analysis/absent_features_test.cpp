@@ -1,0 +1,120 @@
+// Code of features that a scene hasn't is not in its kernels: they are built although every
+// function of those features calls one that doesn't exist.
+#include <gtest/gtest.h>
+
+#include <regex>
+#include <set>
+#include <sstream>
+
+#include "runtime/base/error.hpp"
+#include "runtime/opencl/kernel_source.hpp"
+#include "runtime/opencl/program.hpp"
+#include "runtime/stages/features.hpp"
+#include "tests/support/shared_device.hpp"
+
+namespace voxelume {
+namespace {
+
+/// A header in which every function calls one that nobody defines.
+std::string gutted(const std::string& text, size_t& functions) {
+    // A body is what stands between a line that ends in ") {" and the first line that is "}".
+    static const std::regex body(R"(\) \{\n(?:[^}][^\n]*\n|\n)*\}\n)");
+    std::string result;
+    auto last = text.cbegin();
+    for (std::sregex_iterator i(text.cbegin(), text.cend(), body), none; i != none; ++i) {
+        result.append(last, (*i)[0].first);
+        result += ") {\n    not_in_this_scene();\n    __builtin_unreachable();\n}\n";
+        last = (*i)[0].second;
+        ++functions;
+    }
+    return result.append(last, text.cend());
+}
+
+/// The text of a file without its kernels that aren't `kept`.
+std::string with_kernels(std::string text, const std::set<std::string>& kept) {
+    constexpr std::string_view kKernel = "kernel void ";
+    for (size_t at = text.find(kKernel); at != std::string::npos; at = text.find(kKernel, at)) {
+        const size_t name = at + kKernel.size();
+        if (kept.contains(text.substr(name, text.find('(', name) - name)))
+            at = name;
+        else
+            text.erase(at, text.find("\n}\n", at) + 3 - at);
+    }
+    return text;
+}
+
+/// A file with some of its kernels and all that it includes, of which the `removed` files are
+/// gutted.
+class Source {
+  public:
+    Source(const std::string& file, std::set<std::string> kernels, std::set<std::string> removed)
+        : kernels_(std::move(kernels)), removed_(std::move(removed)) {
+        text_ = "void not_in_this_scene(void);\n";
+        add(file);
+    }
+    const std::string& text() const { return text_; }
+    size_t gutted_functions() const { return functions_; }
+
+  private:
+    void add(const std::string& file) {
+        if (!seen_.insert(file).second) return;
+        std::string text(embedded_kernels().at(file));
+        text = with_kernels(std::move(text), kernels_);
+        if (removed_.contains(file)) text = gutted(text, functions_);
+        std::istringstream lines(text);
+        for (std::string line; std::getline(lines, line);) {
+            if (line.starts_with("#include \""))
+                add(line.substr(10, line.rfind('"') - 10));
+            else
+                text_ += line + "\n";
+        }
+    }
+
+    std::set<std::string> kernels_, removed_, seen_;
+    std::string text_;
+    size_t functions_ = 0;
+};
+
+/// A scene of cubes, a light and shadows.
+Features plain_features() {
+    Features features;
+    features.cubes = features.shadows = true;
+    return features;
+}
+
+/// Not of those that the walk of all rays has a part in: interior.h, instances.h, cube_body.h.
+const std::set<std::string> kRemoved = {"lib/surface/smooth.h",  "lib/surface/field.h",
+                                        "lib/light/filter.h",    "lib/traverse/instance_hit.h",
+                                        "lib/solid/solid_hit.h", "lib/surface/triangle.h",
+                                        "lib/solid/solid_ray.h", "lib/surface/begin_inside.h"};
+
+/// The kernels that frames of such a scene launch, by file.
+const std::map<std::string, std::set<std::string>> kLaunched = {
+    {"sight.cl", {"cast_sight", "start_beams"}},
+    {"trace.cl", {"trace_closest", "trace_shadows"}},
+    {"shade.cl", {"shade_surface"}},
+    {"light.cl", {"add_light"}}};
+
+TEST(AbsentFeatures, AreNotInTheKernelsOfAPlainScene) {
+    const Device& device = shared_device();
+    size_t functions = 0;
+    for (const auto& [file, kernels] : kLaunched) {
+        const Source source(file, kernels, kRemoved);
+        functions += source.gutted_functions();
+        const Program program =
+            Program::from_text(device, source.text(), plain_features().defines(device));
+        for (const std::string& kernel : kernels) program.kernel(kernel);
+    }
+    EXPECT_GT(functions, 60u);
+}
+
+TEST(AbsentFeatures, WouldBeMissedWhereASceneHasThem) {
+    Features smooth = plain_features();
+    smooth.smooth = true;
+    const Source source("trace.cl", kLaunched.at("trace.cl"), {"lib/surface/smooth.h"});
+    EXPECT_THROW(
+        Program::from_text(shared_device(), source.text(), smooth.defines(shared_device())), Error);
+}
+
+}  // namespace
+}  // namespace voxelume

@@ -1,0 +1,96 @@
+// A scene of everything at once: the six files of kernels that rays go through, with all features,
+// in one program.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "runtime/io/vdb/vdb.hpp"
+#include "runtime/render/illumination.hpp"
+#include "runtime/render/renderer.hpp"
+#include "tests/support/file_fixture.hpp"
+#include "tests/support/shared_device.hpp"
+
+namespace voxelume {
+namespace {
+
+/// More balls of glass in one another than a ray can remember, in front of the others; the observer
+/// is inside of a smooth one.
+std::string scene_text() {
+    std::string balls;
+    for (int i = 0; i < 17; ++i)
+        balls +=
+            fmt::format(R"({{"model": "ball", "material": "glass", "scale": {}}},)", 1 - 0.04 * i);
+    return R"({"voxelume": 1,
+"world": {"voxel_size": 0.1, "bounds": {"min": [-1.5, -1.1, -2.4], "max": [1.5, 1.3, 1.6]},
+          "background": [0.2, 0.3, 0.5], "ambient": [0.2, 0.2, 0.2],
+          "medium": {"absorption": [0.1, 0.2, 0.3],
+                     "density": {"kind": "height", "base": -0.5, "scale_height": 0.5}}},
+"materials": {"glass": {"diffuse": 0.2, "refraction": 0.8, "reflection": 0.2, "fresnel": true,
+                        "ior": 1.1, "absorption": [0.1, 0.3, 0.2]},
+              "clay": {"color": [0.8, 0.6, 0.4], "checker": {"color": [0.1, 0.2, 0.3], "size": 0.4}},
+              "veil": {"opacity": 0.5}},
+"models": {"ball": {"shape": "sphere", "radius": 0.4, "surface": "exact"},
+           "lens": {"shape": "sphere", "radius": 0.5, "surface": "smooth"},
+           "ice": {"shape": "box", "size": [0.6, 0.5, 0.4], "surface": "cubes", "set": "solid"},
+           "floor": {"shape": "box", "size": [2.8, 0.2, 3], "surface": "cubes"},
+           "thing": {"mesh": "m.obj", "voxel_size": 0.1, "surface": "exact"},
+           "fog": {"voxels": "fog.vdb"}},
+"objects": [)" +
+           balls + R"(
+            {"model": "lens", "material": "glass", "position": [0, 0.1, -2]},
+            {"model": "ice", "material": "glass", "position": [-0.8, -0.5, 0.3]},
+            {"model": "floor", "material": "clay", "position": [0, -0.9, 0]},
+            {"model": "thing", "material": "veil", "position": [0.5, -0.7, -0.3]},
+            {"model": "lens", "material": "clay", "position": [0.3, 0.4, 1], "placement": "instance"},
+            {"model": "fog", "material": "clay", "position": [-1, 0.3, -0.2]}],
+"lights": [{"type": "disk", "position": [0.5, 2, -1], "direction": [0, -1, 0], "radius": 0.2,
+            "intensity": 9, "spots": 2}],
+"observer": {"position": [0, 0.1, -2.1], "look_at": [0, -0.1, 0],
+             "display": {"shape": "pyramid", "angle": 60}},
+"render": {"size": [24, 18], "depth": 2, "shadow": "filtered"}})";
+}
+
+/// Half transparent voxels of two colours.
+void write_fog(const std::filesystem::path& path) {
+    const std::vector<glm::ivec3> cells = {{0, 0, 0}, {1, 0, 0}, {2, 1, 0}, {2, 2, 1}};
+    const std::vector<float> values = {0.5f, 0.25f, 0.5f, 0.75f};
+    const std::vector<glm::vec3> colors = {{1, 0, 0}, {0, 1, 0}, {1, 0, 0}, {0, 1, 0}};
+    VdbVolume volume;
+    volume.cells = cells;
+    volume.values = values;
+    volume.colors = colors;
+    volume.voxel_edges = glm::dvec3(0.2);
+    write_vdb(path, volume);
+}
+
+class AllFeatures : public FileTest {};
+
+TEST_F(AllFeatures, AreInOneProgramOfSevenFiles) {
+    put_bytes(folder / "m.obj",
+              "v 0 0 0\nv 0.5 0 0\nv 0 0.5 0\nv 0 0 0.5\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n");
+    write_fog(folder / "fog.vdb");
+    const Scene scene = parse_scene(scene_text(), folder / "s.json", {});
+    const Device& device = shared_device();
+    RenderReport report;
+    const FormedWorld world = WorldFormer(device, false).form(scene, report.world);
+    for (const auto& [name, value] : features_of(scene, world.pyramid).defines(device))
+        EXPECT_TRUE(value != 0 || name == "VXL_NATIVE_DIVIDE") << name;
+
+    DeviceCounters& counters = device.counters();
+    counters.launches.clear();
+    const uint64_t before = counters.programs_built;
+    const Image image = Renderer(device, false).new_image(scene, world, report);
+    EXPECT_EQ(counters.programs_built - before, 1u);
+    for (const char* kernel : {"cast_sight", "begin_paths", "begin_inside", "trace_closest",
+                               "shade_surface", "add_light", "trace_shadows", "absorb_sight",
+                               "pass_layer", "scatter_rays", "gather_light"})
+        EXPECT_GT(counters.launches[kernel], 0u) << kernel;
+    EXPECT_EQ(report.not_finite, 0u);
+    const Plane<float>& red = image.planes.at("R");
+    const auto [least, most] = std::ranges::minmax(red);
+    EXPECT_GT(most, least);
+}
+
+}  // namespace
+}  // namespace voxelume

@@ -1,0 +1,107 @@
+#include "runtime/base/disk_cache.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <fstream>
+
+#include "tests/support/file_fixture.hpp"
+
+namespace voxelume {
+namespace {
+
+using DiskCacheFiles = FileTest;
+
+namespace fs = std::filesystem;
+
+std::string key_of(std::string_view text) {
+    const std::string_view parts[] = {text};
+    return cache_key(parts);
+}
+
+TEST_F(DiskCacheFiles, GivesBackWhatWasWritten) {
+    const DiskCache cache(folder / "new" / "deep", 1000);
+    const std::string bytes("a\0b\n\xff", 5);
+    cache.write(key_of("one"), bytes);
+    EXPECT_EQ(cache.read(key_of("one")), bytes);
+    EXPECT_EQ(cache.read(key_of("two")), std::nullopt);
+}
+
+TEST(DiskCache, AKeyDependsOnWhereItsPartsEnd) {
+    const std::string_view left[] = {"ab", "c"}, right[] = {"a", "bc"};
+    EXPECT_NE(cache_key(left), cache_key(right));
+    EXPECT_EQ(cache_key(left).size(), 32u);
+}
+
+TEST_F(DiskCacheFiles, AnEntryDamagedAnywhereIsAbsentAndRemoved) {
+    const DiskCache cache(folder, 100000);
+    const std::string key = key_of("program");
+    const fs::path path = folder / key;
+    const std::string bytes(300, 'x');
+    cache.write(key, bytes);
+    const auto whole_size = fs::file_size(path);
+    for (uintmax_t size = 0; size < whole_size; size += 7) {
+        cache.write(key, bytes);
+        fs::resize_file(path, size);
+        EXPECT_EQ(cache.read(key), std::nullopt) << "truncated to " << size;
+    }
+    for (uintmax_t offset = 0; offset < whole_size; offset += 7) {
+        cache.write(key, bytes);
+        std::fstream file(path, std::ios::in | std::ios::out | std::ios::binary);
+        file.seekg(std::streamoff(offset));
+        const char flipped = static_cast<char>(file.get() ^ 1);
+        file.seekp(std::streamoff(offset));
+        file.put(flipped);
+        file.close();
+        EXPECT_EQ(cache.read(key), std::nullopt) << "bit flipped at " << offset;
+        EXPECT_FALSE(fs::exists(path));
+    }
+}
+
+TEST_F(DiskCacheFiles, AnEntryUnderAnotherNameIsAbsent) {
+    const DiskCache cache(folder, 1000);
+    cache.write(key_of("one"), "bytes of one");
+    fs::rename(folder / key_of("one"), folder / key_of("two"));
+    EXPECT_EQ(cache.read(key_of("two")), std::nullopt);
+}
+
+TEST_F(DiskCacheFiles, WhatWasUsedLongestAgoGoesFirst) {
+    const DiskCache cache(folder, 3 * 1056 + 100);  // three entries of 1000 bytes
+    const auto now = fs::file_time_type::clock::now();
+    int age = 30;
+    for (const char* name : {"a", "b", "c"}) {
+        cache.write(key_of(name), std::string(1000, *name));
+        fs::last_write_time(folder / key_of(name), now - std::chrono::seconds(age--));
+    }
+    EXPECT_TRUE(cache.read(key_of("a")));  // used just now
+    cache.write(key_of("d"), std::string(1000, 'd'));
+    EXPECT_TRUE(cache.read(key_of("a")));
+    EXPECT_FALSE(cache.read(key_of("b")));
+    EXPECT_TRUE(cache.read(key_of("c")));
+    EXPECT_TRUE(cache.read(key_of("d")));
+}
+
+TEST_F(DiskCacheFiles, AFolderThatCannotBeMadeKeepsNothing) {
+    std::ofstream(folder / "file") << "in the way";
+    const DiskCache cache(folder / "file" / "cache", 1000);
+    cache.write(key_of("one"), "bytes");
+    EXPECT_EQ(cache.read(key_of("one")), std::nullopt);
+}
+
+TEST(CacheFolder, IsOursThenTheSystemsThenBelowHome) {
+    setenv("VOXELUME_CACHE_DIR", "/ours", 1);
+    setenv("XDG_CACHE_HOME", "/system", 1);
+    setenv("HOME", "/home/someone", 1);
+    EXPECT_EQ(cache_folder(), "/ours");
+    setenv("VOXELUME_CACHE_DIR", "", 1);
+    EXPECT_EQ(cache_folder(), "");
+    unsetenv("VOXELUME_CACHE_DIR");
+    EXPECT_EQ(cache_folder(), "/system/voxelume");
+    unsetenv("XDG_CACHE_HOME");
+    EXPECT_EQ(cache_folder(), "/home/someone/.cache/voxelume");
+    unsetenv("HOME");
+    EXPECT_EQ(cache_folder(), "");
+}
+
+}  // namespace
+}  // namespace voxelume

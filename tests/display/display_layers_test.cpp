@@ -1,0 +1,301 @@
+// Volumetric images by sight rays in scenes with surfaces that let light through: each surface is a
+// voxel with its opacity, and laid over one another they are the flat image.
+#include <ImfDeepFrameBuffer.h>
+#include <ImfDeepScanLineInputFile.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "runtime/io/volume/volume_file.hpp"
+#include "tests/support/display_fixture.hpp"
+#include "tests/support/file_fixture.hpp"
+
+namespace voxelume {
+namespace {
+
+/// Two panes and a wall that only shine, one behind the other along +Z, in a box display of steps
+/// of half a metre. The panes are 0.25 m thick, so that each has two surfaces.
+constexpr const char* kPanes = R"({"voxelume": 1,
+"world": {"voxel_size": 0.25, "bounds": {"min": [0, 0, 0], "max": [3, 2, 5]},
+          "background": [0, 0, 0], "ambient": [0, 0, 0]%s},
+"materials": {"first": {"color": [0, 0, 0], "emission": [0.4, 0.2, 0.1], "opacity": 0.25},
+              "second": {"color": [0, 0, 0], "emission": [0.1, 0.6, 0.3], "opacity": 0.5},
+              "wall": {"color": [0, 0, 0], "emission": [0.2, 0.3, 0.8]}},
+"models": {"pane": {"shape": "box", "size": [2, 2, 0.25], "surface": "exact"},
+           "wall": {"shape": "box", "size": [3, 2, 1], "surface": "exact"}},
+"objects": [{"name": "first", "model": "pane", "material": "first", "position": [1, 1, 1.125]},
+            {"name": "second", "model": "pane", "material": "second", "position": [2, 1, 2.375]},
+            {"name": "wall", "model": "wall", "material": "wall", "position": [1.5, 1, 4.25]}],
+"lights": [],
+"observer": {"position": [1.5, 1, -1],
+             "display": {"shape": "box", "size": [3, 2, 5], "near": 1, "voxels": [6, 4, 10]}},
+"render": {"size": [6, 4]}})";
+
+std::string panes(const std::string& world) {
+    std::string text = kPanes;
+    return text.replace(text.find("%s"), 2, world);
+}
+
+struct Seen {
+    float color[3], opacity, depth;
+    uint32_t object;
+};
+
+/// The voxels of one ray, by their step.
+std::map<int, Seen> column_of(const Volume& volume, int u, int v) {
+    std::map<int, Seen> column;
+    const glm::ivec3& size = volume.frame.size;
+    for (size_t i = 0; i < volume.places.size(); ++i) {
+        const auto pixel = volume.places[i] % uint64_t(size.x * size.y);
+        if (pixel != uint64_t(u + size.x * v)) continue;
+        const glm::vec3& c = volume.colors[i];
+        column[int(volume.places[i] / uint64_t(size.x * size.y))] = {
+            {c.r, c.g, c.b}, volume.opacities[i], volume.depths[i], volume.objects[i]};
+    }
+    return column;
+}
+
+TEST(Layers, EverySurfaceIsAVoxelWithItsOpacity) {
+    const Volume volume = volume_of(parsed(panes("")));
+    // u 0 is the image's left, x 2.75: the second pane alone, whose surfaces at 2.25 and 2.5 lie in
+    // the steps 4 and 5, and the wall at 3.75 in step 7.
+    const auto left = column_of(volume, 0, 1);
+    ASSERT_EQ(left.size(), 3u);
+    for (const auto& [k, depth] : {std::pair{4, 3.25f}, {5, 3.5f}}) {
+        const Seen& pane = left.at(k);
+        EXPECT_EQ(pane.object, 2u);
+        EXPECT_NEAR(pane.opacity, 0.5f, 1e-6f);
+        EXPECT_NEAR(pane.depth, depth, 1e-5f);
+        EXPECT_NEAR(pane.color[1], 0.6f, 1e-6f);
+    }
+    EXPECT_EQ(left.at(7).object, 3u);
+    EXPECT_EQ(left.at(7).opacity, 1.0f);
+    EXPECT_NEAR(left.at(7).color[2], 0.8f, 1e-6f);
+    // u 3, x 1.25: the first pane's surfaces at 1 and 1.25 share step 2.
+    const auto both = column_of(volume, 3, 1);
+    ASSERT_EQ(both.size(), 4u);
+    EXPECT_EQ(both.at(2).object, 1u);
+    EXPECT_NEAR(both.at(2).opacity, 1 - 0.75f * 0.75f, 1e-6f);
+    EXPECT_NEAR(both.at(2).depth, 2.0f, 1e-5f);
+    EXPECT_NEAR(both.at(2).color[0], 0.4f, 1e-6f);
+    EXPECT_NEAR(both.at(4).color[1], 0.6f, 1e-5f);
+    EXPECT_NEAR(both.at(7).color[0], 0.2f, 1e-5f);
+}
+
+TEST(Layers, TheMediumGoesOnBehindTransparentSurfaces) {
+    const Volume volume = volume_of(
+        parsed(panes(R"(, "medium": {"absorption": [0.3, 0.3, 0.3], "color": [0.1, 0.2, 0.3]})")));
+    const auto both = column_of(volume, 3, 2);
+    ASSERT_EQ(both.size(), 8u);  // steps 0 to 7
+    for (const int k : {0, 1, 3, 6}) {
+        const Seen& space = both.at(k);
+        EXPECT_EQ(space.object, 0u);
+        EXPECT_NEAR(space.opacity, 1 - std::exp(-0.3 * 0.5), 1e-6) << k;
+        EXPECT_NEAR(space.color[2], 0.3f, 2e-6f) << k;
+        EXPECT_NEAR(space.depth, 1 + 0.5 * k + 0.25, 1e-6) << k;
+    }
+    EXPECT_EQ(both.at(7).object, 3u);
+    // A quarter of a metre of space and the wall behind it.
+    const double before = std::exp(-0.3 * 0.25);
+    EXPECT_NEAR(both.at(7).color[2], 0.8 * before + 0.3 * (1 - before), 1e-5);
+}
+
+constexpr const char* kLamp = R"({"type": "point", "position": [-1, 2, -1.5], "intensity": 6})";
+
+/// The fixture's ball and block, the ball of clear material.
+Scene clear_scene(const std::string& keys, const std::string& world, const std::string& material) {
+    std::string text = display_scene(keys, "smooth", world, kLamp);
+    const std::string red = R"("red": {"color": [0.8, 0.3, 0.2])";
+    text.insert(text.find(red) + red.size(), material);
+    return parsed(text);
+}
+
+/// The largest difference between the flat image and the volume laid over itself, and how far the
+/// rays' coverage is from A.
+std::pair<double, double> difference(Scene scene, const Volume& volume, bool everywhere) {
+    const glm::ivec3& size = volume.frame.size;
+    const size_t pixels = size_t(size.x) * size_t(size.y);
+    std::vector<glm::dvec3> flat(pixels, glm::dvec3(0));
+    std::vector<double> passed(pixels, 1);
+    for (size_t i = 0; i < volume.places.size(); ++i) {
+        const size_t pixel = volume.places[i] % pixels;
+        flat[pixel] += passed[pixel] * double(volume.opacities[i]) * glm::dvec3(volume.colors[i]);
+        passed[pixel] *= 1 - double(volume.opacities[i]);
+    }
+    resize(scene, {size.x, size.y});
+    RenderReport report;
+    const Image image = render(test_device(), scene, report);
+    double color = 0, coverage = 0;
+    for (size_t i = 0; i < pixels; ++i) {
+        const double a = double(image.planes.at("A")[i]);
+        if (!everywhere && a < 1) continue;
+        coverage = std::max(coverage, std::abs(1 - passed[i] - a));
+        for (int c = 0; c < 3; ++c) {
+            const double laid = flat[i][c] + passed[i] * double(scene.world.background[c]);
+            const double found = double(image.planes.at(std::string(1, "RGB"[c]))[i]);
+            color = std::max(color, std::abs(laid - found));
+        }
+    }
+    return {color, coverage};
+}
+
+constexpr const char* kGrey =
+    R"(, "medium": {"absorption": [0.4, 0.4, 0.4], "color": [0.3, 0.2, 0.1]})";
+
+TEST(Layers, LaidOverOneAnotherAreTheFlatImageInEveryShape) {
+    for (const DisplayCase& shape : kDisplayCases) {
+        const Scene scene =
+            clear_scene(std::string(shape.keys) + R"(, "voxels": [48, 36, 60])", kGrey,
+                        R"(, "opacity": 0.6, "reflection": 0.4, "specular": 0.5)");
+        const auto [color, coverage] = difference(scene, volume_of(scene), true);
+        EXPECT_LT(color, 1e-5) << shape.name;
+    }
+}
+
+TEST(Layers, LaidOverOneAnotherAreTheFlatImageOfEveryMaterial) {
+    const std::string keys = std::string(kDisplayCases[0].keys) + R"(, "voxels": [48, 36, 60])";
+    const Scene clear = clear_scene(keys, "", R"(, "opacity": 0.3)");
+    const auto [color, coverage] = difference(clear, volume_of(clear), true);
+    EXPECT_LT(color, 1e-5);
+    EXPECT_LT(coverage, 1e-5);
+    const Scene tinted = clear_scene(
+        keys, R"(, "medium": {"absorption": [0.2, 0.6, 1.1], "color": [0.3, 0.2, 0.1]})",
+        R"(, "opacity": 0.3, "absorption": [0.1, 0.9, 0.4])");
+    EXPECT_LT(difference(tinted, volume_of(tinted), false).first, 1e-5);
+    const Scene glass = clear_scene(
+        keys, "", R"(, "diffuse": 0.1, "reflection": 0.1, "refraction": 0.9, "ior": 1.5)");
+    EXPECT_LT(difference(glass, volume_of(glass), true).first, 1e-5);
+}
+
+TEST(Layers, AMediumOfVaryingDensityIsShownByVoxels) {
+    const Volume volume = volume_of(
+        parsed(panes(R"(, "medium": {"absorption": [0.3, 0.3, 0.3], "color": [0.1, 0.2, 0.3],
+                        "density": {"kind": "height", "base": 1, "scale_height": 0.5}})")));
+    // Above the base the density falls: e^(-(y - 1) / 0.5), taken at the voxels' middles.
+    for (const auto& [v, y] : {std::pair{0, 1.75}, {1, 1.25}, {2, 0.75}}) {
+        const auto column = column_of(volume, 3, v);
+        ASSERT_EQ(column.size(), 8u) << v;
+        // Rays through the middles of pixels lie between two rows of voxels of 0.25 m: the upper.
+        double least = 1e9, most = 0;
+        for (const double side : {-0.125, 0.125}) {
+            const double density = y + side < 1 ? 1.0 : std::exp(-(y + side - 1) / 0.5);
+            least = std::min(least, density), most = std::max(most, density);
+        }
+        for (const int k : {0, 1, 3, 6}) {
+            const double density = -std::log1p(-double(column.at(k).opacity)) / 0.15;
+            EXPECT_GT(density, least - 1e-5) << v << " " << k;
+            EXPECT_LT(density, most + 1e-5) << v << " " << k;
+            EXPECT_NEAR(column.at(k).color[1], 0.2f, 1e-5f);
+        }
+    }
+}
+
+TEST(Layers, LaidOverOneAnotherAreTheFlatImageInFog) {
+    for (const DisplayCase& shape : kDisplayCases)
+        for (const char* material : {"", R"(, "opacity": 0.3)"}) {
+            const Scene scene =
+                clear_scene(std::string(shape.keys) + R"(, "voxels": [48, 36, 60])",
+                            R"(, "medium": {"absorption": [0.9, 0.9, 0.9], "color": [0.3, 0.2, 0.1],
+                    "density": {"kind": "height", "base": -0.4, "scale_height": 0.5}})",
+                            material);
+            EXPECT_LT(difference(scene, volume_of(scene), true).first, 1e-5) << shape.name;
+        }
+}
+
+TEST(Layers, ALatticeShowsWhatIsSeenThroughPanes) {
+    Scene scene = parsed(panes(""));
+    scene.observer.display.layout = VolumeLayout::lattice;
+    for (const Visibility visibility : {Visibility::observer, Visibility::all}) {
+        scene.observer.display.visibility = visibility;
+        const Volume volume = volume_of(scene);
+        std::map<uint32_t, int> counts;
+        for (size_t i = 0; i < volume.places.size(); ++i) {
+            const uint32_t object = volume.objects[i];
+            ASSERT_TRUE(object >= 1 && object <= 3);
+            ++counts[object];
+            EXPECT_NEAR(volume.opacities[i], object == 1 ? 0.25f : object == 2 ? 0.5f : 1.0f, 1e-6);
+            constexpr std::array kGreen = {0.2f, 0.6f, 0.3f};
+            EXPECT_NEAR(volume.colors[i].g, kGreen[object - 1], 1e-5) << i;
+        }
+        // The front of the wall: 6 x 4 voxels, behind one pane or two.
+        EXPECT_GE(counts[3], 24) << int(visibility);
+        EXPECT_GE(counts[1], 16);
+        EXPECT_GE(counts[2], 16);
+    }
+}
+
+TEST(Layers, HaveTheSameBitsForEveryNumberOfLanes) {
+    const Scene scene =
+        clear_scene(std::string(kDisplayCases[0].keys) + R"(, "voxels": [40, 30, 36])",
+                    R"(, "medium": {"absorption": [0.3, 1, 2], "color": [0.4, 0.2, 0.6]})",
+                    R"(, "opacity": 0.3)");
+    const Volume expected = volume_of(scene, 16);
+    for (const int lanes : {1, 8}) {
+        const Volume volume = volume_of(scene, lanes);
+        EXPECT_EQ(volume.places, expected.places) << lanes;
+        EXPECT_EQ(volume.colors, expected.colors) << lanes;
+        EXPECT_EQ(volume.opacities, expected.opacities) << lanes;
+        EXPECT_EQ(volume.depths, expected.depths) << lanes;
+        EXPECT_EQ(volume.objects, expected.objects) << lanes;
+    }
+}
+
+/// R, G, B, A of a deep image's pixels, flattened by what OpenEXR's own reader gives.
+std::vector<glm::dvec4> flattened_file(const std::filesystem::path& path, size_t width,
+                                       size_t height) {
+    Imf::DeepScanLineInputFile file(path.c_str());
+    std::vector<uint32_t> counts(width * height);
+    std::array<std::vector<float*>, 5> pointers;
+    constexpr std::array kChannels = {"R", "G", "B", "A", "Z"};
+    Imf::DeepFrameBuffer buffer;
+    buffer.insertSampleCountSlice(
+        Imf::Slice(Imf::UINT, reinterpret_cast<char*>(counts.data()), 4, 4 * width));
+    for (size_t c = 0; c < kChannels.size(); ++c) {
+        pointers[c].resize(counts.size());
+        buffer.insert(kChannels[c],
+                      Imf::DeepSlice(Imf::FLOAT, reinterpret_cast<char*>(pointers[c].data()),
+                                     sizeof(float*), sizeof(float*) * width, sizeof(float)));
+    }
+    file.setFrameBuffer(buffer);
+    file.readPixelSampleCounts(0, int(height) - 1);
+    std::vector<std::vector<float>> values(counts.size() * kChannels.size());
+    for (size_t p = 0; p < counts.size(); ++p)
+        for (size_t c = 0; c < kChannels.size(); ++c) {
+            values[p * kChannels.size() + c].resize(counts[p] + 1);
+            pointers[c][p] = values[p * kChannels.size() + c].data();
+        }
+    file.readPixels(0, int(height) - 1);
+    std::vector<glm::dvec4> flat(counts.size(), glm::dvec4(0));
+    for (size_t p = 0; p < counts.size(); ++p)
+        for (uint32_t n = 0; n < counts[p]; ++n) {
+            if (n > 0) {
+                EXPECT_GE(pointers[4][p][n], pointers[4][p][n - 1]) << "not front to back";
+            }
+            flat[p] += (1 - flat[p].a) * glm::dvec4(pointers[0][p][n], pointers[1][p][n],
+                                                    pointers[2][p][n], pointers[3][p][n]);
+        }
+    return flat;
+}
+
+class DeepImage : public FileTest {};
+
+TEST_F(DeepImage, FlattenedByOpenExrIsTheFlatImageOfTheSameObserver) {
+    const std::string keys = std::string(kDisplayCases[0].keys) + R"(, "voxels": [64, 48, 100])";
+    for (const auto& [world, material] :
+         {std::pair{"", ""}, std::pair{kGrey, R"(, "opacity": 0.3)"}}) {
+        Scene scene = clear_scene(keys, world, material);
+        write_volume(folder / "a.exr", volume_of(scene));
+        const auto deep = flattened_file(folder / "a.exr", 64, 48);
+        resize(scene, {64, 48});
+        RenderReport report;
+        const Image image = render(test_device(), scene, report);
+        for (size_t p = 0; p < deep.size(); ++p)
+            for (int c = 0; c < 3; ++c)
+                ASSERT_NEAR(deep[p][c] + (1 - deep[p].a) * double(scene.world.background[c]),
+                            image.planes.at(std::string(1, "RGB"[c]))[p], 1e-5)
+                    << material << " " << p;
+    }
+}
+
+}  // namespace
+}  // namespace voxelume

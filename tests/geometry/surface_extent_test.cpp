@@ -1,0 +1,80 @@
+// Estimates against surfaces whose extent is known.
+#include "runtime/geometry/surface_extent.hpp"
+
+#include <gtest/gtest.h>
+
+#include <glm/gtc/constants.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "tests/support/test_meshes.hpp"
+
+namespace voxelume {
+namespace {
+
+GridFrame frame_of(const glm::dvec3& edge, const glm::ivec3& size) {
+    return {glm::dvec3(0), edge, size};
+}
+
+/// A rectangle of 3 x 2 m in the plane z = 0.
+Mesh rectangle() {
+    Mesh mesh;
+    mesh.positions = {{0, 0, 0}, {3, 0, 0}, {3, 2, 0}, {0, 2, 0}};
+    mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+    return mesh;
+}
+
+TEST(SurfaceExtent, AFlatPatchTakesItsShadowsVoxels) {
+    const SurfaceArea area = mesh_area(rectangle());
+    EXPECT_EQ(area.total, 6);
+    EXPECT_EQ(area.shadows, glm::dvec3(0, 0, 6));
+    const GridFrame frame = frame_of({0.01, 0.02, 0.05}, {300, 100, 40});
+    const SurfaceExtent flat = surface_extent(area, glm::dmat4(1), frame, 0);
+    EXPECT_NEAR(flat.voxels, 300 * 100, 1e-6);
+    EXPECT_NEAR(flat.bricks, 300 * 100 / 256.0 + 8, 1e-6);
+    // Stood up by swapping y and z: 3 m / 0.01 times 2 m / 0.05.
+    const glm::dmat4 upright(glm::dmat3({1, 0, 0}, {0, 0, 1}, {0, 1, 0}));
+    EXPECT_NEAR(surface_extent(area, upright, frame, 0).voxels, 300 * 40, 1e-6);
+}
+
+TEST(SurfaceExtent, ATurnedPatchCrossesMoreVoxels) {
+    const SurfaceArea area = mesh_area(rectangle());
+    const glm::dmat4 turn =
+        glm::rotate(glm::dmat4(1), glm::quarter_pi<double>(), glm::dvec3(1, 0, 0));
+    const GridFrame frame = frame_of(glm::dvec3(0.01), {300, 200, 200});
+    const double voxels = surface_extent(area, turn, frame, 0).voxels;
+    EXPECT_NEAR(voxels, std::sqrt(2.0) * 300 * 200, 1e-6);
+}
+
+TEST(SurfaceExtent, OnlyThePartInsideTheWorldCounts) {
+    const SolidBounds box = {glm::dvec3(-1, 0.5, -1), glm::dvec3(9, 1, 1)};
+    EXPECT_NEAR(part_inside(rectangle(), glm::dmat4(1), box), 0.25, 1e-12);
+    const SolidBounds below = {glm::dvec3(-1, -1, -2), glm::dvec3(9, 9, -1)};
+    EXPECT_EQ(part_inside(rectangle(), glm::dmat4(1), below), 0);
+}
+
+TEST(SurfaceExtent, FacesThatTheWorldCutsAreNoSurface) {
+    Solid slab;
+    slab.kind = SolidKind::slab;
+    slab.thickness = 0.5;
+    const SolidBounds world = {glm::dvec3(-2, -1, -3), glm::dvec3(2, 1, 3)};
+    const SurfaceArea area = solid_area(slab, glm::dmat4(1), world);
+    EXPECT_EQ(area.shadows, glm::dvec3(0, 2 * 4 * 6, 0));
+}
+
+TEST(SurfaceExtent, TrianglesThatLieOnOneAnotherCountOnceAtLeast) {
+    const Mesh ring = wavy_ring(300, 200);
+    const double once = mesh_area(ring).total;
+    EXPECT_LE(least_mesh_area(ring).total, once);
+    EXPECT_GT(least_mesh_area(ring).total, 0.95 * once);
+    for (const bool has_own_corners : {false, true}) {
+        const Mesh twice = doubled(ring, has_own_corners);
+        EXPECT_NEAR(mesh_area(twice).total, 2 * once, 1e-9);
+        EXPECT_LE(least_mesh_area(twice).total, once);
+        EXPECT_GT(least_mesh_area(twice).total, 0.95 * once);
+    }
+    EXPECT_EQ(least_mesh_area(rectangle()).total, 6);
+    EXPECT_EQ(least_mesh_area(doubled(rectangle(), true)).total, 6);
+}
+
+}  // namespace
+}  // namespace voxelume

@@ -1,0 +1,65 @@
+#include "runtime/image/image_difference.hpp"
+
+#include <gmock/gmock.h>
+
+#include <limits>
+
+namespace voxelume {
+
+namespace {
+
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+
+ChannelDifference difference_of(const std::vector<float>& a, const std::vector<float>& b) {
+    const int width = static_cast<int>(a.size());
+    return compare_images({width, 1, {{"Z", a}}, {}, {}}, {width, 1, {{"Z", b}}, {}, {}})
+        .channels.at(0);
+}
+
+}  // namespace
+
+TEST(ImageDifference, MatchesErrorsComputedByHand) {
+    const ChannelDifference d = difference_of({1.0f, 3.0f, 5.0f, 0.0f}, {1.0f, 0.99f, 1.0f, 0.0f});
+    EXPECT_EQ(d.channel, "Z");
+    EXPECT_EQ(d.largest, 4.0);
+    EXPECT_NEAR(d.rmse, 2.2383095, 1e-6);  // sqrt((2.01² + 4²) / 4)
+    EXPECT_NEAR(d.mae, 1.5025, 1e-6);      // (2.01 + 4) / 4
+    EXPECT_NEAR(d.mrse, 4.931209, 1e-5);   // (2.01² + (4 / 1.01)²) / 4
+    EXPECT_EQ(d.differing, 2u);
+    EXPECT_EQ(d.unmatched, 0u);
+}
+
+TEST(ImageDifference, EqualInfinitiesAndNansDoNotDiffer) {
+    const ChannelDifference d = difference_of({kInfinity, kNan, -0.0f}, {kInfinity, kNan, 0.0f});
+    EXPECT_EQ(d.differing, 0u);
+    EXPECT_EQ(d.unmatched, 0u);
+    EXPECT_EQ(d.rmse, 0.0);
+}
+
+TEST(ImageDifference, AHitAgainstAMissIsUnmatchedAndNotInTheErrors) {
+    const ChannelDifference d =
+        difference_of({kInfinity, 2.0f, kNan, -kInfinity}, {3.0f, 2.5f, 1.0f, kInfinity});
+    EXPECT_EQ(d.unmatched, 3u);
+    EXPECT_EQ(d.differing, 4u);
+    EXPECT_EQ(d.rmse, 0.5);
+}
+
+TEST(ImageDifference, IdsAreOnlyCounted) {
+    const Image a{3, 1, {}, {{"objectId", {1, 2, 3}}}, {}};
+    const Image b{3, 1, {}, {{"objectId", {1, 4000000000u, 4}}}, {}};
+    const ChannelDifference d = compare_images(a, b).channels.at(0);
+    EXPECT_EQ(d.differing, 2u);
+    EXPECT_EQ(d.largest, 0.0);
+}
+
+TEST(ImageDifference, ChannelsOfOneImageAreNamed) {
+    const Image a{1, 1, {{"R", {1}}, {"A", {1}}}, {}, {}};
+    const Image b{1, 1, {{"R", {1}}, {"Z", {1}}}, {{"objectId", {1}}}, {}};
+    const ImageDifference d = compare_images(a, b);
+    EXPECT_EQ(d.channels.size(), 1u);
+    EXPECT_THAT(d.only_in_a, testing::ElementsAre("A"));
+    EXPECT_THAT(d.only_in_b, testing::ElementsAre("Z", "objectId"));
+}
+
+}  // namespace voxelume

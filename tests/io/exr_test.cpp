@@ -1,0 +1,188 @@
+#include "runtime/io/image/exr.hpp"
+
+#include <gmock/gmock.h>
+
+#include <bit>
+#include <limits>
+#include <random>
+
+#include "tests/support/file_fixture.hpp"
+
+namespace voxelume {
+
+using testing::HasSubstr;
+
+namespace {
+
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+
+/// 7 x 5 pixels of random bits that are numbers, in every channel of the renderer.
+Image random_image(int width = 7, int height = 5) {
+    std::mt19937 random(20170613);
+    Image image{width, height, {}, {}, {{"scene", "bunny.json"}, {"version", "voxelume 0.1.0"}}};
+    const size_t pixels = static_cast<size_t>(width) * static_cast<size_t>(height);
+    for (const char* name : {"R", "G", "B", "A", "Z", "P.X", "P.Y", "P.Z", "N.X", "N.Y", "N.Z"}) {
+        std::vector<float> values(pixels, kNan);
+        for (float& value : values)
+            while (value != value || std::abs(value) == kInfinity)
+                value = std::bit_cast<float>(static_cast<uint32_t>(random()));
+        image.planes[name] = std::move(values);
+    }
+    std::vector<uint32_t> ids(pixels);
+    for (uint32_t& id : ids) id = static_cast<uint32_t>(random());
+    image.id_planes["objectId"] = std::move(ids);
+    image.planes["Z"][3] = kInfinity;
+    return image;
+}
+
+Image red_row(std::vector<float> values) {
+    Image image;
+    image.width = static_cast<int>(values.size());
+    image.height = 1;
+    image.planes["R"] = std::move(values);
+    return image;
+}
+
+}  // namespace
+
+class ExrTest : public FileTest {
+  protected:
+    std::filesystem::path path() const { return folder / "a.exr"; }
+};
+
+TEST_F(ExrTest, EveryBitOfAFloatImageComesBack) {
+    const Image image = random_image();
+    EXPECT_EQ(write_exr(path(), image, ColorDepth::float32), 0u);
+    const Image back = read_exr(path());
+    EXPECT_EQ(back.width, 7);
+    EXPECT_EQ(back.height, 5);
+    EXPECT_EQ(back.planes, image.planes);
+    EXPECT_EQ(back.id_planes, image.id_planes);
+    EXPECT_EQ(back.attributes, image.attributes);
+}
+
+TEST_F(ExrTest, HalvesAreRoundedToNearestAndClamped) {
+    // 2049 lies between the halves 2048 and 2050, on the tie that goes to the even one.
+    write_exr(path(),
+              red_row({0.5f, 2049.0f, 2051.0f, 65504.0f, 65519.0f, 65520.0f, 1e30f, -1e9f, 6e-8f}));
+    EXPECT_EQ(read_exr(path()).planes["R"],
+              (Plane<float>{0.5f, 2048.0f, 2052.0f, 65504.0f, 65504.0f, 65504.0f, 65504.0f,
+                            -65504.0f, 5.9604645e-8f}));
+}
+
+TEST_F(ExrTest, ColoursThatAreNotFiniteAreCountedAndBecomeZero) {
+    for (const ColorDepth depth : {ColorDepth::float16, ColorDepth::float32}) {
+        EXPECT_EQ(write_exr(path(), red_row({1.0f, kNan, kInfinity, -kInfinity}), depth), 3u);
+        EXPECT_EQ(read_exr(path()).planes["R"], (Plane<float>{1, 0, 0, 0}));
+    }
+}
+
+TEST_F(ExrTest, DepthKeepsItsInfinity) {
+    write_exr(path(), random_image());
+    EXPECT_EQ(read_exr(path()).planes["Z"][3], kInfinity);
+}
+
+TEST_F(ExrTest, TheHeaderNamesChannelsCompressionAndColour) {
+    write_exr(path(), random_image());
+    const ExrHeader header = read_exr_header(path());
+    EXPECT_EQ(header.width, 7);
+    EXPECT_EQ(header.height, 5);
+    EXPECT_EQ(header.layout, "scanline");
+    EXPECT_EQ(header.compression, "ZIP");
+    const std::map<std::string, std::string> channels = {
+        {"R", "half"},    {"G", "half"},    {"B", "half"},    {"A", "half"},
+        {"Z", "float"},   {"P.X", "float"}, {"P.Y", "float"}, {"P.Z", "float"},
+        {"N.X", "float"}, {"N.Y", "float"}, {"N.Z", "float"}, {"objectId", "uint"}};
+    EXPECT_EQ(header.channels, channels);
+    EXPECT_EQ(header.attributes.at("scene"), "bunny.json");
+    EXPECT_EQ(header.attributes.at("chromaticities"),
+              "red 0.64 0.33, green 0.3 0.6, blue 0.15 0.06, white 0.3127 0.329");
+}
+
+TEST_F(ExrTest, TheSameImageGivesTheSameBytes) {
+    write_exr(path(), random_image());
+    write_exr(folder / "b.exr", random_image());
+    EXPECT_EQ(bytes_of(path()), bytes_of(folder / "b.exr"));
+}
+
+TEST_F(ExrTest, ASmallFileOnAFullDiskFailsAndLeavesNothing) {
+    // The table of rows, the last write, is what OpenEXR loses silently: every limit up to the size
+    // must fail.
+    write_exr(path(), random_image(3, 2));
+    const auto size = std::filesystem::file_size(path());
+    std::filesystem::remove(path());
+    for (rlim_t limit = 1; limit < size; limit += 13) {
+        const FileSizeLimit full(limit);
+        EXPECT_EQ(error_of([&] { write_exr(path(), random_image(3, 2)); }).exit_code(), 5) << limit;
+        ASSERT_EQ(files_in_folder(), 0u) << limit;
+    }
+}
+
+TEST_F(ExrTest, ALargeFileOnAFullDiskFailsAndLeavesTheOldOne) {
+    put_bytes(path(), "old");
+    {
+        const FileSizeLimit full(100000);
+        EXPECT_EQ(error_of([&] { write_exr(path(), random_image(200, 150)); }).exit_code(), 5);
+    }
+    EXPECT_EQ(bytes_of(path()), "old");
+    EXPECT_EQ(files_in_folder(), 1u);
+}
+
+TEST_F(ExrTest, AnImageWithoutPixelsOrWithAShortPlaneIsRefused) {
+    EXPECT_EQ(error_of([&] { write_exr(path(), Image{}); }).exit_code(), 5);
+    Image image = red_row({1, 2, 3});
+    image.planes["G"] = {1, 2};
+    EXPECT_THAT(error_of([&] { write_exr(path(), image); }).what(), HasSubstr("plane G"));
+    EXPECT_EQ(files_in_folder(), 0u);
+}
+
+TEST_F(ExrTest, AnAttributeWithTheNameOfAStandardOneIsRefused) {
+    Image image = red_row({1});
+    image.attributes["channels"] = "R";
+    EXPECT_EQ(error_of([&] { write_exr(path(), image); }).exit_code(), 5);
+}
+
+TEST_F(ExrTest, AMissingFileIsAnInputError) {
+    const Error error = error_of([&] { read_exr(path()); });
+    EXPECT_EQ(error.exit_code(), 4);
+    EXPECT_THAT(error.what(), HasSubstr("a.exr: no such file"));
+}
+
+TEST_F(ExrTest, AnyTruncationIsAnInputError) {
+    write_exr(path(), random_image());
+    const std::string bytes = bytes_of(path());
+    for (size_t length = 0; length < bytes.size(); length += 7) {
+        put_bytes(path(), bytes.substr(0, length));
+        EXPECT_EQ(error_of([&] { read_exr(path()); }).exit_code(), 4) << length;
+    }
+}
+
+TEST_F(ExrTest, ADamagedFileEndsInAnErrorOrAnImage) {
+    write_exr(path(), random_image());
+    const std::string bytes = bytes_of(path());
+    std::mt19937 random(7);
+    for (int trial = 0; trial < 300; ++trial) {
+        std::string damaged = bytes;
+        damaged[random() % bytes.size()] = static_cast<char>(random());
+        put_bytes(path(), damaged);
+        try {
+            read_exr(path());
+        } catch (const Error& error) {
+            EXPECT_EQ(error.exit_code(), 4) << "trial " << trial;
+        }
+    }
+}
+
+TEST_F(ExrTest, AHeaderThatDeclaresABillionPixelsTakesNoMemory) {
+    write_exr(path(), red_row({1, 2, 3}));
+    std::string bytes = bytes_of(path());
+    const size_t window = bytes.find("dataWindow") + sizeof("dataWindow") + sizeof("box2i") + 4;
+    bytes.replace(window + 8, 8, std::string("\xff\xff\xff\x0f\xff\xff\xff\x0f", 8));
+    put_bytes(path(), bytes);
+    const Error error = error_of([&] { read_exr(path()); });
+    EXPECT_EQ(error.exit_code(), 4);
+    EXPECT_THAT(error.what(), HasSubstr("268435456 x 268435456"));
+}
+
+}  // namespace voxelume

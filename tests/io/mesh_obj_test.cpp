@@ -1,0 +1,89 @@
+#include "runtime/io/mesh/mesh_reader.hpp"
+#include "tests/io/mesh_refusal.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace voxelume {
+namespace {
+
+using glm::uvec3;
+using glm::vec3;
+using testing::ElementsAre;
+using testing::IsEmpty;
+using testing::StartsWith;
+
+/// Three vertices for tests of what follows them.
+const std::string kObjVertices = "v 0 0 0\nv 5 0 0\nv 0 3 1\n";
+
+}  // namespace
+
+TEST(MeshObj, HasItsVerticesTrianglesAndGroups) {
+    const Mesh mesh = parse_mesh(
+        "# two materials\r\nmtllib house.mtl\r\no house\r\n"
+        "v 0 0 0\r\nv 5 0 .25\r\nv 5 3 -1.5e0 1.0\r\nv +0 3 1E1\r\nvn 0 0 1\r\nvt 0.5 0.5\r\n"
+        "usemtl red brick \r\nf 1 2 3\r\ng roof\r\nusemtl glass\r\nf 1/1 3/1/1 4//1 # last\r\n"
+        "usemtl red brick\r\nf -4 -1 \\\r\n -2",
+        "house.obj");
+    EXPECT_THAT(mesh.positions,
+                ElementsAre(vec3(0, 0, 0), vec3(5, 0, 0.25), vec3(5, 3, -1.5), vec3(0, 3, 10)));
+    EXPECT_THAT(mesh.triangles, ElementsAre(uvec3(0, 1, 2), uvec3(0, 2, 3), uvec3(0, 3, 2)));
+    EXPECT_THAT(mesh.group_names, ElementsAre("red brick", "glass"));
+    EXPECT_THAT(mesh.triangle_group, ElementsAre(0u, 1u, 0u));
+    EXPECT_THAT(mesh.vertex_colors, IsEmpty());
+}
+
+TEST(MeshObj, FacesBeforeTheFirstMaterialAreInTheUnnamedGroup) {
+    const Mesh mesh =
+        parse_mesh(kObjVertices + "f 1 2 3\nusemtl unused\nusemtl b\nf 3 2 1\n", "a.obj");
+    EXPECT_THAT(mesh.group_names, ElementsAre("", "b"));
+    EXPECT_THAT(mesh.triangle_group, ElementsAre(0u, 1u));
+}
+
+TEST(MeshObj, OneMaterialNeedsNoGroupPerTriangle) {
+    const Mesh mesh = parse_mesh(kObjVertices + "usemtl b\nf 3 2 1\n", "a.obj");
+    EXPECT_THAT(mesh.group_names, ElementsAre("b"));
+    EXPECT_THAT(mesh.triangle_group, IsEmpty());
+    EXPECT_THAT(parse_mesh(kObjVertices + "g b\nf 3 2 1", "a.obj").group_names, IsEmpty());
+}
+
+TEST(MeshObj, VertexColorsBecomeLinearAndWhiteWhereMissing) {
+    const Mesh mesh = parse_mesh("v 0 0 0\nv 5 0 0 1 0.5 0.02\nv 0 3 1\nf 1 2 3\n", "a.obj");
+    ASSERT_EQ(mesh.vertex_colors.size(), 3u);
+    EXPECT_EQ(mesh.vertex_colors[0], vec3(1.0f));
+    EXPECT_EQ(mesh.vertex_colors[1], vec3(1.0f, 0.21404114f, 0.00154798757f));
+    EXPECT_EQ(mesh.vertex_colors[2], vec3(1.0f));
+}
+
+TEST(MeshObj, AStatementContinuesBehindABackslash) {
+    const Mesh mesh = parse_mesh(
+        "v 0 0\\\n 0\nvt 0 \\\n1\nv 5 \\\r\n0 0\nv 0 3 1\n# a comment ends here: \\\nf 1\\\n\\\n 2 "
+        "3\\",
+        "a.obj");
+    EXPECT_THAT(mesh.positions, ElementsAre(vec3(0, 0, 0), vec3(5, 0, 0), vec3(0, 3, 1)));
+    EXPECT_THAT(mesh.triangles, ElementsAre(uvec3(0, 1, 2)));
+}
+
+TEST(MeshObj, RefusesDamageWithTheLine) {
+    const std::string v = kObjVertices;
+    EXPECT_THAT(refusal(v + "f 1 2 4\n", "a.obj"), StartsWith("a.obj:4: the face names vertex 4"));
+    EXPECT_THAT(refusal(v + "f 0 1 2\n", "a.obj"), StartsWith("a.obj:4: "));
+    EXPECT_THAT(refusal(v + "f 1 2 -4\n", "a.obj"), StartsWith("a.obj:4: "));
+    EXPECT_THAT(refusal(v + "f 1 2 99999999999999999999\n", "a.obj"), StartsWith("a.obj:4: "));
+    EXPECT_THAT(refusal(v + "f 1 2\n", "a.obj"), StartsWith("a.obj:4: 'f' has 2 corners"));
+    EXPECT_THAT(refusal(v + "f\n", "a.obj"), StartsWith("a.obj:4: "));
+    EXPECT_THAT(refusal(v + "\nf 1 2 3/x\n", "a.obj"), StartsWith("a.obj:5: \"3/x\""));
+    EXPECT_THAT(refusal("v nan 0 0\n" + v, "a.obj"), "a.obj:1: \"nan\" is not a finite number");
+    EXPECT_THAT(refusal(v + "v 0 -inf 0\n", "a.obj"), StartsWith("a.obj:4: \"-inf\" is not"));
+    EXPECT_THAT(refusal(v + "v 0 1e39 0\n", "a.obj"), StartsWith("a.obj:4: \"1e39\" is beyond"));
+    EXPECT_THAT(refusal(v + "v 1 2\n", "a.obj"), StartsWith("a.obj:4: 'v' has 2 numbers"));
+    EXPECT_THAT(refusal(v + "v 1 2 3 4 5\n", "a.obj"), StartsWith("a.obj:4: 'v' has 5 numbers"));
+    EXPECT_THAT(refusal(v + "v 1 2 3 1 1 1 1\n", "a.obj"), StartsWith("a.obj:4: 'v' has more"));
+    EXPECT_THAT(refusal(v + "v 1 2 3 0 0 1.5\n", "a.obj"), StartsWith("a.obj:4: the vertex's"));
+    EXPECT_THAT(refusal("Dear reader,\nv 0 0 0\n", "a.obj"),
+                StartsWith("a.obj:1: \"Dear\" is no statement"));
+    EXPECT_THAT(refusal(v + std::string("f 1 2 3\n\0", 9), "a.obj"), StartsWith("a.obj: byte 32"));
+    EXPECT_THAT(refusal(v, "a.obj"), StartsWith("a.obj: the mesh has no triangles"));
+}
+
+}  // namespace voxelume

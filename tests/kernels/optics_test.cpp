@@ -1,0 +1,332 @@
+// lib/light/optics.h against geometrical optics in double precision. Cases O1 to O5: bodies that
+// bend rays, the critical angle, Fresnel's shares. Whole images of them are in refraction_test.cpp.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <numbers>
+#include <optional>
+#include <random>
+
+#include "runtime/opencl/program.hpp"
+#include "tests/support/test_device.hpp"
+
+namespace voxelume {
+namespace {
+
+constexpr unsigned kSeed = 31417;
+constexpr double kDegree = std::numbers::pi / 180;
+constexpr float kUlpOfOne = 0x1p-23f;
+
+constexpr const char* kSource = R"(
+#include "lib/light/optics.h"
+#include "lib/lanes/work_item.h"
+kernel void refract_rays(uint count, uint stride, global const float* etas,
+                         global const float* directions, global const float* normals,
+                         global float* bent) {
+    const uint first = work_item() * VXL_LANES;
+    if (first >= count) return;
+    const lane_float eta = LANES_LOAD(etas, first);
+    const Vector v = load_vector(directions, stride, first);
+    const Vector n = load_vector(normals, stride, first);
+    const lane_float c = clamp(-dot_product(v, n), 0.0f, 1.0f);
+    const Refraction bend = refraction_at(eta, c);
+    store_vector(refracted_direction(v, n, eta, c, &bend), bent, stride, first);
+}
+kernel void meet_boundaries(uint count, uint stride, global const float* etas,
+                            global const float* cosines, global float* results) {
+    const uint first = work_item() * VXL_LANES;
+    if (first >= count) return;
+    const Refraction r = refraction_at(LANES_LOAD(etas, first), LANES_LOAD(cosines, first));
+    LANES_STORE(LANES_FLOAT(r.total), results, first);
+    LANES_STORE(r.cosine, results, stride + first);
+    LANES_STORE(r.reflected, results, 2 * stride + first);
+    LANES_STORE(r.refracted, results, 3 * stride + first);
+}
+)";
+
+/// A ray on a boundary; `normal` stands against `direction`.
+struct Boundary {
+    double eta;
+    glm::dvec3 direction, normal;
+};
+
+struct Met {
+    bool total;
+    float cosine, reflected, refracted;
+    bool operator==(const Met&) const = default;
+};
+
+/// Kernels that call the functions, on a device.
+class Boundaries {
+  public:
+    explicit Boundaries(int lanes = 0)
+        : device_(test_device(lanes)), program_(Program::from_text(device_, kSource, {})) {}
+
+    std::vector<glm::dvec3> refracted(const std::vector<Boundary>& boundaries) const {
+        const auto count = uint32_t(boundaries.size()), stride = (count + 15) / 16 * 16;
+        std::vector<float> etas(stride, 1), directions(3 * stride), normals(3 * stride);
+        for (uint32_t i = 0; i < count; ++i) {
+            etas[i] = float(boundaries[i].eta);
+            for (uint32_t a = 0; a < 3; ++a) {
+                directions[a * stride + i] = float(boundaries[i].direction[int(a)]);
+                normals[a * stride + i] = float(boundaries[i].normal[int(a)]);
+            }
+        }
+        Buffer<float> bent(device_, "bent", 3 * stride);
+        program_.kernel("refract_rays")
+            .launch_packets(count, count, stride, input(etas), input(directions), input(normals),
+                            bent);
+        const std::vector<float> values = bent.read();
+        std::vector<glm::dvec3> result;
+        for (uint32_t i = 0; i < count; ++i)
+            result.push_back({values[i], values[stride + i], values[2 * stride + i]});
+        return result;
+    }
+
+    std::vector<Met> met(const std::vector<float>& etas, const std::vector<float>& cosines) const {
+        const auto count = uint32_t(etas.size()), stride = (count + 15) / 16 * 16;
+        std::vector<float> padded_etas = etas, padded_cosines = cosines;
+        padded_etas.resize(stride, 1);
+        padded_cosines.resize(stride, 1);
+        Buffer<float> results(device_, "results", 4 * stride);
+        program_.kernel("meet_boundaries")
+            .launch_packets(count, count, stride, input(padded_etas), input(padded_cosines),
+                            results);
+        const std::vector<float> values = results.read();
+        std::vector<Met> all;
+        for (uint32_t i = 0; i < count; ++i)
+            all.push_back({values[i] != 0, values[stride + i], values[2 * stride + i],
+                           values[3 * stride + i]});
+        return all;
+    }
+
+  private:
+    Buffer<float> input(const std::vector<float>& values) const {
+        return {device_, "input", std::span<const float>(values)};
+    }
+
+    Device device_;
+    Program program_;
+};
+
+/// Turns the plane of incidence, which is z = 0 below, into none of the axes' planes.
+glm::dvec3 askew(const glm::dvec3& v) {
+    const glm::dvec3 x = glm::normalize(glm::dvec3(1, 2, -3)),
+                     y = glm::normalize(glm::dvec3(3, 0, 1));
+    return glm::dmat3(x, y, glm::cross(x, y)) * v;
+}
+
+glm::dvec3 at_angle(double angle) {
+    return {std::cos(angle), std::sin(angle), 0};
+}
+
+double angle_between(const glm::dvec3& a, const glm::dvec3& b) {
+    return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
+}
+
+/// Whether light of cosine `c` is reflected totally, and else the cosine behind; of the floats
+/// themselves, in long double.
+std::optional<long double> cosine_behind(float eta, float cosine) {
+    const long double e = eta, c = cosine;
+    if (e <= 1) return std::sqrt((1 - e) * (1 + e) + e * c * e * c);
+    const long double critical = std::sqrt((e - 1) * (e + 1));
+    if (e * c < critical) return {};
+    return std::sqrt((e * c - critical) * (e * c + critical));
+}
+
+TEST(Optics, O1SlabShiftsRaysAndLeavesTheirDirection) {
+    constexpr double kThickness = 1;
+    std::vector<Boundary> faces;
+    faces.reserve(890);
+    for (int i = 0; i < 890; ++i)
+        faces.push_back({1 / 1.5, askew(at_angle(i * 0.1 * kDegree)), askew({-1, 0, 0})});
+    std::vector<Boundary> behind = faces;
+    const std::vector<glm::dvec3> within = Boundaries().refracted(faces);
+    for (size_t i = 0; i < faces.size(); ++i) behind[i].eta = 1.5, behind[i].direction = within[i];
+    const std::vector<glm::dvec3> out = Boundaries().refracted(behind);
+    for (size_t i = 0; i < faces.size(); ++i) {
+        const glm::dvec3& d = faces[i].direction;
+        const double incidence = double(i) * 0.1 * kDegree;
+        const double inside = std::asin(std::sin(incidence) / 1.5);
+        const glm::dvec3 crossed = within[i] * (kThickness / -glm::dot(within[i], faces[i].normal));
+        EXPECT_NEAR(glm::length(glm::cross(crossed, d)),
+                    kThickness * std::sin(incidence - inside) / std::cos(inside), 3e-7)
+            << incidence / kDegree << " degrees";
+        // What a float turns within, the second face turns by n cos(inside) / cos(incidence) more.
+        EXPECT_LT(angle_between(out[i], d), 3e-7 / std::cos(incidence))
+            << incidence / kDegree << " degrees";
+        EXPECT_NEAR(glm::length(out[i]), 1, 4e-7);
+    }
+}
+
+TEST(Optics, O2BallTurnsRaysByTwiceIncidenceLessRefraction) {
+    for (const double ior : {1.33, 1.5, 2.4}) {
+        std::vector<Boundary> entries, exits;
+        for (int i = 0; i <= 999; ++i) {
+            const double b = i * 1e-3;
+            entries.push_back({1 / ior, askew({1, 0, 0}), askew({-std::sqrt(1 - b * b), b, 0})});
+        }
+        const std::vector<glm::dvec3> within = Boundaries().refracted(entries);
+        for (size_t i = 0; i < entries.size(); ++i) {
+            const glm::dvec3& p = entries[i].normal;  // the ball has radius 1
+            const glm::dvec3 d = glm::normalize(within[i]);
+            exits.push_back({ior, within[i], -(p - 2 * glm::dot(p, d) * d)});
+        }
+        const std::vector<glm::dvec3> out = Boundaries().refracted(exits);
+        for (size_t i = 0; i < entries.size(); ++i) {
+            const double b = double(i) * 1e-3, incidence = std::asin(b);
+            EXPECT_NEAR(angle_between(out[i], entries[i].direction),
+                        2 * (incidence - std::asin(b / ior)), 4e-7 * ior / std::cos(incidence))
+                << "index " << ior << ", " << b << " beside the axis";
+        }
+    }
+}
+
+TEST(Optics, O3PrismDeviatesTheLeastOnTheSymmetricPath) {
+    constexpr double kApex = 60 * kDegree;
+    for (const double ior : {1.25, 1.5, 1.7}) {
+        const double symmetric = std::asin(ior * std::sin(kApex / 2));
+        const glm::dvec3 first = at_angle(kApex / 2), second = at_angle(-kApex / 2);
+        std::vector<Boundary> entries;
+        std::vector<double> incidences;
+        for (int i = -100; i <= 100; ++i) {
+            incidences.push_back(symmetric + i * 0.05 * kDegree);
+            entries.push_back(
+                {1 / ior, askew(at_angle(kApex / 2 - incidences.back())), askew(-first)});
+        }
+        const std::vector<glm::dvec3> within = Boundaries().refracted(entries);
+        std::vector<Boundary> exits;
+        exits.reserve(within.size());
+        for (const glm::dvec3& v : within) exits.push_back({ior, v, askew(-second)});
+        const std::vector<glm::dvec3> out = Boundaries().refracted(exits);
+        double least = 10;
+        for (size_t i = 0; i < out.size(); ++i) {
+            const double inside = std::asin(std::sin(incidences[i]) / ior);
+            const double emergence = std::asin(ior * std::sin(kApex - inside));
+            const double deviation = angle_between(out[i], entries[i].direction);
+            EXPECT_NEAR(deviation, incidences[i] + emergence - kApex,
+                        4e-7 * ior / std::cos(emergence))
+                << "index " << ior << ", incidence " << incidences[i] / kDegree;
+            least = std::min(least, deviation);
+        }
+        // Fraunhofer: n = sin((A + D) / 2) / sin(A / 2)
+        EXPECT_NEAR(least, 2 * symmetric - kApex, 1e-6) << ior;
+        EXPECT_NEAR(std::sin((kApex + least) / 2) / std::sin(kApex / 2), ior, 1e-6);
+    }
+}
+
+TEST(Optics, O4TotalReflectionBeginsAtTheCriticalAngleOfTheFloatsThemselves) {
+    std::mt19937 random(kSeed);
+    std::vector<float> etas, cosines;
+    for (int i = 0; i < 20000; ++i) {
+        const float eta =
+            std::uniform_real_distribution<float>(1.0001f, i % 2 ? 1.6f : 9.0f)(random);
+        const double critical = std::sqrt((double(eta) - 1) * (double(eta) + 1)) / double(eta);
+        for (const double beyond : {1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 0.0})
+            for (const double side : {-1, 1}) {
+                etas.push_back(eta);
+                cosines.push_back(float(critical + side * beyond));
+            }
+        for (const float side : {0.0f, 2.0f}) {  // the floats beside it
+            etas.push_back(eta);
+            cosines.push_back(std::nextafter(float(critical), side));
+        }
+    }
+    const std::vector<Met> all = Boundaries().met(etas, cosines);
+    size_t totals = 0;
+    for (size_t i = 0; i < all.size(); ++i) {
+        const std::optional<long double> expected = cosine_behind(etas[i], cosines[i]);
+        const auto where = [&] {
+            return testing::Message() << std::hexfloat << "seed " << kSeed << ", eta " << etas[i]
+                                      << ", cosine " << cosines[i];
+        };
+        ASSERT_EQ(all[i].total, !expected.has_value()) << where();
+        ASSERT_NEAR(all[i].cosine, double(expected.value_or(0)), 1e-7) << where();
+        if (!all[i].total) continue;
+        ++totals;
+        ASSERT_EQ(all[i].reflected, 1.0f) << where();
+        ASSERT_EQ(all[i].refracted, 0.0f) << where();
+    }
+    EXPECT_GT(totals, all.size() / 3);
+    EXPECT_LT(totals, 2 * all.size() / 3);
+}
+
+/// Ratios from 0.1 to 10 and cosines from grazing to normal incidence.
+std::pair<std::vector<float>, std::vector<float>> all_sorts(uint32_t count) {
+    std::mt19937 random(kSeed + 1);
+    std::uniform_real_distribution<float> unit(0, 1);
+    std::vector<float> etas(count), cosines(count);
+    for (uint32_t i = 0; i < count; ++i) {
+        etas[i] = std::pow(10.0f, 2 * unit(random) - 1);
+        if (i % 8 == 0) etas[i] = 1 + (unit(random) - 0.5f) * 1e-4f;
+        if (i % 64 == 1) etas[i] = 1;
+        cosines[i] = unit(random);
+        if (i % 4 == 1) cosines[i] = std::pow(10.0f, -6 * unit(random));
+        if (i % 4 == 2) cosines[i] = 1 - std::pow(10.0f, -7 * unit(random));
+        cosines[i] = std::clamp(cosines[i], 1e-6f, 1.0f);
+    }
+    for (uint32_t i = 0; i < count; i += 1024) cosines[i] = 1, cosines[i + 1] = 1e-6f;
+    return {etas, cosines};
+}
+
+TEST(Optics, O5WhatIsReflectedAndWhatIsRefractedMakeOne) {
+    const auto [etas, cosines] = all_sorts(1 << 20);
+    const std::vector<Met> all = Boundaries().met(etas, cosines);
+    for (size_t i = 0; i < all.size(); ++i) {
+        const Met& m = all[i];
+        ASSERT_NEAR(double(m.reflected) + double(m.refracted), 1, kUlpOfOne / 2)
+            << std::hexfloat << "eta " << etas[i] << ", cosine " << cosines[i];
+        ASSERT_GE(m.reflected, 0);
+        ASSERT_GE(m.refracted, 0);
+        if (m.total) continue;
+        // Fresnel's equations for both polarisations, as fluxes.
+        const double e = double(etas[i]), c = double(cosines[i]);
+        const double behind = double(*cosine_behind(etas[i], cosines[i]));
+        const double rs = (e * c - behind) / (e * c + behind);
+        const double rp = (c - e * behind) / (c + e * behind);
+        const double ts = 2 * e * c / (e * c + behind), tp = 2 * e * c / (c + e * behind);
+        const double refracted = behind / (e * c) * (ts * ts + tp * tp) / 2;
+        ASSERT_NEAR(m.reflected, (rs * rs + rp * rp) / 2, 4e-7)
+            << std::hexfloat << "eta " << e << ", cosine " << c;
+        if (behind <= 1e-3) continue;
+        ASSERT_NEAR(m.refracted, refracted, 1e-6 * refracted)
+            << std::hexfloat << "eta " << e << ", cosine " << c;
+    }
+}
+
+TEST(Optics, O6EqualIndicesNeitherBendNorReflect) {
+    const auto [etas, cosines] = all_sorts(1 << 12);
+    for (const Met& m : Boundaries().met(std::vector<float>(etas.size(), 1), cosines)) {
+        EXPECT_FALSE(m.total);
+        EXPECT_EQ(m.reflected, 0);
+        EXPECT_EQ(m.refracted, 1);
+    }
+}
+
+TEST(Optics, AlongASurfaceAllIsReflectedUnlessIndicesAreEqual) {
+    std::vector<float> etas, cosines;
+    for (const float eta : {0.1f, 0.75f, 1 - kUlpOfOne / 2, 1.0f, 1 + kUlpOfOne, 1.5f, 10.0f})
+        for (const float c : {0.0f, 1e-40f, 0x1p-126f, 1e-20f, 1e-10f}) {
+            etas.push_back(eta);
+            cosines.push_back(c);
+        }
+    const std::vector<Met> all = Boundaries().met(etas, cosines);
+    for (size_t i = 0; i < all.size(); ++i) {
+        const double reflected = etas[i] == 1 ? 0 : 1;
+        EXPECT_EQ(all[i].total, etas[i] > 1) << etas[i] << ' ' << cosines[i];
+        EXPECT_NEAR(all[i].reflected, reflected, 1e-5) << etas[i] << ' ' << cosines[i];
+        EXPECT_NEAR(all[i].refracted, 1 - reflected, 1e-5) << etas[i] << ' ' << cosines[i];
+    }
+}
+
+TEST(Optics, HasTheSameBitsForEveryNumberOfLanes) {
+    const auto [etas, cosines] = all_sorts(1 << 16);
+    const std::vector<Met> expected = Boundaries(1).met(etas, cosines);
+    for (const int lanes : {4, 8, 16})
+        EXPECT_EQ(Boundaries(lanes).met(etas, cosines), expected) << lanes;
+}
+
+}  // namespace
+}  // namespace voxelume

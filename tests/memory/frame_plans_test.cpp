@@ -1,0 +1,126 @@
+// Frames of a moving scene, planned before the first is rendered.
+#include "runtime/memory/frame_plans.hpp"
+
+#include <gmock/gmock.h>
+
+#include <numeric>
+
+#include "runtime/scene_file/scene_animation.hpp"
+#include "tests/memory/plan_fixture.hpp"
+
+namespace voxelume {
+
+using testing::HasSubstr;
+
+using FramePlans = PlanTest;
+
+/// A ball whose radius grows from frame 1 to 3 and is small again in frame 5.
+constexpr const char* kGrowth = R"("animation": {"frames": 5, "tracks": [
+    {"target": "models.thing.radius", "keys": [{"frame": 1, "value": 0.1}, {"frame": 3, "value": 0.35},
+                                               {"frame": 5, "value": 0.1}]}]},)";
+
+TEST_F(FramePlans, OfFramesTheLargestCountsAndTheFirstThatDoesNotFitIsNamed) {
+    const Scene scene = scene_of(R"({"shape": "sphere", "radius": 0.1})", 1.0 / 200, kGrowth);
+    DeviceInfo device;
+    device.name = "Small One";
+    device.memory = device.max_allocation = 8'000'000'000;
+    const std::vector<int> frames = {1, 2, 3, 4, 5};
+    MeshStore meshes;
+    const FramePlan most = plan_frames(scene, frames, meshes, device);
+    EXPECT_EQ(most.frame, 3);
+    EXPECT_EQ(most.plan.peak_bytes(), plan_of(scene_at(scene, 3)).peak_bytes());
+    EXPECT_NO_THROW(check_frames(scene, frames, meshes, device));
+    // The first takes 0.9 MB, the second 4.0, the third 9.4.
+    device.memory = 3'000'000;
+    EXPECT_EQ(plan_frames(scene, frames, meshes, device).frame, 2);
+    const Error error = error_of([&] { check_frames(scene, frames, meshes, device); });
+    EXPECT_EQ(error.kind(), ErrorKind::limit);
+    EXPECT_THAT(error.what(), testing::EndsWith("(at frame 2)"));
+    EXPECT_NO_THROW(check_frames(scene, std::vector<int>{1, 5}, meshes, device));
+}
+
+/// The frame of 1 to 3 that takes most, where there is room for any.
+FramePlan most_of_three(const Scene& scene) {
+    DeviceInfo device;
+    device.memory = device.max_allocation = 8'000'000'000;
+    MeshStore meshes;
+    return plan_frames(scene, std::vector<int>{1, 2, 3}, meshes, device);
+}
+
+TEST_F(FramePlans, ALampThatIsSwitchedOnTakesItsShadowRays) {
+    Scene scene = scene_of(R"({"shape": "sphere", "radius": 0.1})", 1.0 / 50,
+                           R"("animation": {"frames": 3, "tracks": [
+    {"target": "lights.lamp.intensity", "interpolation": "step",
+     "keys": [{"frame": 1, "value": 0}, {"frame": 3, "value": 9}]}]},
+    "lights": [{"name": "lamp", "type": "point", "position": [0.5, 2, 0.5], "intensity": 1}],)");
+    scene.render.size = {320, 240};
+    const FramePlan most = most_of_three(scene);
+    EXPECT_EQ(most.frame, 3);
+    EXPECT_GT(most.plan.image_bytes, plan_of(scene_at(scene, 1)).image_bytes);
+}
+
+TEST_F(FramePlans, AnObserverWhoMovesAndALampThatDimsChangeNothing) {
+    Scene scene = scene_of(R"({"shape": "sphere", "radius": 0.1, "surface": "smooth"})", 1.0 / 50,
+                           R"("animation": {"frames": 40, "tracks": [
+    {"target": "observer.position", "keys": [{"frame": 1, "value": [0.5, 0.5, 3]},
+                                             {"frame": 40, "value": [0.5, 0.4, 0.42]}]},
+    {"target": "lights.lamp.intensity", "keys": [{"frame": 1, "value": 0}, {"frame": 2, "value": 1},
+                                                 {"frame": 40, "value": 9}]}]},
+    "lights": [{"name": "lamp", "type": "point", "position": [0.5, 2, 0.5], "intensity": 1}],)");
+    DeviceInfo device;
+    device.memory = device.max_allocation = 8'000'000'000;
+    for (Material& material : scene.materials) material.opacity = 0.5;  // the last view is inside
+    std::vector<int> frames(40);
+    std::iota(frames.begin(), frames.end(), 1);
+    MeshStore meshes;
+    const FramePlan most = plan_frames(scene, frames, meshes, device);
+    EXPECT_EQ(most.plans, 2);  // without light, and with it
+    for (const int frame : {2, 20, 40})
+        EXPECT_EQ(most.plan.peak_bytes(), plan_of(scene_at(scene, frame)).peak_bytes()) << frame;
+}
+
+TEST_F(FramePlans, WithoutColorAnObserverWhoComesInsideOfAnObjectCounts) {
+    Scene scene = scene_of(R"({"shape": "sphere", "radius": 0.1, "surface": "smooth"})", 1.0 / 50,
+                           R"("animation": {"frames": 3, "tracks": [
+    {"target": "observer.position", "keys": [{"frame": 1, "value": [0.5, 0.5, 3]},
+                                             {"frame": 3, "value": [0.5, 0.4, 0.42]}]}]},)");
+    scene.render.size = {320, 240};
+    scene.render.channels.color = false;
+    for (Material& material : scene.materials) material.opacity = 0.5;
+    const FramePlan most = most_of_three(scene);
+    EXPECT_EQ(most.frame, 3);
+    EXPECT_GT(most.plan.image_bytes, plan_of(scene_at(scene, 1)).image_bytes);
+}
+
+TEST_F(FramePlans, AGroupThatAMeshDoesNotHaveIsNamedBeforeAnyFrameIsRendered) {
+    put_bytes(folder / "plate.obj",
+              "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nusemtl near\nf 1 2 3\nusemtl far\nf 2 4 3\n");
+    constexpr const char* kText = R"({{"voxelume": 1,
+        "world": {{"voxel_size": 0.1, "bounds": {{"min": [0,0,0], "max": [1,0.9,0.8]}}}},
+        "materials": {{"red": {{}}}}, "models": {{"plate": {{"mesh": "plate.obj"}}}},
+        "objects": [{{"name": "plate", "model": "plate", "placement": "{}",
+                     "materials": {{"{}": "red"}}}}],
+        "observer": {{"position": [0.5,0.4,3], "look_at": [0.5,0.4,0.4],
+                     "display": {{"shape": "pyramid", "angle": 40}}}},
+        "animation": {{"frames": 4, "tracks": [{{"target": "objects.plate.visible",
+            "keys": [{{"frame": 1, "value": false}}, {{"frame": 3, "value": true}}]}}]}}}})";
+    DeviceInfo device;
+    device.memory = device.max_allocation = 8'000'000'000;
+    const std::vector<int> frames = {1, 2, 3, 4};
+    for (const char* placement : {"world", "instance"}) {
+        const auto scene = [&](const char* group) {
+            return parse_scene(fmt::format(kText, placement, group), folder / "scene.json", {});
+        };
+        MeshStore meshes;
+        EXPECT_NO_THROW(check_frames(scene("far"), frames, meshes, device));
+        const Scene wrong = scene("fare");
+        for (const Error& error : {error_of([&] { check_frames(wrong, frames, meshes, device); }),
+                                   error_of([&] { plan_frames(wrong, frames, meshes, device); })}) {
+            EXPECT_EQ(error.kind(), ErrorKind::scene);
+            EXPECT_THAT(error.what(), HasSubstr("the mesh has no group of faces named \"fare\"; "
+                                                "did you mean \"far\"? (at frame 3)"));
+        }
+    }
+}
+
+}  // namespace voxelume

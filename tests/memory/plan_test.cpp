@@ -1,0 +1,161 @@
+// Plans against what worlds and images take, and what of them is refused.
+#include "runtime/memory/plan.hpp"
+
+#include <gmock/gmock.h>
+
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "runtime/render/renderer.hpp"
+#include "tests/memory/plan_fixture.hpp"
+#include "tests/support/test_device.hpp"
+#include "tests/support/test_meshes.hpp"
+
+namespace voxelume {
+
+TEST_F(PlanTest, EstimatesAreWithinAHalfOfWhatFormingTheWorldTakes) {
+    for (const char* model :
+         {R"({"shape": "sphere", "radius": 0.35})",
+          R"({"shape": "box", "size": [0.803,0.302,0.507], "surface": "cubes"})",
+          R"({"shape": "torus", "radius": 0.3, "tube": 0.09})",
+          R"({"shape": "ellipsoid", "radii": [0.3, 0.2, 0.25], "surface": "exact"})"}) {
+        const Scene scene = scene_of(model, 1.0 / 200);
+        const ScenePlan plan = plan_of(scene);
+        const Device device = test_device();
+        WorldReport report;
+        const Pyramid world = form_world(device, scene, report);
+        const double voxels = world.voxel_count;
+        EXPECT_GT(plan.voxels, voxels / 1.5) << model;
+        EXPECT_LT(plan.voxels, voxels * 1.5) << model;
+        const double formed = std::max({plan.voxelize_bytes, plan.place_bytes, plan.index_bytes});
+        const auto peak = double(device.counters().peak_bytes);
+        EXPECT_GT(formed, peak / 1.5) << model;
+        EXPECT_LT(formed, peak * 1.5) << model;
+        BufferPlan planned = plan.largest;
+        for (const GridPlan& grid : plan.grids) keep_larger(planned, grid.largest);
+        uint64_t largest = 0;
+        for (const auto& [name, bytes] : device.counters().allocated_bytes)
+            largest = std::max(largest, bytes);
+        EXPECT_GT(planned.bytes, double(largest) / 2) << model << ": " << planned.name;
+        EXPECT_LT(planned.bytes, double(largest) * 1.5) << model << ": " << planned.name;
+    }
+}
+
+TEST_F(PlanTest, ObjectsInEachOthersBricksPlanNoLargerBuffersThanAreMade) {
+    for (const char* surface : {"smooth", "cubes", "exact"}) {
+        Scene scene = scene_of(
+            fmt::format(R"({{"shape": "sphere", "radius": 0.03, "surface": "{}"}})", surface),
+            1.0 / 200);
+        const Object ball = scene.objects[0];
+        for (int i = 1; i < 60; ++i) {
+            const glm::dvec3 step = {0.07 * (i % 4), 0.05 * (i / 4 % 5), 0.06 * (i / 20)};
+            scene.objects.push_back(ball);
+            scene.objects.back().world_from_object =
+                glm::translate(glm::dmat4(1), step) * ball.world_from_object;
+        }
+        const ScenePlan plan = plan_of(scene);
+        const Device device = test_device();
+        WorldReport report;
+        form_world(device, scene, report);
+        uint64_t largest = 0;
+        for (const auto& [name, bytes] : device.counters().allocated_bytes)
+            if (name.starts_with("world")) largest = std::max(largest, bytes);
+        EXPECT_GT(plan.largest.bytes, 0) << surface;
+        EXPECT_LE(plan.largest.bytes, double(largest)) << surface << ": " << plan.largest.name;
+        EXPECT_LT(plan.least_bytes, plan.peak_bytes() / 2) << surface;
+        DeviceInfo info = device.info();
+        info.max_allocation = largest;
+        info.memory = device.counters().peak_bytes * 3 / 2;
+        EXPECT_NO_THROW(check_memory(scene, plan, info)) << surface;
+    }
+}
+
+TEST_F(PlanTest, ObjectsApartAreAllRefusedWithTheirMemory) {
+    Scene scene = scene_of(R"({"shape": "box", "size": [0.1, 0.1, 0.1]})", 1.0 / 200);
+    const Object ball = scene.objects[0];
+    for (const glm::dvec3 step : {glm::dvec3(0.25, 0, 0), glm::dvec3(-0.25, 0, 0),
+                                  glm::dvec3(0, 0.25, 0), glm::dvec3(0, 0, -0.25)}) {
+        scene.objects.push_back(ball);
+        scene.objects.back().world_from_object =
+            glm::translate(glm::dmat4(1), step) * ball.world_from_object;
+    }
+    const ScenePlan plan = plan_of(scene);
+    EXPECT_DOUBLE_EQ(plan.least_bytes, plan.peak_bytes());
+}
+
+TEST_F(PlanTest, WhatMayLeaveLittleOrLieAslantIsNotRefusedForItsBox) {
+    const char* lens = R"([{"shape": "sphere", "radius": 0.3},
+                           {"shape": "sphere", "radius": 0.3, "position": [0, 0.59, 0]}])";
+    const char* rod =
+        R"({"shape": "cylinder", "radius": 0.004, "height": 0.7, "surface": "exact"})";
+    for (const std::string& model :
+         {fmt::format(R"({{"shape": "intersection", "parts": {}}})", lens),
+          fmt::format(R"({{"shape": "difference", "surface": "exact", "parts": {}}})", lens),
+          std::string(rod)}) {
+        Scene scene = scene_of(model, 1.0 / 200);
+        scene.objects[0].world_from_object *=
+            glm::rotate(glm::dmat4(1), 0.7, glm::dvec3(1, 0.3, 0.8));
+        const ScenePlan plan = plan_of(scene);
+        const Device device = test_device();
+        WorldReport report;
+        form_world(device, scene, report);
+        DeviceInfo info = device.info();
+        info.memory = info.max_allocation = device.counters().peak_bytes + 100'000;
+        EXPECT_NO_THROW(check_memory(scene, plan, info)) << model;
+    }
+}
+
+TEST_F(PlanTest, ASolidWhosePartsLieInEachOtherIsRefusedForTheLargestAlone) {
+    std::string parts;
+    for (int i = 0; i < 40; ++i)
+        parts += fmt::format(R"({}{{"shape": "sphere", "radius": 0.3, "position": [{}, 0, 0]}})",
+                             i == 0 ? "" : ", ", 0.001 * i);
+    for (const char* surface : {"smooth", "cubes", "exact"}) {
+        const Scene scene = scene_of(
+            fmt::format(R"({{"shape": "union", "parts": [{}], "surface": "{}"}})", parts, surface),
+            1.0 / 100);
+        const ScenePlan plan = plan_of(scene);
+        const Device device = test_device();
+        WorldReport report;
+        form_world(device, scene, report);
+        DeviceInfo info = device.info();
+        info.memory = device.counters().peak_bytes * 3 / 2;
+        EXPECT_GT(plan.peak_bytes(), double(info.memory)) << surface;
+        EXPECT_NO_THROW(check_memory(scene, plan, info)) << surface;
+    }
+}
+
+TEST_F(PlanTest, AMeshThatHoldsEveryTriangleTwiceIsRefusedForOneAlone) {
+    write_obj(folder / "ring.obj", doubled(wavy_ring(60, 40), true));
+    for (const char* surface : {"smooth", "cubes", "exact"}) {
+        const Scene scene =
+            scene_of(fmt::format(R"({{"mesh": "ring.obj", "surface": "{}"}})", surface), 1.0 / 200);
+        const ScenePlan plan = plan_of(scene);
+        const Device device = test_device();
+        WorldReport report;
+        form_world(device, scene, report);
+        DeviceInfo info = device.info();
+        info.memory = device.counters().peak_bytes * 11 / 10;
+        EXPECT_GT(plan.peak_bytes(), double(info.memory)) << surface;
+        EXPECT_NO_THROW(check_memory(scene, plan, info)) << surface;
+    }
+}
+
+TEST_F(PlanTest, TheImagesBytesAreThoseOfItsChannelsRaysAndHalo) {
+    for (const double voxel : {1.0 / 120, 1.0 / 400}) {
+        Scene scene = scene_of(R"({"shape": "sphere", "radius": 0.35})", voxel);
+        scene.render.size = {320, 240};  // enough rays for beams
+        scene.render.channels = {true, true, false, true, false};
+        const ScenePlan plan = plan_of(scene);
+        const Device device = test_device();
+        RenderReport report;
+        render(device, scene, report);
+        const auto& bytes = device.counters().allocated_bytes;
+        const auto halo = double(bytes.at("halo sectors") + bytes.at("halo bricks"));
+        EXPECT_GT(plan.halo_bytes, halo / 1.5) << voxel;
+        EXPECT_LT(plan.halo_bytes, halo * 1.5) << voxel;
+        EXPECT_EQ(bytes.at("image"), 8u * 320 * 240 * 4);
+        EXPECT_FALSE(bytes.contains("object numbers"));
+    }
+}
+
+}  // namespace voxelume

@@ -1,0 +1,196 @@
+// The compiled kernels on disk, with real processes: this program starts itself.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <array>
+#include <cstdlib>
+#include <fstream>
+#include <thread>
+
+#include "runtime/base/disk_cache.hpp"
+#include "runtime/opencl/program.hpp"
+#include "runtime/stages/features.hpp"
+#include "tests/support/file_fixture.hpp"
+#include "tests/support/test_device.hpp"
+
+namespace voxelume {
+namespace {
+
+using ProgramCacheFiles = FileTest;
+
+namespace fs = std::filesystem;
+
+/// What a process of these tests does: two programs, one kernel launched of each, `scale` unless
+/// VXL_TEST_KERNEL names the other. It returns how many were compiled.
+int build_and_run() {
+    const char* name = std::getenv("VXL_TEST_KERNEL");
+    const std::string kernel = name ? name : "scale";
+    const Device device = test_device();
+    const uint32_t count = 37;
+    for (int factor = 3; factor < 5; ++factor) {
+        const Program program =
+            Program::from_text(device,
+                               "#include \"lib/lanes/work_item.h\"\n"
+                               "kernel void scale(uint count, global uint* numbers) {\n"
+                               "    if (work_item() >= count) return;\n"
+                               "    numbers[work_item()] = FACTOR * work_item();\n"
+                               "}\n"
+                               "kernel void shift(uint count, global uint* numbers) {\n"
+                               "    if (work_item() >= count) return;\n"
+                               "    numbers[work_item()] = FACTOR + work_item();\n"
+                               "}\n",
+                               {{"FACTOR", factor}});
+        Buffer<uint32_t> numbers(device, "numbers", count);
+        program.kernel(kernel).launch(WorkItem::light, count, count, numbers);
+        const std::vector<uint32_t> result = numbers.read();
+        for (uint32_t i = 0; i < count; ++i)
+            EXPECT_EQ(result[i], kernel == "scale" ? i * uint32_t(factor) : i + uint32_t(factor));
+    }
+    return int(device.counters().programs_built - device.counters().programs_from_cache);
+}
+
+/// Run in a process of its own by the tests below; its exit code is 10 + the programs compiled.
+TEST(ProgramCacheProcess, DISABLED_BuildsAndRuns) {
+    const int compiled = build_and_run();
+    if (!HasFailure()) std::exit(10 + compiled);
+}
+
+/// Compiled files of the kernel `keep_words` that lie ready for PoCL.
+int count_ready() {
+    int count = 0;
+    for (const auto& entry : fs::recursive_directory_iterator(cache_folder()))
+        count += entry.path().filename() == "keep_words.so";
+    return count;
+}
+
+/// Two programs joined of cut.cl and a file with other constants, each on a device of its own that
+/// stays open; keep_words runs in both. It returns how many of it were ready when they were built.
+std::array<int, 2> ready_when_joined() {
+    constexpr std::array kFiles = {"cut.cl", "shade.cl"};
+    const std::vector<uint32_t> slot = {0}, numbers(4096, 7);
+    std::vector<Device> devices;
+    std::array<int, 2> ready{};
+    for (size_t i = 0; i < 2; ++i) {
+        const Device& device = devices.emplace_back(test_device());
+        Features features;
+        (i == 0 ? features.cubes : features.smooth) = true;
+        Program::build_together(device, kFiles, features.defines(device));
+        ready[i] = count_ready();
+        const Buffer<uint32_t> slots(device, "slots", std::span(slot)),
+            from(device, "from", std::span(numbers)), words(device, "words", 4096);
+        Program(device, "cut.cl", features.defines(device))
+            .kernel("keep_words")
+            .launch(WorkItem::heavy, 1, 1u, slots, from, 9u, words);
+        EXPECT_EQ(words.read(), numbers);
+    }
+    return ready;
+}
+
+/// Run in a process of its own; its exit code is 10 + 3 x those ready for the first program + those
+/// for the second.
+TEST(ProgramCacheProcess, DISABLED_JoinsAndRuns) {
+    const auto [first, second] = ready_when_joined();
+    if (!HasFailure()) std::exit(10 + 3 * first + second);
+}
+
+/// Starts `processes` at once on one cache folder; returns what each compiled, -1 for a failure.
+std::vector<int> compiled_by_processes(int processes, const std::string& environment,
+                                       const char* work = "BuildsAndRuns") {
+    const std::string self = fs::read_symlink("/proc/self/exe").string();
+    const std::string command = fmt::format(
+        "env -u POCL_CACHE_DIR {} \"{}\" --gtest_also_run_disabled_tests "
+        "--gtest_filter=ProgramCacheProcess.DISABLED_{} >/dev/null",
+        environment, self, work);
+    std::vector<int> results(size_t(processes), -1);
+    std::vector<std::thread> threads;
+    for (int& result : results)
+        threads.emplace_back([&command, &result] {
+            const int status = std::system(command.c_str());
+            const int code = WIFEXITED(status) ? WEXITSTATUS(status) : 0;
+            result = code < 10 ? -1 : code - 10;
+        });
+    for (std::thread& thread : threads) thread.join();
+    return results;
+}
+
+bool device_keeps_programs() {
+    return test_device().info().platform != "Oclgrind";
+}
+
+TEST_F(ProgramCacheFiles, ASecondRunCompilesNothing) {
+    if (!device_keeps_programs()) GTEST_SKIP() << "this device's programs are not kept";
+    const std::string environment = "VOXELUME_CACHE_DIR=" + folder.string();
+    EXPECT_EQ(compiled_by_processes(1, environment), std::vector<int>{2});
+    EXPECT_EQ(compiled_by_processes(1, environment), std::vector<int>{0});
+}
+
+/// What an entry holds must do for kernels that no run before has launched.
+TEST_F(ProgramCacheFiles, AKernelFirstLaunchedByALaterRunIsMadeOfTheKeptBitcode) {
+    if (!device_keeps_programs()) GTEST_SKIP() << "this device's programs are not kept";
+    const std::string environment = "VOXELUME_CACHE_DIR=" + folder.string();
+    EXPECT_EQ(compiled_by_processes(1, environment), std::vector<int>{2});
+    const auto bytes = [&] {
+        uintmax_t sum = 0;
+        for (const fs::directory_entry& entry : fs::directory_iterator(folder / "programs"))
+            sum += entry.file_size();
+        return sum;
+    };
+    const uintmax_t with_one = bytes();
+    for (int run = 0; run < 2; ++run)
+        EXPECT_EQ(compiled_by_processes(1, environment + " VXL_TEST_KERNEL=shift"),
+                  std::vector<int>{0});
+    EXPECT_GT(bytes(), with_one) << "the second kernel is kept, too";
+    EXPECT_EQ(compiled_by_processes(1, environment), std::vector<int>{0});
+}
+
+/// VXL_STRESS_ROUNDS=12 makes the 96 processes that PoCL's own folder fails with.
+TEST_F(ProgramCacheFiles, EightProcessesShareAColdFolder) {
+    const char* text = std::getenv("VXL_STRESS_ROUNDS");
+    const int rounds = text ? std::atoi(text) : 1;
+    for (int round = 0; round < rounds; ++round) {
+        const std::string environment =
+            fmt::format("VOXELUME_CACHE_DIR={}/{}", folder.string(), round);
+        for (const int compiled : compiled_by_processes(8, environment))
+            EXPECT_GE(compiled, 0) << "round " << round;
+        if (!device_keeps_programs()) continue;
+        EXPECT_EQ(compiled_by_processes(1, environment), std::vector<int>{0});
+    }
+}
+
+TEST_F(ProgramCacheFiles, DamagedEntriesAreCompiledAgain) {
+    if (!device_keeps_programs()) GTEST_SKIP() << "this device's programs are not kept";
+    const std::string environment = "VOXELUME_CACHE_DIR=" + folder.string();
+    ASSERT_EQ(compiled_by_processes(1, environment), std::vector<int>{2});
+    for (const double kept : {0.0, 0.7}) {
+        int entries = 0;
+        for (const fs::directory_entry& entry : fs::directory_iterator(folder / "programs")) {
+            fs::resize_file(entry.path(), uintmax_t(double(entry.file_size()) * kept));
+            ++entries;
+        }
+        ASSERT_EQ(entries, 2);
+        EXPECT_EQ(compiled_by_processes(1, environment), std::vector<int>{2}) << kept;
+        EXPECT_EQ(compiled_by_processes(1, environment), std::vector<int>{0}) << kept;
+    }
+}
+
+TEST(ProgramCache, WithoutAFolderEveryRunCompiles) {
+    EXPECT_EQ(compiled_by_processes(1, "VOXELUME_CACHE_DIR="), std::vector<int>{2});
+    EXPECT_EQ(compiled_by_processes(1, "VOXELUME_CACHE_DIR=/proc/none"), std::vector<int>{2});
+}
+
+TEST_F(ProgramCacheFiles, KernelsOfAFileServeEveryProgramThatItIsJoinedTo) {
+    if (test_device().info().platform != kPoclPlatform) GTEST_SKIP() << "files are PoCL's";
+    const std::string environment = "VOXELUME_CACHE_DIR=" + folder.string();
+    EXPECT_EQ(compiled_by_processes(1, environment, "JoinsAndRuns"), std::vector<int>{0 + 2})
+        << "the second's from the first's";
+    EXPECT_EQ(compiled_by_processes(1, environment, "JoinsAndRuns"), std::vector<int>{3 + 2});
+}
+
+TEST_F(ProgramCacheFiles, LeavesNoFolderOfPoclBehind) {
+    compiled_by_processes(2, "VOXELUME_CACHE_DIR=" + folder.string());
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder))
+        EXPECT_EQ(entry.path().filename(), "programs");
+}
+
+}  // namespace
+}  // namespace voxelume

@@ -1,0 +1,30 @@
+// Images of absorbing objects in an absorbing medium against an analytic tracer.
+#include "tests/pictures/analytic_image_scenes.hpp"
+#include "tests/support/analytic_comparison.hpp"
+
+namespace voxelume {
+namespace {
+
+Scene scene_of(const char* text) {
+    Scene scene = parse_scene(text, "test.json", {});
+    resize(scene, {172, 133});
+    return scene;
+}
+
+TEST(AbsorbingImage, NestedDielectricsInAMedium) {
+    expect_analytic_image(scene_of(kNestedScene), 1e-5, 1e-3);
+}
+
+TEST(AbsorbingImage, VeilsAndFilteredShadowsInAMedium) {
+    expect_analytic_image(scene_of(kVeiledScene), 1e-5, 1e-3);
+}
+
+TEST(AbsorbingImage, AMediumWhoseDensityIsAskedForVoxelByVoxel) {
+    const Scene scene = scene_of(kVeiledScene);
+    Scene asked = scene;
+    asked.world.medium.density = BallDensity{{0, 0, 0}, 1000, 0};
+    expect_image(asked, oracle::analytic_image(scene), 1e-5, 1e-3);
+}
+
+}  // namespace
+}  // namespace voxelume

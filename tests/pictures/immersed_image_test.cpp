@@ -1,0 +1,15 @@
+// The image of an absorbing pool whose water the world's sides cut against an analytic tracer.
+#include "tests/pictures/analytic_image_scenes.hpp"
+#include "tests/support/analytic_comparison.hpp"
+
+namespace voxelume {
+namespace {
+
+TEST(ImmersedImage, WaterThatRaysBeginInAbsorbsFromTheirStartOn) {
+    Scene scene = parse_scene(kPoolScene, "test.json", {});
+    resize(scene, {172, 133});
+    expect_analytic_image(scene, 1e-5, 1e-3);
+}
+
+}  // namespace
+}  // namespace voxelume

@@ -1,0 +1,62 @@
+// More than a million reflected and refracted rays meet every closed surface that they come to.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "runtime/render/renderer.hpp"
+#include "tests/pictures/leaky_room.hpp"
+#include "tests/support/test_device.hpp"
+
+namespace voxelume {
+namespace {
+
+class Leaks : public testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(Surfaces, Leaks, testing::Values("exact", "smooth"));
+
+Image rendered(const Scene& scene, uint64_t least_secondary_rays) {
+    RenderReport report;
+    Image image = render(test_device(), scene, report);
+    EXPECT_EQ(report.not_finite, 0u);
+    EXPECT_GE(report.secondary_rays, least_secondary_rays);
+    fmt::print("{} secondary rays\n", report.secondary_rays);
+    return image;
+}
+
+TEST_P(Leaks, NoRayLeavesAClosedRoom) {
+    const Image image = rendered(leaky_room(GetParam(), 20), 1'000'000);
+    size_t leaks = 0;
+    for (size_t i = 0; i < image.planes.at("R").size(); ++i) {
+        // Every path weighs 1/4096 or more, so one of them would show 244.
+        leaks += image.planes.at("R")[i] > 2 || image.id_planes.at("objectId")[i] == 0;
+    }
+    EXPECT_EQ(leaks, 0u);
+}
+
+/// A bubble of 0.1 m in the middle of 1 m of glass, before a white background: rays that come in
+/// can't be kept in by total reflection. Its thickest part lets half of the red light through.
+Scene bubble(const std::string& surface) {
+    return parse_scene(R"({"voxelume": 1,
+"world": {"voxel_size": 0.0125, "bounds": {"min": [-0.5, -0.5, -0.5], "max": [0.5, 0.5, 0.5]}, "background": [1, 1, 1]},
+"materials": {"air": {"diffuse": 0, "refraction": 1, "ior": 0.75, "absorption": [3.4657359, 0, 0]}},
+"models": {"ball": {"shape": "sphere", "radius": 0.1, "surface": ")" +
+                           surface + R"("}},
+"objects": [{"model": "ball", "material": "air", "position": [0.003, -0.004, 0.001]}],
+"observer": {"position": [0.1, 0.2, -0.6], "look_at": [0, 0, 0], "display": {"shape": "box", "size": [0.2, 0.2, 3]}},
+"render": {"size": [940, 940]}})",
+                       "test.json", {});
+}
+
+TEST_P(Leaks, NoRayMissesTheBackOfABubble) {
+    const Image image = rendered(bubble(GetParam()), 1'000'000);
+    size_t missed = 0, met = 0;
+    for (size_t i = 0; i < image.planes.at("R").size(); ++i) {
+        if (image.id_planes.at("objectId")[i] == 0) continue;
+        ++met;
+        // To the world's end no more than a quarter would pass.
+        missed += image.planes.at("R")[i] < 0.499f || image.planes.at("G")[i] != 1;
+    }
+    EXPECT_EQ(missed, 0u) << "of " << met;
+    EXPECT_GT(met, 600'000u);
+}
+
+}  // namespace
+}  // namespace voxelume

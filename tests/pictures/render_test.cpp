@@ -1,0 +1,327 @@
+#include "runtime/render/renderer.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+
+#include "runtime/render/illumination.hpp"
+#include "tests/support/interpreted.hpp"
+#include "tests/support/test_device.hpp"
+
+namespace voxelume {
+namespace {
+
+using testing::Contains;
+using testing::ElementsAre;
+using testing::Key;
+using testing::Not;
+
+/// A scene text with one unit-sized box, 7 x 5 x 3 voxels, seen along +Z from in front of it.
+std::string box_scene(const std::string& surface, const std::string& lights,
+                      const std::string& more_world = "") {
+    return R"({"voxelume": 1,
+"world": {"voxel_size": 0.1, "bounds": {"min": [-1, -1, -1], "max": [1, 1, 1]},
+          "background": [0.25, 0.5, 0.75], "ambient": [0.5, 0.25, 0.125])" +
+           more_world + R"(},
+"materials": {"paint": {"color": [0.8, 0.4, 0.2], "diffuse": 0.5, "specular": 0.25, "shininess": 8}},
+"models": {"box": {"shape": "box", "size": [0.7, 0.5, 0.3], "voxel_size": 0.1, "surface": ")" +
+           surface + (surface == "cubes" ? R"(", "set": "solid"}},)" : R"("}},)") + R"(
+"objects": [{"name": "b", "model": "box", "material": "paint", "position": [0.05, -0.05, 0.05]}],
+"lights": [)" +
+           lights + R"(],
+"observer": {"position": [0, 0, -3], "look_at": [0, 0, 0],
+             "display": {"shape": "box", "size": [1.6, 1.2, 4], "near": 0.5, "voxels": [8, 6, 4]}},
+"render": {"size": [16, 12]}})";
+}
+
+Scene scene_of(const std::string& text) {
+    return parse_scene(text, "test.json", {});
+}
+
+/// Pixels along an edge.
+int pixels(int count) {
+    return int(full_or(uint32_t(count) / 4, uint32_t(count)));
+}
+
+struct Rendered {
+    Image image;
+    RenderReport report;
+    DeviceCounters counters;
+
+    float at(const char* plane, int x, int y) const {
+        return image.planes.at(plane)[size_t(y * image.width + x)];
+    }
+};
+
+Rendered rendered(const Scene& scene, int lanes = 0) {
+    const Device device = test_device(lanes);
+    Rendered result;
+    result.image = render(device, scene, result.report);
+    result.counters = device.counters();
+    return result;
+}
+
+TEST(Render, GivesDepthPositionNormalAndObjectOfAFace) {
+    for (const char* surface : {"cubes", "exact"}) {
+        const Rendered r = rendered(scene_of(box_scene(surface, "")));
+        // The box spans x -0.3..0.4, y -0.3..0.2, z -0.1..0.2; image right is -X_E, which is -x
+        // here.
+        EXPECT_NEAR(r.at("Z", 8, 6), 2.9f, 1e-6f) << surface;
+        EXPECT_NEAR(r.at("P.Z", 8, 6), -0.1f, 1e-6f) << surface;
+        EXPECT_NEAR(r.at("P.X", 8, 6), -0.05f, 1e-6f) << surface;
+        EXPECT_NEAR(r.at("P.Y", 8, 6), -0.05f, 1e-6f) << surface;
+        EXPECT_FLOAT_EQ(r.at("N.Z", 8, 6), -1.0f) << surface;
+        EXPECT_FLOAT_EQ(r.at("A", 8, 6), 1.0f) << surface;
+        EXPECT_EQ(r.image.id_planes.at("objectId")[6 * 16 + 8], 1u) << surface;
+        EXPECT_FLOAT_EQ(r.at("A", 0, 0), 0.0f) << surface;
+        EXPECT_TRUE(std::isinf(r.at("Z", 0, 0))) << surface;
+        EXPECT_FLOAT_EQ(r.at("B", 0, 0), 0.75f) << surface;
+    }
+}
+
+TEST(Render, AFaceOnTheSideOfTheWorldIsAFaceLikeAnyOther) {
+    // The world begins at the box's front face: sight rays begin on it.
+    std::string text = box_scene("cubes", R"({"type": "directional", "direction": [0, 0, 1]})");
+    const std::string whole = R"("min": [-1, -1, -1])";
+    text.replace(text.find(whole), whole.size(), R"("min": [-1, -1, -0.1])");
+    const Rendered r = rendered(scene_of(text));
+    EXPECT_EQ(r.at("N.Z", 8, 6), -1.0f);
+    EXPECT_EQ(r.at("N.X", 8, 6), 0.0f);
+    EXPECT_NEAR(r.at("P.Z", 8, 6), -0.1f, 1e-6f);
+    EXPECT_GT(r.at("R", 8, 6), 0.4f) << "color * diffuse at least, beside ambient light of 0.2";
+}
+
+TEST(Render, CoversThePixelsThatTheBoxCovers) {
+    // Pixels are 0.1 m: x from 0.8 down to -0.8. The box covers 0.4..-0.3: columns 4 to 10, and
+    // rows for y 0.2..-0.3: 4 to 8.
+    const Rendered r = rendered(scene_of(box_scene("exact", "")));
+    for (int y = 0; y < 12; ++y)
+        for (int x = 0; x < 16; ++x)
+            EXPECT_EQ(r.at("A", x, y), x >= 4 && x <= 10 && y >= 4 && y <= 8 ? 1.0f : 0.0f)
+                << x << "," << y;
+}
+
+TEST(Render, AddsAmbientDiffuseAndHighlightByHand) {
+    // A point light 2 m in front of the point (-0.05, -0.05, -0.1), 1 m up: to it (0, 1,
+    // -2)/sqrt 5.
+    const Rendered r = rendered(scene_of(box_scene(
+        "exact",
+        R"({"type": "point", "position": [-0.05, 0.95, -2.1], "color": [1, 0.5, 0.25], "intensity": 10})")));
+    const double cosine = 2 / std::sqrt(5.0), falloff = 10 / 5.0;
+    // The viewer is at (0, 0, -1): half vector of (0, 1/sqrt 5, -2/sqrt 5) and it.
+    const double hy = 1 / std::sqrt(5.0), hz = -2 / std::sqrt(5.0) - 1;
+    const double highlight = std::pow(-hz / std::hypot(hy, hz), 8);
+    const double color[3] = {0.8, 0.4, 0.2}, ambient[3] = {0.5, 0.25, 0.125},
+                 light[3] = {1, 0.5, 0.25};
+    const char* planes[3] = {"R", "G", "B"};
+    for (int c = 0; c < 3; ++c) {
+        const double expected = color[c] * 0.5 * ambient[c] +
+                                falloff * light[c] * (color[c] * 0.5 * cosine + 0.25 * highlight);
+        EXPECT_NEAR(r.at(planes[c], 8, 6), expected, 2e-6 * expected) << planes[c];
+    }
+}
+
+TEST(Render, AbsorbsLightOnTheWayToTheSurfaceAndToTheObserver) {
+    // The medium fills the world, z -1..1. Sight goes 0.9 m through it; light from
+    // (-0.05,-0.05,-2.1), too.
+    const char* lamp =
+        R"({"type": "point", "position": [-0.05, -0.05, -2.1], "color": [1, 1, 1], "intensity": 4})";
+    const Rendered clear = rendered(scene_of(box_scene("exact", lamp)));
+    const Rendered foggy = rendered(scene_of(box_scene(
+        "exact", lamp, R"(, "medium": {"absorption": [0.5, 1, 2], "color": [0.1, 0.2, 0.3]})")));
+    const double absorption[3] = {0.5, 1, 2}, fog[3] = {0.1, 0.2, 0.3};
+    const double ambient[3] = {0.8 * 0.5 * 0.5, 0.4 * 0.5 * 0.25, 0.2 * 0.5 * 0.125};
+    const char* planes[3] = {"R", "G", "B"};
+    for (int c = 0; c < 3; ++c) {
+        const double lit = double(clear.at(planes[c], 8, 6)) - ambient[c];
+        const double passed = std::exp(-absorption[c] * 0.9);
+        const double expected = (ambient[c] + lit * passed) * passed + fog[c] * (1 - passed);
+        EXPECT_NEAR(foggy.at(planes[c], 8, 6), expected, 3e-6) << planes[c];
+        // A ray that meets nothing goes 2 m through the medium.
+        const double behind = std::exp(-absorption[c] * 2);
+        EXPECT_NEAR(foggy.at(planes[c], 0, 0),
+                    double(clear.at(planes[c], 0, 0)) * behind + fog[c] * (1 - behind), 3e-6);
+    }
+}
+
+TEST(Render, AShadowFallsWhereTheLightIsHidden) {
+    // A wall at z = 0.5 behind the box, lit from the front: the box's shadow on it is larger.
+    std::string text = box_scene(
+        "cubes",
+        R"({"type": "directional", "direction": [0, -1, 1], "color": [1, 1, 1], "intensity": 1})");
+    const std::string wall =
+        R"(, "wall": {"shape": "box", "size": [2, 2, 0.2], "voxel_size": 0.1, "set": "solid", "surface": "cubes"}},)";
+    text.replace(text.find("},\n\"objects\""), 2, wall);
+    text.replace(
+        text.find("\"objects\": ["), 12,
+        R"("objects": [{"name": "w", "model": "wall", "material": "paint", "position": [0, 0, 0.6]}, )");
+    const Rendered r = rendered(scene_of(text));
+    // Light travels down at 45 degrees; the wall is 0.4 m behind the box's front face (z -0.1) at z
+    // 0.5: shadow over y from 0.2 - 0.6 = -0.4 (front top edge) up to the box, and below to -0.6
+    // (its back).
+    EXPECT_GT(r.at("R", 8, 2), 1.2f * r.at("R", 8, 9)) << "row 2 is lit, row 9 (y -0.35) in shade";
+    EXPECT_GT(r.at("R", 1, 9), 1.2f * r.at("R", 8, 9)) << "beside the shadow";
+}
+
+TEST(Render, AnExactSurfaceOnTheWorldsBoundsHasNoHoles) {
+    // The box is the world: rays meet its faces where they come in, before or behind their rounded
+    // start.
+    std::string text = box_scene("exact", "");
+    const auto replace = [&text](const std::string& from, const std::string& to) {
+        text.replace(text.find(from), from.size(), to);
+    };
+    replace(R"({"min": [-1, -1, -1], "max": [1, 1, 1]})",
+            R"({"min": [-0.3, -0.3, -0.1], "max": [0.4, 0.2, 0.2]})");
+    replace(R"("position": [0, 0, -3], "look_at": [0, 0, 0])",
+            R"("position": [-2, 1.3, -3], "look_at": [0.05, -0.05, 0.05])");
+    Scene scene = scene_of(text);
+    const int columns = pixels(160), rows = pixels(120);
+    resize(scene, {columns, rows});
+    const Rendered exact = rendered(scene);
+    const glm::dmat3& axes = scene.observer.world_from_observer;
+    for (int y = 0; y < rows; ++y) {
+        for (int x = 0; x < columns; ++x) {
+            const glm::dvec3 start = scene.observer.position +
+                                     axes[0] * (0.8 - 1.6 * (x + 0.5) / columns) +
+                                     axes[1] * (0.6 - 1.2 * (y + 0.5) / rows);
+            double first = -1e9, last = 1e9;
+            for (int a = 0; a < 3; ++a) {
+                const double low = a == 0 ? -0.3 : a == 1 ? -0.3 : -0.1;
+                const double high = a == 0 ? 0.4 : 0.2;
+                const double p = (low - start[a]) / axes[2][a], q = (high - start[a]) / axes[2][a];
+                first = std::max(first, std::min(p, q));
+                last = std::min(last, std::max(p, q));
+            }
+            if (std::abs(last - first) < 1e-5) continue;  // along an edge
+            ASSERT_EQ(exact.at("A", x, y), first < last ? 1.0f : 0.0f) << x << "," << y;
+        }
+    }
+}
+
+TEST(Render, ADistantObserverSeesWhatANearOneDoesWithTheSameAngle) {
+    Scene scene = scene_of(box_scene("exact", ""));
+    scene.observer.display.shape = DisplayShape::pyramid;
+    scene.observer.display.far = 1e9;
+    resize(scene, {pixels(64), pixels(48)});
+    const auto seen_from = [&scene](double distance) {
+        scene.observer.position = {0, 0, -distance};
+        scene.observer.display.half_angles = {std::atan(0.6 / distance),
+                                              std::atan(0.45 / distance)};
+        return rendered(scene);
+    };
+    const Rendered near = seen_from(1e3), far = seen_from(1e7);
+    EXPECT_EQ(near.image.planes.at("A"), far.image.planes.at("A"));
+    for (size_t i = 0; i < near.image.planes.at("P.X").size(); ++i)
+        ASSERT_NEAR(near.image.planes.at("P.X")[i], far.image.planes.at("P.X")[i], 5e-4);
+}
+
+/// A ball of 4 voxels with one light, all moved by as many metres along each axis.
+Scene ball_moved_by(int metres, const std::string& surface) {
+    return scene_of(fmt::format(R"({{"voxelume": 1,
+"world": {{"voxel_size": 1, "bounds": {{"min": [{0}, {0}, {0}], "max": [{1}, {1}, {1}]}}}},
+"materials": {{"paint": {{"color": [0.8, 0.4, 0.2]}}}},
+"models": {{"ball": {{"shape": "sphere", "radius": 4, "surface": "{4}"}}}},
+"objects": [{{"model": "ball", "material": "paint", "position": [{2}.25, {2}.75, {2}.375]}}],
+"lights": [{{"type": "point", "position": [{1}, {1}, {0}], "intensity": 50}}],
+"observer": {{"position": [{2}, {2}, {3}], "look_at": [{2}, {2}, {2}],
+             "display": {{"shape": "pyramid", "angles": [50, 40]}}}},
+"render": {{"size": [{5}, {6}]}}}})",
+                                metres - 8, metres + 8, metres, metres - 12, surface, pixels(80),
+                                pixels(64)));
+}
+
+TEST(Render, G8AWorldFarFromTheOriginLooksAsOneAroundIt) {
+    for (const char* surface : {"cubes", "smooth", "exact"}) {
+        const Rendered near = rendered(ball_moved_by(0, surface));
+        const Rendered far = rendered(ball_moved_by(100000, surface));
+        for (const char* plane : {"R", "A", "Z", "N.X", "N.Y", "N.Z"})
+            EXPECT_EQ(near.image.planes.at(plane), far.image.planes.at(plane)) << surface << plane;
+    }
+}
+
+TEST(Render, WhatASceneDoesNotHaveIsNotAllocatedOrLaunched) {
+    const Rendered plain = rendered(scene_of(box_scene("cubes", "")));
+    for (const char* kernel : {"add_light", "trace_shadows", "absorb_sight", "absorb_shadows"})
+        EXPECT_THAT(plain.counters.launches, Not(Contains(Key(std::string(kernel))))) << kernel;
+    EXPECT_THAT(plain.counters.allocated_bytes, Not(Contains(Key(std::string("shadow queue")))));
+
+    std::string unshadowed = box_scene(
+        "cubes",
+        R"({"type": "directional", "direction": [0, 0, 1], "color": [1, 1, 1], "intensity": 1})");
+    unshadowed.replace(unshadowed.find("\"render\": {"), 11, "\"render\": {\"shadows\": false, ");
+    const Rendered lit = rendered(scene_of(unshadowed));
+    EXPECT_THAT(lit.counters.launches, Contains(Key(std::string("add_light"))));
+    EXPECT_THAT(lit.counters.launches, Not(Contains(Key(std::string("trace_shadows")))));
+    EXPECT_THAT(lit.counters.allocated_bytes, Not(Contains(Key(std::string("shadow queue")))));
+}
+
+template <class T>
+std::vector<std::string> names(const std::map<std::string, T>& counters) {
+    std::vector<std::string> all;
+    for (const auto& [name, value] : counters) all.push_back(name);
+    return all;
+}
+
+TEST(Render, ASceneOfPlainCubesHasNothingElseInIt) {
+    // One object of cubes without lights: of all features, kernels and buffers these are left.
+    const Scene scene = scene_of(box_scene("cubes", ""));
+    const Rendered r = rendered(scene);
+    const Device device = test_device();
+    WorldReport report;
+    const Features features = features_of(scene, form_world(device, scene, report));
+    std::set<std::string> expected = {"VXL_CUBES"};
+    expected.insert({"VXL_RADIANCE", "VXL_POSITIONS", "VXL_NORMALS", "VXL_WORDS"});  // asked for
+    if (device.is_cpu()) expected.insert("VXL_NATIVE_DIVIDE");
+    for (const auto& [name, value] : features.defines(device))
+        EXPECT_EQ(value != 0, expected.contains(name)) << name;
+    EXPECT_THAT(names(r.counters.launches),
+                ElementsAre("cast_sight", "classify_bricks", "clear_bricks", "mark_near_leaves",
+                            "mark_voxels", "occupy_solid", "paint_cubes", "resolve_pixels",
+                            "shade_surface", "trace_closest", "write_voxels"));
+    EXPECT_THAT(
+        names(r.counters.allocated_bytes),
+        ElementsAre("brick records", "brick states", "cleared bricks", "coordinates", "hits",
+                    "image", "index counts", "index leaf masks", "index masks", "index starts",
+                    "leaf voxels", "leaves", "materials", "materials of groups", "near leaves",
+                    "normals", "not finite", "object numbers", "occupancy", "painted bricks",
+                    "placement", "positions", "radiance", "rays", "sample offsets", "sectors",
+                    "slots", "solids", "undecided count", "undecided voxels", "words",
+                    "world coordinates", "world occupancy", "world slots"));
+}
+
+TEST(Render, ALightWithoutEnergyIsNotShaded) {
+    const Rendered r = rendered(scene_of(box_scene(
+        "cubes",
+        R"({"type": "point", "position": [0, 0, -2], "color": [1, 1, 1], "intensity": 0})")));
+    EXPECT_THAT(r.counters.launches, Not(Contains(Key(std::string("add_light")))));
+}
+
+TEST(Render, AnEmptyWorldIsItsBackground) {
+    std::string text = box_scene("cubes", "");
+    text.replace(text.find("\"position\": [0.05, -0.05, 0.05]"), 31,
+                 "\"position\": [9, 9, 9]         ");
+    const Rendered r = rendered(scene_of(text));
+    EXPECT_EQ(r.report.voxels, 0u);
+    for (const float green : r.image.planes.at("G")) EXPECT_EQ(green, 0.5f);
+}
+
+TEST(Render, OnePixelIsAnImage) {
+    Scene scene = scene_of(box_scene("smooth", ""));
+    resize(scene, {1, 1});
+    EXPECT_EQ(rendered(scene).image.planes.at("R").size(), 1u);
+}
+
+TEST(Render, SamplesCoverAPixelEvenly) {
+    Scene scene = scene_of(box_scene("exact", ""));
+    resize(scene, {5, 3});  // pixels straddle the box's edges
+    scene.render.samples = 64;
+    double covered = 0;
+    const Rendered r = rendered(scene);
+    for (const float a : r.image.planes.at("A")) covered += double(a);
+    EXPECT_NEAR(covered / 15, 0.7 * 0.5 / (1.6 * 1.2), 0.01);
+}
+
+}  // namespace
+}  // namespace voxelume

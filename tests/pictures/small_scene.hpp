@@ -1,0 +1,38 @@
+// Scenes of scenes/ made small enough for tests.
+#pragma once
+
+#include <algorithm>
+#include <filesystem>
+#include <string>
+
+#include "runtime/scene/scene.hpp"
+
+namespace voxelume {
+
+inline const std::filesystem::path kScenes = std::filesystem::path(VXL_SOURCE_DIR) / "scenes";
+
+/// Makes the world's voxels larger until none of its axes has more than `most`, and with them the
+/// models' own.
+inline void coarsen(Scene& scene, double most) {
+    const int longest =
+        std::max({scene.world.voxels.x, scene.world.voxels.y, scene.world.voxels.z});
+    const double factor = std::max(1.0, longest / most);
+    scene.world.voxel_size *= factor;
+    scene.world.voxels = glm::ivec3(glm::ceil(glm::dvec3(scene.world.voxels) / factor));
+    for (Model& model : scene.models) {
+        model.voxel_size *= factor;
+        if (model.resolution > 0) model.resolution = int(model.resolution / factor) + 1;
+    }
+}
+
+/// A scene of scenes/ by its name, with an image of `size` and at most `voxels` along an axis.
+inline Scene small_scene(const std::string& name, glm::ivec2 size, double voxels) {
+    const AssetFolders assets{"/usr/share/glmark2/models"};  // Debian's glmark2-data
+    Scene scene = read_scene(kScenes / (name + ".json"), assets);
+    resize(scene, size);
+    scene.render.samples = 1;
+    coarsen(scene, voxels);
+    return scene;
+}
+
+}  // namespace voxelume

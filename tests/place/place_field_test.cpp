@@ -1,0 +1,264 @@
+// The smooth half of `place`: distance fields in the world, and whose voxel is whose.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+#include "runtime/scene/scene_affine.hpp"
+#include "runtime/stages/index/index.hpp"
+#include "runtime/stages/place/place.hpp"
+#include "tests/place/placing.hpp"
+#include "tests/place/pyramid_reader.hpp"
+
+namespace voxelume {
+namespace {
+
+constexpr double kBand = 2.8;  // voxels to which the objects' fields are exact, as voxelizers leave
+
+int16_t banded(double voxels) {
+    return std::abs(voxels) <= kBand ? stored_distance(voxels)
+                                     : int16_t(voxels < 0 ? -32767 : 32767);
+}
+
+/// A sphere about the origin of its space, in voxels of `edge`.
+HostBricks sphere_bricks(double radius, double edge) {
+    const int half = int(std::ceil(radius / edge)) + 5;
+    const GridFrame frame = frame_at(glm::dvec3(-half * edge), glm::dvec3(edge),
+                                     {2 * half, 2 * half + 1, 2 * half + 2});
+    return distance_bricks(frame, [&](const glm::ivec3& n) {
+        return banded((glm::length(glm::dvec3(n) * edge + frame.origin) - radius) / edge);
+    });
+}
+
+BrickGrid place_one(const BrickGrid& grid, const glm::dmat4& world_from_object,
+                    const GridFrame& world) {
+    const std::vector<PlacedObject> objects = {
+        {.grid = &grid, .world_from_object = world_from_object, .material_of_group = {0}}};
+    return place(shared_device(), objects, world);
+}
+
+/// Calls visit(node, distance in world voxels) for the nodes of the world's voxels.
+template <class Visit>
+void for_each_node(const BrickGrid& world, const Visit& visit) {
+    const ReadBricks bricks(world);
+    for (glm::ivec3 n{0}; n.z <= world.frame.size.z; ++n.z)
+        for (n.y = 0; n.y <= world.frame.size.y; ++n.y)
+            for (n.x = 0; n.x <= world.frame.size.x; ++n.x)
+                visit(n, bricks.distance_at(n) / 8192.0);
+}
+
+struct Accuracy {
+    double near = 0, band = 0;  // largest errors within 1.75 and `reach` voxels of the surface
+    int wrong_sides = 0;
+};
+
+Accuracy accuracy_of(const BrickGrid& world, const std::function<double(glm::dvec3)>& metres,
+                     double reach = 2.7) {
+    Accuracy accuracy;
+    const GridFrame& frame = world.frame;
+    for_each_node(world, [&](const glm::ivec3& n, double placed) {
+        const double truth = metres(frame.origin + frame.voxel_edge * glm::dvec3(n)) /
+                             std::min({frame.voxel_edge.x, frame.voxel_edge.y, frame.voxel_edge.z});
+        const double error = std::abs(placed - truth);
+        if (std::abs(truth) <= 1.75) accuracy.near = std::max(accuracy.near, error);
+        if (std::abs(truth) <= reach) accuracy.band = std::max(accuracy.band, error);
+        accuracy.wrong_sides += std::abs(truth) > 0.01 && (placed < 0) != (truth < 0);
+    });
+    return accuracy;
+}
+
+TEST(PlaceField, ATurnedMovedAndScaledSphereHasItsAnalyticDistances) {
+    const BrickGrid sphere = sphere_bricks(2.0, 0.1).upload(shared_device());
+    const glm::dvec3 centre{0.317, -0.211, 0.533};
+    for (const double scale : {0.75, 1.0, 1.4, 3.0}) {
+        const glm::dmat4 map = affine_from_factors(centre, {34, -21, 77}, glm::dvec3(scale));
+        const int half = int(std::ceil(20 * scale)) + 11;
+        const BrickGrid world = place_one(
+            sphere, map,
+            frame_at(glm::dvec3(-0.1 * half), glm::dvec3(0.1), {2 * half, 2 * half, 2 * half + 3}));
+        const Accuracy accuracy = accuracy_of(
+            world, [&](const glm::dvec3& p) { return glm::length(p - centre) - 2.0 * scale; },
+            std::min(2.7, kBand * scale));
+        EXPECT_LT(accuracy.near, scale < 1 ? 0.05 : 0.015) << "scale " << scale;
+        EXPECT_LT(accuracy.band, 0.06) << "scale " << scale;
+        EXPECT_EQ(accuracy.wrong_sides, 0) << "scale " << scale;
+    }
+}
+
+TEST(PlaceField, WholeVoxelMovesTurnsAndMirrorsCopyTheDistances) {
+    const glm::ivec3 size{40, 37, 43};
+    const GridFrame frame = frame_at({0.7, 0.2, -0.4}, glm::dvec3(0.1), size);
+    const glm::dvec3 centre{17.3, 19.1, 22.6};
+    const BrickGrid grid = distance_bricks(frame, [&](const glm::ivec3& n) {
+                               const glm::dvec3 p = glm::dvec3(n) - centre;
+                               return banded(std::hypot(std::hypot(p.x, p.y) - 10, p.z) - 4);
+                           }).upload(shared_device());
+    const ReadBricks source(grid);
+    const GridFrame world = frame_at({-8, -8, -8}, glm::dvec3(0.1), {161, 162, 163});
+    for (const glm::dmat4& map : {affine_from_factors({0.5, -0.3, 1.1}, {0, 0, 0}, {1, 1, 1}),
+                                  affine_from_factors({0.1, 0.2, 0.3}, {90, 180, 0}, {1, 1, 1}),
+                                  affine_from_factors({0, 0, 0.4}, {0, 0, 90}, {1, -1, 1})}) {
+        const BrickGrid placed = place_one(grid, map, world);
+        const glm::dmat4 inverse = glm::inverse(map);
+        int copied = 0;
+        for_each_node(placed, [&](const glm::ivec3& n, double value) {
+            const glm::dvec3 p = inverse * glm::dvec4(world.origin + 0.1 * glm::dvec3(n), 1);
+            const glm::ivec3 m(glm::round((p - frame.origin) / 0.1));
+            const bool in_grid = glm::all(glm::greaterThanEqual(m, glm::ivec3(0))) &&
+                                 glm::all(glm::lessThanEqual(m, size));
+            const int expected = in_grid ? source.distance_at(m) : 32767;
+            copied += std::abs(expected) < 32767;
+            ASSERT_EQ(value * 8192, expected);
+        });
+        EXPECT_GT(copied, 5000);
+    }
+}
+
+TEST(PlaceField, AnUnevenlyStretchedSphereKeepsItsSurfaceAndNeverOverestimates) {
+    const BrickGrid sphere = sphere_bricks(2.0, 0.1).upload(shared_device());
+    const glm::dvec3 scale{1.0, 2.0, 1.3};
+    const BrickGrid world =
+        place_one(sphere, affine_from_factors({0, 0, 0}, {0, 0, 0}, scale),
+                  frame_at({-2.53, -4.52, -3.11}, glm::dvec3(0.1), {51, 91, 63}));
+    for_each_node(world, [&](const glm::ivec3& n, double placed) {
+        const glm::dvec3 p = world.frame.origin + 0.1 * glm::dvec3(n);
+        const double stretched = (glm::length(p / scale) - 2.0) / 0.1;
+        if (std::abs(stretched) < 1.8) {
+            ASSERT_NEAR(placed, stretched, 0.02);
+        }
+        ASSERT_TRUE((placed < 0) == (stretched < 0) || std::abs(stretched) < 0.01);
+    });
+}
+
+TEST(PlaceField, WorldVoxelsMuchLargerThanTheObjectsKeepTheRightSides) {
+    const BrickGrid sphere = sphere_bricks(2.0, 0.1).upload(shared_device());
+    for (const double edge : {0.2, 0.33, 0.61}) {
+        const BrickGrid world =
+            place_one(sphere, affine_from_factors({0, 0, 0}, {10, 20, 30}, {1, 1, 1}),
+                      frame_at(glm::dvec3(-3), glm::dvec3(edge), glm::ivec3(int(6 / edge))));
+        const Accuracy accuracy =
+            accuracy_of(world, [](const glm::dvec3& p) { return glm::length(p) - 2.0; });
+        EXPECT_EQ(accuracy.wrong_sides, 0) << edge;
+        EXPECT_GT(build_index(shared_device(), world).voxel_count, 200u) << edge;
+    }
+}
+
+TEST(PlaceField, UnitesObjectsByTheSmallestDistance) {
+    const Device& device = shared_device();
+    const BrickGrid sphere = sphere_bricks(2.0, 0.1).upload(device);
+    const glm::dvec3 centres[] = {{-1.23, 0.1, 0}, {1.31, 0, 0.17}};
+    std::vector<PlacedObject> objects;
+    for (uint32_t i = 0; i < 2; ++i)
+        objects.push_back(
+            {.grid = &sphere,
+             .world_from_object = affine_from_factors(centres[i], {10, 20, 30}, {1, 1, 1}),
+             .object = i,
+             .material_of_group = {5 + i}});
+    const GridFrame frame = frame_at({-4, -3, -3}, glm::dvec3(0.1), {80, 60, 61});
+    const BrickGrid world = place(device, objects, frame);
+    const Accuracy accuracy = accuracy_of(world, [&](const glm::dvec3& p) {
+        return std::min(glm::length(p - centres[0]), glm::length(p - centres[1])) - 2.0;
+    });
+    EXPECT_LT(accuracy.near, 0.02);
+    EXPECT_EQ(accuracy.wrong_sides, 0);
+
+    const Pyramid pyramid = build_index(device, world);
+    const HostPyramid host(pyramid);
+    int shown[2] = {0, 0};
+    for (glm::ivec3 v{0}; v.z < frame.size.z; ++v.z)
+        for (v.y = 0; v.y < frame.size.y; ++v.y)
+            for (v.x = 0; v.x < frame.size.x; ++v.x) {
+                int log2 = 0;
+                const auto voxel = host.find(v, log2);
+                if (!voxel) continue;
+                const glm::dvec3 p = frame.origin + 0.1 * (glm::dvec3(v) + 0.5);
+                const double d[2] = {glm::length(p - centres[0]), glm::length(p - centres[1])};
+                if (std::abs(d[0] - d[1]) < 0.003) continue;
+                const uint32_t i = d[0] < d[1] ? 0 : 1;
+                ++shown[i];
+                ASSERT_EQ(host.word(*voxel), 0x40000000u | (5 + i) << 16 | i);
+            }
+    EXPECT_GT(shown[0], 5000);
+    EXPECT_GT(shown[1], 5000);
+    std::ranges::reverse(objects);
+    EXPECT_EQ(place(device, objects, frame).distance.read(), world.distance.read());
+}
+
+TEST(PlaceField, TakesTheGroupOfTheCellThatTheSurfaceCrosses) {
+    // Group 1 above the sphere's equator, 0 below; words stand only where the surface passes.
+    const Device& device = shared_device();
+    HostBricks bricks = sphere_bricks(2.0, 0.1);
+    bricks.attributes.assign(bricks.distance.size(), 2u << 16);
+    const glm::ivec3 size = bricks.frame.size;
+    for (glm::ivec3 v{0}; v.z < size.z; ++v.z)
+        for (v.y = 0; v.y < size.y; ++v.y)
+            for (v.x = 0; v.x < size.x; ++v.x) {
+                const glm::dvec3 low = bricks.frame.origin + 0.1 * glm::dvec3(v);
+                const glm::dvec3 closest = glm::clamp(glm::dvec3(0), low, low + 0.1);
+                const glm::dvec3 farthest = glm::max(glm::abs(low), glm::abs(low + 0.1));
+                if (glm::length(closest) <= 2.0 && glm::length(farthest) >= 2.0)
+                    bricks.attributes[bricks.place(v)] = uint32_t(low.y > -0.05) << 16;
+            }
+    const BrickGrid grid = bricks.upload(device);
+    const std::vector<PlacedObject> objects = {
+        {.grid = &grid,
+         .world_from_object = affine_from_factors({0.03, 0.04, 0.01}, {25, 0, 0}, {1, 1, 1}),
+         .object = 3,
+         .material_of_group = {7, 8, 9}}};
+    const GridFrame frame = frame_at(glm::dvec3(-3), glm::dvec3(0.1), {60, 61, 62});
+    const BrickGrid world = place(device, objects, frame);
+    const HostPyramid host(build_index(device, world));
+    int shown = 0;
+    for (glm::ivec3 v{0}; v.z < frame.size.z; ++v.z)
+        for (v.y = 0; v.y < frame.size.y; ++v.y)
+            for (v.x = 0; v.x < frame.size.x; ++v.x) {
+                int log2 = 0;
+                const auto voxel = host.find(v, log2);
+                const double y = frame.origin.y + 0.1 * (v.y + 0.5) - 0.04;
+                if (!voxel || std::abs(y) < 0.2) continue;
+                ++shown;
+                ASSERT_EQ(host.word(*voxel), 0x40000003u | (y > 0 ? 8u : 7u) << 16);
+            }
+    EXPECT_GT(shown, 5000);
+}
+
+TEST(PlaceField, ASmoothWinnerTakesItsVoxelsFromCubesAndALoserLeavesThem) {
+    const Device& device = shared_device();
+    const BrickGrid sphere = sphere_bricks(1.0, 0.1).upload(device);
+    VoxelMap slab;
+    for (int z = 0; z < 31; ++z)
+        for (int x = 0; x < 30; ++x) slab[{x, 15, z}] = 0;
+    HostBricks bricks =
+        occupied_bricks(frame_at(glm::dvec3(-1.5), glm::dvec3(0.1), {30, 32, 31}), slab);
+    bricks.attributes.clear();
+    const BrickGrid cubes = bricks.upload(device);
+    for (const int priority : {-1, 1}) {
+        const std::vector<PlacedObject> objects = {
+            {.grid = &cubes, .object = 1, .material_of_group = {10}, .in_world_frame = true},
+            {.grid = &sphere, .object = 2, .priority = priority, .material_of_group = {20}}};
+        const HostPyramid host(build_index(device, place(device, objects, cubes.frame)));
+        int log2 = 0;
+        // The sphere's surface passes through (25,15,15); (2,15,2) is far outside of it.
+        EXPECT_EQ(host.word(host.find({25, 15, 15}, log2).value()),
+                  priority > 0 ? 0x40140002u : 0x000A0001u);
+        EXPECT_EQ(host.word(host.find({2, 15, 2}, log2).value()), 0x000A0001u);
+        EXPECT_EQ(host.word(host.find({15, 25, 15}, log2).value()), 0x40140002u);
+    }
+}
+
+TEST(PlaceField, OneWordForAllNeedsNoAttributes) {
+    const Device& device = shared_device();
+    const BrickGrid sphere = sphere_bricks(1.0, 0.1).upload(device);
+    const std::vector<PlacedObject> objects = {
+        {.grid = &sphere, .object = 9, .material_of_group = {4}}};
+    const BrickGrid world =
+        place(device, objects, frame_at(glm::dvec3(-2), glm::dvec3(0.1), {40, 40, 41}));
+    EXPECT_TRUE(world.attributes.empty());
+    EXPECT_EQ(world.attribute, 0x40040009u);
+    EXPECT_TRUE(world.occupancy.empty());
+    EXPECT_EQ(build_index(device, world).attribute, 0x40040009u);
+}
+
+}  // namespace
+}  // namespace voxelume

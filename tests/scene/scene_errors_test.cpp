@@ -1,0 +1,249 @@
+// What is said about scene files that are wrong.
+#include <gmock/gmock.h>
+
+#include <filesystem>
+#include <fstream>
+#include <random>
+
+#include "runtime/base/error.hpp"
+#include "runtime/scene/scene.hpp"
+#include "runtime/scene_file/scene_animation.hpp"
+
+namespace voxelume {
+namespace {
+
+using testing::AllOf;
+using testing::EndsWith;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+/// A scene with the given members, on lines of their own from line 5 on.
+std::string scene_with(const std::string& members) {
+    return R"({"voxelume": 1,
+"world": {"voxel_size": 0.5, "bounds": {"min": [-1, -2, -3], "max": [1, 2, 3]}},
+"models": {"ball": {"shape": "sphere", "radius": 1}, "floor": {"shape": "slab", "thickness": 0.1}},
+"materials": {"brick": {"color": [1, 0, 0]}, "glass": {"ior": 1.33}},
+)" + members +
+           R"(
+"observer": {"position": [0, 0, -3], "display": {"shape": "pyramid"}}})";
+}
+
+Scene parse(const std::string& text) {
+    return parse_scene(text, "room.json", {});
+}
+
+/// The message for a wrong scene; its kind must be `scene`.
+std::string message(const std::string& text) {
+    try {
+        parse(text);
+    } catch (const Error& error) {
+        EXPECT_EQ(error.kind(), ErrorKind::scene) << error.what();
+        return error.what();
+    }
+    return "no error";
+}
+
+}  // namespace
+
+TEST(SceneErrors, TellLineColumnKeyPathAndTheNearestName) {
+    EXPECT_EQ(
+        message(scene_with(R"("objects": [
+  {"model": "ball",
+   "material": "brik"}],)")),
+        "room.json:7:16: objects[0].material: no material named \"brik\"; did you mean \"brick\"?");
+    EXPECT_EQ(message(scene_with(R"("objects": [{"model": "flor"}],)")),
+              "room.json:5:23: objects[0].model: no model named \"flor\"; did you mean \"floor\"?");
+}
+
+TEST(SceneErrors, PointAtUnknownKeysThemselves) {
+    EXPECT_EQ(message(scene_with(R"(   "ligths": [],)")),
+              "room.json:5:4: unknown key \"ligths\"; did you mean \"lights\"?");
+    EXPECT_EQ(message(scene_with(R"("render": {"depth": 1, "Samples": 4},)")),
+              "room.json:5:24: render: unknown key \"Samples\"; did you mean "
+              "\"samples\"?");
+    EXPECT_THAT(
+        message(scene_with(R"("lights": [{"type": "point", "position": [0,1,2], "angle": 9}],)")),
+        HasSubstr("unknown key \"angle\"; known are \"name\", \"type\""));
+}
+
+TEST(SceneErrors, CountColumnsInCharactersAndSkipCommentsAndTheByteOrderMark) {
+    EXPECT_THAT(message("\xEF\xBB\xBF{ // {\"\n /* \xC3\xA4\xC3\xB6 , */ \"voxelume\": "
+                        "\"\xC3\xA9\\\"\", \"worl\": 1}"),
+                StartsWith("room.json:2:32: unknown key \"worl\""));
+    EXPECT_THAT(message("{\"voxelume\"/*:*/:1// :\n,/**/\"x\":2}"),
+                StartsWith("room.json:2:6: unknown key \"x\""));
+    EXPECT_THAT(message("{\"voxelume\": 1,\r\n\t\"x\": 2}"),
+                StartsWith("room.json:2:2: unknown key \"x\""));
+}
+
+TEST(SceneErrors, TellWhereTextStopsBeingJson) {
+    EXPECT_THAT(message("{\"voxelume\": 1,\n  \"world\": }"),
+                StartsWith("room.json:2:12: this is not JSON: "));
+    EXPECT_THAT(message(""), StartsWith("room.json:1:1: this is not JSON: "));
+    EXPECT_THAT(message("{\"voxelume\": NaN}"), StartsWith("room.json:1:14: this is not JSON: "));
+    EXPECT_THAT(message("{\"voxelume\": 1e999}"), HasSubstr("number overflow"));
+    EXPECT_THAT(message("{\"voxelume\": 1} 2"), StartsWith("room.json:1:17: this is not JSON: "));
+    EXPECT_THAT(message(std::string("{\"a\0\": 1}", 9)),
+                StartsWith("room.json:1:4: this is not JSON: "));
+}
+
+TEST(SceneErrors, ReportKeysThatStandTwice) {
+    EXPECT_EQ(message(scene_with("\"render\": {\"depth\": 1,\n \"depth\": 2},")),
+              "room.json:6:2: the key \"depth\" stands twice in this object");
+}
+
+TEST(SceneErrors, RefuseDepthBombsAndBreadthBombs) {
+    EXPECT_EQ(message(std::string(5'000'000, '[')),
+              "room.json:1:65: values are nested more than 64 levels deep");
+    std::string many = "[0";
+    for (int i = 0; i < 2'000'000; ++i) many += ",0";
+    EXPECT_THAT(message(many + "]"), HasSubstr("a scene holds at most 2000000 values"));
+
+    std::string part = R"({"shape": "sphere", "radius": 1})";
+    for (int i = 0; i < kMaxSolidDepth; ++i)
+        part = R"({"shape": "union", "parts": [)" + part + "]}";
+    const std::string scene =
+        R"({"voxelume": 1, "models": {"m": )" + part +
+        R"(}, "world": {"voxel_size": 1, "bounds": {"min": [0,0,0], "max": [1,2,3]}}})";
+    EXPECT_THAT(message(scene), HasSubstr("solids are nested more than 16 levels deep"));
+}
+
+TEST(SceneErrors, SayWhatIsNeededInsteadOfAWrongType) {
+    EXPECT_EQ(message(scene_with(R"("objects": 3,)")),
+              "room.json:5:12: objects: needs a list in [ ] here, not a number");
+    EXPECT_EQ(message(scene_with(R"("render": {"size": [640, 4.5]},)")),
+              "room.json:5:26: render.size[1]: needs a whole number here, not 4.5");
+    EXPECT_EQ(message(scene_with(R"("render": {"samples": 0},)")),
+              "room.json:5:23: render.samples: must be from 1 to 4096; it is 0");
+    EXPECT_EQ(message(scene_with(R"("lights": [{"type": "point", "position": [1, 2]}],)")),
+              "room.json:5:42: lights[0].position: needs 3 numbers, not 2");
+    EXPECT_EQ(message(scene_with(R"("objects": [{"position": [1, 2, 3]}],)")),
+              "room.json:5:13: objects[0]: needs a \"model\"");
+    EXPECT_THAT(message(scene_with(R"("lights": [{"type": "spott"}],)")),
+                EndsWith("does not know \"spott\"; did you mean \"spot\"?"));
+    EXPECT_THAT(message("{\"voxelume\": 2}"), HasSubstr("reads version 1"));
+    EXPECT_THAT(message("[]"), HasSubstr("needs an object in { }"));
+}
+
+TEST(SceneErrors, RefuseWorldsWithoutVolumeOrWithSenselessVoxels) {
+    const auto world = [](const std::string& members) {
+        return "{\"voxelume\": 1,\n\"world\": {" + members + "}}";
+    };
+    const std::string bounds = R"("bounds": {"min": [-1, -2, -3], "max": [1, 2, 3]})";
+    EXPECT_EQ(
+        message(world("\"voxel_size\": -0.01, " + bounds)),
+        "room.json:2:25: world.voxel_size: must be above 0 and at most 1000000000; it is -0.01");
+    EXPECT_THAT(message(world("\"voxel_size\": [0.1, 0, 0.1], " + bounds)),
+                HasSubstr("world.voxel_size[1]: must be above 0"));
+    EXPECT_EQ(
+        message(world(R"("voxel_size": 1, "bounds": {"min": [0, 5, 0], "max": [1, 5, 1]})")),
+        "room.json:2:38: world.bounds: empty along y: min is 5 and max is 5; max must be larger");
+    try {
+        parse(world("\"voxel_size\": 1e-6, " + bounds));
+        ADD_FAILURE() << "a world of millions of voxels along an axis was accepted";
+    } catch (const Error& error) {
+        EXPECT_EQ(error.kind(), ErrorKind::limit);
+        EXPECT_THAT(
+            error.what(),
+            StartsWith("room.json:2:10: world: 2000000 voxels along x are more than 65536"));
+    }
+}
+
+TEST(SceneErrors, KeepControlCharactersOfNamesOffTheTerminal) {
+    EXPECT_THAT(message(scene_with(R"("objects": [{"model": "a\u001b[31m\n"}],)")),
+                HasSubstr("\"a?[31m?\""));
+    EXPECT_LT(
+        message(scene_with("\"objects\": [{\"model\": \"" + std::string(100000, 'x') + "\"}],"))
+            .size(),
+        300u);
+}
+
+TEST(SceneErrors, RefuseSingularPlacements) {
+    const auto refused = [](const std::string& factors) {
+        return message(scene_with("\"objects\": [{\"model\": \"ball\",\n" + factors + "}],"));
+    };
+    EXPECT_EQ(refused(R"("scale": [1, 0, 1])"),
+              "room.json:6:10: objects[0].scale: is singular: it flattens the object to nothing in "
+              "one direction");
+    EXPECT_THAT(refused(R"("matrix": [[1, 2, 3, 0], [2, 4, 6, 0], [0, 0, 1, 0]])"),
+                HasSubstr("singular"));
+    EXPECT_THAT(refused(R"("scale": [1, 1e-6, 1])"), HasSubstr("stretches 1e+06 times as much"));
+    EXPECT_THAT(refused(R"("matrix": [[1, 1e6, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0]])"),
+                HasSubstr("close to singular"));
+    EXPECT_THAT(
+        refused(R"("matrix": [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0]], "turn": [1, 2, 3])"),
+        HasSubstr("\"turn\" and \"matrix\" say the same thing"));
+    EXPECT_EQ(refused(R"("scale": [1, 2e-5, 1])"), "no error");
+    EXPECT_EQ(refused(R"("scale": 1e-6)"), "no error");
+}
+
+TEST(SceneErrors, RefuseAViewParallelToUp) {
+    const auto refused = [](const std::string& members) {
+        return message(
+            R"({"voxelume": 1, "world": {"voxel_size": 1, "bounds": {"min": [0, 0, 0], "max": [1, 2, 3]}},
+"observer": {"position": [1, 2, 3], "display": {"shape": "ball", "radius": 1},)" +
+            members + "}}");
+    };
+    EXPECT_THAT(
+        refused(R"("look_at": [1, -7, 3])"),
+        AllOf(StartsWith("room.json:2:90: observer.look_at: "), HasSubstr("parallel to \"up\"")));
+    EXPECT_THAT(refused(R"("up": [0, 0, -2])"), HasSubstr("parallel to \"up\""));
+    EXPECT_THAT(refused(R"("look_at": [1, 2, 3])"), HasSubstr("is the position itself"));
+    EXPECT_THAT(refused(R"("up": [0, 0, 0], "look_at": [0, 0, 0])"), HasSubstr("must not be zero"));
+    EXPECT_THAT(refused(R"("up": [0, 1, 0], "turn": [0, 0, 0])"),
+                HasSubstr("leave one of them out"));
+}
+
+class SceneText : public testing::TestWithParam<const char*> {};
+
+TEST_P(SceneText, NoDamageToAShippedSceneEscapesAsAnythingButAnError) {
+    std::ifstream stream(std::filesystem::path(VXL_SOURCE_DIR) / "scenes" / GetParam());
+    const std::string text(std::istreambuf_iterator<char>(stream), {});
+    ASSERT_FALSE(text.empty());
+    const unsigned seed = 1980;
+    std::mt19937 random(seed);
+    int refused = 0;
+    for (int i = 0; i < 3000; ++i) {
+        SCOPED_TRACE(testing::Message() << "seed " << seed << ", case " << i);
+        std::string damaged = text;
+        for (int change = 0; change < 3; ++change) {
+            const size_t at = random() % damaged.size();
+            switch (random() % 3) {
+                case 0:
+                    damaged[at] = static_cast<char>(random());
+                    break;
+                case 1:
+                    damaged.erase(at, random() % 40);
+                    break;
+                default:
+                    damaged.insert(at, text, random() % text.size(), random() % 40);
+            }
+        }
+        try {
+            scene_at(parse_scene(damaged, "damaged.json", {}), 7.5);
+        } catch (const Error& error) {
+            ++refused;
+            EXPECT_THAT(error.what(), StartsWith("damaged.json:"));
+        }
+    }
+    EXPECT_GT(refused, 2500);
+}
+
+INSTANTIATE_TEST_SUITE_P(Shipped, SceneText, testing::Values("solids.json", "drill.json"),
+                         [](const auto& file) { return std::string(file.param).substr(0, 5); });
+
+TEST(SceneErrors, OfLightsWithAnArea) {
+    EXPECT_THAT(message(scene_with(R"("lights": [{"type": "disk", "position": [0, 1, 2],
+        "direction": [0, -1, 0]}],)")),
+                HasSubstr("radius"));
+    EXPECT_THAT(message(scene_with(R"("lights": [{"type": "rectangle", "position": [0, 1, 2],
+        "direction": [0, -1, 0], "up": [0, 2, 0], "size": [1, 2]}],)")),
+                HasSubstr("parallel to \"up\""));
+    EXPECT_THAT(message(scene_with(R"("lights": [{"type": "disk", "position": [0, 1, 2],
+        "direction": [0, -1, 0], "radius": 1, "spots": 0}],)")),
+                HasSubstr("lights[0].spots"));
+    EXPECT_THAT(message(scene_with(R"("objects": [{"model": "ball", "spots": 9}],)")),
+                HasSubstr("none of the object's materials has emission"));
+}
+
+}  // namespace voxelume

@@ -1,0 +1,325 @@
+// The published schema and the parser give the same verdict on thousands of scenes.
+#include <gtest/gtest.h>
+
+// GCC 12 sees an overlap in std::string::replace where there is none (its PR 105651).
+#pragma GCC diagnostic ignored "-Wrestrict"
+#include <valijson/adapters/nlohmann_json_adapter.hpp>
+#include <valijson/schema.hpp>
+#include <valijson/schema_parser.hpp>
+#include <valijson/validator.hpp>
+
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "runtime/scene/scene.hpp"
+#include "runtime/scene_file/scene_keys.hpp"
+#include "tests/support/file_fixture.hpp"
+
+namespace voxelume {
+namespace {
+
+using nlohmann::json;
+using KeySet = std::set<std::string>;
+
+const std::filesystem::path kScenes = std::filesystem::path(VXL_SOURCE_DIR) / "scenes";
+
+json read_file(const std::filesystem::path& file) {
+    std::ifstream stream(file);
+    return json::parse(stream, nullptr, true, true);
+}
+
+class Schema {
+  public:
+    Schema() : text_(read_file(kScenes / "voxelume.schema.json")) {
+        valijson::SchemaParser parser;
+        parser.populateSchema(valijson::adapters::NlohmannJsonAdapter(text_), schema_);
+    }
+    bool accepts(const json& document) {
+        valijson::Validator validator;
+        return validator.validate(schema_, valijson::adapters::NlohmannJsonAdapter(document),
+                                  nullptr);
+    }
+
+  private:
+    json text_;
+    valijson::Schema schema_;
+};
+
+/// A folder with the meshes that the scenes name.
+class SceneSchema : public FileTest {
+  protected:
+    void SetUp() override {
+        FileTest::SetUp();
+        for (const char* file : {"bunny.obj", "m.obj", "smoke.vdb", "s.1.vdb", "s.2.vdb"})
+            put_bytes(folder / file, "v 0 0 0\n");
+    }
+
+    /// The parser's objection, or nothing.
+    std::string objection(const json& document) {
+        try {
+            parse_scene(document.dump(), "s.json", {folder});
+            return "";
+        } catch (const Error& error) {
+            return error.what();
+        }
+    }
+
+    Schema schema_;
+};
+
+}  // namespace
+
+TEST_F(SceneSchema, AcceptsEveryShippedSceneAsTheParserDoes) {
+    int count = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(kScenes)) {
+        if (entry.path().extension() != ".json" || entry.path().stem().extension() == ".schema")
+            continue;
+        SCOPED_TRACE(entry.path());
+        EXPECT_TRUE(schema_.accepts(read_file(entry.path())));
+        EXPECT_NO_THROW(read_scene(entry.path(), {folder}));
+        ++count;
+    }
+    EXPECT_GE(count, 3);
+}
+
+namespace {
+
+/// Scenes that between them have every key of the format; the parser and the schema accept each.
+std::vector<json> full_scenes() {
+    const char* const texts[] = {
+        R"({"$schema": "x", "voxelume": 1,
+            "world": {"voxel_size": [0.1, 0.2, 0.3], "bounds": {"min": [-1, -2, -3], "max": [1, 2, 3]},
+                      "background": [1, 2, 3], "ambient": [0, 1, 2],
+                      "medium": {"absorption": [1, 2, 3], "color": [0, 0, 1],
+                                 "density": {"kind": "height", "base": -1, "scale_height": 2}}},
+            "materials": {"a": {"color": [0, 0.5, 1], "diffuse": 0.5, "specular": 0.5, "shininess": 7,
+                                "reflection": 0.5, "refraction": 0.5, "ior": 1.5, "fresnel": true,
+                                "opacity": 0.5, "checker": {"color": [0, 0, 0], "size": [1, 0, 1], "origin": [0, 0, 0]}, "absorption": [3, 2, 1],
+                                "emission": [4, 5, 6]}},
+            "models": {"m": {"mesh": "m.obj", "voxel_size": 0.1, "surface": "cubes", "set": "thin"},
+                       "r": {"mesh": "m.obj", "resolution": 64, "surface": "exact"},
+                       "v": {"voxels": "smoke.vdb", "surface": "cubes"},
+                       "sphere": {"shape": "sphere", "radius": 0.5},
+                       "ellipsoid": {"shape": "ellipsoid", "radii": [1, 2, 3]},
+                       "box": {"shape": "box", "size": [1, 2, 3]},
+                       "cylinder": {"shape": "cylinder", "radius": 1, "height": 2},
+                       "cone": {"shape": "cone", "radius": 1, "height": 2, "top_radius": 0.5},
+                       "torus": {"shape": "torus", "radius": 2, "tube": 1},
+                       "capsule": {"shape": "capsule", "radius": 1, "height": 2},
+                       "slab": {"shape": "slab", "thickness": 0.1}},
+            "objects": [{"name": "o", "model": "m", "material": "a", "materials": {"lid": "a"}, "priority": 3, "spots": 8, "placement": "world",
+                         "position": [1, 2, 3], "turn": [10, 20, 30], "scale": 2},
+                        {"model": "sphere", "scale": [1, -2, 3]},
+                        {"model": "box", "matrix": [[2, 1, 0, 5], [0, 3, 1, 6], [1, 0, 4, 7]]}],
+            "lights": [{"name": "p", "type": "point", "position": [1, 2, 3], "color": [1, 1, 1], "intensity": 2},
+                       {"type": "spot", "position": [1, 2, 3], "direction": [0, -1, 2], "angle": 50,
+                        "inner_angle": 20},
+                       {"type": "spot", "position": [1, 2, 3], "look_at": [0, 0, 9]},
+                       {"type": "directional", "direction": [1, 2, 3]},
+                       {"type": "disk", "position": [1, 2, 3], "direction": [0, -1, 0], "radius": 2, "spots": 9},
+                       {"type": "rectangle", "position": [1, 2, 3], "look_at": [0, 0, 9], "up": [1, 0, 0],
+                        "size": [2, 3], "spots": 7}],
+            "observer": {"position": [0, 1, -3], "look_at": [0.5, 0, 0], "up": [0, 1, 0],
+                         "display": {"shape": "pyramid", "angles": [40, 30], "near": 0.5, "far": 10,
+                                     "voxels": [64, 48, 32]}},
+            "animation": {"frames": 5, "fps": 24, "tracks": []},
+            "render": {"size": [64, 48], "samples": 4, "depth": 3, "shadows": false,
+                       "shadow": "filtered", "least_weight": 0.001}})",
+        R"({"voxelume": 1, "world": {"voxel_size": 0.5, "bounds": {"min": [0, 0, 0], "max": [1, 2, 3]}},
+            "models": {"u": {"shape": "union", "parts": [{"shape": "sphere", "radius": 1}]},
+                       "i": {"shape": "intersection", "resolution": 9, "parts": [
+                           {"shape": "ellipsoid", "radii": [1, 2, 3], "position": [1, 2, 3]},
+                           {"shape": "box", "size": [1, 2, 3], "turn": [1, 2, 3]},
+                           {"shape": "cylinder", "radius": 1, "height": 2, "scale": 3},
+                           {"shape": "cone", "radius": 1, "height": 2, "scale": [1, 2, 3]}]},
+                       "d": {"shape": "difference", "parts": [
+                           {"shape": "torus", "radius": 2, "tube": 1,
+                            "matrix": [[1, 0, 0, 1], [0, 2, 0, 2], [0, 0, 3, 3]]},
+                           {"shape": "capsule", "radius": 1, "height": 2},
+                           {"shape": "slab", "thickness": 2},
+                           {"shape": "union", "parts": [{"shape": "sphere", "radius": 1}]}]}},
+            "observer": {"position": [0, 0, 0], "turn": [1, 2, 3],
+                         "display": {"shape": "sector", "angle": 200, "near": 1, "far": 2}}})",
+        R"({"voxelume": 1, "world": {"voxel_size": 0.5, "bounds": {"min": [0, 0, 0], "max": [1, 2, 3]},
+            "medium": {"density": {"kind": "grid", "file": "s.#.vdb", "sequence": {"first": 1, "last": 2}}}},
+            "materials": {"a": {"ior": 1.5}},
+            "models": {"m": {"mesh": "m.obj", "morph": {"mesh": "m.obj", "amount": 0.5}},
+                       "b": {"mesh": "m.obj", "morph": {"center": [1, 2, 3], "radius": 1}, "surface": "smooth",
+                             "cut": [{"shape": "sphere", "radius": 1, "position": [1, 2, 3]}]},
+                       "s": {"voxels": "s.#.vdb", "sequence": {"first": 1, "last": 2, "start": 3, "loop": true}},
+                       "ball": {"shape": "sphere", "radius": 1}},
+            "objects": [{"name": "o", "model": "m", "visible": true}],
+            "lights": [{"type": "point", "position": [1, 2, 3]}],
+            "observer": {"position": [0, 0, 0], "display": {"shape": "ball", "radius": 2}},
+            "animation": {"frames": 5, "tracks": [
+                {"target": "objects.o.position", "interpolation": "cubic",
+                 "keys": [{"frame": 1, "value": [1, 2, 3]}, {"time": 0.5, "value": [3, 2, 1]}]},
+                {"target": "objects.o.visible", "keys": [{"frame": 2, "value": false}]},
+                {"target": "objects.o.model", "keys": [{"frame": 2, "value": "ball"}]},
+                {"target": "lights[0].intensity", "keys": [{"frame": 2, "value": 5}]}]}})",
+        R"({"voxelume": 1, "world": {"voxel_size": 0.5, "bounds": {"min": [0, 0, 0], "max": [1, 2, 3]},
+            "medium": {"density": {"kind": "ball", "center": [1, 2, 3], "radius": 2, "falloff": 1}}},
+            "observer": {"position": [0, 0, 0], "display": {"shape": "ball", "radius": 2, "voxels": [5, 6, 7],
+                                                                   "layout": "lattice", "visibility": "all",
+                                                                   "clip": "cylinder"}}})",
+        R"({"voxelume": 1, "world": {"voxel_size": 0.5, "bounds": {"min": [0, 0, 0], "max": [1, 2, 3]},
+            "medium": {"density": {"kind": "grid", "file": "smoke.vdb", "grid": "d", "position": [1, 2, 3],
+                                   "turn": [10, 20, 30], "scale": 2}}},
+            "observer": {"position": [0, 0, 0], "display": {"shape": "pyramid", "angle": 40}}})",
+        R"({"voxelume": 1, "world": {"voxel_size": 0.5, "bounds": {"min": [0, 0, 0], "max": [1, 2, 3]},
+            "medium": {"density": {"kind": "grid", "file": "smoke.vdb",
+                                   "matrix": [[2, 1, 0, 5], [0, 3, 1, 6], [1, 0, 4, 7]]}}},
+            "observer": {"position": [0, 0, 0], "display": {"shape": "box", "size": [1, 2, 3], "near": 1}}})",
+    };
+    std::vector<json> scenes;
+    for (const char* text : texts) scenes.push_back(json::parse(text));
+    return scenes;
+}
+
+/// Objections to what a schema can't express: names and files, relations between values, geometry.
+bool is_beyond_a_schema(const std::string& objection) {
+    for (const char* part : {"no material named",
+                             "no model named",
+                             "there is no file",
+                             "empty along",
+                             "voxels along",
+                             "singular",
+                             "parallel to",
+                             "must not be zero",
+                             "the position itself",
+                             "nothing lies between",
+                             "not be larger than",
+                             "already",
+                             "is an absolute path",
+                             "only a mesh has groups",
+                             "is not a file",
+                             "above 0 along some axis",
+                             "none of the object's materials",
+                             "(at frame",
+                             "that can change",
+                             "has no place for",
+                             "must not be smaller",
+                             "files are missing",
+                             "named \"o\"",
+                             "there is no lights[0]",
+                             "to change",
+                             "not after the key before",
+                             "has another form",
+                             "there is nothing between",
+                             "is for turns",
+                             "goes on behind",
+                             "changes this value already"}) {
+        if (objection.find(part) != objection.npos) return true;
+    }
+    return false;
+}
+
+std::vector<json::json_pointer> places_in(const json& document) {
+    std::vector<json::json_pointer> places;
+    const std::function<void(const json&, const json::json_pointer&)> visit = [&](const json& value,
+                                                                                  const auto& at) {
+        places.push_back(at);
+        if (value.is_object()) {
+            for (const auto& [key, member] : value.items()) visit(member, at / key);
+        } else if (value.is_array()) {
+            for (size_t i = 0; i < value.size(); ++i) visit(value[i], at / i);
+        }
+    };
+    visit(document, json::json_pointer());
+    return places;
+}
+
+}  // namespace
+
+class SceneVerdicts : public SceneSchema {
+  protected:
+    void expect_same_verdict(const json& document, const std::string& change) {
+        const std::string refused = objection(document);
+        const bool accepted = schema_.accepts(document);
+        ++count_;
+        if (accepted == refused.empty() || (accepted && is_beyond_a_schema(refused))) return;
+        ADD_FAILURE() << change << ": the schema " << (accepted ? "accepts" : "refuses")
+                      << " it, the parser says: " << (refused.empty() ? "fine" : refused);
+    }
+    int count_ = 0;
+};
+
+TEST_F(SceneVerdicts, AgreeOnScenesWithEveryKey) {
+    KeySet seen;
+    for (const json& scene : full_scenes()) {
+        EXPECT_EQ(objection(scene), "");
+        EXPECT_TRUE(schema_.accepts(scene));
+        for (const auto& at : places_in(scene)) {
+            if (!at.empty()) seen.insert(at.back());
+        }
+    }
+    for (const KeyTable& table : scene_key_tables()) {
+        for (const std::string_view key : table.keys)
+            EXPECT_TRUE(seen.contains(std::string(key))) << key;
+    }
+}
+
+TEST_F(SceneVerdicts, AgreeWhenAnyValueIsReplaced) {
+    const json replacements = json::parse(
+        R"([null, true, -1, 0, 0.5, 3, 1000000, 10000000, 2e9, -2e9, 179, 180, 361, "", "a", "nothing",
+            "cubes", "box", [], {}, [1, 2], [1, 2, 3], [0, 0, 0], [-1, 2, 3], [1, 2, 3, 4], {"x": 1},
+            {"": "a"}])");
+    for (const json& scene : full_scenes()) {
+        for (const auto& at : places_in(scene)) {
+            for (const json& replacement : replacements) {
+                json changed = scene;
+                changed[at] = replacement;
+                expect_same_verdict(changed, at.to_string() + " = " + replacement.dump());
+            }
+        }
+    }
+    EXPECT_GT(count_, 5000);
+}
+
+TEST_F(SceneVerdicts, AgreeWhenAnyKeyOrItemIsTakenOutOrTwice) {
+    for (const json& scene : full_scenes()) {
+        for (const auto& at : places_in(scene)) {
+            if (at.empty()) continue;
+            json changed = scene;
+            json& parent = changed[at.parent_pointer()];
+            if (parent.is_object()) {
+                parent.erase(at.back());
+            } else {
+                parent.erase(std::stoul(at.back()));
+            }
+            expect_same_verdict(changed, "without " + at.to_string());
+            if (!scene[at.parent_pointer()].is_array()) continue;
+            changed = scene;
+            changed[at.parent_pointer()].push_back(scene[at]);
+            expect_same_verdict(changed, "twice " + at.to_string());
+        }
+    }
+}
+
+TEST_F(SceneVerdicts, AgreeWhenAnyKeyIsAddedToAnyObject) {
+    const json values = json::parse(
+        R"({"position": [1, 2, 3], "turn": [1, 2, 3], "look_at": [4, 5, 6], "up": [1, 3, 2], "scale": 2,
+            "direction": [1, 2, 3], "matrix": [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0]],
+            "mesh": "m.obj", "shape": "sphere", "voxel_size": 1, "resolution": 5, "surface": "smooth",
+            "set": "solid", "angles": [10, 20], "angle": 30, "size": [1, 2, 3], "name": "fresh",
+            "material": "default"})");
+    for (const json& scene : full_scenes()) {
+        for (const auto& at : places_in(scene)) {
+            if (!scene[at].is_object()) continue;
+            for (const KeyTable& table : scene_key_tables()) {
+                for (const std::string_view key : table.keys) {
+                    if (scene[at].contains(key)) continue;
+                    json changed = scene;
+                    changed[at][std::string(key)] = values.value(std::string(key), json(0.5));
+                    expect_same_verdict(changed, "with " + (at / std::string(key)).to_string());
+                }
+            }
+        }
+    }
+}
+
+}  // namespace voxelume

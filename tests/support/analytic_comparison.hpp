@@ -1,0 +1,67 @@
+// Rendered images against the analytic tracer's, apart from pixels where rounding may decide.
+#pragma once
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "runtime/render/renderer.hpp"
+#include "tests/oracles/analytic_image.hpp"
+#include "tests/support/shared_device.hpp"
+
+namespace voxelume {
+
+/// Of the colours of an image, channel by channel.
+struct ColorError {
+    double squares = 0;
+    size_t pixels = 0;
+    double worst = 0;
+    size_t worst_pixel = 0;
+
+    void add(size_t pixel, const glm::dvec3& off) {
+        squares += off.x * off.x + off.y * off.y + off.z * off.z;
+        ++pixels;
+        const double largest = std::max({std::abs(off.x), std::abs(off.y), std::abs(off.z)});
+        if (largest > worst) worst = largest, worst_pixel = pixel;
+    }
+    double rms() const { return std::sqrt(squares / double(3 * std::max(pixels, size_t(1)))); }
+};
+
+inline std::string in_words(const char* where, const ColorError& error, int width) {
+    return fmt::format("{}: {} pixels, RMS {:.3g}, largest {:.3g} at {},{}", where, error.pixels,
+                       error.rms(), error.worst, error.worst_pixel % size_t(width),
+                       error.worst_pixel / size_t(width));
+}
+
+/// Renders a scene and expects it to be an analytic image: RMS at most `rms`, no colour off by
+/// more than `worst`, over all pixels but those at edges. Prints the errors with the edges, too.
+inline void expect_image(const Scene& scene, const oracle::AnalyticImage& expected, double rms,
+                         double worst) {
+    RenderReport report;
+    const Image image = render(shared_device(), scene, report);
+    const auto &red = image.planes.at("R"), &green = image.planes.at("G"),
+               &blue = image.planes.at("B");
+    ASSERT_EQ(red.size(), expected.radiance.size());
+    ColorError beside, all;
+    for (size_t i = 0; i < red.size(); ++i) {
+        const glm::dvec3 off = glm::dvec3(red[i], green[i], blue[i]) - expected.radiance[i];
+        all.add(i, off);
+        if (!expected.edge[i]) beside.add(i, off);
+    }
+    const std::string words = in_words("beside edges", beside, image.width);
+    fmt::print("{}\n{}\n", words, in_words("with edges", all, image.width));
+    EXPECT_EQ(report.not_finite, 0u);
+    EXPECT_GT(beside.pixels, red.size() / 3) << "edges leave too little to compare";
+    EXPECT_LE(beside.rms(), rms) << words;
+    EXPECT_LE(beside.worst, worst) << words;
+}
+
+/// expect_image for the analytic image of the scene itself.
+inline void expect_analytic_image(const Scene& scene, double rms, double worst) {
+    expect_image(scene, oracle::analytic_image(scene), rms, worst);
+}
+
+}  // namespace voxelume

@@ -1,0 +1,37 @@
+// The device that the tests run on.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <utility>
+
+#include "runtime/base/error.hpp"
+#include "runtime/opencl/device.hpp"
+
+namespace voxelume {
+
+/// A device on which nothing runs, open until the tests' end: what a context costs the compiler is
+/// paid once by all that are opened beside it. Left open where the process ends within a test, as
+/// the driver ends before static variables do.
+class OpenContext : public ::testing::Environment {
+  public:
+    void TearDown() override { delete std::exchange(device, nullptr); }
+    inline static const Device* device = nullptr;
+};
+
+inline ::testing::Environment* const kOpenContext =
+    ::testing::AddGlobalTestEnvironment(new OpenContext);
+
+/// The device named by VXL_TEST_DEVICE, else the first CPU; `lanes` 0 takes VXL_TEST_LANES or its
+/// own.
+inline Device test_device(int lanes = 0) {
+    const char* name = std::getenv("VXL_TEST_DEVICE");
+    const char* lanes_text = std::getenv("VXL_TEST_LANES");
+    if (lanes == 0 && lanes_text) lanes = std::atoi(lanes_text);
+    if (!name) name = "cpu";
+    if (!OpenContext::device) OpenContext::device = new Device(Device::open(name));
+    return Device::open(name, lanes, OpenContext::device);
+}
+
+}  // namespace voxelume

@@ -1,0 +1,92 @@
+// Scenes of analytic solids that tests put together piece by piece.
+#pragma once
+
+#include <glm/ext/matrix_transform.hpp>
+#include <glm/geometric.hpp>
+
+#include "runtime/scene/scene.hpp"
+
+namespace voxelume {
+
+/// Nothing in 20 x 20 x 20 m around the origin; black unless told; deep recursion.
+inline Scene empty_scene(const glm::vec3& background = glm::vec3(0)) {
+    Scene scene;
+    scene.world.voxel_size = glm::dvec3(1);
+    scene.world.bounds = {glm::dvec3(-10), glm::dvec3(10)};
+    scene.world.voxels = glm::ivec3(20);
+    scene.world.background = background;
+    scene.materials.emplace_back();
+    scene.render.depth = 8;
+    scene.render.least_weight = 0;
+    return scene;
+}
+
+inline Solid sphere_solid(double radius) {
+    Solid solid;
+    solid.radius = radius;
+    return solid;
+}
+
+inline Solid slab_solid(double thickness) {
+    Solid solid;
+    solid.kind = SolidKind::slab;
+    solid.thickness = thickness;
+    return solid;
+}
+
+inline Solid box_solid(const glm::dvec3& size) {
+    Solid solid;
+    solid.kind = SolidKind::box;
+    solid.size = size;
+    return solid;
+}
+
+/// Adds an object of its own model and material; returns its index.
+inline int add_object(Scene& scene, const Solid& solid, const Material& material,
+                      const glm::dmat4& world_from_object = glm::dmat4(1), int priority = 0) {
+    Model model;
+    model.solid = solid;
+    model.surface = Surface::exact;
+    Object object;
+    object.model = int(scene.models.size());
+    object.material = int(scene.materials.size());
+    object.priority = priority;
+    object.world_from_object = world_from_object;
+    scene.models.push_back(model);
+    scene.materials.push_back(material);
+    scene.objects.push_back(object);
+    return int(scene.objects.size()) - 1;
+}
+
+/// Adds a box from corner to corner.
+inline int add_box(Scene& scene, const glm::dvec3& low, const glm::dvec3& high,
+                   const Material& material) {
+    return add_object(scene, box_solid(high - low), material,
+                      glm::translate(glm::dmat4(1), (low + high) / 2.0));
+}
+
+/// Sends out light and returns none.
+inline Material emitter(const glm::vec3& radiance) {
+    Material m;
+    m.diffuse = 0;
+    m.emission = radiance;
+    return m;
+}
+
+/// Bends light and does nothing else.
+inline Material clear_glass(float ior) {
+    Material m;
+    m.diffuse = 0;
+    m.refraction = 1;
+    m.ior = ior;
+    return m;
+}
+
+inline Light point_light(const glm::dvec3& position, const glm::vec3& energy) {
+    Light light;
+    light.position = position;
+    light.energy = energy;
+    return light;
+}
+
+}  // namespace voxelume

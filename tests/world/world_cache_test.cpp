@@ -1,0 +1,226 @@
+// Worlds from the cache on disk: found again by all that their voxels are made of, and nothing
+// else.
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "runtime/render/renderer.hpp"
+#include "runtime/scene_file/scene_animation.hpp"
+#include "runtime/world/world_source.hpp"
+#include "tests/oracles/image_hash.hpp"
+#include "tests/support/file_fixture.hpp"
+#include "tests/support/shared_device.hpp"
+
+namespace voxelume {
+namespace {
+
+constexpr const char* kScene = R"({"voxelume": 1,
+"world": {"voxel_size": 0.05, "bounds": {"min": [-0.5, -0.5, -0.5], "max": [1.5, 1, 1]},
+          "ambient": [0.1, 0.2, 0.3]},
+"materials": {"m": {}, "n": {"color": [0.2, 0.9, 0.3]}},
+"models": {"thing": {"mesh": "m.obj", "voxel_size": 0.04, "surface": "SURFACE"},
+           "ball": {"shape": "sphere", "radius": 0.3, "voxel_size": 0.05, "surface": "SURFACE"}},
+"objects": [{"name": "a", "model": "thing", "material": "m"},
+            {"name": "b", "model": "ball", "material": "n", "position": [0.3, 0.2, 0.1]}],
+"lights": [{"type": "directional", "direction": [0.3, -1, 0.4]}],
+"observer": {"position": [1.2, 1, -2], "look_at": [0.3, 0.2, 0.2],
+             "display": {"shape": "pyramid", "angle": 30}},
+"render": {"size": [48, 36]}})";
+
+constexpr const char* kMesh =
+    "v 0 0 0\nv 1 0 0\nv 0 0.7 0\nv 0 0 0.5\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
+
+/// A text in the scene, and another in its place.
+struct Change {
+    const char* from = "";
+    const char* to = "";
+};
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+    for (size_t at = text.find(from); !from.empty() && at != std::string::npos;
+         at = text.find(from, at + to.size()))
+        text.replace(at, from.size(), to);
+    return text;
+}
+
+struct Outcome {
+    uint64_t hash = 0;
+    WorldReport world;
+    std::map<std::string, uint64_t> launches;
+};
+
+class WorldCacheFiles : public FileTest {
+  protected:
+    void SetUp() override {
+        FileTest::SetUp();
+        put_bytes(folder / "m.obj", kMesh);
+    }
+
+    Scene scene(const std::string& surface, const Change& change = {}) const {
+        const std::string text = replaced(kScene, "SURFACE", surface);
+        const std::string changed = replaced(text, change.from, change.to);
+        EXPECT_TRUE(*change.from == 0 || changed != text) << change.from;
+        return parse_scene(changed, folder / "s.json", {});
+    }
+
+    Outcome show(const Scene& scene, bool from_disk = true) const {
+        const ModelCache cache = ModelCache(folder / "models", 64 << 20, 0).with_worlds();
+        shared_device().counters().launches.clear();
+        RenderReport report;
+        const FormedWorld world =
+            WorldFormer(shared_device(), false, MeshStore(from_disk ? cache : ModelCache()))
+                .form(scene, report.world);
+        Outcome outcome;
+        outcome.hash =
+            oracle::image_hash(Renderer(shared_device(), false).new_image(scene, world, report));
+        outcome.world = report.world;
+        outcome.launches = shared_device().counters().launches;
+        return outcome;
+    }
+};
+
+TEST_F(WorldCacheFiles, AWarmRunShowsTheSameAndPlacesNothing) {
+    for (const char* surface : {"smooth", "cubes", "exact"}) {
+        const uint64_t without = show(scene(surface), false).hash;
+        const Outcome cold = show(scene(surface)), warm = show(scene(surface));
+        EXPECT_EQ(cold.hash, without) << surface;
+        EXPECT_EQ(warm.hash, without) << surface;
+        EXPECT_FALSE(cold.world.is_from_cache) << surface;
+        EXPECT_TRUE(warm.world.is_from_cache) << surface;
+        EXPECT_EQ(warm.world.voxelized + warm.world.from_cache + warm.world.meshes_read, 0u);
+        EXPECT_GT(cold.launches.count("write_voxels"), 0u);
+        for (const char* kernel : {"mark_near_leaves", "classify_bricks", "paint_distances",
+                                   "paint_cubes", "mark_voxels", "write_voxels"})
+            EXPECT_EQ(warm.launches.count(kernel), 0u) << surface << ": " << kernel;
+    }
+}
+
+TEST_F(WorldCacheFiles, WhatTheVoxelsAreMadeOfIsAnotherWorld) {
+    const Change changes[] = {
+        {"\"position\": [0.3", "\"position\": [0.35"},
+        {"\"material\": \"n\"", "\"material\": \"m\""},
+        {"\"radius\": 0.3", "\"radius\": 0.31"},
+        {"\"model\": \"ball\",", "\"model\": \"ball\", \"scale\": 1.1,"},
+        {"\"model\": \"ball\",", "\"model\": \"ball\", \"priority\": 1,"},
+        {"\"model\": \"ball\",", "\"model\": \"ball\", \"visible\": false,"},
+        {"\"voxel_size\": 0.05, \"bounds\"", "\"voxel_size\": 0.06, \"bounds\""},
+        {"[1.5, 1, 1]", "[1.5, 1, 1.1]"},
+        {"\"shape\": \"sphere\"", "\"shape\": \"capsule\", \"height\": 0.2"},
+        {"\"mesh\": \"m.obj\",",
+         R"("mesh": "m.obj", "morph": {"center": [0, 0, 0], "radius": 0.4, "amount": 0.2},)"},
+    };
+    for (const char* surface : {"smooth", "cubes", "exact"}) {
+        show(scene(surface));
+        for (const Change& change : changes) {
+            const Scene changed = scene(surface, change);
+            const Outcome outcome = show(changed);
+            EXPECT_FALSE(outcome.world.is_from_cache) << surface << ": " << change.to;
+            EXPECT_EQ(outcome.hash, show(changed, false).hash) << surface << ": " << change.to;
+            EXPECT_EQ(outcome.hash, show(changed).hash) << surface << ": " << change.to;
+        }
+    }
+    put_bytes(folder / "m.obj", replaced(kMesh, "0.7", "0.6"));
+    EXPECT_FALSE(show(scene("smooth")).world.is_from_cache) << "other bytes of the mesh";
+}
+
+TEST_F(WorldCacheFiles, LightsMaterialsAndObserversKeepIt) {
+    show(scene("smooth"));
+    for (const Change& change :
+         {Change{"[0.3, -1, 0.4]", "[0.1, -1, 0.4]"}, Change{"[0.2, 0.9, 0.3]", "[0.9, 0.2, 0.3]"},
+          Change{"\"look_at\": [0.3", "\"look_at\": [0.2"},
+          Change{"\"size\": [48, 36]", "\"size\": [50, 36]"},
+          Change{"\"m\": {}", "\"m\": {\"reflection\": 0.5}"}}) {
+        const Scene changed = scene("smooth", change);
+        const Outcome outcome = show(changed);
+        EXPECT_TRUE(outcome.world.is_from_cache) << change.to;
+        EXPECT_EQ(outcome.hash, show(changed, false).hash) << change.to;
+    }
+}
+
+/// The value of a track at frames 1 and 3.
+struct Motion {
+    const char* target;
+    const char* from;
+    const char* to;
+    const char* placement = "world";  ///< of the ball
+};
+
+class MovingWorldFiles : public WorldCacheFiles {
+  protected:
+    Scene moving_scene(const Motion& motion) const {
+        std::string text = replaced(kScene, "SURFACE", "smooth");
+        text = replaced(text, "\"name\": \"b\"",
+                        fmt::format(R"("name": "b", "placement": "{}")", motion.placement));
+        const std::string animation = fmt::format(
+            R"("animation": {{"frames": 3, "tracks": [{{"target": "{}", "keys": [
+                {{"frame": 1, "value": {}}}, {{"frame": 3, "value": {}}}]}}]}}, "render":)",
+            motion.target, motion.from, motion.to);
+        return parse_scene(replaced(text, "\"render\":", animation), folder / "s.json", {});
+    }
+    ModelCache cache() const { return ModelCache(folder / "models", 64 << 20, 0).with_worlds(); }
+};
+
+TEST_F(MovingWorldFiles, AreNotKeptWhereTracksChangeTheirVoxels) {
+    MeshStore meshes(cache());
+    for (const Motion& motion : {Motion{"objects.b.position", "[0.3, 0.2, 0.1]", "[0.2, 0.2, 0.1]"},
+                                 Motion{"objects.b.visible", "true", "false"},
+                                 Motion{"objects.b.model", "\"ball\"", "\"thing\""},
+                                 Motion{"objects.b.material", "\"m\"", "\"n\""},
+                                 Motion{"models.ball.radius", "0.3", "0.2"}})
+        EXPECT_EQ(world_source(moving_scene(motion), meshes), "") << motion.target;
+}
+
+TEST_F(MovingWorldFiles, AreThoseOfAStillWorldWhereTracksLeaveTheirVoxelsAlone) {
+    MeshStore meshes(cache());
+    const std::string still = world_source(this->scene("smooth"), meshes);
+    EXPECT_NE(still, "");
+    for (const Motion& motion : {Motion{"observer.position", "[1.2, 1, -2]", "[-1.2, 1, -2]"},
+                                 Motion{"observer.display.angle", "30", "20"},
+                                 Motion{"lights[0].direction", "[0.3, -1, 0.4]", "[0, -1, 0.4]"},
+                                 Motion{"materials.m.color", "[1, 0, 0]", "[0, 1, 0]"},
+                                 Motion{"world.ambient", "[0, 0, 0]", "[1, 1, 1]"},
+                                 Motion{"world.background", "[0, 0, 0]", "[1, 1, 1]"}})
+        EXPECT_EQ(world_source(moving_scene(motion), meshes), still) << motion.target;
+    // Without the ball, which is an instance.
+    const Motion moves{"objects.b.position", "[0.3, 0.2, 0.1]", "[0.2, 0.2, 0.1]", "instance"};
+    const Motion stretches{"models.ball.radius", "0.3", "0.2", "instance"};
+    EXPECT_NE(world_source(moving_scene(moves), meshes), "");
+    EXPECT_EQ(world_source(moving_scene(moves), meshes),
+              world_source(moving_scene(stretches), meshes));
+}
+
+TEST_F(MovingWorldFiles, AreReadOnceForAllFrames) {
+    const Motion motion{"objects.b.visible", "true", "false", "instance"};
+    const Scene scene = moving_scene(motion);
+    for (const bool is_warm : {false, true}) {
+        WorldFormer former(shared_device(), true, MeshStore(cache()));
+        Renderer renderer(shared_device());
+        bool is_first = true;
+        for (const int frame : {1, 3, 4, 1}) {
+            const Scene now = scene_at(scene, frame);
+            RenderReport report, alone;
+            const FormedWorld world = former.form(now, report.world);
+            EXPECT_EQ(oracle::image_hash(*renderer.image(now, world, report)),
+                      oracle::image_hash(render(shared_device(), now, alone)));
+            EXPECT_EQ(report.world.is_from_cache, is_warm && is_first) << frame;
+            EXPECT_EQ(report.world.painted_bricks > 0, !is_warm && is_first) << frame;
+            is_first = false;
+        }
+    }
+}
+
+TEST_F(WorldCacheFiles, DamagedEntriesAreMadeAgain) {
+    const Scene scene = this->scene("smooth");
+    const uint64_t expected = show(scene).hash;
+    for (const double part : {0.0, 0.3, 0.9}) {
+        for (const auto& entry : std::filesystem::directory_iterator(folder / "models"))
+            std::filesystem::resize_file(entry.path(), uintmax_t(part * double(entry.file_size())));
+        const Outcome outcome = show(scene);
+        EXPECT_FALSE(outcome.world.is_from_cache) << part;
+        EXPECT_EQ(outcome.hash, expected) << part;
+        EXPECT_TRUE(show(scene).world.is_from_cache) << part;
+    }
+}
+
+}  // namespace
+}  // namespace voxelume
