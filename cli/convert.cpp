@@ -5,7 +5,7 @@
 
 #include "cli/checks.hpp"
 #include "cli/commands.hpp"
-#include "runtime/io/volume/volume_file.hpp"
+#include "runtime/io/volume_file.hpp"
 
 namespace voxelume::cli {
 

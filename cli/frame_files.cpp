@@ -7,7 +7,7 @@
 #include "cli/checks.hpp"
 #include "runtime/base/frame_list.hpp"
 #include "runtime/base/frame_path.hpp"
-#include "runtime/io/volume/volume_file.hpp"
+#include "runtime/io/volume_file.hpp"
 #include "runtime/scene_file/scene_animation.hpp"
 #include "runtime/stages/display/display_frame.hpp"
 

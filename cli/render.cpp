@@ -25,7 +25,7 @@
 #include "runtime/batch/frame_pipeline.hpp"
 #include "runtime/io/image/exr.hpp"
 #include "runtime/io/image/png.hpp"
-#include "runtime/io/volume/volume_file.hpp"
+#include "runtime/io/volume_file.hpp"
 #include "runtime/memory/frame_plans.hpp"
 #include "runtime/render/volume_renderer.hpp"
 #include "runtime/scene_file/scene_animation.hpp"

@@ -9,8 +9,8 @@
 #include "cli/commands.hpp"
 #include "runtime/image/volume_view.hpp"
 #include "runtime/io/image/png.hpp"
-#include "runtime/io/volume/volume_file.hpp"
 #include "runtime/io/volume/volume_page.hpp"
+#include "runtime/io/volume_file.hpp"
 
 namespace voxelume::cli {
 namespace {

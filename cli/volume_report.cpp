@@ -5,8 +5,8 @@
 
 #include "runtime/base/input_file.hpp"
 #include "runtime/image/volume_geometry.hpp"
-#include "runtime/io/volume/volume_file.hpp"
 #include "runtime/io/volume/volume_frame_text.hpp"
+#include "runtime/io/volume_file.hpp"
 
 namespace voxelume::cli {
 

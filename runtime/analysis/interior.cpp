@@ -19,7 +19,7 @@ const Model& model_of(const Scene& scene, const Object& object) {
 /// Whether the object may let light through, be it for its voxels alone.
 bool may_transmit(const Scene& scene, const Object& object, const Features& features) {
     return transmits(scene, object) ||
-           (features.voxel_opacity && model_of(scene, object).surface == Surface::cubes);
+           (features.voxel_opacity && shows_voxels(model_of(scene, object).surface));
 }
 
 /// How many transmitting objects that aren't smooth may be in one place, at most: no more than
@@ -27,7 +27,7 @@ bool may_transmit(const Scene& scene, const Object& object, const Features& feat
 int most_overlapping(const Scene& scene, const Pyramid& world, const Features& features) {
     std::vector<size_t> objects;
     for (size_t i = 0; i < scene.objects.size(); ++i)
-        if (model_of(scene, scene.objects[i]).surface != Surface::smooth &&
+        if (!stores_distances(model_of(scene, scene.objects[i]).surface) &&
             may_transmit(scene, scene.objects[i], features))
             objects.push_back(i);
     if (world.object_boxes.empty()) return int(objects.size());
@@ -69,9 +69,9 @@ HollowObjects hollow_objects(const Scene& scene) {
     bool has_smooth = false;
     for (const Object& object : scene.objects) {
         const Model& model = model_of(scene, object);
-        const bool is_smooth = model.surface == Surface::smooth && transmits(scene, object);
+        const bool is_smooth = stores_distances(model.surface) && transmits(scene, object);
         const bool is_mesh =
-            model.surface == Surface::exact && !model.solid && transmits(scene, object);
+            lists_primitives(model.surface) && !model.solid && transmits(scene, object);
         hollow.flags.push_back(is_smooth || is_mesh);
         hollow.most += is_mesh;
         has_smooth |= is_smooth;
@@ -88,7 +88,7 @@ Features begun_anywhere(Features features, const Scene& scene) {
 bool may_begin_inside(const Scene& scene, const Pyramid& world) {
     for (size_t i = 0; i < scene.objects.size(); ++i) {
         const Object& object = scene.objects[i];
-        const bool has_inside = model_of(scene, object).surface != Surface::cubes;
+        const bool has_inside = !shows_voxels(model_of(scene, object).surface);
         if (!object.visible || !object.in_reach || !has_inside || !transmits(scene, object))
             continue;
         const bool is_known = !world.object_boxes.empty() && !is_instanced(scene, object);

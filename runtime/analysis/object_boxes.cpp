@@ -33,13 +33,13 @@ VoxelBox box_of(const Scene& scene, const Object& object, MeshStore& meshes,
                 const GridFrame& world) {
     const Model& model = scene.models[size_t(object.model)];
     const glm::dvec3 end = world.origin + world.voxel_edge * glm::dvec3(world.size);
-    if (model.solid && model.surface == Surface::exact) {
+    if (model.solid && lists_primitives(model.surface)) {
         const SolidBounds box =
             bounds(*model.solid, object.world_from_object, SolidBounds{world.origin, end});
         return box.is_empty() ? VoxelBox{} : in_voxels(box.min, box.max, world);
     }
     const MeshSummary* mesh = meshes.summary_of(model);
-    if (mesh && model.surface == Surface::exact)
+    if (mesh && lists_primitives(model.surface))
         return mapped(mesh->surface.min, mesh->surface.max, object.world_from_object, world);
     const bool has_voxels = !model.voxels.empty();
     const GridFrame frame = has_voxels ? meshes.voxels(model).frame : model_frame(model, mesh);
@@ -48,14 +48,6 @@ VoxelBox box_of(const Scene& scene, const Object& object, MeshStore& meshes,
 }
 
 }  // namespace
-
-bool overlap(const VoxelBox& a, const VoxelBox& b) {
-    return glm::all(glm::lessThanEqual(glm::max(a.low, b.low), glm::min(a.high, b.high)));
-}
-
-bool is_empty(const VoxelBox& box) {
-    return !overlap(box, box);
-}
 
 std::vector<VoxelBox> object_boxes(const Scene& scene, MeshStore& meshes) {
     const GridFrame world = world_frame(scene.world);

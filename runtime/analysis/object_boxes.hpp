@@ -17,13 +17,4 @@ namespace voxelume {
 /// Throws Error::input as MeshStore does.
 std::vector<VoxelBox> object_boxes(const Scene& scene, MeshStore& meshes);
 
-/// Voxels around an object's box in which it may have a say: distances are painted by whole leaves,
-/// and gradients of smooth surfaces look two nodes further.
-inline constexpr double kInfluence = 8;
-
-/// Whether two boxes share a point.
-bool overlap(const VoxelBox& a, const VoxelBox& b);
-
-bool is_empty(const VoxelBox& box);
-
 }  // namespace voxelume

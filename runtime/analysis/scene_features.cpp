@@ -73,7 +73,7 @@ void add_paths(const Scene& scene, const Pyramid& world, Features& features) {
     features.cube_bodies =
         features.transmission &&
         std::ranges::any_of(shown_objects(scene, world), [&](const Object* object) {
-            return scene.models[size_t(object->model)].surface == Surface::cubes &&
+            return shows_voxels(scene.models[size_t(object->model)].surface) &&
                    (features.voxel_opacity || transmits(scene, *object));
         });
 }

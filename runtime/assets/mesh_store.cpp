@@ -2,6 +2,7 @@
 
 #include <chrono>
 
+#include "runtime/assets/voxel_model_file.hpp"
 #include "runtime/base/error.hpp"
 #include "runtime/geometry/mesh_morph.hpp"
 #include "runtime/io/mesh/mesh_reader.hpp"
@@ -88,7 +89,7 @@ const MeshStore::VoxelFile& MeshStore::voxel_file(const Model& model) {
     if (found != voxels_.end()) return found->second;
     const LoadTimer timer(load_seconds_);
     VoxelFile read{read_voxel_model(model.voxels, model.surface), {}};
-    if (model.surface == Surface::exact) read.summary = voxelume::summary_of(read.voxels.mesh);
+    if (lists_primitives(model.surface)) read.summary = voxelume::summary_of(read.voxels.mesh);
     ++meshes_read_;
     return voxels_.emplace(key, std::move(read)).first->second;
 }
@@ -137,14 +138,14 @@ const MeshSummary& MeshStore::morphed_summary(const Model& model) {
 const Mesh* MeshStore::mesh_of(const Model& model) {
     if (model.solid) return nullptr;
     if (model.voxels.empty()) return model.morph ? &morphed_mesh(model) : &mesh(model.mesh);
-    return model.surface == Surface::exact ? &voxels(model).mesh : nullptr;
+    return lists_primitives(model.surface) ? &voxels(model).mesh : nullptr;
 }
 
 const MeshSummary* MeshStore::summary_of(const Model& model) {
     if (model.solid) return nullptr;
     if (model.voxels.empty())
         return model.morph ? &morphed_summary(model) : &summary_of_file(model.mesh);
-    return model.surface == Surface::exact ? &voxel_file(model).summary : nullptr;
+    return lists_primitives(model.surface) ? &voxel_file(model).summary : nullptr;
 }
 
 const std::vector<std::string>& MeshStore::groups_of(const Model& model) {

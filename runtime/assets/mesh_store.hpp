@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "runtime/assets/model_cache.hpp"
-#include "runtime/assets/voxel_model.hpp"
 #include "runtime/geometry/mesh_summary.hpp"
+#include "runtime/geometry/voxel_model.hpp"
 #include "runtime/scene/scene.hpp"
 
 namespace voxelume {

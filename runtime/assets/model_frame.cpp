@@ -69,8 +69,7 @@ bool is_in_reach(const Scene& scene, const Object& object) {
 
 bool shows_inside(const Scene& scene, const Object& object) {
     const Model& model = scene.models[size_t(object.model)];
-    return model.surface == Surface::cubes && model.set == VoxelSet::solid &&
-           transmits(scene, object);
+    return shows_voxels(model.surface) && model.set == VoxelSet::solid && transmits(scene, object);
 }
 
 }  // namespace voxelume

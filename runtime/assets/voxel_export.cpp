@@ -18,10 +18,6 @@ std::string vector_text(const Vector& v) {
     return fmt::format("{} {} {}", v.x, v.y, v.z);
 }
 
-const char* surface_name(Surface surface) {
-    return surface == Surface::smooth ? "smooth" : surface == Surface::cubes ? "cubes" : "exact";
-}
-
 const char* set_name(VoxelSet set) {
     return set == VoxelSet::solid ? "solid" : set == VoxelSet::thin ? "thin" : "supercover";
 }
@@ -54,11 +50,13 @@ VoxelExport::VoxelExport(const BrickGrid& grid, const Mesh& mesh, Surface surfac
       primitives_(grid.primitives.read()),
       triangle_attributes_(grid.triangle_attributes.read()),
       triangles_(grid.triangles.read()) {
-    header_ = {
-        {"format", "voxelume bricks 1"},        {"software", fmt::format("voxelume {}", version())},
-        {"surface", surface_name(surface)},     {"size", vector_text(frame_.size)},
-        {"origin", vector_text(frame_.origin)}, {"voxel_edge", vector_text(frame_.voxel_edge)}};
-    if (surface == Surface::cubes) header_["set"] = set_name(set);
+    header_ = {{"format", "voxelume bricks 1"},
+               {"software", fmt::format("voxelume {}", version())},
+               {"surface", std::string(kind_of(surface).name)},
+               {"size", vector_text(frame_.size)},
+               {"origin", vector_text(frame_.origin)},
+               {"voxel_edge", vector_text(frame_.voxel_edge)}};
+    if (shows_voxels(surface)) header_["set"] = set_name(set);
     std::string groups;
     for (const std::string& name : mesh.group_names) groups += name + "\n";
     if (!groups.empty()) header_["groups"] = groups;
@@ -96,7 +94,7 @@ void VoxelExport::add_brick(uint32_t slot, Cells& cells) const {
     for (uint32_t number = 0; number < kVoxelsPerBrick; ++number) {
         const size_t place = size_t(slot) * kVoxelsPerBrick + number;
         const glm::ivec3 p = in_brick(number), leaf = p / kLeafSize, voxel = p % kLeafSize;
-        if (surface_ == Surface::smooth) {
+        if (stores_distances(surface_)) {
             const double distance = distance_[place];
             if (std::abs(distance) >= kExportBand * kDistanceUnitsPerVoxel) continue;
             cells.values.push_back(float(distance * unit));
@@ -124,7 +122,7 @@ void VoxelExport::add_full_bricks(Cells& cells) const {
 }
 
 void VoxelExport::write_vdb(const std::filesystem::path& path) const {
-    const bool smooth = surface_ == Surface::smooth;
+    const bool smooth = stores_distances(surface_);
     Cells cells;
     for (uint32_t slot = 0; slot < coordinates_.size(); ++slot) add_brick(slot, cells);
     if (!smooth) add_full_bricks(cells);

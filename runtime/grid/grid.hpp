@@ -8,7 +8,9 @@
 // children.
 #pragma once
 
+#include <glm/common.hpp>
 #include <glm/vec3.hpp>
+#include <glm/vector_relational.hpp>
 
 #include <cstdint>
 #include <vector>
@@ -74,6 +76,19 @@ struct BrickGrid {
 struct VoxelBox {
     glm::dvec3 low{0}, high{-1};
 };
+
+/// Voxels around an object's box in which it may have a say: distances are painted by whole leaves,
+/// and gradients of smooth surfaces look two nodes further.
+inline constexpr double kInfluence = 8;
+
+/// Whether two boxes share a point.
+inline bool overlap(const VoxelBox& a, const VoxelBox& b) {
+    return glm::all(glm::lessThanEqual(glm::max(a.low, b.low), glm::min(a.high, b.high)));
+}
+
+inline bool is_empty(const VoxelBox& box) {
+    return !overlap(box, box);
+}
 
 /// A model that instances share: where its voxels are in a pyramid's buffers.
 struct InstanceModel {

@@ -54,7 +54,7 @@ double hyab(const glm::dvec3& a, const glm::dvec3& b) {
     return std::abs(a.x - b.x) + std::hypot(a.y - b.y, a.z - b.z);
 }
 
-struct Plane {
+struct ColorPlane {
     int width, height;
     std::vector<double> values;
 
@@ -71,9 +71,9 @@ Weights weights(int radius, const auto& value) {
     return all;
 }
 
-Plane filtered_rows(const Plane& plane, const Weights& weights_of_columns) {
+ColorPlane filtered_rows(const ColorPlane& plane, const Weights& weights_of_columns) {
     const size_t width = size_t(plane.width), count = weights_of_columns.size();
-    Plane result{plane.width, plane.height, std::vector<double>(plane.values.size(), 0.0)};
+    ColorPlane result{plane.width, plane.height, std::vector<double>(plane.values.size(), 0.0)};
     std::vector<double> padded(width + count - 1);
     for (int y = 0; y < plane.height; ++y) {
         const double* from = plane.row(y);
@@ -86,9 +86,9 @@ Plane filtered_rows(const Plane& plane, const Weights& weights_of_columns) {
     return result;
 }
 
-Plane filtered_columns(const Plane& plane, const Weights& weights_of_rows) {
+ColorPlane filtered_columns(const ColorPlane& plane, const Weights& weights_of_rows) {
     const int radius = int(weights_of_rows.size() / 2);
-    Plane result{plane.width, plane.height, std::vector<double>(plane.values.size(), 0.0)};
+    ColorPlane result{plane.width, plane.height, std::vector<double>(plane.values.size(), 0.0)};
     for (int y = 0; y < plane.height; ++y)
         for (int i = -radius; i <= radius; ++i) {
             const double weight = weights_of_rows[size_t(i) + size_t(radius)];
@@ -101,7 +101,7 @@ Plane filtered_columns(const Plane& plane, const Weights& weights_of_rows) {
 
 /// The sum of the values around each pixel times weights of their column and of their row. Beyond
 /// the plane its edge's values go on.
-Plane filtered(const Plane& plane, const Weights& columns, const Weights& rows) {
+ColorPlane filtered(const ColorPlane& plane, const Weights& columns, const Weights& rows) {
     return filtered_columns(filtered_rows(plane, columns), rows);
 }
 
@@ -117,10 +117,10 @@ struct Sensitivity {
 };
 
 /// What the eye sees of an opponent channel: its sensitivities as filters of pixels.
-Plane seen(const Plane& plane, std::array<Sensitivity, 2> both, double pixels_per_degree) {
+ColorPlane seen(const ColorPlane& plane, std::array<Sensitivity, 2> both, double pixels_per_degree) {
     constexpr double kPi = std::numbers::pi, kWidest = 0.04;
     const int radius = int(std::ceil(3 * std::sqrt(kWidest / (2 * kPi * kPi)) * pixels_per_degree));
-    Plane result = plane;
+    ColorPlane result = plane;
     std::ranges::fill(result.values, 0.0);
     double total = 0;
     for (const Sensitivity& s : both) {
@@ -130,7 +130,7 @@ Plane seen(const Plane& plane, std::array<Sensitivity, 2> both, double pixels_pe
             return std::exp(-kPi * kPi * degrees * degrees / s.b);
         });
         const double height = s.a * std::sqrt(kPi / s.b);
-        const Plane part = filtered(plane, gauss, gauss);
+        const ColorPlane part = filtered(plane, gauss, gauss);
         for (size_t i = 0; i < part.values.size(); ++i) result.values[i] += height * part.values[i];
         total += height * sum_of(gauss) * sum_of(gauss);
     }
@@ -138,7 +138,7 @@ Plane seen(const Plane& plane, std::array<Sensitivity, 2> both, double pixels_pe
     return result;
 }
 
-using Opponents = std::array<Plane, 3>;
+using Opponents = std::array<ColorPlane, 3>;
 
 Opponents opponents_of(const Image& image) {
     Opponents planes;
@@ -153,9 +153,9 @@ Opponents opponents_of(const Image& image) {
 }
 
 std::vector<glm::dvec3> perceived(const Opponents& planes, double pixels_per_degree) {
-    const Plane y = seen(planes[0], {{{1, 0.0047}, {0, 1e-5}}}, pixels_per_degree);
-    const Plane x = seen(planes[1], {{{1, 0.0053}, {0, 1e-5}}}, pixels_per_degree);
-    const Plane z = seen(planes[2], {{{34.1, 0.04}, {13.5, 0.025}}}, pixels_per_degree);
+    const ColorPlane y = seen(planes[0], {{{1, 0.0047}, {0, 1e-5}}}, pixels_per_degree);
+    const ColorPlane x = seen(planes[1], {{{1, 0.0053}, {0, 1e-5}}}, pixels_per_degree);
+    const ColorPlane z = seen(planes[2], {{{34.1, 0.04}, {13.5, 0.025}}}, pixels_per_degree);
     std::vector<glm::dvec3> colors;
     for (size_t i = 0; i < y.values.size(); ++i) {
         const glm::dvec3 rgb = rgb_from_opponent({y.values[i], x.values[i], z.values[i]});
@@ -177,8 +177,8 @@ struct ImageFeatures {
     std::vector<double> edges, points;
 };
 
-ImageFeatures image_features(const Plane& opponent, double pixels_per_degree) {
-    Plane lightness = opponent;
+ImageFeatures image_features(const ColorPlane& opponent, double pixels_per_degree) {
+    ColorPlane lightness = opponent;
     for (double& value : lightness.values) value = (value + 16) / 116;
     const double deviation = 0.5 * kFeatureDegrees * pixels_per_degree;
     const int radius = int(std::ceil(3 * deviation));
@@ -187,8 +187,8 @@ ImageFeatures image_features(const Plane& opponent, double pixels_per_degree) {
     const double sum = sum_of(smooth);
     for (double& weight : smooth) weight /= sum;
     const auto strength = [&](const Weights& derivative) {
-        const Plane x = filtered(lightness, derivative, smooth);
-        const Plane y = filtered(lightness, smooth, derivative);
+        const ColorPlane x = filtered(lightness, derivative, smooth);
+        const ColorPlane y = filtered(lightness, smooth, derivative);
         std::vector<double> norms;
         for (size_t i = 0; i < x.values.size(); ++i)
             norms.push_back(std::hypot(x.values[i], y.values[i]));

@@ -5,8 +5,8 @@
 #include <string>
 
 #include "runtime/assets/model_frame.hpp"
-#include "runtime/assets/voxel_model.hpp"
 #include "runtime/geometry/surface_extent.hpp"
+#include "runtime/geometry/voxel_model.hpp"
 #include "runtime/grid/grid.hpp"
 
 namespace voxelume {

@@ -1,7 +1,6 @@
 // rays -> radiance: what each ray meets and the light that comes along it. Blocks 3 to 9.
 #pragma once
 
-#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -33,11 +32,6 @@ void build_programs(const Device& device, const Features& features, const Scene&
 inline bool lights_send_beams(const Features& features) {
     return features.shadows && !features.filter;
 }
-
-/// Called for each layer of surfaces along the rays of an observer, the nearest first, once its
-/// light is added to the nodes. Entry n of the first layer is ray n; others name theirs in `paths`.
-using LayerSink =
-    std::function<void(const RayBatch& entries, uint32_t count, bool is_first, const NodeLight&)>;
 
 /// Traces and lights batches of rays. Flat and volumetric images share it.
 ///

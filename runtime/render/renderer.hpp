@@ -5,9 +5,9 @@
 #include <optional>
 #include <vector>
 
-#include "runtime/batch/tile_share.hpp"
 #include "runtime/image/image.hpp"
 #include "runtime/opencl/device.hpp"
+#include "runtime/render/tile_share.hpp"
 #include "runtime/scene/scene.hpp"
 #include "runtime/stages/features.hpp"
 #include "runtime/stages/trace/beam.hpp"

@@ -162,7 +162,10 @@ void render_lattice(Work& work, Volume& volume) {
     ShownVoxels shown = display.choose(pieces);
     report_progress(2);
     pieces.clear();
-    display.light(look, illumination, space_of(work.scene.world), batch, shown);
+    const LightRays light_rays = [&](RayBatch& rays, uint32_t count, const LayerSink& sink) {
+        illumination.light(rays, count, sink);
+    };
+    display.light(look, light_rays, space_of(work.scene.world), batch, shown);
     report_progress(3);
     work.report.display_lines = scan.lines();
     work.report.clear_display_lines = scan.clear_lines();

@@ -1,7 +1,9 @@
 // The two choices that a model makes about its voxels.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <string_view>
 
 namespace voxelume {
 
@@ -11,6 +13,37 @@ enum class Surface : uint8_t {
     smooth = 1,  ///< the zero of a distance field
     exact = 2,   ///< the source's own triangles or solid
 };
+
+/// What the stages ask of a kind of surface. A new kind is a row of kSurfaceKinds, a way to fill
+/// its voxels (stages/voxelize, stages/place) and one to meet rays (kernels/lib/surface).
+struct SurfaceKind {
+    Surface surface;
+    std::string_view name;  ///< in scene files, options and .vxm files
+    bool stores_distances;  ///< its grids hold distances at nodes; those of others occupied voxels
+    bool lists_primitives;  ///< each voxel lists the triangles or shapes that pass through it
+    bool shows_voxels;  ///< rays end on the voxel's own faces, so a VoxelSet says which there are
+};
+
+/// In the order of the enumeration.
+inline constexpr std::array<SurfaceKind, 3> kSurfaceKinds = {{
+    // surface        name      distances primitives voxels
+    {Surface::cubes, "cubes", false, false, true},
+    {Surface::smooth, "smooth", true, false, false},
+    {Surface::exact, "exact", false, true, false},
+}};
+
+constexpr const SurfaceKind& kind_of(Surface surface) {
+    return kSurfaceKinds[size_t(surface)];
+}
+constexpr bool stores_distances(Surface surface) {
+    return kind_of(surface).stores_distances;
+}
+constexpr bool lists_primitives(Surface surface) {
+    return kind_of(surface).lists_primitives;
+}
+constexpr bool shows_voxels(Surface surface) {
+    return kind_of(surface).shows_voxels;
+}
 
 /// Which voxels stand for an object made of cubes; the definitions are those of
 /// Cohen-Or & Kaufman 1995 and Laine 2013.

@@ -14,7 +14,7 @@ namespace {
 using Seconds = std::chrono::duration<double>;
 
 bool has_own_voxels(const Model& model) {
-    return !model.voxels.empty() && model.surface != Surface::exact;
+    return !model.voxels.empty() && !lists_primitives(model.surface);
 }
 
 /// A model without its name, its place in the scene, and what is in its frame already.
@@ -36,7 +36,7 @@ Model whole_of(Model model, VoxelSet set) {
 
 /// The sets of its whole mesh that a cut model is made of.
 std::vector<VoxelSet> body_sets(const Model& model) {
-    if (model.surface == Surface::cubes && model.set != VoxelSet::solid)
+    if (shows_voxels(model.surface) && model.set != VoxelSet::solid)
         return {model.set, VoxelSet::solid};
     return {model.set};
 }
@@ -45,7 +45,7 @@ std::vector<VoxelSet> body_sets(const Model& model) {
 
 SharedGrid ObjectGrids::grid_of(const Scene& scene, const Object& object) {
     const Model& model = scene.models[size_t(object.model)];
-    if (model.surface != Surface::exact) return own_grid_of(model);
+    if (!lists_primitives(model.surface)) return own_grid_of(model);
     const Source source{source_of(model), object.world_from_object, world_frame(scene.world)};
     return find_or_make(model, source, object.where, !object.moves);
 }
@@ -136,7 +136,7 @@ BrickGrid ObjectGrids::make_cut(const Model& model, const Source& source, bool k
     ++voxelized_;
     const SharedGrid whole = body(model.set);
     const BrickGrid space = left(model.set);
-    if (model.surface == Surface::smooth) return common_field(device_, *whole, space);
+    if (stores_distances(model.surface)) return common_field(device_, *whole, space);
     if (model.set == VoxelSet::solid)
         return common_cubes(device_, {*whole, *whole}, {space, space});
     return common_cubes(device_, {*whole, *body(VoxelSet::solid)}, {space, left(VoxelSet::solid)});

@@ -24,7 +24,7 @@ void add_solid(KeyWords& words, const Solid& solid) {
 
 void add_model(KeyWords& words, const Model& model, MeshStore& meshes) {
     words.add_text(meshes.source_of(model)).add(int(model.surface)).add(int(model.set));
-    if (model.surface != Surface::exact)
+    if (!lists_primitives(model.surface))
         add_frame(words, model_frame(model, meshes.summary_of(model)));
     words.add(model.cuts.size());
     for (const Solid& cut : model.cuts) add_solid(words, cut);

@@ -1,5 +1,5 @@
 // Models whose voxels come from files.
-#include "runtime/assets/voxel_model.hpp"
+#include "runtime/assets/voxel_model_file.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

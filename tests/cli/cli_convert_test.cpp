@@ -3,7 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "runtime/io/volume/volume_file.hpp"
+#include "runtime/io/volume_file.hpp"
 #include "tests/support/program_runner.hpp"
 #include "tests/support/volume_samples.hpp"
 

@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-#include "runtime/io/volume/volume_file.hpp"
+#include "runtime/io/volume_file.hpp"
 #include "tests/support/display_fixture.hpp"
 #include "tests/support/file_fixture.hpp"
 

@@ -5,7 +5,7 @@
 
 #include "runtime/image/volume_geometry.hpp"
 #include "runtime/io/image/png.hpp"
-#include "runtime/io/volume/volume_file.hpp"
+#include "runtime/io/volume_file.hpp"
 #include "tests/support/program_runner.hpp"
 #include "tests/support/volume_samples.hpp"
 

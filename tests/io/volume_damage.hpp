@@ -3,7 +3,7 @@
 
 #include <random>
 
-#include "runtime/io/volume/volume_file.hpp"
+#include "runtime/io/volume_file.hpp"
 #include "tests/support/file_fixture.hpp"
 #include "tests/support/program_runner.hpp"
 

@@ -1,5 +1,5 @@
 // The front of all formats, and the formats that pictures and points need.
-#include "runtime/io/volume/volume_file.hpp"
+#include "runtime/io/volume_file.hpp"
 
 #include <gmock/gmock.h>
 

@@ -6,7 +6,7 @@
 
 #include <map>
 
-#include "runtime/assets/density_field.hpp"
+#include "runtime/grid/density_field.hpp"
 #include "runtime/io/vdb/vdb.hpp"
 #include "runtime/memory/plan.hpp"
 #include "runtime/render/renderer.hpp"

@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "runtime/assets/density_field.hpp"
+#include "runtime/grid/density_field.hpp"
 
 namespace voxelume {
 

@@ -17,11 +17,11 @@ FloatGrid::Ptr find_grid(const openvdb::GridPtrVec& grids, Surface surface,
         const auto floats = openvdb::gridPtrCast<FloatGrid>(grid);
         if (!floats) continue;
         const bool level_set = floats->getGridClass() == openvdb::GRID_LEVEL_SET;
-        if (level_set != (surface == Surface::smooth)) continue;
+        if (level_set != stores_distances(surface)) continue;
         if (!found || floats->getName() == "density") found = floats;
     }
     if (!found)
-        readable.refuse(surface == Surface::smooth
+        readable.refuse(stores_distances(surface)
                             ? "has no level set of float values, which a smooth surface is made of"
                             : "has no fog of float values, which cubes are made of; give a level "
                               "set \"surface\": \"smooth\"");

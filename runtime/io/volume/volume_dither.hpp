@@ -3,7 +3,7 @@
 
 #include <glm/vec3.hpp>
 
-#include "runtime/io/volume/volume_file.hpp"
+#include "runtime/io/volume/volume_options.hpp"
 
 namespace voxelume {
 

@@ -3,7 +3,8 @@
 
 #include <filesystem>
 
-#include "runtime/io/volume/volume_file.hpp"
+#include "runtime/image/volume.hpp"
+#include "runtime/io/volume/volume_options.hpp"
 
 namespace voxelume {
 

@@ -7,12 +7,12 @@
 #include "kernels/shared/voxel.h"
 #include "runtime/base/input_file.hpp"
 #include "runtime/io/voxels/model_file.hpp"
+#include "runtime/io/voxels/voxel_limits.hpp"
 
 namespace voxelume {
 namespace {
 
 constexpr uint64_t kMostModelBytes = uint64_t{12} << 30;  // of a file's arrays
-constexpr const char* kSurfaceNames[] = {"cubes", "smooth", "exact"};
 
 /// Throws, before memory is taken for them, where arrays are more than a model may have.
 void check_arrays(const ModelSummary& summary, const InputFile& file) {
@@ -37,11 +37,11 @@ class ModelReader {
             file_.refuse("has no voxels of a model that this voxelume reads");
         VoxelModel model;
         const std::string name = text("surface");
-        if (name != kSurfaceNames[size_t(surface)])
+        if (name != kind_of(surface).name)
             file_.refuse(fmt::format("holds a model of surface \"{}\": give it \"surface\": \"{}\"",
                                      name, name));
         model.surface = surface;
-        if (surface == Surface::cubes) {
+        if (shows_voxels(surface)) {
             const std::string set = text("set");
             model.set = set == "solid"  ? VoxelSet::solid
                         : set == "thin" ? VoxelSet::thin
@@ -51,7 +51,7 @@ class ModelReader {
         read_bricks(model);
         std::istringstream groups(content_.header["groups"]);
         for (std::string group; std::getline(groups, group);) model.groups.push_back(group);
-        if (surface == Surface::exact) read_triangles(model);
+        if (lists_primitives(surface)) read_triangles(model);
         model.transparent = std::ranges::any_of(
             model.colors, [](uint32_t c) { return c >> VXL_TRANSPARENCY_SHIFT; });
         return model;
@@ -110,12 +110,12 @@ class ModelReader {
                 (slot > 0 && brick <= model.coordinates[slot - 1]))
                 file_.refuse("its bricks are numbered wrongly");
         }
-        const bool smooth = model.surface == Surface::smooth;
+        const bool smooth = stores_distances(model.surface);
         model.occupancy =
             array<uint64_t>("occupancy", smooth ? 0 : stored * kLeavesPerBrick, !smooth);
         model.distance = array<int16_t>("distance", smooth ? stored * kVoxelsPerBrick : 0, smooth);
         model.colors = array<uint32_t>("colors", stored * kVoxelsPerBrick, false);
-        if (model.surface != Surface::exact)
+        if (!lists_primitives(model.surface))
             model.attributes = array<uint32_t>("attributes", stored * kVoxelsPerBrick, false);
     }
 

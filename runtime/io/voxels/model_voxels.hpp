@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "runtime/assets/voxel_model.hpp"
+#include "runtime/geometry/voxel_model.hpp"
 
 namespace voxelume {
 

@@ -158,23 +158,22 @@ void DisplayLatticeStage::keep(const Space& space, const RayBatch& batch, const 
                          voxels.colors, voxels.opacities, voxels.depths, voxels.objects);
 }
 
-void DisplayLatticeStage::light_points(Illumination& illumination, const Space& space,
+void DisplayLatticeStage::light_points(const LightRays& light_rays, const Space& space,
                                        RayBatch& batch, const LightTask& task,
                                        VoxelArrays& voxels) {
     for (uint32_t first = 0; first < task.points.count; first += batch.stride) {
         const uint32_t count = std::min(batch.stride, task.points.count - first);
         aim(task.points, 0, first, count, batch);
         if (!transmission_) {
-            illumination.light(batch, count);
+            light_rays(batch, count, {});
             keep(space, batch, {batch.radiance, {}, batch.stride}, task, first, count, voxels);
             continue;
         }
         // The nearest surface is the voxel's; what lies behind has voxels of its own.
-        illumination.light(
-            batch, count,
-            [&](const RayBatch& entries, uint32_t, bool is_first, const NodeLight& nodes) {
-                if (is_first) keep(space, entries, nodes, task, first, count, voxels);
-            });
+        light_rays(batch, count,
+                   [&](const RayBatch& entries, uint32_t, bool is_first, const NodeLight& nodes) {
+                       if (is_first) keep(space, entries, nodes, task, first, count, voxels);
+                   });
     }
 }
 
@@ -210,9 +209,9 @@ DisplayLatticeStage::LightTask DisplayLatticeStage::missed_points(const ShownVox
     return task;
 }
 
-void DisplayLatticeStage::light(const LookAhead& look, Illumination& illumination,
+void DisplayLatticeStage::light(const LookAhead& look, const LightRays& light_rays,
                                 const Space& space, RayBatch& batch, ShownVoxels& shown) {
-    light_points(illumination, space, batch, {shown.points, {}}, shown.voxels);
+    light_points(light_rays, space, batch, {shown.points, {}}, shown.voxels);
     HostPoints host;
     // A ray along the surface at its point, as at an outline, may pass by: one beside it does not.
     for (const float by : {1.0f / 512, 1.0f / 64})
@@ -221,7 +220,7 @@ void DisplayLatticeStage::light(const LookAhead& look, Illumination& illuminatio
             shift[side / 2] = side % 2 == 0 ? by : -by;
             const LightTask missed = missed_points(shown, shift, host);
             if (missed.points.count == 0) return;
-            light_points(illumination, space, batch, missed, shown.voxels);
+            light_points(light_rays, space, batch, missed, shown.voxels);
         }
     if (visibility_ == Visibility::observer) return;
     // Nor may a whole face that a view looks along: other views see it.
@@ -231,7 +230,7 @@ void DisplayLatticeStage::light(const LookAhead& look, Illumination& illuminatio
             if (missed.points.count == 0) return;
             missed.points.views.fill(hidden ? view : kNoView);
             if (!hidden) search(look, batch, missed.points, view, kMostCovered);
-            light_points(illumination, space, batch, missed, shown.voxels);
+            light_points(light_rays, space, batch, missed, shown.voxels);
         }
 }
 

@@ -3,7 +3,6 @@
 
 #include <functional>
 
-#include "runtime/render/illumination.hpp"
 #include "runtime/stages/display/display_rays.hpp"
 #include "runtime/stages/display/display_scan.hpp"
 
@@ -22,6 +21,10 @@ Buffer<uint32_t> allocate_display_mask(const Device& device, const glm::ivec3& s
 /// surfaces along each ray cover.
 using LookAhead = std::function<void(RayBatch& batch, uint32_t count)>;
 
+/// Lights rays 0 .. count-1 of a batch; `sink`, where there is one, hears of the layers of
+/// surfaces.
+using LightRays = std::function<void(RayBatch& batch, uint32_t count, const LayerSink& sink)>;
+
 /// Kernels of display_lattice.cl. The paper's blocks 2 and 3.
 class DisplayLatticeStage {
   public:
@@ -36,7 +39,7 @@ class DisplayLatticeStage {
     ShownVoxels choose(const std::vector<ProbePoints>& pieces);
 
     /// Lights the voxels, batch by batch.
-    void light(const LookAhead& look, Illumination& illumination, const Space& space,
+    void light(const LookAhead& look, const LightRays& light_rays, const Space& space,
                RayBatch& batch, ShownVoxels& shown);
 
     uint64_t rays() const { return rays_; }  ///< aimed so far
@@ -52,7 +55,7 @@ class DisplayLatticeStage {
     /// Takes the light of batch rays from `first` on to their voxels. `nodes` holds it.
     void keep(const Space& space, const RayBatch& batch, const NodeLight& nodes,
               const LightTask& task, uint32_t first, uint32_t count, VoxelArrays& voxels);
-    void light_points(Illumination& illumination, const Space& space, RayBatch& batch,
+    void light_points(const LightRays& light_rays, const Space& space, RayBatch& batch,
                       const LightTask& task, VoxelArrays& voxels);
     /// The points of all voxels, read when the first one is missed.
     struct HostPoints {

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <numeric>
 
-#include "runtime/analysis/object_boxes.hpp"
 #include "runtime/base/error.hpp"
 #include "runtime/opencl/float4.hpp"
 #include "runtime/stages/trace/trace.hpp"

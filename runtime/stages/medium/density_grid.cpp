@@ -5,9 +5,9 @@
 #include <bit>
 #include <map>
 
-#include "runtime/assets/density_field.hpp"
 #include "runtime/assets/model_frame.hpp"
 #include "runtime/base/error.hpp"
+#include "runtime/stages/medium/density_source.hpp"
 
 namespace voxelume {
 namespace {

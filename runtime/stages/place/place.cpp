@@ -21,7 +21,7 @@ void check_object(const PlacedObject& object, const GridFrame& world) {
                     "object {}: its voxels have another frame than the world that they were made "
                     "for: voxelize it in the world's frame",
                     object.object);
-    if (!object.in_world_frame && surface_of(*object.grid) == Surface::exact)
+    if (!object.in_world_frame && lists_primitives(surface_of(*object.grid)))
         throw Error(ErrorKind::scene,
                     "object {}: an exact surface can't be resampled: voxelize it in the world's "
                     "frame",
@@ -42,7 +42,7 @@ std::vector<const PlacedObject*> painting_order(std::span<const PlacedObject> ob
 /// A world that is its only object: its buffers, with its word.
 bool is_only_object(std::span<const PlacedObject> objects, const WorldParts& parts) {
     return objects.size() == 1 && objects[0].in_world_frame && !parts.has_words() &&
-           !objects[0].keeps_inside && surface_of(*objects[0].grid) != Surface::exact;
+           !objects[0].keeps_inside && !lists_primitives(surface_of(*objects[0].grid));
 }
 
 }  // namespace
@@ -206,7 +206,7 @@ class Placer::State {
         for (const PlacedObject* object : painting_order(objects)) {
             Painter& painter = painters_.at(object->object);
             painter.paint(painted_bricks(painting, painter.bricks()), world_);
-            if (painter.surface() == Surface::smooth) smooth = &painter;
+            if (stores_distances(painter.surface())) smooth = &painter;
         }
         if (smooth)
             smooth->close_distances(painted_bricks(painting, {glm::ivec3(0), table - 1}), world_);

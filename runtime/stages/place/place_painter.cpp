@@ -15,7 +15,7 @@ namespace {
 constexpr double kBandVoxels = 2.9;
 
 PlacementMap map_of(const PlacedObject& object, const GridFrame& world, Surface surface) {
-    const Reach reach = surface == Surface::smooth     ? Reach::none
+    const Reach reach = stores_distances(surface)      ? Reach::none
                         : object.set == VoxelSet::thin ? Reach::thin
                                                        : Reach::supercover;
     return placement_map(object.grid->frame, world,
@@ -54,13 +54,13 @@ Program program_for(const Device& device, const PlacedObject& object, Surface su
                     const PlacementMap& map, const WorldParts& parts) {
     return {device,
             "place.cl",
-            {{"VXL_SMOOTH", surface == Surface::smooth},
+            {{"VXL_SMOOTH", stores_distances(surface)},
              {"VXL_ATTRIBUTES", parts.has_words()},
              {"VXL_COLORS", parts.colors},
              {"VXL_OBJECT_ATTRIBUTES", !object.grid->attributes.empty()},
              {"VXL_OBJECT_COLORS", !object.grid->colors.empty()},
              {"VXL_WORLD_OCCUPANCY", parts.occupancy},
-             {"VXL_AMONG_SMOOTH", surface == Surface::exact && parts.smooth},
+             {"VXL_AMONG_SMOOTH", lists_primitives(surface) && parts.smooth},
              {"VXL_REACH", map.has_reach},
              {"VXL_KEEPS_INSIDE", object.keeps_inside}}};
 }
@@ -93,8 +93,8 @@ WorldParts parts_of(std::span<const PlacedObject> objects) {
     WorldParts parts;
     for (const PlacedObject& object : objects) {
         const Surface surface = surface_of(*object.grid);
-        parts.smooth |= surface == Surface::smooth;
-        parts.occupancy |= surface != Surface::smooth;
+        parts.smooth |= stores_distances(surface);
+        parts.occupancy |= !stores_distances(surface);
         parts.colors |= !object.grid->colors.empty();
         parts.transparent |= object.grid->transparent;
         const std::vector<uint32_t> words = possible_words(object, surface);
@@ -144,7 +144,7 @@ void Painter::follow(const Device& device, const WorldParts& parts) {
 }
 
 void Painter::paint(const PaintedBricks& painted, BrickGrid& world) {
-    if (surface_ == Surface::smooth)
+    if (stores_distances(surface_))
         paint_smooth(painted, world);
     else
         paint_cubes(painted, world);

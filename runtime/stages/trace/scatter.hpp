@@ -1,6 +1,8 @@
 // surface points -> the rays that go on from them, and their light back.
 #pragma once
 
+#include <functional>
+
 #include "kernels/shared/scene.h"
 #include "runtime/grid/grid.hpp"
 #include "runtime/opencl/program.hpp"
@@ -23,6 +25,11 @@ struct NodeLight {
     Buffer<float> coverage;  ///< empty below the first depth
     uint32_t stride = 0;
 };
+
+/// Called for each layer of surfaces along the rays of an observer, the nearest first, once its
+/// light is added to the nodes. Entry n of the first layer is ray n; others name theirs in `paths`.
+using LayerSink =
+    std::function<void(const RayBatch& entries, uint32_t count, bool is_first, const NodeLight&)>;
 
 /// Kernels of scatter.cl for one feature set. The paper's blocks 6.1 to 9.
 class ScatterStage {

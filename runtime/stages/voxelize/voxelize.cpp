@@ -53,8 +53,8 @@ void store_bins(VoxelizeJob& job, TriangleBins bins) {
 
 /// Whether the options ask where a mesh's inside is.
 bool needs_inside(const VoxelizeOptions& options) {
-    return options.surface == Surface::smooth ||
-           (options.surface == Surface::cubes && options.set == VoxelSet::solid);
+    return stores_distances(options.surface) ||
+           (shows_voxels(options.surface) && options.set == VoxelSet::solid);
 }
 
 /// Lattice units by which `exact` voxels are widened: rays meet corners that aren't snapped.
@@ -130,11 +130,11 @@ BrickGrid Voxelizer::voxelize_outward(const Mesh& mesh, const glm::dmat4& frame_
                     {}};
     job.grid.frame = frame;
     job.grid.attribute = labels.word;
-    if (options.surface == Surface::smooth)
+    if (stores_distances(options.surface))
         voxelize_smooth(job, std::min(options.band, 4.0));
-    else if (options.surface == Surface::cubes)
+    else if (shows_voxels(options.surface))
         voxelize_cubes(job, options.set, 0);
-    if (options.surface == Surface::exact) {
+    if (lists_primitives(options.surface)) {
         voxelize_cubes(job, VoxelSet::supercover, kListMargin);
         list_primitives(job, program("voxelize_exact.cl", {{"VXL_MARGIN", kListMargin}}));
         keep_triangles(job, mesh, frame_from_mesh, labels);

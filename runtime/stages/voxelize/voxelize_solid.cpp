@@ -46,14 +46,14 @@ class SolidVoxelizer {
     }
 
     BrickGrid run(const VoxelizeOptions& options) {
-        const bool is_smooth = options.surface == Surface::smooth;
-        const VoxelSet set = options.surface == Surface::cubes ? options.set : VoxelSet::supercover;
+        const bool is_smooth = stores_distances(options.surface);
+        const VoxelSet set = shows_voxels(options.surface) ? options.set : VoxelSet::supercover;
         find_bricks(is_smooth, !is_smooth && set == VoxelSet::solid);
         if (is_smooth)
             sample();
         else
             occupy(set);
-        if (options.surface == Surface::exact) list_primitives();
+        if (lists_primitives(options.surface)) list_primitives();
         return std::move(grid_);
     }
 

@@ -13,7 +13,7 @@
 #include "runtime/verify/bench/bench_peers.hpp"
 #include "runtime/verify/bench/bench_shadow.hpp"
 #include "runtime/verify/bench/bench_subject.hpp"
-#include "runtime/verify/report/convergence.hpp"
+#include "runtime/verify/bench/convergence.hpp"
 
 namespace voxelume {
 

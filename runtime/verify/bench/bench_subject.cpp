@@ -21,14 +21,14 @@ bool has_bunny() {
 }
 
 std::optional<Extent> extent_of(const Solid& solid) {
-    constexpr double kPi = std::numbers::pi;
     const double r = solid.radius, t = solid.tube;
     const glm::dvec3 s = solid.size;
     switch (solid.kind) {
         case SolidKind::sphere:
-            return Extent{4 * kPi / 3 * r * r * r, 4 * kPi * r * r};
+            return Extent{4 * std::numbers::pi / 3 * r * r * r, 4 * std::numbers::pi * r * r};
         case SolidKind::torus:
-            return Extent{2 * kPi * kPi * r * t * t, 4 * kPi * kPi * r * t};
+            return Extent{2 * std::numbers::pi * std::numbers::pi * r * t * t,
+                          4 * std::numbers::pi * std::numbers::pi * r * t};
         case SolidKind::box:
             return Extent{s.x * s.y * s.z, 2 * (s.x * s.y + s.y * s.z + s.z * s.x)};
         default:

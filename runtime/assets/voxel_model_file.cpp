@@ -1,23 +1,20 @@
-#include "runtime/assets/voxel_model.hpp"
+#include "runtime/assets/voxel_model_file.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
-#include <cstdlib>
 #include <glm/common.hpp>
 
 #include "kernels/shared/voxel.h"
 #include "runtime/base/input_file.hpp"
 #include "runtime/io/vdb/vdb_voxels.hpp"
 #include "runtime/io/voxels/model_voxels.hpp"
+#include "runtime/io/voxels/voxel_limits.hpp"
 
 namespace voxelume {
 namespace {
 
-constexpr int kMostVoxelsPerAxis = 65536;
-constexpr double kMostBricks = 1 << 28, kFarthestCell = 1 << 30;
-constexpr size_t kMostStoredBricks = 1 << 18;  // 4 GiB of colours
-constexpr int kMargin = 4;                     // voxels around a volume, as around other models
+constexpr double kFarthestCell = 1 << 30;
+constexpr int kMargin = 4;  // voxels around a volume, as around other models
 
 uint32_t srgb_byte(float linear) {
     const double v = std::clamp(double(linear), 0.0, 1.0);
@@ -127,9 +124,9 @@ VoxelModel model_of(const VdbVoxels& voxels, Surface surface, const InputFile& f
     model.frame.size = glm::ivec3(size);
     model.frame.voxel_edge = voxels.voxel_edges;
     // Cubes have their value in the middle, distances at the voxel's minimum corner.
-    const double to_corner = surface == Surface::smooth ? 0.0 : 0.5;
+    const double to_corner = stores_distances(surface) ? 0.0 : 0.5;
     model.frame.origin = voxels.origin + voxels.voxel_edges * (glm::dvec3(first) - to_corner);
-    if (surface == Surface::smooth)
+    if (stores_distances(surface))
         fill_distances(voxels, first, file, model);
     else
         fill_cubes(voxels, first, file, model);
@@ -138,49 +135,6 @@ VoxelModel model_of(const VdbVoxels& voxels, Surface surface, const InputFile& f
 
 }  // namespace
 
-size_t bricks_of(const GridFrame& frame) {
-    const glm::ivec3 bricks = frame.bricks();
-    return size_t(bricks.x) * size_t(bricks.y) * size_t(bricks.z);
-}
-
-void check_voxel_span(const glm::dvec3& size, const InputFile& file) {
-    const glm::dvec3 bricks = size / double(kBrickSize) + 1.0;
-    if (!(std::max({size.x, size.y, size.z}) <= kMostVoxelsPerAxis &&
-          std::min({size.x, size.y, size.z}) >= 1 && bricks.x * bricks.y * bricks.z <= kMostBricks))
-        file.refuse(
-            fmt::format("its voxels span {} x {} x {}, at most {} along each axis and {} "
-                        "bricks of 16 in all are possible",
-                        size.x, size.y, size.z, kMostVoxelsPerAxis, kMostBricks));
-}
-
-void check_stored_bricks(size_t stored, const InputFile& file) {
-    if (stored > kMostStoredBricks)
-        file.refuse(
-            fmt::format("its voxels lie in {} bricks of 16 x 16 x 16, at most {} are possible",
-                        stored, kMostStoredBricks));
-}
-
-size_t VoxelModel::voxels() const {
-    size_t count = 0;
-    for (const uint64_t mask : occupancy) count += size_t(std::popcount(mask));
-    for (const int16_t d : distance) count += std::abs(d) < kDistanceUnitsPerVoxel;
-    return count;
-}
-
-BrickGrid VoxelModel::upload(const Device& device) const {
-    BrickGrid grid;
-    grid.frame = frame;
-    grid.brick_count = uint32_t(coordinates.size());
-    grid.slots = {device, "model slots", slots};
-    grid.coordinates = {device, "model coordinates", coordinates};
-    grid.occupancy = {device, "model occupancy", occupancy};
-    grid.distance = {device, "model distances", distance};
-    grid.attributes = {device, "model attributes", attributes};
-    grid.colors = {device, "model colors", colors};
-    grid.transparent = transparent;
-    return grid;
-}
-
 VoxelModel read_voxel_model(const std::filesystem::path& path, Surface surface) {
     const InputFile file(path);
     std::string start(std::min<uint64_t>(8, file.size()), '\0');
@@ -188,7 +142,7 @@ VoxelModel read_voxel_model(const std::filesystem::path& path, Surface surface) 
     if (start == "\x89VXM\r\n\x1a\n") return read_model_voxels(path, surface);
     if (start != std::string(" BDV\0\0\0\0", 8))
         file.refuse("is neither a .vxm nor an OpenVDB file");
-    if (surface == Surface::exact)
+    if (lists_primitives(surface))
         file.refuse("an OpenVDB file has no exact surface: give it \"cubes\" or \"smooth\"");
     return model_of(read_vdb_voxels(path, surface), surface, file);
 }

@@ -1,4 +1,4 @@
-#include "runtime/batch/tile_share.hpp"
+#include "runtime/render/tile_share.hpp"
 
 #include <algorithm>
 

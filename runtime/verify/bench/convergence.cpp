@@ -1,4 +1,4 @@
-#include "runtime/verify/report/convergence.hpp"
+#include "runtime/verify/bench/convergence.hpp"
 
 #include <algorithm>
 #include <array>

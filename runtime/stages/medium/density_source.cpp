@@ -1,4 +1,4 @@
-#include "runtime/assets/density_field.hpp"
+#include "runtime/stages/medium/density_source.hpp"
 
 #include <algorithm>
 #include <cmath>

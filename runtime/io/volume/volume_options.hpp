@@ -1,12 +1,10 @@
-// Volumetric images on disk: one front for every format. scenes/VOLUMES.md describes the formats.
+// The formats of volumetric images, and what may be chosen of them.
 #pragma once
 
+#include <array>
 #include <cstdint>
-#include <filesystem>
 #include <optional>
 #include <string_view>
-
-#include "runtime/image/volume.hpp"
 
 namespace voxelume {
 
@@ -23,6 +21,15 @@ enum class VolumeFormat : uint8_t {
     rgb332,        ///< .rgb332: a byte a voxel of a turning display; layout `lattice`
     rgb565         ///< .rgb565: two bytes a voxel of a turning display; layout `lattice`
 };
+
+/// The formats' names in the order of the enumeration, as --format, headers and messages have them.
+inline constexpr std::array<std::string_view, 11> kVolumeFormatNames = {
+    "vdb", "exr",    "nrrd",         "raw",    "slices", "ply",
+    "kv6", "planes", "color-planes", "rgb332", "rgb565"};
+
+constexpr std::string_view volume_format_name(VolumeFormat format) {
+    return kVolumeFormatNames[size_t(format)];
+}
 
 enum class Dither : uint8_t {
     none,   ///< nearest level
@@ -47,29 +54,5 @@ struct VolumeOptions {
     bool all_values = false;             ///< NRRD: depth, object and kind beside RGBA
     DeviceOptions device;
 };
-
-/// The format that a path's ending stands for. Throws Error::usage with the endings there are.
-VolumeFormat volume_format_of(const std::filesystem::path& path);
-
-/// "vdb", "color-planes", ...; and back: Throws Error::usage with the nearest name.
-std::string_view volume_format_name(VolumeFormat format);
-VolumeFormat volume_format_named(std::string_view name);
-
-/// Throws what write_volume would throw for any volume in this frame, before there is one:
-/// Error::usage for a layout that the format can't hold, Error::limit for sizes beyond the format
-/// or beyond 64 GiB of dense voxels, Error::output where no file can be made.
-void check_volume_output(const std::filesystem::path& path, const VolumeFrame& frame,
-                         const VolumeOptions& options = {});
-
-/// Writes the volume. Each file appears under its name whole or not at all, a header after its
-/// data; the same volume gives the same bytes. Throws as check_volume_output does, and
-/// Error::output for a volume that find_fault() refuses.
-void write_volume(const std::filesystem::path& path, const Volume& volume,
-                  const VolumeOptions& options = {});
-
-/// Reads a .vdb, .exr, .nrrd or .raw/.json that voxelume wrote; what each of them keeps is in
-/// scenes/VOLUMES.md. Throws Error::input for a file that is missing, damaged or not a volume of
-/// voxelume, Error::usage for the formats that aren't read.
-Volume read_volume(const std::filesystem::path& path);
 
 }  // namespace voxelume

@@ -1,7 +1,6 @@
 // The density of a medium anywhere in the world, before it is sampled at voxels.
 #pragma once
 
-#include <memory>
 #include <optional>
 #include <span>
 
@@ -30,9 +29,5 @@ class DensityField {
     /// Main memory that it takes.
     virtual double bytes() const { return 0; }
 };
-
-/// The field of a medium that has a density. Reads the file of a grid; throws Error::input, opened
-/// by the place in the scene, for a damaged file or one without a float grid of the name.
-std::unique_ptr<DensityField> density_field(const Medium& medium);
 
 }  // namespace voxelume

@@ -1,0 +1,34 @@
+#include "runtime/io/voxels/voxel_limits.hpp"
+
+#include <algorithm>
+
+#include "runtime/base/input_file.hpp"
+#include "runtime/grid/grid.hpp"
+
+namespace voxelume {
+namespace {
+
+constexpr int kMostVoxelsPerAxis = 65536;
+constexpr double kMostBricks = 1 << 28;
+constexpr size_t kMostStoredBricks = 1 << 18;  // 4 GiB of colours
+
+}  // namespace
+
+void check_voxel_span(const glm::dvec3& size, const InputFile& file) {
+    const glm::dvec3 bricks = size / double(kBrickSize) + 1.0;
+    if (!(std::max({size.x, size.y, size.z}) <= kMostVoxelsPerAxis &&
+          std::min({size.x, size.y, size.z}) >= 1 && bricks.x * bricks.y * bricks.z <= kMostBricks))
+        file.refuse(
+            fmt::format("its voxels span {} x {} x {}, at most {} along each axis and {} "
+                        "bricks of 16 in all are possible",
+                        size.x, size.y, size.z, kMostVoxelsPerAxis, kMostBricks));
+}
+
+void check_stored_bricks(size_t stored, const InputFile& file) {
+    if (stored > kMostStoredBricks)
+        file.refuse(
+            fmt::format("its voxels lie in {} bricks of 16 x 16 x 16, at most {} are possible",
+                        stored, kMostStoredBricks));
+}
+
+}  // namespace voxelume
