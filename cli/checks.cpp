@@ -111,20 +111,21 @@ Check one_of(std::vector<std::string_view> names) {
     };
 }
 
-Check in_range(double least, double most, Number number) {
+Check in_range(double minimum, double maximum, Number number) {
     return [=](const std::string& text) -> std::string {
         char* end = nullptr;
         const double value = std::strtod(text.c_str(), &end);
         const bool is_whole = text.find_first_not_of("+-0123456789") == std::string::npos;
-        const bool is_number = !text.empty() && *end == '\0' && value >= least && value <= most;
+        const bool is_number =
+            !text.empty() && *end == '\0' && value >= minimum && value <= maximum;
         // The parser would read a whole number that begins with 0 as octal.
         const size_t first = text.find_first_of("0123456789");
         const bool is_octal = is_whole && first + 1 < text.size() && text[first] == '0';
         if (is_number && ((is_whole && !is_octal) || number == Number::any)) return {};
         if (number == Number::whole)
             return fmt::format("{} isn't a whole number from {:.0f} to {:.0f} in digits",
-                               quote(text), least, most);
-        return fmt::format("{} isn't a number from {:g} to {:g}", quote(text), least, most);
+                               quote(text), minimum, maximum);
+        return fmt::format("{} isn't a number from {:g} to {:g}", quote(text), minimum, maximum);
     };
 }
 

@@ -33,8 +33,8 @@ enum class Number { whole, any };
 /// For CLI::Option::check: what is wrong with an option's text, if anything is.
 using Check = std::function<std::string(const std::string&)>;
 
-/// Numbers from `least` to `most`.
-Check in_range(double least, double most, Number number = Number::any);
+/// Numbers from `minimum` to `maximum`.
+Check in_range(double minimum, double maximum, Number number = Number::any);
 
 /// Values with commas between, each of which passes `check`. `example` is what is accepted.
 Check list_of(Check check, const char* example);

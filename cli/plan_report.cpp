@@ -4,7 +4,7 @@
 
 #include "cli/report.hpp"
 #include "cli/scene_options.hpp"
-#include "runtime/analysis/reach.hpp"
+#include "runtime/analysis/culling.hpp"
 #include "runtime/memory/frame_plans.hpp"
 #include "runtime/scene_file/scene_animation.hpp"
 
@@ -72,7 +72,7 @@ void add_verdict(const FramePlan& planned, const DeviceInfo& device, Report& rep
     report["verdict"] = is_refused(planned, device) ? "doesn't fit"
                         : peak <= memory            ? "fits"
                                                     : "may fit";
-    report["least MB"] = megabytes(planned.plan.least_bytes);
+    report["least MB"] = megabytes(planned.plan.min_bytes);
     report["most MB"] = megabytes(peak);
     report["device MB"] = megabytes(memory);
 }
@@ -82,8 +82,8 @@ void add_verdict(const FramePlan& planned, const DeviceInfo& device, Report& rep
 void print_plan(Scene scene, std::span<const int> frames, const Device& device,
                 const ModelCache& cache, bool as_json) {
     check_tables(scene, device.info());
-    MeshStore meshes(cache);
-    find_objects_in_reach(scene, frames, meshes);
+    AssetStore meshes(cache);
+    find_potentially_visible(scene, frames, meshes);
     const FramePlan planned = plan_frames(scene, frames, meshes, device.info());
     if (!as_json) fmt::print("{}\n", describe(scene));
     Report report = plan_report(planned.scene, planned.plan, device);
@@ -98,7 +98,7 @@ void print_plan(Scene scene, std::span<const int> frames, const Device& device,
     const double peak = planned.plan.peak_bytes(), memory = double(device.info().memory);
     const std::string needed =
         peak <= memory ? fmt::format("fits: at most {}", bytes_text(peak))
-                       : fmt::format("may fit: {} to {}", bytes_text(planned.plan.least_bytes),
+                       : fmt::format("may fit: {} to {}", bytes_text(planned.plan.min_bytes),
                                      bytes_text(peak));
     fmt::print("\n{} of {} are needed{}; counts and memory are estimates\n", needed,
                bytes_text(memory), of_frames);

@@ -14,7 +14,7 @@ namespace voxelume {
 
 namespace {
 
-bool is_set(const Environment& environment, const char* name) {
+bool is_set(const Variables& environment, const char* name) {
     const char* value = environment(name);
     return value != nullptr && *value != '\0';
 }
@@ -36,7 +36,7 @@ constexpr std::string_view kClearLine = "\r\x1b[K";
 
 }  // namespace
 
-Terminal describe_terminal(bool is_terminal, const Environment& environment) {
+Terminal describe_terminal(bool is_terminal, const Variables& environment) {
     const bool dumb =
         !is_set(environment, "TERM") || std::string_view(environment("TERM")) == "dumb";
     Terminal terminal;

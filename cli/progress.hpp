@@ -17,10 +17,10 @@ struct Terminal {
 };
 
 /// Looks up an environment variable; null when it isn't set.
-using Environment = std::function<const char*(const char*)>;
+using Variables = std::function<const char*(const char*)>;
 
 /// The rule by itself.
-Terminal describe_terminal(bool is_terminal, const Environment& environment);
+Terminal describe_terminal(bool is_terminal, const Variables& environment);
 
 /// The rule applied to a stream of this process, with its true width.
 Terminal describe_terminal(std::FILE* stream);

@@ -16,8 +16,8 @@
 #include "cli/frame_files.hpp"
 #include "cli/progress.hpp"
 #include "cli/render_report.hpp"
-#include "runtime/analysis/reach.hpp"
-#include "runtime/analysis/shown_models.hpp"
+#include "runtime/analysis/culling.hpp"
+#include "runtime/analysis/model_last_uses.hpp"
 #include "runtime/base/error.hpp"
 #include "runtime/base/frame_list.hpp"
 #include "runtime/base/version.hpp"
@@ -107,7 +107,8 @@ void add_attributes(const Scene& scene, int frame, Attributes& attributes) {
     attributes["software"] = "voxelume " + std::string(version());
 }
 
-/// Whether devices share the tiles of one image, each of which finds what is in reach itself.
+/// Whether devices share the tiles of one image, each of which finds what is potentially visible
+/// itself.
 bool is_shared(const std::vector<Device>& devices, const std::vector<FrameFiles>& list) {
     return devices.size() > 1 && list.size() == 1 && list[0].volumes.empty();
 }
@@ -117,7 +118,7 @@ class FrameRun {
   public:
     /// `meshes` has what was read to check the frames.
     FrameRun(const std::vector<Device>& devices, Scene scene, const std::vector<FrameFiles>& list,
-             const RenderOptions& options, MeshStore meshes)
+             const RenderOptions& options, AssetStore meshes)
         : devices_(devices),
           scene_(std::move(scene)),
           list_(list),
@@ -150,10 +151,10 @@ class FrameRun {
                          }};
         if (moves(scene_)) steps.number = [this](size_t n) { return double(list_[n].frame); };
         if (list_.size() > 1)
-            steps.awaited = [until = shown_until(scene_, numbers_of(list_))](size_t n) {
-                std::vector<bool> awaited(until.size());
-                for (size_t i = 0; i < until.size(); ++i) awaited[i] = until[i] > n + 1;
-                return awaited;
+            steps.retained = [last_use = last_uses(scene_, numbers_of(list_))](size_t n) {
+                std::vector<bool> retained(last_use.size());
+                for (size_t i = 0; i < last_use.size(); ++i) retained[i] = last_use[i] > n + 1;
+                return retained;
             };
         steps.forget = [this](size_t device) { forget(device); };
         const std::optional<size_t> alone =
@@ -245,7 +246,7 @@ class FrameRun {
     Scene scene_;
     const std::vector<FrameFiles>& list_;
     const RenderOptions& options_;
-    MeshStore meshes_;
+    AssetStore meshes_;
     std::vector<Renderer> renderers_;
     std::vector<VolumeRenderer> volume_renderers_;
     Progress bar_;
@@ -275,8 +276,8 @@ int run(const RenderOptions& options) {
         print_plan(scene, frames, devices[0], model_cache(options.scene), false);
         return 0;
     }
-    MeshStore meshes(model_cache(options.scene));
-    if (!is_shared(devices, list)) find_objects_in_reach(scene, frames, meshes);
+    AssetStore meshes(model_cache(options.scene));
+    if (!is_shared(devices, list)) find_potentially_visible(scene, frames, meshes);
     if (frames.size() > 1)
         for (const Device& device : devices) check_frames(scene, frames, meshes, device.info());
     if (options.verbose || !options.stats.empty())

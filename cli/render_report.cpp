@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "runtime/analysis/interior.hpp"
+#include "runtime/analysis/medium_set.hpp"
 #include "runtime/base/atomic_file.hpp"
 #include "runtime/base/version.hpp"
 
@@ -23,7 +23,7 @@ RenderReport sum_of(const std::vector<FrameReport>& frames) {
         sum.world.index_seconds += report.world.index_seconds;
         sum.world.keep_seconds += report.world.keep_seconds;
         sum.world.triangles = std::max(sum.world.triangles, report.world.triangles);
-        sum.world.out_of_reach = std::max(sum.world.out_of_reach, report.world.out_of_reach);
+        sum.world.culled = std::max(sum.world.culled, report.world.culled);
         if (report.world.instances.instances >= sum.world.instances.instances)
             sum.world.instances = report.world.instances;
         sum.image_seconds += report.image_seconds;
@@ -70,7 +70,7 @@ const char* world_text(const FrameReport& frame) {
             return "kept";
         case WorldChange::instances:
             return "instances moved";
-        case WorldChange::formed:
+        case WorldChange::built:
             return "formed";
     }
     return "";
@@ -128,7 +128,7 @@ nlohmann::ordered_json statistics(const Outcome& outcome) {
     json["files"] = outcome.files;
     json["voxels"] = report.voxels;
     json["triangles"] = report.world.triangles;
-    json["objects_out_of_reach"] = report.world.out_of_reach;
+    json["culled_objects"] = report.world.culled;
     json["sight_rays"] = report.sight_rays;
     json["beams"] = report.beams;
     json["clear_beams"] = report.clear_beams;
@@ -138,7 +138,7 @@ nlohmann::ordered_json statistics(const Outcome& outcome) {
     json["light_beams"] = report.light_beams;
     json["secondary_rays"] = report.secondary_rays;
     json["ended_paths"] = report.ended_paths;
-    json["lost_members"] = report.lost_members;
+    json["medium_overflows"] = report.medium_overflows;
     json["not_finite"] = report.not_finite;
     json["world_bytes"] = report.world_bytes;
     if (const InstanceReport& i = report.world.instances; i.instances > 0)
@@ -185,7 +185,7 @@ std::string reuse_text(const std::vector<FrameReport>& frames) {
     const auto hits = count([](const FrameReport& frame) { return frame.report.hits_are_kept; });
     return fmt::format(
         "{} frames ({} worlds formed, {} with instances moved; {} traced, {} shaded, {} still); ",
-        frames.size(), worlds(WorldChange::formed), worlds(WorldChange::instances),
+        frames.size(), worlds(WorldChange::built), worlds(WorldChange::instances),
         int64_t(frames.size()) - hits, hits - still, still);
 }
 
@@ -229,9 +229,9 @@ void print_details(const Outcome& outcome) {
                double(report.world_bytes) / 1e6, double(counters.peak_bytes) / 1e6);
     fmt::print(stderr, "  {} programs in {:.0f} ms, {} of them compiled before\n",
                counters.programs_built, counters.build_ms, counters.programs_from_cache);
-    if (report.world.out_of_reach > 0)
+    if (report.world.culled > 0)
         fmt::print(stderr, "  {} objects out of every ray's reach, not voxelized\n",
-                   report.world.out_of_reach);
+                   report.world.culled);
     if (outcome.one_by_one_from)
         fmt::print(stderr,
                    "  one frame at a time from frame {} on: memory doesn't suffice for two\n",

@@ -112,7 +112,7 @@ StressResult run_test(const StressTest& test, const StressCommand& command, cons
         }
         all.cases += part.cases;
         all.mismatches += part.mismatches;
-        part.examples.resize(std::min(part.examples.size(), kMostExamples - all.examples.size()));
+        part.examples.resize(std::min(part.examples.size(), kMaxExamples - all.examples.size()));
         all.examples.insert(all.examples.end(), part.examples.begin(), part.examples.end());
         print_examples(test, part.examples, command);
     }

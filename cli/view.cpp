@@ -15,7 +15,7 @@
 namespace voxelume::cli {
 namespace {
 
-constexpr int kLeastSide = 64;
+constexpr int kMinSide = 64;
 
 struct ViewCommand {
     std::string from, size = "1280x1000";
@@ -26,9 +26,9 @@ struct ViewCommand {
 
 int run(const ViewCommand& command) {
     const glm::ivec2 size = parse_size(command.size, "view");
-    if (size.x < kLeastSide || size.y < kLeastSide)
+    if (size.x < kMinSide || size.y < kMinSide)
         throw Error(ErrorKind::usage, "view: --size {}: a sheet has at least {} pixels a side",
-                    command.size, kLeastSide);
+                    command.size, kMinSide);
     for (const std::string& output : command.outputs)
         check_output(output, {".png", ".html"}, "view");
     const Volume volume = read_volume(command.from);

@@ -46,7 +46,7 @@ Report describe_volume(const fs::path& path, const char* kind) {
     const Volume volume = read_volume(path);
     Report report = {{"kind", kind}};
     add_frame(report, volume.frame);
-    report["voxels"] = volume.places.size();
+    report["voxels"] = volume.indices.size();
     constexpr std::array kKinds = {"space", "object", "unseen"};
     for (size_t k = 0; k < kKinds.size(); ++k)
         report[fmt::format("{} voxels", kKinds[k])] =

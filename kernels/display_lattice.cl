@@ -24,7 +24,7 @@
 // The least part of a surface's light that is taken back out of the medium before it. The medium's
 // own light has three roundings of 2^-24 by then, and dividing by this makes 18 % of it of them:
 // through more medium they would be all that is left.
-#define VXL_LEAST_PASSED 1e-6f
+#define VXL_MIN_TRANSMITTANCE 1e-6f
 
 static inline float3 middle_of(const DisplayLattice* l, int4 v) {
     return (float3)(fma((float)v.x + 0.5f, l->edge.x, l->corner.x),
@@ -51,8 +51,8 @@ static inline bool is_in_display(const DisplayLattice* l, int4 v) {
     if (squared > l->far_depth * l->far_depth) return false;
     if (l->shape == VXL_SHAPE_BALL) return true;
     // The angle from Z_E by squares: no root, and the cosine may be negative.
-    const float least = l->slope_x * fabs(l->slope_x) * squared;
-    return squared >= l->near_depth * l->near_depth && p.z * fabs(p.z) >= least;
+    const float minimum = l->slope_x * fabs(l->slope_x) * squared;
+    return squared >= l->near_depth * l->near_depth && p.z * fabs(p.z) >= minimum;
 }
 
 /// Voxel number `which` (0 .. 7) of those that a point lies in or on; those that are told twice, or
@@ -68,7 +68,7 @@ static inline int4 voxel_at(const DisplayLattice* l, float3 point, uint which) {
     return v;
 }
 
-static inline size_t place_of(const DisplayLattice* l, int4 v) {
+static inline size_t index_of(const DisplayLattice* l, int4 v) {
     return (size_t)v.x + (size_t)l->size_x * ((size_t)v.y + (size_t)l->size_y * (size_t)v.z);
 }
 
@@ -81,7 +81,7 @@ static inline float3 load_point(global const float* points, uint total, uint n) 
 /// (0xFFFFFFFF) get idle rays. With `search` the views are all `search - 1`, and points that have a
 /// view already are idle; rays then end where the point would be hidden. Without, they begin
 /// shortly before the point and end shortly behind it.
-kernel void aim_rays(Sight sight, PyramidShape shape, DisplayLattice lattice,
+kernel void aim_rays(Camera camera, PyramidShape shape, DisplayLattice lattice,
                      global const float4* restrict views, global const float* restrict points,
                      uint total, global const uint* restrict view_of_point, uint search,
                      uint first_point, uint count, uint stride, global float* restrict rays) {
@@ -104,29 +104,29 @@ kernel void aim_rays(Sight sight, PyramidShape shape, DisplayLattice lattice,
 
     // From E: `way` leads from where the ray begins to the point, `near` is the part of it before
     // the display.
-    const float4 edge = shape.edge, ahead = sight.axis_z;
-    const Vector eye = {p.x - sight.origin.x - sight.origin_low.x,
-                        p.y - sight.origin.y - sight.origin_low.y,
-                        p.z - sight.origin.z - sight.origin_low.z};
+    const float4 edge = shape.edge, ahead = camera.axis_z;
+    const Vector eye = {p.x - camera.origin.x - camera.origin_low.x,
+                        p.y - camera.origin.y - camera.origin_low.y,
+                        p.z - camera.origin.z - camera.origin_low.z};
     const Vector metres = {eye.x * edge.x, eye.y * edge.y, eye.z * edge.z};
     const lane_float depth = fma(metres.x, ahead.x * edge.x,
                                  fma(metres.y, ahead.y * edge.y, metres.z * (ahead.z * edge.z)));
     Vector way = eye;
     lane_float length = exact_sqrt(dot_product(metres, metres));
-    if (sight.shape == VXL_SHAPE_PYRAMID) {
-        const lane_float whole = depth + sight.lead;
+    if (camera.shape == VXL_SHAPE_PYRAMID) {
+        const lane_float whole = depth + camera.lead;
         const lane_float part =
             exact_divide(depth, LANES_SELECT(LANE_MASK(whole > 0.0f), whole, (lane_float)1.0f));
-        way.x = fma((lane_float)ahead.x, (lane_float)sight.lead, eye.x) * part;
-        way.y = fma((lane_float)ahead.y, (lane_float)sight.lead, eye.y) * part;
-        way.z = fma((lane_float)ahead.z, (lane_float)sight.lead, eye.z) * part;
+        way.x = fma((lane_float)ahead.x, (lane_float)camera.lead, eye.x) * part;
+        way.y = fma((lane_float)ahead.y, (lane_float)camera.lead, eye.y) * part;
+        way.z = fma((lane_float)ahead.z, (lane_float)camera.lead, eye.z) * part;
         length = depth;
-    } else if (sight.shape == VXL_SHAPE_BOX) {
+    } else if (camera.shape == VXL_SHAPE_BOX) {
         way.x = ahead.x * depth, way.y = ahead.y * depth, way.z = ahead.z * depth;
         length = depth;
     }
     lane_int is_ahead = LANE_MASK(length > 0.0f);
-    lane_float near = exact_divide((lane_float)sight.near_plane,
+    lane_float near = exact_divide((lane_float)camera.near_plane,
                                    LANES_SELECT(is_ahead, length, (lane_float)1.0f));
     const lane_int parallel = LANE_MASK(view != 0u);
     if (lanes_any(parallel)) {
@@ -182,14 +182,14 @@ kernel void aim_rays(Sight sight, PyramidShape shape, DisplayLattice lattice,
 }
 
 /// Gives `view` to the points first_point .. first_point+count-1 that have none and that nothing
-/// hides in it: nothing is met, or, where surfaces let light through, they cover `most` at most.
+/// hides in it: nothing is met, or, where surfaces let light through, they cover `maximum` at most.
 kernel void note_view(global const uint* restrict hits, global const float* restrict coverage,
-                      uint first_point, uint count, uint stride, uint view, float most,
+                      uint first_point, uint count, uint stride, uint view, float maximum,
                       global uint* restrict view_of_point) {
     const uint n = work_item();
     if (n >= count || view_of_point[first_point + n] != 0xFFFFFFFFu) return;
-    const bool is_clear =
-        VXL_TRANSMISSION ? coverage[n] <= most : hits[VXL_HIT_VOXEL * stride + n] == VXL_NO_VOXEL;
+    const bool is_clear = VXL_TRANSMISSION ? coverage[n] <= maximum
+                                           : hits[VXL_HIT_VOXEL * stride + n] == VXL_NO_VOXEL;
     if (is_clear) view_of_point[first_point + n] = view;
 }
 
@@ -203,7 +203,7 @@ kernel void mark_shown(DisplayLattice lattice, global const float* restrict poin
     for (uint which = 0; which < 8; ++which) {
         const int4 v = voxel_at(&lattice, point, which);
         if (v.x < 0) continue;
-        const size_t place = place_of(&lattice, v);
+        const size_t place = index_of(&lattice, v);
         const uint bit = 1u << (place & 31u);
         if (!(mask[place >> 5] & bit)) atomic_or(mask + (place >> 5), bit);
     }
@@ -221,15 +221,15 @@ kernel void count_groups(global const uint* restrict mask, uint count,
 }
 
 /// Lists the places of the marked voxels in ascending order.
-kernel void list_places(global const uint* restrict mask, global const uint* restrict starts,
-                        uint count, global ulong* restrict places) {
+kernel void list_indices(global const uint* restrict mask, global const uint* restrict starts,
+                         uint count, global ulong* restrict indices) {
     const uint group = work_item();
     if (group >= count) return;
     uint voxel = starts[group];
     for (uint i = 0; i < VXL_GROUP_WORDS; ++i) {
         const size_t word = (size_t)group * VXL_GROUP_WORDS + i;
         for (uint left = mask[word]; left != 0u; left &= left - 1u)
-            places[voxel++] = (ulong)word * 32u + (31u - clz(left & (0u - left)));
+            indices[voxel++] = (ulong)word * 32u + (31u - clz(left & (0u - left)));
     }
 }
 
@@ -254,7 +254,7 @@ kernel void choose_points(DisplayLattice lattice, global const float* restrict p
     for (uint which = 0; which < 8; ++which) {
         const int4 v = voxel_at(&lattice, point, which);
         if (v.x < 0) continue;
-        const uint voxel = number_of(mask, starts, place_of(&lattice, v));
+        const uint voxel = number_of(mask, starts, index_of(&lattice, v));
         const float x = point.x - (float)v.x - 0.5f, y = point.y - (float)v.y - 0.5f,
                     z = point.z - (float)v.z - 0.5f;
         const uint distance = as_uint(fma(x, x, fma(y, y, z * z)));
@@ -285,9 +285,10 @@ kernel void take_points(global const float* restrict points, uint total,
 /// passes by its surface, the voxel gets object 0. The medium between the ray's start and the
 /// surface counts as air. A surface that lets light through has covered `coverage` of it, and
 /// `radiance` is its own.
-kernel void keep_light(Sight sight, PyramidShape shape, Space space,
+kernel void keep_light(Camera camera, PyramidShape shape, Environment environment,
                        global const float* restrict rays, global const uint* restrict hits,
-                       global const float* restrict positions, global const uint* restrict words,
+                       global const float* restrict positions,
+                       global const uint* restrict hit_attributes,
                        global const float* restrict radiance, global const float* restrict coverage,
                        uint light_stride, global const uint* restrict targets, uint listed,
                        uint first_voxel, uint count, uint stride, global float* restrict colors,
@@ -303,29 +304,32 @@ kernel void keep_light(Sight sight, PyramidShape shape, Space space,
         opacity = LANES_SELECT(hit, opacity, (lane_float)1.0f);
     }
     const Vector p = load_vector(positions, stride, first);
-    const float4 edge = shape.edge, ahead = sight.axis_z;
-    const Vector metres = {(p.x - sight.origin.x - sight.origin_low.x) * edge.x,
-                           (p.y - sight.origin.y - sight.origin_low.y) * edge.y,
-                           (p.z - sight.origin.z - sight.origin_low.z) * edge.z};
+    const float4 edge = shape.edge, ahead = camera.axis_z;
+    const Vector metres = {(p.x - camera.origin.x - camera.origin_low.x) * edge.x,
+                           (p.y - camera.origin.y - camera.origin_low.y) * edge.y,
+                           (p.z - camera.origin.z - camera.origin_low.z) * edge.z};
     lane_float depth = exact_sqrt(dot_product(metres, metres));
-    if (sight.shape == VXL_SHAPE_PYRAMID || sight.shape == VXL_SHAPE_BOX)
-        depth = sight.lead + fma(metres.x, ahead.x * edge.x,
-                                 fma(metres.y, ahead.y * edge.y, metres.z * (ahead.z * edge.z)));
+    if (camera.shape == VXL_SHAPE_PYRAMID || camera.shape == VXL_SHAPE_BOX)
+        depth = camera.lead + fma(metres.x, ahead.x * edge.x,
+                                  fma(metres.y, ahead.y * edge.y, metres.z * (ahead.z * edge.z)));
     lane_float path = (lane_float)0.0f;
     if (VXL_MEDIUM) {
         const Vector d = load_vector(rays + VXL_RAY_DX * stride, stride, first);
         const lane_float t = LANES_AS_FLOAT(LANES_LOAD(hits, VXL_HIT_T * stride + first));
         path = LANES_SELECT(hit, t, (lane_float)0.0f) * metres_per_t(edge, d);
     }
-    const float absorption[3] = {space.absorption.x, space.absorption.y, space.absorption.z};
-    const float color[3] = {space.color.x, space.color.y, space.color.z};
+    const float absorption[3] = {environment.absorption.x, environment.absorption.y,
+                                 environment.absorption.z};
+    const float color[3] = {environment.color.x, environment.color.y, environment.color.z};
     float shown[5 * VXL_LANES];
     for (uint channel = 0; channel < 3; ++channel) {
         lane_float value = LANES_LOAD(radiance, channel * light_stride + first);
         if (VXL_MEDIUM) {
-            const lane_float passed =
-                fmax(exact_exp(-absorption[channel] * path), VXL_LEAST_PASSED);
-            value = fmax(exact_divide(fma(-color[channel], 1.0f - passed, value), passed), 0.0f);
+            const lane_float transmittance =
+                fmax(exact_exp(-absorption[channel] * path), VXL_MIN_TRANSMITTANCE);
+            value =
+                fmax(exact_divide(fma(-color[channel], 1.0f - transmittance, value), transmittance),
+                     0.0f);
         }
         if (VXL_TRANSMISSION) value = exact_divide(value, opacity);
         LANES_STORE(LANES_SELECT(hit, value, (lane_float)0.0f), shown, channel * VXL_LANES);
@@ -333,8 +337,8 @@ kernel void keep_light(Sight sight, PyramidShape shape, Space space,
     LANES_STORE(depth, shown, 3 * VXL_LANES);
     LANES_STORE(opacity, shown, 4 * VXL_LANES);
     uint object[VXL_LANES];
-    LANES_STORE(((LANES_LOAD(words, first) & VXL_OBJECT_MASK) + 1u) & LANES_AS_UINT(hit), object,
-                0);
+    LANES_STORE(((LANES_LOAD(hit_attributes, first) & VXL_OBJECT_MASK) + 1u) & LANES_AS_UINT(hit),
+                object, 0);
     for (uint i = 0; i < VXL_LANES && first + i < count; ++i) {
         const size_t voxel = listed ? targets[first_voxel + first + i] : first_voxel + first + i;
         objects[voxel] = object[i];

@@ -17,7 +17,7 @@
 #define VXL_NO_STEP 0xFFFFFFFFu
 
 // Less than this share of the light behind is not told from none.
-#define VXL_LEAST_PASSED 9.5367431640625e-7f
+#define VXL_MIN_TRANSMITTANCE 9.5367431640625e-7f
 
 // Values of the array `spans`, `total` apart. Depths are metres beyond the near surface.
 #define VXL_SPAN_FIRST 0  // where the ray is in the world
@@ -27,24 +27,24 @@
 
 /// How far a point, in voxels from E's `lead`, is away from there in metres: along Z_E, or along
 /// the ray.
-static inline lane_float depth_of(const Sight* sight, float4 edge, Vector from_eye) {
+static inline lane_float depth_of(const Camera* camera, float4 edge, Vector from_eye) {
     const Vector metres = {from_eye.x * edge.x, from_eye.y * edge.y, from_eye.z * edge.z};
-    if (sight->shape == VXL_SHAPE_SECTOR || sight->shape == VXL_SHAPE_BALL)
+    if (camera->shape == VXL_SHAPE_SECTOR || camera->shape == VXL_SHAPE_BALL)
         return exact_sqrt(dot_product(metres, metres));
     // Z_E in voxels per metre, times the edge, is a unit vector.
-    return fma(metres.x, sight->axis_z.x * edge.x,
-               fma(metres.y, sight->axis_z.y * edge.y, metres.z * (sight->axis_z.z * edge.z)));
+    return fma(metres.x, camera->axis_z.x * edge.x,
+               fma(metres.y, camera->axis_z.y * edge.y, metres.z * (camera->axis_z.z * edge.z)));
 }
 
-static inline Vector from_eye(const Sight* sight, Vector p) {
-    const Vector result = {p.x - sight->origin.x - sight->origin_low.x,
-                           p.y - sight->origin.y - sight->origin_low.y,
-                           p.z - sight->origin.z - sight->origin_low.z};
+static inline Vector from_eye(const Camera* camera, Vector p) {
+    const Vector result = {p.x - camera->origin.x - camera->origin_low.x,
+                           p.y - camera->origin.y - camera->origin_low.y,
+                           p.z - camera->origin.z - camera->origin_low.z};
     return result;
 }
 
 /// 1 - e^-x for x >= 0, with a small relative error near 0 as well.
-static inline lane_float covered_share(lane_float x) {
+static inline lane_float covered_part(lane_float x) {
     lane_float p = fma(x, 8.33333333e-3f, -4.16666667e-2f);
     p = fma(p, x, 1.66666667e-1f);
     p = fma(p, x, -0.5f);
@@ -61,9 +61,10 @@ static inline lane_uint step_of(const DisplaySteps* steps, lane_float depth) {
 /// Keeps of rays 0 .. count-1, which are the image's from `first_ray` on, what their voxels need:
 /// the step of the surface met (VXL_NO_STEP: none), its depth in metres, and the span in the
 /// medium.
-kernel void measure_steps(Sight sight, PyramidShape shape, DisplaySteps steps,
+kernel void measure_steps(Camera camera, PyramidShape shape, DisplaySteps steps,
                           global const float* restrict rays, global const uint* restrict hits,
-                          global const float* restrict positions, global const uint* restrict words,
+                          global const float* restrict positions,
+                          global const uint* restrict hit_attributes,
                           global const float* restrict radiance, uint count, uint stride,
                           uint first_ray, uint total, global uint* restrict hit_steps,
                           global float* restrict depths, global uint* restrict objects,
@@ -74,11 +75,11 @@ kernel void measure_steps(Sight sight, PyramidShape shape, DisplaySteps steps,
     const lane_int hit =
         LANE_MASK(LANES_LOAD(hits, VXL_HIT_VOXEL * stride + first) != VXL_NO_VOXEL);
     const lane_float depth =
-        depth_of(&sight, shape.edge, from_eye(&sight, load_vector(positions, stride, first)));
-    const lane_uint step = step_of(&steps, depth - sight.near_plane);
+        depth_of(&camera, shape.edge, from_eye(&camera, load_vector(positions, stride, first)));
+    const lane_uint step = step_of(&steps, depth - camera.near_plane);
     LANES_STORE(LANES_SELECT(hit, step, (lane_uint)VXL_NO_STEP), hit_steps, place);
-    LANES_STORE(depth + sight.lead, depths, place);
-    const lane_uint object = (LANES_LOAD(words, first) & VXL_OBJECT_MASK) + 1u;
+    LANES_STORE(depth + camera.lead, depths, place);
+    const lane_uint object = (LANES_LOAD(hit_attributes, first) & VXL_OBJECT_MASK) + 1u;
     LANES_STORE(object & LANES_AS_UINT(hit), objects, place);
     for (uint channel = 0; channel < 3; ++channel)
         LANES_STORE(LANES_LOAD(radiance, channel * stride + first), colors,
@@ -94,9 +95,10 @@ kernel void measure_steps(Sight sight, PyramidShape shape, DisplaySteps steps,
     const lane_float t = fmax(LANES_SELECT(hit, t_hit, t_last), 0.0f);
     const lane_float metres = metres_per_t(shape.edge, d);
     lane_float along = metres;  // depth a unit of t
-    if (sight.shape == VXL_SHAPE_PYRAMID || sight.shape == VXL_SHAPE_BOX)
-        along = depth_of(&sight, shape.edge, d);
-    const lane_float begin = depth_of(&sight, shape.edge, from_eye(&sight, o)) - sight.near_plane;
+    if (camera.shape == VXL_SHAPE_PYRAMID || camera.shape == VXL_SHAPE_BOX)
+        along = depth_of(&camera, shape.edge, d);
+    const lane_float begin =
+        depth_of(&camera, shape.edge, from_eye(&camera, o)) - camera.near_plane;
     const lane_float end = fma(along, t, begin);
     const lane_int seen = LANE_MASK(t_end >= 0.0f);
     LANES_STORE(begin, spans, VXL_SPAN_FIRST * total + place);
@@ -107,11 +109,11 @@ kernel void measure_steps(Sight sight, PyramidShape shape, DisplaySteps steps,
 
 /// Writes a record of VXL_LAYER_WORDS words, `count` apart, of every entry of a layer of surfaces,
 /// 0 .. count-1. `seen` holds the light and the coverage of the rays' nodes before the layer.
-kernel void measure_layer(Sight sight, PyramidShape shape, DisplaySteps steps, uint is_first,
+kernel void measure_layer(Camera camera, PyramidShape shape, DisplaySteps steps, uint is_first,
                           global const float* restrict rays, global const uint* restrict paths,
                           global const float* restrict starts, global const uint* restrict inside,
                           global const uint* restrict hits, global const float* restrict positions,
-                          global const uint* restrict words, uint count, uint stride,
+                          global const uint* restrict hit_attributes, uint count, uint stride,
                           global const float* restrict nodes, global const float* restrict coverage,
                           uint node_stride, uint first_ray, global float* restrict seen,
                           global uint* restrict records) {
@@ -146,22 +148,24 @@ kernel void measure_layer(Sight sight, PyramidShape shape, DisplaySteps steps, u
     const lane_float to = hit ? (lane_float)as_float(hits[VXL_HIT_T * stride + n]) : t_last;
     const lane_float metres = metres_per_t(shape.edge, d);
     lane_float along = metres;
-    if (sight.shape == VXL_SHAPE_PYRAMID || sight.shape == VXL_SHAPE_BOX)
-        along = depth_of(&sight, shape.edge, d);
-    const lane_float origin = depth_of(&sight, shape.edge, from_eye(&sight, o)) - sight.near_plane;
-    const lane_float depth = depth_of(&sight, shape.edge, from_eye(&sight, at));
+    if (camera.shape == VXL_SHAPE_PYRAMID || camera.shape == VXL_SHAPE_BOX)
+        along = depth_of(&camera, shape.edge, d);
+    const lane_float origin =
+        depth_of(&camera, shape.edge, from_eye(&camera, o)) - camera.near_plane;
+    const lane_float depth = depth_of(&camera, shape.edge, from_eye(&camera, at));
     const bool idle = t_end < 0.0f;
     const lane_float begin = fma(along, from, origin);
     const lane_float values[5] = {
-        depth + sight.lead, begin, idle ? begin : fmax(fma(along, to, origin), begin),
-        idle ? (lane_float)1.0f : exact_divide(metres, along), depth - sight.near_plane};
+        depth + camera.lead, begin, idle ? begin : fmax(fma(along, to, origin), begin),
+        idle ? (lane_float)1.0f : exact_divide(metres, along), depth - camera.near_plane};
     float one[5 * VXL_LANES];
     for (int i = 0; i < 5; ++i) LANES_STORE(values[i], one, i * VXL_LANES);
     uint step[VXL_LANES];
     LANES_STORE(step_of(&steps, values[4]), step, 0);
 
     records[VXL_LAYER_RAY * count + n] = first_ray + ray;
-    records[VXL_LAYER_OBJECT * count + n] = hit && !idle ? (words[n] & VXL_OBJECT_MASK) + 1u : 0u;
+    records[VXL_LAYER_OBJECT * count + n] =
+        hit && !idle ? (hit_attributes[n] & VXL_OBJECT_MASK) + 1u : 0u;
     records[VXL_LAYER_STEP * count + n] = step[0];
     records[VXL_LAYER_IN_MEDIUM * count + n] = !VXL_TRANSMISSION || inside[n] == 0u;
     const float opacity = clear < clear_before ? 1.0f - clear / clear_before : 0.0f;
@@ -170,17 +174,17 @@ kernel void measure_layer(Sight sight, PyramidShape shape, DisplaySteps steps, u
         records[(VXL_LAYER_DEPTH + i) * count + n] = as_uint(one[i * VXL_LANES]);
     for (uint c = 0; c < 3; ++c) {
         records[(VXL_LAYER_LIGHT + c) * count + n] = as_uint(light[c]);
-        records[(VXL_LAYER_PASSED + c) * count + n] =
-            VXL_TRANSMISSION ? paths[(VXL_PATH_PASSED + c) * stride + n] : as_uint(1.0f);
+        records[(VXL_LAYER_THROUGHPUT + c) * count + n] =
+            VXL_TRANSMISSION ? paths[(VXL_PATH_THROUGHPUT + c) * stride + n] : as_uint(1.0f);
     }
 }
 
 /// Adds what lies between two depths beyond the near surface to the steps there.
 static inline void add_to_steps(DisplaySteps steps, float from, float to, float amount,
                                 global float* amounts, uint stride) {
-    const float most = (float)(steps.count - 1);
-    const uint first = (uint)clamp(from * steps.inverse_step, 0.0f, most);
-    const uint last = (uint)clamp(to * steps.inverse_step, 0.0f, most);
+    const float maximum = (float)(steps.count - 1);
+    const uint first = (uint)clamp(from * steps.inverse_step, 0.0f, maximum);
+    const uint last = (uint)clamp(to * steps.inverse_step, 0.0f, maximum);
     if (first >= last) {
         amounts[(size_t)first * stride] += amount;
         return;
@@ -195,7 +199,7 @@ static inline void add_to_steps(DisplaySteps steps, float from, float to, float 
 
 /// Sums density times metres in every step k of entries first_entry .. first_entry+count-1 of a
 /// layer: amounts[k * amount_stride + n], which are zero before.
-kernel void measure_density(Sight sight, PyramidShape shape, DisplaySteps steps,
+kernel void measure_density(Camera camera, PyramidShape shape, DisplaySteps steps,
                             DensityShape density_shape, global const uint* restrict density_bricks,
                             global const float* restrict density_values, uint is_first,
                             global const float* restrict rays, global const float* restrict starts,
@@ -221,9 +225,10 @@ kernel void measure_density(Sight sight, PyramidShape shape, DisplaySteps steps,
     }
     const lane_float metres = metres_per_t(shape.edge, d);
     lane_float along = metres;
-    if (sight.shape == VXL_SHAPE_PYRAMID || sight.shape == VXL_SHAPE_BOX)
-        along = depth_of(&sight, shape.edge, d);
-    const lane_float origin = depth_of(&sight, shape.edge, from_eye(&sight, o)) - sight.near_plane;
+    if (camera.shape == VXL_SHAPE_PYRAMID || camera.shape == VXL_SHAPE_BOX)
+        along = depth_of(&camera, shape.edge, d);
+    const lane_float origin =
+        depth_of(&camera, shape.edge, from_eye(&camera, o)) - camera.near_plane;
     Walk w = begin_walk(o.x, o.y, o.z, d.x, d.y, d.z);
     lane_float entered = t_first;
     walking &= LANE_MASK(t_end >= 0.0f) & in_grid(&p, &w) & LANE_MASK(t_first < t_last);
@@ -266,9 +271,10 @@ static inline RaySteps steps_of_ray(DisplaySteps steps, global const uint* hit_s
     const float begin = spans[VXL_SPAN_FIRST * total + ray];
     const float end = spans[VXL_SPAN_END * total + ray];
     if (!(begin < end) || steps.absorption == 0.0f) return s;
-    const float most = (float)(steps.count - 1);
-    s.first = (uint)clamp(begin * steps.inverse_step, 0.0f, most);
-    s.end = s.hit != VXL_NO_STEP ? s.hit : (uint)clamp(end * steps.inverse_step, 0.0f, most) + 1u;
+    const float maximum = (float)(steps.count - 1);
+    s.first = (uint)clamp(begin * steps.inverse_step, 0.0f, maximum);
+    s.end =
+        s.hit != VXL_NO_STEP ? s.hit : (uint)clamp(end * steps.inverse_step, 0.0f, maximum) + 1u;
     return s;
 }
 
@@ -289,7 +295,7 @@ kernel void count_voxels(uint width, uint height, DisplaySteps steps,
 /// the ray of each.
 kernel void place_voxels(uint width, uint height, DisplaySteps steps,
                          global const uint* restrict hit_steps, global const float* restrict spans,
-                         uint total, global uint* restrict starts, global ulong* restrict places,
+                         uint total, global uint* restrict starts, global ulong* restrict indices,
                          global uint* restrict sources) {
     const uint v = work_item();
     if (v >= height) return;
@@ -298,12 +304,12 @@ kernel void place_voxels(uint width, uint height, DisplaySteps steps,
         const RaySteps s = steps_of_ray(steps, hit_steps, spans, total, ray);
         for (uint k = s.first; k < s.end; ++k) {
             const uint voxel = starts[v + (size_t)height * k]++;
-            places[voxel] = u + (ulong)width * (v + (ulong)height * k);
+            indices[voxel] = u + (ulong)width * (v + (ulong)height * k);
             sources[voxel] = ray;
         }
         if (s.hit == VXL_NO_STEP) continue;
         const uint voxel = starts[v + (size_t)height * s.hit]++;
-        places[voxel] = u + (ulong)width * (v + (ulong)height * s.hit);
+        indices[voxel] = u + (ulong)width * (v + (ulong)height * s.hit);
         sources[voxel] = ray;
     }
 }
@@ -315,8 +321,9 @@ kernel void place_voxels(uint width, uint height, DisplaySteps steps,
 /// passes on what the least absorbed channel keeps; the rest that other channels lose is taken from
 /// the colours behind. A surface's radiance came through all of the medium: what the voxels before
 /// it add is subtracted again, and what they cover given back.
-kernel void fill_voxels(uint width, uint height, DisplaySteps steps, float near_depth, Space space,
-                        global const ulong* restrict places, global const uint* restrict hit_steps,
+kernel void fill_voxels(uint width, uint height, DisplaySteps steps, float near_depth,
+                        Environment environment, global const ulong* restrict indices,
+                        global const uint* restrict hit_steps,
                         global const float* restrict ray_depths,
                         global const uint* restrict ray_objects,
                         global const float* restrict ray_colors, global const float* restrict spans,
@@ -328,13 +335,13 @@ kernel void fill_voxels(uint width, uint height, DisplaySteps steps, float near_
     const lane_int there = LANE_MASK(LANES_NUMBERS + (int)first < (int)count);
     uint layer[VXL_LANES];
     for (uint i = 0; i < VXL_LANES; ++i)
-        layer[i] = first + i < count ? (uint)(places[first + i] / ((ulong)width * height)) : 0;
+        layer[i] = first + i < count ? (uint)(indices[first + i] / ((ulong)width * height)) : 0;
     const lane_uint k = LANES_LOAD(layer, 0);
     const lane_uint ray = LANES_LOAD(objects, first) & LANES_AS_UINT(there);
     const lane_int is_object = LANE_MASK(LANES_GATHER_UINT(hit_steps, ray) == k);
     lane_float depth = LANES_GATHER_FLOAT(ray_depths, ray);
     lane_float opacity = (lane_float)1.0f, before = (lane_float)0.0f, inside = (lane_float)0.0f;
-    lane_float passed = (lane_float)1.0f;  // by the opacities of the voxels before
+    lane_float throughput = (lane_float)1.0f;  // by the opacities of the voxels before
     if (VXL_MEDIUM) {
         const lane_float begin = LANES_GATHER_FLOAT(spans, ray + VXL_SPAN_FIRST * total);
         const lane_float end = LANES_GATHER_FLOAT(spans, ray + VXL_SPAN_END * total);
@@ -343,24 +350,25 @@ kernel void fill_voxels(uint width, uint height, DisplaySteps steps, float near_
         const lane_float to = fmin((LANES_FLOAT(k) + 1.0f) * steps.step, end);
         before = fmax(from - begin, 0.0f) * ratio;
         inside = fmax(to - from, 0.0f) * ratio;
-        passed = fmax(exact_exp(-steps.absorption * before), VXL_LEAST_PASSED);
-        opacity = LANES_SELECT(is_object, opacity, covered_share(steps.absorption * inside));
+        throughput = fmax(exact_exp(-steps.absorption * before), VXL_MIN_TRANSMITTANCE);
+        opacity = LANES_SELECT(is_object, opacity, covered_part(steps.absorption * inside));
         const lane_float middle = fma(LANES_FLOAT(k) + 0.5f, steps.step, near_depth);
         depth = LANES_SELECT(is_object, depth, middle);
     }
-    const float absorption[3] = {space.absorption.x, space.absorption.y, space.absorption.z};
-    const float color[3] = {space.color.x, space.color.y, space.color.z};
+    const float absorption[3] = {environment.absorption.x, environment.absorption.y,
+                                 environment.absorption.z};
+    const float color[3] = {environment.color.x, environment.color.y, environment.color.z};
     float shown[3 * VXL_LANES];
     for (uint channel = 0; channel < 3; ++channel) {
         lane_float value = LANES_GATHER_FLOAT(ray_colors, ray + channel * total);
         if (VXL_MEDIUM) {
             const lane_float kept = exact_exp(-absorption[channel] * before);
             const lane_float added =
-                color[channel] * covered_share(absorption[channel] * inside) * kept;
+                color[channel] * covered_part(absorption[channel] * inside) * kept;
             const lane_float of_surface =
-                fma(-color[channel], covered_share(absorption[channel] * before), value);
+                fma(-color[channel], covered_part(absorption[channel] * before), value);
             const lane_float part = LANES_SELECT(is_object, of_surface, added);
-            const lane_float share = fmax(passed * opacity, 1.17549435e-38f);
+            const lane_float share = fmax(throughput * opacity, 1.17549435e-38f);
             value = fmax(exact_divide(part, share), 0.0f);
         }
         LANES_STORE(value, shown, channel * VXL_LANES);

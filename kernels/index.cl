@@ -126,12 +126,12 @@ kernel void write_voxels(const uint count, const uint2 kinds, const uint attribu
             const size_t voxel = (size_t)slot * VXL_BRICK_VOXELS + place;
             const bool smooth = VXL_SMOOTH && !(occupied >> bit & 1);
             if (VXL_WRITE_ATTRIBUTES) {
-                const uint word = VXL_ATTRIBUTES ? attributes[voxel] : attribute;
+                const uint packed = VXL_ATTRIBUTES ? attributes[voxel] : attribute;
                 const uint without_kind =
-                    word & (VXL_MATERIAL_MASK << VXL_MATERIAL_SHIFT | VXL_OBJECT_MASK);
+                    packed & (VXL_MATERIAL_MASK << VXL_MATERIAL_SHIFT | VXL_OBJECT_MASK);
                 // An occupied voxel of a grid with attributes says itself whether it is exact.
                 voxel_attributes[number] = smooth           ? without_kind | kinds.y
-                                           : VXL_ATTRIBUTES ? word
+                                           : VXL_ATTRIBUTES ? packed
                                                             : without_kind | kinds.x;
             }
             if (VXL_COLORS) voxel_colors[number] = colors[voxel];

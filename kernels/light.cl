@@ -4,13 +4,13 @@
 #include "lib/lanes/vector.h"
 #include "lib/lanes/work_item.h"
 #include "lib/surface/surface_color.h"
-#include "lib/traverse/lift.h"
+#include "lib/traverse/offset_origin.h"
 #include "shared/scene.h"
 #include "shared/trace.h"
 
 /// The part of a spot's light that goes along the unit vector `to_surface`: smoothstep of the
 /// cosine.
-static inline lane_float spot_share(LightRecord light, Vector to_surface) {
+static inline lane_float spot_falloff(LightRecord light, Vector to_surface) {
     const Vector along = {(lane_float)light.direction.x, (lane_float)light.direction.y,
                           (lane_float)light.direction.z};
     const lane_float cosine = dot_product(along, to_surface);
@@ -20,11 +20,12 @@ static inline lane_float spot_share(LightRecord light, Vector to_surface) {
     return s * s * fma(-2.0f, s, 3.0f);
 }
 
-/// What a small patch of a glowing surface gives to a point at distance d, where it is seen at an
+/// What a small patch of an emissive surface gives to a point at distance d, where it is seen at an
 /// angle with this cosine: cosine / (d^2 + A/pi). Beside a disk's middle that is exact, from far
 /// away it is the cosine over d^2, and no nearness makes it more than all the light that a
 /// surface can get (Wallace, Elmquist and Haines 1989).
-static inline lane_float patch_falloff(LightRecord light, Vector to_surface, lane_float squared) {
+static inline lane_float area_sample_falloff(LightRecord light, Vector to_surface,
+                                             lane_float squared) {
     const Vector normal = {(lane_float)light.direction.x, (lane_float)light.direction.y,
                            (lane_float)light.direction.z};
     const lane_float cosine = dot_product(normal, to_surface);
@@ -40,10 +41,10 @@ kernel void add_light(PyramidShape shape, LightRecord light, global const float*
                       global const uint* restrict colors, global const float* restrict rays,
                       global const uint* restrict hits, uint count, uint stride,
                       global const float* restrict positions, global const float* restrict normals,
-                      global const uint* restrict words, global const uint* restrict sides,
+                      global const uint* restrict hit_attributes, global const uint* restrict sides,
                       global float* restrict radiance, global uint* restrict queue_count,
                       global float* restrict queue_rays, global uint* restrict targets,
-                      global uint* restrict sources, global float* restrict shares) {
+                      global uint* restrict sources, global float* restrict contributions) {
     const uint first = work_item() * VXL_LANES;
     if (first >= count) return;
     const float4 edge = shape.edge;
@@ -73,11 +74,11 @@ kernel void add_light(PyramidShape shape, LightRecord light, global const float*
         falloff = exact_reciprocal(LANES_SELECT(lit, squared, (lane_float)1.0f));
     if (light.kind == VXL_LIGHT_SPOT) {
         const Vector to_surface = {-l.x, -l.y, -l.z};
-        falloff *= spot_share(light, to_surface);
+        falloff *= spot_falloff(light, to_surface);
     }
-    if (VXL_PATCHES && light.kind == VXL_LIGHT_PATCH) {
+    if (VXL_AREA_SAMPLES && light.kind == VXL_LIGHT_AREA_SAMPLE) {
         const Vector to_surface = {-l.x, -l.y, -l.z};
-        falloff = patch_falloff(light, to_surface, squared);
+        falloff = area_sample_falloff(light, to_surface, squared);
     }
     lit &= LANE_MASK(falloff > 0.0f);
     if (!lanes_any(lit)) return;
@@ -88,8 +89,8 @@ kernel void add_light(PyramidShape shape, LightRecord light, global const float*
     const Vector view = unit(towards);
     const Vector between = {l.x + view.x, l.y + view.y, l.z + view.z};
     const lane_float highlight = clamp(dot_product(normal, unit(between)), 0.0f, 1.0f);
-    const lane_uint word = LANES_LOAD(words, first);
-    const lane_uint material = material_place(word) & LANES_AS_UINT(lit);
+    const lane_uint packed = LANES_LOAD(hit_attributes, first);
+    const lane_uint material = material_offset(packed) & LANES_AS_UINT(lit);
     const lane_float diffuse =
         LANES_GATHER_FLOAT(materials, material + VXL_MATERIAL_DIFFUSE) * cosine;
     const lane_float specular =
@@ -101,28 +102,29 @@ kernel void add_light(PyramidShape shape, LightRecord light, global const float*
     const Vector direction = {snap_direction(to_light.x * scale),
                               snap_direction(to_light.y * scale),
                               snap_direction(to_light.z * scale)};
-    const Vector start = lifted(shape, position, normal, hits, stride, first);
+    const Vector start = offset_origin(shape, position, normal, hits, stride, first);
     const Vector origin = {
         clamp(snap_position(start.x, normal.x, shape.fixed_point), 0.0f, (float)shape.size_x),
         clamp(snap_position(start.y, normal.y, shape.fixed_point), 0.0f, (float)shape.size_y),
         clamp(snap_position(start.z, normal.z, shape.fixed_point), 0.0f, (float)shape.size_z)};
     lane_float t_end = (lane_float)INFINITY;
     if (light.kind != VXL_LIGHT_DIRECTIONAL) t_end = exact_reciprocal(scale);
-    const float energy[3] = {light.energy.x, light.energy.y, light.energy.z};
+    const float intensity[3] = {light.intensity.x, light.intensity.y, light.intensity.z};
     falloff *= surface_opacity(materials, material, colors, voxel);
-    const lane_uint color_at = color_place(materials, material, position.x, position.y, position.z);
-    lane_float share[3];
-    lane_int any_share = (lane_int)0;
+    const lane_uint color_at =
+        color_offset(materials, material, position.x, position.y, position.z);
+    lane_float contribution[3];
+    lane_int any_contribution = (lane_int)0;
     for (int channel = 0; channel < 3; ++channel) {
         const lane_float color = surface_color(materials, color_at, colors, voxel, channel);
-        share[channel] = fma(color, diffuse, specular) * falloff * energy[channel];
-        any_share |= LANE_MASK(share[channel] > 0.0f);
+        contribution[channel] = fma(color, diffuse, specular) * falloff * intensity[channel];
+        any_contribution |= LANE_MASK(contribution[channel] > 0.0f);
     }
-    lit &= any_share;
+    lit &= any_contribution;
     if (!(VXL_SHADOWS | VXL_MEDIUM)) {
         for (int channel = 0; channel < 3; ++channel) {
             const uint place = (uint)channel * stride + first;
-            const lane_float sum = LANES_LOAD(radiance, place) + share[channel];
+            const lane_float sum = LANES_LOAD(radiance, place) + contribution[channel];
             LANES_STORE(LANES_SELECT(lit, sum, LANES_LOAD(radiance, place)), radiance, place);
         }
         return;
@@ -143,16 +145,17 @@ kernel void add_light(PyramidShape shape, LightRecord light, global const float*
     LANES_STORE(direction.y, queued, 4 * VXL_LANES);
     LANES_STORE(direction.z, queued, 5 * VXL_LANES);
     LANES_STORE(t_end, queued, 6 * VXL_LANES);
-    LANES_STORE(share[0], queued, 7 * VXL_LANES);
-    LANES_STORE(share[1], queued, 8 * VXL_LANES);
-    LANES_STORE(share[2], queued, 9 * VXL_LANES);
+    LANES_STORE(contribution[0], queued, 7 * VXL_LANES);
+    LANES_STORE(contribution[1], queued, 8 * VXL_LANES);
+    LANES_STORE(contribution[2], queued, 9 * VXL_LANES);
     if (VXL_EXACT) LANES_STORE(LANES_LOAD(hits, VXL_HIT_PRIMITIVE * stride + first), source, 0);
     for (int lane = 0; lane < VXL_LANES; ++lane) {
         if (!lit_lane[lane]) continue;
         for (uint c = 0; c < VXL_RAY_COMPONENTS; ++c)
             queue_rays[c * stride + place] = queued[c * VXL_LANES + (uint)lane];
         for (uint c = 0; c < 3; ++c)
-            shares[c * stride + place] = queued[(VXL_RAY_COMPONENTS + c) * VXL_LANES + (uint)lane];
+            contributions[c * stride + place] =
+                queued[(VXL_RAY_COMPONENTS + c) * VXL_LANES + (uint)lane];
         targets[place] = first + (uint)lane;
         if (VXL_EXACT) sources[place] = source[lane];
         ++place;

@@ -6,14 +6,14 @@
 /// Sends the beams of `count` tiles of the grid and leaves in `ends`, at their places in it, how
 /// far they come: what their rays meet lies at this coordinate of the grid's axis or beyond it, of
 /// minus that axis where its sign is negative; +infinity where they meet nothing. `shape`,
-/// `sectors` and `bricks` are the halo's.
+/// `sectors` and `bricks` are the dilated occupancy's.
 kernel void send_light_beams(PyramidShape shape, global const uint* restrict sectors,
                              global const uint* restrict bricks, BeamGrid grid,
                              global const uint* restrict tiles, uint count,
                              global float* restrict ends) {
     const uint first = work_item() * VXL_LANES;
     if (first >= count * VXL_BEAM_TILE) return;
-    const PyramidView halo = pyramid_view(shape, sectors, bricks, 0, 0);
+    const PyramidView dilated_occupancy = pyramid_view(shape, sectors, bricks, 0, 0);
     const uint tile = tiles[first / VXL_BEAM_TILE], beside = grid.columns / 4;
     const lane_int beam = LANES_NUMBERS + (int)(first % VXL_BEAM_TILE);
     const lane_int column = (int)(tile % beside * 4) + (beam & 3);
@@ -24,7 +24,7 @@ kernel void send_light_beams(PyramidShape shape, global const uint* restrict sec
     const int size = grid.axis == 0 ? shape.size_x : grid.axis == 1 ? shape.size_y : shape.size_z;
     const float s_near = grid.sign > 0.0f ? 0.0f : -(float)size;
     const float s_far = s_near + (float)size;
-    // The far side itself: a coarse halo's grid may end beyond it.
+    // The far side itself: a coarse dilated occupancy's grid may end beyond it.
     const float s_grid = grid.sign * grid.scale * grid.far_side;
     BeamAxis b, c;
     b.m = grid.sign * (grid.slope_b - at_b * grid.converging);
@@ -32,8 +32,8 @@ kernel void send_light_beams(PyramidShape shape, global const uint* restrict sec
     b.b0 = grid.scale * at_b - b.m * s_grid;
     c.b0 = grid.scale * at_c - c.m * s_grid;
     b.r0 = c.r0 = b.e = c.e = (lane_float)0.0f;  // the squares are as wide as beams may be
-    const lane_float s = run_beams(&halo, (lane_int)grid.axis, (lane_float)grid.sign, &b, &c,
-                                   (lane_float)s_near, (lane_float)s_far, (lane_int)-1);
+    const lane_float s = run_beams(&dilated_occupancy, (lane_int)grid.axis, (lane_float)grid.sign,
+                                   &b, &c, (lane_float)s_near, (lane_float)s_far, (lane_int)-1);
     const lane_float end = (s - 2.0f * VXL_BEAM_STEP) * (1.0f / grid.scale);
     LANES_STORE(LANES_SELECT(LANE_MASK(s >= s_far), (lane_float)INFINITY, end), ends,
                 tile * VXL_BEAM_TILE + first % VXL_BEAM_TILE);

@@ -36,14 +36,14 @@ static inline lane_float depth_of(PyramidShape shape, const DensityView* density
 }
 
 /// Gives each ray's radiance what the medium does to it between the ray's start, or its segment's,
-/// and its end. `passed` takes the part of the light that comes through.
-kernel void absorb_sight(PyramidShape shape, Space space, DensityShape density_shape,
+/// and its end. `transmittance` takes the part of the light that comes through.
+kernel void absorb_sight(PyramidShape shape, Environment environment, DensityShape density_shape,
                          global const uint* restrict density_bricks,
                          global const float* restrict density_values,
                          global const float* restrict materials, global const float* restrict rays,
                          global const uint* restrict hits, global const float* restrict starts,
                          global const uint* restrict inside, uint count, uint stride,
-                         global float* restrict radiance, global float* restrict passed) {
+                         global float* restrict radiance, global float* restrict transmittance) {
     const uint first = work_item() * VXL_LANES;
     if (first >= count) return;
     const DensityView density = {density_shape, density_bricks, density_values};
@@ -70,8 +70,9 @@ kernel void absorb_sight(PyramidShape shape, Space space, DensityShape density_s
     if (VXL_TRANSMISSION && lanes_any(in_object))
         depth = LANES_SELECT(in_object, length_in_world(shape, &segment), depth);
     depth = LANES_SELECT(active, depth * metres, (lane_float)0.0f);
-    const float absorption[3] = {space.absorption.x, space.absorption.y, space.absorption.z};
-    const float color[3] = {space.color.x, space.color.y, space.color.z};
+    const float absorption[3] = {environment.absorption.x, environment.absorption.y,
+                                 environment.absorption.z};
+    const float color[3] = {environment.color.x, environment.color.y, environment.color.z};
     for (int channel = 0; channel < 3; ++channel) {
         const uint place = (uint)channel * stride + first;
         lane_float per_metre = (lane_float)absorption[channel];
@@ -84,21 +85,21 @@ kernel void absorb_sight(PyramidShape shape, Space space, DensityShape density_s
             shown = LANES_SELECT(in_object, (lane_float)0.0f, shown);
         }
         const lane_float tau = per_metre * depth;
-        const lane_float share = exact_exp(-tau);
+        const lane_float weight = exact_exp(-tau);
         const lane_float behind = LANES_LOAD(radiance, place);
-        LANES_STORE(fma(share, behind, shown * exact_rise(tau)), radiance, place);
-        if (VXL_PATHS) LANES_STORE(share, passed, place);
+        LANES_STORE(fma(weight, behind, shown * exact_rise(tau)), radiance, place);
+        if (VXL_PATHS) LANES_STORE(weight, transmittance, place);
     }
 }
 
 /// Takes from the light that waits in the queue of shadow rays what the medium keeps on its way.
 /// Without shadows it then arrives: every target stands in the queue at most once.
-kernel void absorb_shadows(PyramidShape shape, Space space, DensityShape density_shape,
+kernel void absorb_shadows(PyramidShape shape, Environment environment, DensityShape density_shape,
                            global const uint* restrict density_bricks,
                            global const float* restrict density_values,
                            global const float* restrict rays, global const uint* restrict queued,
                            uint stride, global const uint* restrict targets,
-                           global float* restrict shares, global float* restrict radiance) {
+                           global float* restrict contributions, global float* restrict radiance) {
     const uint first = work_item() * VXL_LANES;
     const uint count = *queued;
     if (first >= count) return;
@@ -110,16 +111,17 @@ kernel void absorb_shadows(PyramidShape shape, Space space, DensityShape density
                              (lane_float)0.0f, LANES_LOAD(rays, VXL_RAY_END * stride + first)};
     const lane_float metres = metres_per_t(shape.edge, segment.direction);
     const lane_float depth = depth_of(shape, &density, &segment, active) * metres;
-    const float absorption[3] = {space.absorption.x, space.absorption.y, space.absorption.z};
+    const float absorption[3] = {environment.absorption.x, environment.absorption.y,
+                                 environment.absorption.z};
     float arriving[3 * VXL_LANES];
     for (int channel = 0; channel < 3; ++channel) {
         const uint place = (uint)channel * stride + first;
-        const lane_float share =
-            LANES_LOAD(shares, place) * exact_exp(-absorption[channel] * depth);
+        const lane_float weight =
+            LANES_LOAD(contributions, place) * exact_exp(-absorption[channel] * depth);
         if (VXL_SHADOWS)
-            LANES_STORE(share, shares, place);
+            LANES_STORE(weight, contributions, place);
         else
-            LANES_STORE(share, arriving, channel * VXL_LANES);
+            LANES_STORE(weight, arriving, channel * VXL_LANES);
     }
     if (VXL_SHADOWS) return;
     for (uint lane = 0; lane < VXL_LANES && first + lane < count; ++lane)

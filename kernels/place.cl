@@ -88,7 +88,7 @@ kernel void paint_distances(const uint count, const int4 world_bricks, const int
     const uint leaf = painted_leaf(item, painted);
     const PlacedObject object = {rows, fraction_bits, object_bricks, slots};
     const int4 low = leaf_in_world(leaf, coordinates, world_bricks);
-    global short* out = world_distance + (size_t)(leaf >> 6) * VXL_BRICK_VOXELS + leaf_place(leaf);
+    global short* out = world_distance + (size_t)(leaf >> 6) * VXL_BRICK_VOXELS + leaf_index(leaf);
     const CellBox cells = map_box(&object, low, 6, false);
     const CellBox nodes = {cells.first, cells.last + 1};
     const bool is_near = touches_near_leaf(&object, near, nodes);
@@ -127,7 +127,7 @@ kernel void close_distances(const uint count, const int4 world_bricks, const Wor
     const uint leaf = painted_leaf(item, painted);
     const int4 low = leaf_in_world(leaf, coordinates, world_bricks);
     if (!is_at_bounds(bounds, low / 2 - 4, 12)) return;
-    global short* out = world_distance + (size_t)(leaf >> 6) * VXL_BRICK_VOXELS + leaf_place(leaf);
+    global short* out = world_distance + (size_t)(leaf >> 6) * VXL_BRICK_VOXELS + leaf_index(leaf);
     for (int i = 0; i < 64; ++i) {
         const int4 node = (int4)(i & 3, i >> 2 & 3, i >> 4, 0);
         global short* place = out + node.x + (node.y << 4) + (node.z << 8);
@@ -143,7 +143,7 @@ kernel void paint_smooth_voxels(
     const uint count, const int4 world_bricks, const WorldBounds bounds, const int fraction_bits,
     constant long* rows, const int4 object_bricks, global const uint* restrict slots,
     global const ulong* restrict near, global const short* restrict distance, const float scale,
-    const int crossing, const WordMap words, global const uint* restrict materials,
+    const int crossing, const AttributeMap map, global const uint* restrict materials,
     global const uint* restrict attributes, global const uint* restrict colors,
     global const uint* restrict painted, global const uint* restrict coordinates,
     global const short* restrict world_distance, global short* restrict nearest,
@@ -164,7 +164,7 @@ kernel void paint_smooth_voxels(
     ulong crossed = 0;
     for (int i = 0; i < 64; ++i) {
         const int4 voxel = (int4)(i & 3, i >> 2 & 3, i >> 4, 0);
-        const int place = leaf_place(leaf) + voxel.x + (voxel.y << 4) + (voxel.z << 8);
+        const int place = leaf_index(leaf) + voxel.x + (voxel.y << 4) + (voxel.z << 8);
         const size_t number = (size_t)(leaf >> 6) * VXL_BRICK_VOXELS + place;
         // Where this object's surface crosses, the corners' distances, which are no larger than its
         // own, are within a voxel's diagonal: most voxels near it need no more than this look.
@@ -185,16 +185,17 @@ kernel void paint_smooth_voxels(
         const uint kind =
             VXL_ATTRIBUTES ? world_attributes[number] & VXL_KIND_EXACT << VXL_KIND_SHIFT : 0u;
         if (kind == 0u && (int)abs(value) <= crossing) crossed |= 1ul << i;
-        const size_t kept = (size_t)painted_place(item, painted) * VXL_BRICK_VOXELS + place;
+        const size_t kept = (size_t)painted_index(item, painted) * VXL_BRICK_VOXELS + place;
         if (value > nearest[kept]) continue;
         nearest[kept] = value;
         const int4 at = cell - gathered.first;
         const int4 source =
             cell_on_surface(block + at.x + at.y * VXL_BLOCK_ROW + at.z * VXL_BLOCK_LAYER, cell);
-        const long from = place_of_voxel(&object, source);
+        const long from = index_of_voxel(&object, source);
         if (VXL_ATTRIBUTES) {
-            const uint word = word_of(words, materials, attributes, from);
-            world_attributes[number] = kind == 0u ? word : (word & ~(3u << VXL_KIND_SHIFT)) | kind;
+            const uint packed = attributes_of(map, materials, attributes, from);
+            world_attributes[number] =
+                kind == 0u ? packed : (packed & ~(3u << VXL_KIND_SHIFT)) | kind;
         }
         if (VXL_COLORS) world_colors[number] = color_of(colors, from);
     }
@@ -207,7 +208,7 @@ kernel void paint_smooth_voxels(
 kernel void paint_cubes(const uint count, const int4 world_bricks, const int fraction_bits,
                         constant long* rows, const int4 object_bricks,
                         global const uint* restrict slots, global const ulong* restrict near,
-                        global const ulong* restrict object_occupancy, const WordMap words,
+                        global const ulong* restrict object_occupancy, const AttributeMap map,
                         global const uint* restrict materials,
                         global const uint* restrict attributes, global const uint* restrict colors,
                         const int4 world_size, global const uint* restrict painted,
@@ -234,17 +235,18 @@ kernel void paint_cubes(const uint count, const int4 world_bricks, const int fra
                 find_in_box(&object, object_occupancy, near, cells_around(&object, centre), &from);
         if (!found) continue;
         set |= 1ul << i;
-        const size_t number = (size_t)(leaf >> 6) * VXL_BRICK_VOXELS + leaf_place(leaf) + voxel.x +
+        const size_t number = (size_t)(leaf >> 6) * VXL_BRICK_VOXELS + leaf_index(leaf) + voxel.x +
                               (voxel.y << 4) + (voxel.z << 8);
         const size_t kept =
-            (size_t)painted_place(item, painted) * VXL_BRICK_VOXELS + number % VXL_BRICK_VOXELS;
+            (size_t)painted_index(item, painted) * VXL_BRICK_VOXELS + number % VXL_BRICK_VOXELS;
         if (VXL_AMONG_SMOOTH && nearest[kept] != VXL_SATURATED &&
             world_attributes[number] >> VXL_KIND_SHIFT != VXL_KIND_CUBES) {
-            const uint word = world_attributes[number] & ~(3u << VXL_KIND_SHIFT);
-            world_attributes[number] = word | VXL_KIND_EXACT << VXL_KIND_SHIFT;
+            const uint packed = world_attributes[number] & ~(3u << VXL_KIND_SHIFT);
+            world_attributes[number] = packed | VXL_KIND_EXACT << VXL_KIND_SHIFT;
             continue;
         }
-        if (VXL_ATTRIBUTES) world_attributes[number] = word_of(words, materials, attributes, from);
+        if (VXL_ATTRIBUTES)
+            world_attributes[number] = attributes_of(map, materials, attributes, from);
         if (VXL_COLORS) world_colors[number] = color_of(colors, from);
     }
     occupancy[leaf] |= set;

@@ -76,22 +76,22 @@ kernel void append_words(const uint count, const uint start, global const uint* 
     if (i < count) to[start + i] = from[i];
 }
 
-// One triangle's attribute word.
-kernel void append_triangle_attributes(const uint count, const uint start, const WordMap words,
+// One triangle's packed attributes.
+kernel void append_triangle_attributes(const uint count, const uint start, const AttributeMap map,
                                        global const uint* restrict materials,
                                        global const uint* restrict attributes,
                                        global uint* restrict to) {
     const uint i = work_item();
     if (i >= count) return;
-    to[start + i] = word_of(words, materials, attributes, i);
+    to[start + i] = attributes_of(map, materials, attributes, i);
 }
 
-// One shape's attribute word, in its record in the world.
-kernel void set_solid_attributes(const uint count, const uint start, const WordMap words,
+// One shape's packed attributes, in its record in the world.
+kernel void set_solid_attributes(const uint count, const uint start, const AttributeMap map,
                                  global const uint* restrict materials,
                                  global SolidShape* restrict solids) {
     const uint i = work_item();
     if (i >= count) return;
     global SolidShape* shape = solids + start + i;
-    shape->attribute = word_in_world(words, materials, shape->attribute);
+    shape->attribute = attributes_in_world(map, materials, shape->attribute);
 }

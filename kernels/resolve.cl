@@ -15,15 +15,15 @@ typedef struct {
     bool is_whole;  // all are, and their rows begin at every fourth
 } Pixels;
 
-static inline Pixels pixels_of(const Sight* sight, uint tile, uint first) {
-    const uint tiles_x = ((uint)sight->width + 3u) / 4u;
+static inline Pixels pixels_of(const Camera* camera, uint tile, uint first) {
+    const uint tiles_x = ((uint)camera->width + 3u) / 4u;
     Pixels p;
     p.is_whole = VXL_LANES > 1;
     for (uint i = 0; i < VXL_LANES; ++i) {
         const uint column = tile % tiles_x * 4u + ((first + i) & 3u);
         const uint row = tile / tiles_x * 4u + ((first + i) >> 2);
-        p.is_in_image[i] = column < (uint)sight->width && row < (uint)sight->height;
-        p.place[i] = row * (size_t)sight->width + column;
+        p.is_in_image[i] = column < (uint)camera->width && row < (uint)camera->height;
+        p.place[i] = row * (size_t)camera->width + column;
         p.is_whole &= p.is_in_image[i];
     }
     return p;
@@ -44,23 +44,24 @@ static inline void store_pixels(lane_float value, const Pixels* p, global float*
 /// One work-item makes VXL_LANES pixels. `image` holds, `pixels` apart, what is asked for of R G B
 /// A Z P.X P.Y P.Z N.X N.Y N.Z; `objects` the number of the object plus 1, 0 for none. Counts
 /// values that are not finite, as 0.
-kernel void resolve_pixels(Sight sight, PyramidShape shape, float4 world_origin,
+kernel void resolve_pixels(Camera camera, PyramidShape shape, float4 world_origin,
                            global const uint* restrict hits, global const float* restrict positions,
-                           global const float* restrict normals, global const uint* restrict words,
+                           global const float* restrict normals,
+                           global const uint* restrict hit_attributes,
                            global const float* restrict radiance,
                            global const float* restrict coverage, uint first_tile, uint tile_count,
                            uint stride, global float* restrict image, global uint* restrict objects,
                            global uint* restrict not_finite) {
     const uint item = work_item() * VXL_LANES;
     if (item >= tile_count * 16u) return;
-    const Pixels at = pixels_of(&sight, first_tile + item / 16u, item % 16u);
-    const size_t pixels = (size_t)sight.width * (size_t)sight.height;
-    const uint first_ray = item / 16u * (uint)sight.samples * 16u + item % 16u;
+    const Pixels at = pixels_of(&camera, first_tile + item / 16u, item % 16u);
+    const size_t pixels = (size_t)camera.width * (size_t)camera.height;
+    const uint first_ray = item / 16u * (uint)camera.samples * 16u + item % 16u;
 
     lane_float color[3] = {(lane_float)0.0f, (lane_float)0.0f, (lane_float)0.0f};
     lane_float covered = (lane_float)0.0f;
     lane_uint shown = (lane_uint)VXL_NO_VOXEL;
-    for (uint sample = 0; sample < (uint)sight.samples; ++sample) {
+    for (uint sample = 0; sample < (uint)camera.samples; ++sample) {
         const uint ray = first_ray + sample * 16u;
         if (VXL_SHOWS_COLOR) {
             for (uint channel = 0; channel < 3; ++channel)
@@ -73,9 +74,9 @@ kernel void resolve_pixels(Sight sight, PyramidShape shape, float4 world_origin,
         shown = LANES_SELECT(hit & LANE_MASK(shown == VXL_NO_VOXEL),
                              LANES_AS_UINT(LANES_NUMBERS + (int)ray), shown);
     }
-    const float share = sight.sample_share;
+    const float sample_weight = camera.sample_weight;
     for (uint channel = 0; VXL_SHOWS_COLOR && channel < 3; ++channel) {
-        const lane_float value = color[channel] * share;
+        const lane_float value = color[channel] * sample_weight;
         const lane_int finite = LANE_MASK(fabs(value) < INFINITY);
         int is_finite[VXL_LANES];
         LANES_STORE(finite, is_finite, 0);
@@ -83,7 +84,7 @@ kernel void resolve_pixels(Sight sight, PyramidShape shape, float4 world_origin,
             if (at.is_in_image[i] && !is_finite[i]) atomic_inc(not_finite);
         store_pixels(LANES_SELECT(finite, value, (lane_float)0.0f), &at, image + channel * pixels);
     }
-    if (VXL_SHOWS_COLOR) store_pixels(covered * share, &at, image + 3 * pixels);
+    if (VXL_SHOWS_COLOR) store_pixels(covered * sample_weight, &at, image + 3 * pixels);
     const lane_int hit = LANE_MASK(shown != VXL_NO_VOXEL);
     const lane_uint ray = shown & LANES_AS_UINT(hit);
     const float edge[3] = {shape.edge.x, shape.edge.y, shape.edge.z};
@@ -91,12 +92,12 @@ kernel void resolve_pixels(Sight sight, PyramidShape shape, float4 world_origin,
     const uint depth_plane = 4 * VXL_SHOWS_COLOR;
     const uint position_plane = depth_plane + VXL_SHOWS_DEPTH;
     const uint normal_plane = position_plane + 3 * VXL_SHOWS_POSITION;
-    const float eye[3] = {sight.origin.x, sight.origin.y, sight.origin.z};
-    const float eye_low[3] = {sight.origin_low.x, sight.origin_low.y, sight.origin_low.z};
+    const float eye[3] = {camera.origin.x, camera.origin.y, camera.origin.z};
+    const float eye_low[3] = {camera.origin_low.x, camera.origin_low.y, camera.origin_low.z};
     // Z_E in voxels per metre; times the edge twice it measures voxels along Z_E in metres.
-    const float ahead[3] = {sight.axis_z.x, sight.axis_z.y, sight.axis_z.z};
+    const float ahead[3] = {camera.axis_z.x, camera.axis_z.y, camera.axis_z.z};
     const lane_float nothing = (lane_float)0.0f;
-    lane_float depth = (lane_float)sight.lead;
+    lane_float depth = (lane_float)camera.lead;
     for (uint a = 0; a < 3; ++a) {
         lane_float p = nothing;
         if (VXL_SHOWS_DEPTH || VXL_SHOWS_POSITION)
@@ -115,7 +116,7 @@ kernel void resolve_pixels(Sight sight, PyramidShape shape, float4 world_origin,
         store_pixels(LANES_SELECT(hit, depth, (lane_float)INFINITY), &at,
                      image + depth_plane * pixels);
     if (VXL_SHOWS_OBJECT) {
-        const lane_uint object = (LANES_GATHER_UINT(words, ray) & VXL_OBJECT_MASK) + 1u;
+        const lane_uint object = (LANES_GATHER_UINT(hit_attributes, ray) & VXL_OBJECT_MASK) + 1u;
         store_pixels(LANES_AS_FLOAT(LANES_SELECT(hit, object, (lane_uint)0)), &at,
                      (global float*)objects);
     }

@@ -8,13 +8,13 @@
 #include "lib/lanes/fixed_point.h"
 #include "lib/lanes/vector.h"
 #include "lib/lanes/work_item.h"
-#include "lib/light/interior.h"
+#include "lib/light/medium_set.h"
 #include "lib/light/optics.h"
 #include "lib/solid/solid_hit.h"
 #include "lib/surface/cube_body.h"
 #include "lib/surface/surface_color.h"
-#include "lib/traverse/hit_word.h"
-#include "lib/traverse/lift.h"
+#include "lib/traverse/hit_attributes.h"
+#include "lib/traverse/offset_origin.h"
 #include "lib/traverse/ray_queue.h"
 #include "shared/scene.h"
 
@@ -39,7 +39,7 @@ static inline lane_int below(uint first, uint count) {
 }
 
 /// VXL_PATH_JOINED of rays inside of a set of objects.
-static inline lane_uint joined_flag(const Interior* in, global const float* restrict materials) {
+static inline lane_uint joined_flag(const MediumSet* in, global const float* restrict materials) {
     return LANES_AS_UINT(is_joined(body_inside(in), materials)) & VXL_PATH_JOINED;
 }
 
@@ -55,12 +55,13 @@ static inline void count_lanes(lane_int mask, global uint* counter) {
     if (lanes_any(mask)) atomic_add(counter, (uint)lanes_count(mask));
 }
 
-/// cross_interior; sets that have no room are counted in `lost`.
-static inline Interior cross_counted(Interior in, lane_uint word, lane_int smooth, lane_int leaving,
-                                     lane_int crossing, global uint* lost) {
+/// cross_medium; sets that have no room are counted in `medium_overflows`.
+static inline MediumSet cross_counted(MediumSet in, lane_uint packed, lane_int smooth,
+                                      lane_int leaving, lane_int crossing,
+                                      global uint* medium_overflows) {
     lane_int full;
-    in = cross_interior_or_lose(in, word, smooth, leaving, crossing, &full);
-    if (VXL_INTERIOR_CAPPED) count_lanes(full, lost);
+    in = cross_medium_or_overflow(in, packed, smooth, leaving, crossing, &full);
+    if (VXL_MEDIUM_SET_CAPPED) count_lanes(full, medium_overflows);
     return in;
 }
 
@@ -68,9 +69,9 @@ static inline Interior cross_counted(Interior in, lane_uint word, lane_int smoot
 /// light: a ray may begin inside of them.
 kernel void begin_paths(global const SolidShape* restrict solids, uint body_count,
                         global const uint* restrict bodies, global const uint* restrict ranks,
-                        global uint* lost, global const float* restrict rays, uint count,
-                        uint stride, global uint* restrict paths, global float* restrict starts,
-                        global uint* restrict inside) {
+                        global uint* medium_overflows, global const float* restrict rays,
+                        uint count, uint stride, global uint* restrict paths,
+                        global float* restrict starts, global uint* restrict inside) {
     const uint first = work_item() * VXL_LANES;
     if (first >= count) return;
     const lane_uint one = LANES_AS_UINT((lane_float)1.0f);
@@ -84,9 +85,10 @@ kernel void begin_paths(global const SolidShape* restrict solids, uint body_coun
     LANES_STORE((lane_uint)0, paths, VXL_PATH_CELL_Z * stride + first);
     LANES_STORE(LANES_AS_UINT(LANES_NUMBERS + (int)first), paths, VXL_PATH_TARGET * stride + first);
     LANES_STORE(one, paths, VXL_PATH_CLEAR * stride + first);
-    for (uint c = 0; c < 3; ++c) LANES_STORE(one, paths, (VXL_PATH_PASSED + c) * stride + first);
+    for (uint c = 0; c < 3; ++c)
+        LANES_STORE(one, paths, (VXL_PATH_THROUGHPUT + c) * stride + first);
     LANES_STORE((lane_float)0.0f, starts, first);
-    Interior in = empty_interior();
+    MediumSet in = empty_medium_set();
     if (VXL_SOLIDS) {
         const Vector o = load_vector(rays, stride, first);
         const Vector d = load_vector(rays + VXL_RAY_DX * stride, stride, first);
@@ -96,38 +98,38 @@ kernel void begin_paths(global const SolidShape* restrict solids, uint body_coun
         for (uint i = 0; i < body_count; ++i) {
             const SolidEvent event = event_at(solids, bodies[i], &ray, (lane_float)0.0f);
             in = cross_counted(in, (lane_uint)solids[bodies[i]].attribute, (lane_int)0, (lane_int)0,
-                               event.after & valid, lost);
+                               event.after & valid, medium_overflows);
         }
     }
-    store_interior(&in, paths, stride, first);
+    store_medium_set(&in, paths, stride, first);
     LANES_STORE(medium_inside(&in, ranks), inside, first);
 }
 
 /// Adds a layer's light to its nodes (in the first layer: begins their sums), and sends the rays on
-/// that surfaces leave uncovered. `gains` is what an entry's reflected and refracted light counts
-/// in its node; `coverage` of a node may be null.
+/// that surfaces leave uncovered. `node_weights` is what an entry's reflected and refracted light
+/// counts in its node; `coverage` of a node may be null.
 kernel void pass_layer(global const float* restrict materials, global const uint* restrict ranks,
-                       global uint* lost, global const uint* restrict colors, float least_weight,
-                       uint first_layer, global const float* restrict rays,
-                       global const uint* restrict hits, global const uint* restrict words,
+                       global uint* medium_overflows, global const uint* restrict colors,
+                       float min_weight, uint first_layer, global const float* restrict rays,
+                       global const uint* restrict hits, global const uint* restrict hit_attributes,
                        global const uint* restrict sides, global const float* restrict radiance,
-                       global const float* restrict passed, global const uint* restrict paths,
-                       uint count, uint stride, global float* restrict gains,
-                       global float* restrict nodes, global float* restrict coverage,
-                       uint node_stride, global uint* restrict counters,
-                       global float* restrict next_rays, global uint* restrict next_paths,
-                       global float* restrict next_starts, global uint* restrict next_inside,
-                       uint next_stride) {
+                       global const float* restrict transmittance,
+                       global const uint* restrict paths, uint count, uint stride,
+                       global float* restrict node_weights, global float* restrict nodes,
+                       global float* restrict coverage, uint node_stride,
+                       global uint* restrict counters, global float* restrict next_rays,
+                       global uint* restrict next_paths, global float* restrict next_starts,
+                       global uint* restrict next_inside, uint next_stride) {
     const uint first = work_item() * VXL_LANES;
     if (first >= count) return;
     const lane_int valid = below(first, count);
     const lane_uint number = LANES_LOAD(hits, VXL_HIT_VOXEL * stride + first);
     const lane_int hit = LANE_MASK(number != VXL_NO_VOXEL) & valid;
-    const lane_uint word = LANES_LOAD(words, first);
+    const lane_uint packed = LANES_LOAD(hit_attributes, first);
     const lane_uint side = LANES_LOAD(sides, first);
     const lane_int hidden = LANE_MASK((side & VXL_SIDE_HIDDEN) != 0u) & hit;
     const lane_int leaving = LANE_MASK((side & VXL_SIDE_LEAVING) != 0u);
-    const lane_uint material = material_place(word) & LANES_AS_UINT(hit);
+    const lane_uint material = material_offset(packed) & LANES_AS_UINT(hit);
     const lane_float zero = (lane_float)0.0f, one = (lane_float)1.0f;
     const lane_uint voxel = number & LANES_AS_UINT(hit);
     lane_float opacity =
@@ -143,7 +145,7 @@ kernel void pass_layer(global const float* restrict materials, global const uint
     LANES_STORE(target, node, 0);
     NewRays on;
     for (uint c = 0; c < 3; ++c) {
-        const lane_float before = path_float(paths, VXL_PATH_PASSED + c, stride, first);
+        const lane_float before = path_float(paths, VXL_PATH_THROUGHPUT + c, stride, first);
         float light[VXL_LANES];
         LANES_STORE(before * LANES_LOAD(radiance, c * stride + first), light, 0);
         for (int lane = 0; lane < VXL_LANES; ++lane) {
@@ -152,9 +154,9 @@ kernel void pass_layer(global const float* restrict materials, global const uint
             nodes[place] = first_layer ? light[lane] : nodes[place] + light[lane];
         }
         lane_float behind = before;
-        if (VXL_ABSORBS) behind *= LANES_LOAD(passed, c * stride + first);
-        LANES_STORE(behind * opacity, gains, c * stride + first);
-        on.passed[c] = behind * left;
+        if (VXL_ABSORBS) behind *= LANES_LOAD(transmittance, c * stride + first);
+        LANES_STORE(behind * opacity, node_weights, c * stride + first);
+        on.throughput[c] = behind * left;
     }
     on.clear = LANES_SELECT(hit, clear * left, clear);
     if (coverage != 0) {
@@ -165,7 +167,7 @@ kernel void pass_layer(global const float* restrict materials, global const uint
     }
     const lane_int through = hit & LANE_MASK(left > 0.0f);
     on.weight = path_float(paths, VXL_PATH_WEIGHT, stride, first);
-    const lane_int goes_on = through & LANE_MASK(on.weight * largest(on.passed) >= least_weight);
+    const lane_int goes_on = through & LANE_MASK(on.weight * largest(on.throughput) >= min_weight);
     count_lanes(through & ~goes_on, counters + VXL_COUNT_ENDED);
     if (!lanes_any(goes_on)) return;
 
@@ -181,18 +183,18 @@ kernel void pass_layer(global const float* restrict materials, global const uint
     on.cell_xy = LANES_LOAD(hits, VXL_HIT_CELL * stride + first);
     on.cell_z = LANES_LOAD(hits, VXL_HIT_FACE * stride + first);
     on.target = target;
-    on.interior = cross_counted(load_interior(paths, stride, first, valid), word,
-                                is_smooth(word, on.source), leaving, goes_on, lost);
-    if (VXL_CUBE_BODIES) on.flags |= joined_flag(&on.interior, materials);
-    on.medium = medium_inside(&on.interior, ranks);
+    on.media = cross_counted(load_medium_set(paths, stride, first, valid), packed,
+                             is_smooth(packed, on.source), leaving, goes_on, medium_overflows);
+    if (VXL_CUBE_BODIES) on.flags |= joined_flag(&on.media, materials);
+    on.medium = medium_inside(&on.media, ranks);
     const RayQueue queue = {next_rays, next_paths, next_starts, next_inside, next_stride};
-    const Places places = reserve_places(goes_on, counters + VXL_COUNT_LAYER);
-    put_rays(&queue, &on, &places);
+    const Slots slots = reserve_slots(goes_on, counters + VXL_COUNT_LAYER);
+    put_rays(&queue, &on, &slots);
 }
 
 /// The rays of one sort that leave a packet of surface points, and where they are put.
 typedef struct {
-    lane_float share;  // of their light that the surface returns
+    lane_float returned;  // of their light that the surface returns
     lane_int wanted;
 } Scattered;
 
@@ -217,38 +219,41 @@ static inline void set_out_child(NewRays* r, PyramidShape shape, Vector position
 /// Without compaction every entry has its place, and those not wanted hold idle rays.
 static inline void put_children(const RayQueue* queue, NewRays* r, Scattered s, lane_int valid,
                                 uint compact, uint place, global uint* counters,
-                                global uint* restrict children, global float* restrict shares) {
-    Places places;
+                                global uint* restrict children,
+                                global float* restrict child_weights) {
+    Slots slots;
     lane_uint at;
     if (compact) {
-        places = reserve_places(s.wanted, counters + VXL_COUNT_CHILDREN);
-        at = places.first + lanes_ranks(s.wanted);
+        slots = reserve_slots(s.wanted, counters + VXL_COUNT_CHILDREN);
+        at = slots.first + lanes_ranks(s.wanted);
     } else {
-        places = places_from(place, valid);
+        slots = slots_from(place, valid);
         at = place + LANES_AS_UINT(LANES_NUMBERS);
         r->t_end = LANES_SELECT(s.wanted, r->t_end, (lane_float)-1.0f);
     }
     if (VXL_TRANSMISSION) r->target = at;
-    if (places.count > 0) put_rays(queue, r, &places);
+    if (slots.count > 0) put_rays(queue, r, &slots);
     LANES_STORE(LANES_SELECT(s.wanted, at, (lane_uint)VXL_NO_CHILD), children, 0);
-    LANES_STORE(s.share, shares, 0);
+    LANES_STORE(s.returned, child_weights, 0);
 }
 
-/// Sends reflected and refracted rays from entries begin .. end-1. `children` and `shares` hold,
-/// for each entry, the node and share of its reflected light, then (`stride` later) of its
+/// Sends reflected and refracted rays from entries begin .. end-1. `children` and `child_weights`
+/// hold, for each entry, the node and share of its reflected light, then (`stride` later) of its
 /// refracted.
 kernel void scatter_rays(PyramidShape shape, global const float* restrict materials,
-                         global const uint* restrict ranks, global uint* lost, float least_weight,
-                         uint compact, global const float* restrict rays,
+                         global const uint* restrict ranks, global uint* medium_overflows,
+                         float min_weight, uint compact, global const float* restrict rays,
                          global const uint* restrict hits, global const float* restrict positions,
-                         global const float* restrict normals, global const uint* restrict words,
-                         global const uint* restrict sides, global const float* restrict passed,
-                         global const float* restrict gains, global const uint* restrict paths,
-                         uint begin, uint end, uint stride, global uint* restrict children,
-                         global float* restrict shares, global uint* restrict counters,
-                         global float* restrict child_rays, global uint* restrict child_paths,
-                         global float* restrict child_starts, global uint* restrict child_inside,
-                         uint child_stride) {
+                         global const float* restrict normals,
+                         global const uint* restrict hit_attributes,
+                         global const uint* restrict sides,
+                         global const float* restrict transmittance,
+                         global const float* restrict node_weights,
+                         global const uint* restrict paths, uint begin, uint end, uint stride,
+                         global uint* restrict children, global float* restrict child_weights,
+                         global uint* restrict counters, global float* restrict child_rays,
+                         global uint* restrict child_paths, global float* restrict child_starts,
+                         global uint* restrict child_inside, uint child_stride) {
     const uint first = begin + work_item() * VXL_LANES;
     if (first >= end) return;
     const lane_int valid = below(first, end);
@@ -257,26 +262,26 @@ kernel void scatter_rays(PyramidShape shape, global const float* restrict materi
     const lane_int hit =
         LANE_MASK(number != VXL_NO_VOXEL) & valid & LANE_MASK((side & VXL_SIDE_HIDDEN) == 0u);
     const lane_int leaving = LANE_MASK((side & VXL_SIDE_LEAVING) != 0u);
-    const lane_uint word = LANES_LOAD(words, first);
-    const lane_uint material = material_place(word) & LANES_AS_UINT(hit);
+    const lane_uint packed = LANES_LOAD(hit_attributes, first);
+    const lane_uint material = material_offset(packed) & LANES_AS_UINT(hit);
     const lane_float zero = (lane_float)0.0f, one = (lane_float)1.0f;
     Scattered reflected, refracted;
-    reflected.share =
+    reflected.returned =
         LANES_SELECT(hit, LANES_GATHER_FLOAT(materials, material + VXL_MATERIAL_REFLECTION), zero);
-    refracted.share = zero;
+    refracted.returned = zero;
     if (VXL_TRANSMISSION)
-        refracted.share = LANES_SELECT(
+        refracted.returned = LANES_SELECT(
             hit, LANES_GATHER_FLOAT(materials, material + VXL_MATERIAL_REFRACTION), zero);
 
     NewRays ray;
     ray.source = (lane_uint)VXL_NO_PRIMITIVE;
     if (VXL_EXACT) ray.source = LANES_LOAD(hits, VXL_HIT_PRIMITIVE * stride + first);
     if (VXL_INSTANCES) ray.instance = LANES_LOAD(hits, VXL_HIT_INSTANCE * stride + first);
-    ray.clear = ray.passed[0] = ray.passed[1] = ray.passed[2] = one;
+    ray.clear = ray.throughput[0] = ray.throughput[1] = ray.throughput[2] = one;
     ray.start = zero;
     ray.cell_xy = ray.cell_z = (lane_uint)0;
-    ray.interior = empty_interior();
-    if (VXL_TRANSMISSION) ray.interior = load_interior(paths, stride, first, valid);
+    ray.media = empty_medium_set();
+    if (VXL_TRANSMISSION) ray.media = load_medium_set(paths, stride, first, valid);
 
     // Directions in metres' space: v along the ray, n against it.
     const float4 edge = shape.edge;
@@ -288,81 +293,83 @@ kernel void scatter_rays(PyramidShape shape, global const float* restrict materi
     const lane_float cosine = clamp(-dot_product(v, n), 0.0f, 1.0f);
 
     // Who leaves a transmitting object that the set doesn't hold began inside of it.
-    Interior behind = ray.interior;
+    MediumSet behind = ray.media;
     lane_int open = (lane_int)0;
     if (VXL_TRANSMISSION) {
-        const lane_int body = is_smooth(word, ray.source);
+        const lane_int body = is_smooth(packed, ray.source);
         open = hit & transmits(materials, material,
                                LANES_GATHER_FLOAT(materials, material + VXL_MATERIAL_OPACITY));
-        const lane_int began = open & leaving & ~interior_holds(&ray.interior, word, body);
-        ray.interior = cross_counted(ray.interior, word, body, (lane_int)0, began, lost);
-        behind = cross_counted(ray.interior, word, body, leaving, open, lost);
+        const lane_int began = open & leaving & ~medium_set_holds(&ray.media, packed, body);
+        ray.media = cross_counted(ray.media, packed, body, (lane_int)0, began, medium_overflows);
+        behind = cross_counted(ray.media, packed, body, leaving, open, medium_overflows);
     }
     lane_float eta = one;
     Refraction bend = {(lane_int)0, cosine, zero, one};
     if (VXL_REFRACTS) {
-        const lane_uint from = medium_inside(&ray.interior, ranks);
+        const lane_uint from = medium_inside(&ray.media, ranks);
         lane_uint to = medium_inside(&behind, ranks);
-        to = LANES_SELECT(open, to, ((word >> VXL_MATERIAL_SHIFT) & VXL_MATERIAL_MASK) + 1u);
+        to = LANES_SELECT(open, to, ((packed >> VXL_MATERIAL_SHIFT) & VXL_MATERIAL_MASK) + 1u);
         eta = exact_divide(medium_ior(materials, from),
                            medium_ior(materials, to & LANES_AS_UINT(hit)));
         bend = refraction_at(eta, cosine);
         const lane_int fresnel =
             LANE_MASK(LANES_GATHER_FLOAT(materials, material + VXL_MATERIAL_FRESNEL) != 0.0f);
-        const lane_int total = bend.total & LANE_MASK(refracted.share > 0.0f);
-        const lane_float all = reflected.share + refracted.share;
-        reflected.share = LANES_SELECT(fresnel, reflected.share * bend.reflected,
-                                       LANES_SELECT(total, all, reflected.share));
-        refracted.share =
-            LANES_SELECT(bend.total, zero,
-                         LANES_SELECT(fresnel, refracted.share * bend.refracted, refracted.share));
+        const lane_int total = bend.total & LANE_MASK(refracted.returned > 0.0f);
+        const lane_float all = reflected.returned + refracted.returned;
+        reflected.returned = LANES_SELECT(fresnel, reflected.returned * bend.reflected,
+                                          LANES_SELECT(total, all, reflected.returned));
+        refracted.returned = LANES_SELECT(
+            bend.total, zero,
+            LANES_SELECT(fresnel, refracted.returned * bend.refracted, refracted.returned));
     }
 
-    lane_float gain[3] = {one, one, one};
+    lane_float node_weight[3] = {one, one, one};
     for (uint c = 0; c < 3; ++c) {
         if (VXL_TRANSMISSION)
-            gain[c] = LANES_LOAD(gains, c * stride + first);
+            node_weight[c] = LANES_LOAD(node_weights, c * stride + first);
         else if (VXL_ABSORBS)
-            gain[c] = LANES_LOAD(passed, c * stride + first);
+            node_weight[c] = LANES_LOAD(transmittance, c * stride + first);
     }
-    const lane_float weight = path_float(paths, VXL_PATH_WEIGHT, stride, first) * largest(gain);
-    const lane_int mirror = LANE_MASK(reflected.share > 0.0f) & hit;
-    const lane_int glass = LANE_MASK(refracted.share > 0.0f) & hit;
-    reflected.wanted = mirror & LANE_MASK(weight * reflected.share >= least_weight);
-    refracted.wanted = glass & LANE_MASK(weight * refracted.share >= least_weight);
+    const lane_float weight =
+        path_float(paths, VXL_PATH_WEIGHT, stride, first) * largest(node_weight);
+    const lane_int mirror = LANE_MASK(reflected.returned > 0.0f) & hit;
+    const lane_int glass = LANE_MASK(refracted.returned > 0.0f) & hit;
+    reflected.wanted = mirror & LANE_MASK(weight * reflected.returned >= min_weight);
+    refracted.wanted = glass & LANE_MASK(weight * refracted.returned >= min_weight);
     count_lanes(mirror & ~reflected.wanted, counters + VXL_COUNT_ENDED);
     if (VXL_REFRACTS) count_lanes(glass & ~refracted.wanted, counters + VXL_COUNT_ENDED);
 
     const RayQueue queue = {child_rays, child_paths, child_starts, child_inside, child_stride};
-    ray.weight = weight * reflected.share;
+    ray.weight = weight * reflected.returned;
     ray.flags = LANES_SELECT(leaving, (lane_uint)VXL_PATH_WITHIN_SOURCE, (lane_uint)0) |
                 VXL_PATH_ON_SURFACE;
     ray.medium = (lane_uint)0;
-    if (VXL_TRANSMISSION) ray.medium = medium_inside(&ray.interior, ranks);
+    if (VXL_TRANSMISSION) ray.medium = medium_inside(&ray.media, ranks);
     lane_int cube = (lane_int)0;  // a cube's side towards its inside: rays begin in a known cell
     const lane_uint face = LANES_LOAD(hits, VXL_HIT_FACE * stride + first);
     if (VXL_CUBE_BODIES) {
-        cube = is_cube(word, ray.source);
-        ray.flags |= joined_flag(&ray.interior, materials) |
+        cube = is_cube(packed, ray.source);
+        ray.flags |= joined_flag(&ray.media, materials) |
                      (LANES_AS_UINT(cube & leaving) & VXL_PATH_FROM_CELL);
         ray.cell_xy = LANES_LOAD(hits, VXL_HIT_CELL * stride + first);
         ray.cell_z = face & 0xFFFFu;
     }
     const lane_float twice = 2.0f * cosine;
     const Vector mirrored = {fma(twice, n.x, v.x), fma(twice, n.y, v.y), fma(twice, n.z, v.z)};
-    set_out_child(&ray, shape, lifted(shape, position, n, hits, stride, first), n, mirrored);
+    set_out_child(&ray, shape, offset_origin(shape, position, n, hits, stride, first), n, mirrored);
     put_children(&queue, &ray, reflected, valid, compact, first - begin, counters, children + first,
-                 shares + first);
+                 child_weights + first);
     if (!VXL_REFRACTS) return;
 
-    ray.weight = weight * refracted.share;
+    ray.weight = weight * refracted.returned;
     ray.flags = LANES_SELECT(leaving, (lane_uint)0, (lane_uint)VXL_PATH_WITHIN_SOURCE) |
                 VXL_PATH_ON_SURFACE;
-    ray.interior = behind;
+    ray.media = behind;
     ray.medium = medium_inside(&behind, ranks);
     const Vector bent = refracted_direction(v, n, eta, cosine, &bend);
     const Vector into = {-n.x, -n.y, -n.z};
-    set_out_child(&ray, shape, lifted(shape, position, into, hits, stride, first), into, bent);
+    set_out_child(&ray, shape, offset_origin(shape, position, into, hits, stride, first), into,
+                  bent);
     // Between equal media the very same ray goes on.
     const lane_int same = LANE_MASK(eta == 1.0f);
     ray.origin = select_vector(same, load_vector(rays, stride, first), ray.origin);
@@ -373,17 +380,19 @@ kernel void scatter_rays(PyramidShape shape, global const float* restrict materi
     ray.flags |= LANES_AS_UINT(same) & VXL_PATH_GOES_ON;
     if (VXL_CUBE_BODIES)
         ray.flags |=
-            joined_flag(&ray.interior, materials) | (LANES_AS_UINT(cube) & VXL_PATH_FROM_CELL);
+            joined_flag(&ray.media, materials) | (LANES_AS_UINT(cube) & VXL_PATH_FROM_CELL);
     ray.cell_xy = LANES_LOAD(hits, VXL_HIT_CELL * stride + first);
     ray.cell_z = face;
     put_children(&queue, &ray, refracted, valid, compact, end - begin + (first - begin), counters,
-                 children + stride + first, shares + stride + first);
+                 children + stride + first, child_weights + stride + first);
 }
 
 /// Adds to each node what its entry's children brought; one work-item is one entry.
 kernel void gather_light(uint begin, uint end, uint stride, global const uint* restrict children,
-                         global const float* restrict shares, global const float* restrict gains,
-                         global const float* restrict passed, global const uint* restrict paths,
+                         global const float* restrict child_weights,
+                         global const float* restrict node_weights,
+                         global const float* restrict transmittance,
+                         global const uint* restrict paths,
                          global const float* restrict child_nodes, uint child_stride,
                          global float* restrict nodes, uint node_stride) {
     const uint entry = begin + work_item();
@@ -395,14 +404,14 @@ kernel void gather_light(uint begin, uint end, uint stride, global const uint* r
     for (uint c = 0; c < 3; ++c) {
         float light = 0.0f;
         if (reflected != VXL_NO_CHILD)
-            light = shares[entry] * child_nodes[c * child_stride + reflected];
+            light = child_weights[entry] * child_nodes[c * child_stride + reflected];
         if (refracted != VXL_NO_CHILD)
-            light += shares[stride + entry] * child_nodes[c * child_stride + refracted];
-        float gain = 1.0f;
+            light += child_weights[stride + entry] * child_nodes[c * child_stride + refracted];
+        float node_weight = 1.0f;
         if (VXL_TRANSMISSION)
-            gain = gains[c * stride + entry];
+            node_weight = node_weights[c * stride + entry];
         else if (VXL_ABSORBS)
-            gain = passed[c * stride + entry];
-        nodes[c * node_stride + node] += gain * light;
+            node_weight = transmittance[c * stride + entry];
+        nodes[c * node_stride + node] += node_weight * light;
     }
 }

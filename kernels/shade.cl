@@ -2,23 +2,24 @@
 // lights.
 #include "lib/lanes/vector.h"
 #include "lib/lanes/work_item.h"
-#include "lib/light/interior.h"
+#include "lib/light/medium_set.h"
 #include "lib/solid/solid_surface.h"
 #include "lib/surface/cube_body.h"
 #include "lib/surface/field.h"
 #include "lib/surface/surface_color.h"
 #include "lib/surface/triangle.h"
-#include "lib/traverse/hit_word.h"
+#include "lib/traverse/hit_attributes.h"
 #include "lib/traverse/instance_hit.h"
 #include "shared/scene.h"
 #include "shared/trace.h"
 #include "shared/voxel.h"
 
 /// Finds of every hit what is asked for: its point, normal and word, and the ambient light and
-/// emission that start its radiance; rays that hit nothing take the background. `words` keeps each
-/// hit's attribute word, `sides` how the surface was met, where the scene has transmitting objects
-/// or mirrors.
-kernel void shade_surface(PyramidShape shape, Space space, global const float* restrict materials,
+/// emission that start its radiance; rays that hit nothing take the background. `hit_attributes`
+/// keeps each hit's packed attributes, `sides` how the surface was met, where the scene has
+/// transmitting objects or mirrors.
+kernel void shade_surface(PyramidShape shape, Environment environment,
+                          global const float* restrict materials,
                           global const uint* restrict attributes, uint constant_attribute,
                           global const uint* restrict colors, global const uint* restrict fields,
                           global const float* restrict triangles,
@@ -29,7 +30,7 @@ kernel void shade_surface(PyramidShape shape, Space space, global const float* r
                           global const uint* restrict ranks, global const float* restrict rays,
                           global const uint* restrict hits, global const uint* restrict paths,
                           uint count, uint stride, global float* restrict positions,
-                          global float* restrict normals, global uint* restrict words,
+                          global float* restrict normals, global uint* restrict hit_attributes,
                           global uint* restrict sides, global float* restrict radiance) {
     const uint first = work_item() * VXL_LANES;
     if (first >= count) return;
@@ -53,7 +54,7 @@ kernel void shade_surface(PyramidShape shape, Space space, global const float* r
     if (VXL_INSTANCES) {
         instance = LANES_LOAD(hits, VXL_HIT_INSTANCE * stride + first);
         of_instance = hit & LANE_MASK(instance != VXL_NO_INSTANCE);
-        in_grid = carry_hits(instance_records, instance, of_instance, in_grid);
+        in_grid = transform_hits(instance_records, instance, of_instance, in_grid);
     }
     const Vector o = in_grid.origin, d = in_grid.direction;
     const lane_float at = in_grid.t;
@@ -65,12 +66,13 @@ kernel void shade_surface(PyramidShape shape, Space space, global const float* r
     Vector normal = {(lane_float)0.0f, (lane_float)0.0f, (lane_float)0.0f};
     lane_uint primitive = (lane_uint)VXL_NO_PRIMITIVE;
     if (VXL_EXACT) primitive = LANES_LOAD(hits, VXL_HIT_PRIMITIVE * stride + first);
-    lane_uint word = hit_word(attributes, constant_attribute, triangle_attributes, solids, voxel,
-                              primitive, hit);
+    lane_uint packed = attributes_of_hit(attributes, constant_attribute, triangle_attributes,
+                                         solids, voxel, primitive, hit);
     if (VXL_INSTANCES)
-        word = instance_word(instance_records, group_materials, instance, word, of_instance);
+        packed =
+            instance_attributes(instance_records, group_materials, instance, packed, of_instance);
     const lane_int exact = LANE_MASK(primitive != VXL_NO_PRIMITIVE) & hit;
-    const lane_uint kind = word >> VXL_KIND_SHIFT;
+    const lane_uint kind = packed >> VXL_KIND_SHIFT;
     if (VXL_CUBES) {
         const lane_float up_x = LANES_FLOAT(LANE_MASK(d.x >= 0.0f)) * 2.0f + 1.0f;
         const lane_float up_y = LANES_FLOAT(LANE_MASK(d.y >= 0.0f)) * 2.0f + 1.0f;
@@ -150,31 +152,32 @@ kernel void shade_surface(PyramidShape shape, Space space, global const float* r
     }
     if (VXL_POSITIONS) store_vector(position, positions, stride, first);
     if (VXL_NORMALS) store_vector(normal, normals, stride, first);
-    if (VXL_WORDS) LANES_STORE(word, words, first);
+    if (VXL_HIT_ATTRIBUTES) LANES_STORE(packed, hit_attributes, first);
     if (!VXL_RADIANCE) return;
 
-    const lane_uint material = material_place(word) & LANES_AS_UINT(hit);
+    const lane_uint material = material_offset(packed) & LANES_AS_UINT(hit);
     lane_float opacity = surface_opacity(materials, material, colors, voxel);
     lane_uint side = LANES_AS_UINT(behind) & VXL_SIDE_LEAVING;
     if (VXL_TRANSMISSION) {
         lane_int hidden;
-        const Interior before = load_interior(paths, stride, first, hit);
-        const lane_int body = is_smooth(word, primitive) & ~of_instance;
-        lane_int leaving = interior_holds(&before, word, body) | behind;
+        const MediumSet before = load_medium_set(paths, stride, first, hit);
+        const lane_int body = is_smooth(packed, primitive) & ~of_instance;
+        lane_int leaving = medium_set_holds(&before, packed, body) | behind;
         lane_int inner = (lane_int)0, exit = (lane_int)0;  // faces between cubes, and out of them
         if (VXL_CUBE_BODIES) {
-            const lane_int cube = is_cube(word, primitive) & hit;
+            const lane_int cube = is_cube(packed, primitive) & hit;
             exit = cube & is_exit(cell_face);
             inner = cube & leaving & ~exit;
             leaving = LANES_SELECT(cube, exit, leaving);
         }
-        hidden = hides_surface(&before, word, body, leaving, ranks);
+        hidden = hides_surface(&before, packed, body, leaving, ranks);
         if (VXL_CUBE_BODIES) {
-            hidden |= exit & ~is_joined(word, materials);
+            hidden |= exit & ~is_joined(packed, materials);
             hidden =
-                LANES_SELECT(inner, ~same_member(effective_member(&before, ranks), word), hidden);
+                LANES_SELECT(inner, ~same_medium(effective_medium(&before, ranks), packed), hidden);
             // An observer inside of a joined body is not on any face of it.
-            hidden |= is_cube(word, primitive) & LANE_MASK(axis == 3u) & is_joined(word, materials);
+            hidden |=
+                is_cube(packed, primitive) & LANE_MASK(axis == 3u) & is_joined(packed, materials);
         }
         hidden &= hit & (transmits(materials, material, opacity) | exit);
         opacity = LANES_SELECT(hidden, (lane_float)0.0f, opacity);
@@ -184,9 +187,10 @@ kernel void shade_surface(PyramidShape shape, Space space, global const float* r
     if (VXL_PATHS) LANES_STORE(side, sides, first);
 
     const lane_float diffuse = LANES_GATHER_FLOAT(materials, material + VXL_MATERIAL_DIFFUSE);
-    const lane_uint place = color_place(materials, material, position.x, position.y, position.z);
-    const float ambient[3] = {space.ambient.x, space.ambient.y, space.ambient.z};
-    const float background[3] = {space.background.x, space.background.y, space.background.z};
+    const lane_uint place = color_offset(materials, material, position.x, position.y, position.z);
+    const float ambient[3] = {environment.ambient.x, environment.ambient.y, environment.ambient.z};
+    const float background[3] = {environment.background.x, environment.background.y,
+                                 environment.background.z};
     for (int channel = 0; channel < 3; ++channel) {
         const lane_float color = surface_color(materials, place, colors, voxel, channel);
         const lane_float emission =

@@ -15,19 +15,19 @@ typedef struct {
 } SightRay;
 
 /// Where the sample at (u, v), each in [-1, 1] with u to the right and v down, looks.
-static inline SightRay sight_ray(const Sight* sight, lane_float u, lane_float v, lane_int* seen) {
+static inline SightRay sight_ray(const Camera* camera, lane_float u, lane_float v, lane_int* seen) {
     SightRay ray;
     const lane_float zero = (lane_float)0.0f;
     // Image right is -X_E, image up is Y_E.
-    const lane_float x = -u * sight->half_x, y = -v * sight->half_y;
+    const lane_float x = -u * camera->half_x, y = -v * camera->half_y;
     ray.start.x = ray.start.y = ray.start.z = zero;
-    if (sight->shape == VXL_SHAPE_PYRAMID) {
-        ray.start.x = x * sight->lead, ray.start.y = y * sight->lead;
+    if (camera->shape == VXL_SHAPE_PYRAMID) {
+        ray.start.x = x * camera->lead, ray.start.y = y * camera->lead;
         ray.direction.x = x, ray.direction.y = y, ray.direction.z = (lane_float)1.0f;
-    } else if (sight->shape == VXL_SHAPE_BOX) {
+    } else if (camera->shape == VXL_SHAPE_BOX) {
         ray.start.x = x, ray.start.y = y;
         ray.direction.x = ray.direction.y = zero, ray.direction.z = (lane_float)1.0f;
-    } else if (sight->shape == VXL_SHAPE_BALL) {  // longitude and latitude
+    } else if (camera->shape == VXL_SHAPE_BALL) {  // longitude and latitude
         lane_float sin_x, cos_x, sin_y, cos_y;
         exact_sincos(x, &sin_x, &cos_x);
         exact_sincos(y, &sin_y, &cos_y);
@@ -35,7 +35,7 @@ static inline SightRay sight_ray(const Sight* sight, lane_float u, lane_float v,
     } else {  // sector: the angle from Z_E grows evenly with the distance from the middle
         const lane_float radius = exact_sqrt(fma(u, u, v * v));
         lane_float sine, cosine;
-        exact_sincos(radius * sight->half_x, &sine, &cosine);
+        exact_sincos(radius * camera->half_x, &sine, &cosine);
         const lane_float by =
             exact_divide(sine, LANES_SELECT(LANE_MASK(radius > 0.0f), radius, (lane_float)1.0f));
         ray.direction.x = -u * by, ray.direction.y = -v * by, ray.direction.z = cosine;
@@ -50,51 +50,51 @@ static inline lane_float along(float ax, float ay, float az, Vector v) {
 }
 
 /// Writes the rays of one packet. `offsets` holds x and y in [0, 1) of each sample in its pixel.
-kernel void cast_sight(Sight sight, PyramidShape shape, global const float* restrict offsets,
+kernel void cast_sight(Camera camera, PyramidShape shape, global const float* restrict offsets,
                        uint first_tile, uint count, uint stride, global float* restrict rays) {
     const uint first = work_item() * VXL_LANES;
     if (first >= count) return;
     const uint group = first / 16u;
-    const uint tile = first_tile + group / (uint)sight.samples;
-    const uint sample = group % (uint)sight.samples;
-    const uint tiles_x = ((uint)sight.width + 3u) / 4u;
+    const uint tile = first_tile + group / (uint)camera.samples;
+    const uint sample = group % (uint)camera.samples;
+    const uint tiles_x = ((uint)camera.width + 3u) / 4u;
     const lane_int pixel = LANES_NUMBERS + (int)(first % 16u);
     const lane_int column = (int)(tile % tiles_x * 4u) + (pixel & 3);
     const lane_int row = (int)(tile / tiles_x * 4u) + (pixel >> 2);
-    lane_int seen = LANE_MASK(column < sight.width) & LANE_MASK(row < sight.height);
+    lane_int seen = LANE_MASK(column < camera.width) & LANE_MASK(row < camera.height);
 
     const lane_float px = LANES_FLOAT(column) + offsets[2u * sample];
     const lane_float py = LANES_FLOAT(row) + offsets[2u * sample + 1u];
-    const lane_float u = exact_divide(2.0f * px, (lane_float)(float)sight.width) - 1.0f;
-    const lane_float v = exact_divide(2.0f * py, (lane_float)(float)sight.height) - 1.0f;
-    const SightRay ray = sight_ray(&sight, u, v, &seen);
+    const lane_float u = exact_divide(2.0f * px, (lane_float)(float)camera.width) - 1.0f;
+    const lane_float v = exact_divide(2.0f * py, (lane_float)(float)camera.height) - 1.0f;
+    const SightRay ray = sight_ray(&camera, u, v, &seen);
 
-    lane_float dx = along(sight.axis_x.x, sight.axis_y.x, sight.axis_z.x, ray.direction);
-    lane_float dy = along(sight.axis_x.y, sight.axis_y.y, sight.axis_z.y, ray.direction);
-    lane_float dz = along(sight.axis_x.z, sight.axis_y.z, sight.axis_z.z, ray.direction);
+    lane_float dx = along(camera.axis_x.x, camera.axis_y.x, camera.axis_z.x, ray.direction);
+    lane_float dy = along(camera.axis_x.y, camera.axis_y.y, camera.axis_z.y, ray.direction);
+    lane_float dz = along(camera.axis_x.z, camera.axis_y.z, camera.axis_z.z, ray.direction);
     const lane_float scale = power_of_two_scale(dx, dy, dz);
     const lane_float per_metre = exact_reciprocal(scale);
     dx = snap_direction(dx * scale), dy = snap_direction(dy * scale),
     dz = snap_direction(dz * scale);
 
     const lane_float lx =
-        sight.origin_low.x + along(sight.axis_x.x, sight.axis_y.x, sight.axis_z.x, ray.start);
+        camera.origin_low.x + along(camera.axis_x.x, camera.axis_y.x, camera.axis_z.x, ray.start);
     const lane_float ly =
-        sight.origin_low.y + along(sight.axis_x.y, sight.axis_y.y, sight.axis_z.y, ray.start);
+        camera.origin_low.y + along(camera.axis_x.y, camera.axis_y.y, camera.axis_z.y, ray.start);
     const lane_float lz =
-        sight.origin_low.z + along(sight.axis_x.z, sight.axis_y.z, sight.axis_z.z, ray.start);
-    const lane_float t_far = sight.far_plane * per_metre;
-    lane_float t_first = sight.near_plane * per_metre, t_last = t_far;
-    const Vector origin = {sight.origin.x + lx, sight.origin.y + ly, sight.origin.z + lz};
+        camera.origin_low.z + along(camera.axis_x.z, camera.axis_y.z, camera.axis_z.z, ray.start);
+    const lane_float t_far = camera.far_plane * per_metre;
+    lane_float t_first = camera.near_plane * per_metre, t_last = t_far;
+    const Vector origin = {camera.origin.x + lx, camera.origin.y + ly, camera.origin.z + lz};
     const Vector direction = {dx, dy, dz};
     clip_to_world(origin, direction, shape.size_x, shape.size_y, shape.size_z, &t_first, &t_last);
     seen &= LANE_MASK(t_first <= t_last);
     t_first = LANES_SELECT(seen, t_first, (lane_float)0.0f);
 
     const lane_float zero = (lane_float)0.0f;
-    const lane_float ox = start_coordinate(sight.origin.x, lx, dx, (float)shape.size_x, t_first);
-    const lane_float oy = start_coordinate(sight.origin.y, ly, dy, (float)shape.size_y, t_first);
-    const lane_float oz = start_coordinate(sight.origin.z, lz, dz, (float)shape.size_z, t_first);
+    const lane_float ox = start_coordinate(camera.origin.x, lx, dx, (float)shape.size_x, t_first);
+    const lane_float oy = start_coordinate(camera.origin.y, ly, dy, (float)shape.size_y, t_first);
+    const lane_float oz = start_coordinate(camera.origin.z, lz, dz, (float)shape.size_z, t_first);
     LANES_STORE(snap_position(ox, zero, shape.fixed_point), rays, VXL_RAY_OX * stride + first);
     LANES_STORE(snap_position(oy, zero, shape.fixed_point), rays, VXL_RAY_OY * stride + first);
     LANES_STORE(snap_position(oz, zero, shape.fixed_point), rays, VXL_RAY_OZ * stride + first);
@@ -107,15 +107,15 @@ kernel void cast_sight(Sight sight, PyramidShape shape, global const float* rest
 }
 
 /// One work-item sends VXL_LANES beams, each along the 16 rays of its group; see shared/trace.h.
-/// `scale`, a power of two, is what the halo's coordinates are of the rays'. Adds the number of
-/// clear ones, low word and high word, to `cleared`.
+/// `scale`, a power of two, is what the dilated occupancy's coordinates are of the rays'. Adds the
+/// number of clear ones, low word and high word, to `cleared`.
 kernel void start_beams(PyramidShape shape, global const uint* restrict sectors,
                         global const uint* restrict bricks, float scale,
                         global const float* restrict rays, uint count, uint stride,
                         global uint* restrict beams, global uint* restrict cleared) {
     const uint first = work_item() * VXL_LANES;
     if (first >= count) return;
-    const PyramidView halo = pyramid_view(shape, sectors, bricks, 0, 0);
+    const PyramidView dilated_occupancy = pyramid_view(shape, sectors, bricks, 0, 0);
     const BeamRays r = {rays, stride, scale};
     const lane_uint beam = min(LANES_AS_UINT(LANES_NUMBERS + (int)first), (lane_uint)(count - 1u));
     const lane_uint first_ray = beam * VXL_BEAM_RAYS;
@@ -138,13 +138,13 @@ kernel void start_beams(PyramidShape shape, global const uint* restrict sectors,
         const lane_uint ray = first_ray + i;
         const lane_int found = is_ray(&r, ray), held = found & active;
         idle &= ~found;
-        const lane_float s0 = sign * ray_place(&r, axis, ray);
+        const lane_float s0 = sign * ray_slot(&r, axis, ray);
         const lane_float d = sign * ray_value(&r, axis + VXL_RAY_DX, ray);
-        active &= ~held | LANE_MASK(d >= VXL_BEAM_LEAST_DIRECTION);
+        active &= ~held | LANE_MASK(d >= VXL_BEAM_MIN_DIRECTION);
         const lane_float per_s = exact_reciprocal(LANES_SELECT(active & held, d, (lane_float)1.0f));
         const lane_float mb = ray_value(&r, axis_b + VXL_RAY_DX, ray) * per_s;
         const lane_float mc = ray_value(&r, axis_c + VXL_RAY_DX, ray) * per_s;
-        const lane_float b = ray_place(&r, axis_b, ray), c = ray_place(&r, axis_c, ray);
+        const lane_float b = ray_slot(&r, axis_b, ray), c = ray_slot(&r, axis_c, ray);
         widen(fma(mb, s_near - s0, b), fma(mb, s_far - s0, b), held, &b_span);
         widen(fma(mc, s_near - s0, c), fma(mc, s_far - s0, c), held, &c_span);
         s_first = LANES_SELECT(held, fmin(s_first, s0), s_first);
@@ -153,19 +153,20 @@ kernel void start_beams(PyramidShape shape, global const uint* restrict sectors,
     const BeamAxis c = beam_axis(&c_span, s_near, s_far, active);
     const lane_float s_last =
         fmin(fmin(narrow_until(&b, s_first), narrow_until(&c, s_first)), s_far);
-    const lane_float end = run_beams(&halo, axis, sign, &b, &c, s_first, s_last, active);
+    const lane_float end =
+        run_beams(&dilated_occupancy, axis, sign, &b, &c, s_first, s_last, active);
     const lane_float start = (fmin(end, s_last) - 2.0f * VXL_BEAM_STEP) * (1.0f / scale);
-    const uint places = VXL_BEAM_PLACES(stride);
-    LANES_STORE(LANES_AS_UINT(start), beams, VXL_BEAM_START * places + first);
-    // The halo's last leaf knows of 4 voxels more, and so of the step past its planes. A beam that
-    // begins within a step of the far side has looked at nothing.
+    const uint slots = VXL_BEAM_SLOTS(stride);
+    LANES_STORE(LANES_AS_UINT(start), beams, VXL_BEAM_START * slots + first);
+    // The dilated occupancy's last leaf knows of 4 voxels more, and so of the step past its planes.
+    // A beam that begins within a step of the far side has looked at nothing.
     const lane_int clear = LANE_MASK(s_last >= s_far) & LANE_MASK(end >= s_far) &
                            LANE_MASK(s_first + VXL_BEAM_STEP < s_far);
     lane_int towards = axis | (~up & VXL_BEAM_DOWN);
     towards = LANES_SELECT(active, towards, (lane_int)VXL_BEAM_NONE);
     const lane_int ended = (active & clear) | idle;
     towards = LANES_SELECT(ended, (lane_int)VXL_BEAM_CLEAR, towards);
-    LANES_STORE(LANES_AS_UINT(towards), beams, VXL_BEAM_AXIS * places + first);
+    LANES_STORE(LANES_AS_UINT(towards), beams, VXL_BEAM_AXIS * slots + first);
     const uint sum =
         (uint)lanes_count(ended & LANE_MASK(LANES_AS_UINT(LANES_NUMBERS + (int)first) < count));
     if (sum > 0 && atomic_add(&cleared[0], sum) > ~0u - sum) atomic_inc(&cleared[1]);

@@ -21,12 +21,12 @@ static inline lane_int block_log2(const Walk* w) {
     return max(LANES_AS_INT(mix >> 28) - 9, 0);
 }
 
-/// Walks rays 0 .. count-1 through at most `most` cells each. Arrays hold a multiple of 16 rays.
+/// Walks rays 0 .. count-1 through at most `maximum` cells each. Arrays hold a multiple of 16 rays.
 ///
 /// Of each ray: the number of cells entered, and a hash of the cells, axes and times in their
 /// order. With VXL_BLOCKS the walk leaves blocks of up to 64 cells in one step.
 kernel void digest_walks(PyramidShape shape, global const float* restrict rays, uint count,
-                         uint stride, uint most, global uint* restrict digests) {
+                         uint stride, uint maximum, global uint* restrict digests) {
     const uint first = work_item() * VXL_LANES;
     if (first >= count) return;
     const PyramidView grid = grid_view(shape);
@@ -38,7 +38,7 @@ kernel void digest_walks(PyramidShape shape, global const float* restrict rays, 
         const lane_uint mixed = ((hash ^ LANES_AS_UINT(w.t)) + place) * VXL_HASH_FACTOR;
         hash = LANES_SELECT(walking, mixed, hash);
         cells -= LANES_AS_UINT(walking);
-        walking &= LANE_MASK(cells < most);
+        walking &= LANE_MASK(cells < maximum);
         advance(&grid, &w, block_log2(&w), walking);
         walking &= in_grid(&grid, &w);
     }
@@ -46,16 +46,16 @@ kernel void digest_walks(PyramidShape shape, global const float* restrict rays, 
     LANES_STORE(hash, digests, stride + first);
 }
 
-/// The cells themselves: `most` places of x, y, z, axis and t, `stride` values apart. Places that a
-/// walk doesn't reach keep what they had.
+/// The cells themselves: `maximum` places of x, y, z, axis and t, `stride` values apart. Places
+/// that a walk doesn't reach keep what they had.
 kernel void list_walks(PyramidShape shape, global const float* restrict rays, uint count,
-                       uint stride, uint most, global int* restrict lists) {
+                       uint stride, uint maximum, global int* restrict lists) {
     const uint first = work_item() * VXL_LANES;
     if (first >= count) return;
     const PyramidView grid = grid_view(shape);
     Walk w = load_walk(rays, stride, first);
     lane_int walking = in_grid(&grid, &w);
-    for (uint i = 0; i < most && lanes_any(walking); ++i) {
+    for (uint i = 0; i < maximum && lanes_any(walking); ++i) {
         const uint at = 5u * i * stride + first;
         LANES_STORE(LANES_SELECT(walking, w.x, (lane_int)-1), lists, at);
         LANES_STORE(w.y, lists, at + stride);

@@ -1,8 +1,8 @@
 // rays -> hits: the discrete walk of every ray through the world to the first surface it meets.
 #include "lib/lanes/work_item.h"
 #include "lib/surface/begin_inside.h"
-#include "lib/traverse/relay.h"
-#include "lib/traverse/shadow_flight.h"
+#include "lib/traverse/lane_refill.h"
+#include "lib/traverse/shadow_packet.h"
 #include "lib/traverse/sight_rays.h"
 #include "shared/scene.h"
 
@@ -29,17 +29,17 @@ kernel void trace_closest(VXL_WORLD_ARGUMENTS, global const float* restrict rays
                           uint stride, global const uint* restrict paths,
                           global const float* restrict starts, global const uint* restrict beams,
                           global uint* restrict hits) {
-    const uint first = work_item() * (VXL_LANES * VXL_PACKET_TURNS);
+    const uint first = work_item() * (VXL_LANES * VXL_PACKETS_INTERLEAVED);
     if (first >= count) return;
     VXL_WORLD_VIEWS;
     const SightRays q = {rays, paths, starts, beams, count, stride};
-    Flight f;
+    Packet f;
     bool sent = send_packet(&pyramid, &q, first, &f, hits);
-    if (VXL_PACKET_TURNS > 1) {
-        Flight g;
+    if (VXL_PACKETS_INTERLEAVED > 1) {
+        Packet g;
         const bool also = send_packet(&pyramid, &q, first + VXL_LANES, &g, hits);
         if (sent && also) {
-            find_by_turns(&pyramid, &surface, &f, are_rays(&q, &f), &g, are_rays(&q, &g));
+            find_interleaved(&pyramid, &surface, &f, are_rays(&q, &f), &g, are_rays(&q, &g));
             store_packet(&q, &f, hits);
             store_packet(&q, &g, hits);
             return;
@@ -49,7 +49,7 @@ kernel void trace_closest(VXL_WORLD_ARGUMENTS, global const float* restrict rays
     }
     if (!sent) return;
     f.found = find_nearest(&pyramid, &surface, &instances, &f.walk, f.t_end, are_rays(&q, &f),
-                           false, &f.travel);
+                           false, &f.ray_state);
     store_packet(&q, &f, hits);
 }
 
@@ -70,17 +70,17 @@ kernel void trace_scattered(VXL_WORLD_ARGUMENTS, global const float* restrict ra
         {rays, paths, starts, 0, count, stride},
         first,
         min(first + VXL_LANES * VXL_PACKETS(VXL_LANES), (count + VXL_LANES - 1u) & -VXL_LANES)};
-    Relay a = begin_relay(&pyramid, &q);
+    LaneRefill a = begin_refill(&pyramid, &q);
     if (VXL_LANES > 1 && q.next < q.end) {
-        Relay b = begin_relay(&pyramid, &q);
+        LaneRefill b = begin_refill(&pyramid, &q);
         while (lanes_any(a.held) && lanes_any(b.held)) {
-            const int least = least_walking(&q);
-            bool on_a = walks(&a, least), on_b = walks(&b, least);
+            const int minimum = min_walking(&q);
+            bool on_a = walks(&a, minimum), on_b = walks(&b, minimum);
             while (on_a && on_b) {
-                step_relay(&pyramid, &a);
-                step_relay(&pyramid, &b);
-                on_a = walks(&a, least);
-                on_b = walks(&b, least);
+                step_refill(&pyramid, &a);
+                step_refill(&pyramid, &b);
+                on_a = walks(&a, minimum);
+                on_b = walks(&b, minimum);
             }
             if (!on_a) serve(&pyramid, &surface, &q, &a, hits);
             if (!on_b) serve(&pyramid, &surface, &q, &b, hits);
@@ -88,47 +88,51 @@ kernel void trace_scattered(VXL_WORLD_ARGUMENTS, global const float* restrict ra
         if (lanes_any(b.held)) a = b;
     }
     while (lanes_any(a.held)) {
-        const int least = least_walking(&q);
-        while (walks(&a, least)) step_relay(&pyramid, &a);
+        const int minimum = min_walking(&q);
+        while (walks(&a, minimum)) step_refill(&pyramid, &a);
         serve(&pyramid, &surface, &q, &a, hits);
     }
 }
 #endif
 
-#if VXL_IMMERSED
+#if VXL_OBSERVER_IN_MEDIUM
 /// Adds to the objects that rays 0 .. count-1 are inside of, as begin_paths left them, those that
-/// only tracing finds; see find_beginnings. `most` is their number in the scene, smooth ones as
+/// only tracing finds; see find_beginnings. `maximum` is their number in the scene, smooth ones as
 /// one.
 kernel void begin_inside(VXL_WORLD_ARGUMENTS, uint constant_attribute,
                          global const float* restrict materials, global const uint* restrict ranks,
-                         global uint* lost, global const uint* restrict hollow, uint most,
-                         global const float* restrict rays, uint count, uint stride,
+                         global uint* medium_overflows, global const uint* restrict hollow,
+                         uint maximum, global const float* restrict rays, uint count, uint stride,
                          global uint* restrict paths, global const float* restrict starts,
                          global uint* restrict inside) {
     const uint first = work_item() * VXL_LANES;
     if (first >= count) return;
     VXL_WORLD_VIEWS;
     (void)instances;
-    Flight f;
+    Packet f;
     f.ray = LANES_AS_UINT(LANES_NUMBERS + (int)first);
     set_out(&pyramid, rays, count, stride, paths, starts, &f);
-    Interior in = f.travel.interior;
+    MediumSet in = f.ray_state.media;
     const lane_int active = LANE_MASK(f.t_end >= 0.0f) & LANE_MASK(f.ray < count);
-    const Interior began = find_beginnings(&pyramid, &surface, &f.walk, active, &f.travel,
-                                           constant_attribute, materials, hollow, most, lost);
-    for (int i = 0; i < VXL_INTERIOR_MEMBERS; ++i) {
+    const MediumSet began =
+        find_beginnings(&pyramid, &surface, &f.walk, active, &f.ray_state, constant_attribute,
+                        materials, hollow, maximum, medium_overflows);
+    for (int i = 0; i < VXL_MEDIUM_SET_SIZE; ++i) {
         lane_int full;
-        in = cross_interior_or_lose(in, began.members[i], (lane_int)(i == 0 ? -1 : 0), (lane_int)0,
-                                    LANE_MASK(began.members[i] != VXL_NO_MEMBER), &full);
-        if (VXL_INTERIOR_CAPPED && lanes_any(full)) atomic_add(lost, (uint)lanes_count(full));
+        in =
+            cross_medium_or_overflow(in, began.members[i], (lane_int)(i == 0 ? -1 : 0), (lane_int)0,
+                                     LANE_MASK(began.members[i] != VXL_NO_MEDIUM), &full);
+        if (VXL_MEDIUM_SET_CAPPED && lanes_any(full))
+            atomic_add(medium_overflows, (uint)lanes_count(full));
     }
-    store_interior(&in, paths, stride, first);
+    store_medium_set(&in, paths, stride, first);
     LANES_STORE(medium_inside(&in, ranks), inside, first);
 }
 #endif
 
 /// Traces a queue of shadow rays that begin on surfaces; what reaches its light adds its share of
-/// light, `shares` (three components `stride` apart), to the radiance of the ray it was sent for.
+/// light, `contributions` (three components `stride` apart), to the radiance of the ray it was sent
+/// for.
 ///
 /// Every target stands in the queue at most once, so no two work-items add to the same place. The
 /// first work-item alone adds the queue's length to `traced`, low word and high word. `beam_grid`
@@ -136,15 +140,16 @@ kernel void begin_inside(VXL_WORLD_ARGUMENTS, uint constant_attribute,
 kernel void trace_shadows(VXL_WORLD_ARGUMENTS, uint constant_attribute,
                           global const float* restrict materials,
                           global const uint* restrict colors, global const uint* restrict ranks,
-                          global uint* lost, float4 absorption, DensityShape density_shape,
-                          global const uint* restrict density_bricks,
+                          global uint* medium_overflows, float4 absorption,
+                          DensityShape density_shape, global const uint* restrict density_bricks,
                           global const float* restrict density_values,
                           global const float* restrict rays, global const uint* restrict count,
                           uint stride, global const uint* restrict targets,
                           global const uint* restrict sources, global const uint* restrict paths,
-                          global const uint* restrict hits, global const float* restrict shares,
-                          BeamGrid beam_grid, global const float* restrict beam_ends,
-                          global uint* restrict traced, global float* restrict radiance) {
+                          global const uint* restrict hits,
+                          global const float* restrict contributions, BeamGrid beam_grid,
+                          global const float* restrict beam_ends, global uint* restrict traced,
+                          global float* restrict radiance) {
     const uint first = work_item() * (VXL_LANES * VXL_SHADOW_PACKETS);
     const uint queued = *count;
     if (first >= queued) return;
@@ -154,27 +159,27 @@ kernel void trace_shadows(VXL_WORLD_ARGUMENTS, uint constant_attribute,
     }
     VXL_WORLD_VIEWS;
     const MediumView medium = {absorption, {density_shape, density_bricks, density_values}};
-    const FilterView filter = {constant_attribute, materials, colors, ranks, lost, medium,
-                               instances};
-    const ShadowRays queue = {rays,   targets, sources,   paths,    hits,
-                              shares, stride,  beam_grid, beam_ends};
-#if VXL_SHADOWS_FLY
+    const FilterView filter = {constant_attribute, materials, colors,   ranks,
+                               medium_overflows,   medium,    instances};
+    const ShadowRays queue = {rays,          targets, sources,   paths,    hits,
+                              contributions, stride,  beam_grid, beam_ends};
+#if VXL_REFILLS_SHADOWS
     const uint end = min(first + VXL_LANES * VXL_SHADOW_PACKETS, queued);
-    fly_shadows(&pyramid, &surface, &filter, shape, &queue, first, end, radiance);
+    trace_refilled_shadows(&pyramid, &surface, &filter, shape, &queue, first, end, radiance);
 #else
-    ShadowFlight f;
-    f.flight.ray = LANES_AS_UINT(LANES_NUMBERS + (int)first);
-    const lane_int active = LANE_MASK(f.flight.ray < queued);
+    ShadowPacket f;
+    f.packet.ray = LANES_AS_UINT(LANES_NUMBERS + (int)first);
+    const lane_int active = LANE_MASK(f.packet.ray < queued);
     send_shadows(&surface, &filter, shape, &queue, active, &f);
     if (VXL_SHADOW_PACKETS > 1) {
-        ShadowFlight g;
-        g.flight.ray = f.flight.ray + VXL_LANES;
-        const lane_int others = LANE_MASK(g.flight.ray < queued);
+        ShadowPacket g;
+        g.packet.ray = f.packet.ray + VXL_LANES;
+        const lane_int others = LANE_MASK(g.packet.ray < queued);
         if (lanes_any(others)) {
             send_shadows(&surface, &filter, shape, &queue, others, &g);
-            find_by_turns(&pyramid, &surface, &f.flight, active, &g.flight, others);
-            bring_light(&queue, &f, active, active & ~f.flight.found.hit, radiance);
-            bring_light(&queue, &g, others, others & ~g.flight.found.hit, radiance);
+            find_interleaved(&pyramid, &surface, &f.packet, active, &g.packet, others);
+            bring_light(&queue, &f, active, active & ~f.packet.found.hit, radiance);
+            bring_light(&queue, &g, others, others & ~g.packet.found.hit, radiance);
             return;
         }
     }

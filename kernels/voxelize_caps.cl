@@ -26,7 +26,7 @@
 #define LENGTH_ROUNDING 1e-3f
 // Voxels, in place of none: with it an edge of a lattice unit already has a slope of 10^7 a voxel,
 // so the brick is open whatever else there is.
-#define LEAST_GAP 1e-6f
+#define MIN_GAP 1e-6f
 // Four times 2^-24 of each sum: one for it, the others for the product with TURNS and this bound.
 #define SUM_ROUNDING 2.4e-7f
 
@@ -46,7 +46,7 @@ static inline lane_float slope_bound(const Cap* cap, const LanePoints* p, float 
         sqrt(edge.x * edge.x + edge.y * edge.y + edge.z * edge.z) * (1.0f + LENGTH_ROUNDING);
     const LaneVector middle = vector_to(first + (second - first) / 2, p, to_metric);
     const lane_float gap = fmax(middle.length * (1.0f - LENGTH_ROUNDING) - 0.5f * length - radius,
-                                (lane_float)LEAST_GAP);
+                                (lane_float)MIN_GAP);
     return (INVERSE_SPHERE * length) / (gap * gap);
 }
 

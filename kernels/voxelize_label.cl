@@ -1,4 +1,4 @@
-// triangles of each brick -> the attribute word and colour of its voxels.
+// triangles of each brick -> the packed attributes and colour of its voxels.
 //
 // Both come from the triangle closest to the voxel's centre, of equally close ones from that with
 // the lowest number: a rule that no order of work changes. Used only for meshes that have several
@@ -80,13 +80,14 @@ kernel void find_nearest(uint count, int4 bins, int4 bricks, int4 reach, float4 
                                      16u * (uint)(j * TILE_Y) + (uint)(k * TILE_X));
 }
 
-/// One work-item: one voxel. Its word is that of its closest triangle; `word` where there is none.
-kernel void label_voxels(uint count, uint word, global const uint* restrict nearest,
+/// One work-item: one voxel. Its word is that of its closest triangle; `packed` where there is
+/// none.
+kernel void label_voxels(uint count, uint packed, global const uint* restrict nearest,
                          global const uint* restrict triangle_attributes,
                          global uint* restrict attributes) {
     if (work_item() >= count) return;
     const uint number = nearest[work_item()];
-    attributes[work_item()] = number == NO_TRIANGLE ? word : triangle_attributes[number];
+    attributes[work_item()] = number == NO_TRIANGLE ? packed : triangle_attributes[number];
 }
 
 /// Weights of a triangle's corners at the point closest to the origin.

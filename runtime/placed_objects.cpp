@@ -6,13 +6,13 @@
 
 namespace voxelume {
 
-std::vector<PlacedObject> placed_objects(const Scene& scene, MeshStore& meshes,
+std::vector<PlacedObject> placed_objects(const Scene& scene, AssetStore& meshes,
                                          std::span<const VoxelBox> boxes, const GridSource& grid_of,
                                          std::vector<SharedGrid>& grids) {
     std::vector<PlacedObject> objects;
     for (uint32_t number = 0; number < scene.objects.size(); ++number) {
         const Object& object = scene.objects[number];
-        if (is_instanced(scene, object) || !is_in_reach(scene, object)) continue;
+        if (is_instanced(scene, object) || !is_potentially_visible(scene, object)) continue;
         if (!overlap(boxes[number], boxes[number])) continue;  // nothing of it is in the world
         const Model& model = scene.models[size_t(object.model)];
         const bool has_own_voxels = !model.voxels.empty() && !lists_primitives(model.surface);

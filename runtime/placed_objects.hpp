@@ -5,10 +5,10 @@
 #include <span>
 #include <vector>
 
-#include "runtime/assets/mesh_store.hpp"
+#include "runtime/assets/asset_store.hpp"
 #include "runtime/scene/scene.hpp"
 #include "runtime/stages/place/place.hpp"
-#include "runtime/world/object_grids.hpp"
+#include "runtime/world/grid_cache.hpp"
 
 namespace voxelume {
 
@@ -17,7 +17,7 @@ using GridSource = std::function<SharedGrid(const Object& object, const Model& m
 
 /// The scene's objects that lie in the world, by their `boxes`, but for instances; `grids` keeps
 /// what they name.
-std::vector<PlacedObject> placed_objects(const Scene& scene, MeshStore& meshes,
+std::vector<PlacedObject> placed_objects(const Scene& scene, AssetStore& meshes,
                                          std::span<const VoxelBox> boxes, const GridSource& grid_of,
                                          std::vector<SharedGrid>& grids);
 

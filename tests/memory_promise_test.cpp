@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <functional>
 
-#include "runtime/analysis/reach.hpp"
+#include "runtime/analysis/culling.hpp"
 #include "runtime/batch/frame_pipeline.hpp"
 #include "runtime/memory/frame_plans.hpp"
 #include "runtime/render/volume_renderer.hpp"
@@ -21,10 +21,10 @@ namespace {
 constexpr double kLeastRatio = 0.3, kMostRatio = 4.0;
 
 double promised(Scene scene, const std::vector<int>& frames, const Device& device) {
-    MeshStore meshes;
-    find_objects_in_reach(scene, frames, meshes);
+    AssetStore meshes;
+    find_potentially_visible(scene, frames, meshes);
     const FramePlan planned = plan_frames(scene, frames, meshes, device.info());
-    EXPECT_LE(planned.plan.least_bytes, planned.plan.peak_bytes());
+    EXPECT_LE(planned.plan.min_bytes, planned.plan.peak_bytes());
     return planned.plan.peak_bytes();
 }
 
@@ -49,8 +49,8 @@ void expect_image_kept(const std::string& name, const Scene& scene) {
 void expect_frames_kept(const std::string& name, Scene scene, const std::vector<int>& frames) {
     const Device device = test_device();
     const double promise = promised(scene, frames, device);
-    MeshStore meshes;
-    find_objects_in_reach(scene, frames, meshes);
+    AssetStore meshes;
+    find_potentially_visible(scene, frames, meshes);
     Renderer renderer(device);
     FrameSteps steps{[&](size_t frame) { return scene_at(scene, frames[frame]); },
                      [&](const FrameInput& input) -> std::function<void()> {

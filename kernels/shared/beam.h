@@ -2,7 +2,8 @@
 #ifndef VXL_SHARED_BEAM_H
 #define VXL_SHARED_BEAM_H
 
-// Of a beam, in voxels of its halo. Tests have others, to see that beams too wide are found.
+// Of a beam, in voxels of its dilated occupancy. Tests have others, to see that beams too wide are
+// found.
 #ifndef VXL_BEAM_RADIUS
 #define VXL_BEAM_RADIUS 3.75f
 #endif

@@ -27,9 +27,10 @@ VXL_SIZE_IS(DisplaySteps, 16);
 #define VXL_LAYER_DEPTH 5      // float: of the surface, metres
 #define VXL_LAYER_BEGIN 6      // float: of the way, depth in metres beyond the near surface
 #define VXL_LAYER_END 7
-#define VXL_LAYER_RATIO 8    // float: metres of the way in a metre of depth
-#define VXL_LAYER_LIGHT 9    // 3 floats: what the layer adds to the light at E
-#define VXL_LAYER_PASSED 12  // 3 floats: the part of the light that comes from the way's begin to E
+#define VXL_LAYER_RATIO 8  // float: metres of the way in a metre of depth
+#define VXL_LAYER_LIGHT 9  // 3 floats: what the layer adds to the light at E
+#define VXL_LAYER_THROUGHPUT \
+    12  // 3 floats: the part of the light that comes from the way's begin to E
 #define VXL_LAYER_WORDS 15
 
 // A display of layout `lattice`. A coordinate (x,y,z) in lattice voxels is origin + x axis_x + y

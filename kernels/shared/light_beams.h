@@ -25,7 +25,7 @@ typedef struct BeamGrid {
     // From (b, c) on the grid towards the light, b changes by slope_b - b * converging, and c by
     // slope_c - c * converging, for each voxel along the axis towards larger coordinates.
     float slope_b, slope_c, converging;
-    float scale;  // the halo's coordinates of the world's
+    float scale;  // the dilated occupancy's coordinates of the world's
 } BeamGrid;
 VXL_SIZE_IS(BeamGrid, 48);
 

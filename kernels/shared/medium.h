@@ -14,7 +14,7 @@
 
 #define VXL_DENSITY_CONSTANT 0x80000000u
 #define VXL_DENSITY_SIZE_SHIFT 26
-#define VXL_DENSITY_PLACE 0x03FFFFFFu
+#define VXL_DENSITY_SLOT 0x03FFFFFFu
 
 typedef struct DensityShape {
     int bricks_x, bricks_y;

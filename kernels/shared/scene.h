@@ -20,21 +20,22 @@ typedef struct PyramidShape {
     float4 inverse_edge;         // 1 / edge
     int size_x, size_y, size_z;  // voxels
     int sectors_x, sectors_y;
-    float plane_bound;  // voxels: how far a computed crossing can lie from the true one
-    float fixed_point;  // 2^fraction_bits: one voxel in the rays' fixed point
-    float lift;  // of scenes with instances, voxels: how far along the normal rays set out from
-                 // an instance's surface, farther than rounding can have put them behind it
+    float plane_bound;    // voxels: how far a computed crossing can lie from the true one
+    float fixed_point;    // 2^fraction_bits: one voxel in the rays' fixed point
+    float origin_offset;  // of scenes with instances, voxels: how far along the normal rays set out
+                          // from an instance's surface, farther than rounding can have put them
+                          // behind it
 } PyramidShape;
 VXL_SIZE_IS(PyramidShape, 64);
 
-// Values of Sight::shape.
+// Values of Camera::shape.
 #define VXL_SHAPE_PYRAMID 0
 #define VXL_SHAPE_SECTOR 1
 #define VXL_SHAPE_BALL 2
 #define VXL_SHAPE_BOX 3
 
 // E: where sight rays start and what they span.
-typedef struct Sight {
+typedef struct Camera {
     float4 origin;      // E, or the point `lead` before it; w unused
     float4 origin_low;  // what `origin` rounded off
     float4 axis_x;      // X_E, Y_E, Z_E: voxels per metre along each
@@ -48,12 +49,12 @@ typedef struct Sight {
     int width, height;  // pixels
     int samples;        // per pixel
     int shape;
-    float sample_share;  // 1 / samples
+    float sample_weight;  // 1 / samples
     float lead;  // metres along Z_E from the observer to `origin`, where a pyramid's rays are
                  // spread out already; near_plane and far_plane count from there
     float unused[2];
-} Sight;
-VXL_SIZE_IS(Sight, 128);
+} Camera;
+VXL_SIZE_IS(Camera, 128);
 
 typedef struct MaterialRecord {
     float color[3];
@@ -93,29 +94,30 @@ VXL_SIZE_IS(MaterialRecord, 128);
 #define VXL_LIGHT_POINT 0
 #define VXL_LIGHT_SPOT 1
 #define VXL_LIGHT_DIRECTIONAL 2
-#define VXL_LIGHT_PATCH 3
+#define VXL_LIGHT_AREA_SAMPLE 3
 
 typedef struct LightRecord {
-    float4 position;   // point, spot, patch: where; directional: the way towards it; w unused
-    float4 direction;  // spot: unit vector in metres' space along which the light travels; patch:
-                       // its normal; w unused
-    float4 energy;     // rgb at 1 m, or everywhere for directional; patch: radiance times area over
-                       // pi; w unused
+    float4 position;   // point, spot, area light sample: where; directional: the way towards it; w
+                       // unused
+    float4 direction;  // spot: unit vector in metres' space along which the light travels; area
+                       // light sample: its normal; w unused
+    float4 intensity;  // rgb at 1 m, or everywhere for directional; area light sample: radiance
+                       // times area over pi; w unused
     float inner_cosine;  // spot: full light up to this angle's cosine, none from outer_cosine on
     float outer_cosine;
     int kind;
-    float spread;  // patch: its area over pi, square metres
+    float spread;  // area light sample: its area over pi, square metres
 } LightRecord;
 VXL_SIZE_IS(LightRecord, 64);
 
 // The space of S and what surrounds it.
-typedef struct Space {
+typedef struct Environment {
     float4 background;  // radiance
     float4 ambient;
     float4 absorption;  // of the medium, per metre
     float4 color;       // radiance that infinitely much medium shows
-} Space;
-VXL_SIZE_IS(Space, 64);
+} Environment;
+VXL_SIZE_IS(Environment, 64);
 
 #ifdef __cplusplus
 }  // namespace voxelume

@@ -17,13 +17,13 @@
 #define VXL_DIRECTION_BITS 22
 
 // How far the rays 16 n .. 16 n + 15 may start together: beam n, in two arrays of
-// VXL_BEAM_PLACES(stride) words.
+// VXL_BEAM_SLOTS(stride) words.
 //   VXL_BEAM_START  float: all that they meet lies at this coordinate or beyond it ...
 //   VXL_BEAM_AXIS   ... along axis 0, 1 or 2 towards larger coordinates; with VXL_BEAM_DOWN towards
 //                   smaller ones. VXL_BEAM_NONE: they start where they start; VXL_BEAM_CLEAR: they
 //                   meet nothing
 #define VXL_BEAM_RAYS 16
-#define VXL_BEAM_PLACES(stride) ((stride) / 256 * 16 + 16)
+#define VXL_BEAM_SLOTS(stride) ((stride) / 256 * 16 + 16)
 #define VXL_BEAM_START 0
 #define VXL_BEAM_AXIS 1
 #define VXL_BEAM_COMPONENTS 2
@@ -35,15 +35,15 @@
 #define VXL_PACKETS(lanes) ((lanes) > 1 ? 16u : 1u)
 // Whether lanes take on further rays as theirs end, in scenes with paths. A lane's instances come
 // after its walk in the world, which other lanes may still be in.
-#define VXL_RAYS_FLY(paths, instances) ((paths) && !(instances))
+#define VXL_REFILLS_LANES(paths, instances) ((paths) && !(instances))
 // The same of shadow rays, also where surfaces' tests take long: rays that pass beside a surface
 // meet many.
-#define VXL_SHADOW_RAYS_FLY(paths, smooth, exact, instances) \
+#define VXL_REFILLS_SHADOW_LANES(paths, smooth, exact, instances) \
     (((paths) || (smooth) || (exact)) && !(instances))
 
 // Packets whose steps take turns in one work-item: where surfaces are cubes, a packet's time is
 // that of its steps, each a long chain of operations that wait for one another.
-#define VXL_TURNS(lanes, smooth, exact, instances) \
+#define VXL_INTERLEAVED_PACKETS(lanes, smooth, exact, instances) \
     ((lanes) > 1 && !((smooth) || (exact) || (instances)) ? 2u : 1u)
 
 // What a ray met.
@@ -84,8 +84,8 @@
 //   VXL_PATH_CELL_Z  z; or with VXL_FACE_EXIT all of VXL_HIT_FACE: it goes on in the next cell
 //   VXL_PATH_TARGET  the node that the ray's light goes to
 //   VXL_PATH_CLEAR   float: what the surfaces passed leave uncovered
-//   VXL_PATH_PASSED  3 floats: what is left of the light on its way to the node
-//   VXL_PATH_INSIDE  VXL_INTERIOR_MEMBERS attribute words: the objects that the ray is inside of
+//   VXL_PATH_THROUGHPUT  3 floats: what is left of the light on its way to the node
+//   VXL_PATH_INSIDE  VXL_MEDIUM_SET_SIZE packed attributes: the objects that the ray is inside of
 // This one exists in scenes with instances only:
 //   VXL_PATH_INSTANCE  the instance that the ray begins on, VXL_NO_INSTANCE for the world
 #define VXL_PATH_SOURCE 0
@@ -95,7 +95,7 @@
 #define VXL_PATH_CELL_Z 4
 #define VXL_PATH_TARGET 5
 #define VXL_PATH_CLEAR 6
-#define VXL_PATH_PASSED 7
+#define VXL_PATH_THROUGHPUT 7
 #define VXL_PATH_INSTANCE 10
 #define VXL_PATH_INSIDE 11
 
@@ -107,11 +107,11 @@
 
 // Surfaces that one ray goes straight on through: more than there are cells on its way through the
 // largest world, 3 * 65536.
-#define VXL_MOST_LAYERS 0x40000
+#define VXL_MAX_LAYERS 0x40000
 
 // Members of a set of objects that a ray is inside of: the first is the smooth one (smooth objects
-// are one body), the others are exact or of cubes, as many as Features::other_members says.
-#define VXL_NO_MEMBER 0xFFFFFFFFu
+// are one body), the others are exact or of cubes, as many as Features::other_media says.
+#define VXL_NO_MEDIUM 0xFFFFFFFFu
 
 // How a ray meets a surface: bits of RayBatch::sides.
 #define VXL_SIDE_LEAVING 1u  // from inside the object

@@ -29,7 +29,7 @@ VoxelBox mapped(const glm::dvec3& min, const glm::dvec3& max, const glm::dmat4& 
     return in_voxels(low, high, world);
 }
 
-VoxelBox box_of(const Scene& scene, const Object& object, MeshStore& meshes,
+VoxelBox box_of(const Scene& scene, const Object& object, AssetStore& meshes,
                 const GridFrame& world) {
     const Model& model = scene.models[size_t(object.model)];
     const glm::dvec3 end = world.origin + world.voxel_edge * glm::dvec3(world.size);
@@ -49,12 +49,12 @@ VoxelBox box_of(const Scene& scene, const Object& object, MeshStore& meshes,
 
 }  // namespace
 
-std::vector<VoxelBox> object_boxes(const Scene& scene, MeshStore& meshes) {
+std::vector<VoxelBox> object_boxes(const Scene& scene, AssetStore& meshes) {
     const GridFrame world = world_frame(scene.world);
     std::vector<VoxelBox> boxes(scene.objects.size());
     for (size_t i = 0; i < boxes.size(); ++i) {
         const Object& object = scene.objects[i];
-        if (!is_in_reach(scene, object)) continue;
+        if (!is_potentially_visible(scene, object)) continue;
         const VoxelBox box = box_of(scene, object, meshes, world);
         boxes[i] = {glm::max(box.low, -kMargin),
                     glm::min(box.high, glm::dvec3(world.size) + kMargin)};

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "runtime/assets/mesh_store.hpp"
+#include "runtime/assets/asset_store.hpp"
 #include "runtime/assets/model_frame.hpp"
 #include "runtime/grid/grid.hpp"
 #include "runtime/scene/scene.hpp"
@@ -14,7 +14,7 @@ namespace voxelume {
 /// for objects that aren't in it.
 ///
 /// Surfaces may lie a voxel from where the object's own is, so the boxes are that much larger.
-/// Throws Error::input as MeshStore does.
-std::vector<VoxelBox> object_boxes(const Scene& scene, MeshStore& meshes);
+/// Throws Error::input as AssetStore does.
+std::vector<VoxelBox> object_boxes(const Scene& scene, AssetStore& meshes);
 
 }  // namespace voxelume

@@ -5,9 +5,9 @@
 #include <set>
 #include <vector>
 
-#include "runtime/analysis/interior.hpp"
+#include "runtime/analysis/medium_set.hpp"
 #include "runtime/analysis/object_boxes.hpp"
-#include "runtime/stages/light/spots.hpp"
+#include "runtime/stages/light/light_samples.hpp"
 #include "runtime/stages/trace/sight.hpp"
 #include "runtime/world/instances.hpp"
 
@@ -20,7 +20,7 @@ std::vector<const Object*> shown_objects(const Scene& scene, const Pyramid& worl
     std::vector<const Object*> shown;
     for (size_t i = 0; i < scene.objects.size(); ++i) {
         const Object& object = scene.objects[i];
-        if (!object.visible || !object.in_reach) continue;
+        if (!object.visible || !object.potentially_visible) continue;
         const bool is_known = !world.object_boxes.empty() && !is_instanced(scene, object);
         if (is_known && is_empty(world.object_boxes[i])) continue;
         shown.push_back(&object);
@@ -78,24 +78,24 @@ void add_paths(const Scene& scene, const Pyramid& world, Features& features) {
         });
 }
 
-/// Whether a light or a lamp shines on something that isn't black.
+/// Whether a light or an emissive object shines on something that isn't black.
 bool lights_surfaces(const Scene& scene, const Pyramid& world) {
     return std::ranges::any_of(shown_materials(scene, world), is_lit) &&
-           (std::ranges::any_of(scene.lights, shines) || has_lamp(scene, world));
+           (std::ranges::any_of(scene.lights, shines) || has_emissive_object(scene, world));
 }
 
 /// The features that decide light, and where rays go on.
 void add_light(const Scene& scene, const Pyramid& world, Features& features) {
     const bool lit = lights_surfaces(scene, world);
     features.shadows = scene.render.shadows && lit;
-    features.patches =
-        lit && (has_lamp(scene, world) || std::ranges::any_of(scene.lights, [](const Light& light) {
-                    return shines(light) && has_area(light);
-                }));
+    features.area_samples = lit && (has_emissive_object(scene, world) ||
+                                    std::ranges::any_of(scene.lights, [](const Light& light) {
+                                        return shines(light) && has_area(light);
+                                    }));
     features.medium = scene.world.medium.absorption != glm::vec3(0) && !world.clear;
     features.medium_grid = features.medium && has_density(scene.world.medium);
     add_paths(scene, world, features);
-    add_interior(scene, world, features);
+    add_medium_set(scene, world, features);
 }
 
 /// `voxels`, the features of the world's voxels, and of the light's no more than decides what
@@ -104,9 +104,9 @@ Features without_light(Features voxels, const Scene& scene, const Pyramid& world
                        const Features& all) {
     if (all.transmission && may_begin_inside(scene, world)) {
         voxels.paths = voxels.transmission = true;
-        voxels.immersed = all.immersed;
-        voxels.other_members = all.other_members;
-        voxels.interior_capped = all.interior_capped;
+        voxels.observer_in_medium = all.observer_in_medium;
+        voxels.other_media = all.other_media;
+        voxels.medium_set_capped = all.medium_set_capped;
     }
     voxels.radiance = voxels.colors = voxels.voxel_opacity = false;
     return voxels;
@@ -118,41 +118,41 @@ void add_points(const Scene& scene, const Pyramid& world, Features& features) {
     const bool all = features.radiance && (features.paths || has_light(scene, world));
     features.positions = all || channels.depth || channels.position;
     features.normals = all || channels.normal;
-    features.words = all || channels.object;
+    features.hit_attributes = all || channels.object;
 }
 
 /// Those that have arrays, at most: rays end whose weight is too small.
 size_t reserved_depth(const Features& features, const Scene& scene, const Pyramid& world) {
     constexpr double kWeightRounding = 1e-3;  // of the weights
-    const auto depth = double(most_depth(features, scene, world));
+    const auto depth = double(max_depth(features, scene, world));
     double share = 0;  // of a surface's light that one ray may bring
     for (const Material* m : shown_materials(scene, world))
         share = std::max(share, double(m->reflection) + double(m->refraction));
     if (depth == 0 || share >= 1) return size_t(depth);
-    const double followed = std::log(scene.render.least_weight) / std::log(share);
+    const double followed = std::log(scene.render.min_weight) / std::log(share);
     return size_t(std::min(depth, std::floor(followed + kWeightRounding) + 1));
 }
 
 }  // namespace
 
 bool shines(const Light& light) {
-    return light.energy != glm::vec3(0);
+    return light.intensity != glm::vec3(0);
 }
 
 bool has_area(const Light& light) {
     return light.kind == LightKind::disk || light.kind == LightKind::rectangle;
 }
 
-bool has_lamp(const Scene& scene, const Pyramid& world) {
+bool has_emissive_object(const Scene& scene, const Pyramid& world) {
     return std::ranges::any_of(shown_objects(scene, world),
-                               [&](const Object* object) { return is_lamp(scene, *object); });
+                               [&](const Object* object) { return is_emissive(scene, *object); });
 }
 
 bool has_light(const Scene& scene, const Pyramid& world) {
     return scene.render.channels.color && lights_surfaces(scene, world);
 }
 
-size_t most_depth(const Features& features, const Scene& scene, const Pyramid& world) {
+size_t max_depth(const Features& features, const Scene& scene, const Pyramid& world) {
     const bool scatters = features.refracts ||
                           std::ranges::any_of(shown_materials(scene, world),
                                               [](const Material* m) { return m->reflection > 0; });

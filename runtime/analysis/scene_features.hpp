@@ -22,16 +22,16 @@ bool shines(const Light& light);
 /// Whether it shines from a patch, not from one point or direction.
 bool has_area(const Light& light);
 
-/// Whether some object that the world may show is a lamp.
-bool has_lamp(const Scene& scene, const Pyramid& world);
+/// Whether some object that the world may show is an emissive object.
+bool has_emissive_object(const Scene& scene, const Pyramid& world);
 
-/// Whether colour is asked for, a light or a lamp shines, and something that the world may show
-/// isn't black.
+/// Whether colour is asked for, a light or an emissive object shines, and something that the world
+/// may show isn't black.
 bool has_light(const Scene& scene, const Pyramid& world);
 
 /// Reflections and refractions in a row: none where no surface that may be shown sends rays on,
 /// other than straight through.
-size_t most_depth(const Features& features, const Scene& scene, const Pyramid& world);
+size_t max_depth(const Features& features, const Scene& scene, const Pyramid& world);
 
 /// The rays of the scene's flat image that go together.
 RayCounts ray_counts(const Scene& scene, const Features& features);

@@ -9,9 +9,9 @@
 #include <new>
 #include <nlohmann/json.hpp>
 
+#include "runtime/base/cache_key.hpp"
 #include "runtime/base/error.hpp"
-#include "runtime/base/key_words.hpp"
-#include "runtime/base/maker_sources.hpp"
+#include "runtime/base/producer_hash.hpp"
 #include "runtime/grid/grid_bytes.hpp"
 #include "runtime/grid/pyramid_bytes.hpp"
 #include "runtime/opencl/kernel_source.hpp"
@@ -30,9 +30,9 @@ std::string key_of(std::initializer_list<std::string_view> parts) {
 }
 
 /// A hash of the code that grids and worlds are made by, on the host and on devices.
-const std::string& makers() {
+const std::string& producers() {
     static const std::string key = [] {
-        std::string text = maker_sources();
+        std::string text = producer_hash();
         for (const auto& [file, content] : embedded_kernels())
             for (const char* stage : {"voxelize", "cut", "place", "index"})
                 if (file.starts_with(stage) && file.ends_with(".cl"))
@@ -63,7 +63,7 @@ std::string bytes_of(const MeshSummary& summary) {
     const nlohmann::json json = {summary.triangles,
                                  {json_of(summary.surface.min), json_of(summary.surface.max)},
                                  {json_of(summary.vertices.min), json_of(summary.vertices.max)},
-                                 {json_of(summary.area), json_of(summary.least_area)},
+                                 {json_of(summary.area), json_of(summary.min_area)},
                                  summary.has_colors,
                                  // A name is the file's bytes, in whatever encoding.
                                  nlohmann::json::array(),
@@ -82,7 +82,7 @@ MeshSummary summary_of_bytes(const std::string& bytes) {
     summary.surface = {vector_of(json.at(1).at(0)), vector_of(json.at(1).at(1))};
     summary.vertices = {vector_of(json.at(2).at(0)), vector_of(json.at(2).at(1))};
     summary.area = area_of(json.at(3).at(0));
-    summary.least_area = area_of(json.at(3).at(1));
+    summary.min_area = area_of(json.at(3).at(1));
     summary.has_colors = json.at(4).get<bool>();
     summary.corners = json.at(6).get<uint64_t>();
     for (const nlohmann::json& name : json.at(5))
@@ -91,7 +91,7 @@ MeshSummary summary_of_bytes(const std::string& bytes) {
 }
 
 std::string summary_key(const std::string& source) {
-    return key_of({makers(), "summary", source});
+    return key_of({producers(), "summary", source});
 }
 
 uint64_t megabytes_of_user() {
@@ -118,22 +118,22 @@ std::string mesh_source(const std::string& bytes, const std::filesystem::path& n
 }
 
 std::string morph_source(const std::string& from, const std::string& to, const Morph& morph) {
-    KeyWords words;
+    CacheKey words;
     words.add_all(morph.center).add(morph.radius).add(morph.amount);
     return key_of({from, to, words.bytes()});
 }
 
 std::string grid_key(const std::string& source, const VoxelizeOptions& options,
                      const glm::dmat4& frame_from_mesh, const GridFrame& frame) {
-    KeyWords words;
+    CacheKey words;
     words.add(int(options.surface)).add(int(options.set)).add(double(options.band));
     words.add_columns(frame_from_mesh);
     words.add_all(frame.origin).add_all(frame.voxel_edge).add_all(frame.size);
-    return key_of({makers(), "grid", source, words.bytes()});
+    return key_of({producers(), "grid", source, words.bytes()});
 }
 
 std::string world_key(std::string_view parts) {
-    return key_of({makers(), "world", parts});
+    return key_of({producers(), "world", parts});
 }
 
 ModelCache ModelCache::of_user() {
@@ -155,7 +155,7 @@ std::optional<MeshSummary> ModelCache::summary(const std::string& source) const 
 }
 
 void ModelCache::keep(const std::string& source, const MeshSummary& summary, double seconds) const {
-    if (is_open_ && seconds >= least_seconds_) store_.write(summary_key(source), bytes_of(summary));
+    if (is_open_ && seconds >= min_seconds_) store_.write(summary_key(source), bytes_of(summary));
 }
 
 std::optional<BrickGrid> ModelCache::grid(const Device& device, const std::string& key) const {
@@ -166,7 +166,7 @@ std::optional<BrickGrid> ModelCache::grid(const Device& device, const std::strin
 
 bool ModelCache::is_quick(double seconds, uint64_t bytes) const {
     const double reading = double(bytes) / kReadBytesPerSecond;
-    return seconds < least_seconds_ || (least_seconds_ > 0 && seconds < reading);
+    return seconds < min_seconds_ || (min_seconds_ > 0 && seconds < reading);
 }
 
 void ModelCache::keep(const std::string& key, const BrickGrid& grid, double seconds) const {

@@ -37,12 +37,12 @@ class ModelCache {
   public:
     /// Keeps nothing.
     ModelCache() = default;
-    /// Keeps up to `max_bytes` of what takes `least_seconds` or more to make.
-    ModelCache(std::filesystem::path folder, uint64_t max_bytes, double least_seconds = 0.001)
+    /// Keeps up to `max_bytes` of what takes `min_seconds` or more to make.
+    ModelCache(std::filesystem::path folder, uint64_t max_bytes, double min_seconds = 0.001)
         : is_open_(!folder.empty() && max_bytes > 0),
           store_(std::move(folder), max_bytes),
           max_bytes_(max_bytes),
-          least_seconds_(least_seconds) {}
+          min_seconds_(min_seconds) {}
 
     /// The same, which keeps worlds, too.
     ModelCache with_worlds() const {
@@ -79,7 +79,7 @@ class ModelCache {
     bool keeps_worlds_ = false;
     DiskCache store_{{}, 0};
     uint64_t max_bytes_ = 0;
-    double least_seconds_ = 0;
+    double min_seconds_ = 0;
 };
 
 }  // namespace voxelume

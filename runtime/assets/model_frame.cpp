@@ -23,11 +23,11 @@ glm::dvec3 voxel_edge(const Model& model, const glm::dvec3& extent) {
 }
 
 GridFrame solid_frame(const Model& model) {
-    const SolidBounds reach = {model.reach.min, model.reach.max};
+    const SolidBounds extent = {model.extent.min, model.extent.max};
     const glm::dmat4 identity(1);
-    const SolidBounds box = bounds(*model.solid, identity, reach);
+    const SolidBounds box = bounds(*model.solid, identity, extent);
     const glm::dvec3 edge = voxel_edge(model, box.max - box.min);
-    return frame_around(*model.solid, identity, edge, kModelMargin, reach);
+    return frame_around(*model.solid, identity, edge, kModelMargin, extent);
 }
 
 /// Voxels of a given size lie as those of a world whose bounds are multiples of it, so that they
@@ -58,13 +58,13 @@ GridFrame model_frame(const Model& model, const MeshSummary* mesh) {
 
 bool may_be_shown(const Scene& scene, const Object& object) {
     const Model& model = scene.models[size_t(object.model)];
-    const SolidBounds reach = {model.reach.min, model.reach.max};
-    if (!object.visible || reach.is_empty()) return false;
-    return !model.solid || !bounds(*model.solid, glm::dmat4(1), reach).is_empty();
+    const SolidBounds extent = {model.extent.min, model.extent.max};
+    if (!object.visible || extent.is_empty()) return false;
+    return !model.solid || !bounds(*model.solid, glm::dmat4(1), extent).is_empty();
 }
 
-bool is_in_reach(const Scene& scene, const Object& object) {
-    return object.in_reach && may_be_shown(scene, object);
+bool is_potentially_visible(const Scene& scene, const Object& object) {
+    return object.potentially_visible && may_be_shown(scene, object);
 }
 
 bool shows_inside(const Scene& scene, const Object& object) {

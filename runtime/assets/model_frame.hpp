@@ -26,6 +26,6 @@ bool shows_inside(const Scene& scene, const Object& object);
 bool may_be_shown(const Scene& scene, const Object& object);
 
 /// Whether any part of the object can be seen inside the world; models that aren't are not read.
-bool is_in_reach(const Scene& scene, const Object& object);
+bool is_potentially_visible(const Scene& scene, const Object& object);
 
 }  // namespace voxelume

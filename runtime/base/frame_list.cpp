@@ -11,7 +11,7 @@ namespace voxelume {
 
 namespace {
 
-constexpr size_t kMostFrames = 1'000'000;
+constexpr size_t kMaxFrames = 1'000'000;
 
 /// Frames `first`, `first + step`, ... up to `last`; 64-bit, so that counting past the last int
 /// ends.
@@ -54,8 +54,8 @@ std::vector<int> parse_frame_list(const std::string& text) {
         const size_t comma = std::min(text.find(',', start), text.size());
         const FrameRange range = parse_part(text.substr(start, comma - start));
         for (int64_t frame = range.first; frame <= range.last; frame += range.step) {
-            if (seen.size() == kMostFrames)
-                throw Error(ErrorKind::usage, "--frames: more than {} frames", kMostFrames);
+            if (seen.size() == kMaxFrames)
+                throw Error(ErrorKind::usage, "--frames: more than {} frames", kMaxFrames);
             if (seen.insert(frame).second) frames.push_back(static_cast<int>(frame));
         }
         start = comma + 1;

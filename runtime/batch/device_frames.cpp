@@ -68,7 +68,7 @@ class FrameShare {
 }  // namespace
 
 void share_frames(const std::vector<Device>& devices, size_t count, const FrameSteps& steps,
-                  const MeshStore& meshes) {
+                  const AssetStore& meshes) {
     FrameShare share(count, 2 * devices.size());
     std::mutex scenes;
     const auto work = [&](size_t device) {

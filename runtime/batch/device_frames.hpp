@@ -12,6 +12,6 @@ namespace voxelume {
 /// Each device forms and renders its frames one after another; the caller's thread writes them in
 /// order. No device is further ahead of what is written than two frames for each device.
 void share_frames(const std::vector<Device>& devices, size_t count, const FrameSteps& steps,
-                  const MeshStore& meshes);
+                  const AssetStore& meshes);
 
 }  // namespace voxelume

@@ -4,7 +4,7 @@
 #include <exception>
 #include <thread>
 
-#include "runtime/analysis/reach.hpp"
+#include "runtime/analysis/culling.hpp"
 #include "runtime/stages/trace/sight.hpp"
 
 namespace voxelume {
@@ -24,10 +24,10 @@ Part render_part(const Device& device, const ModelCache& cache, const Scene& sce
                  TileShare& share) {
     Part part;
     try {
-        MeshStore meshes(cache);
-        const Scene shown = with_objects_in_reach(scene, meshes);
-        const FormedWorld world =
-            WorldFormer(device, false, std::move(meshes)).form(shown, part.report.world);
+        AssetStore meshes(cache);
+        const Scene shown = with_culling(scene, meshes);
+        const BuiltWorld world =
+            WorldBuilder(device, false, std::move(meshes)).build(shown, part.report.world);
         part.image =
             Renderer(device, false).part_of_image(shown, world, part.report, {share, part.tiles});
     } catch (...) {

@@ -56,23 +56,23 @@ class Handoff {
     bool closed_ = false;
 };
 
-struct FormedFrame {
+struct BuiltFrame {
     Scene scene;
-    FormedWorld world;
+    BuiltWorld world;
     WorldReport report;
     std::exception_ptr error;  ///< instead of all that
 };
 
-FormedFrame form_next(WorldFormer& former, const FrameSteps& steps, size_t frame) {
-    FormedFrame formed;
-    formed.scene = steps.scene(frame);
-    formed.world = form_frame(former, steps, frame, formed.scene, formed.report);
-    return formed;
+BuiltFrame build_next(WorldBuilder& builder, const FrameSteps& steps, size_t frame) {
+    BuiltFrame built;
+    built.scene = steps.scene(frame);
+    built.world = build_frame(builder, steps, frame, built.scene, built.report);
+    return built;
 }
 
 /// The frames from `first` on.
 void run_one_by_one(const Device& device, size_t first, size_t count, const FrameSteps& steps,
-                    MeshStore meshes) {
+                    AssetStore meshes) {
     FrameWorker worker(device, 0, steps, std::move(meshes), count - first > 1);
     for (size_t frame = first; frame < count; ++frame) {
         const Scene scene = steps.scene(frame);
@@ -105,8 +105,8 @@ class Worker {
 
 /// Returns how many frames were rendered: fewer than all where memory doesn't suffice for two.
 size_t run_overlapped(const Device& device, size_t count, const FrameSteps& steps,
-                      MeshStore meshes) {
-    Handoff<FormedFrame> formed;
+                      AssetStore meshes) {
+    Handoff<BuiltFrame> built;
     Handoff<std::function<void()>> writes;
     std::exception_ptr write_error, error;
     size_t frame = 0;
@@ -121,23 +121,23 @@ size_t run_overlapped(const Device& device, size_t count, const FrameSteps& step
         });
         const Closing end_writes(writes);
         const Worker forming([&] {
-            const Closing closing(formed);
+            const Closing closing(built);
             try {
-                WorldFormer former(device.with_own_queue(), true, std::move(meshes));
+                WorldBuilder builder(device.with_own_queue(), true, std::move(meshes));
                 for (size_t next = 0; next < count; ++next) {
                     // Two worlds at a time: the next is begun when this one is being rendered.
-                    if (!formed.put(form_next(former, steps, next))) return;
-                    if (!formed.wait_until_taken()) return;
+                    if (!built.put(build_next(builder, steps, next))) return;
+                    if (!built.wait_until_taken()) return;
                 }
             } catch (...) {
-                FormedFrame failed;
+                BuiltFrame failed;
                 failed.error = std::current_exception();
-                formed.put(std::move(failed));
+                built.put(std::move(failed));
             }
         });
-        const Closing end_forming(formed);
+        const Closing end_building(built);
         for (; frame < count; ++frame) {
-            std::optional<FormedFrame> next = formed.take();
+            std::optional<BuiltFrame> next = built.take();
             if (!next) break;
             if (next->error) std::rethrow_exception(next->error);
             if (!writes.put(steps.render({frame, 0, next->scene, next->world, next->report})))
@@ -168,7 +168,7 @@ std::optional<size_t> run_frames(const std::vector<Device>& devices, size_t coun
     const size_t first = run_overlapped(devices[0], count, steps, std::move(options.meshes));
     if (first == count) return std::nullopt;
     steps.forget(0);
-    run_one_by_one(devices[0], first, count, steps, MeshStore(cache));
+    run_one_by_one(devices[0], first, count, steps, AssetStore(cache));
     return first;
 }
 

@@ -15,7 +15,7 @@ struct FrameInput {
     size_t frame = 0;   ///< its place in the run
     size_t device = 0;  ///< the number of the device that has its world
     const Scene& scene;
-    const FormedWorld& world;
+    const BuiltWorld& world;
     const WorldReport& report;  ///< of forming the world
 };
 
@@ -29,7 +29,7 @@ struct FrameSteps {
     /// The number by which errors of forming its world name a frame. Without it they don't.
     std::function<double(size_t)> number = {};
     /// Which models a frame after this one shows; without it none is waited for.
-    std::function<std::vector<bool>(size_t)> awaited = {};
+    std::function<std::vector<bool>(size_t)> retained = {};
     /// Frees what `render` keeps on a device, by its number, for frames that follow. Without it no
     /// frame is tried again when memory lacks.
     std::function<void(size_t)> forget = {};
@@ -37,7 +37,7 @@ struct FrameSteps {
 
 struct FrameOptions {
     bool overlap = true;  ///< of one device: three threads work on up to three frames, no more
-    MeshStore meshes = MeshStore();  ///< what was read already, and the cache of models
+    AssetStore meshes = AssetStore();  ///< what was read already, and the cache of models
 };
 
 /// Takes `count` frames through their steps. The files are the same with all options.

@@ -7,11 +7,11 @@
 
 namespace voxelume {
 
-FormedWorld form_frame(WorldFormer& former, const FrameSteps& steps, size_t frame,
+BuiltWorld build_frame(WorldBuilder& builder, const FrameSteps& steps, size_t frame,
                        const Scene& scene, WorldReport& report) {
     try {
-        return former.form(scene, report,
-                           steps.awaited ? steps.awaited(frame) : std::vector<bool>());
+        return builder.build(scene, report,
+                             steps.retained ? steps.retained(frame) : std::vector<bool>());
     } catch (const Error& error) {
         if (!steps.number) throw;
         throw at_frame(error, steps.number(frame));
@@ -19,12 +19,12 @@ FormedWorld form_frame(WorldFormer& former, const FrameSteps& steps, size_t fram
 }
 
 FrameWorker::FrameWorker(const Device& device, size_t number, const FrameSteps& steps,
-                         MeshStore meshes, bool follows)
+                         AssetStore meshes, bool follows)
     : device_(device),
       number_(number),
       steps_(steps),
       cache_(meshes.cache()),
-      former_(std::in_place, device, follows, std::move(meshes)),
+      builder_(std::in_place, device, follows, std::move(meshes)),
       keeps_(follows) {}
 
 std::function<void()> FrameWorker::take(size_t frame, const Scene& scene) {
@@ -32,7 +32,7 @@ std::function<void()> FrameWorker::take(size_t frame, const Scene& scene) {
     try {
         return form_and_render(frame, scene);
     } catch (const Error& error) {
-        const bool makes_room = has_any_ || former_->keeps();
+        const bool makes_room = has_any_ || builder_->keeps();
         if (error.kind() != ErrorKind::limit || !makes_room || !keeps_ || !steps_.forget) throw;
     }
     keeps_ = false;
@@ -43,7 +43,7 @@ std::function<void()> FrameWorker::take(size_t frame, const Scene& scene) {
 
 std::function<void()> FrameWorker::form_and_render(size_t frame, const Scene& scene) {
     WorldReport report;
-    const FormedWorld world = form_frame(*former_, steps_, frame, scene, report);
+    const BuiltWorld world = build_frame(*builder_, steps_, frame, scene, report);
     report.lacks_room |= lacks_room_;
     auto write = steps_.render({frame, number_, scene, world, report});
     has_any_ = true;
@@ -51,7 +51,7 @@ std::function<void()> FrameWorker::form_and_render(size_t frame, const Scene& sc
 }
 
 void FrameWorker::forget() {
-    former_.emplace(device_, false, MeshStore(cache_));
+    builder_.emplace(device_, false, AssetStore(cache_));
     steps_.forget(number_);
     has_any_ = false;
 }

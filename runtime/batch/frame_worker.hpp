@@ -8,7 +8,7 @@
 namespace voxelume {
 
 /// Forms the world of a frame.
-FormedWorld form_frame(WorldFormer& former, const FrameSteps& steps, size_t frame,
+BuiltWorld build_frame(WorldBuilder& builder, const FrameSteps& steps, size_t frame,
                        const Scene& scene, WorldReport& report);
 
 /// Takes one frame after another through forming and rendering. What is kept of the frames before
@@ -17,7 +17,7 @@ class FrameWorker {
   public:
     /// `number` is the device's in FrameInput. Where nothing `follows` the first frame, nothing is
     /// kept.
-    FrameWorker(const Device& device, size_t number, const FrameSteps& steps, MeshStore meshes,
+    FrameWorker(const Device& device, size_t number, const FrameSteps& steps, AssetStore meshes,
                 bool follows);
 
     /// Returns what writes the frame's files.
@@ -31,7 +31,7 @@ class FrameWorker {
     size_t number_;
     const FrameSteps& steps_;
     ModelCache cache_;
-    std::optional<WorldFormer> former_;
+    std::optional<WorldBuilder> builder_;
     bool keeps_;               ///< frames may keep something for those that follow
     bool lacks_room_ = false;  ///< for that
     bool has_any_ = false;     ///< of frames before

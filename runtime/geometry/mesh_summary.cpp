@@ -31,7 +31,7 @@ MeshSummary summary_of(const Mesh& mesh) {
     summary.vertices = kNothing;
     for (const glm::vec3& p : mesh.positions) add(summary.vertices, glm::dvec3(p));
     summary.area = mesh_area(mesh);
-    summary.least_area = least_mesh_area(mesh);
+    summary.min_area = min_mesh_area(mesh);
     summary.has_colors = !mesh.vertex_colors.empty();
     summary.group_names = mesh.group_names;
     return summary;

@@ -13,10 +13,10 @@ namespace voxelume {
 
 struct MeshSummary {
     uint64_t triangles = 0;
-    Bounds surface;          ///< the box around the triangles, metres
-    Bounds vertices;         ///< around all positions, those that no triangle uses included
-    SurfaceArea area;        ///< in the mesh's own space
-    SurfaceArea least_area;  ///< what triangles that lie on one another have once
+    Bounds surface;        ///< the box around the triangles, metres
+    Bounds vertices;       ///< around all positions, those that no triangle uses included
+    SurfaceArea area;      ///< in the mesh's own space
+    SurfaceArea min_area;  ///< what triangles that lie on one another have once
     bool has_colors = false;
     std::vector<std::string> group_names;
     uint64_t corners = 0;  ///< positions that triangles share

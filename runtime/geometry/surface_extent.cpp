@@ -67,7 +67,7 @@ glm::dvec3 own_shadows(const Solid& solid) {
 }
 
 /// The same along the axes that `map` turns them to; nothing where it turns them to no axes.
-glm::dvec3 least_shadows(const Solid& solid, const glm::dmat4& map) {
+glm::dvec3 min_shadows(const Solid& solid, const glm::dmat4& map) {
     const glm::dvec3 own = own_shadows(solid);
     glm::dvec3 shadows(0);
     for (int column = 0; column < 3; ++column) {
@@ -110,11 +110,11 @@ SurfaceArea mesh_area(const Mesh& mesh) {
     return area;
 }
 
-SurfaceArea least_mesh_area(const Mesh& mesh) {
-    constexpr size_t kPlacesPerTriangle =
+SurfaceArea min_mesh_area(const Mesh& mesh) {
+    constexpr size_t kSlotsPerTriangle =
         16;  // of bits: one in 32 is taken for another's double, at most
     const size_t places =
-        std::bit_ceil(std::max<size_t>(mesh.triangles.size(), 2)) * kPlacesPerTriangle;
+        std::bit_ceil(std::max<size_t>(mesh.triangles.size(), 2)) * kSlotsPerTriangle;
     const int shift = 64 - std::countr_zero(places);
     std::vector<bool> seen(places);
     SurfaceArea area;
@@ -139,22 +139,22 @@ SurfaceArea solid_area(const Solid& solid, const glm::dmat4& frame_from_solid,
     return area;
 }
 
-SurfaceArea least_solid_area(const Solid& solid, const glm::dmat4& frame_from_solid,
-                             const SolidBounds& clip) {
+SurfaceArea min_solid_area(const Solid& solid, const glm::dmat4& frame_from_solid,
+                           const SolidBounds& clip) {
     const glm::dmat4 map = frame_from_solid * solid.parent_from_solid;
-    SurfaceArea most;
+    SurfaceArea maximum;
     if (!is_combination(solid.kind)) {
-        most = solid_area(solid, frame_from_solid, clip);
-        most.shadows *= least_shadows(solid, map);
-        most.total = most.shadows.x + most.shadows.y + most.shadows.z;
-        return most;
+        maximum = solid_area(solid, frame_from_solid, clip);
+        maximum.shadows *= min_shadows(solid, map);
+        maximum.total = maximum.shadows.x + maximum.shadows.y + maximum.shadows.z;
+        return maximum;
     }
-    if (solid.kind != SolidKind::union_of) return most;  // they may leave nothing
+    if (solid.kind != SolidKind::union_of) return maximum;  // they may leave nothing
     for (const Solid& part : solid.parts) {
-        const SurfaceArea of_part = least_solid_area(part, map, clip);
-        if (of_part.total >= most.total) most = of_part;
+        const SurfaceArea of_part = min_solid_area(part, map, clip);
+        if (of_part.total >= maximum.total) maximum = of_part;
     }
-    return most;
+    return maximum;
 }
 
 double part_inside(const Mesh& mesh, const glm::dmat4& box_from_mesh, const SolidBounds& box) {

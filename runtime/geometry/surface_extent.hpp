@@ -26,7 +26,7 @@ SurfaceArea mesh_area(const Mesh& mesh);
 
 /// No more than the mesh's triangles cover where some lie on one another, corner by corner: by a
 /// table that takes few of the others for such, too.
-SurfaceArea least_mesh_area(const Mesh& mesh);
+SurfaceArea min_mesh_area(const Mesh& mesh);
 
 /// Of a solid after its map: the area of its parts' boxes where they aren't cut by `clip`.
 SurfaceArea solid_area(const Solid& solid, const glm::dmat4& frame_from_solid,
@@ -34,8 +34,8 @@ SurfaceArea solid_area(const Solid& solid, const glm::dmat4& frame_from_solid,
 
 /// No more than it has: of a union's parts, which may lie in each other, the largest alone; nothing
 /// of other combinations and turned shapes.
-SurfaceArea least_solid_area(const Solid& solid, const glm::dmat4& frame_from_solid,
-                             const SolidBounds& clip);
+SurfaceArea min_solid_area(const Solid& solid, const glm::dmat4& frame_from_solid,
+                           const SolidBounds& clip);
 
 /// The part of the mesh's area whose triangles' boxes lie in `box` after the map.
 double part_inside(const Mesh& mesh, const glm::dmat4& box_from_mesh, const SolidBounds& box);

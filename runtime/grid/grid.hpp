@@ -108,7 +108,7 @@ struct Instance {
 struct InstanceSet {
     std::vector<InstanceModel> models;
     std::vector<Instance> list;
-    float lift = 0;  ///< PyramidShape::lift
+    float origin_offset = 0;  ///< PyramidShape::origin_offset
     Buffer<InstanceRecord> records;
     Buffer<InstanceNode> nodes;  ///< of the tree over their boxes; the root is the first
     Buffer<uint32_t> materials;

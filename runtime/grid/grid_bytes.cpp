@@ -33,7 +33,7 @@ void visit_grid(Grid& grid, const Visit& visit) {
 
 }  // namespace
 
-std::optional<std::string> bytes_of_grid(const BrickGrid& grid, uint64_t most_bytes) {
+std::optional<std::string> bytes_of_grid(const BrickGrid& grid, uint64_t max_bytes) {
     GridHeader header;
     std::memset(static_cast<void*>(&header), 0, sizeof header);  // padding, too
     header.frame.origin = grid.frame.origin;
@@ -42,7 +42,7 @@ std::optional<std::string> bytes_of_grid(const BrickGrid& grid, uint64_t most_by
     header.brick_count = grid.brick_count;
     header.attribute = grid.attribute;
     header.transparent = grid.transparent;
-    PackedWriter writer(most_bytes);
+    PackedWriter writer(max_bytes);
     writer.put(header);
     visit_grid(grid, [&](const char*, const auto& buffer) { writer.put(buffer); });
     if (writer.is_too_large()) return std::nullopt;

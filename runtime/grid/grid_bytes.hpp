@@ -9,9 +9,9 @@
 
 namespace voxelume {
 
-/// A header, then each buffer; nothing, where that is more than `most_bytes`. Waits for the
+/// A header, then each buffer; nothing, where that is more than `max_bytes`. Waits for the
 /// device's queue.
-std::optional<std::string> bytes_of_grid(const BrickGrid& grid, uint64_t most_bytes);
+std::optional<std::string> bytes_of_grid(const BrickGrid& grid, uint64_t max_bytes);
 
 /// The grid on a device; nothing for bytes that are no whole grid. Throws Error::limit when the
 /// device has not enough memory.

@@ -117,7 +117,8 @@ struct Sensitivity {
 };
 
 /// What the eye sees of an opponent channel: its sensitivities as filters of pixels.
-ColorPlane seen(const ColorPlane& plane, std::array<Sensitivity, 2> both, double pixels_per_degree) {
+ColorPlane seen(const ColorPlane& plane, std::array<Sensitivity, 2> both,
+                double pixels_per_degree) {
     constexpr double kPi = std::numbers::pi, kWidest = 0.04;
     const int radius = int(std::ceil(3 * std::sqrt(kWidest / (2 * kPi * kPi)) * pixels_per_degree));
     ColorPlane result = plane;

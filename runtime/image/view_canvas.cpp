@@ -104,9 +104,9 @@ void ViewCanvas::cover_rectangle(glm::dvec2 low, glm::dvec2 high, const glm::vec
 }
 
 void ViewCanvas::draw_line(glm::dvec2 from, glm::dvec2 to) {
-    constexpr double kMostSteps = 1 << 16;
+    constexpr double kMaxSteps = 1 << 16;
     from *= kSamples, to *= kSamples;
-    const double steps = std::min(std::ceil(glm::length(to - from)) + 1, kMostSteps);
+    const double steps = std::min(std::ceil(glm::length(to - from)) + 1, kMaxSteps);
     for (double i = 0; i <= steps; ++i) cover_sample(glm::mix(from, to, i / steps), kOutline, 1.0f);
 }
 

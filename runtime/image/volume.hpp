@@ -30,13 +30,14 @@ struct VolumeFrame {
     glm::dmat4 world_from_observer{1};  ///< rigid
 };
 
-/// The voxels of P that show something: sparse arrays as long as each other, ascending in `places`.
+/// The voxels of P that show something: sparse arrays as long as each other, ascending in
+/// `indices`.
 ///
 /// Whatever is not listed is space that shows nothing. Colours are linear Rec. 709 and not
 /// multiplied by the opacity.
 struct Volume {
     VolumeFrame frame;
-    std::vector<uint64_t> places;   ///< i + size.x * (j + size.y * k)
+    std::vector<uint64_t> indices;  ///< i + size.x * (j + size.y * k)
     std::vector<glm::vec3> colors;  ///< C_P
     std::vector<float> opacities;   ///< 0..1
     std::vector<float> depths;      ///< metres from E: along Z_E for pyramid and box, else along

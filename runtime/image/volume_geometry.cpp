@@ -96,9 +96,9 @@ glm::dvec3 voxel_center(const VolumeFrame& frame, glm::ivec3 cell) {
 
 std::string find_fault(const VolumeFrame& frame) {
     for (int axis = 0; axis < 3; ++axis)
-        if (frame.size[axis] < 1 || frame.size[axis] > kMostVolumeSide)
+        if (frame.size[axis] < 1 || frame.size[axis] > kMaxVolumeSide)
             return fmt::format("it has {} voxels along an axis, and 1 to {} are possible",
-                               frame.size[axis], kMostVolumeSide);
+                               frame.size[axis], kMaxVolumeSide);
     if (!is_rigid(frame.world_from_observer)) return "its observer isn't placed by a rigid matrix";
     if (frame.layout == VolumeLayout::rays) {
         if (!(frame.step > 0 && std::isfinite(frame.step))) return "its steps have no length";
@@ -113,14 +113,14 @@ std::string find_fault(const VolumeFrame& frame) {
 
 std::string find_fault(const Volume& volume) {
     if (std::string fault = find_fault(volume.frame); !fault.empty()) return fault;
-    const size_t count = volume.places.size();
+    const size_t count = volume.indices.size();
     if (volume.colors.size() != count || volume.opacities.size() != count ||
         volume.depths.size() != count || volume.objects.size() != count ||
         volume.kinds.size() != count)
         return "not every voxel has a colour, opacity, depth, object and kind";
-    if (std::ranges::adjacent_find(volume.places, std::greater_equal<>()) != volume.places.end())
+    if (std::ranges::adjacent_find(volume.indices, std::greater_equal<>()) != volume.indices.end())
         return "its voxels aren't in ascending order";
-    if (count > 0 && volume.places.back() >= voxel_count(volume.frame))
+    if (count > 0 && volume.indices.back() >= voxel_count(volume.frame))
         return "a voxel lies outside of it";
     const auto is_share = [](float opacity) { return opacity >= 0 && opacity <= 1; };
     if (!std::ranges::all_of(volume.opacities, is_share)) return "an opacity isn't within 0 to 1";

@@ -12,12 +12,12 @@
 
 namespace voxelume {
 
-inline constexpr int kMostVolumeSide = 65536;  ///< voxels along one axis
+inline constexpr int kMaxVolumeSide = 65536;  ///< voxels along one axis
 
 /// size.x * size.y * size.z.
 uint64_t voxel_count(const VolumeFrame& frame);
 
-/// The voxel with that number in `places`.
+/// The voxel with that number in `indices`.
 glm::ivec3 cell_of(const VolumeFrame& frame, uint64_t place);
 
 /// Depths count along Z_E (pyramid and box), not along the sight ray (sector and ball).

@@ -85,9 +85,9 @@ std::vector<std::vector<glm::dvec3>> outline_of(const VolumeFrame& frame) {
 }
 
 /// Looks at a sphere so that it fills the picture.
-class Camera {
+class SheetCamera {
   public:
-    Camera(const VolumeBox& extent, const ViewPoint& view, glm::ivec2 size) {
+    SheetCamera(const VolumeBox& extent, const ViewPoint& view, glm::ivec2 size) {
         const double radius = std::max(glm::length(extent.high - extent.low) / 2, 1e-9);
         const double distance = 3 * radius;
         ahead_ = {std::sin(view.around) * std::cos(view.above), -std::sin(view.above),
@@ -99,7 +99,7 @@ class Camera {
         const double tangent = 1.04 * radius / std::sqrt(distance * distance - radius * radius);
         scale_ = 0.5 * std::min(size.x, size.y) / tangent;
         middle_ = glm::dvec2(size) / 2.0;
-        least_depth_ = 0.05 * radius;
+        min_depth_ = 0.05 * radius;
     }
     /// Where a point is in the picture, pixels from its top left; depth in metres.
     glm::dvec3 project(const glm::dvec3& p) const {
@@ -107,21 +107,21 @@ class Camera {
         const double depth = glm::dot(q, ahead_), by = scale_ / depth;
         return {middle_.x + glm::dot(q, right_) * by, middle_.y - glm::dot(q, up_) * by, depth};
     }
-    bool sees(const glm::dvec3& projected) const { return projected.z > least_depth_; }
+    bool sees(const glm::dvec3& projected) const { return projected.z > min_depth_; }
     double distance(const glm::dvec3& p) const { return glm::length(p - position_); }
 
   private:
     glm::dvec3 position_, right_, up_, ahead_;
     glm::dvec2 middle_;
-    double scale_, least_depth_;
+    double scale_, min_depth_;
 };
 
 /// The voxels that show something, the farthest first.
-std::vector<uint32_t> painting_order(const Volume& volume, const Camera& camera) {
+std::vector<uint32_t> painting_order(const Volume& volume, const SheetCamera& camera) {
     std::vector<std::pair<float, uint32_t>> order;
-    for (size_t i = 0; i < volume.places.size(); ++i) {
+    for (size_t i = 0; i < volume.indices.size(); ++i) {
         if (!is_shown(volume, i)) continue;
-        const Corners corners = corners_of(volume.frame, cell_of(volume.frame, volume.places[i]));
+        const Corners corners = corners_of(volume.frame, cell_of(volume.frame, volume.indices[i]));
         const glm::dvec3 middle =
             std::accumulate(corners.begin(), corners.end(), glm::dvec3(0)) / 8.0;
         order.emplace_back(-float(camera.distance(middle)), uint32_t(i));
@@ -135,10 +135,10 @@ std::vector<uint32_t> painting_order(const Volume& volume, const Camera& camera)
 
 VolumeBox box_of_volume(const Volume& volume) {
     VolumeBox extent;
-    for (size_t i = 0; i < volume.places.size(); ++i)
+    for (size_t i = 0; i < volume.indices.size(); ++i)
         if (is_shown(volume, i))
             for (const glm::dvec3& p :
-                 corners_of(volume.frame, cell_of(volume.frame, volume.places[i])))
+                 corners_of(volume.frame, cell_of(volume.frame, volume.indices[i])))
                 extent.add(p);
     if (extent.low.x > extent.high.x)
         for (const auto& line : outline_of(volume.frame))
@@ -149,9 +149,9 @@ VolumeBox box_of_volume(const Volume& volume) {
 /// The first and the last k that show something.
 std::pair<int, int> shown_depths(const Volume& volume) {
     int first = volume.frame.size.z, last = -1;
-    for (size_t i = 0; i < volume.places.size(); ++i) {
+    for (size_t i = 0; i < volume.indices.size(); ++i) {
         if (!is_shown(volume, i)) continue;
-        const int k = cell_of(volume.frame, volume.places[i]).z;
+        const int k = cell_of(volume.frame, volume.indices[i]).z;
         first = std::min(first, k), last = std::max(last, k);
     }
     if (last < 0) return {0, volume.frame.size.z - 1};
@@ -170,14 +170,14 @@ void paste(const Image& part, glm::ivec2 corner, Image& whole) {
 
 Image view_volume(const Volume& volume, const ViewPoint& view, glm::ivec2 size) {
     ViewCanvas canvas(size);
-    const Camera camera(box_of_volume(volume), view, size);
+    const SheetCamera camera(box_of_volume(volume), view, size);
     for (const auto& line : outline_of(volume.frame))
         for (size_t i = 1; i < line.size(); ++i) {
             const glm::dvec3 a = camera.project(line[i - 1]), b = camera.project(line[i]);
             if (camera.sees(a) && camera.sees(b)) canvas.draw_line(a, b);
         }
     for (const uint32_t i : painting_order(volume, camera)) {
-        const Corners corners = corners_of(volume.frame, cell_of(volume.frame, volume.places[i]));
+        const Corners corners = corners_of(volume.frame, cell_of(volume.frame, volume.indices[i]));
         std::array<glm::dvec2, 8> points;
         std::ranges::transform(corners, points.begin(),
                                [&](const glm::dvec3& p) { return glm::dvec2(camera.project(p)); });
@@ -197,11 +197,11 @@ Image view_slices(const Volume& volume, int first, int end, glm::ivec2 size) {
     const glm::dvec2 corner = (glm::dvec2(size) - scale * extent) / 2.0;
     canvas.draw_frame(corner, corner + scale * extent);
     const uint64_t layer = uint64_t(frame.size.x) * uint64_t(frame.size.y);
-    const auto from = std::ranges::lower_bound(volume.places, layer * uint64_t(first));
-    const auto to = std::ranges::lower_bound(volume.places, layer * uint64_t(end));
+    const auto from = std::ranges::lower_bound(volume.indices, layer * uint64_t(first));
+    const auto to = std::ranges::lower_bound(volume.indices, layer * uint64_t(end));
     // Behind first: the places ascend with k.
     for (auto place = to; place != from;) {
-        const auto i = size_t(--place - volume.places.begin());
+        const auto i = size_t(--place - volume.indices.begin());
         if (!is_shown(volume, i)) continue;
         glm::ivec3 v = cell_of(frame, *place);
         if (lattice) v.x = frame.size.x - 1 - v.x, v.y = frame.size.y - 1 - v.y;

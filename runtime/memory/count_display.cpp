@@ -57,7 +57,7 @@ class DisplayCounter {
           medium_(medium),
           frame_(display_frame(scene)),
           features_(features_of(scene, world)),
-          is_least_(estimate == Estimate::least) {}
+          is_least_(estimate == Estimate::minimum) {}
 
     void run() {
         if (frame_.layout == VolumeLayout::rays)
@@ -73,8 +73,9 @@ class DisplayCounter {
         const uint32_t in_batch = batch_tiles(features_, 1, tiles) * 16;
         const DisplayLight light =
             count_light(device_, scene_, features_, counts_of(in_batch), medium_);
-        const auto of = halo_that_pays(features_, world_, all, pixel_width());
-        const Halo halo = of ? count_halo(device_, world_, *of) : Halo();
+        const auto of = dilation_that_pays(features_, world_, all, pixel_width());
+        const DilatedOccupancy dilated_occupancy =
+            of ? count_halo(device_, world_, *of) : DilatedOccupancy();
         const Buffer<uint32_t> beams = of ? allocate_beams(device_, in_batch) : Buffer<uint32_t>();
         const DisplayRayArrays kept = allocate_display_rays(device_, all, features_.medium);
         if (features_.transmission || features_.medium_grid) return;
@@ -89,7 +90,7 @@ class DisplayCounter {
         const Features features = begun_anywhere(features_, scene_);
         const uint32_t batch = batch_rays(features);
         const Buffer<uint32_t> mask = allocate_display_mask(device_, frame_.size);
-        const RayBatch sight = allocate_batch(device_, features, batch);
+        const RayBatch camera = allocate_batch(device_, features, batch);
         const Buffer<float> crossings =
             allocate_crossings(device_, scanned_lines(batch), kFirstSlots);
         const Buffer<uint32_t> lines(device_, "probe counts", scanned_lines(batch));
@@ -126,7 +127,7 @@ class DisplayCounter {
         Scene scene = scene_;
         scene.render.size = {frame_.size.x, frame_.size.y};
         scene.render.samples = 1;
-        return voxels_a_pixel(scene, sight_of(scene, world_.frame), world_.frame);
+        return voxels_a_pixel(scene, camera_of(scene, world_.frame), world_.frame);
     }
 
     const Device& device_;

@@ -12,7 +12,7 @@ namespace voxelume {
 /// What an image is made with.
 struct ImageMemory {
     RayArrays rays;
-    Halo halo;
+    DilatedOccupancy dilated_occupancy;
     Buffer<uint32_t> beams;
     std::vector<Buffer<float>> light_beams;
     DensityGrid density;
@@ -28,7 +28,7 @@ ImageMemory count_image(const Device& device, const Scene& scene, const Pyramid&
 /// The small tables that light is computed with.
 Buffer<uint8_t> count_tables(const Device& device, const Scene& scene);
 
-/// The buffers of the halo of such a world, where it pays for so many rays.
-Halo count_halo(const Device& device, const Pyramid& world, HaloOf of);
+/// The buffers of the dilated occupancy of such a world, where it pays for so many rays.
+DilatedOccupancy count_halo(const Device& device, const Pyramid& world, DilationLevel of);
 
 }  // namespace voxelume

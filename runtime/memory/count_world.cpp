@@ -34,7 +34,8 @@ void count_bricks_of(const Device& device, const WorldParts& parts, size_t brick
     world.brick_count = uint32_t(bricks);
     if (parts.occupancy) world.occupancy = allocate_masks(device, "world occupancy", bricks);
     if (parts.smooth) world.distance = allocate_distances(device, "world distances", bricks);
-    if (parts.has_words()) world.attributes = allocate_words(device, "world attributes", bricks);
+    if (parts.has_attributes())
+        world.attributes = allocate_words(device, "world attributes", bricks);
     if (parts.colors) world.colors = allocate_words(device, "world colors", bricks);
     world.slots = allocate_slots(device, "world slots", world.frame);
     world.coordinates = Buffer<uint32_t>(device, "world coordinates", bricks);

@@ -1,11 +1,11 @@
-// scene -> the grids of its objects on a counting device, each made once, as ObjectGrids does.
+// scene -> the grids of its objects on a counting device, each made once, as GridCache does.
 #pragma once
 
 #include <map>
 #include <vector>
 
 #include "runtime/memory/object_counts.hpp"
-#include "runtime/world/object_grids.hpp"
+#include "runtime/world/grid_cache.hpp"
 
 namespace voxelume {
 
@@ -26,8 +26,8 @@ CountedGrid count_mesh(const Device& device, const GridCounts& counts);
 
 class CountedGrids {
   public:
-    CountedGrids(const Device& device, const Scene& scene, MeshStore& meshes, ObjectCounts& objects,
-                 Estimate estimate)
+    CountedGrids(const Device& device, const Scene& scene, AssetStore& meshes,
+                 ObjectCounts& objects, Estimate estimate)
         : device_(device), scene_(scene), meshes_(meshes), objects_(objects), estimate_(estimate) {}
 
     /// The grid that shows an object in the world, and that of its model, whole, in its own space.
@@ -46,7 +46,7 @@ class CountedGrids {
 
     const Device& device_;
     const Scene& scene_;
-    MeshStore& meshes_;
+    AssetStore& meshes_;
     ObjectCounts& objects_;
     Estimate estimate_;
     std::vector<CountedGrid> grids_;

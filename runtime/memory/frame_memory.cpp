@@ -11,7 +11,7 @@ namespace {
 
 class FrameWalk {
   public:
-    FrameWalk(const Scene& scene, MeshStore& meshes, ObjectCounts& objects,
+    FrameWalk(const Scene& scene, AssetStore& meshes, ObjectCounts& objects,
               const DensityPlan& medium, Estimate estimate)
         : scene_(scene),
           meshes_(meshes),
@@ -30,7 +30,7 @@ class FrameWalk {
     }
 
   private:
-    /// As WorldFormer::form.
+    /// As WorldBuilder::form.
     Pyramid form() {
         const ListedInstances listed =
             list_instances(scene_, meshes_, [this](const Object& object, const Model& model) {
@@ -71,11 +71,12 @@ class FrameWalk {
 
     /// As Renderer::image.
     void show(const Pyramid& world) {
-        const size_t depth = estimate_ == Estimate::least ? 1 : SIZE_MAX;
+        const size_t depth = estimate_ == Estimate::minimum ? 1 : SIZE_MAX;
         height();
         const ImageMemory image = count_image(device_, scene_, world, medium_, depth);
         memory_.image = height();
-        memory_.halo = double((image.halo.sectors.size() + image.halo.bricks.size()) * 4);
+        memory_.dilated_occupancy = double(
+            (image.dilated_occupancy.sectors.size() + image.dilated_occupancy.bricks.size()) * 4);
         const Features features = features_of(scene_, world);
         memory_.rays = ray_bytes(features, ray_counts(scene_, features));
     }
@@ -89,7 +90,7 @@ class FrameWalk {
     }
 
     const Scene& scene_;
-    MeshStore& meshes_;
+    AssetStore& meshes_;
     ObjectCounts& objects_;
     const DensityPlan& medium_;
     Estimate estimate_;
@@ -100,11 +101,11 @@ class FrameWalk {
 
 }  // namespace
 
-double FrameMemory::formed() const {
+double FrameMemory::built() const {
     return std::max({voxelize, place, index});
 }
 
-FrameMemory walk_frame(const Scene& scene, MeshStore& meshes, ObjectCounts& objects,
+FrameMemory walk_frame(const Scene& scene, AssetStore& meshes, ObjectCounts& objects,
                        const DensityPlan& medium, Estimate estimate) {
     return FrameWalk(scene, meshes, objects, medium, estimate).run();
 }

@@ -16,21 +16,21 @@ struct FrameMemory {
     std::vector<CountedGrid> grids;  ///< given up
     WorldCounts world;
     double voxelize = 0, place = 0, index = 0, image = 0;
-    double pyramid = 0;          ///< part of the last two
-    double halo = 0;             ///< part of the last
-    RayBytes rays;               ///< all that they may need
-    std::string largest_buffer;  ///< of placing and indexing
+    double pyramid = 0;            ///< part of the last two
+    double dilated_occupancy = 0;  ///< part of the last
+    RayBytes rays;                 ///< all that they may need
+    std::string largest_buffer;    ///< of placing and indexing
     double largest_bytes = 0;
 
-    double formed() const;  ///< at the height of forming the world
+    double built() const;  ///< at the height of forming the world
 };
 
-/// Follows WorldFormer and Renderer through a single frame. With the least estimate only the first
+/// Follows WorldBuilder and Renderer through a single frame. With the least estimate only the first
 /// reflections and refractions are counted, whose arrays are made whatever is met.
 ///
 /// Throws as list_instances and placed_objects do, and Error::limit for an exact mesh in a world
 /// that is too large for it.
-FrameMemory walk_frame(const Scene& scene, MeshStore& meshes, ObjectCounts& objects,
+FrameMemory walk_frame(const Scene& scene, AssetStore& meshes, ObjectCounts& objects,
                        const DensityPlan& medium, Estimate estimate);
 
 }  // namespace voxelume

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <optional>
 
+#include "runtime/analysis/model_last_uses.hpp"
 #include "runtime/analysis/scene_features.hpp"
-#include "runtime/analysis/shown_models.hpp"
 #include "runtime/base/error.hpp"
 #include "runtime/scene_file/scene_animation.hpp"
 #include "runtime/world/instances.hpp"
@@ -30,13 +30,13 @@ bool has_files_of(const Scene& a, const Scene& b) {
 }
 
 /// Leaves in main memory the meshes of a frame, and as many of others as may wait for theirs.
-void forget_most(const Scene& scene, const DeviceInfo& device, MeshStore& meshes) {
-    uint64_t room = device.memory / kAwaitedPart;
-    for (const Model& model : scene.models) meshes.await(model, room);
+void forget_largest(const Scene& scene, const DeviceInfo& device, AssetStore& meshes) {
+    uint64_t room = device.memory / kRetainedPart;
+    for (const Model& model : scene.models) meshes.retain(model, room);
     meshes.forget_unused();
 }
 
-FramePlan plan_frame(const Scene& scene, int frame, MeshStore& meshes) {
+FramePlan plan_frame(const Scene& scene, int frame, AssetStore& meshes) {
     return in_frame(scene, frame, [&] {
         FramePlan planned{frame, scene_at(scene, frame), {}};
         check_placements(planned.scene);
@@ -56,9 +56,9 @@ bool is_refused(const FramePlan& planned, const DeviceInfo& device) {
     return false;
 }
 
-FramePlan plan_frames(const Scene& scene, std::span<const int> frames, MeshStore& meshes,
+FramePlan plan_frames(const Scene& scene, std::span<const int> frames, AssetStore& meshes,
                       const DeviceInfo& device) {
-    std::optional<FramePlan> most;
+    std::optional<FramePlan> maximum;
     std::optional<Scene> before;
     int plans = 0;
     for (const int frame : frames) {
@@ -71,13 +71,14 @@ FramePlan plan_frames(const Scene& scene, std::span<const int> frames, MeshStore
         meshes.forget_unused();
         before = planned.scene;
         if (is_refused(planned, device)) return planned;
-        if (!most || planned.plan.peak_bytes() > most->plan.peak_bytes()) most = std::move(planned);
+        if (!maximum || planned.plan.peak_bytes() > maximum->plan.peak_bytes())
+            maximum = std::move(planned);
     }
-    most->plans = plans;
-    return std::move(*most);
+    maximum->plans = plans;
+    return std::move(*maximum);
 }
 
-void check_frames(const Scene& scene, std::span<const int> frames, MeshStore& meshes,
+void check_frames(const Scene& scene, std::span<const int> frames, AssetStore& meshes,
                   const DeviceInfo& device) {
     std::optional<Scene> first, before;
     for (const int frame : frames)
@@ -88,7 +89,7 @@ void check_frames(const Scene& scene, std::span<const int> frames, MeshStore& me
             if (!first) first = now;
             if (has_files_of(now, *first)) {
                 check_memory(now, plan_scene(now, meshes), device);
-                forget_most(now, device, meshes);
+                forget_largest(now, device, meshes);
             }
             before = std::move(now);
         });

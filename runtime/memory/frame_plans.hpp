@@ -22,7 +22,7 @@ bool is_refused(const FramePlan& planned, const DeviceInfo& device);
 /// or else the one that needs the most memory. Reads every file of models that they show.
 ///
 /// Throws as scene_at, check_placements and plan_scene do, with the frame.
-FramePlan plan_frames(const Scene& scene, std::span<const int> frames, MeshStore& meshes,
+FramePlan plan_frames(const Scene& scene, std::span<const int> frames, AssetStore& meshes,
                       const DeviceInfo& device);
 
 /// Holds all `frames` against the rules for placements and against the device's memory, as
@@ -31,7 +31,7 @@ FramePlan plan_frames(const Scene& scene, std::span<const int> frames, MeshStore
 /// Frames whose models are of other files, or other shapes of a morph, than the first one's aren't
 /// planned here but when it is their turn: reading their meshes would take as long as rendering.
 /// Throws as plan_frames and check_memory do, with the frame.
-void check_frames(const Scene& scene, std::span<const int> frames, MeshStore& meshes,
+void check_frames(const Scene& scene, std::span<const int> frames, AssetStore& meshes,
                   const DeviceInfo& device);
 
 }  // namespace voxelume

@@ -91,20 +91,20 @@ GridCounts ObjectCounts::model_grid(const Model& model, Estimate estimate) {
     }
     if (model.solid) {
         const SurfaceArea area =
-            least_solid_area(*model.solid, kOwnSpace, {model.reach.min, model.reach.max});
+            min_solid_area(*model.solid, kOwnSpace, {model.reach.min, model.reach.max});
         return counts_of(model, mesh, frame,
                          surface_extent(area, kOwnSpace, frame, stored_band(model)));
     }
     if (is_expected) return mesh_grid(model, *mesh, mesh->area);
-    return mesh_grid(model, *mesh, model.cuts.empty() ? mesh->least_area : SurfaceArea{});
+    return mesh_grid(model, *mesh, model.cuts.empty() ? mesh->min_area : SurfaceArea{});
 }
 
 GridCounts ObjectCounts::object_grid(const Object& object, Estimate estimate) {
     const Model& model = scene_.models[size_t(object.model)];
     const MeshSummary* mesh = meshes_.summary_of(model);
     const GridFrame frame = world_frame(scene_.world);
-    if (estimate == Estimate::least)
-        return counts_of(model, mesh, frame, extents_.least(object, 0));
+    if (estimate == Estimate::minimum)
+        return counts_of(model, mesh, frame, extents_.minimum(object, 0));
     if (!model.solid) return counts_of(model, mesh, frame, extents_.planned(object, 0));
     TakenBricks taken(frame);
     return counts_of(model, mesh, frame,
@@ -155,9 +155,9 @@ WorldExtent ObjectCounts::least_in_world(size_t number) {
     const Model& model = scene_.models[size_t(object.model)];
     const bool has_voxels = !model.voxels.empty() && model.surface != Surface::exact;
     const SurfaceExtent extent =
-        has_voxels
-            ? voxels_in_world(object, meshes_.voxels(model), true)
-            : extents_.least(object, model.surface == Surface::smooth ? kSurfaceBand : kPlacedBand);
+        has_voxels ? voxels_in_world(object, meshes_.voxels(model), true)
+                   : extents_.minimum(
+                         object, model.surface == Surface::smooth ? kSurfaceBand : kPlacedBand);
     return {extent.voxels, extent.bricks, model.surface == Surface::exact ? extent.voxels : 0};
 }
 
@@ -169,10 +169,10 @@ WorldCounts ObjectCounts::world(Estimate estimate) {
     std::vector<ObjectExtent> apart;
     for (size_t number = 0; number < scene_.objects.size(); ++number) {
         const Object& object = scene_.objects[number];
-        if (is_instanced(scene_, object) || !is_in_reach(scene_, object)) continue;
+        if (is_instanced(scene_, object) || !is_potentially_visible(scene_, object)) continue;
         const VoxelBox& box = boxes()[number];
         if (is_empty(box)) continue;
-        if (estimate == Estimate::least) {
+        if (estimate == Estimate::minimum) {
             apart.push_back({box, least_in_world(number)});
             continue;
         }
@@ -182,7 +182,7 @@ WorldCounts ObjectCounts::world(Estimate estimate) {
         primitives += extent.voxels * listed(scene_.models[size_t(object.model)]);
     }
     if (estimate == Estimate::expected) return sum_of(sum, primitives, estimate, frame);
-    sum = extent_at_least(std::move(apart));
+    sum = min_extent(std::move(apart));
     return sum_of(sum, sum.exact_voxels, estimate, frame);
 }
 

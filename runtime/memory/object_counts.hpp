@@ -16,13 +16,13 @@ namespace voxelume {
 
 enum class Estimate : uint8_t {
     expected,  ///< with a margin for what surfaces' areas and distances don't tell
-    least      ///< what can't be less
+    minimum    ///< what can't be less
 };
 
 /// Counts for one scene; what its objects share is found once. Reads what ObjectExtents does.
 class ObjectCounts {
   public:
-    ObjectCounts(const Scene& scene, MeshStore& meshes)
+    ObjectCounts(const Scene& scene, AssetStore& meshes)
         : scene_(scene), meshes_(meshes), extents_(scene, meshes) {}
 
     /// The grid of a model in its own space; of an exact object in the world's frame.
@@ -41,7 +41,7 @@ class ObjectCounts {
     SurfaceExtent voxels_in_world(const Object& object, const VoxelModel& voxels, bool at_least);
 
     const Scene& scene_;
-    MeshStore& meshes_;
+    AssetStore& meshes_;
     ObjectExtents extents_;
 };
 

@@ -13,7 +13,7 @@ namespace {
 constexpr double kWorldTable = 5, kModelTable = 12, kTriangleBytes = 36;
 
 /// What a grid takes, expected and at least; the largest buffer is the least grid's.
-GridPlan grid_plan(const CountedGrid& expected, const CountedGrid& least) {
+GridPlan grid_plan(const CountedGrid& expected, const CountedGrid& minimum) {
     GridPlan grid{.model = expected.model,
                   .object = expected.object,
                   .frame = expected.counts.frame,
@@ -22,13 +22,13 @@ GridPlan grid_plan(const CountedGrid& expected, const CountedGrid& least) {
                   .bricks = double(expected.counts.bricks),
                   .made_bytes = expected.made_bytes,
                   .kept_bytes = expected.kept_bytes};
-    grid.least = {double(least.counts.voxels), least.made_bytes, least.kept_bytes};
-    grid.largest = described_buffer(least.largest_buffer, least.largest_bytes);
+    grid.minimum = {double(minimum.counts.voxels), minimum.made_bytes, minimum.kept_bytes};
+    grid.largest = described_buffer(minimum.largest_buffer, minimum.largest_bytes);
     return grid;
 }
 
 /// Refuses names of groups that aren't there, before any frame is rendered.
-void check_groups(const Scene& scene, MeshStore& meshes) {
+void check_groups(const Scene& scene, AssetStore& meshes) {
     for (const Object& object : scene.objects)
         if (may_be_shown(scene, object))
             materials_of_groups(object, meshes.groups_of(scene.models[size_t(object.model)]));
@@ -64,10 +64,10 @@ GridPlan plan_model(const Model& model, const Mesh& mesh) {
     const auto counted = [&](const SurfaceArea& area) {
         return count_mesh(device, mesh_grid(model, summary, area));
     };
-    return grid_plan(counted(summary.area), counted(summary.least_area));
+    return grid_plan(counted(summary.area), counted(summary.min_area));
 }
 
-ScenePlan plan_scene(const Scene& scene, MeshStore& meshes) {
+ScenePlan plan_scene(const Scene& scene, AssetStore& meshes) {
     check_groups(scene, meshes);
     ScenePlan plan;
     plan.world = world_frame(scene.world);
@@ -75,9 +75,9 @@ ScenePlan plan_scene(const Scene& scene, MeshStore& meshes) {
     ObjectCounts objects(scene, meshes);
     const FrameMemory expected =
         walk_frame(scene, meshes, objects, plan.medium, Estimate::expected);
-    const FrameMemory least = walk_frame(scene, meshes, objects, plan.medium, Estimate::least);
+    const FrameMemory minimum = walk_frame(scene, meshes, objects, plan.medium, Estimate::minimum);
     for (size_t i = 0; i < expected.grids.size(); ++i)
-        plan.grids.push_back(grid_plan(expected.grids[i], least.grids[i]));
+        plan.grids.push_back(grid_plan(expected.grids[i], minimum.grids[i]));
     plan.voxels = double(expected.world.voxels);
     plan.bricks = double(expected.world.bricks);
     plan.voxelize_bytes = expected.voxelize;
@@ -85,12 +85,12 @@ ScenePlan plan_scene(const Scene& scene, MeshStore& meshes) {
     plan.index_bytes = expected.index;
     plan.image_bytes = expected.image;
     plan.world_bytes = expected.pyramid;
-    plan.halo_bytes = expected.halo;
+    plan.dilated_occupancy_bytes = expected.dilated_occupancy;
     plan.rays = expected.rays;
-    plan.least_image_bytes = least.image;
-    plan.least_bytes = std::max(least.formed(), least.image);
-    plan.least_with_next = least.place + least.index + least.image;
-    plan.largest = described_buffer(least.largest_buffer, least.largest_bytes);
+    plan.min_image_bytes = minimum.image;
+    plan.min_bytes = std::max(minimum.built(), minimum.image);
+    plan.min_with_next = minimum.place + minimum.index + minimum.image;
+    plan.largest = described_buffer(minimum.largest_buffer, minimum.largest_bytes);
     plan.host_bytes = host_bytes(scene, plan);
     return plan;
 }

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "runtime/assets/mesh_store.hpp"
+#include "runtime/assets/asset_store.hpp"
 #include "runtime/memory/plan_grid.hpp"
 #include "runtime/opencl/device.hpp"
 #include "runtime/stages/medium/density_grid.hpp"
@@ -29,17 +29,18 @@ struct ScenePlan {
     double image_bytes = 0;
 
     double world_bytes = 0;  ///< the pyramid's, part of the last two
-    double halo_bytes = 0;   ///< of the grid that beams of rays are sent through, part of the last
-    RayBytes rays;           ///< of which the most are part of the last
-    DensityPlan medium;      ///< part of the last one
-    double host_bytes = 0;   ///< tables, meshes and the image in main memory
+    double dilated_occupancy_bytes =
+        0;                  ///< of the grid that beams of rays are sent through, part of the last
+    RayBytes rays;          ///< of which the most are part of the last
+    DensityPlan medium;     ///< part of the last one
+    double host_bytes = 0;  ///< tables, meshes and the image in main memory
 
     /// At the height of all stages, and of the world's buffers but those of its tables and medium,
     /// at least: what objects take that can't lie in each other's bricks. No more than that is
     /// refused before it is tried.
-    double least_bytes = 0;
-    double least_image_bytes = 0;  ///< of the last one, the same way
-    double least_with_next = 0;    ///< of bytes_with_next, the same way
+    double min_bytes = 0;
+    double min_image_bytes = 0;  ///< of the last one, the same way
+    double min_with_next = 0;    ///< of bytes_with_next, the same way
     BufferPlan largest;
 
     double peak_bytes() const;
@@ -55,9 +56,9 @@ void check_model(const Model& model, const GridPlan& plan, const DeviceInfo& dev
 
 /// Plans a scene; reads the meshes that the world shows, unless the store knows enough of them.
 ///
-/// Throws as MeshStore, model_frame and materials_of_groups do, and Error::limit for a lattice with
-/// more bricks than can be numbered.
-ScenePlan plan_scene(const Scene& scene, MeshStore& meshes);
+/// Throws as AssetStore, model_frame and materials_of_groups do, and Error::limit for a lattice
+/// with more bricks than can be numbered.
+ScenePlan plan_scene(const Scene& scene, AssetStore& meshes);
 
 /// Refuses lattices whose tables can't be numbered, or are larger than the device's memory, before
 /// any mesh is read. Throws Error::limit.

@@ -11,7 +11,7 @@ namespace voxelume {
 namespace {
 
 /// Bricks of a lattice are numbered by signed 32-bit integers.
-constexpr double kMostBricks = 2147483647.0;
+constexpr double kMaxBricks = 2147483647.0;
 
 /// Voxels `factor` times as large: "voxels larger than 0.002 m".
 std::string larger_voxels(const glm::dvec3& edge, double factor) {
@@ -69,7 +69,7 @@ double main_memory() {
 /// What makes an image and its rays take less.
 std::string smaller_image(const RenderSettings& render, const RayBytes& rays) {
     std::string text = "render a smaller one";
-    if (rays.least() < image_bytes(render)) return text;
+    if (rays.minimum() < image_bytes(render)) return text;
     if (render.samples > 1) text += ", or with fewer samples a pixel";
     if (rays.depth > 0) text += ", or with less depth";
     return text;
@@ -77,18 +77,18 @@ std::string smaller_image(const RenderSettings& render, const RayBytes& rays) {
 
 void check_image(const Scene& scene, const ScenePlan& plan, const DeviceInfo& device) {
     const double memory = double(device.memory), there = std::min(memory, main_memory() / 2);
-    const double image = image_bytes(scene.render) + plan.rays.least();
+    const double image = image_bytes(scene.render) + plan.rays.minimum();
     // Where the image takes more than its world, larger voxels are not the way out.
     const bool crowds =
-        image <= there && plan.least_image_bytes > memory && image > plan.least_image_bytes / 2;
+        image <= there && plan.min_image_bytes > memory && image > plan.min_image_bytes / 2;
     if (image > there || crowds)
         throw Error(ErrorKind::limit,
                     "an image of {}x{} pixels{} {} on \"{}\", {} of them for rays, where {} can be "
                     "used: {}",
                     scene.render.size.x, scene.render.size.y,
                     crowds ? " and its world need" : " needs",
-                    bytes_text(crowds ? plan.least_image_bytes : image), device.name,
-                    bytes_text(plan.rays.least()), bytes_text(there),
+                    bytes_text(crowds ? plan.min_image_bytes : image), device.name,
+                    bytes_text(plan.rays.minimum()), bytes_text(there),
                     smaller_image(scene.render, plan.rays));
     const glm::dvec2 size(scene.render.size);
     const double planes = pixel_bytes(scene.render.channels) * size.x * size.y;
@@ -126,18 +126,18 @@ std::string bytes_text(double bytes) {
 
 void check_model(const Model& model, const GridPlan& plan, const DeviceInfo& device) {
     const double bricks = brick_table(plan.frame), memory = double(device.memory);
-    if (bricks > kMostBricks)
+    if (bricks > kMaxBricks)
         throw Error(ErrorKind::limit,
                     "{}: a model of {} voxels has more than 2^31 bricks of 16x16x16: use {}",
                     model.where, size_text(plan.frame.size),
-                    larger_voxels(plan.frame.voxel_edge, table_factor(bricks, kMostBricks)));
-    if (plan.least.made_bytes > memory)
+                    larger_voxels(plan.frame.voxel_edge, table_factor(bricks, kMaxBricks)));
+    if (plan.minimum.made_bytes > memory)
         throw Error(
             ErrorKind::limit,
             "{}: this model of {} voxels needs {} on \"{}\", which has {}: use {}", model.where,
-            size_text(plan.frame.size), bytes_text(plan.least.made_bytes), device.name,
+            size_text(plan.frame.size), bytes_text(plan.minimum.made_bytes), device.name,
             bytes_text(memory),
-            larger_voxels(plan.frame.voxel_edge, surface_factor(plan.least.made_bytes, memory)));
+            larger_voxels(plan.frame.voxel_edge, surface_factor(plan.minimum.made_bytes, memory)));
     check_piece(model.where + ": a model", plan.frame, plan.largest, device);
 }
 
@@ -154,11 +154,11 @@ void check_tables(const Scene& scene, const DeviceInfo& device) {
                     world.where, size_text(world.voxels), bytes_text(bytes), device.name,
                     bytes_text(there), larger_voxels(world.voxel_size, table_factor(bytes, there)));
     }
-    if (bricks > kMostBricks)
+    if (bricks > kMaxBricks)
         throw Error(ErrorKind::limit,
                     "{}: a world of {} voxels has more than 2^31 bricks of 16x16x16: use {}",
                     world.where, size_text(world.voxels),
-                    larger_voxels(world.voxel_size, table_factor(bricks, kMostBricks)));
+                    larger_voxels(world.voxel_size, table_factor(bricks, kMaxBricks)));
 }
 
 void check_memory(const Scene& scene, const ScenePlan& plan, const DeviceInfo& device) {
@@ -171,7 +171,7 @@ void check_memory(const Scene& scene, const ScenePlan& plan, const DeviceInfo& d
     }
     check_medium(scene, plan, device);
     check_image(scene, plan, device);
-    const double memory = double(device.memory), peak = plan.least_bytes;
+    const double memory = double(device.memory), peak = plan.min_bytes;
     if (peak > memory)
         refuse_world(scene.world, peak, fmt::format("on \"{}\"", device.name), memory,
                      surface_factor(peak, memory));

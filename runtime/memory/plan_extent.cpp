@@ -8,7 +8,7 @@
 namespace voxelume {
 namespace {
 
-constexpr size_t kMostCompared = 1024;  // each with all before: some milliseconds
+constexpr size_t kMaxCompared = 1024;  // each with all before: some milliseconds
 
 struct BrickRange {
     glm::dvec3 first, last;
@@ -25,10 +25,10 @@ bool are_apart(const BrickRange& a, const BrickRange& b) {
 
 }  // namespace
 
-WorldExtent extent_at_least(std::vector<ObjectExtent> objects) {
+WorldExtent min_extent(std::vector<ObjectExtent> objects) {
     std::ranges::stable_sort(objects, std::greater(),
                              [](const ObjectExtent& object) { return object.extent.bricks; });
-    objects.resize(std::min(objects.size(), kMostCompared));
+    objects.resize(std::min(objects.size(), kMaxCompared));
     WorldExtent sum;
     std::vector<BrickRange> taken;
     for (const ObjectExtent& object : objects) {
@@ -38,10 +38,10 @@ WorldExtent extent_at_least(std::vector<ObjectExtent> objects) {
         taken.push_back(range);
         const glm::dvec3 size = glm::max(range.last - range.first + 1.0, 0.0);
         const double bricks = std::min(object.extent.bricks, size.x * size.y * size.z);
-        const double most = bricks * kBrickSize * kBrickSize * kBrickSize;
-        sum.voxels += std::min(object.extent.voxels, most);
+        const double maximum = bricks * kBrickSize * kBrickSize * kBrickSize;
+        sum.voxels += std::min(object.extent.voxels, maximum);
         sum.bricks += bricks;
-        sum.exact_voxels += std::min(object.extent.exact_voxels, most);
+        sum.exact_voxels += std::min(object.extent.exact_voxels, maximum);
     }
     return sum;
 }

@@ -21,6 +21,6 @@ struct ObjectExtent {
 
 /// The sum over objects of which no two can share a brick: those with most bricks first, each if
 /// its box is apart from those taken before. Of very many the smallest are left out.
-WorldExtent extent_at_least(std::vector<ObjectExtent> objects);
+WorldExtent min_extent(std::vector<ObjectExtent> objects);
 
 }  // namespace voxelume

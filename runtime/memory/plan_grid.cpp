@@ -44,8 +44,9 @@ constexpr std::array kWords = {
 
 BufferPlan described_buffer(const std::string& name, double bytes) {
     if (name == "nearest triangles") return {"its voxels' materials and colors", bytes};
-    for (const BufferWords& words : kWords)
-        if (name.find(words.part) != std::string::npos) return {words.what, bytes, words.growth};
+    for (const BufferWords& attributes : kWords)
+        if (name.find(attributes.part) != std::string::npos)
+            return {attributes.what, bytes, attributes.growth};
     return {"its voxels", bytes};
 }
 

@@ -32,7 +32,7 @@ BufferPlan described_buffer(const std::string& name, double bytes);
 void keep_larger(BufferPlan& largest, const BufferPlan& buffer);
 
 /// Of a grid, at least: less than planned where a solid's parts may lie in each other.
-struct LeastGrid {
+struct MinGrid {
     double voxels = 0, made_bytes = 0, kept_bytes = 0;
 };
 
@@ -46,7 +46,7 @@ struct GridPlan {
     double bricks = 0;        ///< stored
     double made_bytes = 0;    ///< device memory while it is made, its own included
     double kept_bytes = 0;    ///< device memory that it keeps until the world is formed
-    LeastGrid least = {};     ///< of these three
+    MinGrid minimum = {};     ///< of these three
     BufferPlan largest = {};  ///< of the buffers that it takes while it is made
 };
 

@@ -11,7 +11,7 @@
 
 namespace voxelume {
 
-ObjectExtents::ObjectExtents(const Scene& scene, MeshStore& meshes)
+ObjectExtents::ObjectExtents(const Scene& scene, AssetStore& meshes)
     : scene_(scene), meshes_(meshes), frame_(world_frame(scene.world)) {
     box_ = {frame_.origin, frame_.origin + glm::dvec3(frame_.size) * frame_.voxel_edge};
 }
@@ -32,18 +32,18 @@ SurfaceExtent ObjectExtents::extent(const Object& object, double band, bool at_l
     const Model& model = scene_.models[size_t(object.model)];
     const glm::dmat4& map = object.world_from_object;
     if (model.solid) {
-        const SurfaceArea area = at_least ? least_solid_area(*model.solid, map, box_)
+        const SurfaceArea area = at_least ? min_solid_area(*model.solid, map, box_)
                                           : solid_area(*model.solid, map, box_);
         return surface_extent(area, glm::dmat4(1), frame_, band);
     }
     const SurfaceArea& area =
-        at_least ? meshes_.summary_of(model)->least_area : area_of(object.model);
+        at_least ? meshes_.summary_of(model)->min_area : area_of(object.model);
     const SurfaceExtent extent = surface_extent(area, map, frame_, band);
     const double inside = part_in_world(object);
     return {extent.voxels * inside, extent.bricks * inside};
 }
 
-SurfaceExtent ObjectExtents::least(const Object& object, double band) {
+SurfaceExtent ObjectExtents::minimum(const Object& object, double band) {
     if (!scene_.models[size_t(object.model)].cuts.empty()) return {};
     return extent(object, band, true);
 }

@@ -5,16 +5,16 @@
 #include <vector>
 
 #include "runtime/analysis/object_boxes.hpp"
-#include "runtime/assets/mesh_store.hpp"
+#include "runtime/assets/asset_store.hpp"
 #include "runtime/geometry/surface_extent.hpp"
 
 namespace voxelume {
 
 /// The extents of a scene's objects in its world; what they share is found once. Reads the meshes
-/// of those that it is asked for, as MeshStore does.
+/// of those that it is asked for, as AssetStore does.
 class ObjectExtents {
   public:
-    ObjectExtents(const Scene& scene, MeshStore& meshes);
+    ObjectExtents(const Scene& scene, AssetStore& meshes);
 
     /// Of a model's surface in its own space.
     const SurfaceArea& area_of(int model_number);
@@ -22,7 +22,7 @@ class ObjectExtents {
     SurfaceExtent planned(const Object& object, double band) { return extent(object, band, false); }
 
     /// No more than it takes; nothing of a mesh that is cut.
-    SurfaceExtent least(const Object& object, double band);
+    SurfaceExtent minimum(const Object& object, double band);
 
     /// Voxels of the world inside of an object whose inside rays see: those of its box.
     double inside_voxels(const Object& object);
@@ -38,7 +38,7 @@ class ObjectExtents {
     double part_in_world(const Object& object);
 
     const Scene& scene_;
-    MeshStore& meshes_;
+    AssetStore& meshes_;
     GridFrame frame_;
     SolidBounds box_;  ///< the world's
     std::map<int, SurfaceArea> areas_;

@@ -35,9 +35,9 @@ bool unpack_all(const std::vector<Piece>& pieces) {
         for (size_t i = next++; i < pieces.size() && is_whole; i = next++)
             if (!unpack(pieces[i])) is_whole = false;
     };
-    const size_t most = std::clamp(std::thread::hardware_concurrency(), 1u, 16u);
+    const size_t maximum = std::clamp(std::thread::hardware_concurrency(), 1u, 16u);
     std::vector<std::jthread> helpers;
-    for (size_t i = 1; i < std::min(most, pieces.size()); ++i) helpers.emplace_back(work);
+    for (size_t i = 1; i < std::min(maximum, pieces.size()); ++i) helpers.emplace_back(work);
     work();
     helpers.clear();
     return is_whole;

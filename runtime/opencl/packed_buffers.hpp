@@ -12,10 +12,10 @@
 namespace voxelume {
 
 /// Puts values and buffers one behind the other, and stops where they become more than
-/// `most_bytes`.
+/// `max_bytes`.
 class PackedWriter {
   public:
-    explicit PackedWriter(uint64_t most_bytes = UINT64_MAX) : most_bytes_(most_bytes) {}
+    explicit PackedWriter(uint64_t max_bytes = UINT64_MAX) : max_bytes_(max_bytes) {}
 
     template <class Value>
     void put(const Value& value) {
@@ -29,13 +29,13 @@ class PackedWriter {
         const std::vector<T> values = buffer.read();
         put_array(std::as_bytes(std::span(values)));
     }
-    bool is_too_large() const { return bytes_.size() > most_bytes_; }
+    bool is_too_large() const { return bytes_.size() > max_bytes_; }
     std::string take() { return std::move(bytes_); }
 
   private:
     void put_array(std::span<const std::byte> array);
     std::string bytes_;
-    uint64_t most_bytes_;
+    uint64_t max_bytes_;
 };
 
 /// Takes values and buffers apart from the front of `bytes`; after a failure everything fails.

@@ -5,7 +5,7 @@
 
 #include "kernels/shared/solid.h"
 #include "kernels/shared/voxel.h"
-#include "runtime/stages/light/spots.hpp"
+#include "runtime/stages/light/light_samples.hpp"
 #include "runtime/stages/resolve/resolve.hpp"
 
 namespace voxelume {
@@ -16,19 +16,20 @@ std::vector<LightRecord> light_records(const Device& device, const Features& fea
     std::vector<LightRecord> records;
     if (!has_light(scene, world)) return records;
     records = given_lights(scene, world.frame);
-    if (has_lamp(scene, world))
-        std::ranges::copy(lamp_spots(device, features, scene, world), std::back_inserter(records));
+    if (has_emissive_object(scene, world))
+        std::ranges::copy(emissive_light_samples(device, features, scene, world),
+                          std::back_inserter(records));
     std::erase_if(records,
                   [&](const LightRecord& light) { return !may_light(light, world.frame); });
     return records;
 }
 
-/// Surroundings::lost.
-Buffer<uint32_t> allocate_lost(const Device& device, const Features& features) {
-    if (!features.interior_capped) return {};
-    Buffer<uint32_t> lost(device, "lost members", 1);
-    lost.fill(0);
-    return lost;
+/// Surroundings::medium_overflows.
+Buffer<uint32_t> allocate_medium_overflows(const Device& device, const Features& features) {
+    if (!features.medium_set_capped) return {};
+    Buffer<uint32_t> medium_overflows(device, "medium overflows", 1);
+    medium_overflows.fill(0);
+    return medium_overflows;
 }
 
 /// The first records of the solids that light goes through.
@@ -52,7 +53,7 @@ std::vector<LightRecord> given_lights(const Scene& scene, const GridFrame& world
     for (const Light& light : scene.lights) {
         if (!shines(light)) continue;
         if (has_area(light))
-            std::ranges::copy(area_spots(light, world), std::back_inserter(records));
+            std::ranges::copy(area_light_samples(light, world), std::back_inserter(records));
         else
             records.push_back(light_record(light, world));
     }
@@ -60,10 +61,10 @@ std::vector<LightRecord> given_lights(const Scene& scene, const GridFrame& world
 }
 
 void build_programs(const Device& device, const Features& features, const Scene& scene,
-                    const Pyramid& world, bool makes_image, bool has_halo) {
+                    const Pyramid& world, bool makes_image, bool has_dilated_occupancy) {
     std::vector<const char*> files = {"sight.cl", "trace.cl", "shade.cl"};
     if (has_light(scene, world)) files.push_back("light.cl");
-    if (has_halo && lights_send_beams(features)) files.push_back("light_beams.cl");
+    if (has_dilated_occupancy && lights_send_beams(features)) files.push_back("light_beams.cl");
     if (features.absorbs) files.push_back("medium.cl");
     if (features.paths) files.push_back("scatter.cl");
     if (makes_image) files.push_back("resolve.cl");
@@ -72,28 +73,28 @@ void build_programs(const Device& device, const Features& features, const Scene&
 }
 
 Illumination::Illumination(const Device& device, const Features& features, const Scene& scene,
-                           const Pyramid& world, uint32_t most_rays, bool compact)
+                           const Pyramid& world, uint32_t max_rays, bool compact)
     : device_(device),
       features_(features),
       world_(world),
       lights_(light_records(device, features, scene, world)),
-      most_rays_(most_rays),
-      most_depth_(most_depth(features, scene, world)),
+      max_rays_(max_rays),
+      max_depth_(max_depth(features, scene, world)),
       trace_(device, features),
       shade_(device, features, scene, world.frame),
-      surroundings_{shade_.materials(), shade_.ranks(), allocate_lost(device, features)},
-      queue_(lights_.empty() ? ShadowQueue{} : allocate_shadow_queue(device, features, most_rays)) {
+      surroundings_{shade_.materials(), shade_.ranks(),
+                    allocate_medium_overflows(device, features)},
+      queue_(lights_.empty() ? ShadowQueue{} : allocate_shadow_queue(device, features, max_rays)) {
     if (!lights_.empty()) lighting_.emplace(device, features, shade_.materials());
     if (features.absorbs)
-        medium_.emplace(device, features, scene.world, shade_.space(), shade_.materials());
+        medium_.emplace(device, features, scene.world, shade_.environment(), shade_.materials());
     if (features.medium) {
-        surroundings_.absorption = shade_.space().absorption;
+        surroundings_.absorption = shade_.environment().absorption;
         surroundings_.density = medium_->density();
     }
     if (features.paths)
-        scatter_.emplace(device, features, surroundings_, float(scene.render.least_weight),
-                         compact);
-    if (features.immersed) {
+        scatter_.emplace(device, features, surroundings_, float(scene.render.min_weight), compact);
+    if (features.observer_in_medium) {
         hollow_ = hollow_objects(scene);
         hollow_flags_ =
             Buffer<uint32_t>(device, "hollow objects", std::span<const uint32_t>(hollow_.flags));
@@ -102,9 +103,11 @@ Illumination::Illumination(const Device& device, const Features& features, const
         scatter_->set_bodies(transmitting_solids(device, scene, world));
 }
 
-void Illumination::send_beams(const Halo& halo, uint32_t most, std::vector<LightBeams>& sent) {
-    for (const BeamGrid& grid : beam_grids(lights_, world_.frame.size, scale_of(halo.of), most,
-                                           kLightsOfMostBeams * most)) {
+void Illumination::send_beams(const DilatedOccupancy& dilated_occupancy, uint32_t maximum,
+                              std::vector<LightBeams>& sent) {
+    for (const BeamGrid& grid :
+         beam_grids(lights_, world_.frame.size, scale_of(dilated_occupancy.of), maximum,
+                    kLightsOfMaxBeams * maximum)) {
         const auto known = std::ranges::find_if(
             sent, [&](const LightBeams& kept) { return same_beams(kept.grid, grid); });
         beams_.push_back({grid, known == sent.end() ? Buffer<float>() : known->ends});
@@ -113,7 +116,7 @@ void Illumination::send_beams(const Halo& halo, uint32_t most, std::vector<Light
     std::optional<LightBeamStage> stage;
     for (LightBeams& beams : beams_) {
         if (beams.grid.columns == 0 || !beams.ends.empty()) continue;
-        if (!stage) stage.emplace(device_, features_, world_, halo);
+        if (!stage) stage.emplace(device_, features_, world_, dilated_occupancy);
         beams.ends = stage->send(beams.grid);
     }
     if (stage) light_beams_ = stage->sent();
@@ -142,8 +145,8 @@ void Illumination::find_hits(RayBatch& batch, uint32_t count) {
 
 void Illumination::begin_paths(RayBatch& batch, uint32_t count) {
     scatter_->begin(world_, batch, count);
-    if (features_.immersed)
-        trace_.begin_inside(world_, surroundings_, hollow_flags_, hollow_.most, batch, count);
+    if (features_.observer_in_medium)
+        trace_.begin_inside(world_, surroundings_, hollow_flags_, hollow_.maximum, batch, count);
 }
 
 /// Blocks 4 and 5: lights what the rays have met.
@@ -172,7 +175,7 @@ void Illumination::follow(size_t number, RayBatch& first, uint32_t count, bool h
                                  depth.next);
         else
             depth.nodes.radiance = entries->radiance;
-        if (number < most_depth_) scatter(number, *entries, count);
+        if (number < max_depth_) scatter(number, *entries, count);
         if (sink && features_.transmission) sink(*entries, count, is_first, depth.nodes);
         if (on > 0) std::swap(static_cast<RayQueue&>(depth.entries), depth.next);
         entries = &depth.entries;
@@ -184,8 +187,8 @@ void Illumination::follow(size_t number, RayBatch& first, uint32_t count, bool h
 /// Blocks 6.1 to 9: follows what surfaces reflect and refract, as much at a time as fits.
 void Illumination::scatter(size_t number, RayBatch& entries, uint32_t count) {
     const uint32_t branches = branches_of(features_);
-    for (uint32_t begin = 0; begin < count; begin += most_rays_) {
-        const uint32_t end = std::min(count, begin + most_rays_);
+    for (uint32_t begin = 0; begin < count; begin += max_rays_) {
+        const uint32_t end = std::min(count, begin + max_rays_);
         reserve_nodes(number + 1, branches * (end - begin));
         PathDepth& depth = *depths_[number];
         PathDepth& below = *depths_[number + 1];
@@ -206,11 +209,11 @@ void Illumination::reserve_nodes(size_t number, uint32_t count) {
     const bool is_first = number == 0;
     if (is_first ? count == depth.nodes.stride : count <= depth.nodes.stride) return;
     depth = {};  // frees what it had
-    depth = allocate_depth(device_, features_, is_first, is_first ? count : depth_places(count));
+    depth = allocate_depth(device_, features_, is_first, is_first ? count : depth_slots(count));
 }
 
-uint64_t Illumination::lost_members() const {
-    return surroundings_.lost.empty() ? 0 : surroundings_.lost.read_one(0);
+uint64_t Illumination::medium_overflows() const {
+    return surroundings_.medium_overflows.empty() ? 0 : surroundings_.medium_overflows.read_one(0);
 }
 
 uint64_t Illumination::shadow_rays() const {

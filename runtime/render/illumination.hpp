@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "runtime/analysis/interior.hpp"
+#include "runtime/analysis/medium_set.hpp"
 #include "runtime/analysis/scene_features.hpp"
 #include "runtime/grid/grid.hpp"
 #include "runtime/scene/scene.hpp"
@@ -19,14 +19,14 @@
 
 namespace voxelume {
 
-/// The lights that a scene lists, those with an area by their spots.
+/// The lights that a scene lists, those with an area by their light samples.
 std::vector<LightRecord> given_lights(const Scene& scene, const GridFrame& world);
 
 /// Makes the programs of the stages that sight rays go through in one piece: PoCL reads its own
 /// megabyte of headers for each. `makes_image`: they end in a flat image of the scene's channels;
-/// `has_halo`: lights may send beams.
+/// `has_dilated_occupancy`: lights may send beams.
 void build_programs(const Device& device, const Features& features, const Scene& scene,
-                    const Pyramid& world, bool makes_image, bool has_halo);
+                    const Pyramid& world, bool makes_image, bool has_dilated_occupancy);
 
 /// Whether beams of lights can tell where shadow rays end: not where these gather what they pass.
 inline bool lights_send_beams(const Features& features) {
@@ -40,18 +40,20 @@ inline bool lights_send_beams(const Features& features) {
 /// depth.
 class Illumination {
   public:
-    /// For batches of at most `most_rays` rays, a multiple of 16. The world must outlive it. For
+    /// For batches of at most `max_rays` rays, a multiple of 16. The world must outlive it. For
     /// `compact` see ScatterStage.
     Illumination(const Device& device, const Features& features, const Scene& scene,
-                 const Pyramid& world, uint32_t most_rays, bool compact = true);
+                 const Pyramid& world, uint32_t max_rays, bool compact = true);
 
     /// So many lights alone may send as many beams as one may.
-    static constexpr uint32_t kLightsOfMostBeams = 4;
+    static constexpr uint32_t kLightsOfMaxBeams = 4;
 
-    /// Sends beams from the lights, at most `most` from one: shadow rays end where their light's
-    /// tell that nothing more is before them. `sent` holds beams that were sent through this halo
-    /// before, afterwards those of these lights. For features with `lights_send_beams`.
-    void send_beams(const Halo& halo, uint32_t most, std::vector<LightBeams>& sent);
+    /// Sends beams from the lights, at most `maximum` from one: shadow rays end where their light's
+    /// tell that nothing more is before them. `sent` holds beams that were sent through this
+    /// dilated occupancy before, afterwards those of these lights. For features with
+    /// `lights_send_beams`.
+    void send_beams(const DilatedOccupancy& dilated_occupancy, uint32_t maximum,
+                    std::vector<LightBeams>& sent);
 
     /// Fills hits, and what the features ask for of positions, normals, words and radiance, of rays
     /// 0 .. count-1, which come from an observer. `sink` hears of layers in scenes with
@@ -77,7 +79,7 @@ class Illumination {
     uint64_t ended_paths() const { return scatter_ ? scatter_->ended() : 0; }
     /// How often a ray came into more overlapping objects than it can remember; waits for the
     /// device.
-    uint64_t lost_members() const;
+    uint64_t medium_overflows() const;
 
   private:
     void light_all(RayBatch& batch, uint32_t count, const LayerSink& sink, bool hits_are_known);
@@ -93,8 +95,8 @@ class Illumination {
     const Pyramid& world_;
     std::vector<LightRecord> lights_;
     std::vector<LightBeams> beams_;  ///< of each light, or none at all
-    uint32_t most_rays_;
-    size_t most_depth_;
+    uint32_t max_rays_;
+    size_t max_depth_;
     TraceStage trace_;
     ShadeStage shade_;
     Surroundings surroundings_;
@@ -102,7 +104,7 @@ class Illumination {
     std::optional<MediumStage> medium_;    ///< nor this where nothing absorbs
     std::optional<ScatterStage> scatter_;  ///< nor this without paths
     ShadowQueue queue_;
-    HollowObjects hollow_;  ///< of immersed observers
+    HollowObjects hollow_;  ///< of observers inside media
     Buffer<uint32_t> hollow_flags_;
     std::vector<std::unique_ptr<PathDepth>> depths_;  ///< as large as has been needed
     uint64_t secondary_rays_ = 0, light_beams_ = 0;

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <chrono>
 
-#include "runtime/analysis/reach.hpp"
+#include "runtime/analysis/culling.hpp"
 #include "runtime/base/error.hpp"
 #include "runtime/grid/pyramid_bytes.hpp"
 #include "runtime/memory/plan.hpp"
@@ -23,7 +23,7 @@ void add_counts(const RenderReport& report, RenderReport& sum) {
     sum.light_beams += report.light_beams;
     sum.secondary_rays += report.secondary_rays;
     sum.ended_paths += report.ended_paths;
-    sum.lost_members += report.lost_members;
+    sum.medium_overflows += report.medium_overflows;
     sum.not_finite += report.not_finite;
 }
 
@@ -32,7 +32,7 @@ namespace {
 /// The features that sight rays' hits and batches depend on: without those that decide the light on
 /// them alone.
 Features without_light(Features features) {
-    features.shadows = features.patches = features.checker = false;
+    features.shadows = features.area_samples = features.checker = false;
     features.medium = features.medium_grid = features.absorbs = false;
     features.filter = features.filtered_refraction = false;
     return features;
@@ -40,7 +40,7 @@ Features without_light(Features features) {
 
 }  // namespace
 
-Renderer::View Renderer::view_of(const Scene& scene, const FormedWorld& world,
+Renderer::View Renderer::view_of(const Scene& scene, const BuiltWorld& world,
                                  const Features& features) {
     View view{world.version, scene.observer, scene.render, without_light(features), {}};
     for (const Material& material : scene.materials) view.transmits.push_back(transmits(material));
@@ -54,26 +54,28 @@ bool Renderer::has_room(const Scene& scene, const Features& features, uint64_t r
     const double bytes = double(rays) * sight_bytes(features),
                  memory = double(device_.info().memory);
     const double needed =
-        ray_bytes(features, ray_counts(scene, features)).most() + image_bytes(scene.render);
+        ray_bytes(features, ray_counts(scene, features)).maximum() + image_bytes(scene.render);
     const auto locked = device_.lock();
     return bytes <= memory / 16 &&
            double(device_.counters().bytes_in_use) + needed + bytes <= memory;
 }
 
-Renderer::WorldHalo& Renderer::halo_of(const FormedWorld& world, HaloOf of) {
-    if (!halo_ || halo_->world != world.version || halo_->halo.of != of) {
-        halo_.reset();
-        halo_ = WorldHalo{world.version, build_halo(device_, world.pyramid, of), {}};
+Renderer::WorldDilation& Renderer::dilated_occupancy_of(const BuiltWorld& world, DilationLevel of) {
+    if (!dilated_occupancy_ || dilated_occupancy_->world != world.version ||
+        dilated_occupancy_->dilated_occupancy.of != of) {
+        dilated_occupancy_.reset();
+        dilated_occupancy_ =
+            WorldDilation{world.version, build_dilated_occupancy(device_, world.pyramid, of), {}};
     }
-    return *halo_;
+    return *dilated_occupancy_;
 }
 
-std::shared_ptr<const Image> Renderer::image(const Scene& scene, const FormedWorld& world,
+std::shared_ptr<const Image> Renderer::image(const Scene& scene, const BuiltWorld& world,
                                              RenderReport& report, const FrameProgress& progress) {
     if (image_ && world_ == world.version && scene_ == scene) {
-        const WorldReport formed = report.world;
+        const WorldReport built = report.world;
         report = report_;
-        report.world = formed;
+        report.world = built;
         report.is_kept = report.hits_are_kept = true;
         report.image_seconds = 0;
         return image_;
@@ -88,34 +90,34 @@ std::shared_ptr<const Image> Renderer::image(const Scene& scene, const FormedWor
     return image;
 }
 
-Image Renderer::new_image(const Scene& scene, const FormedWorld& world, RenderReport& report,
+Image Renderer::new_image(const Scene& scene, const BuiltWorld& world, RenderReport& report,
                           const FrameProgress& progress) {
     TileShare all(tile_count(scene.render.size.x, scene.render.size.y), progress);
     std::vector<TileRange> taken;
     return part_of_image(scene, world, report, {all, taken});
 }
 
-Image Renderer::part_of_image(const Scene& scene, const FormedWorld& world, RenderReport& report,
+Image Renderer::part_of_image(const Scene& scene, const BuiltWorld& world, RenderReport& report,
                               const Tiles& tiles) {
     const glm::ivec2& size = scene.render.size;
     return with_limits_of(fmt::format("an image of {}x{} pixels", size.x, size.y),
                           [&] { return image_of_tiles(scene, world, report, tiles); });
 }
 
-Image Renderer::image_of_tiles(const Scene& scene, const FormedWorld& formed, RenderReport& report,
+Image Renderer::image_of_tiles(const Scene& scene, const BuiltWorld& built, RenderReport& report,
                                const Tiles& tiles) {
     const auto start = std::chrono::steady_clock::now();
     image_.reset();
-    const Pyramid& world = formed.pyramid;
+    const Pyramid& world = built.pyramid;
     const Features features = features_of(scene, world);
-    const Sight observer = sight_of(scene, world.frame);
+    const Camera observer = camera_of(scene, world.frame);
 
     const uint32_t all_tiles = tiles.share.tiles();
     const uint32_t rays_per_tile = 16 * uint32_t(observer.samples);
-    const uint32_t in_batch = batch_tiles(features, observer.samples, tiles.share.most());
+    const uint32_t in_batch = batch_tiles(features, observer.samples, tiles.share.maximum());
     RayBatch batch = allocate_batch(device_, features, in_batch * rays_per_tile);
 
-    View view = view_of(scene, formed, features);
+    View view = view_of(scene, built, features);
     report.hits_are_kept = view_ == view && !hits_.empty();
     view_.reset();  // an error may leave the hits half done
     if (!report.hits_are_kept) hits_.clear();
@@ -123,16 +125,18 @@ Image Renderer::image_of_tiles(const Scene& scene, const FormedWorld& formed, Re
     const bool keeps_hits = has_room(scene, features, rays);
 
     const double pixel = voxels_a_pixel(scene, observer, world.frame);
-    const std::optional<HaloOf> halo = halo_that_pays(features, world, rays, pixel);
-    build_programs(device_, features, scene, world, true, halo.has_value());
+    const std::optional<DilationLevel> dilated_occupancy =
+        dilation_that_pays(features, world, rays, pixel);
+    build_programs(device_, features, scene, world, true, dilated_occupancy.has_value());
     SightStage sight(device_, features, observer);
     std::optional<BeamStage> beams;
-    if (!report.hits_are_kept && halo)
-        beams.emplace(device_, features, world, halo_of(formed, *halo).halo);
+    if (!report.hits_are_kept && dilated_occupancy)
+        beams.emplace(device_, features, world,
+                      dilated_occupancy_of(built, *dilated_occupancy).dilated_occupancy);
     Illumination illumination(device_, features, scene, world, batch.stride);
-    if (halo && lights_send_beams(features)) {
-        WorldHalo& sent = halo_of(formed, *halo);
-        illumination.send_beams(sent.halo,
+    if (dilated_occupancy && lights_send_beams(features)) {
+        WorldDilation& sent = dilated_occupancy_of(built, *dilated_occupancy);
+        illumination.send_beams(sent.dilated_occupancy,
                                 light_beams_that_pay(world.frame, rays, observer.samples, pixel),
                                 sent.light_beams);
     }
@@ -169,7 +173,7 @@ Image Renderer::image_of_tiles(const Scene& scene, const FormedWorld& formed, Re
     report.light_beams = illumination.light_beams();
     report.secondary_rays = illumination.secondary_rays();
     report.ended_paths = illumination.ended_paths();
-    report.lost_members = illumination.lost_members();
+    report.medium_overflows = illumination.medium_overflows();
     report.voxels = world.voxel_count;
     report.world_bytes = bytes_of(world);
     report.image_seconds =
@@ -179,10 +183,10 @@ Image Renderer::image_of_tiles(const Scene& scene, const FormedWorld& formed, Re
 
 Image render(const Device& device, const Scene& scene, RenderReport& report,
              const FrameProgress& progress) {
-    MeshStore meshes;
-    const Scene shown = with_objects_in_reach(scene, meshes);
-    const FormedWorld world =
-        WorldFormer(device, false, std::move(meshes)).form(shown, report.world);
+    AssetStore meshes;
+    const Scene shown = with_culling(scene, meshes);
+    const BuiltWorld world =
+        WorldBuilder(device, false, std::move(meshes)).build(shown, report.world);
     return Renderer(device, false).new_image(shown, world, report, progress);
 }
 

@@ -27,14 +27,14 @@ struct RenderReport {
     uint64_t display_lines = 0;  ///< probe lines along a display's lattice
     uint64_t clear_display_lines = 0;  ///< not sent, as they pass all objects by
     uint64_t shadow_rays = 0;
-    uint64_t light_beams = 0;     ///< sent from lights, where shadow rays end; without those kept
-    uint64_t secondary_rays = 0;  ///< reflected, refracted, and gone on through surfaces
-    uint64_t ended_paths = 0;     ///< not followed for their small weight
-    uint64_t lost_members = 0;    ///< rays that came into more overlapping objects than they can
-                                  ///< remember: the image is wrong there
-    uint32_t not_finite = 0;      ///< values that became 0; more than 0 is a fault of ours
-    bool is_kept = false;         ///< the frame shows what the one before showed
-    bool hits_are_kept = false;   ///< its sight rays meet what they met before
+    uint64_t light_beams = 0;       ///< sent from lights, where shadow rays end; without those kept
+    uint64_t secondary_rays = 0;    ///< reflected, refracted, and gone on through surfaces
+    uint64_t ended_paths = 0;       ///< not followed for their small weight
+    uint64_t medium_overflows = 0;  ///< rays that came into more overlapping objects than they can
+                                    ///< remember: the image is wrong there
+    uint32_t not_finite = 0;        ///< values that became 0; more than 0 is a fault of ours
+    bool is_kept = false;           ///< the frame shows what the one before showed
+    bool hits_are_kept = false;     ///< its sight rays meet what they met before
 };
 
 /// Adds what was counted, of rays, of paths and of faults.
@@ -50,11 +50,11 @@ class Renderer {
         : device_(device), follows_(follows) {}
 
     /// The image of the scene's observer in the scene's world. Throws Error as the stages do.
-    std::shared_ptr<const Image> image(const Scene& scene, const FormedWorld& world,
+    std::shared_ptr<const Image> image(const Scene& scene, const BuiltWorld& world,
                                        RenderReport& report, const FrameProgress& progress = {});
 
     /// The same, which the next frame can't show again as a whole.
-    Image new_image(const Scene& scene, const FormedWorld& world, RenderReport& report,
+    Image new_image(const Scene& scene, const BuiltWorld& world, RenderReport& report,
                     const FrameProgress& progress = {});
 
     /// Tiles that one of several renderers takes of an image.
@@ -64,7 +64,7 @@ class Renderer {
     };
 
     /// The image with those tiles made that are left of `tiles`; the others are undefined.
-    Image part_of_image(const Scene& scene, const FormedWorld& world, RenderReport& report,
+    Image part_of_image(const Scene& scene, const BuiltWorld& world, RenderReport& report,
                         const Tiles& tiles);
 
   private:
@@ -83,16 +83,16 @@ class Renderer {
         Buffer<uint32_t> hits;
     };
 
-    struct WorldHalo {
+    struct WorldDilation {
         uint64_t world = 0;
-        Halo halo;
+        DilatedOccupancy dilated_occupancy;
         std::vector<LightBeams> light_beams;  ///< of the last frame's lights
     };
 
-    static View view_of(const Scene& scene, const FormedWorld& world, const Features& features);
+    static View view_of(const Scene& scene, const BuiltWorld& world, const Features& features);
     bool has_room(const Scene& scene, const Features& features, uint64_t rays) const;
-    WorldHalo& halo_of(const FormedWorld& world, HaloOf of);
-    Image image_of_tiles(const Scene& scene, const FormedWorld& world, RenderReport& report,
+    WorldDilation& dilated_occupancy_of(const BuiltWorld& world, DilationLevel of);
+    Image image_of_tiles(const Scene& scene, const BuiltWorld& world, RenderReport& report,
                          const Tiles& tiles);
 
     Device device_;
@@ -101,7 +101,7 @@ class Renderer {
     uint64_t world_ = 0;          ///< in which world
     std::shared_ptr<const Image> image_;
     RenderReport report_;
-    std::optional<WorldHalo> halo_;
+    std::optional<WorldDilation> dilated_occupancy_;
     std::optional<View> view_;
     std::vector<SightHits> hits_;  ///< of each batch of the view; empty where they have no room
 };

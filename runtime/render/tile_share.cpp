@@ -7,7 +7,7 @@ namespace voxelume {
 std::optional<TileRange> TileShare::take(uint32_t count) {
     const std::lock_guard lock(mutex_);
     if (next_ >= tiles_) return std::nullopt;
-    const TileRange range{next_, std::min({count, most_, tiles_ - next_})};
+    const TileRange range{next_, std::min({count, maximum_, tiles_ - next_})};
     next_ += range.count;
     return range;
 }

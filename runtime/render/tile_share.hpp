@@ -22,9 +22,9 @@ struct TileRange {
 /// Gives an image's tiles, in order, to those who ask.
 class TileShare {
   public:
-    /// At most `most` tiles at a time.
-    explicit TileShare(uint32_t tiles, FrameProgress progress = {}, uint32_t most = UINT32_MAX)
-        : tiles_(tiles), most_(most), progress_(std::move(progress)) {}
+    /// At most `maximum` tiles at a time.
+    explicit TileShare(uint32_t tiles, FrameProgress progress = {}, uint32_t maximum = UINT32_MAX)
+        : tiles_(tiles), maximum_(maximum), progress_(std::move(progress)) {}
 
     /// The next tiles, `count` or fewer; nothing when all are given away.
     std::optional<TileRange> take(uint32_t count);
@@ -34,14 +34,14 @@ class TileShare {
     void close();
 
     uint32_t tiles() const { return tiles_; }
-    uint32_t most() const { return std::min(most_, tiles_); }  ///< at a time
+    uint32_t maximum() const { return std::min(maximum_, tiles_); }  ///< at a time
     /// Whether someone waits to hear what is done, or for the tiles that are left.
-    bool is_watched() const { return progress_ || most_ < tiles_; }
+    bool is_watched() const { return progress_ || maximum_ < tiles_; }
 
   private:
     std::mutex mutex_;
     uint32_t tiles_;
-    uint32_t most_;
+    uint32_t maximum_;
     uint32_t next_ = 0;
     uint32_t done_ = 0;
     FrameProgress progress_;

@@ -6,8 +6,8 @@
 #include <optional>
 #include <utility>
 
-#include "runtime/analysis/interior.hpp"
-#include "runtime/analysis/reach.hpp"
+#include "runtime/analysis/culling.hpp"
+#include "runtime/analysis/medium_set.hpp"
 #include "runtime/base/error.hpp"
 #include "runtime/render/illumination.hpp"
 #include "runtime/stages/display/display_lattice.hpp"
@@ -31,7 +31,7 @@ struct Work {
     const Pyramid& world;
     Features features;
     VolumeFrame frame;
-    Sight sight;
+    Camera camera;
     RenderReport& report;
     const FrameProgress& progress;
 };
@@ -56,15 +56,15 @@ Scene without_light(Scene scene) {
 /// Refracting surfaces cover all: without opacities in the scene, rays fill the coverage too.
 Features with_transmission(Features features, const Scene& scene, const Pyramid& world) {
     features.paths = features.transmission = true;
-    add_interior(scene, world, features);
+    add_medium_set(scene, world, features);
     return begun_anywhere(features, scene);
 }
 
 /// The observer with one sight ray for each (u, v) of the display.
-Sight display_sight(Scene scene, const VolumeFrame& frame, const GridFrame& world) {
+Camera display_sight(Scene scene, const VolumeFrame& frame, const GridFrame& world) {
     scene.render.size = {frame.size.x, frame.size.y};
     scene.render.samples = 1;
-    return sight_of(scene, world);
+    return camera_of(scene, world);
 }
 
 void check_rays(const VolumeFrame& frame) {
@@ -80,33 +80,37 @@ void count_rays(const Illumination& illumination, RenderReport& report) {
     report.light_beams = illumination.light_beams();
     report.secondary_rays = illumination.secondary_rays();
     report.ended_paths = illumination.ended_paths();
-    report.lost_members = illumination.lost_members();
+    report.medium_overflows = illumination.medium_overflows();
 }
 
 void render_rays(Work& work, Volume& volume) {
     check_rays(work.frame);
-    const uint32_t tiles = tile_count(work.sight.width, work.sight.height);
+    const uint32_t tiles = tile_count(work.camera.width, work.camera.height);
     const uint32_t in_batch = batch_tiles(work.features, 1, tiles);
     RayBatch batch = allocate_batch(work.device, work.features, in_batch * 16);
-    const double pixel = voxels_a_pixel(work.scene, work.sight, work.world.frame);
-    const auto halo_of = halo_that_pays(work.features, work.world, 16ull * tiles, pixel);
-    build_programs(work.device, work.features, work.scene, work.world, false, halo_of.has_value());
-    SightStage sight(work.device, work.features, work.sight);
+    const double pixel = voxels_a_pixel(work.scene, work.camera, work.world.frame);
+    const auto dilated_occupancy_of =
+        dilation_that_pays(work.features, work.world, 16ull * tiles, pixel);
+    build_programs(work.device, work.features, work.scene, work.world, false,
+                   dilated_occupancy_of.has_value());
+    SightStage camera(work.device, work.features, work.camera);
     std::optional<BeamStage> beams;
     Illumination illumination(work.device, work.features, work.scene, work.world, batch.stride);
-    if (halo_of) {
-        const Halo halo = build_halo(work.device, work.world, *halo_of);
-        beams.emplace(work.device, work.features, work.world, halo);
+    if (dilated_occupancy_of) {
+        const DilatedOccupancy dilated_occupancy =
+            build_dilated_occupancy(work.device, work.world, *dilated_occupancy_of);
+        beams.emplace(work.device, work.features, work.world, dilated_occupancy);
         std::vector<LightBeams> sent;
         if (lights_send_beams(work.features))
-            illumination.send_beams(
-                halo, light_beams_that_pay(work.world.frame, 16ull * tiles, 1, pixel), sent);
+            illumination.send_beams(dilated_occupancy,
+                                    light_beams_that_pay(work.world.frame, 16ull * tiles, 1, pixel),
+                                    sent);
     }
-    DisplayRaysStage display(work.device, work.features, work.sight, work.frame,
-                             work.scene.world.medium, space_of(work.scene.world));
+    DisplayRaysStage display(work.device, work.features, work.camera, work.frame,
+                             work.scene.world.medium, environment_of(work.scene.world));
     for (uint32_t first = 0; first < tiles; first += in_batch) {
         const uint32_t now = std::min(in_batch, tiles - first);
-        const uint32_t rays = sight.cast(shape_of(work.world), first, now, batch);
+        const uint32_t rays = camera.cast(shape_of(work.world), first, now, batch);
         const auto keep_layer = [&](const RayBatch& entries, uint32_t count, bool is_first,
                                     const NodeLight& nodes) {
             display.keep_layer(work.world, illumination.density(),
@@ -138,7 +142,7 @@ void render_lattice(Work& work, Volume& volume) {
     // Finding surfaces asks for no more than their geometry.
     const Features geometry = features_of(work.world);
     DisplayScanStage scan(work.device, geometry, work.frame, work.world.frame);
-    DisplayLatticeStage display(work.device, without_varying_medium(work.features), work.sight,
+    DisplayLatticeStage display(work.device, without_varying_medium(work.features), work.camera,
                                 work.frame, work.world);
     const auto report_progress = [&work](uint32_t done) {
         if (!work.progress) return;
@@ -165,7 +169,7 @@ void render_lattice(Work& work, Volume& volume) {
     const LightRays light_rays = [&](RayBatch& rays, uint32_t count, const LayerSink& sink) {
         illumination.light(rays, count, sink);
     };
-    display.light(look, light_rays, space_of(work.scene.world), batch, shown);
+    display.light(look, light_rays, environment_of(work.scene.world), batch, shown);
     report_progress(3);
     work.report.display_lines = scan.lines();
     work.report.clear_display_lines = scan.clear_lines();
@@ -182,10 +186,10 @@ uint32_t count_not_finite(const Volume& volume) {
 
 }  // namespace
 
-Volume render_volume(const Device& device, const Scene& shown, const FormedWorld& formed,
+Volume render_volume(const Device& device, const Scene& shown, const BuiltWorld& built,
                      RenderReport& report, const FrameProgress& progress) {
     const Scene scene = with_all_channels(shown);
-    const Pyramid& world = formed.pyramid;
+    const Pyramid& world = built.pyramid;
     const auto start = std::chrono::steady_clock::now();
     const VolumeFrame frame = display_frame(scene);
     Work work = {device, scene,
@@ -206,7 +210,7 @@ Volume render_volume(const Device& device, const Scene& shown, const FormedWorld
     return volume;
 }
 
-std::shared_ptr<Volume> VolumeRenderer::volume(const Scene& scene, const FormedWorld& world,
+std::shared_ptr<Volume> VolumeRenderer::volume(const Scene& scene, const BuiltWorld& world,
                                                RenderReport& report,
                                                const FrameProgress& progress) {
     const bool is_kept = volume_ && world_ == world.version && scene_ == scene;
@@ -230,10 +234,10 @@ std::shared_ptr<Volume> VolumeRenderer::volume(const Scene& scene, const FormedW
 
 Volume render_volume(const Device& device, const Scene& scene, RenderReport& report,
                      const FrameProgress& progress) {
-    MeshStore meshes;
-    const Scene shown = with_objects_in_reach(with_all_channels(scene), meshes);
-    const FormedWorld world =
-        WorldFormer(device, false, std::move(meshes)).form(shown, report.world);
+    AssetStore meshes;
+    const Scene shown = with_culling(with_all_channels(scene), meshes);
+    const BuiltWorld world =
+        WorldBuilder(device, false, std::move(meshes)).build(shown, report.world);
     return render_volume(device, shown, world, report, progress);
 }
 

@@ -14,7 +14,7 @@ namespace voxelume {
 /// `progress` is called with the parts done and their number. Fills the report as `render` does;
 /// `sight_rays` counts probe lines and rays to probe points too. Throws Error::limit for a display
 /// whose voxels the device has no memory for, and Error as the stages do.
-Volume render_volume(const Device& device, const Scene& scene, const FormedWorld& world,
+Volume render_volume(const Device& device, const Scene& scene, const BuiltWorld& world,
                      RenderReport& report, const FrameProgress& progress = {});
 
 /// Renders the volumetric images of one frame after another, and keeps the last: a frame that shows
@@ -28,7 +28,7 @@ class VolumeRenderer {
     /// The volumetric image as `render_volume` renders it, whose counts are added to the report's.
     /// Attributes of the volume are its users' own: frames that share it have them one after
     /// another.
-    std::shared_ptr<Volume> volume(const Scene& scene, const FormedWorld& world,
+    std::shared_ptr<Volume> volume(const Scene& scene, const BuiltWorld& world,
                                    RenderReport& report, const FrameProgress& progress = {});
 
   private:

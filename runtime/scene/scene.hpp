@@ -136,7 +136,7 @@ struct Model {
     /// Box in object space outside of which no object shows the model: the world's bounds as seen
     /// from all objects that use it. An infinite solid ends there. Empty (min = max) for a model
     /// not used.
-    Bounds reach;
+    Bounds extent;
     std::string where;
 
     friend bool operator==(const Model&, const Model&) = default;
@@ -165,12 +165,13 @@ struct Object {
     std::vector<GroupMaterial> groups;
     int priority = 0;  ///< where objects overlap: the higher wins, then the earlier in the list
     Placement placement = Placement::automatic;
-    std::optional<int> spots;  ///< that its emission lights the world by; none: by its size
+    std::optional<int> light_samples;  ///< that its emission lights the world by; none: by its size
     glm::dmat4 world_from_object{
-        1};                ///< affine and safely invertible; mirrors and shears are allowed
-    bool moves = false;    ///< some track changes where it stands
-    bool visible = true;   ///< otherwise the world is as if it weren't there
-    bool in_reach = true;  ///< not in scene files: whether some ray may meet it, see reach.hpp
+        1};               ///< affine and safely invertible; mirrors and shears are allowed
+    bool moves = false;   ///< some track changes where it stands
+    bool visible = true;  ///< otherwise the world is as if it weren't there
+    bool potentially_visible =
+        true;  ///< not in scene files: whether some ray may meet it, see culling.hpp
     std::string where;
 
     friend bool operator==(const Object&, const Object&) = default;
@@ -178,22 +179,22 @@ struct Object {
 
 enum class LightKind : uint8_t { point, spot, directional, disk, rectangle };
 
-/// The most spots that one source of light is made of.
-inline constexpr int kMaxSpots = 16384;
+/// The most light samples that one source of light is made of.
+inline constexpr int kMaxLightSamples = 16384;
 
 struct Light {
     std::string name;
     LightKind kind = LightKind::point;
     glm::dvec3 position{0};   ///< metres; all but directional; the centre of a disk or rectangle
     glm::dvec3 direction{0};  ///< unit vector along which the light travels; all but point
-    glm::vec3 energy{1};      ///< colour times intensity: at 1 m, or everywhere for directional;
+    glm::vec3 intensity{1};   ///< colour times intensity: at 1 m, or everywhere for directional;
                               ///< of a disk or rectangle, along `direction` from far away
     double inner_half_angle = 0;  ///< radians; spot: full light up to here, ...
     double outer_half_angle = 0;  ///< ... none from here, between them smoothstep of the cosine
     double radius = 0;            ///< metres; disk
     glm::dvec2 size{0};           ///< metres; rectangle: along axis_x, and across it
     glm::dvec3 axis_x{0};         ///< unit vector across `direction`; disk and rectangle
-    int spots = 64;               ///< disk and rectangle: points that they shine from
+    int light_samples = 64;       ///< disk and rectangle: points that they shine from
     std::string where;
 
     friend bool operator==(const Light&, const Light&) = default;
@@ -272,9 +273,9 @@ struct RenderSettings {
     int samples = 1;            ///< per pixel, 1..4096
     int depth = 5;              ///< reflections and refractions in a row, 0..64
     bool shadows = true;
-    bool filtered_shadows = false;  ///< refracting objects tint and dim light instead of hiding it
-    double least_weight = 1.0 / 4096;  ///< paths that would add less than this share of a pixel end
-    ImageChannels channels;            ///< not in scene files: what the outputs have
+    bool filtered_shadows = false;   ///< refracting objects tint and dim light instead of hiding it
+    double min_weight = 1.0 / 4096;  ///< paths that would add less than this share of a pixel end
+    ImageChannels channels;          ///< not in scene files: what the outputs have
 
     friend bool operator==(const RenderSettings&, const RenderSettings&) = default;
 };

@@ -35,12 +35,12 @@ struct Stretch {
 };
 Stretch stretch_of(const glm::dmat3& linear);
 
-inline constexpr double kLeastStretch = 1e-9;
-inline constexpr double kMostCondition = 1e5;  ///< largest over smallest stretch
+inline constexpr double kMinStretch = 1e-9;
+inline constexpr double kMaxCondition = 1e5;  ///< largest over smallest stretch
 
 /// What objects and parts of solids may be stretched by.
 inline bool is_safely_invertible(const Stretch& stretch) {
-    return stretch.min >= kLeastStretch && stretch.max <= stretch.min * kMostCondition;
+    return stretch.min >= kMinStretch && stretch.max <= stretch.min * kMaxCondition;
 }
 
 }  // namespace voxelume

@@ -53,11 +53,11 @@ void check_version(const SceneFields& fields) {
 
 }  // namespace
 
-void find_reaches(Scene& scene) {
+void find_extents(Scene& scene) {
     const Bounds world = lattice_bounds(scene.world);
     std::array<glm::dvec4, 8> corners;
     for (int i = 0; i < 8; ++i) corners[size_t(i)] = glm::dvec4(corner(world, i), 1);
-    for (Model& model : scene.models) model.reach = {};
+    for (Model& model : scene.models) model.extent = {};
     std::vector<bool> is_used(scene.models.size(), false), is_baked(scene.models.size(), false);
     const auto baked = [&](const Object& object) { return !is_instanced(scene, object); };
     for (const Object& object : scene.objects)
@@ -66,12 +66,12 @@ void find_reaches(Scene& scene) {
         // Where instances go doesn't matter to voxels that are shown in the world.
         if (!object.visible || (is_baked[object.model] && !baked(object))) continue;
         const glm::dmat4 object_from_world = glm::inverse(object.world_from_object);
-        Bounds& reach = scene.models[object.model].reach;
+        Bounds& extent = scene.models[object.model].extent;
         for (const glm::dvec4& world_corner : corners) {
             const glm::dvec3 p(object_from_world * world_corner);
             const bool is_first = !is_used[object.model];
-            reach.min = is_first ? p : glm::min(reach.min, p);
-            reach.max = is_first ? p : glm::max(reach.max, p);
+            extent.min = is_first ? p : glm::min(extent.min, p);
+            extent.max = is_first ? p : glm::max(extent.max, p);
             is_used[object.model] = true;
         }
     }
@@ -109,7 +109,7 @@ Scene parse_scene(std::string_view text, const std::filesystem::path& file,
     if (const auto value = fields.find("render")) scene.render = read_render(*value);
     if (const auto value = fields.find("animation")) scene.animation = read_animation(*value);
     scene.observer = read_observer(fields.get("observer"), scene);
-    find_reaches(scene);
+    find_extents(scene);
     scene.motion = read_motion(root, assets, scene);
     return scene.motion ? scene_at(scene, 1) : scene;
 }

@@ -93,10 +93,10 @@ class FrameReader {
             return;
         }
         if (!objects_) objects_.emplace(scene_);
-        const bool moves = object.moves, in_reach = object.in_reach;
+        const bool moves = object.moves, potentially_visible = object.potentially_visible;
         object = objects_->read(value, part.place);
         object.moves = moves;
-        object.in_reach = in_reach;
+        object.potentially_visible = potentially_visible;
     }
 
     void read_view(const SceneValue& value) {
@@ -271,7 +271,7 @@ Scene scene_at(const Scene& scene, double frame) {
     if (!moves(scene)) return now;
     FrameReader reader(now, *scene.motion, frame, false);
     for (const MovingPart& part : scene.motion->parts) reader.read(part);
-    find_reaches(now);
+    find_extents(now);
     return now;
 }
 

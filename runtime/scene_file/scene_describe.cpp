@@ -46,7 +46,7 @@ std::string light_text(const Light& light) {
     return fmt::format("light \"{}\": {}, {} {}, energy {}", light.name,
                        kinds[static_cast<size_t>(light.kind)], has_place ? "at" : "along",
                        vector_text(has_place ? light.position : light.direction),
-                       vector_text(light.energy));
+                       vector_text(light.intensity));
 }
 
 std::string density_text(const Density& density) {

@@ -29,10 +29,10 @@ void read_cone(const SceneFields& fields, Light& light) {
 
 /// The unit vector across a light's direction that is to the left when `up` is up.
 glm::dvec3 axis_across(const Light& light, const std::optional<SceneValue>& up) {
-    constexpr double kLeastSine = 1e-6;
+    constexpr double kMinSine = 1e-6;
     glm::dvec3 x = glm::cross(up ? up->direction() : glm::dvec3(0, 1, 0), light.direction);
-    if (glm::length(x) < kLeastSine && !up) x = glm::cross(glm::dvec3(0, 0, 1), light.direction);
-    if (glm::length(x) < kLeastSine)
+    if (glm::length(x) < kMinSine && !up) x = glm::cross(glm::dvec3(0, 0, 1), light.direction);
+    if (glm::length(x) < kMinSine)
         up->fail(
             "the light's direction is parallel to \"up\", which leaves its turn open; give another "
             "\"up\", such as [0, 0, 1]");
@@ -40,7 +40,7 @@ glm::dvec3 axis_across(const Light& light, const std::optional<SceneValue>& up) 
 }
 
 void read_area(const SceneFields& fields, Light& light) {
-    light.spots = fields.integer("spots", 1, kMaxSpots, light.spots);
+    light.light_samples = fields.integer("spots", 1, kMaxLightSamples, light.light_samples);
     if (light.kind == LightKind::disk) {
         light.radius = fields.get("radius").number(kLength);
         light.axis_x = axis_across(light, {});
@@ -60,8 +60,8 @@ Light read_light(const SceneValue& value, size_t number) {
     light.kind = static_cast<LightKind>(kind);  // the tables have the order of the enumeration
     const auto name = fields.find("name");
     light.name = name ? name->text() : fmt::format("lights[{}]", number);
-    light.energy = fields.color("color", kMaxLength, glm::vec3(1)) *
-                   static_cast<float>(fields.number("intensity", kNotNegative, 1));
+    light.intensity = fields.color("color", kMaxLength, glm::vec3(1)) *
+                      static_cast<float>(fields.number("intensity", kNotNegative, 1));
     if (light.kind == LightKind::directional) {
         light.direction = fields.get("direction").direction();
         return light;

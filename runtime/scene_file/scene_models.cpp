@@ -75,9 +75,9 @@ void read_materials_of(const SceneFields& fields, const NameTable& materials, Ob
     }
 }
 
-/// Refuses spots of an object that doesn't shine.
-void check_spots(const SceneValue& value, const Scene& scene, const Object& object) {
-    if (!object.spots || has_emission(scene, object)) return;
+/// Refuses light samples of an object that doesn't shine.
+void check_light_samples(const SceneValue& value, const Scene& scene, const Object& object) {
+    if (!object.light_samples || has_emission(scene, object)) return;
     SceneFields(value, "object")
         .get("spots")
         .fail("none of the object's materials has emission, so it has no spots to shine from");
@@ -161,7 +161,8 @@ Object ObjectReader::read(const SceneValue& value, size_t number) const {
         fields.get("materials")
             .fail("only a mesh has groups of faces; give this object one \"material\"");
     object.priority = fields.integer("priority", -1'000'000, 1'000'000, 0);
-    if (const auto spots = fields.find("spots")) object.spots = spots->integer(0, kMaxSpots);
+    if (const auto light_samples = fields.find("spots"))
+        object.light_samples = light_samples->integer(0, kMaxLightSamples);
     if (const auto placement = fields.find("placement"))
         object.placement =
             static_cast<Placement>(placement->choice(Names{"auto", "world", "instance"}));
@@ -180,7 +181,7 @@ std::vector<Object> read_objects(const SceneValue& value, const Scene& scene) {
         const auto name = SceneFields(item, "object").find("name");
         if (name && !taken.insert(object.name).second)
             name->fail(fmt::format("another object is named {} already", quote(object.name)));
-        check_spots(item, scene, object);
+        check_light_samples(item, scene, object);
     }
     return objects;
 }

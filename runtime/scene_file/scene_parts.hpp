@@ -73,7 +73,7 @@ RenderSettings read_render(const SceneValue& value);
 
 /// Sets where each model can be seen: the world's box carried into the space of every object that
 /// shows it.
-void find_reaches(Scene& scene);
+void find_extents(Scene& scene);
 
 /// `position`, `turn` and `scale`.
 Factors read_factors(const SceneFields& fields);

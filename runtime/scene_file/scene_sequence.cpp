@@ -44,20 +44,20 @@ Sequence read_sequence(const SceneValue& value) {
 
 /// Throws Error::input that names what is missing of all files.
 void check_files(const SceneValue& pattern, const Sequence& sequence, const AssetSearch& search) {
-    constexpr int kMostNamed = 5;
+    constexpr int kMaxNamed = 5;
     int missing = 0;
     std::string names;
     for (int number = sequence.first; number <= sequence.last; ++number) {
         const std::string name = frame_path(pattern.text(), number, false);
         if (is_asset(name, search.scene_folder, search.assets)) continue;
-        if (++missing <= kMostNamed) names += (missing == 1 ? "" : ", ") + quote(name);
+        if (++missing <= kMaxNamed) names += (missing == 1 ? "" : ", ") + quote(name);
     }
     if (missing == 0) return;
     throw Error(ErrorKind::input,
                 "{}: {} of the {} files are missing: {}{}; give their folder with --assets or "
                 "VOXELUME_ASSETS, or change \"first\" and \"last\"",
                 pattern.where(), missing, int64_t(sequence.last) - sequence.first + 1, names,
-                missing > kMostNamed ? ", ..." : "");
+                missing > kMaxNamed ? ", ..." : "");
 }
 
 }  // namespace

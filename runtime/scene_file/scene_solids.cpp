@@ -151,14 +151,14 @@ glm::dmat4 read_placement(const SceneFields& fields) {
         const auto found = fields.find("matrix");
         return found ? *found : fields.get("scale");
     };
-    if (stretch.min < kLeastStretch) {
+    if (stretch.min < kMinStretch) {
         culprit().fail("is singular: it flattens the object to nothing in one direction");
     }
-    if (stretch.max > stretch.min * kMostCondition) {
+    if (stretch.max > stretch.min * kMaxCondition) {
         culprit().fail(
             fmt::format("stretches {:.3g} times as much in one direction as in another, which "
                         "is close to singular; at most {} times is allowed",
-                        stretch.max / stretch.min, kMostCondition));
+                        stretch.max / stretch.min, kMaxCondition));
     }
     return map;
 }

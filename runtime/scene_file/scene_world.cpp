@@ -128,7 +128,7 @@ RenderSettings read_render(const SceneValue& value) {
     if (const auto shadows = fields.find("shadows")) render.shadows = shadows->boolean();
     if (const auto shadow = fields.find("shadow"))
         render.filtered_shadows = shadow->choice(kShadowNames) == 1;
-    render.least_weight = fields.number("least_weight", kRatio, render.least_weight);
+    render.min_weight = fields.number("least_weight", kRatio, render.min_weight);
     return render;
 }
 

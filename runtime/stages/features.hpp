@@ -17,7 +17,7 @@ struct Features {
     bool medium = false;        ///< the space absorbs light
     bool medium_grid = false;   ///< ... not everywhere alike
     bool shadows = false;       ///< lights can be hidden
-    bool patches = false;       ///< some light has an area
+    bool area_samples = false;  ///< some light has an area
     bool checker = false;       ///< some material changes its colour from block to block
     bool paths = false;         ///< rays are reflected, refracted or go on through surfaces
     bool transmission = false;  ///< some object lets light through
@@ -27,17 +27,17 @@ struct Features {
     bool filtered_refraction = false;  ///< refracting ones among them
     bool cube_bodies = false;          ///< some object of cubes lets light through
     bool voxel_opacity = false;        ///< voxels have opacities of their own
-    bool immersed = false;  ///< observers' rays may begin inside of a transmitting mesh or smooth
-                            ///< object
-    int other_members = 0;  ///< of the sets of transmitting objects that rays are inside of, beside
-                            ///< the smooth body
-    bool interior_capped = false;  ///< ... which may not be enough
-    bool instances = false;        ///< some objects keep voxels of their own
+    bool observer_in_medium = false;   ///< observers' rays may begin inside of a transmitting mesh
+                                      ///< or smooth object
+    int other_media = 0;  ///< of the sets of transmitting objects that rays are inside of, beside
+                          ///< the smooth body
+    bool medium_set_capped = false;  ///< ... which may not be enough
+    bool instances = false;          ///< some objects keep voxels of their own
     // what is asked for
     bool radiance = true;   ///< the light along rays, and how much of what is behind they cover
     bool positions = true;  ///< of the points that rays meet ...
     bool normals = true;
-    bool words = true;  ///< ... and which object and material
+    bool hit_attributes = true;  ///< ... and which object and material
 
     friend bool operator==(const Features&, const Features&) = default;
 
@@ -54,7 +54,7 @@ struct Features {
                 {"VXL_MEDIUM", medium},
                 {"VXL_MEDIUM_GRID", medium_grid},
                 {"VXL_SHADOWS", shadows},
-                {"VXL_PATCHES", patches},
+                {"VXL_AREA_SAMPLES", area_samples},
                 {"VXL_CHECKER", checker},
                 {"VXL_PATHS", paths},
                 {"VXL_TRANSMISSION", transmission},
@@ -64,14 +64,14 @@ struct Features {
                 {"VXL_FILTERED", filtered_refraction},
                 {"VXL_CUBE_BODIES", cube_bodies},
                 {"VXL_VOXEL_OPACITY", voxel_opacity},
-                {"VXL_IMMERSED", immersed},
-                {"VXL_OTHER_MEMBERS", other_members},
-                {"VXL_INTERIOR_CAPPED", interior_capped},
+                {"VXL_OBSERVER_IN_MEDIUM", observer_in_medium},
+                {"VXL_OTHER_MEDIA", other_media},
+                {"VXL_MEDIUM_SET_CAPPED", medium_set_capped},
                 {"VXL_INSTANCES", instances},
                 {"VXL_RADIANCE", radiance},
                 {"VXL_POSITIONS", positions},
                 {"VXL_NORMALS", normals},
-                {"VXL_WORDS", words},
+                {"VXL_HIT_ATTRIBUTES", hit_attributes},
                 {"VXL_NATIVE_DIVIDE", device.is_cpu()}};
     }
 };

@@ -27,12 +27,12 @@ struct RayBatch : RayQueue {
     Buffer<uint32_t> hits;    ///< VXL_HIT_COMPONENTS
     Buffer<float> positions;  ///< 3: of the hits, voxels
     Buffer<float> normals;    ///< 3: unit, in metres' space, towards the ray's start
-    Buffer<uint32_t> words;   ///< the attribute word of each hit
-    Buffer<float> radiance;   ///< 3
+    Buffer<uint32_t> hit_attributes;  ///< the packed attributes of each hit
+    Buffer<float> radiance;           ///< 3
     // of scenes with paths only
-    Buffer<uint32_t> sides;  ///< VXL_SIDE_* bits: how each surface was met
-    Buffer<float> passed;    ///< 3: the part of the light that comes through the segment
-    Buffer<float> coverage;  ///< how much of what lies behind is covered
+    Buffer<uint32_t> sides;       ///< VXL_SIDE_* bits: how each surface was met
+    Buffer<float> transmittance;  ///< 3: the part of the light that comes through the segment
+    Buffer<float> coverage;       ///< how much of what lies behind is covered
 };
 
 /// How far from a light the world is empty, see light_beams.cl; no columns where that isn't known.
@@ -43,14 +43,14 @@ struct LightBeams {
 
 /// Shadow rays waiting to be traced, left-packed. Not allocated where nothing can keep light back.
 struct ShadowQueue {
-    Buffer<uint32_t> count;    ///< one value, kept on the device
-    Buffer<uint32_t> traced;   ///< rays traced since the frame began: low word, high word; only
-                               ///< with shadows
-    Buffer<float> rays;        ///< VXL_RAY_COMPONENTS, the batch's stride apart
-    Buffer<uint32_t> targets;  ///< the sight ray whose radiance each would add to
-    Buffer<uint32_t> sources;  ///< the primitive that each begins on; exact surfaces only
-    Buffer<float> shares;      ///< 3: the light that arrives if nothing is in the way
-    LightBeams beams;          ///< of the light that they run to
+    Buffer<uint32_t> count;       ///< one value, kept on the device
+    Buffer<uint32_t> traced;      ///< rays traced since the frame began: low word, high word; only
+                                  ///< with shadows
+    Buffer<float> rays;           ///< VXL_RAY_COMPONENTS, the batch's stride apart
+    Buffer<uint32_t> targets;     ///< the sight ray whose radiance each would add to
+    Buffer<uint32_t> sources;     ///< the primitive that each begins on; exact surfaces only
+    Buffer<float> contributions;  ///< 3: the light that arrives if nothing is in the way
+    LightBeams beams;             ///< of the light that they run to
 };
 
 }  // namespace voxelume

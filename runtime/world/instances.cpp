@@ -9,7 +9,7 @@
 #include "runtime/grid/pyramid_bytes.hpp"
 #include "runtime/stages/instance/instance_pools.hpp"
 #include "runtime/stages/instance/instances.hpp"
-#include "runtime/stages/light/spots.hpp"
+#include "runtime/stages/light/light_samples.hpp"
 
 namespace voxelume {
 namespace {
@@ -18,7 +18,7 @@ constexpr double kFar = 1e9;  // metres
 
 /// Why an object can't be an instance; empty if it can.
 std::string refusal(const Scene& scene, const Object& object) {
-    if (is_lamp(scene, object))
+    if (is_emissive(scene, object))
         return "its emission lights the world, and lamps are found in the world's voxels";
     if (transmits(scene, object))
         return "a material of it lets light through, and rays go through objects in the world's "
@@ -32,7 +32,7 @@ std::string refusal(const Scene& scene, const Object& object) {
 
 /// The model as an instance shows it: whole, wherever the world ends.
 Model whole(Model model) {
-    model.reach = {glm::dvec3(-kFar), glm::dvec3(kFar)};
+    model.extent = {glm::dvec3(-kFar), glm::dvec3(kFar)};
     return model;
 }
 
@@ -56,12 +56,13 @@ void check_placements(const Scene& scene) {
     }
 }
 
-ListedInstances list_instances(const Scene& scene, MeshStore& meshes, const GridSource& grid_of) {
+ListedInstances list_instances(const Scene& scene, AssetStore& meshes, const GridSource& grid_of) {
     ListedInstances listed;
     std::map<int, uint32_t> numbers;
     for (uint32_t number = 0; number < scene.objects.size(); ++number) {
         const Object& object = scene.objects[number];
-        if (!object.visible || !object.in_reach || !is_instanced(scene, object)) continue;
+        if (!object.visible || !object.potentially_visible || !is_instanced(scene, object))
+            continue;
         const Model& model = scene.models[size_t(object.model)];
         const auto [entry, added] =
             numbers.emplace(object.model, static_cast<uint32_t>(listed.grids.size()));
@@ -149,7 +150,7 @@ void leave_out_places_of_instances(const Scene& scene, std::vector<Model>& model
             is_baked[size_t(objects[number].model)] = true;
     }
     for (size_t model = 0; model < models.size(); ++model)
-        if (!is_baked[model]) models[model].reach = {};
+        if (!is_baked[model]) models[model].extent = {};
 }
 
 void move_instances(const Device& device, const Scene& scene, Pyramid& world) {

@@ -11,8 +11,8 @@ namespace voxelume {
 /// Whether rays are carried into the object's space, instead of the object into the world's.
 ///
 /// `auto` is `world` for an object that stands still, and for one that can't be an instance: a lamp
-/// (its spots are found in the world's voxels), one that lets light through, one in a scene whose
-/// display is a lattice (which shows the world's voxels).
+/// (its light samples are found in the world's voxels), one that lets light through, one in a scene
+/// whose display is a lattice (which shows the world's voxels).
 bool is_instanced(const Scene& scene, const Object& object);
 
 /// Throws Error::scene, saying why, for an object that is to be an `instance` and can't.
@@ -37,7 +37,7 @@ struct ListedInstances {
 /// Lists a scene's instances with the grids that `grid_of` gives their models, whole, in their own
 /// frames. Throws as that and materials_of_groups do, and Error::scene for a model some of whose
 /// voxels let light through.
-ListedInstances list_instances(const Scene& scene, MeshStore& meshes, const GridSource& grid_of);
+ListedInstances list_instances(const Scene& scene, AssetStore& meshes, const GridSource& grid_of);
 
 /// Puts instances behind worlds, and keeps the pyramids of their models.
 class InstanceModels {

@@ -4,9 +4,9 @@
 #include <chrono>
 #include <utility>
 
+#include "runtime/analysis/culling.hpp"
+#include "runtime/analysis/model_last_uses.hpp"
 #include "runtime/analysis/object_boxes.hpp"
-#include "runtime/analysis/reach.hpp"
-#include "runtime/analysis/shown_models.hpp"
 #include "runtime/base/error.hpp"
 #include "runtime/memory/plan.hpp"
 #include "runtime/placed_objects.hpp"
@@ -42,7 +42,7 @@ auto for_world(const World& world, const Part& part) {
 /// Adds to a report the models that are voxelized while it lives, and the time that takes.
 class VoxelizingReport {
   public:
-    VoxelizingReport(const ObjectGrids& grids, const MeshStore& meshes, WorldReport& report)
+    VoxelizingReport(const GridCache& grids, const AssetStore& meshes, WorldReport& report)
         : grids_(grids), meshes_(meshes), report_(report), stopwatch_(report.voxelize_seconds) {
         add(-1);
     }
@@ -62,15 +62,15 @@ class VoxelizingReport {
         report_.voxelize_seconds -= double(sign) * grids_.keep_seconds();
     }
 
-    const ObjectGrids& grids_;
-    const MeshStore& meshes_;
+    const GridCache& grids_;
+    const AssetStore& meshes_;
     WorldReport& report_;
     Stopwatch stopwatch_;
 };
 
 }  // namespace
 
-WorldFormer::Origin WorldFormer::origin_of(const Scene& scene) {
+WorldBuilder::Origin WorldBuilder::origin_of(const Scene& scene) {
     Origin origin{{}, scene.models, scene.objects, {}, {}};
     origin.world.bounds = scene.world.bounds;
     origin.world.voxels = scene.world.voxels;
@@ -84,7 +84,7 @@ WorldFormer::Origin WorldFormer::origin_of(const Scene& scene) {
 }
 
 /// The world before, with its instances where they are now.
-FormedWorld WorldFormer::kept_world(const Scene& scene, WorldReport& report) {
+BuiltWorld WorldBuilder::kept_world(const Scene& scene, WorldReport& report) {
     if (density_ != scene.world.medium.density) {
         density_ = scene.world.medium.density;
         world_.pyramid.clear = has_no_medium(scene.world);
@@ -105,28 +105,28 @@ FormedWorld WorldFormer::kept_world(const Scene& scene, WorldReport& report) {
     return world_;
 }
 
-FormedWorld WorldFormer::form(const Scene& scene, WorldReport& report,
-                              const std::vector<bool>& awaited) {
-    report.out_of_reach = uint64_t(std::ranges::count_if(
-        scene.objects, [](const Object& o) { return o.visible && !o.in_reach; }));
+BuiltWorld WorldBuilder::build(const Scene& scene, WorldReport& report,
+                               const std::vector<bool>& retained) {
+    report.culled = uint64_t(std::ranges::count_if(
+        scene.objects, [](const Object& o) { return o.visible && !o.potentially_visible; }));
     const Origin origin = origin_of(scene);
     if (origin_ == origin) return kept_world(scene, report);
     try {
-        return form_anew(scene, origin, report, awaited);
+        return build_anew(scene, origin, report, retained);
     } catch (const Error& error) {
-        const bool makes_room = grids_ && grids_->awaited_bytes() > 0;
+        const bool makes_room = grids_ && grids_->retained_bytes() > 0;
         if (error.kind() != ErrorKind::limit || !makes_room) throw;
     }
-    awaits_ = false;
+    retains_ = false;
     placer_.reset();
     shown_.clear();
     grids_->forget_unused(scene, {}, 0);
     report.instances = {};
-    return form_anew(scene, origin, report, awaited);
+    return build_anew(scene, origin, report, retained);
 }
 
-FormedWorld WorldFormer::form_anew(const Scene& scene, const Origin& origin, WorldReport& report,
-                                   const std::vector<bool>& awaited) {
+BuiltWorld WorldBuilder::build_anew(const Scene& scene, const Origin& origin, WorldReport& report,
+                                    const std::vector<bool>& retained) {
     origin_.reset();
     world_.pyramid = {};
     keeps_ = false;
@@ -141,11 +141,11 @@ FormedWorld WorldFormer::form_anew(const Scene& scene, const Origin& origin, Wor
     report.meshes_read = meshes_.meshes_read() - meshes_read_;
     report.triangles = meshes_.triangles();
     const double memory = double(device_.info().memory);
-    keeps_ = follows_ && plan.least_with_next < memory;
+    keeps_ = follows_ && plan.min_with_next < memory;
     report.lacks_room = follows_ && !keeps_;
     const double spare = std::max(memory - plan.bytes_with_next(), 0.0);
     const uint64_t room =
-        keeps_ && awaits_ ? std::min(uint64_t(spare), device_.info().memory / kAwaitedPart) : 0;
+        keeps_ && retains_ ? std::min(uint64_t(spare), device_.info().memory / kRetainedPart) : 0;
 
     if (!grids_) grids_.emplace(device_, meshes_);
     ListedInstances listed;
@@ -156,35 +156,35 @@ FormedWorld WorldFormer::form_anew(const Scene& scene, const Origin& origin, Wor
         });
     }
     std::vector<VoxelBox> boxes = object_boxes(scene, meshes_);
-    FormedWorld formed{kept_or_new_world({scene, awaited, keeps_, room, report}, indexer),
-                       ++world_.version};
+    BuiltWorld built{kept_or_new_world({scene, retained, keeps_, room, report}, indexer),
+                     ++world_.version};
     load_seconds_ = meshes_.load_seconds();
     meshes_read_ = meshes_.meshes_read();
     Stopwatch indexing(report.index_seconds);
-    models.forget_unused(listed, keeps_ ? room - grids_->awaited_bytes() : 0);
+    models.forget_unused(listed, keeps_ ? room - grids_->retained_bytes() : 0);
     for_world(scene.world, [&] {
-        formed.pyramid = models.join(scene, listed, std::move(formed.pyramid), report.instances);
+        built.pyramid = models.join(scene, listed, std::move(built.pyramid), report.instances);
     });
-    std::vector<InstancePlace> places = instance_places(scene, formed.pyramid);
+    std::vector<InstancePlace> places = instance_places(scene, built.pyramid);
     report.instances.moved = count_moved(instance_places_, places);
     instance_places_ = std::move(places);
-    formed.pyramid.object_boxes = std::move(boxes);
-    formed.pyramid.clear = plan.medium.is_zero;
+    built.pyramid.object_boxes = std::move(boxes);
+    built.pyramid.clear = plan.medium.is_zero;
     device_.finish();
     indexing.stop();
     if (keeps_) {
-        world_.pyramid = formed.pyramid;
+        world_.pyramid = built.pyramid;
         density_ = scene.world.medium.density;
         indexer_ = std::move(indexer);
         models_ = std::move(models);
         instances_ = report.instances;
         origin_ = origin;
     }
-    return formed;
+    return built;
 }
 
 /// The first of these worlds that the cache has and the device has room for.
-std::optional<WorldFormer::ReadWorld> WorldFormer::read_world(
+std::optional<WorldBuilder::ReadWorld> WorldBuilder::read_world(
     const std::vector<std::string>& keys) {
     for (const std::string& key : keys) {
         try {
@@ -197,9 +197,9 @@ std::optional<WorldFormer::ReadWorld> WorldFormer::read_world(
     return std::nullopt;
 }
 
-/// The world's voxels as an earlier run formed them, of no more objects than are in reach if it
-/// has such, else new ones, which are kept for later runs.
-Pyramid WorldFormer::kept_or_new_world(const Task& task, Indexer& indexer) {
+/// The world's voxels as an earlier run formed them, of no more objects than are potentially
+/// visible if it has such, else new ones, which are kept for later runs.
+Pyramid WorldBuilder::kept_or_new_world(const Task& task, Indexer& indexer) {
     const std::vector<std::string> keys =
         placer_ ? std::vector<std::string>() : world_sources(task.scene, meshes_);
     if (keys.empty()) return new_world(task, indexer);
@@ -210,7 +210,7 @@ Pyramid WorldFormer::kept_or_new_world(const Task& task, Indexer& indexer) {
     reading.stop();
     if (read_) {
         Pyramid world = read_->pyramid;
-        if (read_->key != keys.front()) leave_out_of_reach(task.scene, world);
+        if (read_->key != keys.front()) leave_out_culled(task.scene, world);
         if (!task.keeps) read_.reset();
         forget_sources(task);
         return world;
@@ -224,7 +224,7 @@ Pyramid WorldFormer::kept_or_new_world(const Task& task, Indexer& indexer) {
     return world;
 }
 
-Pyramid WorldFormer::new_world(const Task& task, Indexer& indexer) {
+Pyramid WorldBuilder::new_world(const Task& task, Indexer& indexer) {
     WorldReport& report = task.report;
     read_.reset();
     std::vector<SharedGrid> shown;
@@ -242,8 +242,8 @@ Pyramid WorldFormer::new_world(const Task& task, Indexer& indexer) {
 }
 
 /// `shown` are the objects' grids.
-Pyramid WorldFormer::placed_and_indexed(const Task& task, const std::vector<PlacedObject>& objects,
-                                        std::vector<SharedGrid> shown, Indexer& indexer) {
+Pyramid WorldBuilder::placed_and_indexed(const Task& task, const std::vector<PlacedObject>& objects,
+                                         std::vector<SharedGrid> shown, Indexer& indexer) {
     Stopwatch placing(task.report.place_seconds);
     if (!placer_) placer_.emplace(device_);
     BrickGrid world = placer_->place(objects, world_frame(task.scene.world));
@@ -260,23 +260,23 @@ Pyramid WorldFormer::placed_and_indexed(const Task& task, const std::vector<Plac
     return pyramid;
 }
 
-/// Frees what wasn't used in this frame, but for models that are awaited; unless the task keeps
+/// Frees what wasn't used in this frame, but for models that are retained; unless the task keeps
 /// what the next frame may use, all of it.
-void WorldFormer::forget_sources(const Task& task) {
-    grids_->forget_unused(task.scene, task.awaited, task.room);
-    uint64_t room = device_.info().memory / kAwaitedPart;  // a CPU's memory is the meshes', too
-    for (size_t model = 0; model < task.awaited.size(); ++model)
-        if (task.awaited[model]) meshes_.await(task.scene.models[model], room);
+void WorldBuilder::forget_sources(const Task& task) {
+    grids_->forget_unused(task.scene, task.retained, task.room);
+    uint64_t room = device_.info().memory / kRetainedPart;  // a CPU's memory is the meshes', too
+    for (size_t model = 0; model < task.retained.size(); ++model)
+        if (task.retained[model]) meshes_.retain(task.scene.models[model], room);
     meshes_.forget_unused();
     if (task.keeps) return;
     placer_.reset();
     shown_.clear();
     grids_.reset();
-    meshes_ = MeshStore(meshes_.cache());
+    meshes_ = AssetStore(meshes_.cache());
 }
 
-Pyramid form_world(const Device& device, const Scene& scene, WorldReport& report) {
-    return WorldFormer(device, false).form(scene, report).pyramid;
+Pyramid build_world(const Device& device, const Scene& scene, WorldReport& report) {
+    return WorldBuilder(device, false).build(scene, report).pyramid;
 }
 
 }  // namespace voxelume

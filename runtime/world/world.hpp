@@ -9,8 +9,8 @@
 #include "runtime/scene/scene.hpp"
 #include "runtime/stages/index/index.hpp"
 #include "runtime/stages/place/place.hpp"
+#include "runtime/world/grid_cache.hpp"
 #include "runtime/world/instances.hpp"
-#include "runtime/world/object_grids.hpp"
 
 namespace voxelume {
 
@@ -18,7 +18,7 @@ namespace voxelume {
 enum class WorldChange : uint8_t {
     none,       ///< the same, untouched
     instances,  ///< the same voxels; instances have moved
-    formed      ///< formed anew, of what parts could be kept
+    built       ///< formed anew, of what parts could be kept
 };
 
 /// What forming the world took, for people and tests.
@@ -30,18 +30,18 @@ struct WorldReport {
     double keep_seconds = 0;  ///< writing models and the world to the cache on disk
     uint64_t triangles = 0;
     uint64_t meshes_read = 0;
-    uint64_t out_of_reach = 0;    ///< objects to be seen that no ray meets: not voxelized
+    uint64_t culled = 0;          ///< objects to be seen that no ray meets: not voxelized
     uint64_t voxelized = 0;       ///< models and exact objects that were voxelized
     uint64_t from_cache = 0;      ///< those whose voxels the model cache had
     uint64_t painted_bricks = 0;  ///< of the world, that objects were painted into
-    WorldChange change = WorldChange::formed;
+    WorldChange change = WorldChange::built;
     bool is_from_cache = false;  ///< an earlier run formed it
     bool lacks_room = false;     ///< for what the next frame may use of it: memory doesn't suffice
     InstanceReport instances;
 };
 
 /// S on a device.
-struct FormedWorld {
+struct BuiltWorld {
     Pyramid pyramid;
     uint64_t version = 0;  ///< the same as long as the world is, counted by who formed it
 };
@@ -51,11 +51,12 @@ struct FormedWorld {
 /// Models' grids, the world's bricks and its pyramid stay as long as frames show them, if the
 /// device has the memory by the least that they may take; instances that move then cost no more
 /// than their maps. What a frame shows is the same, bit for bit, whatever came before it.
-class WorldFormer {
+class WorldBuilder {
   public:
     /// Where nothing `follows` the first frame, nothing is kept.
     /// Meshes that `meshes` has already, or whose voxels are in its cache, are not read.
-    explicit WorldFormer(const Device& device, bool follows = true, MeshStore meshes = MeshStore())
+    explicit WorldBuilder(const Device& device, bool follows = true,
+                          AssetStore meshes = AssetStore())
         : device_(device),
           follows_(follows),
           meshes_(std::move(meshes)),
@@ -65,14 +66,14 @@ class WorldFormer {
     /// Forms S from the scene's objects. Models that no object shows inside the world are not read.
     ///
     /// The plan is made and checked first (runtime/memory/plan.hpp), so a world that doesn't fit
-    /// costs nothing. What was made of models that are `awaited`, by their numbers, is kept while
+    /// costs nothing. What was made of models that are `retained`, by their numbers, is kept while
     /// no object shows them, in an eighth of the device's memory where a frame and the next leave
     /// as much, and none of it once forming a world took all memory; their meshes stay in main
     /// memory, as many as take no more bytes than that. Throws Error::input for a damaged model,
     /// Error::scene for a placement or group name that doesn't fit, Error::limit for a world that
     /// the device has no memory for.
-    FormedWorld form(const Scene& scene, WorldReport& report,
-                     const std::vector<bool>& awaited = {});
+    BuiltWorld build(const Scene& scene, WorldReport& report,
+                     const std::vector<bool>& retained = {});
 
     /// Whether the last world that was formed, or was to be, keeps memory for the next frame. What
     /// it takes may be more than is left for the frame itself.
@@ -91,15 +92,15 @@ class WorldFormer {
     };
 
     static Origin origin_of(const Scene& scene);
-    FormedWorld form_anew(const Scene& scene, const Origin& origin, WorldReport& report,
-                          const std::vector<bool>& awaited);
-    FormedWorld kept_world(const Scene& scene, WorldReport& report);
+    BuiltWorld build_anew(const Scene& scene, const Origin& origin, WorldReport& report,
+                          const std::vector<bool>& retained);
+    BuiltWorld kept_world(const Scene& scene, WorldReport& report);
     /// What forming a world is asked for.
     struct Task {
         const Scene& scene;
-        const std::vector<bool>& awaited;
+        const std::vector<bool>& retained;
         bool keeps;     ///< what the next frame may use
-        uint64_t room;  ///< for what is awaited, in bytes of the device
+        uint64_t room;  ///< for what is retained, in bytes of the device
         WorldReport& report;
     };
     /// The world's voxels as they were read from the cache on disk.
@@ -117,11 +118,11 @@ class WorldFormer {
     Device device_;
     bool follows_;
     bool keeps_ = false;
-    bool awaits_ = true;  ///< whether models that aren't shown are kept
-    MeshStore meshes_;
+    bool retains_ = true;  ///< whether models that aren't shown are kept
+    AssetStore meshes_;
     double load_seconds_ = 0;  ///< of meshes_, in reports so far
     uint64_t meshes_read_ = 0;
-    std::optional<ObjectGrids> grids_;
+    std::optional<GridCache> grids_;
     std::vector<SharedGrid> shown_;  ///< that the placer's objects name
     std::optional<ReadWorld> read_;
     std::optional<Placer> placer_;
@@ -130,11 +131,11 @@ class WorldFormer {
     InstanceModels models_;
     std::vector<InstancePlace> instance_places_;
     InstanceReport instances_;
-    FormedWorld world_;
+    BuiltWorld world_;
     Density density_;  ///< of the medium, as world_.pyramid.clear has it
 };
 
 /// The world of a single frame.
-Pyramid form_world(const Device& device, const Scene& scene, WorldReport& report);
+Pyramid build_world(const Device& device, const Scene& scene, WorldReport& report);
 
 }  // namespace voxelume

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "runtime/assets/model_frame.hpp"
-#include "runtime/base/key_words.hpp"
+#include "runtime/base/cache_key.hpp"
 #include "runtime/scene_file/scene_animation.hpp"
 #include "runtime/scene_file/scene_motion.hpp"
 #include "runtime/world/instances.hpp"
@@ -11,18 +11,18 @@
 namespace voxelume {
 namespace {
 
-void add_frame(KeyWords& words, const GridFrame& frame) {
+void add_frame(CacheKey& words, const GridFrame& frame) {
     words.add_all(frame.origin).add_all(frame.voxel_edge).add_all(frame.size);
 }
 
-void add_solid(KeyWords& words, const Solid& solid) {
+void add_solid(CacheKey& words, const Solid& solid) {
     words.add(int(solid.kind)).add(solid.radius).add(solid.top_radius).add(solid.tube);
     words.add(solid.height).add(solid.thickness).add_all(solid.radii).add_all(solid.size);
     words.add_columns(solid.parent_from_solid).add(solid.parts.size());
     for (const Solid& part : solid.parts) add_solid(words, part);
 }
 
-void add_model(KeyWords& words, const Model& model, MeshStore& meshes) {
+void add_model(CacheKey& words, const Model& model, AssetStore& meshes) {
     words.add_text(meshes.source_of(model)).add(int(model.surface)).add(int(model.set));
     if (!lists_primitives(model.surface))
         add_frame(words, model_frame(model, meshes.summary_of(model)));
@@ -50,13 +50,13 @@ bool world_moves(const Scene& scene) {
 
 }  // namespace
 
-std::string world_source(const Scene& scene, MeshStore& meshes) {
+std::string world_source(const Scene& scene, AssetStore& meshes) {
     if (!meshes.cache().keeps_worlds() || world_moves(scene)) return {};
-    KeyWords words;
+    CacheKey words;
     add_frame(words, world_frame(scene.world));
     for (uint32_t number = 0; number < scene.objects.size(); ++number) {
         const Object& object = scene.objects[number];
-        if (is_instanced(scene, object) || !is_in_reach(scene, object)) continue;
+        if (is_instanced(scene, object) || !is_potentially_visible(scene, object)) continue;
         const Model& model = scene.models[size_t(object.model)];
         if (!model.voxels.empty()) return {};
         words.add(number).add(object.priority).add(shows_inside(scene, object));
@@ -68,11 +68,11 @@ std::string world_source(const Scene& scene, MeshStore& meshes) {
     return world_key(words.bytes());
 }
 
-std::vector<std::string> world_sources(const Scene& scene, MeshStore& meshes) {
+std::vector<std::string> world_sources(const Scene& scene, AssetStore& meshes) {
     std::vector<std::string> sources = {world_source(scene, meshes)};
     if (sources[0].empty()) return {};
     Scene whole = scene;
-    for (Object& object : whole.objects) object.in_reach = true;
+    for (Object& object : whole.objects) object.potentially_visible = true;
     if (whole == scene) return sources;
     if (std::string source = world_source(whole, meshes); !source.empty())
         sources.push_back(std::move(source));

@@ -82,7 +82,7 @@ Features plain_features() {
     return features;
 }
 
-/// Not of those that the walk of all rays has a part in: interior.h, instances.h, cube_body.h.
+/// Not of those that the walk of all rays has a part in: medium_set.h, instances.h, cube_body.h.
 const std::set<std::string> kRemoved = {"lib/surface/smooth.h",  "lib/surface/field.h",
                                         "lib/light/filter.h",    "lib/traverse/instance_hit.h",
                                         "lib/solid/solid_hit.h", "lib/surface/triangle.h",

@@ -73,7 +73,7 @@ TEST_F(AllFeatures, AreInOneProgramOfSevenFiles) {
     const Scene scene = parse_scene(scene_text(), folder / "s.json", {});
     const Device& device = shared_device();
     RenderReport report;
-    const FormedWorld world = WorldFormer(device, false).form(scene, report.world);
+    const BuiltWorld world = WorldBuilder(device, false).build(scene, report.world);
     for (const auto& [name, value] : features_of(scene, world.pyramid).defines(device))
         EXPECT_TRUE(value != 0 || name == "VXL_NATIVE_DIVIDE") << name;
 
@@ -88,8 +88,8 @@ TEST_F(AllFeatures, AreInOneProgramOfSevenFiles) {
         EXPECT_GT(counters.launches[kernel], 0u) << kernel;
     EXPECT_EQ(report.not_finite, 0u);
     const Plane<float>& red = image.planes.at("R");
-    const auto [least, most] = std::ranges::minmax(red);
-    EXPECT_GT(most, least);
+    const auto [minimum, maximum] = std::ranges::minmax(red);
+    EXPECT_GT(maximum, minimum);
 }
 
 }  // namespace

@@ -53,15 +53,15 @@ class ModelCacheFiles : public FileTest {
                            folder / "s.json", {});
     }
 
-    ModelCache cache(double least_seconds = 0) const {
-        return ModelCache(folder / "models", 64 << 20, least_seconds);
+    ModelCache cache(double min_seconds = 0) const {
+        return ModelCache(folder / "models", 64 << 20, min_seconds);
     }
 
     static Outcome show(const Scene& scene, const ModelCache& cache) {
         shared_device().counters().launches.clear();
         RenderReport report;
-        const FormedWorld world =
-            WorldFormer(shared_device(), false, MeshStore(cache)).form(scene, report.world);
+        const BuiltWorld world =
+            WorldBuilder(shared_device(), false, AssetStore(cache)).build(scene, report.world);
         Outcome outcome;
         outcome.hash =
             oracle::image_hash(Renderer(shared_device(), false).new_image(scene, world, report));
@@ -256,7 +256,7 @@ TEST_F(ModelCacheFiles, ExactObjectsThatMoveAreNotKept) {
 
 TEST_F(ModelCacheFiles, AMeshThatChangesBetweenItsSummaryAndItsVoxelsIsAnError) {
     const Scene scene = scene_of(kModels[0]);
-    MeshStore meshes(cache());
+    AssetStore meshes(cache());
     show(scene, cache());
     ASSERT_NE(meshes.summary_of(scene.models[0]), nullptr);
     EXPECT_EQ(meshes.meshes_read(), 0u);

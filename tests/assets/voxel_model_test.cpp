@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "runtime/assets/mesh_store.hpp"
+#include "runtime/assets/asset_store.hpp"
 #include "runtime/assets/model_frame.hpp"
 #include "runtime/assets/voxel_export.hpp"
 #include "runtime/base/error.hpp"
@@ -48,7 +48,7 @@ class VoxelModels : public FileTest {
     void voxelize_to(const std::string& name, Surface surface) const {
         put_bytes(folder / "m.obj", kObj);
         const Device device = test_device();
-        MeshStore meshes;
+        AssetStore meshes;
         const Mesh& mesh = meshes.mesh(folder / "m.obj");
         const MeshSummary summary = summary_of(mesh);
         Model model;

@@ -147,7 +147,7 @@ TEST_F(StackedVoxels, OfWholeOpacityLeaveNothingOfItCompiled) {
         stack.write(folder / "stack.vdb");
         const Scene scene = parse_scene(stack_scene(kStack, kAlongZ), folder / "s.json", {});
         WorldReport report;
-        return features_of(scene, form_world(device, scene, report));
+        return features_of(scene, build_world(device, scene, report));
     };
     const Features some = features();
     EXPECT_TRUE(some.voxel_opacity && some.transmission && some.paths && some.cube_bodies);
@@ -181,15 +181,15 @@ TEST_F(StackedVoxels, TintTheLightThatPassesThem) {
     const Image tinted =
         render(test_device(), parse_scene(text(true), folder / "s.json", {}), report);
     for (int c = 0; c < 3; ++c) {
-        double passed = 1;
+        double transmittance = 1;
         for (size_t plate = 0; plate < 3; ++plate) {
             const double a = stack.opacity(plate), color = 0.8 * stack.colors[plate][c];
-            passed *= (1 - a) * ((1 - a) + a * color);
+            transmittance *= (1 - a) * ((1 - a) + a * color);
         }
         for (size_t i = 0; i < 36; ++i) {
             ASSERT_GT(bare.planes.at(kColors[c])[i], 0.1f);
-            EXPECT_NEAR(tinted.planes.at(kColors[c])[i], passed * bare.planes.at(kColors[c])[i],
-                        1e-6);
+            EXPECT_NEAR(tinted.planes.at(kColors[c])[i],
+                        transmittance * bare.planes.at(kColors[c])[i], 1e-6);
         }
     }
 }

@@ -17,7 +17,7 @@ namespace {
 
 /// A run of frames in which an object moves, and what was written of it.
 struct FrameRun {
-    std::vector<size_t> formed, written;
+    std::vector<size_t> built, written;
     std::vector<uint64_t> hashes;
     size_t failing_scene = SIZE_MAX, failing_image = SIZE_MAX, failing_file = SIZE_MAX;
 
@@ -26,7 +26,7 @@ struct FrameRun {
         Renderer renderer(device);
         const FrameSteps steps{[&](size_t frame) {
                                    if (frame == failing_scene) throw std::runtime_error("scene");
-                                   formed.push_back(frame);
+                                   built.push_back(frame);
                                    return scene_with(0.05 * double(frame / 2) - 0.4);
                                },
                                [&](const FrameInput& input) -> std::function<void()> {
@@ -77,7 +77,7 @@ TEST(FramePipeline, AnErrorEndsTheRunAfterTheFramesBeforeIt) {
                 EXPECT_STREQ(error.what(), step);
             }
             EXPECT_EQ(run.written, first(4)) << step << ", overlap " << overlap;
-            EXPECT_LE(run.formed.size(), 8u) << step;
+            EXPECT_LE(run.built.size(), 8u) << step;
         }
     }
 }

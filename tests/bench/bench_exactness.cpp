@@ -103,7 +103,7 @@ class Tracing {
         batch_.stride = count_;
         batch_.rays = Buffer<float>(device_, "rays", size_t(count_) * VXL_RAY_COMPONENTS);
         batch_.hits = Buffer<uint32_t>(device_, "hits", size_t(count_) * VXL_HIT_COMPONENTS);
-        SightStage sight(device_, features_of(pyramid_), sight_of(scene, frame));
+        SightStage sight(device_, features_of(pyramid_), camera_of(scene, frame));
         sight.cast(shape_of(pyramid_), 0, tile_count(kSide, kSide), batch_);
         device_.finish();
     }

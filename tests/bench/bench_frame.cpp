@@ -38,7 +38,7 @@ Scene scene_of(const std::filesystem::path& mesh, const std::string& surface, in
         1.0 / voxels, mesh.filename().string(), surface, voxels);
     const std::filesystem::path folder = mesh.parent_path();
     Scene scene = parse_scene(text, (folder.empty() ? "." : folder) / "s.json", {});
-    MeshStore meshes;
+    AssetStore meshes;
     const Bounds box = meshes.summary_of(scene.models[0])->surface;
     const glm::dvec3 size = box.max - box.min, middle = (box.min + box.max) * 0.5;
     const double scale = 1 / std::max({size.x, size.y, size.z});
@@ -62,7 +62,7 @@ Sample frame(const Device& device, const Scene& scene) {
     device.counters() = {};
     device.time_kernels(true);
     const double start = cpu_seconds();
-    const FormedWorld world = WorldFormer(device, false).form(scene, sample.report.world);
+    const BuiltWorld world = WorldBuilder(device, false).build(scene, sample.report.world);
     device.finish();
     sample.form = cpu_seconds() - start;
     Renderer(device, false).new_image(scene, world, sample.report);

@@ -61,7 +61,7 @@ class Field {
         Object object;
         object.placement = Placement::instance;
         scene.objects.assign(size_t(count), object);
-        scene.models[0].reach = scene.world.bounds;
+        scene.models[0].extent = scene.world.bounds;
         move();
     }
 
@@ -83,9 +83,9 @@ class Field {
 
 void measure(const Device& device, Field& field) {
     WorldReport report;
-    Pyramid world = form_world(device, field.scene, report);
+    Pyramid world = build_world(device, field.scene, report);
     const Features features = features_of(field.scene, world);
-    const Sight observer = sight_of(field.scene, world.frame);
+    const Camera observer = camera_of(field.scene, world.frame);
     const uint32_t tiles = tile_count(observer.width, observer.height), rays = tiles * 16;
     RayBatch batch = allocate_batch(device, features, rays);
     SightStage sight(device, features, observer);

@@ -29,7 +29,7 @@ class Frame {
         : device_(device),
           world_(world),
           features_(features_of(scene, world)),
-          observer_(sight_of(scene, world.frame)),
+          observer_(camera_of(scene, world.frame)),
           tiles_(tile_count(observer_.width, observer_.height)),
           batch_tiles_(
               std::clamp(batch_rays(features_) / (16 * uint32_t(observer_.samples)), 1u, tiles_)),
@@ -75,7 +75,7 @@ class Frame {
     Device device_;
     const Pyramid& world_;
     Features features_;
-    Sight observer_;
+    Camera observer_;
     uint32_t tiles_, batch_tiles_;
     RayBatch batch_;
     SightStage sight_;
@@ -91,7 +91,7 @@ double median(std::vector<double> values) {
 void measure(const Scene& scene, bool compacted_only) {
     const Device device = Device::open("cpu");
     WorldReport report;
-    const Pyramid world = form_world(device, scene, report);
+    const Pyramid world = build_world(device, scene, report);
     Frame compact(device, scene, world, true), sparse(device, scene, world, false);
     compact.render();
     if (!compacted_only) sparse.render();

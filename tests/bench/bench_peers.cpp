@@ -38,10 +38,10 @@ struct Bench {
         Image image = empty_peer_image(truth.size);
         // As voxelume bench does: the first run warms up, and counts where it is long.
         double spent = 0;
-        for (int i = 0; i <= repeats && (i < 1 || spent < kMostRowSeconds); ++i) {
+        for (int i = 0; i <= repeats && (i < 1 || spent < kMaxRowSeconds); ++i) {
             const PeerTimes times = run(image);
             spent += times.build + times.trace;
-            if (i == 0 && spent < kMostRowSeconds) continue;
+            if (i == 0 && spent < kMaxRowSeconds) continue;
             if (times.build + times.trace < best.build + best.trace) best = times;
         }
         const BenchErrors errors = measure_errors(truth, image, voxel_size);

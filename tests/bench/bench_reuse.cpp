@@ -48,7 +48,7 @@ Scene scene_of(const std::filesystem::path& mesh, bool with_balls) {
 
 /// Scales the mesh so that it fills the world, and moves it to the middle.
 void fit(Scene& scene) {
-    MeshStore meshes;
+    AssetStore meshes;
     const Bounds box = mesh_bounds(*meshes.mesh_of(scene.models[0]));
     const glm::dvec3 size = box.max - box.min, middle = 0.5 * (box.max + box.min);
     const double scale = 1.9 / std::max({size.x, size.y, size.z});
@@ -56,7 +56,7 @@ void fit(Scene& scene) {
         scene.objects[0].world_from_object[axis][axis] = scale;
         scene.objects[0].world_from_object[3][axis] = -scale * middle[axis];
     }
-    scene.models[0].reach = {box.min - size, box.max + size};
+    scene.models[0].extent = {box.min - size, box.max + size};
 }
 
 struct Frame {
@@ -67,12 +67,12 @@ struct Frame {
 /// Frames of a scene one after another.
 class Frames {
   public:
-    explicit Frames(const Device& device) : device_(device), former_(device), renderer_(device) {}
+    explicit Frames(const Device& device) : device_(device), builder_(device), renderer_(device) {}
 
     Frame render(const Scene& scene) {
         Frame frame{};
         const auto start = std::chrono::steady_clock::now();
-        const FormedWorld world = former_.form(scene, frame.report.world);
+        const BuiltWorld world = builder_.build(scene, frame.report.world);
         renderer_.image(scene, world, frame.report);
         device_.finish();
         frame.seconds =
@@ -82,7 +82,7 @@ class Frames {
 
   private:
     Device device_;
-    WorldFormer former_;
+    WorldBuilder builder_;
     Renderer renderer_;
 };
 

@@ -71,7 +71,7 @@ double share_of_hits(const Image& image) {
 void bench(const Device& device, const Scene& scene, int n) {
     Scene display = box_scene(scene, n);
     RenderReport report;
-    const size_t voxels = render_volume(device, display, report).places.size();
+    const size_t voxels = render_volume(device, display, report).indices.size();
     Scene flat = display;
     flat.render.size = {256, 256};
     const double share = share_of_hits(render(device, flat, report));

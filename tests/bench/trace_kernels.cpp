@@ -88,8 +88,8 @@ TraceKernels::TraceKernels(const Device& device, const Pyramid& pyramid)
     : device_(device),
       pyramid_(pyramid),
       direct_(features_of(pyramid)),
-      halo_(build_halo(device, pyramid)),
-      beams_(device, direct_, pyramid, halo_) {
+      dilated_occupancy_(build_dilated_occupancy(device, pyramid)),
+      beams_(device, direct_, pyramid, dilated_occupancy_) {
     direct_.shadows = true;
     bouncing_ = direct_;
     bouncing_.paths = true;
@@ -130,13 +130,13 @@ double TraceKernels::shadow(const std::vector<Ray>& rays) {
     queue.traced = filled<uint32_t>(device_, 2, 0);
     queue.targets = Buffer<uint32_t>(device_, "targets", std::span<const uint32_t>(targets));
     queue.sources = filled<uint32_t>(device_, batch.stride, VXL_NO_PRIMITIVE);
-    queue.shares = filled<float>(device_, size_t(batch.stride) * 3, 1.0f);
+    queue.contributions = filled<float>(device_, size_t(batch.stride) * 3, 1.0f);
     batch.radiance.fill(0.0f);
     const Surroundings surroundings{filled<MaterialRecord>(device_, 1, {}),
                                     filled<uint32_t>(device_, 1, 0)};
-    LightBeamStage beams(device_, direct_, pyramid_, halo_);
-    const BeamGrid grid =
-        beam_grid(light_of(pyramid_), pyramid_.frame.size, scale_of(halo_.of), count / 4);
+    LightBeamStage beams(device_, direct_, pyramid_, dilated_occupancy_);
+    const BeamGrid grid = beam_grid(light_of(pyramid_), pyramid_.frame.size,
+                                    scale_of(dilated_occupancy_.of), count / 4);
     const double seconds = median_seconds([&] {
         if (grid.columns > 0) queue.beams = {grid, beams.send(grid)};
         trace.shadows(pyramid_, surroundings, queue, count, batch);

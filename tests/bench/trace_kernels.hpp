@@ -52,7 +52,7 @@ class TraceKernels {
     Device device_;
     const Pyramid& pyramid_;
     Features direct_, bouncing_;
-    Halo halo_;
+    DilatedOccupancy dilated_occupancy_;
     BeamStage beams_;
     uint64_t hash_ = 0;
 };

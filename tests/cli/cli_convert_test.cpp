@@ -76,7 +76,7 @@ TEST_F(CliConvertTest, InfoDescribesVolumes) {
         EXPECT_EQ(report["attributes"]["scene"], "room.json") << name;
     }
     EXPECT_EQ(info("a.vdb")["grids"].size(), 6u);
-    EXPECT_EQ(info("a.vdb")["voxels"], lattice.places.size());
+    EXPECT_EQ(info("a.vdb")["voxels"], lattice.indices.size());
     EXPECT_EQ(info("a.exr")["kind"], "deep OpenEXR volume");
     EXPECT_EQ(info("a.exr")["step"], 0.3);
     EXPECT_EQ(info("a.planes.json")["format"], "planes");

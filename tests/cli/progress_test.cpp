@@ -10,7 +10,7 @@ namespace voxelume {
 
 namespace {
 
-Environment environment_of(std::map<std::string, std::string> variables) {
+Variables environment_of(std::map<std::string, std::string> variables) {
     return [variables = std::move(variables)](const char* name) {
         const auto found = variables.find(name);
         return found == variables.end() ? nullptr : found->second.c_str();
@@ -28,15 +28,15 @@ TEST(DescribeTerminal, DrawsOnlyWhereAPersonWatches) {
     EXPECT_FALSE(describe_terminal(false, environment_of({{"TERM", "xterm"}})).draws_bars);
     EXPECT_FALSE(describe_terminal(true, environment_of({{"TERM", "dumb"}})).draws_bars);
     EXPECT_FALSE(describe_terminal(true, environment_of({})).draws_bars);
-    const Environment ci = environment_of({{"TERM", "xterm"}, {"CI", "true"}});
+    const Variables ci = environment_of({{"TERM", "xterm"}, {"CI", "true"}});
     EXPECT_FALSE(describe_terminal(true, ci).draws_bars);
 }
 
 TEST(DescribeTerminal, NoColorTakesTheColourAndLeavesTheBar) {
-    const Environment no_color = environment_of({{"TERM", "xterm"}, {"NO_COLOR", "1"}});
+    const Variables no_color = environment_of({{"TERM", "xterm"}, {"NO_COLOR", "1"}});
     EXPECT_TRUE(describe_terminal(true, no_color).draws_bars);
     EXPECT_FALSE(describe_terminal(true, no_color).has_color);
-    const Environment empty = environment_of({{"TERM", "xterm"}, {"NO_COLOR", ""}});
+    const Variables empty = environment_of({{"TERM", "xterm"}, {"NO_COLOR", ""}});
     EXPECT_TRUE(describe_terminal(true, empty).has_color);
 }
 

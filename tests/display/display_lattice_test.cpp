@@ -30,20 +30,20 @@ struct LatticeOracle {
         const Display& d = frame.display;
         const double r = glm::length(q);
         const glm::dvec3 c = middle / glm::dvec3(frame.size) * 2.0 - 1.0;
-        double least = d.cylinder ? 1 - std::hypot(c.x, c.z) : 1;
+        double minimum = d.cylinder ? 1 - std::hypot(c.x, c.z) : 1;
         switch (d.shape) {
             case DisplayShape::pyramid:
-                return std::min({least, q.z * std::tan(d.half_angles.x) - std::abs(q.x),
+                return std::min({minimum, q.z * std::tan(d.half_angles.x) - std::abs(q.x),
                                  q.z * std::tan(d.half_angles.y) - std::abs(q.y)});
             case DisplayShape::sector:
-                return std::min({least, d.far - r, r - d.near,
+                return std::min({minimum, d.far - r, r - d.near,
                                  d.half_angles.x - std::acos(std::clamp(q.z / r, -1.0, 1.0))});
             case DisplayShape::ball:
-                return std::min(least, d.far - r);
+                return std::min(minimum, d.far - r);
             case DisplayShape::box:
                 break;
         }
-        return least;
+        return minimum;
     }
     /// From where the observer sees a point: E, or the point beside it on the box's plane.
     glm::dvec3 eye(const glm::dvec3& p) const {
@@ -132,7 +132,7 @@ ExpectedVoxels expected_voxels(const LatticeOracle& lattice) {
 void expect_exactly_the_visible(const Scene& scene) {
     const Volume volume = volume_of(scene);
     const auto [must, may] = expected_voxels({volume.frame, scene.observer});
-    const std::set<uint64_t> shown(volume.places.begin(), volume.places.end());
+    const std::set<uint64_t> shown(volume.indices.begin(), volume.indices.end());
     size_t holes = 0, extras = 0;
     for (const uint64_t place : must) holes += !shown.contains(place);
     for (const uint64_t place : shown) extras += !may.contains(place);
@@ -170,11 +170,11 @@ TEST(LatticeOfCoarseVoxels, ReachesFarBeyondTheWorld) {
     scene.observer.display.half_size = {4.55, 3.01};
     scene.observer.display.far = 7.3;
     const Volume near = volume_of(scene);
-    ASSERT_GT(near.places.size(), 100u);
-    ASSERT_EQ(far.places.size(), near.places.size());
-    for (size_t i = 0; i < near.places.size(); ++i) {
-        const glm::ivec3 v = cell_of(near.frame, near.places[i]);
-        EXPECT_EQ(cell_of(far.frame, far.places[i]), v + glm::ivec3(315, 315, 0));
+    ASSERT_GT(near.indices.size(), 100u);
+    ASSERT_EQ(far.indices.size(), near.indices.size());
+    for (size_t i = 0; i < near.indices.size(); ++i) {
+        const glm::ivec3 v = cell_of(near.frame, near.indices[i]);
+        EXPECT_EQ(cell_of(far.frame, far.indices[i]), v + glm::ivec3(315, 315, 0));
         EXPECT_NEAR(far.depths[i], near.depths[i], 2e-3);
     }
 }
@@ -193,12 +193,12 @@ TEST(LatticeOfEmptySpace, IsScannedWhereObjectsAreWithTheSameBits) {
     for (const glm::dvec3& high : {glm::dvec3(8, 1, 1), glm::dvec3(1, 8, 1), glm::dvec3(1, 1, 8)}) {
         const Scene scene = parsed(fmt::format(kText, high.x, high.y, high.z));
         RenderReport report, whole;
-        FormedWorld world = WorldFormer(test_device(), false).form(scene, report.world);
+        BuiltWorld world = WorldBuilder(test_device(), false).build(scene, report.world);
         const Volume volume = render_volume(test_device(), scene, world, report);
         world.pyramid.object_boxes.clear();  // not known: the whole world is scanned
         const Volume expected = render_volume(test_device(), scene, world, whole);
-        EXPECT_GT(volume.places.size(), 200u);
-        EXPECT_EQ(volume.places, expected.places);
+        EXPECT_GT(volume.indices.size(), 200u);
+        EXPECT_EQ(volume.indices, expected.indices);
         EXPECT_EQ(volume.colors, expected.colors);
         EXPECT_EQ(volume.depths, expected.depths);
         EXPECT_EQ(volume.objects, expected.objects);
@@ -221,8 +221,8 @@ TEST(LatticeOfMirrors, ShowsTheVoxelsOfDullSurfaces) {
     for (const char* surface : {"cubes", "smooth", "exact"}) {
         const Volume dull = volume_of(parsed(fmt::format(kText, surface, 0)));
         const Volume mirror = volume_of(parsed(fmt::format(kText, surface, 0.6)));
-        EXPECT_GT(dull.places.size(), 100u) << surface;
-        EXPECT_EQ(mirror.places, dull.places) << surface;
+        EXPECT_GT(dull.indices.size(), 100u) << surface;
+        EXPECT_EQ(mirror.indices, dull.indices) << surface;
         EXPECT_EQ(mirror.depths, dull.depths) << surface;
         EXPECT_EQ(mirror.objects, dull.objects) << surface;
     }
@@ -245,10 +245,10 @@ TEST(LatticeCylinder, ClipsWhatLiesBesideIt) {
           R"("shape": "pyramid", "angles": [27, 30], "near": 1.2, "far": 3.5)"}) {
         Scene scene = parsed(display_scene(std::string(keys) + R"(, "layout": "lattice",
                                            "visibility": "all", "voxels": [41, 37, 33])"));
-        const size_t whole = volume_of(scene).places.size();
+        const size_t whole = volume_of(scene).indices.size();
         scene.observer.display.cylinder = true;
         expect_exactly_the_visible(scene);
-        EXPECT_LT(volume_of(scene).places.size(), whole - 20);
+        EXPECT_LT(volume_of(scene).indices.size(), whole - 20);
     }
 }
 
@@ -263,12 +263,12 @@ TEST_P(Lattice, EveryVoxelIsWithinHalfItsDiagonalOfTheSurface) {
         const Volume volume = volume_of(s);
         const LatticeOracle lattice{volume.frame, s.observer};
         const double half_diagonal = glm::length(volume.frame.edge) / 2;
-        ASSERT_GT(volume.places.size(), 100u);
-        ASSERT_TRUE(std::ranges::is_sorted(volume.places));
-        for (size_t i = 0; i < volume.places.size(); ++i) {
-            const glm::dvec3 middle = glm::dvec3(lattice.voxel(volume.places[i])) + 0.5;
+        ASSERT_GT(volume.indices.size(), 100u);
+        ASSERT_TRUE(std::ranges::is_sorted(volume.indices));
+        for (size_t i = 0; i < volume.indices.size(); ++i) {
+            const glm::dvec3 middle = glm::dvec3(lattice.voxel(volume.indices[i])) + 0.5;
             ASSERT_LE(display_solids().distance(lattice.world(middle)), half_diagonal + 1e-5)
-                << visibility << " " << volume.places[i];
+                << visibility << " " << volume.indices[i];
             ASSERT_EQ(volume.opacities[i], 1.0f);
             ASSERT_EQ(volume.kinds[i], VoxelKind::object)
                 << visibility << " " << middle.x << " " << middle.y << " " << middle.z;

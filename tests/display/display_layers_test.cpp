@@ -45,11 +45,11 @@ struct Seen {
 std::map<int, Seen> column_of(const Volume& volume, int u, int v) {
     std::map<int, Seen> column;
     const glm::ivec3& size = volume.frame.size;
-    for (size_t i = 0; i < volume.places.size(); ++i) {
-        const auto pixel = volume.places[i] % uint64_t(size.x * size.y);
+    for (size_t i = 0; i < volume.indices.size(); ++i) {
+        const auto pixel = volume.indices[i] % uint64_t(size.x * size.y);
         if (pixel != uint64_t(u + size.x * v)) continue;
         const glm::vec3& c = volume.colors[i];
-        column[int(volume.places[i] / uint64_t(size.x * size.y))] = {
+        column[int(volume.indices[i] / uint64_t(size.x * size.y))] = {
             {c.r, c.g, c.b}, volume.opacities[i], volume.depths[i], volume.objects[i]};
     }
     return column;
@@ -116,11 +116,12 @@ std::pair<double, double> difference(Scene scene, const Volume& volume, bool eve
     const glm::ivec3& size = volume.frame.size;
     const size_t pixels = size_t(size.x) * size_t(size.y);
     std::vector<glm::dvec3> flat(pixels, glm::dvec3(0));
-    std::vector<double> passed(pixels, 1);
-    for (size_t i = 0; i < volume.places.size(); ++i) {
-        const size_t pixel = volume.places[i] % pixels;
-        flat[pixel] += passed[pixel] * double(volume.opacities[i]) * glm::dvec3(volume.colors[i]);
-        passed[pixel] *= 1 - double(volume.opacities[i]);
+    std::vector<double> transmittance(pixels, 1);
+    for (size_t i = 0; i < volume.indices.size(); ++i) {
+        const size_t pixel = volume.indices[i] % pixels;
+        flat[pixel] +=
+            transmittance[pixel] * double(volume.opacities[i]) * glm::dvec3(volume.colors[i]);
+        transmittance[pixel] *= 1 - double(volume.opacities[i]);
     }
     resize(scene, {size.x, size.y});
     RenderReport report;
@@ -129,9 +130,9 @@ std::pair<double, double> difference(Scene scene, const Volume& volume, bool eve
     for (size_t i = 0; i < pixels; ++i) {
         const double a = double(image.planes.at("A")[i]);
         if (!everywhere && a < 1) continue;
-        coverage = std::max(coverage, std::abs(1 - passed[i] - a));
+        coverage = std::max(coverage, std::abs(1 - transmittance[i] - a));
         for (int c = 0; c < 3; ++c) {
-            const double laid = flat[i][c] + passed[i] * double(scene.world.background[c]);
+            const double laid = flat[i][c] + transmittance[i] * double(scene.world.background[c]);
             const double found = double(image.planes.at(std::string(1, "RGB"[c]))[i]);
             color = std::max(color, std::abs(laid - found));
         }
@@ -176,15 +177,15 @@ TEST(Layers, AMediumOfVaryingDensityIsShownByVoxels) {
         const auto column = column_of(volume, 3, v);
         ASSERT_EQ(column.size(), 8u) << v;
         // Rays through the middles of pixels lie between two rows of voxels of 0.25 m: the upper.
-        double least = 1e9, most = 0;
+        double minimum = 1e9, maximum = 0;
         for (const double side : {-0.125, 0.125}) {
             const double density = y + side < 1 ? 1.0 : std::exp(-(y + side - 1) / 0.5);
-            least = std::min(least, density), most = std::max(most, density);
+            minimum = std::min(minimum, density), maximum = std::max(maximum, density);
         }
         for (const int k : {0, 1, 3, 6}) {
             const double density = -std::log1p(-double(column.at(k).opacity)) / 0.15;
-            EXPECT_GT(density, least - 1e-5) << v << " " << k;
-            EXPECT_LT(density, most + 1e-5) << v << " " << k;
+            EXPECT_GT(density, minimum - 1e-5) << v << " " << k;
+            EXPECT_LT(density, maximum + 1e-5) << v << " " << k;
             EXPECT_NEAR(column.at(k).color[1], 0.2f, 1e-5f);
         }
     }
@@ -209,7 +210,7 @@ TEST(Layers, ALatticeShowsWhatIsSeenThroughPanes) {
         scene.observer.display.visibility = visibility;
         const Volume volume = volume_of(scene);
         std::map<uint32_t, int> counts;
-        for (size_t i = 0; i < volume.places.size(); ++i) {
+        for (size_t i = 0; i < volume.indices.size(); ++i) {
             const uint32_t object = volume.objects[i];
             ASSERT_TRUE(object >= 1 && object <= 3);
             ++counts[object];
@@ -232,7 +233,7 @@ TEST(Layers, HaveTheSameBitsForEveryNumberOfLanes) {
     const Volume expected = volume_of(scene, 16);
     for (const int lanes : {1, 8}) {
         const Volume volume = volume_of(scene, lanes);
-        EXPECT_EQ(volume.places, expected.places) << lanes;
+        EXPECT_EQ(volume.indices, expected.indices) << lanes;
         EXPECT_EQ(volume.colors, expected.colors) << lanes;
         EXPECT_EQ(volume.opacities, expected.opacities) << lanes;
         EXPECT_EQ(volume.depths, expected.depths) << lanes;

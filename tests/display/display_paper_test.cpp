@@ -94,7 +94,7 @@ TEST(PaperFormula, HoldsForEveryVoxelOfSightRays) {
     const Volume p =
         render_volume(test_device(), parse_scene(kPaperScene, "test.json", {}), report);
     std::map<uint64_t, size_t> number;
-    for (size_t i = 0; i < p.places.size(); ++i) number[p.places[i]] = i;
+    for (size_t i = 0; i < p.indices.size(); ++i) number[p.indices[i]] = i;
     size_t expected = 0, shaded = 0;
     for (int v = 0; v < 6; ++v) {
         for (int u = 0; u < 8; ++u) {
@@ -128,7 +128,7 @@ TEST(PaperFormula, HoldsForEveryVoxelOfSightRays) {
             shaded += surface == &kWall && is_in_shade(x, y);
         }
     }
-    EXPECT_EQ(p.places.size(), expected);
+    EXPECT_EQ(p.indices.size(), expected);
     EXPECT_GE(shaded, 3u);
 }
 
@@ -141,7 +141,7 @@ TEST(PaperFormula, HoldsForTheSurfacesOfALattice) {
     RenderReport report;
     const Volume p = render_volume(test_device(), scene, report);
     size_t fronts[2] = {};
-    for (size_t i = 0; i < p.places.size(); ++i) {
+    for (size_t i = 0; i < p.indices.size(); ++i) {
         EXPECT_EQ(p.opacities[i], 1.0f);
         EXPECT_EQ(p.kinds[i], VoxelKind::object);
         ASSERT_TRUE(p.objects[i] == 1 || p.objects[i] == 2);
@@ -149,15 +149,16 @@ TEST(PaperFormula, HoldsForTheSurfacesOfALattice) {
         if (std::abs(p.depths[i] - 1 - surface.z) > 1e-5) continue;  // a side of it
         ++fronts[p.objects[i] - 1];
         // Lit at one of the four corners of the voxel, which are as near to its middle.
-        const double x = double(p.places[i] % 24) / 3, y = double(p.places[i] / 24 % 18) / 3;
+        const double x = double(p.indices[i] % 24) / 3, y = double(p.indices[i] / 24 % 18) / 3;
         bool is_one = false;
         for (const double dx : {0.0, 1.0 / 3})
             for (const double dy : {0.0, 1.0 / 3}) {
-                double most = 0;
+                double maximum = 0;
                 for (int c = 0; c < 3; ++c)
-                    most = std::max(most, std::abs(double(p.colors[i][c]) -
+                    maximum =
+                        std::max(maximum, std::abs(double(p.colors[i][c]) -
                                                    surface_light(surface, x + dx, y + dy, c)));
-                is_one |= most < 2e-5;
+                is_one |= maximum < 2e-5;
             }
         EXPECT_TRUE(is_one) << "at " << x << " " << y << ", object " << p.objects[i];
     }

@@ -37,7 +37,7 @@ TEST(DisplaySkipping, LinesOfALatticeThatPassAllObjectsByAreNotSent) {
     scene.models[0].solid->radius = 1.4;
     scene.objects[0].world_from_object = glm::dmat4(1);
     const RenderReport amid = report_of(scene, large);
-    EXPECT_FALSE(small.places.empty());
+    EXPECT_FALSE(small.indices.empty());
     EXPECT_EQ(off.display_lines + off.clear_display_lines,
               amid.display_lines + amid.clear_display_lines);
     EXPECT_GT(off.clear_display_lines, off.display_lines / 2);
@@ -54,7 +54,7 @@ TEST(DisplaySkipping, BeamsEndTilesThatSeeNothingAndChangeNoVoxel) {
     EXPECT_EQ(many.sight_rays, 65536u);
     EXPECT_EQ(many.beams, 4096u);
     std::vector<bool> is_empty(64 * 64, true);
-    for (const uint64_t place : with.places)
+    for (const uint64_t place : with.indices)
         is_empty[place / 256 % 256 / 4 * 64 + place % 256 / 4] = false;
     const auto empty = uint64_t(std::ranges::count(is_empty, true));
     EXPECT_LT(empty, 4096u);
@@ -68,7 +68,7 @@ TEST(DisplaySkipping, BeamsEndTilesThatSeeNothingAndChangeNoVoxel) {
     scene.objects[1].world_from_object = glm::dmat4(0.1);
     scene.objects[1].world_from_object[3] = {-1.6, 0.5, 0, 1};
     EXPECT_EQ(report_of(scene, without).beams, 0u);
-    EXPECT_EQ(without.places, with.places);
+    EXPECT_EQ(without.indices, with.indices);
     EXPECT_EQ(without.colors, with.colors);
     EXPECT_EQ(without.depths, with.depths);
 }

@@ -62,10 +62,10 @@ TEST_P(Rays, ShowExactlyTheFirstSurfaceOfEverySightRay) {
         const Scene scene = parsed(
             display_scene(std::string(GetParam().keys) + R"(, "voxels": [97, 71, 83])", surface));
         const Volume volume = volume_of(scene);
-        ASSERT_TRUE(std::ranges::is_sorted(volume.places));
-        ASSERT_EQ(std::ranges::adjacent_find(volume.places), volume.places.end());
+        ASSERT_TRUE(std::ranges::is_sorted(volume.indices));
+        ASSERT_EQ(std::ranges::adjacent_find(volume.indices), volume.indices.end());
         std::vector<int> shown(97 * 71, kNone);
-        for (const uint64_t place : volume.places) {
+        for (const uint64_t place : volume.indices) {
             ASSERT_EQ(shown[place % (97 * 71)], kNone) << "two voxels on a ray";
             shown[place % (97 * 71)] = int(place / (97 * 71));
         }
@@ -91,9 +91,9 @@ TEST_P(Rays, HoldSurfacesWithinHalfAStep) {
     const Scene scene =
         parsed(display_scene(std::string(GetParam().keys) + R"(, "voxels": [60, 44, 52])"));
     const Volume volume = volume_of(scene);
-    ASSERT_GT(volume.places.size(), 20u);
-    for (size_t i = 0; i < volume.places.size(); ++i) {
-        const uint64_t place = volume.places[i];
+    ASSERT_GT(volume.indices.size(), 20u);
+    for (size_t i = 0; i < volume.indices.size(); ++i) {
+        const uint64_t place = volume.indices[i];
         const double u = double(place % 60) + 0.5, v = double(place / 60 % 44) + 0.5;
         const double depth =
             scene.observer.display.near + volume.frame.step * (double(place / (60 * 44)) + 0.5);
@@ -114,14 +114,14 @@ INSTANTIATE_TEST_SUITE_P(Shapes, Rays, testing::ValuesIn(kDisplayCases),
 std::vector<glm::dvec3> flattened(const Volume& volume, const glm::dvec3& behind) {
     const size_t pixels = size_t(volume.frame.size.x) * size_t(volume.frame.size.y);
     std::vector<glm::dvec3> colors(pixels, glm::dvec3(0));
-    std::vector<double> passed(pixels, 1);
-    for (size_t i = 0; i < volume.places.size(); ++i) {  // ascending: by step
-        const size_t pixel = volume.places[i] % pixels;
+    std::vector<double> transmittance(pixels, 1);
+    for (size_t i = 0; i < volume.indices.size(); ++i) {  // ascending: by step
+        const size_t pixel = volume.indices[i] % pixels;
         const double opacity = volume.opacities[i];
-        colors[pixel] += passed[pixel] * opacity * glm::dvec3(volume.colors[i]);
-        passed[pixel] *= 1 - opacity;
+        colors[pixel] += transmittance[pixel] * opacity * glm::dvec3(volume.colors[i]);
+        transmittance[pixel] *= 1 - opacity;
     }
-    for (size_t i = 0; i < pixels; ++i) colors[i] += passed[i] * behind;
+    for (size_t i = 0; i < pixels; ++i) colors[i] += transmittance[i] * behind;
     return colors;
 }
 
@@ -178,9 +178,9 @@ TEST(Flattened, IsTheFlatImageOfSurfacesInAColouredMedium) {
 TEST(Rays, AnEmptyWorldShowsNothing) {
     Scene scene = parsed(display_scene(kDisplayCases[0].keys));
     scene.objects.clear();
-    EXPECT_TRUE(volume_of(scene).places.empty());
+    EXPECT_TRUE(volume_of(scene).indices.empty());
     scene.observer.display.layout = VolumeLayout::lattice;
-    EXPECT_TRUE(volume_of(scene).places.empty());
+    EXPECT_TRUE(volume_of(scene).indices.empty());
 }
 
 /// All values of a volume as bytes.
@@ -190,7 +190,7 @@ std::string bytes_of(const Volume& volume) {
         bytes.append(reinterpret_cast<const char*>(values.data()),
                      values.size() * sizeof(values[0]));
     };
-    add(volume.places), add(volume.colors), add(volume.opacities);
+    add(volume.indices), add(volume.colors), add(volume.opacities);
     add(volume.depths), add(volume.objects), add(volume.kinds);
     return bytes;
 }

@@ -64,16 +64,16 @@ TEST(SurfaceExtent, FacesThatTheWorldCutsAreNoSurface) {
 TEST(SurfaceExtent, TrianglesThatLieOnOneAnotherCountOnceAtLeast) {
     const Mesh ring = wavy_ring(300, 200);
     const double once = mesh_area(ring).total;
-    EXPECT_LE(least_mesh_area(ring).total, once);
-    EXPECT_GT(least_mesh_area(ring).total, 0.95 * once);
+    EXPECT_LE(min_mesh_area(ring).total, once);
+    EXPECT_GT(min_mesh_area(ring).total, 0.95 * once);
     for (const bool has_own_corners : {false, true}) {
         const Mesh twice = doubled(ring, has_own_corners);
         EXPECT_NEAR(mesh_area(twice).total, 2 * once, 1e-9);
-        EXPECT_LE(least_mesh_area(twice).total, once);
-        EXPECT_GT(least_mesh_area(twice).total, 0.95 * once);
+        EXPECT_LE(min_mesh_area(twice).total, once);
+        EXPECT_GT(min_mesh_area(twice).total, 0.95 * once);
     }
-    EXPECT_EQ(least_mesh_area(rectangle()).total, 6);
-    EXPECT_EQ(least_mesh_area(doubled(rectangle(), true)).total, 6);
+    EXPECT_EQ(min_mesh_area(rectangle()).total, 6);
+    EXPECT_EQ(min_mesh_area(doubled(rectangle(), true)).total, 6);
 }
 
 }  // namespace

@@ -17,7 +17,7 @@ namespace {
 
 void add_voxel(Volume& volume, glm::ivec3 cell, glm::vec3 color, float opacity = 1) {
     const glm::ivec3& size = volume.frame.size;
-    volume.places.push_back(uint64_t(cell.x + size.x * (cell.y + size.y * cell.z)));
+    volume.indices.push_back(uint64_t(cell.x + size.x * (cell.y + size.y * cell.z)));
     volume.colors.push_back(color);
     volume.opacities.push_back(opacity);
     volume.depths.push_back(1);
@@ -54,10 +54,10 @@ Volume three_sides() {
     add_voxel(volume, {4, 8, 4}, {0, 1, 0});
     add_voxel(volume, {4, 4, 8}, {0, 0, 1});
     std::vector<size_t> order = {0, 1, 2};
-    std::ranges::sort(order, {}, [&](size_t i) { return volume.places[i]; });
+    std::ranges::sort(order, {}, [&](size_t i) { return volume.indices[i]; });
     Volume sorted = volume;
     for (size_t i = 0; i < 3; ++i) {
-        sorted.places[i] = volume.places[order[i]];
+        sorted.indices[i] = volume.indices[order[i]];
         sorted.colors[i] = volume.colors[order[i]];
     }
     return sorted;
@@ -142,11 +142,11 @@ TEST(VolumeView, EveryShapeAndAnEmptyVolumeHaveAPicture) {
          {DisplayShape::pyramid, DisplayShape::sector, DisplayShape::ball, DisplayShape::box}) {
         for (const double share : {0.0, 0.6}) {
             const Image sheet = view_sheet(rays_volume(shape, share), {0.6, 0.4}, {160, 120});
-            float least = 1e9f, most = 0;
+            float minimum = 1e9f, maximum = 0;
             for (const float r : sheet.planes.at("R"))
-                least = std::min(least, r), most = std::max(most, r);
-            EXPECT_GT(least, 0.0f);
-            EXPECT_GT(most, share > 0 ? 0.3f : 0.03f);
+                minimum = std::min(minimum, r), maximum = std::max(maximum, r);
+            EXPECT_GT(minimum, 0.0f);
+            EXPECT_GT(maximum, share > 0 ? 0.3f : 0.03f);
         }
     }
 }

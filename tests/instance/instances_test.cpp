@@ -176,7 +176,7 @@ TEST(Instance, MovedInstancesAreSeenWhereTheyAre) {
     Scene scene = instance_scene("cubes", "instance", whole_voxel_objects());
     WorldReport report;
     const Device device = test_device();
-    Pyramid world = form_world(device, scene, report);
+    Pyramid world = build_world(device, scene, report);
     EXPECT_EQ(report.instances.instances, 4u);
     EXPECT_EQ(report.instances.models, 2u);
     const std::vector<InstanceRecord> before = world.instances.records.read();

@@ -31,7 +31,7 @@ Volume solid_box(glm::ivec3 size, glm::ivec3 first, glm::ivec3 last, glm::vec3 c
     for (int z = first.z; z <= last.z; ++z)
         for (int y = first.y; y <= last.y; ++y)
             for (int x = first.x; x <= last.x; ++x) {
-                volume.places.push_back(uint64_t(x + size.x * (y + size.y * z)));
+                volume.indices.push_back(uint64_t(x + size.x * (y + size.y * z)));
                 volume.colors.push_back(color);
                 volume.opacities.push_back(1);
                 volume.depths.push_back(1);
@@ -129,14 +129,14 @@ TEST_F(VolumeDeviceTest, Kv6NormalsPointOutwards) {
     const Volume volume = solid_box({9, 5, 8}, {0, 0, 0}, {8, 1, 7}, {1, 1, 1});
     const std::string bytes = write("a.kv6", volume);
     // The spiral's z grows evenly from -1; beside the box's sides the normal leans outwards.
-    int least = 255;
+    int minimum = 255;
     for (size_t at = 32, n = 0; n < u32_at(bytes, 28); ++n, at += 8)
         if (uint8_t(bytes[at + 6]) == 0x10) {
             const int number = uint8_t(bytes[at + 7]);
-            least = std::min(least, number);
+            minimum = std::min(minimum, number);
             EXPECT_LT(number, 64);
         }
-    EXPECT_LT(least, 4);
+    EXPECT_LT(minimum, 4);
 }
 
 TEST_F(VolumeDeviceTest, PlanesLightTheRightBit) {
@@ -187,7 +187,7 @@ TEST_F(VolumeDeviceTest, ColourPlanesComeOneAfterAnother) {
 TEST_F(VolumeDeviceTest, ACylinderHasItsAnglesRingsAndHeights) {
     Volume volume = solid_box({8, 3, 8}, {0, 0, 0}, {7, 2, 7}, {0, 0, 0});
     volume.frame.edge = {0.5, 0.25, 0.5};
-    for (size_t i = 0; i < volume.places.size(); ++i) {
+    for (size_t i = 0; i < volume.indices.size(); ++i) {
         const int x = int(i % 8), y = int(i / 8 % 3), z = int(i / 24);
         // Image right is -X_E: red. Far is +Z_E: green. The top: blue.
         volume.colors[i] = {x < 4 ? 1 : 0, z >= 4 ? 1 : 0, y == 2 ? 1 : 0};

@@ -88,7 +88,7 @@ TEST_F(VolumeExrTest, SamplesAreTidy) {
             EXPECT_GE(z, samples[i - 1][5]);
             EXPECT_GT(z, samples[i - 1][4]);
         }
-    EXPECT_EQ(count, rays_volume().places.size());
+    EXPECT_EQ(count, rays_volume().indices.size());
     EXPECT_GT(points, 20u);
 }
 
@@ -100,8 +100,8 @@ TEST_F(VolumeExrTest, FlatteningItGivesTheFlatImage) {
         glm::dvec4 flat(0), expected(0);
         for (const DeepSample& s : deep[pixel])
             flat += (1 - flat.a) * glm::dvec4(s[0], s[1], s[2], s[3]);
-        for (size_t i = 0; i < volume.places.size(); ++i) {
-            if (volume.places[i] % 35 != pixel) continue;
+        for (size_t i = 0; i < volume.indices.size(); ++i) {
+            if (volume.indices[i] % 35 != pixel) continue;
             const double alpha = volume.opacities[i];
             expected += (1 - expected.a) * glm::dvec4(glm::dvec3(volume.colors[i]) * alpha, alpha);
         }
@@ -111,7 +111,7 @@ TEST_F(VolumeExrTest, FlatteningItGivesTheFlatImage) {
 
 TEST_F(VolumeExrTest, WhatIsMetStandsAtItsDepthAndSpaceFillsItsStep) {
     Volume volume = rays_volume(DisplayShape::pyramid, 0);
-    volume.places = {3 + 7 * (2 + 5 * 4), 3 + 7 * (2 + 5 * 6)};
+    volume.indices = {3 + 7 * (2 + 5 * 4), 3 + 7 * (2 + 5 * 6)};
     volume.colors = {{0.5f, 0.25f, 1.0f}, {1, 1, 1}};
     volume.opacities = {0.5f, 1.0f};
     volume.depths = {2.0f, 2.625f};

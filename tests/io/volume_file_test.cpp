@@ -65,8 +65,8 @@ TEST_F(VolumeFileTest, FaultyVolumesAreRefused) {
         EXPECT_THAT(error.what(), HasSubstr(reason));
     };
     refused([](Volume& v) { v.colors.pop_back(); }, "not every voxel");
-    refused([](Volume& v) { std::swap(v.places[0], v.places[1]); }, "ascending");
-    refused([](Volume& v) { v.places.back() = 105; }, "outside");
+    refused([](Volume& v) { std::swap(v.indices[0], v.indices[1]); }, "ascending");
+    refused([](Volume& v) { v.indices.back() = 105; }, "outside");
     refused([](Volume& v) { v.opacities[3] = 1.5f; }, "opacity");
     refused([](Volume& v) { v.colors[2].g = NAN; }, "colour");
     refused([](Volume& v) { v.frame.edge.y = 0; }, "no size");
@@ -112,7 +112,7 @@ TEST_F(VolumeFileTest, SlicesShowWhatTheObserverSees) {
 
     Volume rays = rays_volume(DisplayShape::pyramid, 0);
     const Volume one = single_voxel({7, 5, 9}, {1, 0, 8}, {1, 1, 1});
-    rays.places = one.places, rays.colors = one.colors, rays.opacities = one.opacities;
+    rays.indices = one.indices, rays.colors = one.colors, rays.opacities = one.opacities;
     rays.depths = {3.2f}, rays.objects = one.objects, rays.kinds = one.kinds;
     write_volume(folder / "r_%03d.png", rays);
     EXPECT_EQ(read_png(folder / "r_008.png").pixels[1][3], 255);
@@ -135,7 +135,7 @@ TEST_F(VolumeFileTest, AHeaderReplacesNothingButItsLike) {
     write_volume(folder / "b.raw", volume);
     expect_refused("b.####.png");
     write_volume(folder / "b.raw", volume);
-    EXPECT_EQ(read_volume(folder / "b.raw").places, volume.places);
+    EXPECT_EQ(read_volume(folder / "b.raw").indices, volume.indices);
     write_volume(folder / "c.####.png", volume);
     write_volume(folder / "c.####.png", volume);
     expect_refused("c.raw");
@@ -149,11 +149,11 @@ TEST_F(VolumeFileTest, PlyPointsStandInTheWorld) {
     EXPECT_THAT(bytes.substr(0, end),
                 HasSubstr("format binary_little_endian 1.0\ncomment voxelume volume\n"));
     size_t at = end, count = 0;
-    for (size_t i = 0; i < rays.places.size(); ++i) {
+    for (size_t i = 0; i < rays.indices.size(); ++i) {
         if (rays.opacities[i] == 0) continue;
         float p[3];
         std::memcpy(p, bytes.data() + at, sizeof p);
-        const auto place = int(rays.places[i]);
+        const auto place = int(rays.indices[i]);
         const double u = place % 7, v = place / 7 % 5, k = place / 35;
         const double depth =
             rays.kinds[i] == VoxelKind::object ? double(rays.depths[i]) : 0.7 + 0.3 * (k + 0.5);

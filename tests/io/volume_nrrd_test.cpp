@@ -88,7 +88,7 @@ TEST_F(VolumeNrrdTest, ColourAndOpacityAloneComeBackWithMiddlesForDepths) {
     const Volume volume = single_voxel({7, 5, 3}, {4, 1, 2}, {0.5f, 0.25f, 0.125f});
     write_volume(path(), volume);
     const Volume back = read_volume(path());
-    EXPECT_EQ(back.places, volume.places);
+    EXPECT_EQ(back.indices, volume.indices);
     EXPECT_EQ(back.colors, volume.colors);
     EXPECT_EQ(back.opacities, volume.opacities);
     EXPECT_EQ(back.kinds, volume.kinds);
@@ -133,7 +133,7 @@ TEST_F(VolumeNrrdTest, EveryVoxelIsInItsPlaceAndTheOthersAreZero) {
         ASSERT_EQ(nrrd.values.size(), 4u * 105u);
         size_t next = 0;
         for (size_t place = 0; place < 105; ++place) {
-            const bool listed = next < volume.places.size() && volume.places[next] == place;
+            const bool listed = next < volume.indices.size() && volume.indices[next] == place;
             EXPECT_EQ(nrrd.values[4 * place + 2], listed ? volume.colors[next].b : 0.0f);
             EXPECT_EQ(nrrd.values[4 * place + 3], listed ? volume.opacities[next] : 0.0f);
             next += listed;

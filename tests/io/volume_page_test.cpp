@@ -20,7 +20,7 @@ Volume two_layers() {
     for (int z = 0; z < 8; ++z)
         for (int y = 0; y < 10; ++y)
             for (int x = 0; x < 12; ++x) {
-                volume.places.push_back(uint64_t(x + 12 * (y + 10 * z)));
+                volume.indices.push_back(uint64_t(x + 12 * (y + 10 * z)));
                 volume.colors.emplace_back(z == 0, 0, z > 0);
                 volume.opacities.push_back(1);
                 volume.depths.push_back(1);
@@ -134,14 +134,14 @@ TEST_F(VolumePageTest, ItLetsNothingInFromElsewhere) {
 TEST_F(VolumePageTest, MoreVoxelsThanAPageTakesAreMerged) {
     Volume volume = lattice_volume({256, 256, 40}, 0);
     for (uint64_t place = 0; place < 256 * 256 * 40; ++place) {
-        volume.places.push_back(place);
+        volume.indices.push_back(place);
         volume.colors.emplace_back(0.25f, 0.5f, 1.0f);
         volume.opacities.push_back(0.5f);
         volume.depths.push_back(1);
         volume.objects.push_back(1);
         volume.kinds.push_back(VoxelKind::object);
     }
-    ASSERT_GT(volume.places.size(), kMostPageVoxels);
+    ASSERT_GT(volume.indices.size(), kMaxPageVoxels);
     write_volume_page(folder / "a.html", volume);
     EXPECT_THAT(bytes_of(folder / "a.html"), HasSubstr(R"("count":327680,"merged":2)"));
 }

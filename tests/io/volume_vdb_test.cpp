@@ -45,7 +45,7 @@ TEST_F(VolumeVdbTest, EveryBitComesBack) {
 
 TEST_F(VolumeVdbTest, AnEmptyVolumeComesBack) {
     write_volume(path(), lattice_volume({7, 5, 3}, 0));
-    EXPECT_TRUE(read_volume(path()).places.empty());
+    EXPECT_TRUE(read_volume(path()).indices.empty());
 }
 
 TEST_F(VolumeVdbTest, OpenVdbFindsTheDisplaysVoxelsAndNoOthers) {
@@ -57,10 +57,10 @@ TEST_F(VolumeVdbTest, OpenVdbFindsTheDisplaysVoxelsAndNoOthers) {
     const auto alpha = openvdb::gridPtrCast<openvdb::FloatGrid>(file.readGrid("alpha"));
     const auto density = openvdb::gridPtrCast<openvdb::FloatGrid>(file.readGrid("density"));
     const auto color = openvdb::gridPtrCast<openvdb::Vec3SGrid>(file.readGrid("Cd"));
-    EXPECT_EQ(alpha->activeVoxelCount(), volume.places.size());
+    EXPECT_EQ(alpha->activeVoxelCount(), volume.indices.size());
     EXPECT_EQ(density->getGridClass(), openvdb::GRID_FOG_VOLUME);
-    for (size_t i = 0; i < volume.places.size(); ++i) {
-        const auto place = int(volume.places[i]);
+    for (size_t i = 0; i < volume.indices.size(); ++i) {
+        const auto place = int(volume.indices[i]);
         const openvdb::Coord c(place % 7, place / 7 % 5, place / 35);
         EXPECT_EQ(alpha->tree().getValue(c), volume.opacities[i]);
         EXPECT_EQ(color->tree().getValue(c).y(), volume.colors[i].g);

@@ -96,16 +96,17 @@ class BeamLanes : public testing::TestWithParam<int> {};
 
 TEST_P(BeamLanes, LeaveTheHitsAsTheyAre) {
     const Device device = test_device(GetParam());
-    for (const auto& [voxels, of] : {std::pair(3, HaloOf::leaves),
-                                     {400, HaloOf::leaves},
-                                     {4000, HaloOf::leaves},
-                                     {3, HaloOf::bricks},
-                                     {60, HaloOf::bricks},
-                                     {400, HaloOf::bricks}}) {
+    for (const auto& [voxels, of] : {std::pair(3, DilationLevel::leaves),
+                                     {400, DilationLevel::leaves},
+                                     {4000, DilationLevel::leaves},
+                                     {3, DilationLevel::bricks},
+                                     {60, DilationLevel::bricks},
+                                     {400, DilationLevel::bricks}}) {
         const Pyramid pyramid =
             build_index(device, scattered_cubes({230, 137, 301}, voxels).upload(device));
         TraceStage trace(device, features_of(pyramid));
-        BeamStage beams(device, features_of(pyramid), pyramid, build_halo(device, pyramid, of));
+        BeamStage beams(device, features_of(pyramid), pyramid,
+                        build_dilated_occupancy(device, pyramid, of));
         const RayList rays = random_tiles(pyramid, kTiles);
         RayBatch batch = rays.batch(device);
         trace.closest(pyramid, batch, batch.stride);
@@ -120,7 +121,7 @@ TEST_P(BeamLanes, LeaveTheHitsAsTheyAre) {
                     << "seed " << kSeed << ", " << voxels << " voxels, halo " << int(of) << ", ray "
                     << i << ", component " << c;
         const std::vector<uint32_t> words = batch.beams.read();
-        const auto axes = words.begin() + VXL_BEAM_AXIS * VXL_BEAM_PLACES(batch.stride);
+        const auto axes = words.begin() + VXL_BEAM_AXIS * VXL_BEAM_SLOTS(batch.stride);
         EXPECT_EQ(beams.sent(), kTiles);
         EXPECT_EQ(beams.cleared(), uint64_t(std::count(axes, axes + kTiles, VXL_BEAM_CLEAR)));
     }
@@ -135,12 +136,12 @@ struct Start {
 };
 
 Start first_start(const Device& device, const Pyramid& pyramid, const RayList& rays,
-                  HaloOf of = HaloOf::leaves) {
+                  DilationLevel of = DilationLevel::leaves) {
     RayBatch batch = rays.batch(device);
-    BeamStage(device, features_of(pyramid), pyramid, build_halo(device, pyramid, of))
+    BeamStage(device, features_of(pyramid), pyramid, build_dilated_occupancy(device, pyramid, of))
         .start(batch, batch.stride);
     const std::vector<uint32_t> words = batch.beams.read();
-    Start start{0, words[VXL_BEAM_AXIS * VXL_BEAM_PLACES(batch.stride)]};
+    Start start{0, words[VXL_BEAM_AXIS * VXL_BEAM_SLOTS(batch.stride)]};
     std::memcpy(&start.s, &words[0], sizeof start.s);
     return start;
 }
@@ -177,24 +178,24 @@ TEST(Beam, StartsItsRaysOneLeafBeforeTheFirstThatHoldsVoxels) {
 TEST(Beam, InAHaloOfBricksStartsItsRaysOneBrickBefore) {
     OneVoxel world;
     world.aim({123, 63, 0}, {0, 0, 1}, 4);
-    const Start up = first_start(world.device, world.pyramid, world.rays, HaloOf::bricks);
+    const Start up = first_start(world.device, world.pyramid, world.rays, DilationLevel::bricks);
     EXPECT_EQ(up.axis, 2u);
     EXPECT_NEAR(up.s, 176, 0.2);
     world.aim({123, 63, 301}, {0, 0, -1}, 4);
-    const Start down = first_start(world.device, world.pyramid, world.rays, HaloOf::bricks);
+    const Start down = first_start(world.device, world.pyramid, world.rays, DilationLevel::bricks);
     EXPECT_EQ(down.axis, 2u | VXL_BEAM_DOWN);
     EXPECT_NEAR(down.s, -224, 0.2);
     world.aim({20, 20, 0}, {0, 0, 1}, 4);
-    EXPECT_EQ(first_start(world.device, world.pyramid, world.rays, HaloOf::bricks).axis,
+    EXPECT_EQ(first_start(world.device, world.pyramid, world.rays, DilationLevel::bricks).axis,
               uint32_t{VXL_BEAM_CLEAR});
 }
 
-TEST(Beam, HalosFitTheWidthOfPixels) {
-    EXPECT_EQ(halo_for(0.1), HaloOf::leaves);
-    EXPECT_EQ(halo_for(2.4), HaloOf::leaves);
-    EXPECT_EQ(halo_for(2.6), HaloOf::bricks);
-    EXPECT_EQ(halo_for(9.9), HaloOf::bricks);
-    EXPECT_EQ(halo_for(10.1), std::nullopt);
+TEST(Beam, DilationsFitTheWidthOfPixels) {
+    EXPECT_EQ(dilation_for(0.1), DilationLevel::leaves);
+    EXPECT_EQ(dilation_for(2.4), DilationLevel::leaves);
+    EXPECT_EQ(dilation_for(2.6), DilationLevel::bricks);
+    EXPECT_EQ(dilation_for(9.9), DilationLevel::bricks);
+    EXPECT_EQ(dilation_for(10.1), std::nullopt);
 }
 
 TEST(Beam, ThatSeesNothingBringsItsRaysOutOfTheWorld) {
@@ -214,7 +215,7 @@ TEST(Beam, ThatBeginsInTheLastStepBeforeTheWorldsEndIsNotCalledClear) {
         RayBatch batch = world.rays.batch(world.device);
         TraceStage trace(world.device, features_of(world.pyramid));
         BeamStage(world.device, features_of(world.pyramid), world.pyramid,
-                  build_halo(world.device, world.pyramid))
+                  build_dilated_occupancy(world.device, world.pyramid))
             .start(batch, batch.stride);
         trace.closest(world.pyramid, batch, batch.stride);
         for (uint32_t i = 0; i < VXL_BEAM_RAYS; ++i)
@@ -237,7 +238,7 @@ TEST(Beam, EndsWhereItsRaysAreTooFarApart) {
     world.aim({10, 20, 0}, {0, 0, 1}, 4);
     EXPECT_LE(first_start(world.device, world.pyramid, world.rays).s, 0);
     world.aim({10, 20, 0}, {0, 0, 1}, 16);
-    EXPECT_LE(first_start(world.device, world.pyramid, world.rays, HaloOf::bricks).s, 0);
+    EXPECT_LE(first_start(world.device, world.pyramid, world.rays, DilationLevel::bricks).s, 0);
 }
 
 TEST(Beam, OfIdlePlacesIsClearAndOfIdleCornersNone) {

@@ -170,7 +170,7 @@ std::pair<oracle::RationalPoint, oracle::RationalPoint> exact_ray(const FixedGri
 // Voxels. Hits' places are bounded by measurement: 1.1e-5 was the most of these 3408, and twice
 // that is allowed. Of it, a shear rounded twice moves corners up to 43 voxels away by 43 * 2 *
 // 2^-24 = 5e-6 on each of two axes; the edge functions' rounding depends on the triangles' shapes.
-constexpr double kMostOffPlane = 2e-5;
+constexpr double kMaxOffPlane = 2e-5;
 
 // Voxels by which rays are moved to see whether they pass an outline: some hundred times as much as
 // rounding moves them. Then another t by more than kOtherPlace is that of another place, or of a
@@ -212,7 +212,7 @@ TEST(ExactHit, IsTheRationalOneAtEdgesAndCorners) {
         const dvec3 way(d[0].get_d(), d[1].get_d(), d[2].get_d());
         const double off = mpq_class(truth->t - mpq_class(double(hits[i]->t))).get_d() *
                            glm::dot(way, truth->normal);
-        EXPECT_LT(std::abs(off), kMostOffPlane) << "seed " << kSeed << ", ray " << i;
+        EXPECT_LT(std::abs(off), kMaxOffPlane) << "seed " << kSeed << ", ray " << i;
     }
     EXPECT_GT(compared, 2400);
 }

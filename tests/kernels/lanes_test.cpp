@@ -110,12 +110,12 @@ std::string source_of(const std::vector<Case>& cases) {
 #include "lib/lanes/lanes.h"
 #include "lib/lanes/work_item.h"
 kernel void evaluate(uint count, global const float* floats, global const int* integers,
-                     global const uint* places, global uint* results) {
+                     global const uint* indices, global uint* results) {
     const uint first = work_item() * VXL_LANES;
     if (first >= count) return;
     const lane_float f = LANES_LOAD(floats, first);
     const lane_int n = LANES_LOAD(integers, first);
-    const lane_uint i = LANES_LOAD(places, first);
+    const lane_uint i = LANES_LOAD(indices, first);
 )";
     for (size_t c = 0; c < cases.size(); ++c)
         source += "    LANES_STORE(LANES_AS_UINT(" + cases[c].expression + "), results, " +
@@ -128,14 +128,14 @@ class Lanes : public testing::TestWithParam<int> {};
 TEST_P(Lanes, EveryMacroMeansTheSame) {
     const Device device = test_device(GetParam());
     const std::vector<Case> cases = cases_of(uint32_t(device.lanes()));
-    std::vector<uint32_t> places;
-    for (uint32_t i = 0; i < kCount; ++i) places.push_back(shuffled(i));
+    std::vector<uint32_t> indices;
+    for (uint32_t i = 0; i < kCount; ++i) indices.push_back(shuffled(i));
     Buffer<uint32_t> buffer(device, "results", kCount * cases.size());
     Program::from_text(device, source_of(cases))
         .kernel("evaluate")
         .launch_packets(kCount, kCount, Buffer<float>(device, "floats", std::span(floats())),
                         Buffer<int32_t>(device, "integers", std::span(integers())),
-                        Buffer<uint32_t>(device, "places", std::span<const uint32_t>(places)),
+                        Buffer<uint32_t>(device, "places", std::span<const uint32_t>(indices)),
                         buffer);
     const std::vector<uint32_t> results = buffer.read();
     for (size_t c = 0; c < cases.size(); ++c)

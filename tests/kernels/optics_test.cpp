@@ -201,7 +201,7 @@ TEST(Optics, O3PrismDeviatesTheLeastOnTheSymmetricPath) {
         exits.reserve(within.size());
         for (const glm::dvec3& v : within) exits.push_back({ior, v, askew(-second)});
         const std::vector<glm::dvec3> out = Boundaries().refracted(exits);
-        double least = 10;
+        double minimum = 10;
         for (size_t i = 0; i < out.size(); ++i) {
             const double inside = std::asin(std::sin(incidences[i]) / ior);
             const double emergence = std::asin(ior * std::sin(kApex - inside));
@@ -209,11 +209,11 @@ TEST(Optics, O3PrismDeviatesTheLeastOnTheSymmetricPath) {
             EXPECT_NEAR(deviation, incidences[i] + emergence - kApex,
                         4e-7 * ior / std::cos(emergence))
                 << "index " << ior << ", incidence " << incidences[i] / kDegree;
-            least = std::min(least, deviation);
+            minimum = std::min(minimum, deviation);
         }
         // Fraunhofer: n = sin((A + D) / 2) / sin(A / 2)
-        EXPECT_NEAR(least, 2 * symmetric - kApex, 1e-6) << ior;
-        EXPECT_NEAR(std::sin((kApex + least) / 2) / std::sin(kApex / 2), ior, 1e-6);
+        EXPECT_NEAR(minimum, 2 * symmetric - kApex, 1e-6) << ior;
+        EXPECT_NEAR(std::sin((kApex + minimum) / 2) / std::sin(kApex / 2), ior, 1e-6);
     }
 }
 

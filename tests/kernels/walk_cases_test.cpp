@@ -28,13 +28,13 @@ using Cells = std::vector<std::array<int, 3>>;
 
 /// The cells of a ray as rays of a scene have them: snapped, and clipped to the grid.
 Cells device_cells(const vec3& origin, const vec3& direction, const ivec3& size,
-                   uint32_t most = 1000) {
+                   uint32_t maximum = 1000) {
     const FixedGrid grid = fixed_grid(size);
     const FloatRay ray{origin, direction};
     const auto snapped = walks().snap(grid, {&ray, 1});
     Cells cells;
     if (!snapped[0]) return cells;
-    for (const EnteredCell& c : walks().cells(grid, *snapped[0], Steps::cells, most))
+    for (const EnteredCell& c : walks().cells(grid, *snapped[0], Steps::cells, maximum))
         cells.push_back({c.cell.x, c.cell.y, c.cell.z});
     return cells;
 }

@@ -95,10 +95,11 @@ TEST_F(ClearMedium, IsNotMadeAndChangesNothing) {
                 EXPECT_TRUE(fog.bytes.contains(buffer));
                 EXPECT_FALSE(clear.bytes.contains(buffer)) << density;
             }
-            MeshStore meshes;
+            AssetStore meshes;
             const ScenePlan plan = plan_scene(scene, meshes);
             EXPECT_EQ(plan.medium.bytes, 0) << density;
-            EXPECT_EQ(plan.rays.most(), plan_scene(without_fog(material), meshes).rays.most());
+            EXPECT_EQ(plan.rays.maximum(),
+                      plan_scene(without_fog(material), meshes).rays.maximum());
         }
     }
 }
@@ -109,7 +110,7 @@ TEST_F(ClearMedium, IsTheSameVolumeAsNone) {
         const Volume none = render_volume(shared_device(), without_fog(material), report);
         const Volume clear = render_volume(shared_device(), foggy(kBeside, material), report);
         ASSERT_FALSE(none.colors.empty());
-        EXPECT_EQ(clear.places, none.places);
+        EXPECT_EQ(clear.indices, none.indices);
         EXPECT_EQ(clear.colors, none.colors);
         EXPECT_EQ(clear.opacities, none.opacities);
     }
@@ -125,12 +126,12 @@ TEST_F(ClearMedium, IsOneValueOrMoreAboveZeroNotClear) {
 }
 
 TEST_F(ClearMedium, MayComeIntoAWorldThatIsKept) {
-    WorldFormer former(shared_device(), true);
+    WorldBuilder builder(shared_device(), true);
     Renderer renderer(shared_device());
     for (const char* density : {kBeside, kAmid, kBeside}) {
         const Scene scene = foggy(density);
         RenderReport report;
-        const FormedWorld world = former.form(scene, report.world);
+        const BuiltWorld world = builder.build(scene, report.world);
         EXPECT_EQ(features_of(scene, world.pyramid).medium, density == kAmid);
         EXPECT_EQ(renderer.image(scene, world, report)->planes, show(scene).image.planes);
     }

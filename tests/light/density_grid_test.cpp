@@ -135,7 +135,7 @@ TEST_F(DensityGridTest, RaysLoseWhatAGridsVoxelsTake) {
     const DensityReader read(form_density_grid(test_device(), world));
     const std::vector<MediumRay> rays = medium_rays(world.voxels, 2000, 11);
     MediumBatch batch(world, rays);
-    const std::vector<float> passed = batch.sight(1);
+    const std::vector<float> transmittance = batch.sight(1);
     int changed = 0;
     for (size_t i = 0; i < rays.size(); ++i) {
         const double tau = depth_of(world, rays[i],
@@ -143,7 +143,7 @@ TEST_F(DensityGridTest, RaysLoseWhatAGridsVoxelsTake) {
                                         return double(read.at(voxel));
                                     }) /
                            32;
-        const float green = passed[batch.batch.stride + i];
+        const float green = transmittance[batch.batch.stride + i];
         changed += green < 1;
         ASSERT_NEAR(green, std::exp(-tau), std::exp(-tau) * std::max(1e-6, 2.5e-7 * tau)) << i;
     }
@@ -260,7 +260,7 @@ TEST_F(DensityGridTest, ADeviceWithoutRoomForItIsRefusedBeforeItIsTaken) {
         parse_scene(fmt::format(kSceneWithMedium, R"(, "medium": {"absorption": [1, 1, 1],
                     "density": {"kind": "ball", "center": [0, 0, 0], "radius": 1, "falloff": 1}})"),
                     "s.json", {});
-    MeshStore meshes;
+    AssetStore meshes;
     const ScenePlan plan = plan_scene(scene, meshes);
     DeviceInfo device;
     device.name = "Small One";

@@ -44,17 +44,17 @@ constexpr const char* kDistant =
     R"({"type": "directional", "direction": [-1, -2, 0.5], "intensity": 1})";
 
 /// The light that the observer's rays bring, 3 components.
-std::vector<float> light_of(const Scene& scene, const FormedWorld& formed, bool with_beams) {
+std::vector<float> light_of(const Scene& scene, const BuiltWorld& built, bool with_beams) {
     const Device device = test_device();
-    const Pyramid& world = formed.pyramid;
+    const Pyramid& world = built.pyramid;
     const Features features = features_of(scene, world);
-    const Sight observer = sight_of(scene, world.frame);
+    const Camera observer = camera_of(scene, world.frame);
     const uint32_t tiles = tile_count(observer.width, observer.height);
     RayBatch batch = allocate_batch(device, features, tiles * 16);
     Illumination illumination(device, features, scene, world, batch.stride);
     if (with_beams) {
         std::vector<LightBeams> sent;
-        illumination.send_beams(build_halo(device, world), 1u << 20, sent);
+        illumination.send_beams(build_dilated_occupancy(device, world), 1u << 20, sent);
         EXPECT_GT(illumination.light_beams(), 1000u);
     }
     SightStage(device, features, observer).cast(shape_of(world), 0, tiles, batch);
@@ -75,14 +75,14 @@ TEST_P(LightBeamSurfaces, AreLitAsWithoutBeams) {
     const auto [surface, reflection] = GetParam();
     const Scene scene = balls(surface, reflection, kDistant);
     WorldReport report;
-    const FormedWorld world = WorldFormer(test_device(), false, MeshStore()).form(scene, report);
+    const BuiltWorld world = WorldBuilder(test_device(), false, AssetStore()).build(scene, report);
     EXPECT_EQ(light_of(scene, world, true), light_of(scene, world, false));
 }
 
 /// What didn't change isn't sent again: a light that stays keeps its beams while another moves.
 TEST(LightBeams, AreKeptForLightsThatStay) {
     const Device device = test_device();
-    WorldFormer former(device, true, MeshStore());
+    WorldBuilder builder(device, true, AssetStore());
     Renderer renderer(device);
     std::vector<uint64_t> sent;
     for (const double x : {0.0, 0.1, 0.1, 0.2}) {
@@ -91,7 +91,7 @@ TEST(LightBeams, AreKeptForLightsThatStay) {
             fmt::format(R"({{"type": "point", "position": [{}, 12, 0], "intensity": 9}})", x));
         if (sent.size() == 2) scene.observer.position.x += 0.01;
         RenderReport report;
-        const FormedWorld world = former.form(scene, report.world);
+        const BuiltWorld world = builder.build(scene, report.world);
         renderer.image(scene, world, report);
         sent.push_back(report.light_beams);
     }

@@ -18,8 +18,9 @@ namespace voxelume {
 namespace {
 
 constexpr uint32_t kSeed = 20261123;
-constexpr uint32_t kRays = 16 * 301;        // odd: the last packet has none to take turns with
-constexpr glm::ivec3 kSize{230, 137, 301};  // a halo of bricks ends beyond it on all axes
+constexpr uint32_t kRays = 16 * 301;  // odd: the last packet has none to take turns with
+constexpr glm::ivec3 kSize{230, 137,
+                           301};  // a dilated occupancy of bricks ends beyond it on all axes
 
 class Random {
   public:
@@ -90,7 +91,7 @@ class ShadowedCubes {
         std::vector<uint32_t> targets(kRays);
         std::iota(targets.begin(), targets.end(), 0u);
         queue_.targets.write(std::span<const uint32_t>(targets));
-        queue_.shares.fill(1.0f);
+        queue_.contributions.fill(1.0f);
     }
 
     const Pyramid& pyramid() const { return pyramid_; }
@@ -136,8 +137,9 @@ class ShadowedCubes {
         return batch_.radiance.read(0, kRays);
     }
 
-    LightBeams send(const BeamGrid& grid, HaloOf of) {
-        LightBeamStage stage(device_, features_, pyramid_, build_halo(device_, pyramid_, of));
+    LightBeams send(const BeamGrid& grid, DilationLevel of) {
+        LightBeamStage stage(device_, features_, pyramid_,
+                             build_dilated_occupancy(device_, pyramid_, of));
         LightBeams beams{grid, stage.send(grid)};
         const std::vector<float> ends = beams.ends.read();
         const auto unsent = std::ranges::count(ends, -INFINITY);
@@ -164,12 +166,12 @@ INSTANTIATE_TEST_SUITE_P(Lanes, LightBeamLanes, testing::Values(1, 4, 8, 16));
 TEST_P(LightBeamLanes, LeaveEveryShadowAsItIs) {
     const Device device = test_device(GetParam());
     int shadowed = 0, lit = 0, shortened = 0;
-    for (const auto& [voxels, of] : {std::pair(3, HaloOf::leaves),
-                                     {400, HaloOf::leaves},
-                                     {4000, HaloOf::leaves},
-                                     {3, HaloOf::bricks},
-                                     {60, HaloOf::bricks},
-                                     {150, HaloOf::bricks}}) {
+    for (const auto& [voxels, of] : {std::pair(3, DilationLevel::leaves),
+                                     {400, DilationLevel::leaves},
+                                     {4000, DilationLevel::leaves},
+                                     {3, DilationLevel::bricks},
+                                     {60, DilationLevel::bricks},
+                                     {150, DilationLevel::bricks}}) {
         ShadowedCubes world(device, voxels);
         for (const Light& light : lights_outside()) {
             const BeamGrid grid = beam_grid(light_record(light, world.pyramid().frame), kSize,
@@ -200,7 +202,7 @@ TEST(LightBeams, OfSquaresTooWideLetLightThroughVoxels) {
         BeamGrid grid =
             beam_grid(light_record(light, world.pyramid().frame), kSize, 1.0f, 1u << 20);
         grid.edge *= 4;
-        const LightBeams beams = world.send(grid, HaloOf::leaves);
+        const LightBeams beams = world.send(grid, DilationLevel::leaves);
         world.aim(light);
         const std::vector<float> expected = world.reached(), found = world.reached(beams);
         for (uint32_t i = 0; i < kRays; ++i) wrong += expected[i] != found[i];
@@ -212,7 +214,8 @@ TEST(LightBeams, EndOneLeafBeforeVoxels) {
     const Device device = test_device();
     const Pyramid pyramid =
         build_index(device, bare_bricks(frame_of(kSize), {{130, 70, 200}}).upload(device));
-    LightBeamStage stage(device, features_of(pyramid), pyramid, build_halo(device, pyramid));
+    LightBeamStage stage(device, features_of(pyramid), pyramid,
+                         build_dilated_occupancy(device, pyramid));
     for (const double side : {-1.0, 1.0}) {
         const BeamGrid grid = beam_grid(light_record(distant_light({0, 0, side}), pyramid.frame),
                                         kSize, 1.0f, 1u << 20);
@@ -237,7 +240,7 @@ TEST(LightBeams, AreSentToAllVoxels) {
     for (const Light& light : lights_outside()) {
         const LightRecord record = light_record(light, world.pyramid().frame);
         const BeamGrid grid = beam_grid(record, kSize, 1.0f, 1u << 20);
-        const std::vector<float> ends = world.send(grid, HaloOf::leaves).ends.read();
+        const std::vector<float> ends = world.send(grid, DilationLevel::leaves).ends.read();
         const glm::dvec3 at(record.position.x, record.position.y, record.position.z);
         const int b = grid.axis == 0 ? 1 : 0, c = grid.axis == 2 ? 1 : 2;
         for (const glm::ivec3& voxel : world.voxels()) {
@@ -256,8 +259,8 @@ TEST(LightBeams, AreSentToAllVoxels) {
 
 TEST(LightBeams, AreNotSentFromLightsInTheWorldOrTooNear) {
     const GridFrame frame = frame_of(kSize);
-    const auto grid_of = [&](const Light& light, uint32_t most) {
-        return beam_grid(light_record(light, frame), kSize, 1.0f, most);
+    const auto grid_of = [&](const Light& light, uint32_t maximum) {
+        return beam_grid(light_record(light, frame), kSize, 1.0f, maximum);
     };
     constexpr uint32_t kMany = 1u << 30;
     EXPECT_EQ(grid_of(point_light({100, 100, 100}), kMany).columns, 0) << "inside";

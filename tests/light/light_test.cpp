@@ -33,14 +33,14 @@ class Lit {
         batch.hits = Buffer<uint32_t>(device_, "hits", std::span<const uint32_t>(hits));
         batch.positions = Buffer<float>(device_, "positions", std::span<const float>(positions));
         batch.normals = Buffer<float>(device_, "normals", std::span<const float>(normals));
-        batch.words = Buffer<uint32_t>(device_, "words", kRays);
-        batch.words.fill(0);
+        batch.hit_attributes = Buffer<uint32_t>(device_, "hit attributes", kRays);
+        batch.hit_attributes.fill(0);
         batch.radiance = Buffer<float>(device_, "radiance", 3 * kRays);
         batch.radiance.fill(0);
         queue.count = Buffer<uint32_t>(device_, "queue", 1);
         queue.rays = Buffer<float>(device_, "queue", 7 * kRays);
         queue.targets = Buffer<uint32_t>(device_, "queue", kRays);
-        queue.shares = Buffer<float>(device_, "queue", 3 * kRays);
+        queue.contributions = Buffer<float>(device_, "queue", 3 * kRays);
         material.color = {0.5f, 0.25f, 1};
         material.diffuse = 0.5f;
     }
@@ -76,7 +76,7 @@ class Lit {
 Light point_light(const glm::dvec3& position) {
     Light light;
     light.position = position;
-    light.energy = {2, 4, 8};
+    light.intensity = {2, 4, 8};
     return light;
 }
 
@@ -87,7 +87,8 @@ TEST(Light, QueuesARayToTheLightForEveryPointThatFacesIt) {
     std::vector<uint32_t> targets = lit.queue.targets.read(0, 3);
     std::ranges::sort(targets);
     EXPECT_EQ(targets, (std::vector<uint32_t>{3, 17, 40}));
-    const std::vector<float> rays = lit.queue.rays.read(), shares = lit.queue.shares.read();
+    const std::vector<float> rays = lit.queue.rays.read(),
+                             contributions = lit.queue.contributions.read();
     // (0, 3, 4) m is (0, 12, 4) voxels; scaled by 1/16, so that the largest lies in [1/2, 1).
     EXPECT_EQ(rays[VXL_RAY_OX * kRays], 10.0f);
     EXPECT_EQ(rays[VXL_RAY_OY * kRays], 8.0f);
@@ -97,9 +98,9 @@ TEST(Light, QueuesARayToTheLightForEveryPointThatFacesIt) {
     EXPECT_EQ(rays[VXL_RAY_DZ * kRays], 0.25f);
     EXPECT_EQ(rays[VXL_RAY_END * kRays], 16.0f);
     const double factor = 0.6 * 0.5 / 25;  // cosine, diffuse, 1/d²
-    EXPECT_NEAR(shares[0], 2 * 0.5 * factor, 1e-8);
-    EXPECT_NEAR(shares[kRays], 4 * 0.25 * factor, 1e-8);
-    EXPECT_NEAR(shares[2 * kRays], 8 * 1 * factor, 1e-8);
+    EXPECT_NEAR(contributions[0], 2 * 0.5 * factor, 1e-8);
+    EXPECT_NEAR(contributions[kRays], 4 * 0.25 * factor, 1e-8);
+    EXPECT_NEAR(contributions[2 * kRays], 8 * 1 * factor, 1e-8);
     for (const float value : lit.batch.radiance.read()) EXPECT_EQ(value, 0.0f);
 }
 
@@ -121,10 +122,10 @@ TEST(Light, ADirectionalLightHasNoDistance) {
     Light sun;
     sun.kind = LightKind::directional;
     sun.direction = {0, -1, 0};
-    sun.energy = {1, 1, 1};
+    sun.intensity = {1, 1, 1};
     ASSERT_EQ(lit.add(sun), 3u);
     EXPECT_TRUE(std::isinf(lit.queue.rays.read_one(VXL_RAY_END * kRays)));
-    EXPECT_NEAR(lit.queue.shares.read_one(0), 0.25, 1e-7);
+    EXPECT_NEAR(lit.queue.contributions.read_one(0), 0.25, 1e-7);
 }
 
 TEST(Light, ASpotShinesInsideItsConeAndSmoothlyUpToItsEdge) {
@@ -133,10 +134,10 @@ TEST(Light, ASpotShinesInsideItsConeAndSmoothlyUpToItsEdge) {
     spot.kind = LightKind::spot;
     spot.inner_half_angle = 0.4;
     spot.outer_half_angle = 0.6;
-    spot.energy = {1, 1, 1};
+    spot.intensity = {1, 1, 1};
     const auto aimed = [&](double angle) {
         spot.direction = {std::sin(angle), -std::cos(angle), 0};
-        return lit.add(spot) == 0 ? 0.0f : lit.queue.shares.read_one(0);
+        return lit.add(spot) == 0 ? 0.0f : lit.queue.contributions.read_one(0);
     };
     const float full = 0.25f / 4;
     EXPECT_NEAR(aimed(0.3), full, 1e-7);
@@ -150,10 +151,10 @@ TEST(Light, AHardSpotIsAllOrNothing) {
     Light spot = point_light({5, 4, 5});
     spot.kind = LightKind::spot;
     spot.inner_half_angle = spot.outer_half_angle = 0.5;
-    spot.energy = {1, 1, 1};
+    spot.intensity = {1, 1, 1};
     spot.direction = {std::sin(0.45), -std::cos(0.45), 0};
     ASSERT_EQ(lit.add(spot), 3u);
-    EXPECT_NEAR(lit.queue.shares.read_one(0), 0.25 / 4, 1e-7);
+    EXPECT_NEAR(lit.queue.contributions.read_one(0), 0.25 / 4, 1e-7);
     spot.direction = {std::sin(0.55), -std::cos(0.55), 0};
     EXPECT_EQ(lit.add(spot), 0u);
 }
@@ -179,14 +180,14 @@ TEST(Light, ThatTurnsFromTheWorldMayNotLightIt) {
     spot.outer_half_angle = 3;
     EXPECT_TRUE(may({0, 1, 0.4}));
 
-    LightRecord patch = light_record(point_light({5, 30, 5}), world);
-    patch.kind = VXL_LIGHT_PATCH;
-    patch.direction = {0, -1, 0, 0};
-    EXPECT_TRUE(may_light(patch, world));
-    patch.direction = {0, 1, 0, 0};
-    EXPECT_FALSE(may_light(patch, world));
-    patch.direction = {1, 0, 0, 0};
-    EXPECT_TRUE(may_light(patch, world)) << "half of the world is before it";
+    LightRecord area_sample = light_record(point_light({5, 30, 5}), world);
+    area_sample.kind = VXL_LIGHT_AREA_SAMPLE;
+    area_sample.direction = {0, -1, 0, 0};
+    EXPECT_TRUE(may_light(area_sample, world));
+    area_sample.direction = {0, 1, 0, 0};
+    EXPECT_FALSE(may_light(area_sample, world));
+    area_sample.direction = {1, 0, 0, 0};
+    EXPECT_TRUE(may_light(area_sample, world)) << "half of the world is before it";
     EXPECT_TRUE(may_light(light_record(point_light({5, 30, 5}), world), world));
 }
 

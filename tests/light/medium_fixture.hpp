@@ -77,12 +77,12 @@ using DensityAt = std::function<double(const glm::dvec3& center, const glm::ivec
 inline double depth_of(const World& world, const MediumRay& ray, const DensityAt& density) {
     const double t_last = double(ray.t_hit >= 0 ? ray.t_hit : ray.t_end);
     double sum = 0;
-    for (const oracle::PassedCell& passed :
-         oracle::cells_passed(ray.o, ray.d, world.voxels, fraction_bits(world.voxels))) {
-        if (passed.t_in >= t_last) break;
+    for (const oracle::CrossedCell& crossed :
+         oracle::cells_crossed(ray.o, ray.d, world.voxels, fraction_bits(world.voxels))) {
+        if (crossed.t_in >= t_last) break;
         const glm::dvec3 center =
-            world.bounds.min + world.voxel_size * (glm::dvec3(passed.cell) + 0.5);
-        sum += density(center, passed.cell) * (std::min(passed.t_out, t_last) - passed.t_in);
+            world.bounds.min + world.voxel_size * (glm::dvec3(crossed.cell) + 0.5);
+        sum += density(center, crossed.cell) * (std::min(crossed.t_out, t_last) - crossed.t_in);
     }
     return sum * glm::length(ray.d * world.voxel_size);
 }
@@ -117,13 +117,13 @@ class MediumBatch {
         batch.radiance = Buffer<float>(device, "radiance", 3 * stride);
         const MaterialRecord none{};
         materials = Buffer<MaterialRecord>(device, "materials", std::span(&none, 1));
-        space.absorption = {world.medium.absorption.x, world.medium.absorption.y,
-                            world.medium.absorption.z, 0};
-        space.color = {world.medium.color.x, world.medium.color.y, world.medium.color.z, 0};
+        environment.absorption = {world.medium.absorption.x, world.medium.absorption.y,
+                                  world.medium.absorption.z, 0};
+        environment.color = {world.medium.color.x, world.medium.color.y, world.medium.color.z, 0};
         world_ = world;
     }
 
-    MediumStage stage() const { return {device, features, world_, space, materials}; }
+    MediumStage stage() const { return {device, features, world_, environment, materials}; }
 
     /// The rays' radiance after the medium, three planes `batch.stride` apart, when `behind` comes
     /// from their ends.
@@ -138,7 +138,7 @@ class MediumBatch {
     Features features;
     Pyramid pyramid;
     RayBatch batch;
-    Space space{};
+    Environment environment{};
     Buffer<MaterialRecord> materials;
 
   private:

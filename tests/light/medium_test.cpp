@@ -28,13 +28,13 @@ double ball_density(const BallDensity& ball, const glm::dvec3& p) {
 void expect_beers_law(const World& world, const DensityAt& density, unsigned seed) {
     const std::vector<MediumRay> rays = medium_rays(world.voxels, full_or(300, 3000), seed);
     MediumBatch batch(world, rays);
-    const std::vector<float> passed = batch.sight(1);
+    const std::vector<float> transmittance = batch.sight(1);
     for (size_t i = 0; i < rays.size(); ++i) {
         const double depth = depth_of(world, rays[i], density);
         for (int c = 0; c < 3; ++c) {
             const double tau = double(world.medium.absorption[c]) * depth;
             const double expected = tau > 87 ? 0 : std::exp(-tau);
-            ASSERT_NEAR(passed[c * batch.batch.stride + i], expected,
+            ASSERT_NEAR(transmittance[c * batch.batch.stride + i], expected,
                         expected * std::max(1e-6, 2.5e-7 * tau))
                 << "seed " << seed << ", ray " << i << ", channel " << c << ", tau " << tau;
         }
@@ -189,11 +189,11 @@ TEST(Medium, ShadowRaysLoseLightToItsDensity) {
         std::vector<uint32_t> targets(stride);
         for (uint32_t i = 0; i < stride; ++i) targets[i] = batch.count - 1 - i;
         queue.targets = Buffer<uint32_t>(batch.device, "queue", std::span<const uint32_t>(targets));
-        queue.shares = Buffer<float>(batch.device, "queue", 3 * stride);
-        queue.shares.fill(0.5f);
+        queue.contributions = Buffer<float>(batch.device, "queue", 3 * stride);
+        queue.contributions.fill(0.5f);
         batch.batch.radiance.fill(0.125f);
         batch.stage().shadows(batch.pyramid, queue, batch.count, batch.batch);
-        const std::vector<float> shares = queue.shares.read();
+        const std::vector<float> contributions = queue.contributions.read();
         const std::vector<float> radiance = batch.batch.radiance.read();
         for (uint32_t i = 0; i < batch.count; ++i) {
             const double depth = depth_of(
@@ -204,7 +204,7 @@ TEST(Medium, ShadowRaysLoseLightToItsDensity) {
                     0.5 * std::exp(-double(world.medium.absorption[int(c)]) * depth);
                 const size_t target = c * stride + targets[i];
                 if (shadows) {
-                    ASSERT_NEAR(shares[c * stride + i], expected, 4e-6 * expected) << i;
+                    ASSERT_NEAR(contributions[c * stride + i], expected, 4e-6 * expected) << i;
                 }
                 ASSERT_NEAR(radiance[target], shadows ? 0.125 : 0.125 + expected, 2e-6) << i;
             }
@@ -233,9 +233,9 @@ TEST(Medium, OnPathsASegmentGoesThroughTheObjectItIsInside) {
     inside[1] = 3;  // material 2
     batch.batch.inside =
         Buffer<uint32_t>(batch.device, "inside", std::span<const uint32_t>(inside));
-    batch.batch.passed = Buffer<float>(batch.device, "passed", 3 * stride);
+    batch.batch.transmittance = Buffer<float>(batch.device, "transmittance", 3 * stride);
     const std::vector<float> seen = batch.sight(0.5f);
-    const std::vector<float> passed = batch.batch.passed.read();
+    const std::vector<float> transmittance = batch.batch.transmittance.read();
 
     const DensityAt density = [](const glm::dvec3& p, const glm::ivec3&) {
         return height_density(1.3, 2.1, p.y);
@@ -243,14 +243,14 @@ TEST(Medium, OnPathsASegmentGoesThroughTheObjectItIsInside) {
     MediumRay before = ray;
     before.t_hit = 12.3f;
     const double depth = depth_of(world, ray, density) - depth_of(world, before, density);
-    const double in_space = std::exp(-depth / 32);
-    EXPECT_NEAR(passed[stride], in_space, 1e-6 * in_space);
-    EXPECT_NEAR(seen[stride], in_space * 0.5 + 1 - in_space, 1e-6);
+    const double in_environment = std::exp(-depth / 32);
+    EXPECT_NEAR(transmittance[stride], in_environment, 1e-6 * in_environment);
+    EXPECT_NEAR(seen[stride], in_environment * 0.5 + 1 - in_environment, 1e-6);
     const double metres = (40 - double(12.3f)) * glm::length(ray.d * world.voxel_size);
     const double in_glass = std::exp(-metres / 8);
-    EXPECT_NEAR(passed[stride + 1], in_glass, 1e-6 * in_glass);
+    EXPECT_NEAR(transmittance[stride + 1], in_glass, 1e-6 * in_glass);
     EXPECT_NEAR(seen[stride + 1], in_glass * 0.5, 1e-6);
-    EXPECT_EQ(passed[1], 1.0f) << "the material absorbs green alone";
+    EXPECT_EQ(transmittance[1], 1.0f) << "the material absorbs green alone";
     EXPECT_EQ(seen[1], 0.5f);
 }
 

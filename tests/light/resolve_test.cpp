@@ -28,9 +28,10 @@ struct Batch {
         batch.hits = Buffer<uint32_t>(device_, "hits", std::span<const uint32_t>(hits));
         batch.positions = Buffer<float>(device_, "positions", std::span<const float>(positions));
         batch.normals = Buffer<float>(device_, "normals", std::span<const float>(normals));
-        batch.words = Buffer<uint32_t>(device_, "words", std::span<const uint32_t>(words));
+        batch.hit_attributes =
+            Buffer<uint32_t>(device_, "hit attributes", std::span<const uint32_t>(hit_attributes));
         batch.radiance = Buffer<float>(device_, "radiance", std::span<const float>(radiance));
-        ResolveStage stage(device_, {}, sight_of(scene, pyramid.frame));
+        ResolveStage stage(device_, {}, camera_of(scene, pyramid.frame));
         stage.pixels(pyramid, batch, 0, 1);
         const Image image = stage.image();
         not_finite = stage.not_finite();
@@ -39,7 +40,7 @@ struct Batch {
 
     Scene scene;
     Pyramid pyramid;
-    std::vector<uint32_t> hits, words = std::vector<uint32_t>(32, 0);
+    std::vector<uint32_t> hits, hit_attributes = std::vector<uint32_t>(32, 0);
     std::vector<float> positions = std::vector<float>(96, 0), normals = positions,
                        radiance = positions;
     uint32_t not_finite = 0;
@@ -56,7 +57,7 @@ TEST(Resolve, APixelIsTheMeanOfItsSamplesAndTheGeometryOfItsFirstHit) {
     batch.radiance[second] = 0.75f;          // red of sample 1, which hits
     batch.radiance[2 * 32 + second] = 3.0f;  // blue
     batch.hits[VXL_HIT_VOXEL * 32 + second] = 9;
-    batch.words[second] = 41;
+    batch.hit_attributes[second] = 41;
     for (uint32_t a = 0; a < 3; ++a) {
         batch.positions[a * 32 + second] = float(2 + a);  // voxels
         batch.normals[a * 32 + second] = float(a) - 0.5f;

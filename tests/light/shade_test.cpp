@@ -50,10 +50,10 @@ class Shaded {
         batch.hits = Buffer<uint32_t>(device_, "hits", std::span<const uint32_t>(hits));
         batch.positions = Buffer<float>(device_, "positions", 48);
         batch.normals = Buffer<float>(device_, "normals", 48);
-        batch.words = Buffer<uint32_t>(device_, "words", 16);
+        batch.hit_attributes = Buffer<uint32_t>(device_, "hit attributes", 16);
         batch.radiance = Buffer<float>(device_, "radiance", 48);
         ShadeStage(device_, features, scene, pyramid.frame).surface(pyramid, batch, 16);
-        word = batch.words.read_one(0);
+        word = batch.hit_attributes.read_one(0);
         for (uint32_t a = 0; a < 3; ++a) {
             position[int(a)] = batch.positions.read_one(a * 16);
             normal[int(a)] = batch.normals.read_one(a * 16);

@@ -41,7 +41,7 @@ class Shadows : public FileTest, public testing::WithParamInterface<Surface> {
             model.voxel_size = glm::dvec3(kEdge);
             model.surface = GetParam();
             model.set = VoxelSet::solid;
-            model.reach = s.world.bounds;
+            model.extent = s.world.bounds;
             s.models.push_back(model);
             s.objects.emplace_back();
             s.objects.back().model = int(s.objects.size() - 1);
@@ -63,7 +63,7 @@ class Shadows : public FileTest, public testing::WithParamInterface<Surface> {
     /// Pixels that face the light by a cosine above 1e-3 and are darker with shadows than without,
     /// of those that `may_be_shadowed` says are free.
     template <class Free>
-    void expect_no_acne(double elevation, const Free& is_free, size_t least) const {
+    void expect_no_acne(double elevation, const Free& is_free, size_t minimum) const {
         Scene s = scene(elevation);
         RenderReport report;
         s.render.shadows = false;
@@ -86,7 +86,7 @@ class Shadows : public FileTest, public testing::WithParamInterface<Surface> {
                 ADD_FAILURE() << "pixel " << i << " of object " << part << " at " << p.x << ' '
                               << p.y << ' ' << p.z << " with cosine " << cosine;
         }
-        EXPECT_GT(lit, least);
+        EXPECT_GT(lit, minimum);
         EXPECT_EQ(acne, 0u) << "of " << lit;
     }
 };

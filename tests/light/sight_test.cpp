@@ -77,7 +77,7 @@ TEST_P(SightRays, LeaveTheNearSurfaceWhereTheShapeSays) {
     const Scene s = scene(GetParam());
     const Pyramid pyramid = world();
     const PyramidShape shape = shape_of(pyramid);
-    SightStage stage(device, {}, sight_of(s, pyramid.frame));
+    SightStage stage(device, {}, camera_of(s, pyramid.frame));
     const uint32_t tiles = tile_count(kWidth, kHeight);
     RayBatch batch;
     batch.stride = tiles * 16;
@@ -118,7 +118,7 @@ INSTANTIATE_TEST_SUITE_P(Shapes, SightRays,
                          testing::Values(DisplayShape::pyramid, DisplayShape::sector,
                                          DisplayShape::ball, DisplayShape::box));
 
-TEST(Sight, OneSampleIsThePixelsCentreAndMoreFillItEvenly) {
+TEST(Camera, OneSampleIsThePixelsCentreAndMoreFillItEvenly) {
     EXPECT_EQ(sample_offsets(1), (std::vector<float>{0.5f, 0.5f}));
     const std::vector<float> offsets = sample_offsets(64);
     int cells[4][4] = {};
@@ -128,23 +128,23 @@ TEST(Sight, OneSampleIsThePixelsCentreAndMoreFillItEvenly) {
         for (const int count : row) EXPECT_NEAR(count, 4, 2);
 }
 
-TEST(Sight, TheOriginKeepsWhatFloatsRoundOff) {
+TEST(Camera, TheOriginKeepsWhatFloatsRoundOff) {
     Scene s = scene(DisplayShape::ball);  // rays begin at the observer
     s.observer.position = {1.0 / 3, -1.0 / 7, 1.0 / 11};
     const GridFrame frame = world().frame;
-    const Sight sight = sight_of(s, frame);
+    const Camera camera = camera_of(s, frame);
     const glm::dvec3 exact = (s.observer.position - frame.origin) / frame.voxel_edge;
-    EXPECT_NEAR(double(sight.origin.x) + double(sight.origin_low.x), exact.x, 1e-12);
-    EXPECT_NEAR(double(sight.origin.y) + double(sight.origin_low.y), exact.y, 1e-12);
-    EXPECT_NEAR(double(sight.origin.z) + double(sight.origin_low.z), exact.z, 1e-12);
+    EXPECT_NEAR(double(camera.origin.x) + double(camera.origin_low.x), exact.x, 1e-12);
+    EXPECT_NEAR(double(camera.origin.y) + double(camera.origin_low.y), exact.y, 1e-12);
+    EXPECT_NEAR(double(camera.origin.z) + double(camera.origin_low.z), exact.z, 1e-12);
 }
 
-TEST(Sight, ARayPastTheWorldIsIdle) {
+TEST(Camera, ARayPastTheWorldIsIdle) {
     Scene s = scene(DisplayShape::pyramid);
     s.observer.position = {50, 50, 50};  // looking away
     const Pyramid pyramid = world();
     const Device device = test_device();
-    SightStage stage(device, {}, sight_of(s, pyramid.frame));
+    SightStage stage(device, {}, camera_of(s, pyramid.frame));
     RayBatch batch;
     batch.stride = 16;
     batch.rays = Buffer<float>(device, "rays", 16 * VXL_RAY_COMPONENTS);

@@ -25,10 +25,10 @@ TEST_F(FramePlans, OfFramesTheLargestCountsAndTheFirstThatDoesNotFitIsNamed) {
     device.name = "Small One";
     device.memory = device.max_allocation = 8'000'000'000;
     const std::vector<int> frames = {1, 2, 3, 4, 5};
-    MeshStore meshes;
-    const FramePlan most = plan_frames(scene, frames, meshes, device);
-    EXPECT_EQ(most.frame, 3);
-    EXPECT_EQ(most.plan.peak_bytes(), plan_of(scene_at(scene, 3)).peak_bytes());
+    AssetStore meshes;
+    const FramePlan maximum = plan_frames(scene, frames, meshes, device);
+    EXPECT_EQ(maximum.frame, 3);
+    EXPECT_EQ(maximum.plan.peak_bytes(), plan_of(scene_at(scene, 3)).peak_bytes());
     EXPECT_NO_THROW(check_frames(scene, frames, meshes, device));
     // The first takes 0.9 MB, the second 4.0, the third 9.4.
     device.memory = 3'000'000;
@@ -40,10 +40,10 @@ TEST_F(FramePlans, OfFramesTheLargestCountsAndTheFirstThatDoesNotFitIsNamed) {
 }
 
 /// The frame of 1 to 3 that takes most, where there is room for any.
-FramePlan most_of_three(const Scene& scene) {
+FramePlan largest_of_three(const Scene& scene) {
     DeviceInfo device;
     device.memory = device.max_allocation = 8'000'000'000;
-    MeshStore meshes;
+    AssetStore meshes;
     return plan_frames(scene, std::vector<int>{1, 2, 3}, meshes, device);
 }
 
@@ -54,9 +54,9 @@ TEST_F(FramePlans, ALampThatIsSwitchedOnTakesItsShadowRays) {
      "keys": [{"frame": 1, "value": 0}, {"frame": 3, "value": 9}]}]},
     "lights": [{"name": "lamp", "type": "point", "position": [0.5, 2, 0.5], "intensity": 1}],)");
     scene.render.size = {320, 240};
-    const FramePlan most = most_of_three(scene);
-    EXPECT_EQ(most.frame, 3);
-    EXPECT_GT(most.plan.image_bytes, plan_of(scene_at(scene, 1)).image_bytes);
+    const FramePlan maximum = largest_of_three(scene);
+    EXPECT_EQ(maximum.frame, 3);
+    EXPECT_GT(maximum.plan.image_bytes, plan_of(scene_at(scene, 1)).image_bytes);
 }
 
 TEST_F(FramePlans, AnObserverWhoMovesAndALampThatDimsChangeNothing) {
@@ -72,11 +72,11 @@ TEST_F(FramePlans, AnObserverWhoMovesAndALampThatDimsChangeNothing) {
     for (Material& material : scene.materials) material.opacity = 0.5;  // the last view is inside
     std::vector<int> frames(40);
     std::iota(frames.begin(), frames.end(), 1);
-    MeshStore meshes;
-    const FramePlan most = plan_frames(scene, frames, meshes, device);
-    EXPECT_EQ(most.plans, 2);  // without light, and with it
+    AssetStore meshes;
+    const FramePlan maximum = plan_frames(scene, frames, meshes, device);
+    EXPECT_EQ(maximum.plans, 2);  // without light, and with it
     for (const int frame : {2, 20, 40})
-        EXPECT_EQ(most.plan.peak_bytes(), plan_of(scene_at(scene, frame)).peak_bytes()) << frame;
+        EXPECT_EQ(maximum.plan.peak_bytes(), plan_of(scene_at(scene, frame)).peak_bytes()) << frame;
 }
 
 TEST_F(FramePlans, WithoutColorAnObserverWhoComesInsideOfAnObjectCounts) {
@@ -87,9 +87,9 @@ TEST_F(FramePlans, WithoutColorAnObserverWhoComesInsideOfAnObjectCounts) {
     scene.render.size = {320, 240};
     scene.render.channels.color = false;
     for (Material& material : scene.materials) material.opacity = 0.5;
-    const FramePlan most = most_of_three(scene);
-    EXPECT_EQ(most.frame, 3);
-    EXPECT_GT(most.plan.image_bytes, plan_of(scene_at(scene, 1)).image_bytes);
+    const FramePlan maximum = largest_of_three(scene);
+    EXPECT_EQ(maximum.frame, 3);
+    EXPECT_GT(maximum.plan.image_bytes, plan_of(scene_at(scene, 1)).image_bytes);
 }
 
 TEST_F(FramePlans, AGroupThatAMeshDoesNotHaveIsNamedBeforeAnyFrameIsRendered) {
@@ -111,7 +111,7 @@ TEST_F(FramePlans, AGroupThatAMeshDoesNotHaveIsNamedBeforeAnyFrameIsRendered) {
         const auto scene = [&](const char* group) {
             return parse_scene(fmt::format(kText, placement, group), folder / "scene.json", {});
         };
-        MeshStore meshes;
+        AssetStore meshes;
         EXPECT_NO_THROW(check_frames(scene("far"), frames, meshes, device));
         const Scene wrong = scene("fare");
         for (const Error& error : {error_of([&] { check_frames(wrong, frames, meshes, device); }),

@@ -65,9 +65,9 @@ Still run(const Scene& scene, const Device& device, bool overlap) {
 /// Bytes at the height of a frame's world and image, of which the world `follows` others or not.
 uint64_t peak_of(const Scene& scene, bool follows) {
     const Device device = device_of(2000);
-    WorldFormer former(device, follows);
+    WorldBuilder builder(device, follows);
     RenderReport report;
-    const FormedWorld world = former.form(scene, report.world);
+    const BuiltWorld world = builder.build(scene, report.world);
     Renderer(device, false).new_image(scene, world, report);
     return device.counters().peak_bytes;
 }
@@ -76,7 +76,7 @@ TEST(KeptMemory, AStillFrameOfWhatTakesLessThanItMayRunsNoKernel) {
     const Scene scene = lens(0.6, 64);
     const uint64_t megabytes = 2 * (peak_of(scene, true) >> 20) + 2;
     const Device device = device_of(megabytes);
-    MeshStore meshes;
+    AssetStore meshes;
     EXPECT_GT(plan_scene(scene, meshes).peak_bytes(), double(device.info().memory));
     for (const bool overlap : {false, true}) {
         device.counters().launches.clear();

@@ -26,10 +26,10 @@ TEST_F(PlanCheck, ABufferBeyondOnePieceIsNamedWithItsOwnerAndTheWayOut) {
     DeviceInfo device;
     device.name = "Small One";
     device.memory = 8'000'000'000;
-    const auto refusal = [&](const std::string& model, double most) {
+    const auto refusal = [&](const std::string& model, double maximum) {
         const Scene scene = scene_of(model, 1.0 / 400);
         const ScenePlan plan = plan_of(scene);
-        device.max_allocation = uint64_t(most * 1e6);
+        device.max_allocation = uint64_t(maximum * 1e6);
         const Error error = error_of([&] { check_memory(scene, plan, device); });
         EXPECT_EQ(error.kind(), ErrorKind::limit);
         return std::string(error.what());

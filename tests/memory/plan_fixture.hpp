@@ -22,7 +22,7 @@ class PlanTest : public FileTest {
         return parse_scene(text, folder / "scene.json", {});
     }
     ScenePlan plan_of(const Scene& scene) {
-        MeshStore meshes;
+        AssetStore meshes;
         return plan_scene(scene, meshes);
     }
 };

@@ -22,14 +22,14 @@ TEST_F(PlanTest, EstimatesAreWithinAHalfOfWhatFormingTheWorldTakes) {
         const ScenePlan plan = plan_of(scene);
         const Device device = test_device();
         WorldReport report;
-        const Pyramid world = form_world(device, scene, report);
+        const Pyramid world = build_world(device, scene, report);
         const double voxels = world.voxel_count;
         EXPECT_GT(plan.voxels, voxels / 1.5) << model;
         EXPECT_LT(plan.voxels, voxels * 1.5) << model;
-        const double formed = std::max({plan.voxelize_bytes, plan.place_bytes, plan.index_bytes});
+        const double built = std::max({plan.voxelize_bytes, plan.place_bytes, plan.index_bytes});
         const auto peak = double(device.counters().peak_bytes);
-        EXPECT_GT(formed, peak / 1.5) << model;
-        EXPECT_LT(formed, peak * 1.5) << model;
+        EXPECT_GT(built, peak / 1.5) << model;
+        EXPECT_LT(built, peak * 1.5) << model;
         BufferPlan planned = plan.largest;
         for (const GridPlan& grid : plan.grids) keep_larger(planned, grid.largest);
         uint64_t largest = 0;
@@ -55,13 +55,13 @@ TEST_F(PlanTest, ObjectsInEachOthersBricksPlanNoLargerBuffersThanAreMade) {
         const ScenePlan plan = plan_of(scene);
         const Device device = test_device();
         WorldReport report;
-        form_world(device, scene, report);
+        build_world(device, scene, report);
         uint64_t largest = 0;
         for (const auto& [name, bytes] : device.counters().allocated_bytes)
             if (name.starts_with("world")) largest = std::max(largest, bytes);
         EXPECT_GT(plan.largest.bytes, 0) << surface;
         EXPECT_LE(plan.largest.bytes, double(largest)) << surface << ": " << plan.largest.name;
-        EXPECT_LT(plan.least_bytes, plan.peak_bytes() / 2) << surface;
+        EXPECT_LT(plan.min_bytes, plan.peak_bytes() / 2) << surface;
         DeviceInfo info = device.info();
         info.max_allocation = largest;
         info.memory = device.counters().peak_bytes * 3 / 2;
@@ -79,7 +79,7 @@ TEST_F(PlanTest, ObjectsApartAreAllRefusedWithTheirMemory) {
             glm::translate(glm::dmat4(1), step) * ball.world_from_object;
     }
     const ScenePlan plan = plan_of(scene);
-    EXPECT_DOUBLE_EQ(plan.least_bytes, plan.peak_bytes());
+    EXPECT_DOUBLE_EQ(plan.min_bytes, plan.peak_bytes());
 }
 
 TEST_F(PlanTest, WhatMayLeaveLittleOrLieAslantIsNotRefusedForItsBox) {
@@ -97,7 +97,7 @@ TEST_F(PlanTest, WhatMayLeaveLittleOrLieAslantIsNotRefusedForItsBox) {
         const ScenePlan plan = plan_of(scene);
         const Device device = test_device();
         WorldReport report;
-        form_world(device, scene, report);
+        build_world(device, scene, report);
         DeviceInfo info = device.info();
         info.memory = info.max_allocation = device.counters().peak_bytes + 100'000;
         EXPECT_NO_THROW(check_memory(scene, plan, info)) << model;
@@ -116,7 +116,7 @@ TEST_F(PlanTest, ASolidWhosePartsLieInEachOtherIsRefusedForTheLargestAlone) {
         const ScenePlan plan = plan_of(scene);
         const Device device = test_device();
         WorldReport report;
-        form_world(device, scene, report);
+        build_world(device, scene, report);
         DeviceInfo info = device.info();
         info.memory = device.counters().peak_bytes * 3 / 2;
         EXPECT_GT(plan.peak_bytes(), double(info.memory)) << surface;
@@ -132,7 +132,7 @@ TEST_F(PlanTest, AMeshThatHoldsEveryTriangleTwiceIsRefusedForOneAlone) {
         const ScenePlan plan = plan_of(scene);
         const Device device = test_device();
         WorldReport report;
-        form_world(device, scene, report);
+        build_world(device, scene, report);
         DeviceInfo info = device.info();
         info.memory = device.counters().peak_bytes * 11 / 10;
         EXPECT_GT(plan.peak_bytes(), double(info.memory)) << surface;
@@ -140,7 +140,7 @@ TEST_F(PlanTest, AMeshThatHoldsEveryTriangleTwiceIsRefusedForOneAlone) {
     }
 }
 
-TEST_F(PlanTest, TheImagesBytesAreThoseOfItsChannelsRaysAndHalo) {
+TEST_F(PlanTest, TheImagesBytesAreThoseOfItsChannelsRaysAndDilatedOccupancy) {
     for (const double voxel : {1.0 / 120, 1.0 / 400}) {
         Scene scene = scene_of(R"({"shape": "sphere", "radius": 0.35})", voxel);
         scene.render.size = {320, 240};  // enough rays for beams
@@ -150,9 +150,10 @@ TEST_F(PlanTest, TheImagesBytesAreThoseOfItsChannelsRaysAndHalo) {
         RenderReport report;
         render(device, scene, report);
         const auto& bytes = device.counters().allocated_bytes;
-        const auto halo = double(bytes.at("halo sectors") + bytes.at("halo bricks"));
-        EXPECT_GT(plan.halo_bytes, halo / 1.5) << voxel;
-        EXPECT_LT(plan.halo_bytes, halo * 1.5) << voxel;
+        const auto dilated_occupancy =
+            double(bytes.at("dilated sectors") + bytes.at("dilated bricks"));
+        EXPECT_GT(plan.dilated_occupancy_bytes, dilated_occupancy / 1.5) << voxel;
+        EXPECT_LT(plan.dilated_occupancy_bytes, dilated_occupancy * 1.5) << voxel;
         EXPECT_EQ(bytes.at("image"), 8u * 320 * 240 * 4);
         EXPECT_FALSE(bytes.contains("object numbers"));
     }

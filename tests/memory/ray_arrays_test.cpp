@@ -59,7 +59,7 @@ constexpr const char* kMirror = R"({"reflection": 0.9})";
 constexpr const char* kGlass = R"({"refraction": 0.9, "reflection": 0.1, "ior": 1.5})";
 
 RayBytes planned(const Scene& scene) {
-    MeshStore meshes;
+    AssetStore meshes;
     return plan_scene(scene, meshes).rays;
 }
 
@@ -67,7 +67,7 @@ RayBytes planned(const Scene& scene) {
 double taken(const Scene& scene) {
     const Device device = test_device();
     RenderReport report;
-    const FormedWorld world = WorldFormer(device, false).form(scene, report.world);
+    const BuiltWorld world = WorldBuilder(device, false).build(scene, report.world);
     DeviceCounters& counters = device.counters();
     const uint64_t before = counters.peak_bytes = counters.bytes_in_use;
     Renderer(device, false).new_image(scene, world, report);
@@ -83,7 +83,7 @@ TEST(RayArrays, ArePlannedAsLargeAsTheyAre) {
           Room{.wall = kMirror, .surface = "exact", .placement = "instance", .depth = 3},
           Room{.wall = kGlass, .ball = kGlass, .lights = kLamp, .depth = 2}}) {
         const Scene scene = scene_of(room);
-        const double bytes = taken(scene), plan = planned(scene).most();
+        const double bytes = taken(scene), plan = planned(scene).maximum();
         SCOPED_TRACE(fmt::format("{} {} {} {}", room.wall, room.ball, room.surface, room.depth));
         EXPECT_GT(plan, 0.98 * bytes);
         EXPECT_LT(plan, 1.02 * bytes);
@@ -93,7 +93,7 @@ TEST(RayArrays, ArePlannedAsLargeAsTheyAre) {
 TEST(RayArrays, OfALargeImageAreThoseOfOneBatch) {
     for (const char* wall : {"{}", kMirror}) {
         const Scene scene = scene_of({.wall = wall, .depth = 3, .size = {600, 400}});
-        const double bytes = taken(scene), plan = planned(scene).most();
+        const double bytes = taken(scene), plan = planned(scene).maximum();
         EXPECT_GT(plan, 0.95 * bytes) << wall << ": beams come to it";
         EXPECT_LT(plan, 1.02 * bytes) << wall;
     }
@@ -103,8 +103,8 @@ TEST(RayArrays, OfDepthsThatFewRaysReachLieBetweenTheLeastAndTheMost) {
     const Scene scene = scene_of({.ball = kMirror, .depth = 12});
     const double bytes = taken(scene);
     const RayBytes plan = planned(scene);
-    EXPECT_LT(plan.least(), 1.02 * bytes);
-    EXPECT_GT(plan.most(), bytes);
+    EXPECT_LT(plan.minimum(), 1.02 * bytes);
+    EXPECT_GT(plan.maximum(), bytes);
     EXPECT_EQ(plan.depth, 12u);
 }
 
@@ -113,7 +113,7 @@ TEST(RayArrays, OfPathsThatEndForTheirWeightArePlannedUpToThere) {
     const Scene scene = scene_of({.wall = R"({"reflection": 0.2})", .depth = 64});
     const RayBytes plan = planned(scene);
     EXPECT_EQ(plan.depth, 6u);
-    EXPECT_NEAR(plan.most() / taken(scene), 1, 0.02);
+    EXPECT_NEAR(plan.maximum() / taken(scene), 1, 0.02);
 }
 
 Device device_of(uint64_t megabytes) {
@@ -129,7 +129,7 @@ TEST(RayArrays, LeaveHitsOutForWhichTheyLeaveNoRoom) {
     const Device large = test_device();
     const uint64_t expected = oracle::image_hash(render(large, scene, report));
     const Device device = device_of((large.counters().peak_bytes >> 20) + 2);
-    const FormedWorld world = WorldFormer(device).form(scene, report.world);
+    const BuiltWorld world = WorldBuilder(device).build(scene, report.world);
     Renderer renderer(device);
     EXPECT_EQ(oracle::image_hash(*renderer.image(scene, world, report)), expected);
 }
@@ -138,7 +138,7 @@ TEST(RayArrays, ThatDoNotFitAskForFewerRays) {
     DeviceInfo info;
     info.name = "Small One";
     info.memory = info.max_allocation = 20'000'000;
-    MeshStore meshes;
+    AssetStore meshes;
     Scene scene = scene_of({.wall = kMirror, .lights = kLamp, .size = {400, 300}});
     const auto refusal = [&] {
         const ScenePlan plan = plan_scene(scene, meshes);

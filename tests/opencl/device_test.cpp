@@ -15,15 +15,15 @@ namespace {
 using DriverFilesDeathTest = FileTest;
 
 /// An environment variable for the time of a test.
-class Environment {
+class EnvironmentVariable {
   public:
-    Environment(const char* name, const std::string& value) : name_(name) {
+    EnvironmentVariable(const char* name, const std::string& value) : name_(name) {
         if (const char* before = std::getenv(name)) before_ = before;
         setenv(name, value.c_str(), 1);
     }
-    ~Environment() { before_ ? setenv(name_, before_->c_str(), 1) : unsetenv(name_); }
-    Environment(const Environment&) = delete;
-    Environment& operator=(const Environment&) = delete;
+    ~EnvironmentVariable() { before_ ? setenv(name_, before_->c_str(), 1) : unsetenv(name_); }
+    EnvironmentVariable(const EnvironmentVariable&) = delete;
+    EnvironmentVariable& operator=(const EnvironmentVariable&) = delete;
 
   private:
     const char* name_;
@@ -55,7 +55,7 @@ TEST(Device, IsChosenByIndexByKindAndByPartOfItsName) {
 }
 
 TEST(Device, VoxelumeDeviceCountsOnlyWhenNothingElseIsAskedFor) {
-    const Environment environment("VOXELUME_DEVICE", "no such thing");
+    const EnvironmentVariable environment("VOXELUME_DEVICE", "no such thing");
     EXPECT_EQ(refusal("").first, 6);
     EXPECT_NE(refusal("").second.find("no such thing"), std::string::npos);
     EXPECT_NO_THROW(Device::open("auto"));
@@ -73,7 +73,7 @@ TEST(Device, ANameThatMatchesNothingIsAnsweredWithWhatThereIs) {
 TEST(Device, LanesAreTheCallersThenVoxelumeLanesThenTheDevices) {
     const int native = Device::open("").lanes();
     EXPECT_TRUE(native == 1 || native == 4 || native == 8 || native == 16) << native;
-    const Environment environment("VOXELUME_LANES", "4");
+    const EnvironmentVariable environment("VOXELUME_LANES", "4");
     EXPECT_EQ(Device::open("").lanes(), 4);
     EXPECT_EQ(Device::open("", 8).lanes(), 8);
     EXPECT_EQ(list_devices().at(0).lanes, native);
@@ -81,24 +81,24 @@ TEST(Device, LanesAreTheCallersThenVoxelumeLanesThenTheDevices) {
 
 TEST(Device, LanesWithoutKernelsAreRefused) {
     EXPECT_EQ(refusal("", 3).first, 2);
-    const Environment environment("VOXELUME_LANES", "many");
+    const EnvironmentVariable environment("VOXELUME_LANES", "many");
     EXPECT_EQ(refusal("").first, 2);
     EXPECT_NE(refusal("").second.find("many"), std::string::npos);
 }
 
 TEST(Device, TheEnvironmentKeepsItWithinSomeOfItsMemory) {
     const DeviceInfo whole = Device::open("").info();
-    const Environment buffer("VOXELUME_BUFFER_MB", "3");
+    const EnvironmentVariable buffer("VOXELUME_BUFFER_MB", "3");
     EXPECT_EQ(Device::open("").info().memory, whole.memory);
     EXPECT_EQ(Device::open("").info().max_allocation, 3u << 20);
-    const Environment memory("VOXELUME_MEMORY_MB", "2");
+    const EnvironmentVariable memory("VOXELUME_MEMORY_MB", "2");
     EXPECT_EQ(Device::open("").info().memory, 2u << 20);
     EXPECT_EQ(Device::open("").info().max_allocation, 2u << 20);
     for (const DeviceInfo& listed : list_devices()) EXPECT_EQ(listed.memory, 2u << 20);
-    const Environment more("VOXELUME_MEMORY_MB", "2000000000");
+    const EnvironmentVariable more("VOXELUME_MEMORY_MB", "2000000000");
     EXPECT_EQ(Device::open("").info().memory, whole.memory);
     for (const char* text : {"2.5", "3e9", "3000000000", "0", "-1"}) {
-        const Environment wrong("VOXELUME_MEMORY_MB", text);
+        const EnvironmentVariable wrong("VOXELUME_MEMORY_MB", text);
         EXPECT_EQ(refusal("").first, 2) << text;
         EXPECT_NE(refusal("").second.find("a whole number from 1 to 2147483647, in digits"),
                   std::string::npos);

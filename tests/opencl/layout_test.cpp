@@ -18,17 +18,17 @@
 // clang-format off
 #define PYRAMID_SHAPE_FIELDS \
     V(edge) V(inverse_edge) I(size_x) I(size_y) I(size_z) I(sectors_x) I(sectors_y) \
-    F(plane_bound) F(fixed_point) F(lift)
-#define SIGHT_FIELDS \
+    F(plane_bound) F(fixed_point) F(origin_offset)
+#define CAMERA_FIELDS \
     V(origin) V(origin_low) V(axis_x) V(axis_y) V(axis_z) F(half_x) F(half_y) F(near_plane) \
-    F(far_plane) I(width) I(height) I(samples) I(shape) F(sample_share) F(lead) FA(unused, 2)
+    F(far_plane) I(width) I(height) I(samples) I(shape) F(sample_weight) F(lead) FA(unused, 2)
 #define MATERIAL_RECORD_FIELDS \
     FA(color, 3) F(diffuse) FA(absorption, 3) F(ior) FA(emission, 3) F(specular) F(shininess) \
     F(reflection) F(refraction) F(opacity) F(fresnel) FA(checker_color, 3) \
     FA(checker_scale, 3) FA(checker_shift, 3) FA(unused, 6)
 #define LIGHT_RECORD_FIELDS \
-    V(position) V(direction) V(energy) F(inner_cosine) F(outer_cosine) I(kind) F(spread)
-#define SPACE_FIELDS V(background) V(ambient) V(absorption) V(color)
+    V(position) V(direction) V(intensity) F(inner_cosine) F(outer_cosine) I(kind) F(spread)
+#define ENVIRONMENT_FIELDS V(background) V(ambient) V(absorption) V(color)
 #define DISPLAY_STEPS_FIELDS F(step) F(inverse_step) I(count) F(absorption)
 #define DISPLAY_LATTICE_FIELDS \
     V(origin) V(axis_x) V(axis_y) V(axis_z) V(row_x) V(row_y) V(row_z) V(corner) V(edge) I(size_x) \
@@ -55,10 +55,10 @@ namespace voxelume {
 namespace {
 
 constexpr const char* kPyramidShapeText = TEXT_OF(PYRAMID_SHAPE_FIELDS);
-constexpr const char* kSightText = TEXT_OF(SIGHT_FIELDS);
+constexpr const char* kCameraText = TEXT_OF(CAMERA_FIELDS);
 constexpr const char* kMaterialRecordText = TEXT_OF(MATERIAL_RECORD_FIELDS);
 constexpr const char* kLightRecordText = TEXT_OF(LIGHT_RECORD_FIELDS);
-constexpr const char* kSpaceText = TEXT_OF(SPACE_FIELDS);
+constexpr const char* kEnvironmentText = TEXT_OF(ENVIRONMENT_FIELDS);
 constexpr const char* kDisplayStepsText = TEXT_OF(DISPLAY_STEPS_FIELDS);
 constexpr const char* kDisplayLatticeText = TEXT_OF(DISPLAY_LATTICE_FIELDS);
 constexpr const char* kSolidShapeText = TEXT_OF(SOLID_SHAPE_FIELDS);
@@ -127,10 +127,10 @@ uint32_t bits(float v) {
     }
 
 CROSSES(PyramidShape, PYRAMID_SHAPE_FIELDS, kPyramidShapeText)
-CROSSES(Sight, SIGHT_FIELDS, kSightText)
+CROSSES(Camera, CAMERA_FIELDS, kCameraText)
 CROSSES(MaterialRecord, MATERIAL_RECORD_FIELDS, kMaterialRecordText)
 CROSSES(LightRecord, LIGHT_RECORD_FIELDS, kLightRecordText)
-CROSSES(Space, SPACE_FIELDS, kSpaceText)
+CROSSES(Environment, ENVIRONMENT_FIELDS, kEnvironmentText)
 CROSSES(DisplaySteps, DISPLAY_STEPS_FIELDS, kDisplayStepsText)
 CROSSES(DisplayLattice, DISPLAY_LATTICE_FIELDS, kDisplayLatticeText)
 CROSSES(SolidShape, SOLID_SHAPE_FIELDS, kSolidShapeText)

@@ -79,9 +79,9 @@ FirstHit first_hit(const glm::dvec3& o, const glm::dvec3& d, const glm::ivec3& s
     return result;
 }
 
-std::vector<PassedCell> cells_passed(const glm::dvec3& o, const glm::dvec3& d,
-                                     const glm::ivec3& size, int fraction_bits) {
-    std::vector<PassedCell> cells;
+std::vector<CrossedCell> cells_crossed(const glm::dvec3& o, const glm::dvec3& d,
+                                       const glm::ivec3& size, int fraction_bits) {
+    std::vector<CrossedCell> cells;
     walk(o, d, size, fraction_bits, [&](const glm::ivec3& cell, int, double t_in, double t_out) {
         cells.push_back({cell, t_in, t_out});
         return true;

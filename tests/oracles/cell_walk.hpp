@@ -30,13 +30,13 @@ FirstHit first_hit(const glm::dvec3& o, const glm::dvec3& d, const glm::ivec3& s
                    int fraction_bits, const VoxelSet& voxels);
 
 /// A cell that a ray passes, and when it is in it.
-struct PassedCell {
+struct CrossedCell {
     glm::ivec3 cell{0};
     double t_in = 0, t_out = 0;  ///< relative error 2^-52
 };
 
 /// All cells of a grid that the ray passes, in order; the ray and its rules are those of first_hit.
-std::vector<PassedCell> cells_passed(const glm::dvec3& o, const glm::dvec3& d,
-                                     const glm::ivec3& size, int fraction_bits);
+std::vector<CrossedCell> cells_crossed(const glm::dvec3& o, const glm::dvec3& d,
+                                       const glm::ivec3& size, int fraction_bits);
 
 }  // namespace oracle

@@ -77,22 +77,23 @@ std::vector<glm::dvec3> SimpleSolid::surface_points(double spacing) const {
 }
 
 double SimpleScene::distance(const glm::dvec3& p) const {
-    double least = kInfinity;
-    for (const SimpleSolid& solid : solids) least = std::min(least, std::abs(solid.distance(p)));
-    return least;
+    double minimum = kInfinity;
+    for (const SimpleSolid& solid : solids)
+        minimum = std::min(minimum, std::abs(solid.distance(p)));
+    return minimum;
 }
 
 std::optional<double> SimpleScene::first_hit(const glm::dvec3& origin, const glm::dvec3& direction,
                                              double first) const {
-    double least = kInfinity;
+    double minimum = kInfinity;
     for (const SimpleSolid& solid : solids) {
         const auto s = solid.span(origin, direction);
         if (!s) continue;
         for (const double t : {s->enter, s->leave})
-            if (t >= first) least = std::min(least, t);
+            if (t >= first) minimum = std::min(minimum, t);
     }
-    if (std::isinf(least)) return std::nullopt;
-    return least;
+    if (std::isinf(minimum)) return std::nullopt;
+    return minimum;
 }
 
 bool SimpleScene::is_seen(const glm::dvec3& from, const glm::dvec3& p, double clear) const {

@@ -63,7 +63,7 @@ Rational3 rationals(double x, double y, double z) {
 }
 
 std::vector<RationalCell> rational_walk(const Rational3& o, const Rational3& d,
-                                        const glm::ivec3& size, size_t most) {
+                                        const glm::ivec3& size, size_t maximum) {
     std::vector<RationalCell> cells;
     mpq_class entry = 0;
     if (!find_entry(o, d, size, entry)) return cells;
@@ -79,7 +79,7 @@ std::vector<RationalCell> rational_walk(const Rational3& o, const Rational3& d,
     }
     int axis = 3;
     bool was_inside = false;
-    while (cells.size() < most) {
+    while (cells.size() < maximum) {
         if (is_inside(cell, size)) {
             cells.push_back({{int(cell[0]), int(cell[1]), int(cell[2])}, axis});
             was_inside = true;

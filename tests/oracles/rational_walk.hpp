@@ -21,12 +21,12 @@ struct RationalCell {
 /// The numbers themselves, of which every float and double is a rational one.
 Rational3 rationals(double x, double y, double z);
 
-/// The cells of [0, size) that the ray o + d t, t >= 0, passes, at most `most`.
+/// The cells of [0, size) that the ray o + d t, t >= 0, passes, at most `maximum`.
 ///
 /// A ray that begins outside comes in where it meets the grid. A point on a plane belongs to the
 /// cell being entered, along an axis on which the ray doesn't move to the upper one; crossings at
 /// one t are taken lowest axis first.
 std::vector<RationalCell> rational_walk(const Rational3& o, const Rational3& d,
-                                        const glm::ivec3& size, size_t most = 1 << 20);
+                                        const glm::ivec3& size, size_t maximum = 1 << 20);
 
 }  // namespace oracle

@@ -74,7 +74,7 @@ TEST_F(Accuracy, EverySurfaceKeepsItsOwnInAWorldOfThreeKinds) {
     scene.world.bounds.min -= edge * glm::dvec3(32, 24, 40);
     scene.world.voxels += glm::ivec3(64, 48, 80);
     scene.world.bounds.max = scene.world.bounds.min + glm::dvec3(scene.world.voxels) * edge;
-    scene.models.front().reach = scene.world.bounds;
+    scene.models.front().extent = scene.world.bounds;
     for (const Surface surface : {Surface::smooth, Surface::cubes}) {
         scene.models.push_back(scene.models.front());
         scene.models.back().surface = surface;

@@ -31,7 +31,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, AnimationFrames,
 
 /// All that a volume shows.
 struct ShownVolume {
-    std::vector<uint64_t> places;
+    std::vector<uint64_t> indices;
     std::vector<glm::vec3> colors;
     std::vector<float> opacities, depths;
     std::vector<uint32_t> objects;
@@ -39,7 +39,7 @@ struct ShownVolume {
 };
 
 ShownVolume shown(Volume volume) {
-    return {std::move(volume.places), std::move(volume.colors), std::move(volume.opacities),
+    return {std::move(volume.indices), std::move(volume.colors), std::move(volume.opacities),
             std::move(volume.depths), std::move(volume.objects)};
 }
 

@@ -26,7 +26,7 @@ TEST_P(Corridor, O7FiftyReflectionsEndWhereTheUnfoldedRayDoes) {
     constexpr double kWidth = 0.1;
     const auto& [surface, bound] = GetParam();
     size_t shown = 0, ended = 0;
-    int most = 0;
+    int maximum = 0;
     double worst = 0, worst_excess = 0;
     for (const SensedRay& ray : sense(corridor(surface, 50))) {
         const glm::dvec3 unfolded =
@@ -40,7 +40,7 @@ TEST_P(Corridor, O7FiftyReflectionsEndWhereTheUnfoldedRayDoes) {
             continue;
         }
         ++shown;
-        most = std::max(most, reflections);
+        maximum = std::max(maximum, reflections);
         const double y = unfolded.y - storey * kWidth;
         const WallPoint end{{unfolded.x, reflections % 2 ? -y : y, kWall}, 2};
         const Reading reading = read_color(ray.color / std::pow(0.96875, reflections), end);
@@ -48,8 +48,8 @@ TEST_P(Corridor, O7FiftyReflectionsEndWhereTheUnfoldedRayDoes) {
         worst_excess = std::max(worst_excess, std::abs(reading.excess - 1));
     }
     fmt::print("{}: {} rays with up to {} reflections, off by {:.2g} m at most, light by {:.2g}\n",
-               surface, shown, most, worst, worst_excess);
-    EXPECT_EQ(most, 50);
+               surface, shown, maximum, worst, worst_excess);
+    EXPECT_EQ(maximum, 50);
     EXPECT_GT(shown, 100u);
     EXPECT_GT(ended, 20u);
     EXPECT_LE(worst, bound);

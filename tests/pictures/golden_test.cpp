@@ -155,7 +155,7 @@ TEST(Golden, VoxelsOfAPlacedMesh) {
 /// Digests stand for every cell, axis and t of a walk in their order; exact ones give the same
 /// hash.
 TEST(Golden, OrderedCellLists) {
-    constexpr uint32_t kMost = 3000;
+    constexpr uint32_t kMax = 3000;
     DeviceWalks walks(shared_device());
     for (const RayClassName& named : kRayClasses) {
         oracle::Fnv device, exact;
@@ -165,11 +165,11 @@ TEST(Golden, OrderedCellLists) {
             for (uint64_t i = 0; i < 501; ++i)
                 rays.push_back(ray_of_class(named.kind, grid, 20261122, i));
             for (const Steps steps : {Steps::cells, Steps::blocks}) {
-                walks.start(grid, rays, steps, kMost);
+                walks.start(grid, rays, steps, kMax);
                 device.add(walks.digests());
                 std::vector<WalkDigest> digests;
                 for (const FixedRay& ray : rays)
-                    digests.push_back(exact_digest(grid, ray, steps, kMost));
+                    digests.push_back(exact_digest(grid, ray, steps, kMax));
                 exact.add(digests);
             }
         }
@@ -200,10 +200,10 @@ TEST(Golden, Volumes) {
         const Volume volume = render_volume(
             shared_device(), parsed(display_scene(keys, cases[i].surface, cases[i].world, kLamp)),
             report);
-        EXPECT_GT(volume.places.size(), 100u);
+        EXPECT_GT(volume.indices.size(), 100u);
         oracle::Fnv hash;
         hash.add(&volume.frame.size, sizeof volume.frame.size);
-        hash.add(volume.places);
+        hash.add(volume.indices);
         hash.add(volume.colors);
         hash.add(volume.opacities);
         hash.add(volume.depths);

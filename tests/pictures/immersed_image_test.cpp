@@ -5,7 +5,7 @@
 namespace voxelume {
 namespace {
 
-TEST(ImmersedImage, WaterThatRaysBeginInAbsorbsFromTheirStartOn) {
+TEST(ObserverInMediumImage, WaterThatRaysBeginInAbsorbsFromTheirStartOn) {
     Scene scene = parse_scene(kPoolScene, "test.json", {});
     resize(scene, {172, 133});
     expect_analytic_image(scene, 1e-5, 1e-3);

@@ -43,7 +43,7 @@ constexpr const char* kInTheMiddle =
 constexpr const char* kInFront =
     R"({"position": [0.5, 0.3, 1.1], "look_at": [0.1, 0.05, -0.2], "display": {"shape": "pyramid", "angle": 60, "near": 0.5}})";
 
-class ImmersedMesh : public FileTest {
+class ObserverInMediumMesh : public FileTest {
   protected:
     /// A closed mesh of the block.
     void SetUp() override {
@@ -56,13 +56,13 @@ class ImmersedMesh : public FileTest {
     }
 };
 
-TEST_F(ImmersedMesh, AbsorbsFromTheObserverOnWhateverIsMetFirst) {
+TEST_F(ObserverInMediumMesh, AbsorbsFromTheObserverOnWhateverIsMetFirst) {
     for (const char* observer : {kInTheMiddle, kInFront})
         expect_image(scene(R"({"mesh": "block.obj", "surface": "exact"})", observer),
                      oracle::analytic_image(scene(kBlock, observer)), 1e-5, 1e-3);
 }
 
-TEST_F(ImmersedMesh, ASmoothBodyAbsorbsFromTheObserverOnWhateverIsMetFirst) {
+TEST_F(ObserverInMediumMesh, ASmoothBodyAbsorbsFromTheObserverOnWhateverIsMetFirst) {
     const std::string ball = R"({"shape": "sphere", "radius": 0.7, "surface": )";
     expect_image(scene(ball + R"("smooth"})", kInTheMiddle),
                  oracle::analytic_image(scene(ball + R"("exact"})", kInTheMiddle)), 1e-3, 2e-2);

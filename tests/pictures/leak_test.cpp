@@ -12,11 +12,11 @@ namespace {
 class Leaks : public testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(Surfaces, Leaks, testing::Values("exact", "smooth"));
 
-Image rendered(const Scene& scene, uint64_t least_secondary_rays) {
+Image rendered(const Scene& scene, uint64_t min_secondary_rays) {
     RenderReport report;
     Image image = render(test_device(), scene, report);
     EXPECT_EQ(report.not_finite, 0u);
-    EXPECT_GE(report.secondary_rays, least_secondary_rays);
+    EXPECT_GE(report.secondary_rays, min_secondary_rays);
     fmt::print("{} secondary rays\n", report.secondary_rays);
     return image;
 }

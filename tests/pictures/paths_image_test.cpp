@@ -44,9 +44,9 @@ TEST(PathsImage, NoRecursionAndOneStepOfIt) {
     }
 }
 
-TEST(PathsImage, LeastWeightEndsTheSamePaths) {
+TEST(PathsImage, MinWeightEndsTheSamePaths) {
     Scene scene = without_absorption(scene_of(kVeiledScene));
-    scene.render.least_weight = 0.1;
+    scene.render.min_weight = 0.1;
     expect_analytic_image(scene, 1e-5, 1e-3);
 }
 

@@ -139,16 +139,16 @@ TEST(Paths, AreCompactedWithoutChangingABit) {
     const Device device = test_device();
     const Scene scene = leaky_room("smooth", 4);
     WorldReport report;
-    const Pyramid world = form_world(device, scene, report);
+    const Pyramid world = build_world(device, scene, report);
     const Features features = features_of(scene, world);
-    const Sight sight = sight_of(scene, world.frame);
-    const uint32_t tiles = 64, places = tiles * 16;
+    const Camera camera = camera_of(scene, world.frame);
+    const uint32_t tiles = 64, indices = tiles * 16;
     std::vector<float> light[2];
     for (const bool compact : {false, true}) {
-        RayBatch batch = allocate_batch(device, features, places);
-        Illumination illumination(device, features, scene, world, places, compact);
-        SightStage(device, features, sight).cast(shape_of(world), 1000, tiles, batch);
-        illumination.light(batch, places);
+        RayBatch batch = allocate_batch(device, features, indices);
+        Illumination illumination(device, features, scene, world, indices, compact);
+        SightStage(device, features, camera).cast(shape_of(world), 1000, tiles, batch);
+        illumination.light(batch, indices);
         light[compact] = batch.radiance.read();
     }
     EXPECT_EQ(light[0], light[1]);
@@ -158,15 +158,15 @@ TEST(Paths, MoreRaysThanPlacesAreFollowedInParts) {
     const Device device = test_device();
     const Scene scene = leaky_room("exact", 6);
     WorldReport report;
-    const Pyramid world = form_world(device, scene, report);
+    const Pyramid world = build_world(device, scene, report);
     const Features features = features_of(scene, world);
-    const Sight sight = sight_of(scene, world.frame);
+    const Camera camera = camera_of(scene, world.frame);
     std::vector<float> light[2];
     for (const uint32_t tiles : {4u, 64u}) {
         std::vector<float>& all = light[tiles == 64];
         RayBatch batch = allocate_batch(device, features, tiles * 16);
         Illumination illumination(device, features, scene, world, tiles * 16);
-        SightStage stage(device, features, sight);
+        SightStage stage(device, features, camera);
         for (uint32_t first = 0; first < 64; first += tiles) {
             stage.cast(shape_of(world), 1100 + first, tiles, batch);
             illumination.light(batch, tiles * 16);
@@ -182,8 +182,9 @@ TEST(Paths, AreNotThereInAnOpaqueScene) {
     const Rendered plain = rendered(scene_with(kGhost, ""));  // nothing shows the material
     for (const char* kernel : {"begin_paths", "pass_layer", "scatter_rays", "gather_light"})
         EXPECT_THAT(plain.counters.launches, Not(Contains(Key(std::string(kernel))))) << kernel;
-    for (const char* buffer : {"paths", "path starts", "path media", "sides", "passed", "coverage",
-                               "ranks", "node light", "path children", "path shares"})
+    for (const char* buffer :
+         {"paths", "path starts", "path media", "sides", "transmittance", "coverage", "ranks",
+          "node light", "path children", "path child weights"})
         EXPECT_THAT(plain.counters.allocated_bytes, Not(Contains(Key(std::string(buffer)))))
             << buffer;
     const Features f = features_of(scene_with(kGhost, ""), {});

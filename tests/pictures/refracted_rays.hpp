@@ -17,13 +17,13 @@ class RefractedRays {
   public:
     RefractedRays(const Scene& scene, uint32_t count)
         : count_(count),
-          world_(form_world(device_, scene, report_)),
+          world_(build_world(device_, scene, report_)),
           features_(features_of(scene, world_)),
           trace_(device_, features_),
           shade_(device_, features_, scene, world_.frame),
           scatter_(device_, features_, {shade_.materials(), shade_.ranks()}, 0, false) {
         rays_ = allocate_batch(device_, features_, count);
-        SightStage(device_, features_, sight_of(scene, world_.frame))
+        SightStage(device_, features_, camera_of(scene, world_.frame))
             .cast(shape_of(world_), 0, count / 16, rays_);
         scatter_.begin(world_, rays_, count);
         find_points();
@@ -33,9 +33,9 @@ class RefractedRays {
     void refract() {
         Children children;
         children.nodes = Buffer<uint32_t>(device_, "children", 2 * rays_.stride);
-        children.shares = Buffer<float>(device_, "shares", 2 * rays_.stride);
-        children.gains = Buffer<float>(device_, "gains", 3 * rays_.stride);
-        children.gains.fill(1);
+        children.child_weights = Buffer<float>(device_, "child weights", 2 * rays_.stride);
+        children.node_weights = Buffer<float>(device_, "node weights", 3 * rays_.stride);
+        children.node_weights.fill(1);
         RayBatch queue = allocate_batch(device_, features_, 2 * count_);
         scatter_.rays(world_, rays_, first_, first_ + count_, children, queue);
         rays_ = std::move(queue);

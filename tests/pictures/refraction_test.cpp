@@ -103,12 +103,12 @@ WallPoint behind_ball(const SensedRay& ray, double b) {
     return wall_behind(exit, std::cos(turned) * ray.direction - std::sin(turned) * across);
 }
 
-/// Rays between `least` and `most` radii beside the axis.
-Misses ball_misses(const std::vector<SensedRay>& rays, double least, double most) {
+/// Rays between `minimum` and `maximum` radii beside the axis.
+Misses ball_misses(const std::vector<SensedRay>& rays, double minimum, double maximum) {
     Misses misses;
     for (const SensedRay& ray : rays) {
         const double b = glm::length(glm::cross(ray.origin - kCenter, ray.direction)) / kRadius;
-        if (b >= least && b < most) misses.add(ray, behind_ball(ray, b));
+        if (b >= minimum && b < maximum) misses.add(ray, behind_ball(ray, b));
     }
     return misses;
 }

@@ -136,8 +136,9 @@ TEST(Render, AbsorbsLightOnTheWayToTheSurfaceAndToTheObserver) {
     const char* planes[3] = {"R", "G", "B"};
     for (int c = 0; c < 3; ++c) {
         const double lit = double(clear.at(planes[c], 8, 6)) - ambient[c];
-        const double passed = std::exp(-absorption[c] * 0.9);
-        const double expected = (ambient[c] + lit * passed) * passed + fog[c] * (1 - passed);
+        const double transmittance = std::exp(-absorption[c] * 0.9);
+        const double expected =
+            (ambient[c] + lit * transmittance) * transmittance + fog[c] * (1 - transmittance);
         EXPECT_NEAR(foggy.at(planes[c], 8, 6), expected, 3e-6) << planes[c];
         // A ray that meets nothing goes 2 m through the medium.
         const double behind = std::exp(-absorption[c] * 2);
@@ -270,9 +271,10 @@ TEST(Render, ASceneOfPlainCubesHasNothingElseInIt) {
     const Rendered r = rendered(scene);
     const Device device = test_device();
     WorldReport report;
-    const Features features = features_of(scene, form_world(device, scene, report));
+    const Features features = features_of(scene, build_world(device, scene, report));
     std::set<std::string> expected = {"VXL_CUBES"};
-    expected.insert({"VXL_RADIANCE", "VXL_POSITIONS", "VXL_NORMALS", "VXL_WORDS"});  // asked for
+    expected.insert(
+        {"VXL_RADIANCE", "VXL_POSITIONS", "VXL_NORMALS", "VXL_HIT_ATTRIBUTES"});  // asked for
     if (device.is_cpu()) expected.insert("VXL_NATIVE_DIVIDE");
     for (const auto& [name, value] : features.defines(device))
         EXPECT_EQ(value != 0, expected.contains(name)) << name;
@@ -287,11 +289,11 @@ TEST(Render, ASceneOfPlainCubesHasNothingElseInIt) {
                     "leaf voxels", "leaves", "materials", "materials of groups", "near leaves",
                     "normals", "not finite", "object numbers", "occupancy", "painted bricks",
                     "placement", "positions", "radiance", "rays", "sample offsets", "sectors",
-                    "slots", "solids", "undecided count", "undecided voxels", "words",
+                    "slots", "solids", "undecided count", "undecided voxels", "hit attributes",
                     "world coordinates", "world occupancy", "world slots"));
 }
 
-TEST(Render, ALightWithoutEnergyIsNotShaded) {
+TEST(Render, ALightWithoutIntensityIsNotShaded) {
     const Rendered r = rendered(scene_of(box_scene(
         "cubes",
         R"({"type": "point", "position": [0, 0, -2], "color": [1, 1, 1], "intensity": 0})")));

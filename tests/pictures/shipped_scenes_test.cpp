@@ -16,7 +16,7 @@
 namespace voxelume {
 namespace {
 
-constexpr double kMostVoxels = 128;  // along an axis of the world
+constexpr double kMaxVoxels = 128;  // along an axis of the world
 
 std::vector<std::string> scene_names() {
     std::vector<std::string> names;
@@ -32,7 +32,7 @@ std::vector<std::string> scene_names() {
 class ShippedScenes : public FileTest, public testing::WithParamInterface<std::string> {};
 
 TEST_P(ShippedScenes, HaveTheirGoldenBitsAndOnlyFiniteValuesInTheFile) {
-    const Scene scene = small_scene(GetParam(), {96, 72}, kMostVoxels);
+    const Scene scene = small_scene(GetParam(), {96, 72}, kMaxVoxels);
     RenderReport report;
     const Image rendered = render(test_device(), scene, report);
     EXPECT_EQ(report.not_finite, 0u);

@@ -11,12 +11,12 @@ namespace voxelume {
 
 inline const std::filesystem::path kScenes = std::filesystem::path(VXL_SOURCE_DIR) / "scenes";
 
-/// Makes the world's voxels larger until none of its axes has more than `most`, and with them the
-/// models' own.
-inline void coarsen(Scene& scene, double most) {
+/// Makes the world's voxels larger until none of its axes has more than `maximum`, and with them
+/// the models' own.
+inline void coarsen(Scene& scene, double maximum) {
     const int longest =
         std::max({scene.world.voxels.x, scene.world.voxels.y, scene.world.voxels.z});
-    const double factor = std::max(1.0, longest / most);
+    const double factor = std::max(1.0, longest / maximum);
     scene.world.voxel_size *= factor;
     scene.world.voxels = glm::ivec3(glm::ceil(glm::dvec3(scene.world.voxels) / factor));
     for (Model& model : scene.models) {

@@ -72,8 +72,8 @@ uint32_t nearest_bits(int twice) {
     const uint32_t first = best;
     for (uint32_t bits = first; bits < first + 512; ++bits) {
         const int off = std::abs(2 * second_difference(bits) - twice);
-        const int least = std::abs(2 * second_difference(best) - twice);
-        if (off < least || (off == least && bits % 2 == 0)) best = bits;
+        const int minimum = std::abs(2 * second_difference(best) - twice);
+        if (off < minimum || (off == minimum && bits % 2 == 0)) best = bits;
     }
     return best;
 }

@@ -214,11 +214,11 @@ TEST_P(MirroredGlass, WeakensLightAsAMeshDoesThatIsMirroredInItsFile) {
     const Image same = image_of(mirrored(wedge()), "exact", map * flip, kGlass);
     size_t different = 0, weakened = 0, met = 0;
     for (size_t i = 0; i < image.planes.at("R").size(); ++i) {
-        double most = 0;
+        double maximum = 0;
         for (const char* plane : {"R", "G", "B"})
-            most = std::max(most, std::abs(double(image.planes.at(plane)[i]) -
-                                           double(same.planes.at(plane)[i])));
-        different += most > 1e-4;
+            maximum = std::max(maximum, std::abs(double(image.planes.at(plane)[i]) -
+                                                 double(same.planes.at(plane)[i])));
+        different += maximum > 1e-4;
         met += image.id_planes.at("objectId")[i] != 0;
         weakened += image.planes.at("R")[i] < 0.99f;
     }

@@ -247,7 +247,7 @@ TEST(PlaceField, ASmoothWinnerTakesItsVoxelsFromCubesAndALoserLeavesThem) {
     }
 }
 
-TEST(PlaceField, OneWordForAllNeedsNoAttributes) {
+TEST(PlaceField, OneAttributeForAllNeedsNoList) {
     const Device& device = shared_device();
     const BrickGrid sphere = sphere_bricks(1.0, 0.1).upload(device);
     const std::vector<PlacedObject> objects = {

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "runtime/assets/mesh_store.hpp"
+#include "runtime/assets/asset_store.hpp"
 #include "runtime/render/renderer.hpp"
 #include "tests/oracles/image_hash.hpp"
 #include "tests/support/file_fixture.hpp"
@@ -85,10 +85,10 @@ TEST(SceneAnimation, IsTheSceneOfFrameOneWhenRead) {
 TEST(SceneAnimation, CountsTimeInSecondsFromFrameOne) {
     const Scene scene = parse(animated({json::parse(R"({"target": "lights.key.intensity",
         "keys": [{"time": 0, "value": 2}, {"time": 1.5, "value": 8}]})")}));
-    EXPECT_EQ(scene_at(scene, 1).lights[0].energy.x, 2);
-    EXPECT_EQ(scene_at(scene, 16).lights[0].energy.x, 8);
-    EXPECT_EQ(scene_at(scene, 8.5).lights[0].energy.x, 5);
-    EXPECT_EQ(scene_at(scene, 1000).lights[0].energy.x, 8);
+    EXPECT_EQ(scene_at(scene, 1).lights[0].intensity.x, 2);
+    EXPECT_EQ(scene_at(scene, 16).lights[0].intensity.x, 8);
+    EXPECT_EQ(scene_at(scene, 8.5).lights[0].intensity.x, 5);
+    EXPECT_EQ(scene_at(scene, 1000).lights[0].intensity.x, 8);
 }
 
 TEST(SceneAnimation, ShowsWhatASceneWrittenByHandShows) {
@@ -164,15 +164,15 @@ TEST(SceneAnimation, KeepsWhatWasChangedAfterReading) {
     EXPECT_EQ(now.observer.position, glm::dvec3(0, 0, -2.5));
 }
 
-TEST(SceneAnimation, FindsTheReachOfModelsAnew) {
+TEST(SceneAnimation, FindsTheExtentOfModelsAnew) {
     const Scene scene =
         parse(animated({track("objects.egg.position", {key(1, {0, 0, 0}), key(9, {8, 0, 0})}),
                         track("objects.block.model", {key(1, "block"), key(5, "egg")}),
                         track("objects.egg.visible", {key(1, true), key(9, false)})}));
-    EXPECT_EQ(scene_at(scene, 1).models[1].reach.max.x, 1);
+    EXPECT_EQ(scene_at(scene, 1).models[1].extent.max.x, 1);
     const Scene later = scene_at(scene, 9);
-    EXPECT_EQ(later.models[0].reach.min, later.models[0].reach.max);
-    EXPECT_EQ(later.models[1].reach.max.x, 1);
+    EXPECT_EQ(later.models[0].extent.min, later.models[0].extent.max);
+    EXPECT_EQ(later.models[1].extent.max.x, 1);
     EXPECT_EQ(later.objects[0].model, 1);
 }
 
@@ -235,7 +235,7 @@ TEST_F(SceneFiles, AndMorphsFollowTheirTracks) {
     EXPECT_EQ(now.mesh.filename(), "m.009.obj");
     EXPECT_EQ(now.morph->mesh.filename(), "m.008.obj");
     EXPECT_DOUBLE_EQ(now.morph->amount, 0.75);
-    MeshStore store;
+    AssetStore store;
     EXPECT_FLOAT_EQ(store.mesh_of(now)->positions[1].x, 0.25f * 9 + 0.75f * 8);
 }
 

@@ -219,9 +219,9 @@ TEST(SceneModels, AnInfiniteSolidReachesAsFarAsTheWorldFromAllItsObjects) {
         {"model": "floor", "turn": [0, 0, 90], "scale": 0.5}],)"));
     // The world is -1..1, -2..2, -3..3. The second object sees x = y/0.5, y = -x/0.5, z = z/0.5.
     EXPECT_TRUE(is_infinite(*scene.models[1].solid));
-    EXPECT_EQ(scene.models[1].reach.min, glm::dvec3(-4, -2, -6));
-    EXPECT_EQ(scene.models[1].reach.max, glm::dvec3(4, 3, 6));
-    EXPECT_EQ(scene.models[0].reach.max, scene.models[0].reach.min);  // no object shows the ball
+    EXPECT_EQ(scene.models[1].extent.min, glm::dvec3(-4, -2, -6));
+    EXPECT_EQ(scene.models[1].extent.max, glm::dvec3(4, 3, 6));
+    EXPECT_EQ(scene.models[0].extent.max, scene.models[0].extent.min);  // no object shows the ball
 }
 
 TEST(SceneModels, PartsOfASolidArePlacedInTheirParent) {
@@ -246,7 +246,7 @@ TEST(SceneModels, PartsOfASolidArePlacedInTheirParent) {
     EXPECT_TRUE(is_infinite(cut.parts[0]));
 }
 
-TEST(SceneLights, CarryTheirEnergyDirectionAndCone) {
+TEST(SceneLights, CarryTheirIntensityDirectionAndCone) {
     const Scene scene = parse(scene_with(R"("lights": [
         {"type": "spot", "position": [1, 2, 3], "look_at": [1, -3, 3], "angle": 40, "inner_angle": 30,
          "color": [1, 0.5, 0.25], "intensity": 8},
@@ -255,14 +255,14 @@ TEST(SceneLights, CarryTheirEnergyDirectionAndCone) {
     const Light& spot = scene.lights[0];
     EXPECT_EQ(spot.kind, LightKind::spot);
     EXPECT_EQ(spot.direction, glm::dvec3(0, -1, 0));
-    EXPECT_EQ(spot.energy, glm::vec3(8, 4, 2));
+    EXPECT_EQ(spot.intensity, glm::vec3(8, 4, 2));
     EXPECT_DOUBLE_EQ(spot.outer_half_angle, kPi / 9);
     EXPECT_DOUBLE_EQ(spot.inner_half_angle, kPi / 12);
     EXPECT_EQ(scene.lights[1].kind, LightKind::directional);
     EXPECT_EQ(scene.lights[1].direction, glm::dvec3(0, 0, -1));
     EXPECT_EQ(scene.lights[1].name, "sun");
     EXPECT_EQ(scene.lights[2].position, glm::dvec3(4, 5, 6));
-    EXPECT_EQ(scene.lights[2].energy, glm::vec3(1));
+    EXPECT_EQ(scene.lights[2].intensity, glm::vec3(1));
 }
 
 TEST(SceneText, ADescriptionNamesEverything) {

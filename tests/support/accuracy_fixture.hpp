@@ -81,7 +81,7 @@ inline Scene mesh_scene(const std::filesystem::path& file, const Mesh& mesh,
     model.resolution = resolution;
     model.surface = choice.surface;
     model.set = choice.set;
-    model.reach = scene.world.bounds;
+    model.extent = scene.world.bounds;
     scene.models.push_back(model);
     scene.objects.emplace_back();
     const glm::dvec3 center = (bounds.min + bounds.max) / 2.0;

@@ -17,7 +17,7 @@ struct VoxelOrder {
     }
 };
 
-/// Voxels and their attribute words.
+/// Voxels and their packed attributes.
 using VoxelMap = std::map<glm::ivec3, uint32_t, VoxelOrder>;
 
 inline GridFrame frame_of(const glm::ivec3& size) {

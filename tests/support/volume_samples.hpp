@@ -24,7 +24,7 @@ inline void fill_volume(Volume& volume, double share, uint32_t seed) {
     for (uint64_t place = 0; place < count; ++place) {
         if (unit(random) >= share) continue;
         const auto kind = static_cast<VoxelKind>(random() % 3);
-        volume.places.push_back(place);
+        volume.indices.push_back(place);
         volume.kinds.push_back(kind);
         volume.colors.emplace_back(1.5f * unit(random), unit(random), unit(random));
         const float opacity = 0.1f + 0.9f * unit(random);
@@ -78,7 +78,7 @@ inline Volume rays_volume(DisplayShape shape = DisplayShape::pyramid, double sha
 /// Voxel (x, y, z)'s value in a small volume with one voxel listed.
 inline Volume single_voxel(glm::ivec3 size, glm::ivec3 cell, glm::vec3 color, float opacity = 1) {
     Volume volume = lattice_volume(size, 0);
-    volume.places = {uint64_t(cell.x + size.x * (cell.y + size.y * cell.z))};
+    volume.indices = {uint64_t(cell.x + size.x * (cell.y + size.y * cell.z))};
     volume.colors = {color};
     volume.opacities = {opacity};
     volume.depths = {1};
@@ -105,7 +105,7 @@ inline void expect_same_frame(const VolumeFrame& a, const VolumeFrame& b) {
 /// Every bit of it.
 inline void expect_same_volume(const Volume& a, const Volume& b) {
     expect_same_frame(a.frame, b.frame);
-    EXPECT_EQ(a.places, b.places);
+    EXPECT_EQ(a.indices, b.indices);
     EXPECT_EQ(a.colors, b.colors);
     EXPECT_EQ(a.opacities, b.opacities);
     EXPECT_EQ(a.depths, b.depths);

@@ -42,11 +42,11 @@ TEST(AnalyticLight, LambertAmbientEmissionAndHighlight) {
     const glm::dvec3 value = seen_below(scene);
     const double cosine = 0.8, falloff = 1 / 25.0;
     const double highlight = std::pow((0.8 + 1) / std::hypot(0.6, 1.8), 6);
-    const double color[3] = {0.5, 0.25, 0.125}, ambient[3] = {1, 0.5, 2}, energy[3] = {8, 16, 4};
+    const double color[3] = {0.5, 0.25, 0.125}, ambient[3] = {1, 0.5, 2}, intensity[3] = {8, 16, 4};
     for (int c = 0; c < 3; ++c)
         EXPECT_NEAR(value[c],
                     c + 1 + color[c] * 0.5 * ambient[c] +
-                        (color[c] * 0.5 * cosine + 0.25 * highlight) * energy[c] * falloff,
+                        (color[c] * 0.5 * cosine + 0.25 * highlight) * intensity[c] * falloff,
                     1e-14);
 }
 
@@ -106,10 +106,10 @@ TEST(AnalyticLight, ShadowsAreOpaqueUnlessFilteredOrSeenThrough) {
     const glm::dvec3 veiled = lit(false), both = lit(true);
     for (int c = 0; c < 3; ++c) {
         // (1 - a) ((1 - a) + a color) at each of two surfaces; filtered, a * refraction more.
-        const double passed = 0.5 * (0.5 + 0.5 * double(glass.color[c]));
+        const double transmittance = 0.5 * (0.5 + 0.5 * double(glass.color[c]));
         const double absorbed = std::exp(-double(glass.absorption[c]));
-        EXPECT_NEAR(veiled[c], passed * passed * absorbed, 1e-15) << c;
-        EXPECT_NEAR(both[c], std::pow(passed + 0.25, 2) * absorbed, 1e-15) << c;
+        EXPECT_NEAR(veiled[c], transmittance * transmittance * absorbed, 1e-15) << c;
+        EXPECT_NEAR(both[c], std::pow(transmittance + 0.25, 2) * absorbed, 1e-15) << c;
     }
 }
 

@@ -17,7 +17,7 @@ inline Scene empty_scene(const glm::vec3& background = glm::vec3(0)) {
     scene.world.background = background;
     scene.materials.emplace_back();
     scene.render.depth = 8;
-    scene.render.least_weight = 0;
+    scene.render.min_weight = 0;
     return scene;
 }
 
@@ -82,10 +82,10 @@ inline Material clear_glass(float ior) {
     return m;
 }
 
-inline Light point_light(const glm::dvec3& position, const glm::vec3& energy) {
+inline Light point_light(const glm::dvec3& position, const glm::vec3& intensity) {
     Light light;
     light.position = position;
-    light.energy = energy;
+    light.intensity = intensity;
     return light;
 }
 

@@ -180,17 +180,17 @@ TEST(AnalyticTracer, TwoMirrorsGiveAGeometricSeries) {
     }
 }
 
-TEST(AnalyticTracer, PathsBelowTheLeastWeightEnd) {
+TEST(AnalyticTracer, PathsBelowTheMinWeightEnd) {
     Scene scene = empty_scene();
     scene.render.depth = 64;
-    scene.render.least_weight = 0.2;
+    scene.render.min_weight = 0.2;
     Material mirror = emitter(glm::vec3(1));
     mirror.reflection = 0.5f;
     add_box(scene, {-2, -9, -9}, {-1, 9, 9}, mirror);
     add_box(scene, {1, -9, -9}, {2, 9, 9}, mirror);
     EXPECT_EQ(seen(scene, {0, 0, 0}, {1, 0, 0}), 1.75)
         << "1/8 is the first share that isn't traced";
-    scene.render.least_weight = 0.25;
+    scene.render.min_weight = 0.25;
     EXPECT_EQ(seen(scene, {0, 0, 0}, {1, 0, 0}), 1.75) << "1/4 is not below the least weight";
 }
 
@@ -209,8 +209,8 @@ TEST(AnalyticTracer, TheMediumFillsTheWorldButNotTheGlass) {
     scene.world.medium.absorption = glm::vec3(0.125f);
     scene.world.medium.color = glm::vec3(0.5f);
     const auto through = [](double behind, double metres) {
-        const double passed = std::exp(-0.125 * metres);
-        return behind * passed + 0.5 * (1 - passed);
+        const double transmittance = std::exp(-0.125 * metres);
+        return behind * transmittance + 0.5 * (1 - transmittance);
     };
     EXPECT_NEAR(seen(scene, {0, 50, 0}, {0, -1, 0}), through(1, 20), 1e-15);
     Material ball = clear_glass(1);

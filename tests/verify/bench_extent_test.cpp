@@ -112,7 +112,7 @@ TEST_P(EveryPlacement, HasTheSolidsVolumeAndArea) {
             scene.objects[0].placement = GetParam();
             scene.models[0].set = VoxelSet::solid;
             WorldReport report;
-            const auto extent = extent_of(form_world(device, scene, report), surface, 1);
+            const auto extent = extent_of(build_world(device, scene, report), surface, 1);
             ASSERT_TRUE(extent);
             const double bound = surface == Surface::cubes    ? 1e-2
                                  : surface == Surface::smooth ? 2e-5

@@ -31,12 +31,12 @@ TEST(BenchFronts, TheyCrossWhereStraightLinesOfLogarithmsDo) {
     ASSERT_EQ(pieces.size(), 2u);
     EXPECT_NEAR(pieces[0].coarse, 1e-1, 1e-9);
     EXPECT_NEAR(pieces[0].fine, 1e-3, 1e-9);
-    EXPECT_NEAR(pieces[0].least, 0.01, 1e-9);
-    EXPECT_NEAR(pieces[0].most, 1, 1e-9);
+    EXPECT_NEAR(pieces[0].minimum, 0.01, 1e-9);
+    EXPECT_NEAR(pieces[0].maximum, 1, 1e-9);
     EXPECT_NEAR(pieces[1].coarse, 1e-3, 1e-9);
     EXPECT_NEAR(pieces[1].fine, 1e-5, 1e-12);
-    EXPECT_NEAR(pieces[1].least, 1, 1e-9);
-    EXPECT_NEAR(pieces[1].most, 100, 1e-4);
+    EXPECT_NEAR(pieces[1].minimum, 1, 1e-9);
+    EXPECT_NEAR(pieces[1].maximum, 100, 1e-4);
 }
 
 TEST(BenchFronts, OnlyErrorsThatBothReachAreCompared) {
@@ -45,11 +45,11 @@ TEST(BenchFronts, OnlyErrorsThatBothReachAreCompared) {
     ASSERT_EQ(pieces.size(), 1u);
     EXPECT_NEAR(pieces[0].coarse, 1e-3, 1e-12);
     EXPECT_NEAR(pieces[0].fine, 1e-4, 1e-12);
-    EXPECT_NEAR(pieces[0].least, 5, 1e-9);                  // 10 s over 2 s
-    EXPECT_NEAR(pieces[0].most, std::cbrt(1e4) / 4, 1e-9);  // 21.5 s over 4 s
+    EXPECT_NEAR(pieces[0].minimum, 5, 1e-9);                   // 10 s over 2 s
+    EXPECT_NEAR(pieces[0].maximum, std::cbrt(1e4) / 4, 1e-9);  // 21.5 s over 4 s
     // A coarser image takes what the front's coarsest takes.
-    EXPECT_NEAR(compare_fronts({{1e-2, 1}, {1e-4, 4}}, {{1e-3, 10}, {1e-6, 100}}, 1e-1)[0].most, 10,
-                1e-9);
+    EXPECT_NEAR(compare_fronts({{1e-2, 1}, {1e-4, 4}}, {{1e-3, 10}, {1e-6, 100}}, 1e-1)[0].maximum,
+                10, 1e-9);
     EXPECT_TRUE(compare_fronts({{1e-2, 1}}, {{1e-3, 1}}, 1e-3).empty());
 }
 
@@ -88,9 +88,12 @@ TEST(BenchFronts, AreSaidInTheTextAndOnThePage) {
 }
 
 TEST(BenchFronts, ThatTakeTheSameTimeAreNotCalledUpToOneTimesAsQuick) {
-    for (const double most : {1.004, 1 / 1.004}) {
-        const FrontComparison equal{
-            "Twin", "box", {{1e-2, 1e-3, std::min(most, 1.0), std::max(most, 1.0)}}, 1e-6, 1e-3};
+    for (const double maximum : {1.004, 1 / 1.004}) {
+        const FrontComparison equal{"Twin",
+                                    "box",
+                                    {{1e-2, 1e-3, std::min(maximum, 1.0), std::max(maximum, 1.0)}},
+                                    1e-6,
+                                    1e-3};
         EXPECT_THAT(sentence_of(equal), HasSubstr(" is as quick from 0.01 m of depth RMS"));
     }
 }

@@ -181,7 +181,7 @@ BenchRow row_of(Surface surface, int resolution, double depth, double seconds) {
     row.surface = surface;
     row.resolution = resolution;
     row.voxel_size = 1.0 / resolution;
-    row.least_radius = 0.5;
+    row.min_radius = 0.5;
     row.seconds.total = seconds;
     row.errors.compared = 1;
     row.errors.depth_rms = depth;

@@ -24,9 +24,9 @@ oracle::Rational3 in_voxels(const std::array<int64_t, 3>& values, int bits) {
 }
 
 std::vector<oracle::RationalCell> expected_cells(const FixedGrid& grid, const FixedRay& ray,
-                                                 size_t most) {
+                                                 size_t maximum) {
     return oracle::rational_walk(in_voxels(ray.origin, grid.fraction_bits),
-                                 in_voxels(ray.direction, 22), grid.size, most);
+                                 in_voxels(ray.direction, 22), grid.size, maximum);
 }
 
 /// The cells of a list that are first outside of the block left before.
@@ -63,16 +63,16 @@ TEST_P(ExactWalk, EntersTheCellsThatRationalsEnter) {
 }
 
 TEST_P(ExactWalk, LeavesBlocksWhereTheirLastCellIsLeft) {
-    constexpr size_t kMostCells = 2000;  // no walk through the first two has so many
+    constexpr size_t kMaxCells = 2000;  // no walk through the first two has so many
     for (const glm::ivec3 size :
          {glm::ivec3(33, 64, 50), glm::ivec3(600, 300, 400), glm::ivec3(65536, 40001, 65536)})
         for (uint64_t number = 0; number < 150; ++number) {
             const FixedGrid grid = fixed_grid(size);
             const FixedRay ray = ray_of_class(GetParam().kind, grid, kSeed, number);
-            const auto all = expected_cells(grid, ray, kMostCells);
+            const auto all = expected_cells(grid, ray, kMaxCells);
             const auto expected = first_of_blocks(all);
-            const size_t most = all.size() < kMostCells ? 1 << 20 : expected.size();
-            const auto cells = exact_cells(grid, ray, Steps::blocks, uint32_t(most));
+            const size_t maximum = all.size() < kMaxCells ? 1 << 20 : expected.size();
+            const auto cells = exact_cells(grid, ray, Steps::blocks, uint32_t(maximum));
             ASSERT_EQ(cells.size(), expected.size()) << size.x << " ray " << number;
             for (size_t i = 0; i < cells.size(); ++i) {
                 ASSERT_EQ(cells[i].cell, expected[i].cell) << size.x << " ray " << number;
@@ -91,7 +91,7 @@ void expect_walks_of_128_bits(RayClass kind, const glm::ivec3& size, uint64_t co
             o[a] = std::ldexp(double(ray.origin[size_t(a)]), -grid.fraction_bits);
             d[a] = std::ldexp(double(ray.direction[size_t(a)]), -22);
         }
-        const auto expected = oracle::cells_passed(o, d, grid.size, grid.fraction_bits);
+        const auto expected = oracle::cells_crossed(o, d, grid.size, grid.fraction_bits);
         const auto cells = exact_cells(grid, ray, Steps::cells, 1 << 20);
         ASSERT_EQ(cells.size(), expected.size()) << "ray " << number;
         for (size_t i = 0; i < cells.size(); ++i) {

@@ -106,7 +106,7 @@ TEST(DeviceWalks, DoNotDependOnTheHostsTreatmentOfDenormals) {
 
 /// As far as the largest world reaches, where floats are coarsest.
 TEST(DeviceWalks, AreExactToTheEndOfTheLargestWorlds) {
-    constexpr uint32_t kMost = 3 * 65536;
+    constexpr uint32_t kMax = 3 * 65536;
     constexpr uint64_t kRays = 24;
     const Device device = test_device();
     DeviceWalks walks(device);
@@ -115,10 +115,10 @@ TEST(DeviceWalks, AreExactToTheEndOfTheLargestWorlds) {
         for (const Steps steps : {Steps::cells, Steps::blocks}) {
             const FixedGrid grid = fixed_grid(size);
             const std::vector<FixedRay> rays = rays_of_all_classes(grid, kRays);
-            walks.start(grid, rays, steps, kMost);
+            walks.start(grid, rays, steps, kMax);
             const std::vector<WalkDigest> found = walks.digests();
             for (size_t i = 0; i < rays.size(); ++i) {
-                const WalkDigest expected = exact_digest(grid, rays[i], steps, kMost);
+                const WalkDigest expected = exact_digest(grid, rays[i], steps, kMax);
                 longest = std::max(longest, expected.cells);
                 EXPECT_EQ(found[i], expected) << size.z << ", ray " << i;
             }

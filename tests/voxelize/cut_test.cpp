@@ -47,8 +47,8 @@ class Cut : public FileTest {
     }
     ReadBricks bricks_of(const std::string& keys) {
         const Scene scene = cut_scene(folder, keys);
-        MeshStore meshes;
-        ObjectGrids grids(shared_device(), meshes);
+        AssetStore meshes;
+        GridCache grids(shared_device(), meshes);
         return ReadBricks(*grids.own_grid_of(scene.models[0]));
     }
 };
@@ -223,13 +223,13 @@ TEST_F(Cut, OneThatMovesIsVoxelizedAloneAndLooksAsFromScratch) {
         const Scene scene = cut_scene(folder, std::string(surface) + kBall,
                                       R"({"target": "models.cut.cut[0].position",
                 "keys": [{"frame": 1, "value": [0.5, 0.4, -0.3]}, {"frame": 4, "value": [-0.6, 0.1, 0]}]})");
-        WorldFormer former(shared_device());
+        WorldBuilder builder(shared_device());
         Renderer renderer(shared_device());
         uint64_t before = 0;
         for (int frame = 1; frame <= 5; ++frame) {
             const Scene now = scene_at(scene, frame);
             RenderReport report, alone;
-            const FormedWorld world = former.form(now, report.world);
+            const BuiltWorld world = builder.build(now, report.world);
             const uint64_t hash = oracle::image_hash(*renderer.image(now, world, report));
             EXPECT_EQ(hash, oracle::image_hash(render(shared_device(), now, alone)))
                 << surface << frame;

@@ -239,7 +239,7 @@ TEST(VoxelizeSolid, ExactVoxelsListTheSolid) {
         ASSERT_EQ(first[v + 1] - first[v], mask >> (x % 4 + y % 4 * 4 + z % 4 * 16) & 1);
     }
     EXPECT_EQ(grid.solids.size(), 2u * 32);
-    EXPECT_EQ(grid.solids.read_one(3), 2u << 30);  // the solid's own attribute word
+    EXPECT_EQ(grid.solids.read_one(3), 2u << 30);  // the solid's own packed attributes
 }
 
 TEST(VoxelizeSolid, GridsHaveTheSameBitsForAnyNumberOfLanes) {

@@ -115,7 +115,7 @@ TEST_F(Channels, WithoutColourNothingIsLit) {
         EXPECT_TRUE(all.launches.contains(kernel)) << kernel;
         EXPECT_FALSE(some.launches.contains(kernel)) << kernel;
     }
-    for (const char* buffer : {"radiance", "shadow queue", "shadow rays", "sides", "passed",
+    for (const char* buffer : {"radiance", "shadow queue", "shadow rays", "sides", "transmittance",
                                "coverage", "paths", "path media", "node light", "path counters"}) {
         EXPECT_GT(all.bytes.contains(buffer) ? all.bytes.at(buffer) : 0, 0u) << buffer;
         EXPECT_EQ(some.bytes[buffer], 0u) << buffer;
@@ -125,7 +125,7 @@ TEST_F(Channels, WithoutColourNothingIsLit) {
     EXPECT_EQ(some.report.shadow_rays + some.report.secondary_rays, 0u);
 }
 
-TEST_F(Channels, WithoutColourLampsHaveNoSpots) {
+TEST_F(Channels, WithoutColourEmissiveObjectsHaveNoLightSamples) {
     Scene scene = glass();
     scene.materials[1].emission = {3, 2, 1};
     EXPECT_TRUE(show(scene, {}).launches.contains("find_surface"));
@@ -160,7 +160,7 @@ TEST_F(Channels, WithColourAloneTheRestOfUnlitPointsIsNotKept) {
     const Picture all = show(scene, {});
     Picture some = show(scene, kColor);
     expect_same(some.image, all.image);
-    for (const char* buffer : {"positions", "normals", "words"}) {
+    for (const char* buffer : {"positions", "normals", "hit attributes"}) {
         EXPECT_TRUE(lit.bytes.contains(buffer)) << buffer;
         EXPECT_TRUE(all.bytes.contains(buffer)) << buffer;
         EXPECT_EQ(some.bytes[buffer], 0u) << buffer;
@@ -172,17 +172,18 @@ TEST_F(Channels, DecideThePlanOfRaysAndPlanes) {
         Scene scene = glass();
         scene.render.depth = 0;
         scene.render.channels = asked;
-        MeshStore meshes;
+        AssetStore meshes;
         const ScenePlan plan = plan_scene(scene, meshes);
         const Picture shown = show(scene, asked);
         double rays = 0;
         for (const char* name :
-             {"rays", "hits", "positions", "normals", "words", "radiance", "sides", "passed",
-              "coverage", "paths", "path starts", "path media", "shadow queue", "node light",
-              "node coverage", "path gains", "path children", "path shares"})
+             {"rays", "hits", "positions", "normals", "hit attributes", "radiance", "sides",
+              "transmittance", "coverage", "paths", "path starts", "path media", "shadow queue",
+              "node light", "node coverage", "path node weights", "path children",
+              "path child weights"})
             if (shown.bytes.contains(name)) rays += double(shown.bytes.at(name));
-        EXPECT_LE(plan.rays.least(), rays * 1.3) << asked.color << asked.depth;
-        EXPECT_GE(plan.rays.most(), rays * 0.99) << asked.color << asked.depth;
+        EXPECT_LE(plan.rays.minimum(), rays * 1.3) << asked.color << asked.depth;
+        EXPECT_GE(plan.rays.maximum(), rays * 0.99) << asked.color << asked.depth;
     }
 }
 

@@ -98,9 +98,9 @@ inline Kernels all_of(std::initializer_list<Kernels> parts) {
     return all;
 }
 
-// The lamp's spots are found anew with the light.
-inline const Kernels kShade = {"absorb_shadows", "absorb_sight", "add_light",
-                               "find_surface",   "list_glowing", "resolve_pixels",
+// The lamp's light samples are found anew with the light.
+inline const Kernels kShade = {"absorb_shadows", "absorb_sight",  "add_light",
+                               "find_surface",   "list_emissive", "resolve_pixels",
                                "shade_surface",  "trace_shadows"};
 inline const Kernels kTrace = all_of({kShade, {"cast_sight", "trace_closest"}});
 // The models of instances behind the world's voxels.
@@ -111,7 +111,7 @@ inline const Kernels kJoin = all_of(
 inline const Kernels kPaths = {
     "absorb_sight",   "add_light",         "append_bricks", "append_copies",
     "append_numbers", "append_primitives", "append_words",  "begin_paths",
-    "cast_sight",     "find_surface",      "list_glowing",  "pass_layer",
+    "cast_sight",     "find_surface",      "list_emissive", "pass_layer",
     "resolve_pixels", "shade_surface",     "trace_closest", "trace_shadows"};
 // Bricks, the lists of the exact objects in them, and what rays read of them.
 inline const Kernels kEmpty =

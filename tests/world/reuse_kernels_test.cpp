@@ -50,14 +50,14 @@ TEST_P(ReuseKernels, AreThoseThatTheChangeReaches) {
     if (change.by == kNumberedVoxels)
         for (const int number : {1, 2}) voxelize_gem(folder, number);
     const Scene moving = scene(change);
-    WorldFormer former(shared_device());
+    WorldBuilder builder(shared_device());
     Renderer renderer(shared_device());
     for (const int frame : {1, 2}) {
         const Scene now = scene_at(moving, frame);
         std::map<std::string, uint64_t>& launches = shared_device().counters().launches;
         launches.clear();
         RenderReport report;
-        const FormedWorld world = former.form(now, report.world);
+        const BuiltWorld world = builder.build(now, report.world);
         const uint64_t hash = oracle::image_hash(*renderer.image(now, world, report));
         Kernels kernels;
         for (const auto& [name, count] : launches) kernels.insert(name);
@@ -76,21 +76,21 @@ TEST_P(ReuseKernels, AreThoseThatTheChangeReaches) {
 TEST_F(ReusedFrames, LeaveTheMeshOfACutThatStoodStillAlone) {
     const Change still{"", "lights.sun.intensity", "20", "20", {}};
     Scene now = scene(still);
-    WorldFormer former(shared_device());
+    WorldBuilder builder(shared_device());
     WorldReport report;
-    former.form(now, report);
+    builder.build(now, report);
     now.objects[0].world_from_object[3].x += 0.8;
-    former.form(now, report);
+    builder.build(now, report);
     now.models[7].cuts[0].radius = 0.12;
     WorldReport last;
-    former.form(now, last);
+    builder.build(now, last);
     EXPECT_EQ(last.voxelized, 1u);
 }
 
 TEST_F(ReusedFrames, HaveAStillVolumeForNothing) {
     const Change change{"", "lights.sun.intensity", "20", "30", {}};
     const Scene moving = scene(change);
-    WorldFormer former(shared_device());
+    WorldBuilder builder(shared_device());
     VolumeRenderer renderer(shared_device());
     std::shared_ptr<const Volume> before;
     RenderReport first;
@@ -98,7 +98,7 @@ TEST_F(ReusedFrames, HaveAStillVolumeForNothing) {
         const Scene now = scene_at(moving, frame);
         shared_device().counters().launches.clear();
         RenderReport report;
-        const FormedWorld world = former.form(now, report.world);
+        const BuiltWorld world = builder.build(now, report.world);
         const std::shared_ptr<const Volume> volume = renderer.volume(now, world, report);
         if (frame == 0) {
             EXPECT_EQ(volume, before);
@@ -143,41 +143,41 @@ INSTANTIATE_TEST_SUITE_P(
         Change{"InstanceScale", "objects.cone.scale", "1", "1.5", kTrace, WorldChange::instances,
                false, 0, 0, 1},
         Change{"InstanceMaterial", "objects.cone.material", "\"red\"", "\"blue\"", kJoin,
-               WorldChange::formed, false, 0, 0},
-        Change{"InstanceGoes", "objects.cone.visible", "true", "false", kJoin, WorldChange::formed,
+               WorldChange::built, false, 0, 0},
+        Change{"InstanceGoes", "objects.cone.visible", "true", "false", kJoin, WorldChange::built,
                false, 0, 0},
-        Change{"InstanceComes", "objects.cone.visible", "false", "true", kJoin, WorldChange::formed,
+        Change{"InstanceComes", "objects.cone.visible", "false", "true", kJoin, WorldChange::built,
                false, 0, 0, 1},
         Change{"InstanceModel", "models.cone.radius", "0.2", "0.15",
                all_of({kJoin, {"sample_solid", "classify_bricks", "mark_voxels", "write_voxels"}}),
-               WorldChange::formed, false, 1, 0},
+               WorldChange::built, false, 1, 0},
         Change{"Smooth", "objects.ball.position", "[-2.4, 0, -2.4]", "[-1.6, 0, -2.4]", kSmooth,
-               WorldChange::formed, false, 0, 8},
+               WorldChange::built, false, 0, 8},
         Change{"SmoothTurn", "objects.gem.turn", "[0, 0, 0]", "[90, 0, 0]", kSmooth,
-               WorldChange::formed, false, 0, 8},
-        Change{"SmoothScale", "objects.ball.scale", "1", "0.5", kNewSmooth, WorldChange::formed,
+               WorldChange::built, false, 0, 8},
+        Change{"SmoothScale", "objects.ball.scale", "1", "0.5", kNewSmooth, WorldChange::built,
                false, 0, 8},
         Change{"Lamp", "objects.lamp.position", "[0.8, 0, -0.8]", "[1.6, 0, -0.8]", kSmooth,
-               WorldChange::formed, false, 0, 8},
+               WorldChange::built, false, 0, 8},
         Change{"Cubes", "objects.block.position", "[2, -0.4, -2]", "[2.4, -0.4, -2]", kCubes,
-               WorldChange::formed, false, 0, 2},
+               WorldChange::built, false, 0, 2},
         Change{"Exact", "objects.stone.position", "[-2.4, 0, 0.8]", "[-2.4, 0, 1.6]", kNewExact,
-               WorldChange::formed, false, 1, 8},
+               WorldChange::built, false, 1, 8},
         Change{"Goes", "objects.ball.visible", "true", "false",
-               all_of({kEmpty, {"move_bricks", "move_masks"}}), WorldChange::formed, false, 0, 0},
-        Change{"Comes", "objects.ball.visible", "false", "true", kSmooth, WorldChange::formed,
-               false, 0, 8},
+               all_of({kEmpty, {"move_bricks", "move_masks"}}), WorldChange::built, false, 0, 0},
+        Change{"Comes", "objects.ball.visible", "false", "true", kSmooth, WorldChange::built, false,
+               0, 8},
         Change{"Material", "objects.ball.material", "\"red\"", "\"blue\"", kSmooth,
-               WorldChange::formed, false, 0, 8},
+               WorldChange::built, false, 0, 8},
         Change{"ModelSwap", "objects.ball.model", "\"ball\"", "\"small\"",
-               all_of({kNewSmooth, {"sample_solid"}}), WorldChange::formed, false, 1, 8},
+               all_of({kNewSmooth, {"sample_solid"}}), WorldChange::built, false, 1, 8},
         Change{"Measure", "models.block.size", "[0.4, 0.3, 0.2]", "[0.3, 0.3, 0.2]", kNewCubes,
-               WorldChange::formed, false, 1, 1},
+               WorldChange::built, false, 1, 1},
         Change{"ExactMeasure", "models.stone.radii", "[0.3, 0.2, 0.25]", "[0.2, 0.2, 0.25]",
-               kNewExact, WorldChange::formed, false, 1, 8},
+               kNewExact, WorldChange::built, false, 1, 8},
         Change{"NumberedMesh", "models.plain.mesh", "\"gem.1.obj\"", "\"gem.2.obj\"", kNewMesh,
-               WorldChange::formed, false, 1, 8},
-        Change{"Morph", "models.gem.morph.amount", "0", "0.5", kNewMesh, WorldChange::formed, false,
+               WorldChange::built, false, 1, 8},
+        Change{"Morph", "models.gem.morph.amount", "0", "0.5", kNewMesh, WorldChange::built, false,
                1, 8},
         Change{"MediumDensity", "world.medium.density.base", "-0.2", "0.2", kShade,
                WorldChange::none, true, 0, 0, 0, "\"medium\": {", kDensity},
@@ -187,15 +187,15 @@ INSTANTIATE_TEST_SUITE_P(
                WorldChange::none, false, 0, 0, 0, "\"turn\": [0, 2, 0]", "\"look_at\": [0, 0, 0]"},
         Change{"Up", "observer.up", "[0, 1, 0]", "[0.2, 1, 0]", kTrace, WorldChange::none, false, 0,
                0, 0, "\"turn\": [0, 2, 0]", "\"look_at\": [0, 0, 0], \"up\": [0, 1, 0]"},
-        Change{"NumberedVoxels", "lights.sun.intensity", "20", "20", kNewSmooth,
-               WorldChange::formed, false, 1, 8, 0,
-               "\"plain\": {\"mesh\": \"gem.1.obj\", \"voxel_size\": 0.05}", kNumberedVoxels},
+        Change{"NumberedVoxels", "lights.sun.intensity", "20", "20", kNewSmooth, WorldChange::built,
+               false, 1, 8, 0, "\"plain\": {\"mesh\": \"gem.1.obj\", \"voxel_size\": 0.05}",
+               kNumberedVoxels},
         Change{"InstanceModelSwap", "objects.cone.model", "\"cone\"", "\"small\"",
                all_of({kJoin, {"sample_solid", "classify_bricks", "mark_voxels", "write_voxels"}}),
-               WorldChange::formed, false, 1, 0},
-        Change{"OpacityBelow1", "materials.fog.opacity", "1", "0.5", kPaths, WorldChange::formed,
+               WorldChange::built, false, 1, 0},
+        Change{"OpacityBelow1", "materials.fog.opacity", "1", "0.5", kPaths, WorldChange::built,
                false, 0, 0, 0, kRedBall, kFogBall},
-        Change{"OpacityAgain1", "materials.fog.opacity", "0.5", "1", kJoin, WorldChange::formed,
+        Change{"OpacityAgain1", "materials.fog.opacity", "0.5", "1", kJoin, WorldChange::built,
                false, 0, 0, 0, kRedBall, kFogBall},
         Change{"ReflectionAbove0", "materials.fog.reflection", "0", "0.5",
                all_of({kTrace, {"begin_paths", "scatter_rays"}}), WorldChange::none, false, 0, 0, 0,
@@ -209,7 +209,7 @@ INSTANTIATE_TEST_SUITE_P(
         Change{"EmissionAgain0", "materials.fog.emission", "[1, 2, 1]", "[0, 0, 0]", kShade,
                WorldChange::none, true, 0, 0, 0, kRedBall, kFogBall},
         Change{"Cut", "models.drilled.cut[0].radius", "0.1", "0.12",
-               all_of({kNewSmooth, {"sample_solid", "join_distances"}}), WorldChange::formed, false,
+               all_of({kNewSmooth, {"sample_solid", "join_distances"}}), WorldChange::built, false,
                1, 8}),
     [](const auto& change) { return std::string(change.param.name); });
 

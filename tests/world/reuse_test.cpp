@@ -51,7 +51,7 @@ class Frames {
     RenderReport render(const Scene& scene) {
         shared_device().counters().launches.clear();
         RenderReport report;
-        const FormedWorld world = former_.form(scene, report.world);
+        const BuiltWorld world = builder_.build(scene, report.world);
         image_ = renderer_.image(scene, world, report);
         return report;
     }
@@ -63,7 +63,7 @@ class Frames {
     uint64_t hash() const { return oracle::image_hash(*image_); }
 
   private:
-    WorldFormer former_{shared_device()};
+    WorldBuilder builder_{shared_device()};
     Renderer renderer_{shared_device()};
     std::shared_ptr<const Image> image_;
 };
@@ -92,7 +92,7 @@ TEST(Reuse, LightsMaterialsAndTheMediumOnlyLightTheHitsAgain) {
     const Scene first = scene_of("blue");
     std::vector<std::pair<const char*, Scene>> changes(6, {"", first});
     changes[0].first = "a light's place", changes[0].second.lights[0].position.x = -1;
-    changes[1].first = "a light's energy", changes[1].second.lights[0].energy *= 2.0f;
+    changes[1].first = "a light's energy", changes[1].second.lights[0].intensity *= 2.0f;
     changes[2].first = "a material's color", changes[2].second.materials[1].color.y = 0.7f;
     changes[3].first = "the medium", changes[3].second.world.medium.absorption.x = 0.2f;
     changes[4].first = "the background", changes[4].second.world.background.x = 0.9f;
@@ -115,7 +115,7 @@ TEST(Reuse, TheFirstLightAndTheLastOnlyLightTheHitsAgain) {
             Scene dark = scene_of(material);
             dark.render.filtered_shadows = filtered;
             const Scene lit = dark;
-            dark.lights[0].energy = glm::vec3(0);
+            dark.lights[0].intensity = glm::vec3(0);
             Frames frames(dark);
             for (const Scene* scene : {&lit, &std::as_const(dark), &lit}) {
                 const RenderReport report = frames.render(*scene);
@@ -179,10 +179,10 @@ TEST(Reuse, ASingleFrameKeepsNothing) {
     const Device own = test_device();
     const Scene scene = scene_of("blue");
     RenderReport report;
-    WorldFormer former(own, false);
+    WorldBuilder builder(own, false);
     Renderer renderer(own, false);
     {
-        const FormedWorld world = former.form(scene, report.world);
+        const BuiltWorld world = builder.build(scene, report.world);
         renderer.image(scene, world, report);
     }
     EXPECT_EQ(own.counters().bytes_in_use, 0u);
@@ -231,14 +231,14 @@ TEST(Reuse, AGlassBringsItsKernelsWhenItComesIntoTheWorldAndTakesThemAlong) {
     }
 }
 
-// A lamp's spots are found in the world's voxels, so it can't stay an instance.
+// A lamp's light samples are found in the world's voxels, so it can't stay an instance.
 TEST(Reuse, AnInstanceThatBeginsToShineIsPlacedInTheWorld) {
     Scene scene = scene_of("blue");
     scene.objects[0].moves = true;
     scene.objects[0].world_from_object = glm::dmat4(1);
     scene.objects[0].material = int(scene.materials.size());
     scene.materials.push_back(scene.materials[1]);
-    find_reaches(scene);
+    find_extents(scene);
     Frames frames(scene);
     scene.materials.back().emission = glm::vec3(5);
     frames.render(scene);
@@ -248,10 +248,10 @@ TEST(Reuse, AnInstanceThatBeginsToShineIsPlacedInTheWorld) {
 TEST(Reuse, AnInstanceMovesWithoutTheObjectsOfItsModel) {
     Scene scene = scene_of("blue");
     scene.objects[0].moves = true;
-    find_reaches(scene);
+    find_extents(scene);
     Frames frames(scene);
     scene.objects[0].world_from_object[3].x += 0.3;
-    find_reaches(scene);
+    find_extents(scene);
     const RenderReport report = frames.render(scene);
     EXPECT_EQ(report.world.painted_bricks, 0u);
     EXPECT_THAT(frames.kernels(), testing::Not(testing::Contains("mark_voxels")));

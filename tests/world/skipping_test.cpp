@@ -154,7 +154,7 @@ const Row kRows[] = {
      kLamp,
      "[0, 0.2, 0]",
      "[0, 9, 0]",
-     {"kernel find_surface", "kernel list_glowing", "kernel add_light", "kernel trace_shadows",
+     {"kernel find_surface", "kernel list_emissive", "kernel add_light", "kernel trace_shadows",
       "buffer shadow queue"}},
     {"a mesh that isn't shown",
      kScene,
@@ -180,7 +180,7 @@ const Row kRows[] = {
      kScene,
      "\"absorption\": [0.1, 0.2, 0.3]",
      "\"absorption\": [0, 0, 0]",
-     {"kernel absorb_sight", "buffer passed"}},
+     {"kernel absorb_sight", "buffer transmittance"}},
 };
 
 TEST_F(SkippingFiles, WhatAChangeMakesNeedlessIsNotDone) {
@@ -224,9 +224,9 @@ TEST_F(SkippingFiles, WhateverItsMaterialAnObjectOutsideTheWorldIsNotInThePictur
 
 TEST_F(SkippingFiles, AFloorOfOneColourHasNoBuffersForMore) {
     Counters counters = show(scene_of(kFloor));
-    for (const char* name :
-         {"voxel attributes", "voxel colors", "voxel fields", "primitives", "primitive starts",
-          "paths", "path media", "coverage", "sides", "passed", "instances", "medium densities"})
+    for (const char* name : {"voxel attributes", "voxel colors", "voxel fields", "primitives",
+                             "primitive starts", "paths", "path media", "coverage", "sides",
+                             "transmittance", "instances", "medium densities"})
         EXPECT_EQ(counters[std::string("buffer ") + name], 0u) << name;
 }
 

@@ -67,9 +67,9 @@ class WorldCacheFiles : public FileTest {
         const ModelCache cache = ModelCache(folder / "models", 64 << 20, 0).with_worlds();
         shared_device().counters().launches.clear();
         RenderReport report;
-        const FormedWorld world =
-            WorldFormer(shared_device(), false, MeshStore(from_disk ? cache : ModelCache()))
-                .form(scene, report.world);
+        const BuiltWorld world =
+            WorldBuilder(shared_device(), false, AssetStore(from_disk ? cache : ModelCache()))
+                .build(scene, report.world);
         Outcome outcome;
         outcome.hash =
             oracle::image_hash(Renderer(shared_device(), false).new_image(scene, world, report));
@@ -161,7 +161,7 @@ class MovingWorldFiles : public WorldCacheFiles {
 };
 
 TEST_F(MovingWorldFiles, AreNotKeptWhereTracksChangeTheirVoxels) {
-    MeshStore meshes(cache());
+    AssetStore meshes(cache());
     for (const Motion& motion : {Motion{"objects.b.position", "[0.3, 0.2, 0.1]", "[0.2, 0.2, 0.1]"},
                                  Motion{"objects.b.visible", "true", "false"},
                                  Motion{"objects.b.model", "\"ball\"", "\"thing\""},
@@ -171,7 +171,7 @@ TEST_F(MovingWorldFiles, AreNotKeptWhereTracksChangeTheirVoxels) {
 }
 
 TEST_F(MovingWorldFiles, AreThoseOfAStillWorldWhereTracksLeaveTheirVoxelsAlone) {
-    MeshStore meshes(cache());
+    AssetStore meshes(cache());
     const std::string still = world_source(this->scene("smooth"), meshes);
     EXPECT_NE(still, "");
     for (const Motion& motion : {Motion{"observer.position", "[1.2, 1, -2]", "[-1.2, 1, -2]"},
@@ -193,13 +193,13 @@ TEST_F(MovingWorldFiles, AreReadOnceForAllFrames) {
     const Motion motion{"objects.b.visible", "true", "false", "instance"};
     const Scene scene = moving_scene(motion);
     for (const bool is_warm : {false, true}) {
-        WorldFormer former(shared_device(), true, MeshStore(cache()));
+        WorldBuilder builder(shared_device(), true, AssetStore(cache()));
         Renderer renderer(shared_device());
         bool is_first = true;
         for (const int frame : {1, 3, 4, 1}) {
             const Scene now = scene_at(scene, frame);
             RenderReport report, alone;
-            const FormedWorld world = former.form(now, report.world);
+            const BuiltWorld world = builder.build(now, report.world);
             EXPECT_EQ(oracle::image_hash(*renderer.image(now, world, report)),
                       oracle::image_hash(render(shared_device(), now, alone)));
             EXPECT_EQ(report.world.is_from_cache, is_warm && is_first) << frame;

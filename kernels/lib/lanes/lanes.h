@@ -9,7 +9,7 @@
 //   LANES_LOAD(p, first)        p[first .. first + VXL_LANES)
 //   LANES_STORE(value, p, first)
 //   lanes_any(mask)             not 0 if any lane says yes; all lanes or-ed
-//   lanes_least(v)              the smallest of the lanes' numbers
+//   lanes_min(v)              the smallest of the lanes' numbers
 //   lanes_ranks(mask)           in each lane: how many lanes before it say yes
 //   lanes_popcount(v)           bits set, lane by lane
 //   LANES_INT, LANES_FLOAT, ... conversions (to int: towards zero)
@@ -54,7 +54,7 @@ static inline int lanes_any(lane_int mask) {
 static inline int lanes_count(lane_int mask) {
     return -mask;
 }
-static inline uint lanes_least(lane_uint v) {
+static inline uint lanes_min(lane_uint v) {
     return v;
 }
 static inline lane_uint lanes_popcount(lane_uint v) {
@@ -98,7 +98,7 @@ static inline int lanes_any(int4 mask) {
 static inline int lanes_count(int4 mask) {
     return (int)popcount(as_uint(convert_char4(mask))) >> 3;
 }
-static inline uint lanes_least(uint4 v) {
+static inline uint lanes_min(uint4 v) {
     uint2 q = min(v.lo, v.hi);
     return min(q.x, q.y);
 }
@@ -119,7 +119,7 @@ static inline int lanes_any(int8 mask) {
 static inline int lanes_count(int8 mask) {
     return (int)popcount(as_ulong(convert_char8(mask))) >> 3;
 }
-static inline uint lanes_least(uint8 v) {
+static inline uint lanes_min(uint8 v) {
     uint4 h = min(v.lo, v.hi);
     uint2 q = min(h.lo, h.hi);
     return min(q.x, q.y);
@@ -145,7 +145,7 @@ static inline int lanes_count(int16 mask) {
     const ulong2 bytes = as_ulong2(convert_char16(mask));
     return (int)(popcount(bytes.x) + popcount(bytes.y)) >> 3;
 }
-static inline uint lanes_least(uint16 v) {
+static inline uint lanes_min(uint16 v) {
     uint8 e = min(v.lo, v.hi);
     uint4 h = min(e.lo, e.hi);
     uint2 q = min(h.lo, h.hi);

@@ -92,19 +92,19 @@ static inline lane_float ellipsoid_distance(SolidPoint p, global const SolidShap
     const lane_float curve = exact_divide(xx, (lane_float)ax) + exact_divide(yy, (lane_float)ay) +
                              exact_divide(zz, (lane_float)az);
     t = fmax(t, ellipsoid_step((lane_float)0.0f, xx + yy + zz, curve));
-    const lane_float least = (lane_float)0x1p-20f;  // t + r² stays above 0 on the plane of 0/0
+    const lane_float minimum = (lane_float)0x1p-20f;  // t + r² stays above 0 on the plane of 0/0
     for (int step = 0; step < VXL_ELLIPSOID_STEPS; ++step) {
-        const lane_float ix = exact_reciprocal(fmax(t + ax, least));
-        const lane_float iy = exact_reciprocal(fmax(t + ay, least));
-        const lane_float iz = exact_reciprocal(fmax(t + az, least));
+        const lane_float ix = exact_reciprocal(fmax(t + ax, minimum));
+        const lane_float iy = exact_reciprocal(fmax(t + ay, minimum));
+        const lane_float iz = exact_reciprocal(fmax(t + az, minimum));
         const lane_float sx = rx * px * ix, sy = ry * py * iy, sz = rz * pz * iz;
         xx = sx * sx, yy = sy * sy, zz = sz * sz;
         t = ellipsoid_step(t, xx + yy + zz, fma(xx, ix, fma(yy, iy, zz * iz)));
     }
     t = fmax(t, -1.0f);
-    const lane_float wx = exact_divide(px, fmax(t + ax, least));
-    const lane_float wy = exact_divide(py, fmax(t + ay, least));
-    const lane_float wz = exact_divide(pz, fmax(t + az, least));
+    const lane_float wx = exact_divide(px, fmax(t + ax, minimum));
+    const lane_float wy = exact_divide(py, fmax(t + ay, minimum));
+    const lane_float wz = exact_divide(pz, fmax(t + az, minimum));
     xx = wx * wx, yy = wy * wy, zz = wz * wz;
     lane_float rest, others;  // w² of the shortest axis from |s| = 1, and of the two others
     if (rx == 1.0f)

@@ -130,7 +130,7 @@ static inline lane_int hit_solids(global const SolidShape* solids, lane_uint num
                                   lane_int inside, lane_int tested, lane_float* t) {
     lane_int closer = (lane_int)0, left = tested;
     while (lanes_any(left)) {
-        const uint one = lanes_least(LANES_SELECT(left, number, (lane_uint)0xFFFFFFFFu));
+        const uint one = lanes_min(LANES_SELECT(left, number, (lane_uint)0xFFFFFFFFu));
         const lane_int same = left & LANE_MASK(number == one);
         left &= ~same;
         const lane_float at = solid_crossing(solids, one, ray, t_first, known, inside, same);
@@ -146,7 +146,7 @@ static inline lane_int go_inside(global const SolidShape* solids, lane_uint numb
                                  const SolidRay* ray, lane_int asked) {
     lane_int inside = (lane_int)0, left = asked;
     while (lanes_any(left)) {
-        const uint one = lanes_least(LANES_SELECT(left, number, (lane_uint)0xFFFFFFFFu));
+        const uint one = lanes_min(LANES_SELECT(left, number, (lane_uint)0xFFFFFFFFu));
         const lane_int same = left & LANE_MASK(number == one);
         left &= ~same;
         inside |= same & goes_inside(solids, one, ray);
@@ -160,7 +160,7 @@ static inline SolidPoint solid_normals(global const SolidShape* solids, lane_uin
     SolidPoint normal = {(lane_float)0.0f, (lane_float)0.0f, (lane_float)0.0f};
     lane_int left = wanted;
     while (lanes_any(left)) {
-        const uint one = lanes_least(LANES_SELECT(left, number, (lane_uint)0xFFFFFFFFu));
+        const uint one = lanes_min(LANES_SELECT(left, number, (lane_uint)0xFFFFFFFFu));
         const lane_int same = left & LANE_MASK(number == one);
         left &= ~same;
         const SolidPoint n = solid_normal(solids, one, ray, t);

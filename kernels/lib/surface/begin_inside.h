@@ -4,12 +4,13 @@
 
 #include "lib/lanes/vector.h"
 #include "lib/surface/surface_color.h"
-#include "lib/traverse/flight.h"
+#include "lib/traverse/packet.h"
 
 /// Mask: the surfaces that rays have met are left by them, each as its kind tells.
-static inline lane_int meets_from_behind(const SurfaceView* s, const Walk* w, const Travel* travel,
-                                         const Found* found, lane_int smooth, lane_int hit) {
-    lane_int behind = smooth & within_smooth(found, travel);
+static inline lane_int meets_from_behind(const SurfaceView* s, const Walk* w,
+                                         const RayState* ray_state, const SurfaceHit* found,
+                                         lane_int smooth, lane_int hit) {
+    lane_int behind = smooth & within_smooth(found, ray_state);
     if (!VXL_EXACT) return behind;
     const lane_int exact = hit & LANE_MASK(found->primitive != VXL_NO_PRIMITIVE);
     const lane_int solid = exact & LANE_MASK((found->primitive & VXL_SOLID_PRIMITIVE) != 0u);
@@ -30,48 +31,51 @@ static inline lane_int meets_from_behind(const SurfaceView* s, const Walk* w, co
     return behind;
 }
 
-/// The attribute words of the objects that the `active` rays of a packet begin in, of those that
+/// The packed attributes of the objects that the `active` rays of a packet begin in, of those that
 /// `hollow` asks for: of whose surface a ray meets the back first, whatever else is in its way.
 /// Surfaces of `hollow` objects that don't transmit light tell nothing.
-static inline Interior find_beginnings(const PyramidView* p, const SurfaceView* s, Walk* w,
-                                       lane_int active, Travel* travel, uint constant_attribute,
-                                       global const float* restrict materials,
-                                       global const uint* restrict hollow, uint most,
-                                       global uint* lost) {
-    Interior began = empty_interior(), met = empty_interior();
-    travel->interior = empty_interior();
+static inline MediumSet find_beginnings(const PyramidView* p, const SurfaceView* s, Walk* w,
+                                        lane_int active, RayState* ray_state,
+                                        uint constant_attribute,
+                                        global const float* restrict materials,
+                                        global const uint* restrict hollow, uint maximum,
+                                        global uint* medium_overflows) {
+    MediumSet began = empty_medium_set(), met = empty_medium_set();
+    ray_state->media = empty_medium_set();
     lane_int searching = active, count = (lane_int)0;
-    for (int layer = 0; layer < VXL_MOST_LAYERS && lanes_any(searching); ++layer) {
-        const Found found = find_first(p, s, w, (lane_float)INFINITY, searching, travel);
+    for (int layer = 0; layer < VXL_MAX_LAYERS && lanes_any(searching); ++layer) {
+        const SurfaceHit found = find_first(p, s, w, (lane_float)INFINITY, searching, ray_state);
         searching &= found.hit;
         if (!lanes_any(searching)) break;
         const lane_uint voxel = found.voxel & LANES_AS_UINT(searching);
-        const lane_uint word = hit_word(s->attributes, constant_attribute, s->triangle_attributes,
-                                        s->solids, voxel, found.primitive, searching) &
-                               LANES_AS_UINT(searching);
-        const lane_int smooth = is_smooth(word, found.primitive) & searching;
-        const lane_int leaving = meets_from_behind(s, w, travel, &found, smooth, searching);
-        const lane_int first = searching & ~interior_holds(&met, word, smooth) &
-                               LANE_MASK(LANES_GATHER_UINT(hollow, word & VXL_OBJECT_MASK) != 0u);
-        const lane_uint material = material_place(word);
+        const lane_uint packed =
+            attributes_of_hit(s->attributes, constant_attribute, s->triangle_attributes, s->solids,
+                              voxel, found.primitive, searching) &
+            LANES_AS_UINT(searching);
+        const lane_int smooth = is_smooth(packed, found.primitive) & searching;
+        const lane_int leaving = meets_from_behind(s, w, ray_state, &found, smooth, searching);
+        const lane_int first = searching & ~medium_set_holds(&met, packed, smooth) &
+                               LANE_MASK(LANES_GATHER_UINT(hollow, packed & VXL_OBJECT_MASK) != 0u);
+        const lane_uint material = material_offset(packed);
         const lane_int inside =
             first & leaving &
             transmits(materials, material,
                       LANES_GATHER_FLOAT(materials, material + VXL_MATERIAL_OPACITY));
         lane_int full;
-        began = cross_interior_or_lose(began, word, smooth, (lane_int)0, inside, &full);
-        if (VXL_INTERIOR_CAPPED && lanes_any(full)) atomic_add(lost, (uint)lanes_count(full));
-        met = cross_interior(met, word, smooth, (lane_int)0, first);
+        began = cross_medium_or_overflow(began, packed, smooth, (lane_int)0, inside, &full);
+        if (VXL_MEDIUM_SET_CAPPED && lanes_any(full))
+            atomic_add(medium_overflows, (uint)lanes_count(full));
+        met = cross_medium(met, packed, smooth, (lane_int)0, first);
         count -= first;
-        searching &= LANE_MASK(count < (int)most);
+        searching &= LANE_MASK(count < (int)maximum);
 
-        travel->interior =
-            cross_interior(travel->interior, word, smooth, leaving, smooth & searching);
-        travel->unsure &= ~smooth;
-        travel->goes_on = travel->on_surface = (lane_int)-1;
-        travel->source = found.primitive;
-        travel->within_source = ~leaving;
-        travel->t_first = LANES_SELECT(searching, found.t, travel->t_first);
+        ray_state->media =
+            cross_medium(ray_state->media, packed, smooth, leaving, smooth & searching);
+        ray_state->unsure &= ~smooth;
+        ray_state->goes_on = ray_state->on_surface = (lane_int)-1;
+        ray_state->source = found.primitive;
+        ray_state->within_source = ~leaving;
+        ray_state->t_first = LANES_SELECT(searching, found.t, ray_state->t_first);
         w->t = LANES_SELECT(searching, fmax(found.t, w->t), w->t);
         w->axis = LANES_SELECT(searching, (lane_int)3, w->axis);
     }

@@ -123,7 +123,7 @@ static inline void keep_smooth_cells(const short* nodes, ulong* kept) {
     const short reach = (short)(largest_step(nodes) * 97 / 256 + 2);
     for (int z = 0; z < 16; ++z)
         for (int y = 0; y < 16; ++y) {
-            const ulong bits = keep_row(nodes + node_place(0, y, z), reach);
+            const ulong bits = keep_row(nodes + node_index(0, y, z), reach);
             if (bits == 0) continue;
             const int leaf = (y & 12) | (z & 12) << 2;
             const int shift = (y & 3) << 2 | (z & 3) << 4;
@@ -144,7 +144,7 @@ static inline uint curvature_bits(int twice) {
 
 // The eight words of a cell as shared/voxel.h describes them.
 static inline uint8 field_record(const short* nodes, int4 cell) {
-    const short* node = nodes + node_place(cell.x, cell.y, cell.z);
+    const short* node = nodes + node_index(cell.x, cell.y, cell.z);
     uint words[8];
     for (int i = 0; i < 4; ++i) {
         const int low = i & 1, high = i >> 1;

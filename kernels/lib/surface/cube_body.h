@@ -7,22 +7,22 @@
 #ifndef VXL_CUBE_BODY_H
 #define VXL_CUBE_BODY_H
 
-#include "lib/light/interior.h"
+#include "lib/light/medium_set.h"
 #include "lib/surface/surface_color.h"
 #include "lib/traverse/walk.h"
 
 /// Mask: a surface is the face of a cube.
-static inline lane_int is_cube(lane_uint word, lane_uint primitive) {
-    return LANE_MASK((word >> VXL_KIND_SHIFT) == VXL_KIND_CUBES) &
+static inline lane_int is_cube(lane_uint packed, lane_uint primitive) {
+    return LANE_MASK((packed >> VXL_KIND_SHIFT) == VXL_KIND_CUBES) &
            LANE_MASK(primitive == VXL_NO_PRIMITIVE);
 }
 
-/// The attribute word of the body that a ray is inside of, VXL_NO_MEMBER for none. A voxel shows
+/// The packed attributes of the body that a ray is inside of, VXL_NO_MEDIUM for none. A voxel shows
 /// one object, so there is one at most.
-static inline lane_uint body_inside(const Interior* in) {
+static inline lane_uint body_inside(const MediumSet* in) {
     const lane_uint kind = (lane_uint)VXL_KIND_CUBES;
-    lane_uint body = (lane_uint)VXL_NO_MEMBER;
-    for (int i = 1; i < VXL_INTERIOR_MEMBERS; ++i)
+    lane_uint body = (lane_uint)VXL_NO_MEDIUM;
+    for (int i = 1; i < VXL_MEDIUM_SET_SIZE; ++i)
         body = LANES_SELECT(LANE_MASK((in->members[i] >> VXL_KIND_SHIFT) == kind), in->members[i],
                             body);
     return body;
@@ -30,8 +30,8 @@ static inline lane_uint body_inside(const Interior* in) {
 
 /// Mask: the faces between the voxels of a body are no surfaces.
 static inline lane_int is_joined(lane_uint body, global const float* restrict materials) {
-    const lane_int some = LANE_MASK(body != VXL_NO_MEMBER);
-    const lane_uint material = material_place(body) & LANES_AS_UINT(some);
+    const lane_int some = LANE_MASK(body != VXL_NO_MEDIUM);
+    const lane_uint material = material_offset(body) & LANES_AS_UINT(some);
     return some &
            LANE_MASK(LANES_GATHER_FLOAT(materials, material + VXL_MATERIAL_REFRACTION) > 0.0f);
 }

@@ -13,9 +13,9 @@ static inline lane_float linear_channel(lane_uint color, int shift) {
     return LANES_SELECT(LANE_MASK(s <= 0.04045f), s * 0.0773993808f, curved);
 }
 
-/// Where the record of an attribute word's material starts, in floats.
-static inline lane_uint material_place(lane_uint word) {
-    return ((word >> VXL_MATERIAL_SHIFT) & VXL_MATERIAL_MASK) * VXL_MATERIAL_FLOATS;
+/// Where the record of an packed attributes's material starts, in floats.
+static inline lane_uint material_offset(lane_uint packed) {
+    return ((packed >> VXL_MATERIAL_SHIFT) & VXL_MATERIAL_MASK) * VXL_MATERIAL_FLOATS;
 }
 
 /// The block coordinate of `position` (in voxels) along one axis of a material's checker.
@@ -29,8 +29,8 @@ static inline lane_int checker_block(global const float* restrict materials, lan
 }
 
 /// Where a material's colour at a point starts, in floats: its own, or that of its checker.
-static inline lane_uint color_place(global const float* restrict materials, lane_uint material,
-                                    lane_float x, lane_float y, lane_float z) {
+static inline lane_uint color_offset(global const float* restrict materials, lane_uint material,
+                                     lane_float x, lane_float y, lane_float z) {
     if (!VXL_CHECKER) return material;
     const lane_int block = checker_block(materials, material, 0u, x) +
                            checker_block(materials, material, 1u, y) +
@@ -38,7 +38,7 @@ static inline lane_uint color_place(global const float* restrict materials, lane
     return material + LANES_AS_UINT((block & 1) * VXL_MATERIAL_CHECKER_COLOR);
 }
 
-/// The colour of a surface point: of its material (see color_place), times its voxel's own where
+/// The colour of a surface point: of its material (see color_offset), times its voxel's own where
 /// the world has such.
 static inline lane_float surface_color(global const float* restrict materials, lane_uint place,
                                        global const uint* restrict colors, lane_uint voxel,

@@ -2,12 +2,12 @@
 #ifndef VXL_SURFACES_H
 #define VXL_SURFACES_H
 
-#include "lib/light/interior.h"
+#include "lib/light/medium_set.h"
 #include "lib/solid/solid_surface.h"
 #include "lib/surface/cube_body.h"
 #include "lib/surface/smooth.h"
 #include "lib/surface/triangle.h"
-#include "lib/traverse/hit_word.h"
+#include "lib/traverse/hit_attributes.h"
 #include "lib/traverse/voxel_kinds.h"
 #include "shared/instance.h"
 #include "shared/voxel.h"
@@ -29,15 +29,15 @@ typedef struct {
     lane_uint source;        // the primitive it begins on
     lane_int within_source;  // mask: it travels on inside of that primitive's object
     lane_float t_first;
-    Interior interior;   // of scenes with transmitting objects; empty elsewhere
-    lane_uint body;      // the body of cubes in it, VXL_NO_MEMBER for none
+    MediumSet media;     // of scenes with transmitting objects; empty elsewhere
+    lane_uint body;      // the body of cubes in it, VXL_NO_MEDIUM for none
     lane_int joined;     // mask: the body's inner faces are no surfaces
     lane_int unsure;     // mask: it may begin inside of the smooth body unbeknown
     lane_uint instance;  // whose surface it begins on, VXL_NO_INSTANCE for the world's
     lane_int asks_side;  // mask: within_source isn't known yet, an instance's space will tell
     lane_int on_cube;    // mask: cubes in the cell where it begins are behind it; of scenes with
                          // instances, elsewhere on_surface tells
-} Travel;
+} RayState;
 
 /// What a packet has found so far.
 typedef struct {
@@ -51,17 +51,17 @@ typedef struct {
     lane_int in_body;    // mask: the walk has been in a cell of the body that the ray is inside of
     lane_int exit;       // mask: the hit is the face across which it left the body
     lane_uint instance;  // whose surface was hit, VXL_NO_INSTANCE for the world's
-} Found;
+} SurfaceHit;
 
 /// Takes a hit at `t` on a cube or field in the `accepted` lanes, unless a primitive is hit before.
-static inline void take_voxel_hit(Found* found, lane_float t, lane_int accepted) {
+static inline void take_voxel_hit(SurfaceHit* found, lane_float t, lane_int accepted) {
     const lane_int closer = accepted & LANE_MASK(t < found->t);
     found->t = LANES_SELECT(closer, t, found->t);
     found->primitive = LANES_SELECT(closer, (lane_uint)VXL_NO_PRIMITIVE, found->primitive);
 }
 
 /// Ends walks that leave the body of cubes that their rays are inside of; the voxel is its last.
-static inline void leave_body(Found* found, const Walk* w, lane_int leaving) {
+static inline void leave_body(SurfaceHit* found, const Walk* w, lane_int leaving) {
     found->exit |= leaving & LANE_MASK(w->t < found->t);
     take_voxel_hit(found, w->t, leaving);
 }
@@ -77,8 +77,9 @@ static inline lane_float float_before(lane_float t) {
 /// Those at t_first itself count for the lanes of `at_least`.
 /// `entering` lanes look from one unit of t before their origin first.
 static inline lane_int hit_solids_in_world(const PyramidView* p, const SurfaceView* s,
-                                           const Walk* w, lane_uint number, const Travel* travel,
-                                           lane_int tested, lane_int from_solid, lane_int at_least,
+                                           const Walk* w, lane_uint number,
+                                           const RayState* ray_state, lane_int tested,
+                                           lane_int from_solid, lane_int at_least,
                                            lane_int entering, lane_float* t) {
     lane_int closer = (lane_int)0;
     const lane_int nothing = (lane_int)0;
@@ -97,13 +98,13 @@ static inline lane_int hit_solids_in_world(const PyramidView* p, const SurfaceVi
     lane_float at = *t;
     lane_int met = (lane_int)0;
     if (lanes_any(left)) {
-        lane_int inside = from_solid & travel->within_source;
+        lane_int inside = from_solid & ray_state->within_source;
         lane_int known = from_solid;
-        lane_float t_first = travel->t_first;
+        lane_float t_first = ray_state->t_first;
         if (VXL_TRANSMISSION) {
             t_first = LANES_SELECT(at_least, float_before(t_first), t_first);
             const lane_int holds =
-                interior_holds(&travel->interior, solid_attributes(s->solids, number), nothing);
+                medium_set_holds(&ray_state->media, solid_attributes(s->solids, number), nothing);
             known |= holds;
             inside |= holds & ~from_solid;
         }
@@ -121,9 +122,9 @@ static inline lane_int hit_solids_in_world(const PyramidView* p, const SurfaceVi
 /// ray's rounded origin: there, hits count from behind it as well, as far as the world reaches. A
 /// ray that goes on meets what lies at the very t of its last surface in the order of numbers.
 static inline lane_int hit_exact(const PyramidView* p, const SurfaceView* s, const Walk* w,
-                                 lane_int tested, const Travel* travel, Found* found) {
+                                 lane_int tested, const RayState* ray_state, SurfaceHit* found) {
     const lane_int entering = LANE_MASK(w->t == 0.0f) & LANE_MASK(w->axis != 3);
-    const lane_float t_least = LANES_SELECT(entering, (lane_float)-INFINITY, travel->t_first);
+    const lane_float t_min = LANES_SELECT(entering, (lane_float)-INFINITY, ray_state->t_first);
     const RayShear shear = ray_shear(w);
     const lane_uint voxel = found->voxel & LANES_AS_UINT(tested);
     lane_uint next = LANES_GATHER_UINT(s->primitive_first, voxel);
@@ -133,21 +134,22 @@ static inline lane_int hit_exact(const PyramidView* p, const SurfaceView* s, con
         const lane_uint primitive =
             LANES_GATHER_UINT(s->primitives, next & LANES_AS_UINT(listing)) &
             LANES_AS_UINT(listing);
-        const lane_int of_source = LANE_MASK(primitive == travel->source);
+        const lane_int of_source = LANE_MASK(primitive == ray_state->source);
         const lane_int is_solid = LANE_MASK((primitive & VXL_SOLID_PRIMITIVE) != 0u);
         lane_int closer = (lane_int)0, at_least = (lane_int)0;
-        if (VXL_TRANSMISSION) at_least = travel->goes_on & LANE_MASK(primitive > travel->source);
+        if (VXL_TRANSMISSION)
+            at_least = ray_state->goes_on & LANE_MASK(primitive > ray_state->source);
         if (VXL_TRIANGLES) {
             const lane_int triangle = listing & ~(is_solid | of_source);
             if (!VXL_SOLIDS || lanes_any(triangle)) {
                 const lane_uint number = primitive & LANES_AS_UINT(triangle);
                 lane_int within = (lane_int)0;
                 if (VXL_TRANSMISSION)
-                    within = interior_holds(&travel->interior,
-                                            LANES_GATHER_UINT(s->triangle_attributes, number),
-                                            (lane_int)0);
-                closer |= hit_triangle(p, t_least, at_least, s->triangles, number, w, &shear,
-                                       within, triangle, &found->t);
+                    within = medium_set_holds(&ray_state->media,
+                                              LANES_GATHER_UINT(s->triangle_attributes, number),
+                                              (lane_int)0);
+                closer |= hit_triangle(p, t_min, at_least, s->triangles, number, w, &shear, within,
+                                       triangle, &found->t);
             }
         }
         if (VXL_SOLIDS) {  // a solid is met by the whole ray at once: once is enough
@@ -155,8 +157,8 @@ static inline lane_int hit_exact(const PyramidView* p, const SurfaceView* s, con
             found->solid = LANES_SELECT(solid, primitive, found->solid);
             if (lanes_any(solid))
                 closer |= hit_solids_in_world(
-                    p, s, w, primitive & ~VXL_SOLID_PRIMITIVE & LANES_AS_UINT(solid), travel, solid,
-                    of_source, at_least, entering, &found->t);
+                    p, s, w, primitive & ~VXL_SOLID_PRIMITIVE & LANES_AS_UINT(solid), ray_state,
+                    solid, of_source, at_least, entering, &found->t);
         }
         found->primitive = LANES_SELECT(closer, primitive, found->primitive);
         next += 1u;
@@ -167,34 +169,37 @@ static inline lane_int hit_exact(const PyramidView* p, const SurfaceView* s, con
 
 /// Mask: rays that are inside of the smooth body, as far as their walk has found out, or inside of
 /// the instance that they have met.
-static inline lane_int within_smooth(const Found* found, const Travel* travel) {
+static inline lane_int within_smooth(const SurfaceHit* found, const RayState* ray_state) {
     if (!VXL_TRANSMISSION) return found->within;
-    lane_int in_body = LANE_MASK(travel->interior.members[0] != VXL_NO_MEMBER);
+    lane_int in_body = LANE_MASK(ray_state->media.members[0] != VXL_NO_MEDIUM);
     if (VXL_INSTANCES) in_body &= LANE_MASK(found->instance == VXL_NO_INSTANCE);
     return found->within | in_body;
 }
 
 /// Tests the surface inside each `tested` lane's voxel; the mask of lanes whose ray ends there.
 static inline lane_int test_surfaces(const PyramidView* p, const SurfaceView* s, const Walk* w,
-                                     lane_int tested, const Travel* travel, Found* found) {
+                                     lane_int tested, const RayState* ray_state,
+                                     SurfaceHit* found) {
     const lane_uint voxel = voxel_number(p, found->leaf & LANES_AS_UINT(tested), w->x & tested,
                                          w->y & tested, w->z & tested) &
                             LANES_AS_UINT(tested);
     lane_int passed = (lane_int)0, left = (lane_int)0;
     if (VXL_CUBE_BODIES) {
-        lane_int own = tested & LANE_MASK(travel->body != VXL_NO_MEMBER);
-        if (VXL_ATTRIBUTES) own &= is_member(travel->body, LANES_GATHER_UINT(s->attributes, voxel));
+        lane_int own = tested & LANE_MASK(ray_state->body != VXL_NO_MEDIUM);
+        if (VXL_ATTRIBUTES)
+            own &= is_medium(ray_state->body, LANES_GATHER_UINT(s->attributes, voxel));
         left = tested & found->in_body & ~own;
         leave_body(found, w, left);
         tested &= ~left;
         found->in_body |= own;
-        passed = own & travel->joined;
+        passed = own & ray_state->joined;
     }
     found->voxel = LANES_SELECT(tested, voxel, found->voxel);
     const VoxelKinds kinds = kinds_of(s->attributes, voxel, tested);
     const lane_int smooth = kinds.smooth, exact = kinds.exact;
-    const lane_int beginning = travel->on_surface & LANE_MASK(w->axis == 3);
-    const lane_int on_cube = VXL_INSTANCES ? travel->on_cube & LANE_MASK(w->axis == 3) : beginning;
+    const lane_int beginning = ray_state->on_surface & LANE_MASK(w->axis == 3);
+    const lane_int on_cube =
+        VXL_INSTANCES ? ray_state->on_cube & LANE_MASK(w->axis == 3) : beginning;
     const lane_int cubes = kinds.cubes & ~(on_cube | passed);
     lane_int accepted = cubes | left;
     if (VXL_CUBES) take_voxel_hit(found, w->t, cubes);
@@ -207,15 +212,15 @@ static inline lane_int test_surfaces(const PyramidView* p, const SurfaceView* s,
             found->asked |= asking;
         }
         const lane_float side =
-            LANES_SELECT(within_smooth(found, travel), (lane_float)-1.0f, (lane_float)1.0f);
+            LANES_SELECT(within_smooth(found, ray_state), (lane_float)-1.0f, (lane_float)1.0f);
         const lane_int met = hit_smooth(&field, w, side, smooth, beginning, &found->level, &t);
         // A ray that goes straight on has its hits beyond this voxel where any other ray has them.
         if (VXL_TRANSMISSION)
-            found->level = LANES_SELECT(travel->goes_on, (lane_float)0.0f, found->level);
+            found->level = LANES_SELECT(ray_state->goes_on, (lane_float)0.0f, found->level);
         take_voxel_hit(found, t, met);
         accepted |= met;
     }
-    if (VXL_EXACT && lanes_any(exact)) accepted |= hit_exact(p, s, w, exact, travel, found);
+    if (VXL_EXACT && lanes_any(exact)) accepted |= hit_exact(p, s, w, exact, ray_state, found);
     return accepted;
 }
 

@@ -72,11 +72,11 @@ static inline lane_float edge_function(ShearedCorner a, ShearedCorner b) {
     return left - right;
 }
 
-/// Tests triangle `number` of each lane in `tested`; hits in the world beyond t_least, or at it
+/// Tests triangle `number` of each lane in `tested`; hits in the world beyond t_min, or at it
 /// where `at_least` is set, that are closer than *t replace it. Rays from `within` the triangle's
 /// object meet its back only: the neighbour across an edge that they came in by has its face
 /// towards them.
-static inline lane_int hit_triangle(const PyramidView* p, lane_float t_least, lane_int at_least,
+static inline lane_int hit_triangle(const PyramidView* p, lane_float t_min, lane_int at_least,
                                     global const float* triangles, lane_uint number, const Walk* w,
                                     const RayShear* s, lane_int within, lane_int tested,
                                     lane_float* t) {
@@ -97,8 +97,7 @@ static inline lane_int hit_triangle(const PyramidView* p, lane_float t_least, la
     const lane_float weighted = fma(u, a.z, fma(v, b.z, e * c.z));
     const lane_float at =
         exact_divide(weighted, LANES_SELECT(solid, determinant, (lane_float)1.0f));
-    const lane_int closer = solid &
-                            (LANE_MASK(at > t_least) | (at_least & LANE_MASK(at == t_least))) &
+    const lane_int closer = solid & (LANE_MASK(at > t_min) | (at_least & LANE_MASK(at == t_min))) &
                             LANE_MASK(at < *t) & is_in_world(p, w, at);
     *t = LANES_SELECT(closer, at, *t);
     return closer;

@@ -2,12 +2,12 @@
 //
 // A beam is the straight line in the middle of its rays, along the axis that they mostly follow:
 // at every coordinate s of that axis it is less than 4 voxels from each of them. So as long as its
-// own leaf and all leaves around that are empty, which the halo (runtime/stages/trace/beam.hpp)
-// knows of one leaf, theirs are. A halo of bricks is one of voxels four times as long, and so are
-// the beams' coordinates there: `scale` is 1/4. The slack of a quarter voxel covers the step of
-// 1/64 past the planes at which the line is looked at, and all rounding: places are sums of numbers
-// up to 16 times the world's length (VXL_BEAM_LEAST_DIRECTION), six roundings of which are 0.1
-// voxel for 16384 voxels.
+// own leaf and all leaves around that are empty, which the dilated occupancy
+// (runtime/stages/trace/beam.hpp) knows of one leaf, theirs are. A dilated occupancy of bricks is
+// one of voxels four times as long, and so are the beams' coordinates there: `scale` is 1/4. The
+// slack of a quarter voxel covers the step of 1/64 past the planes at which the line is looked at,
+// and all rounding: places are sums of numbers up to 16 times the world's length
+// (VXL_BEAM_MIN_DIRECTION), six roundings of which are 0.1 voxel for 16384 voxels.
 #ifndef VXL_BEAM_H
 #define VXL_BEAM_H
 
@@ -18,12 +18,12 @@
 
 #define VXL_BEAM_STEP 0.015625f
 // A ray that hardly follows the axis says nothing of where it is at s.
-#define VXL_BEAM_LEAST_DIRECTION 0.0625f
+#define VXL_BEAM_MIN_DIRECTION 0.0625f
 
 typedef struct {
     global const float* restrict rays;
     uint stride;
-    float scale;  // the halo's coordinates of the rays'
+    float scale;  // the dilated occupancy's coordinates of the rays'
 } BeamRays;
 
 /// A component of rays along an axis: VXL_RAY_OX + axis and VXL_RAY_DX + axis.
@@ -31,8 +31,8 @@ static inline lane_float ray_value(const BeamRays* r, lane_int component, lane_u
     return LANES_GATHER_FLOAT(r->rays, LANES_AS_UINT(component) * r->stride + ray);
 }
 
-/// Where rays begin along an axis, in the halo's coordinates.
-static inline lane_float ray_place(const BeamRays* r, lane_int axis, lane_uint ray) {
+/// Where rays begin along an axis, in the dilated occupancy's coordinates.
+static inline lane_float ray_slot(const BeamRays* r, lane_int axis, lane_uint ray) {
     return r->scale * ray_value(r, (lane_int)VXL_RAY_OX + axis, ray);
 }
 
@@ -64,7 +64,7 @@ static inline lane_int main_axis(const BeamRays* r, lane_uint first, lane_float*
 
 /// What a group's rays span of one axis at the world's near and far side along the main axis.
 typedef struct {
-    lane_float least_near, most_near, least_far, most_far;
+    lane_float min_near, max_near, min_far, max_far;
 } Span;
 
 static inline Span empty_span(void) {
@@ -74,10 +74,10 @@ static inline Span empty_span(void) {
 }
 
 static inline void widen(lane_float near, lane_float far, lane_int held, Span* span) {
-    span->least_near = LANES_SELECT(held, fmin(span->least_near, near), span->least_near);
-    span->most_near = LANES_SELECT(held, fmax(span->most_near, near), span->most_near);
-    span->least_far = LANES_SELECT(held, fmin(span->least_far, far), span->least_far);
-    span->most_far = LANES_SELECT(held, fmax(span->most_far, far), span->most_far);
+    span->min_near = LANES_SELECT(held, fmin(span->min_near, near), span->min_near);
+    span->max_near = LANES_SELECT(held, fmax(span->max_near, near), span->max_near);
+    span->min_far = LANES_SELECT(held, fmin(span->min_far, far), span->min_far);
+    span->max_far = LANES_SELECT(held, fmax(span->max_far, far), span->max_far);
 }
 
 /// One axis of beams: their line b0 + m s, from which their rays are at most r0 + e s away.
@@ -89,13 +89,13 @@ typedef struct {
 static inline BeamAxis beam_axis(const Span* span, lane_float s_near, lane_float s_far,
                                  lane_int active) {
     const lane_float per_s = exact_reciprocal(s_far - s_near), zero = (lane_float)0.0f;
-    const lane_float least = LANES_SELECT(active, span->least_near, zero);
-    const lane_float most = LANES_SELECT(active, span->most_near, zero);
-    const lane_float least_far = LANES_SELECT(active, span->least_far, zero);
-    const lane_float most_far = LANES_SELECT(active, span->most_far, zero);
-    const lane_float middle = 0.5f * (least + most), radius = 0.5f * (most - least);
-    const lane_float middle_far = 0.5f * (least_far + most_far);
-    const lane_float radius_far = 0.5f * (most_far - least_far);
+    const lane_float minimum = LANES_SELECT(active, span->min_near, zero);
+    const lane_float maximum = LANES_SELECT(active, span->max_near, zero);
+    const lane_float min_far = LANES_SELECT(active, span->min_far, zero);
+    const lane_float max_far = LANES_SELECT(active, span->max_far, zero);
+    const lane_float middle = 0.5f * (minimum + maximum), radius = 0.5f * (maximum - minimum);
+    const lane_float middle_far = 0.5f * (min_far + max_far);
+    const lane_float radius_far = 0.5f * (max_far - min_far);
     BeamAxis axis;
     axis.m = (middle_far - middle) * per_s;
     axis.e = (radius_far - radius) * per_s;
@@ -133,8 +133,9 @@ static inline lane_int cell_inside(lane_float position, lane_int size) {
     return LANES_INT(clamp(position, (lane_float)0.0f, LANES_FLOAT(size - 1)));
 }
 
-/// How far the beams of the `active` lanes run from s0 on through the halo's empty space: s_last or
-/// more where all is empty till there. s counts along `axis`, against it where `sign` is negative.
+/// How far the beams of the `active` lanes run from s0 on through the dilated occupancy's empty
+/// space: s_last or more where all is empty till there. s counts along `axis`, against it where
+/// `sign` is negative.
 static inline lane_float run_beams(const PyramidView* p, lane_int axis, lane_float sign,
                                    const BeamAxis* b, const BeamAxis* c, lane_float s0,
                                    lane_float s_last, lane_int active) {

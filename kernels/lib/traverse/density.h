@@ -30,7 +30,7 @@ static inline DensityCell look_up_density(const DensityView* d, lane_int x, lane
     const lane_uint word = LANES_GATHER_UINT(d->bricks, brick);
     const lane_int alike = LANE_MASK(LANES_AS_INT(word) < 0);
     const lane_uint cell = LANES_AS_UINT((cx & 15) | ((cy & 15) << 4) | ((cz & 15) << 8));
-    const lane_uint place = LANES_SELECT(alike, word & VXL_DENSITY_PLACE, (word << 12) | cell);
+    const lane_uint place = LANES_SELECT(alike, word & VXL_DENSITY_SLOT, (word << 12) | cell);
     DensityCell result;
     result.density = LANES_GATHER_FLOAT(d->values, place);
     result.log2_size = LANES_AS_INT((word >> VXL_DENSITY_SIZE_SHIFT) & 31u) & alike;

@@ -2,7 +2,7 @@
 #ifndef VXL_INSTANCE_HIT_H
 #define VXL_INSTANCE_HIT_H
 
-#include "lib/traverse/carried_ray.h"
+#include "lib/traverse/transformed_ray.h"
 
 /// Rays in the voxels that their hits are in, and what carries gradients there to the world's.
 typedef struct {
@@ -14,23 +14,23 @@ typedef struct {
 /// The ray of each lane of `of_instance` in the space of its instance; others stay as they are,
 /// with a map of zeros: numbers never written may not reach a built-in function, even to be left
 /// out.
-static inline HitRay carry_hits(global const InstanceRecord* restrict records, lane_uint instance,
-                                lane_int of_instance, HitRay ray) {
+static inline HitRay transform_hits(global const InstanceRecord* restrict records,
+                                    lane_uint instance, lane_int of_instance, HitRay ray) {
     const Vector o = ray.origin, d = ray.direction;
     const lane_float inverse_squared = exact_reciprocal(dot_product(d, d));
     const lane_float t = ray.t;
     for (int i = 0; i < 9; ++i) ray.map[i] = (lane_float)0.0f;
     lane_int left = of_instance;
     while (lanes_any(left)) {
-        const uint one = lanes_least(LANES_SELECT(left, instance, (lane_uint)0xFFFFFFFFu));
+        const uint one = lanes_min(LANES_SELECT(left, instance, (lane_uint)0xFFFFFFFFu));
         const lane_int same = left & LANE_MASK(instance == one);
         left &= ~same;
         global const InstanceRecord* r = records + one;
         const BoxPassage way = pass_box(r, o, d, inverse_squared, (lane_float)0.0f);
-        const CarriedRay c = carry_ray(r, &way);
+        const TransformedRay c = transform_ray(r, &way);
         ray.origin = select_vector(same, c.origin, ray.origin);
         ray.direction = select_vector(same, c.direction, ray.direction);
-        ray.t = LANES_SELECT(same, carried_t(&c, t), ray.t);
+        ray.t = LANES_SELECT(same, transformed_t(&c, t), ray.t);
         for (int i = 0; i < 9; ++i)
             ray.map[i] = LANES_SELECT(same, (lane_float)r->object_from_world[i], ray.map[i]);
     }
@@ -40,10 +40,10 @@ static inline HitRay carry_hits(global const InstanceRecord* restrict records, l
 /// A gradient in the voxels of a hit, in the world's voxels for the lanes of `of_instance`.
 static inline Vector world_gradient(const HitRay* ray, Vector g, lane_int of_instance) {
     const lane_float* m = ray->map;
-    const Vector carried = {fma(m[0], g.x, fma(m[3], g.y, m[6] * g.z)),
-                            fma(m[1], g.x, fma(m[4], g.y, m[7] * g.z)),
-                            fma(m[2], g.x, fma(m[5], g.y, m[8] * g.z))};
-    return select_vector(of_instance, carried, g);
+    const Vector transformed = {fma(m[0], g.x, fma(m[3], g.y, m[6] * g.z)),
+                                fma(m[1], g.x, fma(m[4], g.y, m[7] * g.z)),
+                                fma(m[2], g.x, fma(m[5], g.y, m[8] * g.z))};
+    return select_vector(of_instance, transformed, g);
 }
 
 #endif

@@ -8,8 +8,8 @@
 #ifndef VXL_INSTANCES_H
 #define VXL_INSTANCES_H
 
-#include "lib/traverse/carried_ray.h"
-#include "lib/traverse/flight.h"
+#include "lib/traverse/packet.h"
+#include "lib/traverse/transformed_ray.h"
 
 typedef struct {
     global const InstanceRecord* restrict records;
@@ -109,23 +109,23 @@ static inline PyramidView instance_pyramid(const PyramidView* world,
 /// A ray that goes on from a surface at t_first has yet to meet what lies at this very t in the
 /// spaces that come after the surface's: the world's is the first, then instances' by number. The
 /// objects that it is inside of are the world's.
-static inline Travel travel_in(const Travel* travel, lane_uint number, lane_int begins) {
-    Travel t = *travel;
-    const lane_int own = LANE_MASK(travel->instance == number);
+static inline RayState ray_state_in(const RayState* ray_state, lane_uint number, lane_int begins) {
+    RayState t = *ray_state;
+    const lane_int own = LANE_MASK(ray_state->instance == number);
     t.on_surface &= own;
     t.on_cube = t.on_surface & LANE_MASK(number == VXL_NO_INSTANCE);
     t.within_source &= own;
     t.source = LANES_SELECT(own, t.source, (lane_uint)VXL_NO_PRIMITIVE);
     t.unsure = begins & ~t.on_surface;
     if (VXL_TRANSMISSION) {
-        const lane_int ahead =
-            travel->goes_on & LANE_MASK(LANES_AS_INT(number) > LANES_AS_INT(travel->instance));
+        const lane_int ahead = ray_state->goes_on &
+                               LANE_MASK(LANES_AS_INT(number) > LANES_AS_INT(ray_state->instance));
         t.t_first = LANES_SELECT(ahead, float_before(t.t_first), t.t_first);
         const lane_int of_world = LANE_MASK(number == VXL_NO_INSTANCE);
-        for (int i = 0; i < VXL_INTERIOR_MEMBERS; ++i)
-            t.interior.members[i] =
-                LANES_SELECT(of_world, t.interior.members[i], (lane_uint)VXL_NO_MEMBER);
-        t.body = LANES_SELECT(of_world, t.body, (lane_uint)VXL_NO_MEMBER);
+        for (int i = 0; i < VXL_MEDIUM_SET_SIZE; ++i)
+            t.media.members[i] =
+                LANES_SELECT(of_world, t.media.members[i], (lane_uint)VXL_NO_MEDIUM);
+        t.body = LANES_SELECT(of_world, t.body, (lane_uint)VXL_NO_MEDIUM);
         t.joined &= of_world;
     }
     return t;
@@ -135,34 +135,34 @@ static inline Travel travel_in(const Travel* travel, lane_uint number, lane_int 
 static inline lane_int meet_instance(const PyramidView* world, const SurfaceView* s,
                                      const InstanceView* v, uint number, const Walk* ray,
                                      lane_float inverse_squared, lane_float t_last, lane_int active,
-                                     const Travel* travel, Found* best, Walk* at) {
+                                     const RayState* ray_state, SurfaceHit* best, Walk* at) {
     global const InstanceRecord* r = v->records + number;
     const Vector o = {ray->ox, ray->oy, ray->oz}, d = {ray->dx, ray->dy, ray->dz};
-    const BoxPassage way = pass_box(r, o, d, inverse_squared, travel->t_first);
+    const BoxPassage way = pass_box(r, o, d, inverse_squared, ray_state->t_first);
     active &= way.met & LANE_MASK(way.base + way.from <= t_last);
     if (!lanes_any(active)) return active;
-    const CarriedRay c = carry_ray(r, &way);
+    const TransformedRay c = transform_ray(r, &way);
     const PyramidView p = instance_pyramid(world, r);
     Walk w =
         begin_walk(c.origin.x, c.origin.y, c.origin.z, c.direction.x, c.direction.y, c.direction.z);
     w.axis = r->aligned ? (lane_int)3 : way.axis;
-    if (r->aligned) enter_box(&p, r, travel->t_first, &w);
-    Travel outside = *travel;
+    if (r->aligned) enter_box(&p, r, ray_state->t_first, &w);
+    RayState outside = *ray_state;
     if (!r->aligned) outside.t_first = (lane_float)0.0f;
-    Travel inside = travel_in(&outside, (lane_uint)number, LANE_MASK(w.axis == 3));
+    RayState inside = ray_state_in(&outside, (lane_uint)number, LANE_MASK(w.axis == 3));
     if (VXL_SOLIDS) {
         const lane_int asked = active & inside.asks_side & LANE_MASK(w.axis == 3) &
-                               LANE_MASK(travel->instance == number);
+                               LANE_MASK(ray_state->instance == number);
         if (lanes_any(asked)) {
-            const SolidRay carried = {w.ox, w.oy, w.oz, w.dx, w.dy, w.dz};
+            const SolidRay transformed = {w.ox, w.oy, w.oz, w.dx, w.dy, w.dz};
             inside.within_source =
                 go_inside(s->solids, inside.source & ~VXL_SOLID_PRIMITIVE & LANES_AS_UINT(asked),
-                          &carried, asked);
+                          &transformed, asked);
         }
     }
     // Later than t_last by more than the rounding of its t: what counts is compared in the world.
-    const lane_float t_end = carried_t(&c, fma(t_last, 0x1p-20f, t_last));
-    const Found found = find_first(&p, s, &w, t_end, active, &inside);
+    const lane_float t_end = transformed_t(&c, fma(t_last, 0x1p-20f, t_last));
+    const SurfaceHit found = find_first(&p, s, &w, t_end, active, &inside);
     const lane_float t = world_t(&c, fmax(found.t, 0.0f));
     const lane_int closer =
         found.hit & active & LANE_MASK(t <= t_last) &
@@ -186,8 +186,8 @@ static inline lane_int meet_instance(const PyramidView* world, const SurfaceView
 /// with the first.
 static inline void meet_instances(const PyramidView* world, const SurfaceView* s,
                                   const InstanceView* v, const Walk* ray, lane_float t_end,
-                                  lane_int active, bool any, const Travel* travel, Found* best,
-                                  Walk* at) {
+                                  lane_int active, bool any, const RayState* ray_state,
+                                  SurfaceHit* best, Walk* at) {
     const SlabRay slab = slab_ray(ray);
     const Vector d = {ray->dx, ray->dy, ray->dz};
     const lane_float inverse_squared = exact_reciprocal(dot_product(d, d));
@@ -199,8 +199,9 @@ static inline void meet_instances(const PyramidView* world, const SurfaceView* s
     lane_float t_last = LANES_SELECT(best->hit, fmin(best->t, t_end), t_end);
     while (true) {
         if (node & VXL_INSTANCE_LEAF) {
-            const lane_int met = meet_instance(world, s, v, node & ~VXL_INSTANCE_LEAF, ray,
-                                               inverse_squared, t_last, active, travel, best, at);
+            const lane_int met =
+                meet_instance(world, s, v, node & ~VXL_INSTANCE_LEAF, ray, inverse_squared, t_last,
+                              active, ray_state, best, at);
             t_last = LANES_SELECT(met, best->t, t_last);
             active = (lane_int)0;
         } else {
@@ -234,20 +235,21 @@ static inline void meet_instances(const PyramidView* world, const SurfaceView* s
 
 /// Walks the `active` lanes to their first surface before t_end, in the world or of an instance.
 /// The walk ends in the cell of the surface, in the instance's voxels if it is one's.
-static inline Found find_nearest(const PyramidView* p, const SurfaceView* s, const InstanceView* v,
-                                 Walk* w, lane_float t_end, lane_int active, bool any,
-                                 const Travel* travel) {
-    if (!VXL_INSTANCES) return find_first(p, s, w, t_end, active, travel);
-    const Travel in_world = travel_in(travel, (lane_uint)VXL_NO_INSTANCE, LANE_MASK(w->axis == 3));
+static inline SurfaceHit find_nearest(const PyramidView* p, const SurfaceView* s,
+                                      const InstanceView* v, Walk* w, lane_float t_end,
+                                      lane_int active, bool any, const RayState* ray_state) {
+    if (!VXL_INSTANCES) return find_first(p, s, w, t_end, active, ray_state);
+    const RayState in_world =
+        ray_state_in(ray_state, (lane_uint)VXL_NO_INSTANCE, LANE_MASK(w->axis == 3));
     const Walk ray = *w;
-    Found found = find_first(p, s, w, t_end, active, &in_world);
+    SurfaceHit found = find_first(p, s, w, t_end, active, &in_world);
     found.instance = (lane_uint)VXL_NO_INSTANCE;
     // Beyond the world's bounds there is nothing.
     lane_float t_in = (lane_float)0.0f, t_out = t_end;
     const Vector o = {ray.ox, ray.oy, ray.oz}, d = {ray.dx, ray.dy, ray.dz};
     clip_to_world(o, d, p->size_x, p->size_y, p->size_z, &t_in, &t_out);
     if (any) active &= ~found.hit;
-    if (lanes_any(active)) meet_instances(p, s, v, &ray, t_out, active, any, travel, &found, w);
+    if (lanes_any(active)) meet_instances(p, s, v, &ray, t_out, active, any, ray_state, &found, w);
     return found;
 }
 

@@ -3,7 +3,7 @@
 #define VXL_RAY_QUEUE_H
 
 #include "lib/lanes/vector.h"
-#include "lib/light/interior.h"
+#include "lib/light/medium_set.h"
 #include "shared/trace.h"
 
 /// A packet of new rays; see shared/trace.h for the components.
@@ -16,8 +16,8 @@ typedef struct {
     // of scenes with transmitting objects
     lane_uint cell_xy, cell_z, target, medium;  // medium: RayBatch::inside
     lane_float start, clear;
-    lane_float passed[3];
-    Interior interior;
+    lane_float throughput[3];
+    MediumSet media;
 } NewRays;
 
 /// Where they go: `stride` places.
@@ -33,10 +33,10 @@ typedef struct {
 typedef struct {
     uint first, count;
     uint lane[VXL_LANES];
-} Places;
+} Slots;
 
-static inline Places places_from(uint first, lane_int wanted) {
-    Places p;
+static inline Slots slots_from(uint first, lane_int wanted) {
+    Slots p;
     int lanes[VXL_LANES];
     LANES_STORE(wanted, lanes, 0);
     p.first = first, p.count = 0;
@@ -49,45 +49,45 @@ static inline Places places_from(uint first, lane_int wanted) {
 
 /// Reserves a place behind `count` for every lane of a mask, all at once. Where the places are does
 /// not matter to any result.
-static inline Places reserve_places(lane_int wanted, global uint* count) {
+static inline Slots reserve_slots(lane_int wanted, global uint* count) {
     const uint sum = (uint)lanes_count(wanted);
-    return places_from(sum == 0 ? 0 : atomic_add(count, sum), wanted);
+    return slots_from(sum == 0 ? 0 : atomic_add(count, sum), wanted);
 }
 
-static inline void put_uint(global uint* to, lane_uint value, const Places* places) {
+static inline void put_uint(global uint* to, lane_uint value, const Slots* slots) {
     uint values[VXL_LANES];
     LANES_STORE(value, values, 0);
-    for (uint i = 0; i < places->count; ++i) to[places->first + i] = values[places->lane[i]];
+    for (uint i = 0; i < slots->count; ++i) to[slots->first + i] = values[slots->lane[i]];
 }
 
-static inline void put_float(global float* to, lane_float value, const Places* places) {
-    put_uint((global uint*)to, LANES_AS_UINT(value), places);
+static inline void put_float(global float* to, lane_float value, const Slots* slots) {
+    put_uint((global uint*)to, LANES_AS_UINT(value), slots);
 }
 
-static inline void put_rays(const RayQueue* q, const NewRays* r, const Places* places) {
+static inline void put_rays(const RayQueue* q, const NewRays* r, const Slots* slots) {
     const size_t n = q->stride;
-    put_float(q->rays + VXL_RAY_OX * n, r->origin.x, places);
-    put_float(q->rays + VXL_RAY_OY * n, r->origin.y, places);
-    put_float(q->rays + VXL_RAY_OZ * n, r->origin.z, places);
-    put_float(q->rays + VXL_RAY_DX * n, r->direction.x, places);
-    put_float(q->rays + VXL_RAY_DY * n, r->direction.y, places);
-    put_float(q->rays + VXL_RAY_DZ * n, r->direction.z, places);
-    put_float(q->rays + VXL_RAY_END * n, r->t_end, places);
-    put_uint(q->paths + VXL_PATH_SOURCE * n, r->source, places);
-    put_uint(q->paths + VXL_PATH_FLAGS * n, r->flags, places);
-    put_uint(q->paths + VXL_PATH_WEIGHT * n, LANES_AS_UINT(r->weight), places);
-    if (VXL_INSTANCES) put_uint(q->paths + VXL_PATH_INSTANCE * n, r->instance, places);
+    put_float(q->rays + VXL_RAY_OX * n, r->origin.x, slots);
+    put_float(q->rays + VXL_RAY_OY * n, r->origin.y, slots);
+    put_float(q->rays + VXL_RAY_OZ * n, r->origin.z, slots);
+    put_float(q->rays + VXL_RAY_DX * n, r->direction.x, slots);
+    put_float(q->rays + VXL_RAY_DY * n, r->direction.y, slots);
+    put_float(q->rays + VXL_RAY_DZ * n, r->direction.z, slots);
+    put_float(q->rays + VXL_RAY_END * n, r->t_end, slots);
+    put_uint(q->paths + VXL_PATH_SOURCE * n, r->source, slots);
+    put_uint(q->paths + VXL_PATH_FLAGS * n, r->flags, slots);
+    put_uint(q->paths + VXL_PATH_WEIGHT * n, LANES_AS_UINT(r->weight), slots);
+    if (VXL_INSTANCES) put_uint(q->paths + VXL_PATH_INSTANCE * n, r->instance, slots);
     if (!VXL_TRANSMISSION) return;
-    put_uint(q->paths + VXL_PATH_CELL * n, r->cell_xy, places);
-    put_uint(q->paths + VXL_PATH_CELL_Z * n, r->cell_z, places);
-    put_uint(q->paths + VXL_PATH_TARGET * n, r->target, places);
-    put_uint(q->paths + VXL_PATH_CLEAR * n, LANES_AS_UINT(r->clear), places);
+    put_uint(q->paths + VXL_PATH_CELL * n, r->cell_xy, slots);
+    put_uint(q->paths + VXL_PATH_CELL_Z * n, r->cell_z, slots);
+    put_uint(q->paths + VXL_PATH_TARGET * n, r->target, slots);
+    put_uint(q->paths + VXL_PATH_CLEAR * n, LANES_AS_UINT(r->clear), slots);
     for (uint c = 0; c < 3; ++c)
-        put_uint(q->paths + (VXL_PATH_PASSED + c) * n, LANES_AS_UINT(r->passed[c]), places);
-    for (uint i = 0; i < VXL_INTERIOR_MEMBERS; ++i)
-        put_uint(q->paths + (VXL_PATH_INSIDE + i) * n, r->interior.members[i], places);
-    put_float(q->starts, r->start, places);
-    put_uint(q->inside, r->medium, places);
+        put_uint(q->paths + (VXL_PATH_THROUGHPUT + c) * n, LANES_AS_UINT(r->throughput[c]), slots);
+    for (uint i = 0; i < VXL_MEDIUM_SET_SIZE; ++i)
+        put_uint(q->paths + (VXL_PATH_INSIDE + i) * n, r->media.members[i], slots);
+    put_float(q->starts, r->start, slots);
+    put_uint(q->inside, r->medium, slots);
 }
 
 #endif

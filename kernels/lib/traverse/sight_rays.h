@@ -2,18 +2,19 @@
 #ifndef VXL_SIGHT_RAYS_H
 #define VXL_SIGHT_RAYS_H
 
-#include "lib/traverse/flight.h"
+#include "lib/traverse/packet.h"
 
 /// What a ray met, as shared/trace.h describes it.
 typedef struct {
     lane_uint values[VXL_HIT_COMPONENTS];
 } Hit;
 
-static inline Hit hit_of(const Flight* f, lane_int hit) {
+static inline Hit hit_of(const Packet* f, lane_int hit) {
     Hit h;
     Walk walk = f->walk;
     lane_uint face = hit_face(&walk, f->found.exit & hit);
-    if (VXL_SMOOTH) face |= LANES_AS_UINT(within_smooth(&f->found, &f->travel)) & VXL_FACE_WITHIN;
+    if (VXL_SMOOTH)
+        face |= LANES_AS_UINT(within_smooth(&f->found, &f->ray_state)) & VXL_FACE_WITHIN;
     h.values[VXL_HIT_T] = LANES_AS_UINT(f->found.t);
     h.values[VXL_HIT_VOXEL] = LANES_SELECT(hit, f->found.voxel, (lane_uint)VXL_NO_VOXEL);
     h.values[VXL_HIT_CELL] = LANES_AS_UINT(walk.x | (walk.y << 16));
@@ -49,7 +50,7 @@ typedef struct {
 
 /// Sets the packet of rays from `first` on on their way. False where there is none, or its beam is
 /// clear, which is stored.
-static inline bool send_packet(const PyramidView* p, const SightRays* q, uint first, Flight* f,
+static inline bool send_packet(const PyramidView* p, const SightRays* q, uint first, Packet* f,
                                global uint* restrict hits) {
     if (first >= q->count) return false;
     if (q->beams && beam_is_clear(q->beams, q->stride, first)) {
@@ -62,11 +63,11 @@ static inline bool send_packet(const PyramidView* p, const SightRays* q, uint fi
     return true;
 }
 
-static inline lane_int are_rays(const SightRays* q, const Flight* f) {
+static inline lane_int are_rays(const SightRays* q, const Packet* f) {
     return LANE_MASK(f->t_end >= 0.0f) & LANE_MASK(f->ray < q->count);
 }
 
-static inline void store_packet(const SightRays* q, const Flight* f, global uint* restrict hits) {
+static inline void store_packet(const SightRays* q, const Packet* f, global uint* restrict hits) {
     const Hit hit = hit_of(f, f->found.hit);
     for (uint i = 0; i < VXL_STORED_COMPONENTS; ++i)
         LANES_STORE(hit.values[i], hits, i * q->stride + LANES_FIRST(f->ray));

@@ -32,7 +32,7 @@ static inline bool brick_is_stored(uint slot) {
 }
 
 // Where node (x,y,z) of the brick, each in -1 .. 17, stands in the gathered nodes.
-static inline int node_place(int x, int y, int z) {
+static inline int node_index(int x, int y, int z) {
     return x + 1 + (y + 1) * VXL_NODE_ROW + (z + 1) * VXL_NODE_LAYER;
 }
 
@@ -55,7 +55,7 @@ static inline void gather_neighbour(global const short* distance, uint slot, int
     global const short* brick = distance + (stored ? (size_t)slot * VXL_BRICK_VOXELS : 0);
     for (int z = 0; z < count.z; ++z)
         for (int y = 0; y < count.y; ++y) {
-            short* row = nodes + node_place(first.x, first.y + y, first.z + z);
+            short* row = nodes + node_index(first.x, first.y + y, first.z + z);
             global const short* source =
                 brick + (first.x & 15) + (((first.y + y) & 15) << 4) + (((first.z + z) & 15) << 8);
             if (count.x == 16)

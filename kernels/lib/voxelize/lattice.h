@@ -160,9 +160,9 @@ static inline Silhouette silhouette_of_points(int2 a, int2 b, int2 c, long area,
     s.w *= sign;
     const long3 major = u_first ? s.u : s.w, minor = u_first ? s.w : s.u;
     const long3 tie_is_outside = (major < 0L) | ((major == 0L) & (minor <= 0L));
-    const long3 least =
+    const long3 minimum =
         s.u * convert_long3(p.u - offset) + s.w * convert_long3(p.w - offset) - tie_is_outside;
-    s.low = (least + (LATTICE_VOXEL - 1)) >> LATTICE_BITS;
+    s.low = (minimum + (LATTICE_VOXEL - 1)) >> LATTICE_BITS;
     return s;
 }
 

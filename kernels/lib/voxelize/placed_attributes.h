@@ -6,18 +6,18 @@
 
 // An object's words in the world: the kind bits and object number, the object's own word if it has
 // one for all its voxels, and the length of its list of materials.
-typedef uint4 WordMap;  // kind and object, own word, materials, 0
+typedef uint4 AttributeMap;  // kind and object, own word, materials, 0
 
-static inline uint word_in_world(WordMap map, global const uint* materials, uint own) {
+static inline uint attributes_in_world(AttributeMap map, global const uint* materials, uint own) {
     const uint group = own >> VXL_MATERIAL_SHIFT & VXL_MATERIAL_MASK;
     return map.x | materials[min(group, map.z - 1)] << VXL_MATERIAL_SHIFT;
 }
 
 // `from` is the voxel's place in the object's buffers, negative for one that has none.
-static inline uint word_of(WordMap map, global const uint* materials, global const uint* attributes,
-                           long from) {
+static inline uint attributes_of(AttributeMap map, global const uint* materials,
+                                 global const uint* attributes, long from) {
     const uint own = VXL_OBJECT_ATTRIBUTES && from >= 0 ? attributes[from] : map.y;
-    return word_in_world(map, materials, own);
+    return attributes_in_world(map, materials, own);
 }
 
 static inline uint color_of(global const uint* colors, long from) {
@@ -25,7 +25,7 @@ static inline uint color_of(global const uint* colors, long from) {
 }
 
 // The place of voxel `v` in the object's buffers, or -1.
-static inline long place_of_voxel(const PlacedObject* object, int4 v) {
+static inline long index_of_voxel(const PlacedObject* object, int4 v) {
     const uint slot = brick_slot(object->slots, object->bricks, v >> 4);
     if (!brick_is_stored(slot)) return -1;
     return (long)slot * VXL_BRICK_VOXELS + ((v.x & 15) | (v.y & 15) << 4 | (v.z & 15) << 8);
@@ -37,7 +37,7 @@ static inline uint painted_leaf(uint item, global const uint* painted) {
     return painted[item >> 6 << 1] << 6 | (item & 63u);
 }
 
-static inline uint painted_place(uint item, global const uint* painted) {
+static inline uint painted_index(uint item, global const uint* painted) {
     return painted[(item >> 6 << 1) + 1u];
 }
 
@@ -47,7 +47,7 @@ static inline int4 leaf_in_world(uint leaf, global const uint* coordinates, int4
     return (brick * 16 + (int4)(leaf << 2 & 12, leaf & 12, leaf >> 2 & 12, 0)) * 2;
 }
 
-static inline int leaf_place(uint leaf) {
+static inline int leaf_index(uint leaf) {
     return (int)((leaf << 2 & 12) | (leaf & 12) << 4 | (leaf >> 2 & 12) << 8);
 }
 

@@ -118,10 +118,10 @@ static inline HalfAngle half_solid_angle(const Cap* cap, const LanePoints* p, fl
     // The turn that both legs' errors make where the legs are as short as they may be, and as much
     // again for the rounding of this bound.
     const lane_float slack = REACH_ROUNDING * a.length * b.length * c.length;
-    const lane_float least_height = fmax(fabs(height) - bound, (lane_float)(0.0f));
-    const lane_float least_reach = fmax(fabs(reach) - slack, (lane_float)(0.0f));
+    const lane_float min_height = fmax(fabs(height) - bound, (lane_float)(0.0f));
+    const lane_float min_reach = fmax(fabs(reach) - slack, (lane_float)(0.0f));
     const lane_float turn = (bound * (fabs(reach) + slack) + slack * (fabs(height) + bound)) /
-                            fma(least_height, least_height, least_reach * least_reach);
+                            fma(min_height, min_height, min_reach * min_reach);
     const HalfAngle seen = {lanes_atan2(height, reach), 2.0f * turn + ARC_ROUNDING};
     return seen;
 }

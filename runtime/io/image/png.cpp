@@ -132,14 +132,14 @@ void write_png(const std::filesystem::path& path, const Image& image, const PngO
 }
 
 Picture read_png(const std::filesystem::path& path) {
-    constexpr uint64_t kMostPixels = uint64_t{1} << 28;
+    constexpr uint64_t kMaxPixels = uint64_t{1} << 28;
     const InputFile file(path);
     const auto check = [&file](int code) {
         if (code != 0) file.refuse(fmt::format("not a readable PNG: {}", spng_strerror(code)));
     };
     // An 8-bit RGBA pixel takes at most 8 bytes as 16-bit samples; what is larger can't be within
     // the limit.
-    if (file.size() > 9 * kMostPixels) file.refuse("is too large for a PNG that voxelume reads");
+    if (file.size() > 9 * kMaxPixels) file.refuse("is too large for a PNG that voxelume reads");
     std::vector<uint8_t> bytes(file.size());
     file.read(0, bytes.data(), bytes.size());
     // libspng is content when the pixels are there; only the last chunk shows that nothing is
@@ -155,7 +155,7 @@ Picture read_png(const std::filesystem::path& path) {
     check(spng_get_ihdr(context.get(), &header));
     const uint64_t pixels = uint64_t{header.width} * header.height;
     // Deflate reaches 1032:1 and a pixel takes an eighth of a byte at least.
-    if (pixels > kMostPixels || pixels / 8 / 1032 > file.size())
+    if (pixels > kMaxPixels || pixels / 8 / 1032 > file.size())
         file.refuse(
             fmt::format("declares {} x {} pixels, which it can't hold or which are above 2^28",
                         header.width, header.height));

@@ -128,10 +128,10 @@ class HeaderParser {
     }
 
     void require_bytes_for(const PlyElement& element) const {
-        const uint64_t least = element.least_bytes(header_.format);
+        const uint64_t minimum = element.min_bytes(header_.format);
         // The last line of an ascii file may lack its newline.
         const auto left = static_cast<uint64_t>(source_.end() - header_.body) + 1;
-        if (least != 0 && element.count > left / least) {
+        if (minimum != 0 && element.count > left / minimum) {
             source_.fail(
                 fmt::format("the PLY header promises {} elements '{}', and the {} bytes behind "
                             "it don't hold that many; the file is damaged or incomplete",
@@ -157,7 +157,7 @@ uint64_t size_of(PlyType type) {
     return kSizes[static_cast<size_t>(type)];
 }
 
-uint64_t PlyElement::least_bytes(PlyFormat format) const {
+uint64_t PlyElement::min_bytes(PlyFormat format) const {
     uint64_t bytes = 0;
     for (const PlyProperty& property : properties) {
         const PlyType first = property.is_list ? property.count_type : property.type;

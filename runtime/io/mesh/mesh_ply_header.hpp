@@ -32,7 +32,7 @@ struct PlyElement {
     std::vector<PlyProperty> properties;
 
     /// The least that one of them takes in the file: every list empty, every ascii value one digit.
-    uint64_t least_bytes(PlyFormat format) const;
+    uint64_t min_bytes(PlyFormat format) const;
 };
 
 struct PlyHeader {

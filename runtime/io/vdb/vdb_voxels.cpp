@@ -58,9 +58,9 @@ VdbVoxels take_voxels(const openvdb::GridPtrVec& grids, Surface surface,
     const Vec3d origin = grid->indexToWorld(Vec3d(0.0));
     voxels.origin = {origin.x(), origin.y(), origin.z()};
     const uint64_t count = grid->activeVoxelCount();
-    if (count > kMostVdbVoxels)
+    if (count > kMaxVdbVoxels)
         readable.refuse(fmt::format("grid \"{}\" has {} voxels, at most {} are possible",
-                                    grid->getName(), count, kMostVdbVoxels));
+                                    grid->getName(), count, kMaxVdbVoxels));
     openvdb::Vec3SGrid::Ptr colors;
     for (const openvdb::GridBase::Ptr& other : grids)
         if (other->getName() == "Cd") colors = openvdb::gridPtrCast<openvdb::Vec3SGrid>(other);

@@ -22,7 +22,7 @@ struct VdbVoxels {
 };
 
 /// Active voxels that a model may have.
-inline constexpr uint64_t kMostVdbVoxels = uint64_t{1} << 26;
+inline constexpr uint64_t kMaxVdbVoxels = uint64_t{1} << 26;
 
 /// For cubes the float grid `density`, or the first that isn't a level set; for smooth surfaces the
 /// first level set.

@@ -58,9 +58,9 @@ openvdb::Coord coord_of(const VolumeFrame& frame, uint64_t place) {
 /// The listed voxels leaf by leaf, 8 x 8 x 8 each: OpenVDB's accessors are slow across leaves.
 std::vector<uint32_t> order_by_leaf(const Volume& volume) {
     std::vector<std::pair<uint64_t, uint32_t>> order;
-    order.reserve(volume.places.size());
-    for (uint32_t i = 0; i < volume.places.size(); ++i) {
-        const glm::ivec3 leaf = cell_of(volume.frame, volume.places[i]) / 8;
+    order.reserve(volume.indices.size());
+    for (uint32_t i = 0; i < volume.indices.size(); ++i) {
+        const glm::ivec3 leaf = cell_of(volume.frame, volume.indices[i]) / 8;
         order.emplace_back(uint64_t(leaf.x) | uint64_t(leaf.y) << 16 | uint64_t(leaf.z) << 32, i);
     }
     std::ranges::sort(order);
@@ -81,7 +81,7 @@ class GridMaker {
         auto grid = Grid::create();
         auto accessor = grid->getAccessor();
         for (const uint32_t i : order_)
-            accessor.setValue(coord_of(volume_.frame, volume_.places[i]), value_at(i));
+            accessor.setValue(coord_of(volume_.frame, volume_.indices[i]), value_at(i));
         grid->setName(name);
         grid->setTransform(make_transform(volume_.frame));
         return grid;
@@ -186,7 +186,7 @@ Volume take_volume(const InputFile& readable, const VolumePath& path, openvdb::i
     const VolumeGrids grids = take_grids(file);
     if (!grids.complete()) readable.refuse("its grids aren't those of a display");
     for (const FoundVoxel& voxel : find_voxels(readable, volume.frame, grids)) {
-        volume.places.push_back(voxel.place);
+        volume.indices.push_back(voxel.place);
         volume.colors.emplace_back(voxel.color.x(), voxel.color.y(), voxel.color.z());
         volume.opacities.push_back(voxel.opacity);
         volume.depths.push_back(voxel.depth);
@@ -200,7 +200,7 @@ Volume take_volume(const InputFile& readable, const VolumePath& path, openvdb::i
 
 void write_volume_vdb(const VolumePath& path, const Volume& volume) {
     AtomicFile file(path);
-    if (volume.places.size() > UINT32_MAX)
+    if (volume.indices.size() > UINT32_MAX)
         file.fail("it has more than 2^32 voxels that show something");
     openvdb::initialize();
     openvdb::MetaMap metadata;

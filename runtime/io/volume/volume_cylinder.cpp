@@ -52,9 +52,9 @@ struct Cylinder {
         const uint64_t place =
             uint64_t(cell.x) +
             uint64_t(n.x) * (uint64_t(cell.y) + uint64_t(n.y) * uint64_t(cell.z));
-        const auto found = std::ranges::lower_bound(volume.places, place);
-        if (found == volume.places.end() || *found != place) return -1;
-        return found - volume.places.begin();
+        const auto found = std::ranges::lower_bound(volume.indices, place);
+        if (found == volume.indices.end() || *found != place) return -1;
+        return found - volume.indices.begin();
     }
 };
 

@@ -28,10 +28,10 @@ float threshold_at(Dither dither, int column, int row, int plane) {
     return (static_cast<float>(bayer_rank(x, y)) + 0.5f) / 64.0f;
 }
 
-int level_of(float value, int most, float threshold) {
-    const float scaled = value * static_cast<float>(most);
+int level_of(float value, int maximum, float threshold) {
+    const float scaled = value * static_cast<float>(maximum);
     const float whole = std::floor(scaled);
-    return std::min(static_cast<int>(whole) + (scaled - whole > threshold ? 1 : 0), most);
+    return std::min(static_cast<int>(whole) + (scaled - whole > threshold ? 1 : 0), maximum);
 }
 
 glm::vec3 light_of(const glm::vec3& color, float opacity, float exposure) {

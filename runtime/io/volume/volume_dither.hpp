@@ -12,9 +12,9 @@ namespace voxelume {
 /// without dithering.
 float threshold_at(Dither dither, int column, int row, int plane);
 
-/// The level of 0 .. `most` for a value of 0..1: the next higher one where the rest is above the
+/// The level of 0 .. `maximum` for a value of 0..1: the next higher one where the rest is above the
 /// threshold.
-int level_of(float value, int most, float threshold);
+int level_of(float value, int maximum, float threshold);
 
 /// A voxel's light as a display adds it up: colour times opacity times 2^exposure, cut to 0..1.
 glm::vec3 light_of(const glm::vec3& color, float opacity, float exposure);

@@ -140,7 +140,7 @@ Volume take_volume(const InputFile& readable, const VolumePath& path) {
             volume.attributes[name] = text->value();
     }
     for (const Sample& sample : read_rows(readable, volume.frame, input)) {
-        volume.places.push_back(sample.place);
+        volume.indices.push_back(sample.place);
         volume.colors.push_back(sample.color);
         volume.opacities.push_back(sample.opacity);
         volume.depths.push_back(sample.depth);

@@ -35,12 +35,12 @@ PixelOrder order_by_pixel(const Volume& volume) {
     const uint64_t pixels = uint64_t(volume.frame.size.x) * uint64_t(volume.frame.size.y);
     PixelOrder order;
     order.first.resize(pixels + 1);
-    for (const uint64_t place : volume.places) ++order.first[place % pixels + 1];
+    for (const uint64_t place : volume.indices) ++order.first[place % pixels + 1];
     for (uint64_t i = 0; i < pixels; ++i) order.first[i + 1] += order.first[i];
     std::vector<uint64_t> next(order.first.begin(), order.first.end() - 1);
-    order.voxels.resize(volume.places.size());
+    order.voxels.resize(volume.indices.size());
     for (uint32_t i = 0; i < order.voxels.size(); ++i)
-        order.voxels[next[volume.places[i] % pixels]++] = i;
+        order.voxels[next[volume.indices[i] % pixels]++] = i;
     return order;
 }
 
@@ -101,7 +101,7 @@ class DeepRowWriter {
     }
 
     void put_sample(uint64_t at, uint32_t voxel) {
-        const glm::ivec3 cell = cell_of(volume_.frame, volume_.places[voxel]);
+        const glm::ivec3 cell = cell_of(volume_.frame, volume_.indices[voxel]);
         const float near = bounds_[size_t(cell.z)], far = bounds_[size_t(cell.z) + 1];
         const float opacity = volume_.opacities[voxel], depth = volume_.depths[voxel];
         const bool is_surface = volume_.kinds[voxel] == VoxelKind::object;
@@ -163,7 +163,7 @@ void write_rows(AtomicFile& file, const VolumePath& path, const Volume& volume) 
 
 void write_volume_exr(const VolumePath& path, const Volume& volume) {
     AtomicFile file(path);
-    if (volume.places.size() > UINT32_MAX)
+    if (volume.indices.size() > UINT32_MAX)
         file.fail("it has more than 2^32 voxels that show something");
     try {
         write_rows(file, path, volume);

@@ -13,11 +13,11 @@ namespace voxelume {
 namespace {
 
 /// Headers are much shorter; scenes may be long.
-constexpr uintmax_t kMostHeaderBytes = 1 << 20;
+constexpr uintmax_t kMaxHeaderBytes = 1 << 20;
 
 bool is_header(const VolumePath& path, VolumeFormat format) {
     std::error_code failed;
-    if (std::filesystem::file_size(path, failed) > kMostHeaderBytes || failed) return false;
+    if (std::filesystem::file_size(path, failed) > kMaxHeaderBytes || failed) return false;
     std::ifstream file(path, std::ios::binary);
     const VolumeJson json = VolumeJson::parse(file, nullptr, false);
     return json.is_object() && json.contains("voxelume_volume") &&

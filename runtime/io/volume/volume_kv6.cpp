@@ -32,9 +32,9 @@ class SolidCells {
     explicit SolidCells(const Volume& volume)
         : size_(volume.frame.size.x, volume.frame.size.z, volume.frame.size.y),
           bits_(size_t(voxel_count(volume.frame))) {
-        for (size_t i = 0; i < volume.places.size(); ++i)
+        for (size_t i = 0; i < volume.indices.size(); ++i)
             if (volume.opacities[i] >= 0.5f)
-                bits_[index(from_volume(cell_of(volume.frame, volume.places[i])))] = true;
+                bits_[index(from_volume(cell_of(volume.frame, volume.indices[i])))] = true;
     }
     const glm::ivec3& size() const { return size_; }
     glm::ivec3 from_volume(const glm::ivec3& cell) const {
@@ -105,9 +105,9 @@ std::vector<PlacedVoxel> surface_voxels(const Volume& volume, float exposure) {
     const SolidCells solid(volume);
     const float gain = std::exp2(exposure);
     std::vector<PlacedVoxel> voxels;
-    for (size_t i = 0; i < volume.places.size(); ++i) {
+    for (size_t i = 0; i < volume.indices.size(); ++i) {
         if (volume.opacities[i] < 0.5f) continue;
-        const glm::ivec3 cell = solid.from_volume(cell_of(volume.frame, volume.places[i]));
+        const glm::ivec3 cell = solid.from_volume(cell_of(volume.frame, volume.indices[i]));
         const uint8_t faces = solid.faces_of(cell);
         if (faces == 0) continue;
         const glm::vec3 color = volume.colors[i] * gain;

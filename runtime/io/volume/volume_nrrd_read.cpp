@@ -153,8 +153,8 @@ bool take_compression(const InputFile& file, NrrdHeader& header, uint64_t bytes)
 /// taken for an object.
 void complete(Volume& volume) {
     const glm::dmat4 observer_from_world = glm::inverse(volume.frame.world_from_observer);
-    for (size_t i = 0; i < volume.places.size(); ++i) {
-        const glm::ivec3 cell = cell_of(volume.frame, volume.places[i]);
+    for (size_t i = 0; i < volume.indices.size(); ++i) {
+        const glm::ivec3 cell = cell_of(volume.frame, volume.indices[i]);
         const glm::dvec3 center(observer_from_world *
                                 glm::dvec4(voxel_center(volume.frame, cell), 1));
         const double depth = depth_is_along_z(volume.frame) ? center.z : glm::length(center);
@@ -167,12 +167,12 @@ void complete(Volume& volume) {
 void take_voxel(const InputFile& file, Volume& volume, uint64_t place, const float* values,
                 size_t channels) {
     if (std::all_of(values, values + channels, [](float value) { return value == 0; })) return;
-    volume.places.push_back(place);
+    volume.indices.push_back(place);
     volume.colors.emplace_back(values[0], values[1], values[2]);
     volume.opacities.push_back(values[3]);
     if (channels == 4) return;
-    constexpr float kMostObjects = 16777216;  // whole numbers that a float holds
-    if (!(values[5] >= 0 && values[5] <= kMostObjects && values[6] >= 1 && values[6] <= 3))
+    constexpr float kMaxObjects = 16777216;  // whole numbers that a float holds
+    if (!(values[5] >= 0 && values[5] <= kMaxObjects && values[6] >= 1 && values[6] <= 3))
         file.refuse("a voxel has no object or kind");
     volume.depths.push_back(values[4]);
     volume.objects.push_back(static_cast<uint32_t>(values[5]));

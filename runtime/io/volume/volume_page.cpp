@@ -24,10 +24,10 @@ struct PageVoxels {
 
 PageVoxels shown_voxels(const Volume& volume) {
     PageVoxels voxels;
-    for (size_t i = 0; i < volume.places.size(); ++i) {
+    for (size_t i = 0; i < volume.indices.size(); ++i) {
         const float opacity = volume.opacities[i];
         if (!(opacity > 0) || volume.kinds[i] == VoxelKind::unseen) continue;
-        voxels.cells.emplace_back(cell_of(volume.frame, volume.places[i]));
+        voxels.cells.emplace_back(cell_of(volume.frame, volume.indices[i]));
         voxels.colors.emplace_back(volume.colors[i] * opacity, opacity);
     }
     return voxels;
@@ -47,14 +47,14 @@ PageVoxels merge(const PageVoxels& voxels) {
     blocks.merged = voxels.merged * 2;
     for (size_t first = 0, end = 0; first < order.size(); first = end) {
         glm::vec4 sum(0);
-        float most = 0;
+        float maximum = 0;
         for (; end < order.size() && order[end].first == order[first].first; ++end) {
             const glm::vec4& color = voxels.colors[order[end].second];
             sum += color;
-            most = std::max(most, color.a);
+            maximum = std::max(maximum, color.a);
         }
         blocks.cells.push_back(voxels.cells[order[first].second] / uint16_t(2));
-        blocks.colors.push_back(sum * (most / sum.a));
+        blocks.colors.push_back(sum * (maximum / sum.a));
     }
     return blocks;
 }
@@ -141,7 +141,7 @@ std::string title_of(const Volume& volume) {
     const auto scene = volume.attributes.find("scene");
     return fmt::format("{}{} x {} x {} voxels, {} shown",
                        scene == volume.attributes.end() ? "" : escape_html(scene->second) + ": ",
-                       size.x, size.y, size.z, volume.places.size());
+                       size.x, size.y, size.z, volume.indices.size());
 }
 
 }  // namespace
@@ -150,7 +150,7 @@ void write_volume_page(const std::filesystem::path& path, const Volume& volume,
                        const PageOptions& options) {
     AtomicFile file(path);
     PageVoxels voxels = shown_voxels(volume);
-    while (voxels.cells.size() > kMostPageVoxels) voxels = merge(voxels);
+    while (voxels.cells.size() > kMaxPageVoxels) voxels = merge(voxels);
     const std::string data = base64(compress(file, pack(voxels, options.exposure)));
     const std::string frame = frame_json(volume, voxels, options), title = title_of(volume);
     // The page's text between its @NAMES@, and what takes their places.

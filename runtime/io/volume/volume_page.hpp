@@ -10,7 +10,7 @@
 namespace voxelume {
 
 /// More voxels than this are merged to blocks of 2³, 4³ ... in a page.
-inline constexpr size_t kMostPageVoxels = 1 << 21;
+inline constexpr size_t kMaxPageVoxels = 1 << 21;
 
 struct PageOptions {
     ViewPoint view;      ///< at first

@@ -63,8 +63,8 @@ BitPlanes make_planes(const Volume& volume, const Raster& raster, bool in_color,
                       const DeviceOptions& options) {
     const glm::ivec3& size = volume.frame.size;
     BitPlanes bits(size, raster, in_color ? 3 : 1);
-    for (size_t i = 0; i < volume.places.size(); ++i) {
-        const glm::ivec3 cell = cell_of(volume.frame, volume.places[i]);
+    for (size_t i = 0; i < volume.indices.size(); ++i) {
+        const glm::ivec3 cell = cell_of(volume.frame, volume.indices[i]);
         const int column = raster.column.at(cell, size), row = raster.row.at(cell, size);
         const int plane = raster.plane.at(cell, size);
         const float threshold = threshold_at(options.dither, column, row, plane);

@@ -21,7 +21,7 @@ static_assert(sizeof(PlyPoint) == 20);
 /// Along sight rays what is met stands at its depth; all else in the middle of its voxel.
 glm::dvec3 position_of(const Volume& volume, size_t i) {
     const VolumeFrame& frame = volume.frame;
-    const glm::ivec3 cell = cell_of(frame, volume.places[i]);
+    const glm::ivec3 cell = cell_of(frame, volume.indices[i]);
     const bool is_met = frame.layout == VolumeLayout::rays &&
                         volume.kinds[i] == VoxelKind::object && std::isfinite(volume.depths[i]);
     if (!is_met) return voxel_center(frame, cell);
@@ -52,7 +52,7 @@ std::string header_text(AtomicFile& file, const Volume& volume, size_t points) {
 void write_volume_ply(const VolumePath& path, const Volume& volume) {
     AtomicFile file(path);
     std::vector<PlyPoint> points;
-    for (size_t i = 0; i < volume.places.size(); ++i) {
+    for (size_t i = 0; i < volume.indices.size(); ++i) {
         if (!(volume.opacities[i] > 0)) continue;
         const glm::vec3& color = volume.colors[i];
         points.push_back({glm::vec3(position_of(volume, i)), srgb_code(color.r), srgb_code(color.g),

@@ -77,13 +77,13 @@ struct RawFile {
         }
         array.verify();
     }
-    /// The same for the voxels that `places` lists.
+    /// The same for the voxels that `indices` lists.
     template <class Value, class Take>
-    void read_listed(const std::vector<uint64_t>& places, size_t number, const char* name,
+    void read_listed(const std::vector<uint64_t>& indices, size_t number, const char* name,
                      size_t components, Take take) const {
         size_t next = 0;
         read<Value>(number, name, components, [&](uint64_t place, const Value* values) {
-            if (next == places.size() || places[next] != place) return;
+            if (next == indices.size() || indices[next] != place) return;
             ++next;
             take(values);
         });
@@ -96,17 +96,17 @@ void read_voxels(const RawFile& file, Volume& volume) {
     file.read<uint8_t>(3, "kind", 1, [&](uint64_t place, const uint8_t* kind) {
         if (*kind == 0) return;
         if (*kind > 3) file.data.refuse("a voxel has an unknown kind");
-        volume.places.push_back(place);
+        volume.indices.push_back(place);
         volume.kinds.push_back(static_cast<VoxelKind>(*kind - 1));
     });
-    const std::vector<uint64_t>& places = volume.places;
-    file.read_listed<float>(places, 0, "rgba", 4, [&](const float* values) {
+    const std::vector<uint64_t>& indices = volume.indices;
+    file.read_listed<float>(indices, 0, "rgba", 4, [&](const float* values) {
         volume.colors.emplace_back(values[0], values[1], values[2]);
         volume.opacities.push_back(values[3]);
     });
-    file.read_listed<float>(places, 1, "depth", 1,
+    file.read_listed<float>(indices, 1, "depth", 1,
                             [&](const float* value) { volume.depths.push_back(*value); });
-    file.read_listed<uint32_t>(places, 2, "object", 1,
+    file.read_listed<uint32_t>(indices, 2, "object", 1,
                                [&](const uint32_t* value) { volume.objects.push_back(*value); });
 }
 

@@ -74,7 +74,7 @@ void write_volume_raw(const VolumePath& path, const Volume& volume) {
     header["axis_order"] = "components fastest, then the axes in their order, the first fastest";
     header["color"] = "linear Rec. 709, not multiplied by opacity";
     header["kinds"] = {"nothing", "space", "object", "unseen"};
-    header["voxels"] = volume.places.size();
+    header["voxels"] = volume.indices.size();
     header["arrays"] = write_arrays(file, volume);
     file.commit();
     write_json(header_path_of(data), header);

@@ -8,7 +8,7 @@
 
 namespace voxelume {
 
-/// Walks once through all size.y * size.z rows in the order of the numbers in `places`.
+/// Walks once through all size.y * size.z rows in the order of the numbers in `indices`.
 class VolumeRows {
   public:
     explicit VolumeRows(const Volume& volume)
@@ -19,13 +19,13 @@ class VolumeRows {
         const size_t first = position_;
         row_start_ = row_end_;
         row_end_ += width_;
-        while (position_ < volume_.places.size() && volume_.places[position_] < row_end_)
+        while (position_ < volume_.indices.size() && volume_.indices[position_] < row_end_)
             ++position_;
         return {first, position_};
     }
 
     /// The column of the voxel at that position, for positions of the last row that next() gave.
-    size_t column(size_t position) const { return volume_.places[position] - row_start_; }
+    size_t column(size_t position) const { return volume_.indices[position] - row_start_; }
 
   private:
     const Volume& volume_;

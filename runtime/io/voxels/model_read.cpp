@@ -61,11 +61,11 @@ model_format::Start read_start(const InputFile& file) {
 }
 
 std::string read_directory(const InputFile& file, const model_format::Start& start) {
-    const uint64_t least = start.header_entries * uint64_t{model_format::kSmallestHeaderEntry} +
-                           start.arrays * uint64_t{model_format::kSmallestArrayEntry};
+    const uint64_t minimum = start.header_entries * uint64_t{model_format::kSmallestHeaderEntry} +
+                             start.arrays * uint64_t{model_format::kSmallestArrayEntry};
     if (start.directory_bytes > file.size() - sizeof start)
         file.refuse("the file ends within its directory; it is truncated");
-    if (least > start.directory_bytes) file.refuse("its directory is damaged");
+    if (minimum > start.directory_bytes) file.refuse("its directory is damaged");
     std::string checked(model_format::kCheckedBytes + start.directory_bytes, '\0');
     std::memcpy(checked.data(), &start, model_format::kCheckedBytes);
     file.read(sizeof start, checked.data() + model_format::kCheckedBytes, start.directory_bytes);

@@ -12,16 +12,16 @@
 namespace voxelume {
 namespace {
 
-constexpr uint64_t kMostModelBytes = uint64_t{12} << 30;  // of a file's arrays
+constexpr uint64_t kMaxModelBytes = uint64_t{12} << 30;  // of a file's arrays
 
 /// Throws, before memory is taken for them, where arrays are more than a model may have.
 void check_arrays(const ModelSummary& summary, const InputFile& file) {
     uint64_t bytes = 0;
     for (const auto& [name, array] : summary.arrays) {
-        const uint64_t left = kMostModelBytes - bytes, each = element_bytes(array.type);
+        const uint64_t left = kMaxModelBytes - bytes, each = element_bytes(array.type);
         if (array.count > left / each)
             file.refuse(fmt::format("its arrays take more than {} GiB, which are possible at most",
-                                    kMostModelBytes >> 30));
+                                    kMaxModelBytes >> 30));
         bytes += array.count * each;
     }
 }

@@ -8,27 +8,27 @@
 namespace voxelume {
 namespace {
 
-constexpr int kMostVoxelsPerAxis = 65536;
-constexpr double kMostBricks = 1 << 28;
-constexpr size_t kMostStoredBricks = 1 << 18;  // 4 GiB of colours
+constexpr int kMaxVoxelsPerAxis = 65536;
+constexpr double kMaxBricks = 1 << 28;
+constexpr size_t kMaxStoredBricks = 1 << 18;  // 4 GiB of colours
 
 }  // namespace
 
 void check_voxel_span(const glm::dvec3& size, const InputFile& file) {
     const glm::dvec3 bricks = size / double(kBrickSize) + 1.0;
-    if (!(std::max({size.x, size.y, size.z}) <= kMostVoxelsPerAxis &&
-          std::min({size.x, size.y, size.z}) >= 1 && bricks.x * bricks.y * bricks.z <= kMostBricks))
+    if (!(std::max({size.x, size.y, size.z}) <= kMaxVoxelsPerAxis &&
+          std::min({size.x, size.y, size.z}) >= 1 && bricks.x * bricks.y * bricks.z <= kMaxBricks))
         file.refuse(
             fmt::format("its voxels span {} x {} x {}, at most {} along each axis and {} "
                         "bricks of 16 in all are possible",
-                        size.x, size.y, size.z, kMostVoxelsPerAxis, kMostBricks));
+                        size.x, size.y, size.z, kMaxVoxelsPerAxis, kMaxBricks));
 }
 
 void check_stored_bricks(size_t stored, const InputFile& file) {
-    if (stored > kMostStoredBricks)
+    if (stored > kMaxStoredBricks)
         file.refuse(
             fmt::format("its voxels lie in {} bricks of 16 x 16 x 16, at most {} are possible",
-                        stored, kMostStoredBricks));
+                        stored, kMaxStoredBricks));
 }
 
 }  // namespace voxelume

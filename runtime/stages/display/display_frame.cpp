@@ -39,8 +39,8 @@ Bounds bounds_of(const Display& display) {
 /// without absorbing all channels covers by the least that it does absorb.
 double covering_absorption(const Medium& medium) {
     const glm::vec3& a = medium.absorption;
-    const double least = double(std::min({a.x, a.y, a.z}));
-    if (least > 0 || medium.color == glm::vec3(0)) return least;
+    const double minimum = double(std::min({a.x, a.y, a.z}));
+    if (minimum > 0 || medium.color == glm::vec3(0)) return minimum;
     double positive = std::numeric_limits<double>::infinity();
     for (int channel = 0; channel < 3; ++channel)
         if (a[channel] > 0) positive = std::min(positive, double(a[channel]));

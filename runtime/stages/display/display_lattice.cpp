@@ -11,7 +11,7 @@ namespace voxelume {
 namespace {
 
 /// How much the surfaces in front may cover of a point that is still seen.
-constexpr float kMostCovered = 1 - 1.0f / 1024;
+constexpr float kMaxCovered = 1 - 1.0f / 1024;
 
 constexpr uint32_t kGroupWords = 8, kGroupBits = 256;
 
@@ -35,12 +35,13 @@ std::vector<float4> ways_from_outside(const GridFrame& world) {
 
 uint32_t group_count(const Device& device, const glm::ivec3& size) {
     const double bits = double(size.x) * double(size.y) * double(size.z);
-    const double most = 8 * std::min(double(device.info().max_allocation), double(UINT32_MAX) * 32);
-    if (bits > most)
+    const double maximum =
+        8 * std::min(double(device.info().max_allocation), double(UINT32_MAX) * 32);
+    if (bits > maximum)
         throw Error(ErrorKind::limit,
                     "a lattice of {}x{}x{} display voxels needs a mask of {:.1f} GB, and \"{}\" "
                     "allows {:.1f} GB in one piece: use fewer display voxels",
-                    size.x, size.y, size.z, bits / 8e9, device.info().name, most / 8e9);
+                    size.x, size.y, size.z, bits / 8e9, device.info().name, maximum / 8e9);
     return uint32_t((uint64_t(size.x) * uint64_t(size.y) * uint64_t(size.z) + kGroupBits - 1) /
                     kGroupBits);
 }
@@ -52,10 +53,10 @@ Buffer<uint32_t> allocate_display_mask(const Device& device, const glm::ivec3& s
 }
 
 DisplayLatticeStage::DisplayLatticeStage(const Device& device, const Features& features,
-                                         const Sight& sight, const VolumeFrame& frame,
+                                         const Camera& camera, const VolumeFrame& frame,
                                          const Pyramid& world)
     : device_(device),
-      sight_(sight),
+      camera_(camera),
       lattice_(display_lattice(frame, world.frame)),
       visibility_(frame.display.visibility),
       transmission_(features.transmission),
@@ -68,38 +69,38 @@ DisplayLatticeStage::DisplayLatticeStage(const Device& device, const Features& f
       note_(program_.kernel("note_view")),
       mark_(program_.kernel("mark_shown")),
       count_(program_.kernel("count_groups")),
-      list_(program_.kernel("list_places")),
+      list_(program_.kernel("list_indices")),
       choose_(program_.kernel("choose_points")),
       take_(program_.kernel("take_points")),
       keep_(program_.kernel("keep_light")) {}
 
 void DisplayLatticeStage::aim(const ProbePoints& points, uint32_t search, uint32_t first,
                               uint32_t count, RayBatch& batch) {
-    aim_.launch_packets(count, sight_, shape_of(world_), lattice_, views_, points.coordinates,
+    aim_.launch_packets(count, camera_, shape_of(world_), lattice_, views_, points.coordinates,
                         points.total, points.views, search, first, count, batch.stride, batch.rays);
     rays_ += count;
 }
 
 void DisplayLatticeStage::search(const LookAhead& look, RayBatch& batch, ProbePoints& points,
-                                 uint32_t view, float most_covered) {
+                                 uint32_t view, float max_covered) {
     for (uint32_t first = 0; first < points.count; first += batch.stride) {
         const uint32_t count = std::min(batch.stride, points.count - first);
         aim(points, view + 1, first, count, batch);
         look(batch, count);
         note_.launch(WorkItem::light, count, batch.hits, batch.coverage, first, count, batch.stride,
-                     view, most_covered, points.views);
+                     view, max_covered, points.views);
     }
 }
 
 void DisplayLatticeStage::find_views(const LookAhead& look, RayBatch& batch,
                                      std::vector<ProbePoints>& pieces) {
     for (ProbePoints& points : pieces) {
-        if (visibility_ != Visibility::outside) search(look, batch, points, 0, kMostCovered);
+        if (visibility_ != Visibility::outside) search(look, batch, points, 0, kMaxCovered);
         if (visibility_ == Visibility::observer) continue;
         // Where a point is seen freely from somewhere, it is not lit as seen through others.
-        for (const float most : {0.0f, kMostCovered})
-            for (uint32_t view = 1; view < views_.size() && (transmission_ || most == 0); ++view)
-                search(look, batch, points, view, most);
+        for (const float maximum : {0.0f, kMaxCovered})
+            for (uint32_t view = 1; view < views_.size() && (transmission_ || maximum == 0); ++view)
+                search(look, batch, points, view, maximum);
         if (visibility_ != Visibility::all) continue;
         std::vector<uint32_t> views = points.views.read();  // what no view shows is lit as from E
         std::ranges::replace(views, kNoView, 0u);
@@ -121,7 +122,7 @@ ShownVoxels DisplayLatticeStage::choose(const std::vector<ProbePoints>& pieces) 
     if (voxels == 0) return shown;
     std::exclusive_scan(counts.begin(), counts.end(), counts.begin(), 0u);
     starts.write(counts);
-    list_.launch(WorkItem::light, groups_, mask_, starts, groups_, shown.voxels.places);
+    list_.launch(WorkItem::light, groups_, mask_, starts, groups_, shown.voxels.indices);
 
     shown.points = allocate_points(device_, uint32_t(voxels));
     ProbePoints& chosen = shown.points;
@@ -149,16 +150,17 @@ ShownVoxels DisplayLatticeStage::choose(const std::vector<ProbePoints>& pieces) 
     return shown;
 }
 
-void DisplayLatticeStage::keep(const Space& space, const RayBatch& batch, const NodeLight& nodes,
-                               const LightTask& task, uint32_t first, uint32_t count,
-                               VoxelArrays& voxels) {
-    keep_.launch_packets(count, sight_, shape_of(world_), space, batch.rays, batch.hits,
-                         batch.positions, batch.words, nodes.radiance, nodes.coverage, nodes.stride,
-                         task.targets, uint32_t(!task.targets.empty()), first, count, batch.stride,
-                         voxels.colors, voxels.opacities, voxels.depths, voxels.objects);
+void DisplayLatticeStage::keep(const Environment& environment, const RayBatch& batch,
+                               const NodeLight& nodes, const LightTask& task, uint32_t first,
+                               uint32_t count, VoxelArrays& voxels) {
+    keep_.launch_packets(count, camera_, shape_of(world_), environment, batch.rays, batch.hits,
+                         batch.positions, batch.hit_attributes, nodes.radiance, nodes.coverage,
+                         nodes.stride, task.targets, uint32_t(!task.targets.empty()), first, count,
+                         batch.stride, voxels.colors, voxels.opacities, voxels.depths,
+                         voxels.objects);
 }
 
-void DisplayLatticeStage::light_points(const LightRays& light_rays, const Space& space,
+void DisplayLatticeStage::light_points(const LightRays& light_rays, const Environment& environment,
                                        RayBatch& batch, const LightTask& task,
                                        VoxelArrays& voxels) {
     for (uint32_t first = 0; first < task.points.count; first += batch.stride) {
@@ -166,13 +168,14 @@ void DisplayLatticeStage::light_points(const LightRays& light_rays, const Space&
         aim(task.points, 0, first, count, batch);
         if (!transmission_) {
             light_rays(batch, count, {});
-            keep(space, batch, {batch.radiance, {}, batch.stride}, task, first, count, voxels);
+            keep(environment, batch, {batch.radiance, {}, batch.stride}, task, first, count,
+                 voxels);
             continue;
         }
         // The nearest surface is the voxel's; what lies behind has voxels of its own.
         light_rays(batch, count,
                    [&](const RayBatch& entries, uint32_t, bool is_first, const NodeLight& nodes) {
-                       if (is_first) keep(space, entries, nodes, task, first, count, voxels);
+                       if (is_first) keep(environment, entries, nodes, task, first, count, voxels);
                    });
     }
 }
@@ -210,8 +213,9 @@ DisplayLatticeStage::LightTask DisplayLatticeStage::missed_points(const ShownVox
 }
 
 void DisplayLatticeStage::light(const LookAhead& look, const LightRays& light_rays,
-                                const Space& space, RayBatch& batch, ShownVoxels& shown) {
-    light_points(light_rays, space, batch, {shown.points, {}}, shown.voxels);
+                                const Environment& environment, RayBatch& batch,
+                                ShownVoxels& shown) {
+    light_points(light_rays, environment, batch, {shown.points, {}}, shown.voxels);
     HostPoints host;
     // A ray along the surface at its point, as at an outline, may pass by: one beside it does not.
     for (const float by : {1.0f / 512, 1.0f / 64})
@@ -220,7 +224,7 @@ void DisplayLatticeStage::light(const LookAhead& look, const LightRays& light_ra
             shift[side / 2] = side % 2 == 0 ? by : -by;
             const LightTask missed = missed_points(shown, shift, host);
             if (missed.points.count == 0) return;
-            light_points(light_rays, space, batch, missed, shown.voxels);
+            light_points(light_rays, environment, batch, missed, shown.voxels);
         }
     if (visibility_ == Visibility::observer) return;
     // Nor may a whole face that a view looks along: other views see it.
@@ -229,8 +233,8 @@ void DisplayLatticeStage::light(const LookAhead& look, const LightRays& light_ra
             LightTask missed = missed_points(shown, glm::vec3(0), host);
             if (missed.points.count == 0) return;
             missed.points.views.fill(hidden ? view : kNoView);
-            if (!hidden) search(look, batch, missed.points, view, kMostCovered);
-            light_points(light_rays, space, batch, missed, shown.voxels);
+            if (!hidden) search(look, batch, missed.points, view, kMaxCovered);
+            light_points(light_rays, environment, batch, missed, shown.voxels);
         }
 }
 

@@ -28,8 +28,8 @@ using LightRays = std::function<void(RayBatch& batch, uint32_t count, const Laye
 /// Kernels of display_lattice.cl. The paper's blocks 2 and 3.
 class DisplayLatticeStage {
   public:
-    /// `sight` is the observer's; throws Error::limit for a lattice whose mask has no room.
-    DisplayLatticeStage(const Device& device, const Features& features, const Sight& sight,
+    /// `camera` is the observer's; throws Error::limit for a lattice whose mask has no room.
+    DisplayLatticeStage(const Device& device, const Features& features, const Camera& camera,
                         const VolumeFrame& frame, const Pyramid& world);
 
     /// Finds in which view each point is visible, as the display's visibility asks for.
@@ -39,7 +39,7 @@ class DisplayLatticeStage {
     ShownVoxels choose(const std::vector<ProbePoints>& pieces);
 
     /// Lights the voxels, batch by batch.
-    void light(const LookAhead& look, const LightRays& light_rays, const Space& space,
+    void light(const LookAhead& look, const LightRays& light_rays, const Environment& environment,
                RayBatch& batch, ShownVoxels& shown);
 
     uint64_t rays() const { return rays_; }  ///< aimed so far
@@ -53,9 +53,9 @@ class DisplayLatticeStage {
         Buffer<uint32_t> targets;
     };
     /// Takes the light of batch rays from `first` on to their voxels. `nodes` holds it.
-    void keep(const Space& space, const RayBatch& batch, const NodeLight& nodes,
+    void keep(const Environment& environment, const RayBatch& batch, const NodeLight& nodes,
               const LightTask& task, uint32_t first, uint32_t count, VoxelArrays& voxels);
-    void light_points(const LightRays& light_rays, const Space& space, RayBatch& batch,
+    void light_points(const LightRays& light_rays, const Environment& environment, RayBatch& batch,
                       const LightTask& task, VoxelArrays& voxels);
     /// The points of all voxels, read when the first one is missed.
     struct HostPoints {
@@ -64,10 +64,10 @@ class DisplayLatticeStage {
     };
     LightTask missed_points(const ShownVoxels& shown, const glm::vec3& shift, HostPoints& host);
     void search(const LookAhead& look, RayBatch& batch, ProbePoints& points, uint32_t view,
-                float most_covered);
+                float max_covered);
 
     Device device_;
-    Sight sight_;
+    Camera camera_;
     DisplayLattice lattice_;
     Visibility visibility_;
     bool transmission_;

@@ -11,7 +11,7 @@ namespace voxelume {
 namespace {
 
 /// Less than this share of the light behind is not told from none.
-constexpr double kLeastPassed = 1.0 / (1 << 20);
+constexpr double kMinTransmittance = 1.0 / (1 << 20);
 
 /// What one voxel of a ray shows; of the same place, those that come first lie in front.
 struct Sample {
@@ -30,14 +30,15 @@ glm::ivec2 pixel_of(uint32_t ray, int width) {
 
 class Assembly {
   public:
-    Assembly(const LayerSpace& space, const VolumeFrame& frame)
-        : space_(space),
+    Assembly(const LayerEnvironment& environment, const VolumeFrame& frame)
+        : environment_(environment),
           size_(frame.size),
-          absorption_(double(space.space.absorption.x), double(space.space.absorption.y),
-                      double(space.space.absorption.z)),
-          color_(double(space.space.color.x), double(space.space.color.y),
-                 double(space.space.color.z)),
-          passed_(size_t(size_.x) * size_t(size_.y), 1.0) {}
+          absorption_(double(environment.environment.absorption.x),
+                      double(environment.environment.absorption.y),
+                      double(environment.environment.absorption.z)),
+          color_(double(environment.environment.color.x), double(environment.environment.color.y),
+                 double(environment.environment.color.z)),
+          throughput_(size_t(size_.x) * size_t(size_.y), 1.0) {}
 
     void add(const LayerRecords& layer) {
         for (size_t n = 0; n < layer.count; ++n) add_record(layer, n);
@@ -61,7 +62,8 @@ class Assembly {
         const uint64_t column = uint64_t(pixel.x) + uint64_t(size_.x) * uint64_t(pixel.y);
         glm::dvec3 light = numbers(layer, n, VXL_LAYER_LIGHT);
         const bool in_medium = word(layer, n, VXL_LAYER_IN_MEDIUM) != 0;
-        if (in_medium && space_.steps.absorption > 0) light -= add_space(layer, n, column);
+        if (in_medium && environment_.steps.absorption > 0)
+            light -= add_environment(layer, n, column);
         const double opacity = number(layer, n, VXL_LAYER_OPACITY);
         const uint32_t object = word(layer, n, VXL_LAYER_OBJECT);
         if (object == 0 || !(opacity > 0)) return;
@@ -78,7 +80,8 @@ class Assembly {
     Way way_of(const LayerRecords& layer, size_t n) const {
         const double begin = number(layer, n, VXL_LAYER_BEGIN),
                      end = number(layer, n, VXL_LAYER_END),
-                     ratio = number(layer, n, VXL_LAYER_RATIO), step = double(space_.steps.step);
+                     ratio = number(layer, n, VXL_LAYER_RATIO),
+                     step = double(environment_.steps.step);
         if (!(begin < end)) return {};
         const auto step_at = [&](double depth) {
             return uint32_t(std::clamp(std::floor(depth / step), 0.0, double(size_.z - 1)));
@@ -105,8 +108,8 @@ class Assembly {
     }
 
     /// The voxels of the medium on a ray's way to a surface; returns the light that they add.
-    glm::dvec3 add_space(const LayerRecords& layer, size_t n, uint64_t column) {
-        const glm::dvec3 passed = numbers(layer, n, VXL_LAYER_PASSED);
+    glm::dvec3 add_environment(const LayerRecords& layer, size_t n, uint64_t column) {
+        const glm::dvec3 throughput = numbers(layer, n, VXL_LAYER_THROUGHPUT);
         const Way way = way_of(layer, n);
         glm::dvec3 sum(0);
         double before = 0;
@@ -114,10 +117,12 @@ class Assembly {
             const double inside = way.amounts[i];
             if (!(inside > 0)) continue;
             const auto k = uint32_t(way.first + i);
-            const glm::dvec3 light = passed * color_ * glm::exp(-absorption_ * before) *
+            const glm::dvec3 light = throughput * color_ * glm::exp(-absorption_ * before) *
                                      (1.0 - glm::exp(-absorption_ * inside));
-            put(column, k, light, -std::expm1(-double(space_.steps.absorption) * inside),
-                float((k + 0.5) * double(space_.steps.step) + double(space_.near_depth)), 0);
+            put(column, k, light, -std::expm1(-double(environment_.steps.absorption) * inside),
+                float((k + 0.5) * double(environment_.steps.step) +
+                      double(environment_.near_depth)),
+                0);
             sum += light;
             before += inside;
         }
@@ -127,17 +132,17 @@ class Assembly {
     /// `light` is what reaches E; what the voxels before it cover is given back.
     void put(uint64_t column, uint32_t k, const glm::dvec3& light, double opacity, float depth,
              uint32_t object) {
-        double& passed = passed_[column];
+        double& throughput = throughput_[column];
         samples_.push_back({column + uint64_t(size_.x) * uint64_t(size_.y) * k,
-                            glm::max(light / std::max(passed, kLeastPassed), 0.0), opacity, depth,
-                            object});
-        passed *= 1 - opacity;
+                            glm::max(light / std::max(throughput, kMinTransmittance), 0.0), opacity,
+                            depth, object});
+        throughput *= 1 - opacity;
     }
 
-    LayerSpace space_;
+    LayerEnvironment environment_;
     glm::ivec3 size_;
     glm::dvec3 absorption_, color_;
-    std::vector<double> passed_;  ///< of each ray: what its voxels so far leave uncovered
+    std::vector<double> throughput_;  ///< of each ray: what its voxels so far leave uncovered
     std::vector<Sample> samples_;
 };
 
@@ -155,16 +160,16 @@ Sample merged(std::span<const Sample> samples) {
 
 }  // namespace
 
-void assemble_layers(const std::vector<LayerRecords>& layers, const LayerSpace& space,
+void assemble_layers(const std::vector<LayerRecords>& layers, const LayerEnvironment& environment,
                      Volume& volume) {
-    Assembly assembly(space, volume.frame);
+    Assembly assembly(environment, volume.frame);
     for (const LayerRecords& layer : layers) assembly.add(layer);
     std::vector<Sample> samples = assembly.take();
     std::ranges::stable_sort(samples, {}, &Sample::place);
     for (size_t first = 0, end = 0; first < samples.size(); first = end) {
         while (end < samples.size() && samples[end].place == samples[first].place) ++end;
         const Sample voxel = merged(std::span(samples).subspan(first, end - first));
-        volume.places.push_back(voxel.place);
+        volume.indices.push_back(voxel.place);
         volume.colors.emplace_back(voxel.light / voxel.opacity);
         volume.opacities.push_back(float(voxel.opacity));
         volume.depths.push_back(voxel.depth);

@@ -11,9 +11,9 @@
 namespace voxelume {
 
 /// What depths and light mean in the records.
-struct LayerSpace {
+struct LayerEnvironment {
     DisplaySteps steps;  ///< absorption 0: space isn't shown
-    Space space;
+    Environment environment;
     float near_depth;  ///< metres
 };
 
@@ -24,7 +24,7 @@ struct LayerSpace {
 /// a voxel are laid over one another. Laid over one another themselves, a ray's voxels are its
 /// light. What an object that a ray goes through takes of single channels is taken from the colours
 /// of the voxels behind.
-void assemble_layers(const std::vector<LayerRecords>& layers, const LayerSpace& space,
+void assemble_layers(const std::vector<LayerRecords>& layers, const LayerEnvironment& environment,
                      Volume& volume);
 
 }  // namespace voxelume

@@ -10,10 +10,10 @@ namespace voxelume {
 namespace {
 
 constexpr uint32_t kSpanComponents = 3;
-constexpr size_t kMostAmounts = 1 << 23;  ///< steps of rays whose density is measured together
+constexpr size_t kMaxAmounts = 1 << 23;  ///< steps of rays whose density is measured together
 
-uint32_t ray_count(const Sight& sight) {
-    return tile_count(sight.width, sight.height) * 16;
+uint32_t ray_count(const Camera& camera) {
+    return tile_count(camera.width, camera.height) * 16;
 }
 
 /// Replaces counts by the sums of those before; returns the sum of all.
@@ -38,7 +38,7 @@ VoxelArrays allocate_voxels(const Device& device, uint64_t count) {
     const size_t padded = (size_t(count) + 15) / 16 * 16;
     VoxelArrays voxels;
     voxels.count = size_t(count);
-    voxels.places = Buffer<uint64_t>(device, "display places", padded);
+    voxels.indices = Buffer<uint64_t>(device, "display indices", padded);
     voxels.colors = Buffer<float>(device, "display colors", padded * 3);
     voxels.opacities = Buffer<float>(device, "display opacities", padded);
     voxels.depths = Buffer<float>(device, "display depths", padded);
@@ -47,7 +47,7 @@ VoxelArrays allocate_voxels(const Device& device, uint64_t count) {
 }
 
 void read_voxels(const VoxelArrays& voxels, Volume& volume) {
-    volume.places = voxels.places.read(0, voxels.count);
+    volume.indices = voxels.indices.read(0, voxels.count);
     volume.opacities = voxels.opacities.read(0, voxels.count);
     volume.depths = voxels.depths.read(0, voxels.count);
     volume.objects = voxels.objects.read(0, voxels.count);
@@ -69,16 +69,16 @@ DisplayRayArrays allocate_display_rays(const Device& device, uint32_t rays, bool
 }
 
 DisplayRaysStage::DisplayRaysStage(const Device& device, const Features& features,
-                                   const Sight& sight, const VolumeFrame& frame,
-                                   const Medium& medium, const Space& space)
+                                   const Camera& camera, const VolumeFrame& frame,
+                                   const Medium& medium, const Environment& environment)
     : device_(device),
       has_layers_(features.transmission || features.medium_grid),
       transmission_(features.transmission),
-      sight_(sight),
+      camera_(camera),
       steps_(display_steps(frame, medium)),
       near_depth_(float(frame.display.near)),
-      space_(space),
-      total_(ray_count(sight)),
+      environment_(environment),
+      total_(ray_count(camera)),
       rays_(allocate_display_rays(device, total_, features.medium)),
       program_(device, "display_rays.cl", features.defines(device)),
       measure_(program_.kernel("measure_steps")),
@@ -92,9 +92,9 @@ DisplayRaysStage::DisplayRaysStage(const Device& device, const Features& feature
 
 void DisplayRaysStage::keep(const PyramidShape& world, const RayBatch& batch, uint32_t first_ray,
                             uint32_t count) {
-    measure_.launch_packets(count, sight_, world, steps_, batch.rays, batch.hits, batch.positions,
-                            batch.words, batch.radiance, count, batch.stride, first_ray, total_,
-                            rays_.hit_steps, rays_.depths, rays_.objects, rays_.colors,
+    measure_.launch_packets(count, camera_, world, steps_, batch.rays, batch.hits, batch.positions,
+                            batch.hit_attributes, batch.radiance, count, batch.stride, first_ray,
+                            total_, rays_.hit_steps, rays_.depths, rays_.objects, rays_.colors,
                             rays_.spans);
 }
 
@@ -104,9 +104,9 @@ void DisplayRaysStage::keep_layer(const Pyramid& world, const DensityGrid* densi
     if (transmission_ && seen_.size() < size_t(nodes.stride) * 4)
         seen_ = Buffer<float>(device_, "display layers", size_t(nodes.stride) * 4);
     const Buffer<uint32_t> words(device_, "display layers", size_t(count) * VXL_LAYER_WORDS);
-    layer_.launch(WorkItem::light, count, sight_, shape_of(world), steps_, uint32_t(is_first),
+    layer_.launch(WorkItem::light, count, camera_, shape_of(world), steps_, uint32_t(is_first),
                   entries.rays, entries.paths, entries.starts, entries.inside, entries.hits,
-                  entries.positions, entries.words, count, entries.stride, nodes.radiance,
+                  entries.positions, entries.hit_attributes, count, entries.stride, nodes.radiance,
                   nodes.coverage, nodes.stride, first_ray, seen_, words);
     LayerRecords records{count, words.read(), {}, {}, {}};
     if (density) measure_density(world, *density, layer, records);
@@ -117,23 +117,24 @@ void DisplayRaysStage::keep_layer(const Pyramid& world, const DensityGrid* densi
 void DisplayRaysStage::measure_density(const Pyramid& world, const DensityGrid& density,
                                        const Layer& layer, LayerRecords& records) {
     const auto steps = size_t(steps_.count);
-    const uint32_t most = std::max(uint32_t(kMostAmounts / steps) / 16, 1u) * 16;
-    Buffer<float> amounts(device_, "display amounts", most * steps);
-    for (uint32_t first = 0; first < layer.count; first += most) {
-        const uint32_t now = std::min(most, layer.count - first);
+    const uint32_t maximum = std::max(uint32_t(kMaxAmounts / steps) / 16, 1u) * 16;
+    Buffer<float> amounts(device_, "display amounts", maximum * steps);
+    for (uint32_t first = 0; first < layer.count; first += maximum) {
+        const uint32_t now = std::min(maximum, layer.count - first);
         amounts.fill(0);
-        density_.launch_packets(now, sight_, shape_of(world), steps_, density.shape, density.bricks,
-                                density.values, uint32_t(layer.is_first), layer.entries.rays,
-                                layer.entries.starts, layer.entries.inside, layer.entries.hits,
-                                first, now, layer.entries.stride, most, amounts);
+        density_.launch_packets(now, camera_, shape_of(world), steps_, density.shape,
+                                density.bricks, density.values, uint32_t(layer.is_first),
+                                layer.entries.rays, layer.entries.starts, layer.entries.inside,
+                                layer.entries.hits, first, now, layer.entries.stride, maximum,
+                                amounts);
         const std::vector<float> dense = amounts.read();
         for (uint32_t n = 0; n < now; ++n) {
             size_t begin = 0, end = steps;
-            while (begin < end && dense[begin * most + n] == 0) ++begin;
-            while (end > begin && dense[(end - 1) * most + n] == 0) --end;
+            while (begin < end && dense[begin * maximum + n] == 0) ++begin;
+            while (end > begin && dense[(end - 1) * maximum + n] == 0) --end;
             records.first_step.push_back(uint32_t(begin));
             records.first_amount.push_back(records.amounts.size());
-            for (size_t k = begin; k < end; ++k) records.amounts.push_back(dense[k * most + n]);
+            for (size_t k = begin; k < end; ++k) records.amounts.push_back(dense[k * maximum + n]);
         }
     }
     records.first_amount.push_back(records.amounts.size());
@@ -141,13 +142,13 @@ void DisplayRaysStage::measure_density(const Pyramid& world, const DensityGrid& 
 
 void DisplayRaysStage::read(Volume& volume) {
     if (has_layers_)
-        assemble_layers(layers_, {steps_, space_, near_depth_}, volume);
+        assemble_layers(layers_, {steps_, environment_, near_depth_}, volume);
     else
         read_voxels(voxels(), volume);
 }
 
 VoxelArrays DisplayRaysStage::voxels() {
-    const uint32_t width = uint32_t(sight_.width), height = uint32_t(sight_.height);
+    const uint32_t width = uint32_t(camera_.width), height = uint32_t(camera_.height);
     Buffer<uint32_t> starts(device_, "display counts", size_t(height) * size_t(steps_.count));
     starts.fill(0);
     count_.launch(WorkItem::heavy, height, width, height, steps_, rays_.hit_steps, rays_.spans,
@@ -157,9 +158,9 @@ VoxelArrays DisplayRaysStage::voxels() {
     if (voxels.count == 0) return voxels;
     starts.write(std::span<const uint32_t>(counts));
     place_.launch(WorkItem::heavy, height, width, height, steps_, rays_.hit_steps, rays_.spans,
-                  total_, starts, voxels.places, voxels.objects);
+                  total_, starts, voxels.indices, voxels.objects);
     const uint32_t count = uint32_t(voxels.count);
-    fill_.launch_packets(count, width, height, steps_, near_depth_, space_, voxels.places,
+    fill_.launch_packets(count, width, height, steps_, near_depth_, environment_, voxels.indices,
                          rays_.hit_steps, rays_.depths, rays_.objects, rays_.colors, rays_.spans,
                          total_, count, voxels.colors, voxels.opacities, voxels.depths,
                          voxels.objects);

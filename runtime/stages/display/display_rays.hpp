@@ -10,10 +10,11 @@
 
 namespace voxelume {
 
-/// The voxels of P on a device: arrays as long as each other, ascending in `places`. 32 bytes each.
+/// The voxels of P on a device: arrays as long as each other, ascending in `indices`. 32 bytes
+/// each.
 struct VoxelArrays {
     size_t count = 0;  ///< the arrays may be longer
-    Buffer<uint64_t> places;
+    Buffer<uint64_t> indices;
     Buffer<float> colors;  ///< 3 each, one after another
     Buffer<float> opacities;
     Buffer<float> depths;
@@ -48,9 +49,10 @@ struct LayerRecords {
 /// Kernels of display_rays.cl, and what they keep of each sight ray. The paper's blocks 2 and 3.
 class DisplayRaysStage {
   public:
-    /// `sight` casts the frame's rays: as wide and high as it, one sample each.
-    DisplayRaysStage(const Device& device, const Features& features, const Sight& sight,
-                     const VolumeFrame& frame, const Medium& medium, const Space& space);
+    /// `camera` casts the frame's rays: as wide and high as it, one sample each.
+    DisplayRaysStage(const Device& device, const Features& features, const Camera& camera,
+                     const VolumeFrame& frame, const Medium& medium,
+                     const Environment& environment);
 
     /// Keeps lit rays 0 .. count-1 of the batch, which begin at ray `first_ray` of the display.
     void keep(const PyramidShape& world, const RayBatch& batch, uint32_t first_ray, uint32_t count);
@@ -80,10 +82,10 @@ class DisplayRaysStage {
                          LayerRecords& records);
 
     bool has_layers_, transmission_;
-    Sight sight_;
+    Camera camera_;
     DisplaySteps steps_;
     float near_depth_;
-    Space space_;
+    Environment environment_;
     uint32_t total_;  ///< places for rays
     DisplayRayArrays rays_;
     Buffer<float> seen_;  ///< of the batch's nodes before a layer: light, coverage

@@ -12,7 +12,7 @@
 namespace voxelume {
 namespace {
 
-constexpr int kMostParts = 64;
+constexpr int kMaxParts = 64;
 
 /// Lines have places for many crossings, so fewer of them go together; and where these do not do,
 /// only those few are scanned again.
@@ -22,7 +22,7 @@ constexpr uint32_t kBatchParts = 4;
 int parts_of(double edge, const GridFrame& world) {
     const glm::dvec3& e = world.voxel_edge;
     const double parts = std::ceil(edge / std::min({e.x, e.y, e.z}) - 1e-6);
-    return std::clamp(int(parts), 1, kMostParts);
+    return std::clamp(int(parts), 1, kMaxParts);
 }
 
 struct LineRange {
@@ -48,20 +48,21 @@ VoxelBox box_of_objects(const Pyramid& world) {
 /// `count` parts of a voxel along it; `first` is above `last` where there are none.
 LineRange lines_across(const float4& row, int parts, int count, const VoxelBox& box) {
     const glm::dvec3 along(row.x, row.y, row.z);
-    double least = double(row.w), most = least;
+    double minimum = double(row.w), maximum = minimum;
     for (int axis = 0; axis < 3; ++axis) {
         const double low = along[axis] * box.low[axis], high = along[axis] * box.high[axis];
-        least += std::min(low, high);
-        most += std::max(low, high);
+        minimum += std::min(low, high);
+        maximum += std::max(low, high);
     }
     // One line more on each side than the floats of `row` may be wrong by.
-    const double slack = 1 + 1e-5 * (std::abs(double(row.w)) + most - least) * parts;
-    const double first = std::floor(least * parts - slack), last = std::ceil(most * parts + slack);
+    const double slack = 1 + 1e-5 * (std::abs(double(row.w)) + maximum - minimum) * parts;
+    const double first = std::floor(minimum * parts - slack),
+                 last = std::ceil(maximum * parts + slack);
     return {int(std::clamp(first, 0.0, count + 1.0)), int(std::clamp(last, -1.0, double(count)))};
 }
 
-void check_lines(const Sight& sight, const VolumeFrame& frame) {
-    const double lines = double(sight.width) * double(sight.height);
+void check_lines(const Camera& camera, const VolumeFrame& frame) {
+    const double lines = double(camera.width) * double(camera.height);
     if (lines > double(UINT32_MAX / 2))
         throw Error(ErrorKind::limit,
                     "a lattice of {}x{}x{} display voxels is scanned along {:.3g} lines on one of "
@@ -94,7 +95,7 @@ DisplayScanStage::DisplayScanStage(const Device& device, const Features& feature
     : device_(device),
       lattice_(display_lattice(frame, world)),
       families_{family(0, frame, world), family(1, frame, world), family(2, frame, world)},
-      sight_(device, features, families_.front().sight),
+      camera_(device, features, families_.front().camera),
       program_(device, "display_scan.cl", features.defines(device)),
       scan_(program_.kernel("scan_lines")),
       pack_(program_.kernel("pack_points")) {}
@@ -123,22 +124,22 @@ DisplayScanStage::Family DisplayScanStage::family(int axis, const VolumeFrame& f
     const glm::dvec3 origin =
         (glm::dvec3(map * glm::dvec4(corner, 1)) - world.origin) / world.voxel_edge;
     // A box of parallel rays whose unit of length is a part across, and a lattice voxel along.
-    Sight& sight = result.sight;
-    sight.origin = to_float4(origin);
-    sight.origin_low =
-        to_float4(origin - glm::dvec3(sight.origin.x, sight.origin.y, sight.origin.z));
-    sight.axis_x = to_float4(direction(a) / double(result.parts.x));
-    sight.axis_y = to_float4(direction(b) / double(result.parts.y));
-    sight.axis_z = to_float4(direction(axis));
-    sight.width = std::max(across_a.last - across_a.first + 1, 0);
-    sight.height = std::max(across_b.last - across_b.first + 1, 0);
-    check_lines(sight, frame);
-    sight.half_x = 0.5f * float(sight.width);
-    sight.half_y = 0.5f * float(sight.height);
-    sight.far_plane = float(frame.size[axis]);
-    sight.samples = 1;
-    sight.sample_share = 1;
-    sight.shape = VXL_SHAPE_BOX;
+    Camera& camera = result.camera;
+    camera.origin = to_float4(origin);
+    camera.origin_low =
+        to_float4(origin - glm::dvec3(camera.origin.x, camera.origin.y, camera.origin.z));
+    camera.axis_x = to_float4(direction(a) / double(result.parts.x));
+    camera.axis_y = to_float4(direction(b) / double(result.parts.y));
+    camera.axis_z = to_float4(direction(axis));
+    camera.width = std::max(across_a.last - across_a.first + 1, 0);
+    camera.height = std::max(across_b.last - across_b.first + 1, 0);
+    check_lines(camera, frame);
+    camera.half_x = 0.5f * float(camera.width);
+    camera.half_y = 0.5f * float(camera.height);
+    camera.far_plane = float(frame.size[axis]);
+    camera.samples = 1;
+    camera.sample_weight = 1;
+    camera.shape = VXL_SHAPE_BOX;
     result.row = rows[size_t(axis)];
     return result;
 }
@@ -148,7 +149,7 @@ glm::uvec2 DisplayScanStage::rows_across(const Family& family, const VoxelBox& b
     const LineRange lines = lines_across(family.row_second, family.parts.y, family.count, box);
     // The last line is the first of a picture's rows.
     const int first = std::max(family.last.y - lines.last, 0);
-    const int last = std::min(family.last.y - lines.first, family.sight.height - 1);
+    const int last = std::min(family.last.y - lines.first, family.camera.height - 1);
     if (first > last) return glm::uvec2(0);
     return {uint32_t(first) / 4, uint32_t(last) / 4 + 1};
 }
@@ -167,9 +168,9 @@ ProbePoints DisplayScanStage::scan_batch(const Pyramid& world, const Family& fam
                              family.row, batch.rays, count, batch.stride, slots_, stride, counts_,
                              crossings_);
         counts = counts_.read(0, count);
-        const uint32_t most = *std::ranges::max_element(counts);
-        if (most <= slots_) break;
-        slots_ = std::max(most, 2 * slots_);
+        const uint32_t maximum = *std::ranges::max_element(counts);
+        if (maximum <= slots_) break;
+        slots_ = std::max(maximum, 2 * slots_);
     }
     std::vector<uint32_t> starts(count);
     std::exclusive_scan(counts.begin(), counts.end(), starts.begin(), 0u);
@@ -177,7 +178,7 @@ ProbePoints DisplayScanStage::scan_batch(const Pyramid& world, const Family& fam
     if (points.count == 0) return points;
     points.views.fill(kNoView);
     const Buffer<uint32_t> places(device_, "probe starts", std::span<const uint32_t>(starts));
-    pack_.launch(WorkItem::light, count, family.axis, uint32_t(family.sight.width), family.last.x,
+    pack_.launch(WorkItem::light, count, family.axis, uint32_t(family.camera.width), family.last.x,
                  family.last.y, float(family.parts.x), float(family.parts.y), counts_, places,
                  crossings_, first_line, count, stride, points.total, points.coordinates);
     return points;
@@ -188,15 +189,15 @@ std::vector<ProbePoints> DisplayScanStage::scan(const Pyramid& world, RayBatch& 
     const VoxelBox shown = world.voxel_count == 0 ? VoxelBox{} : box_of_objects(world);
     const uint32_t batch_tiles = scanned_lines(batch.stride) / 16;
     for (const Family& family : families_) {
-        const Sight& sight = family.sight;
-        if (sight.width == 0 || sight.height == 0) continue;
-        sight_.look(sight);
+        const Camera& camera = family.camera;
+        if (camera.width == 0 || camera.height == 0) continue;
+        camera_.look(camera);
         const glm::uvec2 tiles =
-            rows_across(family, shown) * tile_count(sight.width, 1);  // first, one beyond the last
-        clear_lines_ += 16ull * (tile_count(sight.width, sight.height) - (tiles.y - tiles.x));
+            rows_across(family, shown) * tile_count(camera.width, 1);  // first, one beyond the last
+        clear_lines_ += 16ull * (tile_count(camera.width, camera.height) - (tiles.y - tiles.x));
         for (uint32_t first = tiles.x; first < tiles.y; first += batch_tiles) {
             const uint32_t now = std::min(batch_tiles, tiles.y - first);
-            const uint32_t count = sight_.cast(shape_of(world), first, now, batch);
+            const uint32_t count = camera_.cast(shape_of(world), first, now, batch);
             lines_ += count;
             ProbePoints points = scan_batch(world, family, first * 16, count, batch);
             if (points.count > 0) pieces.push_back(std::move(points));

@@ -53,7 +53,7 @@ class DisplayScanStage {
         glm::ivec2 parts;  ///< lines in a voxel, along the next axis and the one after it
         glm::ivec2 last;   ///< number of the last line along each, counted in parts from the corner
         int count;         ///< lines along the second in the whole lattice
-        Sight sight;
+        Camera camera;
         float4 row;         ///< of the lattice coordinate along the lines
         float4 row_second;  ///< and along the second axis across them
     };
@@ -66,7 +66,7 @@ class DisplayScanStage {
     Device device_;
     DisplayLattice lattice_;
     std::vector<Family> families_;
-    SightStage sight_;
+    SightStage camera_;
     Program program_;
     Kernel scan_, pack_;
     uint32_t slots_ = kFirstSlots;  ///< crossings of a line that have a place; grows

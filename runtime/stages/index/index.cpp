@@ -78,12 +78,12 @@ Numbering number_voxels(const BrickGrid& grid, const VoxelMarks& marks) {
     }
     write_empty_cubes(numbers.bricks);
     // Kernels gather by signed indices: of two words a leaf, of eight a field.
-    const uint64_t most = grid.distance.empty() ? uint64_t{1} << 30 : uint64_t{1} << 28;
-    if (std::max(voxels, primitives) > most)
+    const uint64_t maximum = grid.distance.empty() ? uint64_t{1} << 30 : uint64_t{1} << 28;
+    if (std::max(voxels, primitives) > maximum)
         throw Error(ErrorKind::limit,
                     "this world has {} surface voxels and {} primitives in them, at most {} can be "
                     "numbered: use larger voxels",
-                    voxels, primitives, most);
+                    voxels, primitives, maximum);
     numbers.leaf_count = uint32_t(leaves);
     numbers.voxel_count = uint32_t(voxels);
     numbers.primitive_count = uint32_t(primitives);

@@ -45,16 +45,16 @@ class Total {
     const Parts& parts() const { return parts_; }
 
     void check_numbers() const {
-        const uint64_t most =
+        const uint64_t maximum =
             std::max({total_.sectors, total_.records, 2 * total_.leaves, total_.voxels,
                       total_.primitives, total_.triangles * kFloatsPerTriangle,
                       parts_.fields ? total_.voxels * VXL_FIELD_WORDS : 0});
-        constexpr uint64_t kMostEntries = uint64_t{1} << 31;  // kernels gather by signed indices
-        if (most > kMostEntries)
+        constexpr uint64_t kMaxEntries = uint64_t{1} << 31;  // kernels gather by signed indices
+        if (maximum > kMaxEntries)
             throw Error(ErrorKind::limit,
                         "this world and the models of its instances need {} entries in one table, "
                         "at most {} can be numbered: use larger voxels",
-                        most, kMostEntries);
+                        maximum, kMaxEntries);
     }
 
     Pyramid allocate(const Device& device) const {

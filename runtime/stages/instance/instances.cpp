@@ -51,7 +51,7 @@ bool is_whole(double value) {
 /// Whether the map moves by whole voxels, turns by quarters and mirrors, no more, and the object's
 /// voxels are so near that the world's fixed point holds every distance to them.
 bool is_aligned(const VoxelMap& map, const InstanceModel& model, const PyramidShape& world) {
-    const double reach = std::ldexp(1.0, 24) / double(world.fixed_point);
+    const double extent = std::ldexp(1.0, 24) / double(world.fixed_point);
     const glm::dvec3 size(world.size_x, world.size_y, world.size_z);
     for (int row = 0; row < 3; ++row) {
         double length = 0, low = map.offset[row], high = map.offset[row];
@@ -62,7 +62,7 @@ bool is_aligned(const VoxelMap& map, const InstanceModel& model, const PyramidSh
             (value < 0 ? low : high) += std::round(value) * size[column];
         }
         if (std::round(length) != 1 || !is_whole(map.offset[row])) return false;
-        if (std::max(-low, high) > reach || double(model.frame.size[row]) - low > reach)
+        if (std::max(-low, high) > extent || double(model.frame.size[row]) - low > extent)
             return false;
     }
     return true;
@@ -85,7 +85,7 @@ void copy(const glm::dvec3& from, float (&to)[3]) {
 struct Placed {
     InstanceRecord record{};
     InstanceBox box;
-    double lift = 0;
+    double origin_offset = 0;
 };
 
 Placed place_instance(const Instance& instance, const InstanceModel& model,
@@ -141,8 +141,8 @@ Placed place_instance(const Instance& instance, const InstanceModel& model,
     // carried within twice that of the object.
     const glm::dvec3& e = world_frame.voxel_edge;
     const double uneven = std::max({e.x, e.y, e.z}) / std::min({e.x, e.y, e.z});
-    placed.lift = std::sqrt(3.0) * uneven *
-                  (world.plane_bound + 2 * row_sum(world_from_voxels) * shape.plane_bound);
+    placed.origin_offset = std::sqrt(3.0) * uneven *
+                           (world.plane_bound + 2 * row_sum(world_from_voxels) * shape.plane_bound);
     return placed;
 }
 
@@ -168,18 +168,18 @@ void place_instances(const Device& device, std::span<const glm::dmat4> world_fro
     std::vector<InstanceBox> boxes;
     records.reserve(set.list.size());
     boxes.reserve(set.list.size());
-    double lift = 0;
+    double origin_offset = 0;
     for (const Instance& instance : set.list) {
         const Placed placed = place_instance(instance, set.models[instance.model], pyramid.frame,
                                              world, world_from_object[instance.object]);
         records.push_back(placed.record);
         boxes.push_back(placed.box);
-        lift = std::max(lift, placed.lift);
+        origin_offset = std::max(origin_offset, placed.origin_offset);
     }
-    // Slab tests put planes off by no more than plane_bound, and carried rays likewise.
+    // Slab tests put planes off by no more than plane_bound, and transformed rays likewise.
     const std::vector<InstanceNode> nodes =
-        build_instance_tree(boxes, 4 * double(world.plane_bound) + lift);
-    set.lift = float(lift);
+        build_instance_tree(boxes, 4 * double(world.plane_bound) + origin_offset);
+    set.origin_offset = float(origin_offset);
     set.records = Buffer<InstanceRecord>(device, "instances", records);
     set.nodes = Buffer<InstanceNode>(device, "instance tree", nodes);
 }

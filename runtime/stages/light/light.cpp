@@ -14,7 +14,7 @@ LightRecord light_record(const Light& light, const GridFrame& world) {
     record.position = to_float4(directional ? -light.direction / world.voxel_edge
                                             : (light.position - world.origin) / world.voxel_edge);
     record.direction = to_float4(light.direction);
-    record.energy = to_float4(glm::dvec3(light.energy));
+    record.intensity = to_float4(glm::dvec3(light.intensity));
     record.inner_cosine = float(std::cos(light.inner_half_angle));
     record.outer_cosine = float(std::cos(light.outer_half_angle));
     record.kind = directional                     ? VXL_LIGHT_DIRECTIONAL
@@ -32,7 +32,8 @@ bool may_light(const LightRecord& light, const GridFrame& world) {
     const glm::dvec3 to_middle = 0.5 * extent - world.voxel_edge * at;
     const double distance = glm::length(to_middle), radius = 0.5 * glm::length(extent);
     const double rounding = kRounding * (distance + radius);
-    if (light.kind == VXL_LIGHT_PATCH) return glm::dot(to_middle, along) + radius + rounding > 0;
+    if (light.kind == VXL_LIGHT_AREA_SAMPLE)
+        return glm::dot(to_middle, along) + radius + rounding > 0;
     if (light.kind != VXL_LIGHT_SPOT || distance <= radius + rounding) return true;
     // The ball around the world is seen at an angle of arcsin(radius / distance) around its middle.
     const double aside = std::acos(std::clamp(glm::dot(to_middle, along) / distance, -1.0, 1.0));
@@ -51,8 +52,8 @@ void LightStage::add(const Pyramid& pyramid, const LightRecord& light, RayBatch&
     if (!queue.count.empty()) queue.count.fill(0);
     add_.launch_packets(count, shape_of(pyramid), light, materials_, pyramid.colors, batch.rays,
                         batch.hits, count, batch.stride, batch.positions, batch.normals,
-                        batch.words, batch.sides, batch.radiance, queue.count, queue.rays,
-                        queue.targets, queue.sources, queue.shares);
+                        batch.hit_attributes, batch.sides, batch.radiance, queue.count, queue.rays,
+                        queue.targets, queue.sources, queue.contributions);
 }
 
 }  // namespace voxelume

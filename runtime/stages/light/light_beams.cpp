@@ -11,8 +11,8 @@
 namespace voxelume {
 namespace {
 
-/// The side of a grid's square in voxels of the halo; what is left of a beam's width is for
-/// rounding of the places where rays meet the grid.
+/// The side of a grid's square in voxels of the dilated occupancy; what is left of a beam's width
+/// is for rounding of the places where rays meet the grid.
 constexpr double kEdge = 2 * (VXL_BEAM_RADIUS - 0.25);
 
 /// How far rays may go aside for each voxel along their axis, as for other beams, see
@@ -28,9 +28,11 @@ glm::dvec3 way(const LightRecord& light, const glm::dvec3& point) {
 /// The axis that all ways from the world to the light follow most, or -1 if there is none.
 int common_axis(const LightRecord& light, const glm::dvec3& size) {
     const glm::dvec3 low = way(light, size), high = way(light, {0, 0, 0});
-    const glm::dvec3 least = glm::max(low, -high);
-    const int axis = least.x >= least.y && least.x >= least.z ? 0 : least.y >= least.z ? 1 : 2;
-    return least[axis] > 0 ? axis : -1;
+    const glm::dvec3 minimum = glm::max(low, -high);
+    const int axis = minimum.x >= minimum.y && minimum.x >= minimum.z ? 0
+                     : minimum.y >= minimum.z                         ? 1
+                                                                      : 2;
+    return minimum[axis] > 0 ? axis : -1;
 }
 
 /// The tiles of a grid whose beams pass any of the sectors of a world of `size`, in ascending
@@ -42,18 +44,18 @@ std::vector<uint32_t> tiles_through(const BeamGrid& grid, const glm::dvec3& size
     const glm::dvec2 low(grid.low_b, grid.low_c), slope(grid.slope_b, grid.slope_c);
     std::vector<bool> passing(size_t(tiles.x) * size_t(tiles.y));
     for (const glm::ivec3& sector : sectors) {
-        glm::dvec2 least(INFINITY), most(-INFINITY);
+        glm::dvec2 minimum(INFINITY), maximum(-INFINITY);
         for (int corner = 0; corner < 8; ++corner) {
             const glm::ivec3 far(corner & 1, corner >> 1 & 1, corner >> 2);
             const glm::dvec3 place = glm::min(glm::dvec3(kSectorSize * (sector + far)), size);
             const double up = place[grid.axis] - double(grid.far_side);
             const glm::dvec2 met =
                 (glm::dvec2(place[b], place[c]) - slope * up) / (1 - double(grid.converging) * up);
-            least = glm::min(least, met), most = glm::max(most, met);
+            minimum = glm::min(minimum, met), maximum = glm::max(maximum, met);
         }
         const double edge = 4 * double(grid.edge);
-        const glm::ivec2 from = glm::max(glm::ivec2(glm::floor((least - low) / edge)), 0);
-        const glm::ivec2 to = glm::min(glm::ivec2(glm::floor((most - low) / edge)), tiles - 1);
+        const glm::ivec2 from = glm::max(glm::ivec2(glm::floor((minimum - low) / edge)), 0);
+        const glm::ivec2 to = glm::min(glm::ivec2(glm::floor((maximum - low) / edge)), tiles - 1);
         for (int y = from.y; y <= to.y; ++y)
             for (int x = from.x; x <= to.x; ++x)
                 passing[size_t(x) + size_t(tiles.x) * size_t(y)] = true;
@@ -66,7 +68,8 @@ std::vector<uint32_t> tiles_through(const BeamGrid& grid, const glm::dvec3& size
 
 }  // namespace
 
-BeamGrid beam_grid(const LightRecord& light, const glm::ivec3& size, float scale, uint32_t most) {
+BeamGrid beam_grid(const LightRecord& light, const glm::ivec3& size, float scale,
+                   uint32_t maximum) {
     const glm::dvec3 extent(size);
     const int axis = common_axis(light, extent);
     if (axis < 0) return {};
@@ -88,7 +91,8 @@ BeamGrid beam_grid(const LightRecord& light, const glm::ivec3& size, float scale
     const double edge = kEdge / double(scale);
     const double columns = 4 * std::ceil((high[b] - low[b]) / (4 * edge));
     const double rows = 4 * std::ceil((high[c] - low[c]) / (4 * edge));
-    if (!(std::max(steepest[b], steepest[c]) <= kSteepest) || !(columns * rows <= most)) return {};
+    if (!(std::max(steepest[b], steepest[c]) <= kSteepest) || !(columns * rows <= maximum))
+        return {};
 
     glm::dvec3 origin(0);
     origin[axis] = far_side;
@@ -108,10 +112,10 @@ BeamGrid beam_grid(const LightRecord& light, const glm::ivec3& size, float scale
 }
 
 std::vector<BeamGrid> beam_grids(std::span<const LightRecord> lights, const glm::ivec3& size,
-                                 float scale, uint32_t most, uint32_t together) {
+                                 float scale, uint32_t maximum, uint32_t together) {
     std::vector<BeamGrid> grids;
     for (const LightRecord& light : lights) {
-        grids.push_back(beam_grid(light, size, scale, std::min(most, together)));
+        grids.push_back(beam_grid(light, size, scale, std::min(maximum, together)));
         together -= uint32_t(grids.back().columns * grids.back().rows);
     }
     return grids;
@@ -141,22 +145,23 @@ uint32_t light_beams_that_pay(const GridFrame& world, uint64_t rays, int samples
 }
 
 LightBeamStage::LightBeamStage(const Device& device, const Features& features,
-                               const Pyramid& pyramid, Halo halo)
+                               const Pyramid& pyramid, DilatedOccupancy dilated_occupancy)
     : device_(device),
       size_(pyramid.frame.size),
-      shape_(halo_shape(pyramid, halo.of)),
-      halo_(std::move(halo)),
+      shape_(dilated_shape(pyramid, dilated_occupancy.of)),
+      dilated_occupancy_(std::move(dilated_occupancy)),
       program_(device, "light_beams.cl", features.defines(device)),
       send_(program_.kernel("send_light_beams")) {}
 
 Buffer<float> LightBeamStage::send(const BeamGrid& grid) {
-    const std::vector<uint32_t> passing = tiles_through(grid, size_, halo_.sectors_with_voxels);
+    const std::vector<uint32_t> passing =
+        tiles_through(grid, size_, dilated_occupancy_.sectors_with_voxels);
     const auto count = uint32_t(passing.size());
     Buffer<float> ends = allocate_light_beams(device_, grid);
     ends.fill(-INFINITY);
     const Buffer<uint32_t> tiles(device_, "light beams", std::span<const uint32_t>(passing));
-    send_.launch_packets(size_t(count) * VXL_BEAM_TILE, shape_, halo_.sectors, halo_.bricks, grid,
-                         tiles, count, ends);
+    send_.launch_packets(size_t(count) * VXL_BEAM_TILE, shape_, dilated_occupancy_.sectors,
+                         dilated_occupancy_.bricks, grid, tiles, count, ends);
     sent_ += uint64_t(count) * VXL_BEAM_TILE;
     return ends;
 }

@@ -5,18 +5,18 @@
 
 namespace voxelume {
 
-/// The grid of a light's beams through a world of `size` voxels, as narrow as a halo asks for whose
-/// voxels are 1 / `scale` of the world's. Without columns where no axis tells the light from the
-/// world, beams would be too oblique, or more than `most` of them needed.
-BeamGrid beam_grid(const LightRecord& light, const glm::ivec3& size, float scale, uint32_t most);
+/// The grid of a light's beams through a world of `size` voxels, as narrow as a dilated occupancy
+/// asks for whose voxels are 1 / `scale` of the world's. Without columns where no axis tells the
+/// light from the world, beams would be too oblique, or more than `maximum` of them needed.
+BeamGrid beam_grid(const LightRecord& light, const glm::ivec3& size, float scale, uint32_t maximum);
 
 /// The grids of several lights, which have `together` beams at most.
 std::vector<BeamGrid> beam_grids(std::span<const LightRecord> lights, const glm::ivec3& size,
-                                 float scale, uint32_t most, uint32_t together);
+                                 float scale, uint32_t maximum, uint32_t together);
 /// What a grid's beams are kept in.
 Buffer<float> allocate_light_beams(const Device& device, const BeamGrid& grid);
 
-/// Whether two grids of one halo have the same beams.
+/// Whether two grids of one dilated occupancy have the same beams.
 bool same_beams(const BeamGrid& a, const BeamGrid& b);
 
 /// How many beams of one light save more than they cost where a picture's pixels are so wide and
@@ -29,9 +29,9 @@ uint32_t light_beams_that_pay(const GridFrame& world, uint64_t rays, int samples
 /// meet.
 class LightBeamStage {
   public:
-    /// `halo` is the pyramid's.
+    /// `dilated_occupancy` is the pyramid's.
     LightBeamStage(const Device& device, const Features& features, const Pyramid& pyramid,
-                   Halo halo);
+                   DilatedOccupancy dilated_occupancy);
 
     /// Sends the beams of a grid with columns that pass sectors with voxels, where shadow rays
     /// begin; how far they come.
@@ -43,7 +43,7 @@ class LightBeamStage {
     Device device_;
     glm::dvec3 size_;  // of the world, voxels
     PyramidShape shape_;
-    Halo halo_;
+    DilatedOccupancy dilated_occupancy_;
     uint64_t sent_ = 0;
     Program program_;
     Kernel send_;

@@ -63,7 +63,7 @@ MaterialRecord material_record(const Material& material, const GridFrame& world)
     return record;
 }
 
-Space space_of(const World& world) {
+Environment environment_of(const World& world) {
     return {to_float4(glm::dvec3(world.background)), to_float4(glm::dvec3(world.ambient)),
             to_float4(glm::dvec3(world.medium.absorption)),
             to_float4(glm::dvec3(world.medium.color))};
@@ -71,7 +71,7 @@ Space space_of(const World& world) {
 
 ShadeStage::ShadeStage(const Device& device, const Features& features, const Scene& scene,
                        const GridFrame& world)
-    : space_(space_of(scene.world)),
+    : environment_(environment_of(scene.world)),
       materials_(device, "materials",
                  std::span<const MaterialRecord>(material_records(scene, world))),
       program_(device, "shade.cl", features.defines(device)),
@@ -82,12 +82,12 @@ ShadeStage::ShadeStage(const Device& device, const Features& features, const Sce
 }
 
 void ShadeStage::surface(const Pyramid& pyramid, RayBatch& batch, uint32_t count) {
-    surface_.launch_packets(count, shape_of(pyramid), space_, materials_, pyramid.attributes,
+    surface_.launch_packets(count, shape_of(pyramid), environment_, materials_, pyramid.attributes,
                             pyramid.attribute, pyramid.colors, pyramid.fields, pyramid.triangles,
                             pyramid.triangle_attributes, pyramid.solids, pyramid.instances.records,
                             pyramid.instances.materials, ranks_, batch.rays, batch.hits,
                             batch.paths, count, batch.stride, batch.positions, batch.normals,
-                            batch.words, batch.sides, batch.radiance);
+                            batch.hit_attributes, batch.sides, batch.radiance);
 }
 
 }  // namespace voxelume

@@ -14,7 +14,7 @@ namespace voxelume {
 MaterialRecord material_record(const Material& material, const GridFrame& world);
 
 /// The world's background, ambient light and medium.
-Space space_of(const World& world);
+Environment environment_of(const World& world);
 
 /// Kernels of shade.cl for one feature set and one scene's materials. The paper's block 3.
 class ShadeStage {
@@ -25,13 +25,13 @@ class ShadeStage {
     /// Finds the points, normals and words of hits 0 .. count-1 and starts their radiance.
     void surface(const Pyramid& pyramid, RayBatch& batch, uint32_t count);
 
-    const Space& space() const { return space_; }
+    const Environment& environment() const { return environment_; }
     const Buffer<MaterialRecord>& materials() const { return materials_; }
     /// Each object's place in the order of priorities; empty in scenes without paths.
     const Buffer<uint32_t>& ranks() const { return ranks_; }
 
   private:
-    Space space_;
+    Environment environment_;
     Buffer<MaterialRecord> materials_;
     Buffer<uint32_t> ranks_;
     Program program_;

@@ -14,7 +14,7 @@ namespace {
 
 constexpr size_t kBrickCells = 4096;
 /// A cell's place, slot * 4096 + cell, is a 32-bit number.
-constexpr double kMostSlots = 1 << 20;
+constexpr double kMaxSlots = 1 << 20;
 /// Every voxel of a world along one axis: an axis along which nothing changes is one cell.
 constexpr int kWholeAxis = 16;
 /// Bricks sampled before they are written to the device together.
@@ -120,7 +120,7 @@ void join_constants(std::vector<uint32_t>& words, const glm::ivec3& bricks, int 
                 bool one = (word & VXL_DENSITY_CONSTANT) != 0;
                 for_each([&](uint32_t other) { one &= other == word; });
                 const uint32_t joined = VXL_DENSITY_CONSTANT | log2_size << VXL_DENSITY_SIZE_SHIFT |
-                                        (word & VXL_DENSITY_PLACE);
+                                        (word & VXL_DENSITY_SLOT);
                 if (one) for_each([&](uint32_t& other) { other = joined; });
             }
 }
@@ -173,7 +173,7 @@ DensityPlan plan_density(const World& world) {
     const DensityLattice lattice(world);
     if (lattice.is_zero()) return {.is_zero = true};
     const SlotCount slots = count_slots(lattice);
-    if (double(slots.total()) > kMostSlots)
+    if (double(slots.total()) > kMaxSlots)
         throw Error(ErrorKind::limit,
                     "{}.medium: the density differs in more than 2^20 bricks of 16x16x16 voxels: "
                     "use larger voxels",

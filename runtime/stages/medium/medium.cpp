@@ -5,25 +5,25 @@
 namespace voxelume {
 
 MediumStage::MediumStage(const Device& device, const Features& features, const World& world,
-                         const Space& space, const Buffer<MaterialRecord>& materials)
-    : space_(space),
+                         const Environment& environment, const Buffer<MaterialRecord>& materials)
+    : environment_(environment),
       materials_(materials),
       density_(features.medium_grid ? form_density_grid(device, world) : DensityGrid{}),
       program_(device, "medium.cl", features.defines(device)),
-      sight_(program_.kernel("absorb_sight")),
+      camera_(program_.kernel("absorb_sight")),
       shadows_(program_.kernel("absorb_shadows")) {}
 
 void MediumStage::sight(const Pyramid& pyramid, RayBatch& batch, uint32_t count) {
-    sight_.launch_packets(count, shape_of(pyramid), space_, density_.shape, density_.bricks,
-                          density_.values, materials_, batch.rays, batch.hits, batch.starts,
-                          batch.inside, count, batch.stride, batch.radiance, batch.passed);
+    camera_.launch_packets(count, shape_of(pyramid), environment_, density_.shape, density_.bricks,
+                           density_.values, materials_, batch.rays, batch.hits, batch.starts,
+                           batch.inside, count, batch.stride, batch.radiance, batch.transmittance);
 }
 
-void MediumStage::shadows(const Pyramid& pyramid, ShadowQueue& queue, uint32_t most,
+void MediumStage::shadows(const Pyramid& pyramid, ShadowQueue& queue, uint32_t maximum,
                           RayBatch& batch) {
-    shadows_.launch_packets(most, shape_of(pyramid), space_, density_.shape, density_.bricks,
-                            density_.values, queue.rays, queue.count, batch.stride, queue.targets,
-                            queue.shares, batch.radiance);
+    shadows_.launch_packets(maximum, shape_of(pyramid), environment_, density_.shape,
+                            density_.bricks, density_.values, queue.rays, queue.count, batch.stride,
+                            queue.targets, queue.contributions, batch.radiance);
 }
 
 }  // namespace voxelume

@@ -17,26 +17,26 @@ class MediumStage {
     /// Forms the density's lattice when the features have `medium_grid`. Throws as
     /// form_density_grid does.
     MediumStage(const Device& device, const Features& features, const World& world,
-                const Space& space, const Buffer<MaterialRecord>& materials);
+                const Environment& environment, const Buffer<MaterialRecord>& materials);
 
     /// Lets the medium take its part of the radiance of rays 0 .. count-1, and add its own. With
     /// `transmission`, rays inside an object go through its material instead; with `paths`,
     /// `passed` is written.
     void sight(const Pyramid& pyramid, RayBatch& batch, uint32_t count);
 
-    /// Takes the medium's part from the light of the queue, at most `most` rays of it. Without
+    /// Takes the medium's part from the light of the queue, at most `maximum` rays of it. Without
     /// shadows the light that is left arrives at the batch's radiance.
-    void shadows(const Pyramid& pyramid, ShadowQueue& queue, uint32_t most, RayBatch& batch);
+    void shadows(const Pyramid& pyramid, ShadowQueue& queue, uint32_t maximum, RayBatch& batch);
 
     /// Empty when the density is 1 everywhere.
     const DensityGrid& density() const { return density_; }
 
   private:
-    Space space_;
+    Environment environment_;
     Buffer<MaterialRecord> materials_;
     DensityGrid density_;
     Program program_;
-    Kernel sight_, shadows_;
+    Kernel camera_, shadows_;
 };
 
 }  // namespace voxelume

@@ -41,7 +41,7 @@ std::vector<const PlacedObject*> painting_order(std::span<const PlacedObject> ob
 
 /// A world that is its only object: its buffers, with its word.
 bool is_only_object(std::span<const PlacedObject> objects, const WorldParts& parts) {
-    return objects.size() == 1 && objects[0].in_world_frame && !parts.has_words() &&
+    return objects.size() == 1 && objects[0].in_world_frame && !parts.has_attributes() &&
            !objects[0].keeps_inside && !lists_primitives(surface_of(*objects[0].grid));
 }
 
@@ -58,7 +58,7 @@ class Placer::State {
     void share(const PlacedObject& object, const WorldParts& parts) {
         world_ = *object.grid;
         world_.attributes = {};
-        world_.attribute = *parts.words.begin();
+        world_.attribute = *parts.attributes.begin();
     }
 
     void place(std::span<const PlacedObject> objects, const WorldParts& parts) {
@@ -191,7 +191,7 @@ class Placer::State {
     void paint(std::span<const PlacedObject> objects, const std::vector<uint32_t>& bricks) {
         painted_ = uint32_t(bricks.size());
         world_.transparent = parts_.transparent;
-        world_.attribute = parts_.words.size() == 1 ? *parts_.words.begin() : 0;
+        world_.attribute = parts_.attributes.size() == 1 ? *parts_.attributes.begin() : 0;
         if (bricks.empty()) return;
         bricks_->clear(bricks);
         Painting painting;

@@ -4,7 +4,7 @@
 #include "runtime/base/error.hpp"
 #include "runtime/opencl/program.hpp"
 #include "runtime/stages/brick_arrays.hpp"
-#include "runtime/stages/place/placement_words.hpp"
+#include "runtime/stages/place/placement_attributes.hpp"
 
 namespace voxelume {
 namespace {
@@ -68,7 +68,7 @@ void append_object(const Device& device, const PlacedObject& object, const Buffe
     const Program program = program_for(device, grid);
     const auto triangles = static_cast<uint32_t>(grid.triangles.size() / kFloatsPerTriangle);
     const auto records = static_cast<uint32_t>(grid.solids.size() / VXL_SOLID_WORDS);
-    const WordMap words = word_map(device, object, Surface::exact);
+    const AttributeMap packed_attributes = attribute_map(device, object, Surface::exact);
     program.kernel("append_primitives")
         .launch(WorkItem::heavy, world.brick_count, world.brick_count, joined.triangles,
                 joined.solid_records, world.coordinates, grid.slots, grid.primitive_first,
@@ -79,13 +79,13 @@ void append_object(const Device& device, const PlacedObject& object, const Buffe
     append(triangles * kFloatsPerTriangle, joined.triangles * kFloatsPerTriangle, grid.triangles,
            world.triangles);
     program.kernel("append_triangle_attributes")
-        .launch(WorkItem::light, triangles, triangles, joined.triangles, words.map, words.materials,
-                grid.triangle_attributes, world.triangle_attributes);
+        .launch(WorkItem::light, triangles, triangles, joined.triangles, packed_attributes.map,
+                packed_attributes.materials, grid.triangle_attributes, world.triangle_attributes);
     append(records * VXL_SOLID_WORDS, joined.solid_records * VXL_SOLID_WORDS, grid.solids,
            world.solids);
     program.kernel("set_solid_attributes")
-        .launch(WorkItem::light, records, records, joined.solid_records, words.map, words.materials,
-                world.solids);
+        .launch(WorkItem::light, records, records, joined.solid_records, packed_attributes.map,
+                packed_attributes.materials, world.solids);
     joined.triangles += triangles;
     joined.solid_records += records;
 }

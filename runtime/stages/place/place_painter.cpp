@@ -55,7 +55,7 @@ Program program_for(const Device& device, const PlacedObject& object, Surface su
     return {device,
             "place.cl",
             {{"VXL_SMOOTH", stores_distances(surface)},
-             {"VXL_ATTRIBUTES", parts.has_words()},
+             {"VXL_ATTRIBUTES", parts.has_attributes()},
              {"VXL_COLORS", parts.colors},
              {"VXL_OBJECT_ATTRIBUTES", !object.grid->attributes.empty()},
              {"VXL_OBJECT_COLORS", !object.grid->colors.empty()},
@@ -86,7 +86,7 @@ Surface surface_of(const BrickGrid& grid) {
 
 bool WorldParts::is_stored_like(const WorldParts& other) const {
     return smooth == other.smooth && occupancy == other.occupancy && colors == other.colors &&
-           has_words() == other.has_words();
+           has_attributes() == other.has_attributes();
 }
 
 WorldParts parts_of(std::span<const PlacedObject> objects) {
@@ -97,8 +97,8 @@ WorldParts parts_of(std::span<const PlacedObject> objects) {
         parts.occupancy |= !stores_distances(surface);
         parts.colors |= !object.grid->colors.empty();
         parts.transparent |= object.grid->transparent;
-        const std::vector<uint32_t> words = possible_words(object, surface);
-        parts.words.insert(words.begin(), words.end());
+        const std::vector<uint32_t> attributes = possible_attributes(object, surface);
+        parts.attributes.insert(attributes.begin(), attributes.end());
     }
     return parts;
 }
@@ -117,7 +117,7 @@ Painter::Painter(const Device& device, const PlacedObject& object, const GridFra
       bricks_(bricks_of(object, world)),
       rows_(device, "placement", map_.rows),
       program_(program_for(device, object, surface_, map_, parts)),
-      words_(word_map(device, object, surface_)),
+      attribute_map_(attribute_map(device, object, surface_)),
       threshold_(near_threshold(map_)) {
     const BrickGrid& grid = *object.grid;
     if (before && before->object_.grid == object.grid && before->threshold_ == threshold_) {
@@ -163,9 +163,9 @@ void Painter::paint_smooth(const PaintedBricks& painted, BrickGrid& world) {
     program_.kernel("paint_smooth_voxels")
         .launch(WorkItem::heavy, leaves, leaves, table, bounds_of(world.frame), map_.fraction_bits,
                 rows_, object_table, grid.slots, near_, grid.distance, scale,
-                half_diagonal(world.frame), words_.map, words_.materials, grid.attributes,
-                grid.colors, painted.slots, world.coordinates, world.distance, painted.nearest,
-                world.occupancy, world.attributes, world.colors);
+                half_diagonal(world.frame), attribute_map_.map, attribute_map_.materials,
+                grid.attributes, grid.colors, painted.slots, world.coordinates, world.distance,
+                painted.nearest, world.occupancy, world.attributes, world.colors);
 }
 
 void Painter::paint_cubes(const PaintedBricks& painted, BrickGrid& world) {
@@ -174,9 +174,9 @@ void Painter::paint_cubes(const PaintedBricks& painted, BrickGrid& world) {
     program_.kernel("paint_cubes")
         .launch(WorkItem::heavy, leaves, leaves, glm::ivec4(world.frame.bricks(), 0),
                 map_.fraction_bits, rows_, glm::ivec4(grid.frame.bricks(), 0), grid.slots, near_,
-                grid.occupancy, words_.map, words_.materials, grid.attributes, grid.colors,
-                glm::ivec4(world.frame.size, 0), painted.slots, world.coordinates, painted.nearest,
-                world.occupancy, world.attributes, world.colors);
+                grid.occupancy, attribute_map_.map, attribute_map_.materials, grid.attributes,
+                grid.colors, glm::ivec4(world.frame.size, 0), painted.slots, world.coordinates,
+                painted.nearest, world.occupancy, world.attributes, world.colors);
 }
 
 void Painter::close_distances(const PaintedBricks& painted, BrickGrid& world) {

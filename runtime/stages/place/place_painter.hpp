@@ -5,8 +5,8 @@
 
 #include "runtime/opencl/program.hpp"
 #include "runtime/stages/place/place.hpp"
+#include "runtime/stages/place/placement_attributes.hpp"
 #include "runtime/stages/place/placement_map.hpp"
-#include "runtime/stages/place/placement_words.hpp"
 
 namespace voxelume {
 
@@ -15,11 +15,11 @@ Surface surface_of(const BrickGrid& grid);
 /// What the world stores, taken from what its objects have.
 struct WorldParts {
     bool smooth = false, occupancy = false, colors = false, transparent = false;
-    std::set<uint32_t> words;  ///< that voxels can have
+    std::set<uint32_t> attributes;  ///< that voxels can have
 
-    bool has_words() const { return words.size() > 1; }
+    bool has_attributes() const { return attributes.size() > 1; }
     /// Whether voxels take what they have from the smooth surface that is nearest to them.
-    bool measures_nearest() const { return smooth && (has_words() || colors || occupancy); }
+    bool measures_nearest() const { return smooth && (has_attributes() || colors || occupancy); }
     /// Whether bricks of both worlds have the same buffers.
     bool is_stored_like(const WorldParts& other) const;
 };
@@ -84,7 +84,7 @@ class Painter {
     BrickBox bricks_;
     Buffer<int64_t> rows_;
     Program program_;
-    WordMap words_;
+    AttributeMap attribute_map_;
     int threshold_;          ///< distances below which a leaf is near
     Buffer<uint64_t> near_;  ///< per slot: leaves with voxels, or with distances in the band
 };

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kWorstCondition = 1e5;
 constexpr int kOffsetBits = 24;
-constexpr int kMostFractionBits = 40;
+constexpr int kMaxFractionBits = 40;
 constexpr int kSumBits = 61;
 
 double shortest(const glm::dvec3& edges) {
@@ -53,7 +53,7 @@ int fraction_bits(const glm::dmat3& linear, const glm::dvec3& offset, const Grid
             sum += std::abs(linear[column][axis]) * size[column];
         largest = std::max(largest, sum);
     }
-    const int bits = std::min(kMostFractionBits, kSumBits - std::ilogb(largest) - 2);
+    const int bits = std::min(kMaxFractionBits, kSumBits - std::ilogb(largest) - 2);
     if (bits < kOffsetBits)
         throw Error(ErrorKind::scene,
                     "object {}: it lies {:.3g} of its voxels from the world's origin, which is too "

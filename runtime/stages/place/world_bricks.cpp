@@ -24,7 +24,7 @@ Program program_for(const Device& device, const WorldParts& parts) {
             "place_bricks.cl",
             {{"VXL_SMOOTH", parts.smooth},
              {"VXL_OCCUPANCY", parts.occupancy},
-             {"VXL_ATTRIBUTES", parts.has_words()},
+             {"VXL_ATTRIBUTES", parts.has_attributes()},
              {"VXL_COLORS", parts.colors}}};
 }
 
@@ -41,7 +41,7 @@ WorldBricks::WorldBricks(const Device& device, const WorldParts& parts, BrickGri
     : device_(device),
       smooth_(parts.smooth),
       occupancy_(parts.occupancy),
-      words_(parts.has_words()),
+      has_attributes_(parts.has_attributes()),
       colors_(parts.colors),
       world_(world),
       program_(program_for(device, parts)) {
@@ -63,15 +63,16 @@ void WorldBricks::store_like(const WorldParts& parts) {
     };
     store(world_.occupancy, occupancy_, parts.occupancy, kOccupancy, voxels / 64, uint64_t{0});
     store(world_.distance, smooth_, parts.smooth, kDistances, voxels, kSaturated);
-    store(world_.attributes, words_, parts.has_words(), kAttributes, voxels, world_.attribute);
+    store(world_.attributes, has_attributes_, parts.has_attributes(), kAttributes, voxels,
+          world_.attribute);
     store(world_.colors, colors_, parts.colors, kColors, voxels, kWhite);
     program_ = program_for(device_, parts);
 }
 
-std::vector<uint32_t> WorldBricks::store(const std::vector<uint32_t>& places,
+std::vector<uint32_t> WorldBricks::store(const std::vector<uint32_t>& brick_numbers,
                                          const std::vector<uint8_t>& states) {
     std::vector<uint32_t> gaps, added, stored;
-    for (const uint32_t place : places) {
+    for (const uint32_t place : brick_numbers) {
         const bool was_stored = slots_[place] < kBrickInside, is_stored = states[place] == kSurface;
         if (is_stored) stored.push_back(place);
         if (was_stored && !is_stored) gaps.push_back(slots_[place]);
@@ -117,10 +118,10 @@ void WorldBricks::fill_gaps(const std::vector<uint32_t>& gaps) {
                 world_.distance, world_.occupancy, world_.attributes, world_.colors);
 }
 
-void WorldBricks::clear(const std::vector<uint32_t>& places) {
+void WorldBricks::clear(const std::vector<uint32_t>& brick_numbers) {
     std::vector<uint32_t> slots;
-    slots.reserve(places.size());
-    for (const uint32_t place : places) slots.push_back(slots_[place]);
+    slots.reserve(brick_numbers.size());
+    for (const uint32_t place : brick_numbers) slots.push_back(slots_[place]);
     const auto parts = uint32_t(slots.size() * 64);
     program_.kernel("clear_bricks")
         .launch(WorkItem::light, parts, parts, Buffer<uint32_t>(device_, "cleared bricks", slots),
@@ -131,14 +132,16 @@ void WorldBricks::clear(const std::vector<uint32_t>& places) {
 /// large.
 void WorldBricks::reserve(uint32_t bricks) {
     if (bricks <= reserved_) return;
-    const size_t brick_bytes = kVoxels * (words_ || colors_ ? 4 : smooth_ ? 2 : 1);
-    const size_t most = std::max<size_t>(device_.info().max_allocation / brick_bytes, bricks);
-    const size_t places = reserved_ == 0 ? bricks : std::min<size_t>(bricks + bricks / 4, most);
-    if (occupancy_) enlarge(world_.occupancy, allocate_masks(device_, kOccupancy, places));
-    if (smooth_) enlarge(world_.distance, allocate_distances(device_, kDistances, places));
-    if (words_) enlarge(world_.attributes, allocate_words(device_, kAttributes, places));
-    if (colors_) enlarge(world_.colors, allocate_words(device_, kColors, places));
-    reserved_ = uint32_t(places);
+    const size_t brick_bytes = kVoxels * (has_attributes_ || colors_ ? 4 : smooth_ ? 2 : 1);
+    const size_t maximum = std::max<size_t>(device_.info().max_allocation / brick_bytes, bricks);
+    const size_t brick_numbers =
+        reserved_ == 0 ? bricks : std::min<size_t>(bricks + bricks / 4, maximum);
+    if (occupancy_) enlarge(world_.occupancy, allocate_masks(device_, kOccupancy, brick_numbers));
+    if (smooth_) enlarge(world_.distance, allocate_distances(device_, kDistances, brick_numbers));
+    if (has_attributes_)
+        enlarge(world_.attributes, allocate_words(device_, kAttributes, brick_numbers));
+    if (colors_) enlarge(world_.colors, allocate_words(device_, kColors, brick_numbers));
+    reserved_ = uint32_t(brick_numbers);
 }
 
 }  // namespace voxelume

@@ -21,14 +21,14 @@ class WorldBricks {
     /// words.
     void store_like(const WorldParts& parts);
 
-    /// Stores the bricks of `places` whose state is VXL_SURFACE, marks those that are VXL_FULL as
-    /// inside and drops the others; `states` has those of all bricks of the world. The contents of
-    /// bricks that aren't named stay. Returns those of `places` that are stored.
-    std::vector<uint32_t> store(const std::vector<uint32_t>& places,
+    /// Stores the bricks of `brick_numbers` whose state is VXL_SURFACE, marks those that are
+    /// VXL_FULL as inside and drops the others; `states` has those of all bricks of the world. The
+    /// contents of bricks that aren't named stay. Returns those of `brick_numbers` that are stored.
+    std::vector<uint32_t> store(const std::vector<uint32_t>& brick_numbers,
                                 const std::vector<uint8_t>& states);
 
     /// Empties bricks that are stored.
-    void clear(const std::vector<uint32_t>& places);
+    void clear(const std::vector<uint32_t>& brick_numbers);
 
     uint32_t slot(uint32_t place) const { return slots_[place]; }
 
@@ -37,7 +37,7 @@ class WorldBricks {
     void reserve(uint32_t bricks);
 
     Device device_;
-    bool smooth_, occupancy_, words_, colors_;
+    bool smooth_, occupancy_, has_attributes_, colors_;
     BrickGrid& world_;
     Program program_;
     std::vector<uint32_t> slots_;        ///< BrickGrid::slots

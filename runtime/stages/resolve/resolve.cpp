@@ -18,8 +18,8 @@ std::vector<const char*> plane_names(const ImageChannels& channels) {
     return names;
 }
 
-size_t pixel_count(const Sight& sight) {
-    return size_t(sight.width) * size_t(sight.height);
+size_t pixel_count(const Camera& camera) {
+    return size_t(camera.width) * size_t(camera.height);
 }
 
 }  // namespace
@@ -43,11 +43,11 @@ ImageArrays allocate_image(const Device& device, const glm::ivec2& size,
             {device, "not finite", 1}};
 }
 
-ResolveStage::ResolveStage(const Device& device, const Features& features, const Sight& sight,
+ResolveStage::ResolveStage(const Device& device, const Features& features, const Camera& camera,
                            const ImageChannels& channels)
-    : sight_(sight),
+    : camera_(camera),
       names_(plane_names(channels)),
-      image_(allocate_image(device, {sight.width, sight.height}, channels)),
+      image_(allocate_image(device, {camera.width, camera.height}, channels)),
       program_(device, "resolve.cl", resolve_defines(device, features, channels)),
       pixels_(program_.kernel("resolve_pixels")) {
     image_.not_finite.fill(0);
@@ -57,17 +57,17 @@ void ResolveStage::pixels(const Pyramid& pyramid, const RayBatch& batch, uint32_
                           uint32_t tiles) {
     const glm::dvec3& o = pyramid.frame.origin;
     const float4 origin = {float(o.x), float(o.y), float(o.z), 0};
-    pixels_.launch_packets(size_t(tiles) * 16, sight_, shape_of(pyramid), origin, batch.hits,
-                           batch.positions, batch.normals, batch.words, batch.radiance,
+    pixels_.launch_packets(size_t(tiles) * 16, camera_, shape_of(pyramid), origin, batch.hits,
+                           batch.positions, batch.normals, batch.hit_attributes, batch.radiance,
                            batch.coverage, first_tile, tiles, batch.stride, image_.planes,
                            image_.objects, image_.not_finite);
 }
 
 Image ResolveStage::image() const {
     Image image;
-    image.width = sight_.width;
-    image.height = sight_.height;
-    const size_t pixels = pixel_count(sight_);
+    image.width = camera_.width;
+    image.height = camera_.height;
+    const size_t pixels = pixel_count(camera_);
     const std::shared_ptr<float> planes = image_.planes.contents();
     for (size_t i = 0; i < names_.size(); ++i)
         image.planes[names_[i]] = {std::shared_ptr<float>(planes, planes.get() + i * pixels),

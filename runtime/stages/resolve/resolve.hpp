@@ -28,7 +28,7 @@ ImageArrays allocate_image(const Device& device, const glm::ivec2& size,
 class ResolveStage {
   public:
     /// Only the `channels` asked for are allocated and made.
-    ResolveStage(const Device& device, const Features& features, const Sight& sight,
+    ResolveStage(const Device& device, const Features& features, const Camera& camera,
                  const ImageChannels& channels = {});
 
     /// Makes the pixels of `tiles` tiles from `first_tile` on.
@@ -41,7 +41,7 @@ class ResolveStage {
     uint32_t not_finite() const { return image_.not_finite.read_one(0); }
 
   private:
-    Sight sight_;
+    Camera camera_;
     std::vector<const char*> names_;  ///< of the planes
     ImageArrays image_;
     Program program_;

@@ -30,7 +30,7 @@ class LeafMasks {
         blocks_[block][place.y] |= mask;
     }
 
-    Halo halo(const Device& device) const {
+    DilatedOccupancy dilated_occupancy(const Device& device) const {
         std::vector<bool> occupied(block_of_.size());
         for (size_t i = 0; i < occupied.size(); ++i) occupied[i] = block_of_[i] != kNone;
         std::vector<uint32_t> sectors(block_of_.size());
@@ -46,10 +46,10 @@ class LeafMasks {
             }
         }
         write_empty_cubes(bricks);
-        Halo halo = allocate_halo(device, sectors.size(), stored);
-        halo.sectors.write(sectors);
-        halo.bricks.write(bricks);
-        return halo;
+        DilatedOccupancy dilated_occupancy = allocate_halo(device, sectors.size(), stored);
+        dilated_occupancy.sectors.write(sectors);
+        dilated_occupancy.bricks.write(bricks);
+        return dilated_occupancy;
     }
 
   private:
@@ -109,31 +109,33 @@ glm::ivec3 coarse_sectors(const GridFrame& frame) {
 
 }  // namespace
 
-PyramidShape halo_shape(const Pyramid& pyramid, HaloOf of) {
+PyramidShape dilated_shape(const Pyramid& pyramid, DilationLevel of) {
     PyramidShape shape = shape_of(pyramid);
-    if (of == HaloOf::leaves) return shape;
+    if (of == DilationLevel::leaves) return shape;
     const glm::ivec3 size = coarse_size(pyramid.frame), sectors = coarse_sectors(pyramid.frame);
     shape.size_x = size.x, shape.size_y = size.y, shape.size_z = size.z;
     shape.sectors_x = sectors.x, shape.sectors_y = sectors.y;
     return shape;
 }
 
-Halo allocate_halo(const Device& device, size_t sectors, size_t stored) {
-    Halo halo;
-    halo.sectors = Buffer<uint32_t>(device, "halo sectors", sectors);
-    halo.bricks =
-        Buffer<uint32_t>(device, "halo bricks", stored * kRecordsPerSector * kWordsPerRecord);
-    return halo;
+DilatedOccupancy allocate_halo(const Device& device, size_t sectors, size_t stored) {
+    DilatedOccupancy dilated_occupancy;
+    dilated_occupancy.sectors = Buffer<uint32_t>(device, "dilated sectors", sectors);
+    dilated_occupancy.bricks =
+        Buffer<uint32_t>(device, "dilated bricks", stored * kRecordsPerSector * kWordsPerRecord);
+    return dilated_occupancy;
 }
 
 Buffer<uint32_t> allocate_beams(const Device& device, uint32_t rays) {
-    return {device, "beams", size_t(VXL_BEAM_PLACES(rays)) * VXL_BEAM_COMPONENTS};
+    return {device, "beams", size_t(VXL_BEAM_SLOTS(rays)) * VXL_BEAM_COMPONENTS};
 }
 
-Halo build_halo(const Device& device, const Pyramid& pyramid, HaloOf of) {
-    // In the coarse pyramid of a halo of bricks a sector is a brick, and its bricks that one's
-    // leaves.
-    LeafMasks masks(of == HaloOf::leaves ? pyramid.frame.sectors() : coarse_sectors(pyramid.frame));
+DilatedOccupancy build_dilated_occupancy(const Device& device, const Pyramid& pyramid,
+                                         DilationLevel of) {
+    // In the coarse pyramid of a dilated occupancy of bricks a sector is a brick, and its bricks
+    // that one's leaves.
+    LeafMasks masks(of == DilationLevel::leaves ? pyramid.frame.sectors()
+                                                : coarse_sectors(pyramid.frame));
     std::vector<glm::ivec3> sectors;
     for_each_sector(pyramid, [&](const glm::ivec3& sector, const uint32_t* records) {
         sectors.push_back(sector);
@@ -141,44 +143,45 @@ Halo build_halo(const Device& device, const Pyramid& pyramid, HaloOf of) {
         for (int bit = 0; bit < int(kRecordsPerSector); ++bit) {
             const uint64_t leaves = leaves_of(&records[size_t(bit) * kWordsPerRecord]);
             bricks |= uint64_t{leaves != 0} << bit;
-            if (of == HaloOf::leaves)
+            if (of == DilationLevel::leaves)
                 add_dilated(sector * kBricksPerSector + glm::ivec3(bit & 3, bit >> 2 & 3, bit >> 4),
                             leaves, masks);
         }
-        if (of == HaloOf::bricks) add_dilated(sector, bricks, masks);
+        if (of == DilationLevel::bricks) add_dilated(sector, bricks, masks);
     });
-    Halo halo = masks.halo(device);
-    halo.of = of;
-    halo.sectors_with_voxels = std::move(sectors);
-    return halo;
+    DilatedOccupancy dilated_occupancy = masks.dilated_occupancy(device);
+    dilated_occupancy.of = of;
+    dilated_occupancy.sectors_with_voxels = std::move(sectors);
+    return dilated_occupancy;
 }
 
-std::optional<HaloOf> halo_for(double voxels_a_pixel) {
+std::optional<DilationLevel> dilation_for(double voxels_a_pixel) {
     const double radius = 1.5 * voxels_a_pixel;  // of the rays through 4 x 4 pixels
-    if (radius <= VXL_BEAM_RADIUS) return HaloOf::leaves;
-    if (radius <= 4 * VXL_BEAM_RADIUS) return HaloOf::bricks;
+    if (radius <= VXL_BEAM_RADIUS) return DilationLevel::leaves;
+    if (radius <= 4 * VXL_BEAM_RADIUS) return DilationLevel::bricks;
     return std::nullopt;
 }
 
-std::optional<HaloOf> halo_that_pays(const Features& features, const Pyramid& world, uint64_t rays,
-                                     double voxels_a_pixel) {
+std::optional<DilationLevel> dilation_that_pays(const Features& features, const Pyramid& world,
+                                                uint64_t rays, double voxels_a_pixel) {
     constexpr uint64_t kFewRays = 65536;
     constexpr int kLargest = 16384;
     const glm::ivec3& size = world.frame.size;
     if (features.instances || world.voxel_count == 0 || rays < kFewRays ||
         std::max({size.x, size.y, size.z}) > kLargest)
         return std::nullopt;
-    const std::optional<HaloOf> of = halo_for(voxels_a_pixel);
-    // A ray for each leaf pays for its halo; that of bricks takes a seventh of the time.
-    const uint32_t needed = of == HaloOf::bricks ? world.leaf_count / 7 : world.leaf_count;
+    const std::optional<DilationLevel> of = dilation_for(voxels_a_pixel);
+    // A ray for each leaf pays for its dilated occupancy; that of bricks takes a seventh of the
+    // time.
+    const uint32_t needed = of == DilationLevel::bricks ? world.leaf_count / 7 : world.leaf_count;
     return rays >= needed ? of : std::nullopt;
 }
 
 BeamStage::BeamStage(const Device& device, const Features& features, const Pyramid& pyramid,
-                     Halo halo)
+                     DilatedOccupancy dilated_occupancy)
     : device_(device),
-      shape_(halo_shape(pyramid, halo.of)),
-      halo_(std::move(halo)),
+      shape_(dilated_shape(pyramid, dilated_occupancy.of)),
+      dilated_occupancy_(std::move(dilated_occupancy)),
       cleared_(device, "clear beams", 2),
       program_(device, "sight.cl", features.defines(device)),
       start_(program_.kernel("start_beams")) {
@@ -192,8 +195,9 @@ uint64_t BeamStage::cleared() const {
 void BeamStage::start(RayBatch& batch, uint32_t count) {
     if (batch.beams.empty()) batch.beams = allocate_beams(device_, batch.stride);
     const uint32_t beams = (count + VXL_BEAM_RAYS - 1) / VXL_BEAM_RAYS;
-    start_.launch_packets(beams, shape_, halo_.sectors, halo_.bricks, scale_of(halo_.of),
-                          batch.rays, beams, batch.stride, batch.beams, cleared_);
+    start_.launch_packets(beams, shape_, dilated_occupancy_.sectors, dilated_occupancy_.bricks,
+                          scale_of(dilated_occupancy_.of), batch.rays, beams, batch.stride,
+                          batch.beams, cleared_);
     sent_ += beams;
 }
 

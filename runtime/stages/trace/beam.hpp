@@ -11,51 +11,54 @@
 
 namespace voxelume {
 
-/// What a halo is made of: leaves for narrow groups of rays, bricks for those up to four times as
-/// wide.
-enum class HaloOf { leaves, bricks };
+/// What a dilated occupancy is made of: leaves for narrow groups of rays, bricks for those up to
+/// four times as wide.
+enum class DilationLevel { leaves, bricks };
 
 /// A pyramid's leaves (or bricks) that hold voxels, and all that touch one: where a point's leaf
 /// isn't among them, no surface is within 4 voxels (16) of it. `sectors` and `bricks` as in
-/// Pyramid, but nothing lies below the masks of leaves; a halo of bricks is that of a pyramid of
-/// voxels four times as long.
-struct Halo {
+/// Pyramid, but nothing lies below the masks of leaves; a dilated occupancy of bricks is that of a
+/// pyramid of voxels four times as long.
+struct DilatedOccupancy {
     Buffer<uint32_t> sectors, bricks;
-    HaloOf of = HaloOf::leaves;
+    DilationLevel of = DilationLevel::leaves;
     std::vector<glm::ivec3> sectors_with_voxels;  ///< of the pyramid
 };
 
-/// The buffers of a halo whose table has so many sectors, and stores some of them; and of the beams
-/// of so many rays.
-Halo allocate_halo(const Device& device, size_t sectors, size_t stored);
+/// The buffers of a dilated occupancy whose table has so many sectors, and stores some of them; and
+/// of the beams of so many rays.
+DilatedOccupancy allocate_halo(const Device& device, size_t sectors, size_t stored);
 Buffer<uint32_t> allocate_beams(const Device& device, uint32_t rays);
 
-/// The halo of a world without instances. Reads the pyramid's upper levels back; host work of about
-/// 16 nanoseconds a leaf that holds voxels, 2 for a halo of bricks.
-Halo build_halo(const Device& device, const Pyramid& pyramid, HaloOf of = HaloOf::leaves);
+/// The dilated occupancy of a world without instances. Reads the pyramid's upper levels back; host
+/// work of about 16 nanoseconds a leaf that holds voxels, 2 for a dilated occupancy of bricks.
+DilatedOccupancy build_dilated_occupancy(const Device& device, const Pyramid& pyramid,
+                                         DilationLevel of = DilationLevel::leaves);
 
-/// The halo for rays that neighbouring pixels send, each so many voxels wide where they meet the
-/// world; none where beams would be too wide for either.
-std::optional<HaloOf> halo_for(double voxels_a_pixel);
+/// The dilated occupancy for rays that neighbouring pixels send, each so many voxels wide where
+/// they meet the world; none where beams would be too wide for either.
+std::optional<DilationLevel> dilation_for(double voxels_a_pixel);
 
-/// The halo whose beams save so many sight rays more time than they take: building it, loading one
-/// more kernel. In larger worlds rounding could come near a beam's slack, see lib/traverse/beam.h.
-std::optional<HaloOf> halo_that_pays(const Features& features, const Pyramid& world, uint64_t rays,
-                                     double voxels_a_pixel);
+/// The dilated occupancy whose beams save so many sight rays more time than they take: building it,
+/// loading one more kernel. In larger worlds rounding could come near a beam's slack, see
+/// lib/traverse/beam.h.
+std::optional<DilationLevel> dilation_that_pays(const Features& features, const Pyramid& world,
+                                                uint64_t rays, double voxels_a_pixel);
 
-/// A halo's coordinates of the world's.
-inline float scale_of(HaloOf of) {
-    return of == HaloOf::leaves ? 1.0f : 0.25f;
+/// A dilated occupancy's coordinates of the world's.
+inline float scale_of(DilationLevel of) {
+    return of == DilationLevel::leaves ? 1.0f : 0.25f;
 }
 
-/// The shape of a pyramid's halo.
-PyramidShape halo_shape(const Pyramid& pyramid, HaloOf of);
+/// The shape of a pyramid's dilated occupancy.
+PyramidShape dilated_shape(const Pyramid& pyramid, DilationLevel of);
 
 /// `start_beams` of sight.cl. Beams change how long rays take, never what they meet.
 class BeamStage {
   public:
-    /// `halo` is the pyramid's.
-    BeamStage(const Device& device, const Features& features, const Pyramid& pyramid, Halo halo);
+    /// `dilated_occupancy` is the pyramid's.
+    BeamStage(const Device& device, const Features& features, const Pyramid& pyramid,
+              DilatedOccupancy dilated_occupancy);
 
     /// Sends one beam along every 16 of the rays 0 .. count-1 and leaves in `batch.beams` how far
     /// it came. The beams are those of these rays only.
@@ -68,7 +71,7 @@ class BeamStage {
   private:
     Device device_;
     PyramidShape shape_;
-    Halo halo_;
+    DilatedOccupancy dilated_occupancy_;
     uint64_t sent_ = 0;
     Buffer<uint32_t> cleared_;
     Program program_;

@@ -12,20 +12,20 @@ constexpr const char* kFewerRays =
 /// Makes arrays of so many places on a device.
 class ArrayMaker {
   public:
-    ArrayMaker(const Device& device, uint32_t places) : device_(device), places_(places) {}
+    ArrayMaker(const Device& device, uint32_t slots) : device_(device), slots_(slots) {}
 
     template <class T>
     void make(Buffer<T>& array, const char* name, size_t components) {
-        array = Buffer<T>(device_, name, size_t(places_) * components, kFewerRays);
+        array = Buffer<T>(device_, name, size_t(slots_) * components, kFewerRays);
     }
 
   private:
     const Device& device_;
-    uint32_t places_;
+    uint32_t slots_;
 };
 
 size_t path_components(const Features& features) {
-    if (features.transmission) return VXL_PATH_INSIDE + 1 + size_t(features.other_members);
+    if (features.transmission) return VXL_PATH_INSIDE + 1 + size_t(features.other_media);
     return features.instances ? VXL_PATH_INSIDE : VXL_PATH_CELL;
 }
 
@@ -48,11 +48,11 @@ void make_batch(const Features& features, ArrayMaker& maker, RayBatch& batch) {
     maker.make(batch.hits, "hits", hit_components(features));
     if (features.positions) maker.make(batch.positions, "positions", 3);
     if (features.normals) maker.make(batch.normals, "normals", 3);
-    if (features.words) maker.make(batch.words, "words", 1);
+    if (features.hit_attributes) maker.make(batch.hit_attributes, "hit attributes", 1);
     if (!features.radiance) return;
     maker.make(batch.radiance, "radiance", 3);
     if (features.paths) maker.make(batch.sides, "sides", 1);
-    if (features.paths && features.absorbs) maker.make(batch.passed, "passed", 3);
+    if (features.paths && features.absorbs) maker.make(batch.transmittance, "transmittance", 3);
     if (features.transmission) maker.make(batch.coverage, "coverage", 1);
 }
 
@@ -64,7 +64,7 @@ void make_shadow_queue(const Features& features, ArrayMaker& maker, ShadowQueue&
     maker.make(queue.rays, "shadow queue", VXL_RAY_COMPONENTS);
     maker.make(queue.targets, "shadow queue", 1);
     if (features.exact()) maker.make(queue.sources, "shadow queue", 1);
-    maker.make(queue.shares, "shadow queue", 3);
+    maker.make(queue.contributions, "shadow queue", 3);
 }
 
 void make_depth(const Features& features, bool is_first, ArrayMaker& maker, PathDepth& depth) {
@@ -73,23 +73,23 @@ void make_depth(const Features& features, bool is_first, ArrayMaker& maker, Path
         make_queue(features, maker, depth.next);
         maker.make(depth.nodes.radiance, "node light", 3);
         if (is_first) maker.make(depth.nodes.coverage, "node coverage", 1);
-        maker.make(depth.children.gains, "path gains", 3);
+        maker.make(depth.children.node_weights, "path node weights", 3);
     }
     maker.make(depth.children.nodes, "path children", branches_of(features));
-    maker.make(depth.children.shares, "path shares", branches_of(features));
+    maker.make(depth.children.child_weights, "path child weights", branches_of(features));
 }
 
-uint32_t shadow_places(const Features& features, uint32_t most_rays) {
-    return std::bit_ceil(branches_of(features) * most_rays);
+uint32_t shadow_slots(const Features& features, uint32_t max_rays) {
+    return std::bit_ceil(branches_of(features) * max_rays);
 }
 
 }  // namespace
 
-uint32_t batch_tiles(const Features& features, int samples, uint32_t most) {
-    return std::clamp(batch_rays(features) / (16 * uint32_t(samples)), 1u, most);
+uint32_t batch_tiles(const Features& features, int samples, uint32_t maximum) {
+    return std::clamp(batch_rays(features) / (16 * uint32_t(samples)), 1u, maximum);
 }
 
-uint32_t depth_places(uint32_t count) {
+uint32_t depth_slots(uint32_t count) {
     return std::max(std::bit_ceil(count), 16u);
 }
 
@@ -107,7 +107,7 @@ void renew_sight(const Device& device, RayBatch& batch) {
 }
 
 ShadowQueue allocate_shadow_queue(const Device& device, const Features& features,
-                                  uint32_t most_rays) {
+                                  uint32_t max_rays) {
     ShadowQueue queue;
     if (!has_shadow_queue(features)) return queue;
     queue.count = Buffer<uint32_t>(device, "shadow queue", 1);
@@ -115,17 +115,17 @@ ShadowQueue allocate_shadow_queue(const Device& device, const Features& features
         queue.traced = Buffer<uint32_t>(device, "shadow rays", 2);
         queue.traced.fill(0);
     }
-    ArrayMaker maker(device, shadow_places(features, most_rays));
+    ArrayMaker maker(device, shadow_slots(features, max_rays));
     make_shadow_queue(features, maker, queue);
     return queue;
 }
 
 PathDepth allocate_depth(const Device& device, const Features& features, bool is_first,
-                         uint32_t places) {
+                         uint32_t slots) {
     PathDepth depth;
-    ArrayMaker maker(device, places);
+    ArrayMaker maker(device, slots);
     make_depth(features, is_first, maker, depth);
-    depth.entries.stride = depth.nodes.stride = places;
+    depth.entries.stride = depth.nodes.stride = slots;
     return depth;
 }
 
@@ -137,7 +137,7 @@ RayArrays allocate_rays(const Device& device, const Features& features, const Ra
         arrays.depths.push_back(allocate_depth(device, features, true, counts.rays));
     for (size_t depth = 0; depth < counts.depth; ++depth)
         arrays.depths.push_back(allocate_depth(device, features, false,
-                                               depth_places(branches_of(features) * counts.rays)));
+                                               depth_slots(branches_of(features) * counts.rays)));
     return arrays;
 }
 

@@ -24,8 +24,8 @@ inline uint32_t batch_rays(const Features& features) {
     return features.paths ? kBatchRays / 2 : kBatchRays;
 }
 
-/// Tiles of 4 x 4 pixels whose rays do, with so many samples a pixel; 1 to `most`.
-uint32_t batch_tiles(const Features& features, int samples, uint32_t most);
+/// Tiles of 4 x 4 pixels whose rays do, with so many samples a pixel; 1 to `maximum`.
+uint32_t batch_tiles(const Features& features, int samples, uint32_t maximum);
 
 /// Rays that a surface point may send on.
 inline uint32_t branches_of(const Features& features) {
@@ -38,17 +38,17 @@ RayBatch allocate_batch(const Device& device, const Features& features, uint32_t
 /// Gives the batch other arrays for its rays and hits; whoever holds the old ones keeps them.
 void renew_sight(const Device& device, RayBatch& batch);
 
-/// For the shadow rays of batches of at most `most_rays` and of what these send on. Empty where
+/// For the shadow rays of batches of at most `max_rays` and of what these send on. Empty where
 /// nothing can keep light back.
 ShadowQueue allocate_shadow_queue(const Device& device, const Features& features,
-                                  uint32_t most_rays);
+                                  uint32_t max_rays);
 
-/// For `places` nodes of a depth. The observer's own rays, the first depth, are the caller's.
+/// For `slots` nodes of a depth. The observer's own rays, the first depth, are the caller's.
 PathDepth allocate_depth(const Device& device, const Features& features, bool is_first,
-                         uint32_t places);
+                         uint32_t slots);
 
 /// Places of a later depth in which `count` nodes are kept.
-uint32_t depth_places(uint32_t count);
+uint32_t depth_slots(uint32_t count);
 
 /// Bytes that rays take on a device.
 struct RayBytes {
@@ -57,8 +57,8 @@ struct RayBytes {
     size_t depth = 0;      ///< of those, at most
 
     /// With the first depth, whose arrays are made whatever is met.
-    double least() const { return once + (depth > 0 ? per_depth : 0); }
-    double most() const { return once + per_depth * double(depth); }
+    double minimum() const { return once + (depth > 0 ? per_depth : 0); }
+    double maximum() const { return once + per_depth * double(depth); }
 };
 
 /// Sight rays that go together, which are reflected or refracted up to `depth` times, in a scene

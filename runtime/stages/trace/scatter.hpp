@@ -14,9 +14,9 @@ namespace voxelume {
 
 /// A batch's reflected and refracted rays: which nodes of the next depth they are.
 struct Children {
-    Buffer<uint32_t> nodes;  ///< of each entry's reflected ray; `stride` later its refracted
-    Buffer<float> shares;    ///< of the nodes' light that the surface returns
-    Buffer<float> gains;     ///< 3: what that light counts in the entry's node
+    Buffer<uint32_t> nodes;       ///< of each entry's reflected ray; `stride` later its refracted
+    Buffer<float> child_weights;  ///< of the nodes' light that the surface returns
+    Buffer<float> node_weights;   ///< 3: what that light counts in the entry's node
 };
 
 /// The sums of light of nodes.
@@ -37,7 +37,7 @@ class ScatterStage {
     /// `compact` = false gives every surface point a place for each of its rays, wanted or not: to
     /// measure what compaction is worth.
     ScatterStage(const Device& device, const Features& features, Surroundings surroundings,
-                 float least_weight, bool compact);
+                 float min_weight, bool compact);
 
     /// Makes rays 0 .. count-1, which come from an observer, paths of their own.
     void begin(const Pyramid& pyramid, RayBatch& batch, uint32_t count);
@@ -65,7 +65,7 @@ class ScatterStage {
     uint32_t take(uint32_t counter);
 
     Surroundings surroundings_;
-    float least_weight_;
+    float min_weight_;
     bool compact_;
     uint32_t branches_;
     Buffer<uint32_t> counters_, bodies_;

@@ -13,14 +13,14 @@ namespace {
 
 /// How far the world's nearest corner is ahead of the observer along Z_E, metres; 0 if it is not.
 double depth_of_world(const Observer& observer, const GridFrame& world) {
-    double least = std::numeric_limits<double>::infinity();
+    double minimum = std::numeric_limits<double>::infinity();
     for (int corner = 0; corner < 8; ++corner) {
         const glm::dvec3 step(corner & 1, corner >> 1 & 1, corner >> 2);
         const glm::dvec3 point = world.origin + world.voxel_edge * glm::dvec3(world.size) * step;
-        least =
-            std::min(least, glm::dot(point - observer.position, observer.world_from_observer[2]));
+        minimum =
+            std::min(minimum, glm::dot(point - observer.position, observer.world_from_observer[2]));
     }
-    return std::max(least, 0.0);
+    return std::max(minimum, 0.0);
 }
 
 }  // namespace
@@ -39,7 +39,7 @@ int shape_number(DisplayShape shape) {
     return VXL_SHAPE_PYRAMID;
 }
 
-Sight sight_of(const Scene& scene, const GridFrame& world) {
+Camera camera_of(const Scene& scene, const GridFrame& world) {
     const Observer& observer = scene.observer;
     const glm::dmat3& axes = observer.world_from_observer;
     // Rays of a distant pyramid or box start at the world's depth: float would lose them on the
@@ -50,30 +50,30 @@ Sight sight_of(const Scene& scene, const GridFrame& world) {
     const glm::dvec3 origin =
         (observer.position + axes[2] * lead - world.origin) / world.voxel_edge;
     const glm::dvec2 half = half_extent(observer.display);
-    Sight sight{};
-    sight.origin = to_float4(origin);
-    sight.origin_low =
-        to_float4(origin - glm::dvec3(sight.origin.x, sight.origin.y, sight.origin.z));
-    sight.axis_x = to_float4(axes[0] / world.voxel_edge);
-    sight.axis_y = to_float4(axes[1] / world.voxel_edge);
-    sight.axis_z = to_float4(axes[2] / world.voxel_edge);
-    sight.half_x = float(half.x);
-    sight.half_y = float(half.y);
-    sight.near_plane = float(observer.display.near - lead);
-    sight.far_plane = float(observer.display.far - lead);
-    sight.lead = float(lead);
-    sight.width = scene.render.size.x;
-    sight.height = scene.render.size.y;
-    sight.samples = scene.render.samples;
-    sight.shape = shape_number(observer.display.shape);
-    sight.sample_share = 1.0f / float(scene.render.samples);
-    return sight;
+    Camera camera{};
+    camera.origin = to_float4(origin);
+    camera.origin_low =
+        to_float4(origin - glm::dvec3(camera.origin.x, camera.origin.y, camera.origin.z));
+    camera.axis_x = to_float4(axes[0] / world.voxel_edge);
+    camera.axis_y = to_float4(axes[1] / world.voxel_edge);
+    camera.axis_z = to_float4(axes[2] / world.voxel_edge);
+    camera.half_x = float(half.x);
+    camera.half_y = float(half.y);
+    camera.near_plane = float(observer.display.near - lead);
+    camera.far_plane = float(observer.display.far - lead);
+    camera.lead = float(lead);
+    camera.width = scene.render.size.x;
+    camera.height = scene.render.size.y;
+    camera.samples = scene.render.samples;
+    camera.shape = shape_number(observer.display.shape);
+    camera.sample_weight = 1.0f / float(scene.render.samples);
+    return camera;
 }
 
-double voxels_a_pixel(const Scene& scene, const Sight& sight, const GridFrame& world) {
+double voxels_a_pixel(const Scene& scene, const Camera& camera, const GridFrame& world) {
     const Observer& observer = scene.observer;
     const glm::dvec2 pixel =
-        2.0 * half_extent(observer.display) / glm::dvec2(sight.width, sight.height);
+        2.0 * half_extent(observer.display) / glm::dvec2(camera.width, camera.height);
     const glm::dvec3 middle = world.origin + 0.5 * world.voxel_edge * glm::dvec3(world.size);
     const double metres = observer.display.shape == DisplayShape::box
                               ? 1.0
@@ -98,16 +98,16 @@ uint32_t tile_count(int width, int height) {
     return uint32_t((width + 3) / 4) * uint32_t((height + 3) / 4);
 }
 
-SightStage::SightStage(const Device& device, const Features& features, const Sight& sight)
-    : sight_(sight),
-      offsets_(device, "sample offsets", std::span<const float>(sample_offsets(sight.samples))),
+SightStage::SightStage(const Device& device, const Features& features, const Camera& camera)
+    : camera_(camera),
+      offsets_(device, "sample offsets", std::span<const float>(sample_offsets(camera.samples))),
       program_(device, "sight.cl", features.defines(device)),
       cast_(program_.kernel("cast_sight")) {}
 
 uint32_t SightStage::cast(const PyramidShape& world, uint32_t first_tile, uint32_t tiles,
                           RayBatch& batch) {
-    const uint32_t count = tiles * 16u * uint32_t(sight_.samples);
-    cast_.launch_packets(count, sight_, world, offsets_, first_tile, count, batch.stride,
+    const uint32_t count = tiles * 16u * uint32_t(camera_.samples);
+    cast_.launch_packets(count, camera_, world, offsets_, first_tile, count, batch.stride,
                          batch.rays);
     return count;
 }

@@ -14,10 +14,10 @@ namespace voxelume {
 int shape_number(DisplayShape shape);
 
 /// The observer as kernels take it: in the voxels of the world.
-Sight sight_of(const Scene& scene, const GridFrame& world);
+Camera camera_of(const Scene& scene, const GridFrame& world);
 
 /// How wide the rays of neighbouring pixels are apart at the middle of the world, in voxels.
-double voxels_a_pixel(const Scene& scene, const Sight& sight, const GridFrame& world);
+double voxels_a_pixel(const Scene& scene, const Camera& camera, const GridFrame& world);
 
 /// Where the samples of a pixel lie: x and y in [0, 1), the same for every pixel. One sample is the
 /// centre; more are the R2 sequence of Roberts 2018, which fills a square evenly for any number.
@@ -29,17 +29,17 @@ uint32_t tile_count(int width, int height);
 /// Kernel of sight.cl. The paper's block 2.
 class SightStage {
   public:
-    SightStage(const Device& device, const Features& features, const Sight& sight);
+    SightStage(const Device& device, const Features& features, const Camera& camera);
 
     /// Casts for another observer from here on, with as many samples a pixel.
-    void look(const Sight& sight) { sight_ = sight; }
+    void look(const Camera& camera) { camera_ = camera; }
 
     /// Casts the rays of `tiles` tiles from `first_tile` on, 16 * samples each; returns their
     /// number.
     uint32_t cast(const PyramidShape& world, uint32_t first_tile, uint32_t tiles, RayBatch& batch);
 
   private:
-    Sight sight_;
+    Camera camera_;
     Buffer<float> offsets_;
     Program program_;
     Kernel cast_;

@@ -26,7 +26,7 @@ PyramidShape shape_of(const Pyramid& pyramid) {
     // 2.5 * 2^-24 of the longest side; 4 units leave room for the comparison's own rounding.
     shape.plane_bound = std::ldexp(1.0f, integer_bits + 2 - 24);
     shape.fixed_point = std::ldexp(1.0f, 24 - integer_bits);
-    shape.lift = pyramid.instances.lift;
+    shape.origin_offset = pyramid.instances.origin_offset;
     return shape;
 }
 
@@ -47,23 +47,24 @@ Features features_of(const Pyramid& pyramid) {
 namespace {
 
 bool shadows_fly(const Features& f) {
-    return VXL_SHADOW_RAYS_FLY(f.paths, f.smooth, f.exact(), f.instances);
+    return VXL_REFILLS_SHADOW_LANES(f.paths, f.smooth, f.exact(), f.instances);
 }
 
 }  // namespace
 
 TraceStage::TraceStage(const Device& device, const Features& features)
     : packets_(VXL_PACKETS(device.lanes())),
-      turns_(VXL_TURNS(device.lanes(), features.smooth, features.exact(), features.instances)),
+      interleaved_(VXL_INTERLEAVED_PACKETS(device.lanes(), features.smooth, features.exact(),
+                                           features.instances)),
       shadow_packets_(shadows_fly(features) ? packets_
                       : features.filter     ? 1
-                                            : turns_),
+                                            : interleaved_),
       program_(device, "trace.cl", features.defines(device)),
       closest_(program_.kernel("trace_closest")),
       shadows_(program_.kernel("trace_shadows")) {
-    if (VXL_RAYS_FLY(features.paths, features.instances))
+    if (VXL_REFILLS_LANES(features.paths, features.instances))
         scattered_ = program_.kernel("trace_scattered");
-    if (features.immersed) inside_ = program_.kernel("begin_inside");
+    if (features.observer_in_medium) inside_ = program_.kernel("begin_inside");
 }
 
 void TraceStage::closest(const Pyramid& pyramid, RayBatch& batch, uint32_t count, bool scattered) {
@@ -79,33 +80,35 @@ void TraceStage::closest(const Pyramid& pyramid, RayBatch& batch, uint32_t count
     if (scattered && scattered_)
         launch(*scattered_, (count + packets_ - 1) / packets_);
     else
-        launch(closest_, (count + turns_ - 1) / turns_, batch.beams);
+        launch(closest_, (count + interleaved_ - 1) / interleaved_, batch.beams);
 }
 
 void TraceStage::begin_inside(const Pyramid& pyramid, const Surroundings& surroundings,
-                              const Buffer<uint32_t>& hollow, uint32_t most_hollow, RayBatch& batch,
+                              const Buffer<uint32_t>& hollow, uint32_t max_hollow, RayBatch& batch,
                               uint32_t count) {
     inside_.value().launch_packets(
         count, shape_of(pyramid), pyramid.sectors, pyramid.bricks, pyramid.leaves,
         pyramid.leaf_voxels, pyramid.attributes, pyramid.fields, pyramid.primitive_first,
         pyramid.primitives, pyramid.triangles, pyramid.triangle_attributes, pyramid.solids,
         pyramid.instances.records, pyramid.instances.nodes, pyramid.instances.materials,
-        pyramid.attribute, surroundings.materials, surroundings.ranks, surroundings.lost, hollow,
-        most_hollow, batch.rays, count, batch.stride, batch.paths, batch.starts, batch.inside);
+        pyramid.attribute, surroundings.materials, surroundings.ranks,
+        surroundings.medium_overflows, hollow, max_hollow, batch.rays, count, batch.stride,
+        batch.paths, batch.starts, batch.inside);
 }
 
 void TraceStage::shadows(const Pyramid& pyramid, const Surroundings& surroundings,
-                         const ShadowQueue& queue, uint32_t most, RayBatch& batch) {
+                         const ShadowQueue& queue, uint32_t maximum, RayBatch& batch) {
     shadows_.launch_packets(
-        (most + shadow_packets_ - 1) / shadow_packets_, shape_of(pyramid), pyramid.sectors,
+        (maximum + shadow_packets_ - 1) / shadow_packets_, shape_of(pyramid), pyramid.sectors,
         pyramid.bricks, pyramid.leaves, pyramid.leaf_voxels, pyramid.attributes, pyramid.fields,
         pyramid.primitive_first, pyramid.primitives, pyramid.triangles, pyramid.triangle_attributes,
         pyramid.solids, pyramid.instances.records, pyramid.instances.nodes,
         pyramid.instances.materials, pyramid.attribute, surroundings.materials, pyramid.colors,
-        surroundings.ranks, surroundings.lost, surroundings.absorption, surroundings.density.shape,
-        surroundings.density.bricks, surroundings.density.values, queue.rays, queue.count,
-        batch.stride, queue.targets, queue.sources, batch.paths, batch.hits, queue.shares,
-        queue.beams.grid, queue.beams.ends, queue.traced, batch.radiance);
+        surroundings.ranks, surroundings.medium_overflows, surroundings.absorption,
+        surroundings.density.shape, surroundings.density.bricks, surroundings.density.values,
+        queue.rays, queue.count, batch.stride, queue.targets, queue.sources, batch.paths,
+        batch.hits, queue.contributions, queue.beams.grid, queue.beams.ends, queue.traced,
+        batch.radiance);
 }
 
 }  // namespace voxelume

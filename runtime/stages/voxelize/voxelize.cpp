@@ -69,7 +69,7 @@ Mesh turned_over(Mesh mesh) {
 /// What the mesh's groups and colours give to voxels; shared/voxel.h's words.
 MeshLabels labels_of(const Mesh& mesh, Surface surface) {
     MeshLabels labels;
-    labels.word = static_cast<uint32_t>(surface) << VXL_KIND_SHIFT;
+    labels.attributes = static_cast<uint32_t>(surface) << VXL_KIND_SHIFT;
     labels.vertex_colors = mesh.vertex_colors;
     const std::vector<uint32_t>& groups = mesh.triangle_group;
     if (std::all_of(groups.begin(), groups.end(), [](uint32_t g) { return g == 0; })) return labels;
@@ -77,7 +77,7 @@ MeshLabels labels_of(const Mesh& mesh, Surface surface) {
         throw Error(ErrorKind::limit, "the mesh has more than {} face groups",
                     VXL_MATERIAL_MASK + 1);
     for (const uint32_t group : groups)
-        labels.triangle_attributes.push_back(labels.word | group << VXL_MATERIAL_SHIFT);
+        labels.triangle_attributes.push_back(labels.attributes | group << VXL_MATERIAL_SHIFT);
     return labels;
 }
 
@@ -95,7 +95,7 @@ void keep_triangles(VoxelizeJob& job, const Mesh& mesh, const glm::dmat4& frame_
     job.grid.triangles =
         Buffer<float>(job.device, "source triangles", std::span<const float>(corners));
     std::vector<uint32_t> words = labels.triangle_attributes;
-    words.resize(mesh.triangles.size(), labels.word);
+    words.resize(mesh.triangles.size(), labels.attributes);
     job.grid.triangle_attributes =
         Buffer<uint32_t>(job.device, "source attributes", std::span<const uint32_t>(words));
 }
@@ -129,7 +129,7 @@ BrickGrid Voxelizer::voxelize_outward(const Mesh& mesh, const glm::dmat4& frame_
                     glm::ivec4(frame.bricks(), 0),
                     {}};
     job.grid.frame = frame;
-    job.grid.attribute = labels.word;
+    job.grid.attribute = labels.attributes;
     if (stores_distances(options.surface))
         voxelize_smooth(job, std::min(options.band, 4.0));
     else if (shows_voxels(options.surface))

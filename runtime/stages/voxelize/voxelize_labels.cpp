@@ -1,4 +1,4 @@
-// mesh groups and colours -> the attribute words and colours of voxels.
+// mesh groups and colours -> the packed attributes and colours of voxels.
 #include <algorithm>
 #include <cmath>
 
@@ -48,7 +48,7 @@ void label_voxels(VoxelizeJob& job, const Program& label, const Program& distanc
                                      std::span<const uint32_t>(labels.triangle_attributes));
         job.grid.attributes = allocate_words(job.device, "voxel attributes", job.bins.stored);
         label.kernel("label_voxels")
-            .launch(WorkItem::light, voxels, count, labels.word, nearest, words,
+            .launch(WorkItem::light, voxels, count, labels.attributes, nearest, words,
                     job.grid.attributes);
     }
     if (!labels.vertex_colors.empty()) {

@@ -77,7 +77,7 @@ void list_primitives(VoxelizeJob& job, const Program& exact);
 
 /// What voxels take from the mesh's groups and colours.
 struct MeshLabels {
-    uint32_t word = 0;                          ///< of a voxel that has no triangle
+    uint32_t attributes = 0;                    ///< of a voxel that has no triangle
     std::vector<uint32_t> triangle_attributes;  ///< empty: one word for all
     std::vector<glm::vec3> vertex_colors;       ///< linear; empty: none
 };

@@ -113,17 +113,18 @@ bool AnalyticTracer::is_hidden(const Path& path, const Surface& surface) const {
 }
 
 /// What the space between path.t and t lets through and adds.
-void AnalyticTracer::pass(const Path& path, double t, glm::dvec3& passed,
+void AnalyticTracer::pass(const Path& path, double t, glm::dvec3& transmittance,
                           glm::dvec3& emitted) const {
     const double metres = t - path.t;
     const int within = effective(path.inside);
     if (within >= 0) {
         const int material = scene_.objects[size_t(within)].material;
-        passed = glm::exp(-glm::dvec3(scene_.materials[size_t(material)].absorption) * metres);
+        transmittance =
+            glm::exp(-glm::dvec3(scene_.materials[size_t(material)].absorption) * metres);
         emitted = glm::dvec3(0);
     } else {
-        passed = glm::exp(-glm::dvec3(scene_.world.medium.absorption) * metres);
-        emitted = glm::dvec3(scene_.world.medium.color) * (1.0 - passed);
+        transmittance = glm::exp(-glm::dvec3(scene_.world.medium.absorption) * metres);
+        emitted = glm::dvec3(scene_.world.medium.color) * (1.0 - transmittance);
     }
 }
 
@@ -155,11 +156,11 @@ glm::dvec3 AnalyticTracer::radiance(Path path, Events& events) const {
     glm::dvec3 before(0), through(1);
     for (;;) {
         const Surface surface = next_surface(path);
-        glm::dvec3 passed, emitted;
-        pass(path, surface.crossing.t, passed, emitted);
+        glm::dvec3 transmittance, emitted;
+        pass(path, surface.crossing.t, transmittance, emitted);
         before += through * emitted;
-        through *= passed;
-        path.weight *= passed;
+        through *= transmittance;
+        path.weight *= transmittance;
         path.t = surface.crossing.t;
         events.add(uint64_t(surface.object) + 1);
         if (surface.object < 0) return before + through * glm::dvec3(scene_.world.background);
@@ -190,7 +191,7 @@ glm::dvec3 AnalyticTracer::surface_radiance(const Path& path, const Surface& sur
         Path behind = path;
         behind.weight *= 1 - opacity;
         behind.inside[size_t(surface.object)] ^= 1;
-        const bool ends = largest(behind.weight) < scene_.render.least_weight;
+        const bool ends = largest(behind.weight) < scene_.render.min_weight;
         events.add(ends);
         if (!ends) value += (1 - opacity) * radiance(behind, events);
     }
@@ -232,7 +233,7 @@ glm::dvec3 AnalyticTracer::scattered(const Path& path, const Surface& surface, c
                             const std::vector<uint8_t>& inside) {
         if (ratio_of_ray == 0) return;
         const glm::dvec3 weight = path.weight * ratio_of_ray;
-        const bool ends = largest(weight) < scene_.render.least_weight;
+        const bool ends = largest(weight) < scene_.render.min_weight;
         events.add(ends);
         if (ends) return;
         Path next{

@@ -60,7 +60,7 @@ class AnalyticTracer {
     bool transmits(int object) const;
     bool is_hidden(const Path& path, const Surface& surface) const;
     void find_inside(Path& path) const;
-    void pass(const Path& path, double t, glm::dvec3& passed, glm::dvec3& emitted) const;
+    void pass(const Path& path, double t, glm::dvec3& transmittance, glm::dvec3& emitted) const;
     glm::dvec3 color(const Material& material, const glm::dvec3& position, Events& events) const;
     Point point_at(const Path& path, const Surface& surface, Events& events) const;
 

@@ -10,7 +10,7 @@ namespace voxelume::oracle {
 namespace {
 
 /// Of a spot's light, along the unit vector `away` from it.
-double spot_share(const Light& light, const glm::dvec3& away) {
+double spot_falloff(const Light& light, const glm::dvec3& away) {
     const double inner = std::cos(light.inner_half_angle), outer = std::cos(light.outer_half_angle);
     const double cosine = glm::dot(light.direction, away);
     if (cosine >= inner) return 1;
@@ -32,7 +32,7 @@ glm::dvec3 AnalyticTracer::share_of(const Light& light, const Path& path, const 
         falloff = 1 / (distance * distance);
     }
     if (light.kind == LightKind::spot) {
-        const double share = spot_share(light, -to_light);
+        const double share = spot_falloff(light, -to_light);
         events.add((share > 0) + (share >= 1));
         falloff *= share;
     }
@@ -45,7 +45,7 @@ glm::dvec3 AnalyticTracer::share_of(const Light& light, const Path& path, const 
         std::pow(std::max(0.0, glm::dot(point.normal, half)), double(m.shininess));
     const glm::dvec3 share =
         point.color * double(m.diffuse) * cosine + double(m.specular) * highlight;
-    return share * glm::dvec3(light.energy) * falloff *
+    return share * glm::dvec3(light.intensity) * falloff *
            shadow(path, point, to_light, distance, events);
 }
 
@@ -59,7 +59,7 @@ glm::dvec3 AnalyticTracer::shadow(const Path& path, const Point& point, const gl
     }
     const glm::dvec3 of_medium(scene_.world.medium.absorption);
     if (!scene_.render.shadows) return glm::exp(-of_medium * std::max(0.0, way.t_last));
-    glm::dvec3 passed(1);
+    glm::dvec3 throughput(1);
     for (;;) {
         const Surface surface = next_surface(way);
         events.add(uint64_t(surface.object) + 1);
@@ -69,15 +69,16 @@ glm::dvec3 AnalyticTracer::shadow(const Path& path, const Point& point, const gl
                 ? of_medium
                 : glm::dvec3(
                       scene_.materials[size_t(scene_.objects[size_t(within)].material)].absorption);
-        passed *= glm::exp(-absorption * std::max(0.0, surface.crossing.t - way.t));
-        if (surface.object < 0) return passed;
+        throughput *= glm::exp(-absorption * std::max(0.0, surface.crossing.t - way.t));
+        if (surface.object < 0) return throughput;
         if (!is_hidden(way, surface)) {
             events.add(uint64_t(surface.crossing.face));
             const Point met = point_at(way, surface, events);
             const double a = double(met.material->opacity);
-            passed *= (1 - a) * ((1 - a) + a * met.color) +
-                      (scene_.render.filtered_shadows ? a * double(met.material->refraction) : 0);
-            if (passed == glm::dvec3(0)) return passed;
+            throughput *=
+                (1 - a) * ((1 - a) + a * met.color) +
+                (scene_.render.filtered_shadows ? a * double(met.material->refraction) : 0);
+            if (throughput == glm::dvec3(0)) return throughput;
         }
         way.t = surface.crossing.t;
         way.inside[size_t(surface.object)] ^= 1;

@@ -78,7 +78,7 @@ void measure_extent(const Device& device, Scene scene, const Pyramid& shown,
     if (row.surface == Surface::cubes) {
         scene.models.front().set = VoxelSet::solid;
         WorldReport report;
-        extent = extent_of(form_world(device, scene, report), row.surface, scale);
+        extent = extent_of(build_world(device, scene, report), row.surface, scale);
     } else {
         extent = extent_of(shown, row.surface, scale);
     }
@@ -100,7 +100,7 @@ BenchTimes measure_first(const Device& device, const Scene& scene, const Measure
                          BenchRow& row) {
     DeviceCounters& counters = device.counters();
     RenderReport report;
-    const FormedWorld world = WorldFormer(device, false).form(scene, report.world);
+    const BuiltWorld world = WorldBuilder(device, false).build(scene, report.world);
     const Image image = Renderer(device, false).new_image(scene, world, report);
     device.finish();
     const BenchTimes times = times_of(report, counters);
@@ -128,8 +128,8 @@ void measure(const Device& device, const Measured& measured, int repeats, BenchR
     const double programs = row.seconds.programs;
     // The first render counts where it made no kernels and is long, or there are no repeats.
     double spent = best.total;
-    if (programs > 0 || (repeats > 0 && spent < kMostRowSeconds)) best.total = INFINITY;
-    for (int i = 0; std::isinf(best.total) || (i < repeats && spent < kMostRowSeconds); ++i) {
+    if (programs > 0 || (repeats > 0 && spent < kMaxRowSeconds)) best.total = INFINITY;
+    for (int i = 0; std::isinf(best.total) || (i < repeats && spent < kMaxRowSeconds); ++i) {
         clear_counters(device);
         RenderReport report;
         render(device, scene, report);
@@ -194,18 +194,18 @@ SlopeFit fit_rows(std::span<const BenchRow> rows, const BenchFit& fit,
 }
 
 void measure_level(std::span<const BenchRow> rows, BenchFit& fit) {
-    fit.depth_least = INFINITY;
+    fit.depth_min = INFINITY;
     for (const BenchRow& row : rows) {
         if (row.surface != fit.surface || row.placement != fit.placement || row.samples != 1)
             continue;
         const BenchErrors& e = row.errors;
         if (e.compared == 0) continue;
-        fit.depth_least = std::min(fit.depth_least, e.depth_rms);
-        fit.depth_most = std::max(fit.depth_most, e.depth_rms);
+        fit.depth_min = std::min(fit.depth_min, e.depth_rms);
+        fit.depth_max = std::max(fit.depth_max, e.depth_rms);
         if (e.float_spacing > 0)
-            fit.depth_most_floats = std::max(fit.depth_most_floats, e.depth_rms / e.float_spacing);
+            fit.depth_max_floats = std::max(fit.depth_max_floats, e.depth_rms / e.float_spacing);
     }
-    if (std::isinf(fit.depth_least)) fit.depth_least = 0;
+    if (std::isinf(fit.depth_min)) fit.depth_min = 0;
 }
 
 BenchFit fit_of(std::span<const BenchRow> rows, const BenchRow& first) {
@@ -224,7 +224,7 @@ BenchFit fit_of(std::span<const BenchRow> rows, const BenchRow& first) {
 
 void choose_fitted(BenchRow& row) {
     if (row.surface != Surface::smooth) return;
-    const bool is_fine = row.least_radius == 0 || row.least_radius >= kLeastVoxels * row.voxel_size;
+    const bool is_fine = row.min_radius == 0 || row.min_radius >= kMinVoxels * row.voxel_size;
     const double depth_floor = kDepthFloor * row.voxel_size;
     row.fits_depth = is_fine && row.errors.depth_rms > kFloorFactor * depth_floor;
     row.fits_normal = is_fine && row.errors.normal_rms > kFloorFactor * kNormalFloor;
@@ -281,7 +281,7 @@ BenchReport run_bench(const Device& device, const BenchOptions& options,
         std::optional<ShadowTruth> shadow;
         if (options.measures_shadows && !entry->has_light) shadow = shadow_truth(subject, size);
         for (BenchRow row : planned_rows(options, *entry)) {
-            row.least_radius = subject.least_radius;
+            row.min_radius = subject.min_radius;
             measure(device, {subject, truth, shadow ? &*shadow : nullptr, size}, options.repeats,
                     row);
             report.rows.push_back(row);

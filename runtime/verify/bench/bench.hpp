@@ -47,11 +47,11 @@ struct BenchRow {
     std::string scene;
     Surface surface = Surface::cubes;
     Placement placement = Placement::world;
-    int samples = 1;          ///< rays a pixel; depth, normals and outline are measured with 1
-    int resolution = 0;       ///< voxels a metre
-    double voxel_size = 0;    ///< metres
-    double least_radius = 0;  ///< of curvature, metres; 0 for edges, or not known
-    BenchTimes seconds;       ///< of the repeat with the least total
+    int samples = 1;        ///< rays a pixel; depth, normals and outline are measured with 1
+    int resolution = 0;     ///< voxels a metre
+    double voxel_size = 0;  ///< metres
+    double min_radius = 0;  ///< of curvature, metres; 0 for edges, or not known
+    BenchTimes seconds;     ///< of the repeat with the least total
     uint64_t voxels = 0;
     uint64_t world_bytes = 0;  ///< of the world's pyramid
     uint64_t peak_bytes = 0;   ///< the most on the device at once
@@ -69,13 +69,13 @@ struct BenchFit {
     std::string scene;
     Surface surface = Surface::cubes;
     Placement placement = Placement::world;
-    SlopeFit depth;          ///< of the RMS, over the rows that count
-    SlopeFit normal;         ///< likewise
-    SlopeFit volume;         ///< of the relative error, over all rows
-    SlopeFit area;           ///< likewise
-    double depth_least = 0;  ///< of the RMS of depth over all rows, metres
-    double depth_most = 0;
-    double depth_most_floats = 0;  ///< the latter in spacings of floats at the scene's distance
+    SlopeFit depth;        ///< of the RMS, over the rows that count
+    SlopeFit normal;       ///< likewise
+    SlopeFit volume;       ///< of the relative error, over all rows
+    SlopeFit area;         ///< likewise
+    double depth_min = 0;  ///< of the RMS of depth over all rows, metres
+    double depth_max = 0;
+    double depth_max_floats = 0;  ///< the latter in spacings of floats at the scene's distance
 };
 
 struct BenchReport {
@@ -94,7 +94,7 @@ const char* name_of(Surface surface);
 const char* name_of(Placement placement);
 
 /// A row isn't measured again once its renders have taken this long.
-inline constexpr double kMostRowSeconds = 1;
+inline constexpr double kMaxRowSeconds = 1;
 
 /// `smooth` keeps distances in 16 bits. Measured: where the errors of a sphere stop falling.
 inline constexpr double kDepthFloor = 5e-5;      // voxels, RMS
@@ -105,7 +105,7 @@ inline constexpr double kFloorFactor = 3;
 
 /// ... and the solid's least radius of curvature this many voxels, for the gradients' stencils are
 /// three voxels wide.
-inline constexpr double kLeastVoxels = 3;
+inline constexpr double kMinVoxels = 3;
 
 /// Marks the rows that are fitted and those on the front, and fits. Everything that follows from
 /// rows that were measured.

@@ -64,7 +64,7 @@ BenchErrors measure_errors(const BenchTruth& truth, const Image& image, double v
         }
         if (!hit || !ideal) continue;
         const glm::dvec3& direction = truth.directions[pixel];
-        if (-glm::dot(direction, ideal->normal) < kLeastCosine) continue;
+        if (-glm::dot(direction, ideal->normal) < kMinCosine) continue;
         const double depth = glm::dot(positions[pixel] - truth.eye, direction) - ideal->t;
         if (std::abs(depth) > kSamePartVoxels * voxel_size) {
             ++errors.other_parts;

@@ -9,7 +9,7 @@
 namespace voxelume {
 
 struct BenchErrors {
-    uint64_t compared = 0;  ///< pixels hit by both, incidence cosine at least kLeastCosine
+    uint64_t compared = 0;  ///< pixels hit by both, incidence cosine at least kMinCosine
     double depth_rms = 0;   ///< metres along the ray
     double depth_max = 0;
     double float_spacing = 0;    ///< metres between floats at the mean of the compared depths
@@ -22,10 +22,10 @@ struct BenchErrors {
 };
 
 /// Depth errors grow with 1/cosine to no bound, so hits flatter than this count as silhouettes.
-inline constexpr double kLeastCosine = 0.3;
+inline constexpr double kMinCosine = 0.3;
 
 /// A hit farther from the true one than this many voxels is on another part of the surface: an
-/// outline inside of the figure has moved. A cube's corner at kLeastCosine is 5.8 voxels away.
+/// outline inside of the figure has moved. A cube's corner at kMinCosine is 5.8 voxels away.
 inline constexpr double kSamePartVoxels = 6;
 
 /// Compares an image's planes A, P and N, and R, G and B where there is light, with the truth; both

@@ -66,18 +66,18 @@ std::optional<Extent> exact_extent(const Pyramid& pyramid) {
 }
 
 std::optional<Extent> extent_of(const Pyramid& pyramid, Surface surface, double scale) {
-    constexpr double kMostCells = 4e8;         // of the world's lattice
-    constexpr uint32_t kMostVoxels = 1 << 21;  // with fields
+    constexpr double kMaxCells = 4e8;         // of the world's lattice
+    constexpr uint32_t kMaxVoxels = 1 << 21;  // with fields
     const GridFrame frame = shown_part(pyramid).frame;
     const double edge = frame.voxel_edge.x * scale;
     std::optional<Extent> extent;
     if (surface == Surface::exact) {
         extent = exact_extent(pyramid);
     } else if (surface == Surface::smooth) {
-        if (pyramid.voxel_count <= kMostVoxels) extent = smooth_extent(pyramid);
+        if (pyramid.voxel_count <= kMaxVoxels) extent = smooth_extent(pyramid);
     } else {
         const glm::dvec3 size(frame.size);
-        if (size.x * size.y * size.z <= kMostCells) extent = cubes_extent(pyramid);
+        if (size.x * size.y * size.z <= kMaxCells) extent = cubes_extent(pyramid);
     }
     if (!extent) return {};
     return Extent{extent->volume * edge * edge * edge, extent->area * edge * edge};

@@ -175,7 +175,7 @@ glm::dvec3 gyroid_gradient(const glm::dvec3& p) {
 }
 
 std::optional<AnalyticHit> gyroid_hit(const glm::dvec3& origin, const glm::dvec3& direction) {
-    constexpr double kLeastStep = 1e-6;  // metres
+    constexpr double kMinStep = 1e-6;  // metres
     const Part part = part_in_ball(origin, direction);
     const auto value = [&](double t) { return gyroid_value(origin + t * direction); };
     double before = part.first;
@@ -189,7 +189,7 @@ std::optional<AnalyticHit> gyroid_hit(const glm::dvec3& origin, const glm::dvec3
             return AnalyticHit{high, glm::normalize(gyroid_gradient(origin + high * direction))};
         }
         before = t;
-        t += std::max(now / kSteepest, kLeastStep);
+        t += std::max(now / kSteepest, kMinStep);
     }
     return {};
 }
@@ -202,7 +202,7 @@ BenchSubject gyroid_subject() {
     const auto mesh = std::make_shared<const TemporaryMesh>(gyroid_mesh(kCells));
     BenchSubject subject;
     subject.name = "gyroid";
-    subject.least_radius = 0.022;
+    subject.min_radius = 0.022;
     subject.scene = [mesh](Surface surface, int resolution, glm::ivec2 size) {
         Scene scene = empty_bench_scene(resolution, size);
         Model model;

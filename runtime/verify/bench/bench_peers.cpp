@@ -28,7 +28,7 @@ struct Place {
     }
 };
 
-constexpr double kLeast = 1e-30, kMost = 1e30;  // of what a row may say: ratios stay finite
+constexpr double kMin = 1e-30, kMax = 1e30;  // of what a row may say: ratios stay finite
 
 /// "null", "a string": for messages.
 std::string kind_of(const Json& value) {
@@ -53,9 +53,9 @@ double number_of(const Json& row, const char* key, const Place& place) {
     if (!value.is_number()) place.refuse("\"{}\" is {}, not a number", key, kind_of(value));
     const auto number = value.get<double>();
     if (!(number >= 0)) place.refuse("\"{}\" is below 0", key);
-    if (number > kMost || (number > 0 && number < kLeast))
+    if (number > kMax || (number > 0 && number < kMin))
         place.refuse("\"{}\" is {}; what was measured lies from {} to {}, or is 0", key, number,
-                     kLeast, kMost);
+                     kMin, kMax);
     return number;
 }
 

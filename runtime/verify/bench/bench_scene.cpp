@@ -72,7 +72,7 @@ void add_bench_object(Scene& scene, Model model, Surface surface, int resolution
     const double scale = glm::length(glm::dvec3(placement[0]));
     model.voxel_size = glm::dvec3(1 / (resolution * scale));
     model.surface = surface;
-    model.reach = {glm::dvec3(-2 / scale), glm::dvec3(2 / scale)};
+    model.extent = {glm::dvec3(-2 / scale), glm::dvec3(2 / scale)};
     Object object;
     object.name = model.name;
     object.world_from_object = placement;

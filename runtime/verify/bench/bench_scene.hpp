@@ -15,7 +15,7 @@ struct BenchSolid {
     const char* name;
     const char* help;
     Solid solid;
-    double least_radius;          ///< of curvature of its surface, metres; 0 for edges
+    double min_radius;            ///< of curvature of its surface, metres; 0 for edges
     glm::dmat4 world_from_solid;  ///< turns and shifts
 };
 

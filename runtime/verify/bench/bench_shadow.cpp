@@ -26,7 +26,7 @@ void add_ground(Scene& scene) {
     model.solid = box;
     model.surface = Surface::exact;
     model.voxel_size = glm::dvec3(0.1);
-    model.reach = {-box.size, box.size};
+    model.extent = {-box.size, box.size};
     Object ground;
     ground.name = model.name;
     ground.model = int(scene.models.size());

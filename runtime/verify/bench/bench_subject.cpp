@@ -46,7 +46,7 @@ BenchSubject solid_subject() {
 BenchSubject subject_of(const BenchSolid& solid) {
     BenchSubject subject;
     subject.name = solid.name;
-    subject.least_radius = solid.least_radius;
+    subject.min_radius = solid.min_radius;
     subject.extent = extent_of(solid.solid);
     subject.scene = [solid](Surface surface, int resolution, glm::ivec2 size) {
         return bench_scene(solid, surface, resolution, size);

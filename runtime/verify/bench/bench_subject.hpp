@@ -25,7 +25,7 @@ using Radiance = std::function<glm::dvec3(const glm::dvec3& origin, const glm::d
 /// Something that can be rendered with any surface in voxels of any size.
 struct BenchSubject {
     std::string name;
-    double least_radius = 0;  ///< of curvature, metres; 0 for edges, and where it isn't known
+    double min_radius = 0;  ///< of curvature, metres; 0 for edges, and where it isn't known
     std::function<Scene(Surface, int resolution, glm::ivec2 size)> scene;  ///< voxels a metre
     FirstHit first_hit;
     Radiance radiance;             ///< empty for a scene without lights

@@ -32,10 +32,10 @@ PixelLight pixel_light(const Radiance& radiance, const Scene& scene, glm::dvec2 
 
 glm::dvec3 pixel_radiance(const Radiance& radiance, const Scene& scene, glm::dvec2 pixel) {
     constexpr int kRays = 4, kManyRays = 8;
-    constexpr double kMostSpread = 1.0 / 64;
+    constexpr double kMaxSpread = 1.0 / 64;
     const PixelLight light = pixel_light(radiance, scene, pixel, kRays);
-    return light.spread <= kMostSpread ? light.mean
-                                       : pixel_light(radiance, scene, pixel, kManyRays).mean;
+    return light.spread <= kMaxSpread ? light.mean
+                                      : pixel_light(radiance, scene, pixel, kManyRays).mean;
 }
 
 }  // namespace

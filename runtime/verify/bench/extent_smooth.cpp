@@ -142,7 +142,7 @@ class SurfaceSum {
     explicit SurfaceSum(const glm::dvec3& middle) : middle_(middle) {}
 
     void add(const Cell& cell, int cuts_left) {
-        constexpr double kLeastShare = 0.35;  // of the slope at the middle, anywhere in the cell
+        constexpr double kMinShare = 0.35;  // of the slope at the middle, anywhere in the cell
         const glm::dvec2 bounds = bounds_of(cell.values);
         if (bounds.x > 0 || bounds.y < 0) return;
         const glm::dvec3 gradient = glm::abs(middle_gradient(cell));
@@ -151,8 +151,8 @@ class SurfaceSum {
                                                                               : 2;
         if (cuts_left > 0) {
             const glm::dvec2 slopes = bounds_of(slope_values(cell, axis));
-            const double least = std::max(slopes.x, -slopes.y);
-            if (least < kLeastShare * glm::length(gradient)) {
+            const double minimum = std::max(slopes.x, -slopes.y);
+            if (minimum < kMinShare * glm::length(gradient)) {
                 for (int i = 0; i < 8; ++i)
                     add(part_of(cell, {i & 1, i >> 1 & 1, i >> 2}), cuts_left - 1);
                 return;

@@ -9,7 +9,7 @@ namespace {
 constexpr uint32_t kNothing = 0x80000000u;  ///< in tables of sectors: an empty cube
 
 /// The place of a child that a mask's bit stands for.
-glm::ivec3 place_of(int bit) {
+glm::ivec3 index_of(int bit) {
     return {bit & 3, bit >> 2 & 3, bit >> 4};
 }
 
@@ -39,13 +39,13 @@ void for_voxels(const Pyramid& pyramid, const PyramidPart& part,
     const auto visit_leaf = [&](const glm::ivec3& corner, uint32_t leaf) {
         uint32_t number = leaf_voxels[leaf];
         for_bits(mask_at(leaves, size_t(leaf) * 2),
-                 [&](int bit) { visit(corner + place_of(bit), number++); });
+                 [&](int bit) { visit(corner + index_of(bit), number++); });
     };
     const auto visit_brick = [&](const glm::ivec3& corner, size_t record) {
         const uint64_t mask = mask_at(bricks, record);
         if (mask == 0) return;
         uint32_t leaf = bricks[record + 2];
-        for_bits(mask, [&](int bit) { visit_leaf(corner + 4 * place_of(bit), leaf++); });
+        for_bits(mask, [&](int bit) { visit_leaf(corner + 4 * index_of(bit), leaf++); });
     };
     const glm::ivec3 n = part.frame.sectors();
     size_t sector = part.first_sector;
@@ -54,7 +54,7 @@ void for_voxels(const Pyramid& pyramid, const PyramidPart& part,
             for (s.x = 0; s.x < n.x; ++s.x, ++sector) {
                 if (sectors[sector] >= kNothing) continue;
                 for (int bit = 0; bit < 64; ++bit)
-                    visit_brick(kSectorSize * s + kBrickSize * place_of(bit),
+                    visit_brick(kSectorSize * s + kBrickSize * index_of(bit),
                                 (size_t(sectors[sector]) * 64 + size_t(bit)) * 4);
             }
 }

@@ -138,23 +138,23 @@ int block_log2(const glm::ivec3& cell) {
     return std::max(0, int(mix >> 28) - 9);
 }
 
-WalkDigest exact_digest(const FixedGrid& grid, const FixedRay& ray, Steps steps, uint32_t most) {
+WalkDigest exact_digest(const FixedGrid& grid, const FixedRay& ray, Steps steps, uint32_t maximum) {
     Turned r = turn(grid, ray);
     WalkDigest digest;
     walk(grid, r, steps, [&](int axis, float t) {
         digest.hash = mixed(digest.hash, cell_of(r), axis, t);
-        return ++digest.cells < most;
+        return ++digest.cells < maximum;
     });
     return digest;
 }
 
 std::vector<EnteredCell> exact_cells(const FixedGrid& grid, const FixedRay& ray, Steps steps,
-                                     uint32_t most) {
+                                     uint32_t maximum) {
     Turned r = turn(grid, ray);
     std::vector<EnteredCell> cells;
     walk(grid, r, steps, [&](int axis, float t) {
         cells.push_back({cell_of(r), axis, t});
-        return cells.size() < most;
+        return cells.size() < maximum;
     });
     return cells;
 }

@@ -57,13 +57,13 @@ enum class Steps {
 /// The edge, as a power of two, of the block around a cell that is left in one step.
 int block_log2(const glm::ivec3& cell);
 
-/// The digest of the first `most` cells of a ray's walk. A point on a plane belongs to the cell
+/// The digest of the first `maximum` cells of a ray's walk. A point on a plane belongs to the cell
 /// being entered; crossings at one t are taken lowest axis first.
-WalkDigest exact_digest(const FixedGrid& grid, const FixedRay& ray, Steps steps, uint32_t most);
+WalkDigest exact_digest(const FixedGrid& grid, const FixedRay& ray, Steps steps, uint32_t maximum);
 
 /// The cells themselves.
 std::vector<EnteredCell> exact_cells(const FixedGrid& grid, const FixedRay& ray, Steps steps,
-                                     uint32_t most);
+                                     uint32_t maximum);
 
 /// Voxels of a grid, one bit each, x fastest.
 class VoxelBits {

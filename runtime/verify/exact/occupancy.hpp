@@ -10,8 +10,8 @@
 namespace voxelume {
 
 /// Where a voxel's bit is in the 64 masks of its brick.
-struct VoxelPlace {
-    explicit VoxelPlace(const glm::ivec3& v)
+struct VoxelSlot {
+    explicit VoxelSlot(const glm::ivec3& v)
         : leaf(uint32_t(v.x % 16 / 4 + 4 * (v.y % 16 / 4) + 16 * (v.z % 16 / 4))),
           bit(uint64_t{1} << (v.x % 4 + 4 * (v.y % 4) + 16 * (v.z % 4))) {}
 
@@ -33,7 +33,7 @@ class ReadOccupancy {
     bool is_set(const glm::ivec3& v) const {
         const uint32_t slot = slots_[brick_number(v / 16, bricks_)];
         if (slot >= kBrickInside) return slot == kBrickInside;
-        const VoxelPlace place(v);
+        const VoxelSlot place(v);
         return (masks_[size_t{64} * slot + place.leaf] & place.bit) != 0;
     }
     std::array<uint64_t, 64> masks(const glm::ivec3& brick) const {

@@ -35,14 +35,14 @@ std::vector<double> bends(const ErrorFront& ours, const ErrorFront& other, doubl
 
 /// "1.9 to 5.6 times as quick", "5.6 times" where both read alike, or "as quick" where that is 1,
 /// from a ratio that favours it.
-std::string times_text(double least, double most) {
+std::string times_text(double minimum, double maximum) {
     const auto digits = [](double times) {
         return times < 100 ? fmt::format("{:.3g}", times) : fmt::format("{:.0f}", times);
     };
-    if (most < 1.005) return "as quick";
-    if (least < 1.005) return fmt::format("up to {} times as quick", digits(most));
-    if (digits(least) == digits(most)) return digits(most) + " times as quick";
-    return fmt::format("{} to {} times as quick", digits(least), digits(most));
+    if (maximum < 1.005) return "as quick";
+    if (minimum < 1.005) return fmt::format("up to {} times as quick", digits(maximum));
+    if (digits(minimum) == digits(maximum)) return digits(maximum) + " times as quick";
+    return fmt::format("{} to {} times as quick", digits(minimum), digits(maximum));
 }
 
 }  // namespace
@@ -77,13 +77,13 @@ std::vector<FrontPiece> compare_fronts(const ErrorFront& ours, const ErrorFront&
             const double crossing = std::exp(last_error + share * (error - last_error));
             FrontPiece& before = pieces.back();
             before.fine = crossing;
-            (last_log > 0 ? before.least : before.most) = 1;
+            (last_log > 0 ? before.minimum : before.maximum) = 1;
             pieces.push_back({crossing, metres, std::min(1.0, ratio), std::max(1.0, ratio)});
         } else {
             FrontPiece& piece = pieces.back();
             piece.fine = metres;
-            piece.least = std::min(piece.least, ratio);
-            piece.most = std::max(piece.most, ratio);
+            piece.minimum = std::min(piece.minimum, ratio);
+            piece.maximum = std::max(piece.maximum, ratio);
         }
         last_error = error;
         last_log = log_ratio;
@@ -118,14 +118,14 @@ std::vector<FrontComparison> front_comparisons(const BenchReport& report) {
 std::string sentence_of(const FrontComparison& comparison) {
     std::vector<std::string> parts;
     for (const FrontPiece& piece : comparison.pieces) {
-        const bool is_ours = piece.most > 1;
+        const bool is_ours = piece.maximum > 1;
         const std::string range = piece.fine < piece.coarse
                                       ? fmt::format("from {:.2g} m of depth RMS down to {:.2g} m",
                                                     piece.coarse, piece.fine)
                                       : fmt::format("at {:.2g} m of depth RMS", piece.fine);
         parts.push_back(fmt::format("{} is {} {}", is_ours ? "Voxelume" : comparison.program,
-                                    is_ours ? times_text(piece.least, piece.most)
-                                            : times_text(1 / piece.most, 1 / piece.least),
+                                    is_ours ? times_text(piece.minimum, piece.maximum)
+                                            : times_text(1 / piece.maximum, 1 / piece.minimum),
                                     range));
     }
     const bool ours_is_finer = comparison.finest_ours < comparison.finest_theirs;

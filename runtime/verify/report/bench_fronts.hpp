@@ -18,8 +18,8 @@ ErrorFront error_front(const std::vector<std::pair<double, double>>& errors_and_
 
 /// Errors between which one program is the quicker one.
 struct FrontPiece {
-    double coarse = 0, fine = 0;  ///< metres; the piece goes from the one down to the other
-    double least = 0, most = 0;   ///< other's seconds over ours: both above 1, or both below
+    double coarse = 0, fine = 0;      ///< metres; the piece goes from the one down to the other
+    double minimum = 0, maximum = 0;  ///< other's seconds over ours: both above 1, or both below
 };
 
 /// The pieces of two fronts from the error `coarse` down to the finest that both reach. Between

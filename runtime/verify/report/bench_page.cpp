@@ -29,7 +29,7 @@ std::string repeats_text(int repeats) {
     return fmt::format(
         "Each row is rendered once for its errors and kernels, then up to {} times while that "
         "takes less than {} s; the fastest counts",
-        repeats, kMostRowSeconds);
+        repeats, kMaxRowSeconds);
 }
 
 std::string heading(const BenchReport& report) {
@@ -179,7 +179,7 @@ std::string method() {
         "the floor that the rounding of its 16-bit distances was measured to leave ({} voxel of "
         "depth, {} degrees of normals), with at least {} voxels to the least radius of "
         "curvature.</p>\n",
-        kLeastCosine, kSamePartVoxels, kFloorFactor, kDepthFloor, kNormalFloor, kLeastVoxels);
+        kMinCosine, kSamePartVoxels, kFloorFactor, kDepthFloor, kNormalFloor, kMinVoxels);
 }
 
 }  // namespace

@@ -64,8 +64,8 @@ nlohmann::ordered_json json_of_fronts(const BenchReport& report) {
         for (const FrontPiece& piece : c.pieces)
             pieces.push_back({{"from_depth_rms_metres", piece.coarse},
                               {"to_depth_rms_metres", piece.fine},
-                              {"least_times_of_ours", piece.least},
-                              {"most_times_of_ours", piece.most}});
+                              {"least_times_of_ours", piece.minimum},
+                              {"most_times_of_ours", piece.maximum}});
         fronts.push_back({{"program", c.program}, {"scene", c.scene}, {"pieces", pieces}});
     }
     return fronts;
@@ -80,9 +80,9 @@ std::string slope_text(const SlopeFit& fit) {
 }
 
 std::string level_text(const BenchFit& fit) {
-    if (fit.surface != Surface::exact || fit.depth_most == 0) return {};
-    return fmt::format("{:.1e} to {:.1e} m, at most {:.1f} floats", fit.depth_least, fit.depth_most,
-                       fit.depth_most_floats);
+    if (fit.surface != Surface::exact || fit.depth_max == 0) return {};
+    return fmt::format("{:.1e} to {:.1e} m, at most {:.1f} floats", fit.depth_min, fit.depth_max,
+                       fit.depth_max_floats);
 }
 
 ExpectedSlopes expected_slopes(const std::string& scene, Surface surface) {
@@ -236,9 +236,9 @@ nlohmann::ordered_json bench_json(const BenchReport& report) {
                                 {"normal", json_of(fit.normal)},
                                 {"volume", json_of(fit.volume)},
                                 {"area", json_of(fit.area)},
-                                {"depth_rms_least_metres", fit.depth_least},
-                                {"depth_rms_most_metres", fit.depth_most},
-                                {"depth_rms_most_floats", fit.depth_most_floats}});
+                                {"depth_rms_least_metres", fit.depth_min},
+                                {"depth_rms_most_metres", fit.depth_max},
+                                {"depth_rms_most_floats", fit.depth_max_floats}});
     json["peers"] = nlohmann::ordered_json::array();
     for (const BenchPeerRow& peer : report.peers) {
         const BenchRow* row = row_as_accurate(report, peer);

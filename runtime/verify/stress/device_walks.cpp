@@ -50,14 +50,14 @@ DeviceWalks::DeviceWalks(const Device& device)
       blocks_(device, "stress.cl", defines_of(device, Steps::blocks)) {}
 
 void DeviceWalks::start(const FixedGrid& grid, std::span<const FixedRay> rays, Steps steps,
-                        uint32_t most) {
+                        uint32_t maximum) {
     count_ = uint32_t(rays.size());
     const uint32_t stride = ray_stride(count_);
     digests_ = Buffer<uint32_t>(device_, "digests", size_t(stride) * 2);
     (steps == Steps::cells ? cells_ : blocks_)
         .kernel("digest_walks")
         .launch_packets(count_, shape_of_grid(grid), upload_rays(device_, grid, rays), count_,
-                        stride, most, digests_);
+                        stride, maximum, digests_);
 }
 
 std::vector<WalkDigest> DeviceWalks::digests() const {
@@ -69,14 +69,14 @@ std::vector<WalkDigest> DeviceWalks::digests() const {
 }
 
 std::vector<EnteredCell> DeviceWalks::cells(const FixedGrid& grid, const FixedRay& ray, Steps steps,
-                                            uint32_t most) {
+                                            uint32_t maximum) {
     const uint32_t stride = 16;
-    Buffer<int> lists(device_, "cell lists", size_t(most) * 5 * stride);
+    Buffer<int> lists(device_, "cell lists", size_t(maximum) * 5 * stride);
     lists.fill(-1);
     (steps == Steps::cells ? cells_ : blocks_)
         .kernel("list_walks")
         .launch_packets(1, shape_of_grid(grid), upload_rays(device_, grid, {&ray, 1}), 1u, stride,
-                        most, lists);
+                        maximum, lists);
     const std::vector<int> words = lists.read();
     std::vector<EnteredCell> cells;
     for (size_t at = 0; at < words.size() && words[at] >= 0; at += size_t(5) * stride)
@@ -132,7 +132,7 @@ BrickGrid cubes_of(const Device& device, const VoxelBits& voxels, const GridFram
                     for (v.y = first.y; v.y < end.y; ++v.y)
                         for (v.x = first.x; v.x < end.x; ++v.x) {
                             if (!voxels.is_set(v)) continue;
-                            const VoxelPlace place(v);
+                            const VoxelSlot place(v);
                             masks[place.leaf] |= place.bit;
                             any = true;
                         }
@@ -167,7 +167,8 @@ void DeviceHits::start(const FixedGrid& grid, std::span<const FixedRay> rays) {
 void DeviceHits::start_along_beams(const FixedGrid& grid, std::span<const FixedRay> rays) {
     upload(grid, rays);
     if (!beams_)
-        beams_.emplace(device_, features_of(pyramid_), pyramid_, build_halo(device_, pyramid_));
+        beams_.emplace(device_, features_of(pyramid_), pyramid_,
+                       build_dilated_occupancy(device_, pyramid_));
     beams_->start(batch_, count_);
     stage_.closest(pyramid_, batch_, count_);
 }

@@ -27,12 +27,13 @@ class DeviceWalks {
     explicit DeviceWalks(const Device& device);
 
     /// Enqueues the walks of rays; `digests` waits for them.
-    void start(const FixedGrid& grid, std::span<const FixedRay> rays, Steps steps, uint32_t most);
+    void start(const FixedGrid& grid, std::span<const FixedRay> rays, Steps steps,
+               uint32_t maximum);
     std::vector<WalkDigest> digests() const;
 
-    /// The first `most` cells of one ray.
+    /// The first `maximum` cells of one ray.
     std::vector<EnteredCell> cells(const FixedGrid& grid, const FixedRay& ray, Steps steps,
-                                   uint32_t most);
+                                   uint32_t maximum);
 
     /// Rays as snapping leaves them, nothing for those that pass the grid.
     std::vector<std::optional<FixedRay>> snap(const FixedGrid& grid,

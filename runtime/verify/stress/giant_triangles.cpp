@@ -58,7 +58,7 @@ class GiantTriangle {
                 return {near(glm::ivec3(0)), a, b};
         }
     }
-    int steps(int most) { return kStep * int(random_.between(-most, most)); }
+    int steps(int maximum) { return kStep * int(random_.between(-maximum, maximum)); }
     glm::ivec3 far() {
         constexpr int kFar = (kFarthest / 2 - 64) * (kUnitsPerVoxel / kStep);
         return {steps(kFar), steps(kFar), steps(height_)};

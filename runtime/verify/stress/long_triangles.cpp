@@ -111,8 +111,8 @@ class LongTriangle {
             const int bricks = units_[axis] / (kBrickSize * kUnitsPerVoxel);
             corner[axis] = int(random_.between(1, bricks - 1)) * kBrickSize * kUnitsPerVoxel;
             const int room = std::min(corner[axis], units_[axis] - corner[axis]) - step_;
-            const int most = room / std::max(before, behind);
-            way[axis] = int(random_.between(axis == 0 ? most / 2 : -most, most));
+            const int maximum = room / std::max(before, behind);
+            way[axis] = int(random_.between(axis == 0 ? maximum / 2 : -maximum, maximum));
         }
         way.x = way.x / step_ * step_;
         const glm::ivec3 a = corner - way * before, b = corner + way * behind;

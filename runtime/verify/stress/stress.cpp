@@ -65,9 +65,9 @@ void for_each_in_parallel(uint64_t count, const std::function<void(uint64_t)>& w
     const auto take = [&] {
         for (uint64_t i = next++; i < count; i = next++) work(i);
     };
-    const uint64_t most = std::max(1u, std::thread::hardware_concurrency());
+    const uint64_t maximum = std::max(1u, std::thread::hardware_concurrency());
     std::vector<std::jthread> helpers;
-    for (uint64_t i = 1; i < std::min(most, count); ++i) helpers.emplace_back(take);
+    for (uint64_t i = 1; i < std::min(maximum, count); ++i) helpers.emplace_back(take);
     take();
 }
 

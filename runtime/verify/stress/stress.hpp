@@ -60,13 +60,13 @@ void for_each_batch(const StressRun& run, size_t size, const Work& work) {
     }
 }
 
-inline constexpr size_t kMostExamples = 5;
+inline constexpr size_t kMaxExamples = 5;
 
 /// Counts the mismatch of a case; `describe(text)` is asked for the first ones only.
 template <class Describe>
 void note_mismatch(StressResult& result, uint64_t number, const Describe& describe) {
     ++result.mismatches;
-    if (result.examples.size() < kMostExamples) result.examples.push_back({number, describe()});
+    if (result.examples.size() < kMaxExamples) result.examples.push_back({number, describe()});
 }
 
 struct StressTest {

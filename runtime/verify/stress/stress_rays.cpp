@@ -143,21 +143,21 @@ class RayStress {
         const Steps steps = chosen.compared == Compared::cells ? Steps::cells : Steps::blocks;
         // No walk is longer than the sides together: a device's that is ends there, too.
         const uint32_t longest = uint32_t(grid.size.x + grid.size.y + grid.size.z);
-        const uint32_t most_cells = chosen.most_cells == kAll ? longest : chosen.most_cells;
-        walks_.start(grid, rays_, steps, most_cells);
+        const uint32_t max_cells = chosen.max_cells == kAll ? longest : chosen.max_cells;
+        walks_.start(grid, rays_, steps, max_cells);
         exact_.resize(rays_.size());
         in_pieces(batch.first, batch.end,
-                  [&](size_t i) { exact_[i] = exact_digest(grid, rays_[i], steps, most_cells); });
+                  [&](size_t i) { exact_[i] = exact_digest(grid, rays_[i], steps, max_cells); });
         const std::vector<WalkDigest> device = walks_.digests();
         for (size_t i = batch.first; i < batch.end; ++i) {
             result_.cells += exact_[i].cells;
             if (device[i] == exact_[i]) continue;
             note_mismatch(result_, batch.start + i, [&] {
-                const uint32_t most =
-                    std::min(most_cells, std::max(device[i].cells, exact_[i].cells) + 1);
+                const uint32_t maximum =
+                    std::min(max_cells, std::max(device[i].cells, exact_[i].cells) + 1);
                 return describe(grid, rays_[i]) + ": " +
-                       first_difference(walks_.cells(grid, rays_[i], steps, most),
-                                        exact_cells(grid, rays_[i], steps, most));
+                       first_difference(walks_.cells(grid, rays_[i], steps, maximum),
+                                        exact_cells(grid, rays_[i], steps, maximum));
             });
         }
     }

@@ -23,7 +23,7 @@ enum class Compared {
 struct RayGrid {
     glm::ivec3 size;
     Compared compared;
-    uint32_t most_cells;  ///< of a walk that are compared; 0: all
+    uint32_t max_cells;  ///< of a walk that are compared; 0: all
 };
 RayGrid grid_of_ray(uint64_t number);
 

@@ -13,7 +13,7 @@ namespace voxelume {
 namespace {
 
 constexpr size_t kSnapBatch = 1u << 14;
-constexpr uint32_t kMostCells = 300;
+constexpr uint32_t kMaxCells = 300;
 
 constexpr std::array kSizes = {glm::ivec3(64, 61, 37), glm::ivec3(1000, 300, 700),
                                glm::ivec3(7, 5, 3), glm::ivec3(16384, 16384, 16384),
@@ -90,11 +90,11 @@ void try_batch(DeviceWalks& walks, SnapClass kind, uint64_t seed, const StressBa
     }
     result.cases += batch.end - batch.first;
     if (walked.empty()) return;
-    walks.start(grid, walked, Steps::cells, kMostCells);
+    walks.start(grid, walked, Steps::cells, kMaxCells);
     const std::vector<WalkDigest> device = walks.digests();
     for (size_t i = 0; i < walked.size(); ++i) {
         if (!is_compared(source[i])) continue;
-        const WalkDigest exact = exact_digest(grid, walked[i], Steps::cells, kMostCells);
+        const WalkDigest exact = exact_digest(grid, walked[i], Steps::cells, kMaxCells);
         result.cells += exact.cells;
         if (device[i] != exact)
             note_mismatch(result, batch.start + source[i], [&] {

@@ -30,7 +30,7 @@ class ExactVoxels {
             slot = uint32_t(masks_.size());
             masks_.push_back({});
         }
-        const VoxelPlace place(v);
+        const VoxelSlot place(v);
         uint64_t& mask = masks_[slot][place.leaf];
         count_ += (mask & place.bit) == 0;
         mask |= place.bit;

@@ -1,0 +1,9 @@
+# Run by hash_producers: writes hashes of `files` into the C++ source `output`.
+set(text "#include \"runtime/base/producer_hash.hpp\"\n\nnamespace voxelume {\n\n")
+string(APPEND text "const char* producer_hash() {\n    return\n")
+foreach(file IN LISTS files)
+    file(MD5 ${file} hash)
+    string(APPEND text "        \"${hash}\"\n")
+endforeach()
+string(APPEND text "        \"\";\n}\n\n}  // namespace voxelume\n")
+file(WRITE ${output} "${text}")

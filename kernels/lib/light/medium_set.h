@@ -1,0 +1,141 @@
+// The set of transmitting objects that a ray is inside of.
+//
+// What counts of them is the one whose object comes first in the order of priorities, so nothing
+// depends on the order in which their surfaces were crossed.
+#ifndef VXL_MEDIUM_SET_H
+#define VXL_MEDIUM_SET_H
+
+#include "lib/lanes/lanes.h"
+#include "shared/trace.h"
+#include "shared/voxel.h"
+
+// The build constant says how many others a scene needs.
+#define VXL_MEDIUM_SET_SIZE (1 + VXL_OTHER_MEDIA)
+
+/// Attribute words, VXL_NO_MEDIUM for none: the smooth body's, then the others'.
+typedef struct {
+    lane_uint members[VXL_MEDIUM_SET_SIZE];
+} MediumSet;
+
+static inline MediumSet empty_medium_set(void) {
+    MediumSet media;
+    for (int i = 0; i < VXL_MEDIUM_SET_SIZE; ++i) media.members[i] = (lane_uint)VXL_NO_MEDIUM;
+    return media;
+}
+
+/// The sets of the paths from `first` on. Lanes that are not of `some` are inside of nothing:
+/// beyond a queue's end there may be anything, and no object's number.
+static inline MediumSet load_medium_set(global const uint* paths, uint stride, uint first,
+                                        lane_int some) {
+    global const uint* p = paths + VXL_PATH_INSIDE * (size_t)stride;
+    MediumSet media;
+    for (int i = 0; i < VXL_MEDIUM_SET_SIZE; ++i)
+        media.members[i] =
+            LANES_SELECT(some, LANES_LOAD(p, (size_t)i * stride + first), (lane_uint)VXL_NO_MEDIUM);
+    return media;
+}
+
+static inline void store_medium_set(const MediumSet* in, global uint* paths, uint stride,
+                                    uint first) {
+    global uint* p = paths + VXL_PATH_INSIDE * (size_t)stride;
+    for (int i = 0; i < VXL_MEDIUM_SET_SIZE; ++i)
+        LANES_STORE(in->members[i], p, (size_t)i * stride + first);
+}
+
+/// load_medium_set of the paths numbered `path`.
+static inline MediumSet gather_medium_set(global const uint* paths, uint stride, lane_uint path,
+                                          lane_int some) {
+    global const uint* p = paths + VXL_PATH_INSIDE * (size_t)stride;
+    MediumSet media;
+    for (int i = 0; i < VXL_MEDIUM_SET_SIZE; ++i)
+        media.members[i] = LANES_SELECT(some, LANES_GATHER_UINT(p + (size_t)i * stride, path),
+                                        (lane_uint)VXL_NO_MEDIUM);
+    return media;
+}
+
+static inline lane_int is_medium(lane_uint member, lane_uint packed) {
+    return LANE_MASK(((member ^ packed) & VXL_OBJECT_MASK) == 0u) &
+           LANE_MASK(member != VXL_NO_MEDIUM);
+}
+
+/// Mask: the set holds the object of an packed attributes, which shows the smooth body or not.
+static inline lane_int medium_set_holds(const MediumSet* in, lane_uint packed, lane_int smooth) {
+    lane_int other = (lane_int)0;
+    for (int i = 1; i < VXL_MEDIUM_SET_SIZE; ++i) other |= is_medium(in->members[i], packed);
+    return (smooth & LANE_MASK(in->members[0] != VXL_NO_MEDIUM)) | (~smooth & other);
+}
+
+/// cross_medium; `overflowed` is the mask of lanes whose sets had no room for what they came into.
+static inline MediumSet cross_medium_or_overflow(MediumSet in, lane_uint packed, lane_int smooth,
+                                                 lane_int leaving, lane_int crossing,
+                                                 lane_int* overflowed) {
+    const lane_uint none = (lane_uint)VXL_NO_MEDIUM;
+    in.members[0] =
+        LANES_SELECT(crossing & smooth, LANES_SELECT(leaving, none, packed), in.members[0]);
+    const lane_int other = crossing & ~smooth;
+    const lane_int out = other & leaving;
+    lane_int into = other & ~leaving & ~medium_set_holds(&in, packed, (lane_int)0);
+    for (int i = 1; i < VXL_MEDIUM_SET_SIZE; ++i) {
+        const lane_uint member =
+            LANES_SELECT(out & is_medium(in.members[i], packed), none, in.members[i]);
+        const lane_int here = into & LANE_MASK(member == VXL_NO_MEDIUM);
+        in.members[i] = LANES_SELECT(here, packed, member);
+        into &= ~here;
+    }
+    *overflowed = into;
+    return in;
+}
+
+/// The set behind a surface of the object of `packed`, in the lanes that cross it.
+static inline MediumSet cross_medium(MediumSet in, lane_uint packed, lane_int smooth,
+                                     lane_int leaving, lane_int crossing) {
+    lane_int overflowed;
+    return cross_medium_or_overflow(in, packed, smooth, leaving, crossing, &overflowed);
+}
+
+/// `ranks[object]` is the object's place in the order of priorities.
+static inline lane_uint rank_of(global const uint* ranks, lane_uint packed) {
+    const lane_int some = LANE_MASK(packed != VXL_NO_MEDIUM);
+    const lane_uint object = packed & VXL_OBJECT_MASK & LANES_AS_UINT(some);
+    return LANES_SELECT(some, LANES_GATHER_UINT(ranks, object), (lane_uint)VXL_NO_MEDIUM);
+}
+
+static inline lane_uint first_in_rank(lane_uint packed, lane_uint* rank, lane_uint other,
+                                      global const uint* ranks) {
+    const lane_uint other_rank = rank_of(ranks, other);
+    const lane_int before = LANE_MASK(other_rank < *rank);
+    *rank = LANES_SELECT(before, other_rank, *rank);
+    return LANES_SELECT(before, other, packed);
+}
+
+/// The packed attributes of the object that counts, VXL_NO_MEDIUM in open space.
+static inline lane_uint effective_medium(const MediumSet* in, global const uint* ranks) {
+    lane_uint packed = in->members[0], rank = rank_of(ranks, packed);
+    for (int i = 1; i < VXL_MEDIUM_SET_SIZE; ++i)
+        packed = first_in_rank(packed, &rank, in->members[i], ranks);
+    return packed;
+}
+
+/// Mask: two packed attributes, or VXL_NO_MEDIUM, stand for the same object or for none.
+static inline lane_int same_medium(lane_uint a, lane_uint b) {
+    return LANE_MASK(a == b) | (is_medium(a, b) & LANE_MASK(b != VXL_NO_MEDIUM));
+}
+
+/// Mask: a surface is hidden, for the object that counts is the same before and behind it. Who
+/// leaves an object that the set doesn't hold began inside of it.
+static inline lane_int hides_surface(const MediumSet* in, lane_uint packed, lane_int smooth,
+                                     lane_int leaving, global const uint* ranks) {
+    const MediumSet before = cross_medium(*in, packed, smooth, (lane_int)0,
+                                          leaving & ~medium_set_holds(in, packed, smooth));
+    const MediumSet behind = cross_medium(before, packed, smooth, leaving, (lane_int)-1);
+    return same_medium(effective_medium(&before, ranks), effective_medium(&behind, ranks));
+}
+
+/// RayBatch::inside of a ray inside of the object that counts.
+static inline lane_uint medium_inside(const MediumSet* in, global const uint* ranks) {
+    const lane_uint packed = effective_medium(in, ranks);
+    const lane_uint material = (packed >> VXL_MATERIAL_SHIFT) & VXL_MATERIAL_MASK;
+    return LANES_SELECT(LANE_MASK(packed != VXL_NO_MEDIUM), material + 1u, (lane_uint)0);
+}
+
+#endif

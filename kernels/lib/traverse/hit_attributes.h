@@ -1,0 +1,45 @@
+// Whose surface a ray met: the packed attributes behind a hit.
+#ifndef VXL_HIT_ATTRIBUTES_H
+#define VXL_HIT_ATTRIBUTES_H
+
+#include "lib/lanes/lanes.h"
+#include "shared/solid.h"
+#include "shared/trace.h"
+#include "shared/voxel.h"
+
+/// The packed attributes of solids: the fourth word of each one's first record.
+static inline lane_uint solid_attributes(global const SolidShape* restrict solids,
+                                         lane_uint number) {
+    return LANES_GATHER_UINT((global const uint*)solids, number * VXL_SOLID_WORDS + 3u);
+}
+
+/// The packed attributes of each lane's `voxel`, or of its primitive where it hit one.
+static inline lane_uint attributes_of_hit(global const uint* restrict attributes,
+                                          uint constant_attribute,
+                                          global const uint* restrict triangle_attributes,
+                                          global const SolidShape* restrict solids, lane_uint voxel,
+                                          lane_uint primitive, lane_int hit) {
+    lane_uint packed = (lane_uint)constant_attribute;
+    if (VXL_ATTRIBUTES) packed = LANES_GATHER_UINT(attributes, voxel);
+    const lane_int exact = LANE_MASK(primitive != VXL_NO_PRIMITIVE) & hit;
+    const lane_int solid = LANE_MASK((primitive & VXL_SOLID_PRIMITIVE) != 0u) & exact;
+    const lane_int triangle = exact & ~solid;
+    if (VXL_TRIANGLES)
+        packed = LANES_SELECT(
+            triangle, LANES_GATHER_UINT(triangle_attributes, primitive & LANES_AS_UINT(triangle)),
+            packed);
+    if (VXL_SOLIDS)
+        packed = LANES_SELECT(
+            solid,
+            solid_attributes(solids, primitive & ~VXL_SOLID_PRIMITIVE & LANES_AS_UINT(solid)),
+            packed);
+    return packed;
+}
+
+/// Mask: a hit's surface is that of the smooth body.
+static inline lane_int is_smooth(lane_uint packed, lane_uint primitive) {
+    return LANE_MASK((packed >> VXL_KIND_SHIFT) != VXL_KIND_CUBES) &
+           LANE_MASK(primitive == VXL_NO_PRIMITIVE);
+}
+
+#endif

@@ -1,0 +1,87 @@
+// Packets of rays that run anywhere, whose lanes take on further rays as theirs end.
+#ifndef VXL_LANE_REFILL_H
+#define VXL_LANE_REFILL_H
+
+#include "lib/traverse/ray_queue.h"
+#include "lib/traverse/sight_rays.h"
+
+/// Stores what the rays of the `landing` lanes have met.
+static inline void store_hits(const Packet* f, lane_int landing, uint stride,
+                              global uint* restrict hits) {
+    const Hit hit = hit_of(f, is_hit(&f->found, f->t_end));
+    const Slots stored = slots_from(0, landing);
+    uint rays[VXL_LANES], values[VXL_LANES];
+    LANES_STORE(f->ray, rays, 0);
+    for (uint i = 0; i < VXL_STORED_COMPONENTS; ++i) {
+        LANES_STORE(hit.values[i], values, 0);
+        for (uint k = 0; k < stored.count; ++k)
+            hits[i * stride + rays[stored.lane[k]]] = values[stored.lane[k]];
+    }
+}
+
+/// Rays that run anywhere: those from `next` to `end` are still to be taken on.
+typedef struct {
+    SightRays rays;
+    uint next, end;
+} ScatteredRays;
+
+/// A packet whose lanes take on further rays as theirs end.
+typedef struct {
+    Packet packet;
+    lane_int held, walking, waiting;
+} LaneRefill;
+
+/// How many lanes at least a packet keeps on their way.
+static inline int min_walking(const ScatteredRays* q) {
+    return q->next < q->end ? VXL_LANES - VXL_REFILL : 0;
+}
+
+/// Lanes walk while more of them can than wait in occupied voxels.
+static inline bool walks(const LaneRefill* r, int minimum) {
+    const int steps = lanes_count(r->walking), tests = lanes_count(r->waiting);
+    return steps > tests && steps + tests > minimum;
+}
+
+static inline void step_refill(const PyramidView* p, LaneRefill* r) {
+    Packet* f = &r->packet;
+    walk_on(p, &f->walk, f->t_end, &f->found, &r->walking, &r->waiting);
+}
+
+/// Gives the lanes that hold no ray the next ones.
+static inline void take_on(const PyramidView* p, ScatteredRays* q, LaneRefill* r) {
+    const SightRays* s = &q->rays;
+    Packet* f = &r->packet;
+    const Progress before = progress_of(f);
+    const lane_int fresh = take_rays(~r->held, q->end, &q->next, &f->ray);
+    set_out(p, s->rays, s->count, s->stride, s->paths, s->starts, f);
+    keep_progress(&before, fresh, f);
+    r->held |= fresh;
+    r->walking |= fresh & are_rays(s, f) & in_grid(p, &f->walk);
+}
+
+static inline LaneRefill begin_refill(const PyramidView* p, ScatteredRays* q) {
+    LaneRefill r;
+    const SightRays* s = &q->rays;
+    Packet* f = &r.packet;
+    f->ray = (lane_uint)(q->end - 1u);
+    r.held = take_rays((lane_int)-1, q->end, &q->next, &f->ray);
+    set_out(p, s->rays, s->count, s->stride, s->paths, s->starts, f);
+    r.walking = r.held & are_rays(s, f) & in_grid(p, &f->walk);
+    r.waiting = (lane_int)0;
+    return r;
+}
+
+/// Tests the surfaces that lanes wait at; where too few walk on, stores what the others have met
+/// and gives them further rays.
+static inline void serve(const PyramidView* p, const SurfaceView* s, ScatteredRays* q,
+                         LaneRefill* r, global uint* restrict hits) {
+    Packet* f = &r->packet;
+    if (lanes_any(r->waiting))
+        meet_surfaces(p, s, &f->walk, f->t_end, &f->ray_state, &f->found, &r->walking, &r->waiting);
+    if (lanes_count(r->walking) > min_walking(q)) return;
+    store_hits(f, r->held & ~r->walking, q->rays.stride, hits);
+    r->held &= r->walking;
+    if (q->next < q->end) take_on(p, q, r);
+}
+
+#endif

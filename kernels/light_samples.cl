@@ -1,0 +1,226 @@
+// world -> where it glows: the pieces of surface that objects with emission show.
+#include "lib/lanes/vector.h"
+#include "lib/lanes/work_item.h"
+#include "lib/solid/solid.h"
+#include "lib/solid/solid_surface.h"
+#include "lib/surface/field.h"
+#include "shared/light_samples.h"
+#include "shared/scene.h"
+#include "shared/trace.h"
+#include "shared/voxel.h"
+
+typedef struct {
+    global const uint* restrict sectors;
+    global const uint* restrict bricks;
+    global const uint* restrict leaves;
+    global const uint* restrict leaf_voxels;
+    global const uint* restrict attributes;
+    uint constant_attribute;
+} Voxels;
+
+/// The bits of a 64-bit mask below `bit`, counted.
+static inline uint bits_below(uint low, uint high, uint bit) {
+    const uint all = bit < 32 ? low : high;
+    return popcount(all & ((1u << (bit & 31)) - 1u)) + (bit < 32 ? 0u : popcount(low));
+}
+
+static inline bool has_bit(uint low, uint high, uint bit) {
+    return ((bit < 32 ? low : high) >> (bit & 31) & 1u) != 0u;
+}
+
+static inline uint attributes_of_voxel(const Voxels* v, uint voxel) {
+    return VXL_ATTRIBUTES ? v->attributes[voxel] : v->constant_attribute;
+}
+
+/// Whether a cube fills the cell, or the world ends before it.
+static inline bool is_covered(const Voxels* v, PyramidShape shape, int x, int y, int z) {
+    if (x < 0 || y < 0 || z < 0) return true;
+    if (x >= shape.size_x || y >= shape.size_y || z >= shape.size_z) return true;
+    const uint entry =
+        v->sectors[((z >> 6) * shape.sectors_y + (y >> 6)) * shape.sectors_x + (x >> 6)];
+    if ((int)entry < 0) return false;
+    const uint brick = (uint)((x >> 4 & 3) | (y >> 4 & 3) << 2 | (z >> 4 & 3) << 4);
+    global const uint* record = v->bricks + ((size_t)entry * 64 + brick) * 4;
+    const uint in_brick = (uint)((x >> 2 & 3) | (y >> 2 & 3) << 2 | (z >> 2 & 3) << 4);
+    if (!has_bit(record[0], record[1], in_brick)) return false;
+    const uint leaf = record[2] + bits_below(record[0], record[1], in_brick);
+    const uint low = v->leaves[2 * leaf], high = v->leaves[2 * leaf + 1];
+    const uint in_leaf = (uint)((x & 3) | (y & 3) << 2 | (z & 3) << 4);
+    if (!has_bit(low, high, in_leaf)) return false;
+    const uint voxel = v->leaf_voxels[leaf] + bits_below(low, high, in_leaf);
+    return attributes_of_voxel(v, voxel) >> VXL_KIND_SHIFT == VXL_KIND_CUBES;
+}
+
+/// Whether a surface with this word belongs to an emissive object, and glows.
+static inline bool emits(global const uint* restrict emissive_objects,
+                         global const uint* restrict emissive_materials, uint packed) {
+    return emissive_objects[packed & VXL_OBJECT_MASK] != 0u &&
+           emissive_materials[packed >> VXL_MATERIAL_SHIFT & VXL_MATERIAL_MASK] != 0u;
+}
+
+/// Lists what glows in one brick: the open faces of cubes, smooth voxels, and solids in the voxels
+/// that list them. One work-item takes one of each sector's 64 bricks. `emissive_objects` has a
+/// value per object and `emissive_materials` one per material. `found` counts all; those that fit
+/// are listed, in no certain order.
+kernel void list_emissive(PyramidShape shape, const uint count, global const uint* restrict sectors,
+                          global const uint* restrict bricks, global const uint* restrict leaves,
+                          global const uint* restrict leaf_voxels,
+                          global const uint* restrict attributes, const uint constant_attribute,
+                          global const uint* restrict primitive_first,
+                          global const uint* restrict primitives,
+                          global const SolidShape* restrict solids,
+                          global const uint* restrict emissive_objects,
+                          global const uint* restrict emissive_materials, const uint capacity,
+                          global uint* restrict found, global uint4* restrict pieces) {
+    const uint item = work_item();
+    if (item >= count) return;
+    const Voxels v = {sectors, bricks, leaves, leaf_voxels, attributes, constant_attribute};
+    const int sector = (int)(item >> 6), brick = (int)(item & 63u);
+    const uint entry = sectors[sector];
+    if ((int)entry < 0) return;
+    global const uint* record = bricks + ((size_t)entry * 64 + brick) * 4;
+    const int row = sector / shape.sectors_x;
+    const int x0 = (sector - row * shape.sectors_x) * 64 + (brick & 3) * 16;
+    const int y0 = (row % shape.sectors_y) * 64 + (brick >> 2 & 3) * 16;
+    const int z0 = (row / shape.sectors_y) * 64 + (brick >> 4) * 16;
+    uint leaf = record[2];
+    for (int child = 0; child < 64; ++child) {
+        if (!has_bit(record[0], record[1], (uint)child)) continue;
+        uint voxel = leaf_voxels[leaf];
+        const uint low = leaves[2 * leaf], high = leaves[2 * leaf + 1];
+        ++leaf;
+        for (int bit = 0; bit < 64; ++bit) {
+            if (!has_bit(low, high, (uint)bit)) continue;
+            const int x = x0 + (child & 3) * 4 + (bit & 3);
+            const int y = y0 + (child >> 2 & 3) * 4 + (bit >> 2 & 3);
+            const int z = z0 + (child >> 4) * 4 + (bit >> 4);
+            const uint packed = attributes_of_voxel(&v, voxel);
+            const uint kind = packed >> VXL_KIND_SHIFT;
+            const uint xy = (uint)x | (uint)y << 16;
+            if (VXL_CUBES && kind == VXL_KIND_CUBES &&
+                emits(emissive_objects, emissive_materials, packed)) {
+                for (int face = 0; face < 6; ++face) {
+                    const int axis = face >> 1, step = (face & 1) * 2 - 1;
+                    if (is_covered(&v, shape, x + (axis == 0 ? step : 0),
+                                   y + (axis == 1 ? step : 0), z + (axis == 2 ? step : 0)))
+                        continue;
+                    const uint place = atomic_inc(found);
+                    if (place < capacity)
+                        pieces[place] = (uint4)(xy, (uint)z | (uint)face << 16, voxel, packed);
+                }
+            }
+            if (VXL_SMOOTH && kind != VXL_KIND_CUBES &&
+                emits(emissive_objects, emissive_materials, packed)) {
+                const uint place = atomic_inc(found);
+                if (place < capacity)
+                    pieces[place] = (uint4)(xy, (uint)z | VXL_PIECE_FIELD << 16, voxel, packed);
+            }
+            if (VXL_SOLIDS && kind == VXL_KIND_EXACT) {
+                for (uint i = primitive_first[voxel]; i < primitive_first[voxel + 1]; ++i) {
+                    if (!(primitives[i] & VXL_SOLID_PRIMITIVE)) continue;
+                    const uint solid = primitives[i] & ~VXL_SOLID_PRIMITIVE;
+                    if (!emits(emissive_objects, emissive_materials, solids[solid].attribute))
+                        continue;
+                    const uint place = atomic_inc(found);
+                    if (place < capacity)
+                        pieces[place] = (uint4)(xy, (uint)z | VXL_PIECE_SOLID << 16, solid,
+                                                solids[solid].attribute);
+                }
+            }
+            ++voxel;
+        }
+    }
+}
+
+#define VXL_PROJECT_STEPS 6
+
+/// Brings the points p, within voxels, onto the fields' surfaces by Newton's steps; `g` is the
+/// gradient there, `left` how far it still is, in voxels.
+static inline void project_on_field(const Field* f, Vector* p, Vector* g, lane_float* left) {
+    for (int step = 0; step <= VXL_PROJECT_STEPS; ++step) {
+        const lane_float value = field_value(f, p->x, p->y, p->z);
+        field_gradient(f, p->x, p->y, p->z, &g->x, &g->y, &g->z);
+        const lane_float squared = dot_product(*g, *g);
+        const lane_int sloped = LANE_MASK(squared > 0.0f);
+        const lane_float share = LANES_SELECT(
+            sloped, exact_divide(value, LANES_SELECT(sloped, squared, (lane_float)1.0f)),
+            (lane_float)0.0f);
+        *left =
+            LANES_SELECT(sloped, fabs(value) * (1.0f / VXL_DISTANCE_UNITS), (lane_float)INFINITY);
+        if (step == VXL_PROJECT_STEPS) return;
+        p->x = clamp(fma(-share, g->x, p->x), -0.5f, 1.5f);
+        p->y = clamp(fma(-share, g->y, p->y), -0.5f, 1.5f);
+        p->z = clamp(fma(-share, g->z, p->z), -0.5f, 1.5f);
+    }
+}
+
+/// The same for the solid `number`, by its distance along its normal.
+static inline void project_on_solid(PyramidShape shape, global const SolidShape* solids,
+                                    uint number, lane_int x, lane_int y, lane_int z, Vector* p,
+                                    Vector* g, lane_float* left) {
+    const float shortest = fmin(shape.edge.x, fmin(shape.edge.y, shape.edge.z));
+    for (int step = 0; step <= VXL_PROJECT_STEPS; ++step) {
+        const LatticePoint at = {x, y, z, p->x, p->y, p->z};
+        const SolidDistance distance = solid_distance(solids, number, at);
+        // solid_normal looks at the origin of the ray: any direction will do
+        const SolidRay ray = {LANES_FLOAT(x) + p->x, LANES_FLOAT(y) + p->y, LANES_FLOAT(z) + p->z,
+                              (lane_float)1.0f,      (lane_float)0.0f,      (lane_float)0.0f};
+        const SolidPoint gradient = solid_normal(solids, number, &ray, (lane_float)0.0f);
+        g->x = gradient.x, g->y = gradient.y, g->z = gradient.z;
+        *left = fabs(distance.distance);
+        if (step == VXL_PROJECT_STEPS) return;
+        const Vector slope = {g->x * shape.inverse_edge.x, g->y * shape.inverse_edge.y,
+                              g->z * shape.inverse_edge.z};
+        const Vector n = unit(slope);
+        const lane_float metres = distance.distance * shortest;
+        p->x = clamp(fma(-metres * n.x, shape.inverse_edge.x, p->x), -0.5f, 1.5f);
+        p->y = clamp(fma(-metres * n.y, shape.inverse_edge.y, p->y), -0.5f, 1.5f);
+        p->z = clamp(fma(-metres * n.z, shape.inverse_edge.z, p->z), -0.5f, 1.5f);
+    }
+}
+
+/// Finds the surface in each piece's voxel, near its middle: the point within the voxel, the
+/// gradient of the distance there, along the grid's axes in voxels, and how far from the surface
+/// the point still is, in voxels. Seven components, `stride` values apart; cubes are left out.
+kernel void find_surface(PyramidShape shape, const uint count, const uint stride,
+                         global const uint* restrict pieces, global const uint* restrict fields,
+                         global const SolidShape* restrict solids, global float* restrict found) {
+    const uint first = work_item() * VXL_LANES;
+    if (first >= count) return;
+    const lane_uint index =
+        min((lane_uint)first + LANES_AS_UINT((lane_int)LANES_NUMBERS), (lane_uint)(count - 1u)) *
+        4u;
+    const lane_uint xy = LANES_GATHER_UINT(pieces, index);
+    const lane_uint z_form = LANES_GATHER_UINT(pieces, index + 1u);
+    const lane_uint number = LANES_GATHER_UINT(pieces, index + 2u);
+    const lane_uint form = z_form >> 16;
+    const lane_float half_way = (lane_float)0.5f, none = (lane_float)0.0f;
+    Vector p = {half_way, half_way, half_way}, g = {none, none, none};
+    lane_float left = (lane_float)INFINITY;
+    const lane_int is_field = LANE_MASK(form == VXL_PIECE_FIELD);
+    if (VXL_SMOOTH && lanes_any(is_field)) {
+        const Field f = read_field(fields, number & LANES_AS_UINT(is_field));
+        Vector at = p, slope = g;
+        lane_float rest = left;
+        project_on_field(&f, &at, &slope, &rest);
+        p = select_vector(is_field, at, p);
+        g = select_vector(is_field, slope, g);
+        left = LANES_SELECT(is_field, rest, left);
+    }
+    lane_int solid = VXL_SOLIDS ? LANE_MASK(form == VXL_PIECE_SOLID) : (lane_int)0;
+    while (VXL_SOLIDS && lanes_any(solid)) {
+        const uint one = lanes_min(LANES_SELECT(solid, number, (lane_uint)0xFFFFFFFFu));
+        const lane_int same = solid & LANE_MASK(number == one);
+        solid &= ~same;
+        Vector at = {half_way, half_way, half_way}, slope = g;
+        lane_float rest = left;
+        project_on_solid(shape, solids, one, LANES_AS_INT(xy & 0xFFFFu), LANES_AS_INT(xy >> 16),
+                         LANES_AS_INT(z_form & 0xFFFFu), &at, &slope, &rest);
+        p = select_vector(same, at, p);
+        g = select_vector(same, slope, g);
+        left = LANES_SELECT(same, rest, left);
+    }
+    store_vector(p, found, stride, first);
+    store_vector(g, found + 3 * stride, stride, first);
+    LANES_STORE(left, found, 6 * stride + first);
+}

@@ -1,0 +1,12 @@
+// The pieces of emissive surface that kernels list for the host.
+#ifndef VXL_SHARED_LIGHT_SAMPLES_H
+#define VXL_SHARED_LIGHT_SAMPLES_H
+
+// A piece is four words: x | y << 16 of its voxel, z | form << 16, number, packed attributes.
+//   form 0..5: the open face of a cube towards -x, +x, -y, +y, -z, +z; number: the voxel's
+//   VXL_PIECE_FIELD: the surface in a smooth voxel; number: the voxel's
+//   VXL_PIECE_SOLID: an exact solid's surface there; number: the solid's
+#define VXL_PIECE_FIELD 6u
+#define VXL_PIECE_SOLID 7u
+
+#endif

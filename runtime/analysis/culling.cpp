@@ -1,0 +1,157 @@
+#include "runtime/analysis/culling.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+
+#include "runtime/analysis/culling_hull.hpp"
+#include "runtime/analysis/object_boxes.hpp"
+#include "runtime/scene_file/scene_animation.hpp"
+#include "runtime/scene_file/scene_motion.hpp"
+#include "runtime/stages/light/light_samples.hpp"
+#include "runtime/world/instances.hpp"
+
+namespace voxelume {
+namespace {
+
+/// Of coordinates, by how much rays may be off for their floats: some hundred times their rounding.
+constexpr double kRounding = 0x1p-17;
+
+/// Whether rays go on from surfaces of the object; of voxels in a file that isn't read, they may.
+bool sends_rays_on(const Scene& scene, const Object& object, AssetStore& meshes, bool reads) {
+    if (!scene.render.channels.color) return false;
+    const Model& model = scene.models[size_t(object.model)];
+    if (!model.voxels.empty() && (!reads || meshes.voxels(model).transparent)) return true;
+    const auto sends = [&](int number) {
+        const Material& material = scene.materials[size_t(number)];
+        return transmits(material) || (scene.render.depth > 0 && material.reflection > 0);
+    };
+    return sends(object.material) ||
+           std::ranges::any_of(object.groups,
+                               [&](const GroupMaterial& group) { return sends(group.material); });
+}
+
+/// The hull that no ray leaves, and how far from it a box has to be.
+class RayHull {
+  public:
+    RayHull(const Scene& scene, const std::vector<VoxelBox>& emissive_objects) {
+        const GridFrame world = world_frame(scene.world);
+        hull_ = hull_of_sight_rays(scene.observer, world);
+        if (scene.render.shadows && scene.render.channels.color)
+            add_shadow_rays(scene, emissive_objects, world, hull_);
+        const glm::dvec3 eye = (scene.observer.position - world.origin) / world.voxel_edge;
+        double largest = 0;
+        const auto include = [&](const glm::dvec3& p) {
+            largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+        };
+        include(eye);
+        for (const glm::dvec3& point : hull_) include(point);
+        gap_ = 1 + kRounding * largest;
+    }
+
+    bool meets(const VoxelBox& box) const {
+        return !are_apart(hull_, {box.low - kInfluence, box.high + kInfluence}, gap_);
+    }
+
+  private:
+    Hull hull_;
+    double gap_ = 1;
+};
+
+/// Whether an object may have a say in where an emissive object's surface lies, or is an emissive
+/// object.
+bool is_near(const VoxelBox& box, const std::vector<VoxelBox>& emissive_objects) {
+    const VoxelBox wide = {box.low - kInfluence, box.high + kInfluence};
+    return std::ranges::any_of(emissive_objects, [&](const VoxelBox& emissive_object) {
+        return overlap(wide, emissive_object);
+    });
+}
+
+bool is_shown_instance(const Scene& scene, const Object& object) {
+    return object.visible && is_instanced(scene, object);
+}
+
+/// Adds the objects that rays may reach in a frame to those reached before, whose boxes don't
+/// matter any more.
+void add_potentially_visible(Scene scene, AssetStore& meshes,
+                             std::vector<bool>& potentially_visible) {
+    const std::vector<Object> objects = scene.objects;
+    for (size_t i = 0; i < objects.size(); ++i)
+        if (potentially_visible[i] && !is_emissive(scene, objects[i]))
+            scene.objects[i].visible = false;
+    const std::vector<VoxelBox> boxes = object_boxes(scene, meshes);
+
+    std::vector<VoxelBox> emissive_objects;
+    for (size_t i = 0; i < objects.size(); ++i)
+        if (scene.render.channels.color && is_emissive(scene, objects[i]) && !is_empty(boxes[i]))
+            emissive_objects.push_back(boxes[i]);
+    const RayHull hull(scene, emissive_objects);
+    std::vector<bool> met = potentially_visible;
+    bool all = scene.observer.display.layout == VolumeLayout::lattice;
+    for (size_t i = 0; i < objects.size(); ++i) {
+        if (!met[i])
+            met[i] = !is_empty(boxes[i]) &&
+                     (is_near(boxes[i], emissive_objects) || hull.meets(boxes[i]));
+        all = all || (met[i] && objects[i].visible &&
+                      sends_rays_on(scene, objects[i], meshes, !potentially_visible[i]));
+    }
+    bool instances = false;
+    for (size_t i = 0; i < objects.size(); ++i) {
+        potentially_visible[i] = met[i] || (all && !is_empty(boxes[i]));
+        instances = instances || (potentially_visible[i] && is_shown_instance(scene, objects[i]));
+    }
+    // Rays leave instances from a height that all of them decide, also those outside of the world.
+    for (size_t i = 0; i < objects.size(); ++i)
+        potentially_visible[i] =
+            potentially_visible[i] || (instances && is_shown_instance(scene, objects[i]));
+}
+
+/// Objects of models that change. Their files may be many, and aren't read before their frames.
+std::vector<bool> objects_of_moving_models(const Scene& scene) {
+    std::vector<bool> found(scene.objects.size());
+    if (!moves(scene)) return found;
+    for (const MovingPart& part : scene.motion->parts)
+        for (size_t i = 0; i < found.size(); ++i)
+            found[i] = found[i] || (part.part == ScenePart::model &&
+                                    size_t(scene.objects[i].model) == part.place);
+    return found;
+}
+
+}  // namespace
+
+void find_potentially_visible(Scene& scene, std::span<const int> frames, AssetStore& meshes) {
+    std::vector<bool> potentially_visible = frames.size() > 1
+                                                ? objects_of_moving_models(scene)
+                                                : std::vector<bool>(scene.objects.size());
+    for (const int frame : frames) {
+        if (std::ranges::find(potentially_visible, false) == potentially_visible.end()) return;
+        in_frame(scene, frame, [&] {
+            add_potentially_visible(scene_at(scene, frame), meshes, potentially_visible);
+        });
+    }
+    for (size_t i = 0; i < potentially_visible.size(); ++i)
+        scene.objects[i].potentially_visible = potentially_visible[i];
+}
+
+void leave_out_culled(const Scene& scene, Pyramid& world) {
+    const auto has = [&](Surface surface) {
+        return std::ranges::any_of(scene.objects, [&](const Object& object) {
+            return is_potentially_visible(scene, object) && !is_instanced(scene, object) &&
+                   scene.models[size_t(object.model)].surface == surface;
+        });
+    };
+    if (!has(Surface::smooth)) world.fields = {};
+    if (has(Surface::exact)) return;
+    world.primitive_first = world.primitives = world.triangle_attributes = world.solids = {};
+    world.triangles = {};
+}
+
+Scene with_culling(Scene scene, AssetStore& meshes) {
+    std::vector<bool> potentially_visible(scene.objects.size());
+    add_potentially_visible(scene, meshes, potentially_visible);
+    for (size_t i = 0; i < potentially_visible.size(); ++i)
+        scene.objects[i].potentially_visible = potentially_visible[i];
+    return scene;
+}
+
+}  // namespace voxelume

@@ -1,0 +1,112 @@
+#include "runtime/analysis/medium_set.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/vector_relational.hpp>
+
+#include "runtime/analysis/object_boxes.hpp"
+#include "runtime/world/instances.hpp"
+
+namespace voxelume {
+namespace {
+
+const Model& model_of(const Scene& scene, const Object& object) {
+    return scene.models[size_t(object.model)];
+}
+
+/// Whether the object may let light through, be it for its voxels alone.
+bool may_transmit(const Scene& scene, const Object& object, const Features& features) {
+    return transmits(scene, object) ||
+           (features.voxel_opacity && shows_voxels(model_of(scene, object).surface));
+}
+
+/// How many transmitting objects that aren't smooth may be in one place, at most: no more than
+/// there are boxes that overlap one of them.
+int max_overlapping(const Scene& scene, const Pyramid& world, const Features& features) {
+    std::vector<size_t> objects;
+    for (size_t i = 0; i < scene.objects.size(); ++i)
+        if (!stores_distances(model_of(scene, scene.objects[i]).surface) &&
+            may_transmit(scene, scene.objects[i], features))
+            objects.push_back(i);
+    if (world.object_boxes.empty()) return int(objects.size());
+    const auto overlapping = [&](size_t i) {
+        return std::ranges::count_if(objects, [&](size_t j) {
+            return overlap(world.object_boxes[i], world.object_boxes[j]);
+        });
+    };
+    int64_t maximum = 0;
+    for (const size_t i : objects) maximum = std::max(maximum, int64_t(overlapping(i)));
+    return int(maximum);
+}
+
+/// Metres from the observer within which rays begin that don't come in across the world's sides.
+double start_radius(const Display& display) {
+    const glm::dvec2 half = half_extent(display);
+    if (display.shape == DisplayShape::pyramid)
+        return display.near * std::sqrt(1 + glm::dot(half, half));
+    if (display.shape == DisplayShape::box)
+        return std::sqrt(display.near * display.near + glm::dot(half, half));
+    return display.near;
+}
+
+/// Whether rays from the observer may begin in a box.
+bool may_begin_in(const VoxelBox& box, const Scene& scene, const GridFrame& world) {
+    const glm::dvec3 eye = (scene.observer.position - world.origin) / world.voxel_edge;
+    const glm::dvec3 reach(start_radius(scene.observer.display) / world.voxel_edge);
+    if (overlap(box, {eye - reach, eye + reach})) return true;
+    const VoxelBox all = {glm::dvec3(0), glm::dvec3(world.size)};
+    const bool is_at_side = glm::any(glm::lessThanEqual(box.low, all.low)) ||
+                            glm::any(glm::greaterThanEqual(box.high, all.high));
+    return is_at_side && overlap(box, all) && !overlap(all, {eye, eye});
+}
+
+}  // namespace
+
+HollowObjects hollow_objects(const Scene& scene) {
+    HollowObjects hollow;
+    bool has_smooth = false;
+    for (const Object& object : scene.objects) {
+        const Model& model = model_of(scene, object);
+        const bool is_smooth = stores_distances(model.surface) && transmits(scene, object);
+        const bool is_mesh =
+            lists_primitives(model.surface) && !model.solid && transmits(scene, object);
+        hollow.flags.push_back(is_smooth || is_mesh);
+        hollow.maximum += is_mesh;
+        has_smooth |= is_smooth;
+    }
+    hollow.maximum += has_smooth;
+    return hollow;
+}
+
+Features begun_anywhere(Features features, const Scene& scene) {
+    features.observer_in_medium = features.transmission && hollow_objects(scene).maximum > 0;
+    return features;
+}
+
+bool may_begin_inside(const Scene& scene, const Pyramid& world) {
+    for (size_t i = 0; i < scene.objects.size(); ++i) {
+        const Object& object = scene.objects[i];
+        const bool has_inside = !shows_voxels(model_of(scene, object).surface);
+        if (!object.visible || !object.potentially_visible || !has_inside ||
+            !transmits(scene, object))
+            continue;
+        const bool is_known = !world.object_boxes.empty() && !is_instanced(scene, object);
+        if (!is_known || may_begin_in(world.object_boxes[i], scene, world.frame)) return true;
+    }
+    return false;
+}
+
+void add_medium_set(const Scene& scene, const Pyramid& world, Features& features) {
+    if (!features.transmission) return;
+    const int others = max_overlapping(scene, world, features);
+    features.other_media = std::min(others, kMaxMedia);
+    features.medium_set_capped = others > kMaxMedia;
+    const std::vector<uint32_t> hollow = hollow_objects(scene).flags;
+    for (size_t i = 0; i < world.object_boxes.size(); ++i)
+        features.observer_in_medium |=
+            hollow[i] == 1 && may_begin_in(world.object_boxes[i], scene, world.frame);
+}
+
+}  // namespace voxelume

@@ -1,0 +1,90 @@
+// files of models -> meshes and voxels in memory, each read once, and only when it is needed.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "runtime/assets/model_cache.hpp"
+#include "runtime/geometry/mesh_summary.hpp"
+#include "runtime/geometry/voxel_model.hpp"
+#include "runtime/scene/scene.hpp"
+
+namespace voxelume {
+
+/// The meshes and voxels of a scene, each file read once, when it is first asked for, and
+/// kept while it is used. What `cache` knows of a mesh is told without reading the mesh.
+class AssetStore {
+  public:
+    explicit AssetStore(ModelCache cache = {}) : cache_(std::move(cache)) {}
+
+    /// Throws Error::input as read_mesh does, and for a file that changed since it was first read.
+    const Mesh& mesh(const std::filesystem::path& file);
+    /// The voxels of a model that has a file of them. Throws Error::input as read_voxel_model does.
+    const VoxelModel& voxels(const Model& model);
+    /// What is voxelized for a model: its mesh, or the triangles of a file of exact voxels; null
+    /// for the others.
+    const Mesh* mesh_of(const Model& model);
+    /// A summary of that mesh; null where there is none.
+    const MeshSummary* summary_of(const Model& model);
+    /// The names of a model's groups of faces or voxels.
+    const std::vector<std::string>& groups_of(const Model& model);
+    /// A hash of all that the model's mesh is made of; empty for a model without a mesh file, and
+    /// where nothing is kept on disk.
+    std::string source_of(const Model& model);
+
+    /// What is in memory of a model's files outlives the next call of `forget_unused`: of those
+    /// that weren't asked for since the last one, meshes and voxels only if they take no more than
+    /// `room` bytes, which are counted off.
+    void retain(const Model& model, uint64_t& room);
+    /// Forgets what wasn't asked for since the last call.
+    void forget_unused();
+    /// The same store, which counts what it reads from here on.
+    AssetStore recounted() const;
+
+    const ModelCache& cache() const { return cache_; }
+    double load_seconds() const { return load_seconds_; }
+    uint64_t meshes_read() const { return meshes_read_; }  ///< and files of voxels
+    uint64_t triangles() const;                            ///< of the meshes that are in use
+
+  private:
+    struct MeshFile {
+        std::string source;  ///< a hash of its bytes; empty without a cache
+        std::optional<Mesh> mesh;
+        std::optional<MeshSummary> summary;
+    };
+    struct Morphed {
+        std::filesystem::path file;
+        Morph morph;
+        std::optional<Mesh> mesh;
+        std::optional<MeshSummary> summary;
+    };
+    struct VoxelFile {
+        VoxelModel voxels;
+        MeshSummary summary;  ///< of its mesh
+    };
+
+    MeshFile& file(const std::filesystem::path& name);
+    uint64_t triangles_of(const std::filesystem::path& name, const MeshFile& file) const;
+    uint64_t bytes_of(const std::filesystem::path& name) const;
+    const MeshSummary& summary_of_file(const std::filesystem::path& name);
+    const VoxelFile& voxel_file(const Model& model);
+    Morphed& morphed(const Model& model);
+    const Mesh& morphed_mesh(const Model& model);
+    const MeshSummary& morphed_summary(const Model& model);
+
+    ModelCache cache_;
+    std::map<std::filesystem::path, MeshFile> files_;
+    std::map<std::string, Morphed> morphed_;  ///< by the model's name, as last asked for
+    std::map<std::pair<std::filesystem::path, Surface>, VoxelFile> voxels_;  ///< read as a surface
+    std::set<std::filesystem::path> used_;
+    std::set<std::string> used_morphs_;  ///< models' names
+    double load_seconds_ = 0;
+    uint64_t meshes_read_ = 0;
+};
+
+}  // namespace voxelume

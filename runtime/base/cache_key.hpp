@@ -1,0 +1,42 @@
+// Numbers as they are in memory, for the keys of what is kept on disk.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <type_traits>
+
+namespace voxelume {
+
+/// Bytes that differ wherever the numbers added do.
+class CacheKey {
+  public:
+    template <class Value>
+    CacheKey& add(const Value& value) {
+        static_assert(std::is_arithmetic_v<Value>);
+        bytes_.append(reinterpret_cast<const char*>(&value), sizeof value);
+        return *this;
+    }
+    /// Of a vector of GLM.
+    template <class Vector>
+    CacheKey& add_all(const Vector& vector) {
+        for (int i = 0; i < vector.length(); ++i) add(vector[i]);
+        return *this;
+    }
+    /// Of a matrix of GLM.
+    template <class Matrix>
+    CacheKey& add_columns(const Matrix& matrix) {
+        for (int column = 0; column < matrix.length(); ++column) add_all(matrix[column]);
+        return *this;
+    }
+    CacheKey& add_text(std::string_view text) {
+        add(text.size());
+        bytes_ += text;
+        return *this;
+    }
+    std::string_view bytes() const { return bytes_; }
+
+  private:
+    std::string bytes_;
+};
+
+}  // namespace voxelume

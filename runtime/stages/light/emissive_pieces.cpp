@@ -1,0 +1,184 @@
+#include "runtime/stages/light/emissive_pieces.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "kernels/shared/light_samples.h"
+#include "kernels/shared/voxel.h"
+#include "runtime/opencl/program.hpp"
+#include "runtime/stages/trace/trace.hpp"
+
+namespace voxelume {
+namespace {
+
+/// Points farther than this from the surface, in voxels, stand for nothing but their area.
+constexpr double kOnSurface = 1.0 / 256;
+
+/// A piece as kernels list it, shared/light_samples.h.
+using ListedPiece = std::array<uint32_t, 4>;
+
+std::vector<uint32_t> emissive_materials_of(const Scene& scene) {
+    std::vector<uint32_t> emissive_materials;
+    for (const Material& material : scene.materials)
+        emissive_materials.push_back(material.emission != glm::vec3(0));
+    return emissive_materials;
+}
+
+/// What the surface near the middle of a voxel is like.
+struct VoxelSurface {
+    glm::dvec3 point{0}, gradient{0};  ///< voxels
+    double left = 0;                   ///< from the point to the surface, voxels
+};
+
+/// The kernels of light_samples.cl for one world.
+class PieceFinder {
+  public:
+    PieceFinder(const Device& device, const Features& features, const Scene& scene,
+                const Pyramid& world, const std::vector<uint32_t>& is_emissive)
+        : device_(device),
+          world_(world),
+          program_(device, "light_samples.cl", features.defines(device)),
+          list_(program_.kernel("list_emissive")),
+          surface_(program_.kernel("find_surface")),
+          emissive_objects_(device, "emissive objects", std::span(is_emissive)),
+          emissive_materials_(device, "emissive materials", emissive_materials_of(scene)) {}
+
+    /// In the order of form, z, y and x.
+    std::vector<ListedPiece> pieces() {
+        const Buffer<ListedPiece> none;
+        const uint32_t count = list(0, none);
+        const Buffer<ListedPiece> places(device_, "emissive surface", count);
+        list(count, places);
+        std::vector<ListedPiece> pieces = places.read();
+        std::ranges::sort(pieces, {}, [](const ListedPiece& p) {
+            return std::array{p[1], p[0] >> 16, p[0] & 0xFFFFu, p[2]};
+        });
+        return pieces;
+    }
+
+    std::vector<VoxelSurface> surfaces(const std::vector<ListedPiece>& pieces) {
+        const auto count = uint32_t(pieces.size());
+        const uint32_t stride = (count + 15) / 16 * 16;
+        const Buffer<ListedPiece> places(device_, "emissive surface", std::span(pieces));
+        const Buffer<float> found(device_, "emissive surface", size_t(stride) * 7);
+        surface_.launch_packets(count, shape_of(world_), count, stride, places, world_.fields,
+                                world_.solids, found);
+        const std::vector<float> values = found.read();
+        std::vector<VoxelSurface> surfaces(count);
+        for (uint32_t i = 0; i < count; ++i) {
+            for (int axis = 0; axis < 3; ++axis) {
+                surfaces[i].point[axis] = values[size_t(axis) * stride + i];
+                surfaces[i].gradient[axis] = values[size_t(3 + axis) * stride + i];
+            }
+            surfaces[i].left = values[size_t(6) * stride + i];
+        }
+        return surfaces;
+    }
+
+  private:
+    /// Counts the pieces, and lists those that fit.
+    uint32_t list(uint32_t capacity, const Buffer<ListedPiece>& places) {
+        const glm::ivec3 sectors = world_.frame.sectors();
+        const uint32_t bricks = uint32_t(sectors.x * sectors.y * sectors.z) * 64;
+        Buffer<uint32_t> found(device_, "emissive surface", 1);
+        found.fill(0);
+        list_.launch(WorkItem::light, bricks, shape_of(world_), bricks, world_.sectors,
+                     world_.bricks, world_.leaves, world_.leaf_voxels, world_.attributes,
+                     world_.attribute, world_.primitive_first, world_.primitives, world_.solids,
+                     emissive_objects_, emissive_materials_, capacity, found, places);
+        return found.read_one(0);
+    }
+
+    Device device_;
+    const Pyramid& world_;
+    Program program_;
+    Kernel list_, surface_;
+    Buffer<uint32_t> emissive_objects_, emissive_materials_;
+};
+
+EmissivePiece face_piece(const glm::dvec3& cell, uint32_t face, const glm::dvec3& edge) {
+    const auto axis = int(face >> 1);
+    EmissivePiece piece;
+    piece.position = cell + 0.5;
+    piece.position[axis] = cell[axis] + double(face & 1);
+    piece.position *= edge;
+    piece.normal[axis] = face & 1 ? 1 : -1;
+    piece.area = edge.x * edge.y * edge.z / edge[axis];
+    return piece;
+}
+
+EmissivePiece voxel_piece(const glm::dvec3& cell, const VoxelSurface& surface,
+                          const glm::dvec3& edge) {
+    const glm::dvec3 slope = surface.gradient / edge;
+    EmissivePiece piece;
+    if (!(glm::length(slope) > 0) || !(surface.left < 1)) return piece;
+    piece.position = (cell + surface.point) * edge;
+    piece.normal = glm::normalize(slope);
+    piece.area = area_in_voxel(surface.point, surface.gradient, edge);
+    const glm::dvec3 off = glm::abs(surface.point - 0.5);
+    piece.is_exact =
+        surface.left <= kOnSurface && std::max({off.x, off.y, off.z}) <= 0.5 + kOnSurface;
+    return piece;
+}
+
+using Polygon = std::vector<glm::dvec3>;
+
+/// The part of a convex polygon where side * (p[axis] - plane) <= 0.
+Polygon clipped(const Polygon& polygon, int axis, double plane, double side) {
+    Polygon result;
+    for (size_t i = 0; i < polygon.size(); ++i) {
+        const glm::dvec3 &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
+        const double over_a = side * (a[axis] - plane), over_b = side * (b[axis] - plane);
+        if (over_a <= 0) result.push_back(a);
+        if ((over_a < 0) != (over_b < 0) && over_a != 0 && over_b != 0)
+            result.push_back(a + (b - a) * (over_a / (over_a - over_b)));
+    }
+    return result;
+}
+
+}  // namespace
+
+double area_in_voxel(const glm::dvec3& point, const glm::dvec3& gradient, const glm::dvec3& edge) {
+    constexpr double kFar = 4;  // from a point near the unit cube, more than its diagonal
+    const glm::dvec3 n = glm::normalize(gradient);
+    const glm::dvec3 minimum = std::abs(n.x) < 0.6 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
+    const glm::dvec3 u = glm::normalize(glm::cross(n, minimum)) * kFar;
+    const glm::dvec3 v = glm::normalize(glm::cross(n, u)) * kFar;
+    Polygon polygon = {point - u - v, point + u - v, point + u + v, point - u + v};
+    for (int axis = 0; axis < 3; ++axis) {
+        polygon = clipped(polygon, axis, 0, -1);
+        polygon = clipped(polygon, axis, 1, 1);
+    }
+    glm::dvec3 twice(0);
+    for (size_t i = 2; i < polygon.size(); ++i)
+        twice += glm::cross((polygon[i - 1] - polygon[0]) * edge, (polygon[i] - polygon[0]) * edge);
+    return glm::length(twice) / 2;
+}
+
+std::map<uint32_t, std::vector<EmissivePiece>> emissive_pieces(
+    const Device& device, const Features& features, const Scene& scene, const Pyramid& world,
+    const std::vector<uint32_t>& is_emissive) {
+    std::map<uint32_t, std::vector<EmissivePiece>> found;
+    if (world.voxel_count == 0) return found;
+    PieceFinder finder(device, features, scene, world, is_emissive);
+    const std::vector<ListedPiece> listed = finder.pieces();
+    const std::vector<VoxelSurface> surfaces =
+        listed.empty() ? std::vector<VoxelSurface>() : finder.surfaces(listed);
+    const glm::dvec3& edge = world.frame.voxel_edge;
+    for (size_t i = 0; i < listed.size(); ++i) {
+        const auto& [xy, z_form, number, packed] = listed[i];
+        const glm::dvec3 cell(xy & 0xFFFFu, xy >> 16, z_form & 0xFFFFu);
+        const uint32_t form = z_form >> 16;
+        EmissivePiece piece = form < VXL_PIECE_FIELD ? face_piece(cell, form, edge)
+                                                     : voxel_piece(cell, surfaces[i], edge);
+        piece.emission = scene.materials[packed >> VXL_MATERIAL_SHIFT & VXL_MATERIAL_MASK].emission;
+        if (piece.area > 0) found[packed & VXL_OBJECT_MASK].push_back(piece);
+    }
+    if (!world.triangles.empty()) add_emissive_triangles(scene, world, is_emissive, found);
+    return found;
+}
+
+}  // namespace voxelume

@@ -1,0 +1,129 @@
+// the triangles of emissive objects -> pieces of surface: which way they shine, and parts small
+// enough for light samples.
+#include <algorithm>
+#include <array>
+#include <glm/geometric.hpp>
+
+#include "kernels/shared/voxel.h"
+#include "runtime/stages/light/emissive_pieces.hpp"
+
+namespace voxelume {
+namespace {
+
+/// Parts of a triangle are no larger than its emissive object's area over this number times its
+/// light samples.
+constexpr double kPartsPerLightSample = 16;
+constexpr int kAssumedLightSamples = 128;  ///< where the scene doesn't say
+
+using Corner = std::array<float, 3>;  ///< voxels
+using Corners = std::array<Corner, 3>;
+
+/// The triangles of one emissive object, emissive or not.
+struct EmissiveMesh {
+    std::vector<Corners> triangles;
+    std::vector<uint32_t> materials;
+};
+
+std::map<uint32_t, EmissiveMesh> emissive_meshes(const Pyramid& world,
+                                                 const std::vector<uint32_t>& is_emissive) {
+    const std::vector<uint32_t> attributes = world.triangle_attributes.read();
+    const std::vector<float> corners = world.triangles.read();
+    std::map<uint32_t, EmissiveMesh> meshes;
+    for (size_t i = 0; i < attributes.size(); ++i) {
+        const uint32_t object = attributes[i] & VXL_OBJECT_MASK;
+        if (!is_emissive[object]) continue;
+        const float* c = &corners[9 * i];
+        EmissiveMesh& mesh = meshes[object];
+        mesh.triangles.push_back(
+            {Corner{c[0], c[1], c[2]}, Corner{c[3], c[4], c[5]}, Corner{c[6], c[7], c[8]}});
+        mesh.materials.push_back(attributes[i] >> VXL_MATERIAL_SHIFT & VXL_MATERIAL_MASK);
+    }
+    return meshes;
+}
+
+/// Whether every edge is gone along as often one way as the other.
+bool is_closed(const std::vector<Corners>& triangles) {
+    std::map<std::array<Corner, 2>, int> balance;
+    for (const Corners& t : triangles)
+        for (size_t i = 0; i < 3; ++i) {
+            const Corner &a = t[i], &b = t[(i + 1) % 3];
+            if (a < b) ++balance[{a, b}];
+            if (b < a) --balance[{b, a}];
+        }
+    return std::ranges::all_of(balance, [](const auto& edge) { return edge.second == 0; });
+}
+
+glm::dvec3 to_vector(const Corner& corner) {
+    return {corner[0], corner[1], corner[2]};
+}
+
+/// Six times the volume inside a closed mesh, negative where its triangles face inwards.
+double signed_volume(const std::vector<Corners>& triangles) {
+    double sum = 0;
+    for (const Corners& t : triangles)
+        sum += glm::dot(to_vector(t[0]), glm::cross(to_vector(t[1]), to_vector(t[2])));
+    return sum;
+}
+
+using Triangle = std::array<glm::dvec3, 3>;  ///< metres
+
+glm::dvec3 area_vector(const Triangle& t) {
+    return glm::cross(t[1] - t[0], t[2] - t[0]) * 0.5;
+}
+
+/// Halves a triangle across its longest edge until its parts are small.
+void add_parts(const Triangle& t, double largest, const EmissivePiece& whole,
+               std::vector<EmissivePiece>& pieces) {
+    const double area = glm::length(area_vector(t));
+    if (area <= largest) {
+        pieces.push_back(whole);
+        pieces.back().position = (t[0] + t[1] + t[2]) / 3.0;
+        pieces.back().area = area;
+        return;
+    }
+    size_t longest = 0;
+    for (size_t i = 1; i < 3; ++i)
+        if (glm::distance(t[i], t[(i + 1) % 3]) > glm::distance(t[longest], t[(longest + 1) % 3]))
+            longest = i;
+    const glm::dvec3 &a = t[longest], &b = t[(longest + 1) % 3], &c = t[(longest + 2) % 3];
+    const glm::dvec3 middle = (a + b) * 0.5;
+    add_parts({a, middle, c}, largest, whole, pieces);
+    add_parts({middle, b, c}, largest, whole, pieces);
+}
+
+void add_mesh(const Scene& scene, const EmissiveMesh& mesh, int light_samples,
+              const glm::dvec3& edge, std::vector<EmissivePiece>& pieces) {
+    const bool closed = is_closed(mesh.triangles);
+    const double outwards = closed && signed_volume(mesh.triangles) < 0 ? -1 : 1;
+    std::vector<Triangle> triangles;
+    double area = 0;
+    for (const Corners& t : mesh.triangles) {
+        triangles.push_back(
+            {to_vector(t[0]) * edge, to_vector(t[1]) * edge, to_vector(t[2]) * edge});
+        area += glm::length(area_vector(triangles.back()));
+    }
+    for (size_t i = 0; i < triangles.size(); ++i) {
+        const glm::dvec3 facing = area_vector(triangles[i]);
+        EmissivePiece whole;
+        whole.emission = scene.materials[mesh.materials[i]].emission;
+        if (!(glm::length(facing) > 0) || whole.emission == glm::dvec3(0)) continue;
+        whole.normal = glm::normalize(facing) * outwards;
+        const double largest = area / (kPartsPerLightSample * light_samples);
+        add_parts(triangles[i], largest, whole, pieces);
+        if (closed) continue;
+        whole.normal = -whole.normal;
+        add_parts(triangles[i], largest, whole, pieces);
+    }
+}
+
+}  // namespace
+
+void add_emissive_triangles(const Scene& scene, const Pyramid& world,
+                            const std::vector<uint32_t>& is_emissive,
+                            std::map<uint32_t, std::vector<EmissivePiece>>& pieces) {
+    for (const auto& [object, mesh] : emissive_meshes(world, is_emissive))
+        add_mesh(scene, mesh, scene.objects[object].light_samples.value_or(kAssumedLightSamples),
+                 world.frame.voxel_edge, pieces[object]);
+}
+
+}  // namespace voxelume

@@ -1,0 +1,178 @@
+#include "runtime/world/grid_cache.hpp"
+
+#include <algorithm>
+#include <chrono>
+
+#include "runtime/base/error.hpp"
+#include "runtime/grid/grid_bytes.hpp"
+#include "runtime/stages/voxelize/cut.hpp"
+#include "runtime/stages/voxelize/voxelize_solid.hpp"
+
+namespace voxelume {
+namespace {
+
+using Seconds = std::chrono::duration<double>;
+
+bool has_own_voxels(const Model& model) {
+    return !model.voxels.empty() && !lists_primitives(model.surface);
+}
+
+/// A model without its name, its place in the scene, and what is in its frame already.
+Model source_of(Model model) {
+    model.name.clear();
+    model.where.clear();
+    model.extent = {};
+    model.voxel_size = glm::dvec3(0);
+    model.resolution = 0;
+    return model;
+}
+
+/// The whole mesh, in a set, of a model with cuts.
+Model whole_of(Model model, VoxelSet set) {
+    model.cuts.clear();
+    model.set = set;
+    return model;
+}
+
+/// The sets of its whole mesh that a cut model is made of.
+std::vector<VoxelSet> body_sets(const Model& model) {
+    if (shows_voxels(model.surface) && model.set != VoxelSet::solid)
+        return {model.set, VoxelSet::solid};
+    return {model.set};
+}
+
+}  // namespace
+
+SharedGrid GridCache::grid_of(const Scene& scene, const Object& object) {
+    const Model& model = scene.models[size_t(object.model)];
+    if (!lists_primitives(model.surface)) return own_grid_of(model);
+    const Source source{source_of(model), object.world_from_object, world_frame(scene.world)};
+    return find_or_make(model, source, object.where, !object.moves);
+}
+
+SharedGrid GridCache::own_grid_of(const Model& model) {
+    Source source{source_of(model), glm::dmat4(1), {}};
+    if (!has_own_voxels(model)) source.frame = model_frame(model, meshes_.summary_of(model));
+    return find_or_make(model, source, model.where);
+}
+
+SharedGrid GridCache::find_or_make(const Model& model, const Source& source,
+                                   const std::string& where, bool keeps) {
+    const auto found = std::ranges::find(kept_, source, &Kept::source);
+    if (found != kept_.end()) {
+        found->is_used = true;
+        // A cut that stands still goes on some time: the mesh's own grids wait for it.
+        if (!model.cuts.empty())
+            for (const VoxelSet set : body_sets(model)) use(body_source(model, source, set));
+        return found->grid;
+    }
+    try {
+        auto grid = std::make_shared<const BrickGrid>(read_or_make(model, source, keeps));
+        kept_.push_back({source, grid});
+        return grid;
+    } catch (const Error& error) {
+        const bool is_users = error.kind() == ErrorKind::input || error.kind() == ErrorKind::limit;
+        if (!is_users || where.empty()) throw;
+        const glm::ivec3& size = source.frame.size;
+        if (error.kind() == ErrorKind::limit && size != glm::ivec3(0))
+            throw Error(ErrorKind::limit, "{}: a grid of {}x{}x{} voxels: {}", where, size.x,
+                        size.y, size.z, error.what());
+        throw Error(error.kind(), "{}: {}", where, error.what());
+    }
+}
+
+BrickGrid GridCache::read_or_make(const Model& model, const Source& source, bool keeps) {
+    if (!model.cuts.empty()) return make_cut(model, source, keeps);
+    const ModelCache& cache = meshes_.cache();
+    const std::string mesh = keeps ? meshes_.source_of(model) : std::string();
+    std::string key;
+    if (!mesh.empty()) {
+        key = grid_key(mesh, {model.surface, model.set}, source.frame_from_model, source.frame);
+        if (auto grid = cache.grid(device_, key)) {
+            ++from_cache_;
+            return std::move(*grid);
+        }
+    }
+    const auto start = std::chrono::steady_clock::now();
+    BrickGrid grid = make(model, source);
+    device_.finish();
+    ++voxelized_;
+    const auto made = std::chrono::steady_clock::now();
+    if (!key.empty()) cache.keep(key, grid, Seconds(made - start).count());
+    keep_seconds_ += Seconds(std::chrono::steady_clock::now() - made).count();
+    return grid;
+}
+
+BrickGrid GridCache::make(const Model& model, const Source& source) {
+    if (has_own_voxels(model)) return meshes_.voxels(model).upload(device_);
+    const VoxelizeOptions options = {model.surface, model.set};
+    if (model.solid)
+        return voxelize_solid(device_, *model.solid, source.frame_from_model, source.frame,
+                              options);
+    return voxelizer_.voxelize(*meshes_.mesh_of(model), source.frame_from_model, source.frame,
+                               options);
+}
+
+GridCache::Source GridCache::body_source(const Model& model, const Source& source, VoxelSet set) {
+    return {source_of(whole_of(model, set)), source.frame_from_model, source.frame};
+}
+
+void GridCache::use(const Source& source) {
+    const auto found = std::ranges::find(kept_, source, &Kept::source);
+    if (found != kept_.end()) found->is_used = true;
+}
+
+/// The mesh's own grids are kept like any others: while cuts move, only they are voxelized anew.
+BrickGrid GridCache::make_cut(const Model& model, const Source& source, bool keeps) {
+    const Solid rest = rest_of(source.frame, model.cuts);
+    const auto body = [&](VoxelSet set) {
+        return find_or_make(whole_of(model, set), body_source(model, source, set), "", keeps);
+    };
+    const auto left = [&](VoxelSet set) {
+        return voxelize_solid(device_, rest, source.frame_from_model, source.frame,
+                              {model.surface, set});
+    };
+    ++voxelized_;
+    const SharedGrid whole = body(model.set);
+    const BrickGrid space = left(model.set);
+    if (stores_distances(model.surface)) return common_field(device_, *whole, space);
+    if (model.set == VoxelSet::solid)
+        return common_cubes(device_, {*whole, *whole}, {space, space});
+    return common_cubes(device_, {*whole, *body(VoxelSet::solid)}, {space, left(VoxelSet::solid)});
+}
+
+/// Whether a grid is one of a model, and no other of it was asked for: that is old.
+bool GridCache::is_old(const Model& model, const Source& source) const {
+    const Model own = source_of(model);
+    if (source.model != own && source.model != source_of(whole_of(model, source.model.set)))
+        return false;
+    return std::ranges::none_of(
+        kept_, [&](const Kept& kept) { return kept.is_used && kept.source.model == own; });
+}
+
+bool GridCache::is_retained(const Scene& scene, const std::vector<bool>& retained,
+                            const Source& source) const {
+    for (size_t model = 0; model < retained.size(); ++model)
+        if (retained[model] && is_old(scene.models[model], source)) return true;
+    return false;
+}
+
+void GridCache::forget_unused(const Scene& scene, const std::vector<bool>& retained,
+                              uint64_t room) {
+    std::vector<const BrickGrid*> forgotten;
+    retained_bytes_ = 0;
+    for (const Kept& kept : kept_) {
+        if (kept.is_used) continue;
+        const uint64_t bytes = device_bytes(*kept.grid);
+        if (retained_bytes_ + bytes <= room && is_retained(scene, retained, kept.source))
+            retained_bytes_ += bytes;
+        else
+            forgotten.push_back(kept.grid.get());
+    }
+    std::erase_if(kept_, [&](const Kept& kept) {
+        return std::ranges::find(forgotten, kept.grid.get()) != forgotten.end();
+    });
+    for (Kept& kept : kept_) kept.is_used = false;
+}
+
+}  // namespace voxelume

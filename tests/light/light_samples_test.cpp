@@ -1,0 +1,319 @@
+#include "runtime/stages/light/light_samples.hpp"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "runtime/stages/trace/trace.hpp"
+#include "tests/light/area_light_scenes.hpp"
+
+namespace voxelume {
+namespace {
+
+using testing::Contains;
+using testing::Key;
+using testing::Not;
+
+constexpr double kPi = std::numbers::pi;
+
+std::string ball_model(const std::string& surface) {
+    return R"("lamp": {"shape": "sphere", "radius": 0.1, "voxel_size": 0.01, "surface": ")" +
+           surface + (surface == "cubes" ? R"(", "set": "solid"},)" : R"("},)");
+}
+
+/// An emissive ball of 0.1 m around (0.05, 0.5, 0.1); the observer above sees it in the middle.
+Scene ball_scene(const std::string& surface, const std::string& more = "") {
+    return floor_scene(
+        ball_model(surface),
+        R"({"name": "lamp", "model": "lamp", "material": "glow", "position": [0.05, 0.5, 0.1])" +
+            more + "},",
+        "");
+}
+
+bool is_floor(const Image& image, size_t pixel) {
+    return std::abs(point_at(image, pixel).y) < 1e-4;
+}
+
+TEST(AreaLights, ADiskGivesThePointBelowItsMiddleWhatItsSolidAngleHolds) {
+    // Radiance is pi energy / area; of it a Lambertian surface returns color R^2 / (R^2 + d^2).
+    const double radius = 0.23, height = 0.31;
+    for (const int light_samples : {1, 256}) {
+        const Scene scene = floor_scene("", "",
+                                        R"({"type": "disk", "position": [0.05, 0.31, 0.1],
+            "direction": [0, -2, 0], "radius": 0.23, "intensity": 0.7, "spots": )" +
+                                            std::to_string(light_samples) + "}");
+        const Image image = image_of(scene);
+        const double expected = 0.7 / (radius * radius + height * height);
+        const size_t pixel = pixel_at(image, 0.05, 0.1);
+        EXPECT_NEAR(image.planes.at("R")[pixel], expected,
+                    (light_samples == 1 ? 1e-5 : 0.005) * expected)
+            << light_samples << " spots";
+        EXPECT_NEAR(image.planes.at("G")[pixel], expected / 2, 0.005 * expected);
+    }
+}
+
+TEST(AreaLights, ATinyDiskIsAPointLightTimesItsCosine) {
+    const Image disk = image_of(floor_scene("", "", R"({"type": "disk", "position": [0.1, 0.5, 0],
+        "direction": [0, -1, 0], "radius": 1e-4, "spots": 3, "color": [1, 2, 3]})"));
+    const Image point = image_of(
+        floor_scene("", "", R"({"type": "point", "position": [0.1, 0.5, 0], "color": [1, 2, 3]})"));
+    for (size_t i = 0; i < disk.planes.at("R").size(); ++i) {
+        const glm::dvec3 to_light = glm::dvec3(0.1, 0.5, 0) - point_at(disk, i);
+        const double cosine = to_light.y / glm::length(to_light);
+        for (const char* plane : {"R", "G", "B"}) {
+            const double expected = cosine * double(point.planes.at(plane)[i]);
+            ASSERT_NEAR(disk.planes.at(plane)[i], expected, 1e-4 * expected);
+        }
+    }
+}
+
+/// The form factor of a rectangle a x b with a corner straight above the point, at height d.
+double corner_form_factor(double a, double b, double d) {
+    const double x = a / d, y = b / d, p = std::sqrt(1 + x * x), q = std::sqrt(1 + y * y);
+    return (x / p * std::atan(y / p) + y / q * std::atan(x / q)) / (2 * kPi);
+}
+
+TEST(AreaLights, ARectangleGivesItsFormFactor) {
+    // 0.4 m along z, 0.2 m along x, its corner above the pixel at (0.05, 0.1).
+    const Image image = image_of(floor_scene("", "", R"({"type": "rectangle",
+        "position": [0.15, 0.3, 0.3], "look_at": [0.15, 0, 0.3], "up": [1, 0, 0],
+        "size": [0.4, 0.2], "intensity": 0.5, "spots": 256})"));
+    const double radiance = kPi * 0.5 / (0.4 * 0.2);
+    const double expected = radiance * corner_form_factor(0.4, 0.2, 0.3);
+    EXPECT_NEAR(image.planes.at("R")[pixel_at(image, 0.05, 0.1)], expected, 2e-3 * expected);
+}
+
+TEST(AreaLights, ShineToOneSideOnly) {
+    const Image image = image_of(floor_scene("", "", R"({"type": "rectangle", "size": [0.2, 0.1],
+        "position": [0.1, 0.5, 0], "direction": [0, 1, 0]})"));
+    for (const float value : image.planes.at("R")) ASSERT_EQ(value, 0.0f);
+}
+
+TEST(AreaLights, DivideARectangleAndADiskEvenly) {
+    Light light;
+    light.kind = LightKind::rectangle;
+    light.direction = {0, 0, 1};
+    light.axis_x = {1, 0, 0};
+    light.size = {3, 1};
+    light.light_samples = 7;
+    light.intensity = {7, 14, 21};
+    const GridFrame world{{0, 0, 0}, {1, 1, 1}, {8, 8, 8}};
+    const std::vector<LightRecord> light_samples = area_light_samples(light, world);
+    ASSERT_EQ(light_samples.size(), 7u);
+    glm::dvec2 sum(0);
+    for (const LightRecord& light_sample : light_samples) {
+        EXPECT_NEAR(light_sample.spread, 3.0 / 7 / kPi, 1e-6);
+        EXPECT_NEAR(light_sample.intensity.y, 2, 1e-6);
+        EXPECT_LE(std::abs(light_sample.position.x), 1.5);
+        EXPECT_LE(std::abs(light_sample.position.y), 0.5);
+        sum += glm::dvec2(light_sample.position.x, light_sample.position.y);
+    }
+    EXPECT_NEAR(sum.x, 0, 1e-6);
+    EXPECT_NEAR(sum.y, 0, 1e-6);
+    light.kind = LightKind::disk;
+    light.radius = 2;
+    light.light_samples = 500;
+    size_t inner = 0;
+    for (const LightRecord& light_sample : area_light_samples(light, world))
+        inner += std::hypot(light_sample.position.x, light_sample.position.y) < std::sqrt(2.0);
+    EXPECT_NEAR(double(inner), 250, 1) << "half of the area, half of the spots";
+}
+
+TEST(AreaLights, ShadowEdgesLieBetweenUmbraAndPenumbra) {
+    // A board, its edge at x = 0.05, y = 0.3; the light at y = 0.6 reaches from x = -0.23 to -0.07.
+    const std::string light = R"({"type": "rectangle", "position": [-0.15, 0.6, 0.1],
+        "direction": [0, -1, 0], "up": [0, 0, 1], "size": [0.16, 0.16], "spots": 256})";
+    const Image bare = image_of(floor_scene("", "", light));
+    const Image image = image_of(
+        floor_scene(R"("board": {"shape": "box", "size": [0.4, 0.02, 3], "surface": "exact"},)",
+                    R"({"model": "board", "position": [-0.15, 0.29, 0.1]},)", light));
+    size_t dark = 0, half = 0, lit = 0;
+    for (size_t i = 0; i < image.planes.at("R").size(); ++i) {
+        const double x = point_at(image, i).x;
+        if (!is_floor(image, i) || x < 0) continue;
+        // Over the edge, a line from x on the floor meets the light's plane at 0.1 - x.
+        const double seen = (-0.07 - (0.1 - x)) / 0.16;
+        const double share = image.planes.at("R")[i] / bare.planes.at("R")[i];
+        if (seen < 0) {
+            EXPECT_EQ(share, 0) << x;
+            ++dark;
+        } else if (seen > 1) {
+            EXPECT_EQ(share, 1) << x;
+            ++lit;
+        } else {
+            EXPECT_NEAR(share, seen, 0.09) << x;
+            ++half;
+        }
+    }
+    EXPECT_GT(dark, 100u);
+    EXPECT_GT(half, 200u);
+    EXPECT_GT(lit, 100u);
+}
+
+class EmissiveObjects : public testing::TestWithParam<const char*> {};
+
+TEST_P(EmissiveObjects, GiveAFacingSurfaceTheRadianceTimesTheirSolidAngle) {
+    Scene scene = ball_scene(GetParam());
+    scene.objects[0].light_samples = 512;
+    const Image image = image_of(scene);
+    for (const double x : {-0.35, -0.2, 0.3, 0.45}) {
+        const size_t pixel = pixel_at(image, x, 0.22);
+        const glm::dvec3 to_emissive_object = glm::dvec3(0.05, 0.5, 0.1) - point_at(image, pixel);
+        const double distance = glm::length(to_emissive_object);
+        const double expected = std::pow(0.1 / distance, 2) * to_emissive_object.y / distance;
+        const double bound = 0.02 * expected;
+        EXPECT_NEAR(image.planes.at("R")[pixel], 3 * expected, 3 * bound) << x;
+        EXPECT_NEAR(image.planes.at("B")[pixel], 0.25 * expected, 0.25 * bound) << x;
+    }
+}
+
+TEST_P(EmissiveObjects, AreSeenAsBrightAsTheyGlow) {
+    const Image image = image_of(ball_scene(GetParam()));
+    ASSERT_GT(point_at(image, pixel_at(image, 0.05, 0.1)).y, 0.5);
+    for (size_t i = 0; i < image.planes.at("R").size(); ++i) {
+        if (point_at(image, i).y < 0.4) continue;
+        ASSERT_EQ(image.planes.at("R")[i], 3.0f) << "a convex lamp does not light itself";
+        ASSERT_EQ(image.planes.at("B")[i], 1.0f);
+    }
+}
+
+TEST_P(EmissiveObjects, AreNotHiddenByTheirOwnSurface) {
+    Scene scene = ball_scene(GetParam());
+    const Image shadowed = image_of(scene);
+    scene.render.shadows = false;
+    const Image bare = image_of(scene);
+    for (size_t i = 0; i < bare.planes.at("R").size(); ++i)
+        ASSERT_EQ(shadowed.planes.at("R")[i], bare.planes.at("R")[i]) << i;
+}
+
+// Not of cubes: the stairs of a ball light and shadow one another, and make it larger.
+INSTANTIATE_TEST_SUITE_P(Surfaces, EmissiveObjects, testing::Values("smooth", "exact"));
+
+TEST(EmissiveObject, OfCubesGivesTheFormFactorOfTheFaceThatIsSeen) {
+    const Scene scene = floor_scene(
+        R"("lamp": {"shape": "box", "size": [0.28, 0.03, 0.15], "surface": "cubes", "set": "solid"},)",
+        R"({"model": "lamp", "material": "glow", "position": [0.05, 0.38, 0.1], "spots": 4000},)",
+        "");
+    const Device device = test_device();
+    RenderReport report;
+    const Pyramid world = build_world(device, scene, report.world);
+    const glm::dvec3& edge = world.frame.voxel_edge;
+    glm::dvec3 low(1e9),
+        high(-1e9);  // of the light samples that face down, metres from the first corner
+    for (const LightRecord& light_sample :
+         emissive_light_samples(device, features_of(world), scene, world)) {
+        if (light_sample.direction.y > -0.5f) continue;
+        const glm::dvec3 p =
+            glm::dvec3(light_sample.position.x, light_sample.position.y, light_sample.position.z) *
+            edge;
+        low = glm::min(low, p - edge / 2.0);
+        high = glm::max(high, p + edge / 2.0);
+    }
+    Scene from_below = scene;  // an observer between floor and emissive object sees the floor alone
+    from_below.observer.position = {0.05, 0.2, 0.1};
+    from_below.observer.display.half_size = {0.05, 0.03};
+    const Image image = image_of(from_below);
+    for (size_t i = 0; i < image.planes.at("R").size(); i += 77) {
+        const glm::dvec3 p = point_at(image, i) - world.frame.origin;
+        const double height = (low.y + high.y) / 2 - p.y - edge.x / 32;
+        double factor = 0;
+        for (const double a : {p.x - low.x, high.x - p.x})
+            for (const double b : {p.z - low.z, high.z - p.z})
+                factor += corner_form_factor(a, b, height);
+        EXPECT_NEAR(image.planes.at("R")[i], 3 * factor, 0.01 * 3 * factor) << i;
+    }
+}
+
+/// A box turned a little, or, of cubes, along the axes: flat faces, seen at all angles.
+class FlatEmissiveObjects : public testing::TestWithParam<const char*> {};
+
+TEST_P(FlatEmissiveObjects, AreNotHiddenByTheirOwnSurface) {
+    const std::string surface = GetParam();
+    const bool is_cubes = surface == "cubes";
+    Scene scene = floor_scene(
+        R"("lamp": {"shape": "box", "size": [0.18, 0.03, 0.13], "voxel_size": 0.01, "surface": ")" +
+            surface + (is_cubes ? R"(", "set": "solid"},)" : R"("},)"),
+        std::string(R"({"model": "lamp", "material": "glow", "position": [0.05, 0.4, 0.1])") +
+            (is_cubes ? "" : R"(, "turn": [20, 30, 10])") + R"(, "spots": 100},)",
+        "");
+    const Image shadowed = image_of(scene);
+    scene.render.shadows = false;
+    const Image bare = image_of(scene);
+    size_t lit = 0;
+    for (size_t i = 0; i < bare.planes.at("R").size(); ++i) {
+        if (!is_floor(bare, i)) continue;
+        ASSERT_EQ(shadowed.planes.at("R")[i], bare.planes.at("R")[i]) << i;
+        lit += bare.planes.at("R")[i] > 0;
+    }
+    EXPECT_GT(lit, 500u);
+}
+
+INSTANTIATE_TEST_SUITE_P(Surfaces, FlatEmissiveObjects,
+                         testing::Values("cubes", "smooth", "exact"));
+
+TEST(EmissiveObject, InsideAGlowingShellASurfaceReturnsItsColorTimesTheRadiance) {
+    // A hollow ball around the whole floor, cut off at the world's bottom: half of the surface's
+    // sky is the shell down to the floor.
+    Scene scene = floor_scene(
+        R"("shell": {"shape": "difference", "surface": "exact",
+                     "parts": [{"shape": "sphere", "radius": 0.36}, {"shape": "sphere", "radius": 0.3}]},)",
+        R"({"model": "shell", "material": "glow", "position": [0.1, 0.02, 0.1], "spots": 2048},)",
+        "");
+    scene.observer.position = {0.1, 0.2, 0.1};
+    scene.observer.display.half_size = {0.04, 0.03};
+    const Image inside = image_of(scene);
+    for (size_t i = 0; i < inside.planes.at("R").size(); i += 100)
+        EXPECT_NEAR(inside.planes.at("R")[i], 3, 0.06) << i;
+}
+
+TEST(EmissiveObject, GivesTheSameBitsWithAnyNumberOfLanes) {
+    for (const char* surface : {"cubes", "smooth", "exact"}) {
+        const Scene scene = ball_scene(surface, R"(, "spots": 32)");
+        const uint64_t expected = oracle::image_hash(image_of(scene, 1));
+        for (const int lanes : {4, 16})
+            EXPECT_EQ(oracle::image_hash(image_of(scene, lanes)), expected)
+                << surface << " with " << lanes << " lanes";
+    }
+}
+
+TEST(EmissiveObject, WithoutLightSamplesGlowsButLightsNothing) {
+    const Scene scene = ball_scene("smooth", R"(, "spots": 0)");
+    const Device device = test_device();
+    RenderReport report;
+    const Image image = render(device, scene, report);
+    for (size_t i = 0; i < image.planes.at("R").size(); ++i)
+        ASSERT_EQ(image.planes.at("R")[i], is_floor(image, i) ? 0.0f : 3.0f);
+    const DeviceCounters& counters = device.counters();
+    for (const char* kernel : {"list_emissive", "find_surface", "add_light", "trace_shadows"})
+        EXPECT_THAT(counters.launches, Not(Contains(Key(std::string(kernel)))));
+    for (const char* buffer : {"emissive objects", "emissive surface", "shadow queue"})
+        EXPECT_THAT(counters.allocated_bytes, Not(Contains(Key(std::string(buffer)))));
+}
+
+TEST(EmissiveObject, ThatTheWorldCutsOffShinesInwardsOnly) {
+    // A slab that reaches above the world's top, y = 0.8.
+    Scene scene = floor_scene(
+        R"("lamp": {"shape": "box", "size": [0.3, 0.4, 0.2], "surface": "cubes", "set": "solid"},)",
+        R"({"model": "lamp", "material": "glow", "position": [0.05, 0.9, 0.1], "spots": 64},)", "");
+    RenderReport report;
+    const Device device = test_device();
+    const Pyramid world = build_world(device, scene, report.world);
+    const std::vector<LightRecord> light_samples =
+        emissive_light_samples(device, features_of(world), scene, world);
+    EXPECT_EQ(light_samples.size(), 64u);
+    for (const LightRecord& light_sample : light_samples) {
+        EXPECT_LE(light_sample.direction.y, 0);
+        EXPECT_LT(light_sample.position.y, float(world.frame.size.y));
+    }
+}
+
+TEST(EmissiveObject, HasASpotForEverySixteenVoxelFacesWithinLimits) {
+    EXPECT_EQ(default_light_samples(1e-9, {0.1, 0.1, 0.1}), 16);
+    EXPECT_EQ(default_light_samples(16 * 0.01 * 50, {0.1, 0.1, 0.1}), 50);
+    EXPECT_EQ(default_light_samples(16 * 0.01 * 50, {0.1, 0.1, 0.2}), 16);
+    EXPECT_EQ(default_light_samples(1e9, {0.1, 0.1, 0.1}), 128);
+}
+
+}  // namespace
+}  // namespace voxelume
