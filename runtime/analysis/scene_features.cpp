@@ -7,6 +7,7 @@
 
 #include "runtime/analysis/medium_set.hpp"
 #include "runtime/analysis/object_boxes.hpp"
+#include "runtime/stages/light/light.hpp"
 #include "runtime/stages/light/light_samples.hpp"
 #include "runtime/stages/trace/sight.hpp"
 #include "runtime/world/instances.hpp"
@@ -141,6 +142,18 @@ bool shines(const Light& light) {
 
 bool has_area(const Light& light) {
     return light.kind == LightKind::disk || light.kind == LightKind::rectangle;
+}
+
+std::vector<LightRecord> given_lights(const Scene& scene, const GridFrame& world) {
+    std::vector<LightRecord> records;
+    for (const Light& light : scene.lights) {
+        if (!shines(light)) continue;
+        if (has_area(light))
+            std::ranges::copy(area_light_samples(light, world), std::back_inserter(records));
+        else
+            records.push_back(light_record(light, world));
+    }
+    return records;
 }
 
 bool has_emissive_object(const Scene& scene, const Pyramid& world) {

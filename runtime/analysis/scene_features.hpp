@@ -22,6 +22,9 @@ bool shines(const Light& light);
 /// Whether it shines from a patch, not from one point or direction.
 bool has_area(const Light& light);
 
+/// The lights that a scene lists, those with an area by their samples.
+std::vector<LightRecord> given_lights(const Scene& scene, const GridFrame& world);
+
 /// Whether some object that the world may show is an emissive object.
 bool has_emissive_object(const Scene& scene, const Pyramid& world);
 

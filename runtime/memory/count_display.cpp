@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "runtime/render/illumination.hpp"
+#include "runtime/analysis/medium_set.hpp"
+#include "runtime/analysis/scene_features.hpp"
 #include "runtime/stages/display/display_frame.hpp"
 #include "runtime/stages/display/display_lattice.hpp"
 #include "runtime/stages/display/display_rays.hpp"

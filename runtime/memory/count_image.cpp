@@ -2,8 +2,9 @@
 
 #include <algorithm>
 
+#include "runtime/analysis/scene_features.hpp"
 #include "runtime/grid/sector_table.hpp"
-#include "runtime/render/illumination.hpp"
+#include "runtime/stages/light/light_beams.hpp"
 #include "runtime/stages/trace/sight.hpp"
 
 namespace voxelume {
@@ -19,8 +20,8 @@ std::vector<Buffer<float>> count_light_beams(const Device& device, const Scene& 
     std::vector<LightRecord> lights = given_lights(scene, world.frame);
     std::erase_if(lights, [&](const LightRecord& light) { return !may_light(light, world.frame); });
     std::vector<Buffer<float>> beams;
-    for (const BeamGrid& grid : beam_grids(lights, world.frame.size, scale_of(of), maximum,
-                                           Illumination::kLightsOfMaxBeams * maximum))
+    for (const BeamGrid& grid :
+         beam_grids(lights, world.frame.size, scale_of(of), maximum, kLightsOfMaxBeams * maximum))
         beams.push_back(allocate_light_beams(device, grid));
     return beams;
 }

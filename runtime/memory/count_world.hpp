@@ -4,9 +4,9 @@
 
 #include <span>
 
+#include "runtime/analysis/placed_objects.hpp"
 #include "runtime/stages/instance/instance_model.hpp"
 #include "runtime/stages/place/place.hpp"
-#include "runtime/world/instances.hpp"
 
 namespace voxelume {
 

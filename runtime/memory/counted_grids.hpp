@@ -4,8 +4,8 @@
 #include <map>
 #include <vector>
 
+#include "runtime/analysis/placed_objects.hpp"
 #include "runtime/memory/object_counts.hpp"
-#include "runtime/world/grid_cache.hpp"
 
 namespace voxelume {
 

@@ -48,18 +48,6 @@ Buffer<uint32_t> transmitting_solids(const Device& device, const Scene& scene,
 
 }  // namespace
 
-std::vector<LightRecord> given_lights(const Scene& scene, const GridFrame& world) {
-    std::vector<LightRecord> records;
-    for (const Light& light : scene.lights) {
-        if (!shines(light)) continue;
-        if (has_area(light))
-            std::ranges::copy(area_light_samples(light, world), std::back_inserter(records));
-        else
-            records.push_back(light_record(light, world));
-    }
-    return records;
-}
-
 void build_programs(const Device& device, const Features& features, const Scene& scene,
                     const Pyramid& world, bool makes_image, bool has_dilated_occupancy) {
     std::vector<const char*> files = {"sight.cl", "trace.cl", "shade.cl"};

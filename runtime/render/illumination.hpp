@@ -19,19 +19,11 @@
 
 namespace voxelume {
 
-/// The lights that a scene lists, those with an area by their light samples.
-std::vector<LightRecord> given_lights(const Scene& scene, const GridFrame& world);
-
 /// Makes the programs of the stages that sight rays go through in one piece: PoCL reads its own
 /// megabyte of headers for each. `makes_image`: they end in a flat image of the scene's channels;
 /// `has_dilated_occupancy`: lights may send beams.
 void build_programs(const Device& device, const Features& features, const Scene& scene,
                     const Pyramid& world, bool makes_image, bool has_dilated_occupancy);
-
-/// Whether beams of lights can tell where shadow rays end: not where these gather what they pass.
-inline bool lights_send_beams(const Features& features) {
-    return features.shadows && !features.filter;
-}
 
 /// Traces and lights batches of rays. Flat and volumetric images share it.
 ///
@@ -44,9 +36,6 @@ class Illumination {
     /// `compact` see ScatterStage.
     Illumination(const Device& device, const Features& features, const Scene& scene,
                  const Pyramid& world, uint32_t max_rays, bool compact = true);
-
-    /// So many lights alone may send as many beams as one may.
-    static constexpr uint32_t kLightsOfMaxBeams = 4;
 
     /// Sends beams from the lights, at most `maximum` from one: shadow rays end where their light's
     /// tell that nothing more is before them. `sent` holds beams that were sent through this

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <map>
 #include <utility>
 
 #include "runtime/base/error.hpp"
@@ -13,8 +12,6 @@
 
 namespace voxelume {
 namespace {
-
-constexpr double kFar = 1e9;  // metres
 
 /// Why an object can't be an instance; empty if it can.
 std::string refusal(const Scene& scene, const Object& object) {
@@ -28,12 +25,6 @@ std::string refusal(const Scene& scene, const Object& object) {
     if (scene.observer.display.layout == VolumeLayout::lattice)
         return "the display's layout is \"lattice\", which shows the world's voxels";
     return "";
-}
-
-/// The model as an instance shows it: whole, wherever the world ends.
-Model whole(Model model) {
-    model.extent = {glm::dvec3(-kFar), glm::dvec3(kFar)};
-    return model;
 }
 
 }  // namespace
@@ -54,33 +45,6 @@ void check_placements(const Scene& scene) {
                         "\"placement\": \"world\"",
                         object.where, object.name, reason);
     }
-}
-
-ListedInstances list_instances(const Scene& scene, AssetStore& meshes, const GridSource& grid_of) {
-    ListedInstances listed;
-    std::map<int, uint32_t> numbers;
-    for (uint32_t number = 0; number < scene.objects.size(); ++number) {
-        const Object& object = scene.objects[number];
-        if (!object.visible || !object.potentially_visible || !is_instanced(scene, object))
-            continue;
-        const Model& model = scene.models[size_t(object.model)];
-        const auto [entry, added] =
-            numbers.emplace(object.model, static_cast<uint32_t>(listed.grids.size()));
-        if (added) listed.grids.push_back(grid_of(object, whole(model)));
-        if (listed.grids[entry->second]->transparent)
-            throw Error(ErrorKind::scene,
-                        "{}: some voxels of its model let light through, and rays go through "
-                        "objects in the world's voxels only; give it \"placement\": \"world\"",
-                        object.where);
-        const std::vector<int> groups = materials_of_groups(object, meshes.groups_of(model));
-        listed.list.push_back({.object = number,
-                               .model = entry->second,
-                               .first_material = static_cast<uint32_t>(listed.materials.size()),
-                               .material_count = static_cast<uint32_t>(groups.size())});
-        for (const int material : groups)
-            listed.materials.push_back(static_cast<uint32_t>(material));
-    }
-    return listed;
 }
 
 void InstanceModels::forget_unused(const ListedInstances& listed, uint64_t room) {

@@ -10,6 +10,14 @@ namespace voxelume {
 /// light from the world, beams would be too oblique, or more than `maximum` of them needed.
 BeamGrid beam_grid(const LightRecord& light, const glm::ivec3& size, float scale, uint32_t maximum);
 
+/// So many lights alone may send as many beams as one may.
+inline constexpr uint32_t kLightsOfMaxBeams = 4;
+
+/// Whether beams of lights can tell where shadow rays end: not where these gather what they pass.
+inline bool lights_send_beams(const Features& features) {
+    return features.shadows && !features.filter;
+}
+
 /// The grids of several lights, which have `together` beams at most.
 std::vector<BeamGrid> beam_grids(std::span<const LightRecord> lights, const glm::ivec3& size,
                                  float scale, uint32_t maximum, uint32_t together);
