@@ -9,7 +9,7 @@
 
 #include "runtime/base/atomic_file.hpp"
 #include "runtime/io/vdb/vdb.hpp"
-#include "runtime/opencl/platforms.hpp"
+#include "runtime/opencl/selector.hpp"
 #include "runtime/scene/scene.hpp"
 
 namespace voxelume::cli {

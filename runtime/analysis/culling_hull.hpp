@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "runtime/grid/grid.hpp"
+#include "runtime/grid/grid_frame.hpp"
 #include "runtime/scene/scene.hpp"
 
 namespace voxelume {

@@ -5,7 +5,7 @@
 
 #include "runtime/assets/asset_store.hpp"
 #include "runtime/assets/model_frame.hpp"
-#include "runtime/grid/grid.hpp"
+#include "runtime/grid/grid_frame.hpp"
 #include "runtime/scene/scene.hpp"
 
 namespace voxelume {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "runtime/geometry/mesh_summary.hpp"
-#include "runtime/grid/grid.hpp"
+#include "runtime/grid/grid_frame.hpp"
 #include "runtime/scene/scene.hpp"
 
 namespace voxelume {

@@ -5,7 +5,7 @@
 #include <glm/vec3.hpp>
 #include <optional>
 
-#include "runtime/grid/grid.hpp"
+#include "runtime/grid/grid_frame.hpp"
 #include "runtime/scene/solid.hpp"
 
 namespace voxelume {

@@ -11,7 +11,7 @@
 
 #include "runtime/geometry/mesh.hpp"
 #include "runtime/geometry/solid_bounds.hpp"
-#include "runtime/grid/grid.hpp"
+#include "runtime/grid/grid_frame.hpp"
 #include "runtime/scene/solid.hpp"
 
 namespace voxelume {

@@ -8,37 +8,17 @@
 // children.
 #pragma once
 
-#include <glm/common.hpp>
 #include <glm/vec3.hpp>
-#include <glm/vector_relational.hpp>
 
 #include <cstdint>
 #include <vector>
 
 #include "kernels/shared/instance.h"
+#include "runtime/grid/grid_frame.hpp"
 #include "runtime/opencl/buffer.hpp"
 #include "runtime/scene/surface.hpp"
 
 namespace voxelume {
-
-inline constexpr int kLeafSize = 4;     ///< voxels along a leaf's edge
-inline constexpr int kBrickSize = 16;   ///< voxels along a brick's edge
-inline constexpr int kSectorSize = 64;  ///< voxels along a sector's edge
-inline constexpr size_t kVoxelsPerBrick = 4096, kLeavesPerBrick = 64;
-inline constexpr size_t kFloatsPerTriangle = 9;
-
-/// Where a grid's voxels are: voxel (i,j,k) fills origin + edge * [(i,j,k), (i,j,k)+1].
-struct GridFrame {
-    glm::dvec3 origin{0};      ///< of voxel (0,0,0)'s minimum corner, metres in the grid's space
-    glm::dvec3 voxel_edge{1};  ///< metres
-    glm::ivec3 size{0};        ///< voxels
-
-    /// Bricks along each axis: enough for nodes 0..size, so a grid of 16 voxels has two.
-    glm::ivec3 bricks() const { return size / kBrickSize + 1; }
-    glm::ivec3 sectors() const { return (size + kSectorSize - 1) / kSectorSize; }
-
-    friend bool operator==(const GridFrame&, const GridFrame&) = default;
-};
 
 /// Values of BrickGrid::slots for a brick that is not stored.
 inline constexpr uint32_t kBrickOutside = 0xFFFFFFFFu;  ///< empty space
@@ -71,24 +51,6 @@ struct BrickGrid {
     Buffer<uint32_t> triangle_attributes;  ///< shared/voxel.h's word of each triangle
     Buffer<uint32_t> solids;               ///< analytic solids, shared/solid.h
 };
-
-/// An axis-parallel box in a grid's voxels; empty where `low` exceeds `high` on any axis.
-struct VoxelBox {
-    glm::dvec3 low{0}, high{-1};
-};
-
-/// Voxels around an object's box in which it may have a say: distances are painted by whole leaves,
-/// and gradients of smooth surfaces look two nodes further.
-inline constexpr double kInfluence = 8;
-
-/// Whether two boxes share a point.
-inline bool overlap(const VoxelBox& a, const VoxelBox& b) {
-    return glm::all(glm::lessThanEqual(glm::max(a.low, b.low), glm::min(a.high, b.high)));
-}
-
-inline bool is_empty(const VoxelBox& box) {
-    return !overlap(box, box);
-}
 
 /// A model that instances share: where its voxels are in a pyramid's buffers.
 struct InstanceModel {

@@ -7,7 +7,7 @@
 #include "runtime/assets/model_frame.hpp"
 #include "runtime/geometry/surface_extent.hpp"
 #include "runtime/geometry/voxel_model.hpp"
-#include "runtime/grid/grid.hpp"
+#include "runtime/grid/grid_frame.hpp"
 
 namespace voxelume {
 

@@ -1,6 +1,7 @@
 #include "runtime/opencl/buffer.hpp"
 
 #include <sys/mman.h>
+#include <CL/opencl.hpp>
 
 #include <algorithm>
 #include <cstdlib>
@@ -68,9 +69,10 @@ void BufferStorage::allocate() {
     try {
         if (device_.is_cpu() && bytes_ >= kHugePage) {
             memory_ = allocate_huge_pages(bytes_);
-            buffer_ = buffer_around(device_.context(), bytes_, memory_);
+            buffer_ =
+                std::make_unique<cl::Buffer>(buffer_around(device_.context(), bytes_, memory_));
         } else {
-            buffer_ = cl::Buffer(device_.context(), CL_MEM_READ_WRITE, bytes_);
+            buffer_ = std::make_unique<cl::Buffer>(device_.context(), CL_MEM_READ_WRITE, bytes_);
         }
     } catch (const cl::Error& error) {
         throw_device_error(error, device_.info(), fmt::format("allocating the {} buffer", name_));
@@ -85,7 +87,7 @@ BufferStorage::~BufferStorage() {
 void BufferStorage::write(size_t offset, const void* data, size_t bytes) {
     if (device_.is_counting()) return;
     try {
-        device_.queue().enqueueWriteBuffer(buffer_, CL_TRUE, offset, bytes, data);
+        device_.queue().enqueueWriteBuffer(*buffer_, CL_TRUE, offset, bytes, data);
     } catch (const cl::Error& error) {
         throw_device_error(error, device_.info(), fmt::format("writing the {} buffer", name_));
     }
@@ -93,7 +95,7 @@ void BufferStorage::write(size_t offset, const void* data, size_t bytes) {
 
 void BufferStorage::read(size_t offset, void* data, size_t bytes) const {
     try {
-        device_.queue().enqueueReadBuffer(buffer_, CL_TRUE, offset, bytes, data);
+        device_.queue().enqueueReadBuffer(*buffer_, CL_TRUE, offset, bytes, data);
     } catch (const cl::Error& error) {
         throw_device_error(error, device_.info(), fmt::format("reading the {} buffer", name_));
     }
@@ -107,8 +109,8 @@ std::shared_ptr<void> BufferStorage::contents() const {
     }
     try {
         const cl::CommandQueue& queue = device_.queue();
-        void* const place = queue.enqueueMapBuffer(buffer_, CL_TRUE, CL_MAP_READ, 0, bytes_);
-        queue.enqueueUnmapMemObject(buffer_, place);
+        void* const place = queue.enqueueMapBuffer(*buffer_, CL_TRUE, CL_MAP_READ, 0, bytes_);
+        queue.enqueueUnmapMemObject(*buffer_, place);
     } catch (const cl::Error& error) {
         throw_device_error(error, device_.info(), fmt::format("reading the {} buffer", name_));
     }
@@ -117,8 +119,8 @@ std::shared_ptr<void> BufferStorage::contents() const {
 
 void BufferStorage::fill(const void* pattern, size_t pattern_bytes, size_t bytes) {
     if (device_.is_counting()) return;
-    const cl_int status = clEnqueueFillBuffer(device_.queue()(), buffer_(), pattern, pattern_bytes,
-                                              0, bytes, 0, nullptr, nullptr);
+    const cl_int status = clEnqueueFillBuffer(device_.queue()(), (*buffer_)(), pattern,
+                                              pattern_bytes, 0, bytes, 0, nullptr, nullptr);
     if (status != CL_SUCCESS)
         throw_device_error(cl::Error(status, "clEnqueueFillBuffer"), device_.info(),
                            fmt::format("filling the {} buffer", name_));
@@ -127,7 +129,7 @@ void BufferStorage::fill(const void* pattern, size_t pattern_bytes, size_t bytes
 void BufferStorage::copy(const BufferStorage& from, size_t bytes) {
     if (device_.is_counting()) return;
     try {
-        device_.queue().enqueueCopyBuffer(from.buffer_, buffer_, 0, 0, bytes);
+        device_.queue().enqueueCopyBuffer(*from.buffer_, *buffer_, 0, 0, bytes);
     } catch (const cl::Error& error) {
         throw_device_error(error, device_.info(), fmt::format("copying to the {} buffer", name_));
     }
@@ -137,9 +139,9 @@ void BufferStorage::write_in_place(size_t bytes, const std::function<void(void*)
     try {
         cl::CommandQueue& queue = device_.queue();
         void* const place =
-            queue.enqueueMapBuffer(buffer_, CL_TRUE, CL_MAP_WRITE_INVALIDATE_REGION, 0, bytes);
+            queue.enqueueMapBuffer(*buffer_, CL_TRUE, CL_MAP_WRITE_INVALIDATE_REGION, 0, bytes);
         const auto unmap = [&](void* mapped) {
-            clEnqueueUnmapMemObject(queue(), buffer_(), mapped, 0, nullptr, nullptr);
+            clEnqueueUnmapMemObject(queue(), (*buffer_)(), mapped, 0, nullptr, nullptr);
         };
         const std::unique_ptr<void, decltype(unmap)> mapping(place, unmap);
         fill(place);

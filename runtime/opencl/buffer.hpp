@@ -34,7 +34,7 @@ class BufferStorage {
     void copy(const BufferStorage& from, size_t bytes);
     /// Shows `fill` memory of so many bytes, which become the first of these.
     void write_in_place(size_t bytes, const std::function<void(void*)>& fill);
-    const cl::Buffer& handle() const { return buffer_; }
+    const cl::Buffer& handle() const { return *buffer_; }
 
   private:
     void allocate();
@@ -43,7 +43,7 @@ class BufferStorage {
     std::string name_;
     size_t bytes_;
     std::shared_ptr<void> memory_;  ///< the host's, which the device uses; or none
-    cl::Buffer buffer_;
+    std::unique_ptr<cl::Buffer> buffer_;
 };
 
 /// `size()` values of type T on a device; a cheap handle, copies share the memory.
@@ -103,10 +103,8 @@ class Buffer {
         return {bytes, static_cast<T*>(bytes.get())};
     }
     T read_one(size_t index) const { return read(index, 1).front(); }
-    const cl::Buffer& handle() const {
-        static const cl::Buffer none;
-        return storage_ ? storage_->handle() : none;
-    }
+    /// None for an empty buffer.
+    const BufferStorage* storage() const { return storage_.get(); }
 
   private:
     size_t size_ = 0;

@@ -1,5 +1,7 @@
 #include "runtime/opencl/device.hpp"
 
+#include <CL/opencl.hpp>
+
 #include <algorithm>
 #include <charconv>
 #include <cstdlib>
@@ -10,6 +12,7 @@
 #include "runtime/base/error.hpp"
 #include "runtime/opencl/platforms.hpp"
 #include "runtime/opencl/program_cache.hpp"
+#include "runtime/opencl/selector.hpp"
 #include "runtime/opencl/status.hpp"
 
 namespace voxelume {

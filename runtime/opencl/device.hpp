@@ -1,8 +1,6 @@
 // A device that can run kernels: found, described, chosen by the user, opened.
 #pragma once
 
-#include <CL/opencl.hpp>
-
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -10,6 +8,8 @@
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "runtime/opencl/handles.hpp"
 
 namespace voxelume {
 

@@ -1,22 +1,14 @@
 #include "runtime/opencl/platforms.hpp"
 
 #include <algorithm>
-#include <cctype>
-#include <charconv>
 
 #include "runtime/base/error.hpp"
 #include "runtime/opencl/pocl_folder.hpp"
+#include "runtime/opencl/selector.hpp"
 #include "runtime/opencl/status.hpp"
 
 namespace voxelume {
 namespace {
-
-std::string lower(std::string_view text) {
-    std::string result(text);
-    std::ranges::transform(result, result.begin(),
-                           [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return result;
-}
 
 std::string trimmed(std::string text) {
     while (!text.empty() && (text.back() == '\0' || text.back() == ' ')) text.pop_back();
@@ -136,17 +128,6 @@ std::vector<Candidate> parts_of(const Candidate& whole, int parts) {
     return found;
 }
 
-bool matches(const DeviceInfo& info, const std::string& selector) {
-    if (selector == "auto" || parts_of_all(selector) > 0) return true;
-    if (selector == "cpu") return info.kind == DeviceKind::cpu;
-    if (selector == "gpu") return info.kind == DeviceKind::gpu;
-    int index = -1;
-    const char* end = selector.data() + selector.size();
-    if (std::from_chars(selector.data(), end, index).ptr == end) return info.index == index;
-    return lower(info.name).find(selector) != std::string::npos ||
-           lower(info.platform).find(selector) != std::string::npos;
-}
-
 /// Which of two devices most likely renders faster: a GPU before a CPU, then compute units.
 bool better(const DeviceInfo& a, const DeviceInfo& b) {
     if ((a.kind == DeviceKind::gpu) != (b.kind == DeviceKind::gpu))
@@ -173,20 +154,6 @@ bool better(const DeviceInfo& a, const DeviceInfo& b) {
 
 }  // namespace
 
-int parts_of_all(std::string_view selector) {
-    if (lower(selector) == "all") return 1;
-    if (!lower(selector).starts_with("all/")) return 0;
-    int parts = 0;
-    const char* end = selector.data() + selector.size();
-    const auto [stop, error] = std::from_chars(selector.data() + 4, end, parts);
-    if (stop != end || error != std::errc() || parts < 1)
-        throw Error(ErrorKind::usage,
-                    "no device is named \"{}\"; write \"all\" for all of them, or \"all/2\" to cut "
-                    "the CPU in two",
-                    selector);
-    return parts;
-}
-
 std::vector<Candidate> find_candidates() {
     std::vector<Candidate> found;
     PoclFolder::instance().announce([&found] { append_platforms(found); });
@@ -195,10 +162,9 @@ std::vector<Candidate> find_candidates() {
 }
 
 const Candidate& choose(const std::vector<Candidate>& candidates, std::string_view selector) {
-    const std::string wanted = lower(selector);
     const Candidate* best = nullptr;
     for (const Candidate& candidate : candidates) {
-        if (!candidate.info.unusable.empty() || !matches(candidate.info, wanted)) continue;
+        if (!candidate.info.unusable.empty() || !names_device(selector, candidate.info)) continue;
         if (!best || better(candidate.info, best->info)) best = &candidate;
     }
     if (!best) throw_no_match(candidates, selector);

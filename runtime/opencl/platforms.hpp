@@ -1,6 +1,8 @@
 // The devices of all OpenCL platforms, for device.cpp to choose from.
 #pragma once
 
+#include <CL/opencl.hpp>
+
 #include <string_view>
 #include <vector>
 
@@ -15,9 +17,6 @@ struct Candidate {
 
 /// Every device that answers. A platform that is broken or empty is passed over.
 std::vector<Candidate> find_candidates();
-
-/// 1 for the selector "all", N for "all/N", 0 for others.
-int parts_of_all(std::string_view selector);
 
 /// The best usable candidate that `selector` (auto, cpu, gpu, an index, part of a name) names.
 /// Throws Error::device when there is none, naming what is there or the package to install.

@@ -1,5 +1,7 @@
 #include "runtime/opencl/program.hpp"
 
+#include <CL/opencl.hpp>
+
 #include <algorithm>
 #include <array>
 
@@ -37,8 +39,13 @@ size_t group_size(const Device& device, WorkItem work) {
 
 }  // namespace
 
-void Kernel::set_bytes(cl_uint index, size_t bytes, const void* value) {
-    const cl_int status = clSetKernelArg(kernel_(), index, bytes, value);
+void Kernel::set_buffer(uint32_t index, const BufferStorage* buffer) {
+    const cl_mem memory = buffer ? buffer->handle()() : nullptr;
+    set_bytes(index, sizeof(cl_mem), &memory);
+}
+
+void Kernel::set_bytes(uint32_t index, size_t bytes, const void* value) {
+    const cl_int status = clSetKernelArg((*kernel_)(), index, bytes, value);
     if (status != CL_SUCCESS)
         throw Error(ErrorKind::render, "kernel {}: argument {} of {} bytes refused with {}", name_,
                     index, bytes, status_name(status));
@@ -53,7 +60,7 @@ void Kernel::enqueue(WorkItem work, size_t count) {
     const size_t groups = (count + local - 1) / local;
     const size_t columns = std::min(groups * local, row_items);
     const size_t rows = (groups * local + columns - 1) / columns;
-    device_.enqueue(kernel_, name_, cl::NDRange(columns, rows), cl::NDRange(local, 1));
+    device_.enqueue(*kernel_, name_, cl::NDRange(columns, rows), cl::NDRange(local, 1));
 }
 
 Program::Program(const Device& device, const std::string& file, const Defines& defines)
@@ -94,12 +101,12 @@ Program::Program(const Device& device, const std::string& label, const KernelSou
     const auto locked = device.lock();
     cl::Program& kept = device.programs()[program_key(source, options)];
     if (!kept()) kept = build_program(device, label, {source.text(), options});
-    program_ = kept;
+    program_ = std::make_shared<cl::Program>(kept);
 }
 
 Kernel Program::kernel(const std::string& name) const {
     try {
-        return Kernel(device_, cl::Kernel(program_, name.c_str()), name);
+        return Kernel(device_, std::make_shared<cl::Kernel>(*program_, name.c_str()), name);
     } catch (const cl::Error& error) {
         throw Error(ErrorKind::build, "{} has no kernel {} on \"{}\" ({})", label_, name,
                     device_.info().name, status_name(error.err()));

@@ -1,9 +1,11 @@
 // Kernels compiled for a device, and their launches.
 #pragma once
 
+#include <cstdint>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <map>
+#include <memory>
 #include <span>
 #include <string>
 #include <type_traits>
@@ -28,7 +30,7 @@ enum class WorkItem {
 /// One kernel of a program. `launch` enqueues; it does not wait.
 class Kernel {
   public:
-    Kernel(Device device, cl::Kernel kernel, std::string name)
+    Kernel(Device device, std::shared_ptr<cl::Kernel> kernel, std::string name)
         : device_(std::move(device)), kernel_(std::move(kernel)), name_(std::move(name)) {}
 
     /// Runs `count` work-items, numbered by `work_item()` of lib/lanes/work_item.h, on these
@@ -38,7 +40,7 @@ class Kernel {
     /// Arguments are buffers, and values of exactly the kernel's parameter types.
     template <class... Args>
     void launch(WorkItem work, size_t count, const Args&... args) {
-        cl_uint index = 0;
+        uint32_t index = 0;
         (set_argument(index++, args), ...);
         enqueue(work, count);
     }
@@ -52,18 +54,18 @@ class Kernel {
 
   private:
     template <class T>
-    void set_argument(cl_uint index, const Buffer<T>& buffer) {
-        const cl_mem memory = buffer.handle()();
-        set_bytes(index, sizeof(cl_mem), &memory);
+    void set_argument(uint32_t index, const Buffer<T>& buffer) {
+        set_buffer(index, buffer.storage());
     }
     template <class T>
     requires std::is_trivially_copyable_v<T>
-    void set_argument(cl_uint index, const T& value) { set_bytes(index, sizeof(T), &value); }
-    void set_bytes(cl_uint index, size_t bytes, const void* value);
+    void set_argument(uint32_t index, const T& value) { set_bytes(index, sizeof(T), &value); }
+    void set_buffer(uint32_t index, const BufferStorage* buffer);
+    void set_bytes(uint32_t index, size_t bytes, const void* value);
     void enqueue(WorkItem work, size_t count);
 
     Device device_;
-    cl::Kernel kernel_;
+    std::shared_ptr<cl::Kernel> kernel_;
     std::string name_;
 };
 
@@ -91,7 +93,7 @@ class Program {
 
     Device device_;
     std::string label_;
-    cl::Program program_;
+    std::shared_ptr<cl::Program> program_;
 };
 
 }  // namespace voxelume

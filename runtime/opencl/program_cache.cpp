@@ -1,5 +1,7 @@
 #include "runtime/opencl/program_cache.hpp"
 
+#include <CL/opencl.hpp>
+
 #include <array>
 #include <chrono>
 #include <optional>
@@ -134,6 +136,14 @@ cl::Program build_program(const Device& device, const std::string& label, const 
     device.counters().build_ms +=
         std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
     return program;
+}
+
+std::vector<std::string> program_sources(const Device& device) {
+    std::set<cl_program> seen;
+    std::vector<std::string> sources;
+    for (const auto& [key, program] : device.programs())
+        if (seen.insert(program()).second) sources.push_back(program.getInfo<CL_PROGRAM_SOURCE>());
+    return sources;
 }
 
 void keep_compiled_kernels(const DeviceInfo& info) {

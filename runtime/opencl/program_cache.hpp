@@ -3,6 +3,7 @@
 
 #include <span>
 #include <string>
+#include <vector>
 
 #include "runtime/opencl/device.hpp"
 
@@ -22,6 +23,9 @@ struct ProgramText {
 /// of one of the `parts` that it was joined from are kept for other programs with that part.
 cl::Program build_program(const Device& device, const std::string& label, const ProgramText& text,
                           std::span<const ProgramText> parts = {});
+
+/// The sources of the programs that the device has ready, each program's once.
+std::vector<std::string> program_sources(const Device& device);
 
 /// Keeps what the platform compiled after its programs were built, at the kernels' first launch.
 /// Called when a device is closed; nothing may run on it.

@@ -1,5 +1,6 @@
 #include "runtime/opencl/status.hpp"
 
+#include <CL/cl.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -59,14 +60,14 @@ constexpr std::pair<cl_int, const char*> kNames[] = {
 
 }  // namespace
 
-std::string status_name(cl_int status) {
+std::string status_name(int status) {
     const auto found =
         std::ranges::find(kNames, status, [](const auto& entry) { return entry.first; });
     return found == std::end(kNames) ? fmt::format("status {}", status)
                                      : fmt::format("{} ({})", found->second, status);
 }
 
-bool is_out_of_memory(cl_int status) {
+bool is_out_of_memory(int status) {
     return status == CL_MEM_OBJECT_ALLOCATION_FAILURE || status == CL_OUT_OF_RESOURCES ||
            status == CL_OUT_OF_HOST_MEMORY || status == CL_INVALID_BUFFER_SIZE;
 }

@@ -1,16 +1,14 @@
 // OpenCL's status codes in words.
 #pragma once
 
-#include <CL/opencl.hpp>
-
 #include <string>
 
 namespace voxelume {
 
 /// "CL_OUT_OF_RESOURCES (-5)"; "status -9999" for a code that OpenCL doesn't define.
-std::string status_name(cl_int status);
+std::string status_name(int status);
 
 /// Whether the code says that the device's or the host's memory is not enough.
-bool is_out_of_memory(cl_int status);
+bool is_out_of_memory(int status);
 
 }  // namespace voxelume

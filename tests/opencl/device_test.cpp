@@ -126,7 +126,7 @@ TEST(Device, TimesItsKernelsWhenAsked) {
 }
 
 TEST(Status, HasItsName) {
-    EXPECT_EQ(status_name(CL_OUT_OF_RESOURCES), "CL_OUT_OF_RESOURCES (-5)");
+    EXPECT_EQ(status_name(-5), "CL_OUT_OF_RESOURCES (-5)");
     EXPECT_EQ(status_name(-9999), "status -9999");
 }
 

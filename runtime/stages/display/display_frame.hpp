@@ -2,7 +2,7 @@
 #pragma once
 
 #include "kernels/shared/display.h"
-#include "runtime/grid/grid.hpp"
+#include "runtime/grid/grid_frame.hpp"
 #include "runtime/image/volume.hpp"
 #include "runtime/scene/scene.hpp"
 

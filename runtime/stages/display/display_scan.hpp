@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "runtime/grid/grid.hpp"
 #include "runtime/opencl/program.hpp"
 #include "runtime/stages/display/display_frame.hpp"
 #include "runtime/stages/features.hpp"

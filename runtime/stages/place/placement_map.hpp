@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <glm/mat4x4.hpp>
 
-#include "runtime/grid/grid.hpp"
+#include "runtime/grid/grid_frame.hpp"
 
 namespace voxelume {
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "kernels/shared/scene.h"
-#include "runtime/grid/grid.hpp"
+#include "runtime/grid/grid_frame.hpp"
 #include "runtime/opencl/program.hpp"
 #include "runtime/scene/scene.hpp"
 #include "runtime/stages/features.hpp"

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "runtime/geometry/mesh.hpp"
-#include "runtime/grid/grid.hpp"
+#include "runtime/grid/grid_frame.hpp"
 
 namespace voxelume {
 

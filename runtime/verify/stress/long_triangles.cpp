@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <glm/common.hpp>
 
-#include "runtime/grid/grid.hpp"
+#include "runtime/grid/grid_frame.hpp"
 
 namespace voxelume {
 namespace {
