@@ -67,8 +67,9 @@ Report plan_report(const Scene& scene, const ScenePlan& plan, const Device& devi
 }
 
 /// What the text ends with, for programs.
-void add_verdict(const FramePlan& planned, const DeviceInfo& device, Report& report) {
-    const double peak = planned.plan.peak_bytes(), memory = double(device.memory);
+void add_verdict(const FramePlan& planned, size_t frames, const DeviceInfo& device,
+                 Report& report) {
+    const double memory = double(device.memory), peak = planned.plan.run_bytes(frames, memory);
     report["verdict"] = is_refused(planned, device) ? "doesn't fit"
                         : peak <= memory            ? "fits"
                                                     : "may fit";
@@ -88,14 +89,15 @@ void print_plan(Scene scene, std::span<const int> frames, const Device& device,
     if (!as_json) fmt::print("{}\n", describe(scene));
     Report report = plan_report(planned.scene, planned.plan, device);
     if (moves(scene)) report["frame"] = planned.frame;
-    if (as_json) add_verdict(planned, device.info(), report);
+    if (as_json) add_verdict(planned, frames.size(), device.info(), report);
     print_report(report, as_json);
     in_frame(scene, planned.frame,
              [&] { check_memory(planned.scene, planned.plan, device.info()); });
     if (as_json) return;
     const std::string of_frames =
         frames.size() > 1 ? fmt::format(" by frame {}", planned.frame) : "";
-    const double peak = planned.plan.peak_bytes(), memory = double(device.info().memory);
+    const double memory = double(device.info().memory),
+                 peak = planned.plan.run_bytes(frames.size(), memory);
     const std::string needed =
         peak <= memory ? fmt::format("fits: at most {}", bytes_text(peak))
                        : fmt::format("may fit: {} to {}", bytes_text(planned.plan.min_bytes),

@@ -70,28 +70,32 @@ void count_lists(const Device& device, std::span<const PlacedObject> objects, si
 
 }  // namespace
 
-BrickGrid count_placing(const Device& device, std::span<const PlacedObject> objects,
-                        const GridFrame& frame, const WorldCounts& counts) {
+CountedWorld count_placing(const Device& device, std::span<const PlacedObject> objects,
+                           const GridFrame& frame, const WorldCounts& counts) {
     const WorldParts parts = parts_of(objects);
-    BrickGrid world;
-    world.frame = frame;
-    world.transparent = parts.transparent;
-    world.attribute = parts.words.size() == 1 ? *parts.words.begin() : 0;
-    const std::vector<Buffer<uint64_t>> painters = count_painters(device, objects);
+    CountedWorld world;
+    BrickGrid& grid = world.grid;
+    grid.frame = frame;
+    grid.transparent = parts.transparent;
+    grid.attribute = parts.attributes.size() == 1 ? *parts.attributes.begin() : 0;
+    world.painters = count_painters(device, objects);
     {
         const Buffer<uint8_t> states(device, "brick states", brick_places(frame));
         const Buffer<uint32_t> listed(device, "listed bricks", counts.bricks);
     }
-    count_bricks_of(device, parts, counts.bricks, world);
+    count_bricks_of(device, parts, counts.bricks, grid);
     count_painting(device, parts, counts.bricks);
-    count_lists(device, objects, counts.primitives, world);
+    count_lists(device, objects, counts.primitives, grid);
     return world;
 }
 
-CountedPyramid count_index(const Device& device, const BrickGrid& grid, const WorldCounts& counts) {
-    CountedPyramid indexed;
-    indexed.masks = allocate_masks(device, "index masks", grid.brick_count);
-    { const MarkArrays marks = allocate_marks(device, grid.brick_count); }
+void count_repainting(const Device& device, std::span<const PlacedObject> objects,
+                      const GridFrame& frame, size_t bricks) {
+    { const Buffer<uint8_t> states(device, "brick states", brick_places(frame)); }
+    count_painting(device, parts_of(objects), bricks);
+}
+
+Pyramid allocate_indexed(const Device& device, const BrickGrid& grid, const WorldCounts& counts) {
     const glm::dvec3 sectors(grid.frame.sectors());
     PyramidCounts found;
     found.sectors = size_t(
@@ -99,18 +103,24 @@ CountedPyramid count_index(const Device& device, const BrickGrid& grid, const Wo
     found.leaves = size_t(double(counts.voxels) / kVoxelsPerLeaf);
     found.voxels = counts.voxels;
     found.primitives = counts.primitives;
-    indexed.pyramid = allocate_pyramid(device, grid, found);
+    return allocate_pyramid(device, grid, found);
+}
+
+CountedPyramid count_index(const Device& device, const BrickGrid& grid, const WorldCounts& counts) {
+    CountedPyramid indexed;
+    indexed.masks = allocate_masks(device, "index masks", grid.brick_count);
+    { const MarkArrays marks = allocate_marks(device, grid.brick_count); }
+    indexed.pyramid = allocate_indexed(device, grid, counts);
     const Buffer<uint32_t> starts(device, "index starts", 3 * size_t(grid.brick_count));
     return indexed;
 }
 
 Pyramid count_joining(const Device& device, const ListedInstances& listed, const Pyramid& world,
-                      std::span<const WorldCounts> counts) {
+                      std::span<const WorldCounts> counts, std::vector<ModelPyramid>& kept) {
     if (listed.list.empty()) return world;
-    std::vector<ModelPyramid> models;
     for (size_t i = 0; i < listed.grids.size(); ++i)
-        models.push_back({.pyramid = count_index(device, *listed.grids[i], counts[i]).pyramid});
-    Pyramid joined = allocate_joined(device, world, models);
+        kept.push_back({.pyramid = count_index(device, *listed.grids[i], counts[i]).pyramid});
+    Pyramid joined = allocate_joined(device, world, kept);
     joined.instances.list = listed.list;
     joined.instances.records = Buffer<InstanceRecord>(device, "instances", listed.list.size());
     joined.instances.nodes = Buffer<InstanceNode>(device, "instance tree", 2 * listed.list.size());

@@ -17,9 +17,19 @@ struct WorldCounts {
     size_t primitives = 0;  ///< listed by them
 };
 
-/// As Placer::place for the first time: the voxels of a world. What only its painters need goes.
-BrickGrid count_placing(const Device& device, std::span<const PlacedObject> objects,
-                        const GridFrame& frame, const WorldCounts& counts);
+/// The voxels of a world, and what its objects are painted with.
+struct CountedWorld {
+    BrickGrid grid;
+    std::vector<Buffer<uint64_t>> painters;
+};
+
+/// As Placer::place for the first time.
+CountedWorld count_placing(const Device& device, std::span<const PlacedObject> objects,
+                           const GridFrame& frame, const WorldCounts& counts);
+
+/// As Placer::place where `bricks` of a world change; what that takes goes.
+void count_repainting(const Device& device, std::span<const PlacedObject> objects,
+                      const GridFrame& frame, size_t bricks);
 
 /// A pyramid, and the marks that it was made from.
 struct CountedPyramid {
@@ -30,8 +40,11 @@ struct CountedPyramid {
 /// As Indexer::index.
 CountedPyramid count_index(const Device& device, const BrickGrid& grid, const WorldCounts& counts);
 
-/// As InstanceModels::join; `models` are the counts of the listed grids.
+/// The pyramid alone.
+Pyramid allocate_indexed(const Device& device, const BrickGrid& grid, const WorldCounts& counts);
+
+/// As InstanceModels::join; `counts` are those of the listed grids, whose pyramids are `kept`.
 Pyramid count_joining(const Device& device, const ListedInstances& listed, const Pyramid& world,
-                      std::span<const WorldCounts> models);
+                      std::span<const WorldCounts> counts, std::vector<ModelPyramid>& kept);
 
 }  // namespace voxelume

@@ -161,7 +161,18 @@ WorldExtent ObjectCounts::least_in_world(size_t number) {
     return {extent.voxels, extent.bricks, model.surface == Surface::exact ? extent.voxels : 0};
 }
 
+double ObjectCounts::changed_bricks(const std::vector<bool>& objects) {
+    world(Estimate::expected);
+    double sum = 0;
+    for (size_t number = 0; number < objects.size(); ++number)
+        if (objects[number]) sum += bricks_[number];
+    return sum;
+}
+
 WorldCounts ObjectCounts::world(Estimate estimate) {
+    const bool is_expected = estimate == Estimate::expected;
+    if (is_expected && expected_) return *expected_;
+    bricks_.resize(scene_.objects.size());
     const GridFrame frame = world_frame(scene_.world);
     TakenBricks taken(frame);
     WorldExtent sum;
@@ -172,16 +183,16 @@ WorldCounts ObjectCounts::world(Estimate estimate) {
         if (is_instanced(scene_, object) || !is_potentially_visible(scene_, object)) continue;
         const VoxelBox& box = boxes()[number];
         if (is_empty(box)) continue;
-        if (estimate == Estimate::minimum) {
+        if (!is_expected) {
             apart.push_back({box, least_in_world(number)});
             continue;
         }
         const SurfaceExtent extent = expected_in_world(object, taken);
         sum.voxels += extent.voxels;
-        sum.bricks += extent.bricks;
+        sum.bricks += bricks_[number] = extent.bricks;
         primitives += extent.voxels * listed(scene_.models[size_t(object.model)]);
     }
-    if (estimate == Estimate::expected) return sum_of(sum, primitives, estimate, frame);
+    if (is_expected) return *(expected_ = sum_of(sum, primitives, estimate, frame));
     sum = min_extent(std::move(apart));
     return sum_of(sum, sum.exact_voxels, estimate, frame);
 }

@@ -3,7 +3,7 @@
 #pragma once
 
 #include <map>
-#include <memory>
+#include <optional>
 #include <vector>
 
 #include "runtime/memory/brick_count.hpp"
@@ -32,6 +32,9 @@ class ObjectCounts {
     /// What the objects' voxels take of the world.
     WorldCounts world(Estimate estimate);
 
+    /// Bricks of the world that those of `objects` are expected in that are true.
+    double changed_bricks(const std::vector<bool>& objects);
+
     /// As object_boxes.
     const std::vector<VoxelBox>& boxes() { return extents_.boxes(); }
 
@@ -43,6 +46,8 @@ class ObjectCounts {
     const Scene& scene_;
     AssetStore& meshes_;
     ObjectExtents extents_;
+    std::optional<WorldCounts> expected_;  ///< in the world
+    std::vector<double> bricks_;           ///< of each object, of these
 };
 
 /// The grid of a mesh of which the surface has such an area.

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "runtime/assets/model_frame.hpp"
+#include "runtime/memory/following_memory.hpp"
 #include "runtime/memory/frame_memory.hpp"
 
 namespace voxelume {
@@ -54,6 +55,11 @@ double image_bytes(const RenderSettings& render) {
     return (pixel_bytes(render.channels) + (render.channels.object ? 4 : 0)) * pixels;
 }
 
+double ScenePlan::run_bytes(size_t frames, double memory) const {
+    const double both = std::max(peak_bytes(), following_bytes);
+    return frames > 1 && both <= memory ? both : peak_bytes();
+}
+
 double ScenePlan::peak_bytes() const {
     return std::max({voxelize_bytes, place_bytes, index_bytes, image_bytes});
 }
@@ -90,6 +96,7 @@ ScenePlan plan_scene(const Scene& scene, AssetStore& meshes) {
     plan.min_image_bytes = minimum.image;
     plan.min_bytes = std::max(minimum.built(), minimum.image);
     plan.min_with_next = minimum.place + minimum.index + minimum.image;
+    plan.following_bytes = walk_following(scene, meshes, objects, plan.medium);
     plan.largest = described_buffer(minimum.largest_buffer, minimum.largest_bytes);
     plan.host_bytes = host_bytes(scene, plan);
     return plan;
