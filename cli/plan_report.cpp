@@ -73,6 +73,7 @@ void add_verdict(const FramePlan& planned, size_t frames, const DeviceInfo& devi
     report["verdict"] = is_refused(planned, device) ? "doesn't fit"
                         : peak <= memory            ? "fits"
                                                     : "may fit";
+    report["volume MB"] = megabytes(planned.plan.volume_bytes);
     report["least MB"] = megabytes(planned.plan.min_bytes);
     report["most MB"] = megabytes(peak);
     report["device MB"] = megabytes(memory);

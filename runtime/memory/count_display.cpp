@@ -36,6 +36,11 @@ double surface_voxels(const Pyramid& world, double edge) {
     return double(world.voxel_count) * own * own;
 }
 
+/// More can't be numbered: a device that does it refuses them.
+uint32_t numbered(double count) {
+    return uint32_t(std::min(count, double(UINT32_MAX - 16)));
+}
+
 double mean_edge(const glm::dvec3& edge) {
     return std::cbrt(edge.x * edge.y * edge.z);
 }
@@ -83,7 +88,7 @@ class DisplayCounter {
         const double steps = features_.medium && !is_least_ ? double(frame_.size.z) / 2 : 1;
         const Buffer<uint32_t> starts(device_, "display counts",
                                       size_t(frame_.size.y) * size_t(frame_.size.z));
-        allocate_voxels(device_, is_least_ ? 1 : uint64_t(steps * all));
+        allocate_voxels(device_, is_least_ ? 1 : numbered(steps * all));
     }
 
     /// As that of a lattice.
@@ -99,20 +104,20 @@ class DisplayCounter {
         const double shown =
             is_least_ ? 16 : std::min(found, surface_voxels(world_, mean_edge(frame_.edge)));
         const DisplayLight light = [&] {
-            const ProbePoints points = allocate_points(device_, uint32_t(found));
+            const ProbePoints points = allocate_points(device_, numbered(found));
             // The light's arrays stay while points go; its batch is that of the scan.
             DisplayLight made = count_light(device_, scene_, features, counts_of(batch), medium_);
             made.rays.batch = {};
-            choose(uint64_t(shown));
+            choose(numbered(shown));
             return made;
         }();
-        choose(uint64_t(shown));
+        choose(numbered(shown));
     }
 
     /// The voxels that are shown, and their points.
-    void choose(uint64_t shown) const {
+    void choose(uint32_t shown) const {
         const VoxelArrays voxels = allocate_voxels(device_, shown);
-        const ProbePoints chosen = allocate_points(device_, uint32_t(shown));
+        const ProbePoints chosen = allocate_points(device_, shown);
         const Buffer<uint32_t> distances(device_, "display distances", shown);
         const Buffer<uint32_t> numbers(device_, "display numbers", shown);
     }

@@ -4,6 +4,7 @@
 
 #include "runtime/analysis/scene_features.hpp"
 #include "runtime/grid/pyramid_bytes.hpp"
+#include "runtime/memory/count_display.hpp"
 #include "runtime/memory/count_image.hpp"
 
 namespace voxelume {
@@ -74,6 +75,8 @@ class FrameWalk {
     void show(const Pyramid& world) {
         const size_t depth = estimate_ == Estimate::minimum ? 1 : SIZE_MAX;
         height();
+        count_volume(device_, scene_, world, medium_, estimate_);
+        memory_.volume = height();
         const ImageMemory image = count_image(device_, scene_, world, medium_, depth);
         memory_.image = height();
         memory_.dilated_occupancy = double(

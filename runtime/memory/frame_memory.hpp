@@ -16,6 +16,7 @@ struct FrameMemory {
     std::vector<CountedGrid> grids;  ///< given up
     WorldCounts world;
     double voxelize = 0, place = 0, index = 0, image = 0;
+    double volume = 0;             ///< instead of the image: of the volumetric one of its display
     double pyramid = 0;            ///< part of the last two
     double dilated_occupancy = 0;  ///< part of the last
     RayBytes rays;                 ///< all that they may need

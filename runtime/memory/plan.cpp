@@ -90,6 +90,7 @@ ScenePlan plan_scene(const Scene& scene, AssetStore& meshes) {
     plan.place_bytes = expected.place;
     plan.index_bytes = expected.index;
     plan.image_bytes = expected.image;
+    plan.volume_bytes = expected.volume;
     plan.world_bytes = expected.pyramid;
     plan.dilated_occupancy_bytes = expected.dilated_occupancy;
     plan.rays = expected.rays;

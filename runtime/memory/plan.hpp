@@ -27,6 +27,7 @@ struct ScenePlan {
     double place_bytes = 0;
     double index_bytes = 0;
     double image_bytes = 0;
+    double volume_bytes = 0;  ///< instead of the last: of the display's volumetric image
 
     double world_bytes = 0;  ///< the pyramid's, part of the last two
     double dilated_occupancy_bytes =
