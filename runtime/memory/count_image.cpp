@@ -4,6 +4,7 @@
 
 #include "runtime/analysis/scene_features.hpp"
 #include "runtime/grid/sector_table.hpp"
+#include "runtime/stages/light/light.hpp"
 #include "runtime/stages/light/light_beams.hpp"
 #include "runtime/stages/trace/sight.hpp"
 

@@ -91,7 +91,7 @@ GridCounts ObjectCounts::model_grid(const Model& model, Estimate estimate) {
     }
     if (model.solid) {
         const SurfaceArea area =
-            min_solid_area(*model.solid, kOwnSpace, {model.reach.min, model.reach.max});
+            min_solid_area(*model.solid, kOwnSpace, {model.extent.min, model.extent.max});
         return counts_of(model, mesh, frame,
                          surface_extent(area, kOwnSpace, frame, stored_band(model)));
     }

@@ -23,7 +23,7 @@ const SurfaceArea& ObjectExtents::area_of(int model_number) {
         const MeshSummary* mesh = meshes_.summary_of(model);
         entry->second =
             mesh ? mesh->area
-                 : solid_area(*model.solid, glm::dmat4(1), {model.reach.min, model.reach.max});
+                 : solid_area(*model.solid, glm::dmat4(1), {model.extent.min, model.extent.max});
     }
     return entry->second;
 }
