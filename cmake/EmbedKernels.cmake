@@ -1,5 +1,6 @@
-# embed_kernels(folder output): a source that defines voxelume::embedded_kernels(), the text of every
-# .cl and .h file below `folder`, named by its path from there. Rewritten when a kernel changes.
+# embed_kernels(folder output): generates a source that defines voxelume::embedded_kernels(), the
+# text of every .cl and .h file below `folder`, named by its path from there. The source is
+# generated again when a kernel changes.
 function(embed_kernels folder output)
     file(GLOB_RECURSE files CONFIGURE_DEPENDS ${folder}/*.cl ${folder}/*.h)
     add_custom_command(

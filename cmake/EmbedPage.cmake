@@ -1,5 +1,5 @@
-# embed_page(page script output): a source that defines voxelume::page_text() and page_script(), the text of both
-# files. Rewritten when one of them changes.
+# embed_page(page script output): generates a source that defines voxelume::page_text() and
+# page_script(), the text of both files. The source is generated again when one of them changes.
 function(embed_page page script output)
     add_custom_command(
         OUTPUT ${output}

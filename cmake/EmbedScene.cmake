@@ -1,5 +1,5 @@
-# embed_scene(file name output): a source that defines std::string_view voxelume::NAME(), the text of a scene file.
-# Rewritten when the file changes.
+# embed_scene(file name output): generates a source that defines std::string_view voxelume::NAME(),
+# the text of a scene file. The source is generated again when the file changes.
 function(embed_scene file name output)
     add_custom_command(
         OUTPUT ${output}

@@ -1,5 +1,6 @@
-# hash_producers(folder output): a source that defines voxelume::producer_hash(), hashes of the sources below
-# `folder` by which meshes become models, and these a world. Rewritten when one of them changes.
+# hash_producers(folder output): generates a source that defines voxelume::producer_hash(), the
+# hashes of the sources below `folder` that turn meshes into models, and models into a world. The
+# source is generated again when one of them changes.
 function(hash_producers folder output)
     file(GLOB_RECURSE files CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/kernels/shared/*.h)
     foreach(part base scene grid geometry io/mesh io/voxels assets analysis stages/voxelize stages/place stages/index

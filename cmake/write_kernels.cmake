@@ -1,4 +1,4 @@
-# Run by embed_kernels: writes the kernels below `folder` into the C++ source `output`.
+# embed_kernels runs this. It writes the kernels below `folder` into the C++ source `output`.
 file(GLOB_RECURSE files RELATIVE ${folder} ${folder}/*.cl ${folder}/*.h)
 list(SORT files)
 set(text "#include \"runtime/opencl/kernel_source.hpp\"\n\nnamespace voxelume {\n\n")

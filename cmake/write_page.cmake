@@ -1,4 +1,4 @@
-# Run by embed_page: writes the files `page` and `script` into the C++ source `output`.
+# embed_page runs this. It writes the files `page` and `script` into the C++ source `output`.
 set(text "#include \"runtime/io/volume/volume_page.hpp\"\n\nnamespace voxelume {\n\n")
 function(add_part name file)
     file(READ ${file} content HEX)

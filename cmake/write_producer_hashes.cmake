@@ -1,4 +1,4 @@
-# Run by hash_producers: writes hashes of `files` into the C++ source `output`.
+# hash_producers runs this. It writes hashes of `files` into the C++ source `output`.
 set(text "#include \"runtime/base/producer_hash.hpp\"\n\nnamespace voxelume {\n\n")
 string(APPEND text "const char* producer_hash() {\n    return\n")
 foreach(file IN LISTS files)

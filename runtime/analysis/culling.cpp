@@ -14,10 +14,11 @@
 namespace voxelume {
 namespace {
 
-/// Of coordinates, by how much rays may be off for their floats: some hundred times their rounding.
+/// The relative error of rays' coordinates in float: some hundred roundings.
 constexpr double kRounding = 0x1p-17;
 
-/// Whether rays go on from surfaces of the object; of voxels in a file that isn't read, they may.
+/// True if rays continue from surfaces of the object. Voxels in a file that isn't read (`reads` is
+/// false) count as if rays continued from them.
 bool sends_rays_on(const Scene& scene, const Object& object, AssetStore& meshes, bool reads) {
     if (!scene.render.channels.color) return false;
     const Model& model = scene.models[size_t(object.model)];
@@ -31,7 +32,7 @@ bool sends_rays_on(const Scene& scene, const Object& object, AssetStore& meshes,
                                [&](const GroupMaterial& group) { return sends(group.material); });
 }
 
-/// The hull that no ray leaves, and how far from it a box has to be.
+/// The hull that no ray leaves, and the distance from it at which a box is culled.
 class RayHull {
   public:
     RayHull(const Scene& scene, const std::vector<VoxelBox>& emissive_objects) {
@@ -58,8 +59,7 @@ class RayHull {
     double gap_ = 1;
 };
 
-/// Whether an object may have a say in where an emissive object's surface lies, or is an emissive
-/// object.
+/// True if an object may affect where an emissive object's surface lies, or is an emissive object.
 bool is_near(const VoxelBox& box, const std::vector<VoxelBox>& emissive_objects) {
     const VoxelBox wide = {box.low - kInfluence, box.high + kInfluence};
     return std::ranges::any_of(emissive_objects, [&](const VoxelBox& emissive_object) {
@@ -71,8 +71,8 @@ bool is_shown_instance(const Scene& scene, const Object& object) {
     return object.visible && is_instanced(scene, object);
 }
 
-/// Adds the objects that rays may reach in a frame to those reached before, whose boxes don't
-/// matter any more.
+/// Adds the objects that rays may reach in a frame to those of earlier frames, whose boxes no
+/// longer matter.
 void add_potentially_visible(Scene scene, AssetStore& meshes,
                              std::vector<bool>& potentially_visible) {
     const std::vector<Object> objects = scene.objects;
@@ -100,13 +100,14 @@ void add_potentially_visible(Scene scene, AssetStore& meshes,
         potentially_visible[i] = met[i] || (all && !is_empty(boxes[i]));
         instances = instances || (potentially_visible[i] && is_shown_instance(scene, objects[i]));
     }
-    // Rays leave instances from a height that all of them decide, also those outside of the world.
+    // Rays leave instances from a height that all instances decide, also those outside of the
+    // world.
     for (size_t i = 0; i < objects.size(); ++i)
         potentially_visible[i] =
             potentially_visible[i] || (instances && is_shown_instance(scene, objects[i]));
 }
 
-/// Objects of models that change. Their files may be many, and aren't read before their frames.
+/// The objects of models that change. Their files may be many, and aren't read before their frames.
 std::vector<bool> objects_of_moving_models(const Scene& scene) {
     std::vector<bool> found(scene.objects.size());
     if (!moves(scene)) return found;

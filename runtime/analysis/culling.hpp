@@ -1,4 +1,4 @@
-// frames of a scene -> the objects that some ray may reach in one of them.
+// frames of a scene -> the objects that some ray may reach in one of them
 #pragma once
 
 #include <span>
@@ -9,25 +9,27 @@
 
 namespace voxelume {
 
-/// Sets Object::potentially_visible of all objects for a run of these `frames`. What is culled
-/// isn't voxelized, and no picture or volume that the observer sees of the frames has other bits
-/// for it.
+/// Sets Object::potentially_visible of all objects for a run of these `frames`. A culled object
+/// isn't voxelized. No bit of a picture or volume that the observer sees in these frames depends on
+/// culling.
 ///
 /// In a frame where nothing potentially visible reflects or lets light through, rays stay within
-/// the convex hull of what the display sees of the world and, with shadows, of the lights; an
-/// object is out of reach if a plane parts its box from that. In other frames, and where the
+/// the convex hull of what the display sees of the world and, with shadows, of the lights. An
+/// object is culled if a plane separates its box from that hull. In other frames, and where the
 /// display is a lattice, every object in the world is potentially visible. Emissive objects always
-/// are, with what may cover part of one. For images without colour only sight rays count. Instances
-/// are potentially visible together, also those outside of the world.
+/// are, and so is everything that may cover part of one. For images without colour only sight rays
+/// count. Instances are potentially visible together, also those outside of the world.
 ///
-/// Reads the files of the objects' models whose bounds the store doesn't know, but of several
-/// frames not those that change. Throws as AssetStore and scene_at do, with the frame.
+/// Reads the files of the objects' models whose bounds the store doesn't know. For several frames
+/// it doesn't read those of models that change. Throws as AssetStore and scene_at do, with the
+/// frame.
 void find_potentially_visible(Scene& scene, std::span<const int> frames, AssetStore& meshes);
 
-/// Takes from a world of more objects the surfaces of kinds that nothing potentially visible has.
+/// Removes, from a world of more objects, the surfaces of kinds that nothing potentially visible
+/// has.
 void leave_out_culled(const Scene& scene, Pyramid& world);
 
-/// The scene, whose frame it is, with the objects potentially visible found for this picture alone.
+/// The scene of one frame, with Object::potentially_visible set for this picture alone.
 Scene with_culling(Scene scene, AssetStore& meshes);
 
 }  // namespace voxelume

@@ -11,8 +11,8 @@
 namespace voxelume {
 namespace {
 
-constexpr double kWidestSector = 1.3;  // radians; wider ones are taken for whole balls
-constexpr int kSteps = 64;             // after which a box counts as met
+constexpr double kWidestSector = 1.3;  // in radians; wider sectors are taken for whole balls
+constexpr int kSteps = 64;             // a box counts as met after this many steps
 
 glm::dvec3 in_voxels(const glm::dvec3& point, const GridFrame& world) {
     return (point - world.origin) / world.voxel_edge;
@@ -23,7 +23,7 @@ void add_corners(const glm::dvec3& low, const glm::dvec3& high, Hull& hull) {
         hull.emplace_back(i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z);
 }
 
-/// The least and the largest depth of the world along Z_E, metres.
+/// The minimum and maximum depth of the world along Z_E, metres.
 glm::dvec2 depths_of(const GridFrame& world, const Observer& observer) {
     Hull corners;
     add_corners(world.origin, world.origin + world.voxel_edge * glm::dvec3(world.size), corners);
@@ -35,7 +35,7 @@ glm::dvec2 depths_of(const GridFrame& world, const Observer& observer) {
     return depths;
 }
 
-/// The box around all that is nearer than the display's far surface, cut to the world.
+/// The box around everything nearer than the display's far surface, cut to the world.
 Hull hull_of_ball(const Observer& observer, const GridFrame& world) {
     const glm::dvec3 size(world.size), far(observer.display.far);
     Hull hull;
@@ -44,7 +44,7 @@ Hull hull_of_ball(const Observer& observer, const GridFrame& world) {
     return hull;
 }
 
-/// Metres from a light's position to the farthest point that it shines from.
+/// The distance from a light's position to the farthest point that it shines from, metres.
 double radius_of(const Light& light) {
     if (light.kind == LightKind::disk) return light.radius;
     return light.kind == LightKind::rectangle ? glm::length(light.size) / 2 : 0;
@@ -83,7 +83,7 @@ void add_shadow_rays(const Scene& scene, const std::vector<VoxelBox>& emissive_o
                      const GridFrame& world, Hull& hull) {
     const Hull seen = hull;
     VoxelBox lights{glm::dvec3(INFINITY),
-                    glm::dvec3(-INFINITY)};  // around those that are somewhere
+                    glm::dvec3(-INFINITY)};  // box around all lights that have a position
     const auto include = [&](const glm::dvec3& low, const glm::dvec3& high) {
         lights = {glm::min(lights.low, low), glm::max(lights.high, high)};
     };
@@ -95,7 +95,7 @@ void add_shadow_rays(const Scene& scene, const std::vector<VoxelBox>& emissive_o
                     in_voxels(light.position + radius, world));
             continue;
         }
-        // No way through the world is longer than its diagonal.
+        // No path through the world is longer than its diagonal.
         const glm::dvec3 towards = glm::normalize(-light.direction / world.voxel_edge);
         for (const glm::dvec3& point : seen)
             hull.push_back(point + towards * glm::length(glm::dvec3(world.size)));
@@ -105,9 +105,9 @@ void add_shadow_rays(const Scene& scene, const std::vector<VoxelBox>& emissive_o
     if (!is_empty(lights)) add_corners(lights.low, lights.high, hull);
 }
 
-// After Frank and Wolfe 1956: `way` goes towards the shortest of the vectors from the hull to the
-// box, whose direction parts them if any does. What is returned depends on the plane alone that is
-// found, however it was found.
+// After Frank and Wolfe 1956: `way` approaches the shortest of the vectors from the hull to the
+// box. Its direction separates them if any direction does. The result depends on the plane that is
+// found, not on how it was found.
 bool are_apart(const Hull& hull, const VoxelBox& box, double gap) {
     glm::dvec3 way = (box.low + box.high) / 2.0 - hull[0];
     for (int step = 0; step < kSteps; ++step) {

@@ -16,14 +16,14 @@ const Model& model_of(const Scene& scene, const Object& object) {
     return scene.models[size_t(object.model)];
 }
 
-/// Whether the object may let light through, be it for its voxels alone.
+/// True if the object may let light through, for its material or for its voxels' opacity.
 bool may_transmit(const Scene& scene, const Object& object, const Features& features) {
     return transmits(scene, object) ||
            (features.voxel_opacity && shows_voxels(model_of(scene, object).surface));
 }
 
-/// How many transmitting objects that aren't smooth may be in one place, at most: no more than
-/// there are boxes that overlap one of them.
+/// An upper bound of the number of transmitting objects, without smooth ones, at one point: the
+/// maximum number of boxes that overlap the box of one of them.
 int max_overlapping(const Scene& scene, const Pyramid& world, const Features& features) {
     std::vector<size_t> objects;
     for (size_t i = 0; i < scene.objects.size(); ++i)
@@ -41,7 +41,8 @@ int max_overlapping(const Scene& scene, const Pyramid& world, const Features& fe
     return int(maximum);
 }
 
-/// Metres from the observer within which rays begin that don't come in across the world's sides.
+/// The distance from the observer within which rays begin, metres. Rays that enter across the
+/// world's sides don't count.
 double start_radius(const Display& display) {
     const glm::dvec2 half = half_extent(display);
     if (display.shape == DisplayShape::pyramid)
@@ -51,7 +52,7 @@ double start_radius(const Display& display) {
     return display.near;
 }
 
-/// Whether rays from the observer may begin in a box.
+/// True if rays from the observer may begin in a box.
 bool may_begin_in(const VoxelBox& box, const Scene& scene, const GridFrame& world) {
     const glm::dvec3 eye = (scene.observer.position - world.origin) / world.voxel_edge;
     const glm::dvec3 reach(start_radius(scene.observer.display) / world.voxel_edge);

@@ -8,7 +8,7 @@
 namespace voxelume {
 namespace {
 
-/// Whether any object may change by more than its place.
+/// True if any object may change by more than its position.
 bool objects_change(const Scene& scene) {
     return moves(scene) && std::ranges::any_of(scene.motion->parts, [](const MovingPart& part) {
                return part.part == ScenePart::object && !part.places;

@@ -1,4 +1,4 @@
-// frames of a scene -> until when each of its models is shown.
+// frames of a scene -> the last use of each of its models
 #pragma once
 
 #include <cstdint>
@@ -9,12 +9,12 @@
 
 namespace voxelume {
 
-/// The part of a device's memory that may keep what no frame shows just now, and as many bytes of
-/// main memory its meshes.
+/// The divisor that gives the part of a device's memory in which unused models are retained. As
+/// many bytes of main memory may retain their meshes.
 inline constexpr uint64_t kRetainedPart = 8;
 
-/// How many of `frames` have passed when the last that shows a model has, for each of the models; 0
-/// for one that no frame shows. Throws as scene_at does.
+/// For each model, one past the index in `frames` of the last frame that shows it; 0 if no frame
+/// does. Throws as scene_at does.
 std::vector<size_t> last_uses(const Scene& scene, std::span<const int> frames);
 
 }  // namespace voxelume

@@ -8,7 +8,8 @@
 namespace voxelume {
 namespace {
 
-/// How far surfaces may lie from where they are in a model, in voxels of the model or the world.
+/// The distance by which surfaces may lie away from a model's own, in voxels of the model or the
+/// world.
 constexpr double kMargin = 1;
 
 VoxelBox in_voxels(const glm::dvec3& min, const glm::dvec3& max, const GridFrame& world) {
@@ -16,7 +17,7 @@ VoxelBox in_voxels(const glm::dvec3& min, const glm::dvec3& max, const GridFrame
             (max - world.origin) / world.voxel_edge + kMargin};
 }
 
-/// Around the image of a box under a map into the world.
+/// The box around the image of a box under a map into the world.
 VoxelBox mapped(const glm::dvec3& min, const glm::dvec3& max, const glm::dmat4& map,
                 const GridFrame& world) {
     glm::dvec3 low(INFINITY), high(-INFINITY);

@@ -1,4 +1,4 @@
-// scene -> where in the world's lattice each object is at most.
+// scene -> a bound of where each object is in the world's lattice
 #pragma once
 
 #include <vector>
@@ -10,10 +10,10 @@
 
 namespace voxelume {
 
-/// A box around each object as the world shows it, in the world's voxels, cut to the lattice; empty
-/// for objects that aren't in it.
+/// A box around each object as the world shows it, in the world's voxels, cut to the lattice. It is
+/// empty for objects outside the lattice.
 ///
-/// Surfaces may lie a voxel from where the object's own is, so the boxes are that much larger.
+/// Surfaces may lie up to a voxel away from the object's own, so the boxes are larger by a voxel.
 /// Throws Error::input as AssetStore does.
 std::vector<VoxelBox> object_boxes(const Scene& scene, AssetStore& meshes);
 

@@ -15,8 +15,8 @@
 namespace voxelume {
 namespace {
 
-/// The objects that the world may show. Instances come into it and leave it without its being
-/// formed anew, so all of them are among these.
+/// The objects that the world may show. All instances are among them, because they enter and leave
+/// the world without a new build of it.
 std::vector<const Object*> shown_objects(const Scene& scene, const Pyramid& world) {
     std::vector<const Object*> shown;
     for (size_t i = 0; i < scene.objects.size(); ++i) {
@@ -42,14 +42,14 @@ std::vector<const Material*> shown_materials(const Scene& scene, const Pyramid& 
     return materials;
 }
 
-/// Whether light that falls on the material comes back.
+/// True if the material sends back light that falls on it.
 bool is_lit(const Material* m) {
     const bool has_color =
         m->color != glm::vec3(0) || (m->checker && m->checker->color != glm::vec3(0));
     return m->specular > 0 || (m->diffuse > 0 && has_color);
 }
 
-/// The features that the materials decide.
+/// Adds the features that the materials decide.
 void add_paths(const Scene& scene, const Pyramid& world, Features& features) {
     const bool follows = scene.render.depth > 0;
     bool refraction = false, opacity = false, reflection = false, fresnel = false;
@@ -79,13 +79,13 @@ void add_paths(const Scene& scene, const Pyramid& world, Features& features) {
         });
 }
 
-/// Whether a light or an emissive object shines on something that isn't black.
+/// True if a light or an emissive object shines on something that isn't black.
 bool lights_surfaces(const Scene& scene, const Pyramid& world) {
     return std::ranges::any_of(shown_materials(scene, world), is_lit) &&
            (std::ranges::any_of(scene.lights, shines) || has_emissive_object(scene, world));
 }
 
-/// The features that decide light, and where rays go on.
+/// Adds the features that depend on light, and on where rays continue.
 void add_light(const Scene& scene, const Pyramid& world, Features& features) {
     const bool lit = lights_surfaces(scene, world);
     features.shadows = scene.render.shadows && lit;
@@ -99,8 +99,9 @@ void add_light(const Scene& scene, const Pyramid& world, Features& features) {
     add_medium_set(scene, world, features);
 }
 
-/// `voxels`, the features of the world's voxels, and of the light's no more than decides what
-/// observers' rays meet first: rays that begin inside of an object that transmits light know of it.
+/// Returns `voxels`, the features of the world's voxels, without those of light. It keeps the
+/// features that decide what observers' rays meet first: rays that begin inside a transmitting
+/// object need them.
 Features without_light(Features voxels, const Scene& scene, const Pyramid& world,
                        const Features& all) {
     if (all.transmission && may_begin_inside(scene, world)) {
@@ -113,7 +114,7 @@ Features without_light(Features voxels, const Scene& scene, const Pyramid& world
     return voxels;
 }
 
-/// What of the points that rays meet is asked for, or is a step to what is.
+/// Adds the values of hit points that the image asks for, or that are a step to values it asks for.
 void add_points(const Scene& scene, const Pyramid& world, Features& features) {
     const ImageChannels& channels = scene.render.channels;
     const bool all = features.radiance && (features.paths || has_light(scene, world));
@@ -122,11 +123,12 @@ void add_points(const Scene& scene, const Pyramid& world, Features& features) {
     features.hit_attributes = all || channels.object;
 }
 
-/// Those that have arrays, at most: rays end whose weight is too small.
+/// An upper bound of the depth for which arrays are reserved: a ray ends when its weight is too
+/// small.
 size_t reserved_depth(const Features& features, const Scene& scene, const Pyramid& world) {
-    constexpr double kWeightRounding = 1e-3;  // of the weights
+    constexpr double kWeightRounding = 1e-3;  // relative error of the weights
     const auto depth = double(max_depth(features, scene, world));
-    double share = 0;  // of a surface's light that one ray may bring
+    double share = 0;  // maximum share of a surface's light that one ray contributes
     for (const Material* m : shown_materials(scene, world))
         share = std::max(share, double(m->reflection) + double(m->refraction));
     if (depth == 0 || share >= 1) return size_t(depth);
@@ -186,7 +188,7 @@ void add_scene(const Scene& scene, const Pyramid& world, Features& features) {
 }
 
 RayCounts ray_counts(const Scene& scene, const Features& features) {
-    const Pyramid any;  // which may show all objects
+    const Pyramid any;  // an empty pyramid may show all objects
     const RenderSettings& render = scene.render;
     const uint32_t tiles =
         batch_tiles(features, render.samples, tile_count(render.size.x, render.size.y));

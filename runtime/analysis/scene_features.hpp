@@ -1,4 +1,4 @@
-// scene and world -> what its kernels are compiled for, and what its rays take.
+// scene and world -> the features its kernels are compiled for, and the memory its rays take
 #pragma once
 
 #include "runtime/grid/grid.hpp"
@@ -8,32 +8,32 @@
 
 namespace voxelume {
 
-/// What the scene and its world really contain, of objects that lie outside of the world nothing;
-/// and of that what the image's channels need.
+/// The features that the scene and its world really contain, as far as the image's channels need
+/// them. Objects outside of the world contribute none.
 Features features_of(const Scene& scene, const Pyramid& world);
 
-/// Adds to the features of a world's voxels what the scene decides; of the world it asks where
-/// objects are, and no voxels.
+/// Adds what the scene decides to the features of a world's voxels. From the world it reads where
+/// objects are, but no voxels.
 void add_scene(const Scene& scene, const Pyramid& world, Features& features);
 
-/// Whether any light comes from it.
+/// True if any light comes from `light`.
 bool shines(const Light& light);
 
-/// Whether it shines from a patch, not from one point or direction.
+/// True if the light shines from an area, not from one point or direction.
 bool has_area(const Light& light);
 
 /// The lights that a scene lists, those with an area by their samples.
 std::vector<LightRecord> given_lights(const Scene& scene, const GridFrame& world);
 
-/// Whether some object that the world may show is an emissive object.
+/// True if some object that the world may show is an emissive object.
 bool has_emissive_object(const Scene& scene, const Pyramid& world);
 
-/// Whether colour is asked for, a light or an emissive object shines, and something that the world
+/// True if the image has colour, a light or an emissive object shines, and something that the world
 /// may show isn't black.
 bool has_light(const Scene& scene, const Pyramid& world);
 
-/// Reflections and refractions in a row: none where no surface that may be shown sends rays on,
-/// other than straight through.
+/// The maximum number of reflections and refractions in a row. It is 0 where no surface that may be
+/// shown sends rays on in a new direction.
 size_t max_depth(const Features& features, const Scene& scene, const Pyramid& world);
 
 /// The rays of the scene's flat image that go together.

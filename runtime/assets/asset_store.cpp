@@ -10,7 +10,7 @@
 namespace voxelume {
 namespace {
 
-/// Adds the time that it lives to a sum of seconds.
+/// Adds the time from its construction to its destruction to a sum of seconds.
 class LoadTimer {
   public:
     explicit LoadTimer(double& sum) : sum_(sum) {}
@@ -162,7 +162,7 @@ std::string AssetStore::source_of(const Model& model) {
     return morph_source(from, morph.mesh.empty() ? std::string() : file(morph.mesh).source, morph);
 }
 
-/// Bytes that what was read of a file takes in memory.
+/// The bytes of memory that the loaded contents of a file take.
 uint64_t AssetStore::bytes_of(const std::filesystem::path& name) const {
     uint64_t bytes = 0;
     if (const auto found = files_.find(name); found != files_.end() && found->second.mesh)
@@ -207,7 +207,8 @@ void AssetStore::forget_unused() {
     used_morphs_.clear();
 }
 
-/// Of a file of which only the morphed mesh's summary is known it is as many as that has.
+/// The number of a file's triangles. Where only a morphed mesh's summary is known, it is that of
+/// the morphed mesh; 0 where nothing is known.
 uint64_t AssetStore::triangles_of(const std::filesystem::path& name, const MeshFile& file) const {
     if (file.summary) return file.summary->triangles;
     if (file.mesh) return file.mesh->triangles.size();

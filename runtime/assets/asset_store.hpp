@@ -1,4 +1,4 @@
-// files of models -> meshes and voxels in memory, each read once, and only when it is needed.
+// files of models -> meshes and voxels in memory. Each file is read once, and only when needed.
 #pragma once
 
 #include <filesystem>
@@ -16,44 +16,45 @@
 
 namespace voxelume {
 
-/// The meshes and voxels of a scene, each file read once, when it is first asked for, and
-/// kept while it is used. What `cache` knows of a mesh is told without reading the mesh.
+/// The meshes and voxels of a scene. Each file is read once, on first use, and kept while it is
+/// used. Answers that `cache` has are given without reading the mesh.
 class AssetStore {
   public:
     explicit AssetStore(ModelCache cache = {}) : cache_(std::move(cache)) {}
 
-    /// Throws Error::input as read_mesh does, and for a file that changed since it was first read.
+    /// The mesh of a file. Throws Error::input as read_mesh does, and for a file that changed since
+    /// it was first read.
     const Mesh& mesh(const std::filesystem::path& file);
     /// The voxels of a model that has a file of them. Throws Error::input as read_voxel_model does.
     const VoxelModel& voxels(const Model& model);
-    /// What is voxelized for a model: its mesh, or the triangles of a file of exact voxels; null
-    /// for the others.
+    /// The mesh that is voxelized for a model: its own, or the triangles of a file of exact voxels.
+    /// Null for other models.
     const Mesh* mesh_of(const Model& model);
-    /// A summary of that mesh; null where there is none.
+    /// A summary of the mesh that mesh_of() returns; null where there is none.
     const MeshSummary* summary_of(const Model& model);
     /// The names of a model's groups of faces or voxels.
     const std::vector<std::string>& groups_of(const Model& model);
-    /// A hash of all that the model's mesh is made of; empty for a model without a mesh file, and
-    /// where nothing is kept on disk.
+    /// A hash of everything that the model's mesh is made from. Empty for a model without a mesh
+    /// file, and where nothing is kept on disk.
     std::string source_of(const Model& model);
 
-    /// What is in memory of a model's files outlives the next call of `forget_unused`: of those
-    /// that weren't asked for since the last one, meshes and voxels only if they take no more than
-    /// `room` bytes, which are counted off.
+    /// Retains the loaded contents of a model's files past the next call of `forget_unused`.
+    /// Contents that were used since its last call are always retained. Unused meshes and voxels
+    /// are retained only if they take no more than `room` bytes, which are subtracted from `room`.
     void retain(const Model& model, uint64_t& room);
-    /// Forgets what wasn't asked for since the last call.
+    /// Forgets everything that wasn't used since the last call.
     void forget_unused();
-    /// The same store, which counts what it reads from here on.
+    /// A copy of this store whose counts of reading start at zero.
     AssetStore recounted() const;
 
     const ModelCache& cache() const { return cache_; }
     double load_seconds() const { return load_seconds_; }
-    uint64_t meshes_read() const { return meshes_read_; }  ///< and files of voxels
-    uint64_t triangles() const;                            ///< of the meshes that are in use
+    uint64_t meshes_read() const { return meshes_read_; }  ///< files of meshes and of voxels
+    uint64_t triangles() const;                            ///< sum over the meshes that are in use
 
   private:
     struct MeshFile {
-        std::string source;  ///< a hash of its bytes; empty without a cache
+        std::string source;  ///< hash of the file's bytes; empty without a cache
         std::optional<Mesh> mesh;
         std::optional<MeshSummary> summary;
     };
@@ -65,7 +66,7 @@ class AssetStore {
     };
     struct VoxelFile {
         VoxelModel voxels;
-        MeshSummary summary;  ///< of its mesh
+        MeshSummary summary;  ///< summary of the voxels' mesh
     };
 
     MeshFile& file(const std::filesystem::path& name);
@@ -79,10 +80,11 @@ class AssetStore {
 
     ModelCache cache_;
     std::map<std::filesystem::path, MeshFile> files_;
-    std::map<std::string, Morphed> morphed_;  ///< by the model's name, as last asked for
-    std::map<std::pair<std::filesystem::path, Surface>, VoxelFile> voxels_;  ///< read as a surface
+    std::map<std::string, Morphed> morphed_;  ///< by the model's name, as last used
+    /// Keyed by the file, and the surface that it is read as.
+    std::map<std::pair<std::filesystem::path, Surface>, VoxelFile> voxels_;
     std::set<std::filesystem::path> used_;
-    std::set<std::string> used_morphs_;  ///< models' names
+    std::set<std::string> used_morphs_;  ///< names of models
     double load_seconds_ = 0;
     uint64_t meshes_read_ = 0;
 };

@@ -22,14 +22,14 @@ namespace {
 constexpr const char* kFormat = "voxelume models 4";
 constexpr uint64_t kDefaultMegabytes = 4096;
 
-/// Bytes of a grid on the device that are read, unpacked and sent there in a second, at least.
+/// The minimum rate at which the bytes of a grid are read, unpacked and sent to a device.
 constexpr double kReadBytesPerSecond = 0.5e9;
 
 std::string key_of(std::initializer_list<std::string_view> parts) {
     return cache_key(std::span(parts.begin(), parts.size()));
 }
 
-/// A hash of the code that grids and worlds are made by, on the host and on devices.
+/// A hash of the code that makes grids and worlds, on the host and on devices.
 const std::string& producers() {
     static const std::string key = [] {
         std::string text = producer_hash();
@@ -58,14 +58,14 @@ SurfaceArea area_of(const nlohmann::json& json) {
     return {vector_of(json.at(0)), json.at(1).get<double>()};
 }
 
-/// In CBOR, numbers keep all their bits.
+/// The summary as CBOR, in which numbers keep all their bits.
 std::string bytes_of(const MeshSummary& summary) {
     const nlohmann::json json = {summary.triangles,
                                  {json_of(summary.surface.min), json_of(summary.surface.max)},
                                  {json_of(summary.vertices.min), json_of(summary.vertices.max)},
                                  {json_of(summary.area), json_of(summary.min_area)},
                                  summary.has_colors,
-                                 // A name is the file's bytes, in whatever encoding.
+                                 // A name consists of the file's bytes, in whatever encoding.
                                  nlohmann::json::array(),
                                  summary.corners};
     nlohmann::json whole = json;
@@ -174,7 +174,7 @@ void ModelCache::keep(const std::string& key, const BrickGrid& grid, double seco
     try {
         if (const auto bytes = bytes_of_grid(grid, max_bytes_ / 8)) store_.write(key, *bytes);
     } catch (const std::bad_alloc&) {
-        return;  // memory for a second copy is no reason to stop
+        return;  // too little memory for a second copy is no reason to stop
     }
 }
 

@@ -1,5 +1,5 @@
-// What models' meshes, and the worlds of them, were made into, kept on disk between runs under a
-// hash of all it comes from.
+// The results of processing models' meshes, and the worlds made from them. They are kept on disk
+// between runs under a hash of everything that they come from.
 #pragma once
 
 #include <glm/mat4x4.hpp>
@@ -14,46 +14,47 @@
 
 namespace voxelume {
 
-/// Names the bytes of a mesh file, and with them the mesh that they are read as. The file's name
-/// counts by its extension only.
+/// Names the bytes of a mesh file, and so the mesh that they are read as. Only the extension of the
+/// file's name counts.
 std::string mesh_source(const std::string& bytes, const std::filesystem::path& name);
 
-/// Names a mesh on its way from one source to another; `to` is empty for a sphere.
+/// Names a mesh that is morphed from one source to another; `to` is empty for a sphere.
 std::string morph_source(const std::string& from, const std::string& to, const Morph& morph);
 
-/// Names the voxels of the mesh that `source` names. The same for all devices, whose bits agree.
+/// Names the voxels of the mesh that `source` names. The name is equal on all devices, because
+/// their bits are equal.
 std::string grid_key(const std::string& source, const VoxelizeOptions& options,
                      const glm::dmat4& frame_from_mesh, const GridFrame& frame);
 
-/// Names the voxels of a world that the sources named by `parts` make up.
+/// Names the voxels of a world whose sources are named by `parts`.
 std::string world_key(std::string_view parts);
 
-/// Summaries and voxels of meshes on disk, and worlds, shared by any number of processes.
+/// Summaries and voxels of meshes, and worlds, on disk. Any number of processes may share them.
 ///
-/// Entries are those of DiskCache: whole or absent, and absent once damaged. They are named by
-/// what they are made of and by the code that makes them, so that none is ever out of date. What is
-/// made as quickly as it would be read isn't kept.
+/// Entries are those of DiskCache: whole or absent, and absent once damaged. Their names come from
+/// their sources and from the code that makes them, so no entry is ever out of date. Results that
+/// are made as quickly as they would be read aren't kept.
 class ModelCache {
   public:
-    /// Keeps nothing.
+    /// Makes a cache that keeps nothing.
     ModelCache() = default;
-    /// Keeps up to `max_bytes` of what takes `min_seconds` or more to make.
+    /// Makes a cache of up to `max_bytes` for results that take at least `min_seconds` to make.
     ModelCache(std::filesystem::path folder, uint64_t max_bytes, double min_seconds = 0.001)
         : is_open_(!folder.empty() && max_bytes > 0),
           store_(std::move(folder), max_bytes),
           max_bytes_(max_bytes),
           min_seconds_(min_seconds) {}
 
-    /// The same, which keeps worlds, too.
+    /// A copy of this cache that also keeps worlds.
     ModelCache with_worlds() const {
         ModelCache cache = *this;
         cache.keeps_worlds_ = true;
         return cache;
     }
 
-    /// That of the user, with worlds: `models` below cache_folder(), of at most VOXELUME_CACHE_MB
-    /// megabytes, 4096 without it. Throws Error::usage for one that is no whole number of at least
-    /// 0.
+    /// The user's cache, with worlds: `models` below cache_folder(), of at most VOXELUME_CACHE_MB
+    /// megabytes; 4096 if that isn't set. Throws Error::usage for a value that is no whole number
+    /// of at least 0.
     static ModelCache of_user();
 
     bool is_open() const { return is_open_; }
@@ -62,13 +63,15 @@ class ModelCache {
     std::optional<MeshSummary> summary(const std::string& source) const;
     void keep(const std::string& source, const MeshSummary& summary, double seconds) const;
 
-    /// The grid on a device. Throws Error::limit when the device has not enough memory.
+    /// The grid on a device; empty if the cache doesn't have it. Throws Error::limit if the device
+    /// has too little memory.
     std::optional<BrickGrid> grid(const Device& device, const std::string& key) const;
-    /// `seconds` is what making it took. One that would take more than an eighth of the cache isn't
-    /// kept: few such would drive out all others.
+    /// Keeps a grid that took `seconds` to make. A grid that would take more than an eighth of the
+    /// cache isn't kept: a few of them would displace all other entries.
     void keep(const std::string& key, const BrickGrid& grid, double seconds) const;
 
-    /// The same for worlds, without instances; they count by what they take on the device.
+    /// These do the same for worlds without instances. Worlds count by the bytes that they take on
+    /// the device.
     std::optional<Pyramid> world(const Device& device, const std::string& key) const;
     void keep(const std::string& key, const Pyramid& world, double seconds) const;
 

@@ -30,8 +30,9 @@ GridFrame solid_frame(const Model& model) {
     return frame_around(*model.solid, identity, edge, kModelMargin, extent);
 }
 
-/// Voxels of a given size lie as those of a world whose bounds are multiples of it, so that they
-/// are the same wherever an object moves by whole voxels. A resolution counts from the mesh's side.
+/// The lattice of a mesh. Voxels of a given size lie as in a world whose bounds are multiples of
+/// that size, so they are the same wherever an object moves by whole voxels. A resolution counts
+/// from the mesh's side.
 GridFrame mesh_frame(const Model& model, const MeshSummary& mesh) {
     const glm::dvec3 edge = voxel_edge(model, mesh.surface.max - mesh.surface.min);
     const glm::dvec3 low = mesh.vertices.min, high = mesh.vertices.max;

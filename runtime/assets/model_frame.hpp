@@ -1,4 +1,4 @@
-// The lattices that a scene asks for: of the world, and of each model in its own space.
+// The lattices that a scene requires: that of the world, and that of each model in its own space.
 #pragma once
 
 #include "runtime/geometry/mesh_summary.hpp"
@@ -7,7 +7,7 @@
 
 namespace voxelume {
 
-/// Margin of empty voxels around a model, so that the differences of a smooth surface lie inside.
+/// The margin of empty voxels around a model. The differences of a smooth surface lie inside it.
 inline constexpr int kModelMargin = 4;
 
 /// The world's lattice: its first voxel starts at the bounds' minimum corner.
@@ -15,17 +15,19 @@ GridFrame world_frame(const World& world);
 
 /// The lattice of a model in its own space, with kModelMargin. `mesh` is null for a solid.
 ///
-/// Throws Error::input for a model without extent whose voxels `resolution` decides, Error::limit
-/// for more voxels than can be numbered; the sentence begins with the model's place.
+/// Throws Error::input for a model without extent whose voxels `resolution` decides, and
+/// Error::limit for more voxels than can be numbered. The sentence begins with the model's place in
+/// the scene file.
 GridFrame model_frame(const Model& model, const MeshSummary* mesh);
 
-/// Whether rays see the voxels inside of the object, too: solid cubes that let light through.
+/// True if rays also see the voxels inside the object: solid cubes that let light through.
 bool shows_inside(const Scene& scene, const Object& object);
 
-/// Whether the object is visible, and its model not empty within the world's bounds.
+/// True if the object is visible and its model isn't empty within the world's bounds.
 bool may_be_shown(const Scene& scene, const Object& object);
 
-/// Whether any part of the object can be seen inside the world; models that aren't are not read.
+/// True if any part of the object can be seen inside the world. Models without such objects aren't
+/// read.
 bool is_potentially_visible(const Scene& scene, const Object& object);
 
 }  // namespace voxelume

@@ -22,7 +22,7 @@ const char* set_name(VoxelSet set) {
     return set == VoxelSet::solid ? "solid" : set == VoxelSet::thin ? "thin" : "supercover";
 }
 
-/// Voxel `number` of a brick whose voxels are counted x fastest.
+/// The voxel `number` of a brick; numbers count x fastest.
 glm::ivec3 in_brick(uint32_t number) {
     return {int(number & 15), int(number >> 4 & 15), int(number >> 8)};
 }
@@ -109,7 +109,7 @@ void VoxelExport::add_brick(uint32_t slot, Cells& cells) const {
     }
 }
 
-/// Bricks wholly inside a solid set; those at the grid's end are stored.
+/// Adds the bricks wholly inside a solid set. Such bricks at the grid's end are stored anyway.
 void VoxelExport::add_full_bricks(Cells& cells) const {
     for (size_t brick = 0; brick < slots_.size(); ++brick) {
         if (slots_[brick] != kBrickInside) continue;

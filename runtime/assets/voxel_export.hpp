@@ -1,4 +1,4 @@
-// BrickGrid -> files: our own model (.vxm) and OpenVDB.
+// BrickGrid -> files: voxelume's own model (.vxm) and OpenVDB.
 #pragma once
 
 #include <filesystem>
@@ -11,21 +11,22 @@
 
 namespace voxelume {
 
-/// Voxels around a smooth surface whose distances other programs expect, in shortest edges.
+/// The width of the band around a smooth surface in which other programs expect distances, in the
+/// shortest edge of a voxel.
 inline constexpr double kExportBand = 3.0;
 
 /// A voxelized mesh in main memory.
 ///
 /// A model file has the arrays of BrickGrid under their names, as far as the grid has them, and the
 /// frame, surface and set in its header. A volume has
-///   smooth  level set `surface`: signed distances at the voxels' minimum corners, metres
+///   smooth        level set `surface`: signed distances at the voxels' minimum corners, metres
 ///   cubes, exact  fog `density`: 1 at the middle of each voxel of the set
-/// and `Cd`, linear colours, when the mesh has colours.
+/// and linear colours `Cd` if the mesh has colours.
 class VoxelExport {
   public:
     VoxelExport(const BrickGrid& grid, const Mesh& mesh, Surface surface, VoxelSet set);
 
-    /// Both throw Error::output.
+    /// Both of these throw Error::output.
     void write_model(const std::filesystem::path& path) const;
     void write_vdb(const std::filesystem::path& path) const;
 

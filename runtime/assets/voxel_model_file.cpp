@@ -22,7 +22,7 @@ uint32_t srgb_byte(float linear) {
     return uint32_t(std::lround(255 * curved));
 }
 
-/// Gives slots to the bricks of `cells` that `is_kept` keeps, in ascending order.
+/// Assigns slots, in ascending order, to the bricks of `cells` for which `is_kept` is true.
 template <class IsKept>
 void number_bricks(const std::vector<glm::ivec3>& cells, const glm::ivec3& first,
                    const IsKept& is_kept, const InputFile& file, VoxelModel& model) {
@@ -40,7 +40,7 @@ void number_bricks(const std::vector<glm::ivec3>& cells, const glm::ivec3& first
     check_stored_bricks(model.coordinates.size(), file);
 }
 
-/// Where cell `v` of the model is among its bricks' voxels.
+/// The index of cell `v` of the model among the voxels of its stored bricks.
 size_t place_of(const VoxelModel& model, const glm::ivec3& v) {
     const glm::ivec3 bricks = model.frame.bricks(), b = v / kBrickSize, in = v % kBrickSize;
     const uint32_t slot = model.slots[b.x + size_t(bricks.x) * (b.y + size_t(bricks.y) * b.z)];
@@ -123,7 +123,7 @@ VoxelModel model_of(const VdbVoxels& voxels, Surface surface, const InputFile& f
     model.surface = surface;
     model.frame.size = glm::ivec3(size);
     model.frame.voxel_edge = voxels.voxel_edges;
-    // Cubes have their value in the middle, distances at the voxel's minimum corner.
+    // Cubes have their value in the middle; distances are at the voxel's minimum corner.
     const double to_corner = stores_distances(surface) ? 0.0 : 0.5;
     model.frame.origin = voxels.origin + voxels.voxel_edges * (glm::dvec3(first) - to_corner);
     if (stores_distances(surface))

@@ -7,11 +7,12 @@
 
 namespace voxelume {
 
-/// Reads a model by what its file begins with.
+/// Reads a model. The first bytes of its file decide its format.
 ///
-/// .vxm: its own surface must be `surface`. OpenVDB: as cubes the voxels of a fog whose value is
-/// above 0, covering by that value, at most 1, with the colours of `Cd`; as smooth a level set.
-/// Throws Error::input for a file that is missing, damaged or holds another surface.
+/// A .vxm has to have the surface `surface`. From OpenVDB, cubes are the voxels of a fog whose
+/// value is above 0; the value, at most 1, is their coverage, and `Cd` their colour. A smooth
+/// surface is a level set. Throws Error::input for a file that is missing, damaged or has another
+/// surface.
 VoxelModel read_voxel_model(const std::filesystem::path& file, Surface surface);
 
 }  // namespace voxelume

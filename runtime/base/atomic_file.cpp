@@ -25,7 +25,8 @@ fs::path folder_of(const fs::path& file) {
     return file.has_parent_path() ? file.parent_path() : fs::path(".");
 }
 
-/// The name that commit() renames onto; a link that leads nowhere yet is followed as well.
+/// The name that commit() renames the file onto. Links are followed, even one that leads nowhere
+/// yet.
 fs::path follow_links(const fs::path& target) {
     std::error_code ignored;
     fs::path file = target;
@@ -77,11 +78,11 @@ AtomicFile::~AtomicFile() {
 
 void AtomicFile::create_temporary() {
     const fs::path folder = folder_of(final_);
-    // The file system's limit on names has to hold for the longer temporary name too.
+    // The longer temporary name has to stay within the file system's limit on names, too.
     const std::string stem = fmt::format(".{}.{}.{}", final_.filename().string().substr(0, 150),
                                          host_name().substr(0, 64), getpid());
-    // A second writer in this process, or what a killed one with the same number left, has the
-    // first name.
+    // The first name is taken by a second writer in this process, or by a file that a killed
+    // process with the same number left.
     for (int attempt = 1; attempt <= 1000; ++attempt) {
         const std::string ending = attempt == 1 ? ".tmp" : fmt::format("-{}.tmp", attempt);
         const fs::path candidate = folder / (stem + ending);
@@ -121,8 +122,7 @@ void AtomicFile::commit() {
 
 void AtomicFile::sync_folder() {
     const int folder = open(folder_of(final_).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    // A folder that may be written but not listed can't be opened; its file is complete all the
-    // same.
+    // A folder that may be written but not listed can't be opened. Its file is complete anyway.
     if (folder < 0) return;
     const int code = fsync(folder) == 0 ? 0 : errno;
     close(folder);

@@ -1,4 +1,4 @@
-// A file that appears under its name whole and checked, or not at all.
+// A file that appears under its name whole and verified, or not at all.
 #pragma once
 
 #include <cstdint>
@@ -9,13 +9,14 @@
 
 namespace voxelume {
 
-/// Writes to `.name.<host>.<pid>.tmp` in the target's folder; commit() renames that onto the
+/// Writes to `.name.<host>.<pid>.tmp` in the target's folder. commit() renames that file onto the
 /// target.
 ///
-/// Until commit() returns, whatever was under the name before is untouched; without commit() the
-/// destructor removes the temporary file. A link is followed: the file it points to is replaced,
-/// not the link. Every failure is an Error::output that names the target and the cause. The first
-/// one is kept: a library that swallows it (OpenEXR does, in a destructor) still can't commit.
+/// Until commit() returns, a file that already has the name is untouched. Without commit() the
+/// destructor removes the temporary file. A link is followed: the file that it points to is
+/// replaced, not the link. Every failure is an Error::output that names the target and the cause.
+/// The first failure is kept, so that a library that swallows it (OpenEXR does, in a destructor)
+/// still can't commit.
 class AtomicFile {
   public:
     /// Creates the temporary file. Throws when the folder is missing or doesn't accept files.
@@ -28,13 +29,13 @@ class AtomicFile {
     void seek(uint64_t position) { position_ = position; }
     uint64_t position() const { return position_; }
 
-    /// Where the bytes are now: what a verifying reader opens before commit().
+    /// The current path of the bytes. A verifying reader opens it before commit().
     const std::filesystem::path& temporary() const { return temporary_; }
 
-    /// Puts the bytes on the disk and the file under its name.
+    /// Writes the bytes to the disk and gives the file its name.
     void commit();
 
-    /// Makes `reason` the failure of this file, so that commit() refuses it, and throws it.
+    /// Records `reason` as the failure of this file, so that commit() refuses it, and throws it.
     [[noreturn]] void fail(const std::string& reason);
 
   private:
@@ -42,8 +43,8 @@ class AtomicFile {
     void create_temporary();
     void sync_folder();
 
-    std::filesystem::path target_;  ///< as the user named it
-    std::filesystem::path final_;   ///< links followed
+    std::filesystem::path target_;  ///< path as the user named it
+    std::filesystem::path final_;   ///< path after links
     std::filesystem::path temporary_;
     int descriptor_ = -1;
     uint64_t position_ = 0;

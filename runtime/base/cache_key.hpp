@@ -1,4 +1,4 @@
-// Numbers as they are in memory, for the keys of what is kept on disk.
+// The bytes of numbers in memory, for the keys of entries on disk.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace voxelume {
 
-/// Bytes that differ wherever the numbers added do.
+/// A string of bytes. Two keys differ wherever the added numbers differ.
 class CacheKey {
   public:
     template <class Value>
@@ -16,13 +16,13 @@ class CacheKey {
         bytes_.append(reinterpret_cast<const char*>(&value), sizeof value);
         return *this;
     }
-    /// Of a vector of GLM.
+    /// Adds the components of a vector of GLM.
     template <class Vector>
     CacheKey& add_all(const Vector& vector) {
         for (int i = 0; i < vector.length(); ++i) add(vector[i]);
         return *this;
     }
-    /// Of a matrix of GLM.
+    /// Adds the columns of a matrix of GLM.
     template <class Matrix>
     CacheKey& add_columns(const Matrix& matrix) {
         for (int column = 0; column < matrix.length(); ++column) add_all(matrix[column]);

@@ -1,9 +1,9 @@
-// Closes what threads share at the end of a block, however it is left.
+// Closes an object that threads share at the end of a block, by whatever way control leaves it.
 #pragma once
 
 namespace voxelume {
 
-/// Calls `close()` when it goes.
+/// Calls `close()` on an object when it is destroyed.
 template <class Shared>
 class Closing {
   public:

@@ -1,5 +1,5 @@
-// Clinger's fast path in double with a proof of the float's rounding, and std::from_chars for the
-// rest.
+// Uses Clinger's fast path in double with a proof that the float is rounded correctly, and
+// std::from_chars otherwise.
 #include "runtime/base/decimal.hpp"
 
 #include <bit>
@@ -19,14 +19,14 @@ bool is_digit(char c) {
     return c >= '0' && c <= '9';
 }
 
-/// A decimal number taken apart: mantissa * 10^exponent, exact while it has at most 19 digits.
+/// The parts of a decimal number: mantissa * 10^exponent. It is exact up to 19 digits.
 struct Parts {
     uint64_t mantissa = 0;
     int64_t exponent = 0;
     int64_t digits = 0;  ///< significant ones, without leading zeros
     bool negative = false;
-    const char* first = nullptr;  ///< behind a plus sign, where from_chars may begin
-    const char* end = nullptr;    ///< null when there is no number
+    const char* first = nullptr;  ///< position behind a plus sign, where from_chars may begin
+    const char* end = nullptr;    ///< null if there is no number
 };
 
 /// Adds the digits at `p` to the mantissa, without leading zeros, and returns their end.
@@ -69,9 +69,9 @@ Parts take_apart(const char* text) {
     return parts;
 }
 
-/// The whole double path: mantissa and power are each within half an ulp, so is their combination,
-/// and the result lies within 2 ulp of the decimal. Rounding it to float is then right unless the
-/// midpoint of two floats is that near.
+/// True if rounding `value` to float gives the float nearest to the decimal. The mantissa and the
+/// power are each within half an ulp, so is their combination, and the result lies within 2 ulp of
+/// the decimal. Rounding it to float is then right unless the midpoint of two floats is that near.
 ///
 ///     double's mantissa  [ 23 bits kept | 29 bits dropped ]     midpoint: dropped = 1 0...0
 bool rounds_safely(double value) {
@@ -109,7 +109,8 @@ Decimal scan_decimal(const char* text) noexcept {
         value >= std::numeric_limits<float>::lowest()) {
         return {value, parts.end, DecimalStatus::ok};
     }
-    // from_chars says the same of what is too large and too small; the decimal's magnitude tells.
+    // from_chars reports too large and too small numbers alike. The decimal's magnitude tells them
+    // apart.
     const bool tiny = parts.exponent + parts.digits <= 0;
     return {parts.negative ? -0.0f : 0.0f, parts.end,
             tiny ? DecimalStatus::ok : DecimalStatus::beyond_float};

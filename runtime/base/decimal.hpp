@@ -5,30 +5,30 @@
 
 namespace voxelume {
 
-/// How scanning a number ended.
+/// The result of scanning a number.
 enum class DecimalStatus { ok, not_a_number, beyond_float };
 
-/// A scanned number and the first character behind it. `end` is the start when there is no number.
+/// A scanned number and the first character behind it. `end` is the start if there is no number.
 struct Decimal {
     float value;
     const char* end;
     DecimalStatus status;
 };
 
-/// Scans `[+-]digits[.digits][(e|E)[+-]digits]` at `text`, which a NUL must end somewhere.
+/// Scans `[+-]digits[.digits][(e|E)[+-]digits]` at `text`, which has to end in a NUL.
 ///
-/// The value is the float nearest to the decimal, ties to even; what is too small becomes zero of
-/// its sign, what rounds beyond the largest float is `beyond_float`. "nan" and "inf" are no
-/// numbers.
+/// The value is the float nearest to the decimal, ties to even. A number that is too small becomes
+/// zero of its sign, and one that rounds beyond the largest float is `beyond_float`. "nan" and
+/// "inf" are no numbers.
 Decimal scan_decimal(const char* text) noexcept;
 
-/// A scanned integer; `end` is the start when there is none. Beyond +-10^18 it stays at that bound.
+/// A scanned integer. `end` is the start if there is none. Values beyond +-10^18 become that bound.
 struct Integer {
     int64_t value;
     const char* end;
 };
 
-/// Scans `[+-]digits` at `text`, which a NUL must end somewhere.
+/// Scans `[+-]digits` at `text`, which has to end in a NUL.
 inline Integer scan_integer(const char* text) noexcept {
     constexpr int64_t kBound = 1'000'000'000'000'000'000;
     const char* p = text;

@@ -17,12 +17,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Stands before the bytes of an entry. The version in `magic` changes with this layout.
+/// The bytes before those of an entry. The version in `magic` changes with this layout.
 struct Header {
     char magic[8];
     char key[32];
     uint64_t size;      ///< bytes that follow
-    uint64_t checksum;  ///< XXH3 of them
+    uint64_t checksum;  ///< XXH3 of the bytes that follow
 };
 static_assert(sizeof(Header) == 56);
 
@@ -120,13 +120,13 @@ void DiskCache::trim() const {
     };
     std::vector<Entry> entries;
     uint64_t total = 0;
-    std::error_code error;  // another process may remove files meanwhile
+    std::error_code error;  // another process may remove files at the same time
     const auto now = fs::file_time_type::clock::now();
     for (const fs::directory_entry& file : fs::directory_iterator(folder_, error)) {
         const fs::file_time_type used = file.last_write_time(error);
         const uintmax_t bytes = error ? 0 : file.file_size(error);
         if (error) continue;
-        // What a killed process was writing.
+        // Such a file is left from a process that was killed while it wrote.
         if (is_temporary(file.path()) && now - used > std::chrono::hours(1))
             fs::remove(file.path(), error);
         else if (!is_temporary(file.path()))

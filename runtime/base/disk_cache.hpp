@@ -1,4 +1,4 @@
-// What was computed once, kept on disk under a hash of everything that it was computed from.
+// Computed results on disk, under a hash of everything that they were computed from.
 #pragma once
 
 #include <array>
@@ -12,20 +12,20 @@
 
 namespace voxelume {
 
-/// The user's folder for what may be computed again: VOXELUME_CACHE_DIR, else
-/// XDG_CACHE_HOME/voxelume, else ~/.cache/voxelume. Empty when there is none; an empty
-/// VOXELUME_CACHE_DIR asks for none.
+/// The user's folder for results that can be computed again: VOXELUME_CACHE_DIR, else
+/// XDG_CACHE_HOME/voxelume, else ~/.cache/voxelume. It is empty if there is none, and if
+/// VOXELUME_CACHE_DIR is set to nothing.
 std::filesystem::path cache_folder();
 
-/// A 128-bit hash (XXH3) of all `parts`, with their lengths, as 32 hexadecimal digits.
+/// A 128-bit hash (XXH3) of all `parts` and their lengths, as 32 hexadecimal digits.
 std::string cache_key(std::span<const std::string_view> parts);
 
-/// A folder of files named by `cache_key`, shared by any number of processes.
+/// A folder of files named by `cache_key`. Any number of processes may share it.
 ///
 /// An entry is a header with a checksum, then the bytes. It appears by a rename, so it is whole or
-/// absent; one that is damaged later fails its checksum, is removed and counts as absent. The
-/// entries used longest ago go first when the folder grows past `max_bytes`. Nothing here throws:
-/// a folder that can't be written keeps nothing.
+/// absent. An entry that is damaged later fails its checksum, is removed and counts as absent. When
+/// the folder grows past `max_bytes`, the entries used longest ago are removed first. Nothing here
+/// throws: a folder that can't be written keeps nothing.
 class DiskCache {
   public:
     DiskCache(std::filesystem::path folder, uint64_t max_bytes)
@@ -37,7 +37,7 @@ class DiskCache {
   private:
     void trim() const;
 
-    std::filesystem::path folder_;  ///< empty: keeps nothing
+    std::filesystem::path folder_;  ///< empty if nothing is kept
     uint64_t max_bytes_;
 };
 

@@ -9,7 +9,7 @@
 
 namespace voxelume {
 
-/// What went wrong, as the program's exit code.
+/// The kind of failure, which is also the program's exit code.
 enum class ErrorKind : int {
     render = 1,  ///< rendering failed: a device was lost, a kernel misbehaved
     usage = 2,   ///< the command line
@@ -21,8 +21,8 @@ enum class ErrorKind : int {
     limit = 8,   ///< memory, or a documented limit
 };
 
-/// A finished sentence for the user (where, what, what to do), thrown anywhere, caught once in
-/// `main`.
+/// A failure with a finished sentence for the user (where, what, what to do). It is thrown anywhere
+/// and caught once in `main`.
 class Error : public std::runtime_error {
   public:
     Error(ErrorKind kind, const std::string& sentence)
@@ -40,8 +40,8 @@ class Error : public std::runtime_error {
     ErrorKind kind_;
 };
 
-/// Does something for `subject`, with which the sentence of a limit that it meets begins:
-/// "room.json: world: the rays buffer needs 3.7 MB on ...".
+/// Calls `action`. If it meets a limit, the error's sentence begins with `subject`: "room.json:
+/// world: the rays buffer needs 3.7 MB on ...".
 template <class Action>
 auto with_limits_of(const std::string& subject, const Action& action) {
     try {

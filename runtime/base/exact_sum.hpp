@@ -7,8 +7,8 @@ namespace voxelume {
 
 /// An exact number: the unevaluated sum of doubles that do not overlap, smallest first.
 ///
-/// Exact as long as no partial product falls below 2^-1022 or above 2^1023. After Shewchuk 1997,
-/// "Adaptive precision floating-point arithmetic", grow-expansion and scale-expansion.
+/// It is exact as long as no partial product falls below 2^-1022 or above 2^1023. After Shewchuk
+/// 1997, "Adaptive precision floating-point arithmetic", grow-expansion and scale-expansion.
 class ExactSum {
   public:
     ExactSum() = default;
@@ -22,11 +22,11 @@ class ExactSum {
     friend ExactSum operator*(const ExactSum& a, double factor);
     friend ExactSum operator*(const ExactSum& a, const ExactSum& b);
 
-    /// -1, 0 or 1.
+    /// The number's sign: -1, 0 or 1.
     int sign() const;
 
   private:
-    std::vector<double> terms_;  // none is 0; none for 0
+    std::vector<double> terms_;  // without zeros; empty for 0
 };
 
 inline ExactSum square(const ExactSum& a) {

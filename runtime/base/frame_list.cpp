@@ -13,8 +13,8 @@ namespace {
 
 constexpr size_t kMaxFrames = 1'000'000;
 
-/// Frames `first`, `first + step`, ... up to `last`; 64-bit, so that counting past the last int
-/// ends.
+/// The frames `first`, `first + step`, ... up to `last`. They are 64-bit so that a count past the
+/// last int ends.
 struct FrameRange {
     int64_t first, last, step;
 };

@@ -8,7 +8,7 @@ namespace voxelume {
 
 namespace {
 
-/// `frame` with zeros in front up to `width` characters, a minus sign included.
+/// `frame` as text, with leading zeros up to `width` characters; a minus sign counts as one.
 std::string pad(int frame, size_t width) {
     return fmt::format("{:0{}d}", frame, width);
 }

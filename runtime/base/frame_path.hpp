@@ -1,16 +1,16 @@
-// The file of one frame of an animation.
+// The path of the file of one frame of an animation.
 #pragma once
 
 #include <string>
 
 namespace voxelume {
 
-/// `pattern` with the frame's number in it; in `animation` two frames never share a file.
+/// Returns `pattern` with the frame's number in it. In an `animation` two frames never share a
+/// file.
 ///
-/// The number replaces the last run of `#` in the file's name, with zeros in front up to the run's
-/// length
-/// (`frame.####.exr` -> `frame.0012.exr`), or a `%d`, `%4d` or `%04d` there. Without either, a
-/// single frame's pattern is the file, and an animation's gets four digits in front of its
+/// The number replaces the last run of `#` in the file's name, with leading zeros up to the run's
+/// length (`frame.####.exr` -> `frame.0012.exr`), or a `%d`, `%4d` or `%04d` there. Without either,
+/// a single frame's pattern is the path itself, and an animation's gets four digits in front of its
 /// extension, as in Blender (`out.exr` -> `out0012.exr`). Folders are left as they are.
 std::string frame_path(const std::string& pattern, int frame, bool animation);
 

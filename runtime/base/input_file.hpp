@@ -1,4 +1,4 @@
-// A file open for reading, whose size is known before memory is taken for it.
+// A file open for reading. Its size is known before memory is allocated for it.
 #pragma once
 
 #include <cstdint>
@@ -8,10 +8,10 @@
 
 namespace voxelume {
 
-/// Every failure is an Error::input that names the file.
+/// A file to read. Every failure is an Error::input that names the file.
 class InputFile {
   public:
-    /// Throws when the file is missing, may not be read or isn't a plain file.
+    /// Opens the file. Throws if it is missing, may not be read or isn't a plain file.
     explicit InputFile(const std::filesystem::path& path);
     ~InputFile();
     InputFile(const InputFile&) = delete;
@@ -19,10 +19,10 @@ class InputFile {
 
     uint64_t size() const { return size_; }
 
-    /// Fills `data` from `position`; throws when the file ends before that.
+    /// Fills `data` from `position`. Throws if the file ends before `size` bytes are read.
     void read(uint64_t position, void* data, size_t size) const;
 
-    /// Throws "PATH: REASON".
+    /// Throws Error::input "PATH: REASON".
     [[noreturn]] void refuse(const std::string& reason) const;
 
   private:

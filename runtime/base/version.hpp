@@ -1,9 +1,9 @@
-// The version of the library, as files and `--version` name it.
+// The version of the library, as files and `--version` give it.
 #pragma once
 
 namespace voxelume {
 
-/// Three numbers with dots between them: "0.1.0".
+/// The version as three numbers with dots between them: "0.1.0".
 const char* version();
 
 }  // namespace voxelume

@@ -1,4 +1,4 @@
-// A triangle mesh as it comes from a file: the geometry that `voxelize` turns into an object.
+// A triangle mesh as read from a file: the geometry that `voxelize` turns into an object.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -11,8 +11,8 @@ namespace voxelume {
 
 /// Triangles with optional colours at the vertices and named groups of faces.
 ///
-/// Every index is below `positions.size()` and every coordinate is finite: readers refuse anything
-/// else.
+/// Every index is below `positions.size()` and every coordinate is finite: readers refuse other
+/// meshes.
 struct Mesh {
     std::vector<glm::vec3> positions;  ///< object space, metres
     std::vector<glm::uvec3>

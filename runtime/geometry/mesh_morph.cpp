@@ -7,7 +7,8 @@
 namespace voxelume {
 namespace {
 
-/// In double, so that rounding comes once.
+/// The point at the share `amount` of the way from a to b. It is computed in double, so that it is
+/// rounded once.
 glm::vec3 between(const glm::vec3& a, const glm::dvec3& b, double amount) {
     return glm::vec3(glm::dvec3(a) * (1 - amount) + b * amount);
 }

@@ -1,4 +1,4 @@
-// Meshes between two shapes: vertices on their way from one place to another.
+// Meshes between two shapes: vertices move from their position in one to that in the other.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -8,15 +8,16 @@
 
 namespace voxelume {
 
-/// Vertices the share `amount`, 0..1, of the straight way from `from` to `to`, and colours likewise
-/// where both have them; all else is `from`'s. 0 and 1 give the ends' positions bit by bit.
+/// Moves vertices by the share `amount`, 0..1, of the straight way from `from` to `to`, and their
+/// colours too where both meshes have them; everything else is `from`'s. 0 and 1 give the positions
+/// of `from` and `to` bit by bit.
 ///
-/// Throws Error::input with both counts when the meshes have not as many vertices and the same
-/// triangles; `where` opens the sentence.
+/// Throws Error::input with both counts unless the meshes have equal numbers of vertices and the
+/// same triangles. `where` opens the sentence.
 Mesh morphed(const Mesh& from, const Mesh& to, double amount, const std::string& where);
 
-/// Vertices the share `amount` of the way to a sphere, straight away from or towards its centre. A
-/// vertex in the centre stays there.
+/// Moves vertices by the share `amount` of the way to a sphere, straight away from its centre or
+/// towards it. A vertex at the centre stays there.
 Mesh morphed_to_sphere(const Mesh& from, glm::dvec3 center, double radius, double amount);
 
 }  // namespace voxelume

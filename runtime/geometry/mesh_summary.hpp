@@ -1,4 +1,4 @@
-// mesh -> what planning and messages ask of it, so that a mesh in the model cache isn't read.
+// mesh -> what planning and messages need of it, so that a mesh in the model cache isn't read.
 #pragma once
 
 #include <cstdint>
@@ -14,9 +14,9 @@ namespace voxelume {
 struct MeshSummary {
     uint64_t triangles = 0;
     Bounds surface;        ///< the box around the triangles, metres
-    Bounds vertices;       ///< around all positions, those that no triangle uses included
+    Bounds vertices;       ///< box around all positions, those that no triangle uses included
     SurfaceArea area;      ///< in the mesh's own space
-    SurfaceArea min_area;  ///< what triangles that lie on one another have once
+    SurfaceArea min_area;  ///< area with coinciding triangles counted once
     bool has_colors = false;
     std::vector<std::string> group_names;
     uint64_t corners = 0;  ///< positions that triangles share

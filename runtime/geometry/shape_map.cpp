@@ -10,8 +10,8 @@
 namespace voxelume {
 namespace {
 
-// Lengths and right angles within a few roundings of double count as equal and right: such a map
-// differs from the ideal one by less than the float coordinates that it is stored in.
+// The tolerance within which lengths are equal and angles right: a few roundings of double. Such a
+// map differs from the ideal one by less than the float coordinates in which it is stored.
 constexpr double kDoubleRoundings = 64 * std::numeric_limits<double>::epsilon();
 
 bool are_equal(double a, double b) {
@@ -27,10 +27,10 @@ bool has_perpendicular_columns(const glm::dmat3& m) {
            are_perpendicular(m[2], m[0]);
 }
 
-/// Turns the columns until they are perpendicular (one-sided Jacobi, Hestenes 1958): m * V = U * S.
-/// Small singular values keep their relative accuracy, which the eigenvalues of m * mT would not.
+/// Turns the columns until they are perpendicular: m * V = U * S (one-sided Jacobi, Hestenes 1958).
+/// Small singular values keep their relative accuracy, which the eigenvalues of m * mT would lose.
 glm::dmat3 with_perpendicular_columns(glm::dmat3 m) {
-    constexpr int kMaxSweeps = 30;  // a 3x3 matrix takes up to six
+    constexpr int kMaxSweeps = 30;  // a 3x3 matrix needs up to six
     for (int sweep = 0; sweep < kMaxSweeps && !has_perpendicular_columns(m); ++sweep)
         for (int p = 0; p < 2; ++p)
             for (int q = p + 1; q < 3; ++q) {
@@ -76,7 +76,7 @@ glm::dvec3 stated_size(const Solid& shape) {
     }
 }
 
-/// Every linear image of a ball or an ellipsoid is one again.
+/// Maps a ball or an ellipsoid. Every linear image of either is one again.
 ShapeMap map_ellipsoid(const glm::dvec3& half_axes, const glm::dmat3& map) {
     const glm::dmat3 axes = with_perpendicular_columns(
         glm::dmat3(map[0] * half_axes.x, map[1] * half_axes.y, map[2] * half_axes.z));
@@ -86,7 +86,7 @@ ShapeMap map_ellipsoid(const glm::dvec3& half_axes, const glm::dmat3& map) {
     return {SolidKind::ellipsoid, lengths, into_axes(axes, lengths)};
 }
 
-/// Every linear image of a slab is one again; of its space only the Y axis is used.
+/// Maps a slab. Every linear image of a slab is a slab; only the Y axis of its space is used.
 ShapeMap map_slab(double half_thickness, const glm::dmat3& map) {
     const glm::dvec3 across = glm::transpose(glm::inverse(map)) * glm::dvec3(0, 1, 0);
     const double length = glm::length(across);
@@ -95,7 +95,7 @@ ShapeMap map_slab(double half_thickness, const glm::dmat3& map) {
     return {SolidKind::slab, {half_thickness / length, 0, 0}, from_frame};
 }
 
-/// The sizes of the other kinds after the map, when it keeps the kind.
+/// The sizes of the other kinds after the map. Empty if the map doesn't keep the kind.
 std::optional<glm::dvec3> kept_size(SolidKind kind, const glm::dvec3& size, const glm::dmat3& map) {
     const glm::dvec3 scale = column_lengths(map);
     if (!has_perpendicular_columns(map)) return std::nullopt;

@@ -27,7 +27,8 @@ SolidBounds hull(const SolidBounds& a, const SolidBounds& b) {
     return {glm::min(a.min, b.min), glm::max(a.max, b.max)};
 }
 
-/// How far from its centre a shape reaches along the frame's axis whose row of the map is `row`.
+/// The distance from a shape's centre to its end along a frame axis, the one whose row of the map
+/// is `row`.
 double reach(const Solid& shape, const glm::dvec3& row) {
     const double across = std::hypot(row.x, row.z), along = std::abs(row.y) * shape.height / 2;
     const double length = std::hypot(row.x, row.y, row.z);

@@ -1,4 +1,4 @@
-// solid -> the smallest box around it that its kinds tell, and a grid over that box
+// solid -> the smallest box around it that its kinds allow to compute, and a grid over that box
 #pragma once
 
 #include <glm/mat4x4.hpp>
@@ -20,15 +20,15 @@ struct SolidBounds {
 
 /// The box around `frame_from_solid * solid`, exact for one shape, an outer bound for combinations.
 ///
-/// What lies outside of `clip` is left out. Throws Error::scene when the box is infinite: a slab
+/// The part outside of `clip` is left out. Throws Error::scene when the box is infinite: a slab
 /// needs a clip box on the axes along which it extends.
 SolidBounds bounds(const Solid& solid, const glm::dmat4& frame_from_solid,
                    const std::optional<SolidBounds>& clip = std::nullopt);
 
-/// The grid over the solid with `margin` empty voxels or more on every side, its planes at whole
-/// multiples of `voxel_edge`.
+/// The grid over the solid with at least `margin` empty voxels on every side. Its planes lie at
+/// whole multiples of `voxel_edge`.
 ///
-/// A smooth surface needs the margin of 4 for its differences. A clip box ends the grid without
+/// A smooth surface needs the margin of 4 for its differences. At a clip box the grid ends without
 /// margin. Throws Error::scene for a solid that is infinite or wholly outside of `clip`, and
 /// Error::limit for a grid with more than 2^22 voxels along an axis.
 GridFrame frame_around(const Solid& solid, const glm::dmat4& frame_from_solid,

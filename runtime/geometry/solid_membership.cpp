@@ -36,7 +36,7 @@ int side_of_ellipsoid(const Point& p, const glm::dvec3& radii) {
         .sign();
 }
 
-/// The frustum's radius at y is ((r0 + r1) h + 2 (r1 - r0) y) / 2h.
+/// The side of a cone. Its radius at y is ((r0 + r1) h + 2 (r1 - r0) y) / 2h.
 int side_of_cone(const Point& p, const Solid& cone) {
     const ExactSum sum = ExactSum(cone.radius) + ExactSum(cone.top_radius);
     const ExactSum growth = ExactSum(cone.top_radius) - ExactSum(cone.radius);

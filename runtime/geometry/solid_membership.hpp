@@ -1,4 +1,4 @@
-// Whether a lattice point lies in a solid, decided exactly.
+// Decides exactly whether a lattice point lies in a solid.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -7,12 +7,13 @@
 
 namespace voxelume {
 
-/// The side of the point at `half_voxels` / 2 of the grid: -1 inside, 0 on the boundary, 1 outside.
+/// The side of the point at `half_voxels` / 2 of the grid: -1 is inside, 0 on the boundary, 1
+/// outside.
 ///
-/// Exact for the program's sources, whose maps and parameters are doubles: the points that kernels
-/// can't decide in float come here. Combinations take the least (union) or greatest (intersection)
-/// of their shapes' sides, so a point counts as in the solid when this is not 1, and the boundary
-/// of what a difference takes away stays in it.
+/// The result is exact for the program's sources, whose maps and parameters are doubles. It decides
+/// the points that kernels can't decide in float. Combinations take the minimum (union) or maximum
+/// (intersection) of their shapes' sides. So a point counts as in the solid when this is not 1, and
+/// the boundary of what a difference takes away stays in the solid.
 int exact_side(const SolidProgram& program, const glm::ivec3& half_voxels);
 
 }  // namespace voxelume

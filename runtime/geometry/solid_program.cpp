@@ -14,9 +14,9 @@
 namespace voxelume {
 namespace {
 
-constexpr double kFarthestCentre = 16777216.0;  // voxels; below it float holds every integer
+constexpr double kFarthestCentre = 16777216.0;  // in voxels; below it float holds every integer
 
-/// The map from the grid's voxels into shape space, split as SolidShape stores it.
+/// Stores the map from the grid's voxels into shape space, split into parts as in SolidShape.
 void store_map(SolidShape& record, const ShapeMap& map, const glm::dmat4& frame_from_shape,
                const GridFrame& frame, double shortest_edge) {
     const glm::dvec3 centre = (glm::dvec3(frame_from_shape[3]) - frame.origin) / frame.voxel_edge;
@@ -36,9 +36,9 @@ void store_map(SolidShape& record, const ShapeMap& map, const glm::dmat4& frame_
     }
 }
 
-/// A bound of what float evaluation loses: 6 roundings on the way into shape space and 8 in the
-/// distance, each of 2^-24 of lengths up to the point's and the shape's, times sqrt(3) for three
-/// coordinates; an ellipsoid's grow with its eccentricity.
+/// Stores a bound of what float evaluation loses: 6 roundings on the way into shape space and 8 in
+/// the distance. Each is 2^-24 of lengths up to the point's and the shape's, times sqrt(3) for
+/// three coordinates. An ellipsoid's roundings grow with its eccentricity.
 void store_rounding(SolidShape& record, const ShapeMap& map) {
     const float* m = record.shape_from_grid;
     float largest = 0;
@@ -127,7 +127,7 @@ class ProgramWriter {
 
     const GridFrame& frame_;
     SolidProgram& program_;
-    int pending_bits_ = 0;  // of the last shape's operations
+    int pending_bits_ = 0;  // shift of the next operation in the last shape's operations
 };
 
 }  // namespace

@@ -13,10 +13,10 @@
 namespace voxelume {
 namespace {
 
-/// Shadow of a patch over its area, averaged over all directions, summed over three axes.
+/// A patch's mean shadow per area over all directions, summed over the three axes.
 constexpr double kMeanShadow = 1.5;
 
-/// Bricks that even the smallest surface may lie in.
+/// The number of bricks that even the smallest surface may lie in.
 constexpr double kFewestBricks = 8;
 
 glm::dvec3 area_vector(const Mesh& mesh, const glm::uvec3& t) {
@@ -24,7 +24,7 @@ glm::dvec3 area_vector(const Mesh& mesh, const glm::uvec3& t) {
     return glm::cross(b - a, c - a) / 2.0;
 }
 
-/// How much of [low, high] lies in [from, to]: 0 to 1.
+/// The part of [low, high] that lies in [from, to], 0 to 1.
 double part_of(double low, double high, double from, double to) {
     if (high <= low) return low >= from && low <= to ? 1 : 0;
     return std::max(0.0, std::min(high, to) - std::max(low, from)) / (high - low);
@@ -45,7 +45,7 @@ SurfaceArea box_area(const SolidBounds& box, const SolidBounds& clip) {
     return area;
 }
 
-/// Which part of its box' shadows along its own axes a shape throws at least.
+/// The minimum shadows of a shape along its own axes, as parts of its box' shadows.
 glm::dvec3 own_shadows(const Solid& solid) {
     constexpr double kDisk = glm::pi<double>() / 4;
     switch (solid.kind) {
@@ -66,7 +66,8 @@ glm::dvec3 own_shadows(const Solid& solid) {
     }
 }
 
-/// The same along the axes that `map` turns them to; nothing where it turns them to no axes.
+/// The minimum shadows along the axes that `map` turns the shape's axes to; 0 where it doesn't turn
+/// them to axes.
 glm::dvec3 min_shadows(const Solid& solid, const glm::dmat4& map) {
     const glm::dvec3 own = own_shadows(solid);
     glm::dvec3 shadows(0);
@@ -82,7 +83,7 @@ glm::dvec3 min_shadows(const Solid& solid, const glm::dmat4& map) {
     return shadows;
 }
 
-/// The same for triangles of the same corners, whatever their order.
+/// A hash of a triangle's corners. It is equal for triangles of equal corners in any order.
 uint64_t corner_hash(const Mesh& mesh, const glm::uvec3& triangle) {
     uint64_t sum = 0;
     for (int corner = 0; corner < 3; ++corner) {
@@ -111,8 +112,8 @@ SurfaceArea mesh_area(const Mesh& mesh) {
 }
 
 SurfaceArea min_mesh_area(const Mesh& mesh) {
-    constexpr size_t kSlotsPerTriangle =
-        16;  // of bits: one in 32 is taken for another's double, at most
+    // A slot is a bit. At most one triangle in 32 is mistaken for another's duplicate.
+    constexpr size_t kSlotsPerTriangle = 16;
     const size_t places =
         std::bit_ceil(std::max<size_t>(mesh.triangles.size(), 2)) * kSlotsPerTriangle;
     const int shift = 64 - std::countr_zero(places);
@@ -149,7 +150,8 @@ SurfaceArea min_solid_area(const Solid& solid, const glm::dmat4& frame_from_soli
         maximum.total = maximum.shadows.x + maximum.shadows.y + maximum.shadows.z;
         return maximum;
     }
-    if (solid.kind != SolidKind::union_of) return maximum;  // they may leave nothing
+    // An intersection or difference may leave nothing.
+    if (solid.kind != SolidKind::union_of) return maximum;
     for (const Solid& part : solid.parts) {
         const SurfaceArea of_part = min_solid_area(part, map, clip);
         if (of_part.total >= maximum.total) maximum = of_part;

@@ -18,15 +18,15 @@ struct VoxelModel {
     std::vector<uint64_t> occupancy;
     std::vector<int16_t> distance;
     std::vector<uint32_t> attributes, colors;
-    bool transparent = false;         ///< some voxel isn't opaque
-    std::vector<std::string> groups;  ///< what the attributes' materials are named
-    Mesh mesh;                        ///< of exact surfaces: their triangles, and nothing else
+    bool transparent = false;         ///< true if some voxel isn't opaque
+    std::vector<std::string> groups;  ///< names of the attributes' materials
+    Mesh mesh;                        ///< triangles of an exact surface, and nothing else
 
-    size_t voxels() const;  ///< that are occupied, or near a smooth surface
+    size_t voxels() const;  ///< number of voxels that are occupied, or near a smooth surface
     BrickGrid upload(const Device& device) const;
 };
 
-/// Bricks in the table of a frame.
+/// The number of bricks in a frame's table.
 size_t bricks_of(const GridFrame& frame);
 
 }  // namespace voxelume

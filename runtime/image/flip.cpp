@@ -11,12 +11,12 @@
 namespace voxelume {
 namespace {
 
-// Names of the paper: q_c, q_f, p_c, p_t, w; its values.
+// The paper's names for these values are q_c, q_f, p_c, p_t and w.
 constexpr double kColorPower = 0.7, kFeaturePower = 0.5;
 constexpr double kKneeShare = 0.4, kKneeValue = 0.95;
 constexpr double kFeatureDegrees = 0.082;
 
-/// Linear Rec. 709 to CIE XYZ, D65.
+/// The matrix from linear Rec. 709 to CIE XYZ, D65.
 const glm::dmat3 kXyzFromRgb(0.4123907993, 0.2126390059, 0.0193308187,  //
                              0.3575843394, 0.7151686788, 0.1191947798,  //
                              0.1804807884, 0.0721923154, 0.9505321522);
@@ -25,7 +25,8 @@ glm::dvec3 white() {
     return kXyzFromRgb * glm::dvec3(1);
 }
 
-/// Y C_x C_z: CIELAB without its cube roots, in which the eye's filters are linear.
+/// The opponent colour Y C_x C_z: CIELAB without its cube roots. The eye's filters are linear in
+/// it.
 glm::dvec3 opponent_from_rgb(const glm::dvec3& rgb) {
     const glm::dvec3 t = kXyzFromRgb * rgb / white();
     return {116 * t.y - 16, 500 * (t.x - t.y), 200 * (t.y - t.z)};
@@ -38,7 +39,7 @@ glm::dvec3 rgb_from_opponent(const glm::dvec3& c) {
     return rgb_from_xyz * (t * white());
 }
 
-/// CIELAB whose chroma grows with lightness (Hunt's effect).
+/// The CIELAB colour with a chroma that grows with lightness (Hunt's effect).
 glm::dvec3 hunt_lab(const glm::dvec3& rgb) {
     const auto root = [](double t) {
         constexpr double kDelta = 6.0 / 29;
@@ -62,7 +63,7 @@ struct ColorPlane {
     const double* row(int y) const { return values.data() + size_t(y) * size_t(width); }
 };
 
-/// Weights of -radius .. radius.
+/// The weights of the offsets -radius .. radius.
 using Weights = std::vector<double>;
 
 Weights weights(int radius, const auto& value) {
@@ -99,8 +100,8 @@ ColorPlane filtered_columns(const ColorPlane& plane, const Weights& weights_of_r
     return result;
 }
 
-/// The sum of the values around each pixel times weights of their column and of their row. Beyond
-/// the plane its edge's values go on.
+/// Sums the values around each pixel, times the weights of their column and of their row. The
+/// values at the plane's edge continue beyond it.
 ColorPlane filtered(const ColorPlane& plane, const Weights& columns, const Weights& rows) {
     return filtered_columns(filtered_rows(plane, columns), rows);
 }
@@ -111,12 +112,12 @@ double sum_of(const Weights& all) {
     return sum;
 }
 
-/// One Gaussian of a contrast sensitivity, in the frequencies' domain: a exp(-b f^2).
+/// One Gaussian of a contrast sensitivity in the frequency domain: a exp(-b f^2).
 struct Sensitivity {
     double a, b;
 };
 
-/// What the eye sees of an opponent channel: its sensitivities as filters of pixels.
+/// What the eye sees of an opponent channel: the channel filtered by the eye's two sensitivities.
 ColorPlane seen(const ColorPlane& plane, std::array<Sensitivity, 2> both,
                 double pixels_per_degree) {
     constexpr double kPi = std::numbers::pi, kWidest = 0.04;
@@ -173,7 +174,7 @@ Weights balanced(Weights all) {
     return all;
 }
 
-/// How strongly each pixel is an edge, or a point, whatever its direction.
+/// How strongly each pixel is part of an edge, or a point, in any direction.
 struct ImageFeatures {
     std::vector<double> edges, points;
 };
@@ -201,7 +202,8 @@ ImageFeatures image_features(const ColorPlane& opponent, double pixels_per_degre
     return {strength(first), strength(second)};
 }
 
-/// A colour distance on the scale 0..1: most of it for the smaller ones, the rest for the larger.
+/// A colour distance on the scale 0..1. Distances up to the knee take most of the scale, the larger
+/// ones the rest.
 double color_difference(const glm::dvec3& a, const glm::dvec3& b) {
     static const double largest =
         std::pow(hyab(hunt_lab({0, 1, 0}), hunt_lab({0, 0, 1})), kColorPower);

@@ -1,4 +1,4 @@
-// A flat image as the renderer hands it to the writers.
+// A flat image, as the renderer passes it to the writers.
 #pragma once
 
 #include <cstdint>
@@ -12,8 +12,9 @@ namespace voxelume {
 
 /// Planes of `width` x `height` values, row 0 at the top, x fastest.
 ///
-/// Float planes are named as in the file: R G B A Z P.X P.Y P.Z N.X N.Y N.Z; colour is linear Rec.
-/// 709. Pixels without a hit have Z = +infinity, P = N = 0 and objectId 0; objects count from 1.
+/// Float planes have their names in the file: R G B A Z P.X P.Y P.Z N.X N.Y N.Z. Colour is linear
+/// Rec. 709. Pixels without a hit have Z = +infinity, P = N = 0 and objectId 0; objects count from
+/// 1.
 struct Image {
     int width = 0;
     int height = 0;

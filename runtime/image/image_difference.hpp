@@ -1,4 +1,4 @@
-// How far two images are from each other.
+// The measured differences between two images.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,8 @@
 
 namespace voxelume {
 
-/// One channel that both images have, over the pixels where both values are finite.
+/// The difference in one channel that both images have. The errors cover the pixels where both
+/// values are finite.
 struct ChannelDifference {
     std::string channel;
     double largest = 0.0;    ///< max |a - b|
@@ -17,8 +18,7 @@ struct ChannelDifference {
     double mae = 0.0;        ///< mean of |a - b|
     double mrse = 0.0;       ///< mean of ((a - b) / (|b| + 0.01))^2, b being the reference
     uint64_t differing = 0;  ///< pixels whose values are unequal; two NaNs are equal
-    uint64_t unmatched =
-        0;  ///< of them, those with a value that isn't finite: left out of the errors
+    uint64_t unmatched = 0;  ///< those of them with a value that isn't finite; not in the errors
 };
 
 struct ImageDifference {
@@ -27,8 +27,8 @@ struct ImageDifference {
     std::vector<std::string> only_in_b;
 };
 
-/// Compares `a` with the reference `b`; both have the same size. Ids have no distance: only
-/// `differing` is counted.
+/// Compares `a` with the reference `b`; both have the same size. Ids have no distance, so only
+/// `differing` is counted for them.
 ImageDifference compare_images(const Image& a, const Image& b);
 
 }  // namespace voxelume

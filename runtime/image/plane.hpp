@@ -10,8 +10,8 @@
 
 namespace voxelume {
 
-/// Values of one channel, of fixed number. A copy has values of its own; the memory itself may be
-/// part of a larger piece, as that which kernels wrote.
+/// The values of one channel; their number is fixed. A copy owns its values. The memory itself may
+/// be part of a larger allocation, such as the buffer that kernels wrote.
 template <class T>
 class Plane {
   public:
@@ -23,7 +23,7 @@ class Plane {
         values_ = {owner, owner->data()};
     }
     Plane(std::initializer_list<T> values) : Plane(std::vector<T>(values)) {}
-    /// `size` values from where `values` points, which keeps them alive.
+    /// Takes `size` values from where `values` points. `values` keeps their memory alive.
     Plane(std::shared_ptr<T> values, size_t size) : values_(std::move(values)), size_(size) {}
 
     Plane(const Plane& other) : Plane(std::vector<T>(other.begin(), other.end())) {}

@@ -10,14 +10,14 @@
 namespace voxelume {
 namespace {
 
-constexpr int kSamples = 2;  ///< along each side of a pixel
+constexpr int kSamples = 2;  ///< samples along each side of a pixel
 constexpr glm::vec3 kBackground(0.010f, 0.012f, 0.016f), kOutline(0.05f, 0.055f, 0.065f);
 
 bool turns_left(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c) {
     return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x) > 0;
 }
 
-/// The corners of the convex hull, in turn (Andrew's monotone chain).
+/// Fills `hull` with the corners of the convex hull, in turn (Andrew's monotone chain).
 std::vector<glm::dvec2>& hull_of(std::span<const glm::dvec2> points,
                                  std::vector<glm::dvec2>& hull) {
     std::vector<glm::dvec2> sorted(points.begin(), points.end());
@@ -50,7 +50,7 @@ void ViewCanvas::cover_sample(glm::dvec2 at, const glm::vec3& color, float opaci
     to = glm::mix(to, color, opacity);
 }
 
-/// Covers the samples of row y whose middles lie in [first, last); returns whether there are any.
+/// Covers the samples of row y whose middles lie in [first, last). Returns whether there are any.
 bool ViewCanvas::cover_span(int y, double first, double last, const glm::vec3& color,
                             float opacity) {
     const int begin = int(std::ceil(std::max(first, 0.0) - 0.5));
@@ -94,8 +94,8 @@ void ViewCanvas::cover_rectangle(glm::dvec2 low, glm::dvec2 high, const glm::vec
     low *= kSamples, high *= kSamples;
     for (int axis = 0; axis < 2; ++axis) {
         if (std::ceil(low[axis] - 0.5) < std::ceil(high[axis] - 0.5)) continue;
-        low[axis] =
-            std::floor(low[axis]) + 0.5;  // no sample's middle lies within: one all the same
+        // No sample's middle lies inside, so the nearest one is covered.
+        low[axis] = std::floor(low[axis]) + 0.5;
         high[axis] = low[axis] + 0.5;
     }
     const int end = int(std::ceil(std::min(high.y, double(size_.y)) - 0.5));
@@ -112,7 +112,7 @@ void ViewCanvas::draw_line(glm::dvec2 from, glm::dvec2 to) {
 
 void ViewCanvas::draw_frame(glm::dvec2 low, glm::dvec2 high) {
     low = glm::max(low, 0.0);
-    high -= 1.0 / kSamples;  // the last sample within
+    high -= 1.0 / kSamples;  // the last sample inside
     draw_line(low, {high.x, low.y});
     draw_line(low, {low.x, high.y});
     draw_line(high, {high.x, low.y});

@@ -1,4 +1,4 @@
-// What views of volumes are painted on: from the back to the front, with four samples a pixel.
+// The canvas on which views of volumes are painted, from back to front, with four samples a pixel.
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -15,22 +15,22 @@ class ViewCanvas {
   public:
     explicit ViewCanvas(glm::ivec2 size);
 
-    /// Covers the convex hull of some points; what is smaller than a sample still covers one.
+    /// Covers the convex hull of some points. A hull smaller than a sample still covers one.
     void cover_hull(std::span<const glm::dvec2> points, const glm::vec3& color, float opacity);
     void cover_rectangle(glm::dvec2 low, glm::dvec2 high, const glm::vec3& color, float opacity);
 
-    /// A thin line, or the four of a rectangle, in the colour of outlines.
+    /// Draws a thin line, or the four of a rectangle, in the colour of outlines.
     void draw_line(glm::dvec2 from, glm::dvec2 to);
     void draw_frame(glm::dvec2 low, glm::dvec2 high);
 
-    /// The planes R, G, B.
+    /// The picture so far, as the planes R, G, B.
     Image image() const;
 
   private:
     bool cover_span(int y, double first, double last, const glm::vec3& color, float opacity);
     void cover_sample(glm::dvec2 at, const glm::vec3& color, float opacity);
 
-    glm::ivec2 size_;  ///< samples
+    glm::ivec2 size_;  ///< in samples
     std::vector<glm::vec3> samples_;
 };
 

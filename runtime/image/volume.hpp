@@ -1,4 +1,4 @@
-// P, the volumetric image, as the display stage hands it to the writers.
+// P, the volumetric image, as the display stage passes it to the writers.
 #pragma once
 
 #include <cstdint>
@@ -12,28 +12,28 @@
 
 namespace voxelume {
 
-/// What a display voxel shows. `unseen` voxels lie behind a surface: nothing is known of them, so
-/// rendering lists none; the formats have a number for them all the same.
+/// What a display voxel shows. Voxels behind a surface are `unseen`: nothing is known of them.
+/// Rendering lists none of these, but the formats have a number for them.
 enum class VoxelKind : uint8_t { space, object, unseen };
 
-/// V, the lattice of display voxels, and where it stands.
+/// V, the lattice of display voxels, and its position.
 struct VolumeFrame {
     VolumeLayout layout = VolumeLayout::lattice;
     Display display;     ///< the shape that clips it; `display.voxels` gives u, v, k
     glm::ivec3 size{0};  ///< voxels along the three axes of the layout
-    /// Lattice: metres in the observer's coordinates; voxel (i,j,k) fills
-    /// origin + edge * [(i,j,k), (i,j,k)+1].
+    /// For layout `lattice`, metres in the observer's coordinates: voxel (i,j,k) fills origin +
+    /// edge * [(i,j,k), (i,j,k)+1].
     glm::dvec3 origin{0}, edge{0};
-    /// Rays: metres between steps k; voxel k of a ray spans near + step * [k, k+1] along Z_E for
-    /// pyramid and box, along the ray for sector and ball.
+    /// For layout `rays`, metres between steps k: voxel k of a ray spans near + step * [k, k+1],
+    /// along Z_E for pyramid and box, along the ray for sector and ball.
     double step = 0;
     glm::dmat4 world_from_observer{1};  ///< rigid
 };
 
-/// The voxels of P that show something: sparse arrays as long as each other, ascending in
+/// The voxels of P that show something, as sparse arrays of equal length, in ascending order of
 /// `indices`.
 ///
-/// Whatever is not listed is space that shows nothing. Colours are linear Rec. 709 and not
+/// Every voxel that isn't listed is space that shows nothing. Colours are linear Rec. 709 and not
 /// multiplied by the opacity.
 struct Volume {
     VolumeFrame frame;

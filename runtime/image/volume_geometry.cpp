@@ -11,7 +11,7 @@ namespace voxelume {
 
 namespace {
 
-/// The sight ray at (u, v) in [-1, 1], u to the right (-X_E) and v down (-Y_E).
+/// The direction of the sight ray at (u, v) in [-1, 1], u to the right (-X_E) and v down (-Y_E).
 glm::dvec3 direction_of(const Display& display, glm::dvec2 half, glm::dvec2 uv) {
     const glm::dvec2 xy = -uv * half;
     if (display.shape == DisplayShape::pyramid) return {xy, 1.0};

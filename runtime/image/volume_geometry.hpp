@@ -1,4 +1,4 @@
-// Where the voxels of a volumetric image are, in the observer's coordinates and in the world.
+// The positions of a volumetric image's voxels, in the observer's coordinates and in the world.
 #pragma once
 
 #include <cstdint>
@@ -12,31 +12,32 @@
 
 namespace voxelume {
 
-inline constexpr int kMaxVolumeSide = 65536;  ///< voxels along one axis
+inline constexpr int kMaxVolumeSide = 65536;  ///< maximum of voxels along one axis
 
-/// size.x * size.y * size.z.
+/// The number of voxels: size.x * size.y * size.z.
 uint64_t voxel_count(const VolumeFrame& frame);
 
-/// The voxel with that number in `indices`.
+/// The voxel whose number in `indices` is `place`.
 glm::ivec3 cell_of(const VolumeFrame& frame, uint64_t place);
 
-/// Depths count along Z_E (pyramid and box), not along the sight ray (sector and ball).
+/// True if depths count along Z_E (pyramid and box), false if along the sight ray (sector and
+/// ball).
 bool depth_is_along_z(const VolumeFrame& frame);
 
-/// Carries voxel coordinates, where voxel (i,j,k) fills [(i,j,k), (i,j,k)+1], to the world, metres.
-/// Nothing when no matrix does: sight rays of a pyramid, sector or ball.
+/// The matrix from voxel coordinates, where voxel (i,j,k) fills [(i,j,k), (i,j,k)+1], to the world
+/// in metres. Empty where no matrix does this: sight rays of a pyramid, sector or ball.
 std::optional<glm::dmat4> world_from_voxels(const VolumeFrame& frame);
 
 /// The point of the sight ray through pixel coordinates `uv` at `depth` metres, in the observer's
-/// coordinates. `uv` = (i, j) + 0.5 is the middle of column i. For layout `rays`.
+/// coordinates. `uv` = (i, j) + 0.5 is the middle of column i, row j. Only for layout `rays`.
 glm::dvec3 point_on_ray(const VolumeFrame& frame, glm::dvec2 uv, double depth);
 
-/// The middle of a voxel in the world, metres; of rays: the middle of the step.
+/// The middle of a voxel in the world, metres. For layout `rays` it is the middle of the step.
 glm::dvec3 voxel_center(const VolumeFrame& frame, glm::ivec3 cell);
 
-/// What is wrong with a volume as a part of a sentence, empty when nothing is: sizes, edges,
-/// numbers that aren't finite, arrays of different lengths, places out of order or range,
-/// opacities outside 0..1.
+/// Describes what is wrong with a volume, as a part of a sentence; empty if nothing is. Checks
+/// sizes, edges, numbers that aren't finite, arrays of different lengths, places out of order or
+/// range, and opacities outside 0..1.
 std::string find_fault(const Volume& volume);
 std::string find_fault(const VolumeFrame& frame);
 

@@ -19,7 +19,7 @@ constexpr int kSlices = 8, kSliceColumns = 4;
 
 using Corners = std::array<glm::dvec3, 8>;
 
-/// Of a voxel, in the observer's coordinates, metres.
+/// The corners of a voxel in the observer's coordinates, metres.
 Corners corners_of(const VolumeFrame& frame, const glm::ivec3& cell) {
     Corners corners;
     for (int i = 0; i < 8; ++i) {
@@ -46,7 +46,8 @@ std::vector<std::vector<glm::dvec3>> outline_of(const VolumeFrame& frame) {
     constexpr int kPieces = 32;
     std::vector<std::vector<glm::dvec3>> lines;
     const glm::dvec3 size(frame.size);
-    // Voxel coordinates of a line's point, from 0 to 1 along it.
+    // Adds a line. `at` gives the voxel coordinates of its points, from 0 at its start to 1 at its
+    // end.
     const auto add = [&](const auto& at) {
         std::vector<glm::dvec3>& line = lines.emplace_back();
         for (int i = 0; i <= kPieces; ++i) {
@@ -69,7 +70,8 @@ std::vector<std::vector<glm::dvec3>> outline_of(const VolumeFrame& frame) {
                 });
         return lines;
     }
-    // The rim of a sector's image is the circle in it; a ball has none, but an equator.
+    // A sector's outline is the circle in its image. A ball has no rim; its equator is drawn
+    // instead.
     const bool is_ball = frame.display.shape == DisplayShape::ball;
     const glm::dvec2 half = glm::dvec2(size) / 2.0;
     for (const double k : {0.0, size.z}) {
@@ -84,7 +86,7 @@ std::vector<std::vector<glm::dvec3>> outline_of(const VolumeFrame& frame) {
     return lines;
 }
 
-/// Looks at a sphere so that it fills the picture.
+/// A camera that looks at a sphere so that it fills the picture.
 class SheetCamera {
   public:
     SheetCamera(const VolumeBox& extent, const ViewPoint& view, glm::ivec2 size) {
@@ -95,13 +97,13 @@ class SheetCamera {
         right_ = {-std::cos(view.around), 0, std::sin(view.around)};
         up_ = glm::cross(right_, ahead_);
         position_ = (extent.low + extent.high) / 2.0 - distance * ahead_;
-        // A tangent to the sphere, with a little room around it.
+        // This is the tangent to the sphere, with a little room around it.
         const double tangent = 1.04 * radius / std::sqrt(distance * distance - radius * radius);
         scale_ = 0.5 * std::min(size.x, size.y) / tangent;
         middle_ = glm::dvec2(size) / 2.0;
         min_depth_ = 0.05 * radius;
     }
-    /// Where a point is in the picture, pixels from its top left; depth in metres.
+    /// The position of a point in the picture, pixels from its top left, and its depth in metres.
     glm::dvec3 project(const glm::dvec3& p) const {
         const glm::dvec3 q = p - position_;
         const double depth = glm::dot(q, ahead_), by = scale_ / depth;
@@ -116,7 +118,7 @@ class SheetCamera {
     double scale_, min_depth_;
 };
 
-/// The voxels that show something, the farthest first.
+/// The indices of the voxels that show something, the farthest first.
 std::vector<uint32_t> painting_order(const Volume& volume, const SheetCamera& camera) {
     std::vector<std::pair<float, uint32_t>> order;
     for (size_t i = 0; i < volume.indices.size(); ++i) {
@@ -146,7 +148,7 @@ VolumeBox box_of_volume(const Volume& volume) {
     return extent;
 }
 
-/// The first and the last k that show something.
+/// The first and the last k with voxels that show something; all k if there are none.
 std::pair<int, int> shown_depths(const Volume& volume) {
     int first = volume.frame.size.z, last = -1;
     for (size_t i = 0; i < volume.indices.size(); ++i) {
@@ -199,7 +201,7 @@ Image view_slices(const Volume& volume, int first, int end, glm::ivec2 size) {
     const uint64_t layer = uint64_t(frame.size.x) * uint64_t(frame.size.y);
     const auto from = std::ranges::lower_bound(volume.indices, layer * uint64_t(first));
     const auto to = std::ranges::lower_bound(volume.indices, layer * uint64_t(end));
-    // Behind first: the places ascend with k.
+    // The voxels behind come first: places ascend with k.
     for (auto place = to; place != from;) {
         const auto i = size_t(--place - volume.indices.begin());
         if (!is_shown(volume, i)) continue;

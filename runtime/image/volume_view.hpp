@@ -1,4 +1,4 @@
-// Volumetric image -> pictures of it, as viewers around the display see it.
+// Volumetric image -> pictures of it, as viewers around the display see them.
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -8,22 +8,22 @@
 
 namespace voxelume {
 
-/// From where a display is looked at; 0, 0 is the observer's side.
+/// The direction from which a display is looked at; 0, 0 is the observer's side.
 struct ViewPoint {
-    double around = 0;  ///< radians about the display's middle, to the observer's right
+    double around = 0;  ///< radians around the display's middle, to the observer's right
     double above = 0;   ///< radians, between -pi/2 and pi/2
 };
 
-/// The picture of all voxels from outside of the display, in perspective.
+/// The picture of all voxels from outside the display, in perspective.
 ///
-/// The voxels that show something fill the picture; each covers what is behind it by its opacity,
-/// in the colour that it has. The display's outline stands behind them. R, G, B are linear.
+/// The voxels that show something fill the picture. Each has its own colour and covers what is
+/// behind it by its opacity. The display's outline stands behind them all. R, G, B are linear.
 Image view_volume(const Volume& volume, const ViewPoint& view, glm::ivec2 size);
 
-/// The k from `first` to before `end` laid over one another, as the observer sees them.
+/// The slices `first` to `end` - 1 laid over one another, as the observer sees them.
 Image view_slices(const Volume& volume, int first, int end, glm::ivec2 size);
 
-/// Front and `view` side by side, below them eight slices from near to far, row by row.
+/// The front and `view` side by side; below them eight slices from near to far, row by row.
 Image view_sheet(const Volume& volume, const ViewPoint& view, glm::ivec2 size);
 
 }  // namespace voxelume

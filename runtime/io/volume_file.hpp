@@ -15,21 +15,21 @@ VolumeFormat volume_format_of(const std::filesystem::path& path);
 /// The format of a name like "color-planes". Throws Error::usage with the nearest name.
 VolumeFormat volume_format_named(std::string_view name);
 
-/// Throws what write_volume would throw for any volume in this frame, before there is one:
-/// Error::usage for a layout that the format can't hold, Error::limit for sizes beyond the format
-/// or beyond 64 GiB of dense voxels, Error::output where no file can be made.
+/// Throws what write_volume would throw for every volume in this frame, before such a volume
+/// exists: Error::usage for a layout that the format can't hold, Error::limit for sizes beyond the
+/// format or beyond 64 GiB of dense voxels, Error::output where no file can be made.
 void check_volume_output(const std::filesystem::path& path, const VolumeFrame& frame,
                          const VolumeOptions& options = {});
 
-/// Writes the volume. Each file appears under its name whole or not at all, a header after its
-/// data; the same volume gives the same bytes. Throws as check_volume_output does, and
+/// Writes the volume. Each file appears under its name whole or not at all, and a header appears
+/// after its data. Equal volumes give equal bytes. Throws what check_volume_output throws, and
 /// Error::output for a volume that find_fault() refuses.
 void write_volume(const std::filesystem::path& path, const Volume& volume,
                   const VolumeOptions& options = {});
 
-/// Reads a .vdb, .exr, .nrrd or .raw/.json that voxelume wrote; what each of them keeps is in
-/// scenes/VOLUMES.md. Throws Error::input for a file that is missing, damaged or not a volume of
-/// voxelume, Error::usage for the formats that aren't read.
+/// Reads a .vdb, .exr, .nrrd or .raw/.json that voxelume wrote; scenes/VOLUMES.md says what each
+/// format keeps. Throws Error::input for a file that is missing, damaged or not a volume of
+/// voxelume, and Error::usage for the formats that can't be read.
 Volume read_volume(const std::filesystem::path& path);
 
 }  // namespace voxelume

@@ -15,13 +15,13 @@ namespace {
 using Frame = const VolumeFrame&;
 using Options = const VolumeOptions&;
 
-/// The most bytes that are written for voxels that show nothing.
+/// The maximum of a file's bytes that don't depend on how many voxels show something.
 constexpr double kMaxFileBytes = 64.0 * 1024 * 1024 * 1024;
-/// The most bytes of a display's buffer, which is made in memory.
+/// The maximum size of a display's buffer, which is built in memory, in bytes.
 constexpr double kMaxBufferBytes = 4.0 * 1024 * 1024 * 1024;
 
 constexpr glm::ivec3 kAnySize(INT_MAX);
-constexpr glm::ivec3 kMaxKv6(256, 255, 256);  // x, z and y of its own axes
+constexpr glm::ivec3 kMaxKv6(256, 255, 256);  // sizes along KV6's own axes x, z and y
 
 const char* any_layout(Frame) {
     return nullptr;
@@ -58,13 +58,13 @@ double no_bytes(Frame, Options) {
     return 0;
 }
 
-/// `times` bytes for each voxel.
+/// The dense bytes of a format that takes `times` bytes a voxel.
 template <int times>
 double bytes_a_voxel(Frame frame, Options) {
     return voxels(frame) * times;
 }
 
-/// `times` bits for each voxel.
+/// The dense bytes of a format that takes `times` bits a voxel.
 template <int times>
 double bits_a_voxel(Frame frame, Options) {
     return voxels(frame) / 8 * times;
@@ -74,7 +74,7 @@ double nrrd_bytes(Frame frame, Options options) {
     return voxels(frame) * (options.all_values ? 28 : 16);
 }
 
-/// `times` bytes for each voxel of a turning display.
+/// The dense bytes of a turning display's format that takes `times` bytes a voxel.
 template <int times>
 double cylinder_bytes(Frame frame, Options options) {
     const CylinderSize size = cylinder_size(frame, options.device);
@@ -113,13 +113,13 @@ void write_kv6(const VolumePath& path, const Volume& volume, Options options) {
     write_volume_kv6(path, volume, options.device);
 }
 
-/// Writers that know no options.
+/// Adapts a writer that has no options to the table's signature.
 template <auto write>
 void written_by(const VolumePath& path, const Volume& volume, Options) {
     write(path, volume);
 }
 
-/// Writers of several formats.
+/// Adapts a writer that serves several formats to the table's signature.
 template <auto write, VolumeFormat format>
 void written_as(const VolumePath& path, const Volume& volume, Options options) {
     write(path, volume, format, options.device);
@@ -129,8 +129,8 @@ using enum VolumeFormat;
 
 // clang-format off
 const std::array<VolumeFormatEntry, 11> kTable = {{
-    // format, endings, layouts, bytes of empty voxels and the most of them, largest size,
-    // check, write, read
+    // The columns: format, endings, layout_fault, dense_bytes, max_dense_bytes, max_size,
+    // check_path, write, read.
     {vdb, {".vdb"}, affine_or_pyramid, no_bytes, kMaxFileBytes, kAnySize,
      check_vdb, written_by<write_volume_vdb>, read_volume_vdb},
     {exr, {".exr"}, rays_only, no_bytes, kMaxFileBytes, kAnySize,

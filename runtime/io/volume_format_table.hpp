@@ -1,5 +1,5 @@
-// The table of the formats of volumetric images: all that is particular to one format is in its
-// row.
+// The table of the formats of volumetric images. Everything that is particular to one format is in
+// its row.
 #pragma once
 
 #include <array>
@@ -13,19 +13,19 @@ namespace voxelume {
 /// functions that its row names, which lie in a file of their own in io/volume/.
 struct VolumeFormatEntry {
     VolumeFormat format;
-    std::array<const char*, 2> endings;  ///< of file names; the second may be null
+    std::array<const char*, 2> endings;  ///< endings of file names; the second may be null
 
-    /// Why the format can't hold volumes of this frame; null if it can.
+    /// Returns the reason why the format can't hold volumes of this frame, or null if it can.
     const char* (*layout_fault)(const VolumeFrame& frame);
 
-    /// Bytes of the part of a file that doesn't depend on how many voxels show something, and the
-    /// most that are written of it.
+    /// The bytes of the part of a file that doesn't depend on how many voxels show something, and
+    /// their maximum.
     double (*dense_bytes)(const VolumeFrame& frame, const VolumeOptions& options);
     double max_dense_bytes;
     glm::ivec3 max_size;  ///< voxels along each axis
 
-    /// Throws Error::output where a file can't be made there, or would overwrite what isn't its
-    /// own.
+    /// Throws Error::output where a file can't be made at the path, or would overwrite a file that
+    /// isn't of this format.
     void (*check_path)(const VolumePath& path, VolumeFormat format);
 
     void (*write)(const VolumePath& path, const Volume& volume, const VolumeOptions& options);

@@ -284,13 +284,13 @@ TEST(Render, ASceneOfPlainCubesHasNothingElseInIt) {
                             "shade_surface", "trace_closest", "write_voxels"));
     EXPECT_THAT(
         names(r.counters.allocated_bytes),
-        ElementsAre("brick records", "brick states", "cleared bricks", "coordinates", "hits",
-                    "image", "index counts", "index leaf masks", "index masks", "index starts",
-                    "leaf voxels", "leaves", "materials", "materials of groups", "near leaves",
-                    "normals", "not finite", "object numbers", "occupancy", "painted bricks",
-                    "placement", "positions", "radiance", "rays", "sample offsets", "sectors",
-                    "slots", "solids", "undecided count", "undecided voxels", "hit attributes",
-                    "world coordinates", "world occupancy", "world slots"));
+        ElementsAre("brick records", "brick states", "cleared bricks", "coordinates",
+                    "hit attributes", "hits", "image", "index counts", "index leaf masks",
+                    "index masks", "index starts", "leaf voxels", "leaves", "materials",
+                    "materials of groups", "near leaves", "normals", "not finite", "object numbers",
+                    "occupancy", "painted bricks", "placement", "positions", "radiance", "rays",
+                    "sample offsets", "sectors", "slots", "solids", "undecided count",
+                    "undecided voxels", "world coordinates", "world occupancy", "world slots"));
 }
 
 TEST(Render, ALightWithoutIntensityIsNotShaded) {

@@ -15,7 +15,8 @@
 namespace voxelume {
 namespace {
 
-// Of 42 MB of the bunny's channels it makes 12.9 MB in 153 ms, zlib's level 2 13.1 MB in 301 ms.
+// The level of libdeflate. Measured on 42 MB of the bunny's channels: level 1 makes 12.9 MB in 153
+// ms, zlib's level 2 makes 13.1 MB in 301 ms.
 constexpr int kCompressionLevel = 1;
 
 template <class Value>
@@ -45,13 +46,13 @@ void append_row(const ExrPlane& plane, size_t first, size_t width, std::string& 
     }
 }
 
-/// Bytes as OpenEXR's ZIP wants them: those of even places first, then each as its difference from
-/// the one before, plus 128.
+/// Reorders and predicts bytes as OpenEXR's ZIP requires: the bytes at even positions come first,
+/// then those at odd ones, and each becomes its difference from the one before it, plus 128.
 std::string predicted(const std::string& bytes) {
     const size_t size = bytes.size(), odd_places = size / 2, even_places = size - odd_places;
     std::string result(size, '\0');
     if (size == 0) return result;
-    // Loops that compilers turn into vectors, from one array to another.
+    // The loops read one array and write another, so that compilers vectorize them.
     const char* __restrict from = bytes.data();
     char* __restrict even = result.data();
     char* __restrict odd = even + even_places;
@@ -63,7 +64,8 @@ std::string predicted(const std::string& bytes) {
     return result;
 }
 
-/// A zlib stream; the bytes themselves where that is no smaller, as OpenEXR has it.
+/// Returns a zlib stream, or the bytes themselves where the stream is no smaller, as OpenEXR
+/// requires.
 std::string compressed(std::string bytes) {
     const std::unique_ptr<libdeflate_compressor, decltype(&libdeflate_free_compressor)> compressor(
         libdeflate_alloc_compressor(kCompressionLevel), libdeflate_free_compressor);

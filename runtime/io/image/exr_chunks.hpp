@@ -9,29 +9,29 @@
 
 namespace voxelume {
 
-/// Rows in a chunk of ZIP compression.
+/// The number of rows in a chunk of ZIP compression.
 inline constexpr int kExrChunkRows = 16;
 
-/// One channel of an image, 32 bits a value.
+/// One channel of an image, with 32 bits a value.
 struct ExrPlane {
     std::string name;
     const void* values = nullptr;  ///< floats, or unsigned integers; not owned
     bool is_id = false;
-    bool is_half = false;   ///< floats that the file has as halves
-    bool is_color = false;  ///< what isn't finite becomes 0, what doesn't fit is clamped
+    bool is_half = false;   ///< true for floats that the file stores as halves
+    bool is_color = false;  ///< if true, values that aren't finite become 0, and others are clamped
 };
 
-/// What is handed on of a chunk: its first row, its bytes, and how many values became 0.
+/// A compressed chunk: its first row, its bytes, and the number of values that became 0.
 struct ExrChunk {
     int row = 0;
     std::string bytes;
     size_t replaced = 0;
 };
 
-/// Calls `write` with all chunks of the image from the top, compressed by so many threads.
+/// Calls `write` with every chunk of the image, from the top down. `threads` threads compress them.
 ///
-/// `planes` are those of the file, in the order of their names; rows have `width` values each.
-/// Halves are rounded to nearest. The bytes don't depend on the threads.
+/// `planes` are the file's channels, in the order of their names; each row has `width` values.
+/// Halves are rounded to nearest. The bytes don't depend on the number of threads.
 void compress_chunks(const std::vector<ExrPlane>& planes, int width, int height, int threads,
                      const std::function<void(const ExrChunk&)>& write);
 

@@ -29,7 +29,8 @@ const char* compression_name(exr_compression_t compression) {
     return kNames[compression];
 }
 
-/// The core library's handle: it parses the header without taking memory for pixels or row tables.
+/// Owns a handle of OpenEXR's core library, which parses the header without allocating memory for
+/// pixels or row tables.
 class HeaderReader {
   public:
     explicit HeaderReader(const std::filesystem::path& path) : path_(path) {
@@ -98,8 +99,8 @@ void HeaderReader::read_attributes(ExrHeader& header) const {
     }
 }
 
-/// No compression of OpenEXR reaches this ratio, so a header beyond it lies, and its memory isn't
-/// taken.
+/// The maximum of pixel bytes per file byte. No compression of OpenEXR reaches it, so a header
+/// beyond it is false, and no memory is allocated for it.
 constexpr uint64_t kLargestRatio = 4096;
 
 void check_size(const InputFile& file, const ExrHeader& header) {
@@ -113,7 +114,7 @@ void check_size(const InputFile& file, const ExrHeader& header) {
                         header.width, header.height));
 }
 
-/// Takes memory for every channel and points the frame buffer there.
+/// Allocates memory for every channel and points the frame buffer at it.
 Imf::FrameBuffer attach_planes(const InputFile& file, const Imf::InputFile& input, Image& image) {
     Imf::FrameBuffer buffer;
     const Imath::Box2i window = input.header().dataWindow();
@@ -138,7 +139,7 @@ Imf::FrameBuffer attach_planes(const InputFile& file, const Imf::InputFile& inpu
 }  // namespace
 
 ExrHeader read_exr_header(const std::filesystem::path& path) {
-    const InputFile file(path);  // says what is wrong with the file itself
+    const InputFile file(path);  // reports what is wrong with the file itself
     return HeaderReader(path).read();
 }
 
@@ -156,7 +157,8 @@ Image read_exr(const std::filesystem::path& path) {
         const Imath::Box2i window = input.header().dataWindow();
         input.readPixels(window.min.y, window.max.y);
         for (auto a = input.header().begin(); a != input.header().end(); ++a)
-            // "type" is the file's own: a part is scanlines or tiles.
+            // "type" belongs to the file format: it says that a part consists of scanlines or of
+            // tiles.
             if (const auto* text = dynamic_cast<const Imf::StringAttribute*>(&a.attribute());
                 text && a.name() != std::string_view("type"))
                 image.attributes[a.name()] = text->value();

@@ -1,5 +1,5 @@
-// OpenEXR's stream onto a file of ours: OpenEXR 3.1.5 truncates small files silently on a full
-// disk.
+// OpenEXR's output stream onto an AtomicFile. OpenEXR 3.1.5's own stream truncates small files
+// silently on a full disk.
 #pragma once
 
 #include <ImfIO.h>

@@ -19,7 +19,7 @@ bool is_color(const std::string& plane) {
     return plane == "R" || plane == "G" || plane == "B" || plane == "A";
 }
 
-/// The image's planes in the order of their names, as the file has them.
+/// The image's planes in the order of their names, as the file stores them.
 std::vector<ExrPlane> planes_of(const Image& image, ColorDepth color) {
     std::vector<ExrPlane> planes;
     for (const auto& [name, plane] : image.planes)
@@ -42,8 +42,8 @@ void check_image(AtomicFile& file, const Image& image) {
         if (plane.size() != pixels) file.fail("plane " + name + " hasn't the image's size");
 }
 
-/// OpenEXR's writer of headers and chunks, onto a file of ours: OpenEXR 3.1.5 truncates small files
-/// silently on a full disk.
+/// OpenEXR's writer of headers and chunks, onto an AtomicFile. OpenEXR 3.1.5's own stream truncates
+/// small files silently on a full disk.
 class ExrWriter {
   public:
     ExrWriter(AtomicFile& file, const std::filesystem::path& path) : file_(file) {
@@ -97,7 +97,7 @@ class ExrWriter {
         file_.write(bytes, size);
         return int64_t(size);
     } catch (const Error&) {
-        return -1;  // the file keeps it, and throws it below
+        return -1;  // the AtomicFile keeps the error, and check() reports OpenEXR's
     }
 
     void check(exr_result_t result) {

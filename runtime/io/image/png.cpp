@@ -21,7 +21,7 @@ double linear_from_srgb(double code) {
     return code <= 0.04045 ? code / 12.92 : std::pow((code + 0.055) / 1.055, 2.4);
 }
 
-/// thresholds[k]: where code k ends and k + 1 begins, in linear light.
+/// Returns thresholds[k], the linear value at which code k ends and k + 1 begins.
 std::array<float, 255> make_thresholds() {
     std::array<float, 255> thresholds{};
     for (size_t k = 0; k < thresholds.size(); ++k)
@@ -30,12 +30,12 @@ std::array<float, 255> make_thresholds() {
     return thresholds;
 }
 
-/// The planes that a picture needs, with their defaults.
+/// The planes that a picture needs, with defaults for missing ones.
 struct ColorPlanes {
     const Plane<float>& red;
     const Plane<float>& green;
     const Plane<float>& blue;
-    const Plane<float>* alpha;  ///< null: opaque
+    const Plane<float>* alpha;  ///< null for an opaque image
 
     glm::vec3 color(size_t i) const { return {red[i], green[i], blue[i]}; }
 };
@@ -77,7 +77,7 @@ Picture develop(const Image& image, const ColorPlanes& planes, const PngOptions&
     return picture;
 }
 
-/// The picture's bytes as PNG takes them: three a pixel when it is opaque.
+/// The picture's bytes as PNG stores them: four a pixel, or three without alpha.
 std::vector<uint8_t> pack_pixels(const Picture& picture, bool with_alpha) {
     const size_t channels = with_alpha ? 4 : 3;
     std::vector<uint8_t> bytes;
@@ -116,8 +116,8 @@ void encode(AtomicFile& file, const Picture& picture, bool with_alpha) {
 }  // namespace
 
 uint8_t srgb_code(float linear) {
-    // A search in thresholds rounds exactly, and alike on every machine; pow at each pixel does
-    // neither.
+    // A search in the thresholds rounds exactly, and gives equal codes on every machine; pow at
+    // each pixel does neither.
     static const std::array<float, 255> thresholds = make_thresholds();
     if (std::isnan(linear)) return 0;
     return static_cast<uint8_t>(std::upper_bound(thresholds.begin(), thresholds.end(), linear) -
@@ -137,12 +137,12 @@ Picture read_png(const std::filesystem::path& path) {
     const auto check = [&file](int code) {
         if (code != 0) file.refuse(fmt::format("not a readable PNG: {}", spng_strerror(code)));
     };
-    // An 8-bit RGBA pixel takes at most 8 bytes as 16-bit samples; what is larger can't be within
+    // An 8-bit RGBA pixel takes at most 8 bytes as 16-bit samples, so a larger file can't be within
     // the limit.
     if (file.size() > 9 * kMaxPixels) file.refuse("is too large for a PNG that voxelume reads");
     std::vector<uint8_t> bytes(file.size());
     file.read(0, bytes.data(), bytes.size());
-    // libspng is content when the pixels are there; only the last chunk shows that nothing is
+    // libspng accepts a file once it has the pixels. Only the last chunk shows that nothing is
     // missing.
     constexpr std::array<uint8_t, 8> kEnd = {'I', 'E', 'N', 'D', 0xae, 0x42, 0x60, 0x82};
     if (std::search(bytes.begin(), bytes.end(), kEnd.begin(), kEnd.end()) == bytes.end())
@@ -154,7 +154,7 @@ Picture read_png(const std::filesystem::path& path) {
     spng_ihdr header{};
     check(spng_get_ihdr(context.get(), &header));
     const uint64_t pixels = uint64_t{header.width} * header.height;
-    // Deflate reaches 1032:1 and a pixel takes an eighth of a byte at least.
+    // Deflate compresses at most 1032:1, and a pixel takes at least an eighth of a byte.
     if (pixels > kMaxPixels || pixels / 8 / 1032 > file.size())
         file.refuse(
             fmt::format("declares {} x {} pixels, which it can't hold or which are above 2^28",

@@ -11,28 +11,29 @@
 
 namespace voxelume {
 
-/// How linear light becomes a picture for a screen.
+/// The conversion of linear light to a picture for a screen.
 struct PngOptions {
     float exposure = 0.0f;       ///< stops: colours are multiplied by 2^exposure
-    bool keep_alpha = false;     ///< else the background shows through where alpha is below 1
+    bool keep_alpha = false;     ///< if false, the background shows through where alpha is below 1
     glm::vec3 background{0.0f};  ///< linear Rec. 709, exposed like the image
 };
 
-/// Pixels of a PNG: red, green, blue and alpha, row 0 at the top.
+/// The pixels of a PNG: red, green, blue and alpha, row 0 at the top.
 struct Picture {
     int width = 0;
     int height = 0;
     std::vector<std::array<uint8_t, 4>> pixels;
 };
 
-/// The nearest sRGB code (IEC 61966-2-1) of a linear value; outside 0..1 is clamped, NaN is 0.
+/// The sRGB code (IEC 61966-2-1) nearest to a linear value. Values outside 0..1 are clamped; NaN
+/// gives 0.
 uint8_t srgb_code(float linear);
 
-/// Writes the planes R G B (and A, 1 where there is none).
+/// Writes the planes R, G, B and A; A is 1 where the image has none.
 ///
-/// As in OpenEXR, colour is multiplied by alpha: what is seen is colour + (1 - A) * background.
-/// With `keep_alpha` it is divided by alpha again, as PNG wants it. The same image gives the same
-/// bytes. Throws Error::output.
+/// As in OpenEXR, colour is multiplied by alpha: the visible colour is colour + (1 - A) *
+/// background. With `keep_alpha` the colour is divided by alpha again, as PNG requires. Equal
+/// images give equal bytes. Throws Error::output.
 void write_png(const std::filesystem::path& path, const Image& image,
                const PngOptions& options = {});
 

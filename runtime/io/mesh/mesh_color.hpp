@@ -13,8 +13,8 @@ inline float linear_from_srgb(double value) {
                                                : std::pow((value + 0.055) / 1.055, 2.4));
 }
 
-/// The linear Rec. 709 colour of an sRGB colour. Mesh formats don't say what their colours mean;
-/// what scanners and modellers write is what a screen shows, so every reader takes them as sRGB.
+/// The linear Rec. 709 colour of an sRGB colour. Mesh formats don't say what their colours mean.
+/// Scanners and modellers write what a screen shows, so every reader takes the colours as sRGB.
 inline glm::vec3 linear_from_srgb(const glm::dvec3& color) {
     return {linear_from_srgb(color.x), linear_from_srgb(color.y), linear_from_srgb(color.z)};
 }

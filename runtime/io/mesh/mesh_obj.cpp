@@ -12,7 +12,8 @@
 namespace voxelume {
 namespace {
 
-/// Statements of the format, beside v, f, vn and vt, that say nothing about a triangle mesh.
+/// Statements of the format that say nothing about a triangle mesh. The parser handles v, f, vn and
+/// vt itself.
 constexpr std::string_view kSkippedStatements[] = {
     "vp",     "deg",        "bmat",      "step",     "cstype", "p",      "l",
     "fo",     "curv",       "curv2",     "surf",     "parm",   "trim",   "hole",
@@ -122,8 +123,8 @@ class ObjParser {
         mesh_.triangle_group.resize(mesh_.triangles.size(), group());
     }
 
-    /// `7`, `7/3`, `7//4` or `7/3/4`: the first is the vertex, counted from 1, or backwards from
-    /// -1.
+    /// Parses `7`, `7/3`, `7//4` or `7/3/4`. The first number is the vertex; it counts from 1, or
+    /// backwards from -1 for the last vertex.
     uint32_t parse_corner() {
         const Integer vertex = scan_integer(p_);
         const char* end = vertex.end;
@@ -153,7 +154,7 @@ class ObjParser {
         return static_cast<uint32_t>(index);
     }
 
-    /// The name is the rest of the line, spaces within included.
+    /// Reads the material's name: the rest of the line, with the spaces within it.
     void parse_material() {
         const char* const begin = skip_blanks(skip_token(p_));
         skip_line();
@@ -165,7 +166,7 @@ class ObjParser {
         group_known_ = false;
     }
 
-    /// The current material's group; a group begins to exist with its first face.
+    /// Returns the current material's group. A group begins to exist with its first face.
     uint32_t group() {
         if (!group_known_) {
             const auto next = static_cast<uint32_t>(mesh_.group_names.size());
@@ -188,7 +189,7 @@ class ObjParser {
         }
     }
 
-    /// Blanks, and a backslash that joins the next line to this one.
+    /// Skips blanks, and a backslash that joins the next line to this one.
     void skip_gap() {
         p_ = skip_blanks(p_);
         while (*p_ == '\\' && continues(p_)) {
@@ -201,7 +202,7 @@ class ObjParser {
         return *p == '\n' || *p == '\0';
     }
 
-    /// Behind the end of the line that holds `p`.
+    /// The position after the end of the line that holds `p`.
     const char* after_line(const char* p) const {
         const void* const newline = std::memchr(p, '\n', static_cast<size_t>(source_.end() - p));
         return newline != nullptr ? static_cast<const char*>(newline) + 1 : source_.end();
@@ -219,7 +220,7 @@ class ObjParser {
         } while (p_ != source_.end() && joins_next(line, p_));
     }
 
-    /// Whether the line [begin, end) ends in a backslash.
+    /// True if the line [begin, end) ends in a backslash.
     static bool joins_next(const char* begin, const char* end) {
         while (end > begin && (is_blank(end[-1]) || end[-1] == '\n')) {
             --end;

@@ -11,7 +11,7 @@
 namespace voxelume {
 namespace {
 
-/// What a vertex property is for: the first six are places in a row of numbers.
+/// The purpose of a vertex property. The first six are also indices into a row of numbers.
 enum Role : size_t { kX, kY, kZ, kRed, kGreen, kBlue, kRoles, kSkipped = kRoles };
 
 constexpr std::string_view kRoleNames[kRoles] = {"x", "y", "z", "red", "green", "blue"};
@@ -25,7 +25,8 @@ Role role_of(const PlyProperty& property) {
     return property.is_list ? kSkipped : static_cast<Role>(found - kRoleNames);
 }
 
-/// What the largest value of a colour's type stands for; 0 if colours can't be of it.
+/// The largest value of a colour's type, which stands for full intensity; 0 if colours can't have
+/// the type.
 double color_scale(PlyType type) {
     switch (type) {
         case PlyType::uint8:
@@ -40,7 +41,7 @@ double color_scale(PlyType type) {
     }
 }
 
-/// The properties of a vertex, sorted out once.
+/// The properties of a vertex, classified once before the rows are read.
 struct VertexLayout {
     std::vector<Role> roles;  ///< one per property
     std::array<double, kRoles> scale{};
@@ -187,7 +188,7 @@ class BodyParser {
         cutter_.append(source_, corners_, mesh_);
     }
 
-    /// The count of a list whose values fit into what is left of the file.
+    /// The count of a list. Fails where the list's values don't fit into the rest of the file.
     uint64_t list_count(const PlyProperty& property) {
         const int64_t count = rows_.integer(property.count_type);
         if (count < 0 || !rows_.holds(property.type, static_cast<uint64_t>(count))) {
@@ -203,7 +204,7 @@ class BodyParser {
 
     void skip_element(const PlyElement& element) {
         if (element.properties.empty()) {
-            return;  // takes no bytes, however many there are
+            return;  // such elements take no bytes, however many there are
         }
         for (uint64_t i = 0; i < element.count; ++i) {
             rows_.begin_row();
@@ -214,8 +215,8 @@ class BodyParser {
         }
     }
 
-    /// What follows the last element may only be white space: anything else says the counts are
-    /// wrong.
+    /// Fails unless only white space follows the last element: anything else shows that the counts
+    /// are wrong.
     void require_end() {
         const auto is_padding = [](char c) { return c == '\n' || c == '\0' || is_blank(c); };
         if (!std::all_of(rows_.at(), source_.end(), is_padding)) {

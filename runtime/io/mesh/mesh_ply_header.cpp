@@ -161,7 +161,8 @@ uint64_t PlyElement::min_bytes(PlyFormat format) const {
     uint64_t bytes = 0;
     for (const PlyProperty& property : properties) {
         const PlyType first = property.is_list ? property.count_type : property.type;
-        bytes += format == PlyFormat::ascii ? 2 : size_of(first);  // a digit and a separator
+        // an ascii value takes at least a digit and a separator
+        bytes += format == PlyFormat::ascii ? 2 : size_of(first);
     }
     return bytes;
 }

@@ -1,4 +1,4 @@
-// The body of a PLY file value by value: one interface over text and both byte orders.
+// The body of a PLY file, value by value: one interface for text and both byte orders.
 #pragma once
 
 #include "runtime/base/decimal.hpp"
@@ -10,7 +10,7 @@
 
 namespace voxelume {
 
-/// Rows of text, a line each. Failures name the line.
+/// Rows of text, one line each. Error messages name the line.
 class PlyAsciiRows {
   public:
     PlyAsciiRows(const MeshSource& source, const char* body) : source_(source), p_(body) {}
@@ -52,7 +52,7 @@ class PlyAsciiRows {
         }
     }
 
-    /// Whether the file may hold `count` more values.
+    /// True if the file may hold `count` more values.
     bool holds(PlyType, uint64_t count) const {
         return count <= static_cast<uint64_t>(source_.end() - p_) / 2 + 1;
     }
@@ -72,7 +72,7 @@ class PlyAsciiRows {
     const char* p_;
 };
 
-/// Rows of binary values in the byte order `Order`. Failures name the byte.
+/// Rows of binary values in the byte order `Order`. Error messages name the byte.
 template <std::endian Order>
 class PlyBinaryRows {
   public:
@@ -93,7 +93,7 @@ class PlyBinaryRows {
         }
     }
 
-    /// `type` is an integer's.
+    /// Reads an integer. `type` has to be an integer type.
     int64_t integer(PlyType type) {
         switch (type) {
             case PlyType::int8:
@@ -150,7 +150,7 @@ class PlyBinaryRows {
 
     const MeshSource& source_;
     const char* p_;
-    const char* value_;  ///< where the value that was read last begins
+    const char* value_;  ///< start of the value that was read last
 };
 
 }  // namespace voxelume

@@ -1,5 +1,6 @@
-// Fans and ears. Decisions are signs of areas in double: they choose between triangulations, all of
-// which are valid meshes, so no sign can do more than place a diagonal badly.
+// Cuts polygons as fans or by their ears. Decisions use the signs of areas in double. They choose
+// between triangulations that are all valid meshes, so a wrong sign does no more than place a
+// diagonal badly.
 #include "runtime/io/mesh/mesh_polygon.hpp"
 
 #include <glm/common.hpp>
@@ -73,8 +74,9 @@ void PolygonCutter::project(std::span<const uint32_t> corners, const Mesh& mesh)
     }
 }
 
-/// The triangles of a fan, each with its sign, always add up to the polygon; if none is negative
-/// then none overlaps another, and the fan covers a simple polygon exactly, convex or not.
+/// True if no triangle of the fan is negative. The signed areas of a fan always add up to the
+/// polygon's. If none is negative, no triangle overlaps another, and the fan covers a simple
+/// polygon exactly, convex or not.
 bool PolygonCutter::fan_covers() const {
     for (size_t i = 1; i + 1 < flat_.size(); ++i) {
         if (area2(flat_[0], flat_[i], flat_[i + 1]) < 0.0) {
@@ -88,8 +90,9 @@ double PolygonCutter::turn(size_t corner) const {
     return area2(flat_[before_[corner]], flat_[corner], flat_[after_[corner]]);
 }
 
-/// Whether the corner turns left and no corner that doesn't lies in or on its triangle. Corners at
-/// the places of its own three don't count: exporters join holes to the outline with such doubles.
+/// True if the corner turns left, and no corner that doesn't turn left lies in or on its triangle.
+/// Corners at the positions of the triangle's own three don't count: exporters join holes to the
+/// outline with such duplicates.
 bool PolygonCutter::is_ear(size_t corner) const {
     const glm::dvec2& a = flat_[before_[corner]];
     const glm::dvec2& b = flat_[corner];
@@ -125,7 +128,7 @@ void PolygonCutter::cut_ears(std::span<const uint32_t> corners, Mesh& mesh) {
         for (; tries < left && !ear_[corner]; ++tries) {
             corner = after_[corner];
         }
-        // A polygon that crosses itself may have no ear: any corner that turns left has to do.
+        // A polygon that crosses itself may have no ear. Then any corner that turns left is taken.
         for (; tries >= left && tries < 2 * left && !(turn(corner) > 0.0); ++tries) {
             corner = after_[corner];
         }
@@ -136,7 +139,8 @@ void PolygonCutter::cut_ears(std::span<const uint32_t> corners, Mesh& mesh) {
         before_[next] = previous;
         ear_[previous] = is_ear(previous);
         ear_[next] = is_ear(next);
-        corner = after_[next];  // not the neighbour: a strip of ears instead of a fan of slivers
+        // Skipping the neighbour cuts a strip of ears instead of a fan of slivers.
+        corner = after_[next];
     }
     mesh.triangles.emplace_back(corners[before_[corner]], corners[corner], corners[after_[corner]]);
 }

@@ -12,23 +12,26 @@
 
 namespace voxelume {
 
-/// A mesh has at most 2^31 indices, so that kernels count them in an int.
+/// The maximum number of triangles: a mesh has at most 2^31 indices, so that kernels count them in
+/// an int.
 constexpr uint64_t kMaxTriangles = (uint64_t{1} << 31) / 3;
 
-/// A face whose fan from the first corner doesn't cover it has at most this many corners: cutting
-/// off ears takes time in proportion to their square (0.3 s for one face at the limit).
+/// The maximum number of corners of a face that the fan from its first corner doesn't cover.
+/// Cutting ears takes time proportional to the square of this number (0.3 s for one face at the
+/// limit).
 constexpr size_t kMaxConcaveCorners = 16384;
 
 /// Throws Error::limit when a mesh would have more than `kMaxTriangles`.
 void require_triangle_count(const MeshSource& source, uint64_t count);
 
-/// Cuts polygons into triangles; keeps its scratch memory from one to the next.
+/// Cuts polygons into triangles. It keeps its scratch memory from one polygon to the next.
 ///
-/// n corners always give n - 2 triangles that use every corner, in the polygon's sense of rotation.
-/// The fan from the first corner is taken when it covers the polygon exactly (always for a convex
-/// one), otherwise ears are cut off (Meisters 1975; status kept as in Eberly, "Triangulation by Ear
-/// Clipping"). A polygon that isn't flat is judged in its projection along the largest component of
-/// its normal; one that crosses itself, or has no area, still gives n - 2 triangles.
+/// A polygon of n corners always gives n - 2 triangles that use every corner, in the polygon's
+/// sense of rotation. The fan from the first corner is taken when it covers the polygon exactly
+/// (always for a convex one); otherwise ears are cut off (Meisters 1975; status kept as in Eberly,
+/// "Triangulation by Ear Clipping"). A polygon that isn't flat is judged in its projection along
+/// the largest component of its normal. A polygon that crosses itself, or has no area, still gives
+/// n - 2 triangles.
 class PolygonCutter {
   public:
     /// Appends the triangles of `corners` (at least three, all below `mesh.positions.size()`).
@@ -43,7 +46,7 @@ class PolygonCutter {
     bool is_ear(size_t corner) const;
 
     std::vector<glm::dvec2> flat_;  ///< the corners, projected so that they run counter-clockwise
-    std::vector<size_t> before_;    ///< ring of the corners that are left
+    std::vector<size_t> before_;    ///< ring of the corners that remain
     std::vector<size_t> after_;
     std::vector<char> ear_;
 };

@@ -1,4 +1,4 @@
-// Takes a mesh file into memory and gives it to the reader of its format.
+// Reads a mesh file into memory and passes it to the reader of its format.
 #include "runtime/io/mesh/mesh_reader.hpp"
 
 #include "runtime/io/mesh/mesh_source.hpp"
@@ -15,8 +15,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// More than the largest allowed mesh takes as binary PLY (13 bytes a triangle); beyond it only
-/// memory would run out.
+/// More bytes than the largest allowed mesh takes as binary PLY (13 bytes a triangle). A larger
+/// file could only exhaust the memory.
 constexpr uintmax_t kMaxFileBytes = uintmax_t{16} << 30;
 
 std::string read_bytes(const fs::path& path) {

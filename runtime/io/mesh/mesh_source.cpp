@@ -1,4 +1,4 @@
-// Messages of the mesh readers, and what their text formats share.
+// The messages of the mesh readers, and the scanners that their text formats share.
 #include "runtime/io/mesh/mesh_source.hpp"
 
 #include "runtime/base/decimal.hpp"

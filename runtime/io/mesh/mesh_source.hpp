@@ -1,4 +1,4 @@
-// The bytes of a mesh file, and the sentences that say where they are wrong.
+// The bytes of a mesh file, and the messages that say where they are wrong.
 #pragma once
 
 #include "runtime/base/error.hpp"
@@ -8,7 +8,7 @@
 
 namespace voxelume {
 
-/// A mesh file in memory. `bytes` is a string because the NUL behind it ends every scan.
+/// A mesh file in memory. `bytes` is a string because the NUL after its end stops every scan.
 struct MeshSource {
     const std::string& bytes;
     std::string name;  ///< the file as the user wrote it; opens every message
@@ -18,16 +18,17 @@ struct MeshSource {
 
     /// Throws Error::input "name: sentence".
     [[noreturn]] void fail(std::string_view sentence) const;
-    /// Throws Error::input "name:line: sentence"; lines are counted only now.
+    /// Throws Error::input "name:line: sentence". Lines are counted only when this is called.
     [[noreturn]] void fail_at_line(const char* at, std::string_view sentence) const;
     /// Throws Error::input "name: byte offset: sentence".
     [[noreturn]] void fail_at_byte(const char* at, std::string_view sentence) const;
 
-    /// Refuses a file with a NUL in it: text has none, and the scans of text stop at the first.
+    /// Refuses a file that contains a NUL: text has none, and the scans of text stop at the first
+    /// NUL.
     void require_text() const;
 };
 
-/// The token at `at` for a message: quoted, at most 24 characters, anything unprintable as '?'.
+/// The token at `at` for a message: in quotes, at most 24 characters, every unprintable one as '?'.
 std::string quoted_token(const char* at);
 
 inline bool is_blank(char c) {
@@ -51,8 +52,8 @@ inline const char* skip_token(const char* p) {
     return p;
 }
 
-/// Scans a number of at most float's range that a blank, a line's end or `also_end` follows.
-/// Throws Error::input with the line.
+/// Scans a number within float's range that is followed by a blank, the end of the line or
+/// `also_end`. Throws Error::input with the line.
 float require_number(const MeshSource& source, const char*& p, char also_end = '\0');
 
 }  // namespace voxelume

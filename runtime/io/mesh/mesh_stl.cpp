@@ -1,4 +1,4 @@
-// STL -> Mesh: triangles with corners of their own become triangles that share vertices.
+// STL -> Mesh: triangles that each have their own corners become triangles that share vertices.
 #include "runtime/io/mesh/mesh_polygon.hpp"
 #include "runtime/io/mesh/mesh_reader.hpp"
 
@@ -9,10 +9,10 @@
 namespace voxelume {
 namespace {
 
-constexpr size_t kHeaderBytes = 84;  // 80 of any content, then the count of facets
+constexpr size_t kHeaderBytes = 84;  // 80 bytes of any content, then the number of facets
 constexpr size_t kFacetBytes = 50;   // normal, three corners (float32 each), a 16-bit attribute
 
-/// A little-endian 32-bit word.
+/// Loads a little-endian 32-bit integer.
 uint32_t load_word(const char* at) {
     const auto byte = [at](int i) { return uint32_t{static_cast<unsigned char>(at[i])}; };
     return byte(0) | byte(1) << 8 | byte(2) << 16 | byte(3) << 24;
@@ -22,7 +22,7 @@ uint64_t binary_size(const std::string& bytes) {
     return kHeaderBytes + uint64_t{kFacetBytes} * load_word(bytes.data() + 80);
 }
 
-/// Gives corners at the same place one index: a hash table with open addressing.
+/// Gives corners at the same position one index, by a hash table with open addressing.
 class VertexMerger {
   public:
     explicit VertexMerger(std::vector<glm::vec3>& positions) : positions_(positions) {}
@@ -129,7 +129,7 @@ class AsciiParser {
     void parse_facet() {
         expect("facet");
         expect("normal");
-        for (int i = 0; i < 3; ++i) {  // not read: writers put "nan" there for facets without area
+        for (int i = 0; i < 3; ++i) {  // skipped: writers put "nan" there for facets without area
             skip_space();
             p_ = skip_token(p_);
         }
@@ -163,7 +163,7 @@ class AsciiParser {
         }
     }
 
-    /// Whether the next token is `word` in any case; if so, it is passed.
+    /// True if the next token is `word`, in upper or lower case; if so, the token is skipped.
     bool accept(std::string_view word) {
         skip_space();
         for (size_t i = 0; i < word.size(); ++i) {
@@ -209,8 +209,8 @@ bool has_binary_size(const std::string& bytes) {
     return bytes.size() >= kHeaderBytes && bytes.size() == binary_size(bytes);
 }
 
-/// Binary headers may begin with "solid" too. Of a damaged one a zero byte is left: a count of less
-/// than 2^24 facets has one.
+/// True if the file is binary. A binary header may begin with "solid" too. A damaged binary file
+/// still has a zero byte in its header: the count of fewer than 2^24 facets contains one.
 bool is_binary(const std::string& bytes) {
     return !begins_with_solid(bytes) || has_binary_size(bytes) || bytes.find('\0') < kHeaderBytes;
 }

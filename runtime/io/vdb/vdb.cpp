@@ -38,7 +38,7 @@ typename Grid::Ptr make_grid(const VdbVolume& volume, std::span<const Value> val
 openvdb::GridCPtrVec make_grids(const VdbVolume& volume) {
     auto values = make_grid<openvdb::FloatGrid>(volume, volume.values, volume.background,
                                                 [](float value) { return value; });
-    if (volume.grid_class == VdbClass::level_set)  // what lies inside has no value yet
+    if (volume.grid_class == VdbClass::level_set)  // voxels inside the surface have no value yet
         openvdb::tools::signedFloodFill(values->tree());
     values->setName(volume.name);
     values->setGridClass(volume.grid_class == VdbClass::level_set ? openvdb::GRID_LEVEL_SET
@@ -87,13 +87,13 @@ VdbSummary summarize(const openvdb::GridBase& grid) {
     return summary;
 }
 
-/// What `read` makes of a file, with OpenVDB's failures as ours.
+/// Returns what `read` makes of the opened file, and turns OpenVDB's exceptions into Error::input.
 template <class Read>
 auto read_opened(const InputFile& readable, const std::filesystem::path& path, Read read) {
     try {
         openvdb::initialize();
         openvdb::io::File file(path.string());
-        // Whole: delayed loading would map the file for as long as the grids live.
+        // Reads the file whole: delayed loading would keep it mapped for as long as the grids live.
         file.open(false);
         return read(file);
     } catch (const std::bad_alloc&) {

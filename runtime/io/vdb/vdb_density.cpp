@@ -72,14 +72,15 @@ class VdbField : public DensityField {
         return grid_->worldToIndex(openvdb::Vec3d(p.x, p.y, p.z));
     }
 
-    /// The point, or one beside the active voxels where it lies so far out that numbers end.
+    /// The point, clamped to two cells around the active voxels, so that far points stay within the
+    /// range of coordinates.
     openvdb::Vec3d near_active(openvdb::Vec3d p) const {
         for (int a = 0; a < 3; ++a)
             p[a] = std::clamp(p[a], active_.min()[a] - 2.0, active_.max()[a] + 2.0);
         return p;
     }
 
-    /// All cells whose values count for some point of a box, cut to what coordinates can number.
+    /// All cells whose values matter at some point of a box, clamped to the range of coordinates.
     CoordBBox cells_around(const Bounds& box) const {
         openvdb::BBoxd reach;
         for (int corner = 0; corner < 8; ++corner)

@@ -7,11 +7,11 @@
 
 namespace voxelume {
 
-/// Reads a grid: trilinear between its values, carried into the world by its own transform and
-/// `world_from_grid`; negative values count as 0.
+/// Reads a grid as a density: trilinear between its values, transformed to the world by its own
+/// transform and `world_from_grid`. Negative values count as 0.
 ///
-/// Throws Error::input for a file that is missing or that OpenVDB can't read, that has no float
-/// grid of the name, or a value that is no finite number.
+/// Throws Error::input for a file that is missing or that OpenVDB can't read, for a file without a
+/// float grid of this name, and for a grid with a value that isn't finite.
 std::unique_ptr<DensityField> read_vdb_density(const GridDensity& density);
 
 }  // namespace voxelume

@@ -1,9 +1,9 @@
-// The table that the program takes from the module.
+// The table of functions that the program takes from the module.
 #include "runtime/io/vdb/vdb_module.hpp"
 
 namespace voxelume {
 
-// Not the program's functions of the same names, which call these.
+// Namespace vdb keeps these apart from the program's functions of equal names, which call them.
 namespace vdb {
 
 decltype(voxelume::write_vdb) write_vdb;

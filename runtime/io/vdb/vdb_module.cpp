@@ -15,17 +15,18 @@
 namespace voxelume {
 namespace {
 
-/// Has the linker put into the program what the module takes from there: of a library it puts in
-/// only sources that something names.
+/// Makes the linker put into the program what the module uses from it. From a library the linker
+/// takes only the sources that something names.
 [[gnu::used]] constexpr std::tuple kTakenByModule(&AtomicFile::commit, &InputFile::refuse,
                                                   &read_frame_text, &world_from_voxels);
 
 struct VdbModule {
     const VdbFunctions* functions = nullptr;
-    std::string failure;  ///< why there are none
+    std::string failure;  ///< the reason why `functions` is null; else empty
 };
 
-/// The folder is the one that CMakeLists.txt wrote into the program. It stays open.
+/// Opens the module in the folder that CMakeLists.txt wrote into the program. The module stays
+/// open.
 VdbModule open_module() {
     void* module = dlopen("libvoxelume_vdb.so", RTLD_NOW | RTLD_LOCAL);
     void* table = module ? dlsym(module, "voxelume_vdb_functions") : nullptr;

@@ -1,5 +1,6 @@
-// What uses OpenVDB is a module, libvoxelume_vdb.so, that the program opens when it first reads or
-// writes a .vdb: OpenVDB's 64,000 relocations would cost each start of the program 45 ms.
+// The code that uses OpenVDB is a module, libvoxelume_vdb.so. The program opens it when it first
+// reads or writes a .vdb, because OpenVDB's 64,000 relocations would cost each start of the program
+// 45 ms.
 #pragma once
 
 #include "runtime/io/vdb/vdb.hpp"
@@ -9,9 +10,9 @@
 
 namespace voxelume {
 
-/// The functions of the headers above, as namespace vdb has them in the module.
+/// The functions of this folder's headers, as namespace vdb defines them in the module.
 struct VdbFunctions {
-    const char* version;  ///< the program's that it belongs to
+    const char* version;  ///< version of the program that the module belongs to
     decltype(voxelume::write_vdb)* write_vdb;
     decltype(voxelume::read_vdb_metadata)* read_vdb_metadata;
     decltype(voxelume::read_vdb_summary)* read_vdb_summary;
@@ -21,7 +22,7 @@ struct VdbFunctions {
     decltype(voxelume::read_volume_vdb)* read_volume_vdb;
 };
 
-/// In the module, found by its name.
+/// The table in the module; the program finds it by its name.
 extern "C" const VdbFunctions voxelume_vdb_functions;
 
 }  // namespace voxelume

@@ -18,13 +18,14 @@ constexpr const char* kEndsEarly = "it ends too early";
 constexpr const char* kNoMemory = "it declares more than there is memory";
 
 openvdb::GridPtrVecPtr read_grids(const std::filesystem::path& path) {
-    // OpenVDB's own file takes what it misses at a truncated file's end for zeros.
+    // OpenVDB's own file class reads zeros past the end of a truncated file, so a checked stream is
+    // used.
     std::ifstream stream(path, std::ios::binary);
     stream.exceptions(std::ios::failbit | std::ios::badbit | std::ios::eofbit);
     return openvdb::io::Stream(stream, false).getGrids();
 }
 
-/// Why a file can't be read, empty where it can.
+/// Reads the grids. Returns why the file can't be read; empty if it can.
 std::string failure_of(const std::filesystem::path& path, openvdb::GridPtrVecPtr& grids) {
     try {
         grids = read_grids(path);
@@ -38,7 +39,8 @@ std::string failure_of(const std::filesystem::path& path, openvdb::GridPtrVecPtr
     return {};
 }
 
-/// Reads and frees the grids, writes why it couldn't, and never returns.
+/// Runs in the child process: reads and frees the grids, writes the failure, if any, to `answer`,
+/// and never returns.
 [[noreturn]] void try_reading(const std::filesystem::path& path, int answer) {
     const int nowhere = open("/dev/null", O_WRONLY);
     dup2(nowhere, STDOUT_FILENO);

@@ -1,5 +1,5 @@
-// An OpenVDB file of any origin -> its grids. Only the sources beside it include this: OpenVDB's
-// headers take long to compile.
+// An OpenVDB file of any origin -> its grids. Only the sources of this folder include this header,
+// because OpenVDB's headers take long to compile.
 #pragma once
 
 #include <openvdb/openvdb.h>
@@ -10,8 +10,8 @@
 
 namespace voxelume::vdb {
 
-/// Reads all grids. Damaged files make OpenVDB corrupt memory, so one that doesn't have the
-/// identifier that voxelume gave it is read by a child process first.
+/// Reads all grids. Damaged files make OpenVDB corrupt memory, so a child process first reads every
+/// file that doesn't have the identifier that voxelume gives its content.
 ///
 /// Throws Error::input for a file that is damaged, truncated or too large for the memory.
 openvdb::GridPtrVecPtr read_vdb_grids(const std::filesystem::path& path, const InputFile& readable);

@@ -14,15 +14,16 @@ namespace voxelume::vdb {
 
 namespace {
 
-/// Where the file's identifier stands, in text: after magic, three version numbers and a flag.
+/// The offset of the file's identifier, which is text: after magic, three version numbers and a
+/// flag.
 constexpr uint64_t kUuidStart = 21;
 constexpr uint64_t kUuidLength = 36;
 
-/// Hashes a file's bytes in order, all but the identifier.
+/// Hashes a file's bytes in order, without the identifier.
 class ContentHash {
   public:
     ContentHash() : state_(XXH3_createState(), XXH3_freeState) { XXH3_128bits_reset(state_.get()); }
-    /// The first call's bytes hold the identifier whole, or there is none.
+    /// Adds bytes. Those of the first call contain the whole identifier, or the file has none.
     void update(const char* bytes, size_t size) {
         if (is_first_ && size >= kUuidStart + kUuidLength) {
             add(bytes, kUuidStart);
@@ -32,7 +33,7 @@ class ContentHash {
         }
         is_first_ = is_first_ && size == 0;
     }
-    /// 128 bits in the form of a version 5 (from a hash) identifier.
+    /// The hash's 128 bits in the form of a version 5 (from a hash) identifier.
     std::string uuid() const {
         const XXH128_hash_t hash = XXH3_128bits_digest(state_.get());
         const uint64_t high = (hash.high64 & ~uint64_t{0xf000}) | 0x5000;
@@ -48,7 +49,8 @@ class ContentHash {
     bool is_first_ = true;
 };
 
-/// Passes bytes on to an AtomicFile in blocks, far longer than the file's head, and hashes them.
+/// Passes bytes on to an AtomicFile in blocks, each far longer than the file's head, and hashes
+/// them.
 class VdbStreamBuffer : public std::streambuf {
   public:
     explicit VdbStreamBuffer(AtomicFile& file) : file_(file) {
@@ -84,7 +86,7 @@ void write_vdb_grids(AtomicFile& file, const openvdb::GridCPtrVec& grids,
     try {
         VdbStreamBuffer buffer(file);
         std::ostream stream(&buffer);
-        stream.exceptions(std::ios::badbit);  // hands the file's own error on
+        stream.exceptions(std::ios::badbit);  // lets the AtomicFile's own error through
         openvdb::io::Stream(stream).write(grids, metadata);
         stream.flush();
         const std::string uuid = buffer.uuid();

@@ -1,5 +1,5 @@
-// OpenVDB's grids into a file of ours. Only the sources beside it include this: OpenVDB's headers
-// take long to compile.
+// OpenVDB's grids -> an AtomicFile. Only the sources of this folder include this header, because
+// OpenVDB's headers take long to compile.
 #pragma once
 
 #include <openvdb/openvdb.h>
@@ -9,14 +9,15 @@
 
 namespace voxelume::vdb {
 
-/// Writes through a stream of ours: OpenVDB's own file reports success on a full disk. Its random
-/// identifier is replaced by one from the content, so the same grids give the same bytes. Throws
-/// Error::output; the caller commits.
+/// Writes grids through a stream of ours, because OpenVDB's own file class reports success on a
+/// full disk. An identifier from the content replaces OpenVDB's random one, so equal grids give
+/// equal bytes. Throws Error::output; the caller commits.
 void write_vdb_grids(AtomicFile& file, const openvdb::GridCPtrVec& grids,
                      const openvdb::MetaMap& metadata);
 
-/// The identifier is the one that write_vdb_grids gives this content: nothing has changed since.
-/// To be asked before OpenVDB reads a file in earnest, as damaged ones corrupt its memory.
+/// True if the file's identifier is the one that write_vdb_grids gives its content, so nothing has
+/// changed since. Call this before OpenVDB reads the file in this process: damaged files corrupt
+/// its memory.
 bool vdb_identifier_holds(const InputFile& file);
 
 }  // namespace voxelume::vdb

@@ -28,7 +28,7 @@ FloatGrid::Ptr find_grid(const openvdb::GridPtrVec& grids, Surface surface,
     return found;
 }
 
-/// The edges of the grid's cells, which lie along the axes.
+/// The edges of the grid's cells, metres. Refuses a grid whose cells don't lie along the axes.
 glm::dvec3 cell_edges(const FloatGrid& grid, const InputFile& readable) {
     const Vec3d origin = grid.indexToWorld(Vec3d(0.0));
     glm::dvec3 edges;

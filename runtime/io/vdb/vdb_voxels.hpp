@@ -15,17 +15,17 @@ namespace voxelume {
 struct VdbVoxels {
     std::vector<glm::ivec3> cells;
     std::vector<float> values;
-    std::vector<glm::vec3> colors;  ///< linear, of grid `Cd`; empty without it
+    std::vector<glm::vec3> colors;  ///< linear colours of grid `Cd`; empty without it
     glm::dvec3 voxel_edges{1.0};    ///< metres
-    glm::dvec3 origin{0.0};         ///< place of the value of cell (0, 0, 0), metres
-    std::function<float(const glm::ivec3&)> value_at;  ///< of any cell
+    glm::dvec3 origin{0.0};         ///< position of the value of cell (0, 0, 0), metres
+    std::function<float(const glm::ivec3&)> value_at;  ///< the value of any cell, active or not
 };
 
-/// Active voxels that a model may have.
+/// The maximum number of active voxels of a model.
 inline constexpr uint64_t kMaxVdbVoxels = uint64_t{1} << 26;
 
-/// For cubes the float grid `density`, or the first that isn't a level set; for smooth surfaces the
-/// first level set.
+/// Reads, for cubes, the float grid `density`, or the first that isn't a level set; for smooth
+/// surfaces, the first level set.
 ///
 /// Throws Error::input for a file that is missing, damaged, too large, without such a grid, or
 /// whose grid is turned or sheared by its transform.

@@ -15,7 +15,7 @@ namespace voxelume::vdb {
 
 namespace {
 
-/// OpenVDB multiplies rows: the images of the axes, then of the origin.
+/// The matrix for OpenVDB, which multiplies rows: the images of the axes, then of the origin.
 openvdb::Mat4d rows_of(const glm::dmat4& m) {
     openvdb::Mat4d rows;
     for (int row = 0; row < 4; ++row)
@@ -23,7 +23,8 @@ openvdb::Mat4d rows_of(const glm::dmat4& m) {
     return rows;
 }
 
-/// A frustum's front side is one unit wide at z = 0; its second map gives it its size and place.
+/// The frustum of a pyramid's rays. Its front side is one unit wide at z = 0; its second map gives
+/// it its size and position.
 openvdb::math::MapBase::Ptr pyramid_map(const VolumeFrame& frame) {
     const glm::dvec3 size(frame.size);
     const double near = frame.display.near, length = frame.step * size.z;
@@ -41,7 +42,8 @@ openvdb::math::MapBase::Ptr pyramid_map(const VolumeFrame& frame) {
         new openvdb::math::NonlinearFrustumMap(box, near / (near + length), 1.0, second));
 }
 
-/// A grid's values stand in the middle of the display's voxels.
+/// The transform of the grids. OpenVDB's values stand at integer coordinates, so the transform puts
+/// them in the middle of the display's voxels.
 openvdb::math::Transform::Ptr make_transform(const VolumeFrame& frame) {
     const std::optional<glm::dmat4> linear = world_from_voxels(frame);
     if (!linear) return std::make_shared<openvdb::math::Transform>(pyramid_map(frame));
@@ -55,7 +57,8 @@ openvdb::Coord coord_of(const VolumeFrame& frame, uint64_t place) {
     return {cell.x, cell.y, cell.z};
 }
 
-/// The listed voxels leaf by leaf, 8 x 8 x 8 each: OpenVDB's accessors are slow across leaves.
+/// The listed voxels, ordered by leaf of 8 x 8 x 8 each: OpenVDB's accessors are slow across
+/// leaves.
 std::vector<uint32_t> order_by_leaf(const Volume& volume) {
     std::vector<std::pair<uint64_t, uint32_t>> order;
     order.reserve(volume.indices.size());
@@ -70,7 +73,7 @@ std::vector<uint32_t> order_by_leaf(const Volume& volume) {
     return voxels;
 }
 
-/// Makes grids that list the same voxels.
+/// Makes grids that list the same voxels as each other.
 class GridMaker {
   public:
     explicit GridMaker(const Volume& volume) : volume_(volume), order_(order_by_leaf(volume)) {}
@@ -92,8 +95,8 @@ class GridMaker {
     std::vector<uint32_t> order_;
 };
 
-/// The extinction per metre that gives the opacity over `length`; an opaque voxel lets 1/1024 of
-/// the light through.
+/// The extinction per metre that gives the opacity over `length` metres. An opaque voxel lets
+/// 1/1024 of the light through.
 float density_of(float opacity, double length) {
     const double through = std::max(1.0 - double(opacity), 1.0 / 1024);
     return static_cast<float>(-std::log(through) / length);
@@ -123,7 +126,7 @@ openvdb::GridCPtrVec make_grids(const Volume& volume) {
     return {density, alpha, color, depth, object, kind};
 }
 
-/// The grids of a file that is known to be as it was written.
+/// The grids of a file that is known to be unchanged since it was written.
 struct VolumeGrids {
     openvdb::FloatGrid::Ptr alpha, depth;
     openvdb::Vec3SGrid::Ptr color;
@@ -142,7 +145,7 @@ VolumeGrids take_grids(openvdb::io::File& file) {
     return grids;
 }
 
-/// A voxel before all are brought into the order of their places.
+/// A voxel before the voxels are sorted by their place.
 struct FoundVoxel {
     uint64_t place = 0;
     openvdb::Vec3s color;
@@ -150,7 +153,7 @@ struct FoundVoxel {
     int32_t object = 0, kind = 0;
 };
 
-/// The active voxels of `alpha`, ascending, with what the other grids say there.
+/// The active voxels of `alpha` in ascending order, with the other grids' values there.
 std::vector<FoundVoxel> find_voxels(const InputFile& readable, const VolumeFrame& frame,
                                     const VolumeGrids& grids) {
     const glm::ivec3& size = frame.size;

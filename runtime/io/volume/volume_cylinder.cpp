@@ -1,5 +1,5 @@
 // Volumetric image -> the buffer of a display whose panel turns around Y_E: angle by radius by
-// height, a byte (RGB332) or two (RGB565) each.
+// height, with one byte (RGB332) or two (RGB565) a cell.
 #include <xxhash.h>
 
 #include <algorithm>
@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kPi = 3.141592653589793;
 
-/// How many levels above 0 red, green and blue have, and how far left their bits stand.
+/// The number of levels above 0 of red, green and blue, and the left shifts of their bits.
 struct Packing {
     int levels[3];
     int shifts[3];
@@ -25,7 +25,7 @@ struct Packing {
 constexpr Packing kRgb332 = {{7, 7, 3}, {5, 2, 0}, 1};
 constexpr Packing kRgb565 = {{31, 63, 31}, {11, 5, 0}, 2};
 
-/// The cylinder inside the volume's box, its axis along Y_E through the middle.
+/// The cylinder inside the volume's box, with its axis along Y_E through the middle.
 struct Cylinder {
     const Volume& volume;
     CylinderSize size;
@@ -34,7 +34,7 @@ struct Cylinder {
         const VolumeFrame& frame = volume.frame;
         return 0.5 * std::min(frame.edge.x * frame.size.x, frame.edge.z * frame.size.z);
     }
-    /// The volume's column of voxels in the middle of a cell. Angle 0 is image right, -X_E, and
+    /// The volume's column of voxels at the middle of a cell. Angle 0 is image right, -X_E, and
     /// angles grow counter-clockwise as seen from above.
     glm::ivec3 column_at(int angle, int ring) const {
         const VolumeFrame& frame = volume.frame;
@@ -46,7 +46,7 @@ struct Cylinder {
         };
         return {along(0, -r * std::cos(turn)), 0, along(2, r * std::sin(turn))};
     }
-    /// The position of a voxel in the volume's arrays, or -1.
+    /// The position of a voxel in the volume's arrays, or -1 if it isn't listed.
     int64_t find(const glm::ivec3& cell) const {
         const glm::ivec3& n = volume.frame.size;
         const uint64_t place =
@@ -95,7 +95,7 @@ std::vector<uint8_t> make_buffer(const Cylinder& cylinder, const Packing& packin
 CylinderSize cylinder_size(const VolumeFrame& frame, const DeviceOptions& options) {
     CylinderSize size{options.angles, options.radii, frame.size.y};
     if (size.radii == 0) size.radii = std::max(1, std::min(frame.size.x, frame.size.z) / 2);
-    // The outermost ring's cells are as wide as they are deep.
+    // This makes the outermost ring's cells as wide as they are deep.
     if (size.angles == 0) size.angles = int(std::ceil(2 * kPi * size.radii));
     return size;
 }

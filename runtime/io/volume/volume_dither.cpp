@@ -10,7 +10,7 @@ namespace voxelume {
 
 namespace {
 
-/// Bayer's rank, 0..63: bits of x ^ y and y take turns, the lowest bit of a coordinate counts most.
+/// Bayer's rank, 0..63. Bits of x ^ y and of y alternate; a coordinate's lowest bit counts most.
 ///
 ///     x = x2 x1 x0, y = y2 y1 y0, q = x ^ y   ->   rank = q0 y0 q1 y1 q2 y2
 int bayer_rank(int x, int y) {

@@ -1,4 +1,4 @@
-// Light -> the few levels that a display's voxel has.
+// Light -> the few levels of a display's voxel.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -8,21 +8,22 @@
 namespace voxelume {
 
 /// The threshold of a display voxel, in (0, 1): (rank + 0.5) / 64 with the ranks of Bayer's 8 x 8
-/// matrix (1973), shifted by (3, 5) from plane to plane so that no line of voxels stays dark; 0.5
-/// without dithering.
+/// matrix (1973). The matrix is shifted by (3, 5) from plane to plane so that no line of voxels
+/// stays dark. Without dithering the threshold is 0.5.
 float threshold_at(Dither dither, int column, int row, int plane);
 
-/// The level of 0 .. `maximum` for a value of 0..1: the next higher one where the rest is above the
-/// threshold.
+/// The level, 0 .. `maximum`, of a value in 0..1. It is the next higher level where the fraction
+/// above the lower one exceeds the threshold.
 int level_of(float value, int maximum, float threshold);
 
-/// A voxel's light as a display adds it up: colour times opacity times 2^exposure, cut to 0..1.
+/// The light of a voxel as a display adds it up: colour times opacity times 2^exposure, clamped to
+/// 0..1.
 glm::vec3 light_of(const glm::vec3& color, float opacity, float exposure);
 
-/// Rec. 709 luminance.
+/// The Rec. 709 luminance of linear light.
 float luminance(const glm::vec3& light);
 
-/// The sRGB code of a value of 0..1, as a part of 1.
+/// The sRGB code of a linear value in 0..1, scaled to 0..1.
 float srgb_share(float linear);
 
 }  // namespace voxelume

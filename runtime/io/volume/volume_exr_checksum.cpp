@@ -12,7 +12,8 @@ uint64_t find_checksum(const InputFile& file) {
     constexpr uint64_t kLongestHeader = uint64_t{1} << 20;
     std::string start(std::min(file.size(), kLongestHeader), '\0');
     file.read(0, start.data(), start.size());
-    // An attribute: its name, its type, each with a zero behind, its length, its value.
+    // An attribute consists of its name and its type, each followed by a zero byte, its length and
+    // its value.
     const std::string head = std::string(kChecksumKey) + '\0' + "string" + '\0' +
                              char(kChecksumDigits) + std::string(3, '\0');
     const size_t found = start.find(head);

@@ -21,7 +21,7 @@ namespace {
 using volume_exr::kFloatChannels;
 using volume_exr::kIdChannels;
 
-/// A sample before the voxels are brought into their order.
+/// A sample before the voxels are sorted by their place.
 struct Sample {
     uint64_t place = 0;
     glm::vec3 color{0};
@@ -30,13 +30,13 @@ struct Sample {
     VoxelKind kind = VoxelKind::space;
 };
 
-/// One row of pixels; the pointers of all of them lead into two buffers.
+/// One row of pixels. The pointers of all its pixels lead into shared buffers, one a channel.
 struct DeepRow {
     explicit DeepRow(size_t pixels) : counts(pixels) {
         for (auto& list : float_pointers) list.resize(pixels);
         for (auto& list : id_pointers) list.resize(pixels);
     }
-    /// Takes memory for the samples of `counts`.
+    /// Allocates memory for the samples of `counts`.
     void make_room() {
         size_t total = 0;
         for (const uint32_t count : counts) total += count;
@@ -73,7 +73,8 @@ Imf::DeepFrameBuffer frame_buffer(DeepRow& row) {
     return buffer;
 }
 
-/// `opacity` times colour is all that a deep image keeps of a voxel that can't be seen.
+/// Makes a voxel of a sample. Where the opacity is 0, a deep image keeps only its product with the
+/// colour, so the colour is lost.
 Sample take_sample(const InputFile& readable, const VolumeFrame& frame, const DeepRow& row,
                    uint64_t pixel, size_t i) {
     const uint32_t k = row.ids[2][i], kind = row.ids[1][i];
@@ -154,8 +155,8 @@ Volume take_volume(const InputFile& readable, const VolumePath& path) {
 
 Volume read_volume_exr(const VolumePath& path) {
     const InputFile readable(path);
-    // OpenEXR 3.1.5 writes past its memory for some damaged deep files: only a file that is as it
-    // was written reaches it.
+    // OpenEXR 3.1.5 writes past its memory for some damaged deep files, so it reads only files that
+    // are unchanged since they were written.
     const uint64_t place = volume_exr::find_checksum(readable);
     if (place == 0) readable.refuse("not a deep image of voxelume: it has no checksum");
     std::string checksum(volume_exr::kChecksumDigits, '\0');

@@ -25,10 +25,10 @@ namespace {
 using volume_exr::kFloatChannels;
 using volume_exr::kIdChannels;
 
-/// The listed voxels in the order of pixels, each pixel's by k.
+/// The listed voxels in the order of pixels, and those of a pixel in the order of k.
 struct PixelOrder {
-    std::vector<uint64_t> first;   ///< for each pixel, and one more: where its voxels begin in...
-    std::vector<uint32_t> voxels;  ///< ... the positions in the volume's arrays
+    std::vector<uint64_t> first;   ///< where each pixel's voxels begin in `voxels`, and their end
+    std::vector<uint32_t> voxels;  ///< positions in the volume's arrays
 };
 
 PixelOrder order_by_pixel(const Volume& volume) {
@@ -44,7 +44,7 @@ PixelOrder order_by_pixel(const Volume& volume) {
     return order;
 }
 
-/// Where the steps' boundaries lie, the same float for both neighbours.
+/// The boundaries of the steps. Two neighbouring steps share the same float.
 std::vector<float> step_bounds(AtomicFile& file, const VolumeFrame& frame) {
     std::vector<float> bounds;
     for (int k = 0; k <= frame.size.z; ++k)
@@ -66,7 +66,7 @@ class DeepRowWriter {
         for (auto& pointers : id_pointers_) pointers.resize(pixels_);
     }
 
-    /// Every row of the image is this one: its stride is zero.
+    /// A frame buffer whose every row is this one: its stride is zero.
     Imf::DeepFrameBuffer frame_buffer() {
         Imf::DeepFrameBuffer buffer;
         buffer.insertSampleCountSlice(
@@ -156,7 +156,8 @@ void write_rows(AtomicFile& file, const VolumePath& path, const Volume& volume) 
         row.fill(order, uint64_t(y));
         output.writePixels(1);
     }
-    // The destructor writes the table of rows; a failure there reaches commit() through the file.
+    // The destructor writes the table of rows. A failure there reaches commit() through the
+    // AtomicFile.
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// One function per format, called by volume_file.cpp with a volume that has passed its checks.
+// One function per format. volume_file.cpp calls it with a volume that has passed its checks.
 #pragma once
 
 #include <filesystem>
@@ -15,14 +15,14 @@ void write_volume_exr(const VolumePath& path, const Volume& volume);
 void write_volume_nrrd(const VolumePath& path, const Volume& volume, const VolumeOptions& options);
 void write_volume_raw(const VolumePath& path, const Volume& volume);
 void write_volume_slices(const VolumePath& pattern, const Volume& volume);
-/// The header of slices, without their number: `a/s.####.png` -> `a/s.json`.
+/// The path of the header of slices, without their number: `a/s.####.png` -> `a/s.json`.
 VolumePath slices_header_of(const VolumePath& pattern);
 void write_volume_ply(const VolumePath& path, const Volume& volume);
 void write_volume_kv6(const VolumePath& path, const Volume& volume, const DeviceOptions& options);
-/// `planes` or `color_planes`.
+/// Writes the format `planes` or `color_planes`.
 void write_volume_planes(const VolumePath& path, const Volume& volume, VolumeFormat format,
                          const DeviceOptions& options);
-/// `rgb332` or `rgb565`.
+/// Writes the format `rgb332` or `rgb565`.
 void write_volume_cylinder(const VolumePath& path, const Volume& volume, VolumeFormat format,
                            const DeviceOptions& options);
 
@@ -31,7 +31,8 @@ Volume read_volume_exr(const VolumePath& path);
 Volume read_volume_nrrd(const VolumePath& path);
 Volume read_volume_raw(const VolumePath& path);
 
-/// Of a turning display: `options`' numbers, or those that the volume's own voxels give.
+/// The size of a turning display's buffer: the numbers in `options`, or those that follow from the
+/// volume's own voxels.
 struct CylinderSize {
     int angles = 0, radii = 0, heights = 0;
 };

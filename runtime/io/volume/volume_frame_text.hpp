@@ -1,4 +1,4 @@
-// VolumeFrame <-> one line of JSON, which every format that is read back carries in its header.
+// VolumeFrame <-> one line of JSON. Every format that can be read back has it in its header.
 #pragma once
 
 #include <string>
@@ -8,13 +8,16 @@
 
 namespace voxelume {
 
-/// The header entry's name: an attribute of OpenEXR, metadata of OpenVDB, a key of NRRD and JSON.
+/// The name of the header entry: an attribute of OpenEXR, metadata of OpenVDB, a key of NRRD and
+/// JSON.
 inline constexpr const char* kFrameKey = "voxelume_frame";
 
-/// Lengths are metres, angles radians, the matrix row by row; every number comes back bit by bit.
+/// Writes lengths in metres, angles in radians and the matrix row by row. Every number is read back
+/// bit by bit.
 std::string write_frame_text(const VolumeFrame& frame);
 
-/// Throws Error::input, "WHERE: ...", for text that isn't a whole frame that find_fault() accepts.
+/// Reads the frame. Throws Error::input, "WHERE: ...", for text that isn't a whole frame that
+/// find_fault() accepts.
 VolumeFrame read_frame_text(std::string_view text, const std::string& where);
 
 }  // namespace voxelume

@@ -12,7 +12,7 @@ namespace voxelume {
 
 namespace {
 
-/// Headers are much shorter; scenes may be long.
+/// The maximum size of a header. Headers are much shorter; scenes may be longer.
 constexpr uintmax_t kMaxHeaderBytes = 1 << 20;
 
 bool is_header(const VolumePath& path, VolumeFormat format) {

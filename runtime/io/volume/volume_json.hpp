@@ -1,4 +1,4 @@
-// What the JSON headers beside raw arrays have in common.
+// What the JSON headers next to raw arrays have in common.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -9,14 +9,15 @@ namespace voxelume {
 
 using VolumeJson = nlohmann::ordered_json;
 
-/// `volume.raw` -> `volume.json`; any other data file gets `.json` behind its name.
+/// The path of the header: `volume.raw` -> `volume.json`; any other data file gets `.json`
+/// appended.
 VolumePath header_path_of(const VolumePath& data);
 
-/// Throws Error::output where the header's name is taken by a file that is no header of this
-/// format: a scene, or the header of other files of the same name.
+/// Throws Error::output where the header would replace a file that is no header of this format: a
+/// scene, or the header of other files with the same name.
 void check_header(const VolumePath& header, VolumeFormat format);
 
-/// Magic, format, data file, byte order, layout, frame and attributes.
+/// Returns a header with magic, format, data file, byte order, layout, frame and attributes.
 VolumeJson start_header(const VolumePath& data, const Volume& volume, VolumeFormat format);
 
 /// Writes the text under its name whole or not at all.

@@ -1,9 +1,9 @@
 // Volumetric image -> KV6, the voxel models of Voxlap, Slab6 and displays that read them.
 //
-// Little-endian: "Kvxl", the three sizes (i32), the pivot in voxels (f32), the number of voxels
-// (i32); for each voxel blue, green, red, 128, z (u16), the visible faces, the number of the
-// normal; then the voxels of each x (u32) and of each x, y (u16). x is image right (-X_E), y
-// towards the observer (-Z_E), z down (-Y_E).
+// The file is little-endian: "Kvxl", the three sizes (i32), the pivot in voxels (f32), the number
+// of voxels (i32); for each voxel blue, green, red, 128, z (u16), the visible faces and the index
+// of the normal; then the number of voxels of each x (u32) and of each x, y (u16). x is image right
+// (-X_E), y points towards the observer (-Z_E), z points down (-Y_E).
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -21,12 +21,12 @@ namespace {
 struct Kv6Voxel {
     uint8_t blue, green, red, alpha;
     uint16_t z;
-    uint8_t faces;   ///< bits x-, x+, y-, y+, z-, z+
-    uint8_t normal;  ///< number in the spiral of 255, 255 for none
+    uint8_t faces;   ///< bits of the visible faces: x-, x+, y-, y+, z-, z+
+    uint8_t normal;  ///< index in the spiral of 255 directions, 255 for none
 };
 static_assert(sizeof(Kv6Voxel) == 8);
 
-/// Voxels of at least half opacity, in KV6's axes.
+/// The voxels of at least half opacity, in KV6's axes.
 class SolidCells {
   public:
     explicit SolidCells(const Volume& volume)
@@ -54,7 +54,8 @@ class SolidCells {
         }
         return uint8_t(faces);
     }
-    /// Away from the solid voxels of the 5 x 5 x 5 around; not a unit vector.
+    /// A vector that points away from the solid voxels of the 5 x 5 x 5 around a cell; not a unit
+    /// vector.
     glm::vec3 normal_of(const glm::ivec3& cell) const {
         glm::vec3 normal(0);
         for (int z = -2; z <= 2; ++z)
@@ -74,7 +75,7 @@ class SolidCells {
     std::vector<bool> bits_;
 };
 
-/// Voxlap's 255 directions: even steps in z, the golden angle around it.
+/// Voxlap's 255 directions: even steps in z, the golden angle around z.
 const std::array<glm::vec3, 255>& directions() {
     static const std::array<glm::vec3, 255> table = [] {
         std::array<glm::vec3, 255> list;
@@ -95,7 +96,7 @@ uint8_t normal_number(const glm::vec3& normal) {
     return uint8_t(std::ranges::max_element(directions(), {}, along) - directions().begin());
 }
 
-/// A voxel and where it stands, to be sorted by x, y, z.
+/// A voxel and its cell, to be sorted by x, y, z.
 struct PlacedVoxel {
     glm::ivec3 cell;
     Kv6Voxel voxel;

@@ -53,7 +53,7 @@ NrrdHeader read_header(const InputFile& file) {
     return header;
 }
 
-/// Hands out the array's floats one piece after another.
+/// Returns the array's floats piece by piece.
 class NrrdData {
   public:
     NrrdData(const InputFile& file, uint64_t start, bool compressed)
@@ -77,7 +77,8 @@ class NrrdData {
         }
     }
 
-    /// The array has to be the whole rest of the file; gzip's checksum is read by the way.
+    /// Refuses a file whose array isn't its whole rest. Reading to the end also verifies gzip's
+    /// checksum.
     void expect_end() {
         if (compressed_) {
             char beyond = 0;
@@ -124,7 +125,7 @@ class NrrdData {
     std::vector<Bytef> block_;
 };
 
-/// 4 or 7 values a voxel; the sizes have to be the frame's.
+/// The number of values a voxel, 4 or 7. The file's sizes have to agree with the frame's.
 size_t take_channels(const InputFile& file, NrrdHeader& header, const VolumeFrame& frame) {
     const glm::ivec3& size = frame.size;
     for (const size_t channels : {size_t{4}, size_t{7}})
@@ -143,14 +144,14 @@ bool take_compression(const InputFile& file, NrrdHeader& header, uint64_t bytes)
         if (stored != bytes) file.refuse("it hasn't as much data as its sizes say; it is damaged");
         return false;
     }
-    constexpr uint64_t kLargestRatio = 1032;  // deflate's
+    constexpr uint64_t kLargestRatio = 1032;  // maximum of deflate
     if (bytes / kLargestRatio > stored)
         file.refuse("it is far too small for its sizes; it is damaged");
     return true;
 }
 
-/// RGBA alone says neither depth nor kind: a voxel stands in its middle, and what is opaque is
-/// taken for an object.
+/// Fills in depth and kind, which RGBA alone doesn't have: the depth is the voxel's middle, and an
+/// opaque voxel is taken for an object.
 void complete(Volume& volume) {
     const glm::dmat4 observer_from_world = glm::inverse(volume.frame.world_from_observer);
     for (size_t i = 0; i < volume.indices.size(); ++i) {
@@ -171,7 +172,7 @@ void take_voxel(const InputFile& file, Volume& volume, uint64_t place, const flo
     volume.colors.emplace_back(values[0], values[1], values[2]);
     volume.opacities.push_back(values[3]);
     if (channels == 4) return;
-    constexpr float kMaxObjects = 16777216;  // whole numbers that a float holds
+    constexpr float kMaxObjects = 16777216;  // float holds every whole number up to this one
     if (!(values[5] >= 0 && values[5] <= kMaxObjects && values[6] >= 1 && values[6] <= 3))
         file.refuse("a voxel has no object or kind");
     volume.depths.push_back(values[4]);

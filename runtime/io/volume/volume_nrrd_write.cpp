@@ -14,8 +14,8 @@ namespace voxelume {
 
 namespace {
 
-/// Passes bytes on to the file, through gzip when asked. No time is stored, so the same bytes give
-/// the same file.
+/// Passes bytes on to the file, through gzip if `compress` is true. gzip's header stores no time,
+/// so equal bytes give equal files.
 class NrrdWriter {
   public:
     NrrdWriter(AtomicFile& file, bool compress) : file_(file), compress_(compress) {
@@ -64,7 +64,8 @@ std::string vector_text(const glm::dvec4& v) {
     return fmt::format("({},{},{})", v.x, v.y, v.z);
 }
 
-/// Where the samples are: directions and origin when a matrix says it, else what is known per axis.
+/// The fields that say where the samples are: directions and origin where a matrix describes them,
+/// otherwise what is known of each axis.
 std::string axes_text(const VolumeFrame& frame) {
     const std::optional<glm::dmat4> world = world_from_voxels(frame);
     const bool rays = frame.layout == VolumeLayout::rays;
@@ -82,7 +83,7 @@ std::string axes_text(const VolumeFrame& frame) {
         vector_text(m * glm::dvec4(0.5, 0.5, 0.5, 1)), labels);
 }
 
-/// Text of a key or value with NRRD's two escapes.
+/// The text of a key or value with NRRD's two escapes.
 std::string escape(const std::string& text) {
     std::string escaped;
     for (const char c : text) {
@@ -100,7 +101,7 @@ std::string header_text(AtomicFile& file, const Volume& volume, const VolumeOpti
     const VolumeFrame& frame = volume.frame;
     const bool linear = world_from_voxels(frame).has_value();
     const char* axis_kind = linear ? "space" : "domain";
-    // The fields of the axes come after the dimensions that they need.
+    // The fields of the axes come after the dimensions because they need them.
     std::string axes = axes_text(frame);
     std::string text = "NRRD0005\n# Volumetric image: linear Rec. 709, not multiplied by opacity\n";
     text += "type: float\ndimension: 4\n";

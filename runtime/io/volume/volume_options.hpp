@@ -1,4 +1,4 @@
-// The formats of volumetric images, and what may be chosen of them.
+// The formats of volumetric images, and their options.
 #pragma once
 
 #include <array>
@@ -22,7 +22,7 @@ enum class VolumeFormat : uint8_t {
     rgb565         ///< .rgb565: two bytes a voxel of a turning display; layout `lattice`
 };
 
-/// The formats' names in the order of the enumeration, as --format, headers and messages have them.
+/// The formats' names in the order of the enumeration, as --format, headers and messages use them.
 inline constexpr std::array<std::string_view, 11> kVolumeFormatNames = {
     "vdb", "exr",    "nrrd",         "raw",    "slices", "ply",
     "kv6", "planes", "color-planes", "rgb332", "rgb565"};
@@ -39,19 +39,20 @@ enum class Dither : uint8_t {
 /// The axis of the observer along which a projection plane is swept.
 enum class SweepAxis : uint8_t { x, y, z };
 
-/// What the formats for displays need to know beyond the volume.
+/// What the formats for displays need to know in addition to the volume.
 struct DeviceOptions {
     float exposure = 0;  ///< stops: colours are multiplied by 2^exposure
     Dither dither = Dither::bayer8;
-    SweepAxis sweep = SweepAxis::y;  ///< of planes
-    int angles = 0;                  ///< of cylinders; 0: as many as the outer voxels need
-    int radii = 0;                   ///< of cylinders; 0: half of the shorter side
+    SweepAxis sweep = SweepAxis::y;  ///< axis of planes
+    int angles = 0;                  ///< of cylinders; 0 makes the outer cells as wide as they are
+                                     ///< deep
+    int radii = 0;                   ///< of cylinders; 0 means half of the shorter side
 };
 
 struct VolumeOptions {
-    std::optional<VolumeFormat> format;  ///< else the path's ending says it
-    bool compress = true;                ///< NRRD: gzip instead of raw
-    bool all_values = false;             ///< NRRD: depth, object and kind beside RGBA
+    std::optional<VolumeFormat> format;  ///< if empty, the path's ending decides
+    bool compress = true;                ///< for NRRD: gzip instead of raw
+    bool all_values = false;             ///< for NRRD: depth, object and kind in addition to RGBA
     DeviceOptions device;
 };
 

@@ -15,10 +15,10 @@
 namespace voxelume {
 namespace {
 
-/// Voxels, or blocks of them, as the page has them.
+/// Voxels, or cubic blocks of voxels, as the page stores them.
 struct PageVoxels {
     std::vector<glm::u16vec3> cells;
-    std::vector<glm::vec4> colors;  ///< linear, multiplied by the opacity; opacity
+    std::vector<glm::vec4> colors;  ///< linear colour, multiplied by the opacity; then the opacity
     int merged = 1;                 ///< voxels along a block's edge
 };
 
@@ -37,7 +37,8 @@ uint64_t key_of(const glm::u16vec3& cell) {
     return uint64_t(cell.z) << 32 | uint64_t(cell.y) << 16 | cell.x;
 }
 
-/// Blocks twice as long: the mean colour of what they hold, as opaque as their most opaque part.
+/// Merges into blocks of twice the edge, with the mean colour of their parts and the opacity of the
+/// most opaque part.
 PageVoxels merge(const PageVoxels& voxels) {
     std::vector<std::pair<uint64_t, uint32_t>> order;
     for (size_t i = 0; i < voxels.cells.size(); ++i)
@@ -59,7 +60,8 @@ PageVoxels merge(const PageVoxels& voxels) {
     return blocks;
 }
 
-/// The cells' x, then y, then z, 16 bits each; then red, green, blue (sRGB) and opacity, 8 each.
+/// Packs the cells' x, then y, then z, 16 bits each; then red, green, blue (sRGB) and opacity, 8
+/// bits each.
 std::vector<uint8_t> pack(const PageVoxels& voxels, float exposure) {
     std::vector<uint8_t> bytes;
     bytes.reserve(voxels.cells.size() * 10);
@@ -100,7 +102,7 @@ std::string base64(const std::vector<uint8_t>& bytes) {
     return text;
 }
 
-/// What the script's `point` needs; angles in radians, but tangents for a pyramid.
+/// The values that the script's `point` needs. Angles are in radians, but a pyramid has tangents.
 std::string frame_json(const Volume& volume, const PageVoxels& voxels, const PageOptions& options) {
     constexpr std::array<const char*, 4> kShapeNames = {"pyramid", "sector", "ball", "box"};
     const VolumeFrame& frame = volume.frame;
@@ -153,7 +155,7 @@ void write_volume_page(const std::filesystem::path& path, const Volume& volume,
     while (voxels.cells.size() > kMaxPageVoxels) voxels = merge(voxels);
     const std::string data = base64(compress(file, pack(voxels, options.exposure)));
     const std::string frame = frame_json(volume, voxels, options), title = title_of(volume);
-    // The page's text between its @NAMES@, and what takes their places.
+    // Replaces each @NAME@ in the page's text.
     std::string_view rest = page_text();
     while (!rest.empty()) {
         const size_t mark = rest.find('@'), end = rest.find('@', mark + 1);

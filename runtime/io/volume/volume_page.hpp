@@ -1,4 +1,4 @@
-// Volumetric image -> one page in which it can be turned and sliced with the mouse.
+// Volumetric image -> one HTML page in which the user turns and slices it with the mouse.
 #pragma once
 
 #include <filesystem>
@@ -9,21 +9,21 @@
 
 namespace voxelume {
 
-/// More voxels than this are merged to blocks of 2³, 4³ ... in a page.
+/// The maximum number of voxels in a page. More are merged into blocks of 2³, 4³ ... voxels.
 inline constexpr size_t kMaxPageVoxels = 1 << 21;
 
 struct PageOptions {
-    ViewPoint view;      ///< at first
+    ViewPoint view;      ///< the view when the page opens
     float exposure = 0;  ///< stops
 };
 
 /// Writes a page that needs no other file and no network, only a browser from 2023 or later.
 ///
-/// The same volume gives the same bytes. Throws Error::output.
+/// Equal volumes give equal bytes. Throws Error::output.
 void write_volume_page(const std::filesystem::path& path, const Volume& volume,
                        const PageOptions& options = {});
 
-/// runtime/io/volume/volume_page.html and .js.
+/// The text of runtime/io/volume/volume_page.html, and of volume_page.js.
 std::string_view page_text();
 std::string_view page_script();
 

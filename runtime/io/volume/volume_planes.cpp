@@ -1,5 +1,5 @@
-// Volumetric image -> planes of one bit a voxel for displays that sweep a projection plane: .planes
-// with one plane a slice, .cplanes with three, red, green and blue.
+// Volumetric image -> planes of one bit a voxel for displays that sweep a projection plane. A
+// .planes has one plane for each slice; a .cplanes has three: red, green and blue.
 #include <xxhash.h>
 
 #include <algorithm>
@@ -14,7 +14,7 @@ namespace voxelume {
 
 namespace {
 
-/// An axis of the raster: one of the volume's, perhaps run backwards.
+/// An axis of the raster: an axis of the volume, run backwards if `backwards` is true.
 struct RasterAxis {
     int axis;
     bool backwards;
@@ -24,7 +24,7 @@ struct RasterAxis {
     }
 };
 
-/// Columns, rows and planes; image right is -X_E.
+/// The axes of columns, rows and planes. Image right is -X_E.
 struct Raster {
     RasterAxis column, row, plane;
 };
@@ -41,7 +41,7 @@ Raster raster_of(SweepAxis sweep) {
     return {{0, true, "-X_E"}, {1, true, "-Y_E"}, {2, false, "+Z_E"}};
 }
 
-/// All planes' bits: rows of whole bytes, the first column in the highest bit.
+/// The bits of all planes: rows of whole bytes, with the first column in the highest bit.
 struct BitPlanes {
     int columns, rows, planes;
     std::vector<uint8_t> bytes;

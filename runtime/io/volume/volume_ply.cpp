@@ -1,4 +1,4 @@
-// Volumetric image -> PLY: a point in the world for every voxel that can be seen.
+// Volumetric image -> PLY: a point in the world for every visible voxel.
 #include <cmath>
 
 #include "runtime/base/atomic_file.hpp"
@@ -10,7 +10,7 @@ namespace voxelume {
 
 namespace {
 
-/// A point's bytes in the file.
+/// The bytes of a point in the file.
 struct PlyPoint {
     glm::vec3 position;  ///< metres, world
     uint8_t red, green, blue, alpha;
@@ -18,7 +18,8 @@ struct PlyPoint {
 };
 static_assert(sizeof(PlyPoint) == 20);
 
-/// Along sight rays what is met stands at its depth; all else in the middle of its voxel.
+/// The position of a voxel's point. In the layout `rays` a voxel that shows a hit has its point at
+/// the hit's depth; every other voxel has it in its middle.
 glm::dvec3 position_of(const Volume& volume, size_t i) {
     const VolumeFrame& frame = volume.frame;
     const glm::ivec3 cell = cell_of(frame, volume.indices[i]);

@@ -27,7 +27,7 @@ VolumeJson read_header(const VolumePath& path) {
     return header;
 }
 
-/// One array as the header describes it, verified as it is read.
+/// One array as the header describes it. It is verified while it is read.
 class RawArray {
   public:
     RawArray(const InputFile& file, const VolumeJson& entry, const char* name, uint64_t bytes)
@@ -58,7 +58,7 @@ class RawArray {
     std::string checksum_;
 };
 
-/// Where each array is, in the file's order.
+/// The arrays of the file, in its order.
 struct RawFile {
     const InputFile& data;
     const VolumeJson& arrays;
@@ -77,7 +77,7 @@ struct RawFile {
         }
         array.verify();
     }
-    /// The same for the voxels that `indices` lists.
+    /// Calls `take(place, values)` with the values of the voxels that `indices` lists.
     template <class Value, class Take>
     void read_listed(const std::vector<uint64_t>& indices, size_t number, const char* name,
                      size_t components, Take take) const {

@@ -1,4 +1,4 @@
-// Volumetric image -> dense arrays in one .raw file, and a .json that says what they are.
+// Volumetric image -> dense arrays in one .raw file, and a .json that describes them.
 #include <xxhash.h>
 
 #include <algorithm>
@@ -13,7 +13,8 @@ namespace voxelume {
 
 namespace {
 
-/// Writes one array row by row; `fill(row, column, i)` puts the i-th listed voxel's values there.
+/// Writes one array row by row. `fill(row, column, i)` stores the i-th listed voxel's values at
+/// `column` of `row`.
 template <class Value, class Fill>
 VolumeJson write_array(AtomicFile& file, const Volume& volume, const char* name, const char* type,
                        size_t components, Fill fill) {

@@ -8,13 +8,13 @@
 
 namespace voxelume {
 
-/// Walks once through all size.y * size.z rows in the order of the numbers in `indices`.
+/// Walks once through all size.y * size.z rows in ascending order of `indices`.
 class VolumeRows {
   public:
     explicit VolumeRows(const Volume& volume)
         : volume_(volume), width_(uint64_t(volume.frame.size.x)) {}
 
-    /// Where the next row's listed voxels begin and end in the volume's arrays.
+    /// The begin and end of the next row's listed voxels in the volume's arrays.
     std::pair<size_t, size_t> next() {
         const size_t first = position_;
         row_start_ = row_end_;
@@ -24,7 +24,8 @@ class VolumeRows {
         return {first, position_};
     }
 
-    /// The column of the voxel at that position, for positions of the last row that next() gave.
+    /// The column of the voxel at that position, for positions of the row that next() returned
+    /// last.
     size_t column(size_t position) const { return volume_.indices[position] - row_start_; }
 
   private:

@@ -9,7 +9,8 @@ namespace voxelume {
 
 namespace {
 
-/// Columns to the image's right, rows down: a lattice's X_E and Y_E run the other way.
+/// Makes the next slice. Columns go to the image's right and rows down; a lattice's X_E and Y_E run
+/// the other way.
 Image make_slice(const Volume& volume, VolumeRows& rows) {
     const glm::ivec3& size = volume.frame.size;
     const bool lattice = volume.frame.layout == VolumeLayout::lattice;

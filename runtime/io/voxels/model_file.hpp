@@ -1,19 +1,18 @@
 // Voxelized models on disk (.vxm): named arrays with checksums and a header of text.
 //
-// Little-endian, in this order:
-//    0  8 bytes  89 56 58 4d 0d 0a 1a 0a: shows a transfer that rewrote line ends, as PNG's first
-//    bytes do 8  u32      version of the container, 1
-//   12  u32      header entries
-//   16  u32      arrays
+// The file is little-endian, in this order:
+//    0  8 bytes  89 56 58 4d 0d 0a 1a 0a: reveals a transfer that rewrote line ends, as in PNG
+//    8  u32      version of the container, 1
+//   12  u32      number of header entries
+//   16  u32      number of arrays
 //   20  u32      zero
 //   24  u64      bytes of the directory
 //   32  u64      xxh3 of bytes 0-31 and of the directory
-//   40           directory. An entry of the header: u32 length and bytes of its key, then of its
-//   value.
-//                An array: u32 length and bytes of its name, u32 element type (ElementType), u64
-//                elements, u64 place in the file, u64 compressed bytes, u64 xxh3 of the elements.
+//   40           directory. Each header entry: u32 length and bytes of its key, then of its value.
+//                Each array: u32 length and bytes of its name, u32 element type (ElementType), u64
+//                elements, u64 offset in the file, u64 compressed bytes, u64 xxh3 of the elements.
 //   then the arrays in the order of their names, each one zstd frame.
-// What the header and the arrays mean is the writer's business; `format` in the header names it.
+// The writer decides what the header and the arrays mean; `format` in the header names it.
 #pragma once
 
 #include <cstdint>
@@ -25,7 +24,7 @@
 
 namespace voxelume {
 
-/// In the order of ElementType.
+/// The elements of an array. The alternatives are in the order of ElementType.
 using ModelArray = std::variant<std::vector<uint8_t>, std::vector<int16_t>, std::vector<uint32_t>,
                                 std::vector<uint64_t>, std::vector<float>>;
 
@@ -36,11 +35,10 @@ struct ModelFile {
     std::map<std::string, ModelArray> arrays;
 };
 
-/// Writes the file whole or not at all; the same content gives the same bytes. Throws
-/// Error::output.
+/// Writes the file whole or not at all. Equal content gives equal bytes. Throws Error::output.
 void write_model_file(const std::filesystem::path& path, const ModelFile& model);
 
-/// Reads and verifies everything. Sizes are checked against the file before memory is taken.
+/// Reads and verifies everything. Sizes are checked against the file before memory is allocated.
 /// Throws Error::input for a file that is missing, damaged, truncated or of a later version.
 ModelFile read_model_file(const std::filesystem::path& path);
 
@@ -61,7 +59,7 @@ struct ModelSummary {
 /// Reads the directory alone. Throws Error::input as read_model_file does.
 ModelSummary read_model_summary(const std::filesystem::path& path);
 
-/// "u8", "i16", "u32", "u64" or "f32".
+/// The name of an element type: "u8", "i16", "u32", "u64" or "f32".
 const char* element_name(ElementType type);
 size_t element_bytes(ElementType type);
 

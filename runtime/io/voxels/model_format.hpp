@@ -1,4 +1,4 @@
-// What the writer and the reader of .vxm agree on; the layout is described in model_file.hpp.
+// What the writer and the reader of .vxm share. model_file.hpp describes the layout.
 #pragma once
 
 #include <array>
@@ -22,11 +22,11 @@ struct Start {
 };
 static_assert(sizeof(Start) == 40);
 
-/// Bytes of Start that the checksum covers, ahead of the directory.
+/// The bytes of Start, ahead of the directory, that the checksum covers.
 constexpr size_t kCheckedBytes = 32;
 
-/// The least that an entry of the directory takes: two empty texts, or an empty name and five
-/// numbers.
+/// The minimum sizes of the directory's entries: two empty texts for a header entry, an empty name
+/// and five numbers for an array.
 constexpr size_t kSmallestHeaderEntry = 8;
 constexpr size_t kSmallestArrayEntry = 40;
 

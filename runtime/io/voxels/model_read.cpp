@@ -12,11 +12,12 @@ namespace voxelume {
 
 namespace {
 
-/// A zstd block of 128 KiB takes four bytes at least, so a frame can't hold more than this for each
-/// of its bytes.
+/// The maximum of content bytes per byte of a zstd frame: a zstd block of 128 KiB takes at least
+/// four bytes.
 constexpr uint64_t kLargestRatio = 32768;
 
-/// The directory as it is taken apart; the checksum has been verified, but a writer may lie.
+/// Parses the directory. Its checksum has been verified, but its writer may have stored wrong
+/// values.
 class DirectoryReader {
   public:
     DirectoryReader(const InputFile& file, std::string bytes)

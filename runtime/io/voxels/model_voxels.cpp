@@ -12,9 +12,10 @@
 namespace voxelume {
 namespace {
 
-constexpr uint64_t kMaxModelBytes = uint64_t{12} << 30;  // of a file's arrays
+constexpr uint64_t kMaxModelBytes = uint64_t{12} << 30;  // the sum of a file's arrays
 
-/// Throws, before memory is taken for them, where arrays are more than a model may have.
+/// Throws Error::input for arrays larger than a model may have, before memory is allocated for
+/// them.
 void check_arrays(const ModelSummary& summary, const InputFile& file) {
     uint64_t bytes = 0;
     for (const auto& [name, array] : summary.arrays) {
@@ -26,7 +27,8 @@ void check_arrays(const ModelSummary& summary, const InputFile& file) {
     }
 }
 
-/// A model file taken apart; its checksums hold, but a writer may be wrong.
+/// Parses a model file. Its checksums have been verified, but its writer may have stored wrong
+/// values.
 class ModelReader {
   public:
     ModelReader(const InputFile& file, ModelFile content)
@@ -83,7 +85,8 @@ class ModelReader {
             file_.refuse("its voxels have no size");
     }
 
-    /// An array of `count` elements, or an empty one where the file has none and needs none.
+    /// The array `name` of `count` elements. It is empty if the file has none and it isn't
+    /// `needed`.
     template <class Element>
     std::vector<Element> array(const char* name, size_t count, bool needed) {
         const auto found = content_.arrays.find(name);

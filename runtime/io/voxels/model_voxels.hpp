@@ -7,8 +7,8 @@
 
 namespace voxelume {
 
-/// Throws Error::input for a file that is missing, damaged or too large, or whose model has another
-/// surface than `surface`.
+/// Reads a model. Throws Error::input for a file that is missing, damaged or too large, or whose
+/// model has another surface than `surface`.
 VoxelModel read_model_voxels(const std::filesystem::path& path, Surface surface);
 
 }  // namespace voxelume

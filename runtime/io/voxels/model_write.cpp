@@ -10,10 +10,10 @@ namespace voxelume {
 
 namespace {
 
-// Level 1 keeps pace with the disk; models are read far more often than they are sent anywhere.
+// Level 1 is as fast as the disk. Models are read far more often than they are sent anywhere.
 constexpr int kCompressionLevel = 1;
 
-/// The directory as it grows.
+/// Builds the directory's bytes.
 class DirectoryWriter {
   public:
     template <class Number>

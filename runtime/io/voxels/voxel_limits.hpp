@@ -1,4 +1,4 @@
-// How many voxels and bricks a model from a file may have.
+// Limits of the voxels and bricks of a model from a file.
 #pragma once
 
 #include <cstddef>
@@ -8,8 +8,8 @@ namespace voxelume {
 
 class InputFile;
 
-/// Throws Error::input for more voxels along the axes than a model may have, or for more bricks,
-/// stored or not.
+/// Throws Error::input for more voxels along an axis, or for more bricks, stored or not, than a
+/// model may have.
 void check_voxel_span(const glm::dvec3& size, const InputFile& file);
 
 /// Throws Error::input for more stored bricks than a model may have.

@@ -15,10 +15,11 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// Faces: 0 is the curved part; planes have 1 + 2 * axis, plus 1 on the positive side.
+/// The numbers of a solid's faces: 0 is the curved part. The plane across an axis is 1 + 2 * axis,
+/// plus 1 on the positive side.
 constexpr int kCurved = 0;
 
-/// The part of a line inside of a convex solid; empty when `first >= last`.
+/// The part of a line inside a convex solid; empty if `first >= last`.
 struct Span {
     double first = -kInfinity, last = kInfinity;
     int first_face = kCurved, last_face = kCurved;
@@ -33,14 +34,14 @@ Span intersection(const Span& a, const Span& b) {
     return both;
 }
 
-/// Of two parts of a convex solid.
+/// The part of a line in the convex hull of two parts.
 Span hull(const Span& a, const Span& b) {
     if (a.first >= a.last) return b;
     if (b.first >= b.last) return a;
     return {std::min(a.first, b.first), std::max(a.last, b.last)};
 }
 
-/// |coordinate| <= half along one axis.
+/// The part of a line where |coordinate| <= half along one axis.
 Span between_planes(const Line& line, int axis, double half) {
     const double o = line.origin[axis], d = line.direction[axis];
     const int low = 1 + 2 * axis, high = low + 1;
@@ -49,8 +50,8 @@ Span between_planes(const Line& line, int axis, double half) {
     return d > 0 ? Span{to_low, to_high, low, high} : Span{to_high, to_low, high, low};
 }
 
-/// Inside of a sphere around the origin. The distance from the centre to the line, and not the
-/// difference of two squares, keeps far lines accurate.
+/// The part of a line inside a sphere around the origin. It is computed from the distance between
+/// the centre and the line, not from a difference of two squares, so that far lines stay accurate.
 Span in_sphere(const Line& line, double radius) {
     const double squared = glm::dot(line.direction, line.direction);
     if (squared == 0) return kNowhere;
@@ -101,8 +102,8 @@ Span in_convex(const Solid& solid, const Line& line) {
     }
 }
 
-/// A torus is (|p|^2 + R^2 - r^2)^2 < 4 R^2 (x^2 + z^2); with t from the line's point nearest to
-/// the centre |p|^2 has no linear term.
+/// The crossings of a torus, (|p|^2 + R^2 - r^2)^2 < 4 R^2 (x^2 + z^2). t counts from the line's
+/// point nearest to the centre, so that |p|^2 has no linear term.
 Crossings torus_crossings(const Solid& torus, const Line& line) {
     using Real = long double;
     const double reach = torus.radius + torus.tube;
@@ -126,7 +127,7 @@ Crossings torus_crossings(const Solid& torus, const Line& line) {
     return found;
 }
 
-/// Not of unit length.
+/// The gradient of the solid's function at p. It is not of unit length.
 glm::dvec3 gradient(const Solid& solid, const glm::dvec3& p) {
     switch (solid.kind) {
         case SolidKind::ellipsoid:
@@ -152,7 +153,7 @@ PlacedSolid::PlacedSolid(const Solid& solid, const glm::dmat4& world_from_solid)
         throw std::invalid_argument("the analytic tracer doesn't know this kind of solid");
 }
 
-// An affine map keeps t, so nothing needs to be carried back.
+// An affine map keeps t, so the crossings of the local line are those in the world.
 Crossings PlacedSolid::crossings(const Line& line) const {
     const Line local{glm::dvec3(solid_from_world_ * glm::dvec4(line.origin, 1)),
                      glm::dmat3(solid_from_world_) * line.direction};

@@ -1,4 +1,4 @@
-// Where a straight line enters and leaves an analytic solid, in closed form.
+// The points where a straight line enters and leaves an analytic solid, in closed form.
 #pragma once
 
 #include <array>
@@ -15,14 +15,14 @@ struct Line {
     glm::dvec3 direction{0};
 };
 
-/// One point where a line goes through a surface.
+/// One point where a line passes through a surface.
 struct Crossing {
     double t = 0;
-    bool enters = false;  ///< along the line's direction
-    int face = 0;         ///< number of the smooth part of the surface, different across edges
+    bool enters = false;  ///< true if the line's direction leads into the solid
+    int face = 0;         ///< number of the smooth part of the surface; it differs across edges
 };
 
-/// All crossings of a line, which enter and leave in turn; t doesn't fall.
+/// All crossings of a line. They alternate between entering and leaving, and t never decreases.
 struct Crossings {
     std::array<Crossing, 4> list{};
     int count = 0;
@@ -31,10 +31,10 @@ struct Crossings {
 /// A sphere, ellipsoid, box, cylinder, torus, capsule or slab under any affine map.
 class PlacedSolid {
   public:
-    /// Throws std::invalid_argument for cones and combinations.
+    /// Places a solid. Throws std::invalid_argument for cones and combinations.
     PlacedSolid(const Solid& solid, const glm::dmat4& world_from_solid);
 
-    /// A line that only touches the solid has no crossings.
+    /// The crossings of a line. A line that only touches the solid has none.
     Crossings crossings(const Line& line) const;
 
     /// The unit normal that points out of the solid, at a point of the surface's part `face`.

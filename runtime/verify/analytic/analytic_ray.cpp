@@ -44,7 +44,7 @@ Hit box_hit(const Solid& box, const glm::dvec3& origin, const glm::dvec3& direct
     return hit;
 }
 
-/// The t in [low, high], between which `value` changes its sign, where it does.
+/// The t in [low, high] where `value` changes its sign.
 template <class Function>
 double bisect(const Function& value, double low, double high) {
     const bool is_positive = value(low) > 0;
@@ -63,8 +63,8 @@ double value_of(const Polynomial& p, double t) {
     return value;
 }
 
-/// Where a polynomial changes its sign between `low` and `high`, ascending. Between two roots of
-/// its derivative it does so at most once.
+/// The t between `low` and `high`, ascending, where a polynomial changes its sign. Between two
+/// roots of its derivative it does so at most once.
 std::vector<double> roots_of(const Polynomial& p, double low, double high) {
     if (p.size() < 2) return {};
     Polynomial derivative;
@@ -80,8 +80,8 @@ std::vector<double> roots_of(const Polynomial& p, double low, double high) {
     return roots;
 }
 
-/// The derivative of (|p|^2 + R^2 - r^2)^2 - 4 R^2 (x^2 + z^2) along a ray. With `start` at right
-/// angles to the ray, |p|^2 = s + t^2.
+/// The derivative of (|p|^2 + R^2 - r^2)^2 - 4 R^2 (x^2 + z^2) along a ray. `start` is
+/// perpendicular to the ray, so that |p|^2 = s + t^2.
 Polynomial torus_derivative(const Solid& torus, const glm::dvec3& start,
                             const glm::dvec3& direction) {
     const double ring = torus.radius * torus.radius;
@@ -97,7 +97,7 @@ Hit torus_hit(const Solid& torus, const glm::dvec3& origin, const glm::dvec3& di
     const double reach = torus.radius + torus.tube;
     const double square = reach * reach - glm::dot(start, start);
     if (square < 0) return {};
-    // The distance has the quartic's sign and, unlike it, no cancellation.
+    // The distance has the sign of the quartic and, unlike the quartic, no cancellation.
     const auto distance = [&](double t) {
         const glm::dvec3 p = start + t * direction;
         return std::hypot(std::hypot(p.x, p.z) - torus.radius, p.y) - torus.tube;

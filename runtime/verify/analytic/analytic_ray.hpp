@@ -1,4 +1,5 @@
-// Where a ray meets an analytic solid, in double: the truth that `voxelume bench` holds images to.
+// The point where a ray meets an analytic solid, in double. `voxelume bench` compares images with
+// it.
 #pragma once
 
 #include <glm/mat4x4.hpp>
@@ -14,14 +15,14 @@ struct AnalyticHit {
     glm::dvec3 normal{0};  ///< unit vector out of the solid, in the world
 };
 
-/// Whether `analytic_hit` knows the kind: sphere, box, torus.
+/// True if `analytic_hit` supports the kind: sphere, box, torus.
 bool has_analytic_hit(SolidKind kind);
 
-/// The first point in which a ray from outside meets a solid that is turned and shifted only.
+/// The first point where a ray from outside meets a solid that is only turned and shifted.
 ///
-/// `direction` is a unit vector. Sphere and box are closed forms; a torus's quartic is cut at the
+/// `direction` is a unit vector. Sphere and box have closed forms. A torus's quartic is cut at the
 /// roots of its derivatives, and its first change of sign is bisected to the last bit. Throws
-/// Error::render for a kind without.
+/// Error::render for other kinds.
 std::optional<AnalyticHit> analytic_hit(const Solid& solid, const glm::dmat4& world_from_solid,
                                         const glm::dvec3& origin, const glm::dvec3& direction);
 

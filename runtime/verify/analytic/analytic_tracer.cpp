@@ -15,7 +15,7 @@ struct Clip {
     double first, last;
 };
 
-/// The part of a line in a box.
+/// Clips a line to a box.
 Clip clip(const Line& line, const glm::dvec3& low, const glm::dvec3& high, double first,
           double last) {
     for (int a = 0; a < 3; ++a) {
@@ -66,7 +66,8 @@ bool AnalyticTracer::transmits(int object) const {
     return m.refraction > 0 || m.opacity < 1;
 }
 
-/// The transmitting object whose stuff counts: the highest priority, of equals the earlier one.
+/// The transmitting object whose material counts: that of the highest priority, and the earlier one
+/// of equals.
 int AnalyticTracer::effective(const std::vector<uint8_t>& inside) const {
     int best = -1;
     for (int i = 0; i < int(inside.size()); ++i) {
@@ -77,8 +78,8 @@ int AnalyticTracer::effective(const std::vector<uint8_t>& inside) const {
     return best;
 }
 
-/// Crossings that contradict where the ray is are the surface that it starts from, rounded to lie
-/// before it.
+/// The next surface on the path. Crossings that contradict `path.inside` belong to the surface from
+/// which the ray starts, whose position was rounded to lie before it, so they are skipped.
 AnalyticTracer::Surface AnalyticTracer::next_surface(const Path& path) const {
     Surface next;
     next.crossing.t = path.t_last;
@@ -100,7 +101,7 @@ void AnalyticTracer::find_inside(Path& path) const {
         const Crossings all = solids_[i].crossings(path.line);
         for (int k = 0; k < all.count; ++k)
             if (all.list[size_t(k)].t < path.t) path.inside[i] = all.list[size_t(k)].enters;
-        // A line that began at minus infinity inside of a slab.
+        // The line was inside a slab from minus infinity on.
         if (all.count > 0 && all.list[0].t >= path.t) path.inside[i] = !all.list[0].enters;
     }
 }
@@ -112,7 +113,7 @@ bool AnalyticTracer::is_hidden(const Path& path, const Surface& surface) const {
     return effective(path.inside) == effective(after);
 }
 
-/// What the space between path.t and t lets through and adds.
+/// Applies what the space between path.t and t absorbs and emits.
 void AnalyticTracer::pass(const Path& path, double t, glm::dvec3& transmittance,
                           glm::dvec3& emitted) const {
     const double metres = t - path.t;
@@ -198,7 +199,7 @@ glm::dvec3 AnalyticTracer::surface_radiance(const Path& path, const Surface& sur
     return value;
 }
 
-/// What reflected and refracted rays bring to a surface point, times their ratios.
+/// The light that reflected and refracted rays bring to a surface point, times their ratios.
 glm::dvec3 AnalyticTracer::scattered(const Path& path, const Surface& surface, const Point& point,
                                      Events& events) const {
     const Material& m = *point.material;
@@ -209,7 +210,7 @@ glm::dvec3 AnalyticTracer::scattered(const Path& path, const Surface& surface, c
         if (object < 0) return 1.0;
         return double(scene_.materials[size_t(scene_.objects[size_t(object)].material)].ior);
     };
-    // An opaque object has an index of its own, too: its reflectance needs it.
+    // An opaque object has an index of refraction, too: its reflectance depends on it.
     double before = ior_in(effective(path.inside)), after = ior_in(effective(beyond));
     if (!transmits(surface.object)) (surface.crossing.enters ? after : before) = double(m.ior);
 

@@ -14,39 +14,39 @@ namespace voxelume::oracle {
 /// What a ray sees.
 struct Seen {
     glm::dvec3 radiance{0};
-    uint64_t signature =
-        0;            ///< hash of everything that was decided on the way: which surfaces, lit
-                      ///< or not, which square of a checker, total reflection, paths ended
-    int object = -1;  ///< index of the first one shown, -1 for none
-    double t = std::numeric_limits<double>::infinity();  ///< metres to it
+    uint64_t signature = 0;  ///< hash of every decision on the way: which surfaces, lit or not,
+                             ///< which square of a checker, total reflection, paths ended
+    int object = -1;         ///< index of the first object shown, -1 for none
+    double t = std::numeric_limits<double>::infinity();  ///< metres to that object
 };
 
-/// Traces one scene, whose objects must be spheres, ellipsoids, boxes, cylinders, tori, capsules or
-/// slabs, as `exact` surfaces: their unions with each other don't exist, and the world's lattice
+/// Traces one scene. Its objects have to be spheres, ellipsoids, boxes, cylinders, tori, capsules
+/// or slabs, as `exact` surfaces. They don't form unions with each other, and the world's lattice
 /// cuts them open.
 ///
-/// Follows Whitted 1980 with the meaning that scenes/README.md gives to materials. Where surfaces
-/// of two objects coincide the order of crossing them is open.
+/// It follows Whitted 1980 with the meaning that scenes/README.md gives to materials. Where
+/// surfaces of two objects coincide, the order in which a ray crosses them is undefined.
 class AnalyticTracer {
   public:
-    /// Keeps a reference to the scene. Throws std::invalid_argument for solids that it doesn't
-    /// know and for a medium with a density.
+    /// Keeps a reference to the scene. Throws std::invalid_argument for unsupported solids and for
+    /// a medium with a density.
     explicit AnalyticTracer(const Scene& scene);
 
-    /// The ray from `origin` along the unit vector `direction`, between `t_first` and `t_last`
-    /// metres; only its first part ends at `t_last`. The origin may be outside of the world.
+    /// Traces the ray from `origin` along the unit vector `direction`, between `t_first` and
+    /// `t_last` metres. Only the ray itself ends at `t_last`, not the rays that it causes. The
+    /// origin may lie outside of the world.
     Seen trace(const glm::dvec3& origin, const glm::dvec3& direction, double t_first = 0,
                double t_last = std::numeric_limits<double>::infinity()) const;
 
   private:
-    /// A ray on its way, with what it is inside of.
+    /// A ray on its way, with the objects that it is inside of.
     struct Path {
         Line line;
-        double t = 0;                 ///< how far it has come
-        double t_last = 0;            ///< far plane or end of the world
+        double t = 0;                 ///< distance that the ray has passed, metres
+        double t_last = 0;            ///< distance to the far plane or the end of the world
         std::vector<uint8_t> inside;  ///< per object
-        glm::dvec3 weight{1};         ///< share of the image that it makes
-        int depth = 0;                ///< reflections and refractions that are left
+        glm::dvec3 weight{1};         ///< share of the ray in the image
+        int depth = 0;                ///< remaining reflections and refractions
     };
     struct Surface {
         int object = -1;  ///< -1: none
@@ -74,12 +74,12 @@ class AnalyticTracer {
                       double distance, Events& events) const;
 
     const Scene& scene_;
-    glm::dvec3 world_min_, world_max_;  ///< of the lattice, metres
+    glm::dvec3 world_min_, world_max_;  ///< bounds of the lattice, metres
     std::vector<PlacedSolid> solids_;   ///< per object
 };
 
-/// Reflectance for unpolarised light that meets the boundary between indices of refraction at the
-/// given cosine (0..1) to the normal; 1 on total internal reflection.
+/// The reflectance for unpolarised light at the boundary between two indices of refraction, at the
+/// given cosine (0..1) to the normal. It is 1 on total internal reflection.
 double reflectance(double cosine, double ior_before, double ior_after);
 
 }  // namespace voxelume::oracle

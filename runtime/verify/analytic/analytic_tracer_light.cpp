@@ -9,7 +9,7 @@
 namespace voxelume::oracle {
 namespace {
 
-/// Of a spot's light, along the unit vector `away` from it.
+/// The share of a spot's light along the unit vector `away` from it.
 double spot_falloff(const Light& light, const glm::dvec3& away) {
     const double inner = std::cos(light.inner_half_angle), outer = std::cos(light.outer_half_angle);
     const double cosine = glm::dot(light.direction, away);
@@ -49,7 +49,7 @@ glm::dvec3 AnalyticTracer::share_of(const Light& light, const Path& path, const 
            shadow(path, point, to_light, distance, events);
 }
 
-/// What the way to a light lets through.
+/// The share of light that passes on the way to a light.
 glm::dvec3 AnalyticTracer::shadow(const Path& path, const Point& point, const glm::dvec3& to_light,
                                   double distance, Events& events) const {
     Path way{{point.position, to_light}, 0, distance, path.inside, glm::dvec3(1), 0};

@@ -5,15 +5,15 @@
 
 namespace voxelume::oracle {
 
-/// Where a ray meets a surface.
+/// The point where a ray meets a surface.
 struct AnalyticTracer::Point {
     glm::dvec3 position{0};
-    glm::dvec3 normal{0};  ///< unit, against the ray
+    glm::dvec3 normal{0};  ///< unit vector, against the ray
     glm::dvec3 color{0};
     const Material* material = nullptr;
 };
 
-/// Everything that was decided on the way, in order; the first shown surface on its own.
+/// A record of every decision on the way, in order, and of the first surface shown.
 struct AnalyticTracer::Events {
     uint64_t hash = 14695981039346656037u;  // FNV-1a
     int object = -1;

@@ -18,7 +18,7 @@ double distance_between(const PixelContour::Segment& segment, const glm::dvec2& 
     return glm::distance(p, segment.a + share * along);
 }
 
-/// Where the side changes between two points, one of which is inside.
+/// The point between a and b where the side changes. One of the two is inside.
 glm::dvec2 crossing(const std::function<bool(const glm::dvec2&)>& is_inside, glm::dvec2 a,
                     glm::dvec2 b) {
     constexpr int kHalvings = 30;

@@ -15,7 +15,7 @@ enum class PixelSide : uint8_t {
     unknown  ///< neither: the border isn't followed there
 };
 
-/// A border as straight pieces, each within the square between four pixels' centres.
+/// A border of straight pieces, each within the square between four pixels' centres.
 struct PixelContour {
     struct Segment {
         glm::dvec2 a, b;  ///< pixels from the upper left corner
@@ -23,26 +23,26 @@ struct PixelContour {
     std::vector<Segment> segments;
     double length = 0;  ///< pixels
 
-    /// Pixels; infinite where there is no border at all.
+    /// The distance from p to the border, pixels; infinite if there is no border.
     double distance_to(const glm::dvec2& p) const;
 };
 
-/// Follows the border. `is_inside` tells of any point of the image, in pixels, what `sides` tells
-/// of the centres; only points between an inside and an outside pixel are asked for.
+/// Follows the border. `is_inside` gives for any point of the image, in pixels, what `sides` gives
+/// for the centres. It is called only for points between an inside and an outside pixel.
 PixelContour contour_of(glm::ivec2 size, const std::vector<PixelSide>& sides,
                         const std::function<bool(const glm::dvec2&)>& is_inside);
 
-/// How far the pixels of an image lie on the wrong side of a border.
+/// Measures how far an image's pixels lie on the wrong side of a border.
 class ContourError {
   public:
     explicit ContourError(const PixelContour& truth) : truth_(truth) {}
 
-    /// Counts a pixel, by its centre, that is on the wrong side.
+    /// Counts a pixel on the wrong side, by its centre.
     void add(const glm::dvec2& center);
 
-    /// Pixels: the area on the wrong side over the border's length.
+    /// The area on the wrong side divided by the border's length, pixels.
     double mean() const;
-    /// Pixels: the farthest centre from the border, 0 without any.
+    /// The distance from the border to the farthest centre, pixels; 0 if no pixel was counted.
     double max() const { return max_; }
 
   private:

@@ -22,8 +22,8 @@ std::vector<Real> derivative(const std::vector<Real>& coefficients) {
     return slope;
 }
 
-/// The sign change between two values of different sign: Newton's steps where they stay between
-/// the closest values known, halves elsewhere.
+/// The sign change between two points with values of different sign. Newton's steps are taken where
+/// they stay between the closest points known, halvings elsewhere.
 Real sign_change(const std::vector<Real>& coefficients, const std::vector<Real>& slope, Real low,
                  Real high) {
     const bool falls = value_at(coefficients, low) > 0;

@@ -29,7 +29,7 @@ BenchTimes times_of(const RenderReport& report, const DeviceCounters& counters) 
     return times;
 }
 
-/// The system and its number of threads, without the name of a host.
+/// The system and its number of hardware threads, without the name of a host.
 std::string describe_machine() {
     utsname names{};
     if (uname(&names) != 0) return "unknown";
@@ -53,7 +53,7 @@ BenchReport describe(const Device& device, const BenchOptions& options) {
     return report;
 }
 
-/// One row's scenes and what they are held to.
+/// What the rows of one subject and size are compared with.
 struct Measured {
     const BenchSubject& subject;
     const BenchTruth& truth;
@@ -68,7 +68,8 @@ Scene scene_of(const BenchSubject& subject, const BenchRow& row, glm::ivec2 size
     return scene;
 }
 
-/// Of cubes the set that stands for the volume, whatever the image shows.
+/// Measures volume and area. For cubes it measures the voxel set `solid`, which stands for the
+/// volume, whatever set the image shows.
 void measure_extent(const Device& device, Scene scene, const Pyramid& shown,
                     const std::optional<Extent>& truth, BenchRow& row) {
     if (!truth) return;
@@ -95,7 +96,7 @@ void measure_shadow_edge(const Device& device, const Measured& measured, BenchRo
     row.shadow = measure_shadow(*measured.shadow, render(device, scene, report));
 }
 
-/// The first render, from which all errors are taken.
+/// Measures the first render and takes all errors from it.
 BenchTimes measure_first(const Device& device, const Scene& scene, const Measured& measured,
                          BenchRow& row) {
     DeviceCounters& counters = device.counters();
@@ -126,7 +127,8 @@ void measure(const Device& device, const Measured& measured, int repeats, BenchR
     clear_counters(device);
     BenchTimes best = measure_first(device, scene, measured, row);
     const double programs = row.seconds.programs;
-    // The first render counts where it made no kernels and is long, or there are no repeats.
+    // The first render counts if it made no kernels and takes kMaxRowSeconds or more, or if there
+    // are no repeats.
     double spent = best.total;
     if (programs > 0 || (repeats > 0 && spent < kMaxRowSeconds)) best.total = INFINITY;
     for (int i = 0; std::isinf(best.total) || (i < repeats && spent < kMaxRowSeconds); ++i) {
@@ -143,7 +145,7 @@ void measure(const Device& device, const Measured& measured, int repeats, BenchR
     if (row.samples == 1) measure_shadow_edge(device, measured, row);
 }
 
-/// The combinations of one subject in the order in which they are measured.
+/// The combinations of one subject, in the order of measurement.
 std::vector<BenchRow> planned_rows(const BenchOptions& options, const BenchEntry& entry) {
     std::vector<BenchRow> rows;
     const int finest =
@@ -180,7 +182,7 @@ void mark_front(std::span<BenchRow> rows) {
     for (const size_t i : pareto_front(seconds, errors)) compared[i]->is_best = true;
 }
 
-/// Over the rows of a surface and placement that `error` has a positive value of.
+/// Fits the rows of a surface and placement whose `error` has a positive value.
 SlopeFit fit_rows(std::span<const BenchRow> rows, const BenchFit& fit,
                   const std::function<double(const BenchRow&)>& error) {
     std::vector<double> sizes, errors;

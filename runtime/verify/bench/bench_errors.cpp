@@ -11,7 +11,7 @@
 namespace voxelume {
 namespace {
 
-/// Degrees between two vectors, to the last bits of small ones.
+/// The angle between two vectors in degrees, accurate to the last bits also for small angles.
 double angle_between(const glm::dvec3& a, const glm::dvec3& b) {
     return glm::degrees(std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)));
 }

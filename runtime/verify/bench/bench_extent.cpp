@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-/// In voxels, of a sphere, torus or box of shape space.
+/// The extent of a sphere, torus or box of shape space, in voxels; empty for other shapes.
 std::optional<Extent> extent_of(const SolidShape& shape) {
     const double a = shape.size[0], b = shape.size[1], c = shape.size[2];
     switch (shape.kind) {
@@ -35,7 +35,8 @@ std::optional<Extent> extent_of(const SolidShape& shape) {
 Extent triangles_extent(std::span<const glm::dvec3> corners) {
     Extent extent;
     for (size_t i = 0; i + 2 < corners.size(); i += 3) {
-        // About the first corner of all: what lies far from the origin would cancel.
+        // Corners are taken relative to the very first one, because parts far from the origin would
+        // cancel.
         const glm::dvec3 a = corners[i] - corners[0], b = corners[i + 1] - corners[0],
                          c = corners[i + 2] - corners[0];
         const glm::dvec3 normal = glm::cross(b - a, c - a);
@@ -66,8 +67,8 @@ std::optional<Extent> exact_extent(const Pyramid& pyramid) {
 }
 
 std::optional<Extent> extent_of(const Pyramid& pyramid, Surface surface, double scale) {
-    constexpr double kMaxCells = 4e8;         // of the world's lattice
-    constexpr uint32_t kMaxVoxels = 1 << 21;  // with fields
+    constexpr double kMaxCells = 4e8;         // cells of the world's lattice
+    constexpr uint32_t kMaxVoxels = 1 << 21;  // voxels with fields
     const GridFrame frame = shown_part(pyramid).frame;
     const double edge = frame.voxel_edge.x * scale;
     std::optional<Extent> extent;

@@ -18,16 +18,17 @@ namespace {
 
 constexpr double kWave = 4 * 3.14159265358979323846;  // 2 pi over the period, per metre
 constexpr double kRadius = 0.45;                      // metres
-constexpr double kReach = 0.46;                       // metres; the field is positive from there
+constexpr double kReach = 0.46;                       // in metres; the field is positive from there
+                                                      // on
 
-/// Bounds the gradient's length inside of `kReach`: sqrt(3) kWave of the waves, the rest of the
-/// ball.
+/// An upper bound of the gradient's length inside `kReach`: sqrt(3) kWave for the waves, the rest
+/// for the ball.
 constexpr double kSteepest = 22 + 45;
 
-/// Triangles of 6 mm: they lie within 1e-4 m of the surface.
+/// Triangles of 6 mm, which lie within 1e-4 m of the surface.
 constexpr int kCells = 150;
 
-/// The field at a lattice's points, and the mesh's vertices on the edges between them.
+/// Computes the field at a lattice's points, and the mesh's vertices on the edges between them.
 class TetrahedraMarch {
   public:
     explicit TetrahedraMarch(int cells) : points_(cells + 1), step_(2 * kReach / cells) {
@@ -56,7 +57,7 @@ class TetrahedraMarch {
         return index * step_ - kReach;
     }
 
-    /// Six tetrahedra around the diagonal, one for each order in which the axes are walked.
+    /// Adds six tetrahedra around the diagonal, one for each order in which the axes are walked.
     void add_cube(const glm::ivec3& corner) {
         constexpr std::array<std::array<int, 3>, 6> kOrders = {
             {{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {2, 1, 0}, {1, 0, 2}}};
@@ -83,7 +84,7 @@ class TetrahedraMarch {
         add(in[0], {a, c, d});
     }
 
-    /// A triangle that faces away from a point inside.
+    /// Adds a triangle that faces away from a point inside.
     void add(uint32_t inside, glm::uvec3 triangle) {
         const auto corner = [&](int i) { return glm::dvec3(mesh_.positions[triangle[i]]); };
         const glm::dvec3 normal = glm::cross(corner(1) - corner(0), corner(2) - corner(0));
@@ -112,7 +113,7 @@ class TetrahedraMarch {
     Mesh mesh_;
 };
 
-/// A mesh as binary PLY, removed with its last owner.
+/// A mesh as binary PLY. The file is removed with its last owner.
 class TemporaryMesh {
   public:
     explicit TemporaryMesh(const Mesh& mesh)
@@ -146,7 +147,7 @@ class TemporaryMesh {
     std::filesystem::path file_;
 };
 
-/// The part of a ray inside of the ball in which the surface lies; empty when `first` > `last`.
+/// The part of a ray inside the ball that contains the surface; empty if `first` > `last`.
 struct Part {
     double first, last;
 };
@@ -212,7 +213,8 @@ BenchSubject gyroid_subject() {
         return scene;
     };
     subject.first_hit = gyroid_hit;
-    // Of gyroid_mesh(150), (300) and (450), extrapolated; the last two steps agree in these digits.
+    // The extent is extrapolated from gyroid_mesh(150), (300) and (450). The last two steps agree
+    // in these digits.
     subject.extent = Extent{0.1243275, 2.299671};
     return subject;
 }

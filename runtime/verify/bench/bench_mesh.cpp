@@ -16,8 +16,8 @@ namespace {
 
 constexpr uint32_t kLeafTriangles = 4;
 
-/// A ray as the axis `z` of a sheared space in which it starts at 0 (Woop, Benthin & Wald 2013):
-/// neighbours evaluate their common edge to opposite numbers.
+/// A ray as the axis `z` of a sheared space in which it starts at 0 (Woop, Benthin & Wald 2013).
+/// Neighbouring triangles evaluate their common edge to opposite numbers.
 struct ShearedRay {
     glm::dvec3 origin, direction, inverse;
     int x, y, z;
@@ -42,7 +42,7 @@ double area(const glm::dvec3& a, const glm::dvec3& b) {
     return a.x * b.y - a.y * b.x;
 }
 
-/// Where the ray meets the triangle; infinity when it doesn't.
+/// The t where the ray meets the triangle; infinity if it doesn't.
 double meet(const glm::dvec3* corners, const ShearedRay& ray) {
     const glm::dvec3 a = ray(corners[0]), b = ray(corners[1]), c = ray(corners[2]);
     const double u = area(b, c), v = area(c, a), w = area(a, b), sum = u + v + w;
@@ -51,10 +51,10 @@ double meet(const glm::dvec3* corners, const ShearedRay& ray) {
     return t > 0 ? t : INFINITY;
 }
 
-/// Whether the ray may come into the box before `nearest`, with more room than doubles round.
+/// True if the ray may enter the box before `nearest`, with more tolerance than doubles need.
 bool may_enter(const glm::dvec3& low, const glm::dvec3& high, const ShearedRay& ray,
                double nearest) {
-    constexpr double kRoom = 1e-12;  // metres, of a scene of some metres
+    constexpr double kRoom = 1e-12;  // in metres, for a scene of some metres
     double first = 0, last = nearest;
     for (int axis = 0; axis < 3; ++axis) {
         const double from = low[axis] - kRoom - ray.origin[axis];

@@ -1,4 +1,4 @@
-// Where rays meet a mesh, in double, and the subject of `voxelume bench` that is one from a file.
+// The points where rays meet a mesh, in double, and a subject of `voxelume bench` from a mesh file.
 #pragma once
 
 #include <cstdint>
@@ -16,23 +16,23 @@ class MeshTruth {
   public:
     explicit MeshTruth(const Mesh& mesh, const glm::dmat4& world_from_mesh = glm::dmat4(1));
 
-    /// The nearest triangle that the ray meets from either side, with its normal towards the ray.
-    /// A ray on a common edge meets both triangles.
+    /// The nearest triangle that the ray meets from either side, with its normal towards the ray. A
+    /// ray on a common edge meets both triangles.
     std::optional<AnalyticHit> first_hit(const glm::dvec3& origin,
                                          const glm::dvec3& direction) const;
 
-    /// Of a closed mesh whose triangles are turned outwards.
+    /// The extent of a closed mesh whose triangles face outwards.
     Extent extent() const { return triangles_extent(corners_); }
 
   private:
     struct Node {
         glm::dvec3 low, high;
-        uint32_t first = 0;  ///< of a leaf's triangles, else of its two children
-        uint32_t count = 0;  ///< triangles of a leaf, 0 for a node with children
+        uint32_t first = 0;  ///< first triangle of a leaf, else first of two children
+        uint32_t count = 0;  ///< number of triangles of a leaf, 0 for a node with children
     };
     void split(uint32_t node, uint32_t first, uint32_t count);
 
-    std::vector<glm::dvec3> corners_;  ///< three a triangle
+    std::vector<glm::dvec3> corners_;  ///< three per triangle
     std::vector<uint32_t> order_;
     std::vector<Node> nodes_;
 };

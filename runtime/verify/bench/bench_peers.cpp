@@ -17,7 +17,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// A file, and the part of it that is read: what messages begin with.
+/// A file, and the part of it that is read. Messages begin with both.
 struct Place {
     std::string file, part;
 
@@ -28,9 +28,10 @@ struct Place {
     }
 };
 
-constexpr double kMin = 1e-30, kMax = 1e30;  // of what a row may say: ratios stay finite
+/// The bounds of a row's numbers. They keep ratios finite.
+constexpr double kMin = 1e-30, kMax = 1e30;
 
-/// "null", "a string": for messages.
+/// The kind of a value for messages: "null", "a string".
 std::string kind_of(const Json& value) {
     if (value.is_null()) return "null";
     return fmt::format("{} {}", value.is_array() || value.is_object() ? "an" : "a",

@@ -22,8 +22,8 @@ std::array<BenchSolid, 3> make_solids() {
     const auto placed = [](glm::dvec3 position, glm::dvec3 turn) {
         return affine_from_factors(position, turn, glm::dvec3(1));
     };
-    // The torus shows its hole: no ray passes its tube twice, so its silhouette has only air
-    // behind.
+    // The torus is turned so that it shows its hole: no ray passes its tube twice, so behind its
+    // silhouette there is only air.
     return {BenchSolid{"sphere", "radius 0.47 m", sphere, sphere.radius,
                        placed({0.0123, -0.0071, 0.0052}, {0, 0, 0})},
             BenchSolid{"torus", "radius 0.3 m, tube 0.19 m, turned", torus, torus.tube,
@@ -53,8 +53,8 @@ std::span<const BenchSolid> bench_solids() {
 }
 
 Scene empty_bench_scene(int resolution, glm::ivec2 size) {
-    constexpr double kHalf = 0.55;  // metres from the origin that nothing reaches
-    constexpr int kMargin = 8;      // voxels of air
+    constexpr double kHalf = 0.55;  // metres from the origin within which every subject stays
+    constexpr int kMargin = 8;      // in voxels of air
     Scene scene;
     const double edge = 1.0 / resolution;
     const int half = int(std::ceil(kHalf * resolution)) + kMargin;

@@ -9,7 +9,7 @@
 namespace voxelume {
 namespace {
 
-constexpr double kGround = -0.62;    // metres along Y: below every subject's coarsest voxels
+constexpr double kGround = -0.62;    // metres along Y, below every subject's coarsest voxels
 constexpr double kGroundHalf = 1.3;  // metres, holds all shadows
 
 glm::dvec3 towards_sun() {
@@ -48,7 +48,7 @@ void look_down(Scene& scene) {
     scene.observer.display.half_angles = {std::atan(half * sides.x), std::atan(half * sides.y)};
 }
 
-/// The world's bounds on the lattice that the subject stands on.
+/// Extends the world's bounds on the subject's lattice, so that the ground fits.
 void make_room(World& world) {
     constexpr int kMargin = 2;  // voxels
     const double edge = world.voxel_size.x;

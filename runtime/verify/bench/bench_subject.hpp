@@ -1,4 +1,4 @@
-// What `voxelume bench` shows, with the truth that images are held to.
+// The subjects that `voxelume bench` shows, with the truth that images are compared with.
 #pragma once
 
 #include <functional>
@@ -14,35 +14,35 @@
 
 namespace voxelume {
 
-/// The first point in which a ray from outside meets what is shown; `direction` is a unit vector.
-/// May be called by several threads.
+/// The first point where a ray from outside meets the subject. `direction` is a unit vector.
+/// Several threads may call it.
 using FirstHit = std::function<std::optional<AnalyticHit>(const glm::dvec3& origin,
                                                           const glm::dvec3& direction)>;
 
-/// The light that such a ray brings. May be called by several threads.
+/// The light that such a ray brings. Several threads may call it.
 using Radiance = std::function<glm::dvec3(const glm::dvec3& origin, const glm::dvec3& direction)>;
 
-/// Something that can be rendered with any surface in voxels of any size.
+/// A subject that can be rendered with any surface, in voxels of any size.
 struct BenchSubject {
     std::string name;
-    double min_radius = 0;  ///< of curvature, metres; 0 for edges, and where it isn't known
-    std::function<Scene(Surface, int resolution, glm::ivec2 size)> scene;  ///< voxels a metre
+    double min_radius = 0;  ///< minimum radius of curvature, metres; 0 for edges, or if unknown
+    std::function<Scene(Surface, int resolution, glm::ivec2 size)> scene;  ///< voxels per metre
     FirstHit first_hit;
     Radiance radiance;             ///< empty for a scene without lights
-    std::optional<Extent> extent;  ///< of the only object, where it is known
+    std::optional<Extent> extent;  ///< extent of the only object; empty if unknown
 };
 
-/// A subject by name, made when it is needed: that may read files.
+/// A subject by its name. It is made only when needed, because that may read files.
 struct BenchEntry {
     const char* name;
     const char* help;
-    int coarsest, finest;  ///< voxels a metre between which it is worth showing
+    int coarsest, finest;  ///< the range of useful resolutions, voxels per metre
     bool has_light;
-    bool (*is_there)();  ///< whether the files that it needs are
+    bool (*is_there)();  ///< returns true if the files that it needs exist
     BenchSubject (*open)();
 };
 
-/// All, in the order in which they are measured.
+/// All subjects, in the order of measurement.
 std::span<const BenchEntry> bench_entries();
 
 BenchSubject subject_of(const BenchSolid& solid);

@@ -8,10 +8,10 @@
 namespace voxelume {
 namespace {
 
-/// Means of light over a square grid of rays in a pixel.
+/// The light of a pixel over a square grid of rays.
 struct PixelLight {
     glm::dvec3 mean{0};
-    double spread = 0;  ///< largest less smallest, of any channel
+    double spread = 0;  ///< maximum minus minimum, of the channel where this is largest
 };
 
 PixelLight pixel_light(const Radiance& radiance, const Scene& scene, glm::dvec2 pixel, int side) {

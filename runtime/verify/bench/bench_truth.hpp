@@ -1,4 +1,4 @@
-// What an ideal image of a subject shows, pixel by pixel.
+// The contents of an ideal image of a subject, pixel by pixel.
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -15,12 +15,13 @@ struct BenchTruth {
     glm::ivec2 size{0};
     glm::dvec3 eye{0};
     std::vector<glm::dvec3> directions;            ///< per pixel, through its centre
-    std::vector<std::optional<AnalyticHit>> hits;  ///< per pixel, likewise
-    PixelContour silhouette;                       ///< where hits end
-    std::vector<glm::dvec3> radiance;  ///< per pixel, its mean; empty for subjects without light
+    std::vector<std::optional<AnalyticHit>> hits;  ///< per pixel, for the ray through its centre
+    PixelContour silhouette;                       ///< border of the hits
+    std::vector<glm::dvec3> radiance;  ///< per pixel, mean of its light; empty for subjects without
+                                       ///< light
 };
 
-/// Computed on all the processor's threads.
+/// Computes the truth on all threads of the processor.
 ///
 /// A pixel's light is the mean over its square by 4 x 4 rays, and by 8 x 8 where those differ by
 /// more than 1/64 of a unit.

@@ -9,7 +9,7 @@
 namespace voxelume {
 namespace {
 
-/// The tracer keeps a reference to its scene.
+/// A scene with its tracer, which keeps a reference to it.
 struct TracedScene {
     Scene scene = whitted_scene(Surface::exact, 64, {64, 64});
     oracle::AnalyticTracer tracer{scene};
@@ -22,7 +22,7 @@ Scene whitted_scene(Surface surface, int resolution, glm::ivec2 size) {
     document["world"]["voxel_size"] = 1.0 / resolution;
     auto& models = document["models"];
     if (surface != Surface::exact) {
-        // Voxels of objects that overlap are united: only a difference makes the glass hollow.
+        // Overlapping objects' voxels are united, so only a difference makes the glass hollow.
         for (const char* name : {"outside", "hollow"}) models[name].erase("surface");
         models["outside"] = {{"shape", "difference"},
                              {"parts", {models["outside"], models["hollow"]}}};

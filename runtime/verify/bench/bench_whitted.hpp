@@ -1,4 +1,4 @@
-// The scene after the picture of Whitted 1980, with its light traced in double.
+// The scene after the picture of Whitted 1980. Its light is traced in double.
 #pragma once
 
 #include <string_view>
@@ -7,10 +7,10 @@
 
 namespace voxelume {
 
-/// The text of scenes/whitted.json, from when the program was built.
+/// The text of scenes/whitted.json at the time when the program was built.
 std::string_view whitted_text();
 
-/// The scene in voxels of 1/`resolution` metres, all its models with one surface.
+/// The scene in voxels of 1/`resolution` metres. All its models have the surface `surface`.
 Scene whitted_scene(Surface surface, int resolution, glm::ivec2 size);
 
 BenchSubject whitted_subject();

@@ -8,7 +8,8 @@
 namespace voxelume {
 namespace {
 
-/// The 97.5 % point of Student's t. From 30 degrees on that of 30: too wide by 4 % at most.
+/// The 97.5 % point of Student's t. From 30 degrees on it is that of 30, which is too wide by at
+/// most 4 %.
 double student_t(size_t degrees_of_freedom) {
     constexpr std::array kPoints = {12.7062, 4.3027, 3.1824, 2.7764, 2.5706, 2.4469, 2.3646, 2.3060,
                                     2.2622,  2.2281, 2.2010, 2.1788, 2.1604, 2.1448, 2.1314, 2.1199,

@@ -1,4 +1,5 @@
-// What rows of errors and times say: how fast errors fall, and which choices nothing beats.
+// Conclusions from rows of errors and times: how fast errors decrease, and which choices nothing
+// beats.
 #pragma once
 
 #include <cstddef>
@@ -12,14 +13,15 @@ struct SlopeFit {
     size_t points = 0;
     double slope = 0;       ///< 0 for fewer than two points
     double intercept = 0;   ///< natural logarithm of y at x = 1
-    double half_width = 0;  ///< of the slope's 95 % interval (Student's t); infinite for < 3 points
+    double half_width = 0;  ///< half width of the slope's 95 % interval (Student's t); infinite for
+                            ///< < 3 points
 };
 
-/// Fits y = exp(intercept) * x^slope. Points with x or y that isn't positive are left out.
+/// Fits y = exp(intercept) * x^slope. Points whose x or y isn't positive are left out.
 SlopeFit fit_slope(std::span<const double> x, std::span<const double> y);
 
-/// Indices of the points that no other point beats: none is at most as large in both and smaller
-/// in one. In the order of `x`.
+/// The indices of the points that no other point beats, in the order of `x`. A point beats another
+/// if it is at most as large in both coordinates and smaller in one.
 std::vector<size_t> pareto_front(std::span<const double> x, std::span<const double> y);
 
 }  // namespace voxelume

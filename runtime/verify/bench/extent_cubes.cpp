@@ -1,4 +1,4 @@
-// What cubes enclose: rows of empty voxels are followed from the lattice's outside.
+// Computes what cubes enclose by following rows of empty voxels from the lattice's outside.
 #include <algorithm>
 #include <glm/vec2.hpp>
 #include <vector>
@@ -9,7 +9,7 @@
 namespace voxelume {
 namespace {
 
-/// Voxels first..last-1 of a row along x, all of them empty.
+/// The voxels first .. last - 1 of a row along x, all of them empty.
 struct Run {
     int first = 0, last = 0;
     bool is_outside = false;
@@ -33,7 +33,7 @@ class EmptyRuns {
         }
     }
 
-    /// Marks what can be reached from the lattice's outside through faces.
+    /// Marks the runs that can be reached from the lattice's outside through faces.
     void mark_outside() {
         for (int z = 0; z < size_.z; ++z)
             for (int y = 0; y < size_.y; ++y) {
@@ -50,7 +50,7 @@ class EmptyRuns {
         }
     }
 
-    /// Of what wasn't reached.
+    /// The extent of everything that wasn't reached.
     Extent enclosed() const {
         double cells = double(size_.x) * size_.y * size_.z, faces = 0;
         for (const Run& run : runs_) {
@@ -97,7 +97,7 @@ class EmptyRuns {
             if (runs_[i].first < run.last && run.first < runs_[i].last) reach(i, y, z);
     }
 
-    /// Faces between two rows with the outside on one side.
+    /// The number of faces between two rows that have the outside on one side only.
     double differing(size_t row, size_t other) const {
         double faces = 0;
         for (size_t i = starts_[row]; i < starts_[row + 1]; ++i) {
@@ -115,7 +115,7 @@ class EmptyRuns {
 
     glm::ivec3 size_{0};
     std::vector<Run> runs_;
-    std::vector<size_t> starts_;  ///< of each row's runs, x along them, y next, then z
+    std::vector<size_t> starts_;  ///< first run of each row; rows are in the order of y, then z
     std::vector<Waiting> waiting_;
 };
 

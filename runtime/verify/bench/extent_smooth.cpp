@@ -1,9 +1,10 @@
-// What smooth surfaces enclose: quadrature over the zero of every voxel's field.
+// Computes what smooth surfaces enclose by quadrature over the zero of every voxel's field.
 //
 // The field is a quadratic along every axis, so it is kept as its values at the 27 points whose
-// coordinates are 0, 1/2 and 1. Surfaces are summed over columns along the axis on which the field
-// changes most, by Gauss's rule between the points where the surface leaves through other sides
-// (the reduction of dimensions of Saye 2015); voxels that it crosses too steeply are cut in eight.
+// coordinates are 0, 1/2 and 1. The surface is summed over columns along the axis on which the
+// field changes most, by Gauss's rule between the points where the surface leaves through other
+// sides (the reduction of dimensions of Saye 2015). Voxels that it crosses too steeply are cut in
+// eight.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -31,12 +32,13 @@ double sum_of(const Three& weights, double a, double b, double c) {
     return weights[0] * a + weights[1] * b + weights[2] * c;
 }
 
-/// Coefficients between whose extremes a quadratic stays in 0..1.
+/// The Bernstein coefficients of a quadratic. It stays between their extremes in 0..1.
 Three bernstein(double a, double b, double c) {
     return {a, 2 * b - (a + c) / 2, c};
 }
 
-/// The zeros in 0..1 of a quadratic, by its values, behind those in `zeros`. 1 is the next voxel's.
+/// Appends the zeros of a quadratic in [0, 1), given by its values, to `zeros`. A zero at 1 belongs
+/// to the next voxel.
 void add_zeros(double v0, double v1, double v2, std::vector<double>& zeros) {
     const double a = 2 * (v0 + v2) - 4 * v1, b = 4 * v1 - 3 * v0 - v2, c = v0;
     const double square = b * b - 4 * a * c;
@@ -46,7 +48,7 @@ void add_zeros(double v0, double v1, double v2, std::vector<double>& zeros) {
         if (zero >= 0 && zero < 1) zeros.push_back(zero);
 }
 
-/// Part of a voxel: a cube in the part's voxels, with the field's values.
+/// A part of a voxel: a cube in the part's voxels, with the field's values.
 struct Cell {
     std::array<double, 27> values;  ///< x fastest, then y, then z
     glm::dvec3 corner;
@@ -55,7 +57,7 @@ struct Cell {
 
 constexpr size_t kStride[] = {1, 3, 9};
 
-/// The values with axis `axis` summed up by `weights`; the other two in the order of next axes.
+/// Sums the values along `axis` with `weights`. The other two axes follow in cyclic order.
 Nine contract(const Cell& cell, int axis, const Three& weights) {
     const size_t step = kStride[axis], j = kStride[(axis + 1) % 3], k = kStride[(axis + 2) % 3];
     Nine sums;
@@ -67,7 +69,7 @@ Nine contract(const Cell& cell, int axis, const Three& weights) {
     return sums;
 }
 
-/// The same of its first axis.
+/// Sums the values along their first axis with `weights`.
 Three contract(const Nine& values, const Three& weights) {
     Three sums;
     for (size_t b = 0; b < 3; ++b)
@@ -79,7 +81,7 @@ double at(const Three& values, const Three& weights) {
     return sum_of(weights, values[0], values[1], values[2]);
 }
 
-/// A half of the cell along every axis.
+/// The part of a cell that is half of it along every axis.
 Cell part_of(const Cell& cell, const glm::ivec3& half) {
     Cell part;
     part.edge = cell.edge / 2;
@@ -92,7 +94,7 @@ Cell part_of(const Cell& cell, const glm::ivec3& half) {
     return part;
 }
 
-/// Least and largest coefficient of Bernstein along all axes: bounds of the field.
+/// Bounds of the field: the minimum and maximum of its Bernstein coefficients along all axes.
 glm::dvec2 bounds_of(const std::array<double, 27>& values) {
     std::array<double, 27> v = values;
     for (const size_t step : kStride)
@@ -105,7 +107,7 @@ glm::dvec2 bounds_of(const std::array<double, 27>& values) {
     return {low, high};
 }
 
-/// Values of the field's slope along an axis at the 27 points.
+/// The values of the field's slope along an axis at the 27 points.
 std::array<double, 27> slope_values(const Cell& cell, int axis) {
     std::array<double, 27> slopes;
     const size_t step = kStride[axis];
@@ -122,7 +124,7 @@ glm::dvec3 middle_gradient(const Cell& cell) {
     return {v[14] - v[12], v[16] - v[10], v[22] - v[4]};
 }
 
-/// Gauss's rule between the ends of the pieces that `cuts` cut 0..1 into.
+/// Applies Gauss's rule to each of the pieces into which `cuts` divides 0..1.
 template <class Visit>
 void for_pieces(std::vector<double>& cuts, const Visit& visit) {
     constexpr double kNodes[] = {0.1127016653792583, 0.5, 0.8872983346207417};
@@ -142,7 +144,8 @@ class SurfaceSum {
     explicit SurfaceSum(const glm::dvec3& middle) : middle_(middle) {}
 
     void add(const Cell& cell, int cuts_left) {
-        constexpr double kMinShare = 0.35;  // of the slope at the middle, anywhere in the cell
+        // The minimum slope anywhere in the cell, as a share of the gradient at its middle.
+        constexpr double kMinShare = 0.35;
         const glm::dvec2 bounds = bounds_of(cell.values);
         if (bounds.x > 0 || bounds.y < 0) return;
         const glm::dvec3 gradient = glm::abs(middle_gradient(cell));
@@ -164,7 +167,7 @@ class SurfaceSum {
     Extent extent() const { return {volume_, area_}; }
 
   private:
-    /// Over the columns along `axis`, with the two next axes i and j across.
+    /// Adds the columns along `axis`; the next two axes i and j lie across.
     void add_columns(const Cell& cell, int axis) {
         const int i = (axis + 1) % 3, j = (axis + 2) % 3;
         std::vector<double> cuts;
@@ -207,16 +210,16 @@ class SurfaceSum {
     double volume_ = 0, area_ = 0;
 };
 
-/// Half of an edge's D, from its ten bits.
+/// Half of an edge's D, decoded from its ten bits.
 double half_curvature(uint32_t word, int first) {
     const uint32_t bits = word >> first & 0x3FF, size = bits & 0x1FF;
     const double length = std::ldexp(64.0 + (size & 63), int(size >> 6)) - 64;
     return (bits >> 9 != 0 ? -length : length) / 2;
 }
 
-/// A voxel's record as values at the 27 points, after the formula in shared/voxel.h.
+/// The values of a voxel's record at the 27 points, by the formula in shared/voxel.h.
 std::array<double, 27> field_values(const uint32_t* record) {
-    // Surfaces that lie in a side of voxels would belong to both, or to none, as doubles round.
+    // A surface that lies in a side of voxels would, by rounding, belong to both voxels or to none.
     constexpr double kLift = 1e-6;  // distance units: 1e-10 voxel
     std::array<double, 27> values;
     for (size_t i = 0; i < 27; ++i) {
@@ -249,7 +252,7 @@ Extent smooth_extent(const Pyramid& pyramid) {
     std::vector<std::pair<glm::ivec3, uint32_t>> voxels;
     for_voxels(pyramid, part,
                [&](const glm::ivec3& v, uint32_t number) { voxels.emplace_back(v, number); });
-    // Groups of voxels are summed apart, so that the sum doesn't depend on the threads.
+    // Groups of voxels are summed separately, so that the sum doesn't depend on the threads.
     constexpr size_t kGroup = 4096;
     std::vector<Extent> sums((voxels.size() + kGroup - 1) / kGroup);
     for_rows(int(sums.size()), [&](int group) {

@@ -6,14 +6,14 @@
 namespace voxelume {
 namespace {
 
-constexpr uint32_t kNothing = 0x80000000u;  ///< in tables of sectors: an empty cube
+constexpr uint32_t kNothing = 0x80000000u;  ///< an empty cube in tables of sectors
 
-/// The place of a child that a mask's bit stands for.
+/// The position of a child that a mask's bit stands for.
 glm::ivec3 index_of(int bit) {
     return {bit & 3, bit >> 2 & 3, bit >> 4};
 }
 
-/// Calls `visit` with the bits of a mask from the lowest on.
+/// Calls `visit` with each set bit of a mask, from the lowest on.
 template <class Visit>
 void for_bits(uint64_t mask, const Visit& visit) {
     for (; mask != 0; mask &= mask - 1) visit(std::countr_zero(mask));

@@ -8,16 +8,16 @@
 
 namespace voxelume {
 
-/// A grid in a pyramid's buffers: the world's, or that of a model which instances show.
+/// A grid in a pyramid's buffers: the world's, or that of a model that instances show.
 struct PyramidPart {
     GridFrame frame;
     uint32_t first_sector = 0;
 };
 
-/// The world, or the first model where an instance shows the only object.
+/// The world's grid, or the first model's where an instance shows the only object.
 PyramidPart shown_part(const Pyramid& pyramid);
 
-/// Calls `visit` with every voxel of the part and its number, in no promised order.
+/// Calls `visit` with every voxel of the part and its number, in no particular order.
 void for_voxels(const Pyramid& pyramid, const PyramidPart& part,
                 const std::function<void(const glm::ivec3& voxel, uint32_t number)>& visit);
 

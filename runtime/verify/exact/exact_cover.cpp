@@ -9,10 +9,10 @@ __extension__ using Wide = __int128;
 
 constexpr int64_t kUnit = kUnitsPerVoxel;
 
-/// The closed range of voxels whose cubes hold some of the points given, along one axis.
+/// The closed range, along one axis, of the voxels whose cubes contain any of the added points.
 class RowBounds {
   public:
-    /// The point at numerator / denominator lattice units.
+    /// Adds the point at numerator / denominator lattice units.
     void add(Wide numerator, Wide denominator) {
         if (denominator < 0) numerator = -numerator, denominator = -denominator;
         const Wide per_voxel = denominator * kUnit;
@@ -37,8 +37,8 @@ int64_t at(const glm::ivec3& p, int axis) {
     return p[axis];
 }
 
-/// Whether a plane is met within an edge that goes `way` across it, `to_plane` from the edge's
-/// start.
+/// True if an edge meets a plane. The edge moves by `way` across the plane, which lies `to_plane`
+/// from the edge's start.
 bool is_on_edge(int64_t to_plane, int64_t way) {
     return way > 0 ? to_plane >= 0 && to_plane <= way : to_plane <= 0 && to_plane >= way;
 }
@@ -61,7 +61,7 @@ void add_edge(RowBounds& bounds, const Prism& prism, const glm::ivec3& a, const 
     }
 }
 
-/// Twice the area of (a, b, p) seen along x.
+/// Twice the signed area of (a, b, p), seen along x.
 int64_t turn(const glm::ivec3& a, const glm::ivec3& b, int64_t y, int64_t z) {
     return (at(b, 1) - at(a, 1)) * (z - at(a, 2)) - (at(b, 2) - at(a, 2)) * (y - at(a, 1));
 }
@@ -93,7 +93,7 @@ VoxelRow exact_row(const TriangleOnLattice& t, int y, int z) {
 
 VoxelRow exact_rows(const TriangleOnLattice& t, int z) {
     const int64_t low = z * kUnit, high = low + kUnit;
-    RowBounds bounds;  // of the corners of what the layer holds of the triangle
+    RowBounds bounds;  // bounds of the corners of the part of the triangle in the layer
     for (size_t i = 0; i < 3; ++i) {
         const glm::ivec3 &a = t[i], &b = t[(i + 1) % 3];
         if (a.z >= low && a.z <= high) bounds.add(a.y, 1);

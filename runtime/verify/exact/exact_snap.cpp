@@ -9,12 +9,13 @@
 namespace voxelume {
 namespace {
 
-/// When a ray is between all planes of a grid that is wider by `margin` on every side.
+/// The interval of t in which a ray is between all planes of a grid. The grid is wider by `margin`
+/// on every side.
 struct Passage {
     double first = 0, last = std::numeric_limits<double>::infinity();
 };
 
-/// Doubles lose 2^-53 of the way, where floats may lose 2^-20.
+/// The passage of a ray. Doubles lose 2^-53 of the way, where floats may lose 2^-20.
 Passage passage(const FixedGrid& grid, const glm::vec3& o, const std::array<int64_t, 3>& direction,
                 double margin) {
     Passage p;

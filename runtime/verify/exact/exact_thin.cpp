@@ -9,7 +9,7 @@ __extension__ using Wide = __int128;
 
 constexpr int64_t kCenter = kUnitsPerVoxel / 2;
 
-/// The axis of the lines, and those across it.
+/// The axis of the lines, and the two axes across them.
 struct RowAxes {
     int along, u, w;
 };
@@ -19,8 +19,8 @@ Integer floor_of(Integer numerator, Integer denominator) {
     return numerator / denominator - (numerator % denominator < 0);
 }
 
-/// The first voxel u whose line lies beyond an edge, in the row of lines at `w` lattice units,
-/// which the edge crosses from `a` upwards to `b`.
+/// The first voxel u whose line lies beyond an edge, in the row of lines at `w` lattice units. The
+/// edge crosses that row upwards, from `a` to `b`.
 int64_t first_beyond(const glm::ivec3& a, const glm::ivec3& b, const RowAxes& axes, int64_t w) {
     const int64_t du = int64_t{b[axes.u]} - a[axes.u], dw = int64_t{b[axes.w]} - a[axes.w];
     const int64_t edge = (a[axes.u] - kCenter) * dw + du * (w - a[axes.w]);
@@ -30,7 +30,7 @@ int64_t first_beyond(const glm::ivec3& a, const glm::ivec3& b, const RowAxes& ax
     return is_on_edge && moves_beyond ? voxel : voxel + 1;
 }
 
-/// The voxels u of a row whose lines pass the triangle; first > last for none.
+/// The voxels u of a row whose lines pass the triangle; none if first > last.
 VoxelRow lines_of_row(const TriangleOnLattice& t, const RowAxes& axes, int64_t w) {
     VoxelRow row{INT64_MAX, INT64_MIN};
     for (size_t i = 0; i < 3; ++i) {

@@ -1,5 +1,4 @@
-// The voxels whose crosshairs a triangle meets, in integers: what the device's THIN is held
-// against.
+// The voxels whose crosshairs a triangle meets, in integers: the reference for the device's THIN.
 #pragma once
 
 #include <vector>
@@ -8,12 +7,12 @@
 
 namespace voxelume {
 
-/// The voxels of a region from the origin on that the triangle crosses on a line through their
-/// centre along an axis, some more than once. Bounds are those of exact_row.
+/// The voxels of a region that starts at the origin which the triangle crosses on a line through
+/// their centre along an axis. Some appear more than once. Bounds are those of exact_row.
 ///
-/// Seen along the line, the triangle is filled row by row between two of its edges; a line that
-/// lies on an edge is moved by (e, e², e³) for an infinitesimal e. A voxel has the lower of the two
-/// ends of its part of the line, and not the upper.
+/// Seen along the line, the triangle is filled row by row between two of its edges. A line that
+/// lies on an edge is moved by (e, e², e³) for an infinitesimal e. Of the two ends of its part of
+/// the line, a voxel contains the lower and not the upper.
 std::vector<glm::ivec3> exact_thin(const TriangleOnLattice& triangle, const glm::ivec3& region);
 
 }  // namespace voxelume

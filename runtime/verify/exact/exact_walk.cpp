@@ -8,12 +8,12 @@
 namespace voxelume {
 namespace {
 
-/// A ray whose axes are turned so that no direction is negative: distances, cells and planes then
-/// grow along it. A turned cell is the complement of the cell.
+/// A ray with some axes reversed so that no direction is negative: distances, cells and planes then
+/// grow along it. A cell on a reversed axis is the complement of the original cell.
 struct Turned {
     int64_t origin[3], direction[3];
-    int32_t cell[3], complement[3];  // complement: 0, or -1 where the axis is turned
-    int32_t left[3];                 // cells until the grid's side
+    int32_t cell[3], complement[3];  // complement is 0, or -1 where the axis is reversed
+    int32_t left[3];                 // number of cells up to the grid's side
     float float_origin[3], inverse[3];
 };
 
@@ -27,7 +27,7 @@ Turned turn(const FixedGrid& grid, const FixedRay& ray) {
         r.cell[a] = int32_t(r.origin[a] >> grid.fraction_bits);
         const int32_t cell = r.cell[a] ^ r.complement[a];
         r.left[a] = cell < 0 || cell >= grid.size[a] ? -1 : down ? cell : grid.size[a] - 1 - cell;
-        // Both are exact: the origin has 24 bits at most.
+        // Both are exact: the origin has at most 24 bits.
         r.float_origin[a] = float(ray.origin[a]) / float(grid.unit());
         r.inverse[a] = 1.0f / (float(ray.direction[a]) / float(1 << 22));
     }
@@ -38,7 +38,7 @@ glm::ivec3 cell_of(const Turned& r) {
     return {r.cell[0] ^ r.complement[0], r.cell[1] ^ r.complement[1], r.cell[2] ^ r.complement[2]};
 }
 
-/// When the ray crosses the plane before its present cell.
+/// The t at which the ray crosses the plane before its present cell.
 float crossing_time(const Turned& r, int axis) {
     const int32_t plane = r.complement[axis] ? -r.cell[axis] : r.cell[axis];
     return (float(plane) - r.float_origin[axis]) * r.inverse[axis];
@@ -48,10 +48,11 @@ bool is_inside(const Turned& r) {
     return (r.left[0] | r.left[1] | r.left[2]) >= 0;
 }
 
-/// Walks from cell to cell; `visit(turned, axis, t)` says whether to go on.
+/// Walks from cell to cell. `visit(turned, axis, t)` returns whether to go on.
 ///
-/// t_x <= t_y is A_x D_y <= A_y D_x, with A the distance to the next plane and D the direction. The
-/// differences of these products have 24 + 22 + 1 bits and change by multiples of D at each step.
+/// The comparison t_x <= t_y is A_x D_y <= A_y D_x, where A is the distance to the next plane and D
+/// the direction. The differences of these products have 24 + 22 + 1 bits and change by multiples
+/// of D at each step.
 template <class Visit>
 void walk_cells(const FixedGrid& grid, Turned& r, const Visit& visit) {
     if (!is_inside(r) || !visit(3, 0.0f)) return;
@@ -76,18 +77,18 @@ void walk_cells(const FixedGrid& grid, Turned& r, const Visit& visit) {
     }
 }
 
-/// The turned cell at distance `whole` + a fraction along an axis, `parts` being whether there is
-/// one. On a plane: the cell behind it when `crossed`.
+/// The turned cell at a distance along an axis: `whole`, plus a fraction if `parts` is true. On a
+/// plane it is the cell behind the plane if `crossed`, else the one before it.
 int32_t cell_at(const FixedGrid& grid, int64_t whole, bool parts, bool crossed) {
     const bool on_plane = !parts && (whole & (grid.unit() - 1)) == 0;
     return int32_t(whole >> grid.fraction_bits) - (on_plane && !crossed);
 }
 
-/// Leaves the aligned block of 1 << log2 cells around the present one; returns the axis.
+/// Leaves the aligned block of 1 << log2 cells around the present cell. Returns the axis.
 int leave_block(const FixedGrid& grid, Turned& r, int log2) {
     const int32_t edge = 1 << log2;
     int64_t distance[3];
-    for (int a = 0; a < 3; ++a)  // blocks lie alike in turned cells, as ~cell has no other blocks
+    for (int a = 0; a < 3; ++a)  // ~cell has the same blocks as cell
         distance[a] = int64_t((r.cell[a] & -edge) + edge) * grid.unit() - r.origin[a];
     const auto not_later = [&](int a, int b) {  // t_a <= t_b; an axis with D = 0 is never left
         return distance[a] * r.direction[b] <= distance[b] * r.direction[a];

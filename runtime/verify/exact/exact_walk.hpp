@@ -1,5 +1,5 @@
-// The cells that a ray passes, in order, in integers: what the device's walk is held against.
-// Shares no code with the kernels.
+// The cells that a ray passes, in order, in integers: the reference for the device's walk. It
+// shares no code with the kernels.
 #pragma once
 
 #include <array>
@@ -9,10 +9,10 @@
 
 namespace voxelume {
 
-/// A grid and the fixed point of rays through it: integer bits of the longest side and
-/// `fraction_bits` are 24 together. So places are below 2^24 units whatever the grid's size, up to
-/// the 65,536 voxels of the largest worlds, products with directions below 2^47, and 64 bits are
-/// enough for all of it.
+/// A grid and the fixed point of rays through it. The integer bits of the longest side and
+/// `fraction_bits` are 24 together. So coordinates are below 2^24 units whatever the grid's size,
+/// up to the 65,536 voxels of the largest worlds. Products with directions are below 2^47, and 64
+/// bits are enough for all of it.
 struct FixedGrid {
     glm::ivec3 size{0};  ///< voxels
     int fraction_bits = 0;
@@ -20,19 +20,19 @@ struct FixedGrid {
     int64_t unit() const { return int64_t{1} << fraction_bits; }
 };
 
-/// The fixed point that grids of this size have.
+/// The fixed point of grids of this size.
 FixedGrid fixed_grid(const glm::ivec3& size);
 
 inline constexpr int64_t kDirectionOne = int64_t{1} << 22;  ///< a direction's component of 1
 
-/// A ray in fixed point: the origin in 2^-fraction_bits voxels, in the grid, the direction in 2^-22
-/// with the largest component from 2^21 to 2^22.
+/// A ray in fixed point. The origin is in 2^-fraction_bits voxels and lies in the grid. The
+/// direction is in 2^-22; its largest component is between 2^21 and 2^22.
 struct FixedRay {
     std::array<int64_t, 3> origin{}, direction{};
 };
 
-/// What of a walk is compared: how many cells were entered, and a number that depends on each of
-/// them, on the axis and the t of each crossing, to the bit, and on their order.
+/// The parts of a walk that are compared: the number of cells entered, and a hash. The hash depends
+/// on each cell, on the axis and, to the bit, the t of each crossing, and on their order.
 struct WalkDigest {
     uint32_t cells = 0, hash = 0;
 
@@ -42,30 +42,30 @@ struct WalkDigest {
 /// A cell that a walk enters.
 struct EnteredCell {
     glm::ivec3 cell{0};
-    int axis = 3;  ///< across which; 3: the ray began there
-    float t = 0;   ///< when: (plane - origin) times 1 / direction, each rounded once
+    int axis = 3;  ///< axis of the crossing; 3: the ray began in the cell
+    float t = 0;   ///< (plane - origin) times 1 / direction, each rounded once
 
     friend bool operator==(const EnteredCell&, const EnteredCell&) = default;
 };
 
-/// How far a walk steps.
+/// The steps of a walk.
 enum class Steps {
     cells,   ///< from cell to cell
-    blocks,  ///< out of aligned blocks of 1 to 64 cells, whose edges `block_log2` chooses
+    blocks,  ///< out of aligned blocks of 1 to 64 cells; `block_log2` chooses their edges
 };
 
-/// The edge, as a power of two, of the block around a cell that is left in one step.
+/// The edge, as a power of two, of the block around a cell that a ray leaves in one step.
 int block_log2(const glm::ivec3& cell);
 
 /// The digest of the first `maximum` cells of a ray's walk. A point on a plane belongs to the cell
-/// being entered; crossings at one t are taken lowest axis first.
+/// being entered. Of crossings at one t the lowest axis comes first.
 WalkDigest exact_digest(const FixedGrid& grid, const FixedRay& ray, Steps steps, uint32_t maximum);
 
-/// The cells themselves.
+/// The first `maximum` cells themselves.
 std::vector<EnteredCell> exact_cells(const FixedGrid& grid, const FixedRay& ray, Steps steps,
                                      uint32_t maximum);
 
-/// Voxels of a grid, one bit each, x fastest.
+/// The voxels of a grid, one bit each, x fastest.
 class VoxelBits {
   public:
     explicit VoxelBits(const glm::ivec3& size)
@@ -83,7 +83,7 @@ class VoxelBits {
     std::vector<uint64_t> words_;
 };
 
-/// The first cell of `voxels` that a ray enters; false when there is none.
+/// Finds the first cell of `voxels` that a ray enters. Returns false if there is none.
 bool exact_first_hit(const FixedGrid& grid, const FixedRay& ray, const VoxelBits& voxels,
                      EnteredCell& hit);
 

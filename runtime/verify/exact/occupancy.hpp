@@ -9,7 +9,7 @@
 
 namespace voxelume {
 
-/// Where a voxel's bit is in the 64 masks of its brick.
+/// The position of a voxel's bit in the 64 masks of its brick.
 struct VoxelSlot {
     explicit VoxelSlot(const glm::ivec3& v)
         : leaf(uint32_t(v.x % 16 / 4 + 4 * (v.y % 16 / 4) + 16 * (v.z % 16 / 4))),
@@ -19,12 +19,12 @@ struct VoxelSlot {
     uint64_t bit;
 };
 
-/// The number of brick b among `bricks`.
+/// The index of brick b among `bricks`.
 inline size_t brick_number(const glm::ivec3& b, const glm::ivec3& bricks) {
     return size_t(b.x) + size_t(bricks.x) * (size_t(b.y) + size_t(bricks.y) * size_t(b.z));
 }
 
-/// A grid's occupancy, read back.
+/// A grid's occupancy, read back from the device.
 class ReadOccupancy {
   public:
     explicit ReadOccupancy(const BrickGrid& grid)

@@ -10,7 +10,7 @@
 namespace voxelume {
 namespace {
 
-/// Natural logarithm of the seconds that a front takes for an error of exp(log_error).
+/// The natural logarithm of the seconds that a front takes for an error of exp(log_error).
 double log_seconds(const ErrorFront& front, double log_error) {
     if (log_error >= std::log(front.front().first)) return std::log(front.front().second);
     size_t i = 1;
@@ -20,7 +20,7 @@ double log_seconds(const ErrorFront& front, double log_error) {
     return t0 + (t1 - t0) * (log_error - e0) / (e1 - e0);
 }
 
-/// Where the ratio of two fronts bends: logarithms of errors, falling.
+/// The logarithms of the errors, descending, at which the ratio of two fronts bends.
 std::vector<double> bends(const ErrorFront& ours, const ErrorFront& other, double coarse) {
     const double fine = std::log(std::max(ours.back().first, other.back().first));
     std::vector<double> errors = {coarse, fine};
@@ -33,8 +33,8 @@ std::vector<double> bends(const ErrorFront& ours, const ErrorFront& other, doubl
     return errors;
 }
 
-/// "1.9 to 5.6 times as quick", "5.6 times" where both read alike, or "as quick" where that is 1,
-/// from a ratio that favours it.
+/// The text for a ratio in favour of a program: "1.9 to 5.6 times as quick", "5.6 times as quick"
+/// where both bounds read alike, or "as quick" where they are 1.
 std::string times_text(double minimum, double maximum) {
     const auto digits = [](double times) {
         return times < 100 ? fmt::format("{:.3g}", times) : fmt::format("{:.0f}", times);

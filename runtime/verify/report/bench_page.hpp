@@ -1,4 +1,4 @@
-// A bench as one HTML file that needs nothing else: plots, slopes, rows.
+// A bench as one self-contained HTML file: plots, slopes, rows.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace voxelume {
 
-/// A page without scripts and without anything from elsewhere.
+/// The page. It has no scripts and loads nothing from elsewhere.
 std::string bench_page(const BenchReport& report);
 
 }  // namespace voxelume

@@ -11,7 +11,7 @@
 namespace voxelume {
 namespace {
 
-/// Instances are paler.
+/// The colour of a surface's curve. Instances are paler.
 const char* color_of(Surface surface, Placement placement) {
     const bool is_pale = placement == Placement::instance;
     switch (surface) {
@@ -37,7 +37,7 @@ bool has_one_sample(const BenchRow& row) {
     return row.samples == 1;
 }
 
-/// One curve for every surface and placement, of the rows chosen. Curves without points are left
+/// One curve of the chosen rows for every surface and placement. Curves without points are left
 /// out.
 std::vector<PlotSeries> curves(const BenchReport& report, const std::string& scene, const Value& x,
                                const Value& y, const Choice& is_shown = has_one_sample) {
@@ -67,7 +67,7 @@ double depth_of(const BenchRow& row) {
     return row.errors.depth_rms;
 }
 
-/// The fitted lines, dashed, with slopes and their intervals in the curves' names.
+/// Adds the fitted lines, dashed, with slopes and their intervals in the curves' names.
 void add_fits(LogPlot& plot, const BenchReport& report, const std::string& scene,
               SlopeFit BenchFit::*fit) {
     for (const BenchFit& fitted : report.fits) {
@@ -100,7 +100,7 @@ LogPlot fitted_plot(const BenchReport& report, const std::string& scene, const c
     return plot;
 }
 
-/// One curve for every other program.
+/// Adds one curve for every other program.
 void add_peers(LogPlot& plot, const BenchReport& report, const std::string& scene) {
     constexpr std::array kColors = {"#8e44ad", "#777", "#c0392b"};
     size_t color = 0;
@@ -114,7 +114,7 @@ void add_peers(LogPlot& plot, const BenchReport& report, const std::string& scen
     }
 }
 
-/// Of colours against time: the finest voxels, with one ray a pixel and more.
+/// A plot of an error of colours against time: the finest voxels, with one ray per pixel and more.
 LogPlot light_plot(const BenchReport& report, const std::string& scene, const char* title,
                    const char* label, const Value& error) {
     int finest = 0;

@@ -1,4 +1,4 @@
-// A bench's rows as plots.
+// Plots of a bench's rows.
 #pragma once
 
 #include <string>
@@ -9,18 +9,18 @@
 
 namespace voxelume {
 
-/// Depth RMS against total time, of every surface, placement and other program; rings mark the
+/// Depth RMS against total time, for every surface, placement and other program. Rings mark the
 /// front.
 LogPlot time_plot(const BenchReport& report, const std::string& scene);
 
-/// All that there is to see of a scene.
+/// All plots of a scene.
 std::vector<LogPlot> plots_of(const BenchReport& report, const std::string& scene);
 
-/// A report's scenes, in its order.
+/// The report's scenes, in its order.
 std::vector<std::string> scenes_of(const BenchReport& report);
 
-/// Depth against time as one picture: of the scenes that other programs showed, too, or without any
-/// of all but those with light.
+/// Depth against time as one picture: for the scenes that other programs showed, too. If there are
+/// none, for all scenes but those with light.
 std::string bench_picture(const BenchReport& report);
 
 }  // namespace voxelume

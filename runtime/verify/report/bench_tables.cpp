@@ -13,7 +13,7 @@ namespace voxelume {
 namespace {
 
 nlohmann::ordered_json json_of(const SlopeFit& fit) {
-    // What isn't finite is written as null.
+    // JSON has null for values that aren't finite.
     const double slope = fit.points < 2 ? NAN : fit.slope;
     return {{"points", fit.points}, {"slope", slope}, {"half_width_95", fit.half_width}};
 }
@@ -89,14 +89,14 @@ ExpectedSlopes expected_slopes(const std::string& scene, Surface surface) {
     if (surface == Surface::exact && scene == "gyroid") return {"facets", "facets"};
     if (surface == Surface::exact) return {"4 floats", "level"};
     if (surface == Surface::cubes) return {"1.0", "0"};
-    // Edges and facets are no part of what smooth surfaces promise.
+    // Smooth surfaces promise nothing for edges and facets.
     if (scene != "sphere" && scene != "torus") return {};
     return {">= 2.9", ">= 1.95"};
 }
 
 namespace {
 
-/// What wasn't measured is a dash.
+/// A number as text. A value that wasn't measured is a dash.
 std::string number_text(double value) {
     return std::isnan(value) ? fmt::format(" {:>9}", "-") : fmt::format(" {:>9.2e}", value);
 }

@@ -8,23 +8,25 @@
 
 namespace voxelume {
 
-/// Lines of columns: the rows, then the fitted slopes, light, and other programs.
+/// Lines of columns: first the rows, then the fitted slopes, light, and other programs.
 std::string bench_text(const BenchReport& report);
 
-/// RFC 4180, one line a row after one of names with units.
+/// A table after RFC 4180: a line of names with units, then one line per row.
 std::string bench_csv(const BenchReport& report);
 
 /// Everything in the report. An interval without bounds is null.
 nlohmann::ordered_json bench_json(const BenchReport& report);
 
-/// "2.98 +- 0.03 (5 rows)", "2.98 (2 rows)" without an interval, "- (1 rows)" without a slope.
+/// A slope as text: "2.98 +- 0.03 (5 rows)", "2.98 (2 rows)" without an interval, "- (1 rows)"
+/// without a slope.
 std::string slope_text(const SlopeFit& fit);
 
-/// Of `exact`, whose errors don't fall with the size of voxels: "9.2e-08 to 3.4e-07 m, at most 1.4
-/// floats", the last in spacings of floats at the scene's distance. Empty for other surfaces.
+/// The level of errors of `exact`, which don't decrease with the size of voxels: "9.2e-08 to
+/// 3.4e-07 m, at most 1.4 floats". The last number is in spacings of floats at the scene's
+/// distance. Empty for other surfaces.
 std::string level_text(const BenchFit& fit);
 
-/// What theory promises of a slope, for people; empty when it promises nothing.
+/// The slopes that theory promises, as text for people; empty where it promises nothing.
 struct ExpectedSlopes {
     const char* depth = "";
     const char* normal = "";

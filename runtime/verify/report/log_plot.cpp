@@ -8,7 +8,8 @@
 namespace voxelume {
 namespace {
 
-// Pixels of the picture: the frame's corners, the whole width, rows of names below all.
+// The picture's layout in pixels: the frame's corners, the total width, and the rows of names
+// below.
 constexpr glm::dvec2 kFrameMin(70, 24), kFrameMax(440, 280);
 constexpr double kWidth = 460, kLegend = 324, kLegendRow = 16;
 
@@ -16,7 +17,7 @@ bool can_be_shown(const glm::dvec2& p) {
     return p.x > 0 && p.y > 0 && std::isfinite(p.x) && std::isfinite(p.y);
 }
 
-/// Decimal logarithms at the frame's edges.
+/// The decimal logarithms at the frame's edges.
 struct Axes {
     glm::dvec2 low{INFINITY}, high{-INFINITY};
 
@@ -59,7 +60,8 @@ std::string label(glm::dvec2 p, const char* anchor, const std::string& text) {
                        anchor, escape_html(text));
 }
 
-/// 1, 2 and 5 of each power of ten where few powers are on the axis, else the powers alone.
+/// The ticks of an axis: 1, 2 and 5 of each power of ten where few powers are on the axis, else the
+/// powers alone.
 std::vector<double> ticks_of(double low, double high) {
     const std::vector<double> digits =
         high - low < 2.5 ? std::vector<double>{1, 2, 5} : std::vector<double>{1};
@@ -136,7 +138,7 @@ Legend legend_of(const LogPlot& plot) {
     return legend;
 }
 
-/// Everything in the picture.
+/// The SVG of everything in the picture.
 std::string content_of(const LogPlot& plot, const Legend& legend) {
     const Axes axes = axes_of(plot);
     const glm::dvec2 size = kFrameMax - kFrameMin, middle = (kFrameMin + kFrameMax) / 2.0;

@@ -12,12 +12,12 @@
 
 namespace voxelume {
 
-/// Rays' components as kernels take them, `stride` values apart, `t_end` infinite; places behind
-/// the last ray are idle.
+/// The components of rays as kernels take them, `stride` values apart, with infinite `t_end`.
+/// Entries behind the last ray are idle.
 std::vector<float> ray_components(const FixedGrid& grid, std::span<const FixedRay> rays,
                                   uint32_t stride);
 
-/// A multiple of 16 places for so many rays.
+/// The number of entries for `count` rays: a multiple of 16.
 inline uint32_t ray_stride(size_t count) {
     return uint32_t((count + 15) / 16 * 16);
 }
@@ -26,16 +26,16 @@ class DeviceWalks {
   public:
     explicit DeviceWalks(const Device& device);
 
-    /// Enqueues the walks of rays; `digests` waits for them.
+    /// Enqueues the walks of rays. digests() waits for them.
     void start(const FixedGrid& grid, std::span<const FixedRay> rays, Steps steps,
                uint32_t maximum);
     std::vector<WalkDigest> digests() const;
 
-    /// The first `maximum` cells of one ray.
+    /// The first `maximum` cells of one ray's walk.
     std::vector<EnteredCell> cells(const FixedGrid& grid, const FixedRay& ray, Steps steps,
                                    uint32_t maximum);
 
-    /// Rays as snapping leaves them, nothing for those that pass the grid.
+    /// The rays after snapping; empty for those that pass by the grid.
     std::vector<std::optional<FixedRay>> snap(const FixedGrid& grid,
                                               std::span<const FloatRay> rays);
 
@@ -46,7 +46,7 @@ class DeviceWalks {
     uint32_t count_ = 0;
 };
 
-/// Cubes at the voxels of a frame that are set.
+/// A brick grid of cubes at the set voxels of a frame.
 BrickGrid cubes_of(const Device& device, const VoxelBits& voxels, const GridFrame& frame);
 
 class DeviceHits {
@@ -54,9 +54,10 @@ class DeviceHits {
     DeviceHits(const Device& device, const Pyramid& pyramid);
 
     void start(const FixedGrid& grid, std::span<const FixedRay> rays);
-    /// The same behind beams along every 16 of them, as sight rays of frames go.
+    /// Enqueues the hits of rays behind beams, one along every 16 of them, as for sight rays of
+    /// frames.
     void start_along_beams(const FixedGrid& grid, std::span<const FixedRay> rays);
-    /// The hits of the rays started last; nothing for a miss.
+    /// The hits of the rays started last; empty for a miss.
     std::vector<std::optional<EnteredCell>> hits() const;
 
   private:

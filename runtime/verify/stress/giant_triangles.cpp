@@ -7,12 +7,12 @@
 namespace voxelume {
 namespace {
 
-constexpr int kFarthest = 16384;  // voxels from the grid's origin, the most that there may be
+constexpr int kFarthest = 16384;  // maximum distance from the grid's origin, voxels
 
-/// Units between corners' coordinates: floats hold 24 bits.
+/// The distance between corners' coordinates, in lattice units: floats hold 24 bits.
 constexpr int kStep = 4;
 
-/// Before its axes are turned.
+/// The grid before its axes are turned.
 constexpr TriangleGrid kPillar = {{48, 48, 32}, {1, 1, int(kTrianglesOfOneGrid)}};
 static_assert(uint64_t(kPillar.region.z) * kTrianglesOfOneGrid == kFarthest);
 
@@ -20,7 +20,8 @@ int turns_of(uint64_t grid) {
     return int(grid % 3);
 }
 
-/// Whether the triangle's plane rises by more than a quarter: it might leave its region upwards.
+/// True if the triangle's plane rises by more than a quarter, so that it might leave its region
+/// upwards.
 bool is_steep(const TriangleOnLattice& t) {
     const auto side = [&](size_t i, int axis) { return int64_t{t[i][axis]} - t[0][axis]; };
     const auto area = [&](int u, int w) {
@@ -29,10 +30,10 @@ bool is_steep(const TriangleOnLattice& t) {
     return 4 * (area(1, 2) + area(2, 0)) > area(0, 1);
 }
 
-/// Around the middle of its region, which its plane comes close to.
+/// Makes triangles around the middle of their region. Their planes come close to it.
 class GiantTriangle {
   public:
-    /// Rises by at most `rise` voxels on the way to a corner.
+    /// Makes triangles that rise by at most `rise` voxels on the way to a corner.
     GiantTriangle(StressRandom& random, int rise) : random_(random) {
         const std::array<int, 4> heights = {0, 1, kUnitsPerVoxel / kStep,
                                             rise * (kUnitsPerVoxel / kStep)};
@@ -50,11 +51,11 @@ class GiantTriangle {
     TriangleOnLattice corners() {
         const glm::ivec3 a = far(), b = far();
         switch (random_.below(3)) {
-            case 0:  // around the middle
+            case 0:  // the triangle contains the middle
                 return {a, b, near(-(a + b))};
-            case 1:  // with an edge through it
+            case 1:  // an edge passes the middle
                 return {a, near(-a), b};
-            default:  // with a corner there
+            default:  // a corner is at the middle
                 return {near(glm::ivec3(0)), a, b};
         }
     }
@@ -69,7 +70,7 @@ class GiantTriangle {
     }
 
     StressRandom& random_;
-    int height_ = 0;  // of corners above the middle, in steps
+    int height_ = 0;  // maximum height of corners above the middle, in steps
 };
 
 }  // namespace

@@ -6,12 +6,12 @@
 
 namespace voxelume {
 
-/// Grid number `grid` of giant triangles: a pillar of regions, of each of which a triangle fills a
+/// Grid number `grid` of giant triangles: a pillar of regions. In each region one triangle fills a
 /// slanting section.
 TriangleGrid grid_of_giant_triangles(uint64_t grid);
 
-/// The triangle of region `number` of that grid, from the region's origin on. Its corners are up to
-/// 16384 voxels from the grid's origin.
+/// The triangle of region `number` of that grid, relative to the region's origin. Its corners are
+/// up to 16384 voxels from the grid's origin.
 TriangleOnLattice giant_triangle(StressRandom& random, uint64_t grid, uint64_t number);
 
 }  // namespace voxelume

@@ -15,12 +15,12 @@ glm::dvec3 point_inside(const Ring& ring, double share, StressRandom& random) {
                       random.uniform(0, share));
 }
 
-/// Whether a point lies so deep that no surface reaches it.
+/// True if a point lies so deep inside the ring that no surface reaches it.
 bool is_deep(const Ring& ring, const glm::dvec3& p, double share) {
     return ring.outside(p) <= (share - 1) * 8;
 }
 
-/// Towards a point, from an origin in fixed point.
+/// A ray to a point, from an origin in fixed point.
 InwardRay ray_to(const glm::dvec3& target, const std::array<int64_t, 3>& origin,
                  const FixedGrid& grid) {
     InwardRay inward;
@@ -35,7 +35,7 @@ InwardRay ray_to(const glm::dvec3& target, const std::array<int64_t, 3>& origin,
     return inward;
 }
 
-/// A place on a side of the grid that lies across `face`.
+/// A random point on a side of the grid that lies across axis `face`.
 std::array<int64_t, 3> place_on_side(const FixedGrid& grid, size_t face, StressRandom& random) {
     std::array<int64_t, 3> place;
     for (size_t a = 0; a < 3; ++a) {
@@ -51,7 +51,8 @@ InwardRay from_a_side(const Ring& ring, const FixedGrid& grid, double share, Str
     return ray_to(target, place_on_side(grid, face, random), grid);
 }
 
-/// From outside through half-integer places to a lattice point inside: through corners and edges.
+/// A ray from outside through half-integer points to a lattice point inside: it passes corners and
+/// edges.
 InwardRay through_corners(const Ring& ring, const FixedGrid& grid, double share,
                           StressRandom& random) {
     while (true) {
@@ -78,7 +79,7 @@ InwardRay through_corners(const Ring& ring, const FixedGrid& grid, double share,
     }
 }
 
-/// Up to half of `spread` away along each axis.
+/// A random shift of up to half of `spread` along each axis.
 glm::dvec3 random_shift(double spread, StressRandom& random) {
     glm::dvec3 shift;
     for (int a = 0; a < 3; ++a) shift[a] = random.uniform(-0.5, 0.5) * spread;

@@ -8,8 +8,9 @@
 namespace voxelume {
 namespace {
 
-/// Regions of long triangles, whose longest axis is x before they are turned: some 4000 bricks
-/// each, for the device visits all of a triangle's box, and no axis of the grid beyond 16384.
+/// The regions of long triangles before they are turned; the longest axis is x. They have some 4000
+/// bricks each, because the device visits all of a triangle's box. No axis of the grid exceeds
+/// 16384.
 constexpr std::array kLongGrids = {
     TriangleGrid{{4096, 48, 64}, {1, 32, 16}},
     TriangleGrid{{2048, 128, 64}, {2, 16, 16}},
@@ -17,7 +18,7 @@ constexpr std::array kLongGrids = {
     TriangleGrid{{512, 512, 64}, {8, 4, 16}},
 };
 
-/// One of them as it is, and how often its axes are turned.
+/// A grid before its axes are turned, and the number of turns.
 struct LongGrid {
     const TriangleGrid& grid;
     int turns;
@@ -27,13 +28,14 @@ LongGrid long_grid(uint64_t number) {
     return {kLongGrids[number % kLongGrids.size()], int(number % 3)};
 }
 
-/// Narrow triangles along x. They meet voxels by the length, or the length times a small width.
+/// Makes narrow triangles along x. They meet about as many voxels as their length, or their length
+/// times a small width.
 class LongTriangle {
   public:
     LongTriangle(StressRandom& random, const TriangleGrid& grid)
         : random_(random),
           units_(grid.region * kUnitsPerVoxel),
-          // Floats hold 24 bits: all lattice units of 4096 voxels, every fourth of 16384.
+          // Floats hold 24 bits: every lattice unit of 4096 voxels, every fourth unit of 16384.
           step_(std::max(1, grid.size().x / 4096)) {}
 
     TriangleOnLattice any() {
@@ -61,7 +63,7 @@ class LongTriangle {
     }
 
   private:
-    /// How far from its longest edge a corner may lie for some 10^4 voxels to be met.
+    /// The distance of a corner from the longest edge at which the triangle meets some 10^4 voxels.
     int width() const { return std::min(16, 65536 * kUnitsPerVoxel / units_.x) * kUnitsPerVoxel; }
 
     glm::ivec3 point(int low_x, int high_x) {
@@ -74,7 +76,7 @@ class LongTriangle {
             q[axis] = p[axis] + int(random_.between(-reach, reach));
         return q;
     }
-    /// At most `reach` from a point of the segment.
+    /// A point at most `reach` from a point of the segment along each axis.
     glm::ivec3 beside(const glm::ivec3& a, const glm::ivec3& b, int reach) {
         const int64_t part = random_.between(0, 1 << 16);
         glm::ivec3 p;
@@ -96,14 +98,15 @@ class LongTriangle {
                 kUnitsPerVoxel;
         return t;
     }
-    /// Three points of a line.
+    /// A triangle whose corners lie on one line.
     TriangleOnLattice without_area(const glm::ivec3& a, const glm::ivec3& b) {
         const int parts = int(random_.between(2, 9)), part = int(random_.between(0, parts));
         glm::ivec3 first = a, way = (b - a) / parts;
         first.x = std::max(step_, a.x / step_ * step_), way.x = way.x / step_ * step_;
         return {first, first + way * parts, first + way * part};
     }
-    /// Some of the bricks around that corner are met nowhere else.
+    /// A triangle through a brick's corner. It meets some of the bricks around the corner nowhere
+    /// else.
     TriangleOnLattice through_a_bricks_corner() {
         const int before = 1 << random_.below(11), behind = 1 << random_.below(11);
         glm::ivec3 corner, way;
@@ -118,13 +121,14 @@ class LongTriangle {
         const glm::ivec3 a = corner - way * before, b = corner + way * behind;
         return held({a, b, beside(a, b, width())});
     }
-    /// On both sides of where planes go over to 128 bits.
+    /// A triangle with a length on either side of the limit from which planes are computed in 128
+    /// bits.
     TriangleOnLattice about_128_voxels(const glm::ivec3& a) {
         glm::ivec3 b = near(a, 2 * kUnitsPerVoxel);
         b.x = a.x + 128 * kUnitsPerVoxel + step_ * int(random_.between(-1, 1));
         return held({a, b, beside(a, b, width())});
     }
-    /// In the region, along x in whole steps.
+    /// The triangle clamped to the region, with whole steps along x.
     TriangleOnLattice held(TriangleOnLattice t) const {
         for (glm::ivec3& p : t) {
             p = glm::clamp(p, glm::ivec3(step_, 1, 1), units_ - glm::ivec3(step_, 1, 1));

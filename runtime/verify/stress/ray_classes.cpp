@@ -29,21 +29,21 @@ Components any_direction(StressRandom& random) {
     return d;
 }
 
-/// A direction's largest component doubled into [1/2, 1], which loses nothing.
+/// The direction doubled, without loss, until its largest component is in [1/2, 1].
 Components scaled_up(Components d) {
     while (largest(d) < kDirectionOne / 2)
         for (int64_t& c : d) c *= 2;
     return d;
 }
 
-/// From one half-integer lattice point to another.
+/// A ray from one half-integer lattice point to another.
 FixedRay between_lattice_points(const FixedGrid& grid, StressRandom& random) {
     FixedRay ray;
     const int64_t half = grid.unit() / 2;
     for (size_t a = 0; a < 3; ++a) {
         const int64_t places = 2 * int64_t(grid.size[int(a)]);
         const int64_t from = random.between(0, places);
-        // Mostly close ones: they tie more often.
+        // Most targets are close, because these rays have more ties.
         const int64_t reach = random.below(4) == 0 ? places : 16;
         const int64_t to =
             random.between(std::max<int64_t>(0, from - reach), std::min(places, from + reach));
@@ -68,11 +68,13 @@ FixedRay in_a_plane(const FixedGrid& grid, StressRandom& random) {
     return ray;
 }
 
-/// A lattice point, or a point on a lattice line, then back along the ray as far as the grid goes.
+/// A ray through a lattice point or a point on a lattice line. It begins up to as far back as the
+/// grid extends.
 FixedRay through_a_corner(const FixedGrid& grid, StressRandom& random) {
     FixedRay ray;
     ray.direction = any_direction(random);
-    // With few bits some rays pass exactly through the corner, with all of them within half a unit.
+    // With few bits some rays pass exactly through the corner, with all bits within half a unit of
+    // it.
     const int64_t step = int64_t{1} << random.below(23);
     for (int64_t& c : ray.direction) c = c / step * step;
     if (largest(ray.direction) < kDirectionOne / 2)
@@ -91,7 +93,7 @@ FixedRay through_a_corner(const FixedGrid& grid, StressRandom& random) {
     }
     way = random.between(0, way);
     const bool exact = random.below(2) == 0;
-    if (exact) way -= way % (kDirectionOne / step);  // so far every component is whole
+    if (exact) way -= way % (kDirectionOne / step);  // makes every component whole
     for (size_t a = 0; a < 3; ++a)
         ray.origin[a] = std::clamp<int64_t>(target[a] - way * ray.direction[a] / kDirectionOne +
                                                 (exact ? 0 : random.between(-1, 1)),
@@ -125,7 +127,7 @@ FixedRay along_a_diagonal(const FixedGrid& grid, StressRandom& random) {
     return ray;
 }
 
-/// From a side, an edge or a corner of the grid; often along it.
+/// A ray from a side, an edge or a corner of the grid, often along it.
 FixedRay from_a_side(const FixedGrid& grid, StressRandom& random) {
     FixedRay ray{any_origin(grid, random), any_direction(random)};
     const uint64_t axes = 1 + random.below(7);

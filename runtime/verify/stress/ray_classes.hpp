@@ -1,4 +1,4 @@
-// Rays that are hard for a walk, in classes.
+// Classes of rays that are difficult for a walk.
 #pragma once
 
 #include <array>

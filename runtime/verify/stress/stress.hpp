@@ -1,4 +1,5 @@
-// The tests of `voxelume stress`: what a device does, held against exact arithmetic on the host.
+// The tests of `voxelume stress`: they compare a device's results with exact arithmetic on the
+// host.
 #pragma once
 
 #include <cstdint>
@@ -10,42 +11,44 @@
 
 namespace voxelume {
 
-/// Which cases of a test are tried. A case depends on the seed and its number alone: one that is
-/// tried again goes through the device beside the same other ones.
+/// The cases of a test to try. A case depends on the seed and its number alone. A case that is
+/// tried again goes through the device together with the same other cases.
 struct StressRun {
     const Device& device;
     uint64_t seed = 1;
     uint64_t first = 0, count = 0;
-    /// Told after every batch how many cases it had.
+    /// Called after every batch with the number of its cases.
     std::function<void(uint64_t)> advance;
-    /// Asked before every batch whether the run is to end before its time; empty: never.
+    /// Called before every batch. Returns true to end the run early; if empty, the run never ends
+    /// early.
     std::function<bool()> is_over{};
 };
 
-/// A case that came out wrong.
+/// A case with a wrong result.
 struct StressExample {
-    uint64_t number = 0;  ///< StressRun::first of a run of this case alone
-    std::string text;     ///< the input, and what differs
+    uint64_t number = 0;  ///< the value of StressRun::first for a run of this case alone
+    std::string text;     ///< the input, and the difference
 
     friend bool operator==(const StressExample&, const StressExample&) = default;
 };
 
-/// What came out.
+/// The result of a run.
 struct StressResult {
     uint64_t cases = 0;
     uint64_t mismatches = 0;
-    uint64_t cells = 0;                   ///< compared, as far as the test counts them
-    std::vector<StressExample> examples;  ///< of the first mismatches
+    uint64_t cells = 0;                   ///< cells compared, as far as the test counts them
+    std::vector<StressExample> examples;  ///< examples of the first mismatches
 };
 
-/// Cases that go through the device together, and which of them are compared.
+/// Cases that go through the device together, and those of them that are compared.
 struct StressBatch {
-    uint64_t start = 0;         ///< the number of its first case
-    size_t size = 0;            ///< cases that go through the device: always the same of a batch
-    size_t first = 0, end = 0;  ///< those to compare, counted from `start`
+    uint64_t start = 0;         ///< number of the first case
+    size_t size = 0;            ///< number of cases that go through the device; equal for all
+                                ///< batches of a test
+    size_t first = 0, end = 0;  ///< cases to compare, counted from `start`
 };
 
-/// Calls `work(batch)` for batches of `size` cases that begin at multiples of it, until they hold
+/// Calls `work(batch)` for batches of `size` cases that begin at multiples of it, until they cover
 /// all cases of the run, or it is over.
 template <class Work>
 void for_each_batch(const StressRun& run, size_t size, const Work& work) {
@@ -62,7 +65,7 @@ void for_each_batch(const StressRun& run, size_t size, const Work& work) {
 
 inline constexpr size_t kMaxExamples = 5;
 
-/// Counts the mismatch of a case; `describe(text)` is asked for the first ones only.
+/// Counts the mismatch of a case. `describe()` is called for the first mismatches only.
 template <class Describe>
 void note_mismatch(StressResult& result, uint64_t number, const Describe& describe) {
     ++result.mismatches;
@@ -71,8 +74,8 @@ void note_mismatch(StressResult& result, uint64_t number, const Describe& descri
 
 struct StressTest {
     std::string name;
-    std::string help;            ///< one line: what its cases are
-    uint64_t rays_per_case = 1;  ///< a case costs about as much as so many rays
+    std::string help;            ///< one line that says what the cases are
+    uint64_t rays_per_case = 1;  ///< cost of a case, in rays
     std::function<StressResult(const StressRun&)> run;
 };
 

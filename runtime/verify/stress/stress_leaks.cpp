@@ -15,19 +15,21 @@ namespace {
 
 constexpr size_t kBatch = 1u << 14;
 
-/// How far from the surface a point has to be to be inside for certain, as a share of the tube.
+/// The share of the tube within which a point is certainly inside.
 double safe_share(const VoxelizeOptions& options) {
-    if (options.surface != Surface::cubes) return 0.96;  // the mesh's chords, the field's error
-    return options.set == VoxelSet::supercover ? 0.96 : 0.85;  // centres inside: a voxel's diagonal
+    // Surfaces without cubes deviate by the mesh's chords and the field's error.
+    if (options.surface != Surface::cubes) return 0.96;
+    // Other sets than the supercover depend on voxels' centres, which costs a voxel's diagonal.
+    return options.set == VoxelSet::supercover ? 0.96 : 0.85;
 }
 
-/// Voxels of a surface reach no farther out of the ring than this, in voxels: their diagonal, and
-/// some room.
+/// The maximum distance, in voxels, of a surface's voxels from the ring: their diagonal, and some
+/// room.
 constexpr double kReach = 2;
 
 using Hits = std::vector<std::optional<EnteredCell>>;
 
-/// What is wrong with where a ray was found to meet the ring; empty if nothing is.
+/// Describes what is wrong with the point where a ray met the ring; empty if nothing is.
 std::string fault_of(const Ring& ring, const FixedGrid& grid, const InwardRay& inward,
                      const std::optional<EnteredCell>& hit) {
     if (!hit) return fmt::format("a miss, though t = {} is inside", inward.inside);
@@ -64,7 +66,7 @@ class LeakStress {
     LeakStress(const VoxelizeOptions& options, const StressRun& run)
         : options_(options), share_(safe_share(options)), run_(run) {}
 
-    /// Rings take turns; of each two batches the second goes along beams.
+    /// Runs all batches. Rings alternate, and the second of every two batches uses beams.
     StressResult all() {
         for_each_batch(run_, kBatch, [this](const StressBatch& batch) {
             const size_t turn = size_t(batch.start / kBatch);

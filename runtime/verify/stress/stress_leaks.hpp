@@ -1,4 +1,4 @@
-// rays into closed surfaces -> those that reach a point inside, which none may.
+// rays into closed surfaces -> the number that reach a point inside, which must be 0
 #pragma once
 
 #include <string_view>
@@ -8,8 +8,8 @@
 
 namespace voxelume {
 
-/// Tries rays towards points inside of rings: from the grid's sides, and through lattice points;
-/// and groups of rays that a beam is sent along first, as frames send them.
+/// Tries rays towards points inside rings: from the grid's sides, through lattice points, and in
+/// groups behind a beam, as frames send them.
 StressResult stress_leaks(const VoxelizeOptions& options, const StressRun& run);
 
 }  // namespace voxelume

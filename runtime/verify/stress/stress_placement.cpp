@@ -16,10 +16,10 @@
 namespace voxelume {
 namespace {
 
-constexpr int kLumpRegion = 48;  // voxels along the edge of what one map's lump stands in
+constexpr int kLumpRegion = 48;  // voxels along the edge of the region of one map's lump
 constexpr int kRegionsAlong = 3;
 constexpr uint64_t kMapsOfOneWorld = kRegionsAlong * kRegionsAlong * kRegionsAlong;
-constexpr double kOrigin = -24;  // of the world, metres and voxels
+constexpr double kOrigin = -24;  // origin of the world, metres and voxels
 
 const GridFrame kObject{.origin = {-4, -3, -4}, .voxel_edge = {1, 1, 1}, .size = {9, 6, 8}};
 
@@ -29,7 +29,7 @@ GridFrame world_frame() {
             .size = glm::ivec3(kLumpRegion * kRegionsAlong)};
 }
 
-/// Where the region of the i-th map of a world begins, in voxels.
+/// The start of the region of the i-th map of a world, in voxels.
 glm::ivec3 region_start(uint64_t i) {
     const int n = int(i);
     return glm::ivec3(n % kRegionsAlong, n / kRegionsAlong % kRegionsAlong,
@@ -47,7 +47,7 @@ VoxelBits random_lump(uint64_t seed) {
     return lump;
 }
 
-/// One of the 48 turns and mirrors of a cube, times powers of two.
+/// A random choice of the 48 turns and mirrors of a cube, times powers of two.
 StressMap quarter_turns(StressRandom& random) {
     int axes[3] = {0, 1, 2};
     std::swap(axes[0], axes[random.below(3)]);
@@ -63,7 +63,7 @@ StressMap quarter_turns(StressRandom& random) {
     return map;
 }
 
-/// A turn by a quaternion of small integers, then anything else that an affine map can do.
+/// A turn by a quaternion of small integers, followed by a general affine map.
 StressMap any_map(StressRandom& random) {
     glm::dvec4 q(0);
     while (q == glm::dvec4(0))
@@ -84,8 +84,8 @@ StressMap any_map(StressRandom& random) {
     return map;
 }
 
-/// The place in the object's voxels of a world voxel's centre. Doubles have 28 bits more than the
-/// fixed point that kernels work in.
+/// The position, in the object's voxels, of a world voxel's centre. Doubles have 28 bits more than
+/// the fixed point that kernels use.
 struct PlacedImage {
     explicit PlacedImage(const glm::dmat4& world_from_object)
         : linear(glm::inverse(glm::dmat3(world_from_object))),
@@ -99,7 +99,7 @@ struct PlacedImage {
 };
 
 glm::ivec3 floor_of(const glm::dvec3& p) {
-    return glm::ivec3(p + 1024.0) - 1024;  // towards zero is down there
+    return glm::ivec3(p + 1024.0) - 1024;  // the shift makes p positive, so truncation rounds down
 }
 
 bool is_set(const VoxelBits& voxels, const glm::ivec3& v) {
@@ -107,7 +107,8 @@ bool is_set(const VoxelBits& voxels, const glm::ivec3& v) {
            glm::all(glm::lessThan(v, voxels.size())) && voxels.is_set(v);
 }
 
-/// Whether `found` is what the voxel at p has, or one that p may be in when moved by up to `bound`.
+/// True if `found` is the value of the voxel at p, or of one that contains p after a move by up to
+/// `bound`.
 bool is_right(const VoxelBits& lump, const glm::dvec3& p, double bound, bool found) {
     if (is_set(lump, floor_of(p)) == found) return true;
     for (int corner = 0; corner < 8; ++corner) {
@@ -118,10 +119,11 @@ bool is_right(const VoxelBits& lump, const glm::dvec3& p, double bound, bool fou
     return false;
 }
 
-/// Coefficients and offsets are rounded to 2^-24: half of that for every step through the world.
+/// The error of rounding coefficients and offsets to 2^-24: half of that for every step through the
+/// world.
 constexpr double kRounding = 0x1p-25 * (1 + 3 * kLumpRegion * kRegionsAlong);
 
-/// How many voxels of a region are not what its map makes of the lump.
+/// The number of a region's voxels that differ from what its map makes of the lump.
 uint64_t wrong_voxels(const ReadOccupancy& placed, const VoxelBits& lump, const glm::dmat4& map,
                       double bound, const glm::ivec3& start) {
     const PlacedImage image(map);

@@ -7,20 +7,21 @@
 
 namespace voxelume {
 
-/// A map of an object's metres to the world's.
+/// A map from an object's metres to the world's.
 struct StressMap {
     glm::dmat4 world_from_object{1.0};
-    bool is_exact = false;  ///< its inverse's numbers are few bits long, so nothing is rounded
+    bool is_exact = false;  ///< true if the numbers of the inverse have few bits, so that nothing
+                            ///< is rounded
 };
 
-/// Map `number`: even ones turn by quarters and mirror, scale by powers of two and shift by
-/// quarters of voxels, so that centres fall on faces; odd ones turn, stretch, shear and shift by
-/// anything.
+/// Map `number`. Even maps turn by quarters and mirror, scale by powers of two and shift by
+/// quarters of voxels, so that centres fall on faces. Odd maps turn, stretch, shear and shift by
+/// any amount.
 StressMap stress_map(uint64_t seed, uint64_t number);
 
-/// Tries the placement of a lump of cubes by maps. A world voxel is set when its centre's image
-/// lies in a set voxel of the object. Where the map has to be rounded, centres closer to a face
-/// than that moves them may fall on either side.
+/// Tries the placement of a lump of cubes by maps. A world voxel is set if its centre's image lies
+/// in a set voxel of the object. Where the map has to be rounded, a centre may fall on either side
+/// of a face if it is closer to the face than rounding moves it.
 StressResult stress_placement(const StressRun& run);
 
 }  // namespace voxelume

@@ -1,11 +1,11 @@
-// Random numbers by number: case n of a seed is the same whichever cases are tried with it.
+// Random numbers by case number: case n of a seed is the same whichever other cases are tried.
 #pragma once
 
 #include <cstdint>
 
 namespace voxelume {
 
-/// Steele, Lea and Flood 2014 (SplitMix64), begun anew for every case.
+/// The generator of Steele, Lea and Flood 2014 (SplitMix64), seeded again for every case.
 class StressRandom {
   public:
     StressRandom(uint64_t seed, uint64_t stream, uint64_t number)
@@ -13,13 +13,13 @@ class StressRandom {
                  number * 0x2545F4914F6CDD1Du) {}
 
     uint64_t next() { return mix(state_ += 0x9E3779B97F4A7C15u); }
-    /// Of 0 .. n-1.
+    /// A number of 0 .. n-1.
     uint64_t below(uint64_t n) { return (next() >> 32) * n >> 32; }
-    /// Of low .. high, both included.
+    /// A number of low .. high, both included.
     int64_t between(int64_t low, int64_t high) {
         return low + int64_t(below(uint64_t(high - low) + 1));
     }
-    /// In [low, high).
+    /// A number in [low, high).
     double uniform(double low, double high) {
         return low + (high - low) * (double(next() >> 11) * 0x1p-53);
     }

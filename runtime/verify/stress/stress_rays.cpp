@@ -17,7 +17,7 @@ namespace {
 
 constexpr uint32_t kAll = 0;
 
-/// Small and large, up to the largest worlds, and never a cube where it can be helped.
+/// Small and large grids, up to the largest worlds, and cubes only where they can't be avoided.
 constexpr std::array<RayGrid, kRayGrids> kGrids = {{
     RayGrid{{64, 61, 37}, Compared::cells, kAll},
     RayGrid{{70, 37, 130}, Compared::first_hit, kAll},
@@ -36,7 +36,7 @@ constexpr std::array<RayGrid, kRayGrids> kGrids = {{
     RayGrid{{23, 65535, 40001}, Compared::cells, 256},
 }};
 
-/// Bricks here and there, a few voxels in each: rays cross empty blocks of every size.
+/// Scattered bricks with a few voxels in each: rays cross empty blocks of every size.
 VoxelBits scattered_voxels(const glm::ivec3& size, uint64_t seed) {
     VoxelBits voxels(size);
     const glm::ivec3 bricks = (size + 15) / 16;
@@ -82,7 +82,7 @@ std::string text_of(const std::optional<EnteredCell>& hit) {
     return hit ? text_of(*hit) : "a miss";
 }
 
-/// Where two lists part.
+/// Describes the first difference between two lists.
 std::string first_difference(const std::vector<EnteredCell>& device,
                              const std::vector<EnteredCell>& exact) {
     size_t i = 0;
@@ -96,7 +96,8 @@ std::string first_difference(const std::vector<EnteredCell>& device,
                        at(exact));
 }
 
-/// Across which of the grid's sides a ray that begins on one comes in: the lowest axis.
+/// The axis across which a ray that begins on one of the grid's sides enters: the lowest one; 3 if
+/// it doesn't begin on a side.
 int entry_axis(const FixedGrid& grid, const FixedRay& ray) {
     for (size_t a = 0; a < 3; ++a)
         if ((ray.origin[a] == 0 && ray.direction[a] > 0) ||
@@ -141,7 +142,8 @@ class RayStress {
 
     void compare_walks(const FixedGrid& grid, const StressBatch& batch, const RayGrid& chosen) {
         const Steps steps = chosen.compared == Compared::cells ? Steps::cells : Steps::blocks;
-        // No walk is longer than the sides together: a device's that is ends there, too.
+        // No exact walk is longer than the sum of the sides. A longer walk of the device ends
+        // there, too.
         const uint32_t longest = uint32_t(grid.size.x + grid.size.y + grid.size.z);
         const uint32_t max_cells = chosen.max_cells == kAll ? longest : chosen.max_cells;
         walks_.start(grid, rays_, steps, max_cells);

@@ -23,7 +23,7 @@ FixedGrid grid_of_batch(uint64_t first) {
     return fixed_grid(kSizes[first / kSnapBatch % kSizes.size()]);
 }
 
-/// Towards a point of the grid, or past it.
+/// A ray towards a point of the grid, or past it.
 FloatRay from_far(const FixedGrid& grid, StressRandom& random) {
     const double way = std::pow(10.0, random.uniform(0, 7));
     FloatRay ray;
@@ -33,7 +33,7 @@ FloatRay from_far(const FixedGrid& grid, StressRandom& random) {
         ray.origin[a] = float(target - direction * way);
         ray.direction[a] = float(direction);
     }
-    if (random.below(4) == 0) {  // in a plane, along an axis
+    if (random.below(4) == 0) {  // the ray lies in a plane across an axis
         const int axis = int(random.below(3));
         ray.direction[axis] = 0;
         ray.origin[axis] = float(random.between(0, grid.size[axis]));

@@ -1,4 +1,5 @@
-// rays of any origin and length -> mismatches in how they are snapped, and walk from there on.
+// rays of any origin and length -> mismatches in how they are snapped, and in their walks after
+// that
 #pragma once
 
 #include "runtime/verify/exact/exact_snap.hpp"
@@ -13,7 +14,7 @@ enum class SnapClass {
 
 FloatRay float_ray(SnapClass kind, const FixedGrid& grid, uint64_t seed, uint64_t number);
 
-/// Tries the snapping of rays, and the walks of what they become.
+/// Tries the snapping of rays, and the walks of the snapped rays.
 StressResult stress_snapping(SnapClass kind, const StressRun& run);
 
 }  // namespace voxelume

@@ -16,7 +16,7 @@ namespace {
 
 using BrickMasks = std::array<uint64_t, 64>;
 
-/// Voxels of a region, brick by brick.
+/// The voxels of a region, brick by brick.
 class ExactVoxels {
   public:
     explicit ExactVoxels(const glm::ivec3& region)
@@ -44,7 +44,7 @@ class ExactVoxels {
 
   private:
     glm::ivec3 bricks_;
-    std::vector<uint32_t> slots_;  // 0: a brick without voxels
+    std::vector<uint32_t> slots_;  // 0 for a brick without voxels
     std::vector<BrickMasks> masks_;
     uint64_t count_ = 0;
 };
@@ -75,7 +75,7 @@ ExactVoxels exact_voxels(VoxelSet set, const TriangleOnLattice& t, const glm::iv
     return voxels;
 }
 
-/// What a triangle's region of the device's grid has.
+/// The comparison of a triangle's region in the device's grid with the exact voxels.
 struct Comparison {
     uint64_t cells = 0, missing = 0, extra = 0;
 };
@@ -114,7 +114,7 @@ void try_grid(Voxelizer& voxelizer, VoxelSet set, uint64_t seed, const StressBat
     for (size_t i = 0; i < batch.size; ++i) {
         triangles[i] = stress_triangle(seed, batch.start + i);
         const auto corner = uint32_t(mesh.positions.size());
-        for (const glm::ivec3& p : triangles[i])  // exact floats
+        for (const glm::ivec3& p : triangles[i])  // the floats are exact
             mesh.positions.push_back(glm::vec3(p + grid.start(i) * kUnitsPerVoxel) /
                                      float(kUnitsPerVoxel));
         mesh.triangles.emplace_back(corner, corner + 1, corner + 2);

@@ -1,4 +1,4 @@
-// triangles of nasty classes -> mismatches between the voxels that they get and the exact ones.
+// triangles of difficult classes -> mismatches between their voxels and the exact ones
 #pragma once
 
 #include "runtime/scene/surface.hpp"

@@ -14,7 +14,7 @@ constexpr int kRegion = 48;  // voxels along the regions of all classes but the 
 constexpr int kRegionUnits = kRegion * kUnitsPerVoxel;
 constexpr uint64_t kLongClass = 8, kGiantClass = 9;
 
-/// The class of triangle `number`, and which grid of that class holds it.
+/// The class of triangle `number`, and the grid of that class that contains it.
 struct ClassGrid {
     uint64_t kind, grid;
 };
@@ -41,7 +41,7 @@ void turn_axes(TriangleOnLattice& t, StressRandom& random) {
     for (glm::ivec3& p : t) p = turned(p, turns);
 }
 
-/// Longer than wide by 10^4 and more.
+/// A triangle at least 10^4 times as long as wide.
 TriangleOnLattice sliver(StressRandom& random, const glm::ivec3& middle) {
     const glm::ivec3 half(int(random.between(-15, 15)) * kUnitsPerVoxel,
                           int(random.between(-61000, 61000)), int(random.between(-61000, 61000)));
@@ -50,7 +50,7 @@ TriangleOnLattice sliver(StressRandom& random, const glm::ivec3& middle) {
             any_point(random, middle, 4)};
 }
 
-/// In a grid plane, or with corners units off it.
+/// A triangle in a grid plane, or with corners up to `tilt` units off it.
 TriangleOnLattice in_plane(StressRandom& random, const glm::ivec3& middle, int tilt) {
     TriangleOnLattice t;
     for (glm::ivec3& p : t) {
@@ -61,7 +61,7 @@ TriangleOnLattice in_plane(StressRandom& random, const glm::ivec3& middle, int t
     return t;
 }
 
-/// A segment or a point.
+/// A triangle that is a segment or a point.
 TriangleOnLattice without_area(StressRandom& random, const glm::ivec3& middle) {
     const glm::ivec3 step = any_point(random, glm::ivec3(0), 3 * kUnitsPerVoxel) - 1;
     const glm::ivec3 a = glm::clamp(middle, glm::ivec3(1), glm::ivec3(kRegionUnits / 2));
