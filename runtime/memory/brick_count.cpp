@@ -123,7 +123,7 @@ class BrickCounter {
 
     double voxels_in(const Cell& cell) const {
         const double d = distance(cell.middle()), size = cell.high.x - cell.low.x;
-        const bool is_inside = rule_.keeps_inside && d < 0;
+        const bool is_inside = (rule_.keeps_inside || rule_.fills) && d < 0;
         if (std::abs(d) > radius(cell)) return is_inside ? size * size * size : 0;
         if (size < 1.5) return is_inside || passes(cell.middle(), d) ? 1 : 0;
         double sum = 0;
@@ -176,13 +176,14 @@ bool TakenBricks::take(const glm::ivec3& brick) {
 BrickRule model_rule(Surface surface, bool is_solid_set) {
     // Distances are stored about blocks of 4³ nodes, voxels about such of 4³ voxels.
     if (surface == Surface::smooth) return {.first = 0, .last = 15, .reach = 2.8 + 2.6};
-    return {.first = 0, .last = 16, .reach = 3.46, .closes_ends = is_solid_set};
+    return {
+        .first = 0, .last = 16, .reach = 3.46, .fills = is_solid_set, .closes_ends = is_solid_set};
 }
 
-BrickRule world_rule(Surface surface, bool keeps_inside) {
+BrickRule world_rule(Surface surface, bool is_solid_set, bool keeps_inside) {
     // A voxel more on each side, and leaves of the object that reach into that.
     const double reach = surface == Surface::smooth ? 2.9 + 2.0 : 3.0;
-    return {-2.5, 18.5, reach, keeps_inside, true};
+    return {-2.5, 18.5, reach, keeps_inside, is_solid_set, true};
 }
 
 SurfaceExtent count_bricks(const SolidField& field, const GridFrame& frame, const VoxelBox& box,

@@ -15,6 +15,7 @@ struct BrickRule {
     double first = 0, last = 0;  ///< the box that decides, in voxels from the brick's corner
     double reach = 0;           ///< how far from it the surface may be, in shortest edges of voxels
     bool keeps_inside = false;  ///< bricks inside of the solid are stored, too
+    bool fills = false;         ///< all voxels inside of the solid are stored, in bricks that are
     bool closes_ends = false;   ///< where the lattice ends, the solid has a surface
 
     friend bool operator==(const BrickRule&, const BrickRule&) = default;
@@ -22,7 +23,7 @@ struct BrickRule {
 
 /// Those of voxelizing a model in its own space, and of placing it in a world.
 BrickRule model_rule(Surface surface, bool is_solid_set);
-BrickRule world_rule(Surface surface, bool keeps_inside);
+BrickRule world_rule(Surface surface, bool is_solid_set, bool keeps_inside);
 
 /// Bricks of a lattice that are stored for one object or another.
 class TakenBricks {

@@ -81,7 +81,7 @@ class DisplayCounter {
             count_light(device_, scene_, features_, counts_of(in_batch), medium_);
         const auto of = dilation_that_pays(features_, world_, all, pixel_width());
         const DilatedOccupancy dilated_occupancy =
-            of ? count_halo(device_, world_, *of) : DilatedOccupancy();
+            of ? count_dilated_occupancy(device_, world_, *of) : DilatedOccupancy();
         const Buffer<uint32_t> beams = of ? allocate_beams(device_, in_batch) : Buffer<uint32_t>();
         const DisplayRayArrays kept = allocate_display_rays(device_, all, features_.medium);
         if (features_.transmission || features_.medium_grid) return;

@@ -34,16 +34,15 @@ Buffer<uint8_t> count_tables(const Device& device, const Scene& scene) {
     return {device, "small tables", kSmallTables + kRecordBytes * records};
 }
 
-DilatedOccupancy count_halo(const Device& device, const Pyramid& world, DilationLevel of) {
-    // A leaf's neighbours lie in a sector more on each side of a surface at most.
-    constexpr double kDilated = 1.5;
+DilatedOccupancy count_dilated_occupancy(const Device& device, const Pyramid& world,
+                                         DilationLevel of) {
     const glm::dvec3 table(of == DilationLevel::leaves ? world.frame.sectors()
                                                        : (world.frame.sectors() + 3) / 4);
     const double places = table.x * table.y * table.z;
     const double records = double(world.bricks.size() / kWordsPerRecord / kRecordsPerSector);
-    const double stored = kDilated * (of == DilationLevel::leaves ? records : records / 16);
+    const double stored = (of == DilationLevel::leaves ? records : records / 16);
     DilatedOccupancy dilated_occupancy =
-        allocate_halo(device, size_t(places), size_t(std::min(places, stored + 1)));
+        allocate_dilated_occupancy(device, size_t(places), size_t(std::min(places, stored + 1)));
     dilated_occupancy.of = of;
     return dilated_occupancy;
 }
@@ -61,7 +60,7 @@ ImageMemory count_image(const Device& device, const Scene& scene, const Pyramid&
     memory.rays = allocate_rays(device, features, counts);
     memory.tables = count_tables(device, scene);
     if (const auto of = dilation_that_pays(features, world, rays, pixel)) {
-        memory.dilated_occupancy = count_halo(device, world, *of);
+        memory.dilated_occupancy = count_dilated_occupancy(device, world, *of);
         memory.beams = allocate_beams(device, counts.rays);
         if (counts.is_lit && lights_send_beams(features))
             memory.light_beams =

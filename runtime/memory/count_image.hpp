@@ -29,6 +29,7 @@ ImageMemory count_image(const Device& device, const Scene& scene, const Pyramid&
 Buffer<uint8_t> count_tables(const Device& device, const Scene& scene);
 
 /// The buffers of the dilated occupancy of such a world, where it pays for so many rays.
-DilatedOccupancy count_halo(const Device& device, const Pyramid& world, DilationLevel of);
+DilatedOccupancy count_dilated_occupancy(const Device& device, const Pyramid& world,
+                                         DilationLevel of);
 
 }  // namespace voxelume

@@ -27,6 +27,16 @@ double stored_band(const Model& model) {
     return model.surface == Surface::smooth ? kSurfaceBand : 0;
 }
 
+bool is_solid_set(const Model& model) {
+    return model.surface == Surface::cubes && model.set == VoxelSet::solid;
+}
+
+/// A solid set's voxels beside those of the surface: half of what is in its bricks, and no more
+/// than the object has.
+double filled_voxels(const SurfaceExtent& extent, double inside) {
+    return std::min(inside, 0.5 * extent.bricks * double(kVoxelsPerBrick));
+}
+
 double margin(Estimate estimate) {
     return estimate == Estimate::expected ? kMargin : 1;
 }
@@ -84,10 +94,9 @@ GridCounts ObjectCounts::model_grid(const Model& model, Estimate estimate) {
     const bool is_expected = estimate == Estimate::expected;
     if (model.solid && is_expected) {
         TakenBricks taken(frame);
-        const bool is_solid_set = model.surface == Surface::cubes && model.set == VoxelSet::solid;
         return counts_of(model, mesh, frame,
                          count_bricks(SolidField(*model.solid, kOwnSpace), frame, whole_of(frame),
-                                      model_rule(model.surface, is_solid_set), taken));
+                                      model_rule(model.surface, is_solid_set(model)), taken));
     }
     if (model.solid) {
         const SurfaceArea area =
@@ -139,11 +148,12 @@ SurfaceExtent ObjectCounts::expected_in_world(const Object& object, TakenBricks&
         return count_bricks(SolidField(*model.solid, object.world_from_object),
                             world_frame(scene_.world),
                             boxes()[size_t(&object - scene_.objects.data())],
-                            world_rule(model.surface, keeps_inside), taken);
+                            world_rule(model.surface, is_solid_set(model), keeps_inside), taken);
     SurfaceExtent extent =
         extents_.planned(object, model.surface == Surface::smooth ? kSurfaceBand : kPlacedBand);
+    const double inside = keeps_inside || is_solid_set(model) ? extents_.inside_voxels(object) : 0;
+    if (is_solid_set(model)) extent.voxels += filled_voxels(extent, inside);
     if (keeps_inside) {
-        const double inside = extents_.inside_voxels(object);
         extent.voxels += inside;
         extent.bricks += inside / double(kVoxelsPerBrick);
     }

@@ -62,7 +62,7 @@ TEST(BrickCount, CountsABrickOfTwoSurfacesOnce) {
     const VoxelBox box{glm::dvec3(0), glm::dvec3(frame.size)};
     const SolidField ball(solid_of(SolidKind::sphere), glm::dmat4(1));
     TakenBricks taken(frame);
-    const BrickRule rule = world_rule(Surface::smooth, false);
+    const BrickRule rule = world_rule(Surface::smooth, false, false);
     EXPECT_GT(count_bricks(ball, frame, box, rule, taken).bricks, 100);
     EXPECT_EQ(count_bricks(ball, frame, box, rule, taken).bricks, 0);
 }

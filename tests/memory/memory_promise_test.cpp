@@ -3,12 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <functional>
 
 #include "runtime/analysis/culling.hpp"
 #include "runtime/batch/frame_pipeline.hpp"
 #include "runtime/memory/frame_plans.hpp"
 #include "runtime/render/volume_renderer.hpp"
+#include "runtime/scene_file/scene_animation.hpp"
 #include "tests/pictures/small_scene.hpp"
 #include "tests/support/display_fixture.hpp"
 #include "tests/support/instance_scenes.hpp"
@@ -32,6 +34,10 @@ void expect_kept(const std::string& name, double promise, const Device& device) 
     const auto fact = double(device.counters().peak_bytes);
     fmt::print("{:24} promised {:9.3f} MB, taken {:9.3f} MB, ratio {:.3f}\n", name, promise / 1e6,
                fact / 1e6, promise / fact);
+    if (std::getenv("VXL_TEST_MEMORY"))
+        for (const auto& [buffer, bytes] : device.counters().allocated_bytes)
+            if (double(bytes) > 0.02 * fact)
+                fmt::print("    {:24} {:9.3f} MB in all\n", buffer, double(bytes) / 1e6);
     EXPECT_GE(promise, kLeastRatio * fact) << name;
     EXPECT_LE(promise, kMostRatio * fact) << name;
 }

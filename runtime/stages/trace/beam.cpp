@@ -46,7 +46,8 @@ class LeafMasks {
             }
         }
         write_empty_cubes(bricks);
-        DilatedOccupancy dilated_occupancy = allocate_halo(device, sectors.size(), stored);
+        DilatedOccupancy dilated_occupancy =
+            allocate_dilated_occupancy(device, sectors.size(), stored);
         dilated_occupancy.sectors.write(sectors);
         dilated_occupancy.bricks.write(bricks);
         return dilated_occupancy;
@@ -118,7 +119,7 @@ PyramidShape dilated_shape(const Pyramid& pyramid, DilationLevel of) {
     return shape;
 }
 
-DilatedOccupancy allocate_halo(const Device& device, size_t sectors, size_t stored) {
+DilatedOccupancy allocate_dilated_occupancy(const Device& device, size_t sectors, size_t stored) {
     DilatedOccupancy dilated_occupancy;
     dilated_occupancy.sectors = Buffer<uint32_t>(device, "dilated sectors", sectors);
     dilated_occupancy.bricks =

@@ -27,7 +27,7 @@ struct DilatedOccupancy {
 
 /// The buffers of a dilated occupancy whose table has so many sectors, and stores some of them; and
 /// of the beams of so many rays.
-DilatedOccupancy allocate_halo(const Device& device, size_t sectors, size_t stored);
+DilatedOccupancy allocate_dilated_occupancy(const Device& device, size_t sectors, size_t stored);
 Buffer<uint32_t> allocate_beams(const Device& device, uint32_t rays);
 
 /// The dilated occupancy of a world without instances. Reads the pyramid's upper levels back; host
