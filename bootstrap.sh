@@ -11,9 +11,10 @@ usage() {
 Usage: ./bootstrap.sh COMMAND
 
   demo    render scenes/bunny.json to out/bunny.exr and out/bunny.png
-  test    run every test
+  test    run the tests; with --all, every combination of settings too, which takes hours
   build   build the program, build/release/voxelume
   lint    check the format of the code, the host code and each kernel
+  docs    write the library's reference to build/docs/html/index.html
 
 Each installs the Debian packages that are missing (as root, or with sudo) and builds first.
 TEXT
@@ -65,14 +66,33 @@ demo() {
     echo "The pictures are out/bunny.exr and out/bunny.png."
 }
 
+# run_tests [--all]: see tests/README.md for what --all adds.
 run_tests() {
+    local configuration=()
+    if [ "${1:-}" = --all ]; then
+        configuration=(-C exhaustive)
+        export VXL_TEST_ALL=1
+    fi
     build_targets
     say "Testing"
-    ctest --test-dir "$build" --output-on-failure -j "$(nproc)"
+    ctest --test-dir "$build" --output-on-failure -j "$(nproc)" "${configuration[@]}"
 }
 
-case "${1:-}" in
-    demo | build | test | lint) install_packages packages.txt ;;
+# The version that CMakeLists.txt gives the project.
+project_version() {
+    sed -n 's/^project(voxelume VERSION \([0-9.]*\).*/\1/p' CMakeLists.txt
+}
+
+# Fails on a warning: on a name without a description, or a description without its name.
+docs() {
+    mkdir -p build/docs
+    VXL_VERSION=$(project_version) doxygen runtime/Doxyfile
+    echo "The reference is build/docs/html/index.html."
+}
+
+case "$*" in
+    demo | build | test | 'test --all' | lint) install_packages packages.txt ;;
+    docs) install_packages .ci/docs_packages.txt ;;
     help | -h | --help)
         usage
         exit 0
@@ -89,7 +109,8 @@ case "$1" in
         build_targets voxelume
         echo "The program is $build/voxelume."
         ;;
-    test) run_tests ;;
+    test) run_tests "${2:-}" ;;
+    docs) docs ;;
     lint)
         install_packages .ci/packages.txt
         build_targets voxelume # the generated sources and compile_commands.json

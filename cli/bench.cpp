@@ -2,20 +2,13 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "cli/checks.hpp"
 #include "cli/commands.hpp"
 #include "cli/progress.hpp"
-#include "runtime/base/atomic_file.hpp"
-#include "runtime/base/error.hpp"
-#include "runtime/opencl/device.hpp"
-#include "runtime/verify/bench/bench.hpp"
-#include "runtime/verify/report/bench_page.hpp"
-#include "runtime/verify/report/bench_plots.hpp"
-#include "runtime/verify/report/bench_tables.hpp"
+#include "runtime/voxelume_verify.hpp"
 
 namespace voxelume::cli {
 namespace {
@@ -31,16 +24,11 @@ struct BenchCommand {
     bool quiet = false;
 };
 
-std::vector<const BenchEntry*> chosen_entries(const std::vector<std::string>& only) {
+std::vector<std::string> scenes_named(const std::vector<std::string>& only) {
+    const std::vector<BenchScene> scenes = bench_scenes();
     std::vector<std::string_view> names;
-    for (const BenchEntry& entry : bench_entries()) names.emplace_back(entry.name);
-    const std::vector<std::string> wanted = chosen_names(only, names, "bench", "scene");
-    std::vector<const BenchEntry*> chosen;
-    for (const BenchEntry& entry : bench_entries()) {
-        const bool is_named = std::ranges::find(wanted, entry.name) != wanted.end();
-        if (is_named || (only.empty() && entry.is_there())) chosen.push_back(&entry);
-    }
-    return chosen;
+    for (const BenchScene& scene : scenes) names.emplace_back(scene.name);
+    return chosen_names(only, names, "bench", "scene");
 }
 
 std::vector<int> numbers_in(const std::vector<std::string>& texts) {
@@ -49,48 +37,39 @@ std::vector<int> numbers_in(const std::vector<std::string>& texts) {
     return numbers;
 }
 
-void sort_once(std::vector<int>& values) {
-    std::ranges::sort(values);
-    values.erase(std::unique(values.begin(), values.end()), values.end());
-}
-
 /// What a run of half a minute has. Kernels that aren't compiled yet take a minute more.
 void make_quick(BenchOptions& options) {
     options.resolutions = {4, 8, 16, 32, 64, 128};
     options.finest_with_light = 64;
     options.samples = {1, 4};
     options.placements = {Placement::world};
-    options.size = glm::ivec2(160);
-    options.light_size = glm::ivec2(80);
-    options.measures_shadows = false;
+    options.size = {160, 160};
+    options.light_size = {80, 80};
+    options.measure_shadows = false;
     options.repeats = 0;
 }
 
 BenchOptions options_of(const BenchCommand& command) {
     BenchOptions options;
-    options.subjects = chosen_entries(command.only);
-    // The steps are halved where smooth surfaces have not yet reached their floor.
-    options.resolutions = {4, 8, 11, 16, 23, 32, 45, 64, 128, 256, 512, 1024};
-    options.samples = {1, 4, 16};
+    options.scenes = scenes_named(command.only);
     if (command.is_quick) make_quick(options);
     if (!command.resolutions.empty()) {
         options.resolutions = numbers_in(command.resolutions);
         options.finest_with_light = BenchOptions().finest_with_light;
     }
-    sort_once(options.resolutions);
     if (!command.samples.empty()) options.samples = numbers_in(command.samples);
-    sort_once(options.samples);
     if (!command.placements.empty()) {
         options.placements.clear();
         const std::vector<std::string> named = listed(command.placements);
         for (const Placement placement : {Placement::world, Placement::instance})
-            if (std::ranges::find(named, name_of(placement)) != named.end())
+            if (std::ranges::find(named, placement == Placement::world ? "world" : "instance") !=
+                named.end())
                 options.placements.push_back(placement);
     }
     if (!command.size.empty())
         options.size = options.light_size = parse_size(command.size, "bench");
     if (command.repeats > 0) options.repeats = command.repeats;
-    if (!command.peers.empty()) options.peers = read_peers(command.peers, options.size);
+    options.peers = command.peers;
     return options;
 }
 
@@ -103,25 +82,20 @@ void check_outputs(const BenchCommand& command) {
 }
 
 void write_text(const std::string& path, const std::string& text) {
-    if (path.empty()) return;
-    AtomicFile file(path);
-    file.write(text.data(), text.size());
-    file.commit();
+    if (!path.empty()) write_file(path, text);
 }
 
 /// Refuses options that leave no row, or none of a scene that was asked for.
 void check_rows(const BenchCommand& command, const BenchOptions& options) {
     constexpr const char* kAdvice = "scenes/BENCH.md names what each has";
-    if (count_rows(options) == 0)
-        throw Error(ErrorKind::usage, "bench: no scene has rows of these sizes and placements; {}",
-                    kAdvice);
+    if (count_bench_rows(options) == 0)
+        fail_usage("bench: no scene has rows of these sizes and placements; {}", kAdvice);
     if (command.only.empty()) return;
     BenchOptions of_one = options;
-    for (const BenchEntry* entry : options.subjects) {
-        of_one.subjects = {entry};
-        if (count_rows(of_one) == 0)
-            throw Error(ErrorKind::usage, "bench: {} has no row of these sizes and placements; {}",
-                        entry->name, kAdvice);
+    for (const std::string& scene : options.scenes) {
+        of_one.scenes = {scene};
+        if (count_bench_rows(of_one) == 0)
+            fail_usage("bench: {} has no row of these sizes and placements; {}", scene, kAdvice);
     }
 }
 
@@ -132,27 +106,25 @@ int run(const BenchCommand& command) {
     const Device device = Device::open(command.device);
     BenchReport report;
     {
-        Progress bar("measuring", count_rows(options), stderr, command.quiet);
+        Progress bar("measuring", count_bench_rows(options), stderr, command.quiet);
         report = run_bench(device, options, [&bar](size_t, size_t) { bar.advance(); });
     }
     if (!command.quiet)
         fmt::print(stderr, "\"{}\", {} lanes, driver {}; {}\n", report.device, report.lanes,
                    report.driver, report.machine);
-    fmt::print("{}", bench_text(report));
-    write_text(command.page, bench_page(report));
-    write_text(command.csv, bench_csv(report));
-    write_text(command.plot, bench_picture(report));
-    // The device's name may be in any encoding.
-    const auto json = bench_json(report);
-    write_text(command.json,
-               json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
+    fmt::print("{}", report.text);
+    write_text(command.page, report.page);
+    write_text(command.csv, report.csv);
+    write_text(command.plot, report.picture);
+    write_text(command.json, report.json);
     return 0;
 }
 
 std::string list_of_scenes() {
-    std::string list = "of these scenes only: a name, or names with commas; may be given again:";
-    for (const BenchEntry& entry : bench_entries())
-        list += fmt::format("\n{:<8}{}", entry.name, entry.help);
+    std::string list =
+        "run only these scenes: a name, or names separated by commas; may be given again:";
+    for (const BenchScene& scene : bench_scenes())
+        list += fmt::format("\n{:<8}{}", scene.name, scene.help);
     return list;
 }
 
@@ -160,29 +132,32 @@ std::string list_of_scenes() {
 
 Action add_bench(CLI::App& app) {
     const auto command = std::make_shared<BenchCommand>();
-    app.add_flag(
-        "--quick", command->is_quick,
-        "every scene in half a minute (and a minute more where kernels aren't compiled yet): 8 to "
-        "128 voxels a metre, 160x160 pixels (4 to 64 and 80x80 with light), no repeats, no "
-        "instances, no shadow edges");
-    app.add_option("-o,--output", command->page, "report with plots: .html");
-    app.add_option("--json", command->json, "file for everything that was measured");
-    app.add_option("--csv", command->csv, "file for the rows");
-    app.add_option("--plot", command->plot, "picture of depth against time: .svg");
+    app.add_flag("--quick", command->is_quick,
+                 "run every scene in half a minute, and a minute more if kernels must be compiled: "
+                 "8 to 128 voxels a metre, 160x160 pixels (4 to 64 and 80x80 with light), no "
+                 "repeats, no instances, no shadow edges");
+    app.add_option("-o,--output", command->page, "write a report with plots, .html");
+    app.add_option("--json", command->json, "write everything that was measured, .json");
+    app.add_option("--csv", command->csv, "write the rows, .csv");
+    app.add_option("--plot", command->plot, "write the plot of depth against time, .svg");
     app.add_option("--only", command->only, list_of_scenes())->allow_extra_args(false);
-    app.add_option("--resolution", command->resolutions, "voxels a metre, like 16,32,64")
+    app.add_option("--resolution", command->resolutions, "voxels per metre, like 16,32,64")
         ->check(list_of(in_range(4, 4096, Number::whole), "numbers like 16,32,64"));
-    app.add_option("--placement", command->placements, "world, instance, or both with a comma")
+    app.add_option("--placement", command->placements,
+                   "placements: world, instance, or both separated by a comma")
         ->check(list_of(one_of({"world", "instance"}), "world, instance, or world,instance"));
-    app.add_option("--samples", command->samples, "rays a pixel, like 1,4,16; scenes with light")
+    app.add_option("--samples", command->samples,
+                   "rays per pixel in scenes with light, like 1,4,16")
         ->check(list_of(in_range(1, 4096, Number::whole), "numbers like 1,4,16"));
-    app.add_option("--peers", command->peers, "rows of other programs, from bench_peers: .json");
-    app.add_option("--size", command->size, "of the images, like 640x480");
-    app.add_option("--repeat", command->repeats, "renders of each row, the fastest of which counts")
+    app.add_option("--peers", command->peers,
+                   "add the rows of other programs from this file of bench_peers, .json");
+    app.add_option("--size", command->size, "image size, like 640x480");
+    app.add_option("--repeat", command->repeats, "renders of each row; the fastest counts")
         ->check(in_range(1, 1000, Number::whole));
-    app.add_option("--device", command->device, "auto, cpu, gpu, a number, or part of a name")
+    app.add_option("--device", command->device,
+                   "device: auto, cpu, gpu, a number, or part of a name")
         ->check(one_device);
-    app.add_flag("-q,--quiet", command->quiet, "no progress bar");
+    app.add_flag("-q,--quiet", command->quiet, "print no progress bar");
     return [command] { return run(*command); };
 }
 

@@ -1,12 +1,9 @@
 // voxelume check SCENE: whether a scene is right, and what rendering it takes.
 #include <CLI/CLI.hpp>
 #include <memory>
-#include <numeric>
-#include <vector>
 
 #include "cli/commands.hpp"
 #include "cli/scene_options.hpp"
-#include "runtime/scene_file/scene_animation.hpp"
 
 namespace voxelume::cli {
 
@@ -20,10 +17,8 @@ Action add_check(CLI::App& app) {
     app.add_flag("--json", options->json, "print the plan as JSON");
     return [options] {
         const Scene scene = read_with(options->scene, "check");
-        std::vector<int> frames(moves(scene) ? size_t(scene.animation.frames) : 1);
-        std::iota(frames.begin(), frames.end(), 1);
-        print_plan(scene, frames, Device::open(options->scene.device), model_cache(options->scene),
-                   options->json);
+        print_plan(scene, Device::open(options->scene.device),
+                   {.cache = cache_options(options->scene)}, options->json);
         return 0;
     };
 }

@@ -7,11 +7,6 @@
 #include <map>
 #include <sstream>
 
-#include "runtime/base/atomic_file.hpp"
-#include "runtime/io/vdb/vdb.hpp"
-#include "runtime/opencl/selector.hpp"
-#include "runtime/scene/scene.hpp"
-
 namespace voxelume::cli {
 
 void check_output(const std::string& path, std::initializer_list<const char*> extensions,
@@ -21,11 +16,9 @@ void check_output(const std::string& path, std::initializer_list<const char*> ex
         std::string list;
         for (const char* known : extensions)
             list += (list.empty() ? "" : " or ") + std::string(known);
-        throw Error(ErrorKind::usage, "{}: {}: the name of an output ends in {}", command, path,
-                    list);
+        fail_usage("{}: {}: the name of an output ends in {}", command, path, list);
     }
-    const AtomicFile trial(path);  // leaves nothing behind without commit()
-    if (extension == ".vdb") check_vdb_output(path);
+    check_output_file(path);
 }
 
 std::vector<std::string> chosen_names(const std::vector<std::string>& texts,
@@ -39,15 +32,15 @@ std::vector<std::string> chosen_names(const std::vector<std::string>& texts,
             if (name.empty()) continue;
             if (std::ranges::find(names, name) == names.end()) {
                 const std::string nearest = suggest(name, names);
-                throw Error(
-                    ErrorKind::usage, "{}: there is no {} named {}{}", command, kind, quote(name),
+                fail_usage(
+                    "{}: there is no {} named {}{}", command, kind, quote(name),
                     nearest.empty() ? fmt::format(", only {}", fmt::join(names, ", ")) : nearest);
             }
             chosen.push_back(name);
         }
         if (chosen.size() == before)
-            throw Error(ErrorKind::usage, "{}: --only {} names no {}; there are {}", command,
-                        quote(text), kind, fmt::join(names, ", "));
+            fail_usage("{}: --only {} names no {}; there are {}", command, quote(text), kind,
+                       fmt::join(names, ", "));
     }
     return chosen;
 }
@@ -59,20 +52,18 @@ void check_distinct(const std::vector<std::string>& paths, const char* command) 
         const auto [first, is_new] =
             known.emplace(std::filesystem::absolute(path).lexically_normal(), path);
         if (!is_new)
-            throw Error(ErrorKind::usage,
-                        "{}: {} and {}: two outputs are one file; give each a name of its own",
-                        command, first->second, path);
+            fail_usage("{}: {} and {}: two outputs are one file; give each a name of its own",
+                       command, first->second, path);
     }
 }
 
-glm::ivec2 parse_size(const std::string& text, const char* command) {
-    glm::ivec2 size{0};
+Size parse_size(const std::string& text, const char* command) {
+    int width = 0, height = 0;
     char rest = 0;
-    if (std::sscanf(text.c_str(), "%6dx%6d%c", &size.x, &size.y, &rest) != 2 || size.x < 1 ||
-        size.y < 1 || size.x > kMaxImageSide || size.y > kMaxImageSide)
-        throw Error(ErrorKind::usage, "{}: --size {}: give WIDTHxHEIGHT, 1 to {} each", command,
-                    text, kMaxImageSide);
-    return size;
+    if (std::sscanf(text.c_str(), "%6dx%6d%c", &width, &height, &rest) != 2 || width < 1 ||
+        height < 1 || width > kMaxImageSide || height > kMaxImageSide)
+        fail_usage("{}: --size {}: give WIDTHxHEIGHT, 1 to {} each", command, text, kMaxImageSide);
+    return {width, height};
 }
 
 std::string one_device(const std::string& selector) {

@@ -5,17 +5,21 @@
 
 #include <array>
 #include <functional>
-#include <glm/vec2.hpp>
 #include <initializer_list>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
-#include "runtime/base/error.hpp"
-#include "runtime/scene_file/scene_fields.hpp"
+#include "runtime/voxelume.hpp"
 
 namespace voxelume::cli {
+
+/// Throws Error::usage.
+template <class... Args>
+[[noreturn]] void fail_usage(fmt::format_string<Args...> format, Args&&... args) {
+    throw Error(ErrorKind::usage, fmt::format(format, std::forward<Args>(args)...));
+}
 
 /// Throws Error::usage when the name has none of the extensions (any will do if there are none),
 /// Error::output when no file can be made there. `command` opens the message about the name.
@@ -26,7 +30,7 @@ void check_output(const std::string& path, std::initializer_list<const char*> ex
 void check_distinct(const std::vector<std::string>& paths, const char* command);
 
 /// "640x480". Throws Error::usage; `command` opens the message.
-glm::ivec2 parse_size(const std::string& text, const char* command);
+Size parse_size(const std::string& text, const char* command);
 
 enum class Number { whole, any };
 
@@ -65,8 +69,7 @@ Value choose(const std::string& text,
         if (text == choices[i].first) return choices[i].second;
         names[i] = choices[i].first;
     }
-    throw Error(ErrorKind::usage, "{}: there is no {}{}", option, quote(text),
-                suggest(text, names));
+    fail_usage("{}: there is no {}{}", option, quote(text), suggest(text, names));
 }
 
 }  // namespace voxelume::cli

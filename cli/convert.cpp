@@ -5,7 +5,6 @@
 
 #include "cli/checks.hpp"
 #include "cli/commands.hpp"
-#include "runtime/io/volume_file.hpp"
 
 namespace voxelume::cli {
 
@@ -15,23 +14,23 @@ struct ConvertCommand {
     std::string from, to;
     std::string format, dither = "bayer8", sweep = "y";
     bool uncompressed = false;
-    VolumeOptions options;
+    VolumeFileOptions options;
 };
 
 constexpr std::array kDithers = {std::pair{std::string_view("bayer8"), Dither::bayer8},
                                  std::pair{std::string_view("none"), Dither::none}};
-constexpr std::array kSweeps = {std::pair{std::string_view("x"), SweepAxis::x},
-                                std::pair{std::string_view("y"), SweepAxis::y},
-                                std::pair{std::string_view("z"), SweepAxis::z}};
+constexpr std::array kSweeps = {std::pair{std::string_view("x"), Axis::x},
+                                std::pair{std::string_view("y"), Axis::y},
+                                std::pair{std::string_view("z"), Axis::z}};
 
 int run(const ConvertCommand& command) {
-    VolumeOptions options = command.options;
-    options.device.dither = choose(command.dither, kDithers, "convert: --dither");
-    options.device.sweep = choose(command.sweep, kSweeps, "convert: --sweep");
+    VolumeFileOptions options = command.options;
+    options.dither = choose(command.dither, kDithers, "convert: --dither");
+    options.sweep = choose(command.sweep, kSweeps, "convert: --sweep");
     options.compress = !command.uncompressed;
     options.format =
         command.format.empty() ? volume_format_of(command.to) : volume_format_named(command.format);
-    write_volume(command.to, read_volume(command.from), options);
+    Volume::read(command.from).write(command.to, options);
     return 0;
 }
 
@@ -39,28 +38,31 @@ int run(const ConvertCommand& command) {
 
 Action add_convert(CLI::App& app) {
     const auto command = std::make_shared<ConvertCommand>();
-    DeviceOptions& device = command->options.device;
-    app.add_option("A", command->from, "volumetric image: .vdb .exr .nrrd .raw or .json")
+    VolumeFileOptions& options = command->options;
+    app.add_option("A", command->from, "volumetric image to read: .vdb .exr .nrrd .raw or .json")
         ->required();
     app.add_option("B", command->to,
-                   "the same, or name.####.png .ply .kv6 .planes .cplanes .rgb332 .rgb565")
+                   "volumetric image to write: the same, or name.####.png .ply .kv6 .planes "
+                   ".cplanes .rgb332 .rgb565")
         ->required();
     app.add_option(
         "--format", command->format,
         "for any name of B: vdb, exr, nrrd, raw, slices, ply, kv6, planes, color-planes, "
         "rgb332, rgb565");
-    app.add_flag("--all", command->options.all_values,
-                 "NRRD: depth, object and kind beside red, green, blue and opacity");
-    app.add_flag("--uncompressed", command->uncompressed, "NRRD: raw instead of gzip");
-    app.add_option("--dither", command->dither, "displays: bayer8 (the default) or none");
-    app.add_option("--exposure", device.exposure, "displays: stops, 0 by default")
+    app.add_flag("--all", options.all_values, "NRRD: also write depth, object and kind");
+    app.add_flag("--uncompressed", command->uncompressed, "NRRD: write raw data, not gzip");
+    app.add_option("--dither", command->dither,
+                   "display formats: dithering, bayer8 (the default) or none");
+    app.add_option("--exposure", options.exposure,
+                   "display formats: exposure in stops, 0 by default")
         ->check(in_range(-64, 64));
     app.add_option(
         "--sweep", command->sweep,
-        "planes: the observer's axis that they are swept along, x, y (the default) or z");
-    app.add_option("--angles", device.angles, "rgb332, rgb565: angles of a turn")
+        "bit planes: the observer's axis along which they sweep: x, y (the default) or z");
+    app.add_option("--angles", options.angles, "rgb332, rgb565: number of angles in a turn")
         ->check(in_range(1, 65536, Number::whole));
-    app.add_option("--radii", device.radii, "rgb332, rgb565: voxels from the axis outwards")
+    app.add_option("--radii", options.radii,
+                   "rgb332, rgb565: number of voxels from the axis outwards")
         ->check(in_range(1, 65536, Number::whole));
     return [command] { return run(*command); };
 }

@@ -1,4 +1,5 @@
 // voxelume devices: what can render here, and why not otherwise.
+#include <fmt/format.h>
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <memory>
@@ -7,23 +8,10 @@
 #include <vector>
 
 #include "cli/commands.hpp"
-#include "runtime/base/error.hpp"
-#include "runtime/opencl/device.hpp"
+#include "runtime/voxelume.hpp"
 
 namespace voxelume::cli {
 namespace {
-
-const char* kind_name(DeviceKind kind) {
-    switch (kind) {
-        case DeviceKind::cpu:
-            return "cpu";
-        case DeviceKind::gpu:
-            return "gpu";
-        case DeviceKind::other:
-            break;
-    }
-    return "other";
-}
 
 std::string gigabytes(uint64_t bytes) {
     return fmt::format("{:.1f} GB", double(bytes) / 1e9);
@@ -33,20 +21,20 @@ void print_json(const std::vector<DeviceInfo>& devices, int chosen) {
     nlohmann::ordered_json list = nlohmann::ordered_json::array();
     for (const DeviceInfo& info : devices)
         list.push_back({{"index", info.index},
-                        {"kind", kind_name(info.kind)},
+                        {"kind", name_of(info.kind)},
                         {"name", info.name},
                         {"vendor", info.vendor},
                         {"platform", info.platform},
                         {"platform_version", info.platform_version},
                         {"version", info.version},
                         {"driver", info.driver},
-                        {"memory_bytes", info.memory},
-                        {"max_allocation_bytes", info.max_allocation},
+                        {"memory_bytes", info.memory_bytes},
+                        {"max_allocation_bytes", info.max_allocation_bytes},
                         {"compute_units", info.compute_units},
                         {"lanes", info.lanes},
-                        {"usable", info.unusable.empty()},
+                        {"usable", info.is_usable()},
                         {"chosen", info.index == chosen},
-                        {"unusable_because", info.unusable},
+                        {"unusable_because", info.unusable_because},
                         {"note", info.note}});
     const auto keep = nlohmann::ordered_json::error_handler_t::replace;  // names in any encoding
     fmt::print("{}\n", list.dump(2, ' ', false, keep));
@@ -58,8 +46,8 @@ void print_table(const std::vector<DeviceInfo>& devices, int chosen) {
                               "units", "lanes", "driver"}};
     for (const DeviceInfo& info : devices)
         rows.push_back({info.index == chosen ? "*" : "", std::to_string(info.index),
-                        kind_name(info.kind), info.name, info.platform, gigabytes(info.memory),
-                        gigabytes(info.max_allocation), std::to_string(info.compute_units),
+                        name_of(info.kind), info.name, info.platform, gigabytes(info.memory_bytes),
+                        gigabytes(info.max_allocation_bytes), std::to_string(info.compute_units),
                         std::to_string(info.lanes), info.driver});
     std::vector<size_t> widths(rows[0].size(), 0);
     for (const Row& row : rows)
@@ -72,7 +60,7 @@ void print_table(const std::vector<DeviceInfo>& devices, int chosen) {
         fmt::print("{}\n", line);
         if (number == 0) continue;
         const DeviceInfo& info = devices[number - 1];
-        if (!info.unusable.empty()) fmt::print("   not usable: {}\n", info.unusable);
+        if (!info.is_usable()) fmt::print("   not usable: {}\n", info.unusable_because);
         if (!info.note.empty()) fmt::print("   {}\n", info.note);
     }
     if (chosen >= 0)
@@ -97,7 +85,7 @@ int chosen_index(const std::vector<DeviceInfo>& devices) {
 
 Action add_devices(CLI::App& app) {
     auto json = std::make_shared<bool>(false);
-    app.add_flag("--json", *json, "all that is known of each device, as a JSON array");
+    app.add_flag("--json", *json, "print everything known of each device, as a JSON array");
     return [json]() -> int {
         const std::vector<DeviceInfo> devices = list_devices();
         const int chosen = chosen_index(devices);

@@ -1,15 +1,11 @@
 #include "cli/frame_files.hpp"
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
 #include <numeric>
 
 #include "cli/checks.hpp"
-#include "runtime/base/frame_list.hpp"
-#include "runtime/base/frame_path.hpp"
-#include "runtime/io/volume_file.hpp"
-#include "runtime/scene_file/scene_animation.hpp"
-#include "runtime/stages/display/display_frame.hpp"
 
 namespace voxelume::cli {
 namespace {
@@ -20,7 +16,7 @@ bool is_pattern(const std::string& path) {
 
 /// Whether an output without --frames asks for the whole animation: a name with #### does, but for
 /// slices, whose #### is left to their writer.
-bool wants_all_frames(const RenderOptions& options) {
+bool wants_all_frames(const RenderCommand& options) {
     return std::ranges::any_of(options.outputs, is_pattern) ||
            std::ranges::any_of(options.volumes, [](const std::string& path) {
                return is_pattern(path) && std::filesystem::path(path).extension() != ".png";
@@ -28,26 +24,58 @@ bool wants_all_frames(const RenderOptions& options) {
 }
 
 /// The frames of --frames, or else all of a moving scene, or one.
-std::vector<int> frames_of(const RenderOptions& options, const Scene& scene) {
+std::vector<int> frames_of(const RenderCommand& options, const Scene& scene) {
     if (!options.frames.empty()) return parse_frame_list(options.frames);
-    const bool all = moves(scene) && (wants_all_frames(options) || options.plan_only);
-    std::vector<int> frames(all ? size_t(scene.animation.frames) : 1);
+    const bool all = scene.moves() && (wants_all_frames(options) || options.plan_only);
+    std::vector<int> frames(all ? size_t(scene.frames()) : 1);
     std::iota(frames.begin(), frames.end(), 1);
     return frames;
 }
 
 }  // namespace
 
-std::vector<FrameFiles> frame_files(const RenderOptions& options, const Scene& scene) {
+const CLI::Option* add_render_options(CLI::App& app, RenderCommand& command) {
+    add_scene_options(app, command.scene);
+    app.add_option("-o,--output", command.outputs, "image file, .exr or .png; may be given again")
+        ->allow_extra_args(false);
+    app.add_option("--volume", command.volumes,
+                   "volumetric image of the scene's display: .vdb .exr .nrrd .raw, name.####.png "
+                   "or a display's own format; may be given again")
+        ->allow_extra_args(false);
+    const CLI::Option* frames = app.add_option(
+        "--frames", command.frames,
+        "frames to render, like 1-10,20,30-60x5; #### in an output's name becomes the number");
+    app.add_option("--exposure", command.exposure, "exposure of .png files, in stops")
+        ->check(in_range(-64, 64));
+    app.add_flag("--float", command.float_color,
+                 "write the colours of .exr files as 32-bit floats, not halves");
+    app.add_option(
+        "--channels", command.channels,
+        "channels of .exr files: some of RGBA,Z,P,N,objectId; without RGBA nothing is lit");
+    app.add_option("--stats-json", command.stats,
+                   "write counts, times and memory to this file, JSON (see cli/STATISTICS.md)");
+    app.add_flag("--dry-run", command.plan_only,
+                 "print what rendering needs, as `check` does, and stop");
+    app.add_flag("--no-overlap", command.one_by_one,
+                 "build, render and write one frame after another, in less memory; several devices "
+                 "always do so, each with its own frames");
+    app.add_flag("-v,--verbose", command.verbose,
+                 "print more: times of kernels, memory, a line for each frame");
+    app.add_flag("-q,--quiet", command.quiet, "print errors only");
+    return frames;
+}
+
+std::vector<FrameFiles> frame_files(const RenderCommand& options, const Scene& scene) {
     const std::vector<int> frames = frames_of(options, scene);
     const bool animation = !options.frames.empty() || frames.size() > 1;
     std::vector<FrameFiles> list;
     for (const int frame : frames) {
-        if (list.empty() || moves(scene)) list.push_back({frame, {}, {}});
+        if (list.empty() || scene.moves()) list.push_back({frame, {}, {}});
         for (const std::string& pattern : options.outputs)
-            list.back().images.push_back(frame_path(pattern, frame, animation));
+            list.back().images.emplace_back(frame_path(pattern, frame, animation));
         for (const std::string& pattern : options.volumes)
-            list.back().volumes.push_back(animation ? frame_path(pattern, frame, true) : pattern);
+            list.back().volumes.emplace_back(animation ? frame_path(pattern, frame, true)
+                                                       : pattern);
     }
     return list;
 }
@@ -59,10 +87,9 @@ std::vector<int> numbers_of(const std::vector<FrameFiles>& list) {
     return numbers;
 }
 
-void check_options(const RenderOptions& options) {
+void check_options(const RenderCommand& options) {
     if (options.outputs.empty() && options.volumes.empty() && !options.plan_only)
-        throw Error(ErrorKind::usage,
-                    "render: say where the image goes: -o image.exr, or --volume image.vdb");
+        fail_usage("render: say where the image goes: -o image.exr, or --volume image.vdb");
     const bool animation = !options.frames.empty();
     const int first = animation ? parse_frame_list(options.frames).front() : 1;
     for (const std::string& pattern : options.outputs)
@@ -71,13 +98,12 @@ void check_options(const RenderOptions& options) {
 }
 
 void check_files(const std::vector<FrameFiles>& list, const Scene& scene,
-                 const RenderOptions& options) {
+                 const RenderCommand& options) {
     std::vector<std::string> names{options.stats};
     for (const FrameFiles& files : list) {
-        names.insert(names.end(), files.images.begin(), files.images.end());
-        names.insert(names.end(), files.volumes.begin(), files.volumes.end());
-        for (const std::string& path : files.volumes)
-            check_volume_output(path, display_frame(scene));
+        for (const auto* paths : {&files.images, &files.volumes})
+            for (const std::filesystem::path& path : *paths) names.push_back(path.string());
+        for (const std::filesystem::path& path : files.volumes) check_volume_file(path, scene);
     }
     check_distinct(names, "render");
 }

@@ -6,13 +6,18 @@
 
 #include "cli/scene_options.hpp"
 
+// NOLINTNEXTLINE(readability-identifier-naming): the library's own name
+namespace CLI {
+class Option;
+}
+
 namespace voxelume::cli {
 
-struct RenderOptions {
+struct RenderCommand {
     SceneOptions scene;
     std::vector<std::string> outputs, volumes;
     std::string frames;
-    float exposure = 0;
+    double exposure = 0;
     bool float_color = false;
     std::string channels = "RGBA,Z,P,N,objectId";
     std::string stats;
@@ -22,26 +27,23 @@ struct RenderOptions {
     bool quiet = false;
 };
 
-/// A frame and the files that show it.
-struct FrameFiles {
-    int frame = 1;
-    std::vector<std::string> images, volumes;
-};
+/// Declares the options on `app`; returns that of --frames.
+const CLI::Option* add_render_options(CLI::App& app, RenderCommand& command);
 
 /// What is to be rendered: a frame each, or one for all where the world stands still. The frames
 /// are those of --frames, or else all of a moving scene, or one.
-std::vector<FrameFiles> frame_files(const RenderOptions& options, const Scene& scene);
+std::vector<FrameFiles> frame_files(const RenderCommand& options, const Scene& scene);
 
 std::vector<int> numbers_of(const std::vector<FrameFiles>& list);
 
 /// What can be said before the scene is read: that --frames are none, that a disk can't take the
 /// image. All frames of a pattern are in one folder, so the first ones stand for all. Throws
 /// Error::usage and Error::output.
-void check_options(const RenderOptions& options);
+void check_options(const RenderCommand& options);
 
 /// Refuses volumes of the wrong kind, and files that would be written over one another. Throws
 /// Error::usage and as check_volume_output does.
 void check_files(const std::vector<FrameFiles>& list, const Scene& scene,
-                 const RenderOptions& options);
+                 const RenderCommand& options);
 
 }  // namespace voxelume::cli

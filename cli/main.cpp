@@ -13,11 +13,8 @@
 #include <new>
 #include <thread>
 
+#include "cli/checks.hpp"
 #include "cli/commands.hpp"
-#include "runtime/base/error.hpp"
-#include "runtime/base/version.hpp"
-#include "runtime/io/image/exr.hpp"
-#include "runtime/scene_file/scene_fields.hpp"
 
 namespace voxelume::cli {
 
@@ -25,15 +22,15 @@ namespace {
 
 /// In the order in which a user meets them.
 constexpr std::array kCommands = {
-    Command{"devices", "list what can render here, and why not otherwise", add_devices},
-    Command{"render", "render the image of a scene", add_render},
-    Command{"check", "check a scene, and say what rendering it takes", add_check},
+    Command{"devices", "list the devices that can render, and say why others can't", add_devices},
+    Command{"render", "render a scene: images, volumetric images, animations", add_render},
+    Command{"check", "check a scene, and say what rendering it needs", add_check},
     Command{"voxelize", "turn a mesh into voxels: a model file or an OpenVDB volume", add_voxelize},
-    Command{"info", "say what is in a file: image, volume, model or mesh", add_info},
-    Command{"convert", "write a volumetric image as another format", add_convert},
-    Command{"view", "show a volumetric image: as a picture, or as a page to turn it in", add_view},
-    Command{"diff", "measure how far two images are from each other", add_diff},
-    Command{"stress", "hold what a device does against exact arithmetic", add_stress},
+    Command{"info", "describe a file: image, volume, model or mesh", add_info},
+    Command{"convert", "convert a volumetric image to another format", add_convert},
+    Command{"view", "show a volumetric image as a picture, or as a page to turn it in", add_view},
+    Command{"diff", "measure how far two images are apart", add_diff},
+    Command{"stress", "compare what a device computes with exact arithmetic", add_stress},
     Command{"bench", "measure run time against error", add_bench},
 };
 
@@ -42,15 +39,15 @@ constexpr const char* kExitCodes =
     "  0  done                               5  output that can't be written\n"
     "  1  rendering or a comparison failed   6  no device, or not the one asked for\n"
     "  2  wrong command line                 7  a kernel doesn't compile on the device\n"
-    "  3  invalid scene                      8  memory, or a documented limit\n"
+    "  3  invalid scene                      8  too little memory, or a limit\n"
     "  4  input that is missing, unreadable or damaged\n"
-    "  130  ended by Ctrl-C; `stress` first tells what it has found till then\n";
+    "  130  ended by Ctrl-C; `stress` first reports what it has found\n";
 
 int print_help() {
     fmt::print("voxelume {}: images of voxel worlds, flat and volumetric\n\n", version());
     fmt::print("Usage: voxelume COMMAND [OPTIONS], options in any order\n\nCommands:\n");
     for (const Command& command : kCommands) fmt::print("  {:<10}{}\n", command.name, command.help);
-    fmt::print("  {:<10}{}\n\n", "help", "say this, or `help COMMAND` for a command's options");
+    fmt::print("  {:<10}{}\n\n", "help", "print this, or a command's options: `help COMMAND`");
     fmt::print("{}", kExitCodes);
     return 0;
 }
@@ -61,7 +58,7 @@ const Command& find_command(const std::string& name) {
         if (name == command.name) return command;
         names.emplace_back(command.name);
     }
-    throw Error(ErrorKind::usage, "no command named {}{}", quote(name), suggest(name, names));
+    fail_usage("no command named {}{}", quote(name), suggest(name, names));
 }
 
 /// The first option or argument that `app` doesn't know, as part of a sentence.
@@ -85,17 +82,15 @@ int run_command(const Command& command, std::vector<std::string> arguments) {
         fmt::print("{}", app.help());
         return 0;
     } catch (const CLI::ExtrasError&) {
-        throw Error(ErrorKind::usage, "{}: {}", command.name, describe_extra(app));
+        fail_usage("{}: {}", command.name, describe_extra(app));
     } catch (const CLI::ParseError& error) {
-        throw Error(ErrorKind::usage, "{}: {}; see `voxelume help {}`", command.name, error.what(),
-                    command.name);
+        fail_usage("{}: {}; see `voxelume help {}`", command.name, error.what(), command.name);
     }
     return action();
 }
 
 int run(std::vector<std::string> arguments) {
-    if (arguments.empty())
-        throw Error(ErrorKind::usage, "a command is missing; `voxelume help` lists them");
+    if (arguments.empty()) fail_usage("a command is missing; `voxelume help` lists them");
     const std::string first = arguments.front();
     arguments.erase(arguments.begin());
     if (first == "--version") {
@@ -106,15 +101,15 @@ int run(std::vector<std::string> arguments) {
     if (asks_for_help && arguments.empty()) return print_help();
     if (asks_for_help) return run_command(find_command(arguments.front()), {"--help"});
     if (first.starts_with('-'))
-        throw Error(ErrorKind::usage, "the command comes before its options: voxelume COMMAND {}",
-                    first);
+        fail_usage("the command comes before its options: voxelume COMMAND {}", first);
     return run_command(find_command(first), std::move(arguments));
 }
 
 /// What was printed has to have arrived: `voxelume info x >/dev/full` has failed.
 void flush_stdout() {
     if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
-        throw Error(ErrorKind::output, "can't write to standard output: {}", std::strerror(errno));
+        throw Error(ErrorKind::output,
+                    fmt::format("can't write to standard output: {}", std::strerror(errno)));
 }
 
 /// One line that can't steer the terminal, whatever is in a file's name; a compiler's log has more.
@@ -150,8 +145,10 @@ int main(int count, char** arguments) {
     // A file that reaches `ulimit -f` is a failed write like any other, not the end of the process.
     std::signal(SIGXFSZ, SIG_IGN);
     cli::keep_freed_memory();
-    voxelume::set_exr_threads(int(std::thread::hardware_concurrency()));
     try {
+        voxelume::configure({.set_driver_environment = true,
+                             .isolate_readers = true,
+                             .image_threads = int(std::thread::hardware_concurrency())});
         const int code = cli::run({arguments + (count > 0 ? 1 : 0), arguments + count});
         cli::flush_stdout();
         return code;

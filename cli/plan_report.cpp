@@ -1,12 +1,10 @@
+// What rendering a scene takes, for people and programs.
 #include <fmt/format.h>
 
 #include <cmath>
 
 #include "cli/report.hpp"
 #include "cli/scene_options.hpp"
-#include "runtime/analysis/culling.hpp"
-#include "runtime/memory/frame_plans.hpp"
-#include "runtime/scene_file/scene_animation.hpp"
 
 namespace voxelume::cli {
 namespace {
@@ -24,87 +22,67 @@ uint64_t count(double estimate) {
     return uint64_t(std::llround(estimate));
 }
 
-Report grid_row(const Scene& scene, const GridPlan& grid) {
-    const std::string& name = grid.object < 0 ? scene.models[size_t(grid.model)].name
-                                              : scene.objects[size_t(grid.object)].name;
-    return {{"grid", fmt::format("{} {}", grid.object < 0 ? "model" : "object", name)},
-            {"voxels", size_text(grid.frame.size)},
-            {"triangles", grid.triangles},
-            {"surface voxels", count(grid.voxels)},
-            {"bricks", count(grid.bricks)},
-            {"MB while made", megabytes(grid.made_bytes)},
-            {"MB kept", megabytes(grid.kept_bytes)}};
+Report grid_row(const GridPlan& grid) {
+    Report row = {{"grid", grid.name},
+                  {"voxels", fmt::format("{}", fmt::join(grid.size, "x"))},
+                  {"triangles", nullptr},
+                  {"surface voxels", count(grid.surface_voxels)},
+                  {"bricks", count(grid.bricks)},
+                  {"MB while made", megabytes(grid.made_bytes)},
+                  {"MB kept", megabytes(grid.kept_bytes)}};
+    if (grid.triangles) row["triangles"] = *grid.triangles;
+    return row;
 }
 
-Report plan_report(const Scene& scene, const ScenePlan& plan, const Device& device) {
+Report plan_report(const Plan& plan, const Device& device) {
     Report report;
     report["grids"] = Report::array();
-    for (const GridPlan& grid : plan.grids) report["grids"].push_back(grid_row(scene, grid));
-    report["grids"].push_back({{"grid", "world"},
-                               {"voxels", size_text(plan.world.size)},
-                               {"triangles", nullptr},
-                               {"surface voxels", count(plan.voxels)},
-                               {"bricks", count(plan.bricks)},
-                               {"MB while made", megabytes(plan.index_bytes)},
-                               {"MB kept", megabytes(plan.world_bytes)}});
+    for (const GridPlan& grid : plan.grids) report["grids"].push_back(grid_row(grid));
     report["device"] = device.info().name;
     report["stages"] = Report::array();
-    const auto add = [&](const char* stage, double bytes) {
+    for (const StagePlan& stage : plan.stages)
         report["stages"].push_back(
-            {{"stage", stage},
-             {"MB", megabytes(bytes)},
-             {"% of device", three_digits(bytes / double(device.info().memory) * 100)}});
-    };
-    add("voxelize", plan.voxelize_bytes);
-    add("place", plan.place_bytes);
-    add("index", plan.index_bytes);
-    add("image", plan.image_bytes);
-    BufferPlan largest = plan.largest;
-    for (const GridPlan& grid : plan.grids) keep_larger(largest, grid.largest);
-    report["largest buffer"] = bytes_text(largest.bytes);
+            {{"stage", stage.name},
+             {"MB", megabytes(stage.bytes)},
+             {"% of device", three_digits(stage.bytes / plan.device_bytes * 100)}});
+    report["largest buffer"] = bytes_text(plan.largest_buffer_bytes);
     report["main memory"] = bytes_text(plan.host_bytes);
     return report;
 }
 
 /// What the text ends with, for programs.
-void add_verdict(const FramePlan& planned, size_t frames, const DeviceInfo& device,
-                 Report& report) {
-    const double memory = double(device.memory), peak = planned.plan.run_bytes(frames, memory);
-    report["verdict"] = is_refused(planned, device) ? "doesn't fit"
-                        : peak <= memory            ? "fits"
-                                                    : "may fit";
-    report["volume MB"] = megabytes(planned.plan.volume_bytes);
-    report["least MB"] = megabytes(planned.plan.min_bytes);
-    report["most MB"] = megabytes(peak);
-    report["device MB"] = megabytes(memory);
+void add_verdict(const Plan& plan, Report& report) {
+    report["verdict"] = name_of(plan.verdict);
+    report["least MB"] = megabytes(plan.min_bytes);
+    report["most MB"] = megabytes(plan.max_bytes);
+    report["device MB"] = megabytes(plan.device_bytes);
+}
+
+void print_verdict(const Plan& plan, bool is_of_frames) {
+    const std::string of_frames = is_of_frames ? fmt::format(" by frame {}", plan.frame) : "";
+    const std::string needed = plan.verdict == Verdict::fits
+                                   ? fmt::format("fits: at most {}", bytes_text(plan.max_bytes))
+                                   : fmt::format("may fit: {} to {}", bytes_text(plan.min_bytes),
+                                                 bytes_text(plan.max_bytes));
+    fmt::print("\n{} of {} are needed{}; counts and memory are estimates\n", needed,
+               bytes_text(plan.device_bytes), of_frames);
 }
 
 }  // namespace
 
-void print_plan(Scene scene, std::span<const int> frames, const Device& device,
-                const ModelCache& cache, bool as_json) {
-    check_tables(scene, device.info());
-    AssetStore meshes(cache);
-    find_potentially_visible(scene, frames, meshes);
-    const FramePlan planned = plan_frames(scene, frames, meshes, device.info());
-    if (!as_json) fmt::print("{}\n", describe(scene));
-    Report report = plan_report(planned.scene, planned.plan, device);
-    if (moves(scene)) report["frame"] = planned.frame;
-    if (as_json) add_verdict(planned, frames.size(), device.info(), report);
+void print_plan(const Scene& scene, const Device& device, const PlanOptions& options,
+                bool as_json) {
+    const Plan plan = voxelume::plan(scene, device, options);
+    if (!as_json) fmt::print("{}\n", scene.describe());
+    Report report = plan_report(plan, device);
+    if (scene.moves()) report["frame"] = plan.frame;
+    if (as_json) add_verdict(plan, report);
     print_report(report, as_json);
-    in_frame(scene, planned.frame,
-             [&] { check_memory(planned.scene, planned.plan, device.info()); });
+    if (plan.refusal) throw *plan.refusal;
     if (as_json) return;
-    const std::string of_frames =
-        frames.size() > 1 ? fmt::format(" by frame {}", planned.frame) : "";
-    const double memory = double(device.info().memory),
-                 peak = planned.plan.run_bytes(frames.size(), memory);
-    const std::string needed =
-        peak <= memory ? fmt::format("fits: at most {}", bytes_text(peak))
-                       : fmt::format("may fit: {} to {}", bytes_text(planned.plan.min_bytes),
-                                     bytes_text(peak));
-    fmt::print("\n{} of {} are needed{}; counts and memory are estimates\n", needed,
-               bytes_text(memory), of_frames);
+    const size_t frames =
+        options.frames.empty() ? size_t(scene.moves() ? scene.frames() : 1) : options.frames.size();
+    print_verdict(plan, frames > 1);
 }
 
 }  // namespace voxelume::cli

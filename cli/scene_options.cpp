@@ -3,31 +3,34 @@
 #include <CLI/CLI.hpp>
 
 #include "cli/checks.hpp"
-#include "runtime/base/error.hpp"
 
 namespace voxelume::cli {
+
 void add_scene_options(CLI::App& app, SceneOptions& options) {
-    app.add_option("SCENE", options.scene, "the scene, JSON (see scenes/README.md)")->required();
-    app.add_option("--assets", options.assets, "folder of models that the scene names")
+    app.add_option("SCENE", options.scene, "scene file, JSON (see scenes/README.md)")->required();
+    app.add_option("--assets", options.assets,
+                   "folder to look for the scene's models in; may be given again")
         ->allow_extra_args(false);
-    app.add_option("--size", options.size, "WIDTHxHEIGHT in pixels, instead of the scene's");
-    app.add_option("--samples", options.samples, "samples per pixel, instead of the scene's")
+    app.add_option("--size", options.size,
+                   "image size, WIDTHxHEIGHT in pixels; replaces the scene's");
+    app.add_option("--samples", options.samples, "samples per pixel; replaces the scene's")
         ->check(in_range(1, 4096, Number::whole));
-    app.add_option("--device", options.device,
-                   "auto, cpu, gpu, a number, part of a name, or all to share frames and tiles");
-    app.add_flag("--no-cache", options.no_cache, "neither read nor keep models' voxels on disk");
+    app.add_option(
+        "--device", options.device,
+        "device: auto, cpu, gpu, a number, part of a name, or all to share frames and tiles");
+    app.add_flag("--no-cache", options.no_cache,
+                 "neither read nor write the cache of models and worlds");
 }
 
-ModelCache model_cache(const SceneOptions& options) {
-    return options.no_cache ? ModelCache() : ModelCache::of_user();
+CacheOptions cache_options(const SceneOptions& options) {
+    return {.enabled = !options.no_cache};
 }
 
 Scene read_with(const SceneOptions& options, const char* command) {
-    const glm::ivec2 size =
-        options.size.empty() ? glm::ivec2(0) : parse_size(options.size, command);
-    Scene scene = read_scene(options.scene, asset_folders(options.assets));
-    if (size.x != 0) resize(scene, size);
-    if (options.samples != 0) scene.render.samples = options.samples;
+    const Size size = options.size.empty() ? Size{} : parse_size(options.size, command);
+    Scene scene = Scene::load(options.scene, {options.assets});
+    if (size[0] != 0) scene = scene.with_size(size);
+    if (options.samples != 0) scene = scene.with_samples(options.samples);
     return scene;
 }
 

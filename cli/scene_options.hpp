@@ -2,13 +2,10 @@
 #pragma once
 
 #include <filesystem>
-#include <span>
 #include <string>
 #include <vector>
 
-#include "runtime/assets/model_cache.hpp"
-#include "runtime/opencl/device.hpp"
-#include "runtime/scene/scene.hpp"
+#include "runtime/voxelume.hpp"
 
 // NOLINTNEXTLINE(readability-identifier-naming): the library's own name
 namespace CLI {
@@ -32,13 +29,12 @@ void add_scene_options(CLI::App& app, SceneOptions& options);
 Scene read_with(const SceneOptions& options, const char* command);
 
 /// The user's cache of models, unless --no-cache was given.
-ModelCache model_cache(const SceneOptions& options);
+CacheOptions cache_options(const SceneOptions& options);
 
-/// Says what a scene holds and what rendering takes on a device, on stdout, of its `frames` the one
+/// Says what a scene holds and what rendering takes on a device, on stdout, of the frames the one
 /// that takes the most, and whether all fit.
 ///
 /// Throws Error::limit when one doesn't, after saying why.
-void print_plan(Scene scene, std::span<const int> frames, const Device& device,
-                const ModelCache& cache, bool as_json);
+void print_plan(const Scene& scene, const Device& device, const PlanOptions& options, bool as_json);
 
 }  // namespace voxelume::cli

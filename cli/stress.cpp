@@ -12,9 +12,7 @@
 #include "cli/checks.hpp"
 #include "cli/commands.hpp"
 #include "cli/progress.hpp"
-#include "runtime/base/error.hpp"
-#include "runtime/opencl/device.hpp"
-#include "runtime/verify/stress/stress.hpp"
+#include "runtime/voxelume_verify.hpp"
 
 namespace voxelume::cli {
 namespace {
@@ -42,18 +40,16 @@ struct StressCommand {
     bool quiet = false;
 };
 
-std::vector<const StressTest*> chosen_tests(const std::vector<std::string>& only) {
-    std::vector<const StressTest*> chosen;
+/// Each once, in the order in which they are named; all without names.
+std::vector<StressTest> chosen_tests(const std::vector<std::string>& only) {
+    const std::vector<StressTest> tests = stress_tests();
+    if (only.empty()) return tests;
+    std::vector<StressTest> chosen;
     std::vector<std::string_view> names;
-    for (const StressTest& test : stress_tests()) {
-        names.push_back(test.name);
-        if (only.empty()) chosen.push_back(&test);
-    }
-    for (const std::string& name : chosen_names(only, names, "stress", "test")) {
-        const auto known = std::ranges::find(names, name);
-        const StressTest* test = &stress_tests()[size_t(known - names.begin())];
-        if (std::ranges::find(chosen, test) == chosen.end()) chosen.push_back(test);
-    }
+    for (const StressTest& test : tests) names.push_back(test.name);
+    for (const std::string& name : chosen_names(only, names, "stress", "test"))
+        if (std::ranges::find(chosen, name, &StressTest::name) == chosen.end())
+            chosen.push_back(tests[size_t(std::ranges::find(names, name) - names.begin())]);
     return chosen;
 }
 
@@ -106,13 +102,18 @@ StressResult run_test(const StressTest& test, const StressCommand& command, cons
             Progress bar(fmt::format("{} {} of {}", test.name, done / at_once + 1,
                                      (count + at_once - 1) / at_once),
                          now, stderr, command.quiet);
-            part = test.run({device, command.seed, command.first + done, now,
-                             [&bar](uint64_t cases) { bar.advance(cases); },
-                             [] { return is_interrupted != 0; }});
+            std::stop_source stop;
+            const auto advance = [&](uint64_t cases) {
+                bar.advance(cases);
+                if (is_interrupted) stop.request_stop();
+            };
+            part = run_stress(test.name, device,
+                              {command.seed, command.first + done, now, advance, stop.get_token()});
         }
         all.cases += part.cases;
         all.mismatches += part.mismatches;
-        part.examples.resize(std::min(part.examples.size(), kMaxExamples - all.examples.size()));
+        part.examples.resize(
+            std::min(part.examples.size(), kMaxStressExamples - all.examples.size()));
         all.examples.insert(all.examples.end(), part.examples.begin(), part.examples.end());
         print_examples(test, part.examples, command);
     }
@@ -125,21 +126,21 @@ StressResult run_test(const StressTest& test, const StressCommand& command, cons
 }
 
 int run(const StressCommand& command) {
-    const std::vector<const StressTest*> tests = chosen_tests(command.only);
+    const std::vector<StressTest> tests = chosen_tests(command.only);
     wait_for_interrupt();
     const Device device = Device::open(command.device);
     if (!command.quiet)
         fmt::print(stderr, "\"{}\", {} lanes, seed {}\n", device.info().name, device.lanes(),
                    command.seed);
     uint64_t cases = 0, mismatches = 0;
-    for (const StressTest* test : tests) {
+    for (const StressTest& test : tests) {
         if (is_interrupted) break;
-        const StressResult result = run_test(*test, command, device);
+        const StressResult result = run_test(test, command, device);
         cases += result.cases;
         mismatches += result.mismatches;
     }
     if (is_interrupted) {
-        fmt::print(stderr, "interrupted: {} cases till then, {} mismatches\n", cases, mismatches);
+        fmt::print(stderr, "interrupted after {} cases, {} mismatches\n", cases, mismatches);
         return kInterruptedCode;
     }
     return mismatches == 0 ? 0 : 1;
@@ -147,7 +148,7 @@ int run(const StressCommand& command) {
 
 std::string list_of_tests() {
     std::string list =
-        "of these tests only, each once: a name, or names with commas; may be given again:";
+        "run only these tests: a name, or names separated by commas; may be given again:";
     for (const StressTest& test : stress_tests())
         list += fmt::format("\n{:<12}{}", test.name, test.help);
     return list;
@@ -158,16 +159,17 @@ std::string list_of_tests() {
 Action add_stress(CLI::App& app) {
     const auto command = std::make_shared<StressCommand>();
     app.add_option("--rays", command->rays,
-                   "rays of every class, 1e6 without; other tests try in proportion")
+                   "rays of every class, 1e6 by default; other tests scale with it")
         ->check(in_range(1, 1e15));
-    app.add_option("--seed", command->seed, "of the cases, 1 without")
+    app.add_option("--seed", command->seed, "seed of the cases, 1 by default")
         ->check(in_range(0, 1e18, Number::whole));
     app.add_option("--only", command->only, list_of_tests())->allow_extra_args(false);
-    app.add_option("--first", command->first, "number of the first case, to try one again")
+    app.add_option("--first", command->first, "number of the first case, to repeat one")
         ->check(in_range(0, 1e18, Number::whole));
-    app.add_option("--device", command->device, "auto, cpu, gpu, a number, or part of a name")
+    app.add_option("--device", command->device,
+                   "device: auto, cpu, gpu, a number, or part of a name")
         ->check(one_device);
-    app.add_flag("-q,--quiet", command->quiet, "no progress bar");
+    app.add_flag("-q,--quiet", command->quiet, "print no progress bar");
     return [command] { return run(*command); };
 }
 

@@ -4,22 +4,21 @@
 // coordinates are exact, so a point on voxels' edges belongs to all of them. A mask of one bit for
 // every voxel of the lattice, by place x + size_x (y + size_y z), tells which are shown; the voxels
 // of 256 bits are numbered from their group's start.
+#include "lib/display/depth.h"
+#include "lib/display/probe.h"
+#include "lib/display/voxels.h"
 #include "lib/lanes/exact_exp.h"
 #include "lib/lanes/fixed_point.h"
 #include "lib/lanes/vector.h"
 #include "lib/lanes/work_item.h"
+#include "lib/light/paths.h"
+#include "lib/traverse/ray_batch.h"
 #include "shared/display.h"
 #include "shared/scene.h"
 #include "shared/trace.h"
 #include "shared/voxel.h"
 
 #define VXL_GROUP_WORDS 8
-
-// How far in front of a probe point another surface must be to hide it, in lattice voxels.
-#define VXL_HIDING_DISTANCE 0.0625f
-
-// How far before its probe point a voxel's light ray begins, and how far behind it may end.
-#define VXL_LIGHT_DISTANCE 1.0f
 
 // The least part of a surface's light that is taken back out of the medium before it. The medium's
 // own light has three roundings of 2^-24 by then, and dividing by this makes 18 % of it of them:
@@ -82,103 +81,21 @@ static inline float3 load_point(global const float* points, uint total, uint n) 
 /// view already are idle; rays then end where the point would be hidden. Without, they begin
 /// shortly before the point and end shortly behind it.
 kernel void aim_rays(Camera camera, PyramidShape shape, DisplayLattice lattice,
-                     global const float4* restrict views, global const float* restrict points,
-                     uint total, global const uint* restrict view_of_point, uint search,
+                     global const float4* restrict views, VXL_POINTS_PARAMETERS, uint search,
                      uint first_point, uint count, uint stride, global float* restrict rays) {
     const uint first = work_item() * VXL_LANES;
     if (first >= count) return;
-    const lane_float x = LANES_LOAD(points, first_point + first);
-    const lane_float y = LANES_LOAD(points, total + first_point + first);
-    const lane_float z = LANES_LOAD(points, 2 * total + first_point + first);
-    const lane_uint known = LANES_LOAD(view_of_point, first_point + first);
+    const ProbePoints all = VXL_POINTS;
+    const Vector at = load_vector(all.points + first_point, all.total, first);
+    const lane_uint known = LANES_LOAD(all.views, first_point + first);
     lane_int aimed = LANE_MASK(LANES_NUMBERS + (int)first < (int)count);
     const lane_int has_view = LANE_MASK(known != 0xFFFFFFFFu);
     aimed &= search ? ~has_view : has_view;
     const lane_uint view = (search ? (lane_uint)(search - 1u) : known) & LANES_AS_UINT(aimed);
-    const Vector p = {fma(x, lattice.axis_x.x,
-                          fma(y, lattice.axis_y.x, fma(z, lattice.axis_z.x, lattice.origin.x))),
-                      fma(x, lattice.axis_x.y,
-                          fma(y, lattice.axis_y.y, fma(z, lattice.axis_z.y, lattice.origin.y))),
-                      fma(x, lattice.axis_x.z,
-                          fma(y, lattice.axis_y.z, fma(z, lattice.axis_z.z, lattice.origin.z)))};
-
-    // From E: `way` leads from where the ray begins to the point, `near` is the part of it before
-    // the display.
-    const float4 edge = shape.edge, ahead = camera.axis_z;
-    const Vector eye = {p.x - camera.origin.x - camera.origin_low.x,
-                        p.y - camera.origin.y - camera.origin_low.y,
-                        p.z - camera.origin.z - camera.origin_low.z};
-    const Vector metres = {eye.x * edge.x, eye.y * edge.y, eye.z * edge.z};
-    const lane_float depth = fma(metres.x, ahead.x * edge.x,
-                                 fma(metres.y, ahead.y * edge.y, metres.z * (ahead.z * edge.z)));
-    Vector way = eye;
-    lane_float length = exact_sqrt(dot_product(metres, metres));
-    if (camera.shape == VXL_SHAPE_PYRAMID) {
-        const lane_float whole = depth + camera.lead;
-        const lane_float part =
-            exact_divide(depth, LANES_SELECT(LANE_MASK(whole > 0.0f), whole, (lane_float)1.0f));
-        way.x = fma((lane_float)ahead.x, (lane_float)camera.lead, eye.x) * part;
-        way.y = fma((lane_float)ahead.y, (lane_float)camera.lead, eye.y) * part;
-        way.z = fma((lane_float)ahead.z, (lane_float)camera.lead, eye.z) * part;
-        length = depth;
-    } else if (camera.shape == VXL_SHAPE_BOX) {
-        way.x = ahead.x * depth, way.y = ahead.y * depth, way.z = ahead.z * depth;
-        length = depth;
-    }
-    lane_int is_ahead = LANE_MASK(length > 0.0f);
-    lane_float near = exact_divide((lane_float)camera.near_plane,
-                                   LANES_SELECT(is_ahead, length, (lane_float)1.0f));
-    const lane_int parallel = LANE_MASK(view != 0u);
-    if (lanes_any(parallel)) {
-        global const float* numbers = (global const float*)views;
-        const Vector along = {LANES_GATHER_FLOAT(numbers, view * 4u),
-                              LANES_GATHER_FLOAT(numbers, view * 4u + 1u),
-                              LANES_GATHER_FLOAT(numbers, view * 4u + 2u)};
-        way = select_vector(parallel, along, way);
-        near = LANES_SELECT(parallel, (lane_float)0.0f, near);
-        is_ahead |= parallel;
-    }
-    aimed &= is_ahead;
-    way.x = LANES_SELECT(aimed, way.x, (lane_float)1.0f);
-    const lane_float scale = power_of_two_scale(way.x, way.y, way.z);
-    const Vector d = {snap_direction(way.x * scale), snap_direction(way.y * scale),
-                      snap_direction(way.z * scale)};
-    const lane_float t_point = exact_reciprocal(scale);
-    const Vector o = {p.x - way.x, p.y - way.y, p.z - way.z};
-    // Lattice voxels that a unit of t passes along the fastest axis.
-    const lane_float rate = fmax(
-        fabs(fma(d.x, lattice.row_x.x, fma(d.y, lattice.row_x.y, d.z * lattice.row_x.z))),
-        fmax(fabs(fma(d.x, lattice.row_y.x, fma(d.y, lattice.row_y.y, d.z * lattice.row_y.z))),
-             fabs(fma(d.x, lattice.row_z.x, fma(d.y, lattice.row_z.y, d.z * lattice.row_z.z)))));
-    const lane_float per_voxel = exact_reciprocal(rate);
-    lane_float t_first = near * t_point, t_last;
-    if (search) {
-        t_last = t_point - VXL_HIDING_DISTANCE * per_voxel;
-    } else {
-        t_first = fmax(t_first, t_point - VXL_LIGHT_DISTANCE * per_voxel);
-        t_first = fmin(t_first, t_point - VXL_HIDING_DISTANCE * per_voxel);
-        t_last = t_point + VXL_LIGHT_DISTANCE * per_voxel;
-    }
-    lane_float t_out = t_last;
-    clip_to_world(o, d, shape.size_x, shape.size_y, shape.size_z, &t_first, &t_out);
-    aimed &= LANE_MASK(t_first <= t_out);
-    t_first = LANES_SELECT(aimed, t_first, (lane_float)0.0f);
-    const lane_float zero = (lane_float)0.0f;
-    const float fixed = shape.fixed_point;
-    LANES_STORE(
-        snap_position(clamp(fma(d.x, t_first, o.x), 0.0f, (float)shape.size_x), zero, fixed), rays,
-        VXL_RAY_OX * stride + first);
-    LANES_STORE(
-        snap_position(clamp(fma(d.y, t_first, o.y), 0.0f, (float)shape.size_y), zero, fixed), rays,
-        VXL_RAY_OY * stride + first);
-    LANES_STORE(
-        snap_position(clamp(fma(d.z, t_first, o.z), 0.0f, (float)shape.size_z), zero, fixed), rays,
-        VXL_RAY_OZ * stride + first);
-    LANES_STORE(d.x, rays, VXL_RAY_DX * stride + first);
-    LANES_STORE(d.y, rays, VXL_RAY_DY * stride + first);
-    LANES_STORE(d.z, rays, VXL_RAY_DZ * stride + first);
-    LANES_STORE(LANES_SELECT(aimed, t_last - t_first, (lane_float)-1.0f), rays,
-                VXL_RAY_END * stride + first);
+    ProbeWay way = way_from_eye(&camera, shape.edge, point_in_world(&lattice, at));
+    look_along_views(views, view, &way);
+    way.aimed &= aimed;
+    store_ways(shape, &lattice, &way, search, rays, stride, first);
 }
 
 /// Gives `view` to the points first_point .. first_point+count-1 that have none and that nothing
@@ -193,12 +110,10 @@ kernel void note_view(global const uint* restrict hits, global const float* rest
     if (is_clear) view_of_point[first_point + n] = view;
 }
 
-/// Marks the voxels of points 0 .. count-1 that have a view.
-kernel void mark_shown(DisplayLattice lattice, global const float* restrict points, uint total,
-                       global const uint* restrict view_of_point, uint count,
-                       global uint* restrict mask) {
+/// Marks the voxels of the points that have a view.
+kernel void mark_shown(DisplayLattice lattice, VXL_POINTS_PARAMETERS, global uint* restrict mask) {
     const uint n = work_item();
-    if (n >= count || view_of_point[n] == 0xFFFFFFFFu) return;
+    if (n >= point_count || view_of_point[n] == 0xFFFFFFFFu) return;
     const float3 point = load_point(points, total, n);
     for (uint which = 0; which < 8; ++which) {
         const int4 v = voxel_at(&lattice, point, which);
@@ -243,13 +158,12 @@ static inline uint number_of(global const uint* mask, global const uint* starts,
 /// Chooses for every voxel the point with a view that lies nearest to its middle; of equals, the
 /// one with the lowest number. In two turns over all points, the first of which has number
 /// `first_number`: 0 finds the least distance, 1 the lowest number at that.
-kernel void choose_points(DisplayLattice lattice, global const float* restrict points, uint total,
-                          global const uint* restrict view_of_point, uint count, uint first_number,
+kernel void choose_points(DisplayLattice lattice, VXL_POINTS_PARAMETERS, uint first_number,
                           global const uint* restrict mask, global const uint* restrict starts,
                           uint turn, global uint* restrict distances,
                           global uint* restrict numbers) {
     const uint n = work_item();
-    if (n >= count || view_of_point[n] == 0xFFFFFFFFu) return;
+    if (n >= point_count || view_of_point[n] == 0xFFFFFFFFu) return;
     const float3 point = load_point(points, total, n);
     for (uint which = 0; which < 8; ++which) {
         const int4 v = voxel_at(&lattice, point, which);
@@ -266,15 +180,14 @@ kernel void choose_points(DisplayLattice lattice, global const float* restrict p
     }
 }
 
-/// Copies to voxels 0 .. voxels-1 their points and views, those that are among points 0 .. count-1.
-kernel void take_points(global const float* restrict points, uint total,
-                        global const uint* restrict view_of_point, uint count, uint first_number,
+/// Copies to voxels 0 .. voxels-1 their points and views, those that are among these points.
+kernel void take_points(VXL_POINTS_PARAMETERS, uint first_number,
                         global const uint* restrict numbers, uint voxels, uint voxel_stride,
                         global float* restrict voxel_points, global uint* restrict voxel_views) {
     const uint voxel = work_item();
     if (voxel >= voxels) return;
     const uint n = numbers[voxel] - first_number;
-    if (n >= count) return;
+    if (n >= point_count) return;
     for (uint axis = 0; axis < 3; ++axis)
         voxel_points[axis * voxel_stride + voxel] = points[axis * total + n];
     voxel_views[voxel] = view_of_point[n];
@@ -283,47 +196,37 @@ kernel void take_points(global const float* restrict points, uint total,
 /// Takes the light of rays 0 .. count-1 to their voxels: ray n was aimed at the point of voxel
 /// targets[first_voxel + n], or of voxel first_voxel + n when it is not `listed`. Where a ray
 /// passes by its surface, the voxel gets object 0. The medium between the ray's start and the
-/// surface counts as air. A surface that lets light through has covered `coverage` of it, and
-/// `radiance` is its own.
+/// surface counts as air. Where surfaces let light through, the nodes hold its own light and
+/// coverage.
 kernel void keep_light(Camera camera, PyramidShape shape, Environment environment,
-                       global const float* restrict rays, global const uint* restrict hits,
-                       global const float* restrict positions,
-                       global const uint* restrict hit_attributes,
-                       global const float* restrict radiance, global const float* restrict coverage,
-                       uint light_stride, global const uint* restrict targets, uint listed,
-                       uint first_voxel, uint count, uint stride, global float* restrict colors,
-                       global float* restrict opacities, global float* restrict depths,
-                       global uint* restrict objects) {
+                       VXL_BATCH_PARAMETERS, VXL_NODE_PARAMETERS,
+                       global const uint* restrict targets, uint listed, uint first_voxel,
+                       uint count, VXL_VOXEL_PARAMETERS) {
     const uint first = work_item() * VXL_LANES;
     if (first >= count) return;
+    const RayBatch batch = VXL_BATCH;
+    const NodeLight nodes = VXL_NODES;
+    const VoxelArrays voxels = VXL_VOXELS;
     lane_int hit = LANE_MASK(LANES_LOAD(hits, VXL_HIT_VOXEL * stride + first) != VXL_NO_VOXEL);
     lane_float opacity = (lane_float)1.0f;
     if (VXL_TRANSMISSION) {
-        opacity = LANES_LOAD(coverage, first);
+        opacity = LANES_LOAD(nodes.coverage, first);
         hit &= LANE_MASK(opacity > 0.0f);
         opacity = LANES_SELECT(hit, opacity, (lane_float)1.0f);
     }
     const Vector p = load_vector(positions, stride, first);
-    const float4 edge = shape.edge, ahead = camera.axis_z;
-    const Vector metres = {(p.x - camera.origin.x - camera.origin_low.x) * edge.x,
-                           (p.y - camera.origin.y - camera.origin_low.y) * edge.y,
-                           (p.z - camera.origin.z - camera.origin_low.z) * edge.z};
-    lane_float depth = exact_sqrt(dot_product(metres, metres));
-    if (camera.shape == VXL_SHAPE_PYRAMID || camera.shape == VXL_SHAPE_BOX)
-        depth = camera.lead + fma(metres.x, ahead.x * edge.x,
-                                  fma(metres.y, ahead.y * edge.y, metres.z * (ahead.z * edge.z)));
     lane_float path = (lane_float)0.0f;
     if (VXL_MEDIUM) {
-        const Vector d = load_vector(rays + VXL_RAY_DX * stride, stride, first);
+        const Vector d = load_vector(batch.rays + VXL_RAY_DX * stride, stride, first);
         const lane_float t = LANES_AS_FLOAT(LANES_LOAD(hits, VXL_HIT_T * stride + first));
-        path = LANES_SELECT(hit, t, (lane_float)0.0f) * metres_per_t(edge, d);
+        path = LANES_SELECT(hit, t, (lane_float)0.0f) * metres_per_t(shape.edge, d);
     }
     const float absorption[3] = {environment.absorption.x, environment.absorption.y,
                                  environment.absorption.z};
     const float color[3] = {environment.color.x, environment.color.y, environment.color.z};
-    float shown[5 * VXL_LANES];
+    VoxelValues values;
     for (uint channel = 0; channel < 3; ++channel) {
-        lane_float value = LANES_LOAD(radiance, channel * light_stride + first);
+        lane_float value = LANES_LOAD(nodes.radiance, channel * nodes.stride + first);
         if (VXL_MEDIUM) {
             const lane_float transmittance =
                 fmax(exact_exp(-absorption[channel] * path), VXL_MIN_TRANSMITTANCE);
@@ -332,19 +235,14 @@ kernel void keep_light(Camera camera, PyramidShape shape, Environment environmen
                      0.0f);
         }
         if (VXL_TRANSMISSION) value = exact_divide(value, opacity);
-        LANES_STORE(LANES_SELECT(hit, value, (lane_float)0.0f), shown, channel * VXL_LANES);
+        LANES_STORE(LANES_SELECT(hit, value, (lane_float)0.0f), values.color, channel * VXL_LANES);
     }
-    LANES_STORE(depth, shown, 3 * VXL_LANES);
-    LANES_STORE(opacity, shown, 4 * VXL_LANES);
-    uint object[VXL_LANES];
+    LANES_STORE(depth_of(&camera, shape.edge, from_eye(&camera, p)) + camera.lead, values.depth, 0);
+    LANES_STORE(opacity, values.opacity, 0);
     LANES_STORE(((LANES_LOAD(hit_attributes, first) & VXL_OBJECT_MASK) + 1u) & LANES_AS_UINT(hit),
-                object, 0);
+                values.object, 0);
     for (uint i = 0; i < VXL_LANES && first + i < count; ++i) {
         const size_t voxel = listed ? targets[first_voxel + first + i] : first_voxel + first + i;
-        objects[voxel] = object[i];
-        opacities[voxel] = shown[4 * VXL_LANES + i];
-        depths[voxel] = shown[3 * VXL_LANES + i];
-        for (uint channel = 0; channel < 3; ++channel)
-            colors[3 * voxel + channel] = shown[channel * VXL_LANES + i];
+        store_voxel(&voxels, voxel, &values, i);
     }
 }

@@ -7,6 +7,7 @@
 #include "lib/surface/smooth.h"
 #include "lib/surface/triangle.h"
 #include "lib/traverse/voxel_kinds.h"
+#include "lib/traverse/world.h"
 #include "shared/display.h"
 #include "shared/scene.h"
 #include "shared/voxel.h"
@@ -17,15 +18,6 @@
 
 // Crossings of one solid in one voxel, at most.
 #define VXL_SOLID_CROSSINGS 4
-
-typedef struct {
-    global const uint* restrict attributes;
-    global const uint* restrict fields;
-    global const uint* restrict primitive_first;
-    global const uint* restrict primitives;
-    global const float* restrict triangles;
-    global const SolidShape* restrict solids;
-} ScannedSurfaces;
 
 /// Where a packet's crossings go: slot i of line n at i * stride + n.
 typedef struct {
@@ -78,7 +70,7 @@ static inline void cross_field(const Field* f, const Walk* w, const LocalRay* ra
     keep_crossings(r, w, crossed, w->t + clamp(fma(exact_divide(fa, gap), b - a, a), a, b), enters);
 }
 
-static inline void scan_smooth(const ScannedSurfaces* s, const Walk* w, lane_uint voxel,
+static inline void scan_smooth(const SurfaceView* s, const Walk* w, lane_uint voxel,
                                lane_int tested, ScanResult* r) {
     const Field field = read_field(s->fields, voxel);
     const LocalRay ray = local_ray(w);
@@ -100,7 +92,7 @@ static inline void scan_smooth(const ScannedSurfaces* s, const Walk* w, lane_uin
 }
 
 /// Keeps the crossings with solid `number` between t and t_exit.
-static inline void scan_solid(const PyramidView* p, const ScannedSurfaces* s, const Walk* w,
+static inline void scan_solid(const PyramidView* p, const SurfaceView* s, const Walk* w,
                               lane_uint number, lane_int tested, lane_float t, lane_float t_exit,
                               ScanResult* r) {
     const SolidRay ray = {w->ox, w->oy, w->oz, w->dx, w->dy, w->dz};
@@ -125,7 +117,7 @@ static inline void scan_solid(const PyramidView* p, const ScannedSurfaces* s, co
 
 /// Keeps the crossings with the primitives that the voxel lists. What lies on a voxel's side may be
 /// kept for both voxels.
-static inline void scan_primitives(const PyramidView* p, const ScannedSurfaces* s, const Walk* w,
+static inline void scan_primitives(const PyramidView* p, const SurfaceView* s, const Walk* w,
                                    lane_uint voxel, lane_int tested, ScanResult* r) {
     const lane_float t_first = w->t - p->plane_bound, t_exit = exit_time(w) + p->plane_bound;
     const RayShear shear = ray_shear(w);
@@ -154,7 +146,7 @@ static inline void scan_primitives(const PyramidView* p, const ScannedSurfaces* 
 }
 
 /// Crosses the surfaces in the `tested` lanes' voxels, but for cubes: the mask of these.
-static inline lane_int scan_voxels(const PyramidView* p, const ScannedSurfaces* s, const Walk* w,
+static inline lane_int scan_voxels(const PyramidView* p, const SurfaceView* s, const Walk* w,
                                    lane_uint leaf, lane_int tested, ScanResult* r) {
     const lane_uint voxel =
         voxel_number(p, leaf & LANES_AS_UINT(tested), w->x & tested, w->y & tested, w->z & tested) &
@@ -168,18 +160,14 @@ static inline lane_int scan_voxels(const PyramidView* p, const ScannedSurfaces* 
 /// Finds the crossings of lines 0 .. count-1 with surfaces, in their order along each line:
 /// `counts` says how many there are, `crossings` has the lattice coordinate along the line of the
 /// first `slots`, `line_stride` apart. Arrays hold a multiple of 16 lines.
-kernel void scan_lines(
-    PyramidShape shape, global const uint* restrict sectors, global const uint* restrict bricks,
-    global const uint* restrict leaves, global const uint* restrict leaf_voxels,
-    global const uint* restrict attributes, global const uint* restrict fields,
-    global const uint* restrict primitive_first, global const uint* restrict primitives,
-    global const float* restrict triangles, global const SolidShape* restrict solids, float4 row,
-    global const float* restrict rays, uint count, uint stride, uint slots, uint line_stride,
-    global uint* restrict counts, global float* restrict crossings) {
+kernel void scan_lines(VXL_WORLD_PARAMETERS, float4 row, global const float* restrict rays,
+                       uint count, uint stride, uint slots, uint line_stride,
+                       global uint* restrict counts, global float* restrict crossings) {
     const uint first = work_item() * VXL_LANES;
     if (first >= count) return;
-    const PyramidView p = pyramid_view(shape, sectors, bricks, leaves, leaf_voxels);
-    const ScannedSurfaces s = {attributes, fields, primitive_first, primitives, triangles, solids};
+    const WorldView world = VXL_WORLD;
+    const PyramidView p = world.pyramid;
+    const SurfaceView s = world.surface;
     ScanResult r = {row, first, line_stride, slots, crossings, (lane_uint)0u};
     Walk w = load_walk(rays, stride, first);
     const lane_float t_end = LANES_LOAD(rays, VXL_RAY_END * stride + first);

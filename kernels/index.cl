@@ -7,6 +7,7 @@
 // VXL_PRIMITIVES say which of the grid's buffers exist.
 #include "lib/lanes/work_item.h"
 #include "lib/surface/brick_field.h"
+#include "lib/voxelize/brick_grid.h"
 #include "lib/voxelize/brick_nodes.h"
 
 // Voxels of a leaf that lie below `room` voxels along each axis from the leaf's minimum corner.
@@ -42,28 +43,24 @@ kernel void move_masks(const uint count, global const uint* restrict moves, glob
 }
 
 // One brick of those `listed`, or of all where that is null: masks of its voxels, mask of its
-// leaves, and two counts: voxels and primitives, these in the list's order. `size` is the grid's,
-// `bricks` the brick table's.
-kernel void mark_voxels(const uint count, global const uint* restrict listed, const int4 size,
-                        const int4 bricks, global const uint* restrict slots,
-                        global const uint* restrict coordinates,
-                        global const ulong* restrict occupancy,
-                        global const short* restrict distance,
-                        global const uint* restrict primitive_first, global ulong* restrict masks,
+// leaves, and two counts: voxels and primitives, these in the list's order.
+kernel void mark_voxels(const uint count, global const uint* restrict listed,
+                        VXL_BRICK_GRID_PARAMETERS, global ulong* restrict masks,
                         global ulong* restrict leaf_masks, global uint* restrict counts) {
     const uint item = work_item();
     if (item >= count) return;
+    const BrickGrid grid = VXL_BRICK_GRID;
     const uint slot = listed ? listed[item] : item;
-    const int4 brick = brick_at(coordinates[slot], bricks);
+    const int4 brick = brick_at(grid.coordinates[slot], grid.bricks);
     ulong kept[64];
     for (int leaf = 0; leaf < 64; ++leaf)
-        kept[leaf] = VXL_OCCUPANCY ? occupancy[(size_t)slot * 64 + leaf] : 0;
+        kept[leaf] = VXL_OCCUPANCY ? grid.occupancy[(size_t)slot * 64 + leaf] : 0;
     if (VXL_SMOOTH) {
         short nodes[VXL_NODE_COUNT];
-        gather_nodes(slots, bricks, distance, brick, nodes);
+        gather_nodes(grid.slots, grid.bricks, grid.distance, brick, nodes);
         keep_smooth_cells(nodes, kept);
     }
-    const int4 room = size - brick * 16;
+    const int4 room = grid.size - brick * 16;
     const bool whole = room.x >= 16 && room.y >= 16 && room.z >= 16;
     ulong leaf_mask = 0;
     uint voxels = 0, primitives = 0;
@@ -77,31 +74,69 @@ kernel void mark_voxels(const uint count, global const uint* restrict listed, co
             for (; mask != 0; mask &= mask - 1) {
                 const size_t voxel =
                     (size_t)slot * VXL_BRICK_VOXELS + voxel_in_brick(leaf, lowest_bit(mask));
-                primitives += primitive_first[voxel + 1] - primitive_first[voxel];
+                primitives += grid.primitive_first[voxel + 1] - grid.primitive_first[voxel];
             }
     }
     leaf_masks[item] = leaf_mask;
     vstore2((uint2)(voxels, primitives), item, counts);
 }
 
+// The voxels of a pyramid, as `write_voxels` fills them.
+typedef struct {
+    global uint* restrict attributes;
+    global uint* restrict colors;
+    global uint* restrict fields;
+    global uint* restrict primitive_first;
+    global uint* restrict primitives;
+} WrittenVoxels;
+
+// The word of a voxel in the pyramid, with the kind bits of voxels in the occupancy masks (kinds.x)
+// or of the others (kinds.y).
+static inline uint word_with_kind(const BrickGrid* grid, size_t voxel, bool smooth, uint2 kinds) {
+    const uint packed = VXL_ATTRIBUTES ? grid->attributes[voxel] : grid->attribute;
+    const uint without_kind = packed & (VXL_MATERIAL_MASK << VXL_MATERIAL_SHIFT | VXL_OBJECT_MASK);
+    if (smooth) return without_kind | kinds.y;
+    // An occupied voxel of a grid with attributes says itself whether it is exact.
+    return VXL_ATTRIBUTES ? packed : without_kind | kinds.x;
+}
+
+// Writes the voxel at `place` of a brick of the grid as the pyramid's `number`; its primitives from
+// number `primitive` on, of which the first behind them is returned.
+static inline uint write_voxel(const BrickGrid* grid, uint slot, int place, bool smooth,
+                               uint2 kinds, const short* nodes, uint number, uint primitive,
+                               const WrittenVoxels* to) {
+    const size_t voxel = (size_t)slot * VXL_BRICK_VOXELS + place;
+    if (VXL_WRITE_ATTRIBUTES) to->attributes[number] = word_with_kind(grid, voxel, smooth, kinds);
+    if (VXL_COLORS) to->colors[number] = grid->colors[voxel];
+    if (VXL_SMOOTH) {
+        const int4 cell = (int4)(place & 15, place >> 4 & 15, place >> 8, 0);
+        const bool has_list =
+            VXL_PRIMITIVES && grid->primitive_first[voxel] != grid->primitive_first[voxel + 1];
+        vstore8(smooth || has_list ? field_record(nodes, cell) : (uint8)(0), number, to->fields);
+    }
+    if (VXL_PRIMITIVES) {
+        to->primitive_first[number] = primitive;
+        for (uint i = grid->primitive_first[voxel]; i < grid->primitive_first[voxel + 1]; ++i)
+            to->primitives[primitive++] = grid->primitives[i];
+    }
+    return primitive;
+}
+
 // One brick: its leaves and voxels, from the numbers in `starts` (first leaf, voxel, primitive of
 // each slot) on. `kinds` holds the kind bits of voxels in the occupancy masks (x) and of the others
 // (y). The last voxel's end in `voxel_primitive_first` is the host's to write.
-kernel void write_voxels(const uint count, const uint2 kinds, const uint attribute,
-                         const int4 bricks, global const uint* restrict slots,
-                         global const uint* restrict coordinates,
-                         global const ulong* restrict occupancy,
-                         global const short* restrict distance,
-                         global const uint* restrict attributes, global const uint* restrict colors,
-                         global const uint* restrict primitive_first,
-                         global const uint* restrict primitives, global const ulong* restrict masks,
-                         global const uint* restrict starts, global uint* restrict leaves,
-                         global uint* restrict leaf_voxels, global uint* restrict voxel_attributes,
-                         global uint* restrict voxel_colors, global uint* restrict voxel_fields,
+kernel void write_voxels(const uint count, const uint2 kinds, VXL_BRICK_GRID_PARAMETERS,
+                         global const ulong* restrict masks, global const uint* restrict starts,
+                         global uint* restrict leaves, global uint* restrict leaf_voxels,
+                         global uint* restrict voxel_attributes, global uint* restrict voxel_colors,
+                         global uint* restrict voxel_fields,
                          global uint* restrict voxel_primitive_first,
                          global uint* restrict voxel_primitives) {
     const uint slot = work_item();
     if (slot >= count) return;
+    const BrickGrid grid = VXL_BRICK_GRID;
+    const WrittenVoxels to = {voxel_attributes, voxel_colors, voxel_fields, voxel_primitive_first,
+                              voxel_primitives};
     const uint3 start = vload3(slot, starts);
     uint leaf_number = start.x, number = start.y, primitive = start.z;
     short nodes[VXL_SMOOTH ? VXL_NODE_COUNT : 1];
@@ -111,9 +146,10 @@ kernel void write_voxels(const uint count, const uint2 kinds, const uint attribu
         if (mask == 0) continue;
         vstore2(as_uint2(mask), leaf_number, leaves);
         leaf_voxels[leaf_number++] = number;
-        const ulong occupied = VXL_OCCUPANCY ? occupancy[(size_t)slot * 64 + leaf] : 0;
+        const ulong occupied = VXL_OCCUPANCY ? grid.occupancy[(size_t)slot * 64 + leaf] : 0;
         if (VXL_SMOOTH && !gathered) {
-            gather_nodes(slots, bricks, distance, brick_at(coordinates[slot], bricks), nodes);
+            gather_nodes(grid.slots, grid.bricks, grid.distance,
+                         brick_at(grid.coordinates[slot], grid.bricks), nodes);
             gathered = true;
         }
         if (!(VXL_WRITE_ATTRIBUTES | VXL_COLORS | VXL_SMOOTH | VXL_PRIMITIVES)) {
@@ -122,31 +158,9 @@ kernel void write_voxels(const uint count, const uint2 kinds, const uint attribu
         }
         for (; mask != 0; mask &= mask - 1, ++number) {
             const int bit = lowest_bit(mask);
-            const int place = voxel_in_brick(leaf, bit);
-            const size_t voxel = (size_t)slot * VXL_BRICK_VOXELS + place;
             const bool smooth = VXL_SMOOTH && !(occupied >> bit & 1);
-            if (VXL_WRITE_ATTRIBUTES) {
-                const uint packed = VXL_ATTRIBUTES ? attributes[voxel] : attribute;
-                const uint without_kind =
-                    packed & (VXL_MATERIAL_MASK << VXL_MATERIAL_SHIFT | VXL_OBJECT_MASK);
-                // An occupied voxel of a grid with attributes says itself whether it is exact.
-                voxel_attributes[number] = smooth           ? without_kind | kinds.y
-                                           : VXL_ATTRIBUTES ? packed
-                                                            : without_kind | kinds.x;
-            }
-            if (VXL_COLORS) voxel_colors[number] = colors[voxel];
-            if (VXL_SMOOTH) {
-                const int4 cell = (int4)(place & 15, place >> 4 & 15, place >> 8, 0);
-                const bool has_list =
-                    VXL_PRIMITIVES && primitive_first[voxel] != primitive_first[voxel + 1];
-                vstore8(smooth || has_list ? field_record(nodes, cell) : (uint8)(0), number,
-                        voxel_fields);
-            }
-            if (VXL_PRIMITIVES) {
-                voxel_primitive_first[number] = primitive;
-                for (uint i = primitive_first[voxel]; i < primitive_first[voxel + 1]; ++i)
-                    voxel_primitives[primitive++] = primitives[i];
-            }
+            primitive = write_voxel(&grid, slot, voxel_in_brick(leaf, bit), smooth, kinds, nodes,
+                                    number, primitive, &to);
         }
     }
 }

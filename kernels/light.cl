@@ -5,6 +5,8 @@
 #include "lib/lanes/work_item.h"
 #include "lib/surface/surface_color.h"
 #include "lib/traverse/offset_origin.h"
+#include "lib/traverse/ray_batch.h"
+#include "lib/traverse/world.h"
 #include "shared/scene.h"
 #include "shared/trace.h"
 
@@ -34,20 +36,164 @@ static inline lane_float area_sample_falloff(LightRecord light, Vector to_surfac
     return LANES_SELECT(faces, cosine * exact_reciprocal(sum), (lane_float)0.0f);
 }
 
+/// How a packet of surface points sees the light.
+typedef struct {
+    lane_int lit;       // mask: the light may give something to the point
+    Vector to_light;    // in voxels: to the light, or for directional ones along the way to it
+    Vector l;           // the unit vector to it, in metres' space
+    lane_float cosine;  // between it and the normal
+    lane_float falloff;
+} Incidence;
+
+/// The light's falloff at the `lit` points, whose squared distance to it is `squared` metres.
+static inline lane_float falloff_of(LightRecord light, Vector l, lane_float squared, lane_int lit) {
+    lane_float falloff = (lane_float)1.0f;
+    if (light.kind != VXL_LIGHT_DIRECTIONAL)
+        falloff = exact_reciprocal(LANES_SELECT(lit, squared, (lane_float)1.0f));
+    if (light.kind == VXL_LIGHT_SPOT) falloff *= spot_falloff(light, opposite(l));
+    if (VXL_AREA_SAMPLES && light.kind == VXL_LIGHT_AREA_SAMPLE)
+        falloff = area_sample_falloff(light, opposite(l), squared);
+    return falloff;
+}
+
+static inline Incidence incidence_of(LightRecord light, float4 edge, Vector position, Vector normal,
+                                     lane_int lit) {
+    Incidence i;
+    i.to_light.x = light.position.x - position.x;
+    i.to_light.y = light.position.y - position.y;
+    i.to_light.z = light.position.z - position.z;
+    if (light.kind == VXL_LIGHT_DIRECTIONAL) {
+        i.to_light.x = (lane_float)light.position.x;
+        i.to_light.y = (lane_float)light.position.y;
+        i.to_light.z = (lane_float)light.position.z;
+    }
+    const Vector metric = scaled(i.to_light, edge);
+    const lane_float squared = dot_product(metric, metric);
+    i.lit = lit & LANE_MASK(squared > 0.0f);
+    i.l = unit(metric);
+    i.cosine = dot_product(normal, i.l);
+    i.lit &= LANE_MASK(i.cosine > 0.0f);
+    i.falloff = falloff_of(light, i.l, squared, i.lit);
+    i.lit &= LANE_MASK(i.falloff > 0.0f);
+    return i;
+}
+
+/// Blinn-Phong: the cosine between the normal and the half vector between the light's direction and
+/// the viewer's, who looks along `d`.
+static inline lane_float highlight_of(Vector normal, Vector l, Vector d, float4 edge) {
+    const Vector view = unit(scaled(opposite(d), edge));
+    const Vector between = {l.x + view.x, l.y + view.y, l.z + view.z};
+    return clamp(dot_product(normal, unit(between)), 0.0f, 1.0f);
+}
+
+/// Shadow rays from surface points to the light, and the light that each would bring.
+typedef struct {
+    Vector origin, direction;
+    lane_float t_end;
+    lane_float contribution[3];
+} LitRays;
+
+/// Aims rays at the light from `start`, which is on the side of the surface that `normal` points
+/// to.
+static inline void aim_at_light(PyramidShape shape, LightRecord light, const Incidence* i,
+                                Vector start, Vector normal, LitRays* r) {
+    const Vector to = i->to_light;
+    const lane_float scale =
+        power_of_two_scale(LANES_SELECT(i->lit, to.x, (lane_float)1.0f), to.y, to.z);
+    r->direction.x = snap_direction(to.x * scale);
+    r->direction.y = snap_direction(to.y * scale);
+    r->direction.z = snap_direction(to.z * scale);
+    const float one = shape.fixed_point;
+    r->origin.x = clamp(snap_position(start.x, normal.x, one), 0.0f, (float)shape.size_x);
+    r->origin.y = clamp(snap_position(start.y, normal.y, one), 0.0f, (float)shape.size_y);
+    r->origin.z = clamp(snap_position(start.z, normal.z, one), 0.0f, (float)shape.size_z);
+    r->t_end = (lane_float)INFINITY;
+    if (light.kind != VXL_LIGHT_DIRECTIONAL) r->t_end = exact_reciprocal(scale);
+}
+
+/// The light that surfaces of `material` at `position` return towards the viewer. Mask: any.
+static inline lane_int find_shares(LightRecord light, const Incidence* i, lane_float highlight,
+                                   Vector position, lane_uint material, lane_uint voxel,
+                                   global const float* restrict materials,
+                                   global const uint* restrict colors, lane_float* contribution) {
+    const lane_float diffuse =
+        LANES_GATHER_FLOAT(materials, material + VXL_MATERIAL_DIFFUSE) * i->cosine;
+    const lane_float specular =
+        LANES_GATHER_FLOAT(materials, material + VXL_MATERIAL_SPECULAR) *
+        exact_power(highlight, LANES_GATHER_FLOAT(materials, material + VXL_MATERIAL_SHININESS));
+    const float intensity[3] = {light.intensity.x, light.intensity.y, light.intensity.z};
+    const lane_float falloff = i->falloff * surface_opacity(materials, material, colors, voxel);
+    const lane_uint color_at =
+        color_offset(materials, material, position.x, position.y, position.z);
+    lane_int any_contribution = (lane_int)0;
+    for (int channel = 0; channel < 3; ++channel) {
+        const lane_float color = surface_color(materials, color_at, colors, voxel, channel);
+        contribution[channel] = fma(color, diffuse, specular) * falloff * intensity[channel];
+        any_contribution |= LANE_MASK(contribution[channel] > 0.0f);
+    }
+    return any_contribution;
+}
+
+/// Adds the `lit` lanes' shares to the radiance of the rays from `first` on.
+static inline void add_shares(const lane_float* contribution, lane_int lit, const RayBatch* batch,
+                              uint first) {
+    for (int channel = 0; channel < 3; ++channel) {
+        const uint place = (uint)channel * batch->stride + first;
+        const lane_float sum = LANES_LOAD(batch->radiance, place) + contribution[channel];
+        LANES_STORE(LANES_SELECT(lit, sum, LANES_LOAD(batch->radiance, place)), batch->radiance,
+                    place);
+    }
+}
+
+/// Puts the `lit` lanes' rays into the queue, each in a place of its own, all reserved at once.
+static inline void queue_rays(const ShadowQueue* queue, const LitRays* r, lane_int lit,
+                              const RayBatch* batch, uint first) {
+    const uint stride = batch->stride;
+    int lit_lane[VXL_LANES];
+    LANES_STORE(lit, lit_lane, 0);
+    uint wanted = 0;
+    for (int lane = 0; lane < VXL_LANES; ++lane) wanted += (uint)(lit_lane[lane] & 1);
+    if (wanted == 0) return;
+    uint place = atomic_add(queue->count, wanted);
+    float queued[10 * VXL_LANES];
+    uint source[VXL_LANES];
+    LANES_STORE(r->origin.x, queued, 0 * VXL_LANES);
+    LANES_STORE(r->origin.y, queued, 1 * VXL_LANES);
+    LANES_STORE(r->origin.z, queued, 2 * VXL_LANES);
+    LANES_STORE(r->direction.x, queued, 3 * VXL_LANES);
+    LANES_STORE(r->direction.y, queued, 4 * VXL_LANES);
+    LANES_STORE(r->direction.z, queued, 5 * VXL_LANES);
+    LANES_STORE(r->t_end, queued, 6 * VXL_LANES);
+    LANES_STORE(r->contribution[0], queued, 7 * VXL_LANES);
+    LANES_STORE(r->contribution[1], queued, 8 * VXL_LANES);
+    LANES_STORE(r->contribution[2], queued, 9 * VXL_LANES);
+    if (VXL_EXACT)
+        LANES_STORE(LANES_LOAD(batch->hits, VXL_HIT_PRIMITIVE * stride + first), source, 0);
+    for (int lane = 0; lane < VXL_LANES; ++lane) {
+        if (!lit_lane[lane]) continue;
+        for (uint c = 0; c < VXL_RAY_COMPONENTS; ++c)
+            queue->rays[c * stride + place] = queued[c * VXL_LANES + (uint)lane];
+        for (uint c = 0; c < 3; ++c)
+            queue->contributions[c * stride + place] =
+                queued[(VXL_RAY_COMPONENTS + c) * VXL_LANES + (uint)lane];
+        queue->targets[place] = first + (uint)lane;
+        if (VXL_EXACT) queue->sources[place] = source[lane];
+        ++place;
+    }
+}
+
 /// Adds one light: every surface point that faces it, and to which it gives any light, gets a place
 /// in the queue of shadow rays with the light's share. Where neither an object nor the medium can
 /// come between, the share is added at once.
-kernel void add_light(PyramidShape shape, LightRecord light, global const float* restrict materials,
-                      global const uint* restrict colors, global const float* restrict rays,
-                      global const uint* restrict hits, uint count, uint stride,
-                      global const float* restrict positions, global const float* restrict normals,
-                      global const uint* restrict hit_attributes, global const uint* restrict sides,
-                      global float* restrict radiance, global uint* restrict queue_count,
-                      global float* restrict queue_rays, global uint* restrict targets,
-                      global uint* restrict sources, global float* restrict contributions) {
+kernel void add_light(VXL_WORLD_PARAMETERS, LightRecord light,
+                      global const float* restrict materials, VXL_SHADOW_QUEUE_PARAMETERS,
+                      VXL_BATCH_PARAMETERS, uint count) {
     const uint first = work_item() * VXL_LANES;
     if (first >= count) return;
-    const float4 edge = shape.edge;
+    const WorldView world = VXL_WORLD;
+    const RayBatch batch = VXL_BATCH;
+    const ShadowQueue queue = VXL_SHADOW_QUEUE;
+    const float4 edge = world.shape.edge;
     const lane_uint number = LANES_LOAD(hits, VXL_HIT_VOXEL * stride + first);
     lane_int lit = LANE_MASK(number != VXL_NO_VOXEL);
     if (VXL_TRANSMISSION) lit &= LANE_MASK((LANES_LOAD(sides, first) & VXL_SIDE_HIDDEN) == 0u);
@@ -55,109 +201,21 @@ kernel void add_light(PyramidShape shape, LightRecord light, global const float*
     const lane_uint voxel = number & LANES_AS_UINT(lit);
     const Vector position = load_vector(positions, stride, first);
     const Vector normal = load_vector(normals, stride, first);
-
-    Vector to_light = {light.position.x - position.x, light.position.y - position.y,
-                       light.position.z - position.z};
-    if (light.kind == VXL_LIGHT_DIRECTIONAL) {
-        to_light.x = (lane_float)light.position.x;
-        to_light.y = (lane_float)light.position.y;
-        to_light.z = (lane_float)light.position.z;
-    }
-    const Vector metric = {to_light.x * edge.x, to_light.y * edge.y, to_light.z * edge.z};
-    const lane_float squared = dot_product(metric, metric);
-    lit &= LANE_MASK(squared > 0.0f);
-    const Vector l = unit(metric);
-    const lane_float cosine = dot_product(normal, l);
-    lit &= LANE_MASK(cosine > 0.0f);
-    lane_float falloff = (lane_float)1.0f;
-    if (light.kind != VXL_LIGHT_DIRECTIONAL)
-        falloff = exact_reciprocal(LANES_SELECT(lit, squared, (lane_float)1.0f));
-    if (light.kind == VXL_LIGHT_SPOT) {
-        const Vector to_surface = {-l.x, -l.y, -l.z};
-        falloff *= spot_falloff(light, to_surface);
-    }
-    if (VXL_AREA_SAMPLES && light.kind == VXL_LIGHT_AREA_SAMPLE) {
-        const Vector to_surface = {-l.x, -l.y, -l.z};
-        falloff = area_sample_falloff(light, to_surface, squared);
-    }
-    lit &= LANE_MASK(falloff > 0.0f);
+    const Incidence incidence = incidence_of(light, edge, position, normal, lit);
+    lit = incidence.lit;
     if (!lanes_any(lit)) return;
 
-    // Blinn-Phong: the half vector between the light's direction and the viewer's.
     const Vector d = load_vector(rays + VXL_RAY_DX * stride, stride, first);
-    const Vector towards = {-d.x * edge.x, -d.y * edge.y, -d.z * edge.z};
-    const Vector view = unit(towards);
-    const Vector between = {l.x + view.x, l.y + view.y, l.z + view.z};
-    const lane_float highlight = clamp(dot_product(normal, unit(between)), 0.0f, 1.0f);
-    const lane_uint packed = LANES_LOAD(hit_attributes, first);
-    const lane_uint material = material_offset(packed) & LANES_AS_UINT(lit);
-    const lane_float diffuse =
-        LANES_GATHER_FLOAT(materials, material + VXL_MATERIAL_DIFFUSE) * cosine;
-    const lane_float specular =
-        LANES_GATHER_FLOAT(materials, material + VXL_MATERIAL_SPECULAR) *
-        exact_power(highlight, LANES_GATHER_FLOAT(materials, material + VXL_MATERIAL_SHININESS));
-
-    const lane_float scale =
-        power_of_two_scale(LANES_SELECT(lit, to_light.x, (lane_float)1.0f), to_light.y, to_light.z);
-    const Vector direction = {snap_direction(to_light.x * scale),
-                              snap_direction(to_light.y * scale),
-                              snap_direction(to_light.z * scale)};
+    const lane_float highlight = highlight_of(normal, incidence.l, d, edge);
+    const lane_uint material =
+        material_offset(LANES_LOAD(hit_attributes, first)) & LANES_AS_UINT(lit);
+    LitRays r;
     const Vector start = offset_origin(shape, position, normal, hits, stride, first);
-    const Vector origin = {
-        clamp(snap_position(start.x, normal.x, shape.fixed_point), 0.0f, (float)shape.size_x),
-        clamp(snap_position(start.y, normal.y, shape.fixed_point), 0.0f, (float)shape.size_y),
-        clamp(snap_position(start.z, normal.z, shape.fixed_point), 0.0f, (float)shape.size_z)};
-    lane_float t_end = (lane_float)INFINITY;
-    if (light.kind != VXL_LIGHT_DIRECTIONAL) t_end = exact_reciprocal(scale);
-    const float intensity[3] = {light.intensity.x, light.intensity.y, light.intensity.z};
-    falloff *= surface_opacity(materials, material, colors, voxel);
-    const lane_uint color_at =
-        color_offset(materials, material, position.x, position.y, position.z);
-    lane_float contribution[3];
-    lane_int any_contribution = (lane_int)0;
-    for (int channel = 0; channel < 3; ++channel) {
-        const lane_float color = surface_color(materials, color_at, colors, voxel, channel);
-        contribution[channel] = fma(color, diffuse, specular) * falloff * intensity[channel];
-        any_contribution |= LANE_MASK(contribution[channel] > 0.0f);
-    }
-    lit &= any_contribution;
-    if (!(VXL_SHADOWS | VXL_MEDIUM)) {
-        for (int channel = 0; channel < 3; ++channel) {
-            const uint place = (uint)channel * stride + first;
-            const lane_float sum = LANES_LOAD(radiance, place) + contribution[channel];
-            LANES_STORE(LANES_SELECT(lit, sum, LANES_LOAD(radiance, place)), radiance, place);
-        }
-        return;
-    }
-    // One place in the queue for each lit lane, all reserved at once.
-    int lit_lane[VXL_LANES];
-    LANES_STORE(lit, lit_lane, 0);
-    uint wanted = 0;
-    for (int lane = 0; lane < VXL_LANES; ++lane) wanted += (uint)(lit_lane[lane] & 1);
-    if (wanted == 0) return;
-    uint place = atomic_add(queue_count, wanted);
-    float queued[10 * VXL_LANES];
-    uint source[VXL_LANES];
-    LANES_STORE(origin.x, queued, 0 * VXL_LANES);
-    LANES_STORE(origin.y, queued, 1 * VXL_LANES);
-    LANES_STORE(origin.z, queued, 2 * VXL_LANES);
-    LANES_STORE(direction.x, queued, 3 * VXL_LANES);
-    LANES_STORE(direction.y, queued, 4 * VXL_LANES);
-    LANES_STORE(direction.z, queued, 5 * VXL_LANES);
-    LANES_STORE(t_end, queued, 6 * VXL_LANES);
-    LANES_STORE(contribution[0], queued, 7 * VXL_LANES);
-    LANES_STORE(contribution[1], queued, 8 * VXL_LANES);
-    LANES_STORE(contribution[2], queued, 9 * VXL_LANES);
-    if (VXL_EXACT) LANES_STORE(LANES_LOAD(hits, VXL_HIT_PRIMITIVE * stride + first), source, 0);
-    for (int lane = 0; lane < VXL_LANES; ++lane) {
-        if (!lit_lane[lane]) continue;
-        for (uint c = 0; c < VXL_RAY_COMPONENTS; ++c)
-            queue_rays[c * stride + place] = queued[c * VXL_LANES + (uint)lane];
-        for (uint c = 0; c < 3; ++c)
-            contributions[c * stride + place] =
-                queued[(VXL_RAY_COMPONENTS + c) * VXL_LANES + (uint)lane];
-        targets[place] = first + (uint)lane;
-        if (VXL_EXACT) sources[place] = source[lane];
-        ++place;
-    }
+    aim_at_light(shape, light, &incidence, start, normal, &r);
+    lit &= find_shares(light, &incidence, highlight, position, material, voxel, materials,
+                       world.surface.colors, r.contribution);
+    if (VXL_SHADOWS | VXL_MEDIUM)
+        queue_rays(&queue, &r, lit, &batch, first);
+    else
+        add_shares(r.contribution, lit, &batch, first);
 }

@@ -4,19 +4,11 @@
 #include "lib/solid/solid.h"
 #include "lib/solid/solid_surface.h"
 #include "lib/surface/field.h"
+#include "lib/traverse/world.h"
 #include "shared/light_samples.h"
 #include "shared/scene.h"
 #include "shared/trace.h"
 #include "shared/voxel.h"
-
-typedef struct {
-    global const uint* restrict sectors;
-    global const uint* restrict bricks;
-    global const uint* restrict leaves;
-    global const uint* restrict leaf_voxels;
-    global const uint* restrict attributes;
-    uint constant_attribute;
-} Voxels;
 
 /// The bits of a 64-bit mask below `bit`, counted.
 static inline uint bits_below(uint low, uint high, uint bit) {
@@ -28,53 +20,93 @@ static inline bool has_bit(uint low, uint high, uint bit) {
     return ((bit < 32 ? low : high) >> (bit & 31) & 1u) != 0u;
 }
 
-static inline uint attributes_of_voxel(const Voxels* v, uint voxel) {
-    return VXL_ATTRIBUTES ? v->attributes[voxel] : v->constant_attribute;
+static inline uint attributes_of_voxel(const SurfaceView* s, uint voxel) {
+    return VXL_ATTRIBUTES ? s->attributes[voxel] : s->constant_attribute;
 }
 
 /// Whether a cube fills the cell, or the world ends before it.
-static inline bool is_covered(const Voxels* v, PyramidShape shape, int x, int y, int z) {
+static inline bool is_covered(const WorldView* world, int x, int y, int z) {
+    const PyramidView* p = &world->pyramid;
     if (x < 0 || y < 0 || z < 0) return true;
-    if (x >= shape.size_x || y >= shape.size_y || z >= shape.size_z) return true;
-    const uint entry =
-        v->sectors[((z >> 6) * shape.sectors_y + (y >> 6)) * shape.sectors_x + (x >> 6)];
+    if (x >= p->size_x || y >= p->size_y || z >= p->size_z) return true;
+    const uint entry = p->sectors[((z >> 6) * p->sectors_y + (y >> 6)) * p->sectors_x + (x >> 6)];
     if ((int)entry < 0) return false;
     const uint brick = (uint)((x >> 4 & 3) | (y >> 4 & 3) << 2 | (z >> 4 & 3) << 4);
-    global const uint* record = v->bricks + ((size_t)entry * 64 + brick) * 4;
+    global const uint* record = p->bricks + ((size_t)entry * 64 + brick) * 4;
     const uint in_brick = (uint)((x >> 2 & 3) | (y >> 2 & 3) << 2 | (z >> 2 & 3) << 4);
     if (!has_bit(record[0], record[1], in_brick)) return false;
     const uint leaf = record[2] + bits_below(record[0], record[1], in_brick);
-    const uint low = v->leaves[2 * leaf], high = v->leaves[2 * leaf + 1];
+    const uint low = p->leaves[2 * leaf], high = p->leaves[2 * leaf + 1];
     const uint in_leaf = (uint)((x & 3) | (y & 3) << 2 | (z & 3) << 4);
     if (!has_bit(low, high, in_leaf)) return false;
-    const uint voxel = v->leaf_voxels[leaf] + bits_below(low, high, in_leaf);
-    return attributes_of_voxel(v, voxel) >> VXL_KIND_SHIFT == VXL_KIND_CUBES;
+    const uint voxel = p->leaf_voxels[leaf] + bits_below(low, high, in_leaf);
+    return attributes_of_voxel(&world->surface, voxel) >> VXL_KIND_SHIFT == VXL_KIND_CUBES;
 }
 
+/// Which surfaces are asked for: a value per object and one per material. `found` counts all
+/// pieces; those that fit are listed, in no certain order.
+typedef struct {
+    global const uint* restrict emissive_objects;
+    global const uint* restrict emissive_materials;
+    uint capacity;
+    global uint* restrict found;
+    global uint4* restrict pieces;
+} GlowingPieces;
+
 /// Whether a surface with this word belongs to an emissive object, and glows.
-static inline bool emits(global const uint* restrict emissive_objects,
-                         global const uint* restrict emissive_materials, uint packed) {
-    return emissive_objects[packed & VXL_OBJECT_MASK] != 0u &&
-           emissive_materials[packed >> VXL_MATERIAL_SHIFT & VXL_MATERIAL_MASK] != 0u;
+static inline bool emits(const GlowingPieces* g, uint packed) {
+    return g->emissive_objects[packed & VXL_OBJECT_MASK] != 0u &&
+           g->emissive_materials[packed >> VXL_MATERIAL_SHIFT & VXL_MATERIAL_MASK] != 0u;
+}
+
+/// Lists the piece of `number`, a voxel's or solid's, in voxel (x,y,z).
+static inline void list_piece(const GlowingPieces* g, int x, int y, int z, uint form, uint number,
+                              uint packed) {
+    const uint place = atomic_inc(g->found);
+    if (place < g->capacity)
+        g->pieces[place] = (uint4)((uint)x | (uint)y << 16, (uint)z | form << 16, number, packed);
+}
+
+/// Lists the open faces of a cube.
+static inline void list_faces(const WorldView* world, const GlowingPieces* g, int x, int y, int z,
+                              uint voxel, uint packed) {
+    for (int face = 0; face < 6; ++face) {
+        const int axis = face >> 1, step = (face & 1) * 2 - 1;
+        if (!is_covered(world, x + (axis == 0 ? step : 0), y + (axis == 1 ? step : 0),
+                        z + (axis == 2 ? step : 0)))
+            list_piece(g, x, y, z, (uint)face, voxel, packed);
+    }
+}
+
+/// Lists what glows in one voxel.
+static inline void list_voxel(const WorldView* world, const GlowingPieces* g, int x, int y, int z,
+                              uint voxel) {
+    const SurfaceView* s = &world->surface;
+    const uint packed = attributes_of_voxel(s, voxel);
+    const uint kind = packed >> VXL_KIND_SHIFT;
+    if (VXL_CUBES && kind == VXL_KIND_CUBES && emits(g, packed))
+        list_faces(world, g, x, y, z, voxel, packed);
+    if (VXL_SMOOTH && kind != VXL_KIND_CUBES && emits(g, packed))
+        list_piece(g, x, y, z, VXL_PIECE_FIELD, voxel, packed);
+    if (!VXL_SOLIDS || kind != VXL_KIND_EXACT) return;
+    for (uint i = s->primitive_first[voxel]; i < s->primitive_first[voxel + 1]; ++i) {
+        if (!(s->primitives[i] & VXL_SOLID_PRIMITIVE)) continue;
+        const uint solid = s->primitives[i] & ~VXL_SOLID_PRIMITIVE;
+        if (emits(g, s->solids[solid].attribute))
+            list_piece(g, x, y, z, VXL_PIECE_SOLID, solid, s->solids[solid].attribute);
+    }
 }
 
 /// Lists what glows in one brick: the open faces of cubes, smooth voxels, and solids in the voxels
-/// that list them. One work-item takes one of each sector's 64 bricks. `emissive_objects` has a
-/// value per object and `emissive_materials` one per material. `found` counts all; those that fit
-/// are listed, in no certain order.
-kernel void list_emissive(PyramidShape shape, const uint count, global const uint* restrict sectors,
-                          global const uint* restrict bricks, global const uint* restrict leaves,
-                          global const uint* restrict leaf_voxels,
-                          global const uint* restrict attributes, const uint constant_attribute,
-                          global const uint* restrict primitive_first,
-                          global const uint* restrict primitives,
-                          global const SolidShape* restrict solids,
+/// that list them. One work-item takes one of each sector's 64 bricks.
+kernel void list_emissive(const uint count, VXL_WORLD_PARAMETERS,
                           global const uint* restrict emissive_objects,
                           global const uint* restrict emissive_materials, const uint capacity,
                           global uint* restrict found, global uint4* restrict pieces) {
     const uint item = work_item();
     if (item >= count) return;
-    const Voxels v = {sectors, bricks, leaves, leaf_voxels, attributes, constant_attribute};
+    const WorldView world = VXL_WORLD;
+    const GlowingPieces asked = {emissive_objects, emissive_materials, capacity, found, pieces};
     const int sector = (int)(item >> 6), brick = (int)(item & 63u);
     const uint entry = sectors[sector];
     if ((int)entry < 0) return;
@@ -91,42 +123,9 @@ kernel void list_emissive(PyramidShape shape, const uint count, global const uin
         ++leaf;
         for (int bit = 0; bit < 64; ++bit) {
             if (!has_bit(low, high, (uint)bit)) continue;
-            const int x = x0 + (child & 3) * 4 + (bit & 3);
-            const int y = y0 + (child >> 2 & 3) * 4 + (bit >> 2 & 3);
-            const int z = z0 + (child >> 4) * 4 + (bit >> 4);
-            const uint packed = attributes_of_voxel(&v, voxel);
-            const uint kind = packed >> VXL_KIND_SHIFT;
-            const uint xy = (uint)x | (uint)y << 16;
-            if (VXL_CUBES && kind == VXL_KIND_CUBES &&
-                emits(emissive_objects, emissive_materials, packed)) {
-                for (int face = 0; face < 6; ++face) {
-                    const int axis = face >> 1, step = (face & 1) * 2 - 1;
-                    if (is_covered(&v, shape, x + (axis == 0 ? step : 0),
-                                   y + (axis == 1 ? step : 0), z + (axis == 2 ? step : 0)))
-                        continue;
-                    const uint place = atomic_inc(found);
-                    if (place < capacity)
-                        pieces[place] = (uint4)(xy, (uint)z | (uint)face << 16, voxel, packed);
-                }
-            }
-            if (VXL_SMOOTH && kind != VXL_KIND_CUBES &&
-                emits(emissive_objects, emissive_materials, packed)) {
-                const uint place = atomic_inc(found);
-                if (place < capacity)
-                    pieces[place] = (uint4)(xy, (uint)z | VXL_PIECE_FIELD << 16, voxel, packed);
-            }
-            if (VXL_SOLIDS && kind == VXL_KIND_EXACT) {
-                for (uint i = primitive_first[voxel]; i < primitive_first[voxel + 1]; ++i) {
-                    if (!(primitives[i] & VXL_SOLID_PRIMITIVE)) continue;
-                    const uint solid = primitives[i] & ~VXL_SOLID_PRIMITIVE;
-                    if (!emits(emissive_objects, emissive_materials, solids[solid].attribute))
-                        continue;
-                    const uint place = atomic_inc(found);
-                    if (place < capacity)
-                        pieces[place] = (uint4)(xy, (uint)z | VXL_PIECE_SOLID << 16, solid,
-                                                solids[solid].attribute);
-                }
-            }
+            list_voxel(&world, &asked, x0 + (child & 3) * 4 + (bit & 3),
+                       y0 + (child >> 2 & 3) * 4 + (bit >> 2 & 3),
+                       z0 + (child >> 4) * 4 + (bit >> 4), voxel);
             ++voxel;
         }
     }

@@ -8,6 +8,7 @@
 #include "lib/lanes/vector.h"
 #include "lib/lanes/work_item.h"
 #include "lib/traverse/density.h"
+#include "lib/traverse/ray_batch.h"
 #include "shared/scene.h"
 #include "shared/trace.h"
 
@@ -35,34 +36,36 @@ static inline lane_float depth_of(PyramidShape shape, const DensityView* density
     return walk_density(&p, density, &walk, s->t_first, s->t_last, active);
 }
 
-/// Gives each ray's radiance what the medium does to it between the ray's start, or its segment's,
-/// and its end. `transmittance` takes the part of the light that comes through.
-kernel void absorb_sight(PyramidShape shape, Environment environment, DensityShape density_shape,
-                         global const uint* restrict density_bricks,
-                         global const float* restrict density_values,
-                         global const float* restrict materials, global const float* restrict rays,
-                         global const uint* restrict hits, global const float* restrict starts,
-                         global const uint* restrict inside, uint count, uint stride,
-                         global float* restrict radiance, global float* restrict transmittance) {
-    const uint first = work_item() * VXL_LANES;
-    if (first >= count) return;
-    const DensityView density = {density_shape, density_bricks, density_values};
+/// Rays up to what they met; one that met nothing goes on to the far surface, or to the world's
+/// end.
+static inline Segment sight_segment(const RayBatch* batch, uint first) {
+    global const uint* hits = batch->hits;
+    const uint stride = batch->stride;
     const lane_int hit =
         LANE_MASK(LANES_LOAD(hits, VXL_HIT_VOXEL * stride + first) != VXL_NO_VOXEL);
     const lane_float t_hit = LANES_AS_FLOAT(LANES_LOAD(hits, VXL_HIT_T * stride + first));
-    // A ray that met nothing goes on to the far surface, or to the world's end.
-    const lane_float t_end = LANES_LOAD(rays, VXL_RAY_END * stride + first);
+    const lane_float t_end = LANES_LOAD(batch->rays, VXL_RAY_END * stride + first);
+    Segment segment = {load_vector(batch->rays, stride, first),
+                       load_vector(batch->rays + VXL_RAY_DX * stride, stride, first),
+                       (lane_float)0.0f, LANES_SELECT(hit, t_hit, t_end)};
+    if (VXL_TRANSMISSION) segment.t_first = LANES_LOAD(batch->starts, first);
+    return segment;
+}
+
+/// Gives each ray's radiance what the medium does to it between the ray's start, or its segment's,
+/// and its end. `transmittance` takes the part of the light that comes through.
+kernel void absorb_sight(PyramidShape shape, Environment environment, VXL_DENSITY_PARAMETERS,
+                         global const float* restrict materials, VXL_BATCH_PARAMETERS, uint count) {
+    const uint first = work_item() * VXL_LANES;
+    if (first >= count) return;
+    const DensityView density = VXL_DENSITY;
+    const RayBatch batch = VXL_BATCH;
     // Places beyond the queue's end hold what was there before.
-    const lane_int active =
-        LANE_MASK(t_end >= 0.0f) & LANE_MASK(LANES_AS_INT(LANES_NUMBERS + (int)first) < (int)count);
-    Segment segment = {load_vector(rays, stride, first),
-                       load_vector(rays + VXL_RAY_DX * stride, stride, first), (lane_float)0.0f,
-                       LANES_SELECT(hit, t_hit, t_end)};
+    const lane_int active = LANE_MASK(LANES_LOAD(rays, VXL_RAY_END * stride + first) >= 0.0f) &
+                            LANE_MASK(LANES_AS_INT(LANES_NUMBERS + (int)first) < (int)count);
+    const Segment segment = sight_segment(&batch, first);
     lane_uint material = (lane_uint)0u;
-    if (VXL_TRANSMISSION) {
-        segment.t_first = LANES_LOAD(starts, first);
-        material = LANES_LOAD(inside, first);
-    }
+    if (VXL_TRANSMISSION) material = LANES_LOAD(inside, first);
     const lane_int in_object = LANE_MASK(material != 0u) & active;
     const lane_float metres = metres_per_t(shape.edge, segment.direction);
     lane_float depth = (lane_float)0.0f;
@@ -94,21 +97,20 @@ kernel void absorb_sight(PyramidShape shape, Environment environment, DensitySha
 
 /// Takes from the light that waits in the queue of shadow rays what the medium keeps on its way.
 /// Without shadows it then arrives: every target stands in the queue at most once.
-kernel void absorb_shadows(PyramidShape shape, Environment environment, DensityShape density_shape,
-                           global const uint* restrict density_bricks,
-                           global const float* restrict density_values,
-                           global const float* restrict rays, global const uint* restrict queued,
-                           uint stride, global const uint* restrict targets,
-                           global float* restrict contributions, global float* restrict radiance) {
+kernel void absorb_shadows(PyramidShape shape, Environment environment, VXL_DENSITY_PARAMETERS,
+                           VXL_SHADOW_QUEUE_PARAMETERS, VXL_BATCH_PARAMETERS) {
     const uint first = work_item() * VXL_LANES;
-    const uint count = *queued;
+    const ShadowQueue queue = VXL_SHADOW_QUEUE;
+    const RayBatch batch = VXL_BATCH;
+    const uint count = *queue.count;
     if (first >= count) return;
-    const DensityView density = {density_shape, density_bricks, density_values};
+    const DensityView density = VXL_DENSITY;
     const lane_int active = LANE_MASK(LANES_AS_INT(LANES_NUMBERS + (int)first) < (int)count);
     // Places beyond the queue's end hold what was there before.
-    const Segment segment = {load_vector(rays, stride, first),
-                             load_vector(rays + VXL_RAY_DX * stride, stride, first),
-                             (lane_float)0.0f, LANES_LOAD(rays, VXL_RAY_END * stride + first)};
+    const Segment segment = {load_vector(queue.rays, stride, first),
+                             load_vector(queue.rays + VXL_RAY_DX * stride, stride, first),
+                             (lane_float)0.0f,
+                             LANES_LOAD(queue.rays, VXL_RAY_END * stride + first)};
     const lane_float metres = metres_per_t(shape.edge, segment.direction);
     const lane_float depth = depth_of(shape, &density, &segment, active) * metres;
     const float absorption[3] = {environment.absorption.x, environment.absorption.y,
@@ -117,15 +119,15 @@ kernel void absorb_shadows(PyramidShape shape, Environment environment, DensityS
     for (int channel = 0; channel < 3; ++channel) {
         const uint place = (uint)channel * stride + first;
         const lane_float weight =
-            LANES_LOAD(contributions, place) * exact_exp(-absorption[channel] * depth);
+            LANES_LOAD(queue.contributions, place) * exact_exp(-absorption[channel] * depth);
         if (VXL_SHADOWS)
-            LANES_STORE(weight, contributions, place);
+            LANES_STORE(weight, queue.contributions, place);
         else
             LANES_STORE(weight, arriving, channel * VXL_LANES);
     }
     if (VXL_SHADOWS) return;
     for (uint lane = 0; lane < VXL_LANES && first + lane < count; ++lane)
         for (uint channel = 0; channel < 3; ++channel)
-            radiance[channel * stride + targets[first + lane]] +=
+            batch.radiance[channel * stride + queue.targets[first + lane]] +=
                 arriving[channel * VXL_LANES + lane];
 }

@@ -11,6 +11,7 @@
 // exact in a world with smooth ones.
 #include "lib/lanes/work_item.h"
 #include "lib/traverse/world_bounds.h"
+#include "lib/voxelize/painted_world.h"
 #include "lib/voxelize/placed_attributes.h"
 #include "lib/voxelize/placed_field.h"
 
@@ -50,21 +51,19 @@ kernel void mark_near_leaves(const uint count, const int threshold,
 // empty voxel, or the world's end, must be stored.
 kernel void classify_bricks(const uint count, global const uint* restrict listed,
                             const int4 world_bricks, const WorldBounds bounds,
-                            const int fraction_bits, constant long* rows, const int4 object_bricks,
-                            global const uint* restrict slots, global const ulong* restrict near,
-                            global const short* restrict distance, global uchar* restrict states) {
+                            VXL_OBJECT_PARAMETERS, global uchar* restrict states) {
     const uint item = work_item();
     if (item >= count) return;
     const uint index = listed ? listed[item] : item;
     if (states[index] == VXL_SURFACE) return;
-    const PlacedObject object = {rows, fraction_bits, object_bricks, slots};
+    const PlacedObject object = VXL_OBJECT;
     const int4 low = (brick_at(index, world_bricks) << 5) - (int4)(2, 2, 2, 0);
     const CellBox box = map_box(&object, low, 36, true);
     uint state = state_of_bricks(&object, box);
-    if (state == VXL_SURFACE && !touches_near_leaf(&object, near, box)) {
+    if (state == VXL_SURFACE && !touches_near_leaf(&object, object.near, box)) {
         const int4 middle = (box.first + box.last) >> 1;
         if (VXL_SMOOTH)
-            state = is_inside_field(&object, distance, middle) ? VXL_FULL : VXL_NOTHING;
+            state = is_inside_field(&object, object.distance, middle) ? VXL_FULL : VXL_NOTHING;
         else if (!touches_full_brick(&object, box))
             state = VXL_NOTHING;
     }
@@ -74,26 +73,20 @@ kernel void classify_bricks(const uint count, global const uint* restrict listed
     states[index] = (uchar)max((uint)states[index], state);
 }
 
-// One leaf of the world: the smaller of its distances and the object's. `scale` turns the object's
-// units into the world's.
-kernel void paint_distances(const uint count, const int4 world_bricks, const int fraction_bits,
-                            constant long* rows, const int4 object_bricks,
-                            global const uint* restrict slots, global const ulong* restrict near,
-                            global const short* restrict distance, const float scale,
-                            global const uint* restrict painted,
-                            global const uint* restrict coordinates,
-                            global short* restrict world_distance) {
+// One leaf of the world: the smaller of its distances and the object's.
+kernel void paint_distances(const uint count, VXL_OBJECT_PARAMETERS, VXL_PAINTED_PARAMETERS) {
     const uint item = work_item();
     if (item >= count) return;
-    const uint leaf = painted_leaf(item, painted);
-    const PlacedObject object = {rows, fraction_bits, object_bricks, slots};
-    const int4 low = leaf_in_world(leaf, coordinates, world_bricks);
-    global short* out = world_distance + (size_t)(leaf >> 6) * VXL_BRICK_VOXELS + leaf_index(leaf);
+    const PlacedObject object = VXL_OBJECT;
+    const PaintedWorld world = VXL_PAINTED;
+    const uint leaf = painted_leaf(item, world.painted);
+    const int4 low = leaf_in_world(leaf, world.coordinates, world.bricks);
+    global short* out = world.distance + (size_t)(leaf >> 6) * VXL_BRICK_VOXELS + leaf_index(leaf);
     const CellBox cells = map_box(&object, low, 6, false);
     const CellBox nodes = {cells.first, cells.last + 1};
-    const bool is_near = touches_near_leaf(&object, near, nodes);
+    const bool is_near = touches_near_leaf(&object, object.near, nodes);
     if (!is_near) {
-        if (!is_inside_field(&object, distance, cells.first)) return;
+        if (!is_inside_field(&object, object.distance, cells.first)) return;
         for (int row = 0; row < 16; ++row)
             vstore4((short4)(-VXL_SATURATED), 0, out + ((row & 3) << 4) + (row >> 2 << 8));
         return;
@@ -101,37 +94,36 @@ kernel void paint_distances(const uint count, const int4 world_bricks, const int
     short block[VXL_BLOCK_NODES];
     CellBox gathered = nodes_of_cells(cells);
     const bool at_once = fits_block(gathered);
-    if (at_once) gather_block(&object, distance, gathered, block);
+    if (at_once) gather_block(&object, object.distance, gathered, block);
     for (int i = 0; i < 64; ++i) {
         const int4 node = (int4)(i & 3, i >> 2 & 3, i >> 4, 0);
         const FixedPoint p = map_half_steps(&object, low + node * 2);
         if (!at_once) {
-            const int4 cell = cell_at(p, fraction_bits);
+            const int4 cell = cell_at(p, object.fraction_bits);
             const CellBox one = {cell, cell};
             gathered = nodes_of_cells(one);
-            gather_block(&object, distance, gathered, block);
+            gather_block(&object, object.distance, gathered, block);
         }
-        const short value = stored_distance(scale * distance_at(&object, block, gathered.first, p));
+        const short value =
+            stored_distance(object.distance_scale * distance_at(&object, block, gathered.first, p));
         global short* place = out + node.x + (node.y << 4) + (node.z << 8);
         *place = min(*place, value);
     }
 }
 
 // One leaf of the world: ends its distances at the world's bounds.
-kernel void close_distances(const uint count, const int4 world_bricks, const WorldBounds bounds,
-                            global const uint* restrict painted,
-                            global const uint* restrict coordinates,
-                            global short* restrict world_distance) {
+kernel void close_distances(const uint count, VXL_PAINTED_PARAMETERS) {
     const uint item = work_item();
     if (item >= count) return;
-    const uint leaf = painted_leaf(item, painted);
-    const int4 low = leaf_in_world(leaf, coordinates, world_bricks);
-    if (!is_at_bounds(bounds, low / 2 - 4, 12)) return;
-    global short* out = world_distance + (size_t)(leaf >> 6) * VXL_BRICK_VOXELS + leaf_index(leaf);
+    const PaintedWorld world = VXL_PAINTED;
+    const uint leaf = painted_leaf(item, world.painted);
+    const int4 low = leaf_in_world(leaf, world.coordinates, world.bricks);
+    if (!is_at_bounds(world.bounds, low / 2 - 4, 12)) return;
+    global short* out = world.distance + (size_t)(leaf >> 6) * VXL_BRICK_VOXELS + leaf_index(leaf);
     for (int i = 0; i < 64; ++i) {
         const int4 node = (int4)(i & 3, i >> 2 & 3, i >> 4, 0);
         global short* place = out + node.x + (node.y << 4) + (node.z << 8);
-        *place = (short)max((int)*place, -depth_in_world(bounds, low + node * 2));
+        *place = (short)max((int)*place, -depth_in_world(world.bounds, low + node * 2));
     }
 }
 
@@ -139,28 +131,22 @@ kernel void close_distances(const uint count, const int4 world_bricks, const Wor
 // the nearest to the voxel's centre so far; `nearest` has 4096 distances for each painted brick. A
 // voxel that the surface crosses is no longer a cube;
 // an exact one stays exact, with the smooth surface's word: its primitives have their own.
-kernel void paint_smooth_voxels(
-    const uint count, const int4 world_bricks, const WorldBounds bounds, const int fraction_bits,
-    constant long* rows, const int4 object_bricks, global const uint* restrict slots,
-    global const ulong* restrict near, global const short* restrict distance, const float scale,
-    const int crossing, const AttributeMap map, global const uint* restrict materials,
-    global const uint* restrict attributes, global const uint* restrict colors,
-    global const uint* restrict painted, global const uint* restrict coordinates,
-    global const short* restrict world_distance, global short* restrict nearest,
-    global ulong* restrict occupancy, global uint* restrict world_attributes,
-    global uint* restrict world_colors) {
+kernel void paint_smooth_voxels(const uint count, const int crossing, VXL_OBJECT_PARAMETERS,
+                                VXL_PAINTED_PARAMETERS) {
     const uint item = work_item();
     if (item >= count) return;
-    const uint leaf = painted_leaf(item, painted);
-    const PlacedObject object = {rows, fraction_bits, object_bricks, slots};
-    const int4 low = leaf_in_world(leaf, coordinates, world_bricks);
+    const PlacedObject object = VXL_OBJECT;
+    const PaintedWorld world = VXL_PAINTED;
+    const uint leaf = painted_leaf(item, world.painted);
+    const int4 low = leaf_in_world(leaf, world.coordinates, world.bricks);
     const CellBox cells = map_box(&object, low, 8, false);
     const CellBox nodes = {cells.first, cells.last + 1};
-    if (!touches_near_leaf(&object, near, nodes) && !is_at_bounds(bounds, low / 2, 4)) return;
+    if (!touches_near_leaf(&object, object.near, nodes) && !is_at_bounds(world.bounds, low / 2, 4))
+        return;
     short block[VXL_BLOCK_NODES];
     CellBox gathered = nodes_of_cells(cells);
     const bool at_once = fits_block(gathered);
-    if (at_once) gather_block(&object, distance, gathered, block);
+    if (at_once) gather_block(&object, object.distance, gathered, block);
     ulong crossed = 0;
     for (int i = 0; i < 64; ++i) {
         const int4 voxel = (int4)(i & 3, i >> 2 & 3, i >> 4, 0);
@@ -168,86 +154,80 @@ kernel void paint_smooth_voxels(
         const size_t number = (size_t)(leaf >> 6) * VXL_BRICK_VOXELS + place;
         // Where this object's surface crosses, the corners' distances, which are no larger than its
         // own, are within a voxel's diagonal: most voxels near it need no more than this look.
-        if (world_distance[number] > 3 * crossing) continue;
+        if (world.distance[number] > 3 * crossing) continue;
         const FixedPoint centre = map_half_steps(&object, low + voxel * 2 + (int4)(1, 1, 1, 0));
-        const int4 cell = cell_at(centre, fraction_bits);
+        const int4 cell = cell_at(centre, object.fraction_bits);
         if (!at_once) {
             const CellBox one = {cell, cell};
             gathered = nodes_of_cells(one);
-            gather_block(&object, distance, gathered, block);
+            gather_block(&object, object.distance, gathered, block);
         }
-        const short own =
-            stored_distance(scale * distance_at(&object, block, gathered.first, centre));
+        const short own = stored_distance(object.distance_scale *
+                                          distance_at(&object, block, gathered.first, centre));
         const int4 half_steps = low + voxel * 2 + (int4)(1, 1, 1, 0);
-        const short value = (short)max((int)own, -depth_in_world(bounds, half_steps));
+        const short value = (short)max((int)own, -depth_in_world(world.bounds, half_steps));
         // `crossing` is half a voxel's diagonal; the bend of a distance field adds less than that.
         if ((int)abs(value) > 2 * crossing) continue;
         const uint kind =
-            VXL_ATTRIBUTES ? world_attributes[number] & VXL_KIND_EXACT << VXL_KIND_SHIFT : 0u;
+            VXL_ATTRIBUTES ? world.attributes[number] & VXL_KIND_EXACT << VXL_KIND_SHIFT : 0u;
         if (kind == 0u && (int)abs(value) <= crossing) crossed |= 1ul << i;
-        const size_t kept = (size_t)painted_index(item, painted) * VXL_BRICK_VOXELS + place;
-        if (value > nearest[kept]) continue;
-        nearest[kept] = value;
+        const size_t kept = (size_t)painted_index(item, world.painted) * VXL_BRICK_VOXELS + place;
+        if (value > world.nearest[kept]) continue;
+        world.nearest[kept] = value;
         const int4 at = cell - gathered.first;
         const int4 source =
             cell_on_surface(block + at.x + at.y * VXL_BLOCK_ROW + at.z * VXL_BLOCK_LAYER, cell);
         const long from = index_of_voxel(&object, source);
         if (VXL_ATTRIBUTES) {
-            const uint packed = attributes_of(map, materials, attributes, from);
-            world_attributes[number] =
+            const uint packed =
+                attributes_of(object.attribute_map, object.materials, object.attributes, from);
+            world.attributes[number] =
                 kind == 0u ? packed : (packed & ~(3u << VXL_KIND_SHIFT)) | kind;
         }
-        if (VXL_COLORS) world_colors[number] = color_of(colors, from);
+        if (VXL_COLORS) world.colors[number] = color_of(object.colors, from);
     }
-    if (VXL_WORLD_OCCUPANCY) occupancy[leaf] &= ~crossed;
+    if (VXL_WORLD_OCCUPANCY) world.occupancy[leaf] &= ~crossed;
 }
 
 // One leaf of the world: voxels whose centre's image lies in an occupied voxel of the object, or
 // has one within the reach. A voxel of the smooth body that becomes an exact one keeps the body's
 // word: its primitives have their own.
-kernel void paint_cubes(const uint count, const int4 world_bricks, const int fraction_bits,
-                        constant long* rows, const int4 object_bricks,
-                        global const uint* restrict slots, global const ulong* restrict near,
-                        global const ulong* restrict object_occupancy, const AttributeMap map,
-                        global const uint* restrict materials,
-                        global const uint* restrict attributes, global const uint* restrict colors,
-                        const int4 world_size, global const uint* restrict painted,
-                        global const uint* restrict coordinates,
-                        global const short* restrict nearest, global ulong* restrict occupancy,
-                        global uint* restrict world_attributes,
-                        global uint* restrict world_colors) {
+kernel void paint_cubes(const uint count, VXL_OBJECT_PARAMETERS, VXL_PAINTED_PARAMETERS) {
     const uint item = work_item();
     if (item >= count) return;
-    const uint leaf = painted_leaf(item, painted);
-    const PlacedObject object = {rows, fraction_bits, object_bricks, slots};
-    const int4 low = leaf_in_world(leaf, coordinates, world_bricks);
+    const PlacedObject object = VXL_OBJECT;
+    const PaintedWorld world = VXL_PAINTED;
+    const uint leaf = painted_leaf(item, world.painted);
+    const int4 low = leaf_in_world(leaf, world.coordinates, world.bricks);
     const CellBox box = map_box(&object, low + (int4)(1, 1, 1, 0), 6, true);
-    if (!touches_near_leaf(&object, near, box) && !touches_full_brick(&object, box)) return;
+    if (!touches_near_leaf(&object, object.near, box) && !touches_full_brick(&object, box)) return;
     ulong set = 0;
     for (int i = 0; i < 64; ++i) {
         const int4 voxel = (int4)(i & 3, i >> 2 & 3, i >> 4, 0);
-        if (any((low / 2 + voxel >= world_size).xyz)) continue;
+        if (any((low / 2 + voxel >= world.bounds.size).xyz)) continue;
         const FixedPoint centre = map_half_steps(&object, low + voxel * 2 + (int4)(1, 1, 1, 0));
         long from;
-        bool found = is_occupied(&object, object_occupancy, cell_at(centre, fraction_bits), &from);
+        bool found =
+            is_occupied(&object, object.occupancy, cell_at(centre, object.fraction_bits), &from);
         if (!found && VXL_REACH)
-            found =
-                find_in_box(&object, object_occupancy, near, cells_around(&object, centre), &from);
+            found = find_in_box(&object, object.occupancy, object.near,
+                                cells_around(&object, centre), &from);
         if (!found) continue;
         set |= 1ul << i;
         const size_t number = (size_t)(leaf >> 6) * VXL_BRICK_VOXELS + leaf_index(leaf) + voxel.x +
                               (voxel.y << 4) + (voxel.z << 8);
-        const size_t kept =
-            (size_t)painted_index(item, painted) * VXL_BRICK_VOXELS + number % VXL_BRICK_VOXELS;
-        if (VXL_AMONG_SMOOTH && nearest[kept] != VXL_SATURATED &&
-            world_attributes[number] >> VXL_KIND_SHIFT != VXL_KIND_CUBES) {
-            const uint packed = world_attributes[number] & ~(3u << VXL_KIND_SHIFT);
-            world_attributes[number] = packed | VXL_KIND_EXACT << VXL_KIND_SHIFT;
+        const size_t kept = (size_t)painted_index(item, world.painted) * VXL_BRICK_VOXELS +
+                            number % VXL_BRICK_VOXELS;
+        if (VXL_AMONG_SMOOTH && world.nearest[kept] != VXL_SATURATED &&
+            world.attributes[number] >> VXL_KIND_SHIFT != VXL_KIND_CUBES) {
+            const uint packed = world.attributes[number] & ~(3u << VXL_KIND_SHIFT);
+            world.attributes[number] = packed | VXL_KIND_EXACT << VXL_KIND_SHIFT;
             continue;
         }
         if (VXL_ATTRIBUTES)
-            world_attributes[number] = attributes_of(map, materials, attributes, from);
-        if (VXL_COLORS) world_colors[number] = color_of(colors, from);
+            world.attributes[number] =
+                attributes_of(object.attribute_map, object.materials, object.attributes, from);
+        if (VXL_COLORS) world.colors[number] = color_of(object.colors, from);
     }
-    occupancy[leaf] |= set;
+    world.occupancy[leaf] |= set;
 }

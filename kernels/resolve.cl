@@ -4,6 +4,7 @@
 // VXL_SHOWS_NORMAL, VXL_SHOWS_OBJECT: the channels asked for.
 #include "lib/lanes/lanes.h"
 #include "lib/lanes/work_item.h"
+#include "lib/traverse/ray_batch.h"
 #include "shared/scene.h"
 #include "shared/trace.h"
 #include "shared/voxel.h"
@@ -41,80 +42,100 @@ static inline void store_pixels(lane_float value, const Pixels* p, global float*
         if (p->is_in_image[i]) plane[p->place[i]] = values[i];
 }
 
-/// One work-item makes VXL_LANES pixels. `image` holds, `pixels` apart, what is asked for of R G B
-/// A Z P.X P.Y P.Z N.X N.Y N.Z; `objects` the number of the object plus 1, 0 for none. Counts
-/// values that are not finite, as 0.
-kernel void resolve_pixels(Camera camera, PyramidShape shape, float4 world_origin,
-                           global const uint* restrict hits, global const float* restrict positions,
-                           global const float* restrict normals,
-                           global const uint* restrict hit_attributes,
-                           global const float* restrict radiance,
-                           global const float* restrict coverage, uint first_tile, uint tile_count,
-                           uint stride, global float* restrict image, global uint* restrict objects,
-                           global uint* restrict not_finite) {
-    const uint item = work_item() * VXL_LANES;
-    if (item >= tile_count * 16u) return;
-    const Pixels at = pixels_of(&camera, first_tile + item / 16u, item % 16u);
-    const size_t pixels = (size_t)camera.width * (size_t)camera.height;
-    const uint first_ray = item / 16u * (uint)camera.samples * 16u + item % 16u;
+/// The samples of a packet's pixels, summed.
+typedef struct {
+    lane_float color[3];
+    lane_float covered;
+    lane_uint shown;  // the first sample's ray that met something, VXL_NO_VOXEL for none
+} Samples;
 
-    lane_float color[3] = {(lane_float)0.0f, (lane_float)0.0f, (lane_float)0.0f};
-    lane_float covered = (lane_float)0.0f;
-    lane_uint shown = (lane_uint)VXL_NO_VOXEL;
-    for (uint sample = 0; sample < (uint)camera.samples; ++sample) {
+/// Adds up the `samples` samples of pixels whose first one's ray is `first_ray`.
+static inline Samples sum_samples(const RayBatch* batch, uint first_ray, uint samples) {
+    const lane_float zero = (lane_float)0.0f;
+    Samples s = {{zero, zero, zero}, zero, (lane_uint)VXL_NO_VOXEL};
+    for (uint sample = 0; sample < samples; ++sample) {
         const uint ray = first_ray + sample * 16u;
         if (VXL_SHOWS_COLOR) {
             for (uint channel = 0; channel < 3; ++channel)
-                color[channel] += LANES_LOAD(radiance, channel * stride + ray);
-            if (VXL_TRANSMISSION) covered += LANES_LOAD(coverage, ray);
+                s.color[channel] += LANES_LOAD(batch->radiance, channel * batch->stride + ray);
+            if (VXL_TRANSMISSION) s.covered += LANES_LOAD(batch->coverage, ray);
         }
         const lane_int hit =
-            LANE_MASK(LANES_LOAD(hits, VXL_HIT_VOXEL * stride + ray) != VXL_NO_VOXEL);
-        if (!VXL_TRANSMISSION) covered = LANES_SELECT(hit, covered + 1.0f, covered);
-        shown = LANES_SELECT(hit & LANE_MASK(shown == VXL_NO_VOXEL),
-                             LANES_AS_UINT(LANES_NUMBERS + (int)ray), shown);
+            LANE_MASK(LANES_LOAD(batch->hits, VXL_HIT_VOXEL * batch->stride + ray) != VXL_NO_VOXEL);
+        if (!VXL_TRANSMISSION) s.covered = LANES_SELECT(hit, s.covered + 1.0f, s.covered);
+        s.shown = LANES_SELECT(hit & LANE_MASK(s.shown == VXL_NO_VOXEL),
+                               LANES_AS_UINT(LANES_NUMBERS + (int)ray), s.shown);
     }
-    const float sample_weight = camera.sample_weight;
-    for (uint channel = 0; VXL_SHOWS_COLOR && channel < 3; ++channel) {
-        const lane_float value = color[channel] * sample_weight;
-        const lane_int finite = LANE_MASK(fabs(value) < INFINITY);
-        int is_finite[VXL_LANES];
-        LANES_STORE(finite, is_finite, 0);
-        for (uint i = 0; i < VXL_LANES; ++i)
-            if (at.is_in_image[i] && !is_finite[i]) atomic_inc(not_finite);
-        store_pixels(LANES_SELECT(finite, value, (lane_float)0.0f), &at, image + channel * pixels);
-    }
-    if (VXL_SHOWS_COLOR) store_pixels(covered * sample_weight, &at, image + 3 * pixels);
-    const lane_int hit = LANE_MASK(shown != VXL_NO_VOXEL);
-    const lane_uint ray = shown & LANES_AS_UINT(hit);
-    const float edge[3] = {shape.edge.x, shape.edge.y, shape.edge.z};
+    return s;
+}
+
+/// Stores the mean of a channel's samples; counts values that are not finite, as 0.
+static inline void store_color(lane_float value, const Pixels* at, global float* restrict plane,
+                               global uint* restrict not_finite) {
+    const lane_int finite = LANE_MASK(fabs(value) < INFINITY);
+    int is_finite[VXL_LANES];
+    LANES_STORE(finite, is_finite, 0);
+    for (uint i = 0; i < VXL_LANES; ++i)
+        if (at->is_in_image[i] && !is_finite[i]) atomic_inc(not_finite);
+    store_pixels(LANES_SELECT(finite, value, (lane_float)0.0f), at, plane);
+}
+
+/// Stores depth, position and normal of the `hit` pixels' rays.
+static inline void store_geometry(const Camera* camera, float4 voxel_edge, float4 world_origin,
+                                  const RayBatch* batch, lane_uint ray, lane_int hit,
+                                  const Pixels* at, size_t pixels, global float* restrict image) {
+    const float edge[3] = {voxel_edge.x, voxel_edge.y, voxel_edge.z};
     const float origin[3] = {world_origin.x, world_origin.y, world_origin.z};
     const uint depth_plane = 4 * VXL_SHOWS_COLOR;
     const uint position_plane = depth_plane + VXL_SHOWS_DEPTH;
     const uint normal_plane = position_plane + 3 * VXL_SHOWS_POSITION;
-    const float eye[3] = {camera.origin.x, camera.origin.y, camera.origin.z};
-    const float eye_low[3] = {camera.origin_low.x, camera.origin_low.y, camera.origin_low.z};
+    const float eye[3] = {camera->origin.x, camera->origin.y, camera->origin.z};
+    const float eye_low[3] = {camera->origin_low.x, camera->origin_low.y, camera->origin_low.z};
     // Z_E in voxels per metre; times the edge twice it measures voxels along Z_E in metres.
-    const float ahead[3] = {camera.axis_z.x, camera.axis_z.y, camera.axis_z.z};
+    const float ahead[3] = {camera->axis_z.x, camera->axis_z.y, camera->axis_z.z};
     const lane_float nothing = (lane_float)0.0f;
-    lane_float depth = (lane_float)camera.lead;
+    lane_float depth = (lane_float)camera->lead;
     for (uint a = 0; a < 3; ++a) {
         lane_float p = nothing;
         if (VXL_SHOWS_DEPTH || VXL_SHOWS_POSITION)
-            p = LANES_GATHER_FLOAT(positions + a * stride, ray);
+            p = LANES_GATHER_FLOAT(batch->positions + a * batch->stride, ray);
         const lane_float from_eye = (p - eye[a] - eye_low[a]) * edge[a];
         depth = fma(from_eye, (lane_float)(ahead[a] * edge[a]), depth);
         if (VXL_SHOWS_POSITION)
             store_pixels(
-                LANES_SELECT(hit, fma(p, (lane_float)edge[a], (lane_float)origin[a]), nothing), &at,
+                LANES_SELECT(hit, fma(p, (lane_float)edge[a], (lane_float)origin[a]), nothing), at,
                 image + (position_plane + a) * pixels);
         if (VXL_SHOWS_NORMAL)
-            store_pixels(LANES_SELECT(hit, LANES_GATHER_FLOAT(normals + a * stride, ray), nothing),
-                         &at, image + (normal_plane + a) * pixels);
+            store_pixels(
+                LANES_SELECT(hit, LANES_GATHER_FLOAT(batch->normals + a * batch->stride, ray),
+                             nothing),
+                at, image + (normal_plane + a) * pixels);
     }
     if (VXL_SHOWS_DEPTH)
-        store_pixels(LANES_SELECT(hit, depth, (lane_float)INFINITY), &at,
+        store_pixels(LANES_SELECT(hit, depth, (lane_float)INFINITY), at,
                      image + depth_plane * pixels);
+}
+
+/// One work-item makes VXL_LANES pixels. `image` holds, `pixels` apart, what is asked for of R G B
+/// A Z P.X P.Y P.Z N.X N.Y N.Z; `objects` the number of the object plus 1, 0 for none.
+kernel void resolve_pixels(Camera camera, PyramidShape shape, float4 world_origin,
+                           VXL_BATCH_PARAMETERS, uint first_tile, uint tile_count,
+                           global float* restrict image, global uint* restrict objects,
+                           global uint* restrict not_finite) {
+    const uint item = work_item() * VXL_LANES;
+    if (item >= tile_count * 16u) return;
+    const RayBatch batch = VXL_BATCH;
+    const Pixels at = pixels_of(&camera, first_tile + item / 16u, item % 16u);
+    const size_t pixels = (size_t)camera.width * (size_t)camera.height;
+    const uint first_ray = item / 16u * (uint)camera.samples * 16u + item % 16u;
+    const Samples s = sum_samples(&batch, first_ray, (uint)camera.samples);
+    const float sample_weight = camera.sample_weight;
+    for (uint channel = 0; VXL_SHOWS_COLOR && channel < 3; ++channel)
+        store_color(s.color[channel] * sample_weight, &at, image + channel * pixels, not_finite);
+    if (VXL_SHOWS_COLOR) store_pixels(s.covered * sample_weight, &at, image + 3 * pixels);
+    const lane_int hit = LANE_MASK(s.shown != VXL_NO_VOXEL);
+    const lane_uint ray = s.shown & LANES_AS_UINT(hit);
+    store_geometry(&camera, shape.edge, world_origin, &batch, ray, hit, &at, pixels, image);
     if (VXL_SHOWS_OBJECT) {
         const lane_uint object = (LANES_GATHER_UINT(hit_attributes, ray) & VXL_OBJECT_MASK) + 1u;
         store_pixels(LANES_AS_FLOAT(LANES_SELECT(hit, object, (lane_uint)0)), &at,

@@ -10,193 +10,243 @@
 #include "lib/surface/triangle.h"
 #include "lib/traverse/hit_attributes.h"
 #include "lib/traverse/instance_hit.h"
+#include "lib/traverse/ray_batch.h"
 #include "shared/scene.h"
 #include "shared/trace.h"
 #include "shared/voxel.h"
 
-/// Finds of every hit what is asked for: its point, normal and word, and the ambient light and
-/// emission that start its radiance; rays that hit nothing take the background. `hit_attributes`
-/// keeps each hit's packed attributes, `sides` how the surface was met, where the scene has
-/// transmitting objects or mirrors.
-kernel void shade_surface(PyramidShape shape, Environment environment,
-                          global const float* restrict materials,
-                          global const uint* restrict attributes, uint constant_attribute,
-                          global const uint* restrict colors, global const uint* restrict fields,
-                          global const float* restrict triangles,
-                          global const uint* restrict triangle_attributes,
-                          global const SolidShape* restrict solids,
-                          global const InstanceRecord* restrict instance_records,
-                          global const uint* restrict group_materials,
-                          global const uint* restrict ranks, global const float* restrict rays,
-                          global const uint* restrict hits, global const uint* restrict paths,
-                          uint count, uint stride, global float* restrict positions,
-                          global float* restrict normals, global uint* restrict hit_attributes,
-                          global uint* restrict sides, global float* restrict radiance) {
-    const uint first = work_item() * VXL_LANES;
-    if (first >= count) return;
-    const float4 edge = shape.edge;
+/// What a packet of rays has met, and where. Lanes that met nothing have harmless numbers.
+typedef struct {
+    lane_int hit, of_instance;  // masks
+    lane_int exact, smooth;     // masks: triangles and solids; the smooth body
+    lane_uint voxel, primitive, packed, face;
+    Vector cell;                     // the minimum corner of the voxel
+    Vector world_origin, world_way;  // of the ray, in the world's voxels
+    lane_float world_t;
+    HitRay ray;  // in the voxels that the cell is one of: an instance's or the world's
+} ShadedHit;
+
+static inline ShadedHit load_hits(const WorldView* world, const RayBatch* batch, uint first) {
+    global const uint* hits = batch->hits;
+    const uint stride = batch->stride;
+    ShadedHit h;
     const lane_float t = LANES_AS_FLOAT(LANES_LOAD(hits, VXL_HIT_T * stride + first));
     const lane_uint number = LANES_LOAD(hits, VXL_HIT_VOXEL * stride + first);
     const lane_uint cell_xy = LANES_LOAD(hits, VXL_HIT_CELL * stride + first);
-    const lane_uint cell_face = LANES_LOAD(hits, VXL_HIT_FACE * stride + first);
-    const lane_int hit = LANE_MASK(number != VXL_NO_VOXEL);
-    const lane_uint voxel = number & LANES_AS_UINT(hit);
-    const lane_float cx = LANES_FLOAT(cell_xy & 0xFFFFu), cy = LANES_FLOAT(cell_xy >> 16);
-    const lane_float cz = LANES_FLOAT(cell_face & 0xFFFFu);
-    const lane_uint axis = (cell_face >> VXL_FACE_AXIS_SHIFT) & VXL_FACE_AXIS_MASK;
-    const Vector world_o = load_vector(rays, stride, first);
-    const Vector world_d = load_vector(rays + VXL_RAY_DX * stride, stride, first);
-    const lane_float world_at = LANES_SELECT(hit, t, (lane_float)0.0f);
-    HitRay in_grid;
-    in_grid.origin = world_o, in_grid.direction = world_d, in_grid.t = world_at;
-    lane_uint instance = (lane_uint)VXL_NO_INSTANCE;
-    lane_int of_instance = (lane_int)0;
+    h.face = LANES_LOAD(hits, VXL_HIT_FACE * stride + first);
+    h.hit = LANE_MASK(number != VXL_NO_VOXEL);
+    h.voxel = number & LANES_AS_UINT(h.hit);
+    h.cell.x = LANES_FLOAT(cell_xy & 0xFFFFu), h.cell.y = LANES_FLOAT(cell_xy >> 16);
+    h.cell.z = LANES_FLOAT(h.face & 0xFFFFu);
+    h.world_origin = load_vector(batch->rays, stride, first);
+    h.world_way = load_vector(batch->rays + VXL_RAY_DX * stride, stride, first);
+    h.world_t = LANES_SELECT(h.hit, t, (lane_float)0.0f);
+    h.ray.origin = h.world_origin, h.ray.direction = h.world_way, h.ray.t = h.world_t;
+    h.primitive = (lane_uint)VXL_NO_PRIMITIVE;
+    if (VXL_EXACT) h.primitive = LANES_LOAD(hits, VXL_HIT_PRIMITIVE * stride + first);
+    h.packed = attributes_of_hit(&world->surface, h.voxel, h.primitive, h.hit);
+    h.of_instance = (lane_int)0;
     if (VXL_INSTANCES) {
-        instance = LANES_LOAD(hits, VXL_HIT_INSTANCE * stride + first);
-        of_instance = hit & LANE_MASK(instance != VXL_NO_INSTANCE);
-        in_grid = transform_hits(instance_records, instance, of_instance, in_grid);
+        const lane_uint instance = LANES_LOAD(hits, VXL_HIT_INSTANCE * stride + first);
+        h.of_instance = h.hit & LANE_MASK(instance != VXL_NO_INSTANCE);
+        h.ray = transform_hits(world->instances.records, instance, h.of_instance, h.ray);
+        h.packed = instance_attributes(&world->instances, instance, h.packed, h.of_instance);
     }
-    const Vector o = in_grid.origin, d = in_grid.direction;
-    const lane_float at = in_grid.t;
-    // The position inside the voxel: a cube's on the face that was crossed, exactly.
-    Vector s = {clamp(fma(d.x, at, o.x - cx), 0.0f, 1.0f),
-                clamp(fma(d.y, at, o.y - cy), 0.0f, 1.0f),
-                clamp(fma(d.z, at, o.z - cz), 0.0f, 1.0f)};
+    h.exact = LANE_MASK(h.primitive != VXL_NO_PRIMITIVE) & h.hit;
+    h.smooth = LANE_MASK((h.packed >> VXL_KIND_SHIFT) != VXL_KIND_CUBES) & h.hit & ~h.exact;
+    return h;
+}
 
-    Vector normal = {(lane_float)0.0f, (lane_float)0.0f, (lane_float)0.0f};
-    lane_uint primitive = (lane_uint)VXL_NO_PRIMITIVE;
-    if (VXL_EXACT) primitive = LANES_LOAD(hits, VXL_HIT_PRIMITIVE * stride + first);
-    lane_uint packed = attributes_of_hit(attributes, constant_attribute, triangle_attributes,
-                                         solids, voxel, primitive, hit);
+/// Where rays have met their surfaces: the place in the voxel, and the unit normal in metres'
+/// space.
+typedef struct {
+    Vector place, normal;
+} SurfacePoint;
+
+/// A gradient in the voxels of the hits, as a unit normal in metres' space.
+static inline Vector normal_of(const WorldView* world, const ShadedHit* h, Vector gradient) {
+    if (VXL_INSTANCES) gradient = world_gradient(&h->ray, gradient, h->of_instance);
+    return unit(scaled(gradient, world->shape.inverse_edge));
+}
+
+/// Cubes: exactly on the face that was crossed, which faces the ray.
+static inline void meet_cubes(const WorldView* world, const ShadedHit* h, SurfacePoint* p) {
+    const Vector d = h->ray.direction;
+    const lane_uint axis = (h->face >> VXL_FACE_AXIS_SHIFT) & VXL_FACE_AXIS_MASK;
+    const lane_float up_x = LANES_FLOAT(LANE_MASK(d.x >= 0.0f)) * 2.0f + 1.0f;
+    const lane_float up_y = LANES_FLOAT(LANE_MASK(d.y >= 0.0f)) * 2.0f + 1.0f;
+    const lane_float up_z = LANES_FLOAT(LANE_MASK(d.z >= 0.0f)) * 2.0f + 1.0f;
+    const lane_float zero = (lane_float)0.0f;
+    const Vector face = {LANES_SELECT(LANE_MASK(axis == 0u), up_x, zero),
+                         LANES_SELECT(LANE_MASK(axis == 1u), up_y, zero),
+                         LANES_SELECT(LANE_MASK(axis == 2u), up_z, zero)};
+    const lane_int cubes =
+        LANE_MASK((h->packed >> VXL_KIND_SHIFT) == VXL_KIND_CUBES) & h->hit & ~h->exact;
+    lane_float half_unit = (lane_float)0.5f;  // towards the face that was met
+    if (VXL_CUBE_BODIES) half_unit = LANES_SELECT(is_exit(h->face), -half_unit, half_unit);
+    const Vector on_face = {
+        LANES_SELECT(LANE_MASK(axis == 0u), fma(up_x, half_unit, 0.5f), p->place.x),
+        LANES_SELECT(LANE_MASK(axis == 1u), fma(up_y, half_unit, 0.5f), p->place.y),
+        LANES_SELECT(LANE_MASK(axis == 2u), fma(up_z, half_unit, 0.5f), p->place.z)};
+    p->place = select_vector(cubes, on_face, p->place);
+    p->normal = select_vector(cubes, face, p->normal);
     if (VXL_INSTANCES)
-        packed =
-            instance_attributes(instance_records, group_materials, instance, packed, of_instance);
-    const lane_int exact = LANE_MASK(primitive != VXL_NO_PRIMITIVE) & hit;
-    const lane_uint kind = packed >> VXL_KIND_SHIFT;
-    if (VXL_CUBES) {
-        const lane_float up_x = LANES_FLOAT(LANE_MASK(d.x >= 0.0f)) * 2.0f + 1.0f;
-        const lane_float up_y = LANES_FLOAT(LANE_MASK(d.y >= 0.0f)) * 2.0f + 1.0f;
-        const lane_float up_z = LANES_FLOAT(LANE_MASK(d.z >= 0.0f)) * 2.0f + 1.0f;
-        const lane_float zero = (lane_float)0.0f;
-        Vector face = {LANES_SELECT(LANE_MASK(axis == 0u), up_x, zero),
-                       LANES_SELECT(LANE_MASK(axis == 1u), up_y, zero),
-                       LANES_SELECT(LANE_MASK(axis == 2u), up_z, zero)};
-        const lane_int cubes = LANE_MASK(kind == VXL_KIND_CUBES) & hit & ~exact;
-        lane_float half_unit = (lane_float)0.5f;  // towards the face that was met
-        if (VXL_CUBE_BODIES) half_unit = LANES_SELECT(is_exit(cell_face), -half_unit, half_unit);
-        const Vector on_face = {
-            LANES_SELECT(LANE_MASK(axis == 0u), fma(up_x, half_unit, 0.5f), s.x),
-            LANES_SELECT(LANE_MASK(axis == 1u), fma(up_y, half_unit, 0.5f), s.y),
-            LANES_SELECT(LANE_MASK(axis == 2u), fma(up_z, half_unit, 0.5f), s.z)};
-        s = select_vector(cubes, on_face, s);
-        normal = select_vector(cubes, face, normal);
-        if (VXL_INSTANCES) {
-            Vector g = world_gradient(&in_grid, face, of_instance);
-            g.x *= shape.inverse_edge.x, g.y *= shape.inverse_edge.y, g.z *= shape.inverse_edge.z;
-            normal = select_vector(cubes & of_instance, unit(g), normal);
-        }
+        p->normal = select_vector(cubes & h->of_instance, normal_of(world, h, face), p->normal);
+}
+
+/// Smooth voxels: the normal is the gradient of the distance field.
+static inline void meet_smooth(const WorldView* world, const ShadedHit* h, SurfacePoint* p) {
+    const Field field = read_field(world->surface.fields, h->voxel & LANES_AS_UINT(h->smooth));
+    Vector g;
+    field_gradient(&field, p->place.x, p->place.y, p->place.z, &g.x, &g.y, &g.z);
+    p->normal = select_vector(h->smooth, normal_of(world, h, g), p->normal);
+}
+
+/// Triangles.
+static inline void meet_triangles(const WorldView* world, const ShadedHit* h, lane_int triangles,
+                                  SurfacePoint* p) {
+    global const float* corners = world->surface.triangles;
+    const lane_uint triangle = h->primitive & LANES_AS_UINT(triangles);
+    const Vector n = unit(triangle_normal(corners, triangle, world->shape.edge));
+    p->normal = select_vector(triangles, n, p->normal);
+    if (VXL_INSTANCES) {
+        const Vector g = triangle_normal(corners, triangle, (float4)(1.0f));
+        p->normal = select_vector(triangles & h->of_instance, normal_of(world, h, g), p->normal);
     }
-    const lane_int smooth = LANE_MASK(kind != VXL_KIND_CUBES) & hit & ~exact;
-    if (VXL_SMOOTH && lanes_any(smooth)) {
-        const Field field = read_field(fields, voxel & LANES_AS_UINT(smooth));
-        Vector g;
-        field_gradient(&field, s.x, s.y, s.z, &g.x, &g.y, &g.z);
-        if (VXL_INSTANCES) g = world_gradient(&in_grid, g, of_instance);
-        g.x *= shape.inverse_edge.x, g.y *= shape.inverse_edge.y, g.z *= shape.inverse_edge.z;
-        normal = select_vector(smooth, unit(g), normal);
-    }
-    if (VXL_EXACT && lanes_any(exact)) {
-        const lane_int is_solid = LANE_MASK((primitive & VXL_SOLID_PRIMITIVE) != 0u) & exact;
-        const lane_int is_triangle = exact & ~is_solid;
-        if (VXL_TRIANGLES) {
-            const lane_uint triangle = primitive & LANES_AS_UINT(is_triangle);
-            normal = select_vector(is_triangle, unit(triangle_normal(triangles, triangle, edge)),
-                                   normal);
-            if (VXL_INSTANCES) {
-                Vector g = triangle_normal(triangles, triangle, (float4)(1.0f));
-                g = world_gradient(&in_grid, g, of_instance);
-                g.x *= shape.inverse_edge.x, g.y *= shape.inverse_edge.y;
-                g.z *= shape.inverse_edge.z;
-                normal = select_vector(is_triangle & of_instance, unit(g), normal);
-            }
-        }
-        if (VXL_SOLIDS && lanes_any(is_solid)) {
-            const lane_uint solid = (primitive & ~VXL_SOLID_PRIMITIVE) & LANES_AS_UINT(is_solid);
-            const SolidRay ray = {o.x, o.y, o.z, d.x, d.y, d.z};
-            const SolidPoint in_voxels = solid_normals(solids, solid, &ray, at, is_solid);
-            Vector g = {in_voxels.x, in_voxels.y, in_voxels.z};
-            if (VXL_INSTANCES) g = world_gradient(&in_grid, g, of_instance);
-            const Vector gradient = {g.x * shape.inverse_edge.x, g.y * shape.inverse_edge.y,
-                                     g.z * shape.inverse_edge.z};
-            normal = select_vector(is_solid, unit(gradient), normal);
-        }
-        const Vector along = {fma(d.x, at, o.x - cx), fma(d.y, at, o.y - cy),
-                              fma(d.z, at, o.z - cz)};
-        s = select_vector(exact, along, s);
-    }
-    // Surfaces without an inside, and insides that a ray began in, face the ray.
-    const Vector metric = {world_d.x * edge.x, world_d.y * edge.y, world_d.z * edge.z};
+}
+
+/// Solids: the normal is the gradient of the solid's formula.
+static inline void meet_solids(const WorldView* world, const ShadedHit* h, lane_int solids,
+                               SurfacePoint* p) {
+    const lane_uint solid = (h->primitive & ~VXL_SOLID_PRIMITIVE) & LANES_AS_UINT(solids);
+    const Vector o = h->ray.origin, d = h->ray.direction;
+    const SolidRay ray = {o.x, o.y, o.z, d.x, d.y, d.z};
+    const SolidPoint in_voxels =
+        solid_normals(world->surface.solids, solid, &ray, h->ray.t, solids);
+    const Vector g = {in_voxels.x, in_voxels.y, in_voxels.z};
+    p->normal = select_vector(solids, normal_of(world, h, g), p->normal);
+}
+
+/// Mask: surfaces whose normals point along the rays. Those without an inside, and insides that a
+/// ray began in, face the ray.
+static inline lane_int faces_away(const WorldView* world, const ShadedHit* h, Vector normal) {
+    const Vector metric = scaled(h->world_way, world->shape.edge);
     // A smooth one's gradient may turn too far at its silhouette, but the walk knows the side.
     lane_int behind = LANE_MASK(dot_product(metric, normal) > 0.0f);
     if (VXL_SMOOTH)
-        behind = LANES_SELECT(smooth, LANE_MASK((cell_face & VXL_FACE_WITHIN) != 0u), behind);
-    const Vector flipped = {-normal.x, -normal.y, -normal.z};
-    normal = select_vector(behind, flipped, normal);
+        behind = LANES_SELECT(h->smooth, LANE_MASK((h->face & VXL_FACE_WITHIN) != 0u), behind);
+    return behind;
+}
 
-    Vector position = {cx + s.x, cy + s.y, cz + s.z};
-    if (VXL_INSTANCES) {
-        const Vector on_ray = {fma(world_d.x, world_at, world_o.x),
-                               fma(world_d.y, world_at, world_o.y),
-                               fma(world_d.z, world_at, world_o.z)};
-        position = select_vector(of_instance, on_ray, position);
+/// The points that the rays have met, each as its kind of surface tells.
+static inline SurfacePoint meet_surface(const WorldView* world, const ShadedHit* h) {
+    const Vector o = h->ray.origin, d = h->ray.direction, c = h->cell;
+    const lane_float t = h->ray.t, zero = (lane_float)0.0f;
+    SurfacePoint p = {
+        {clamp(fma(d.x, t, o.x - c.x), 0.0f, 1.0f), clamp(fma(d.y, t, o.y - c.y), 0.0f, 1.0f),
+         clamp(fma(d.z, t, o.z - c.z), 0.0f, 1.0f)},
+        {zero, zero, zero}};
+    if (VXL_CUBES) meet_cubes(world, h, &p);
+    if (VXL_SMOOTH && lanes_any(h->smooth)) meet_smooth(world, h, &p);
+    if (VXL_EXACT && lanes_any(h->exact)) {
+        const lane_int solids = LANE_MASK((h->primitive & VXL_SOLID_PRIMITIVE) != 0u) & h->exact;
+        if (VXL_TRIANGLES) meet_triangles(world, h, h->exact & ~solids, &p);
+        if (VXL_SOLIDS && lanes_any(solids)) meet_solids(world, h, solids, &p);
+        const Vector along = {fma(d.x, t, o.x - c.x), fma(d.y, t, o.y - c.y),
+                              fma(d.z, t, o.z - c.z)};
+        p.place = select_vector(h->exact, along, p.place);
     }
-    if (VXL_POSITIONS) store_vector(position, positions, stride, first);
-    if (VXL_NORMALS) store_vector(normal, normals, stride, first);
-    if (VXL_HIT_ATTRIBUTES) LANES_STORE(packed, hit_attributes, first);
-    if (!VXL_RADIANCE) return;
+    return p;
+}
 
-    const lane_uint material = material_offset(packed) & LANES_AS_UINT(hit);
-    lane_float opacity = surface_opacity(materials, material, colors, voxel);
-    lane_uint side = LANES_AS_UINT(behind) & VXL_SIDE_LEAVING;
-    if (VXL_TRANSMISSION) {
-        lane_int hidden;
-        const MediumSet before = load_medium_set(paths, stride, first, hit);
-        const lane_int body = is_smooth(packed, primitive) & ~of_instance;
-        lane_int leaving = medium_set_holds(&before, packed, body) | behind;
-        lane_int inner = (lane_int)0, exit = (lane_int)0;  // faces between cubes, and out of them
-        if (VXL_CUBE_BODIES) {
-            const lane_int cube = is_cube(packed, primitive) & hit;
-            exit = cube & is_exit(cell_face);
-            inner = cube & leaving & ~exit;
-            leaving = LANES_SELECT(cube, exit, leaving);
-        }
-        hidden = hides_surface(&before, packed, body, leaving, ranks);
-        if (VXL_CUBE_BODIES) {
-            hidden |= exit & ~is_joined(packed, materials);
-            hidden =
-                LANES_SELECT(inner, ~same_medium(effective_medium(&before, ranks), packed), hidden);
-            // An observer inside of a joined body is not on any face of it.
-            hidden |=
-                is_cube(packed, primitive) & LANE_MASK(axis == 3u) & is_joined(packed, materials);
-        }
-        hidden &= hit & (transmits(materials, material, opacity) | exit);
-        opacity = LANES_SELECT(hidden, (lane_float)0.0f, opacity);
-        side =
-            (LANES_AS_UINT(leaving) & VXL_SIDE_LEAVING) | (LANES_AS_UINT(hidden) & VXL_SIDE_HIDDEN);
+/// Where the points are in the world, in voxels.
+static inline Vector position_of(const ShadedHit* h, const SurfacePoint* p) {
+    const Vector in_cell = {h->cell.x + p->place.x, h->cell.y + p->place.y, h->cell.z + p->place.z};
+    if (!VXL_INSTANCES) return in_cell;
+    const Vector o = h->world_origin, d = h->world_way;
+    const Vector on_ray = {fma(d.x, h->world_t, o.x), fma(d.y, h->world_t, o.y),
+                           fma(d.z, h->world_t, o.z)};
+    return select_vector(h->of_instance, on_ray, in_cell);
+}
+
+/// VXL_SIDE_* bits of surfaces that rays meet inside of the objects of `before`. The opacity of
+/// those that are hidden becomes 0.
+static inline lane_uint side_of(const ShadedHit* h, const MediumSet* before, lane_int behind,
+                                lane_uint material, global const float* restrict materials,
+                                global const uint* restrict ranks, lane_float* opacity) {
+    const lane_int body = is_smooth(h->packed, h->primitive) & ~h->of_instance;
+    lane_int leaving = medium_set_holds(before, h->packed, body) | behind;
+    lane_int inner = (lane_int)0, exit = (lane_int)0;  // faces between cubes, and out of them
+    if (VXL_CUBE_BODIES) {
+        const lane_int cube = is_cube(h->packed, h->primitive) & h->hit;
+        exit = cube & is_exit(h->face);
+        inner = cube & leaving & ~exit;
+        leaving = LANES_SELECT(cube, exit, leaving);
     }
-    if (VXL_PATHS) LANES_STORE(side, sides, first);
+    lane_int hidden = hides_surface(before, h->packed, body, leaving, ranks);
+    if (VXL_CUBE_BODIES) {
+        hidden |= exit & ~is_joined(h->packed, materials);
+        hidden =
+            LANES_SELECT(inner, ~same_medium(effective_medium(before, ranks), h->packed), hidden);
+        // An observer inside of a joined body is not on any face of it.
+        const lane_uint axis = (h->face >> VXL_FACE_AXIS_SHIFT) & VXL_FACE_AXIS_MASK;
+        hidden |= is_cube(h->packed, h->primitive) & LANE_MASK(axis == 3u) &
+                  is_joined(h->packed, materials);
+    }
+    hidden &= h->hit & (transmits(materials, material, *opacity) | exit);
+    *opacity = LANES_SELECT(hidden, (lane_float)0.0f, *opacity);
+    return (LANES_AS_UINT(leaving) & VXL_SIDE_LEAVING) | (LANES_AS_UINT(hidden) & VXL_SIDE_HIDDEN);
+}
 
+/// Starts the radiance of the rays: ambient light and emission, or the background.
+static inline void store_own_light(const WorldView* world, const ShadedHit* h,
+                                   Environment environment, Vector position, lane_float opacity,
+                                   lane_uint material, global const float* restrict materials,
+                                   const RayBatch* batch, uint first) {
     const lane_float diffuse = LANES_GATHER_FLOAT(materials, material + VXL_MATERIAL_DIFFUSE);
     const lane_uint place = color_offset(materials, material, position.x, position.y, position.z);
     const float ambient[3] = {environment.ambient.x, environment.ambient.y, environment.ambient.z};
     const float background[3] = {environment.background.x, environment.background.y,
                                  environment.background.z};
     for (int channel = 0; channel < 3; ++channel) {
-        const lane_float color = surface_color(materials, place, colors, voxel, channel);
+        const lane_float color =
+            surface_color(materials, place, world->surface.colors, h->voxel, channel);
         const lane_float emission =
             LANES_GATHER_FLOAT(materials, material + (uint)(VXL_MATERIAL_EMISSION + channel));
         const lane_float own = fma(color * diffuse, ambient[channel], emission) * opacity;
-        LANES_STORE(LANES_SELECT(hit, own, (lane_float)background[channel]), radiance,
-                    (uint)channel * stride + first);
+        LANES_STORE(LANES_SELECT(h->hit, own, (lane_float)background[channel]), batch->radiance,
+                    (uint)channel * batch->stride + first);
     }
+}
+
+/// Finds of every hit what is asked for: its point, normal and word, and the ambient light and
+/// emission that start its radiance; rays that hit nothing take the background. The batch's
+/// `hit_attributes` keep each hit's packed attributes, its `sides` how the surface was met, where
+/// the scene has transmitting objects or mirrors.
+kernel void shade_surface(VXL_WORLD_PARAMETERS, Environment environment,
+                          global const float* restrict materials, global const uint* restrict ranks,
+                          VXL_BATCH_PARAMETERS, uint count) {
+    const uint first = work_item() * VXL_LANES;
+    if (first >= count) return;
+    const WorldView world = VXL_WORLD;
+    const RayBatch batch = VXL_BATCH;
+    const ShadedHit h = load_hits(&world, &batch, first);
+    SurfacePoint p = meet_surface(&world, &h);
+    const lane_int behind = faces_away(&world, &h, p.normal);
+    p.normal = select_vector(behind, opposite(p.normal), p.normal);
+    const Vector position = position_of(&h, &p);
+    if (VXL_POSITIONS) store_vector(position, positions, stride, first);
+    if (VXL_NORMALS) store_vector(p.normal, normals, stride, first);
+    if (VXL_HIT_ATTRIBUTES) LANES_STORE(h.packed, hit_attributes, first);
+    if (!VXL_RADIANCE) return;
+
+    const lane_uint material = material_offset(h.packed) & LANES_AS_UINT(h.hit);
+    lane_float opacity = surface_opacity(materials, material, colors, h.voxel);
+    lane_uint side = LANES_AS_UINT(behind) & VXL_SIDE_LEAVING;
+    if (VXL_TRANSMISSION) {
+        const MediumSet before = load_medium_set(paths, stride, first, h.hit);
+        side = side_of(&h, &before, behind, material, materials, ranks, &opacity);
+    }
+    if (VXL_PATHS) LANES_STORE(side, sides, first);
+    store_own_light(&world, &h, environment, position, opacity, material, materials, &batch, first);
 }

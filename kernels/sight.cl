@@ -106,6 +106,53 @@ kernel void cast_sight(Camera camera, PyramidShape shape, global const float* re
     LANES_STORE(t_end, rays, VXL_RAY_END * stride + first);
 }
 
+/// Groups of 16 rays, and what becomes of each one's beam. Its s is the coordinate along the main
+/// axis, times the sign of the way there.
+typedef struct {
+    lane_uint first_ray;
+    lane_int axis, axis_b, axis_c;  // the main axis, and the two across it
+    lane_float sign, s_near, s_far;
+    lane_int active;      // mask: the beam can be sent
+    lane_int idle;        // mask: none of its rays is one
+    Span b_span, c_span;  // across: where the rays are at s_near and s_far
+    lane_float s_first;   // where the first ray begins
+} BeamGroup;
+
+static inline BeamGroup begin_group(PyramidShape shape, const BeamRays* r, lane_uint first_ray) {
+    BeamGroup g;
+    g.first_ray = first_ray;
+    g.axis = main_axis(r, first_ray, &g.sign);
+    const lane_int is_x = LANE_MASK(g.axis == 0), is_y = LANE_MASK(g.axis == 1);
+    g.axis_b = 1 & is_x, g.axis_c = 1 + (1 & (is_x | is_y));
+    const lane_int size =
+        LANES_SELECT(is_x, (lane_int)shape.size_x,
+                     LANES_SELECT(is_y, (lane_int)shape.size_y, (lane_int)shape.size_z));
+    g.s_near = LANES_SELECT(LANE_MASK(g.sign > 0.0f), (lane_float)0.0f, -LANES_FLOAT(size));
+    g.s_far = g.s_near + LANES_FLOAT(size);
+    g.b_span = g.c_span = empty_span();
+    g.s_first = g.s_far;
+    g.idle = (lane_int)-1;
+    g.active = LANE_MASK(g.sign != 0.0f);
+    return g;
+}
+
+/// Widens beams by ray number `i` of their groups.
+static inline void add_ray(BeamGroup* g, const BeamRays* r, uint i) {
+    const lane_uint ray = g->first_ray + i;
+    const lane_int found = is_ray(r, ray), held = found & g->active;
+    g->idle &= ~found;
+    const lane_float s0 = g->sign * ray_slot(r, g->axis, ray);
+    const lane_float d = g->sign * ray_value(r, g->axis + VXL_RAY_DX, ray);
+    g->active &= ~held | LANE_MASK(d >= VXL_BEAM_MIN_DIRECTION);
+    const lane_float per_s = exact_reciprocal(LANES_SELECT(g->active & held, d, (lane_float)1.0f));
+    const lane_float mb = ray_value(r, g->axis_b + VXL_RAY_DX, ray) * per_s;
+    const lane_float mc = ray_value(r, g->axis_c + VXL_RAY_DX, ray) * per_s;
+    const lane_float b = ray_slot(r, g->axis_b, ray), c = ray_slot(r, g->axis_c, ray);
+    widen(fma(mb, g->s_near - s0, b), fma(mb, g->s_far - s0, b), held, &g->b_span);
+    widen(fma(mc, g->s_near - s0, c), fma(mc, g->s_far - s0, c), held, &g->c_span);
+    g->s_first = LANES_SELECT(held, fmin(g->s_first, s0), g->s_first);
+}
+
 /// One work-item sends VXL_LANES beams, each along the 16 rays of its group; see shared/trace.h.
 /// `scale`, a power of two, is what the dilated occupancy's coordinates are of the rays'. Adds the
 /// number of clear ones, low word and high word, to `cleared`.
@@ -118,53 +165,24 @@ kernel void start_beams(PyramidShape shape, global const uint* restrict sectors,
     const PyramidView dilated_occupancy = pyramid_view(shape, sectors, bricks, 0, 0);
     const BeamRays r = {rays, stride, scale};
     const lane_uint beam = min(LANES_AS_UINT(LANES_NUMBERS + (int)first), (lane_uint)(count - 1u));
-    const lane_uint first_ray = beam * VXL_BEAM_RAYS;
-    lane_float sign;
-    const lane_int axis = main_axis(&r, first_ray, &sign);
-    const lane_int is_x = LANE_MASK(axis == 0), is_y = LANE_MASK(axis == 1);
-    const lane_int up = LANE_MASK(sign > 0.0f);
-    const lane_int axis_b = 1 & is_x, axis_c = 1 + (1 & (is_x | is_y));
-    const lane_int size =
-        LANES_SELECT(is_x, (lane_int)shape.size_x,
-                     LANES_SELECT(is_y, (lane_int)shape.size_y, (lane_int)shape.size_z));
-    const lane_float s_near = LANES_SELECT(up, (lane_float)0.0f, -LANES_FLOAT(size));
-    const lane_float s_far = s_near + LANES_FLOAT(size);
-
-    Span b_span = empty_span(), c_span = empty_span();
-    lane_float s_first = s_far;
-    lane_int idle = (lane_int)-1;
-    lane_int active = LANE_MASK(sign != 0.0f);
-    for (uint i = 0; i < VXL_BEAM_RAYS; ++i) {
-        const lane_uint ray = first_ray + i;
-        const lane_int found = is_ray(&r, ray), held = found & active;
-        idle &= ~found;
-        const lane_float s0 = sign * ray_slot(&r, axis, ray);
-        const lane_float d = sign * ray_value(&r, axis + VXL_RAY_DX, ray);
-        active &= ~held | LANE_MASK(d >= VXL_BEAM_MIN_DIRECTION);
-        const lane_float per_s = exact_reciprocal(LANES_SELECT(active & held, d, (lane_float)1.0f));
-        const lane_float mb = ray_value(&r, axis_b + VXL_RAY_DX, ray) * per_s;
-        const lane_float mc = ray_value(&r, axis_c + VXL_RAY_DX, ray) * per_s;
-        const lane_float b = ray_slot(&r, axis_b, ray), c = ray_slot(&r, axis_c, ray);
-        widen(fma(mb, s_near - s0, b), fma(mb, s_far - s0, b), held, &b_span);
-        widen(fma(mc, s_near - s0, c), fma(mc, s_far - s0, c), held, &c_span);
-        s_first = LANES_SELECT(held, fmin(s_first, s0), s_first);
-    }
-    const BeamAxis b = beam_axis(&b_span, s_near, s_far, active);
-    const BeamAxis c = beam_axis(&c_span, s_near, s_far, active);
+    BeamGroup g = begin_group(shape, &r, beam * VXL_BEAM_RAYS);
+    for (uint i = 0; i < VXL_BEAM_RAYS; ++i) add_ray(&g, &r, i);
+    const BeamAxis b = beam_axis(&g.b_span, g.s_near, g.s_far, g.active);
+    const BeamAxis c = beam_axis(&g.c_span, g.s_near, g.s_far, g.active);
     const lane_float s_last =
-        fmin(fmin(narrow_until(&b, s_first), narrow_until(&c, s_first)), s_far);
+        fmin(fmin(narrow_until(&b, g.s_first), narrow_until(&c, g.s_first)), g.s_far);
     const lane_float end =
-        run_beams(&dilated_occupancy, axis, sign, &b, &c, s_first, s_last, active);
+        run_beams(&dilated_occupancy, g.axis, g.sign, &b, &c, g.s_first, s_last, g.active);
     const lane_float start = (fmin(end, s_last) - 2.0f * VXL_BEAM_STEP) * (1.0f / scale);
     const uint slots = VXL_BEAM_SLOTS(stride);
     LANES_STORE(LANES_AS_UINT(start), beams, VXL_BEAM_START * slots + first);
     // The dilated occupancy's last leaf knows of 4 voxels more, and so of the step past its planes.
     // A beam that begins within a step of the far side has looked at nothing.
-    const lane_int clear = LANE_MASK(s_last >= s_far) & LANE_MASK(end >= s_far) &
-                           LANE_MASK(s_first + VXL_BEAM_STEP < s_far);
-    lane_int towards = axis | (~up & VXL_BEAM_DOWN);
-    towards = LANES_SELECT(active, towards, (lane_int)VXL_BEAM_NONE);
-    const lane_int ended = (active & clear) | idle;
+    const lane_int clear = LANE_MASK(s_last >= g.s_far) & LANE_MASK(end >= g.s_far) &
+                           LANE_MASK(g.s_first + VXL_BEAM_STEP < g.s_far);
+    lane_int towards = g.axis | (~LANE_MASK(g.sign > 0.0f) & VXL_BEAM_DOWN);
+    towards = LANES_SELECT(g.active, towards, (lane_int)VXL_BEAM_NONE);
+    const lane_int ended = (g.active & clear) | g.idle;
     towards = LANES_SELECT(ended, (lane_int)VXL_BEAM_CLEAR, towards);
     LANES_STORE(LANES_AS_UINT(towards), beams, VXL_BEAM_AXIS * slots + first);
     const uint sum =

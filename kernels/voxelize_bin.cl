@@ -73,10 +73,9 @@ static inline bool triangle_reaches(const LatticeTriangle* t, float3 n, int3 bri
 
 /// Calls for each bin that triangle `number` reaches: counts it, or writes the triangle to its
 /// list.
-static inline void visit_bins(uint number, int4 bins, int4 reach, int extent,
-                              global const int* vertices, global const uint* triangles, bool fill,
-                              global uint* cursors, global uint* lists) {
-    const LatticeTriangle t = load_triangle(vertices, triangles, number, (int3)(0, 0, 0));
+static inline void visit_bins(const LatticeMesh* mesh, uint number, int4 bins, int4 reach,
+                              int extent, bool fill, global uint* cursors, global uint* lists) {
+    const LatticeTriangle t = load_triangle(mesh, number, (int3)(0, 0, 0));
     const BrickRange r = reached_bricks(&t, reach.xyz, extent, bins);
     const float3 n = convert_float3(area_vector(&t));
     const bool several = any(r.first != r.last);
@@ -91,24 +90,23 @@ static inline void visit_bins(uint number, int4 bins, int4 reach, int extent,
             }
 }
 
-/// One work-item: one of the triangles from number `first`. Adds 1 to `counts` of each bin that it
+/// One work-item: one of the mesh's triangles. Adds 1 to `counts` of each bin that it
 /// reaches.
-kernel void count_pairs(uint first, uint count, int4 bins, int4 reach, int extent,
-                        global const int* restrict vertices, global const uint* restrict triangles,
+kernel void count_pairs(int4 bins, int4 reach, int extent, VXL_MESH_PARAMETERS,
                         global uint* restrict counts) {
-    if (work_item() >= count) return;
-    visit_bins(first + work_item(), bins, reach, extent, vertices, triangles, false, counts,
-               counts);
+    if (work_item() >= triangle_count) return;
+    const LatticeMesh mesh = VXL_MESH;
+    visit_bins(&mesh, mesh.first + work_item(), bins, reach, extent, false, counts, counts);
 }
 
 /// One work-item: the same triangles. Writes its number at the cursor of each bin that it reaches.
 ///
 /// The order within a list depends on the device: every reader gives the same result for any order.
-kernel void list_pairs(uint first, uint count, int4 bins, int4 reach, int extent,
-                       global const int* restrict vertices, global const uint* restrict triangles,
+kernel void list_pairs(int4 bins, int4 reach, int extent, VXL_MESH_PARAMETERS,
                        global uint* restrict cursors, global uint* restrict lists) {
-    if (work_item() >= count) return;
-    visit_bins(first + work_item(), bins, reach, extent, vertices, triangles, true, cursors, lists);
+    if (work_item() >= triangle_count) return;
+    const LatticeMesh mesh = VXL_MESH;
+    visit_bins(&mesh, mesh.first + work_item(), bins, reach, extent, true, cursors, lists);
 }
 
 /// One work-item: one row of bricks along x. Gives each brick its slot, or marks it as outside.

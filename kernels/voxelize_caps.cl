@@ -69,10 +69,8 @@ static inline uint brick_state(BrickFacts f, float caps, float margin) {
 ///
 /// Triangles cap_first .. cap_first + cap_count - 1 are the caps. The three tables give each bin's
 /// number among those with surface, with caps, and with either; the latter have winding numbers.
-kernel void classify_bricks(uint count, int4 bricks, float4 scale, float radius, uint cap_first,
-                            uint cap_count, global const int* restrict vertices,
-                            global const uint* restrict triangles,
-                            global const uint* restrict surface_bins,
+kernel void classify_bricks(uint count, int4 bricks, float4 scale, float radius,
+                            VXL_MESH_PARAMETERS, global const uint* restrict surface_bins,
                             global const uint* restrict cap_bins,
                             global const uint* restrict any_bins,
                             global const short* restrict winding,
@@ -80,6 +78,7 @@ kernel void classify_bricks(uint count, int4 bricks, float4 scale, float radius,
                             global const short* restrict passing, global uint* restrict states) {
     const uint first = work_item() * VXL_LANES;
     if (first >= count) return;
+    const LatticeMesh mesh = VXL_MESH;
     LanePoints p;
     for (uint i = 0; i < VXL_LANES; ++i) {
         const int3 at = brick_of(min(first + i, count - 1u), bricks) * LATTICE_BRICK +
@@ -90,8 +89,8 @@ kernel void classify_bricks(uint count, int4 bricks, float4 scale, float radius,
     }
     const float3 to_metric = scale.xyz * (1.0f / LATTICE_VOXEL);
     lane_float caps = (lane_float)(0.0f), slope = (lane_float)(0.0f), error = (lane_float)(0.0f);
-    for (uint i = cap_first; i < cap_first + cap_count; ++i) {
-        const Cap cap = make_cap(load_triangle(vertices, triangles, i, (int3)(0, 0, 0)), scale.xyz);
+    for (uint i = mesh.first; i < mesh.first + mesh.count; ++i) {
+        const Cap cap = make_cap(load_triangle(&mesh, i, (int3)(0, 0, 0)), scale.xyz);
         slope += slope_bound(&cap, &p, radius, to_metric);
         if (all(cap.area == 0L)) continue;  // no angle, but a part of the outline
         const HalfAngle seen = half_solid_angle(&cap, &p, to_metric);
@@ -117,9 +116,7 @@ kernel void classify_bricks(uint count, int4 bricks, float4 scale, float radius,
 /// open mesh's winding number is above 1/2.
 ///
 /// `numbers` gives each slot's number among bins with winding numbers, or VXL_BRICK_OUTSIDE.
-kernel void find_inside_open(uint count, int4 bricks, float4 scale, uint cap_first, uint cap_count,
-                             global const int* restrict vertices,
-                             global const uint* restrict triangles,
+kernel void find_inside_open(uint count, int4 bricks, float4 scale, VXL_MESH_PARAMETERS,
                              global const uint* restrict coordinates,
                              global const uint* restrict states,
                              global const uint* restrict numbers,
@@ -127,6 +124,7 @@ kernel void find_inside_open(uint count, int4 bricks, float4 scale, uint cap_fir
                              global const short* restrict carried,
                              global const short* restrict passing, global ushort* restrict inside) {
     if (work_item() >= count * (16 / VXL_SLICES)) return;
+    const LatticeMesh mesh = VXL_MESH;
     const uint slot = work_item() / (16 / VXL_SLICES);
     const int first_slice = (int)(work_item() % (16 / VXL_SLICES)) * VXL_SLICES;
     const uint brick = coordinates[slot], number = numbers[slot];
@@ -134,9 +132,9 @@ kernel void find_inside_open(uint count, int4 bricks, float4 scale, uint cap_fir
     const float3 to_metric = scale.xyz * (1.0f / LATTICE_VOXEL);
     lane_float caps[TILE_COLUMNS * VXL_SLICES];
     for (int i = 0; i < TILE_COLUMNS * VXL_SLICES; ++i) caps[i] = (lane_float)(0.0f);
-    const uint end = states[brick] == STATE_OPEN ? cap_first + cap_count : cap_first;
-    for (uint i = cap_first; i < end; ++i) {
-        const Cap cap = make_cap(load_triangle(vertices, triangles, i, origin), scale.xyz);
+    const uint end = states[brick] == STATE_OPEN ? mesh.first + mesh.count : mesh.first;
+    for (uint i = mesh.first; i < end; ++i) {
+        const Cap cap = make_cap(load_triangle(&mesh, i, origin), scale.xyz);
         if (all(cap.area == 0L)) continue;
         for (int k = 0; k < TILE_COLUMNS * VXL_SLICES; ++k) {
             const int column = k / VXL_SLICES, z = first_slice + k % VXL_SLICES;

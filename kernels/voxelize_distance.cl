@@ -15,10 +15,10 @@
 #define BRICK_CENTER (LATTICE_BRICK / 2 - LATTICE_VOXEL / 2)
 
 /// One work-item: one triangle. Writes what does not depend on the brick.
-kernel void shape_triangles(uint count, float4 scale, global const int* restrict vertices,
-                            global const uint* restrict triangles, global float* restrict shapes) {
-    if (work_item() >= count) return;
-    const LatticeTriangle t = load_triangle(vertices, triangles, work_item(), (int3)(0, 0, 0));
+kernel void shape_triangles(float4 scale, VXL_MESH_PARAMETERS, global float* restrict shapes) {
+    if (work_item() >= triangle_count) return;
+    const LatticeMesh mesh = VXL_MESH;
+    const LatticeTriangle t = load_triangle(&mesh, work_item(), (int3)(0, 0, 0));
     shape_of_triangle(&t, scale.xyz, shapes + (size_t)SHAPE_FLOATS * work_item());
 }
 
@@ -98,22 +98,20 @@ static inline lane_int distance_units(lane_float squared, lane_int inside, float
 /// `scale` is each voxel edge in the shortest; `band` is in shortest edges, at most 4, and `reach`
 /// the same in lattice units along each axis, rounded up. Bit x of inside[16 z + y] is set inside.
 kernel void measure_distances(uint count, int4 bricks, int4 reach, float4 scale, float band,
-                              global const int* restrict vertices,
-                              global const uint* restrict triangles,
+                              VXL_MESH_PARAMETERS, VXL_BINS_PARAMETERS,
                               global const float* restrict shapes,
-                              global const uint* restrict coordinates,
-                              global const uint* restrict first, global const uint* restrict lists,
                               global const ushort* restrict inside,
                               global short* restrict distance) {
     if (work_item() >= count * (16 / VXL_SLICES)) return;
+    const LatticeMesh mesh = VXL_MESH;
+    const TriangleBins bins = VXL_BINS;
     const uint slot = work_item() / (16 / VXL_SLICES);
     const int first_slice = (int)(work_item() % (16 / VXL_SLICES)) * VXL_SLICES;
-    const int3 origin = brick_of(coordinates[slot], bricks) * LATTICE_BRICK;
+    const int3 origin = brick_of(bins.coordinates[slot], bricks) * LATTICE_BRICK;
     lane_float best[TILE_COLUMNS * VXL_SLICES];
     for (int i = 0; i < TILE_COLUMNS * VXL_SLICES; ++i) best[i] = (lane_float)(1000.0f);
-    for (uint i = first[slot]; i < first[slot + 1]; ++i) {
-        const LatticeTriangle t =
-            load_triangle(vertices, triangles, lists[i], origin + BRICK_CENTER);
+    for (uint i = bins.first[slot]; i < bins.first[slot + 1]; ++i) {
+        const LatticeTriangle t = load_triangle(&mesh, bins.lists[i], origin + BRICK_CENTER);
         NodeBox box;
         const int3 low = lowest_corner(&t) + BRICK_CENTER - reach.xyz;
         box.first = max((low + (LATTICE_VOXEL - 1)) >> LATTICE_BITS, (int3)(0, 0, first_slice));
@@ -121,7 +119,7 @@ kernel void measure_distances(uint count, int4 bricks, int4 reach, float4 scale,
                        (int3)(15, 15, first_slice + VXL_SLICES - 1));
         if (any(box.first > box.last)) continue;
         const TriangleFrame f =
-            frame_triangle(&t, shapes + (size_t)SHAPE_FLOATS * lists[i], scale.xyz);
+            frame_triangle(&t, shapes + (size_t)SHAPE_FLOATS * bins.lists[i], scale.xyz);
         lower_distances(&f, box, first_slice, band, best);
     }
     for (int z = 0; z < VXL_SLICES; ++z)

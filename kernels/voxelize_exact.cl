@@ -34,22 +34,20 @@ static inline void list_triangle(uint number, const LatticeTriangle* t, int3 las
 }
 
 /// One work-item: one brick. Writes the number of triangles of each voxel, and of all together.
-kernel void count_primitives(uint count, int4 size, int4 bricks,
-                             global const int* restrict vertices,
-                             global const uint* restrict triangles,
-                             global const uint* restrict coordinates,
-                             global const uint* restrict first, global const uint* restrict lists,
-                             global uint* restrict counts, global uint* restrict totals) {
+kernel void count_primitives(uint count, int4 size, int4 bricks, VXL_MESH_PARAMETERS,
+                             VXL_BINS_PARAMETERS, global uint* restrict counts,
+                             global uint* restrict totals) {
     const uint slot = work_item();
     if (slot >= count) return;
-    const int3 brick = brick_of(coordinates[slot], bricks);
+    const LatticeMesh mesh = VXL_MESH;
+    const TriangleBins bins = VXL_BINS;
+    const int3 brick = brick_of(bins.coordinates[slot], bricks);
     const int3 last = min(size.xyz - brick * 16, (int3)(16)) - 1;
     uint own[4096];
     for (int v = 0; v < 4096; ++v) own[v] = 0;
-    for (uint i = first[slot]; i < first[slot + 1]; ++i) {
-        const LatticeTriangle t =
-            load_triangle(vertices, triangles, lists[i], brick * LATTICE_BRICK);
-        list_triangle(lists[i], &t, last, own, false, counts, counts);
+    for (uint i = bins.first[slot]; i < bins.first[slot + 1]; ++i) {
+        const LatticeTriangle t = load_triangle(&mesh, bins.lists[i], brick * LATTICE_BRICK);
+        list_triangle(bins.lists[i], &t, last, own, false, counts, counts);
     }
     uint total = 0;
     for (uint v = 0; v < 4096u; ++v) {
@@ -61,14 +59,13 @@ kernel void count_primitives(uint count, int4 size, int4 bricks,
 
 /// One work-item: one brick. Turns the counts into starts, from the brick's start in `bases`, and
 /// writes the lists.
-kernel void list_primitives(uint count, int4 size, int4 bricks, global const int* restrict vertices,
-                            global const uint* restrict triangles,
-                            global const uint* restrict coordinates,
-                            global const uint* restrict first, global const uint* restrict lists,
-                            global const uint* restrict bases, global uint* restrict starts,
-                            global uint* restrict primitives) {
+kernel void list_primitives(uint count, int4 size, int4 bricks, VXL_MESH_PARAMETERS,
+                            VXL_BINS_PARAMETERS, global const uint* restrict bases,
+                            global uint* restrict starts, global uint* restrict primitives) {
     const uint slot = work_item();
     if (slot >= count) return;
+    const LatticeMesh mesh = VXL_MESH;
+    const TriangleBins bins = VXL_BINS;
     uint start = bases[slot];
     for (uint v = 0; v < 4096u; ++v) {
         const uint voxel_count = starts[4096u * slot + v];
@@ -76,13 +73,12 @@ kernel void list_primitives(uint count, int4 size, int4 bricks, global const int
         start += voxel_count;
     }
     if (slot == count - 1u) starts[4096u * count] = start;
-    const int3 brick = brick_of(coordinates[slot], bricks);
+    const int3 brick = brick_of(bins.coordinates[slot], bricks);
     const int3 last = min(size.xyz - brick * 16, (int3)(16)) - 1;
     uint own[4096];
     for (int v = 0; v < 4096; ++v) own[v] = 0;
-    for (uint i = first[slot]; i < first[slot + 1]; ++i) {
-        const LatticeTriangle t =
-            load_triangle(vertices, triangles, lists[i], brick * LATTICE_BRICK);
-        list_triangle(lists[i], &t, last, own, true, starts + 4096u * slot, primitives);
+    for (uint i = bins.first[slot]; i < bins.first[slot + 1]; ++i) {
+        const LatticeTriangle t = load_triangle(&mesh, bins.lists[i], brick * LATTICE_BRICK);
+        list_triangle(bins.lists[i], &t, last, own, true, starts + 4096u * slot, primitives);
     }
 }

@@ -32,36 +32,36 @@ static inline void compare_nearest(Nearest* best, lane_float squared, uint numbe
 /// centre; voxels farther than `band` from all get NO_TRIANGLE. `band` is in shortest edges,
 /// `reach` the same in lattice units, rounded up.
 ///
-/// The lists are of bins that may be more than the stored bricks: `bins` and `number_of_bin`.
-kernel void find_nearest(uint count, int4 bins, int4 bricks, int4 reach, float4 scale, float band,
-                         global const int* restrict vertices, global const uint* restrict triangles,
-                         global const float* restrict shapes,
-                         global const uint* restrict coordinates,
-                         global const uint* restrict number_of_bin,
-                         global const uint* restrict first, global const uint* restrict lists,
-                         global uint* restrict nearest) {
+/// The lists are of bins that may be more than the stored bricks, which `coordinates_of_slots` has.
+kernel void find_nearest(uint count, int4 bricks, int4 reach, float4 scale, float band,
+                         VXL_MESH_PARAMETERS, VXL_BINS_PARAMETERS,
+                         global const uint* restrict coordinates_of_slots,
+                         global const float* restrict shapes, global uint* restrict nearest) {
     if (work_item() >= count * (16 / VXL_SLICES)) return;
+    const LatticeMesh mesh = VXL_MESH;
+    const TriangleBins bins = VXL_BINS;
     const uint slot = work_item() / (16 / VXL_SLICES);
     const int first_slice = (int)(work_item() % (16 / VXL_SLICES)) * VXL_SLICES;
-    const int3 brick = brick_of(coordinates[slot], bricks);
-    const uint bin = number_of_bin[(brick.z * bins.y + brick.y) * bins.x + brick.x + 1];
+    const int3 brick = brick_of(coordinates_of_slots[slot], bricks);
+    const uint bin =
+        bins.number_of_bin[(brick.z * bins.size.y + brick.y) * bins.size.x + brick.x + 1];
     Nearest best[TILE_COLUMNS * VXL_SLICES];
     for (int i = 0; i < TILE_COLUMNS * VXL_SLICES; ++i) {
         best[i].squared = (lane_float)(band * band);
         best[i].number = (lane_uint)(NO_TRIANGLE);
     }
     const bool has_list = bin != VXL_BRICK_OUTSIDE;
-    const uint end = has_list ? first[bin + 1] : 0;
-    for (uint i = has_list ? first[bin] : 0; i < end; ++i) {
+    const uint end = has_list ? bins.first[bin + 1] : 0;
+    for (uint i = has_list ? bins.first[bin] : 0; i < end; ++i) {
         const LatticeTriangle t =
-            load_triangle(vertices, triangles, lists[i], brick * LATTICE_BRICK + BRICK_CENTER);
+            load_triangle(&mesh, bins.lists[i], brick * LATTICE_BRICK + BRICK_CENTER);
         const int3 low = lowest_corner(&t) + BRICK_CENTER - reach.xyz;
         const int3 high = highest_corner(&t) + BRICK_CENTER + reach.xyz;
         const int3 from = max(low >> LATTICE_BITS, (int3)(0, 0, first_slice));
         const int3 to = min(high >> LATTICE_BITS, (int3)(15, 15, first_slice + VXL_SLICES - 1));
         if (any(from > to)) continue;
         const TriangleFrame f =
-            frame_triangle(&t, shapes + (size_t)SHAPE_FLOATS * lists[i], scale.xyz);
+            frame_triangle(&t, shapes + (size_t)SHAPE_FLOATS * bins.lists[i], scale.xyz);
         for (int j = from.y / TILE_Y; j <= to.y / TILE_Y; ++j)
             for (int k = from.x / TILE_X; k <= to.x / TILE_X; ++k) {
                 const TileFrame tile = tile_frame(&f, TILE_LANE_X + (float)(k * TILE_X) - 7.5f,
@@ -69,7 +69,7 @@ kernel void find_nearest(uint count, int4 bins, int4 bricks, int4 reach, float4 
                 Nearest* column = best + (j * TILES_X + k) * VXL_SLICES - first_slice;
                 for (int z = from.z; z <= to.z; ++z)
                     compare_nearest(&column[z], squared_distance(&f, &tile, (float)z - 7.5f),
-                                    lists[i]);
+                                    bins.lists[i]);
             }
     }
     for (int z = 0; z < VXL_SLICES; ++z)
@@ -134,14 +134,14 @@ static inline uint encode(float value, global const float* thresholds) {
 
 /// One work-item: one voxel. Its colour is its closest triangle's at the point closest to the
 /// centre.
-kernel void color_voxels(uint count, int4 bricks, float4 scale, global const int* restrict vertices,
-                         global const uint* restrict triangles,
+kernel void color_voxels(uint count, int4 bricks, float4 scale, VXL_MESH_PARAMETERS,
                          global const uint* restrict coordinates,
                          global const uint* restrict nearest,
                          global const float* restrict vertex_colors,
                          global const float* restrict thresholds, global uint* restrict colors) {
     const uint number = work_item();
     if (number >= count) return;
+    const LatticeMesh mesh = VXL_MESH;
     const uint triangle = nearest[number];
     if (triangle == NO_TRIANGLE) {
         colors[number] = 0xFFFFFFu;
@@ -150,16 +150,15 @@ kernel void color_voxels(uint count, int4 bricks, float4 scale, global const int
     const int3 brick = brick_of(coordinates[number >> 12], bricks);
     const int3 within =
         (int3)((int)(number & 15u), (int)(number >> 4 & 15u), (int)(number >> 8 & 15u));
-    const LatticeTriangle t =
-        load_triangle(vertices, triangles, triangle,
-                      brick * LATTICE_BRICK + within * LATTICE_VOXEL + LATTICE_VOXEL / 2);
+    const LatticeTriangle t = load_triangle(
+        &mesh, triangle, brick * LATTICE_BRICK + within * LATTICE_VOXEL + LATTICE_VOXEL / 2);
     const float3 to_metric = scale.xyz * (1.0f / LATTICE_VOXEL);
     const float3 weights = closest_weights(convert_float3(t.corner[0]) * to_metric,
                                            convert_float3(t.corner[1]) * to_metric,
                                            convert_float3(t.corner[2]) * to_metric);
-    const float3 color = vload3(triangles[3u * triangle], vertex_colors) * weights.x +
-                         vload3(triangles[3u * triangle + 1u], vertex_colors) * weights.y +
-                         vload3(triangles[3u * triangle + 2u], vertex_colors) * weights.z;
+    const float3 color = vload3(mesh.triangles[3u * triangle], vertex_colors) * weights.x +
+                         vload3(mesh.triangles[3u * triangle + 1u], vertex_colors) * weights.y +
+                         vload3(mesh.triangles[3u * triangle + 2u], vertex_colors) * weights.z;
     colors[number] = encode(color.x, thresholds) | encode(color.y, thresholds) << 8 |
                      encode(color.z, thresholds) << 16;
 }

@@ -49,14 +49,13 @@ static inline void add_crossings(const LatticeTriangle* t, bool left, short16* w
 
 /// One work-item: one bin with triangles. Bins below `stored` are bricks that get winding numbers
 /// counted from their own left face; all get the totals of their 256 rows.
-kernel void count_crossings(uint count, uint stored, int4 bins, global const int* restrict vertices,
-                            global const uint* restrict triangles,
-                            global const uint* restrict occupied, global const uint* restrict first,
-                            global const uint* restrict lists, global short* restrict winding,
-                            global short* restrict totals) {
+kernel void count_crossings(VXL_MESH_PARAMETERS, VXL_BINS_PARAMETERS,
+                            global short* restrict winding, global short* restrict totals) {
     const uint number = work_item();
-    if (number >= count) return;
-    const int3 bin = brick_of(occupied[number], bins);
+    if (number >= bin_count) return;
+    const LatticeMesh mesh = VXL_MESH;
+    const TriangleBins bins = VXL_BINS;
+    const int3 bin = brick_of(bins.occupied[number], bins.size);
     const bool left = bin.x == 0;
     const int3 origin = (int3)(max(bin.x - 1, 0), bin.y, bin.z) * LATTICE_BRICK;
     short16 rows[256];
@@ -65,13 +64,13 @@ kernel void count_crossings(uint count, uint stored, int4 bins, global const int
         rows[i] = (short16)(0);
         row_totals[i] = 0;
     }
-    for (uint i = first[number]; i < first[number + 1]; ++i) {
-        const LatticeTriangle t = load_triangle(vertices, triangles, lists[i], origin);
+    for (uint i = bins.first[number]; i < bins.first[number + 1]; ++i) {
+        const LatticeTriangle t = load_triangle(&mesh, bins.lists[i], origin);
         add_crossings(&t, left, rows, row_totals);
     }
     for (uint i = 0; i < 256u; ++i) {
         totals[256u * number + i] = row_totals[i];
-        if (number < stored) vstore16(rows[i], 256u * number + i, winding);
+        if (number < bins.stored) vstore16(rows[i], 256u * number + i, winding);
     }
 }
 

@@ -6,10 +6,10 @@
 
 #include "runtime/analysis/culling_hull.hpp"
 #include "runtime/analysis/object_boxes.hpp"
-#include "runtime/scene_file/scene_animation.hpp"
-#include "runtime/scene_file/scene_motion.hpp"
-#include "runtime/stages/light/light_samples.hpp"
-#include "runtime/world/instances.hpp"
+#include "runtime/grid/world_frame.hpp"
+#include "runtime/scene/predicates.hpp"
+#include "runtime/scene/scene_animation.hpp"
+#include "runtime/scene/scene_motion.hpp"
 
 namespace voxelume {
 namespace {
@@ -25,7 +25,8 @@ bool sends_rays_on(const Scene& scene, const Object& object, AssetStore& meshes,
     if (!model.voxels.empty() && (!reads || meshes.voxels(model).transparent)) return true;
     const auto sends = [&](int number) {
         const Material& material = scene.materials[size_t(number)];
-        return transmits(material) || (scene.render.depth > 0 && material.reflection > 0);
+        return transmits(material) ||
+               (scene.render.depth > 0 && (effects_of(material) & kReflects) != 0);
     };
     return sends(object.material) ||
            std::ranges::any_of(object.groups,

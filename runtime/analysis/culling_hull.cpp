@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "runtime/analysis/object_boxes.hpp"
+#include "runtime/scene/light.hpp"
 
 namespace voxelume {
 namespace {
@@ -46,8 +47,8 @@ Hull hull_of_ball(const Observer& observer, const GridFrame& world) {
 
 /// The distance from a light's position to the farthest point that it shines from, metres.
 double radius_of(const Light& light) {
-    if (light.kind == LightKind::disk) return light.radius;
-    return light.kind == LightKind::rectangle ? glm::length(light.size) / 2 : 0;
+    const LightArea* area = type_of(light).area;
+    return area == nullptr ? 0 : area->radius(light);
 }
 
 const glm::dvec3& farthest(const Hull& hull, const glm::dvec3& direction) {
@@ -89,7 +90,7 @@ void add_shadow_rays(const Scene& scene, const std::vector<VoxelBox>& emissive_o
     };
     for (const Light& light : scene.lights) {
         if (light.intensity == glm::vec3(0)) continue;
-        if (light.kind != LightKind::directional) {
+        if (type_of(light).has_position) {
             const glm::dvec3 radius(radius_of(light));
             include(in_voxels(light.position - radius, world),
                     in_voxels(light.position + radius, world));

@@ -7,7 +7,7 @@
 #include <glm/vector_relational.hpp>
 
 #include "runtime/analysis/object_boxes.hpp"
-#include "runtime/world/instances.hpp"
+#include "runtime/scene/predicates.hpp"
 
 namespace voxelume {
 namespace {
@@ -64,22 +64,6 @@ bool may_begin_in(const VoxelBox& box, const Scene& scene, const GridFrame& worl
 }
 
 }  // namespace
-
-HollowObjects hollow_objects(const Scene& scene) {
-    HollowObjects hollow;
-    bool has_smooth = false;
-    for (const Object& object : scene.objects) {
-        const Model& model = model_of(scene, object);
-        const bool is_smooth = stores_distances(model.surface) && transmits(scene, object);
-        const bool is_mesh =
-            lists_primitives(model.surface) && !model.solid && transmits(scene, object);
-        hollow.flags.push_back(is_smooth || is_mesh);
-        hollow.maximum += is_mesh;
-        has_smooth |= is_smooth;
-    }
-    hollow.maximum += has_smooth;
-    return hollow;
-}
 
 Features begun_anywhere(Features features, const Scene& scene) {
     features.observer_in_medium = features.transmission && hollow_objects(scene).maximum > 0;

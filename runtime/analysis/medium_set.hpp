@@ -24,13 +24,4 @@ bool may_begin_inside(const Scene& scene, const Pyramid& world);
 /// do.
 Features begun_anywhere(Features features, const Scene& scene);
 
-/// Transmitting objects for which no formula tells whether a ray begins inside: smooth objects and
-/// exact meshes.
-struct HollowObjects {
-    std::vector<uint32_t> flags;  ///< per object: 1 or 0
-    uint32_t maximum = 0;         ///< maximum of them around a ray at once; all smooth ones count
-                                  ///< as one
-};
-HollowObjects hollow_objects(const Scene& scene);
-
 }  // namespace voxelume

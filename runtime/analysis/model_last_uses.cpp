@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "runtime/scene_file/scene_animation.hpp"
-#include "runtime/scene_file/scene_motion.hpp"
+#include "runtime/scene/scene_animation.hpp"
+#include "runtime/scene/scene_motion.hpp"
 
 namespace voxelume {
 namespace {
@@ -11,7 +11,7 @@ namespace {
 /// True if any object may change by more than its position.
 bool objects_change(const Scene& scene) {
     return moves(scene) && std::ranges::any_of(scene.motion->parts, [](const MovingPart& part) {
-               return part.part == ScenePart::object && !part.places;
+               return part.part == ScenePart::object && !part.only_placed;
            });
 }
 

@@ -4,6 +4,7 @@
 #include <glm/vector_relational.hpp>
 
 #include "runtime/geometry/solid_bounds.hpp"
+#include "runtime/grid/world_frame.hpp"
 
 namespace voxelume {
 namespace {

@@ -5,7 +5,7 @@
 #include "runtime/analysis/object_boxes.hpp"
 #include "runtime/assets/model_frame.hpp"
 #include "runtime/base/error.hpp"
-#include "runtime/world/instances.hpp"
+#include "runtime/scene/predicates.hpp"
 
 namespace voxelume {
 namespace {

@@ -7,10 +7,10 @@
 
 #include "runtime/analysis/medium_set.hpp"
 #include "runtime/analysis/object_boxes.hpp"
+#include "runtime/scene/predicates.hpp"
 #include "runtime/stages/light/light.hpp"
 #include "runtime/stages/light/light_samples.hpp"
 #include "runtime/stages/trace/sight.hpp"
-#include "runtime/world/instances.hpp"
 
 namespace voxelume {
 namespace {
@@ -52,16 +52,16 @@ bool is_lit(const Material* m) {
 /// Adds the features that the materials decide.
 void add_paths(const Scene& scene, const Pyramid& world, Features& features) {
     const bool follows = scene.render.depth > 0;
-    bool refraction = false, opacity = false, reflection = false, fresnel = false;
+    bool refraction = false, opacity = features.voxel_opacity, reflection = false, fresnel = false;
     bool absorption = false;
-    opacity = features.voxel_opacity;
     for (const Material* m : shown_materials(scene, world)) {
         features.checker |= m->checker.has_value();
-        refraction |= m->refraction > 0;
-        opacity |= m->opacity < 1;
-        reflection |= m->reflection > 0;
-        fresnel |= m->fresnel && (m->reflection > 0 || m->refraction > 0);
-        absorption |= m->absorption != glm::vec3(0) && (transmits(*m) || features.voxel_opacity);
+        const uint32_t effects = effects_of(*m);
+        refraction |= (effects & kRefracts) != 0;
+        opacity |= (effects & kIsSeenThrough) != 0;
+        reflection |= (effects & kReflects) != 0;
+        fresnel |= (effects & kHasReflectance) != 0 && (effects & (kReflects | kRefracts)) != 0;
+        absorption |= (effects & kAbsorbs) != 0 && (transmits(*m) || features.voxel_opacity);
     }
     features.transmission =
         opacity || (refraction && (follows || (features.shadows && scene.render.filtered_shadows)));
@@ -138,14 +138,6 @@ size_t reserved_depth(const Features& features, const Scene& scene, const Pyrami
 
 }  // namespace
 
-bool shines(const Light& light) {
-    return light.intensity != glm::vec3(0);
-}
-
-bool has_area(const Light& light) {
-    return light.kind == LightKind::disk || light.kind == LightKind::rectangle;
-}
-
 std::vector<LightRecord> given_lights(const Scene& scene, const GridFrame& world) {
     std::vector<LightRecord> records;
     for (const Light& light : scene.lights) {
@@ -169,8 +161,9 @@ bool has_light(const Scene& scene, const Pyramid& world) {
 
 size_t max_depth(const Features& features, const Scene& scene, const Pyramid& world) {
     const bool scatters = features.refracts ||
-                          std::ranges::any_of(shown_materials(scene, world),
-                                              [](const Material* m) { return m->reflection > 0; });
+                          std::ranges::any_of(shown_materials(scene, world), [](const Material* m) {
+                              return (effects_of(*m) & kReflects) != 0;
+                          });
     return features.radiance && scatters ? size_t(scene.render.depth) : 0;
 }
 

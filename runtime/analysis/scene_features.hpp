@@ -16,12 +16,6 @@ Features features_of(const Scene& scene, const Pyramid& world);
 /// objects are, but no voxels.
 void add_scene(const Scene& scene, const Pyramid& world, Features& features);
 
-/// True if any light comes from `light`.
-bool shines(const Light& light);
-
-/// True if the light shines from an area, not from one point or direction.
-bool has_area(const Light& light);
-
 /// The lights that a scene lists, those with an area by their samples.
 std::vector<LightRecord> given_lights(const Scene& scene, const GridFrame& world);
 

@@ -137,10 +137,15 @@ std::string world_key(std::string_view parts) {
 }
 
 ModelCache ModelCache::of_user() {
-    const std::filesystem::path folder = cache_folder();
-    const uint64_t megabytes = megabytes_of_user();
-    return folder.empty() ? ModelCache()
-                          : ModelCache(folder / "models", megabytes << 20).with_worlds();
+    return of_user({}, {});
+}
+
+ModelCache ModelCache::of_user(const std::filesystem::path& folder,
+                               std::optional<uint64_t> megabytes) {
+    const std::filesystem::path of_user = cache_folder();
+    const uint64_t maximum = megabytes ? *megabytes : megabytes_of_user();
+    if (folder.empty() && of_user.empty()) return {};
+    return ModelCache(folder.empty() ? of_user / "models" : folder, maximum << 20).with_worlds();
 }
 
 std::optional<MeshSummary> ModelCache::summary(const std::string& source) const {

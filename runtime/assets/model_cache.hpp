@@ -57,6 +57,10 @@ class ModelCache {
     /// of at least 0.
     static ModelCache of_user();
 
+    /// The same with another folder, where one is given, and another number of megabytes likewise.
+    static ModelCache of_user(const std::filesystem::path& folder,
+                              std::optional<uint64_t> megabytes);
+
     bool is_open() const { return is_open_; }
     bool keeps_worlds() const { return is_open_ && keeps_worlds_; }
 

@@ -45,10 +45,6 @@ GridFrame mesh_frame(const Model& model, const MeshSummary& mesh) {
 
 }  // namespace
 
-GridFrame world_frame(const World& world) {
-    return {world.bounds.min, world.voxel_size, world.voxels};
-}
-
 GridFrame model_frame(const Model& model, const MeshSummary* mesh) {
     try {
         return mesh ? mesh_frame(model, *mesh) : solid_frame(model);
@@ -66,11 +62,6 @@ bool may_be_shown(const Scene& scene, const Object& object) {
 
 bool is_potentially_visible(const Scene& scene, const Object& object) {
     return object.potentially_visible && may_be_shown(scene, object);
-}
-
-bool shows_inside(const Scene& scene, const Object& object) {
-    const Model& model = scene.models[size_t(object.model)];
-    return shows_voxels(model.surface) && model.set == VoxelSet::solid && transmits(scene, object);
 }
 
 }  // namespace voxelume

@@ -10,18 +10,12 @@ namespace voxelume {
 /// The margin of empty voxels around a model. The differences of a smooth surface lie inside it.
 inline constexpr int kModelMargin = 4;
 
-/// The world's lattice: its first voxel starts at the bounds' minimum corner.
-GridFrame world_frame(const World& world);
-
 /// The lattice of a model in its own space, with kModelMargin. `mesh` is null for a solid.
 ///
 /// Throws Error::input for a model without extent whose voxels `resolution` decides, and
 /// Error::limit for more voxels than can be numbered. The sentence begins with the model's place in
 /// the scene file.
 GridFrame model_frame(const Model& model, const MeshSummary* mesh);
-
-/// True if rays also see the voxels inside the object: solid cubes that let light through.
-bool shows_inside(const Scene& scene, const Object& object);
 
 /// True if the object is visible and its model isn't empty within the world's bounds.
 bool may_be_shown(const Scene& scene, const Object& object);

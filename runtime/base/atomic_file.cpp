@@ -130,7 +130,8 @@ void AtomicFile::sync_folder() {
 }
 
 void AtomicFile::fail(const std::string& reason) {
-    const Error error(ErrorKind::output, "{}: can't be written: {}", target_.string(), reason);
+    const Error error(ErrorKind::output, "{}: can't be written: {}", SourcePlace(target_.string()),
+                      reason);
     if (!failure_) failure_ = error;
     throw error;
 }

@@ -39,7 +39,7 @@ void InputFile::read(uint64_t position, void* data, size_t size) const {
 }
 
 void InputFile::refuse(const std::string& reason) const {
-    throw Error(ErrorKind::input, "{}: {}", path_.string(), reason);
+    throw Error(ErrorKind::input, "{}: {}", SourcePlace(path_.string()), reason);
 }
 
 }  // namespace voxelume

@@ -3,7 +3,7 @@
 
 namespace voxelume {
 
-/// The version as three numbers with dots between them: "0.1.0".
+/// The version as three numbers with dots between them, as CMakeLists.txt has them: "0.2.0".
 const char* version();
 
 }  // namespace voxelume

@@ -15,7 +15,7 @@ glm::vec3 between(const glm::vec3& a, const glm::dvec3& b, double amount) {
 
 }  // namespace
 
-Mesh morphed(const Mesh& from, const Mesh& to, double amount, const std::string& where) {
+Mesh morphed(const Mesh& from, const Mesh& to, double amount, const SourcePlace& where) {
     if (from.positions.size() != to.positions.size() ||
         from.triangles.size() != to.triangles.size())
         throw Error(ErrorKind::input,

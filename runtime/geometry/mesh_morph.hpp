@@ -4,6 +4,7 @@
 #include <glm/vec3.hpp>
 #include <string>
 
+#include "runtime/base/source_place.hpp"
 #include "runtime/geometry/mesh.hpp"
 
 namespace voxelume {
@@ -14,7 +15,7 @@ namespace voxelume {
 ///
 /// Throws Error::input with both counts unless the meshes have equal numbers of vertices and the
 /// same triangles. `where` opens the sentence.
-Mesh morphed(const Mesh& from, const Mesh& to, double amount, const std::string& where);
+Mesh morphed(const Mesh& from, const Mesh& to, double amount, const SourcePlace& where);
 
 /// Moves vertices by the share `amount` of the way to a sphere, straight away from its centre or
 /// towards it. A vertex at the centre stays there.

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "runtime/base/input_file.hpp"
+#include "runtime/base/text.hpp"
 #include "runtime/image/volume_geometry.hpp"
 #include "runtime/io/volume_format_table.hpp"
-#include "runtime/scene_file/scene_fields.hpp"
 
 namespace voxelume {
 namespace {
@@ -16,7 +16,7 @@ namespace {
 void check_layout(const VolumePath& path, const VolumeFrame& frame,
                   const VolumeFormatEntry& entry) {
     if (const char* fault = entry.layout_fault(frame))
-        throw Error(ErrorKind::usage, "{}: {}", path.string(), fault);
+        throw Error(ErrorKind::usage, "{}: {}", SourcePlace(path.string()), fault);
 }
 
 void check_size(const VolumePath& path, const VolumeFrame& frame, const VolumeFormatEntry& entry,
@@ -80,7 +80,8 @@ void write_volume(const std::filesystem::path& path, const Volume& volume,
                   const VolumeOptions& options) {
     const std::string fault = find_fault(volume);
     if (!fault.empty())
-        throw Error(ErrorKind::output, "{}: can't be written: {}", path.string(), fault);
+        throw Error(ErrorKind::output, "{}: can't be written: {}", SourcePlace(path.string()),
+                    fault);
     const VolumeFormatEntry& entry = entry_for(path, options);
     check_output(path, volume.frame, entry, options);
     entry.write(path, volume, options);

@@ -83,7 +83,7 @@ class DisplayCounter {
         const DilatedOccupancy dilated_occupancy =
             of ? count_dilated_occupancy(device_, world_, *of) : DilatedOccupancy();
         const Buffer<uint32_t> beams = of ? allocate_beams(device_, in_batch) : Buffer<uint32_t>();
-        const DisplayRayArrays kept = allocate_display_rays(device_, all, features_.medium);
+        const RayDepths kept = allocate_ray_depths(device_, features_, all);
         if (features_.transmission || features_.medium_grid) return;
         const double steps = features_.medium && !is_least_ ? double(frame_.size.z) / 2 : 1;
         const Buffer<uint32_t> starts(device_, "display counts",

@@ -5,10 +5,10 @@
 #include "runtime/analysis/scene_features.hpp"
 #include "runtime/memory/count_image.hpp"
 #include "runtime/memory/counted_grids.hpp"
+#include "runtime/scene/predicates.hpp"
 #include "runtime/scene_file/scene_animation.hpp"
 #include "runtime/scene_file/scene_motion.hpp"
 #include "runtime/stages/trace/sight.hpp"
-#include "runtime/world/instances.hpp"
 
 namespace voxelume {
 namespace {

@@ -6,8 +6,8 @@
 #include "runtime/analysis/model_last_uses.hpp"
 #include "runtime/analysis/scene_features.hpp"
 #include "runtime/base/error.hpp"
-#include "runtime/scene_file/scene_animation.hpp"
-#include "runtime/world/instances.hpp"
+#include "runtime/scene/predicates.hpp"
+#include "runtime/scene/scene_animation.hpp"
 
 namespace voxelume {
 namespace {

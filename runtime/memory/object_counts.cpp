@@ -6,7 +6,7 @@
 
 #include "runtime/analysis/object_boxes.hpp"
 #include "runtime/assets/model_frame.hpp"
-#include "runtime/world/instances.hpp"
+#include "runtime/scene/predicates.hpp"
 
 namespace voxelume {
 namespace {

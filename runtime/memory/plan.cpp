@@ -3,8 +3,10 @@
 #include <algorithm>
 
 #include "runtime/assets/model_frame.hpp"
+#include "runtime/grid/world_frame.hpp"
 #include "runtime/memory/following_memory.hpp"
 #include "runtime/memory/frame_memory.hpp"
+#include "runtime/scene/predicates.hpp"
 
 namespace voxelume {
 namespace {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "runtime/base/error.hpp"
+#include "runtime/grid/world_frame.hpp"
 #include "runtime/memory/plan.hpp"
 
 namespace voxelume {
@@ -49,17 +50,17 @@ std::string smaller_buffer(const BufferPlan& buffer, double piece, const glm::dv
     return fmt::format("use meshes with {:.2g} of the triangles", 0.95 * piece / buffer.bytes);
 }
 
-/// Refuses what has a buffer that the device allows no piece for; `subject` names it with its
-/// place: "room.json:9:12: a model".
-void check_piece(const std::string& subject, const GridFrame& frame, const BufferPlan& largest,
-                 const DeviceInfo& device) {
+/// Refuses what has a buffer that the device allows no piece for; `subject` names it: "a model".
+void check_piece(const SourcePlace& place, const char* subject, const GridFrame& frame,
+                 const BufferPlan& largest, const DeviceInfo& device) {
     const double piece = double(device.max_allocation);
     if (largest.bytes <= piece) return;
-    throw Error(ErrorKind::limit,
-                "{} of {} voxels needs a buffer of {} for {}, and \"{}\" allows {} in one piece: "
-                "{}",
-                subject, size_text(frame.size), bytes_text(largest.bytes), largest.name,
-                device.name, bytes_text(piece), smaller_buffer(largest, piece, frame.voxel_edge));
+    throw Error(
+        ErrorKind::limit,
+        "{}: {} of {} voxels needs a buffer of {} for {}, and \"{}\" allows {} in one piece: "
+        "{}",
+        place, subject, size_text(frame.size), bytes_text(largest.bytes), largest.name, device.name,
+        bytes_text(piece), smaller_buffer(largest, piece, frame.voxel_edge));
 }
 
 double main_memory() {
@@ -138,7 +139,7 @@ void check_model(const Model& model, const GridPlan& plan, const DeviceInfo& dev
             size_text(plan.frame.size), bytes_text(plan.minimum.made_bytes), device.name,
             bytes_text(memory),
             larger_voxels(plan.frame.voxel_edge, surface_factor(plan.minimum.made_bytes, memory)));
-    check_piece(model.where + ": a model", plan.frame, plan.largest, device);
+    check_piece(model.where, "a model", plan.frame, plan.largest, device);
 }
 
 void check_tables(const Scene& scene, const DeviceInfo& device) {
@@ -166,7 +167,7 @@ void check_memory(const Scene& scene, const ScenePlan& plan, const DeviceInfo& d
         if (grid.object < 0)
             check_model(scene.models[size_t(grid.model)], grid, device);
         else
-            check_piece(scene.objects[size_t(grid.object)].where + ": an object in a world",
+            check_piece(scene.objects[size_t(grid.object)].where, "an object in a world",
                         grid.frame, grid.largest, device);
     }
     check_medium(scene, plan, device);
@@ -180,7 +181,7 @@ void check_memory(const Scene& scene, const ScenePlan& plan, const DeviceInfo& d
     if (host > main_memory())
         refuse_world(scene.world, host, "of this machine's main memory", main_memory(),
                      surface_factor(host, main_memory()));
-    check_piece(scene.world.where + ": a world", plan.world, plan.largest, device);
+    check_piece(scene.world.where, "a world", plan.world, plan.largest, device);
 }
 
 }  // namespace voxelume

@@ -7,6 +7,7 @@
 #include <glm/vector_relational.hpp>
 
 #include "runtime/assets/model_frame.hpp"
+#include "runtime/grid/world_frame.hpp"
 #include "runtime/memory/plan_grid.hpp"
 
 namespace voxelume {

@@ -17,8 +17,8 @@ std::string megabytes(uint64_t bytes) {
 
 constexpr size_t kHugePage = size_t{2} << 20;
 
-/// Memory in huge pages where the system gives them: rays read their voxels from all over the
-/// world, and would find a page's address in no cache.
+/// Allocates memory in huge pages if the system offers them. Rays read voxels from all over the
+/// world, and with small pages the page's address would seldom be in a cache.
 std::shared_ptr<void> allocate_huge_pages(size_t bytes) {
     const size_t whole = (bytes + kHugePage - 1) / kHugePage * kHugePage;
     void* memory = std::aligned_alloc(kHugePage, whole);
@@ -31,7 +31,7 @@ void CL_CALLBACK let_go(cl_mem, void* owner) {
     delete static_cast<std::shared_ptr<void>*>(owner);
 }
 
-/// A buffer in the host's memory, which it keeps for as long as the driver uses it.
+/// A buffer in the host's memory. The buffer keeps the memory for as long as the driver uses it.
 cl::Buffer buffer_around(const cl::Context& context, size_t bytes,
                          const std::shared_ptr<void>& memory) {
     cl::Buffer buffer(context, CL_MEM_READ_WRITE | CL_MEM_USE_HOST_PTR, bytes, memory.get());

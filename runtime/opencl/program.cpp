@@ -13,15 +13,15 @@
 namespace voxelume {
 namespace {
 
-/// Only the constants that the source mentions, so that scenes which differ in others share what
-/// was compiled.
+/// The compiler's options, with only those constants that the source mentions. So scenes that
+/// differ in other constants share compiled programs.
 std::string build_options(const Device& device, const KernelSource& source, Defines defines) {
-    std::string options = "-cl-std=CL1.2";
+    std::string options = "-cl-std=CL1.2 -cl-kernel-arg-info";
     if (std::ranges::find(defines, "VXL_LANES", &Defines::value_type::first) == defines.end())
         defines.emplace_back("VXL_LANES", device.lanes());
     for (const auto& [name, value] : defines)
         if (source.mentions(name)) options += fmt::format(" -D{}={}", name, value);
-    // Oclgrind 21.10 interprets LLVM code, but not the alias hints that its optimizer leaves.
+    // Oclgrind 21.10 interprets LLVM code, but not the alias hints that LLVM's optimizer adds.
     if (device.info().platform == "Oclgrind") options += " -cl-opt-disable";
     if (!device.info().build_options.empty()) options += " " + device.info().build_options;
     return options;
@@ -37,7 +37,57 @@ size_t group_size(const Device& device, WorkItem work) {
     return device.is_cpu() ? (work == WorkItem::heavy ? 1 : 16) : 64;
 }
 
+/// Empty names where the driver keeps no types.
+std::vector<std::string> parameter_types(const cl::Kernel& kernel) {
+    cl_uint count = 0;
+    clGetKernelInfo(kernel(), CL_KERNEL_NUM_ARGS, sizeof count, &count, nullptr);
+    std::vector<std::string> types(count);
+    for (cl_uint i = 0; i < count; ++i) {
+        std::array<char, 64> name{};
+        if (clGetKernelArgInfo(kernel(), i, CL_KERNEL_ARG_TYPE_NAME, name.size() - 1, name.data(),
+                               nullptr) == CL_SUCCESS)
+            types[i] = name.data();
+    }
+    return types;
+}
+
+/// "uint*" -> "uint".
+std::string_view element_of(std::string_view type) {
+    return type.substr(0, type.find('*'));
+}
+
+/// Structs and vectors are often another view of what the host has.
+bool is_number(std::string_view element) {
+    constexpr std::string_view kNumbers[] = {"char", "uchar", "short", "ushort", "int",
+                                             "uint", "long",  "ulong", "float"};
+    return std::ranges::find(kNumbers, element) != std::end(kNumbers);
+}
+
 }  // namespace
+
+Kernel::Kernel(Device device, std::shared_ptr<cl::Kernel> kernel, std::string name)
+    : device_(std::move(device)),
+      kernel_(std::move(kernel)),
+      name_(std::move(name)),
+      parameters_(std::make_shared<std::vector<std::string>>(parameter_types(*kernel_))) {}
+
+void Kernel::check_type(uint32_t index, bool is_buffer, std::string_view type) const {
+    if (index >= parameters_->size()) check_count(index + 1);
+    const std::string_view parameter = (*parameters_)[index];
+    if (parameter.empty()) return;
+    const std::string_view element = element_of(parameter);
+    const bool fits = type.empty() || !is_number(element) || element == type;
+    if (fits && is_buffer == parameter.ends_with('*')) return;
+    throw Error(ErrorKind::render, "kernel {}: argument {} is {}{}, but the parameter is {}", name_,
+                index, is_buffer ? "a buffer of " : "a value of type ",
+                type.empty() ? "a struct or vector" : type, parameter);
+}
+
+void Kernel::check_count(uint32_t count) const {
+    if (count == parameters_->size()) return;
+    throw Error(ErrorKind::render, "kernel {} has {} parameters, but gets {}{} arguments", name_,
+                parameters_->size(), count > parameters_->size() ? "at least " : "", count);
+}
 
 void Kernel::set_buffer(uint32_t index, const BufferStorage* buffer) {
     const cl_mem memory = buffer ? buffer->handle()() : nullptr;
@@ -53,8 +103,8 @@ void Kernel::set_bytes(uint32_t index, size_t bytes, const void* value) {
 
 void Kernel::enqueue(WorkItem work, size_t count) {
     if (count == 0) return;
-    // A fixed local size per kernel and two dimensions below 65535: PoCL builds a kernel again for
-    // every other local size, and for any larger dimension.
+    // The local size is fixed per kernel, and both dimensions are below 65535: PoCL compiles a
+    // kernel again for every other local size, and for any larger dimension.
     const size_t local = group_size(device_, work);
     const size_t row_items = 16384 / local * local;
     const size_t groups = (count + local - 1) / local;

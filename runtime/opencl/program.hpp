@@ -1,4 +1,4 @@
-// Kernels compiled for a device, and their launches.
+// Kernels compiled for a device, and how they are launched.
 #pragma once
 
 #include <cstdint>
@@ -8,6 +8,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <string_view>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -18,34 +19,56 @@
 
 namespace voxelume {
 
-/// What changes the machine code of a program: names and values of its -D constants.
+/// The names and values of a program's -D constants, which change its machine code.
 using Defines = std::vector<std::pair<std::string, int>>;
 
-/// How much one work-item does, which decides the work-group size.
+/// The amount of work of one work-item, which decides the work-group size.
 enum class WorkItem {
     light,  ///< up to a few hundred operations: grouped, so that a CPU's launch cost is shared
     heavy,  ///< a packet of rays, a brick: one work-item is a work-group on a CPU
 };
 
-/// One kernel of a program. `launch` enqueues; it does not wait.
+/// A kernel's name for T, as its parameters have it; empty for structs and vectors.
+template <class T>
+constexpr std::string_view kernel_type() {
+    if (std::is_same_v<T, float>) return "float";
+    if (std::is_same_v<T, int8_t>) return "char";
+    if (std::is_same_v<T, uint8_t>) return "uchar";
+    if (std::is_same_v<T, int16_t>) return "short";
+    if (std::is_same_v<T, uint16_t>) return "ushort";
+    if (std::is_same_v<T, int32_t>) return "int";
+    if (std::is_same_v<T, uint32_t>) return "uint";
+    if (std::is_same_v<T, int64_t>) return "long";
+    if (std::is_same_v<T, uint64_t>) return "ulong";
+    return {};
+}
+
+/// A buffer of any 32-bit values, for a kernel that moves them as words: `uint*`.
+template <class T>
+struct Words {
+    explicit Words(const Buffer<T>& values) : buffer(values) { static_assert(sizeof(T) == 4); }
+    const Buffer<T>& buffer;
+};
+
+class KernelArguments;
+
+/// One kernel of a program. `launch` only enqueues; it does not wait.
 class Kernel {
   public:
-    Kernel(Device device, std::shared_ptr<cl::Kernel> kernel, std::string name)
-        : device_(std::move(device)), kernel_(std::move(kernel)), name_(std::move(name)) {}
+    Kernel(Device device, std::shared_ptr<cl::Kernel> kernel, std::string name);
 
-    /// Runs `count` work-items, numbered by `work_item()` of lib/lanes/work_item.h, on these
+    /// Runs `count` work-items, numbered by `work_item()` of lib/lanes/work_item.h, with these
     /// arguments.
     ///
     /// The kernel must return at once when its number is `count` or more; pass the count to it.
-    /// Arguments are buffers, and values of exactly the kernel's parameter types.
+    /// Arguments are buffers, values of exactly the kernel's parameter types, and structures that
+    /// KernelArguments knows. Throws Error::render, naming the kernel and the argument, for a
+    /// number or types of arguments that the kernel doesn't have.
     template <class... Args>
-    void launch(WorkItem work, size_t count, const Args&... args) {
-        uint32_t index = 0;
-        (set_argument(index++, args), ...);
-        enqueue(work, count);
-    }
+    void launch(WorkItem work, size_t count, const Args&... args);
 
-    /// Runs packets of the device's lanes for `rays` rays: the work-items of a packet kernel.
+    /// Runs as many packets of the device's lanes as `rays` rays need: the work-items of a packet
+    /// kernel.
     template <class... Args>
     void launch_packets(size_t rays, const Args&... args) {
         const size_t lanes = static_cast<size_t>(device_.lanes());
@@ -53,13 +76,10 @@ class Kernel {
     }
 
   private:
-    template <class T>
-    void set_argument(uint32_t index, const Buffer<T>& buffer) {
-        set_buffer(index, buffer.storage());
-    }
-    template <class T>
-    requires std::is_trivially_copyable_v<T>
-    void set_argument(uint32_t index, const T& value) { set_bytes(index, sizeof(T), &value); }
+    friend class KernelArguments;
+
+    void check_type(uint32_t index, bool is_buffer, std::string_view type) const;
+    void check_count(uint32_t count) const;
     void set_buffer(uint32_t index, const BufferStorage* buffer);
     void set_bytes(uint32_t index, size_t bytes, const void* value);
     void enqueue(WorkItem work, size_t count);
@@ -67,17 +87,68 @@ class Kernel {
     Device device_;
     std::shared_ptr<cl::Kernel> kernel_;
     std::string name_;
+    /// The types of the parameters; empty names where the driver doesn't tell.
+    std::shared_ptr<const std::vector<std::string>> parameters_;
 };
 
-/// A kernel file compiled for a device with its constants; VXL_LANES is always among them.
+/// The arguments of one launch, set in the order of the kernel's parameters.
+///
+/// A structure that kernels take whole has a function `bind(KernelArguments&, const Structure&)`
+/// beside it, and a macro of parameters in kernels/lib: whoever adds a buffer to it adds one to
+/// these two, in the same place.
+class KernelArguments {
+  public:
+    explicit KernelArguments(Kernel& kernel) : kernel_(kernel) {}
+
+    template <class... Args>
+    void add(const Args&... args) {
+        (add_one(args), ...);
+    }
+    uint32_t count() const { return count_; }
+
+  private:
+    template <class T>
+    void add_one(const Buffer<T>& buffer) {
+        kernel_.check_type(count_, true, kernel_type<T>());
+        kernel_.set_buffer(count_++, buffer.storage());
+    }
+    template <class T>
+    void add_one(const Words<T>& words) {
+        kernel_.check_type(count_, true, kernel_type<uint32_t>());
+        kernel_.set_buffer(count_++, words.buffer.storage());
+    }
+    template <class T>
+    void add_one(const T& value) {
+        if constexpr (requires { bind(*this, value); }) {
+            bind(*this, value);
+        } else {
+            static_assert(std::is_trivially_copyable_v<T>);
+            kernel_.check_type(count_, false, kernel_type<T>());
+            kernel_.set_bytes(count_++, sizeof(T), &value);
+        }
+    }
+
+    Kernel& kernel_;
+    uint32_t count_ = 0;
+};
+
+template <class... Args>
+void Kernel::launch(WorkItem work, size_t count, const Args&... args) {
+    KernelArguments arguments(*this);
+    arguments.add(args...);
+    check_count(arguments.count());
+    enqueue(work, count);
+}
+
+/// A kernel file compiled for a device with its constants, among which VXL_LANES always is.
 class Program {
   public:
     /// Compiles kernels/`file` (e.g. "trace.cl"). Throws Error::build with the compiler's log.
     Program(const Device& device, const std::string& file, const Defines& defines = {});
 
-    /// Compiles those of several files that weren't with these constants before into one program;
-    /// whoever asks for one of them with these constants, as long as the device is open, gets that.
-    /// Names of functions may be used once in all.
+    /// Compiles several files into one program, without those that were compiled with these
+    /// constants before. As long as the device is open, a Program of one of them with these
+    /// constants uses that program. A function's name may be defined only once in all files.
     static void build_together(const Device& device, std::span<const char* const> files,
                                const Defines& defines);
 

@@ -5,6 +5,7 @@
 
 #include "kernels/shared/solid.h"
 #include "kernels/shared/voxel.h"
+#include "runtime/scene/predicates.hpp"
 #include "runtime/stages/light/light_samples.hpp"
 #include "runtime/stages/resolve/resolve.hpp"
 

@@ -8,6 +8,7 @@
 #include "runtime/analysis/medium_set.hpp"
 #include "runtime/analysis/scene_features.hpp"
 #include "runtime/grid/grid.hpp"
+#include "runtime/scene/predicates.hpp"
 #include "runtime/scene/scene.hpp"
 #include "runtime/stages/light/light.hpp"
 #include "runtime/stages/light/light_beams.hpp"

@@ -8,6 +8,7 @@
 #include "runtime/grid/pyramid_bytes.hpp"
 #include "runtime/memory/plan.hpp"
 #include "runtime/render/illumination.hpp"
+#include "runtime/scene/predicates.hpp"
 #include "runtime/stages/resolve/resolve.hpp"
 #include "runtime/stages/trace/sight.hpp"
 
@@ -36,6 +37,22 @@ Features without_light(Features features) {
     features.medium = features.medium_grid = features.absorbs = false;
     features.filter = features.filtered_refraction = false;
     return features;
+}
+
+/// Notes what an image's rays came to in a world.
+void note_counts(const Illumination& illumination, const std::optional<BeamStage>& beams,
+                 const Pyramid& world, RenderReport& report) {
+    if (beams) {
+        report.beams = beams->sent();
+        report.clear_beams = beams->cleared();
+    }
+    report.shadow_rays = illumination.shadow_rays();
+    report.light_beams = illumination.light_beams();
+    report.secondary_rays = illumination.secondary_rays();
+    report.ended_paths = illumination.ended_paths();
+    report.medium_overflows = illumination.medium_overflows();
+    report.voxels = world.voxel_count;
+    report.world_bytes = bytes_of(world);
 }
 
 }  // namespace
@@ -104,6 +121,14 @@ Image Renderer::part_of_image(const Scene& scene, const BuiltWorld& world, Rende
                           [&] { return image_of_tiles(scene, world, report, tiles); });
 }
 
+/// Tells whoever shares or watches the tiles that these are done.
+void Renderer::note_done(const TileRange& range, const Tiles& tiles) const {
+    tiles.taken.push_back(range);
+    if (!tiles.share.is_watched()) return;
+    device_.finish();
+    tiles.share.done(range);
+}
+
 Image Renderer::image_of_tiles(const Scene& scene, const BuiltWorld& built, RenderReport& report,
                                const Tiles& tiles) {
     const auto start = std::chrono::steady_clock::now();
@@ -156,26 +181,12 @@ Image Renderer::image_of_tiles(const Scene& scene, const BuiltWorld& built, Rend
         }
         resolve.pixels(world, batch, first, now);
         report.sight_rays += now * rays_per_tile;
-        tiles.taken.push_back(*range);
-        if (tiles.share.is_watched()) {
-            device_.finish();
-            tiles.share.done(*range);
-        }
+        note_done(*range, tiles);
     }
     view_ = std::move(view);
     Image image = resolve.image();
     report.not_finite = resolve.not_finite();
-    if (beams) {
-        report.beams = beams->sent();
-        report.clear_beams = beams->cleared();
-    }
-    report.shadow_rays = illumination.shadow_rays();
-    report.light_beams = illumination.light_beams();
-    report.secondary_rays = illumination.secondary_rays();
-    report.ended_paths = illumination.ended_paths();
-    report.medium_overflows = illumination.medium_overflows();
-    report.voxels = world.voxel_count;
-    report.world_bytes = bytes_of(world);
+    note_counts(illumination, beams, world, report);
     report.image_seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return image;

@@ -92,6 +92,7 @@ class Renderer {
     static View view_of(const Scene& scene, const BuiltWorld& world, const Features& features);
     bool has_room(const Scene& scene, const Features& features, uint64_t rays) const;
     WorldDilation& dilated_occupancy_of(const BuiltWorld& world, DilationLevel of);
+    void note_done(const TileRange& range, const Tiles& tiles) const;
     Image image_of_tiles(const Scene& scene, const BuiltWorld& world, RenderReport& report,
                          const Tiles& tiles);
 

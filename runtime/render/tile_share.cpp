@@ -6,7 +6,7 @@ namespace voxelume {
 
 std::optional<TileRange> TileShare::take(uint32_t count) {
     const std::lock_guard lock(mutex_);
-    if (next_ >= tiles_) return std::nullopt;
+    if (is_closed_ || next_ >= tiles_) return std::nullopt;
     const TileRange range{next_, std::min({count, maximum_, tiles_ - next_})};
     next_ += range.count;
     return range;
@@ -16,11 +16,6 @@ void TileShare::done(const TileRange& range) {
     const std::lock_guard lock(mutex_);
     done_ += range.count;
     if (progress_) progress_(done_, tiles_);
-}
-
-void TileShare::close() {
-    const std::lock_guard lock(mutex_);
-    next_ = tiles_;
 }
 
 }  // namespace voxelume

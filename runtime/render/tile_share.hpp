@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <atomic>
 #include <cstdint>
 #include <functional>
 #include <mutex>
@@ -31,7 +32,7 @@ class TileShare {
     /// Tells the progress that they are done.
     void done(const TileRange& range);
     /// Ends the work of all who ask.
-    void close();
+    void close() { is_closed_ = true; }
 
     uint32_t tiles() const { return tiles_; }
     uint32_t maximum() const { return std::min(maximum_, tiles_); }  ///< at a time
@@ -45,6 +46,7 @@ class TileShare {
     uint32_t next_ = 0;
     uint32_t done_ = 0;
     FrameProgress progress_;
+    std::atomic<bool> is_closed_ = false;
 };
 
 }  // namespace voxelume

@@ -1,7 +1,10 @@
 // Affine maps from the factors that scene files give: positions, turns in degrees, scales.
 #include "runtime/scene/scene_affine.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
@@ -86,6 +89,24 @@ Stretch stretch_of(const glm::dmat3& linear) {
     }
     const auto [min, max] = std::minmax({glm::length(a[0]), glm::length(a[1]), glm::length(a[2])});
     return {min * largest, max * largest};
+}
+
+std::span<const ValueRow<Factors>> factor_rows() {
+    static constexpr std::array<ValueRow<Factors>, 3> rows = {
+        {{"position", &Factors::position, kCoordinate},
+         {"turn", &Factors::turn, kDegrees},
+         {"scale", &Factors::scale, {-1e6, 1e6}, true}}};
+    return rows;
+}
+
+void check_map(const glm::dmat4& map, std::string_view key, const Refuse& refuse) {
+    const Stretch stretch = stretch_of(glm::dmat3(map));
+    if (stretch.min < kMinStretch)
+        refuse(key, "is singular: it flattens the object to nothing in one direction");
+    if (stretch.max > stretch.min * kMaxCondition)
+        refuse(key, fmt::format("stretches {:.3g} times as much in one direction as in another, "
+                                "which is close to singular; at most {} times is allowed",
+                                stretch.max / stretch.min, kMaxCondition));
 }
 
 }  // namespace voxelume

@@ -4,6 +4,9 @@
 #include <glm/mat3x3.hpp>
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
+#include <span>
+
+#include "runtime/scene/value_row.hpp"
 
 namespace voxelume {
 
@@ -42,5 +45,11 @@ inline constexpr double kMaxCondition = 1e5;  ///< largest over smallest stretch
 inline bool is_safely_invertible(const Stretch& stretch) {
     return stretch.min >= kMinStretch && stretch.max <= stretch.min * kMaxCondition;
 }
+
+/// `position`, `turn` and `scale`.
+std::span<const ValueRow<Factors>> factor_rows();
+
+/// Refuses a map that isn't safely invertible, because of the value with the key.
+void check_map(const glm::dmat4& map, std::string_view key, const Refuse& refuse);
 
 }  // namespace voxelume

@@ -4,7 +4,11 @@
 #include <cstdint>
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
+#include <span>
+#include <string_view>
 #include <vector>
+
+#include "runtime/scene/value_row.hpp"
 
 namespace voxelume {
 
@@ -57,5 +61,19 @@ constexpr bool is_combination(SolidKind kind) {
 /// True when the tree reaches to infinity as far as its kinds tell: a slab, a union with an
 /// infinite part, an intersection of infinite parts only, a difference from an infinite part.
 bool is_infinite(const Solid& solid);
+
+/// A shape, or a way to combine parts.
+struct SolidType {
+    SolidKind kind;
+    std::string_view name;  ///< in scene files
+    std::span<const KindKey> keys;
+};
+
+/// In the order of SolidKind.
+std::span<const SolidType> solid_types();
+std::span<const ValueRow<Solid>> solid_rows();
+
+/// Refuses lengths of one shape that don't go together.
+void check_solid(const Solid& solid, const Refuse& refuse);
 
 }  // namespace voxelume

@@ -10,7 +10,7 @@ namespace voxelume {
 namespace fs = std::filesystem;
 namespace {
 
-void refuse_names_that_lead_out(std::string_view name, const std::string& where) {
+void refuse_names_that_lead_out(std::string_view name, const SourcePlace& where) {
     const fs::path path(name);
     if (name.find('\0') != name.npos) {
         throw Error(ErrorKind::scene, "{}: a file's name must not hold a zero byte", where);
@@ -59,7 +59,7 @@ bool is_asset(std::string_view name, const fs::path& scene_folder, const AssetFo
 }
 
 fs::path find_asset(std::string_view name, const fs::path& scene_folder, const AssetFolders& assets,
-                    const std::string& where) {
+                    const SourcePlace& where) {
     refuse_names_that_lead_out(name, where);
     AssetFolders folders = {scene_folder.empty() ? fs::path(".") : scene_folder};
     folders.insert(folders.end(), assets.begin(), assets.end());

@@ -6,6 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include "runtime/base/source_place.hpp"
+
 namespace voxelume {
 
 /// Folders to look in after the scene's own, in order.
@@ -24,6 +26,6 @@ bool is_asset(std::string_view name, const std::filesystem::path& scene_folder,
 /// `where` opens the messages. Throws Error::scene for an absolute name, for `..` and for a link
 /// that leads out of its folder, Error::input with the folders searched when there is no such file.
 std::filesystem::path find_asset(std::string_view name, const std::filesystem::path& scene_folder,
-                                 const AssetFolders& assets, const std::string& where);
+                                 const AssetFolders& assets, const SourcePlace& where);
 
 }  // namespace voxelume

@@ -136,7 +136,8 @@ class TreeBuilder : public nlohmann::json_sax<nlohmann::json> {
     };
 
     [[noreturn]] void fail(TextPosition at, const std::string& sentence) const {
-        throw Error(ErrorKind::scene, "{}:{}:{}: {}", file_, at.line, at.column, sentence);
+        throw Error(ErrorKind::scene, "{}: {}", SourcePlace{file_, at.line, at.column, {}},
+                    sentence);
     }
 
     JsonValue& add(JsonType type) {

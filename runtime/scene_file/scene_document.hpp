@@ -6,13 +6,9 @@
 #include <string_view>
 #include <vector>
 
-namespace voxelume {
+#include "runtime/base/text.hpp"
 
-/// Place in a text; both count from 1, and the column counts characters, not bytes.
-struct TextPosition {
-    int line = 1;
-    int column = 1;
-};
+namespace voxelume {
 
 enum class JsonType : uint8_t { null, boolean, number, string, array, object };
 

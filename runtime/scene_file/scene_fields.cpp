@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/geometric.hpp>
 #include <stdexcept>
 
 #include "runtime/base/error.hpp"
@@ -40,9 +39,8 @@ std::string range_text(Range range) {
 
 }  // namespace
 
-std::string SceneValue::where(TextPosition at) const {
-    const std::string place = fmt::format("{}:{}:{}", *file_, at.line, at.column);
-    return path_.empty() ? place : place + ": " + path_;
+SourcePlace SceneValue::where(TextPosition at) const {
+    return {*file_, at.line, at.column, path_};
 }
 
 void SceneValue::fail(const std::string& sentence) const {
@@ -118,13 +116,38 @@ glm::dvec3 SceneValue::number_or_vector(Range range) const {
     return vector(range);
 }
 
-glm::dvec3 SceneValue::direction() const {
-    const glm::dvec3 v = vector(kCoordinate);
-    // Scaled to 1 first, so that no square is lost in underflow.
-    const double largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
-    if (largest == 0) fail("must not be zero, since it gives a direction");
-    const glm::dvec3 scaled = v / largest;
-    return scaled / glm::length(scaled);
+namespace {
+
+/// Reads a value as what it is.
+struct SlotReader {
+    const SceneValue& value;
+    Range range;
+    bool is_uniform;
+
+    void operator()(double* number) const { *number = value.number(range); }
+    void operator()(float* number) const { *number = static_cast<float>(value.number(range)); }
+    void operator()(int* number) const {
+        *number = value.integer(static_cast<int>(range.min), static_cast<int>(range.max));
+    }
+    void operator()(bool* flag) const { *flag = value.boolean(); }
+    void operator()(glm::dvec2* pair) const { *pair = value.pair(range); }
+    void operator()(glm::dvec3* vector) const {
+        *vector = is_uniform ? value.number_or_vector(range) : value.vector(range);
+    }
+    void operator()(glm::vec3* color) const { *color = glm::vec3(value.vector(range)); }
+    void operator()(std::filesystem::path*) const {
+        throw std::logic_error("a file is not read as a number");
+    }
+    template <class T>
+    void operator()(std::optional<T>* number) const {
+        (*this)(&number->emplace());
+    }
+};
+
+}  // namespace
+
+void SceneValue::read_into(const Slot& slot, Range range, bool is_uniform) const {
+    std::visit(SlotReader{*this, range, is_uniform}, slot);
 }
 
 size_t SceneValue::choice(std::span<const std::string_view> names) const {
@@ -208,14 +231,10 @@ int SceneFields::integer(std::string_view key, int min, int max, int fallback) c
     return found ? found->integer(min, max) : fallback;
 }
 
-glm::dvec3 SceneFields::vector(std::string_view key, Range range, glm::dvec3 fallback) const {
-    const auto found = find(key);
-    return found ? found->vector(range) : fallback;
-}
-
-glm::vec3 SceneFields::color(std::string_view key, double max, glm::vec3 fallback) const {
-    const auto found = find(key);
-    return found ? glm::vec3(found->vector({0, max})) : fallback;
+Refuse SceneFields::refusal() const {
+    return [fields = *this](std::string_view key, const std::string& sentence) {
+        (key.empty() ? fields.value() : fields.get(key)).fail(sentence);
+    };
 }
 
 size_t kind_of(const SceneValue& value, std::string_view key, std::string_view prefix) {

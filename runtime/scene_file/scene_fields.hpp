@@ -10,32 +10,13 @@
 #include <string_view>
 #include <vector>
 
+#include "runtime/base/source_place.hpp"
+#include "runtime/base/text.hpp"
+#include "runtime/scene/value_row.hpp"
 #include "runtime/scene_file/scene_document.hpp"
 #include "runtime/scene_file/scene_keys.hpp"
 
 namespace voxelume {
-
-/// Numbers from `min` to `max`; the ends belong to them unless they are open.
-struct Range {
-    double min;
-    double max;
-    bool min_is_open = false;
-    bool max_is_open = false;
-};
-
-inline constexpr double kMaxLength = 1e9;  ///< metres; the largest length and coordinate in a scene
-inline constexpr Range kCoordinate{-kMaxLength, kMaxLength};
-inline constexpr Range kLength{0, kMaxLength, true};
-inline constexpr Range kNotNegative{0, kMaxLength};
-inline constexpr Range kRatio{0, 1};
-inline constexpr Range kDegrees{-1e6, 1e6};
-
-/// Text from a file, in quotes, made safe for a terminal and cut to a readable length.
-std::string quote(std::string_view text);
-
-/// ` did you mean "brick"?` for the nearest of the names, or a list of them, or nothing. Opens with
-/// `; `.
-std::string suggest(std::string_view text, std::span<const std::string_view> names);
 
 /// A value of a scene file together with its path in it. Refers to the document, which must outlive
 /// it.
@@ -47,8 +28,8 @@ class SceneValue {
     const JsonValue& json() const { return *value_; }
     bool is(JsonType type) const { return value_->type == type; }
 
-    /// "file:line:column: path", to open a message with.
-    std::string where() const { return where(value_->at); }
+    /// Its place, to open a message with: "file:line:column: path".
+    SourcePlace where() const { return where(value_->at); }
     [[noreturn]] void fail(const std::string& sentence) const;
 
     double number(Range range) const;
@@ -58,7 +39,8 @@ class SceneValue {
     glm::dvec3 vector(Range range) const;
     glm::dvec2 pair(Range range) const;
     glm::dvec3 number_or_vector(Range range) const;  ///< one number stands for three
-    glm::dvec3 direction() const;  ///< unit vector along one that must not be zero
+    /// Reads what a row says of its value into where it lies; not for files.
+    void read_into(const Slot& slot, Range range, bool is_uniform) const;
     size_t choice(std::span<const std::string_view> names) const;  ///< index of the text among them
 
     std::vector<SceneValue> items() const;
@@ -66,7 +48,7 @@ class SceneValue {
     std::vector<std::pair<std::string, SceneValue>> named_members() const;
 
     SceneValue member(const JsonMember& member) const;
-    std::string where(TextPosition at) const;
+    SourcePlace where(TextPosition at) const;
 
   private:
     void expect(JsonType type, std::string_view expected) const;
@@ -91,11 +73,33 @@ class SceneFields {
 
     double number(std::string_view key, Range range, double fallback) const;
     int integer(std::string_view key, int min, int max, int fallback) const;
-    glm::dvec3 vector(std::string_view key, Range range, glm::dvec3 fallback) const;
-    /// A vector in single precision; for colours.
-    glm::vec3 color(std::string_view key, double max, glm::vec3 fallback) const;
+
+    /// Refuses the value of a key of this object, or the object itself.
+    Refuse refusal() const;
+
+    /// Reads those values of a part that the object has.
+    template <class Part>
+    void read_rows(std::span<const ValueRow<Part>> rows, Part& part) const {
+        for (const ValueRow<Part>& row : rows) read_row(row, row.range, part);
+    }
+    /// Reads those values of a part that its kind has. Throws Error::scene when a required one is
+    /// missing; keys that have no row are left to the caller.
+    template <class Part>
+    void read_kind(std::span<const KindKey> keys, std::span<const ValueRow<Part>> rows,
+                   Part& part) const {
+        for (const KindKey& key : keys) {
+            if (key.is_required) get(key.key);
+            if (const ValueRow<Part>* row = find_row(rows, key.key))
+                read_row(*row, key.range.value_or(row->range), part);
+        }
+    }
 
   private:
+    template <class Part>
+    void read_row(const ValueRow<Part>& row, Range range, Part& part) const {
+        if (const auto value = find(row.key))
+            value->read_into(row.slot(part), range, row.is_uniform);
+    }
     const JsonMember* member(std::string_view key) const;
 
     SceneValue value_;

@@ -2,7 +2,15 @@
 #include "runtime/scene_file/scene_keys.hpp"
 
 #include <algorithm>
+#include <span>
 #include <stdexcept>
+
+#include "runtime/scene/light.hpp"
+#include "runtime/scene/material.hpp"
+#include "runtime/scene/observer.hpp"
+#include "runtime/scene/scene_affine.hpp"
+#include "runtime/scene/solid.hpp"
+#include "runtime/scene/world.hpp"
 
 namespace voxelume {
 namespace {
@@ -14,63 +22,49 @@ Keys operator+(Keys a, const Keys& b) {
     return a;
 }
 
+template <class Row>
+Keys keys_of(std::span<const Row> rows) {
+    Keys keys;
+    for (const Row& row : rows) keys.push_back(row.key);
+    return keys;
+}
+
+/// The tables of a part that comes in kinds: keys that all kinds have, then those of each.
+template <class Kind>
+void add_kinds(std::string_view part, const Keys& before, std::span<const Kind> kinds,
+               const Keys& after, std::vector<KeyTable>& tables) {
+    for (const Kind& kind : kinds)
+        tables.push_back({std::string(part) + ":" + std::string(kind.name),
+                          before + keys_of(kind.keys) + after});
+}
+
 std::vector<KeyTable> make_tables() {
-    const Keys placement = {"position", "turn", "scale", "matrix"};
+    const Keys placement = keys_of(factor_rows()) + Keys{"matrix"};
     const Keys lattice = {"voxel_size", "resolution", "surface", "set"};
-    const Keys light = {"name", "type", "color", "intensity"};
-    const std::vector<KeyTable> shapes = {
-        {"sphere", {"shape", "radius"}},
-        {"ellipsoid", {"shape", "radii"}},
-        {"box", {"shape", "size"}},
-        {"cylinder", {"shape", "radius", "height"}},
-        {"cone", {"shape", "radius", "height", "top_radius"}},
-        {"torus", {"shape", "radius", "tube"}},
-        {"capsule", {"shape", "radius", "height"}},
-        {"slab", {"shape", "thickness"}},
-        {"union", {"shape", "parts"}},
-        {"intersection", {"shape", "parts"}},
-        {"difference", {"shape", "parts"}},
-    };
     std::vector<KeyTable> tables = {
         {"scene",
          {"$schema", "voxelume", "world", "materials", "models", "objects", "lights", "observer",
           "animation", "render"}},
-        {"world", {"voxel_size", "bounds", "background", "ambient", "medium"}},
+        {"world", Keys{"voxel_size", "bounds"} + keys_of(world_rows()) + Keys{"medium"}},
         {"bounds", {"min", "max"}},
-        {"medium", {"absorption", "color", "density"}},
-        {"density:height", {"kind", "base", "scale_height"}},
-        {"density:ball", {"kind", "center", "radius", "falloff"}},
-        {"density:grid", Keys{"kind", "file", "sequence", "grid"} + placement},
-        {"material",
-         {"color", "diffuse", "specular", "shininess", "reflection", "refraction", "ior", "fresnel",
-          "opacity", "absorption", "emission", "checker"}},
-        {"checker", {"color", "size", "origin"}},
-        {"model:mesh", Keys{"mesh", "sequence", "morph", "cut"} + lattice},
-        {"model:voxels", {"voxels", "sequence", "surface"}},
-        {"sequence", {"first", "last", "start", "loop"}},
-        {"morph", {"mesh", "center", "radius", "amount"}},
+        {"medium", keys_of(medium_rows()) + Keys{"density"}},
     };
-    for (const KeyTable& shape : shapes)
-        tables.push_back({"model:" + shape.name, shape.keys + lattice});
-    for (const KeyTable& shape : shapes)
-        tables.push_back({"part:" + shape.name, shape.keys + placement});
+    add_kinds("density", {"kind"}, density_kinds(), {}, tables);
+    tables.push_back({"material", keys_of(material_rows()) + Keys{"checker"}});
+    tables.push_back({"checker", keys_of(checker_rows())});
+    tables.push_back({"model:mesh", Keys{"mesh", "sequence", "morph", "cut"} + lattice});
+    tables.push_back({"model:voxels", {"voxels", "sequence", "surface"}});
+    tables.push_back({"sequence", {"first", "last", "start", "loop"}});
+    tables.push_back({"morph", {"mesh", "center", "radius", "amount"}});
+    add_kinds("model", {"shape"}, solid_types(), lattice, tables);
+    add_kinds("part", {"shape"}, solid_types(), placement, tables);
     tables.push_back({"object", Keys{"name", "model", "material", "materials", "priority", "spots",
                                      "placement", "visible"} +
                                     placement});
-    tables.push_back({"light:point", light + Keys{"position"}});
-    tables.push_back(
-        {"light:spot", light + Keys{"position", "direction", "look_at", "angle", "inner_angle"}});
-    tables.push_back({"light:directional", light + Keys{"direction"}});
-    tables.push_back(
-        {"light:disk", light + Keys{"position", "direction", "look_at", "radius", "spots"}});
-    tables.push_back({"light:rectangle",
-                      light + Keys{"position", "direction", "look_at", "up", "size", "spots"}});
-    tables.push_back({"observer", {"position", "look_at", "up", "turn", "display"}});
-    const Keys display = {"shape", "voxels", "layout", "visibility", "clip"};
-    tables.push_back({"display:pyramid", display + Keys{"angles", "angle", "near", "far"}});
-    tables.push_back({"display:sector", display + Keys{"angle", "near", "far"}});
-    tables.push_back({"display:ball", display + Keys{"radius"}});
-    tables.push_back({"display:box", display + Keys{"size", "near"}});
+    add_kinds("light", {"name", "type", "color", "intensity"}, light_types(), {}, tables);
+    tables.push_back({"observer", keys_of(observer_rows()) + Keys{"display"}});
+    add_kinds("display", {"shape", "voxels", "layout", "visibility", "clip"}, display_shapes(), {},
+              tables);
     tables.push_back({"animation", {"frames", "fps", "tracks"}});
     tables.push_back({"track", {"target", "keys", "interpolation"}});
     tables.push_back({"key", {"frame", "time", "value"}});

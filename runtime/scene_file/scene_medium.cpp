@@ -6,26 +6,10 @@
 namespace voxelume {
 namespace {
 
-HeightDensity read_height(const SceneFields& fields) {
-    return {fields.get("base").number(kCoordinate), fields.get("scale_height").number(kLength)};
-}
-
-BallDensity read_ball(const SceneFields& fields) {
-    BallDensity ball;
-    ball.center = fields.get("center").vector(kCoordinate);
-    ball.radius = fields.get("radius").number(kLength);
-    if (const auto falloff = fields.find("falloff")) {
-        ball.falloff = falloff->number(kNotNegative);
-        if (ball.falloff > ball.radius)
-            falloff->fail(fmt::format("must not be larger than the radius, {}", ball.radius));
-    }
-    return ball;
-}
-
 GridDensity read_grid(const SceneFields& fields, const AssetSearch& search) {
     const SceneValue file = fields.get("file");
     GridDensity density;
-    density.file = file_at(fields, "file", search);
+    density.file = first_file(fields, "file", search);
     const auto grid = fields.find("grid");
     density.grid = grid ? grid->text() : "density";
     density.world_from_grid = read_placement(fields);
@@ -34,10 +18,19 @@ GridDensity read_grid(const SceneFields& fields, const AssetSearch& search) {
 }
 
 Density read_density(const SceneValue& value, const AssetSearch& search) {
-    const std::string_view kind = scene_kinds("density")[kind_of(value, "kind", "density")];
-    const SceneFields fields(value, fmt::format("density:{}", kind));
-    if (kind == "height") return read_height(fields);
-    if (kind == "ball") return read_ball(fields);
+    const DensityKind& kind = density_kinds()[kind_of(value, "kind", "density")];
+    const SceneFields fields(value, fmt::format("density:{}", kind.name));
+    if (kind.name == "height") {
+        HeightDensity height;
+        fields.read_kind(kind.keys, height_density_rows(), height);
+        return height;
+    }
+    if (kind.name == "ball") {
+        BallDensity ball;
+        fields.read_kind(kind.keys, ball_density_rows(), ball);
+        check_ball(ball, fields.refusal());
+        return ball;
+    }
     return read_grid(fields, search);
 }
 
@@ -46,8 +39,7 @@ Density read_density(const SceneValue& value, const AssetSearch& search) {
 Medium read_medium(const SceneValue& value, const AssetSearch& search) {
     const SceneFields fields(value, "medium");
     Medium medium;
-    medium.absorption = fields.color("absorption", kMaxLength, {});
-    medium.color = fields.color("color", kMaxLength, {});
+    fields.read_rows(medium_rows(), medium);
     if (const auto density = fields.find("density"))
         medium.density = read_density(*density, search);
     return medium;

@@ -6,6 +6,7 @@
 #include <glm/matrix.hpp>
 #include <unordered_set>
 
+#include "runtime/scene/predicates.hpp"
 #include "runtime/scene/scene_affine.hpp"
 #include "runtime/scene_file/scene_parts.hpp"
 #include "runtime/scene_file/scene_sequence.hpp"
@@ -14,6 +15,12 @@ namespace voxelume {
 namespace {
 
 using Names = std::vector<std::string_view>;
+
+Surface read_surface(const SceneValue& value) {
+    Names names;
+    for (const SurfaceKind& kind : kSurfaceKinds) names.push_back(kind.name);
+    return kSurfaceKinds[value.choice(names)].surface;
+}
 
 /// The pitch, surface and set of a model, whose source is already read.
 void read_lattice(const SceneFields& fields, glm::dvec3 world_voxel_size, Model& model) {
@@ -29,7 +36,7 @@ void read_lattice(const SceneFields& fields, glm::dvec3 world_voxel_size, Model&
         model.voxel_size = size ? size->number_or_vector(kLength) : world_voxel_size;
     }
     if (const auto surface = fields.find("surface")) {
-        model.surface = static_cast<Surface>(surface->choice(Names{"cubes", "smooth", "exact"}));
+        model.surface = read_surface(*surface);
     }
     if (const auto set = fields.find("set")) {
         model.set = static_cast<VoxelSet>(set->choice(Names{"supercover", "thin", "solid"}));
@@ -41,10 +48,9 @@ void read_lattice(const SceneFields& fields, glm::dvec3 world_voxel_size, Model&
 
 /// A model whose file holds its voxels, with a lattice of their own.
 void read_voxels(const SceneFields& fields, const ModelContext& context, Model& model) {
-    model.voxels = file_at(fields, "voxels", context.search);
+    model.voxels = first_file(fields, "voxels", context.search);
     model.surface = Surface::cubes;
-    if (const auto surface = fields.find("surface"))
-        model.surface = static_cast<Surface>(surface->choice(Names{"cubes", "smooth", "exact"}));
+    if (const auto surface = fields.find("surface")) model.surface = read_surface(*surface);
 }
 
 Morph read_morph(const SceneValue& value, const AssetSearch& search) {
@@ -61,8 +67,9 @@ Morph read_morph(const SceneValue& value, const AssetSearch& search) {
     }
     if (!fields.has("center") && !fields.has("radius"))
         value.fail("needs a \"mesh\" to end as, or the \"center\" and \"radius\" of a sphere");
-    morph.center = fields.get("center").vector(kCoordinate);
-    morph.radius = fields.get("radius").number(kLength);
+    fields.get("center");
+    fields.get("radius");
+    fields.read_rows(morph_rows(), morph);
     return morph;
 }
 
@@ -113,7 +120,7 @@ Model read_model(const std::string& name, const SceneValue& value, const ModelCo
                      model);
     } else {
         const SceneFields fields(value, "model:mesh");
-        model.mesh = file_at(fields, "mesh", context.search);
+        model.mesh = first_file(fields, "mesh", context.search);
         if (const auto morph = fields.find("morph"))
             model.morph = read_morph(*morph, context.search);
         read_lattice(fields, context.world_voxel_size, model);
@@ -126,14 +133,6 @@ Model read_model(const std::string& name, const SceneValue& value, const ModelCo
         }
     }
     return model;
-}
-
-bool has_emission(const Scene& scene, const Object& object) {
-    const auto emits = [&](int material) {
-        return scene.materials[size_t(material)].emission != glm::vec3(0);
-    };
-    return emits(object.material) ||
-           std::ranges::any_of(object.groups, emits, &GroupMaterial::material);
 }
 
 std::vector<Model> read_models(const SceneValue& value, const ModelContext& context) {

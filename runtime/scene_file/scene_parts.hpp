@@ -7,8 +7,11 @@
 #include <unordered_map>
 #include <vector>
 
+#include "runtime/scene/light.hpp"
+#include "runtime/scene/observer.hpp"
 #include "runtime/scene/scene.hpp"
 #include "runtime/scene/scene_affine.hpp"
+#include "runtime/scene_file/assets.hpp"
 #include "runtime/scene_file/scene_fields.hpp"
 
 namespace voxelume {
@@ -33,8 +36,7 @@ class NameTable {
 struct AssetSearch {
     std::filesystem::path scene_folder;
     const AssetFolders& assets;
-    double frame = 1;       ///< whose files are taken where they are numbered
-    bool all_files = true;  ///< whether those of the other frames must be there, too
+    bool all_files = true;  ///< whether all files of a sequence must be there, not the first alone
 };
 
 /// Where models find their files, and the pitch that they take from the world.
@@ -65,34 +67,18 @@ std::vector<Model> read_models(const SceneValue& value, const ModelContext& cont
 Solid read_solid(const SceneValue& value);  ///< of a model; see scene_solids.cpp for its parts
 std::vector<Solid> read_cuts(const SceneValue& value);  ///< a list of parts, of a mesh
 std::vector<Object> read_objects(const SceneValue& value, const Scene& scene);
+LightParameters read_light_parameters(const SceneValue& value);
 Light read_light(const SceneValue& value, size_t number);  ///< `number`: its place in the list
 std::vector<Light> read_lights(const SceneValue& value);
+ObserverParameters read_observer_parameters(const SceneValue& value);
 Observer read_observer(const SceneValue& value, const Scene& scene);
 Animation read_animation(const SceneValue& value);
 RenderSettings read_render(const SceneValue& value);
-
-/// Sets where each model can be seen: the world's box carried into the space of every object that
-/// shows it.
-void find_extents(Scene& scene);
 
 /// `position`, `turn` and `scale`.
 Factors read_factors(const SceneFields& fields);
 
 /// The map that `position`, `turn` and `scale`, or `matrix`, give. Refuses singular ones.
 glm::dmat4 read_placement(const SceneFields& fields);
-
-/// Unit vector from a position to the point that the value gives, which must be another.
-glm::dvec3 direction_to(const SceneValue& target, glm::dvec3 position);
-
-/// Half of an angle above 0 degrees, in radians.
-double half_angle(const SceneValue& value, double max, bool max_is_open);
-
-/// The vertical half angle at which pixels of an image of this size are square.
-double square_pixel_half_angle(double horizontal_half_angle, glm::ivec2 size);
-
-/// The box that the world's whole voxels fill.
-Bounds lattice_bounds(const World& world);
-glm::dvec3 corner(const Bounds& bounds,
-                  int number);  ///< number 0..7: bits choose max over min on x, y, z
 
 }  // namespace voxelume

@@ -1,8 +1,5 @@
 #include "runtime/scene_file/scene_sequence.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 #include "runtime/base/error.hpp"
 #include "runtime/base/frame_path.hpp"
 
@@ -16,14 +13,6 @@ struct Sequence {
     int first = 1, last = 1;  ///< numbers in the files' names
     int start = 1;            ///< frame that shows the first file
     bool loop = false;        ///< the first file comes after the last one; otherwise it stays
-
-    int number_at(double frame) const {
-        const auto count = int64_t(last) - first + 1;
-        const auto step = int64_t(std::floor(frame)) - start;
-        const int64_t place =
-            loop ? (step % count + count) % count : std::clamp<int64_t>(step, 0, count - 1);
-        return int(first + place);
-    }
 };
 
 Sequence read_sequence(const SceneValue& value) {
@@ -60,22 +49,37 @@ void check_files(const SceneValue& pattern, const Sequence& sequence, const Asse
                 missing > kMaxNamed ? ", ..." : "");
 }
 
+std::filesystem::path find_number(const SceneValue& pattern, int number,
+                                  const AssetSearch& search) {
+    return find_asset(frame_path(pattern.text(), number, false), search.scene_folder, search.assets,
+                      pattern.where());
+}
+
 }  // namespace
 
-std::filesystem::path file_at(const SceneFields& fields, std::string_view key,
-                              const AssetSearch& search) {
+std::filesystem::path first_file(const SceneFields& fields, std::string_view key,
+                                 const AssetSearch& search) {
     const SceneValue name = fields.get(key);
-    std::string file = name.text();
-    if (const auto value = fields.find("sequence")) {
-        const Sequence sequence = read_sequence(*value);
-        if (frame_path(file, 1, false) == file)
-            name.fail(
-                "has no place for the numbers of its \"sequence\"; write # for each digit, as in "
-                "\"smoke.####.vdb\"");
-        if (search.all_files) check_files(name, sequence, search);
-        file = frame_path(file, sequence.number_at(search.frame), false);
-    }
-    return find_asset(file, search.scene_folder, search.assets, name.where());
+    const std::string& file = name.text();
+    const auto value = fields.find("sequence");
+    if (!value) return find_asset(file, search.scene_folder, search.assets, name.where());
+    const Sequence sequence = read_sequence(*value);
+    if (frame_path(file, 1, false) == file)
+        name.fail(
+            "has no place for the numbers of its \"sequence\"; write # for each digit, as in "
+            "\"smoke.####.vdb\"");
+    if (search.all_files) check_files(name, sequence, search);
+    return find_number(name, sequence.first, search);
+}
+
+FileSequence read_files(const SceneFields& fields, std::string_view key,
+                        const ValueReference& value, const AssetSearch& search) {
+    const Sequence sequence = read_sequence(fields.get("sequence"));
+    FileSequence files{value, {}, sequence.start, sequence.loop};
+    const SceneValue name = fields.get(key);
+    for (int number = sequence.first; number <= sequence.last; ++number)
+        files.files.push_back(find_number(name, number, search));
+    return files;
 }
 
 }  // namespace voxelume

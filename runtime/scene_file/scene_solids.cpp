@@ -4,68 +4,25 @@
 #include <algorithm>
 
 #include "runtime/scene/scene_affine.hpp"
+#include "runtime/scene/solid.hpp"
 #include "runtime/scene_file/scene_parts.hpp"
 
 namespace voxelume {
 namespace {
 
-/// Both follow the order of the shapes in the key tables.
-constexpr SolidKind kKinds[] = {
-    SolidKind::sphere,   SolidKind::ellipsoid,       SolidKind::box,           SolidKind::cylinder,
-    SolidKind::cone,     SolidKind::torus,           SolidKind::capsule,       SolidKind::slab,
-    SolidKind::union_of, SolidKind::intersection_of, SolidKind::difference_of,
-};
-
-void read_parameters(const SceneFields& fields, Solid& solid) {
-    const auto length = [&](std::string_view key) { return fields.get(key).number(kLength); };
-    switch (solid.kind) {
-        case SolidKind::sphere:
-            solid.radius = length("radius");
-            break;
-        case SolidKind::ellipsoid:
-            solid.radii = fields.get("radii").vector(kLength);
-            break;
-        case SolidKind::box:
-            solid.size = fields.get("size").vector(kLength);
-            break;
-        case SolidKind::cone:
-            solid.top_radius = fields.number("top_radius", kNotNegative, 0);
-            [[fallthrough]];
-        case SolidKind::cylinder:
-        case SolidKind::capsule:
-            solid.radius = length("radius");
-            solid.height = length("height");
-            break;
-        case SolidKind::torus:
-            solid.radius = length("radius");
-            solid.tube = length("tube");
-            if (solid.tube > solid.radius) {
-                fields.get("tube").fail("must not be larger than the torus's radius");
-            }
-            break;
-        case SolidKind::slab:
-            solid.thickness = length("thickness");
-            break;
-        case SolidKind::union_of:
-        case SolidKind::intersection_of:
-        case SolidKind::difference_of:
-            break;
-    }
-}
-
 /// Reads one tree and counts its shapes. The recursion ends at kMaxSolidDepth.
 class SolidReader {
   public:
     Solid read(const SceneValue& value, std::string_view prefix, int depth) {
-        const size_t kind = kind_of(value, "shape", "part");
-        const std::string table = fmt::format("{}:{}", prefix, scene_kinds("part")[kind]);
-        const SceneFields fields(value, table);
+        const SolidType& shape = solid_types()[kind_of(value, "shape", "part")];
+        const SceneFields fields(value, fmt::format("{}:{}", prefix, shape.name));
         if (depth > kMaxSolidDepth) {
             value.fail(fmt::format("solids are nested more than {} levels deep", kMaxSolidDepth));
         }
         Solid solid;
-        solid.kind = kKinds[kind];
-        read_parameters(fields, solid);
+        solid.kind = shape.kind;
+        fields.read_kind(shape.keys, solid_rows(), solid);
+        check_solid(solid, fields.refusal());
         if (prefix == "part") solid.parent_from_solid = read_placement(fields);
         if (is_combination(solid.kind)) {
             read_parts(fields.get("parts"), solid, depth);
@@ -95,21 +52,6 @@ class SolidReader {
 
 }  // namespace
 
-bool is_infinite(const Solid& solid) {
-    switch (solid.kind) {
-        case SolidKind::slab:
-            return true;
-        case SolidKind::union_of:
-            return std::any_of(solid.parts.begin(), solid.parts.end(), is_infinite);
-        case SolidKind::intersection_of:
-            return std::all_of(solid.parts.begin(), solid.parts.end(), is_infinite);
-        case SolidKind::difference_of:
-            return is_infinite(solid.parts.front());
-        default:
-            return false;
-    }
-}
-
 Solid read_solid(const SceneValue& value) {
     return SolidReader().read(value, "model", 1);
 }
@@ -119,9 +61,9 @@ std::vector<Solid> read_cuts(const SceneValue& value) {
 }
 
 Factors read_factors(const SceneFields& fields) {
-    const auto scale = fields.find("scale");
-    return {fields.vector("position", kCoordinate, {}), fields.vector("turn", kDegrees, {}),
-            scale ? scale->number_or_vector({-1e6, 1e6}) : glm::dvec3(1)};
+    Factors factors;
+    fields.read_rows(factor_rows(), factors);
+    return factors;
 }
 
 glm::dmat4 read_placement(const SceneFields& fields) {
@@ -146,20 +88,7 @@ glm::dmat4 read_placement(const SceneFields& fields) {
         map = affine_from_factors(read_factors(fields));
     }
 
-    const Stretch stretch = stretch_of(glm::dmat3(map));
-    const auto culprit = [&] {
-        const auto found = fields.find("matrix");
-        return found ? *found : fields.get("scale");
-    };
-    if (stretch.min < kMinStretch) {
-        culprit().fail("is singular: it flattens the object to nothing in one direction");
-    }
-    if (stretch.max > stretch.min * kMaxCondition) {
-        culprit().fail(
-            fmt::format("stretches {:.3g} times as much in one direction as in another, which "
-                        "is close to singular; at most {} times is allowed",
-                        stretch.max / stretch.min, kMaxCondition));
-    }
+    check_map(map, fields.has("matrix") ? "matrix" : "scale", fields.refusal());
     return map;
 }
 

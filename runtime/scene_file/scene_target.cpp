@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <charconv>
 
+#include "runtime/scene/solid.hpp"
+
 namespace voxelume {
 namespace {
 
@@ -17,37 +19,36 @@ struct Place {
     std::vector<std::pair<std::string_view, std::string_view>> places;  ///< key and Place::name
 };
 
-const Place& place_named(std::string_view name) {
-    static const Names shapes = {"radius", "radii",      "size",     "height",
-                                 "tube",   "top_radius", "thickness"};
-    static const auto with = [](Names names, const Names& more) {
-        names.insert(names.end(), more.begin(), more.end());
-        return names;
+/// The keys of those values in all lists that may change.
+template <class... Rows>
+Names animated(const Rows&... lists) {
+    Names names;
+    const auto add = [&](const auto& rows) {
+        for (const auto& row : rows)
+            if (row.is_animated) names.push_back(row.key);
     };
-    static const Names placement = {"position", "turn", "scale"};
+    (add(lists), ...);
+    return names;
+}
+
+const Place& place_named(std::string_view name) {
     static const std::vector<Place> places = {
-        {"world", {"background", "ambient"}, {{"medium", "medium"}}},
-        {"medium", {"absorption", "color"}, {{"density", "density"}}},
+        {"world", animated(world_rows()), {{"medium", "medium"}}},
+        {"medium", animated(medium_rows()), {{"density", "density"}}},
         {"density",
-         with(placement, {"base", "scale_height", "center", "radius", "falloff", "file"}),
+         animated(factor_rows(), height_density_rows(), ball_density_rows(), grid_density_rows()),
          {}},
-        {"materials",
-         {"color", "diffuse", "specular", "shininess", "reflection", "refraction", "ior", "fresnel",
-          "opacity", "absorption", "emission"},
-         {{"checker", "checker"}}},
-        {"checker", {"color", "size", "origin"}, {}},
+        {"materials", animated(material_rows()), {{"checker", "checker"}}},
+        {"checker", animated(checker_rows()), {}},
         {"models",
-         with(shapes, {"mesh", "voxels"}),
+         animated(solid_rows(), model_rows()),
          {{"parts", "parts"}, {"cut", "parts"}, {"morph", "morph"}}},
-        {"parts", with(shapes, placement), {{"parts", "parts"}}},
-        {"morph", {"amount", "center", "radius"}, {}},
-        {"objects", with(placement, {"visible", "model", "material"}), {}},
-        {"lights",
-         {"position", "direction", "look_at", "up", "color", "intensity", "angle", "inner_angle",
-          "radius", "size"},
-         {}},
-        {"observer", {"position", "look_at", "up", "turn"}, {{"display", "display"}}},
-        {"display", {"angles", "angle", "near", "far", "radius", "size"}, {}},
+        {"parts", animated(solid_rows(), factor_rows()), {{"parts", "parts"}}},
+        {"morph", animated(morph_rows()), {}},
+        {"objects", animated(factor_rows(), object_rows()), {}},
+        {"lights", animated(light_rows()), {}},
+        {"observer", animated(observer_rows()), {{"display", "display"}}},
+        {"display", animated(display_rows()), {}},
     };
     return *std::ranges::find(places, name, &Place::name);
 }

@@ -4,12 +4,10 @@
 #include <string>
 #include <vector>
 
+#include "runtime/scene/scene_motion.hpp"
 #include "runtime/scene_file/scene_fields.hpp"
 
 namespace voxelume {
-
-/// What is read anew as a whole when a value in it changes.
-enum class ScenePart : uint8_t { world, material, model, object, light, observer };
 
 /// A step from a value to one inside of it: a key, or a place in a list where the key is empty.
 struct TargetStep {

@@ -38,7 +38,7 @@ void check_form(const SceneValue& value) {
     }
 }
 
-void add_key(const SceneValue& item, double fps, Track& track) {
+void add_key(const SceneValue& item, double fps, DocumentTrack& track) {
     const double frame = read_frame(item, fps);
     std::vector<double>& frames = track.keys.frames;
     if (!frames.empty() && !(frame > frames.back()))
@@ -61,7 +61,7 @@ void add_key(const SceneValue& item, double fps, Track& track) {
     track.keys.width = track.keys.values.size() / frames.size();
 }
 
-void read_interpolation(const SceneFields& fields, Track& track) {
+void read_interpolation(const SceneFields& fields, DocumentTrack& track) {
     const bool steps = is_text_or_switch(track.values.front());
     track.keys.interpolation = steps ? Interpolation::step : Interpolation::linear;
     const auto value = fields.find("interpolation");
@@ -76,9 +76,9 @@ void read_interpolation(const SceneFields& fields, Track& track) {
 
 }  // namespace
 
-Track read_track(const SceneValue& value, const JsonValue& document, double fps) {
+DocumentTrack read_track(const SceneValue& value, const JsonValue& document, double fps) {
     const SceneFields fields(value, "track");
-    Track track;
+    DocumentTrack track;
     track.where = value.where();
     track.target = find_target(fields.get("target"), document);
     const SceneValue keys = fields.get("keys");
@@ -89,7 +89,7 @@ Track read_track(const SceneValue& value, const JsonValue& document, double fps)
     return track;
 }
 
-JsonValue value_at(const Track& track, double frame) {
+JsonValue value_at(const DocumentTrack& track, double frame) {
     JsonValue value = track.values[key_before(track.keys.frames, frame)];
     if (track.keys.values.empty()) return value;
     const std::vector<double> row = values_at(track.keys, frame);

@@ -1,4 +1,4 @@
-// A value of the scene over time: its keys, as a scene's "tracks" have them.
+// A value of a scene's text over time: its keys, as the scene's "tracks" have them.
 #pragma once
 
 #include "runtime/scene/keyframes.hpp"
@@ -8,9 +8,9 @@ namespace voxelume {
 
 /// Keys of one target. All values have one form: a number, a list of as many numbers, true or
 /// false, or text.
-struct Track {
+struct DocumentTrack {
     TrackTarget target;
-    std::string where;
+    SourcePlace where;
     Keyframes keys;                 ///< values are empty for true, false and text
     std::vector<JsonValue> values;  ///< as the document has them
 };
@@ -18,9 +18,9 @@ struct Track {
 /// Reads a track. Frame 1 is at time 0, so a key's time in seconds is frame 1 + time * `fps`.
 ///
 /// Throws Error::scene; whether the values suit the target is left to the target's own reader.
-Track read_track(const SceneValue& value, const JsonValue& document, double fps);
+DocumentTrack read_track(const SceneValue& value, const JsonValue& document, double fps);
 
 /// The target's value at a frame, which stands in the document where the key before it does.
-JsonValue value_at(const Track& track, double frame);
+JsonValue value_at(const DocumentTrack& track, double frame);
 
 }  // namespace voxelume

@@ -50,10 +50,10 @@ glm::ivec3 count_voxels(const SceneValue& value, const World& world) {
 
 Checker read_checker(const SceneValue& value) {
     const SceneFields fields(value, "checker");
-    const Checker checker{fields.color("color", 1, {}),
-                          fields.get("size").number_or_vector({0, kMaxLength}),
-                          fields.vector("origin", kCoordinate, {})};
-    if (checker.size == glm::dvec3(0)) value.fail("needs a size above 0 along some axis");
+    fields.get("size");
+    Checker checker;
+    fields.read_rows(checker_rows(), checker);
+    check_checker(checker, fields.refusal());
     return checker;
 }
 
@@ -61,22 +61,9 @@ Checker read_checker(const SceneValue& value) {
 
 Material read_material(const std::string& name, const SceneValue& value) {
     const SceneFields fields(value, "material");
-    const auto ratio = [&](std::string_view key, float fallback) {
-        return static_cast<float>(fields.number(key, kRatio, fallback));
-    };
     Material m;
     m.name = name;
-    m.color = fields.color("color", 1, m.color);
-    m.diffuse = ratio("diffuse", m.diffuse);
-    m.specular = ratio("specular", m.specular);
-    m.shininess = static_cast<float>(fields.number("shininess", {1, 1e6}, m.shininess));
-    m.reflection = ratio("reflection", m.reflection);
-    m.refraction = ratio("refraction", m.refraction);
-    m.ior = static_cast<float>(fields.number("ior", {0.1, 10}, m.ior));
-    if (const auto fresnel = fields.find("fresnel")) m.fresnel = fresnel->boolean();
-    m.opacity = ratio("opacity", m.opacity);
-    m.absorption = fields.color("absorption", kMaxLength, m.absorption);
-    m.emission = fields.color("emission", kMaxLength, m.emission);
+    fields.read_rows(material_rows(), m);
     if (const auto checker = fields.find("checker")) m.checker = read_checker(*checker);
     return m;
 }
@@ -87,8 +74,7 @@ World read_world(const SceneValue& value, const AssetSearch& search) {
     world.voxel_size = fields.get("voxel_size").number_or_vector(kLength);
     world.bounds = read_bounds(fields.get("bounds"));
     world.voxels = count_voxels(value, world);
-    world.background = fields.color("background", kMaxLength, {});
-    world.ambient = fields.color("ambient", kMaxLength, {});
+    fields.read_rows(world_rows(), world);
     if (const auto medium = fields.find("medium")) world.medium = read_medium(*medium, search);
     world.where = value.where();
     return world;
@@ -130,15 +116,6 @@ RenderSettings read_render(const SceneValue& value) {
         render.filtered_shadows = shadow->choice(kShadowNames) == 1;
     render.min_weight = fields.number("least_weight", kRatio, render.min_weight);
     return render;
-}
-
-Bounds lattice_bounds(const World& world) {
-    return {world.bounds.min, world.bounds.min + glm::dvec3(world.voxels) * world.voxel_size};
-}
-
-glm::dvec3 corner(const Bounds& bounds, int number) {
-    return {(number & 1 ? bounds.max : bounds.min).x, (number & 2 ? bounds.max : bounds.min).y,
-            (number & 4 ? bounds.max : bounds.min).z};
 }
 
 }  // namespace voxelume

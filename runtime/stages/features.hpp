@@ -1,43 +1,43 @@
-// What a scene really contains: the constants that decide which code its kernels are made of.
+// The features of a scene: the constants that decide which code its kernels consist of.
 #pragma once
 
 #include "runtime/opencl/program.hpp"
 
 namespace voxelume {
 
-/// Every feature that is false does not exist in the machine code, and its buffers are not
-/// allocated.
+/// A feature that is false does not exist in the machine code, and its buffers are not allocated.
 struct Features {
-    bool cubes = false;         ///< some voxel is its own surface
+    bool cubes = false;         ///< some voxel is a surface itself
     bool smooth = false;        ///< some voxel has a distance field
     bool triangles = false;     ///< some voxel lists triangles
     bool solids = false;        ///< some voxel lists analytic solids
     bool attributes = false;    ///< voxels differ in object, material or kind
     bool colors = false;        ///< voxels have colours of their own
-    bool medium = false;        ///< the space absorbs light
-    bool medium_grid = false;   ///< ... not everywhere alike
+    bool medium = false;        ///< the environment absorbs light
+    bool medium_grid = false;   ///< ... and its density varies
     bool shadows = false;       ///< lights can be hidden
     bool area_samples = false;  ///< some light has an area
     bool checker = false;       ///< some material changes its colour from block to block
-    bool paths = false;         ///< rays are reflected, refracted or go on through surfaces
+    bool paths = false;         ///< rays are reflected, refracted or continue through surfaces
     bool transmission = false;  ///< some object lets light through
     bool refracts = false;      ///< some surface bends rays, or reflects by Fresnel's law
-    bool absorbs = false;       ///< the space, or an object that light goes through, takes of it
-    bool filter = false;        ///< shadow rays may go through transmitting objects
-    bool filtered_refraction = false;  ///< refracting ones among them
+    bool absorbs = false;  ///< the environment, or an object that light passes through, absorbs
+                           ///< light
+    bool filter = false;   ///< shadow rays may pass through transmitting objects
+    bool filtered_refraction = false;  ///< refracting objects are among them
     bool cube_bodies = false;          ///< some object of cubes lets light through
     bool voxel_opacity = false;        ///< voxels have opacities of their own
-    bool observer_in_medium = false;   ///< observers' rays may begin inside of a transmitting mesh
-                                      ///< or smooth object
-    int other_media = 0;  ///< of the sets of transmitting objects that rays are inside of, beside
-                          ///< the smooth body
-    bool medium_set_capped = false;  ///< ... which may not be enough
+    bool observer_in_medium = false;   ///< observers' rays may begin inside a transmitting mesh or
+                                       ///< smooth object
+    int other_media = 0;  ///< size of the sets of transmitting objects that rays are inside of,
+                          ///< without the smooth body
+    bool medium_set_capped = false;  ///< ... and this size may not be enough
     bool instances = false;          ///< some objects keep voxels of their own
-    // what is asked for
-    bool radiance = true;   ///< the light along rays, and how much of what is behind they cover
+    // The results that are asked for:
+    bool radiance = true;   ///< the light along rays, and how much of what lies behind they cover
     bool positions = true;  ///< of the points that rays meet ...
     bool normals = true;
-    bool hit_attributes = true;  ///< ... and which object and material
+    bool hit_attributes = true;  ///< ... and their object and material
 
     friend bool operator==(const Features&, const Features&) = default;
 

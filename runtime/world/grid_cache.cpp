@@ -5,6 +5,7 @@
 
 #include "runtime/base/error.hpp"
 #include "runtime/grid/grid_bytes.hpp"
+#include "runtime/grid/world_frame.hpp"
 #include "runtime/stages/voxelize/cut.hpp"
 #include "runtime/stages/voxelize/voxelize_solid.hpp"
 
@@ -20,7 +21,7 @@ bool has_own_voxels(const Model& model) {
 /// A model without its name, its place in the scene, and what is in its frame already.
 Model source_of(Model model) {
     model.name.clear();
-    model.where.clear();
+    model.where = {};
     model.extent = {};
     model.voxel_size = glm::dvec3(0);
     model.resolution = 0;
@@ -57,7 +58,7 @@ SharedGrid GridCache::own_grid_of(const Model& model) {
 }
 
 SharedGrid GridCache::find_or_make(const Model& model, const Source& source,
-                                   const std::string& where, bool keeps) {
+                                   const SourcePlace& where, bool keeps) {
     const auto found = std::ranges::find(kept_, source, &Kept::source);
     if (found != kept_.end()) {
         found->is_used = true;

@@ -55,7 +55,7 @@ class GridCache {
 
     /// `where` opens messages; empty, where a caller does. `keeps` lets the cache have it: an exact
     /// object that moves is another one in every frame, and takes many times its mesh's bytes.
-    SharedGrid find_or_make(const Model& model, const Source& source, const std::string& where,
+    SharedGrid find_or_make(const Model& model, const Source& source, const SourcePlace& where,
                             bool keeps = true);
     bool is_retained(const Scene& scene, const std::vector<bool>& retained,
                      const Source& source) const;

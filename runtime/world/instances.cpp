@@ -6,46 +6,11 @@
 
 #include "runtime/base/error.hpp"
 #include "runtime/grid/pyramid_bytes.hpp"
+#include "runtime/scene/predicates.hpp"
 #include "runtime/stages/instance/instance_pools.hpp"
 #include "runtime/stages/instance/instances.hpp"
-#include "runtime/stages/light/light_samples.hpp"
 
 namespace voxelume {
-namespace {
-
-/// Why an object can't be an instance; empty if it can.
-std::string refusal(const Scene& scene, const Object& object) {
-    if (is_emissive(scene, object))
-        return "its emission lights the world, and lamps are found in the world's voxels";
-    if (transmits(scene, object))
-        return "a material of it lets light through, and rays go through objects in the world's "
-               "voxels only";
-    const Model& model = scene.models[size_t(object.model)];
-    if (model.solid && is_infinite(*model.solid)) return "its solid has no end";
-    if (scene.observer.display.layout == VolumeLayout::lattice)
-        return "the display's layout is \"lattice\", which shows the world's voxels";
-    return "";
-}
-
-}  // namespace
-
-bool is_instanced(const Scene& scene, const Object& object) {
-    if (object.placement == Placement::automatic)
-        return object.moves && refusal(scene, object).empty();
-    return object.placement == Placement::instance;
-}
-
-void check_placements(const Scene& scene) {
-    for (const Object& object : scene.objects) {
-        if (object.placement != Placement::instance) continue;
-        const std::string reason = refusal(scene, object);
-        if (!reason.empty())
-            throw Error(ErrorKind::scene,
-                        "{}: the object \"{}\" can't be placed as an instance: {}; give it "
-                        "\"placement\": \"world\"",
-                        object.where, object.name, reason);
-    }
-}
 
 void InstanceModels::forget_unused(const ListedInstances& listed, uint64_t room) {
     for (Kept& kept : std::exchange(kept_, {})) {

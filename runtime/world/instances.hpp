@@ -8,16 +8,6 @@
 
 namespace voxelume {
 
-/// Whether rays are carried into the object's space, instead of the object into the world's.
-///
-/// `auto` is `world` for an object that stands still, and for one that can't be an instance: a lamp
-/// (its light samples are found in the world's voxels), one that lets light through, one in a scene
-/// whose display is a lattice (which shows the world's voxels).
-bool is_instanced(const Scene& scene, const Object& object);
-
-/// Throws Error::scene, saying why, for an object that is to be an `instance` and can't.
-void check_placements(const Scene& scene);
-
 /// What instances take, for people and tests.
 struct InstanceReport {
     uint32_t instances = 0, models = 0;

@@ -9,7 +9,9 @@
 #include "runtime/analysis/object_boxes.hpp"
 #include "runtime/analysis/placed_objects.hpp"
 #include "runtime/base/error.hpp"
+#include "runtime/grid/world_frame.hpp"
 #include "runtime/memory/plan.hpp"
+#include "runtime/scene/predicates.hpp"
 #include "runtime/stages/index/index.hpp"
 #include "runtime/stages/medium/density_grid.hpp"
 #include "runtime/world/world_source.hpp"
@@ -36,7 +38,8 @@ class Stopwatch {
 template <class Part>
 auto for_world(const World& world, const Part& part) {
     const std::string size = size_text(world.voxels);
-    return with_limits_of(fmt::format("{}: a world of {} voxels", world.where, size), part);
+    return with_limits_of(fmt::format("{}: a world of {} voxels", world.where, size), part,
+                          world.where);
 }
 
 /// Adds to a report the models that are voxelized while it lives, and the time that takes.

@@ -4,9 +4,10 @@
 
 #include "runtime/assets/model_frame.hpp"
 #include "runtime/base/cache_key.hpp"
-#include "runtime/scene_file/scene_animation.hpp"
-#include "runtime/scene_file/scene_motion.hpp"
-#include "runtime/world/instances.hpp"
+#include "runtime/grid/world_frame.hpp"
+#include "runtime/scene/predicates.hpp"
+#include "runtime/scene/scene_animation.hpp"
+#include "runtime/scene/scene_motion.hpp"
 
 namespace voxelume {
 namespace {

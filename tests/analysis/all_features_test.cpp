@@ -8,6 +8,7 @@
 #include "runtime/io/vdb/vdb.hpp"
 #include "runtime/render/illumination.hpp"
 #include "runtime/render/renderer.hpp"
+#include "runtime/scene_file/read_scene.hpp"
 #include "tests/support/file_fixture.hpp"
 #include "tests/support/shared_device.hpp"
 

@@ -7,7 +7,7 @@
 #include <random>
 
 #include "runtime/render/volume_renderer.hpp"
-#include "runtime/scene_file/scene_animation.hpp"
+#include "runtime/scene/scene_animation.hpp"
 #include "runtime/scene_file/scene_parts.hpp"
 #include "tests/analysis/culling_scene.hpp"
 

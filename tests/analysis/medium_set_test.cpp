@@ -1,6 +1,7 @@
 // Sets of overlapping objects that rays are inside of: how many members a scene needs, and images
 // against an analytic tracer.
 #include "runtime/analysis/medium_set.hpp"
+#include "runtime/scene_file/read_scene.hpp"
 
 #include "runtime/render/illumination.hpp"
 #include "tests/support/analytic_comparison.hpp"

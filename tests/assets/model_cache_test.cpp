@@ -1,5 +1,6 @@
 // Models from the cache on disk: the same bits as without, whatever happens to its files.
 #include "runtime/assets/model_cache.hpp"
+#include "runtime/scene_file/read_scene.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -11,6 +12,7 @@
 #include "runtime/render/renderer.hpp"
 #include "tests/oracles/image_hash.hpp"
 #include "tests/support/file_fixture.hpp"
+#include "tests/support/setting.hpp"
 #include "tests/support/shared_device.hpp"
 
 namespace voxelume {
@@ -267,20 +269,18 @@ TEST_F(ModelCacheFiles, AMeshThatChangesBetweenItsSummaryAndItsVoxelsIsAnError) 
 }
 
 TEST(ModelCacheOfTheUser, IsBelowTheCacheFolderAndAsLargeAsAsked) {
-    setenv("VOXELUME_CACHE_DIR", "", 1);
+    const Setting no_folder("VOXELUME_CACHE_DIR", "");
     EXPECT_FALSE(ModelCache::of_user().is_open());
-    setenv("VOXELUME_CACHE_DIR", "/proc/none", 1);
+    const Setting a_folder("VOXELUME_CACHE_DIR", "/proc/none");
     EXPECT_TRUE(ModelCache::of_user().is_open());
-    setenv("VOXELUME_CACHE_MB", "0", 1);
+    const Setting no_bytes("VOXELUME_CACHE_MB", "0");
     EXPECT_FALSE(ModelCache::of_user().is_open());
     for (const char* text : {"-1", "4 GB", "1e3", "99999999999999999999"}) {
-        setenv("VOXELUME_CACHE_MB", text, 1);
+        const Setting bytes("VOXELUME_CACHE_MB", text);
         const Error error = error_of([] { ModelCache::of_user(); });
         EXPECT_EQ(error.kind(), ErrorKind::usage) << text;
         EXPECT_THAT(error.what(), testing::HasSubstr(text));
     }
-    unsetenv("VOXELUME_CACHE_MB");
-    unsetenv("VOXELUME_CACHE_DIR");
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include "runtime/base/error.hpp"
 #include "runtime/io/vdb/vdb.hpp"
 #include "runtime/render/renderer.hpp"
+#include "runtime/scene_file/read_scene.hpp"
 #include "runtime/stages/voxelize/voxelize.hpp"
 #include "tests/support/file_fixture.hpp"
 #include "tests/support/test_device.hpp"

@@ -2,10 +2,10 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <fstream>
 
 #include "tests/support/file_fixture.hpp"
+#include "tests/support/setting.hpp"
 
 namespace voxelume {
 namespace {
@@ -89,17 +89,17 @@ TEST_F(DiskCacheFiles, AFolderThatCannotBeMadeKeepsNothing) {
 }
 
 TEST(CacheFolder, IsOursThenTheSystemsThenBelowHome) {
-    setenv("VOXELUME_CACHE_DIR", "/ours", 1);
-    setenv("XDG_CACHE_HOME", "/system", 1);
-    setenv("HOME", "/home/someone", 1);
+    const Setting ours("VOXELUME_CACHE_DIR", "/ours");
+    const Setting system("XDG_CACHE_HOME", "/system");
+    const Setting home("HOME", "/home/someone");
     EXPECT_EQ(cache_folder(), "/ours");
-    setenv("VOXELUME_CACHE_DIR", "", 1);
+    const Setting empty("VOXELUME_CACHE_DIR", "");
     EXPECT_EQ(cache_folder(), "");
-    unsetenv("VOXELUME_CACHE_DIR");
+    const Setting not_ours("VOXELUME_CACHE_DIR", std::nullopt);
     EXPECT_EQ(cache_folder(), "/system/voxelume");
-    unsetenv("XDG_CACHE_HOME");
+    const Setting not_the_systems("XDG_CACHE_HOME", std::nullopt);
     EXPECT_EQ(cache_folder(), "/home/someone/.cache/voxelume");
-    unsetenv("HOME");
+    const Setting not_home("HOME", std::nullopt);
     EXPECT_EQ(cache_folder(), "");
 }
 

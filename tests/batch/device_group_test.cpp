@@ -2,10 +2,13 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <cmath>
 #include <stdexcept>
 
-#include "runtime/batch/device_images.hpp"
-#include "runtime/batch/frame_pipeline.hpp"
+#include "runtime/batch/frame_schedule.hpp"
+#include "runtime/scene_file/read_scene.hpp"
+#include "runtime/stages/trace/sight.hpp"
+#include "tests/batch/device_image.hpp"
 #include "tests/oracles/image_hash.hpp"
 #include "tests/support/program_runner.hpp"
 #include "tests/support/test_device.hpp"
@@ -45,20 +48,20 @@ uint64_t hash_alone(const Scene& scene) {
 }
 
 TEST(DeviceGroup, TheTilesOfAnImageMakeTheImageOfOneDevice) {
-    const DeviceGroup group{halves(), {}};
     for (const int samples : {1, 3}) {
         const Scene scene = scene_with(-0.3, samples);
         RenderReport alone, together;
         const Image expected = render(test_device(), scene, alone);
-        uint32_t last = 0, of = 0;
-        const Image image =
-            render_together(group, scene, together, [&](uint32_t done, uint32_t total) {
-                EXPECT_GT(done, last);
-                last = done, of = total;
-            });
-        EXPECT_EQ(oracle::image_hash(image), oracle::image_hash(expected)) << samples;
-        EXPECT_EQ(last, of);
-        EXPECT_EQ(of, 16u * 11u);
+        constexpr double kTiles = 16 * 11;
+        double last = 0;
+        const auto image = image_by(halves(), scene, together, [&](double done, int frame) {
+            EXPECT_GT(done, last);
+            EXPECT_NEAR(done * kTiles, std::round(done * kTiles), 1e-3);
+            EXPECT_EQ(frame, 1);
+            last = done;
+        });
+        EXPECT_EQ(oracle::image_hash(*image), oracle::image_hash(expected)) << samples;
+        EXPECT_EQ(last, 1);
         EXPECT_EQ(together.sight_rays, alone.sight_rays);
         EXPECT_EQ(together.shadow_rays, alone.shadow_rays);
         EXPECT_EQ(together.secondary_rays, alone.secondary_rays);
@@ -70,15 +73,20 @@ TEST(DeviceGroup, TheTilesOfAnImageMakeTheImageOfOneDevice) {
 TEST(DeviceGroup, OneDeviceMakesTheImageInParts) {
     const Scene scene = scene_with(0.1);
     RenderReport report;
-    const Image image = render_together({{test_device()}, {}}, scene, report);
+    const BuiltWorld world = WorldBuilder(test_device(), false).build(scene, report.world);
+    TileShare share(tile_count(61, 43), {}, 11);
+    std::vector<TileRange> tiles;
+    const Image image =
+        Renderer(test_device(), false).part_of_image(scene, world, report, {share, tiles});
+    EXPECT_EQ(tiles.size(), 16u);
     EXPECT_EQ(oracle::image_hash(image), hash_alone(scene));
 }
 
 TEST(DeviceGroup, DevicesWithOtherLanesMakeTheSameImage) {
     const Scene scene = scene_with(0.1);
-    const DeviceGroup group{{test_device(), test_device(1)}, {}};
     RenderReport report;
-    EXPECT_EQ(oracle::image_hash(render_together(group, scene, report)), hash_alone(scene));
+    EXPECT_EQ(oracle::image_hash(*image_by({test_device(), test_device(1)}, scene, report)),
+              hash_alone(scene));
 }
 
 TEST(DeviceGroup, AnErrorOfOneDeviceIsTheImagesError) {
@@ -86,7 +94,7 @@ TEST(DeviceGroup, AnErrorOfOneDeviceIsTheImagesError) {
     scene.world.voxels = glm::ivec3(60000);
     RenderReport report;
     try {
-        render_together({halves(), {}}, scene, report);
+        image_by(halves(), scene, report);
         ADD_FAILURE() << "it fits";
     } catch (const Error& error) {
         EXPECT_EQ(error.kind(), ErrorKind::limit) << error.what();

@@ -1,5 +1,5 @@
 // Frames in order, on one thread and on three, with errors in each step.
-#include "runtime/batch/frame_pipeline.hpp"
+#include "runtime/batch/frame_schedule.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -151,8 +151,7 @@ class Covering {
             for (int i = 0; i < 4; ++i)
                 kernel.launch(WorkItem::heavy, bins_.stored, bins_.stored,
                               glm::ivec4(frame_.size, 0), glm::ivec4(frame_.bricks(), 0),
-                              triangles_.vertices, triangles_.triangles, bins_.coordinates,
-                              bins_.first, bins_.lists, occupancy_);
+                              triangles_, bins_, occupancy_);
             device_.finish();
         };
     }

@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "runtime/render/renderer.hpp"
+#include "runtime/scene_file/read_scene.hpp"
 #include "tests/bench/mesh_rows.hpp"
 
 namespace voxelume {

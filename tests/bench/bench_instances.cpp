@@ -18,6 +18,7 @@
 #include "runtime/assets/model_frame.hpp"
 #include "runtime/io/mesh/mesh_reader.hpp"
 #include "runtime/render/illumination.hpp"
+#include "runtime/scene_file/read_scene.hpp"
 #include "runtime/stages/trace/sight.hpp"
 #include "runtime/world/instances.hpp"
 #include "runtime/world/world.hpp"

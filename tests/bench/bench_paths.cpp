@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "runtime/render/illumination.hpp"
+#include "runtime/scene_file/read_scene.hpp"
 #include "runtime/stages/resolve/resolve.hpp"
 #include "runtime/stages/trace/sight.hpp"
 #include "runtime/world/world.hpp"

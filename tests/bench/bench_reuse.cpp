@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "runtime/render/renderer.hpp"
+#include "runtime/scene_file/read_scene.hpp"
 
 namespace voxelume {
 namespace {

@@ -18,6 +18,8 @@
 #include <glm/geometric.hpp>
 
 #include "runtime/render/volume_renderer.hpp"
+#include "runtime/scene_file/assets.hpp"
+#include "runtime/scene_file/read_scene.hpp"
 
 namespace voxelume {
 namespace {

@@ -92,20 +92,20 @@ static inline void add_row(ulong* masks, uint row, int y, int z) {
     for (int i = 0; i < 4; ++i) masks[leaf + i] |= (ulong)((row >> (4 * i)) & 15u) << shift;
 }
 
-kernel void cover_bricks(uint count, int4 size, int4 bricks, global const int* restrict vertices,
-                         global const uint* restrict triangles,
-                         global const uint* restrict coordinates, global const uint* restrict first,
-                         global const uint* restrict lists, global ulong* restrict occupancy) {
+kernel void cover_bricks(uint count, int4 size, int4 bricks, VXL_MESH_PARAMETERS,
+                         VXL_BINS_PARAMETERS, global ulong* restrict occupancy) {
     if (work_item() >= count * (16 / VXL_SLICES)) return;
+    const LatticeMesh mesh = VXL_MESH;
+    const TriangleBins bins = VXL_BINS;
     const uint slot = work_item() / (16 / VXL_SLICES);
     const int first_slice = (int)(work_item() % (16 / VXL_SLICES)) * VXL_SLICES;
-    const int3 brick = brick_of(coordinates[slot], bricks);
+    const int3 brick = brick_of(bins.coordinates[slot], bricks);
     const int3 last = min(size.xyz - brick * 16, (int3)(16)) - 1;
     ulong masks[4 * VXL_SLICES];
     for (int i = 0; i < 4 * VXL_SLICES; ++i) masks[i] = 0;
-    for (uint i = first[slot]; i < first[slot + 1]; ++i) {
+    for (uint i = bins.first[slot]; i < bins.first[slot + 1]; ++i) {
         const LatticeTriangle t =
-            load_triangle(vertices, triangles, lists[i], brick * LATTICE_BRICK);
+            load_triangle(&mesh, bins.lists[i], brick * LATTICE_BRICK);
         CoverBox box = cover_box(&t, last);
         box.first.z = max(box.first.z, first_slice);
         box.last.z = min(box.last.z, first_slice + VXL_SLICES - 1);

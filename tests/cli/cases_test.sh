@@ -8,7 +8,7 @@ failed=0
 expected=$(for group in V:17 S:9 T:22 P:12 G:9 O:12 X:5 D:7; do
     seq -f "${group%:*}%.0f" 1 "${group#*:}"
 done)
-listed=$(sed -nE 's/^\| ([VSTPGOXD][0-9]+) \|.*/\1/p' CASES.md)
+listed=$(sed -nE 's/^- \*\*([VSTPGOXD][0-9]+)\*\* .*/\1/p' CASES.md)
 diff <(echo "$expected") <(echo "$listed") || { echo "CASES.md lists other cases"; failed=1; }
 
 # `Suite.Name`, from TEST(Suite, Name), TEST_F or TEST_P, however the line is broken.

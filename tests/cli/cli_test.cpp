@@ -166,7 +166,7 @@ TEST_F(CliTest, StressTellsWhatItFoundUntilItIsInterrupted) {
     EXPECT_EQ(result.exit_code, 130) << result.err;
     EXPECT_THAT(result.out, testing::MatchesRegex("corners +[0-9]+ cases +0 mismatches .*\n"));
     EXPECT_THAT(result.err,
-                testing::MatchesRegex("interrupted: [0-9]+ cases till then, 0 mismatches\n"));
+                testing::MatchesRegex("interrupted after [0-9]+ cases, 0 mismatches\n"));
     EXPECT_THAT(run("help").out, HasSubstr("130  ended by Ctrl-C"));
 }
 

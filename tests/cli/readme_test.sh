@@ -1,18 +1,28 @@
 #!/usr/bin/env bash
-# Runs every `voxelume` command of README.md, in order, in a folder of its own.
+# Runs every `voxelume` command of README.md and of the command line's manual, in order, each page in
+# a folder of its own. A line that ends in \ goes on in the next one.
 # Usage: readme_test.sh SOURCE_FOLDER PROGRAM
 set -euo pipefail
 source=$1
 program=$2
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
-ln -s "$program" "$folder/voxelume"
-ln -s "$source/scenes" "$folder/scenes"
-cd "$folder"
-commands=0
-while read -r line; do
-    echo "\$ $line"
-    PATH="$folder:$PATH" bash -c "$line"
-    commands=$((commands + 1))
-done < <(sed -n '/^```sh/,/^```/p' "$source/README.md" | grep '^voxelume ')
-[ "$commands" -ge 5 ] || { echo "only $commands commands found in README.md"; exit 1; }
+
+# run_page PAGE LEAST: the page's commands, of which there are at least so many.
+run_page() {
+    local page=$1 here commands=0
+    here=$folder/$(basename "$page" .md)
+    mkdir "$here"
+    ln -s "$program" "$here/voxelume"
+    ln -s "$source/scenes" "$here/scenes"
+    cd "$here"
+    while read -r line; do
+        echo "\$ $line"
+        PATH="$here:$PATH" bash -c "$line"
+        commands=$((commands + 1))
+    done < <(sed -n '/^```sh/,/^```/p' "$source/$page" | sed -e ':more' -e '/\\$/{N;s/\\\n *//;b more' -e '}' |
+        grep '^voxelume ')
+    [ "$commands" -ge "$2" ] || { echo "only $commands commands found in $page"; exit 1; }
+}
+run_page README.md 5
+run_page cli/MANUAL.md 15

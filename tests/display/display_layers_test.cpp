@@ -8,6 +8,7 @@
 
 #include "runtime/io/volume_file.hpp"
 #include "tests/support/display_fixture.hpp"
+#include "tests/support/exhaustive.hpp"
 #include "tests/support/file_fixture.hpp"
 
 namespace voxelume {
@@ -231,7 +232,7 @@ TEST(Layers, HaveTheSameBitsForEveryNumberOfLanes) {
                     R"(, "medium": {"absorption": [0.3, 1, 2], "color": [0.4, 0.2, 0.6]})",
                     R"(, "opacity": 0.3)");
     const Volume expected = volume_of(scene, 16);
-    for (const int lanes : {1, 8}) {
+    for (const int lanes : in_turn<int>({1, 8}, 1)) {
         const Volume volume = volume_of(scene, lanes);
         EXPECT_EQ(volume.indices, expected.indices) << lanes;
         EXPECT_EQ(volume.colors, expected.colors) << lanes;

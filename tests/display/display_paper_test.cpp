@@ -10,6 +10,7 @@
 #include <map>
 
 #include "runtime/render/volume_renderer.hpp"
+#include "runtime/scene_file/read_scene.hpp"
 #include "tests/support/test_device.hpp"
 
 namespace voxelume {

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "runtime/render/volume_renderer.hpp"
+#include "runtime/scene_file/read_scene.hpp"
 #include "tests/support/shared_device.hpp"
 
 namespace voxelume {

@@ -8,6 +8,7 @@
 #include <random>
 
 #include "runtime/render/renderer.hpp"
+#include "runtime/scene_file/read_scene.hpp"
 #include "tests/support/file_fixture.hpp"
 #include "tests/support/shared_device.hpp"
 #include "tests/support/test_meshes.hpp"

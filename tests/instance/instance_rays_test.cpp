@@ -2,6 +2,7 @@
 // ones: more than 100,000 of either sort.
 #include <glm/geometric.hpp>
 
+#include "runtime/scene_file/read_scene.hpp"
 #include "tests/support/instance_scenes.hpp"
 
 namespace voxelume {

@@ -59,7 +59,7 @@ std::vector<Case> cases_of(uint32_t lanes) {
         {"f", [](uint32_t i) { return floats()[i]; }},
         {"n", [](uint32_t i) { return integers()[i]; }},
         {"LANES_GATHER_FLOAT(floats, i)", [](uint32_t i) { return floats()[shuffled(i)]; }},
-        {"LANES_GATHER_UINT(places, i)", [](uint32_t i) { return shuffled(shuffled(i)); }},
+        {"LANES_GATHER_UINT(indices, i)", [](uint32_t i) { return shuffled(shuffled(i)); }},
         {"LANES_NUMBERS + (int)first", [](uint32_t i) { return i; }},
 
         // Masks are -1 or 0.
@@ -135,7 +135,7 @@ TEST_P(Lanes, EveryMacroMeansTheSame) {
         .kernel("evaluate")
         .launch_packets(kCount, kCount, Buffer<float>(device, "floats", std::span(floats())),
                         Buffer<int32_t>(device, "integers", std::span(integers())),
-                        Buffer<uint32_t>(device, "places", std::span<const uint32_t>(indices)),
+                        Buffer<uint32_t>(device, "indices", std::span<const uint32_t>(indices)),
                         buffer);
     const std::vector<uint32_t> results = buffer.read();
     for (size_t c = 0; c < cases.size(); ++c)

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "runtime/render/renderer.hpp"
+#include "runtime/scene_file/read_scene.hpp"
 #include "tests/oracles/image_hash.hpp"
 #include "tests/support/shared_device.hpp"
 

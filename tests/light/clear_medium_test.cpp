@@ -7,6 +7,7 @@
 #include "runtime/io/vdb/vdb.hpp"
 #include "runtime/memory/plan.hpp"
 #include "runtime/render/volume_renderer.hpp"
+#include "runtime/scene_file/read_scene.hpp"
 #include "tests/support/file_fixture.hpp"
 #include "tests/support/shared_device.hpp"
 

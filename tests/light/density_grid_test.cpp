@@ -1,5 +1,6 @@
 // Scene -> the medium's density at every voxel: grids of files, collapsed bricks, memory, refusals.
 #include "runtime/stages/medium/density_grid.hpp"
+#include "runtime/scene_file/read_scene.hpp"
 
 #include <gmock/gmock.h>
 #include <openvdb/openvdb.h>

@@ -7,6 +7,7 @@
 
 #include "runtime/stages/trace/trace.hpp"
 #include "tests/light/area_light_scenes.hpp"
+#include "tests/support/exhaustive.hpp"
 #include "tests/support/file_fixture.hpp"
 #include "tests/support/test_meshes.hpp"
 
@@ -134,7 +135,7 @@ TEST(EmissivePieces, AreTheSameWithAnyNumberOfLanes) {
         emissive_scene(R"({"shape": "torus", "radius": 0.12, "tube": 0.05, "surface": "exact"})",
                        R"(, "turn": [10, 20, 30])");
     const std::vector<EmissivePiece> expected = pieces_of(scene, 1);
-    for (const int lanes : {4, 8, 16}) {
+    for (const int lanes : in_turn<int>({4, 8, 16}, 1)) {
         const std::vector<EmissivePiece> pieces = pieces_of(scene, lanes);
         ASSERT_EQ(pieces.size(), expected.size());
         for (size_t i = 0; i < pieces.size(); ++i) {

@@ -6,6 +6,7 @@
 
 #include "runtime/render/illumination.hpp"
 #include "runtime/render/renderer.hpp"
+#include "runtime/scene_file/read_scene.hpp"
 #include "runtime/stages/trace/ray_arrays.hpp"
 #include "runtime/stages/trace/sight.hpp"
 #include "tests/support/test_device.hpp"

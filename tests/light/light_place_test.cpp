@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "runtime/render/renderer.hpp"
+#include "runtime/scene_file/read_scene.hpp"
 #include "tests/support/test_device.hpp"
 
 namespace voxelume {

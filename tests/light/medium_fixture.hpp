@@ -11,6 +11,7 @@
 #include <random>
 
 #include "runtime/assets/model_frame.hpp"
+#include "runtime/grid/world_frame.hpp"
 #include "runtime/stages/medium/medium.hpp"
 #include "runtime/stages/trace/trace.hpp"
 #include "tests/oracles/cell_walk.hpp"

@@ -6,6 +6,8 @@
 #include <random>
 
 #include "runtime/render/renderer.hpp"
+#include "runtime/scene_file/read_scene.hpp"
+#include "tests/support/exhaustive.hpp"
 #include "tests/support/test_device.hpp"
 
 namespace voxelume {
@@ -78,7 +80,8 @@ TEST_P(Veils, PacketsThatKeepTheirRaysGiveTheSameLight) {
 TEST_P(Veils, LanesDoNotChangeABit) {
     const Scene scene = room(GetParam(), "mirror");
     const auto expected = colors(scene, 1);
-    for (const int lanes : {4, 16}) EXPECT_EQ(colors(scene, lanes), expected) << lanes;
+    for (const int lanes : in_turn<int>({4, 16}, GetParam()))
+        EXPECT_EQ(colors(scene, lanes), expected) << lanes;
 }
 
 /// The light on a wall that a lamp far away shines on through a row of `voxels` voxels, of which

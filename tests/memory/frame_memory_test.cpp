@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <mutex>
 
-#include "runtime/batch/frame_pipeline.hpp"
+#include "runtime/batch/frame_schedule.hpp"
 #include "tests/oracles/image_hash.hpp"
 #include "tests/support/file_fixture.hpp"
 #include "tests/support/moving_ball.hpp"
@@ -83,7 +83,7 @@ class CrowdedFrames : public testing::Test {
         forgotten_ = 0;
         hashes_.clear();
         crowded_.clear();
-        return run_frames({device_}, kFrames, steps(end), {.overlap = overlap});
+        return run_frames({device_}, kFrames, steps(end), {.overlap = overlap}).one_by_one_from;
     }
 
     std::vector<uint64_t> expected() {

@@ -1,11 +1,12 @@
 // Frames of a moving scene, planned before the first is rendered.
 #include "runtime/memory/frame_plans.hpp"
+#include "runtime/scene_file/read_scene.hpp"
 
 #include <gmock/gmock.h>
 
 #include <numeric>
 
-#include "runtime/scene_file/scene_animation.hpp"
+#include "runtime/scene/scene_animation.hpp"
 #include "tests/memory/plan_fixture.hpp"
 
 namespace voxelume {

@@ -5,8 +5,9 @@
 #include <cstdlib>
 
 #include "runtime/base/error.hpp"
-#include "runtime/batch/frame_pipeline.hpp"
+#include "runtime/batch/frame_schedule.hpp"
 #include "runtime/memory/plan.hpp"
+#include "runtime/scene_file/read_scene.hpp"
 #include "tests/oracles/image_hash.hpp"
 #include "tests/support/test_device.hpp"
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "runtime/memory/plan.hpp"
+#include "runtime/scene_file/read_scene.hpp"
 #include "tests/support/file_fixture.hpp"
 
 namespace voxelume {

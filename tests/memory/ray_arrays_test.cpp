@@ -1,5 +1,6 @@
 // What rays take on a device, planned before the world is formed, against what they took.
 #include "runtime/stages/trace/ray_arrays.hpp"
+#include "runtime/scene_file/read_scene.hpp"
 
 #include <gmock/gmock.h>
 

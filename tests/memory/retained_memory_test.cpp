@@ -6,8 +6,9 @@
 #include <numeric>
 
 #include "runtime/analysis/model_last_uses.hpp"
-#include "runtime/batch/frame_pipeline.hpp"
-#include "runtime/scene_file/scene_animation.hpp"
+#include "runtime/batch/frame_schedule.hpp"
+#include "runtime/scene/scene_animation.hpp"
+#include "runtime/scene_file/read_scene.hpp"
 #include "tests/oracles/image_hash.hpp"
 #include "tests/support/file_fixture.hpp"
 #include "tests/support/test_device.hpp"
@@ -85,7 +86,8 @@ class RetainedMemory : public FileTest, public testing::WithParamInterface<const
             renderer = Renderer(device);
             ++rendered.forgotten;
         };
-        rendered.alone = run_frames({device}, frames.size(), steps, {.overlap = overlap});
+        rendered.alone =
+            run_frames({device}, frames.size(), steps, {.overlap = overlap}).one_by_one_from;
         device.finish();
         rendered.peak = device.counters().peak_bytes;
         rendered.memory = device.info().memory;

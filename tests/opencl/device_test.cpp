@@ -7,28 +7,13 @@
 #include "runtime/opencl/program.hpp"
 #include "runtime/opencl/status.hpp"
 #include "tests/support/file_fixture.hpp"
+#include "tests/support/setting.hpp"
 #include "tests/support/test_device.hpp"
 
 namespace voxelume {
 namespace {
 
 using DriverFilesDeathTest = FileTest;
-
-/// An environment variable for the time of a test.
-class EnvironmentVariable {
-  public:
-    EnvironmentVariable(const char* name, const std::string& value) : name_(name) {
-        if (const char* before = std::getenv(name)) before_ = before;
-        setenv(name, value.c_str(), 1);
-    }
-    ~EnvironmentVariable() { before_ ? setenv(name_, before_->c_str(), 1) : unsetenv(name_); }
-    EnvironmentVariable(const EnvironmentVariable&) = delete;
-    EnvironmentVariable& operator=(const EnvironmentVariable&) = delete;
-
-  private:
-    const char* name_;
-    std::optional<std::string> before_;
-};
 
 /// Kind and sentence of the error that opening `selector` throws.
 std::pair<int, std::string> refusal(std::string_view selector, int lanes = 0) {
@@ -55,7 +40,7 @@ TEST(Device, IsChosenByIndexByKindAndByPartOfItsName) {
 }
 
 TEST(Device, VoxelumeDeviceCountsOnlyWhenNothingElseIsAskedFor) {
-    const EnvironmentVariable environment("VOXELUME_DEVICE", "no such thing");
+    const Setting environment("VOXELUME_DEVICE", "no such thing");
     EXPECT_EQ(refusal("").first, 6);
     EXPECT_NE(refusal("").second.find("no such thing"), std::string::npos);
     EXPECT_NO_THROW(Device::open("auto"));
@@ -73,7 +58,7 @@ TEST(Device, ANameThatMatchesNothingIsAnsweredWithWhatThereIs) {
 TEST(Device, LanesAreTheCallersThenVoxelumeLanesThenTheDevices) {
     const int native = Device::open("").lanes();
     EXPECT_TRUE(native == 1 || native == 4 || native == 8 || native == 16) << native;
-    const EnvironmentVariable environment("VOXELUME_LANES", "4");
+    const Setting environment("VOXELUME_LANES", "4");
     EXPECT_EQ(Device::open("").lanes(), 4);
     EXPECT_EQ(Device::open("", 8).lanes(), 8);
     EXPECT_EQ(list_devices().at(0).lanes, native);
@@ -81,24 +66,24 @@ TEST(Device, LanesAreTheCallersThenVoxelumeLanesThenTheDevices) {
 
 TEST(Device, LanesWithoutKernelsAreRefused) {
     EXPECT_EQ(refusal("", 3).first, 2);
-    const EnvironmentVariable environment("VOXELUME_LANES", "many");
+    const Setting environment("VOXELUME_LANES", "many");
     EXPECT_EQ(refusal("").first, 2);
     EXPECT_NE(refusal("").second.find("many"), std::string::npos);
 }
 
 TEST(Device, TheEnvironmentKeepsItWithinSomeOfItsMemory) {
     const DeviceInfo whole = Device::open("").info();
-    const EnvironmentVariable buffer("VOXELUME_BUFFER_MB", "3");
+    const Setting buffer("VOXELUME_BUFFER_MB", "3");
     EXPECT_EQ(Device::open("").info().memory, whole.memory);
     EXPECT_EQ(Device::open("").info().max_allocation, 3u << 20);
-    const EnvironmentVariable memory("VOXELUME_MEMORY_MB", "2");
+    const Setting memory("VOXELUME_MEMORY_MB", "2");
     EXPECT_EQ(Device::open("").info().memory, 2u << 20);
     EXPECT_EQ(Device::open("").info().max_allocation, 2u << 20);
     for (const DeviceInfo& listed : list_devices()) EXPECT_EQ(listed.memory, 2u << 20);
-    const EnvironmentVariable more("VOXELUME_MEMORY_MB", "2000000000");
+    const Setting more("VOXELUME_MEMORY_MB", "2000000000");
     EXPECT_EQ(Device::open("").info().memory, whole.memory);
     for (const char* text : {"2.5", "3e9", "3000000000", "0", "-1"}) {
-        const EnvironmentVariable wrong("VOXELUME_MEMORY_MB", text);
+        const Setting wrong("VOXELUME_MEMORY_MB", text);
         EXPECT_EQ(refusal("").first, 2) << text;
         EXPECT_NE(refusal("").second.find("a whole number from 1 to 2147483647, in digits"),
                   std::string::npos);

@@ -92,6 +92,79 @@ TEST(Program, FilesBuiltTogetherAreThoseThatWereNotBuiltBefore) {
     EXPECT_EQ(programs_with("kernel void cast_sight"), 1);
 }
 
+/// A structure with two buffers and a number.
+struct Pair {
+    Buffer<uint32_t> numbers;
+    Buffer<float> shares;
+    uint32_t stride = 0;
+};
+
+void bind(KernelArguments& to, const Pair& pair) {
+    to.add(pair.numbers, pair.shares, pair.stride);
+}
+
+constexpr const char* kAddPair = R"(
+#include "lib/lanes/work_item.h"
+kernel void add_pair(uint count, global uint* numbers, global float* shares, uint stride,
+                     global float* sums) {
+    const uint i = work_item();
+    if (i < count) sums[i] = (float)numbers[i] + shares[stride * i];
+}
+)";
+
+/// What a launch of add_pair with these arguments throws.
+template <class... Args>
+std::string refusal(const Args&... args) {
+    try {
+        const Device device = test_device();
+        Program::from_text(device, kAddPair).kernel("add_pair").launch(WorkItem::light, 3, args...);
+        device.finish();
+        return "none";
+    } catch (const Error& error) {
+        EXPECT_EQ(error.kind(), ErrorKind::render);
+        return error.what();
+    }
+}
+
+TEST(Program, AStructureIsBoundAsItsMembersAreInTheOrderOfItsBindFunction) {
+    const Device device = test_device();
+    const std::vector<uint32_t> numbers = {3, 5, 7};
+    const std::vector<float> shares = {0.5f, 90, 0.25f, 91, 0.125f, 92};
+    const Pair pair = {{device, "numbers", std::span<const uint32_t>(numbers)},
+                       {device, "shares", std::span<const float>(shares)},
+                       2};
+    const Buffer<float> sums(device, "sums", 3);
+    Kernel add = Program::from_text(device, kAddPair).kernel("add_pair");
+    add.launch(WorkItem::light, 3, 3u, pair, sums);
+    EXPECT_EQ(sums.read(), (std::vector<float>{3.5f, 5.25f, 7.125f}));
+}
+
+TEST(Program, AnotherNumberOfArgumentsThanParametersIsRefusedWithBoth) {
+    const Device device = test_device();
+    const Buffer<uint32_t> numbers(device, "numbers", 3);
+    const Buffer<float> shares(device, "shares", 3);
+    EXPECT_EQ(refusal(3u, numbers, shares, 1u),
+              "kernel add_pair has 5 parameters, but gets 4 arguments");
+    EXPECT_EQ(refusal(3u, numbers, shares, 1u, shares, shares),
+              "kernel add_pair has 5 parameters, but gets at least 6 arguments");
+}
+
+TEST(Program, AnArgumentOfAnotherTypeThanItsParameterIsRefusedWithBoth) {
+    const Device device = test_device();
+    const Buffer<uint32_t> numbers(device, "numbers", 3);
+    const Buffer<float> shares(device, "shares", 3);
+    if (refusal(3u, shares, numbers, 1u, shares) == "none")
+        GTEST_SKIP() << "this driver keeps no types of parameters";
+    EXPECT_EQ(refusal(3u, shares, shares, 1u, shares),
+              "kernel add_pair: argument 1 is a buffer of float, but the parameter is uint*");
+    EXPECT_EQ(refusal(3u, numbers, 1u, 1u, shares),
+              "kernel add_pair: argument 2 is a value of type uint, but the parameter is float*");
+    EXPECT_EQ(refusal(3u, numbers, shares, 1.0f, shares),
+              "kernel add_pair: argument 3 is a value of type float, but the parameter is uint");
+    EXPECT_EQ(refusal(3u, numbers, shares, shares, shares),
+              "kernel add_pair: argument 3 is a buffer of float, but the parameter is uint");
+}
+
 TEST(Program, NamesTheKernelFileAndLineOfAnError) {
     const Device device = test_device();
     if (device.info().platform == "Oclgrind") GTEST_SKIP() << "its compiler ignores #line";

@@ -1,4 +1,5 @@
 // Images of absorbing objects in an absorbing medium against an analytic tracer.
+#include "runtime/scene_file/read_scene.hpp"
 #include "tests/pictures/analytic_image_scenes.hpp"
 #include "tests/support/analytic_comparison.hpp"
 

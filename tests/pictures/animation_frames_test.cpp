@@ -2,9 +2,9 @@
 // can and overlaps its frames are those of each frame from scratch.
 #include <gtest/gtest.h>
 
-#include "runtime/batch/frame_pipeline.hpp"
+#include "runtime/batch/frame_schedule.hpp"
 #include "runtime/render/volume_renderer.hpp"
-#include "runtime/scene_file/scene_animation.hpp"
+#include "runtime/scene/scene_animation.hpp"
 #include "tests/oracles/image_hash.hpp"
 #include "tests/pictures/small_scene.hpp"
 #include "tests/support/shared_device.hpp"

@@ -6,6 +6,7 @@
 
 #include "runtime/render/illumination.hpp"
 #include "runtime/render/renderer.hpp"
+#include "runtime/scene_file/read_scene.hpp"
 #include "runtime/stages/trace/sight.hpp"
 #include "tests/oracles/image_hash.hpp"
 #include "tests/pictures/refracted_rays.hpp"

@@ -1,5 +1,6 @@
 // Images of observers inside of glass that only tracing finds, meshes and smooth bodies, against an
 // analytic tracer.
+#include "runtime/scene_file/read_scene.hpp"
 #include "tests/support/analytic_comparison.hpp"
 #include "tests/support/file_fixture.hpp"
 #include "tests/support/test_meshes.hpp"

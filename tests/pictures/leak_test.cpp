@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "runtime/render/renderer.hpp"
+#include "runtime/scene_file/read_scene.hpp"
 #include "tests/pictures/leaky_room.hpp"
 #include "tests/support/test_device.hpp"
 

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "runtime/scene/scene.hpp"
+#include "runtime/scene_file/read_scene.hpp"
 
 namespace voxelume {
 

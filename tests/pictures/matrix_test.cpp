@@ -9,7 +9,7 @@
 #include <set>
 #include <stdexcept>
 
-#include "runtime/batch/device_images.hpp"
+#include "tests/batch/device_image.hpp"
 #include "tests/oracles/image_hash.hpp"
 #include "tests/pictures/golden_hash.hpp"
 #include "tests/pictures/small_scene.hpp"
@@ -86,7 +86,7 @@ TEST(Matrix, CoveringArrayHasEveryPairOfValues) {
 Image rendered_by(const std::vector<Device>& devices, const Scene& scene) {
     RenderReport report;
     return devices.size() == 1 ? render(devices[0], scene, report)
-                               : render_together({devices, {}}, scene, report);
+                               : *image_by(devices, scene, report);
 }
 
 std::vector<Device> cpu_in_parts(int parts) {

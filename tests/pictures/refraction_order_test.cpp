@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "runtime/scene_file/read_scene.hpp"
 #include "tests/pictures/refracted_rays.hpp"
 
 namespace voxelume {

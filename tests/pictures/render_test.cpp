@@ -1,4 +1,5 @@
 #include "runtime/render/renderer.hpp"
+#include "runtime/scene_file/read_scene.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -13,6 +13,7 @@
 #include <optional>
 
 #include "runtime/render/renderer.hpp"
+#include "runtime/scene_file/read_scene.hpp"
 #include "tests/support/test_device.hpp"
 
 namespace voxelume {

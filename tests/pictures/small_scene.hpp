@@ -6,6 +6,8 @@
 #include <string>
 
 #include "runtime/scene/scene.hpp"
+#include "runtime/scene_file/assets.hpp"
+#include "runtime/scene_file/read_scene.hpp"
 
 namespace voxelume {
 

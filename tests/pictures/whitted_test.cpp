@@ -1,6 +1,7 @@
 // The picture of Whitted 1980 against an analytic tracer in double precision.
 #include <filesystem>
 
+#include "runtime/scene_file/read_scene.hpp"
 #include "tests/support/analytic_comparison.hpp"
 #include "tests/support/solid_cases.hpp"
 

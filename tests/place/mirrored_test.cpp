@@ -4,6 +4,7 @@
 
 #include <array>
 
+#include "runtime/scene_file/read_scene.hpp"
 #include "tests/support/file_fixture.hpp"
 #include "tests/support/instance_scenes.hpp"
 #include "tests/support/test_meshes.hpp"

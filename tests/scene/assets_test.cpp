@@ -1,5 +1,7 @@
 // Files that scenes name: where they are found, and where never.
 #include "runtime/scene_file/assets.hpp"
+#include "runtime/scene/predicates.hpp"
+#include "runtime/scene_file/read_scene.hpp"
 
 #include <gmock/gmock.h>
 

@@ -1,5 +1,6 @@
 // Scenes of frames against the same scenes written by hand.
-#include "runtime/scene_file/scene_animation.hpp"
+#include "runtime/scene/scene_animation.hpp"
+#include "runtime/scene_file/read_scene.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>

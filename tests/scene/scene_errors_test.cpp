@@ -7,7 +7,8 @@
 
 #include "runtime/base/error.hpp"
 #include "runtime/scene/scene.hpp"
-#include "runtime/scene_file/scene_animation.hpp"
+#include "runtime/scene/scene_animation.hpp"
+#include "runtime/scene_file/read_scene.hpp"
 
 namespace voxelume {
 namespace {

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 
 #include "runtime/scene/scene.hpp"
+#include "runtime/scene_file/read_scene.hpp"
 #include "tests/support/file_fixture.hpp"
 
 namespace voxelume {

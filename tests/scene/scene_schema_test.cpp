@@ -16,6 +16,7 @@
 #include <set>
 
 #include "runtime/scene/scene.hpp"
+#include "runtime/scene_file/read_scene.hpp"
 #include "runtime/scene_file/scene_keys.hpp"
 #include "tests/support/file_fixture.hpp"
 

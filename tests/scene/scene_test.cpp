@@ -1,5 +1,6 @@
 // What scene files mean.
 #include "runtime/scene/scene.hpp"
+#include "runtime/scene_file/read_scene.hpp"
 
 #include <gmock/gmock.h>
 

@@ -1,11 +1,12 @@
 // What is said about tracks that are wrong.
 #include "runtime/scene_file/scene_track.hpp"
+#include "runtime/scene_file/read_scene.hpp"
 
 #include <gmock/gmock.h>
 
 #include "runtime/base/error.hpp"
 #include "runtime/scene/scene.hpp"
-#include "runtime/scene_file/scene_animation.hpp"
+#include "runtime/scene/scene_animation.hpp"
 
 namespace voxelume {
 namespace {

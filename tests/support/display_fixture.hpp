@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "runtime/render/volume_renderer.hpp"
+#include "runtime/scene_file/read_scene.hpp"
 #include "tests/oracles/display_oracle.hpp"
 #include "tests/support/shared_device.hpp"
 

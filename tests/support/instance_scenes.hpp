@@ -8,6 +8,7 @@
 #include <string>
 
 #include "runtime/render/renderer.hpp"
+#include "runtime/scene_file/read_scene.hpp"
 #include "tests/support/shared_device.hpp"
 
 namespace voxelume {

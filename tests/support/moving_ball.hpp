@@ -2,6 +2,7 @@
 #pragma once
 
 #include "runtime/scene/scene.hpp"
+#include "runtime/scene_file/read_scene.hpp"
 
 namespace voxelume {
 

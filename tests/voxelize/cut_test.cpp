@@ -1,5 +1,6 @@
 // What solids leave of meshes: volumes, voxels, closed surfaces, labels, and cuts that move.
 #include "runtime/stages/voxelize/cut.hpp"
+#include "runtime/scene_file/read_scene.hpp"
 
 #include <gmock/gmock.h>
 
@@ -11,7 +12,7 @@
 #include <random>
 
 #include "runtime/render/renderer.hpp"
-#include "runtime/scene_file/scene_animation.hpp"
+#include "runtime/scene/scene_animation.hpp"
 #include "tests/oracles/image_hash.hpp"
 #include "tests/support/brick_grids.hpp"
 #include "tests/support/file_fixture.hpp"

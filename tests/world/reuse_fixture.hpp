@@ -12,7 +12,8 @@
 #include <set>
 #include <string>
 
-#include "runtime/scene_file/scene_animation.hpp"
+#include "runtime/scene/scene_animation.hpp"
+#include "runtime/scene_file/read_scene.hpp"
 #include "runtime/world/world.hpp"
 #include "tests/support/file_fixture.hpp"
 

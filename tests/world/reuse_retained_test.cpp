@@ -5,7 +5,8 @@
 
 #include "runtime/analysis/model_last_uses.hpp"
 #include "runtime/render/renderer.hpp"
-#include "runtime/scene_file/scene_animation.hpp"
+#include "runtime/scene/scene_animation.hpp"
+#include "runtime/scene_file/read_scene.hpp"
 #include "tests/oracles/image_hash.hpp"
 #include "tests/support/file_fixture.hpp"
 #include "tests/support/shared_device.hpp"

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "runtime/render/renderer.hpp"
+#include "runtime/scene_file/read_scene.hpp"
 #include "runtime/scene_file/scene_parts.hpp"
 #include "tests/oracles/image_hash.hpp"
 #include "tests/support/shared_device.hpp"

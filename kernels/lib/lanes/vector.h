@@ -12,6 +12,17 @@ static inline lane_float dot_product(Vector a, Vector b) {
     return fma(a.x, b.x, fma(a.y, b.y, a.z * b.z));
 }
 
+/// v with each component times that of `by`: from voxels to metres, or back.
+static inline Vector scaled(Vector v, float4 by) {
+    const Vector result = {v.x * by.x, v.y * by.y, v.z * by.z};
+    return result;
+}
+
+static inline Vector opposite(Vector v) {
+    const Vector result = {-v.x, -v.y, -v.z};
+    return result;
+}
+
 /// v scaled to length 1; a vector without length stays as it is.
 static inline Vector unit(Vector v) {
     const lane_float length = exact_sqrt(dot_product(v, v));

@@ -3,6 +3,7 @@
 #define VXL_BEGIN_INSIDE_H
 
 #include "lib/lanes/vector.h"
+#include "lib/light/surroundings.h"
 #include "lib/surface/surface_color.h"
 #include "lib/traverse/packet.h"
 
@@ -34,24 +35,22 @@ static inline lane_int meets_from_behind(const SurfaceView* s, const Walk* w,
 /// The packed attributes of the objects that the `active` rays of a packet begin in, of those that
 /// `hollow` asks for: of whose surface a ray meets the back first, whatever else is in its way.
 /// Surfaces of `hollow` objects that don't transmit light tell nothing.
-static inline MediumSet find_beginnings(const PyramidView* p, const SurfaceView* s, Walk* w,
+static inline MediumSet find_beginnings(const WorldView* world, const Surroundings* around, Walk* w,
                                         lane_int active, RayState* ray_state,
-                                        uint constant_attribute,
-                                        global const float* restrict materials,
-                                        global const uint* restrict hollow, uint maximum,
-                                        global uint* medium_overflows) {
+                                        global const uint* restrict hollow, uint maximum) {
+    const SurfaceView* s = &world->surface;
+    global const float* materials = around->materials;
     MediumSet began = empty_medium_set(), met = empty_medium_set();
     ray_state->media = empty_medium_set();
     lane_int searching = active, count = (lane_int)0;
     for (int layer = 0; layer < VXL_MAX_LAYERS && lanes_any(searching); ++layer) {
-        const SurfaceHit found = find_first(p, s, w, (lane_float)INFINITY, searching, ray_state);
+        const SurfaceHit found =
+            find_first(&world->pyramid, s, w, (lane_float)INFINITY, searching, ray_state);
         searching &= found.hit;
         if (!lanes_any(searching)) break;
         const lane_uint voxel = found.voxel & LANES_AS_UINT(searching);
         const lane_uint packed =
-            attributes_of_hit(s->attributes, constant_attribute, s->triangle_attributes, s->solids,
-                              voxel, found.primitive, searching) &
-            LANES_AS_UINT(searching);
+            attributes_of_hit(s, voxel, found.primitive, searching) & LANES_AS_UINT(searching);
         const lane_int smooth = is_smooth(packed, found.primitive) & searching;
         const lane_int leaving = meets_from_behind(s, w, ray_state, &found, smooth, searching);
         const lane_int first = searching & ~medium_set_holds(&met, packed, smooth) &
@@ -64,7 +63,7 @@ static inline MediumSet find_beginnings(const PyramidView* p, const SurfaceView*
         lane_int full;
         began = cross_medium_or_overflow(began, packed, smooth, (lane_int)0, inside, &full);
         if (VXL_MEDIUM_SET_CAPPED && lanes_any(full))
-            atomic_add(medium_overflows, (uint)lanes_count(full));
+            atomic_add(around->medium_overflows, (uint)lanes_count(full));
         met = cross_medium(met, packed, smooth, (lane_int)0, first);
         count -= first;
         searching &= LANE_MASK(count < (int)maximum);

@@ -12,16 +12,6 @@
 #include "shared/instance.h"
 #include "shared/voxel.h"
 
-typedef struct {
-    global const uint* restrict attributes;
-    global const uint* restrict fields;
-    global const uint* restrict primitive_first;
-    global const uint* restrict primitives;
-    global const float* restrict triangles;
-    global const uint* restrict triangle_attributes;
-    global const SolidShape* restrict solids;
-} SurfaceView;
-
 /// How a packet's rays set out.
 typedef struct {
     lane_int on_surface;     // mask: begins on a surface

@@ -14,6 +14,15 @@ typedef struct {
     global const float* restrict values;
 } DensityView;
 
+/// The parameters that `bind` of a DensityGrid sets, in its order.
+#define VXL_DENSITY_PARAMETERS                                              \
+    DensityShape density_shape, global const uint *restrict density_bricks, \
+        global const float *restrict density_values
+
+/// The value of a DensityView in a kernel with these parameters.
+#define VXL_DENSITY \
+    { density_shape, density_bricks, density_values }
+
 /// What the lattice knows of a voxel.
 typedef struct {
     lane_float density;

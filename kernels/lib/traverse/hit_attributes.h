@@ -3,6 +3,7 @@
 #define VXL_HIT_ATTRIBUTES_H
 
 #include "lib/lanes/lanes.h"
+#include "lib/traverse/world.h"
 #include "shared/solid.h"
 #include "shared/trace.h"
 #include "shared/voxel.h"
@@ -14,24 +15,21 @@ static inline lane_uint solid_attributes(global const SolidShape* restrict solid
 }
 
 /// The packed attributes of each lane's `voxel`, or of its primitive where it hit one.
-static inline lane_uint attributes_of_hit(global const uint* restrict attributes,
-                                          uint constant_attribute,
-                                          global const uint* restrict triangle_attributes,
-                                          global const SolidShape* restrict solids, lane_uint voxel,
+static inline lane_uint attributes_of_hit(const SurfaceView* s, lane_uint voxel,
                                           lane_uint primitive, lane_int hit) {
-    lane_uint packed = (lane_uint)constant_attribute;
-    if (VXL_ATTRIBUTES) packed = LANES_GATHER_UINT(attributes, voxel);
+    lane_uint packed = (lane_uint)s->constant_attribute;
+    if (VXL_ATTRIBUTES) packed = LANES_GATHER_UINT(s->attributes, voxel);
     const lane_int exact = LANE_MASK(primitive != VXL_NO_PRIMITIVE) & hit;
     const lane_int solid = LANE_MASK((primitive & VXL_SOLID_PRIMITIVE) != 0u) & exact;
     const lane_int triangle = exact & ~solid;
     if (VXL_TRIANGLES)
         packed = LANES_SELECT(
-            triangle, LANES_GATHER_UINT(triangle_attributes, primitive & LANES_AS_UINT(triangle)),
-            packed);
+            triangle,
+            LANES_GATHER_UINT(s->triangle_attributes, primitive & LANES_AS_UINT(triangle)), packed);
     if (VXL_SOLIDS)
         packed = LANES_SELECT(
             solid,
-            solid_attributes(solids, primitive & ~VXL_SOLID_PRIMITIVE & LANES_AS_UINT(solid)),
+            solid_attributes(s->solids, primitive & ~VXL_SOLID_PRIMITIVE & LANES_AS_UINT(solid)),
             packed);
     return packed;
 }

@@ -11,12 +11,6 @@
 #include "lib/traverse/packet.h"
 #include "lib/traverse/transformed_ray.h"
 
-typedef struct {
-    global const InstanceRecord* restrict records;
-    global const InstanceNode* restrict nodes;
-    global const uint* restrict group_materials;
-} InstanceView;
-
 /// A ray as slab tests read it.
 typedef struct {
     lane_float ix, iy, iz;  // 1 / d
@@ -235,9 +229,10 @@ static inline void meet_instances(const PyramidView* world, const SurfaceView* s
 
 /// Walks the `active` lanes to their first surface before t_end, in the world or of an instance.
 /// The walk ends in the cell of the surface, in the instance's voxels if it is one's.
-static inline SurfaceHit find_nearest(const PyramidView* p, const SurfaceView* s,
-                                      const InstanceView* v, Walk* w, lane_float t_end,
+static inline SurfaceHit find_nearest(const WorldView* world, Walk* w, lane_float t_end,
                                       lane_int active, bool any, const RayState* ray_state) {
+    const PyramidView* p = &world->pyramid;
+    const SurfaceView* s = &world->surface;
     if (!VXL_INSTANCES) return find_first(p, s, w, t_end, active, ray_state);
     const RayState in_world =
         ray_state_in(ray_state, (lane_uint)VXL_NO_INSTANCE, LANE_MASK(w->axis == 3));
@@ -249,7 +244,8 @@ static inline SurfaceHit find_nearest(const PyramidView* p, const SurfaceView* s
     const Vector o = {ray.ox, ray.oy, ray.oz}, d = {ray.dx, ray.dy, ray.dz};
     clip_to_world(o, d, p->size_x, p->size_y, p->size_z, &t_in, &t_out);
     if (any) active &= ~found.hit;
-    if (lanes_any(active)) meet_instances(p, s, v, &ray, t_out, active, any, ray_state, &found, w);
+    if (lanes_any(active))
+        meet_instances(p, s, &world->instances, &ray, t_out, active, any, ray_state, &found, w);
     return found;
 }
 

@@ -6,8 +6,7 @@
 #include "lib/traverse/sight_rays.h"
 
 /// Stores what the rays of the `landing` lanes have met.
-static inline void store_hits(const Packet* f, lane_int landing, uint stride,
-                              global uint* restrict hits) {
+static inline void store_hits(const Packet* f, lane_int landing, const RayBatch* batch) {
     const Hit hit = hit_of(f, is_hit(&f->found, f->t_end));
     const Slots stored = slots_from(0, landing);
     uint rays[VXL_LANES], values[VXL_LANES];
@@ -15,7 +14,7 @@ static inline void store_hits(const Packet* f, lane_int landing, uint stride,
     for (uint i = 0; i < VXL_STORED_COMPONENTS; ++i) {
         LANES_STORE(hit.values[i], values, 0);
         for (uint k = 0; k < stored.count; ++k)
-            hits[i * stride + rays[stored.lane[k]]] = values[stored.lane[k]];
+            batch->hits[i * batch->stride + rays[stored.lane[k]]] = values[stored.lane[k]];
     }
 }
 
@@ -53,7 +52,7 @@ static inline void take_on(const PyramidView* p, ScatteredRays* q, LaneRefill* r
     Packet* f = &r->packet;
     const Progress before = progress_of(f);
     const lane_int fresh = take_rays(~r->held, q->end, &q->next, &f->ray);
-    set_out(p, s->rays, s->count, s->stride, s->paths, s->starts, f);
+    set_out(p, &s->batch, s->count, f);
     keep_progress(&before, fresh, f);
     r->held |= fresh;
     r->walking |= fresh & are_rays(s, f) & in_grid(p, &f->walk);
@@ -65,7 +64,7 @@ static inline LaneRefill begin_refill(const PyramidView* p, ScatteredRays* q) {
     Packet* f = &r.packet;
     f->ray = (lane_uint)(q->end - 1u);
     r.held = take_rays((lane_int)-1, q->end, &q->next, &f->ray);
-    set_out(p, s->rays, s->count, s->stride, s->paths, s->starts, f);
+    set_out(p, &s->batch, s->count, f);
     r.walking = r.held & are_rays(s, f) & in_grid(p, &f->walk);
     r.waiting = (lane_int)0;
     return r;
@@ -74,12 +73,12 @@ static inline LaneRefill begin_refill(const PyramidView* p, ScatteredRays* q) {
 /// Tests the surfaces that lanes wait at; where too few walk on, stores what the others have met
 /// and gives them further rays.
 static inline void serve(const PyramidView* p, const SurfaceView* s, ScatteredRays* q,
-                         LaneRefill* r, global uint* restrict hits) {
+                         LaneRefill* r) {
     Packet* f = &r->packet;
     if (lanes_any(r->waiting))
         meet_surfaces(p, s, &f->walk, f->t_end, &f->ray_state, &f->found, &r->walking, &r->waiting);
     if (lanes_count(r->walking) > min_walking(q)) return;
-    store_hits(f, r->held & ~r->walking, q->rays.stride, hits);
+    store_hits(f, r->held & ~r->walking, &q->rays.batch);
     r->held &= r->walking;
     if (q->next < q->end) take_on(p, q, r);
 }

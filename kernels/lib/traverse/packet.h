@@ -8,6 +8,7 @@
 
 #include "lib/lanes/work_item.h"
 #include "lib/surface/surfaces.h"
+#include "lib/traverse/ray_batch.h"
 
 // Idle lanes for which a packet takes on further rays.
 #define VXL_REFILL ((VXL_LANES + 3) / 4)
@@ -108,22 +109,6 @@ static inline Walk walk_of(global const float* restrict rays, uint stride, lane_
                       VXL_RAY_FLOATS(rays + VXL_RAY_DZ * stride, ray, one_by_one));
 }
 
-/// Mask: a coordinate of a ray's origin lies on the side of the world across which it comes in.
-static inline lane_int on_entry_side(lane_float o, lane_float d, int size) {
-    return (LANE_MASK(o == 0.0f) & LANE_MASK(d > 0.0f)) |
-           (LANE_MASK(o == (float)size) & LANE_MASK(d < 0.0f));
-}
-
-/// Lets `entering` walks that begin on a side of the world have come in across it.
-static inline void enter_world(const PyramidView* p, Walk* w, lane_int entering) {
-    const lane_int x = on_entry_side(w->ox, w->dx, p->size_x) & entering;
-    const lane_int y = on_entry_side(w->oy, w->dy, p->size_y) & entering;
-    const lane_int z = on_entry_side(w->oz, w->dz, p->size_z) & entering;
-    w->axis = LANES_SELECT(z, (lane_int)2, w->axis);
-    w->axis = LANES_SELECT(y, (lane_int)1, w->axis);
-    w->axis = LANES_SELECT(x, (lane_int)0, w->axis);
-}
-
 /// Rays from the observer.
 static inline RayState sight_ray_state(void) {
     const RayState ray_state = {(lane_int)0,
@@ -145,10 +130,11 @@ static inline lane_int has_flag(lane_uint flags, uint flag) {
     return LANE_MASK((flags & flag) != 0u);
 }
 
-/// The paths numbered `ray` of `count`, which have these flags.
-static inline RayState load_ray_state(global const uint* restrict paths,
-                                      global const float* restrict starts, uint count, uint stride,
-                                      lane_uint ray, lane_uint flags) {
+/// The paths numbered `ray` of the batch's first `count`, which have these flags.
+static inline RayState load_ray_state(const RayBatch* batch, uint count, lane_uint ray,
+                                      lane_uint flags) {
+    global const uint* paths = batch->paths;
+    const uint stride = batch->stride;
     RayState ray_state = sight_ray_state();
     ray_state.on_surface = has_flag(flags, VXL_PATH_ON_SURFACE);
     ray_state.within_source = has_flag(flags, VXL_PATH_WITHIN_SOURCE);
@@ -157,7 +143,8 @@ static inline RayState load_ray_state(global const uint* restrict paths,
         ray_state.instance = LANES_GATHER_UINT(paths + VXL_PATH_INSTANCE * stride, ray);
     if (VXL_TRANSMISSION) {
         ray_state.goes_on = has_flag(flags, VXL_PATH_GOES_ON);
-        if (lanes_any(ray_state.goes_on)) ray_state.t_first = LANES_GATHER_FLOAT(starts, ray);
+        if (lanes_any(ray_state.goes_on))
+            ray_state.t_first = LANES_GATHER_FLOAT(batch->starts, ray);
         ray_state.media = gather_medium_set(paths, stride, ray, LANE_MASK(ray < count));
     }
     if (VXL_CUBE_BODIES) {
@@ -212,16 +199,16 @@ static inline lane_int take_rays(lane_int idle, uint end, uint* next, lane_uint*
     return taken;
 }
 
-/// Sets the rays that the lanes hold on their way.
-static inline void set_out(const PyramidView* p, global const float* restrict rays, uint count,
-                           uint stride, global const uint* restrict paths,
-                           global const float* restrict starts, Packet* f) {
-    f->walk = walk_of(rays, stride, f->ray, VXL_PATHS);
+/// Sets the rays that the lanes hold, of the batch's first `count`, on their way.
+static inline void set_out(const PyramidView* p, const RayBatch* batch, uint count, Packet* f) {
+    global const uint* paths = batch->paths;
+    const uint stride = batch->stride;
+    f->walk = walk_of(batch->rays, stride, f->ray, VXL_PATHS);
     f->ray_state = sight_ray_state();
     lane_uint flags = (lane_uint)0;
     if (VXL_PATHS) {
         flags = LANES_GATHER_UINT(paths + VXL_PATH_FLAGS * stride, f->ray);
-        f->ray_state = load_ray_state(paths, starts, count, stride, f->ray, flags);
+        f->ray_state = load_ray_state(batch, count, f->ray, flags);
     }
     enter_world(p, &f->walk, ~f->ray_state.on_surface);
     f->ray_state.unsure = ~f->ray_state.on_surface & LANE_MASK(f->walk.axis == 3);
@@ -230,7 +217,7 @@ static inline void set_out(const PyramidView* p, global const float* restrict ra
         resume_walk(&f->walk, &f->ray_state,
                     LANES_GATHER_UINT(paths + VXL_PATH_CELL * stride, f->ray),
                     LANES_GATHER_UINT(paths + VXL_PATH_CELL_Z * stride, f->ray), resuming);
-    f->t_end = VXL_RAY_FLOATS(rays + VXL_RAY_END * stride, f->ray, VXL_PATHS);
+    f->t_end = VXL_RAY_FLOATS(batch->rays + VXL_RAY_END * stride, f->ray, VXL_PATHS);
     f->found = no_hit_yet(&f->ray_state);
 }
 
@@ -252,33 +239,6 @@ static inline void find_interleaved(const PyramidView* p, const SurfaceView* s, 
     }
     a->found.hit = is_hit(&a->found, a->t_end) & active_a;
     b->found.hit = is_hit(&b->found, b->t_end) & active_b;
-}
-
-static inline bool beam_is_clear(global const uint* restrict beams, uint stride, uint first) {
-    const uint beam = first / VXL_BEAM_RAYS;
-    return beams[VXL_BEAM_AXIS * VXL_BEAM_SLOTS(stride) + beam] == VXL_BEAM_CLEAR;
-}
-
-/// Brings walks to where the beam of their rays ended: all on their way there is empty space. The
-/// cell may be wrong by rounding; the next one is again the walk's own.
-static inline void ride_beam(global const uint* restrict beams, uint stride, uint first, Walk* w) {
-    const uint beam = first / VXL_BEAM_RAYS, slots = VXL_BEAM_SLOTS(stride);
-    const uint towards = beams[VXL_BEAM_AXIS * slots + beam];
-    if (towards == VXL_BEAM_NONE) return;
-    const float s = as_float(beams[VXL_BEAM_START * slots + beam]);
-    const float plane = (towards & VXL_BEAM_DOWN) != 0u ? -s : s;
-    const uint axis = towards & 3u;
-    const lane_float o = axis == 0u ? w->ox : axis == 1u ? w->oy : w->oz;
-    const lane_float i = axis == 0u ? w->ix : axis == 1u ? w->iy : w->iz;
-    const lane_float t = (plane - o) * i;
-    const lane_int later = LANE_MASK(t > w->t) & LANE_MASK(t < INFINITY);
-    const lane_float at = LANES_SELECT(later, t, (lane_float)0.0f);
-    const lane_float x = fma(w->dx, at, w->ox), y = fma(w->dy, at, w->oy),
-                     z = fma(w->dz, at, w->oz);
-    w->x = LANES_SELECT(later, LANES_INT(x) + LANE_MASK(x < 0.0f), w->x);
-    w->y = LANES_SELECT(later, LANES_INT(y) + LANE_MASK(y < 0.0f), w->y);
-    w->z = LANES_SELECT(later, LANES_INT(z) + LANE_MASK(z < 0.0f), w->z);
-    w->t = LANES_SELECT(later, t, w->t);
 }
 
 /// How far a packet's rays have come.

@@ -20,6 +20,11 @@ typedef struct {
     MediumSet media;
 } NewRays;
 
+/// The parameters that `bind` of a RayQueue sets, in its order.
+#define VXL_QUEUE_PARAMETERS                                            \
+    global float *restrict next_rays, global uint *restrict next_paths, \
+        global float *restrict next_starts, global uint *restrict next_inside, uint next_stride
+
 /// Where they go: `stride` places.
 typedef struct {
     global float* rays;
@@ -28,6 +33,10 @@ typedef struct {
     global uint* inside;
     uint stride;
 } RayQueue;
+
+/// The value of a RayQueue in a kernel with these parameters.
+#define VXL_QUEUE \
+    { next_rays, next_paths, next_starts, next_inside, next_stride }
 
 /// The wanted lanes of a packet beside each other, and where in a queue they are put.
 typedef struct {

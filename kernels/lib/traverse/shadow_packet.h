@@ -15,18 +15,10 @@
 #define VXL_SHADOW_PACKETS \
     (VXL_REFILLS_SHADOWS ? VXL_PACKETS(VXL_LANES) : VXL_FILTER ? 1u : VXL_PACKETS_INTERLEAVED)
 
-/// A queue of shadow rays, and the paths and hits of the rays that met the surfaces where they
-/// begin.
+/// A queue of shadow rays, and the batch of the rays that met the surfaces where they begin.
 typedef struct {
-    global const float* restrict rays;
-    global const uint* restrict targets;
-    global const uint* restrict sources;
-    global const uint* restrict paths;
-    global const uint* restrict hits;
-    global const float* restrict contributions;
-    uint stride;
-    BeamGrid beam_grid;  // of the light that they run to
-    global const float* restrict beam_ends;
+    ShadowQueue queue;
+    RayBatch batch;
 } ShadowRays;
 
 /// Shadow rays on their way.
@@ -36,13 +28,16 @@ typedef struct {
 } ShadowPacket;
 
 /// Sets the rays that the lanes hold on their way; `fresh` lanes hold new ones.
-static inline void send_shadows(const SurfaceView* s, const FilterView* v, PyramidShape shape,
-                                const ShadowRays* q, lane_int fresh, ShadowPacket* f) {
+static inline void send_shadows(const WorldView* world, const Surroundings* around,
+                                const ShadowRays* s, lane_int fresh, ShadowPacket* f) {
+    const ShadowQueue* q = &s->queue;
+    const RayBatch* batch = &s->batch;
+    const uint stride = batch->stride;
     Packet* packet = &f->packet;
     Walk* w = &packet->walk;
-    *w = walk_of(q->rays, q->stride, packet->ray, VXL_REFILLS_SHADOWS);
+    *w = walk_of(q->rays, stride, packet->ray, VXL_REFILLS_SHADOWS);
     packet->t_end =
-        VXL_RAY_FLOATS(q->rays + VXL_RAY_END * q->stride, packet->ray, VXL_REFILLS_SHADOWS);
+        VXL_RAY_FLOATS(q->rays + VXL_RAY_END * stride, packet->ray, VXL_REFILLS_SHADOWS);
     if (!VXL_FILTER && q->beam_grid.columns > 0)
         packet->t_end = fmin(packet->t_end, clear_from(&q->beam_grid, q->beam_ends, w));
     RayState* ray_state = &packet->ray_state;
@@ -52,7 +47,7 @@ static inline void send_shadows(const SurfaceView* s, const FilterView* v, Pyram
         VXL_RAY_UINTS(q->targets, packet->ray, VXL_REFILLS_SHADOWS) & LANES_AS_UINT(fresh);
     if (VXL_EXACT) ray_state->source = VXL_RAY_UINTS(q->sources, packet->ray, VXL_REFILLS_SHADOWS);
     if (VXL_INSTANCES)
-        ray_state->instance = LANES_GATHER_UINT(q->hits + VXL_HIT_INSTANCE * q->stride, target);
+        ray_state->instance = LANES_GATHER_UINT(batch->hits + VXL_HIT_INSTANCE * stride, target);
     if (VXL_SOLIDS) {
         const SolidRay ray = {w->ox, w->oy, w->oz, w->dx, w->dy, w->dz};
         const lane_int solid = LANE_MASK((ray_state->source & VXL_SOLID_PRIMITIVE) != 0u) &
@@ -61,15 +56,15 @@ static inline void send_shadows(const SurfaceView* s, const FilterView* v, Pyram
         const lane_int asked = solid & ~ray_state->asks_side;
         if (lanes_any(asked))
             ray_state->within_source = go_inside(
-                s->solids, ray_state->source & ~VXL_SOLID_PRIMITIVE & LANES_AS_UINT(asked), &ray,
-                asked);
+                world->surface.solids,
+                ray_state->source & ~VXL_SOLID_PRIMITIVE & LANES_AS_UINT(asked), &ray, asked);
     }
     packet->found = no_hit_yet(ray_state);
     if (!VXL_FILTER) return;
     // The paths are those of the rays that met the surface: on its same side light arrives.
-    ray_state->media = gather_medium_set(q->paths, q->stride, target, fresh);
-    if (VXL_CUBE_BODIES) find_body(ray_state, v->materials);
-    f->filter = begin_filter(shape, w, packet->t_end);
+    ray_state->media = gather_medium_set(batch->paths, stride, target, fresh);
+    if (VXL_CUBE_BODIES) find_body(ray_state, around->materials);
+    f->filter = begin_filter(world->shape, w, packet->t_end);
 }
 
 /// Puts lanes that are not `fresh` back to what their rays have come to on their way.
@@ -103,9 +98,10 @@ static inline void keep_way(const ShadowPacket* before, lane_int fresh, ShadowPa
 
 /// Adds what the `arrived` ones of the `held` rays bring to the radiance of the rays that they were
 /// sent for: all at once where these are in a row.
-static inline void bring_light(const ShadowRays* q, const ShadowPacket* f, lane_int held,
-                               lane_int arrived, global float* restrict radiance) {
-    const lane_uint target = VXL_RAY_UINTS(q->targets, f->packet.ray, VXL_REFILLS_SHADOWS);
+static inline void bring_light(const ShadowRays* s, const ShadowPacket* f, lane_int held,
+                               lane_int arrived) {
+    const uint stride = s->batch.stride;
+    const lane_uint target = VXL_RAY_UINTS(s->queue.targets, f->packet.ray, VXL_REFILLS_SHADOWS);
     const uint first = LANES_FIRST(target);
     const lane_int beside = LANE_MASK(target - first == LANES_AS_UINT(LANES_NUMBERS));
     const bool in_a_row = VXL_LANES > 1 && !lanes_any(~(held & beside));
@@ -113,11 +109,11 @@ static inline void bring_light(const ShadowRays* q, const ShadowPacket* f, lane_
     uint targets[VXL_LANES];
     LANES_STORE(target, targets, 0);
     for (int channel = 0; channel < 3; ++channel) {
-        lane_float contribution = VXL_RAY_FLOATS(q->contributions + channel * q->stride,
+        lane_float contribution = VXL_RAY_FLOATS(s->queue.contributions + channel * stride,
                                                  f->packet.ray, VXL_REFILLS_SHADOWS);
         if (VXL_FILTER)
             contribution *= f->filter.throughput[channel] * exact_exp(-f->filter.depth[channel]);
-        global float* restrict sums = radiance + channel * q->stride;
+        global float* restrict sums = s->batch.radiance + channel * stride;
         if (in_a_row) {
             const lane_float sum = LANES_LOAD(sums, first);
             LANES_STORE(LANES_SELECT(arrived, sum + contribution, sum), sums, first);
@@ -132,15 +128,14 @@ static inline void bring_light(const ShadowRays* q, const ShadowPacket* f, lane_
 
 #if VXL_REFILLS_SHADOWS
 /// Traces the queue's rays `next` .. `end` - 1, at least one.
-static inline void trace_refilled_shadows(const PyramidView* p, const SurfaceView* s,
-                                          const FilterView* v, PyramidShape shape,
-                                          const ShadowRays* q, uint next, uint end,
-                                          global float* restrict radiance) {
+static inline void trace_refilled_shadows(const WorldView* world, const Surroundings* around,
+                                          const ShadowRays* q, uint next, uint end) {
+    const PyramidView* p = &world->pyramid;
     ShadowPacket f;
     Packet* packet = &f.packet;
     packet->ray = (lane_uint)next;
     lane_int held = take_rays((lane_int)-1, end, &next, &packet->ray);
-    send_shadows(s, v, shape, q, held, &f);
+    send_shadows(world, around, q, held, &f);
     lane_int walking = held & in_grid(p, &packet->walk), waiting = (lane_int)0;
     while (lanes_any(held)) {
         int steps = lanes_count(walking), tests = 0;
@@ -150,16 +145,16 @@ static inline void trace_refilled_shadows(const PyramidView* p, const SurfaceVie
             steps = lanes_count(walking), tests = lanes_count(waiting);
         }
         if (tests > 0)
-            meet_surfaces(p, s, &packet->walk, packet->t_end, &packet->ray_state, &packet->found,
-                          &walking, &waiting);
+            meet_surfaces(p, &world->surface, &packet->walk, packet->t_end, &packet->ray_state,
+                          &packet->found, &walking, &waiting);
         if (lanes_count(walking) > minimum) continue;
         const lane_int ended = held & ~walking;
         const lane_int hit = is_hit(&packet->found, packet->t_end) & ended;
         lane_int passing = (lane_int)0;
         if (VXL_FILTER)
-            passing = pass_surface(p, s, v, &packet->walk, &packet->found, ended, hit,
+            passing = pass_surface(world, around, &packet->walk, &packet->found, ended, hit,
                                    &packet->ray_state, &f.filter);
-        if (lanes_any(ended & ~hit)) bring_light(q, &f, held, ended & ~hit, radiance);
+        if (lanes_any(ended & ~hit)) bring_light(q, &f, held, ended & ~hit);
         held &= walking | passing;
         if (VXL_FILTER) {
             const SurfaceHit nothing = no_hit_yet(&packet->ray_state);
@@ -170,7 +165,7 @@ static inline void trace_refilled_shadows(const PyramidView* p, const SurfaceVie
         const Progress before = progress_of(packet);
         const ShadowPacket old = f;
         const lane_int fresh = take_rays(~held, end, &next, &packet->ray);
-        send_shadows(s, v, shape, q, fresh, &f);
+        send_shadows(world, around, q, fresh, &f);
         keep_progress(&before, fresh, packet);
         keep_way(&old, fresh, &f);
         held |= fresh;
@@ -181,17 +176,17 @@ static inline void trace_refilled_shadows(const PyramidView* p, const SurfaceVie
 #else
 
 /// The mask of the `active` rays that reach their light.
-static inline lane_int find_lights(const PyramidView* p, const SurfaceView* s, const FilterView* v,
+static inline lane_int find_lights(const WorldView* world, const Surroundings* around,
                                    lane_int active, ShadowPacket* f) {
     Packet* packet = &f->packet;
     lane_int passing = active, arrived = (lane_int)0;
     while (lanes_any(passing)) {
-        packet->found = find_nearest(p, s, &v->instances, &packet->walk, packet->t_end, passing,
-                                     !VXL_FILTER, &packet->ray_state);
+        packet->found = find_nearest(world, &packet->walk, packet->t_end, passing, !VXL_FILTER,
+                                     &packet->ray_state);
         const lane_int hit = packet->found.hit & passing;
         arrived |= passing & ~hit;
         if (!VXL_FILTER) break;
-        passing = pass_surface(p, s, v, &packet->walk, &packet->found, passing, hit,
+        passing = pass_surface(world, around, &packet->walk, &packet->found, passing, hit,
                                &packet->ray_state, &f->filter);
     }
     return arrived;

@@ -28,7 +28,7 @@ static inline Hit hit_of(const Packet* f, lane_int hit) {
     (VXL_INSTANCES ? VXL_HIT_COMPONENTS : (VXL_EXACT ? VXL_HIT_INSTANCE : VXL_HIT_PRIMITIVE))
 
 /// Stores that a packet has met nothing.
-static inline void store_misses(uint stride, uint first, global uint* restrict hits) {
+static inline void store_misses(const RayBatch* batch, uint first) {
     Hit miss;
     miss.values[VXL_HIT_T] = LANES_AS_UINT((lane_float)INFINITY);
     miss.values[VXL_HIT_VOXEL] = (lane_uint)VXL_NO_VOXEL;
@@ -36,30 +36,54 @@ static inline void store_misses(uint stride, uint first, global uint* restrict h
     miss.values[VXL_HIT_PRIMITIVE] = (lane_uint)VXL_NO_PRIMITIVE;
     miss.values[VXL_HIT_INSTANCE] = (lane_uint)VXL_NO_INSTANCE;
     for (uint i = 0; i < VXL_STORED_COMPONENTS; ++i)
-        LANES_STORE(miss.values[i], hits, i * stride + first);
+        LANES_STORE(miss.values[i], batch->hits, i * batch->stride + first);
 }
 
-/// Rays that run beside each other; `beams` may be none.
+static inline bool beam_is_clear(const RayBatch* batch, uint first) {
+    const uint beam = first / VXL_BEAM_RAYS;
+    return batch->beams[VXL_BEAM_AXIS * VXL_BEAM_SLOTS(batch->stride) + beam] == VXL_BEAM_CLEAR;
+}
+
+/// Brings walks to where the beam of their rays ended: all on their way there is empty space. The
+/// cell may be wrong by rounding; the next one is again the walk's own.
+static inline void ride_beam(const RayBatch* batch, uint first, Walk* w) {
+    global const uint* beams = batch->beams;
+    const uint beam = first / VXL_BEAM_RAYS, places = VXL_BEAM_SLOTS(batch->stride);
+    const uint towards = beams[VXL_BEAM_AXIS * places + beam];
+    if (towards == VXL_BEAM_NONE) return;
+    const float s = as_float(beams[VXL_BEAM_START * places + beam]);
+    const float plane = (towards & VXL_BEAM_DOWN) != 0u ? -s : s;
+    const uint axis = towards & 3u;
+    const lane_float o = axis == 0u ? w->ox : axis == 1u ? w->oy : w->oz;
+    const lane_float i = axis == 0u ? w->ix : axis == 1u ? w->iy : w->iz;
+    const lane_float t = (plane - o) * i;
+    const lane_int later = LANE_MASK(t > w->t) & LANE_MASK(t < INFINITY);
+    const lane_float at = LANES_SELECT(later, t, (lane_float)0.0f);
+    const lane_float x = fma(w->dx, at, w->ox), y = fma(w->dy, at, w->oy),
+                     z = fma(w->dz, at, w->oz);
+    w->x = LANES_SELECT(later, LANES_INT(x) + LANE_MASK(x < 0.0f), w->x);
+    w->y = LANES_SELECT(later, LANES_INT(y) + LANE_MASK(y < 0.0f), w->y);
+    w->z = LANES_SELECT(later, LANES_INT(z) + LANE_MASK(z < 0.0f), w->z);
+    w->t = LANES_SELECT(later, t, w->t);
+}
+
+/// The first `count` rays of a batch; its beams may be none.
 typedef struct {
-    global const float* restrict rays;
-    global const uint* restrict paths;
-    global const float* restrict starts;
-    global const uint* restrict beams;
-    uint count, stride;
+    RayBatch batch;
+    uint count;
 } SightRays;
 
 /// Sets the packet of rays from `first` on on their way. False where there is none, or its beam is
 /// clear, which is stored.
-static inline bool send_packet(const PyramidView* p, const SightRays* q, uint first, Packet* f,
-                               global uint* restrict hits) {
+static inline bool send_packet(const PyramidView* p, const SightRays* q, uint first, Packet* f) {
     if (first >= q->count) return false;
-    if (q->beams && beam_is_clear(q->beams, q->stride, first)) {
-        store_misses(q->stride, first, hits);
+    if (q->batch.beams && beam_is_clear(&q->batch, first)) {
+        store_misses(&q->batch, first);
         return false;
     }
     f->ray = LANES_AS_UINT(LANES_NUMBERS + (int)first);
-    set_out(p, q->rays, q->count, q->stride, q->paths, q->starts, f);
-    if (q->beams) ride_beam(q->beams, q->stride, first, &f->walk);
+    set_out(p, &q->batch, q->count, f);
+    if (q->batch.beams) ride_beam(&q->batch, first, &f->walk);
     return true;
 }
 
@@ -67,10 +91,10 @@ static inline lane_int are_rays(const SightRays* q, const Packet* f) {
     return LANE_MASK(f->t_end >= 0.0f) & LANE_MASK(f->ray < q->count);
 }
 
-static inline void store_packet(const SightRays* q, const Packet* f, global uint* restrict hits) {
+static inline void store_packet(const SightRays* q, const Packet* f) {
     const Hit hit = hit_of(f, f->found.hit);
     for (uint i = 0; i < VXL_STORED_COMPONENTS; ++i)
-        LANES_STORE(hit.values[i], hits, i * q->stride + LANES_FIRST(f->ray));
+        LANES_STORE(hit.values[i], q->batch.hits, i * q->batch.stride + LANES_FIRST(f->ray));
 }
 
 #endif

@@ -8,6 +8,7 @@
 
 #include "lib/lanes/fixed_point.h"
 #include "lib/lanes/vector.h"
+#include "lib/traverse/world.h"
 #include "shared/instance.h"
 #include "shared/voxel.h"
 
@@ -134,18 +135,16 @@ static inline lane_float transformed_t(const TransformedRay* c, lane_float t) {
 
 /// The scene's packed attributes of hits on instances, whose words have the numbers of groups.
 /// Other lanes keep theirs.
-static inline lane_uint instance_attributes(global const InstanceRecord* restrict records,
-                                            global const uint* restrict group_materials,
-                                            lane_uint instance, lane_uint packed,
-                                            lane_int of_instance) {
+static inline lane_uint instance_attributes(const InstanceView* v, lane_uint instance,
+                                            lane_uint packed, lane_int of_instance) {
     const lane_uint record =
         (instance & LANES_AS_UINT(of_instance)) * (lane_uint)VXL_INSTANCE_WORDS;
-    global const uint* words = (global const uint*)records;
+    global const uint* words = (global const uint*)v->records;
     const lane_uint object = LANES_GATHER_UINT(words, record + (uint)VXL_INSTANCE_OBJECT);
     const lane_uint first = LANES_GATHER_UINT(words, record + (uint)VXL_INSTANCE_MATERIALS);
     const lane_uint count = LANES_GATHER_UINT(words, record + (uint)VXL_INSTANCE_GROUPS);
     const lane_uint group = min((packed >> VXL_MATERIAL_SHIFT) & VXL_MATERIAL_MASK, count - 1u);
-    const lane_uint material = LANES_GATHER_UINT(group_materials, first + group);
+    const lane_uint material = LANES_GATHER_UINT(v->group_materials, first + group);
     const lane_uint kind = packed & ~(VXL_MATERIAL_MASK << VXL_MATERIAL_SHIFT | VXL_OBJECT_MASK);
     return LANES_SELECT(of_instance, kind | (material << VXL_MATERIAL_SHIFT) | object, packed);
 }

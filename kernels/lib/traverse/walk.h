@@ -222,4 +222,20 @@ static inline lane_float exit_time(const Walk* w) {
     return fmin(tx, fmin(ty, tz));
 }
 
+/// Mask: a coordinate of a ray's origin lies on the side of the world across which it comes in.
+static inline lane_int on_entry_side(lane_float o, lane_float d, int size) {
+    return (LANE_MASK(o == 0.0f) & LANE_MASK(d > 0.0f)) |
+           (LANE_MASK(o == (float)size) & LANE_MASK(d < 0.0f));
+}
+
+/// Lets `entering` walks that begin on a side of the world have come in across it.
+static inline void enter_world(const PyramidView* p, Walk* w, lane_int entering) {
+    const lane_int x = on_entry_side(w->ox, w->dx, p->size_x) & entering;
+    const lane_int y = on_entry_side(w->oy, w->dy, p->size_y) & entering;
+    const lane_int z = on_entry_side(w->oz, w->dz, p->size_z) & entering;
+    w->axis = LANES_SELECT(z, (lane_int)2, w->axis);
+    w->axis = LANES_SELECT(y, (lane_int)1, w->axis);
+    w->axis = LANES_SELECT(x, (lane_int)0, w->axis);
+}
+
 #endif

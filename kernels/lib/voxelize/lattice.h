@@ -8,6 +8,7 @@
 #define VXL_LATTICE_H
 
 #include "lib/lanes/work_item.h"
+#include "lib/voxelize/mesh.h"
 
 #define LATTICE_BITS 12
 #define LATTICE_VOXEL 4096
@@ -18,11 +19,10 @@ typedef struct {
     int3 corner[3];
 } LatticeTriangle;
 
-static inline LatticeTriangle load_triangle(global const int* vertices,
-                                            global const uint* triangles, uint number,
-                                            int3 origin) {
+static inline LatticeTriangle load_triangle(const LatticeMesh* mesh, uint number, int3 origin) {
     LatticeTriangle t;
-    for (int i = 0; i < 3; ++i) t.corner[i] = vload3(triangles[3u * number + i], vertices) - origin;
+    for (int i = 0; i < 3; ++i)
+        t.corner[i] = vload3(mesh->triangles[3u * number + i], mesh->vertices) - origin;
     return t;
 }
 

@@ -13,7 +13,32 @@ typedef struct {
     int fraction_bits;
     int4 bricks;  // the object's brick table
     global const uint* slots;
+    global const ulong* near;  // per slot: leaves with voxels, or with distances in the band
+    global const ulong* occupancy;
+    global const short* distance;
+    float distance_scale;  // turns the object's distance units into the world's
+    uint4 attribute_map;   // placed_attributes.h
+    global const uint* materials;
+    global const uint* attributes;
+    global const uint* colors;
 } PlacedObject;
+
+// The parameters that `bind` of a Painter sets, in its order.
+#define VXL_OBJECT_PARAMETERS                                                               \
+    constant long *rows, int fraction_bits, int4 object_bricks,                             \
+        global const uint *restrict object_slots, global const ulong *restrict object_near, \
+        global const ulong *restrict object_occupancy,                                      \
+        global const short *restrict object_distance, float distance_scale,                 \
+        uint4 object_attribute_map, global const uint *restrict object_materials,           \
+        global const uint *restrict object_attributes, global const uint *restrict object_colors
+
+// The value of a PlacedObject in a kernel with these parameters.
+#define VXL_OBJECT                                                                       \
+    {                                                                                    \
+        rows, fraction_bits, object_bricks, object_slots, object_near, object_occupancy, \
+            object_distance, distance_scale, object_attribute_map, object_materials,     \
+            object_attributes, object_colors                                             \
+    }
 
 typedef struct {
     long x, y, z;

@@ -47,8 +47,8 @@ class HeaderReader {
   private:
     void check(exr_result_t result) const {
         if (result == EXR_ERR_SUCCESS) return;
-        throw Error(ErrorKind::input, "{}: not a readable OpenEXR file: {}", path_.string(),
-                    exr_get_default_error_message(result));
+        throw Error(ErrorKind::input, "{}: not a readable OpenEXR file: {}",
+                    SourcePlace(path_.string()), exr_get_default_error_message(result));
     }
     void read_attributes(ExrHeader& header) const;
 
@@ -63,7 +63,7 @@ ExrHeader HeaderReader::read() const {
     const int64_t width = int64_t{window.max.x} - window.min.x + 1;
     const int64_t height = int64_t{window.max.y} - window.min.y + 1;
     if (width <= 0 || height <= 0 || width > INT32_MAX || height > INT32_MAX)
-        throw Error(ErrorKind::input, "{}: has no pixels", path_.string());
+        throw Error(ErrorKind::input, "{}: has no pixels", SourcePlace(path_.string()));
     header.width = static_cast<int>(width);
     header.height = static_cast<int>(height);
     exr_storage_t storage = EXR_STORAGE_SCANLINE;

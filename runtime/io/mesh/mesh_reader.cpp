@@ -24,18 +24,18 @@ std::string read_bytes(const fs::path& path) {
     std::error_code error;
     const fs::file_status status = fs::status(path, error);
     if (status.type() == fs::file_type::not_found) {
-        throw Error(ErrorKind::input, "{}: no such mesh file", name);
+        throw Error(ErrorKind::input, "{}: no such mesh file", SourcePlace(name));
     }
     if (error) {
-        throw Error(ErrorKind::input, "{}: can't be read: {}", name, error.message());
+        throw Error(ErrorKind::input, "{}: can't be read: {}", SourcePlace(name), error.message());
     }
     if (!fs::is_regular_file(status)) {
-        throw Error(ErrorKind::input, "{}: {}, not a mesh file", name,
+        throw Error(ErrorKind::input, "{}: {}, not a mesh file", SourcePlace(name),
                     fs::is_directory(status) ? "a directory" : "a device or pipe");
     }
     const uintmax_t size = fs::file_size(path, error);
     if (error) {
-        throw Error(ErrorKind::input, "{}: can't be read: {}", name, error.message());
+        throw Error(ErrorKind::input, "{}: can't be read: {}", SourcePlace(name), error.message());
     }
     if (size > kMaxFileBytes) {
         throw Error(ErrorKind::limit, "{}: {} bytes, and a mesh file has at most {} here; split it",
@@ -49,7 +49,7 @@ std::string read_bytes(const fs::path& path) {
         file.read(bytes.data(), static_cast<std::streamsize>(size));
     }
     if (!file) {
-        throw Error(ErrorKind::input, "{}: can't be read: {}", name,
+        throw Error(ErrorKind::input, "{}: can't be read: {}", SourcePlace(name),
                     errno != 0 ? std::strerror(errno) : "it became shorter meanwhile");
     }
     return bytes;
@@ -85,7 +85,7 @@ Mesh parse_mesh(const std::string& bytes, const fs::path& name) {
         }
     } catch (const std::bad_alloc&) {
         throw Error(ErrorKind::limit, "{}: not enough memory to read this mesh of {} bytes",
-                    source.name, bytes.size());
+                    SourcePlace(source.name), bytes.size());
     }
     source.fail("neither name nor content is that of a mesh; .obj, .ply and .stl can be read");
 }
@@ -94,7 +94,8 @@ std::string read_mesh_bytes(const fs::path& path) {
     try {
         return read_bytes(path);
     } catch (const std::bad_alloc&) {
-        throw Error(ErrorKind::limit, "{}: not enough memory to read this mesh", path.string());
+        throw Error(ErrorKind::limit, "{}: not enough memory to read this mesh",
+                    SourcePlace(path.string()));
     }
 }
 

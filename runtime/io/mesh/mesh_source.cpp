@@ -9,15 +9,16 @@
 namespace voxelume {
 
 void MeshSource::fail(std::string_view sentence) const {
-    throw Error(ErrorKind::input, "{}: {}", name, sentence);
+    throw Error(ErrorKind::input, "{}: {}", SourcePlace(name), sentence);
 }
 
 void MeshSource::fail_at_line(const char* at, std::string_view sentence) const {
-    throw Error(ErrorKind::input, "{}:{}: {}", name, 1 + std::count(begin(), at, '\n'), sentence);
+    throw Error(ErrorKind::input, "{}: {}",
+                SourcePlace(name, 1 + int(std::count(begin(), at, '\n')), 0, {}), sentence);
 }
 
 void MeshSource::fail_at_byte(const char* at, std::string_view sentence) const {
-    throw Error(ErrorKind::input, "{}: byte {}: {}", name, at - begin(), sentence);
+    throw Error(ErrorKind::input, "{}: byte {}: {}", SourcePlace(name), at - begin(), sentence);
 }
 
 void MeshSource::require_text() const {

@@ -41,6 +41,10 @@ void write_vdb(const std::filesystem::path& path, const VdbVolume& volume);
 /// OpenVDB can't be loaded.
 void check_vdb_output(const std::filesystem::path& path);
 
+/// Sets whether a child process first reads files that voxelume didn't write, since damaged ones
+/// may end the process that reads them. It does unless this function says otherwise.
+void isolate_vdb_readers(bool is_isolated);
+
 /// A summary of one grid of a file.
 struct VdbSummary {
     std::string name;

@@ -3,22 +3,16 @@
 #include <dlfcn.h>
 #include <fmt/format.h>
 
+#include <atomic>
 #include <cstring>
-#include <tuple>
 
-#include "runtime/base/atomic_file.hpp"
-#include "runtime/base/input_file.hpp"
+#include "runtime/base/error.hpp"
 #include "runtime/base/version.hpp"
-#include "runtime/image/volume_geometry.hpp"
-#include "runtime/io/volume/volume_frame_text.hpp"
 
 namespace voxelume {
 namespace {
 
-/// Makes the linker put into the program what the module uses from it. From a library the linker
-/// takes only the sources that something names.
-[[gnu::used]] constexpr std::tuple kTakenByModule(&AtomicFile::commit, &InputFile::refuse,
-                                                  &read_frame_text, &world_from_voxels);
+std::atomic<bool> readers_are_isolated = true;
 
 struct VdbModule {
     const VdbFunctions* functions = nullptr;
@@ -49,7 +43,9 @@ const VdbFunctions& functions_for(const std::filesystem::path& path, ErrorKind k
 }
 
 const VdbFunctions& reader_of(const std::filesystem::path& path) {
-    return functions_for(path, ErrorKind::input);
+    const VdbFunctions& functions = functions_for(path, ErrorKind::input);
+    functions.isolate_vdb_readers(readers_are_isolated);
+    return functions;
 }
 
 const VdbFunctions& writer_of(const std::filesystem::path& path) {
@@ -57,6 +53,10 @@ const VdbFunctions& writer_of(const std::filesystem::path& path) {
 }
 
 }  // namespace
+
+void isolate_vdb_readers(bool is_isolated) {
+    readers_are_isolated = is_isolated;
+}
 
 void check_vdb_output(const std::filesystem::path& path) {
     writer_of(path);

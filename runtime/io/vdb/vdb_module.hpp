@@ -13,6 +13,7 @@ namespace voxelume {
 /// The functions of this folder's headers, as namespace vdb defines them in the module.
 struct VdbFunctions {
     const char* version;  ///< version of the program that the module belongs to
+    decltype(voxelume::isolate_vdb_readers)* isolate_vdb_readers;
     decltype(voxelume::write_vdb)* write_vdb;
     decltype(voxelume::read_vdb_metadata)* read_vdb_metadata;
     decltype(voxelume::read_vdb_summary)* read_vdb_summary;

@@ -10,8 +10,11 @@
 
 namespace voxelume::vdb {
 
+/// Sets whether read_vdb_grids has a child process read files first.
+void isolate_vdb_readers(bool is_isolated);
+
 /// Reads all grids. Damaged files make OpenVDB corrupt memory, so a child process first reads every
-/// file that doesn't have the identifier that voxelume gives its content.
+/// file that doesn't have the identifier that voxelume gives its content, unless isolation is off.
 ///
 /// Throws Error::input for a file that is damaged, truncated or too large for the memory.
 openvdb::GridPtrVecPtr read_vdb_grids(const std::filesystem::path& path, const InputFile& readable);

@@ -5,19 +5,19 @@
 #include <numeric>
 
 #include "runtime/base/error.hpp"
-#include "runtime/stages/trace/trace.hpp"
+#include "runtime/grid/grid_arguments.hpp"
 
 namespace voxelume {
 namespace {
 
-/// How much the surfaces in front may cover of a point that is still seen.
+/// The maximum share that surfaces in front may cover of a point that still counts as visible.
 constexpr float kMaxCovered = 1 - 1.0f / 1024;
 
 constexpr uint32_t kGroupWords = 8, kGroupBits = 256;
 
-/// Ways from outside of the world to a point in it, in voxels: view 0 is the observer's and has no
-/// way of its own; then along the axes, from above first, along the diagonals of faces, and along
-/// those of the cube.
+/// Vectors from outside of the world to a point in it, in voxels, one for each view. View 0 is the
+/// observer's and has no vector of its own. The others run along the axes, with the view from above
+/// first, then along the diagonals of faces, then along those of the cube.
 std::vector<float4> ways_from_outside(const GridFrame& world) {
     const double length = glm::length(world.voxel_edge * glm::dvec3(world.size));
     std::vector<float4> ways = {{0, 0, 0, 0}};
@@ -76,8 +76,8 @@ DisplayLatticeStage::DisplayLatticeStage(const Device& device, const Features& f
 
 void DisplayLatticeStage::aim(const ProbePoints& points, uint32_t search, uint32_t first,
                               uint32_t count, RayBatch& batch) {
-    aim_.launch_packets(count, camera_, shape_of(world_), lattice_, views_, points.coordinates,
-                        points.total, points.views, search, first, count, batch.stride, batch.rays);
+    aim_.launch_packets(count, camera_, shape_of(world_), lattice_, views_, points, search, first,
+                        count, batch.stride, batch.rays);
     rays_ += count;
 }
 
@@ -97,12 +97,13 @@ void DisplayLatticeStage::find_views(const LookAhead& look, RayBatch& batch,
     for (ProbePoints& points : pieces) {
         if (visibility_ != Visibility::outside) search(look, batch, points, 0, kMaxCovered);
         if (visibility_ == Visibility::observer) continue;
-        // Where a point is seen freely from somewhere, it is not lit as seen through others.
+        // A point that is freely visible from somewhere is not lit as seen through other surfaces.
         for (const float maximum : {0.0f, kMaxCovered})
             for (uint32_t view = 1; view < views_.size() && (transmission_ || maximum == 0); ++view)
                 search(look, batch, points, view, maximum);
         if (visibility_ != Visibility::all) continue;
-        std::vector<uint32_t> views = points.views.read();  // what no view shows is lit as from E
+        std::vector<uint32_t> views = points.views.read();  // a point that no view shows is lit as
+                                                            // from E
         std::ranges::replace(views, kNoView, 0u);
         points.views.write(views);
     }
@@ -111,8 +112,7 @@ void DisplayLatticeStage::find_views(const LookAhead& look, RayBatch& batch,
 ShownVoxels DisplayLatticeStage::choose(const std::vector<ProbePoints>& pieces) {
     mask_.fill(0);
     for (const ProbePoints& points : pieces)
-        mark_.launch(WorkItem::light, points.count, lattice_, points.coordinates, points.total,
-                     points.views, points.count, mask_);
+        mark_.launch(WorkItem::light, points.count, lattice_, points, mask_);
     Buffer<uint32_t> starts(device_, "display groups", groups_);
     count_.launch(WorkItem::light, groups_, mask_, groups_, starts);
     std::vector<uint32_t> counts = starts.read();
@@ -134,17 +134,15 @@ ShownVoxels DisplayLatticeStage::choose(const std::vector<ProbePoints>& pieces) 
     for (const uint32_t turn : {0u, 1u}) {
         uint32_t first_number = 0;
         for (const ProbePoints& points : pieces) {
-            choose_.launch(WorkItem::light, points.count, lattice_, points.coordinates,
-                           points.total, points.views, points.count, first_number, mask_, starts,
-                           turn, distances, numbers);
+            choose_.launch(WorkItem::light, points.count, lattice_, points, first_number, mask_,
+                           starts, turn, distances, numbers);
             first_number += points.count;
         }
     }
     uint32_t first_number = 0;
     for (const ProbePoints& points : pieces) {
-        take_.launch(WorkItem::light, chosen.count, points.coordinates, points.total, points.views,
-                     points.count, first_number, numbers, chosen.count, chosen.total,
-                     chosen.coordinates, chosen.views);
+        take_.launch(WorkItem::light, chosen.count, points, first_number, numbers, chosen.count,
+                     chosen.total, chosen.coordinates, chosen.views);
         first_number += points.count;
     }
     return shown;
@@ -153,11 +151,8 @@ ShownVoxels DisplayLatticeStage::choose(const std::vector<ProbePoints>& pieces) 
 void DisplayLatticeStage::keep(const Environment& environment, const RayBatch& batch,
                                const NodeLight& nodes, const LightTask& task, uint32_t first,
                                uint32_t count, VoxelArrays& voxels) {
-    keep_.launch_packets(count, camera_, shape_of(world_), environment, batch.rays, batch.hits,
-                         batch.positions, batch.hit_attributes, nodes.radiance, nodes.coverage,
-                         nodes.stride, task.targets, uint32_t(!task.targets.empty()), first, count,
-                         batch.stride, voxels.colors, voxels.opacities, voxels.depths,
-                         voxels.objects);
+    keep_.launch_packets(count, camera_, shape_of(world_), environment, batch, nodes, task.targets,
+                         uint32_t(!task.targets.empty()), first, count, voxels);
 }
 
 void DisplayLatticeStage::light_points(const LightRays& light_rays, const Environment& environment,
@@ -172,7 +167,7 @@ void DisplayLatticeStage::light_points(const LightRays& light_rays, const Enviro
                  voxels);
             continue;
         }
-        // The nearest surface is the voxel's; what lies behind has voxels of its own.
+        // The nearest surface is the voxel's; those behind have voxels of their own.
         light_rays(batch, count,
                    [&](const RayBatch& entries, uint32_t, bool is_first, const NodeLight& nodes) {
                        if (is_first) keep(environment, entries, nodes, task, first, count, voxels);
@@ -180,7 +175,7 @@ void DisplayLatticeStage::light_points(const LightRays& light_rays, const Enviro
     }
 }
 
-/// The points of voxels that have no light yet, moved a little.
+/// The points of voxels that have no light yet, moved by `shift`.
 DisplayLatticeStage::LightTask DisplayLatticeStage::missed_points(const ShownVoxels& shown,
                                                                   const glm::vec3& shift,
                                                                   HostPoints& host) {
@@ -217,7 +212,8 @@ void DisplayLatticeStage::light(const LookAhead& look, const LightRays& light_ra
                                 ShownVoxels& shown) {
     light_points(light_rays, environment, batch, {shown.points, {}}, shown.voxels);
     HostPoints host;
-    // A ray along the surface at its point, as at an outline, may pass by: one beside it does not.
+    // A ray along the surface at its point, as at an outline, may miss the surface; a ray next to
+    // it meets it.
     for (const float by : {1.0f / 512, 1.0f / 64})
         for (int side = 0; side < 6; ++side) {
             glm::vec3 shift(0);
@@ -227,7 +223,7 @@ void DisplayLatticeStage::light(const LookAhead& look, const LightRays& light_ra
             light_points(light_rays, environment, batch, missed, shown.voxels);
         }
     if (visibility_ == Visibility::observer) return;
-    // Nor may a whole face that a view looks along: other views see it.
+    // A whole face along which a view looks may be missed, too: other views see it.
     for (const bool hidden : {false, true})
         for (uint32_t view = 1; view < views_.size(); ++view) {
             LightTask missed = missed_points(shown, glm::vec3(0), host);

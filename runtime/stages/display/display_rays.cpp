@@ -10,13 +10,14 @@ namespace voxelume {
 namespace {
 
 constexpr uint32_t kSpanComponents = 3;
-constexpr size_t kMaxAmounts = 1 << 23;  ///< steps of rays whose density is measured together
+constexpr size_t kMaxAmounts = 1 << 23;  ///< number of steps of rays whose density is measured
+                                         ///< together
 
 uint32_t ray_count(const Camera& camera) {
     return tile_count(camera.width, camera.height) * 16;
 }
 
-/// Replaces counts by the sums of those before; returns the sum of all.
+/// Replaces each count by the sum of those before it. Returns the sum of all.
 uint64_t make_starts(std::vector<uint32_t>& counts) {
     uint64_t sum = 0;
     for (uint32_t& count : counts) {
@@ -28,6 +29,26 @@ uint64_t make_starts(std::vector<uint32_t>& counts) {
 }
 
 }  // namespace
+
+void bind(KernelArguments& to, const VoxelArrays& voxels) {
+    to.add(voxels.indices, voxels.colors, voxels.opacities, voxels.depths, voxels.objects);
+}
+
+void bind(KernelArguments& to, const RayDepths& depths) {
+    to.add(depths.steps, depths.depths, depths.objects, depths.colors, depths.spans, depths.total);
+}
+
+RayDepths allocate_ray_depths(const Device& device, const Features& features, uint32_t total) {
+    RayDepths rays;
+    rays.total = total;
+    rays.steps = Buffer<uint32_t>(device, "display steps", total);
+    rays.objects = Buffer<uint32_t>(device, "display ray objects", total);
+    rays.depths = Buffer<float>(device, "display ray depths", total);
+    rays.colors = Buffer<float>(device, "display ray colors", size_t(total) * 3);
+    if (features.medium)
+        rays.spans = Buffer<float>(device, "display spans", size_t(total) * kSpanComponents);
+    return rays;
+}
 
 VoxelArrays allocate_voxels(const Device& device, uint64_t count) {
     if (count >= UINT32_MAX)
@@ -60,14 +81,6 @@ void read_voxels(const VoxelArrays& voxels, Volume& volume) {
     }
 }
 
-DisplayRayArrays allocate_display_rays(const Device& device, uint32_t rays, bool has_medium) {
-    return {{device, "display steps", rays},
-            {device, "display ray objects", rays},
-            {device, "display ray depths", rays},
-            {device, "display ray colors", size_t(rays) * 3},
-            {device, "display spans", has_medium ? size_t(rays) * kSpanComponents : 0}};
-}
-
 DisplayRaysStage::DisplayRaysStage(const Device& device, const Features& features,
                                    const Camera& camera, const VolumeFrame& frame,
                                    const Medium& medium, const Environment& environment)
@@ -78,24 +91,24 @@ DisplayRaysStage::DisplayRaysStage(const Device& device, const Features& feature
       steps_(display_steps(frame, medium)),
       near_depth_(float(frame.display.near)),
       environment_(environment),
-      total_(ray_count(camera)),
-      rays_(allocate_display_rays(device, total_, features.medium)),
-      program_(device, "display_rays.cl", features.defines(device)),
-      measure_(program_.kernel("measure_steps")),
-      layer_(program_.kernel("measure_layer")),
-      density_(program_.kernel("measure_density")),
-      count_(program_.kernel("count_voxels")),
-      place_(program_.kernel("place_voxels")),
-      fill_(program_.kernel("fill_voxels")) {
+      rays_(allocate_ray_depths(device, features, ray_count(camera))),
+      program_(device, has_layers_ ? "display_layers.cl" : "display_rays.cl",
+               features.defines(device)) {
     if (!features.medium) steps_.absorption = 0;
+    if (has_layers_) {
+        layer_ = program_.kernel("measure_layer");
+        density_ = program_.kernel("measure_density");
+    } else {
+        measure_ = program_.kernel("measure_steps");
+        count_ = program_.kernel("count_voxels");
+        place_ = program_.kernel("place_voxels");
+        fill_ = program_.kernel("fill_voxels");
+    }
 }
 
 void DisplayRaysStage::keep(const PyramidShape& world, const RayBatch& batch, uint32_t first_ray,
                             uint32_t count) {
-    measure_.launch_packets(count, camera_, world, steps_, batch.rays, batch.hits, batch.positions,
-                            batch.hit_attributes, batch.radiance, count, batch.stride, first_ray,
-                            total_, rays_.hit_steps, rays_.depths, rays_.objects, rays_.colors,
-                            rays_.spans);
+    measure_.value().launch_packets(count, camera_, world, steps_, batch, count, first_ray, rays_);
 }
 
 void DisplayRaysStage::keep_layer(const Pyramid& world, const DensityGrid* density,
@@ -104,16 +117,14 @@ void DisplayRaysStage::keep_layer(const Pyramid& world, const DensityGrid* densi
     if (transmission_ && seen_.size() < size_t(nodes.stride) * 4)
         seen_ = Buffer<float>(device_, "display layers", size_t(nodes.stride) * 4);
     const Buffer<uint32_t> words(device_, "display layers", size_t(count) * VXL_LAYER_WORDS);
-    layer_.launch(WorkItem::light, count, camera_, shape_of(world), steps_, uint32_t(is_first),
-                  entries.rays, entries.paths, entries.starts, entries.inside, entries.hits,
-                  entries.positions, entries.hit_attributes, count, entries.stride, nodes.radiance,
-                  nodes.coverage, nodes.stride, first_ray, seen_, words);
+    layer_.value().launch(WorkItem::light, count, camera_, shape_of(world), steps_,
+                          uint32_t(is_first), entries, count, nodes, first_ray, seen_, words);
     LayerRecords records{count, words.read(), {}, {}, {}};
     if (density) measure_density(world, *density, layer, records);
     layers_.push_back(std::move(records));
 }
 
-/// A few entries at a time, because a step of a ray has a place whether there is medium or not.
+/// Measures a few entries at a time, since a step of a ray takes room whether it has medium or not.
 void DisplayRaysStage::measure_density(const Pyramid& world, const DensityGrid& density,
                                        const Layer& layer, LayerRecords& records) {
     const auto steps = size_t(steps_.count);
@@ -122,11 +133,9 @@ void DisplayRaysStage::measure_density(const Pyramid& world, const DensityGrid& 
     for (uint32_t first = 0; first < layer.count; first += maximum) {
         const uint32_t now = std::min(maximum, layer.count - first);
         amounts.fill(0);
-        density_.launch_packets(now, camera_, shape_of(world), steps_, density.shape,
-                                density.bricks, density.values, uint32_t(layer.is_first),
-                                layer.entries.rays, layer.entries.starts, layer.entries.inside,
-                                layer.entries.hits, first, now, layer.entries.stride, maximum,
-                                amounts);
+        density_.value().launch_packets(now, camera_, shape_of(world), steps_, density,
+                                        uint32_t(layer.is_first), layer.entries, first, now,
+                                        maximum, amounts);
         const std::vector<float> dense = amounts.read();
         for (uint32_t n = 0; n < now; ++n) {
             size_t begin = 0, end = steps;
@@ -151,19 +160,16 @@ VoxelArrays DisplayRaysStage::voxels() {
     const uint32_t width = uint32_t(camera_.width), height = uint32_t(camera_.height);
     Buffer<uint32_t> starts(device_, "display counts", size_t(height) * size_t(steps_.count));
     starts.fill(0);
-    count_.launch(WorkItem::heavy, height, width, height, steps_, rays_.hit_steps, rays_.spans,
-                  total_, starts);
+    count_.value().launch(WorkItem::heavy, height, width, height, steps_, rays_, starts);
     std::vector<uint32_t> counts = starts.read();
     VoxelArrays voxels = allocate_voxels(device_, make_starts(counts));
     if (voxels.count == 0) return voxels;
     starts.write(std::span<const uint32_t>(counts));
-    place_.launch(WorkItem::heavy, height, width, height, steps_, rays_.hit_steps, rays_.spans,
-                  total_, starts, voxels.indices, voxels.objects);
+    place_.value().launch(WorkItem::heavy, height, width, height, steps_, rays_, starts,
+                          voxels.indices, voxels.objects);
     const uint32_t count = uint32_t(voxels.count);
-    fill_.launch_packets(count, width, height, steps_, near_depth_, environment_, voxels.indices,
-                         rays_.hit_steps, rays_.depths, rays_.objects, rays_.colors, rays_.spans,
-                         total_, count, voxels.colors, voxels.opacities, voxels.depths,
-                         voxels.objects);
+    fill_.value().launch_packets(count, width, height, steps_, near_depth_, environment_, rays_,
+                                 count, voxels);
     return voxels;
 }
 

@@ -1,6 +1,8 @@
 // lit sight rays -> P in the layout `rays`, voxel by voxel along each ray.
 #pragma once
 
+#include <optional>
+
 #include "runtime/opencl/program.hpp"
 #include "runtime/stages/display/display_frame.hpp"
 #include "runtime/stages/features.hpp"
@@ -10,55 +12,68 @@
 
 namespace voxelume {
 
-/// The voxels of P on a device: arrays as long as each other, ascending in `indices`. 32 bytes
-/// each.
+/// The voxels of P on a device: arrays of equal length, ascending in `indices`. A voxel takes 32
+/// bytes.
 struct VoxelArrays {
     size_t count = 0;  ///< the arrays may be longer
     Buffer<uint64_t> indices;
-    Buffer<float> colors;  ///< 3 each, one after another
+    Buffer<float> colors;  ///< 3 for each voxel, one after another
     Buffer<float> opacities;
     Buffer<float> depths;
     Buffer<uint32_t> objects;
 };
 
-/// Arrays for `count` voxels. Throws Error::limit for more than can be numbered.
+/// VXL_VOXEL_PARAMETERS of kernels.
+void bind(KernelArguments& to, const VoxelArrays& voxels);
+
+/// The arrays for `count` voxels. Throws Error::limit for more voxels than can be numbered.
 VoxelArrays allocate_voxels(const Device& device, uint64_t count);
 
 /// Reads the voxels into a volume. Waits for the device.
 void read_voxels(const VoxelArrays& voxels, Volume& volume);
 
-/// What is kept of each sight ray.
-struct DisplayRayArrays {
-    Buffer<uint32_t> hit_steps, objects;
-    Buffer<float> depths, colors;
-    Buffer<float> spans;  ///< only in a world with a medium
-};
-DisplayRayArrays allocate_display_rays(const Device& device, uint32_t rays, bool has_medium);
-
-/// The records of a layer of surfaces along sight rays: VXL_LAYER_WORDS words, `count` apart.
+/// The records of a layer of surfaces along sight rays: VXL_LAYER_WORDS words, each `count` apart.
 struct LayerRecords {
     size_t count = 0;
     std::vector<uint32_t> words;
-    /// Density times metres of entry n in step k, at `first_amount[n] + k - first_step[n]`; empty
-    /// in a medium of density 1. Entry n's end where those of n+1 begin.
+    /// The density times metres of entry n in step k, at `first_amount[n] + k - first_step[n]`;
+    /// empty in a medium of density 1. The amounts of entry n end where those of n+1 begin.
     std::vector<float> amounts;
     std::vector<size_t> first_amount;
     std::vector<uint32_t> first_step;
 };
 
-/// Kernels of display_rays.cl, and what they keep of each sight ray. The paper's blocks 2 and 3.
+/// What the voxels of each sight ray need, `total` values or as many times three.
+struct RayDepths {
+    Buffer<uint32_t> steps;    ///< of the surface met, VXL_NO_STEP for none
+    Buffer<float> depths;      ///< of the surface, metres
+    Buffer<uint32_t> objects;  ///< plus 1, 0 for none
+    Buffer<float> colors;      ///< 3: the light along the ray
+    Buffer<float> spans;       ///< VXL_SPAN_COMPONENTS; only in a world with a medium
+    uint32_t total = 0;        ///< places for rays
+};
+
+RayDepths allocate_ray_depths(const Device& device, const Features& features, uint32_t total);
+
+/// VXL_DEPTHS_PARAMETERS of kernels.
+void bind(KernelArguments& to, const RayDepths& depths);
+
+/// Kernels of display_rays.cl or, for layers, display_layers.cl, and what they keep of each sight
+/// ray. The paper's blocks 2 and 3.
 class DisplayRaysStage {
   public:
-    /// `camera` casts the frame's rays: as wide and high as it, one sample each.
+    /// `camera` casts the frame's rays. It has the frame's width and height and one sample per
+    /// pixel.
     DisplayRaysStage(const Device& device, const Features& features, const Camera& camera,
                      const VolumeFrame& frame, const Medium& medium,
                      const Environment& environment);
 
-    /// Keeps lit rays 0 .. count-1 of the batch, which begin at ray `first_ray` of the display.
+    /// Keeps rays 0 .. count-1 of the batch, which are lit; the batch begins at ray `first_ray` of
+    /// the display.
     void keep(const PyramidShape& world, const RayBatch& batch, uint32_t first_ray, uint32_t count);
 
-    /// A layer of surfaces, the nearest first: which entries of a batch that begins at ray
-    /// `first_ray`, and where the light of their rays is.
+    /// A layer of surfaces, the nearest first: entries of a batch that begins at ray `first_ray`,
+    /// and the light of their rays.
     struct Layer {
         const RayBatch& entries;
         uint32_t count;
@@ -66,12 +81,12 @@ class DisplayRaysStage {
         const NodeLight& nodes;
         uint32_t first_ray;
     };
-    /// Instead of `keep` where light comes from several surfaces along a ray (`transmission`), or a
-    /// medium that differs from voxel to voxel (`medium_grid`).
+    /// Keeps a layer. It is called instead of `keep` if light comes from several surfaces along a
+    /// ray (`transmission`), or through a medium whose density varies (`medium_grid`).
     void keep_layer(const Pyramid& world, const DensityGrid* density, const Layer& layer);
     bool has_layers() const { return has_layers_; }
 
-    /// Puts the voxels of all rays into the volume, once every ray is kept.
+    /// Writes the voxels of all rays to the volume, after every ray was kept.
     void read(Volume& volume);
 
   private:
@@ -86,12 +101,12 @@ class DisplayRaysStage {
     DisplaySteps steps_;
     float near_depth_;
     Environment environment_;
-    uint32_t total_;  ///< places for rays
-    DisplayRayArrays rays_;
+    RayDepths rays_;
     Buffer<float> seen_;  ///< of the batch's nodes before a layer: light, coverage
     std::vector<LayerRecords> layers_;
     Program program_;
-    Kernel measure_, layer_, density_, count_, place_, fill_;
+    std::optional<Kernel> measure_, count_, place_, fill_;  ///< without layers
+    std::optional<Kernel> layer_, density_;                 ///< with layers
 };
 
 }  // namespace voxelume

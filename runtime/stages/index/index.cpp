@@ -8,13 +8,15 @@
 
 #include "kernels/shared/voxel.h"
 #include "runtime/base/error.hpp"
+#include "runtime/grid/grid_arguments.hpp"
 #include "runtime/grid/sector_table.hpp"
 #include "runtime/stages/index/index_marks.hpp"
 
 namespace voxelume {
 namespace {
 
-/// The pyramid's upper levels, and where each slot's leaves, voxels and primitives start.
+/// The entries of the pyramid's upper levels, and where each slot's leaves, voxels and primitives
+/// start.
 struct Numbering {
     std::vector<uint32_t> sectors, bricks;
     std::vector<uint32_t> starts;  ///< 3 per slot: first leaf, voxel, primitive
@@ -42,7 +44,7 @@ Numbering number_voxels(const BrickGrid& grid, const VoxelMarks& marks) {
     std::vector<bool> occupied(numbers.sectors.size());
     std::vector<glm::uvec2> places(grid.brick_count);  // sector, bit
     for (size_t slot = 0; slot < places.size(); ++slot) {
-        if (marks.leaf_mask[slot] == 0) continue;  // perhaps a brick of nodes beyond all voxels
+        if (marks.leaf_mask[slot] == 0) continue;  // such a brick may hold nodes beyond all voxels
         const int index = int(coordinates[slot]);
         places[slot] = sector_and_bit({index % brick_table.x, index / brick_table.x % brick_table.y,
                                        index / (brick_table.x * brick_table.y)},
@@ -77,7 +79,7 @@ Numbering number_voxels(const BrickGrid& grid, const VoxelMarks& marks) {
         primitives += marks.counts[slot * 2 + 1];
     }
     write_empty_cubes(numbers.bricks);
-    // Kernels gather by signed indices: of two words a leaf, of eight a field.
+    // Kernels gather by signed indices: two words for each leaf, or eight for each field.
     const uint64_t maximum = grid.distance.empty() ? uint64_t{1} << 30 : uint64_t{1} << 28;
     if (std::max(voxels, primitives) > maximum)
         throw Error(ErrorKind::limit,
@@ -151,11 +153,9 @@ Pyramid write_pyramid(const Device& device, const Program& program, const BrickG
                            VXL_KIND_SMOOTH << VXL_KIND_SHIFT};
     const Buffer<uint32_t> starts(device, "index starts", numbers.starts);
     program.kernel("write_voxels")
-        .launch(WorkItem::heavy, grid.brick_count, grid.brick_count, kinds, grid.attribute,
-                glm::ivec4(grid.frame.bricks(), 0), grid.slots, grid.coordinates, grid.occupancy,
-                grid.distance, grid.attributes, grid.colors, grid.primitive_first, grid.primitives,
-                marks.masks, starts, pyramid.leaves, pyramid.leaf_voxels, pyramid.attributes,
-                pyramid.colors, pyramid.fields, pyramid.primitive_first, pyramid.primitives);
+        .launch(WorkItem::heavy, grid.brick_count, grid.brick_count, kinds, grid, marks.masks,
+                starts, pyramid.leaves, pyramid.leaf_voxels, pyramid.attributes, pyramid.colors,
+                pyramid.fields, pyramid.primitive_first, pyramid.primitives);
     if (!pyramid.primitive_first.empty())
         pyramid.primitive_first.write(std::span(&numbers.primitive_count, 1), numbers.voxel_count);
     return pyramid;

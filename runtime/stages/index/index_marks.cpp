@@ -4,12 +4,14 @@
 #include <glm/vec4.hpp>
 #include <utility>
 
+#include "runtime/grid/grid_arguments.hpp"
 #include "runtime/stages/brick_arrays.hpp"
 
 namespace voxelume {
 namespace {
 
-/// Marks the bricks of the slots `listed`, or all; their leaf masks and counts are in that order.
+/// Marks the bricks of the slots `listed`, or all if it is empty. The leaf masks and counts of the
+/// result are in that order.
 VoxelMarks mark_listed(const Device& device, const Program& program, const BrickGrid& grid,
                        const std::vector<uint32_t>& listed, Buffer<uint64_t> masks) {
     const uint32_t count = listed.empty() ? grid.brick_count : uint32_t(listed.size());
@@ -19,15 +21,13 @@ VoxelMarks mark_listed(const Device& device, const Program& program, const Brick
     const auto& [leaf_mask, counts] = arrays;
     program.kernel("mark_voxels")
         .launch(WorkItem::heavy, count, count, Buffer<uint32_t>(device, "marked bricks", listed),
-                glm::ivec4(grid.frame.size, 0), glm::ivec4(grid.frame.bricks(), 0), grid.slots,
-                grid.coordinates, grid.occupancy, grid.distance, grid.primitive_first, marks.masks,
-                leaf_mask, counts);
+                grid, marks.masks, leaf_mask, counts);
     marks.leaf_mask = leaf_mask.read();
     marks.counts = counts.read();
     return marks;
 }
 
-/// Calls `visit` with the places of a brick and its neighbours.
+/// Calls `visit` with the indices of a brick and its neighbours.
 template <class Visit>
 void for_neighbours(const glm::ivec3& table, uint32_t place, const Visit& visit) {
     const int index = int(place);
@@ -65,7 +65,8 @@ VoxelMarks mark_changed_voxels(const Device& device, const Program& program, con
             listed.push_back(slot);
             continue;
         }
-        // From a slot that is no more to one that is, or the masks might be written before read.
+        // A mask may only move from a slot that is no longer used to one that is: otherwise a mask
+        // might be overwritten before it is read.
         if (old >= kBrickInside || (old != slot && old < grid.brick_count))
             return mark_voxels(device, program, grid);
         leaf_mask[slot] = before.leaf_mask[old];

@@ -14,7 +14,7 @@ namespace {
 
 constexpr uint32_t kWhite = 0xFFFFFF;
 
-/// Sizes of the joined buffers, and during the joining how much of them is full.
+/// The sizes of the joined buffers; during the joining, how much of them is filled.
 struct Extent {
     uint64_t sectors = 0, records = 0, leaves = 0, voxels = 0, primitives = 0, triangles = 0,
              solids = 0;
@@ -139,7 +139,8 @@ class Joiner {
     template <class T>
     void words(const Buffer<T>& from, uint64_t start, const Buffer<T>& to) {
         program_.kernel("append_words")
-            .launch(WorkItem::light, from.size(), uint32_t(from.size()), uint32_t(start), from, to);
+            .launch(WorkItem::light, from.size(), uint32_t(from.size()), uint32_t(start),
+                    Words(from), Words(to));
     }
 
     void copies(uint64_t count, uint64_t start, uint32_t word, const Buffer<uint32_t>& to) {
@@ -163,7 +164,8 @@ class Joiner {
             words(p.colors, full_.voxels, joined_.colors);
         else if (parts_.colors)
             copies(p.voxel_count, full_.voxels, kWhite, joined_.colors);
-        // An exact voxel has a field, too, where a smooth surface shares it; zeros stand for none.
+        // An exact voxel has a field, too, if a smooth surface shares it; zeros mean that it has
+        // none.
         if (!p.fields.empty())
             words(p.fields, full_.voxels * VXL_FIELD_WORDS, joined_.fields);
         else if (parts_.fields)
@@ -175,7 +177,7 @@ class Joiner {
                        joined_.primitive_first);
             return;
         }
-        // The list's end is where the next one starts.
+        // The end of a list is the start of the next one.
         program_.kernel("append_numbers")
             .launch(WorkItem::light, p.voxel_count, p.voxel_count, uint32_t(full_.voxels),
                     uint32_t(full_.primitives), 0u, p.primitive_first, joined_.primitive_first);

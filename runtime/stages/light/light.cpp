@@ -4,22 +4,22 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "runtime/grid/grid_arguments.hpp"
 #include "runtime/opencl/float4.hpp"
-#include "runtime/stages/trace/trace.hpp"
+#include "runtime/scene/light.hpp"
 
 namespace voxelume {
 LightRecord light_record(const Light& light, const GridFrame& world) {
     LightRecord record{};
-    const bool directional = light.kind == LightKind::directional;
-    record.position = to_float4(directional ? -light.direction / world.voxel_edge
-                                            : (light.position - world.origin) / world.voxel_edge);
+    const LightType& type = type_of(light);
+    record.position =
+        to_float4(type.has_position ? (light.position - world.origin) / world.voxel_edge
+                                    : -light.direction / world.voxel_edge);
     record.direction = to_float4(light.direction);
     record.intensity = to_float4(glm::dvec3(light.intensity));
     record.inner_cosine = float(std::cos(light.inner_half_angle));
     record.outer_cosine = float(std::cos(light.outer_half_angle));
-    record.kind = directional                     ? VXL_LIGHT_DIRECTIONAL
-                  : light.kind == LightKind::spot ? VXL_LIGHT_SPOT
-                                                  : VXL_LIGHT_POINT;
+    record.kind = type.shading;
     return record;
 }
 
@@ -35,7 +35,7 @@ bool may_light(const LightRecord& light, const GridFrame& world) {
     if (light.kind == VXL_LIGHT_AREA_SAMPLE)
         return glm::dot(to_middle, along) + radius + rounding > 0;
     if (light.kind != VXL_LIGHT_SPOT || distance <= radius + rounding) return true;
-    // The ball around the world is seen at an angle of arcsin(radius / distance) around its middle.
+    // The ball around the world subtends an angle of arcsin(radius / distance) around its middle.
     const double aside = std::acos(std::clamp(glm::dot(to_middle, along) / distance, -1.0, 1.0));
     const double half_angle = std::acos(std::clamp(double(light.outer_cosine), -1.0, 1.0));
     return aside - std::asin(radius / distance) <= half_angle + kAngleRounding;
@@ -50,10 +50,7 @@ LightStage::LightStage(const Device& device, const Features& features,
 void LightStage::add(const Pyramid& pyramid, const LightRecord& light, RayBatch& batch,
                      uint32_t count, ShadowQueue& queue) {
     if (!queue.count.empty()) queue.count.fill(0);
-    add_.launch_packets(count, shape_of(pyramid), light, materials_, pyramid.colors, batch.rays,
-                        batch.hits, count, batch.stride, batch.positions, batch.normals,
-                        batch.hit_attributes, batch.sides, batch.radiance, queue.count, queue.rays,
-                        queue.targets, queue.sources, queue.contributions);
+    add_.launch_packets(count, pyramid, light, materials_, queue, batch, count);
 }
 
 }  // namespace voxelume

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "runtime/grid/grid_arguments.hpp"
 #include "runtime/opencl/float4.hpp"
-#include "runtime/stages/trace/trace.hpp"
 
 namespace voxelume {
 namespace {
@@ -26,13 +26,15 @@ void set_checker(const Checker& checker, const GridFrame& world, MaterialRecord&
     for (int a = 0; a < 3; ++a) {
         if (checker.size[a] == 0) continue;
         record.checker_scale[a] = float(world.voxel_edge[a] / checker.size[a]);
-        // Two blocks make a period: far from the origin a float would round whole blocks off.
+        // Two blocks make a period. Far from the origin a float would lose whole blocks to
+        // rounding.
         const double shift = (world.origin[a] - checker.origin[a]) / checker.size[a];
         record.checker_shift[a] = float(std::fmod(shift, 2.0));
     }
 }
 
-/// The objects' places when they are ordered by priority, of equals the earlier first.
+/// The rank of each object by descending priority; of equal priorities the earlier object comes
+/// first.
 std::vector<uint32_t> object_ranks(const std::vector<Object>& objects) {
     std::vector<uint32_t> order(objects.size());
     std::iota(order.begin(), order.end(), 0u);
@@ -82,12 +84,7 @@ ShadeStage::ShadeStage(const Device& device, const Features& features, const Sce
 }
 
 void ShadeStage::surface(const Pyramid& pyramid, RayBatch& batch, uint32_t count) {
-    surface_.launch_packets(count, shape_of(pyramid), environment_, materials_, pyramid.attributes,
-                            pyramid.attribute, pyramid.colors, pyramid.fields, pyramid.triangles,
-                            pyramid.triangle_attributes, pyramid.solids, pyramid.instances.records,
-                            pyramid.instances.materials, ranks_, batch.rays, batch.hits,
-                            batch.paths, count, batch.stride, batch.positions, batch.normals,
-                            batch.hit_attributes, batch.sides, batch.radiance);
+    surface_.launch_packets(count, pyramid, environment_, materials_, ranks_, batch, count);
 }
 
 }  // namespace voxelume

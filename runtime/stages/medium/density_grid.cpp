@@ -5,22 +5,22 @@
 #include <bit>
 #include <map>
 
-#include "runtime/assets/model_frame.hpp"
 #include "runtime/base/error.hpp"
+#include "runtime/grid/world_frame.hpp"
 #include "runtime/stages/medium/density_source.hpp"
 
 namespace voxelume {
 namespace {
 
 constexpr size_t kBrickCells = 4096;
-/// A cell's place, slot * 4096 + cell, is a 32-bit number.
+/// The maximum number of slots: a cell's index, slot * 4096 + cell, is a 32-bit number.
 constexpr double kMaxSlots = 1 << 20;
-/// Every voxel of a world along one axis: an axis along which nothing changes is one cell.
+/// log2 of the cell's extent along an axis along which nothing changes: the whole axis is one cell.
 constexpr int kWholeAxis = 16;
-/// Bricks sampled before they are written to the device together.
+/// The number of bricks that are sampled before they are written to the device together.
 constexpr size_t kBricksAtOnce = 64;
 
-/// The densities of a world's voxels, brick by brick, in main memory.
+/// The densities of a world's voxels, sampled brick by brick in main memory.
 class DensityLattice {
   public:
     explicit DensityLattice(const World& world)
@@ -64,7 +64,7 @@ class DensityLattice {
     glm::ivec3 bricks_{0}, shift_{0};
 };
 
-/// Numbers the different constant densities.
+/// Numbers the distinct constant densities.
 class ConstantTable {
   public:
     uint32_t word(float density) {
@@ -80,8 +80,8 @@ class ConstantTable {
     std::vector<float> values_;
 };
 
-/// Slots that a lattice needs: for bricks, and before them for the constants, of which every brick
-/// may turn out to be another.
+/// The slots that a lattice needs: for bricks, and before them for constants. Every brick may turn
+/// out to be another constant.
 struct SlotCount {
     size_t constants = 0, bricks = 0;
 
@@ -101,7 +101,7 @@ SlotCount count_slots(const DensityLattice& lattice) {
     return slots;
 }
 
-/// Gives the bricks of aligned cubes of `edge` bricks that all have one word a new size.
+/// Gives a larger size to the bricks of each aligned cube of `edge` bricks that all have one word.
 void join_constants(std::vector<uint32_t>& words, const glm::ivec3& bricks, int edge,
                     uint32_t log2_size) {
     const auto at = [&](int x, int y, int z) -> uint32_t& {
@@ -125,14 +125,14 @@ void join_constants(std::vector<uint32_t>& words, const glm::ivec3& bricks, int 
             }
 }
 
-/// Samples bricks and writes those that vary to their slots.
+/// Samples bricks and writes those with varying density to their slots.
 class BrickWriter {
   public:
     BrickWriter(const DensityLattice& lattice, ConstantTable& constants, size_t first_slot,
                 Buffer<float>& values)
         : lattice_(lattice), constants_(constants), next_slot_(first_slot), values_(values) {}
 
-    /// The word of a brick.
+    /// The word of a brick: its slot or its constant density.
     uint32_t add(size_t number) {
         if (const auto density = lattice_.constant_in(number)) return constants_.word(*density);
         waiting_.resize(waiting_.size() + kBrickCells);
@@ -163,6 +163,10 @@ class BrickWriter {
 };
 
 }  // namespace
+
+void bind(KernelArguments& to, const DensityGrid& grid) {
+    to.add(grid.shape, grid.bricks, grid.values);
+}
 
 bool has_no_medium(const World& world) {
     return has_density(world.medium) && DensityLattice(world).is_zero();

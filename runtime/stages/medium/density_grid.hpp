@@ -1,22 +1,26 @@
-// The medium's density at every voxel of S, on a device: bricks of 16³, those of one density
-// collapsed.
+// The medium's density at every voxel of S, on a device: bricks of 16³, where bricks of constant
+// density take no cells.
 #pragma once
 
 #include "kernels/shared/medium.h"
 #include "runtime/grid/grid.hpp"
 #include "runtime/opencl/buffer.hpp"
+#include "runtime/opencl/program.hpp"
 #include "runtime/scene/scene.hpp"
 
 namespace voxelume {
 
-/// Kernels read it with lib/traverse/density.h.
+/// The density grid that kernels read with lib/traverse/density.h.
 struct DensityGrid {
     DensityShape shape{};
     Buffer<uint32_t> bricks;  ///< shared/medium.h has the words
     Buffer<float> values;     ///< 4096 per slot; constant densities share the first slots
 };
 
-/// What the grid takes, found without taking it.
+/// VXL_DENSITY_PARAMETERS of kernels.
+void bind(KernelArguments& to, const DensityGrid& grid);
+
+/// The size of a density grid, found without allocating it.
 struct DensityPlan {
     glm::ivec3 bricks{0};          ///< of the lattice
     bool is_zero = false;          ///< known to be 0 everywhere: nothing is formed
@@ -27,10 +31,11 @@ struct DensityPlan {
     double host_bytes = 0;         ///< in main memory while it is formed
 };
 
-/// Nothing for a medium without density or absorption. Reads the file of a grid.
+/// The plan of the medium's density grid; empty for a medium without density or absorption. Reads
+/// the file of a grid.
 ///
-/// Throws Error::input, opened by the place in the scene, for a damaged file or one without a float
-/// grid of the name; Error::limit for more bricks than can be numbered.
+/// Throws Error::input, whose message starts with the place in the scene, for a damaged file or one
+/// without a float grid of that name; Error::limit for more bricks than can be numbered.
 DensityPlan plan_density(const World& world);
 
 /// The grid's buffers.
@@ -40,8 +45,7 @@ DensityGrid allocate_density(const Device& device, size_t slots, size_t bricks);
 /// file of all zeros is. Throws Error::input as plan_density.
 bool has_no_medium(const World& world);
 
-/// Forms the density's lattice: the density at a voxel is that at its centre. Throws as
-/// plan_density.
+/// Makes the density's lattice: a voxel has the density at its centre. Throws as plan_density does.
 DensityGrid form_density_grid(const Device& device, const World& world);
 
 }  // namespace voxelume

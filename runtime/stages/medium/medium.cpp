@@ -1,6 +1,6 @@
 #include "runtime/stages/medium/medium.hpp"
 
-#include "runtime/stages/trace/trace.hpp"
+#include "runtime/grid/grid_arguments.hpp"
 
 namespace voxelume {
 
@@ -14,16 +14,13 @@ MediumStage::MediumStage(const Device& device, const Features& features, const W
       shadows_(program_.kernel("absorb_shadows")) {}
 
 void MediumStage::sight(const Pyramid& pyramid, RayBatch& batch, uint32_t count) {
-    camera_.launch_packets(count, shape_of(pyramid), environment_, density_.shape, density_.bricks,
-                           density_.values, materials_, batch.rays, batch.hits, batch.starts,
-                           batch.inside, count, batch.stride, batch.radiance, batch.transmittance);
+    camera_.launch_packets(count, shape_of(pyramid), environment_, density_, materials_, batch,
+                           count);
 }
 
 void MediumStage::shadows(const Pyramid& pyramid, ShadowQueue& queue, uint32_t maximum,
                           RayBatch& batch) {
-    shadows_.launch_packets(maximum, shape_of(pyramid), environment_, density_.shape,
-                            density_.bricks, density_.values, queue.rays, queue.count, batch.stride,
-                            queue.targets, queue.contributions, batch.radiance);
+    shadows_.launch_packets(maximum, shape_of(pyramid), environment_, density_, queue, batch);
 }
 
 }  // namespace voxelume

@@ -39,7 +39,8 @@ std::vector<const PlacedObject*> painting_order(std::span<const PlacedObject> ob
     return order;
 }
 
-/// A world that is its only object: its buffers, with its word.
+/// True if the world can share its only object's buffers: they are in its frame, and all their
+/// voxels get one value of packed attributes.
 bool is_only_object(std::span<const PlacedObject> objects, const WorldParts& parts) {
     return objects.size() == 1 && objects[0].in_world_frame && !parts.has_attributes() &&
            !objects[0].keeps_inside && !lists_primitives(surface_of(*objects[0].grid));
@@ -47,14 +48,14 @@ bool is_only_object(std::span<const PlacedObject> objects, const WorldParts& par
 
 }  // namespace
 
-/// Objects placed, and their world.
+/// The objects placed last, and their world.
 class Placer::State {
   public:
     State(const Device& device, const GridFrame& frame) : device_(device) { world_.frame = frame; }
 
     bool continues_with(const GridFrame& frame) const { return bricks_ && frame == world_.frame; }
 
-    /// An object's own buffers are all of the world, which the next call begins afresh.
+    /// Makes the object's own buffers the world. The next call then begins with an empty world.
     void share(const PlacedObject& object, const WorldParts& parts) {
         world_ = *object.grid;
         world_.attributes = {};
@@ -81,8 +82,9 @@ class Placer::State {
     const std::vector<uint32_t>* changed() const { return changed_ ? &*changed_ : nullptr; }
 
   private:
-    /// Stores what the objects of now need, and nothing else. What no object has had yet is the
-    /// same in every brick, so none is painted for that.
+    /// Makes the world store what the objects now need, and nothing else. A part that no object has
+    /// had before has one value in every brick, so no brick is painted for it. same in every brick,
+    /// so none is painted for that.
     void follow(const WorldParts& parts) {
         const bool is_stored_anew = bricks_ && !parts.is_stored_like(parts_);
         parts_ = parts;
@@ -91,7 +93,8 @@ class Placer::State {
         for (auto& [number, painter] : painters_) painter.follow(device_, parts);
     }
 
-    /// Painters for the objects, those that didn't change from `left`.
+    /// Makes a painter for each object that changed, listed in `changed` too, and takes the others
+    /// from `left`.
     void take_painters(std::span<const PlacedObject> objects, std::map<uint32_t, Painter>& left,
                        std::vector<Painter*>& changed) {
         std::map<const BrickGrid*, const Painter*> of_grid;
@@ -110,7 +113,7 @@ class Placer::State {
         }
     }
 
-    /// Calls `visit` with each brick of a box.
+    /// Calls `visit` with the index of each brick of a box.
     template <class Visit>
     void for_each_brick(const BrickBox& box, Visit&& visit) const {
         const glm::ivec3 table = world_.frame.bricks();
@@ -121,7 +124,8 @@ class Placer::State {
                           uint32_t(table.x) * (uint32_t(y) + uint32_t(table.y) * uint32_t(z)));
     }
 
-    /// The states that objects give to the world's bricks, in all or only those `asked` for.
+    /// The states that objects give to the world's bricks: to all if `asked` is empty, else only to
+    /// those that are true in it.
     template <class Painters>
     std::vector<uint8_t> states(Painters&& painters, const std::vector<bool>& asked) {
         const glm::ivec3 table = world_.frame.bricks();
@@ -148,8 +152,8 @@ class Placer::State {
         return all;
     }
 
-    /// Stores the bricks that the objects need, and returns those to paint: in which a painter that
-    /// changed has a part, or had one.
+    /// Stores the bricks that the objects need. Returns the bricks to paint: those that a changed
+    /// painter has a part in, or had one in before. changed has a part, or had one.
     std::vector<uint32_t> store_bricks(const std::vector<Painter*>& changed) {
         if (!bricks_) {
             bricks_.emplace(device_, parts_, world_);
@@ -171,7 +175,7 @@ class Placer::State {
         return bricks_->store(*changed_, states(all_painters(), asked));
     }
 
-    /// Where each of the world's bricks is in the list of those painted, or kBrickOutside.
+    /// The index of each of the world's bricks in the list of painted bricks, or kBrickOutside.
     struct Painting {
         std::vector<uint32_t> places;
         Buffer<int16_t> nearest;
@@ -215,8 +219,8 @@ class Placer::State {
     Device device_;
     BrickGrid world_;
     WorldParts parts_;
-    std::optional<WorldBricks> bricks_;     ///< none before the first placing
-    std::map<uint32_t, Painter> painters_;  ///< by their objects' numbers
+    std::optional<WorldBricks> bricks_;     ///< empty before the first call of `place`
+    std::map<uint32_t, Painter> painters_;  ///< by the numbers of their objects
     std::optional<std::vector<uint32_t>> changed_;
     uint32_t painted_ = 0;
 };

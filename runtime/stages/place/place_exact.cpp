@@ -15,7 +15,7 @@ Program program_for(const Device& device, const BrickGrid& grid) {
         {{"VXL_OBJECT_ATTRIBUTES", !grid.triangle_attributes.empty()}, {"VXL_OBJECT_COLORS", 0}});
 }
 
-/// Lengths of all voxels' lists.
+/// The lengths of all voxels' lists.
 Buffer<uint32_t> count_primitives(const Device& device, const Program& program,
                                   std::span<const PlacedObject* const> objects,
                                   const BrickGrid& world) {
@@ -28,7 +28,7 @@ Buffer<uint32_t> count_primitives(const Device& device, const Program& program,
     return counts;
 }
 
-/// Starts every voxel's list; `counts` becomes the lists' ends so far.
+/// Starts every voxel's list. Afterwards `counts` holds where each list ends so far.
 void start_lists(const Device& device, const Program& program, const Buffer<uint32_t>& counts,
                  BrickGrid& world) {
     Buffer<uint32_t> sums(device, "primitive sums", world.brick_count);
@@ -57,7 +57,7 @@ void start_lists(const Device& device, const Program& program, const Buffer<uint
                 Buffer<uint32_t>(device, "brick starts", starts), counts, world.primitive_first);
 }
 
-/// Words of triangles and shapes in the buffers joined so far.
+/// The numbers of triangles and of solids' records in the buffers that are joined so far.
 struct Joined {
     uint32_t triangles = 0, solid_records = 0;
 };
@@ -74,7 +74,8 @@ void append_object(const Device& device, const PlacedObject& object, const Buffe
                 joined.solid_records, world.coordinates, grid.slots, grid.primitive_first,
                 grid.primitives, ends, world.primitives);
     const auto append = [&](uint32_t count, uint32_t start, const auto& from, const auto& to) {
-        program.kernel("append_words").launch(WorkItem::light, count, count, start, from, to);
+        program.kernel("append_words")
+            .launch(WorkItem::light, count, count, start, Words(from), Words(to));
     };
     append(triangles * kFloatsPerTriangle, joined.triangles * kFloatsPerTriangle, grid.triangles,
            world.triangles);

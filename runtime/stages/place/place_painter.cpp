@@ -11,7 +11,8 @@
 namespace voxelume {
 namespace {
 
-/// World distances up to here, in voxels, are worth evaluating: what `index` reads of a surface.
+/// The distance from a surface, in voxels, up to which world distances are evaluated: `index` reads
+/// no farther ones.
 constexpr double kBandVoxels = 2.9;
 
 PlacementMap map_of(const PlacedObject& object, const GridFrame& world, Surface surface) {
@@ -23,7 +24,7 @@ PlacementMap map_of(const PlacedObject& object, const GridFrame& world, Surface 
                          object.object);
 }
 
-/// The bricks that the object's grid comes to stand in, and one voxel around it.
+/// The world's bricks that the object's grid, and a margin around it, lie in.
 BrickBox bricks_of(const PlacedObject& object, const GridFrame& world) {
     const glm::ivec3 last = world.bricks() - 1;
     if (object.in_world_frame) return {glm::ivec3(0), last};
@@ -37,8 +38,9 @@ BrickBox bricks_of(const PlacedObject& object, const GridFrame& world) {
         const glm::dvec3 voxel = (in_world - world.origin) / world.voxel_edge;
         low = glm::min(low, voxel), high = glm::max(high, voxel);
     }
-    // Reach is at most half an object voxel's diagonal as the world sees it: two voxels are enough
-    // for that and for rounding where the object's are no larger; else so many of its own.
+    // The placement map's reach is at most half an object voxel's diagonal, as the world sees it.
+    // Two world voxels cover that and the rounding if the object's voxels are no larger; the margin
+    // adds one of the object's voxels along each axis for those that are.
     const glm::dmat3 turn(object.world_from_object);
     glm::dvec3 margin(2);
     for (int axis = 0; axis < 3; ++axis)
@@ -70,7 +72,7 @@ int near_threshold(const PlacementMap& map) {
     return static_cast<int>(std::min(band, 32767.0));
 }
 
-/// Half a voxel's diagonal, in distance units of the grid.
+/// Half a voxel's diagonal, in distance units of the grid, rounded up.
 int half_diagonal(const GridFrame& frame) {
     const glm::dvec3 e = frame.voxel_edge;
     return static_cast<int>(
@@ -130,13 +132,26 @@ Painter::Painter(const Device& device, const PlacedObject& object, const GridFra
                 grid.distance, near_);
 }
 
+void bind(KernelArguments& to, const Painter& painter) {
+    const BrickGrid& grid = *painter.object_.grid;
+    to.add(painter.rows_, painter.map_.fraction_bits, glm::ivec4(grid.frame.bricks(), 0),
+           grid.slots, painter.near_, grid.occupancy, grid.distance,
+           static_cast<float>(painter.map_.distance_scale), painter.attribute_map_.map,
+           painter.attribute_map_.materials, grid.attributes, grid.colors);
+}
+
+void bind(KernelArguments& to, const PaintedWorld& painted) {
+    const BrickGrid& world = painted.world;
+    to.add(glm::ivec4(world.frame.bricks(), 0), bounds_of(world.frame), painted.painted.slots,
+           world.coordinates, world.distance, painted.painted.nearest, world.occupancy,
+           world.attributes, world.colors);
+}
+
 void Painter::classify(const GridFrame& world, uint32_t count, const Buffer<uint32_t>& listed,
                        const Buffer<uint8_t>& states) {
-    const BrickGrid& grid = *object_.grid;
     program_.kernel("classify_bricks")
         .launch(WorkItem::light, count, count, listed, glm::ivec4(world.bricks(), 0),
-                bounds_of(world), map_.fraction_bits, rows_, glm::ivec4(grid.frame.bricks(), 0),
-                grid.slots, near_, grid.distance, states);
+                bounds_of(world), *this, states);
 }
 
 void Painter::follow(const Device& device, const WorldParts& parts) {
@@ -151,39 +166,24 @@ void Painter::paint(const PaintedBricks& painted, BrickGrid& world) {
 }
 
 void Painter::paint_smooth(const PaintedBricks& painted, BrickGrid& world) {
-    const BrickGrid& grid = *object_.grid;
     const uint32_t leaves = painted.count * 64;
-    const glm::ivec4 table(world.frame.bricks(), 0), object_table(grid.frame.bricks(), 0);
-    const auto scale = static_cast<float>(map_.distance_scale);
-    program_.kernel("paint_distances")
-        .launch(WorkItem::heavy, leaves, leaves, table, map_.fraction_bits, rows_, object_table,
-                grid.slots, near_, grid.distance, scale, painted.slots, world.coordinates,
-                world.distance);
+    const PaintedWorld to{painted, world};
+    program_.kernel("paint_distances").launch(WorkItem::heavy, leaves, leaves, *this, to);
     if (painted.nearest.empty()) return;
     program_.kernel("paint_smooth_voxels")
-        .launch(WorkItem::heavy, leaves, leaves, table, bounds_of(world.frame), map_.fraction_bits,
-                rows_, object_table, grid.slots, near_, grid.distance, scale,
-                half_diagonal(world.frame), attribute_map_.map, attribute_map_.materials,
-                grid.attributes, grid.colors, painted.slots, world.coordinates, world.distance,
-                painted.nearest, world.occupancy, world.attributes, world.colors);
+        .launch(WorkItem::heavy, leaves, leaves, half_diagonal(world.frame), *this, to);
 }
 
 void Painter::paint_cubes(const PaintedBricks& painted, BrickGrid& world) {
-    const BrickGrid& grid = *object_.grid;
     const uint32_t leaves = painted.count * 64;
     program_.kernel("paint_cubes")
-        .launch(WorkItem::heavy, leaves, leaves, glm::ivec4(world.frame.bricks(), 0),
-                map_.fraction_bits, rows_, glm::ivec4(grid.frame.bricks(), 0), grid.slots, near_,
-                grid.occupancy, attribute_map_.map, attribute_map_.materials, grid.attributes,
-                grid.colors, glm::ivec4(world.frame.size, 0), painted.slots, world.coordinates,
-                painted.nearest, world.occupancy, world.attributes, world.colors);
+        .launch(WorkItem::heavy, leaves, leaves, *this, PaintedWorld{painted, world});
 }
 
 void Painter::close_distances(const PaintedBricks& painted, BrickGrid& world) {
     const uint32_t leaves = painted.count * 64;
     program_.kernel("close_distances")
-        .launch(WorkItem::light, leaves, leaves, glm::ivec4(world.frame.bricks(), 0),
-                bounds_of(world.frame), painted.slots, world.coordinates, world.distance);
+        .launch(WorkItem::light, leaves, leaves, PaintedWorld{painted, world});
 }
 
 }  // namespace voxelume

@@ -12,10 +12,10 @@ namespace voxelume {
 
 Surface surface_of(const BrickGrid& grid);
 
-/// What the world stores, taken from what its objects have.
+/// The parts that the world stores: those that any of its objects has.
 struct WorldParts {
     bool smooth = false, occupancy = false, colors = false, transparent = false;
-    std::set<uint32_t> attributes;  ///< that voxels can have
+    std::set<uint32_t> attributes;  ///< all values that voxels can have
 
     bool has_attributes() const { return attributes.size() > 1; }
     /// Whether voxels take what they have from the smooth surface that is nearest to them.
@@ -40,39 +40,53 @@ struct BrickBox {
     bool is_empty() const { return first.x > last.x || first.y > last.y || first.z > last.z; }
 };
 
-/// Bricks of the world that are painted, on the device.
+/// The bricks of the world that are painted, on the device.
 struct PaintedBricks {
     uint32_t count = 0;
-    Buffer<uint32_t> slots;   ///< 2 each: its slot, its place in `nearest`
-    Buffer<int16_t> nearest;  ///< 4096 for each brick that any object is painted into: distance of
-                              ///< the nearest smooth surface to each voxel's centre; only where
-                              ///< that decides something
+    Buffer<uint32_t> slots;   ///< 2 for each brick: its slot, its index in `nearest`
+    Buffer<int16_t> nearest;  ///< 4096 for each brick that any object is painted into: the distance
+                              ///< of the nearest smooth surface to each voxel's centre; empty where
+                              ///< it decides nothing
 };
+
+/// The bricks of a world, of which some are painted.
+struct PaintedWorld {
+    const PaintedBricks& painted;
+    const BrickGrid& world;
+};
+
+/// VXL_PAINTED_PARAMETERS of kernels.
+void bind(KernelArguments& to, const PaintedWorld& painted);
 
 /// An object ready to be painted into a world. Its grid must outlive it.
 class Painter {
   public:
-    /// `before` may be any object's painter; what depends on the same grid is taken from it.
+    /// `before` may be any object's painter or null; what depends on the same grid is taken from
+    /// it.
     Painter(const Device& device, const PlacedObject& object, const GridFrame& world,
             const WorldParts& parts, const Painter* before);
 
     const PlacedObject& object() const { return object_; }
     Surface surface() const { return surface_; }
 
-    /// The bricks of the world outside of which the object has nothing.
+    /// The bricks of the world outside of which the object has no voxels.
     const BrickBox& bricks() const { return bricks_; }
 
-    /// Raises the states of `count` of the world's bricks: those listed, or, without a list, all.
+    /// Raises the states of `count` bricks of the world: the first `count` of `listed`, or all
+    /// bricks if `listed` is empty.
     void classify(const GridFrame& world, uint32_t count, const Buffer<uint32_t>& listed,
                   const Buffer<uint8_t>& states);
 
-    /// Goes on in a world that stores something else.
+    /// Adapts the painter to a world that stores other parts.
     void follow(const Device& device, const WorldParts& parts);
 
     void paint(const PaintedBricks& painted, BrickGrid& world);
 
-    /// Ends the world's distances at its bounds; any smooth object's painter does.
+    /// Ends the world's distances at its bounds. The painter of any smooth object does it for all.
     void close_distances(const PaintedBricks& painted, BrickGrid& world);
+
+    /// VXL_OBJECT_PARAMETERS of kernels.
+    friend void bind(KernelArguments& to, const Painter& painter);
 
   private:
     void paint_smooth(const PaintedBricks& painted, BrickGrid& world);
@@ -85,8 +99,9 @@ class Painter {
     Buffer<int64_t> rows_;
     Program program_;
     AttributeMap attribute_map_;
-    int threshold_;          ///< distances below which a leaf is near
-    Buffer<uint64_t> near_;  ///< per slot: leaves with voxels, or with distances in the band
+    int threshold_;          ///< leaves with a smaller distance are near
+    Buffer<uint64_t> near_;  ///< per slot: a mask of the leaves with voxels, or with distances in
+                             ///< the band
 };
 
 }  // namespace voxelume

@@ -8,15 +8,16 @@
 
 namespace voxelume {
 
-/// An object's words as lib/voxelize/placed_attributes.h reads them.
+/// The packed attributes of an object, as lib/voxelize/placed_attributes.h reads them.
 struct AttributeMap {
-    glm::uvec4 map;  ///< kind bits and object, the object's own constant word, materials, 0
-    Buffer<uint32_t> materials;  ///< of each group
+    glm::uvec4 map;  ///< kind bits and object; the object's own constant attributes; number of
+                     ///< materials; 0
+    Buffer<uint32_t> materials;  ///< for each group
 };
 
 AttributeMap attribute_map(const Device& device, const PlacedObject& object, Surface surface);
 
-/// Every word that a voxel of the object may get.
+/// All values of packed attributes that a voxel of the object may get.
 std::vector<uint32_t> possible_attributes(const PlacedObject& object, Surface surface);
 
 }  // namespace voxelume

@@ -42,7 +42,7 @@ void check_invertible(const glm::dmat4& map, uint32_t object) {
                     object, stretch.max / stretch.min, kWorstCondition);
 }
 
-/// The largest bits below the point with which sums over all the world's voxels can't overflow.
+/// The largest number of fraction bits with which sums over all the world's voxels can't overflow.
 int fraction_bits(const glm::dmat3& linear, const glm::dvec3& offset, const GridFrame& world,
                   uint32_t object) {
     const glm::dvec3 size = glm::dvec3(world.bricks() * kBrickSize + 2 * kBrickSize);
@@ -62,8 +62,8 @@ int fraction_bits(const glm::dmat3& linear, const glm::dvec3& offset, const Grid
     return bits;
 }
 
-/// Along each object axis: `supercover` closes the gap that steps longer than a voxel would leave,
-/// `thin` covers half of every step.
+/// The reach along each object axis. `supercover` closes the gap that steps longer than a voxel
+/// would leave, `thin` covers half of every step.
 glm::dvec3 reach_of(const glm::dmat3& linear, Reach reach) {
     if (reach == Reach::none) return glm::dvec3(1);
     glm::dvec3 longest(0);
@@ -115,7 +115,8 @@ PlacementMap placement_map(const GridFrame& object_frame, const GridFrame& world
     }
     map.distance_scale = stretch_of(glm::dmat3(world_from_object)).min *
                          shortest(object_frame.voxel_edge) / shortest(world_frame.voxel_edge);
-    // Whole-voxel moves and quarter turns at one pitch keep every distance as it is.
+    // Moves by whole voxels and quarter turns between equal voxel edges keep every distance as it
+    // is.
     if (std::abs(map.distance_scale - 1) < 1e-12) map.distance_scale = 1;
     return map;
 }

@@ -1,4 +1,4 @@
-// Where an object's voxels are in the world, as the exact fixed-point map that kernels use.
+// The place of an object's voxels in the world, as the exact fixed-point map that kernels use.
 #pragma once
 
 #include <array>
@@ -11,17 +11,17 @@ namespace voxelume {
 
 /// The inverse map, from world voxels to object voxels.
 struct PlacementMap {
-    /// Three rows of three coefficients and an offset, then the reach along each object axis;
-    /// lib/voxelize/placed.h. All times 2^fraction_bits.
+    /// Three rows of three coefficients and an offset each, then the reach along each object axis;
+    /// see lib/voxelize/placed.h. All are multiplied by 2^fraction_bits.
     std::array<int64_t, 16> rows{};
     int fraction_bits = 0;
-    double distance_scale = 1;  ///< world distance units per object distance unit, at least
+    double distance_scale = 1;  ///< lower bound of world distance units per object distance unit
     bool has_reach = false;
 
     friend bool operator==(const PlacementMap&, const PlacementMap&) = default;
 };
 
-/// How far a world voxel looks around its centre's image for occupied voxels of the object.
+/// How far around its centre's image a world voxel looks for occupied voxels of the object.
 enum class Reach {
     none,        ///< distances: only the corners of the node's cell
     supercover,  ///< as far as sets that are tight against paths through corners need
@@ -30,11 +30,11 @@ enum class Reach {
 
 /// Inverts `world_from_object` in double precision and rounds the result to fixed point.
 ///
-/// Offsets are rounded to 2^-24 object voxels and coefficients to 2^-24 or finer, so decimal
-/// voxel edges and positions that are whole or half voxels in the scene are so here, too, and
-/// moving an object by whole voxels moves its image exactly. `object` names it in messages: throws
-/// Error::scene when the map is singular, has a condition number above 10^5, holds an infinity, or
-/// puts the object too far away to be exact.
+/// Offsets are rounded to 2^-24 object voxels and coefficients to 2^-24 or finer. So decimal voxel
+/// edges and positions that are whole or half voxels in the scene are so here, too, and moving an
+/// object by whole voxels moves its image exactly. `object` is the object's number in messages.
+/// Throws Error::scene if the map is singular, has a condition number above 10^5, holds an
+/// infinity, or puts the object too far away to be exact.
 PlacementMap placement_map(const GridFrame& object_frame, const GridFrame& world_frame,
                            const glm::dmat4& world_from_object, Reach reach, uint32_t object);
 

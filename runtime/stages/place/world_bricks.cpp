@@ -10,9 +10,9 @@ namespace voxelume {
 namespace {
 
 constexpr uint8_t kFull = 1, kSurface = 2;  // lib/voxelize/placed.h
-constexpr size_t kVoxels = 4096;            // of a brick
-constexpr int16_t kSaturated = 32767;       // distances far from any surface
-constexpr uint32_t kWhite = 0xFFFFFF;       // of voxels without a colour of their own
+constexpr size_t kVoxels = 4096;            // in a brick
+constexpr int16_t kSaturated = 32767;       // the distance far from any surface
+constexpr uint32_t kWhite = 0xFFFFFF;       // the colour of voxels without one of their own
 
 constexpr const char* kOccupancy = "world occupancy";
 constexpr const char* kDistances = "world distances";
@@ -97,7 +97,7 @@ std::vector<uint32_t> WorldBricks::store(const std::vector<uint32_t>& brick_numb
     return stored;
 }
 
-/// Moves the last bricks into gaps.
+/// Moves the last bricks into the slots `gaps`.
 void WorldBricks::fill_gaps(const std::vector<uint32_t>& gaps) {
     const auto left = uint32_t(coordinates_.size() - gaps.size());
     std::vector<bool> is_gap(coordinates_.size());
@@ -128,8 +128,8 @@ void WorldBricks::clear(const std::vector<uint32_t>& brick_numbers) {
                 world_.distance, world_.occupancy, world_.attributes, world_.colors);
 }
 
-/// A world that grows once may grow again: then with room for a quarter more, if a buffer may be so
-/// large.
+/// Makes room for `bricks` slots. A world that grows once may grow again, so from its second growth
+/// on it gets room for a quarter more, if a buffer may be that large.
 void WorldBricks::reserve(uint32_t bricks) {
     if (bricks <= reserved_) return;
     const size_t brick_bytes = kVoxels * (has_attributes_ || colors_ ? 4 : smooth_ ? 2 : 1);

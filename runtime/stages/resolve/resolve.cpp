@@ -1,8 +1,8 @@
 #include "runtime/stages/resolve/resolve.hpp"
 
-#include <vector>
+#include "runtime/grid/grid_arguments.hpp"
 
-#include "runtime/stages/trace/trace.hpp"
+#include <vector>
 
 namespace voxelume {
 namespace {
@@ -57,10 +57,8 @@ void ResolveStage::pixels(const Pyramid& pyramid, const RayBatch& batch, uint32_
                           uint32_t tiles) {
     const glm::dvec3& o = pyramid.frame.origin;
     const float4 origin = {float(o.x), float(o.y), float(o.z), 0};
-    pixels_.launch_packets(size_t(tiles) * 16, camera_, shape_of(pyramid), origin, batch.hits,
-                           batch.positions, batch.normals, batch.hit_attributes, batch.radiance,
-                           batch.coverage, first_tile, tiles, batch.stride, image_.planes,
-                           image_.objects, image_.not_finite);
+    pixels_.launch_packets(size_t(tiles) * 16, camera_, shape_of(pyramid), origin, batch,
+                           first_tile, tiles, image_.planes, image_.objects, image_.not_finite);
 }
 
 Image ResolveStage::image() const {

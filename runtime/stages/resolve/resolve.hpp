@@ -11,7 +11,7 @@
 
 namespace voxelume {
 
-/// The features' build constants, and those of resolve.cl alone.
+/// The build constants of the features, and those of resolve.cl alone.
 Defines resolve_defines(const Device& device, const Features& features,
                         const ImageChannels& channels);
 
@@ -27,14 +27,14 @@ ImageArrays allocate_image(const Device& device, const glm::ivec2& size,
 /// Kernels of resolve.cl and the image they fill, batch by batch.
 class ResolveStage {
   public:
-    /// Only the `channels` asked for are allocated and made.
+    /// Only the `channels` that are asked for are allocated and computed.
     ResolveStage(const Device& device, const Features& features, const Camera& camera,
                  const ImageChannels& channels = {});
 
-    /// Makes the pixels of `tiles` tiles from `first_tile` on.
+    /// Computes the pixels of `tiles` tiles from `first_tile` on.
     void pixels(const Pyramid& pyramid, const RayBatch& batch, uint32_t first_tile, uint32_t tiles);
 
-    /// The image, once every tile is made. Waits for the device.
+    /// The image, after every tile was computed. Waits for the device.
     Image image() const;
 
     /// Values that were not finite and became 0; anything but 0 is a fault of ours.

@@ -125,7 +125,7 @@ PathDepth allocate_depth(const Device& device, const Features& features, bool is
     PathDepth depth;
     ArrayMaker maker(device, slots);
     make_depth(features, is_first, maker, depth);
-    depth.entries.stride = depth.nodes.stride = slots;
+    depth.entries.stride = depth.next.stride = depth.nodes.stride = slots;
     return depth;
 }
 

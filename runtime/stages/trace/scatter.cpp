@@ -3,10 +3,18 @@
 namespace voxelume {
 namespace {
 
-// Numbers in `counters`, as scatter.cl has them.
+// The indices in `counters`, as in scatter.cl.
 constexpr uint32_t kCountLayer = 0, kCountChildren = 1, kCountEnded = 2;
 
 }  // namespace
+
+void bind(KernelArguments& to, const Children& children) {
+    to.add(children.nodes, children.child_weights, children.node_weights);
+}
+
+void bind(KernelArguments& to, const NodeLight& nodes) {
+    to.add(nodes.radiance, nodes.coverage, nodes.stride);
+}
 
 ScatterStage::ScatterStage(const Device& device, const Features& features,
                            Surroundings surroundings, float min_weight, bool compact)
@@ -22,9 +30,8 @@ ScatterStage::ScatterStage(const Device& device, const Features& features,
       gather_(program_.kernel("gather_light")) {}
 
 void ScatterStage::begin(const Pyramid& pyramid, RayBatch& batch, uint32_t count) {
-    begin_.launch_packets(count, pyramid.solids, uint32_t(bodies_.size()), bodies_,
-                          surroundings_.ranks, surroundings_.medium_overflows, batch.rays, count,
-                          batch.stride, batch.paths, batch.starts, batch.inside);
+    begin_.launch_packets(count, pyramid.solids, uint32_t(bodies_.size()), bodies_, surroundings_,
+                          batch, count);
 }
 
 uint32_t ScatterStage::take(uint32_t counter) {
@@ -37,25 +44,17 @@ uint32_t ScatterStage::layer(const Pyramid& pyramid, RayBatch& entries, uint32_t
                              bool first_layer, Children& children, NodeLight& nodes,
                              RayQueue& next) {
     counters_.fill(0);
-    layer_.launch_packets(
-        count, surroundings_.materials, surroundings_.ranks, surroundings_.medium_overflows,
-        pyramid.colors, min_weight_, uint32_t(first_layer), entries.rays, entries.hits,
-        entries.hit_attributes, entries.sides, entries.radiance, entries.transmittance,
-        entries.paths, count, entries.stride, children.node_weights, nodes.radiance, nodes.coverage,
-        nodes.stride, counters_, next.rays, next.paths, next.starts, next.inside, nodes.stride);
+    layer_.launch_packets(count, surroundings_, pyramid.colors, min_weight_, uint32_t(first_layer),
+                          entries, count, children.node_weights, nodes, counters_, next);
     return take(kCountLayer);
 }
 
 uint32_t ScatterStage::rays(const Pyramid& pyramid, RayBatch& entries, uint32_t begin, uint32_t end,
                             Children& children, RayBatch& queue) {
     counters_.fill(0);
-    rays_.launch_packets(end - begin, shape_of(pyramid), surroundings_.materials,
-                         surroundings_.ranks, surroundings_.medium_overflows, min_weight_,
-                         uint32_t(compact_), entries.rays, entries.hits, entries.positions,
-                         entries.normals, entries.hit_attributes, entries.sides,
-                         entries.transmittance, children.node_weights, entries.paths, begin, end,
-                         entries.stride, children.nodes, children.child_weights, counters_,
-                         queue.rays, queue.paths, queue.starts, queue.inside, queue.stride);
+    rays_.launch_packets(end - begin, shape_of(pyramid), surroundings_, min_weight_,
+                         uint32_t(compact_), entries, begin, end, children, counters_,
+                         static_cast<const RayQueue&>(queue));
     const uint32_t sent = take(kCountChildren);
     return compact_ ? sent : branches_ * (end - begin);
 }
@@ -63,10 +62,9 @@ uint32_t ScatterStage::rays(const Pyramid& pyramid, RayBatch& entries, uint32_t 
 void ScatterStage::gather(const RayBatch& entries, uint32_t begin, uint32_t end,
                           const Children& children, const NodeLight& child_nodes,
                           NodeLight& nodes) {
-    gather_.launch(WorkItem::light, end - begin, begin, end, entries.stride, children.nodes,
-                   children.child_weights, children.node_weights, entries.transmittance,
-                   entries.paths, child_nodes.radiance, child_nodes.stride, nodes.radiance,
-                   nodes.stride);
+    gather_.launch(WorkItem::light, end - begin, begin, end, children, entries.transmittance,
+                   entries.paths, entries.stride, child_nodes.radiance, child_nodes.stride,
+                   nodes.radiance, nodes.stride);
 }
 
 }  // namespace voxelume

@@ -13,9 +13,11 @@ namespace voxelume {
 namespace {
 
 constexpr uint32_t kWhite = 0x00FFFFFF;
-constexpr double kFarVoxels = 64;  // beyond the frame, where no distance matters
+constexpr double kFarVoxels = 64;  // how far beyond the frame cut space extends; no distance
+                                   // matters there
 
-/// What a grid says of a brick: that of two is no more than either says, or no less.
+/// How much of a brick a grid fills. The share of an intersection is the smaller of two, that of a
+/// union the larger.
 enum class Share { none, some, all };
 
 Share share_of(uint32_t slot) {
@@ -30,7 +32,7 @@ Share either(Share a, Share b) {
     return std::max(a, b);
 }
 
-/// Makes the grid of bricks that some of the operands store.
+/// Makes the grid of the bricks that both operands fill in part.
 class Joiner {
   public:
     Joiner(const Device& device, const BrickGrid& body)
@@ -72,7 +74,7 @@ class Joiner {
     }
 
   private:
-    /// `body` holds the body's slots. Bricks of which there is neither none nor all are stored.
+    /// Stores the bricks whose share is neither none nor all. `body` holds the body's slots.
     void store_bricks(const std::vector<uint32_t>& body, const auto& share) {
         std::vector<uint32_t> slots(body.size());
         for (size_t brick = 0; brick < slots.size(); ++brick) {
@@ -120,7 +122,7 @@ class Joiner {
     Device device_;
     Program code_;
     const BrickGrid& body_;
-    std::vector<uint32_t> bricks_, body_slots_;  // of the bricks that are stored
+    std::vector<uint32_t> bricks_, body_slots_;  // of the stored bricks
     BrickGrid grid_;
 };
 

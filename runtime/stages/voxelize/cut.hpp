@@ -1,4 +1,4 @@
-// object grid -> object grid: what is left of a body that solids cut away from.
+// object grid -> object grid: what remains of a body after solids are cut away from it.
 #pragma once
 
 #include <vector>
@@ -9,22 +9,24 @@
 
 namespace voxelume {
 
-/// All of a frame but what is in one of `cuts`, whose parents are the frame's space: a body to be
-/// voxelized as the one that is cut.
+/// The whole frame without the solids `cuts`, whose parents are the frame's space. It is to be
+/// voxelized in the same way as the body that is cut.
 Solid rest_of(const GridFrame& frame, const std::vector<Solid>& cuts);
 
-/// A body, or what is left of space, as `cubes`: two grids of one frame.
+/// A body, or the rest of space, as `cubes`: two grids of one frame.
 struct CoveredBody {
-    const BrickGrid& cover;   ///< the set asked for
-    const BrickGrid& inside;  ///< VoxelSet::solid; the same grid where that is asked for
+    const BrickGrid& cover;   ///< the set that is asked for
+    const BrickGrid& inside;  ///< VoxelSet::solid; the same grid as `cover` if that set is asked
+                              ///< for
 };
 
-/// What a body and the rest of space have in common. The grids have one frame; voxels that only the
-/// rest concerns have the body's own word and are white.
+/// The intersection of a body and the rest of space. The grids have one frame. Voxels that only the
+/// rest concerns have the body's own packed attributes and are white.
 ///
-/// Of distance fields it is the greater distance, of SOLID sets the voxels in both. Of other sets
-/// it is what each covers on or in the other, which closes the surface where it was cut; along the
-/// edges of the cut the cover may have voxels of both that the common surface just misses.
+/// The intersection of distance fields is the greater distance, that of SOLID sets the voxels in
+/// both. For other sets it is what each covers on or in the other, which closes the surface where
+/// it was cut. Along the edges of the cut the cover may have voxels of both that the common surface
+/// just misses.
 BrickGrid common_field(const Device& device, const BrickGrid& body, const BrickGrid& rest);
 BrickGrid common_cubes(const Device& device, const CoveredBody& body, const CoveredBody& rest);
 

@@ -10,14 +10,16 @@
 namespace voxelume {
 namespace {
 
-/// An edge in the direction that triangles walk it.
+/// A directed edge of a triangle.
 struct Edge {
     uint32_t from, to;
 };
 
-/// The edges that triangles walk more often one way than the other, once for each time more.
+/// The edges that triangles use more often in one direction than in the other: one copy for each
+/// use in excess.
 ///
-/// Sorted into buckets by their lower vertex: linear, since every model passes through here.
+/// The edges are sorted into buckets by their lower vertex, in linear time, since every model
+/// passes through here.
 std::vector<Edge> unpaired_edges(const std::vector<Edge>& edges, size_t vertex_count) {
     std::vector<uint32_t> first(vertex_count + 1, 0);
     for (const Edge& e : edges) ++first[std::min(e.from, e.to) + 1];
@@ -56,14 +58,14 @@ struct PointLess {
     }
 };
 
-/// Gives ends at one lattice point one vertex.
+/// Gives all vertices at one lattice point the same number.
 void merge_points(std::vector<Edge>& edges, const std::vector<glm::ivec3>& vertices) {
     std::map<glm::ivec3, uint32_t, PointLess> vertex_at;
     const auto merged = [&](uint32_t v) { return vertex_at.emplace(vertices[v], v).first->second; };
     for (Edge& e : edges) e = {merged(e.from), merged(e.to)};
 }
 
-/// Sets of vertices that edges connect.
+/// The sets of vertices that edges connect.
 class Outlines {
   public:
     explicit Outlines(const std::vector<Edge>& edges) {
@@ -78,12 +80,12 @@ class Outlines {
     std::map<uint32_t, uint32_t> root_of_;
 };
 
-/// Lattice units from an outline's middle to where its caps meet. Winding numbers don't depend on
-/// that place; beside the middle itself, centres of voxels seldom lie on edges between caps, where
-/// neither has an angle.
+/// Offset, in lattice units, of the point where an outline's caps meet from the outline's middle.
+/// Winding numbers don't depend on that point. Away from the middle itself, centres of voxels
+/// seldom lie on edges between caps, where neither cap has an angle.
 constexpr glm::i64vec3 kAside(37, 53, 71);
 
-/// The middle of an outline's corners.
+/// The sum and number of an outline's corners, and the vertex at their middle.
 struct Middle {
     glm::i64vec3 sum{0};
     int64_t count = 0;

@@ -12,15 +12,16 @@ namespace voxelume {
 
 inline constexpr int kLatticePerVoxel = 4096;
 
-/// How far from its grid a mesh may reach, and how large a grid may be, in voxels: what keeps every
-/// predicate of kernels/lib/voxelize/lattice.h within its bits.
+/// The maximum distance of a mesh from its grid and the maximum size of a grid, in voxels. It keeps
+/// every predicate of kernels/lib/voxelize/lattice.h within its bits.
 inline constexpr int kLatticeReach = 16384;
 
 /// Corners and triangles as kernels read them.
 struct MeshLattice {
     std::vector<glm::ivec3> vertices;   ///< lattice units from the frame's origin
-    std::vector<glm::uvec3> triangles;  ///< the mesh's, in its order, then those that cap its holes
-    size_t surface_triangles = 0;       ///< how many are the mesh's own
+    std::vector<glm::uvec3> triangles;  ///< the mesh's, in its order, then those that close its
+                                        ///< holes
+    size_t surface_triangles = 0;       ///< number of the mesh's own triangles
 };
 
 /// Rounds the mesh's vertices once, ties to even, to the lattice of `frame`.
@@ -35,8 +36,9 @@ MeshLattice snap_to_lattice(const Mesh& mesh, const glm::dmat4& frame_from_mesh,
 glm::dvec3 to_voxels(const glm::vec3& position, const glm::dmat4& frame_from_mesh,
                      const GridFrame& frame);
 
-/// Closes the mesh: appends triangles that fan from beside each open outline's middle to its edges,
-/// so that the whole has no boundary and integer winding numbers. A closed mesh gets none.
+/// Closes the mesh: appends triangles that fan from a point near each open outline's middle to its
+/// edges. The whole then has no boundary and integer winding numbers. A closed mesh gets no
+/// triangles.
 ///
 /// Vertices at one lattice point count as one, and opposite edges cancel, so neither seams nor
 /// doubled sheets count as holes.

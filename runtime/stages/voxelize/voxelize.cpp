@@ -36,14 +36,14 @@ DeviceTriangles upload(const Device& device, const MeshLattice& mesh) {
     return d;
 }
 
-/// Those of `all` from number `first` on.
+/// The `count` triangles of `all` from number `first` on.
 DeviceTriangles part_of(DeviceTriangles all, size_t first, size_t count) {
     all.first = static_cast<uint32_t>(first);
     all.count = static_cast<uint32_t>(count);
     return all;
 }
 
-/// Takes the bricks that hold triangles as those to store.
+/// Makes the bricks that hold triangles the stored bricks.
 void store_bins(VoxelizeJob& job, TriangleBins bins) {
     job.bins = std::move(bins);
     job.grid.brick_count = job.bins.stored;
@@ -51,7 +51,7 @@ void store_bins(VoxelizeJob& job, TriangleBins bins) {
     job.grid.slots = allocate_slots(job.device, "brick slots", job.grid.frame);
 }
 
-/// Whether the options ask where a mesh's inside is.
+/// True if the options need to know where a mesh's inside is.
 bool needs_inside(const VoxelizeOptions& options) {
     return stores_distances(options.surface) ||
            (shows_voxels(options.surface) && options.set == VoxelSet::solid);
@@ -60,13 +60,14 @@ bool needs_inside(const VoxelizeOptions& options) {
 /// Lattice units by which `exact` voxels are widened: rays meet corners that aren't snapped.
 constexpr int kListMargin = 1;
 
-/// The mesh with its triangles' corners the other way round, which a map that mirrors puts right.
+/// The mesh with its triangles' corners in the opposite order. A map that mirrors turns them back.
 Mesh turned_over(Mesh mesh) {
     for (glm::uvec3& t : mesh.triangles) std::swap(t.y, t.z);
     return mesh;
 }
 
-/// What the mesh's groups and colours give to voxels; shared/voxel.h's words.
+/// What the mesh's groups and colours give to voxels; the packed attributes are those of
+/// shared/voxel.h.
 MeshLabels labels_of(const Mesh& mesh, Surface surface) {
     MeshLabels labels;
     labels.attributes = static_cast<uint32_t>(surface) << VXL_KIND_SHIFT;
@@ -81,7 +82,7 @@ MeshLabels labels_of(const Mesh& mesh, Surface surface) {
     return labels;
 }
 
-/// The triangles that `exact` voxels list, for rays: corners in voxels, not rounded.
+/// Keeps the triangles that `exact` voxels list, for rays: their corners in voxels, not rounded.
 void keep_triangles(VoxelizeJob& job, const Mesh& mesh, const glm::dmat4& frame_from_mesh,
                     const MeshLabels& labels) {
     std::vector<glm::vec3> voxels;
@@ -164,7 +165,7 @@ Buffer<uint16_t> Voxelizer::inside(VoxelizeJob& job, bool centers, const glm::iv
 }
 
 void Voxelizer::voxelize_smooth(VoxelizeJob& job, double band) {
-    // Only nodes count, and the last of a brick is at 15.
+    // Only nodes count, and a brick's last node is at 15.
     const glm::ivec3 reach = band_reach(job.grid.frame, band);
     store_bins(job, bin(job, job.triangles, reach, kLatticePerBrick - kLatticePerVoxel));
     const Buffer<uint16_t> rows = inside(job, false, reach);

@@ -1,4 +1,4 @@
-// mesh -> object grid: the voxels that a triangle mesh covers, or fills, or its distance field.
+// mesh -> object grid: the voxels that a triangle mesh covers or fills, or its distance field.
 #pragma once
 
 #include <glm/mat4x4.hpp>
@@ -20,7 +20,7 @@ class Voxelizer {
   public:
     explicit Voxelizer(const Device& device) : device_(device) {}
 
-    /// The voxels of `mesh` in `frame`; what lies outside of the frame is left out.
+    /// The voxels of `mesh` in `frame`. Parts of the mesh outside of the frame are left out.
     ///
     /// `frame_from_mesh` maps the mesh's space to the frame's. Open meshes are inside where their
     /// generalized winding number (Jacobson et al. 2013) is above 1/2, so small holes close, and a
@@ -31,19 +31,18 @@ class Voxelizer {
     ///           are not all on one side. Distances are exact to their rounding within the band and
     ///           saturated (±32767) beyond.
     ///   exact   as cubes, with the triangles of each voxel in ascending order. Voxels are widened
-    ///   by
-    ///           a unit of the lattice, for rays meet corners that aren't snapped to it.
-    /// `attributes` is empty for a mesh with one group, `colors` for one without. Otherwise a voxel
-    /// has the group of the triangle closest to its centre, of equally close ones that with the
-    /// lowest number, and the colour of that triangle's closest point; voxels that no surface
-    /// concerns have group 0 and white. Materials are face groups, object is 0.
-    /// Throws Error::input for a mesh that has no triangles, NaNs or bad indices, Error::limit for
-    /// more than 16384 voxels along an axis or too little memory.
+    ///           by a unit of the lattice, since rays meet corners that aren't snapped to it.
+    /// `attributes` is empty for a mesh with one group, `colors` for a mesh without colours.
+    /// Otherwise a voxel has the group of the triangle closest to its centre (of equally close ones
+    /// the triangle with the lowest number) and the colour of that triangle's closest point. Voxels
+    /// that no surface concerns have group 0 and are white. Materials are face groups, object is 0.
+    /// Throws Error::input for a mesh without triangles, with NaNs or bad indices; Error::limit for
+    /// more than 16384 voxels along an axis or if memory doesn't suffice.
     BrickGrid voxelize(const Mesh& mesh, const glm::dmat4& frame_from_mesh, const GridFrame& frame,
                        const VoxelizeOptions& options);
 
   private:
-    /// Of a mesh whose faces look outwards in the frame, not in its own space.
+    /// The voxels of a mesh whose faces look outwards in the frame, not in its own space.
     BrickGrid voxelize_outward(const Mesh& mesh, const glm::dmat4& frame_from_mesh,
                                const GridFrame& frame, const VoxelizeOptions& options);
     TriangleBins bin(const VoxelizeJob& job, const DeviceTriangles& triangles,
@@ -56,15 +55,15 @@ class Voxelizer {
     Device device_;
 };
 
-/// The same for a single mesh, with a voxelizer of its own.
+/// The voxels of a single mesh, as Voxelizer::voxelize gives them.
 BrickGrid voxelize_mesh(const Device& device, const Mesh& mesh, const glm::dmat4& frame_from_mesh,
                         const GridFrame& frame, const VoxelizeOptions& options);
 
-/// The frame of voxels of `voxel_edge` (metres) that holds the mesh in its own space, plus
-/// `margin` voxels on every side. Four keep all distances of `smooth` inside.
+/// The frame with voxels of `voxel_edge` (metres) that holds the mesh in its own space, plus
+/// `margin` voxels on every side. Four voxels hold all distances of `smooth`.
 GridFrame frame_around(const Mesh& mesh, const glm::dvec3& voxel_edge, int margin = 4);
 
-/// The same around a mesh whose vertices span the box `low`..`high`.
+/// The frame around a mesh whose vertices span the box `low`..`high`.
 GridFrame frame_around(const glm::dvec3& low, const glm::dvec3& high, const glm::dvec3& voxel_edge,
                        int margin = 4);
 

@@ -6,7 +6,7 @@
 namespace voxelume {
 namespace {
 
-/// Numbers the bins with triangles, and turns counts into the starts of their lists.
+/// The numbers of the bins with triangles, and where their lists start.
 struct BinLayout {
     std::vector<uint32_t> occupied, number_of_bin, coordinates, first, cursors;
     uint32_t stored = 0;
@@ -82,6 +82,15 @@ Buffer<uint32_t> allocate_cursors(const Device& device, size_t bins) {
     return {device, "bin cursors", bins};
 }
 
+void bind(KernelArguments& to, const DeviceTriangles& triangles) {
+    to.add(triangles.first, triangles.count, triangles.vertices, triangles.triangles);
+}
+
+void bind(KernelArguments& to, const TriangleBins& bins) {
+    to.add(bins.size, bins.count, bins.stored, bins.occupied, bins.number_of_bin, bins.coordinates,
+           bins.first, bins.lists);
+}
+
 uint64_t starts_of_counts(std::vector<uint32_t>& counts) {
     uint64_t total = 0;
     for (uint32_t& count : counts) {
@@ -102,16 +111,15 @@ TriangleBins bin_triangles(const Device& device, const Program& program,
     cursors.fill(0);
     const glm::ivec4 reach4(reach, 0);
     program.kernel("count_pairs")
-        .launch(WorkItem::light, triangles.count, triangles.first, triangles.count, size, reach4,
-                extent, triangles.vertices, triangles.triangles, cursors);
+        .launch(WorkItem::light, triangles.count, size, reach4, extent, triangles, cursors);
     const BinLayout layout = lay_out_bins(cursors.read(), static_cast<uint32_t>(size.x));
     TriangleBins bins = upload(device, layout);
     bins.size = size;
     cursors.write(layout.cursors);
     if (layout.first.back() == 0) return bins;
     program.kernel("list_pairs")
-        .launch(WorkItem::light, triangles.count, triangles.first, triangles.count, bins.size,
-                reach4, extent, triangles.vertices, triangles.triangles, cursors, bins.lists);
+        .launch(WorkItem::light, triangles.count, bins.size, reach4, extent, triangles, cursors,
+                bins.lists);
     return bins;
 }
 

@@ -1,4 +1,4 @@
-// Triangles sorted into the bricks that they reach: what every kernel of voxelization gathers from.
+// Triangles sorted into the bricks that they meet: the input of every kernel of voxelization.
 #pragma once
 
 #include <glm/vec4.hpp>
@@ -9,25 +9,33 @@
 
 namespace voxelume {
 
-/// Triangles first .. first + count - 1 of a mesh's lattice on a device.
+/// Triangles first .. first + count - 1 of a mesh's lattice, on a device.
 struct DeviceTriangles {
     uint32_t first = 0, count = 0;
     Buffer<int32_t> vertices;    ///< 3 per vertex
     Buffer<uint32_t> triangles;  ///< 3 per triangle
 };
 
+/// VXL_MESH_PARAMETERS of kernels.
+void bind(KernelArguments& to, const DeviceTriangles& triangles);
+
 /// Bins that hold triangles: first the frame's bricks, ascending, then the column left of the
 /// frame.
 struct TriangleBins {
-    glm::ivec4 size{0};         ///< bricks of the frame, x one more: x = 0 is left of the frame
-    uint32_t count = 0;         ///< bins with triangles
-    uint32_t stored = 0;        ///< those that are bricks of the frame: their slots
-    Buffer<uint32_t> occupied;  ///< index of each
-    Buffer<uint32_t> number_of_bin;  ///< the inverse; kBrickOutside for a bin without triangles
-    Buffer<uint32_t> coordinates;    ///< one per slot: index of the brick in the frame
-    Buffer<uint32_t> first;          ///< count + 1: where each one's triangles start in `lists`
+    glm::ivec4 size{0};  ///< bricks of the frame, with one more along x: x = 0 is left of the frame
+    uint32_t count = 0;  ///< number of bins with triangles
+    uint32_t stored = 0;  ///< number of those that are bricks of the frame; each has its number as
+                          ///< its slot
+    Buffer<uint32_t> occupied;       ///< the index of each bin with triangles
+    Buffer<uint32_t> number_of_bin;  ///< the inverse of `occupied`; kBrickOutside for a bin without
+                                     ///< triangles
+    Buffer<uint32_t> coordinates;    ///< one per slot: the index of the brick in the frame
+    Buffer<uint32_t> first;          ///< count + 1: where each bin's triangles start in `lists`
     Buffer<uint32_t> lists;          ///< triangles' numbers, in no particular order
 };
+
+/// VXL_BINS_PARAMETERS of kernels.
+void bind(KernelArguments& to, const TriangleBins& bins);
 
 /// What sorting finds.
 struct BinCounts {
@@ -46,8 +54,9 @@ Buffer<uint32_t> allocate_cursors(const Device& device, size_t bins);
 /// 2^32.
 uint64_t starts_of_counts(std::vector<uint32_t>& counts);
 
-/// Sorts triangles into the bricks of `bricks` whose closed boxes of `extent` lattice units they
-/// come within `reach` (lattice units along each axis) of.
+/// Sorts triangles into bricks: a triangle is in the bin of each brick whose closed box of `extent`
+/// lattice units it comes within `reach` of (lattice units along each axis). `bricks` is the
+/// frame's number of bricks.
 TriangleBins bin_triangles(const Device& device, const Program& program,
                            const DeviceTriangles& triangles, const glm::ivec3& bricks,
                            const glm::ivec3& reach, int extent);

@@ -9,8 +9,7 @@ namespace {
 Windings count_windings(VoxelizeJob& job, const Program& winding, const TriangleBins& b) {
     Windings w = allocate_windings(job.device, b.stored, b.count, job.grid.slots.size());
     winding.kernel("count_crossings")
-        .launch(WorkItem::heavy, b.count, b.count, b.stored, b.size, job.triangles.vertices,
-                job.triangles.triangles, b.occupied, b.first, b.lists, w.numbers, w.carried);
+        .launch(WorkItem::heavy, b.count, job.triangles, b, w.numbers, w.carried);
     const auto rows = static_cast<uint32_t>(job.bricks.y * job.bricks.z);
     winding.kernel("carry_rows")
         .launch(WorkItem::heavy, rows, rows, b.size, b.number_of_bin, w.carried, job.grid.slots,
@@ -18,7 +17,7 @@ Windings count_windings(VoxelizeJob& job, const Program& winding, const Triangle
     return w;
 }
 
-// States of kernels/voxelize_caps.cl.
+// The states of kernels/voxelize_caps.cl.
 constexpr uint32_t kStateInside = 1, kStateClosed = 2;
 
 std::vector<uint32_t> classify_bricks(VoxelizeJob& job, const Program& caps,
@@ -31,13 +30,12 @@ std::vector<uint32_t> classify_bricks(VoxelizeJob& job, const Program& caps,
     states = Buffer<uint32_t>(job.device, "brick states", count);
     caps.kernel("classify_bricks")
         .launch(WorkItem::heavy, (count + lanes - 1) / lanes, count, job.bricks, scale, radius,
-                job.caps.first, job.caps.count, job.caps.vertices, job.caps.triangles,
-                job.bins.number_of_bin, cap_bins.number_of_bin, all_bins.number_of_bin, w.numbers,
-                w.carried, w.passing, states);
+                job.caps, job.bins.number_of_bin, cap_bins.number_of_bin, all_bins.number_of_bin,
+                w.numbers, w.carried, w.passing, states);
     return states.read();
 }
 
-/// The stored bricks by state: those of the surface, in their order, with others between them.
+/// The stored bricks by state: those with surface, in their order, and the others in between.
 struct Restored {
     std::vector<uint32_t> slots, coordinates, first, numbers;
 };
@@ -105,8 +103,7 @@ Buffer<uint16_t> find_inside_open(VoxelizeJob& job, const Program& winding, cons
     Buffer<uint16_t> inside = allocate_inside(job.device, job.bins.stored);
     caps.kernel("find_inside_open")
         .launch(WorkItem::heavy, job.items(), job.bins.stored, job.bricks,
-                edge_scale(job.grid.frame), job.caps.first, job.caps.count, job.caps.vertices,
-                job.caps.triangles, job.bins.coordinates, states,
+                edge_scale(job.grid.frame), job.caps, job.bins.coordinates, states,
                 upload(job, "bin numbers", r.numbers), w.numbers, w.carried, w.passing, inside);
     return inside;
 }

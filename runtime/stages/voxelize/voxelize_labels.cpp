@@ -8,7 +8,7 @@
 namespace voxelume {
 namespace {
 
-/// The least linear value that each sRGB code above 0 stands for: where rounding turns to it.
+/// For each sRGB code above 0, the smallest linear value that rounds to it.
 std::vector<float> srgb_thresholds() {
     std::vector<float> thresholds;
     for (int code = 1; code <= 255; ++code) {
@@ -19,8 +19,9 @@ std::vector<float> srgb_thresholds() {
     return thresholds;
 }
 
-/// A voxel concerns a surface when it meets it, or when one of its corners is within 0.35 voxel of
-/// it, where the zero of a smooth field can still lie in it. In shortest edges.
+/// The distance, in shortest edges, within which a surface concerns a voxel's centre. A surface
+/// concerns a voxel that it meets, and one with a corner within 0.35 voxel of it: the zero of a
+/// smooth field can still lie in that voxel.
 double label_band(const GridFrame& frame) {
     return 0.35 + 0.5 * double(glm::length(glm::vec3(edge_scale(frame))));
 }
@@ -37,11 +38,10 @@ void label_voxels(VoxelizeJob& job, const Program& label, const Program& distanc
     const glm::vec4 scale = edge_scale(job.grid.frame);
     Buffer<uint32_t> nearest = allocate_words(job.device, "nearest triangles", job.bins.stored);
     label.kernel("find_nearest")
-        .launch(WorkItem::heavy, job.items(), job.bins.stored, lists.size, job.bricks,
+        .launch(WorkItem::heavy, job.items(), job.bins.stored, job.bricks,
                 glm::ivec4(label_reach(job.grid.frame), 0), scale,
-                static_cast<float>(label_band(job.grid.frame)), job.triangles.vertices,
-                job.triangles.triangles, shape_triangles(job, distance), job.bins.coordinates,
-                lists.number_of_bin, lists.first, lists.lists, nearest);
+                static_cast<float>(label_band(job.grid.frame)), job.triangles, lists,
+                job.bins.coordinates, shape_triangles(job, distance), nearest);
     const auto count = static_cast<uint32_t>(voxels);
     if (!labels.triangle_attributes.empty()) {
         const Buffer<uint32_t> words(job.device, "triangle attributes",
@@ -59,9 +59,8 @@ void label_voxels(VoxelizeJob& job, const Program& label, const Program& distanc
         const Buffer<float> codes(job.device, "sRGB thresholds", std::span(thresholds));
         job.grid.colors = allocate_words(job.device, "voxel colors", job.bins.stored);
         label.kernel("color_voxels")
-            .launch(WorkItem::light, voxels, count, job.bricks, scale, job.triangles.vertices,
-                    job.triangles.triangles, job.bins.coordinates, nearest, colors, codes,
-                    job.grid.colors);
+            .launch(WorkItem::light, voxels, count, job.bricks, scale, job.triangles,
+                    job.bins.coordinates, nearest, colors, codes, job.grid.colors);
     }
 }
 

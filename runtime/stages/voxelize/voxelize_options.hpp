@@ -1,4 +1,4 @@
-// What to make of a model: shared by the stages that voxelize meshes and analytic solids.
+// The options of voxelization: shared by the stages that voxelize meshes and analytic solids.
 #pragma once
 
 #include "runtime/scene/surface.hpp"
@@ -7,9 +7,10 @@ namespace voxelume {
 
 struct VoxelizeOptions {
     Surface surface = Surface::smooth;
-    VoxelSet set = VoxelSet::supercover;  ///< for `cubes`; the other surfaces decide themselves
-    double band = 2.8;  ///< `smooth`: distances of meshes are exact up to here, in shortest voxel
-                        ///< edges, at most 4; 2.8 is what rays and gradients at a surface read
+    VoxelSet set = VoxelSet::supercover;  ///< for `cubes`; the other surfaces choose their own
+    double band = 2.8;  ///< for `smooth`: the distance up to which meshes' distances are exact, in
+                        ///< shortest voxel edges, at most 4; rays and gradients at a surface read
+                        ///< 2.8
 };
 
 }  // namespace voxelume

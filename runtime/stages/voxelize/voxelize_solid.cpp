@@ -19,7 +19,7 @@
 namespace voxelume {
 namespace {
 
-constexpr double kBand = 2.8;  // voxels around the surface whose distances are stored
+constexpr double kBand = 2.8;  // distances within this many voxels of the surface are stored
 
 cl_int4 int4_of(const glm::ivec3& v) {
     return cl_int4{{v.x, v.y, v.z, 0}};
@@ -32,7 +32,7 @@ glm::ivec3 brick_corner(const GridFrame& frame, uint32_t brick) {
            glm::ivec3(index % bricks.x, index / bricks.x % bricks.y, index / bricks.x / bricks.y);
 }
 
-/// Everything that the steps below share.
+/// The state that the steps of one call share.
 class SolidVoxelizer {
   public:
     SolidVoxelizer(const Device& device, SolidProgram program, const GridFrame& frame)
@@ -58,14 +58,15 @@ class SolidVoxelizer {
     }
 
   private:
-    /// A length of `voxels` times half a voxel's diagonal plus `more`, in shortest edges, rounded
-    /// up.
+    /// The length of `voxels` times half a voxel's diagonal, plus `more`, in shortest edges,
+    /// rounded up.
     float reach(double voxels, double more) const {
         return std::nextafter(static_cast<float>(voxels * half_diagonal_ + more), INFINITY);
     }
 
-    /// What a brick that no surface passes is, given that the grid ends at its size: a solid set
-    /// has no voxels beyond, so bricks across the end are stored and those past it are outside.
+    /// The slot of a brick that no surface passes through, with the grid's end taken into account.
+    /// A solid set has no voxels beyond the grid's size, so bricks across the end are stored (0)
+    /// and those past it are outside.
     uint32_t state_at_end(uint32_t brick, uint32_t state) const {
         const glm::ivec3 corner = brick_corner(grid_.frame, brick), &size = grid_.frame.size;
         if (glm::any(glm::greaterThanEqual(corner, size))) return kBrickOutside;
@@ -126,7 +127,7 @@ class SolidVoxelizer {
         if (undecided_count.read_one(0) != 0) decide(set, undecided.read());
     }
 
-    /// Decides the voxels in `undecided` exactly, and corrects the masks.
+    /// Decides the voxels in `undecided` exactly and corrects the occupancy masks.
     void decide(VoxelSet set, const std::vector<uint64_t>& undecided) {
         std::vector<uint64_t> occupancy = grid_.occupancy.read();
         const std::vector<uint32_t> coordinates = grid_.coordinates.read();
@@ -190,7 +191,7 @@ class SolidVoxelizer {
     SolidProgram program_;
     Buffer<uint32_t> solids_;
     BrickGrid grid_;
-    double half_diagonal_;  // of a voxel, in shortest edges
+    double half_diagonal_;  // half a voxel's diagonal, in shortest edges
 };
 
 }  // namespace

@@ -7,7 +7,8 @@
 namespace voxelume {
 namespace {
 
-/// Slices of a brick that one work-item handles: all where cores are few, else one layer of leaves.
+/// The slices of a brick that one work-item handles: all of them where cores are few, else one
+/// layer of leaves.
 int slices_per_item(const Device& device) {
     return device.is_cpu() ? kBrickSize : kLeafSize;
 }
@@ -41,8 +42,7 @@ Buffer<float> allocate_shapes(const Device& device, size_t triangles) {
 Buffer<float> shape_triangles(const VoxelizeJob& job, const Program& distance) {
     Buffer<float> shapes = allocate_shapes(job.device, job.triangles.count);
     distance.kernel("shape_triangles")
-        .launch(WorkItem::light, job.triangles.count, job.triangles.count,
-                edge_scale(job.grid.frame), job.triangles.vertices, job.triangles.triangles,
+        .launch(WorkItem::light, job.triangles.count, edge_scale(job.grid.frame), job.triangles,
                 shapes);
     return shapes;
 }
@@ -50,9 +50,8 @@ Buffer<float> shape_triangles(const VoxelizeJob& job, const Program& distance) {
 void cover_bricks(VoxelizeJob& job, const Program& cover) {
     job.grid.occupancy = allocate_masks(job.device, "occupancy", job.bins.stored);
     cover.kernel("cover_bricks")
-        .launch(WorkItem::heavy, job.items(), job.bins.stored, job.size, job.bricks,
-                job.triangles.vertices, job.triangles.triangles, job.bins.coordinates,
-                job.bins.first, job.bins.lists, job.grid.occupancy);
+        .launch(WorkItem::heavy, job.items(), job.bins.stored, job.size, job.bricks, job.triangles,
+                job.bins, job.grid.occupancy);
 }
 
 void mark_outside(VoxelizeJob& job, const Program& bin) {
@@ -75,28 +74,24 @@ void measure_distances(VoxelizeJob& job, const Program& distance, const Buffer<u
     job.grid.distance = allocate_distances(job.device, "distances", job.bins.stored);
     distance.kernel("measure_distances")
         .launch(WorkItem::heavy, job.items(), job.bins.stored, job.bricks, reach,
-                edge_scale(job.grid.frame), static_cast<float>(band), job.triangles.vertices,
-                job.triangles.triangles, shapes, job.bins.coordinates, job.bins.first,
-                job.bins.lists, inside, job.grid.distance);
+                edge_scale(job.grid.frame), static_cast<float>(band), job.triangles, job.bins,
+                shapes, inside, job.grid.distance);
 }
 
 void list_primitives(VoxelizeJob& job, const Program& exact) {
     const uint32_t count = job.bins.stored;
-    const TriangleBins& b = job.bins;
     job.grid.primitive_first = allocate_list_starts(job.device, "primitive starts", count);
     Buffer<uint32_t> totals(job.device, "primitive totals", count);
     exact.kernel("count_primitives")
-        .launch(WorkItem::heavy, count, count, job.size, job.bricks, job.triangles.vertices,
-                job.triangles.triangles, b.coordinates, b.first, b.lists, job.grid.primitive_first,
-                totals);
+        .launch(WorkItem::heavy, count, count, job.size, job.bricks, job.triangles, job.bins,
+                job.grid.primitive_first, totals);
     std::vector<uint32_t> bases = totals.read();
     const uint64_t total = starts_of_counts(bases);
     totals.write(bases);
     job.grid.primitives = Buffer<uint32_t>(job.device, "primitives", total);
     exact.kernel("list_primitives")
-        .launch(WorkItem::heavy, count, count, job.size, job.bricks, job.triangles.vertices,
-                job.triangles.triangles, b.coordinates, b.first, b.lists, totals,
-                job.grid.primitive_first, job.grid.primitives);
+        .launch(WorkItem::heavy, count, count, job.size, job.bricks, job.triangles, job.bins,
+                totals, job.grid.primitive_first, job.grid.primitives);
     if (count == 0) job.grid.primitive_first.fill(0);
 }
 

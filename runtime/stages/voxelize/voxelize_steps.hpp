@@ -1,4 +1,4 @@
-// The steps of voxelizing a mesh, each a few kernels on what the steps before left in the job.
+// The steps of voxelizing a mesh. Each runs a few kernels on what the steps before left in the job.
 #pragma once
 
 #include <glm/vec4.hpp>
@@ -11,26 +11,26 @@
 
 namespace voxelume {
 
-/// What the steps of one call share.
+/// The state that the steps of one call share.
 struct VoxelizeJob {
     const Device& device;
     DeviceTriangles triangles;  ///< the mesh's own
-    DeviceTriangles caps;       ///< those that close its open outlines
-    TriangleBins bins;          ///< of the stored bricks
-    glm::ivec4 size, bricks;    ///< of the frame
-    BrickGrid grid;             ///< what is being made
+    DeviceTriangles caps;       ///< the triangles that close its open outlines
+    TriangleBins bins;          ///< the bins of the stored bricks
+    glm::ivec4 size, bricks;    ///< the frame's, in voxels and in bricks
+    BrickGrid grid;             ///< the result so far
 
-    /// Work-items of kernels that share a brick's slices out.
+    /// The number of work-items of kernels that divide a brick's slices among work-items.
     size_t items() const;
 };
 
-/// The build constants of such kernels.
+/// The build constants of kernels that divide a brick's slices among work-items.
 Defines slice_defines(const Device& device);
 
-/// Voxel edges in the shortest one.
+/// The voxel's edges, in units of the shortest one.
 glm::vec4 edge_scale(const GridFrame& frame);
 
-/// `band` shortest edges in lattice units along each axis, rounded up.
+/// The length of `band` shortest edges in lattice units along each axis, rounded up.
 glm::ivec3 band_reach(const GridFrame& frame, double band);
 
 /// Winding numbers of a closed mesh.
@@ -49,45 +49,46 @@ Buffer<float> allocate_shapes(const Device& device, size_t triangles);
 /// Vectors and lengths of each triangle that do not depend on a brick, for distances.
 Buffer<float> shape_triangles(const VoxelizeJob& job, const Program& distance);
 
-/// SUPERCOVER or THIN occupancy, as `cover` was built.
+/// Computes the SUPERCOVER or THIN occupancy, whichever `cover` was built for.
 void cover_bricks(VoxelizeJob& job, const Program& cover);
 
 /// Marks the bricks that are not stored as outside.
 void mark_outside(VoxelizeJob& job, const Program& bin);
 
-/// Finds which points (voxels' centres or corners, as `winding` was built) are inside, and marks
-/// the bricks that are not stored.
+/// Finds which points (voxels' centres or corners, whichever `winding` was built for) are inside,
+/// and marks the bricks that are not stored.
 Buffer<uint16_t> find_inside(VoxelizeJob& job, const Program& winding);
 
-/// The same for a mesh whose open outlines are closed by the job's caps: inside is where the
-/// generalized winding number is above 1/2. Stores also the bricks that it crosses far from any
-/// triangle. `cap_bins` holds the caps, `all_bins` caps and triangles.
+/// Finds the inside of a mesh whose open outlines are closed by the job's caps: the points where
+/// the generalized winding number is above 1/2. Also stores the bricks that the boundary of this
+/// inside crosses far from any triangle. `cap_bins` holds the caps, `all_bins` caps and triangles.
 Buffer<uint16_t> find_inside_open(VoxelizeJob& job, const Program& winding, const Program& caps,
                                   const TriangleBins& cap_bins, const TriangleBins& all_bins);
 
-/// SOLID occupancy.
+/// Computes the SOLID occupancy.
 void fill_solid(VoxelizeJob& job, const Program& winding, const Buffer<uint16_t>& inside);
 
-/// The distance field.
+/// Computes the distance field within `band` shortest edges of the surface.
 void measure_distances(VoxelizeJob& job, const Program& distance, const Buffer<uint16_t>& inside,
                        double band);
 
-/// The triangles of each voxel.
+/// Lists the triangles of each voxel.
 void list_primitives(VoxelizeJob& job, const Program& exact);
 
-/// What voxels take from the mesh's groups and colours.
+/// The values that voxels take from the mesh's groups and colours.
 struct MeshLabels {
-    uint32_t attributes = 0;                    ///< of a voxel that has no triangle
-    std::vector<uint32_t> triangle_attributes;  ///< empty: one word for all
-    std::vector<glm::vec3> vertex_colors;       ///< linear; empty: none
+    uint32_t attributes = 0;                    ///< of a voxel without a triangle
+    std::vector<uint32_t> triangle_attributes;  ///< empty: one value for all
+    std::vector<glm::vec3> vertex_colors;       ///< linear; empty: no colours
 };
 
-/// `attributes` and `colors` by each voxel's closest triangle. `lists` holds the triangles within
-/// `label_reach` of each brick.
+/// Gives each voxel the packed attributes and the colour of its closest triangle. `lists` holds the
+/// triangles within `label_reach` of each brick.
 void label_voxels(VoxelizeJob& job, const Program& label, const Program& distance,
                   const TriangleBins& lists, const MeshLabels& labels);
 
-/// How far from a brick a triangle can be the closest of a voxel that any surface concerns.
+/// The maximum distance from a brick, in lattice units, of a triangle that is the closest one of
+/// any of its voxels that a surface concerns.
 glm::ivec3 label_reach(const GridFrame& frame);
 
 }  // namespace voxelume

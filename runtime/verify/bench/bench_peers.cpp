@@ -8,8 +8,8 @@
 #include <nlohmann/json.hpp>
 
 #include "runtime/base/error.hpp"
+#include "runtime/base/text.hpp"
 #include "runtime/scene/scene.hpp"
-#include "runtime/scene_file/scene_fields.hpp"
 #include "runtime/verify/bench/bench.hpp"
 
 namespace voxelume {

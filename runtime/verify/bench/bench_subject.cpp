@@ -62,9 +62,9 @@ std::span<const BenchEntry> bench_entries() {
         {"sphere", "radius 0.47 m", 8, 1 << 16, false, always, solid_subject<0>},
         {"torus", "radius 0.3 m, tube 0.19 m, turned", 8, 1 << 16, false, always, solid_subject<1>},
         {"box", "0.67 x 0.41 x 0.53 m, turned", 8, 1 << 16, false, always, solid_subject<2>},
-        {"gyroid", "rounded by a ball of 0.45 m, as a fine mesh", 16, 1 << 16, false, always,
-         gyroid_subject},
-        {"bunny", "of Debian's glmark2-data, 0.9 m long", 16, 1 << 16, false, has_bunny,
+        {"gyroid", "a gyroid rounded by a ball of 0.45 m, as a fine mesh", 16, 1 << 16, false,
+         always, gyroid_subject},
+        {"bunny", "the bunny of Debian's glmark2-data, 0.9 m long", 16, 1 << 16, false, has_bunny,
          bunny_subject},
         {"whitted", "scenes/whitted.json, with light", 4, 128, true, always, whitted_subject},
     }};

@@ -3,6 +3,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "runtime/scene_file/read_scene.hpp"
 #include "runtime/verify/analytic/analytic_tracer.hpp"
 #include "runtime/verify/bench/bench.hpp"
 

@@ -1,0 +1,23 @@
+# What `cmake --install` puts where: the program, the library with its header, the module for OpenVDB, and what CMake and
+# pkg-config need to find the library.
+include(CMakePackageConfigHelpers)
+
+install(TARGETS voxelume)
+install(TARGETS voxelume_vdb LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/voxelume)
+install(TARGETS voxelume_shared EXPORT voxelumeTargets INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+install(FILES ${CMAKE_SOURCE_DIR}/runtime/voxelume.hpp DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+install(DIRECTORY ${CMAKE_SOURCE_DIR}/runtime/voxelume DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
+        FILES_MATCHING PATTERN *.hpp)
+
+set(package ${CMAKE_INSTALL_LIBDIR}/cmake/voxelume)
+install(EXPORT voxelumeTargets NAMESPACE voxelume:: DESTINATION ${package})
+configure_package_config_file(${CMAKE_SOURCE_DIR}/cmake/voxelumeConfig.cmake.in ${CMAKE_BINARY_DIR}/voxelumeConfig.cmake
+                              INSTALL_DESTINATION ${package})
+write_basic_package_version_file(${CMAKE_BINARY_DIR}/voxelumeConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${CMAKE_BINARY_DIR}/voxelumeConfig.cmake ${CMAKE_BINARY_DIR}/voxelumeConfigVersion.cmake
+        DESTINATION ${package})
+
+# The prefix of voxelume.pc is found from where the file is, so that an installed tree can be moved.
+file(RELATIVE_PATH prefix_from_pc ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_PREFIX})
+configure_file(${CMAKE_SOURCE_DIR}/cmake/voxelume.pc.in ${CMAKE_BINARY_DIR}/voxelume.pc @ONLY)
+install(FILES ${CMAKE_BINARY_DIR}/voxelume.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)

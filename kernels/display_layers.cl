@@ -1,0 +1,169 @@
+// lit sight rays, layer by layer -> records of what P shows of each in the layout `rays`.
+//
+// For worlds whose surfaces let light through, or whose medium isn't the same everywhere; the host
+// makes the voxels of the records.
+#include "lib/display/depth.h"
+#include "lib/lanes/vector.h"
+#include "lib/lanes/work_item.h"
+#include "lib/light/paths.h"
+#include "lib/traverse/density.h"
+#include "lib/traverse/ray_batch.h"
+#include "shared/display.h"
+#include "shared/scene.h"
+#include "shared/trace.h"
+#include "shared/voxel.h"
+
+/// What a layer adds to the light of an entry's node, and what it covers.
+typedef struct {
+    float light[3];
+    float clear_before, clear;  // what is uncovered before the layer and behind it
+} LayerLight;
+
+/// Tells the layer's light from that of the layers `seen` before, and adds it to them.
+static inline LayerLight take_light(const NodeLight* nodes, uint ray, bool goes_on, bool hit,
+                                    global float* restrict seen) {
+    const uint stride = nodes->stride;
+    LayerLight l;
+    for (uint c = 0; c < 3; ++c) {
+        const float before = goes_on ? seen[c * stride + ray] : 0.0f;
+        l.light[c] = nodes->radiance[c * stride + ray] - before;
+        if (VXL_TRANSMISSION) seen[c * stride + ray] = nodes->radiance[c * stride + ray];
+    }
+    l.clear_before = goes_on ? 1.0f - seen[3 * stride + ray] : 1.0f;
+    l.clear = VXL_TRANSMISSION ? 1.0f - nodes->coverage[ray] : hit ? 0.0f : 1.0f;
+    if (VXL_TRANSMISSION) seen[3 * stride + ray] = nodes->coverage[ray];
+    return l;
+}
+
+/// Vector `n` of an array, in every lane.
+static inline Vector one_vector(global const float* restrict p, uint stride, uint n) {
+    const Vector v = {(lane_float)p[n], (lane_float)p[stride + n], (lane_float)p[2 * stride + n]};
+    return v;
+}
+
+/// Writes the depths of entry n's way: VXL_LAYER_STEP, and VXL_LAYER_DEPTH to VXL_LAYER_RATIO. One
+/// ray in every lane: depths are those of the other kernels, bit by bit.
+static inline void write_depths(const Camera* camera, PyramidShape shape, const DisplaySteps* steps,
+                                const RayBatch* batch, uint n, uint count, bool goes_on, bool hit,
+                                global uint* restrict records) {
+    const uint stride = batch->stride;
+    const Vector o = one_vector(batch->rays, stride, n);
+    const Vector d = one_vector(batch->rays + VXL_RAY_DX * stride, stride, n);
+    const Vector at = one_vector(batch->positions, stride, n);
+    const float t_end = batch->rays[VXL_RAY_END * stride + n];
+    lane_float t_first = (lane_float)0.0f, t_last = (lane_float)t_end;
+    clip_to_world(o, d, shape.size_x, shape.size_y, shape.size_z, &t_first, &t_last);
+    const lane_float from = fmax(t_first, goes_on ? batch->starts[n] : 0.0f);
+    const lane_float to = hit ? (lane_float)as_float(batch->hits[VXL_HIT_T * stride + n]) : t_last;
+    const DepthScale scale = depth_scale(camera, shape.edge, o, d);
+    const lane_float depth = depth_of(camera, shape.edge, from_eye(camera, at));
+    const bool idle = t_end < 0.0f;
+    const lane_float begin = fma(scale.along, from, scale.origin);
+    const lane_float values[5] = {depth + camera->lead, begin,
+                                  idle ? begin : fmax(fma(scale.along, to, scale.origin), begin),
+                                  idle ? (lane_float)1.0f : exact_divide(scale.metres, scale.along),
+                                  depth - camera->near_plane};
+    float one[5 * VXL_LANES];
+    for (int i = 0; i < 5; ++i) LANES_STORE(values[i], one, i * VXL_LANES);
+    uint step[VXL_LANES];
+    LANES_STORE(step_of(steps, values[4]), step, 0);
+    records[VXL_LAYER_STEP * count + n] = step[0];
+    for (uint i = 0; i < 4; ++i)
+        records[(VXL_LAYER_DEPTH + i) * count + n] = as_uint(one[i * VXL_LANES]);
+}
+
+/// Writes a record of VXL_LAYER_WORDS words, `count` apart, of every entry of a layer of surfaces,
+/// 0 .. count-1. `seen` holds the light and the coverage of the rays' nodes before the layer.
+kernel void measure_layer(Camera camera, PyramidShape shape, DisplaySteps steps, uint is_first,
+                          VXL_BATCH_PARAMETERS, uint count, VXL_NODE_PARAMETERS, uint first_ray,
+                          global float* restrict seen, global uint* restrict records) {
+    const uint n = work_item();
+    if (n >= count) return;
+    const RayBatch batch = VXL_BATCH;
+    const NodeLight nodes = VXL_NODES;
+    const bool goes_on = VXL_TRANSMISSION && !is_first;
+    const uint ray = goes_on ? paths[VXL_PATH_TARGET * stride + n] : n;
+    const bool hit = hits[VXL_HIT_VOXEL * stride + n] != VXL_NO_VOXEL;
+    const bool idle = rays[VXL_RAY_END * stride + n] < 0.0f;
+    const LayerLight l = take_light(&nodes, ray, goes_on, hit, seen);
+    write_depths(&camera, shape, &steps, &batch, n, count, goes_on, hit, records);
+    records[VXL_LAYER_RAY * count + n] = first_ray + ray;
+    records[VXL_LAYER_OBJECT * count + n] =
+        hit && !idle ? (hit_attributes[n] & VXL_OBJECT_MASK) + 1u : 0u;
+    records[VXL_LAYER_IN_MEDIUM * count + n] = !VXL_TRANSMISSION || inside[n] == 0u;
+    const float opacity = l.clear < l.clear_before ? 1.0f - l.clear / l.clear_before : 0.0f;
+    records[VXL_LAYER_OPACITY * count + n] = as_uint(l.clear > 0.0f ? opacity : 1.0f);
+    for (uint c = 0; c < 3; ++c) {
+        records[(VXL_LAYER_LIGHT + c) * count + n] = as_uint(l.light[c]);
+        records[(VXL_LAYER_THROUGHPUT + c) * count + n] =
+            VXL_TRANSMISSION ? paths[(VXL_PATH_THROUGHPUT + c) * stride + n] : as_uint(1.0f);
+    }
+}
+
+/// Adds what lies between two depths beyond the near surface to the steps there.
+static inline void add_to_steps(DisplaySteps steps, float from, float to, float amount,
+                                global float* amounts, uint stride) {
+    const float maximum = (float)(steps.count - 1);
+    const uint first = (uint)clamp(from * steps.inverse_step, 0.0f, maximum);
+    const uint last = (uint)clamp(to * steps.inverse_step, 0.0f, maximum);
+    if (first >= last) {
+        amounts[(size_t)first * stride] += amount;
+        return;
+    }
+    const float share = amount / (to - from);
+    for (uint k = first; k <= last; ++k) {
+        const float begin = k == first ? from : (float)k * steps.step;
+        const float end = k == last ? to : (float)(k + 1u) * steps.step;
+        amounts[(size_t)k * stride] += fmax(end - begin, 0.0f) * share;
+    }
+}
+
+/// Sums density times metres in every step k of entries first_entry .. first_entry+count-1 of a
+/// layer: amounts[k * amount_stride + n], which are zero before.
+kernel void measure_density(Camera camera, PyramidShape shape, DisplaySteps steps,
+                            VXL_DENSITY_PARAMETERS, uint is_first, VXL_BATCH_PARAMETERS,
+                            uint first_entry, uint count, uint amount_stride,
+                            global float* restrict amounts) {
+    const uint lane_0 = work_item() * VXL_LANES, first = first_entry + lane_0;
+    if (lane_0 >= count) return;
+    const DensityView density = VXL_DENSITY;
+    const RayBatch batch = VXL_BATCH;
+    const PyramidView p = grid_view(shape);
+    const Vector o = load_vector(batch.rays, batch.stride, first);
+    const Vector d = load_vector(batch.rays + VXL_RAY_DX * batch.stride, batch.stride, first);
+    const lane_float t_end = LANES_LOAD(batch.rays, VXL_RAY_END * batch.stride + first);
+    const lane_int hit =
+        LANE_MASK(LANES_LOAD(batch.hits, VXL_HIT_VOXEL * batch.stride + first) != VXL_NO_VOXEL);
+    const lane_float t_hit =
+        LANES_AS_FLOAT(LANES_LOAD(batch.hits, VXL_HIT_T * batch.stride + first));
+    const lane_float t_last = LANES_SELECT(hit, t_hit, t_end);
+    lane_float t_first = (lane_float)0.0f;
+    lane_int walking = LANE_MASK(LANES_NUMBERS + (int)lane_0 < (int)count);
+    if (VXL_TRANSMISSION) {
+        if (!is_first) t_first = LANES_LOAD(batch.starts, first);
+        walking &= LANE_MASK(LANES_LOAD(batch.inside, first) == 0u);
+    }
+    const DepthScale scale = depth_scale(&camera, shape.edge, o, d);
+    Walk w = begin_walk(o.x, o.y, o.z, d.x, d.y, d.z);
+    lane_float entered = t_first;
+    walking &= LANE_MASK(t_end >= 0.0f) & in_grid(&p, &w) & LANE_MASK(t_first < t_last);
+    while (lanes_any(walking)) {
+        const DensityCell cell = look_up_density(&density, w.x, w.y, w.z, walking);
+        leave_cells(&p, &density, &w, cell.log2_size, walking);
+        const lane_int counts = walking & LANE_MASK(w.t > t_first);
+        const lane_int ends = LANE_MASK(w.t >= t_last);
+        const lane_float left = LANES_SELECT(ends, t_last, w.t);
+        float part[3 * VXL_LANES];
+        int adds[VXL_LANES];
+        LANES_STORE(cell.density * fmax(left - entered, 0.0f) * scale.metres, part, 0);
+        LANES_STORE(fma(scale.along, entered, scale.origin), part, VXL_LANES);
+        LANES_STORE(fma(scale.along, left, scale.origin), part, 2 * VXL_LANES);
+        LANES_STORE(counts & LANE_MASK(cell.density > 0.0f), adds, 0);
+        for (uint i = 0; i < VXL_LANES; ++i)
+            if (adds[i])
+                add_to_steps(steps, part[VXL_LANES + i], part[2 * VXL_LANES + i], part[i],
+                             amounts + lane_0 + i, amount_stride);
+        entered = LANES_SELECT(counts, left, entered);
+        walking &= ~ends & in_grid(&p, &w);
+    }
+}

@@ -1,0 +1,57 @@
+// Depths of points and rays before an observer.
+#ifndef VXL_DEPTH_H
+#define VXL_DEPTH_H
+
+#include "lib/lanes/fixed_point.h"
+#include "lib/lanes/vector.h"
+#include "shared/display.h"
+#include "shared/scene.h"
+
+/// From E's `lead` to a point, in voxels.
+static inline Vector from_eye(const Camera* camera, Vector p) {
+    const Vector result = {p.x - camera->origin.x - camera->origin_low.x,
+                           p.y - camera->origin.y - camera->origin_low.y,
+                           p.z - camera->origin.z - camera->origin_low.z};
+    return result;
+}
+
+/// The part of a vector, in metres, that leads along Z_E.
+static inline lane_float along_sight(const Camera* camera, float4 edge, Vector metres) {
+    // Z_E in voxels per metre, times the edge, is a unit vector.
+    return fma(metres.x, camera->axis_z.x * edge.x,
+               fma(metres.y, camera->axis_z.y * edge.y, metres.z * (camera->axis_z.z * edge.z)));
+}
+
+/// How far a point, in voxels from E's `lead`, is away from there in metres: along Z_E, or along
+/// the ray.
+static inline lane_float depth_of(const Camera* camera, float4 edge, Vector from_eye) {
+    const Vector metres = scaled(from_eye, edge);
+    if (camera->shape == VXL_SHAPE_SECTOR || camera->shape == VXL_SHAPE_BALL)
+        return exact_sqrt(dot_product(metres, metres));
+    return along_sight(camera, edge, metres);
+}
+
+/// The step that a depth beyond the near surface lies in.
+static inline lane_uint step_of(const DisplaySteps* steps, lane_float depth) {
+    const lane_int step = LANES_INT(fmax(depth, 0.0f) * steps->inverse_step);
+    return LANES_AS_UINT(clamp(step, (lane_int)0, (lane_int)(steps->count - 1)));
+}
+
+/// How a ray's t becomes depth beyond the near surface.
+typedef struct {
+    lane_float metres;  // of a unit of t
+    lane_float along;   // depth of a unit of t
+    lane_float origin;  // depth at t = 0
+} DepthScale;
+
+static inline DepthScale depth_scale(const Camera* camera, float4 edge, Vector o, Vector d) {
+    DepthScale s;
+    s.metres = metres_per_t(edge, d);
+    s.along = s.metres;
+    if (camera->shape == VXL_SHAPE_PYRAMID || camera->shape == VXL_SHAPE_BOX)
+        s.along = depth_of(camera, edge, d);
+    s.origin = depth_of(camera, edge, from_eye(camera, o)) - camera->near_plane;
+    return s;
+}
+
+#endif

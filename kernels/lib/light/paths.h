@@ -1,0 +1,87 @@
+// What the rays of a path carry on, and the nodes that their light goes to.
+#ifndef VXL_PATHS_H
+#define VXL_PATHS_H
+
+#include "lib/light/medium_set.h"
+#include "lib/light/surroundings.h"
+#include "lib/surface/cube_body.h"
+
+/// No node: an entry that sends no ray.
+#define VXL_NO_CHILD 0xFFFFFFFFu
+
+/// Numbers in `counters`.
+#define VXL_COUNT_LAYER 0u     // entries of the next layer
+#define VXL_COUNT_CHILDREN 1u  // nodes of the next depth
+#define VXL_COUNT_ENDED 2u     // paths that ended for their small weight
+
+/// The parameters that `bind` of NodeLight sets, in its order.
+#define VXL_NODE_PARAMETERS \
+    global float* restrict node_radiance, global float* restrict node_coverage, uint node_stride
+
+/// The sums of light of nodes; `coverage` may be null.
+typedef struct {
+    global float* restrict radiance;
+    global float* restrict coverage;
+    uint stride;
+} NodeLight;
+
+/// The value of NodeLight in a kernel with these parameters.
+#define VXL_NODES \
+    { node_radiance, node_coverage, node_stride }
+
+/// The parameters that `bind` of Children sets, in its order.
+#define VXL_CHILDREN_PARAMETERS                                              \
+    global uint *restrict child_nodes, global float *restrict child_weights, \
+        global float *restrict node_weights
+
+/// The reflected and refracted rays of a batch: runtime/stages/trace/scatter.hpp.
+typedef struct {
+    global uint* restrict nodes;
+    global float* restrict child_weights;
+    global float* restrict node_weights;
+} Children;
+
+/// The value of Children in a kernel with these parameters.
+#define VXL_CHILDREN \
+    { child_nodes, child_weights, node_weights }
+
+static inline lane_float path_float(global const uint* paths, uint component, uint stride,
+                                    uint first) {
+    return LANES_AS_FLOAT(LANES_LOAD(paths, component * stride + first));
+}
+
+static inline lane_float largest(const lane_float* value) {
+    return fmax(value[0], fmax(value[1], value[2]));
+}
+
+static inline lane_int below(uint first, uint count) {
+    return LANE_MASK(LANES_AS_INT(LANES_NUMBERS + (int)first) < (int)count);
+}
+
+/// VXL_PATH_JOINED of rays inside of a set of objects.
+static inline lane_uint joined_flag(const MediumSet* in, global const float* restrict materials) {
+    return LANES_AS_UINT(is_joined(body_inside(in), materials)) & VXL_PATH_JOINED;
+}
+
+/// The index of refraction of a RayBatch::inside.
+static inline lane_float medium_ior(global const float* restrict materials, lane_uint medium) {
+    const lane_int some = LANE_MASK(medium != 0u);
+    const lane_uint material = ((medium - 1u) & LANES_AS_UINT(some)) * VXL_MATERIAL_FLOATS;
+    return LANES_SELECT(some, LANES_GATHER_FLOAT(materials, material + VXL_MATERIAL_IOR),
+                        (lane_float)1.0f);
+}
+
+static inline void count_lanes(lane_int mask, global uint* counter) {
+    if (lanes_any(mask)) atomic_add(counter, (uint)lanes_count(mask));
+}
+
+/// cross_medium; sets that have no room are counted in `overflows`.
+static inline MediumSet cross_counted(MediumSet in, lane_uint packed, lane_int smooth,
+                                      lane_int leaving, lane_int crossing, global uint* overflows) {
+    lane_int full;
+    in = cross_medium_or_overflow(in, packed, smooth, leaving, crossing, &full);
+    if (VXL_MEDIUM_SET_CAPPED) count_lanes(full, overflows);
+    return in;
+}
+
+#endif

@@ -1,0 +1,121 @@
+// What surfaces do with the light of rays that meet them: which part they reflect and refract, and
+// where to.
+#ifndef VXL_SCATTER_POINT_H
+#define VXL_SCATTER_POINT_H
+
+#include "lib/light/optics.h"
+#include "lib/light/paths.h"
+#include "lib/traverse/hit_attributes.h"
+#include "lib/traverse/ray_batch.h"
+
+/// The rays of one sort that leave a packet of surface points, and where they are put.
+typedef struct {
+    lane_float returned;  // of their light that the surface returns
+    lane_int wanted;
+} Scattered;
+
+/// A packet of surface points. Directions are in metres' space: `way` along the ray, the normal
+/// against it.
+typedef struct {
+    lane_int valid;         // mask: entries of the batch
+    lane_int hit, leaving;  // masks: the surface is met; from inside of its object
+    lane_uint packed, material, source;
+    Vector position, normal, way;
+    lane_float cosine;  // of the angle of incidence
+    lane_float eta;     // the index of refraction before the surface over that behind it
+    Refraction bend;
+    MediumSet before, behind;  // the objects that the ray is inside of
+} ScatterPoint;
+
+/// The points of entries `first` .. , of those below `end`. `eta` and `bend` are those of equal
+/// media.
+static inline ScatterPoint load_point(const RayBatch* batch, float4 edge, uint first, uint end) {
+    const uint stride = batch->stride;
+    ScatterPoint p;
+    p.valid = below(first, end);
+    const lane_uint number = LANES_LOAD(batch->hits, VXL_HIT_VOXEL * stride + first);
+    const lane_uint side = LANES_LOAD(batch->sides, first);
+    p.hit = LANE_MASK(number != VXL_NO_VOXEL) & p.valid & LANE_MASK((side & VXL_SIDE_HIDDEN) == 0u);
+    p.leaving = LANE_MASK((side & VXL_SIDE_LEAVING) != 0u);
+    p.packed = LANES_LOAD(batch->hit_attributes, first);
+    p.material = material_offset(p.packed) & LANES_AS_UINT(p.hit);
+    p.source = (lane_uint)VXL_NO_PRIMITIVE;
+    if (VXL_EXACT) p.source = LANES_LOAD(batch->hits, VXL_HIT_PRIMITIVE * stride + first);
+    p.way = unit(scaled(load_vector(batch->rays + VXL_RAY_DX * stride, stride, first), edge));
+    p.normal = load_vector(batch->normals, stride, first);
+    p.position = load_vector(batch->positions, stride, first);
+    p.cosine = clamp(-dot_product(p.way, p.normal), 0.0f, 1.0f);
+    p.eta = (lane_float)1.0f;
+    const Refraction straight = {(lane_int)0, p.cosine, (lane_float)0.0f, (lane_float)1.0f};
+    p.bend = straight;
+    p.before = empty_medium_set();
+    if (VXL_TRANSMISSION) p.before = load_medium_set(batch->paths, stride, first, p.valid);
+    p.behind = p.before;
+    return p;
+}
+
+/// Finds the objects behind the surfaces. Who leaves a transmitting object that the set doesn't
+/// hold began inside of it. Mask: surfaces of transmitting objects.
+static inline lane_int cross_objects(const Surroundings* around, ScatterPoint* p) {
+    global const float* materials = around->materials;
+    const lane_int body = is_smooth(p->packed, p->source);
+    const lane_int open =
+        p->hit & transmits(materials, p->material,
+                           LANES_GATHER_FLOAT(materials, p->material + VXL_MATERIAL_OPACITY));
+    const lane_int began = open & p->leaving & ~medium_set_holds(&p->before, p->packed, body);
+    p->before =
+        cross_counted(p->before, p->packed, body, (lane_int)0, began, around->medium_overflows);
+    p->behind =
+        cross_counted(p->before, p->packed, body, p->leaving, open, around->medium_overflows);
+    return open;
+}
+
+/// Refracts between the media before and behind the surfaces, those that aren't `open` as if they
+/// were of their material, and parts the light between reflection and refraction by Fresnel's law
+/// where the material asks for it.
+static inline void refract_light(const Surroundings* around, ScatterPoint* p, lane_int open,
+                                 Scattered* reflected, Scattered* refracted) {
+    global const float* materials = around->materials;
+    const lane_uint from = medium_inside(&p->before, around->ranks);
+    lane_uint to = medium_inside(&p->behind, around->ranks);
+    to = LANES_SELECT(open, to, ((p->packed >> VXL_MATERIAL_SHIFT) & VXL_MATERIAL_MASK) + 1u);
+    p->eta = exact_divide(medium_ior(materials, from),
+                          medium_ior(materials, to & LANES_AS_UINT(p->hit)));
+    p->bend = refraction_at(p->eta, p->cosine);
+    const Refraction bend = p->bend;
+    const lane_int fresnel =
+        LANE_MASK(LANES_GATHER_FLOAT(materials, p->material + VXL_MATERIAL_FRESNEL) != 0.0f);
+    const lane_int total = bend.total & LANE_MASK(refracted->returned > 0.0f);
+    const lane_float all = reflected->returned + refracted->returned;
+    reflected->returned = LANES_SELECT(fresnel, reflected->returned * bend.reflected,
+                                       LANES_SELECT(total, all, reflected->returned));
+    refracted->returned = LANES_SELECT(
+        bend.total, (lane_float)0.0f,
+        LANES_SELECT(fresnel, refracted->returned * bend.refracted, refracted->returned));
+}
+
+/// Of a packet's points, the shares of light that are reflected and refracted.
+static inline void scatter_light(const Surroundings* around, ScatterPoint* p, Scattered* reflected,
+                                 Scattered* refracted) {
+    global const float* materials = around->materials;
+    const lane_float zero = (lane_float)0.0f;
+    reflected->returned = LANES_SELECT(
+        p->hit, LANES_GATHER_FLOAT(materials, p->material + VXL_MATERIAL_REFLECTION), zero);
+    refracted->returned = zero;
+    lane_int open = (lane_int)0;
+    if (VXL_TRANSMISSION) {
+        refracted->returned = LANES_SELECT(
+            p->hit, LANES_GATHER_FLOAT(materials, p->material + VXL_MATERIAL_REFRACTION), zero);
+        open = cross_objects(around, p);
+    }
+    if (VXL_REFRACTS) refract_light(around, p, open, reflected, refracted);
+}
+
+static inline Vector mirrored_direction(const ScatterPoint* p) {
+    const lane_float twice = 2.0f * p->cosine;
+    const Vector v = p->way, n = p->normal;
+    const Vector mirrored = {fma(twice, n.x, v.x), fma(twice, n.y, v.y), fma(twice, n.z, v.z)};
+    return mirrored;
+}
+
+#endif

@@ -1,0 +1,62 @@
+// The world as kernels take it: the pyramid of its voxels, the surfaces in these, and the instances
+// behind it.
+#ifndef VXL_WORLD_H
+#define VXL_WORLD_H
+
+#include "lib/traverse/pyramid.h"
+#include "shared/instance.h"
+#include "shared/solid.h"
+
+/// The parameters that runtime/grid/grid_arguments.hpp binds to a Pyramid, in its order.
+#define VXL_WORLD_PARAMETERS                                                                     \
+    PyramidShape shape, global const uint *restrict sectors, global const uint *restrict bricks, \
+        global const uint *restrict leaves, global const uint *restrict leaf_voxels,             \
+        global const uint *restrict attributes, uint constant_attribute,                         \
+        global const uint *restrict colors, global const uint *restrict fields,                  \
+        global const uint *restrict primitive_first, global const uint *restrict primitives,     \
+        global const float *restrict triangles, global const uint *restrict triangle_attributes, \
+        global const SolidShape *restrict solids,                                                \
+        global const InstanceRecord *restrict instance_records,                                  \
+        global const InstanceNode *restrict instance_nodes,                                      \
+        global const uint *restrict group_materials
+
+/// The surfaces in the voxels of a pyramid.
+typedef struct {
+    global const uint* restrict attributes;
+    uint constant_attribute;  // of every voxel where there are no `attributes`
+    global const uint* restrict colors;
+    global const uint* restrict fields;
+    global const uint* restrict primitive_first;
+    global const uint* restrict primitives;
+    global const float* restrict triangles;
+    global const uint* restrict triangle_attributes;
+    global const SolidShape* restrict solids;
+} SurfaceView;
+
+/// The instances of models whose pyramids lie behind the world's.
+typedef struct {
+    global const InstanceRecord* restrict records;
+    global const InstanceNode* restrict nodes;
+    global const uint* restrict group_materials;
+} InstanceView;
+
+/// All of them; buffers that the world doesn't need are null.
+typedef struct {
+    PyramidShape shape;
+    PyramidView pyramid;
+    SurfaceView surface;
+    InstanceView instances;
+} WorldView;
+
+/// The value of a WorldView in a kernel with these parameters.
+#define VXL_WORLD                                                                          \
+    {                                                                                      \
+        shape, pyramid_view(shape, sectors, bricks, leaves, leaf_voxels),                  \
+            {attributes, constant_attribute,  colors, fields, primitive_first, primitives, \
+             triangles,  triangle_attributes, solids},                                     \
+        {                                                                                  \
+            instance_records, instance_nodes, group_materials                              \
+        }                                                                                  \
+    }
+
+#endif

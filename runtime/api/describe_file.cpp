@@ -1,0 +1,182 @@
+// What is in a file, for callers: by what it begins with.
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "runtime/api/describe.hpp"
+#include "runtime/api/guarded.hpp"
+#include "runtime/api/process.hpp"
+
+#include "runtime/base/error.hpp"
+#include "runtime/base/input_file.hpp"
+#include "runtime/io/image/exr.hpp"
+#include "runtime/io/image/png.hpp"
+#include "runtime/io/vdb/vdb.hpp"
+#include "runtime/io/volume/volume_frame_text.hpp"
+#include "runtime/io/voxels/model_file.hpp"
+#include "runtime/voxelume/files.hpp"
+
+namespace voxelume::api {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+template <class Vector>
+Report numbers(const Vector& v) {
+    return {v.x, v.y, v.z};
+}
+
+template <class Values>
+Report describe_plane(const std::string& name, const std::string& type, const Values& plane) {
+    double smallest = 0.0, largest = 0.0, sum = 0.0;
+    size_t finite = 0;
+    for (const auto value : plane) {
+        const double v = value;
+        if (!std::isfinite(v)) continue;
+        smallest = finite == 0 ? v : std::min(smallest, v);
+        largest = finite == 0 ? v : std::max(largest, v);
+        sum += v;
+        ++finite;
+    }
+    Report row = {{"channel", name}, {"type", type}, {"min", nullptr}, {"max", nullptr}};
+    row["mean"] = nullptr;
+    row["not finite"] = plane.size() - finite;
+    if (finite == 0) return row;
+    row["min"] = smallest;
+    row["max"] = largest;
+    row["mean"] = sum / static_cast<double>(finite);
+    return row;
+}
+
+Report describe_exr(const fs::path& path) {
+    const ExrHeader header = read_exr_header(path);
+    if (header.attributes.contains(kFrameKey)) return describe_volume(path, "deep OpenEXR volume");
+    Report report = {{"kind", "OpenEXR image"},
+                     {"size", {header.width, header.height}},
+                     {"layout", header.layout},
+                     {"compression", header.compression}};
+    for (const auto& [name, text] : header.attributes) report["attributes"][name] = text;
+    report["channels"] = Report::array();
+    if (header.layout.starts_with("deep")) {
+        for (const auto& [name, type] : header.channels)
+            report["channels"].push_back({{"channel", name}, {"type", type}});
+        return report;
+    }
+    const Image image = read_exr(path);
+    for (const auto& [name, plane] : image.planes)
+        report["channels"].push_back(describe_plane(name, header.channels.at(name), plane));
+    for (const auto& [name, plane] : image.id_planes)
+        report["channels"].push_back(describe_plane(name, header.channels.at(name), plane));
+    return report;
+}
+
+Report describe_png(const fs::path& path) {
+    const Picture picture = read_png(path);
+    constexpr std::array kNames = {"R", "G", "B", "A"};
+    Report report = {{"kind", "PNG picture"}, {"size", {picture.width, picture.height}}};
+    for (size_t channel = 0; channel < kNames.size(); ++channel) {
+        std::vector<uint8_t> plane;
+        for (const auto& pixel : picture.pixels) plane.push_back(pixel[channel]);
+        report["channels"].push_back(describe_plane(kNames[channel], "8 bit", plane));
+    }
+    return report;
+}
+
+Report describe_vdb(const fs::path& path) {
+    Report report = {{"kind", "OpenVDB volume"}};
+    if (read_vdb_metadata(path).contains(kFrameKey))
+        report = describe_volume(path, "OpenVDB volume");
+    report["grids"] = Report::array();
+    for (const VdbSummary& grid : read_vdb_summary(path))
+        report["grids"].push_back({{"grid", grid.name},
+                                   {"type", grid.value_type},
+                                   {"class", grid.grid_class},
+                                   {"voxels", grid.active_voxels},
+                                   {"min", numbers(grid.min)},
+                                   {"max", numbers(grid.max)},
+                                   {"voxel edges", numbers(grid.voxel_edges)}});
+    return report;
+}
+
+Report describe_model(const fs::path& path) {
+    const ModelSummary model = read_model_summary(path);
+    Report report = {{"kind", "voxelized model"}, {"arrays", Report::array()}};
+    for (const auto& [key, value] : model.header) report["header"][key] = value;
+    for (const auto& [name, array] : model.arrays)
+        report["arrays"].push_back({{"array", name},
+                                    {"type", element_name(array.type)},
+                                    {"count", array.count},
+                                    {"bytes", array.count * element_bytes(array.type)},
+                                    {"compressed", array.compressed_bytes}});
+    return report;
+}
+
+Report describe_nrrd(const fs::path& path) {
+    return describe_volume(path, "NRRD volume");
+}
+
+using Describe = Report (*)(const fs::path&);
+
+/// By what the file begins with; meshes have no mark of their own, so they are what is left.
+Describe find_description(const fs::path& path) {
+    constexpr std::array<std::pair<std::string_view, Describe>, 6> kKinds = {
+        {{{"\x76\x2f\x31\x01", 4}, describe_exr},
+         {{"\x89PNG\r\n\x1a\n", 8}, describe_png},
+         {{" BDV\0\0\0\0", 8}, describe_vdb},
+         {{"\x89VXM\r\n\x1a\n", 8}, describe_model},
+         {{"NRRD000", 7}, describe_nrrd},
+         {{"Kvxl", 4}, describe_kv6}}};
+    const InputFile file(path);
+    std::string start(std::min<uint64_t>(8, file.size()), '\0');
+    file.read(0, start.data(), start.size());
+    for (const auto& [mark, describe] : kKinds)
+        if (start.starts_with(mark)) return describe;
+    return path.extension() == ".json" ? describe_volume_header : describe_mesh;
+}
+
+}  // namespace
+
+namespace {
+
+v1::Facts facts_of(const Report& report, const std::string& name) {
+    v1::Facts facts{v1::Facts::Kind::value, name, {}};
+    std::vector<v1::Facts> inner;
+    if (report.is_object()) {
+        facts.kind = v1::Facts::Kind::object;
+        for (const auto& item : report.items()) inner.push_back(facts_of(item.value(), item.key()));
+        facts.value = std::move(inner);
+    } else if (report.is_array()) {
+        facts.kind = v1::Facts::Kind::list;
+        for (const Report& item : report) inner.push_back(facts_of(item, {}));
+        facts.value = std::move(inner);
+    } else if (report.is_boolean()) {
+        facts.value = report.get<bool>();
+    } else if (report.is_number_unsigned()) {
+        facts.value = report.get<uint64_t>();
+    } else if (report.is_number_integer()) {
+        facts.value = report.get<int64_t>();
+    } else if (report.is_number()) {
+        facts.value = report.get<double>();
+    } else if (report.is_string()) {
+        facts.value = report.get<std::string>();
+    }
+    return facts;
+}
+
+}  // namespace
+}  // namespace voxelume::api
+
+namespace voxelume::v1 {
+
+Facts describe_file(const std::filesystem::path& file) {
+    return api::guarded([&] {
+        api::apply_process_options();
+        api::Report report = {{"file", file.string()}, {"bytes", 0}};
+        report.update(api::find_description(file)(file));
+        report["bytes"] = std::filesystem::file_size(file);
+        return api::facts_of(report, {});
+    });
+}
+
+}  // namespace voxelume::v1

@@ -1,0 +1,110 @@
+// Voxelized meshes, frames' names and other files, for callers.
+#include "runtime/voxelume/files.hpp"
+
+#include <chrono>
+
+#include "runtime/api/convert.hpp"
+#include "runtime/api/guarded.hpp"
+#include "runtime/api/handles.hpp"
+#include "runtime/assets/voxel_export.hpp"
+#include "runtime/base/atomic_file.hpp"
+#include "runtime/base/frame_list.hpp"
+#include "runtime/base/frame_path.hpp"
+#include "runtime/io/mesh/mesh_reader.hpp"
+#include "runtime/io/vdb/vdb.hpp"
+#include "runtime/memory/plan.hpp"
+#include "runtime/scene_file/scene_fields.hpp"
+#include "runtime/stages/voxelize/voxelize.hpp"
+
+namespace voxelume {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What a scene would say of the mesh.
+Model model_of(const fs::path& mesh, const v1::VoxelizeOptions& options) {
+    Model model;
+    model.name = mesh.stem();
+    model.mesh = mesh;
+    model.where = mesh.string();
+    model.voxel_size = glm::dvec3(options.voxel_size);
+    model.resolution = options.voxel_size > 0 ? 0 : options.resolution;
+    model.surface = static_cast<Surface>(options.surface);
+    model.set = static_cast<VoxelSet>(options.set);
+    return model;
+}
+
+void check_endings(const std::vector<fs::path>& outputs) {
+    for (const fs::path& output : outputs)
+        if (output.extension() != ".vdb" && output.extension() != ".vxm")
+            throw Error(ErrorKind::usage, "{}: the name of voxels ends in .vxm or .vdb",
+                        SourcePlace(output.string()));
+}
+
+v1::VoxelizeReport voxelize_to_files(const fs::path& path, const std::vector<fs::path>& outputs,
+                                     const Device& device, const v1::VoxelizeOptions& options) {
+    check_endings(outputs);
+    const Model model = model_of(path, options);
+    const Mesh mesh = read_mesh(path);
+    const GridPlan plan = plan_model(model, mesh);
+    check_model(model, plan, device.info());
+    const auto start = std::chrono::steady_clock::now();
+    const BrickGrid grid = Voxelizer(device).voxelize(mesh, glm::dmat4(1), plan.frame,
+                                                      {model.surface, model.set, kExportBand});
+    device.finish();
+    const double seconds =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    const VoxelExport voxels(grid, mesh, model.surface, model.set);
+    for (const fs::path& output : outputs) {
+        if (output.extension() == ".vdb")
+            voxels.write_vdb(output);
+        else
+            voxels.write_model(output);
+    }
+    return {mesh.triangles.size(), api::array_of(grid.frame.size), grid.frame.voxel_edge.x,
+            grid.brick_count, seconds};
+}
+
+}  // namespace
+
+namespace v1 {
+
+VoxelizeReport voxelize(const fs::path& mesh, const std::vector<fs::path>& outputs,
+                        const Device& device, const VoxelizeOptions& options) {
+    return api::guarded(
+        [&] { return voxelize_to_files(mesh, outputs, api::inside(device), options); });
+}
+
+std::vector<int> parse_frame_list(const std::string& list) {
+    return api::guarded([&] { return voxelume::parse_frame_list(list); });
+}
+
+std::string frame_path(const std::string& pattern, int frame, bool one_of_many) {
+    return api::guarded([&] { return voxelume::frame_path(pattern, frame, one_of_many); });
+}
+
+void check_output_file(const fs::path& file) {
+    api::guarded([&] {
+        const AtomicFile trial(file);  // leaves nothing behind without commit()
+        if (file.extension() == ".vdb") check_vdb_output(file);
+    });
+}
+
+void write_file(const fs::path& file, std::string_view text) {
+    api::guarded([&] {
+        AtomicFile output(file);
+        output.write(text.data(), text.size());
+        output.commit();
+    });
+}
+
+std::string quote(std::string_view text) {
+    return voxelume::quote(text);
+}
+
+std::string suggest(std::string_view text, std::span<const std::string_view> names) {
+    return voxelume::suggest(text, names);
+}
+
+}  // namespace v1
+}  // namespace voxelume

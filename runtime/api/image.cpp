@@ -1,0 +1,213 @@
+// Flat images for callers: their planes, files and differences.
+#include "runtime/image/image.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "runtime/api/guarded.hpp"
+#include "runtime/api/handles.hpp"
+#include "runtime/base/input_file.hpp"
+#include "runtime/image/flip.hpp"
+#include "runtime/image/image_difference.hpp"
+#include "runtime/io/image/exr.hpp"
+#include "runtime/io/image/png.hpp"
+#include "runtime/io/mesh/mesh_color.hpp"
+#include "runtime/scene_file/scene_fields.hpp"
+
+namespace voxelume {
+namespace {
+
+constexpr const char* kColors[] = {"R", "G", "B"};
+
+bool is_png(const std::filesystem::path& file) {
+    const InputFile input(file);
+    char start[4] = {};
+    input.read(0, start, std::min<uint64_t>(sizeof start, input.size()));
+    return std::string_view(start, sizeof start) == "\x89PNG";
+}
+
+/// A picture's codes as parts of 255: what is compared is what is seen.
+Image image_from(const Picture& picture) {
+    Image image{picture.width, picture.height, {}, {}, {}};
+    constexpr const char* kNames[] = {"R", "G", "B", "A"};
+    for (size_t channel = 0; channel < 4; ++channel) {
+        std::vector<float> values;
+        values.reserve(picture.pixels.size());
+        for (const auto& pixel : picture.pixels)
+            values.push_back(static_cast<float>(pixel[channel]) / 255.0f);
+        image.planes[kNames[channel]] = std::move(values);
+    }
+    return image;
+}
+
+/// Codes as the light that they stand for.
+void make_linear(Image& image) {
+    for (const char* name : kColors)
+        for (float& value : image.planes.at(name)) value = linear_from_srgb(double(value));
+}
+
+bool has_colors(const Image& image) {
+    const auto is_nan = [](float value) { return std::isnan(value); };
+    return std::ranges::all_of(kColors, [&](const char* name) {
+        const auto plane = image.planes.find(name);
+        return plane != image.planes.end() && std::ranges::none_of(plane->second, is_nan);
+    });
+}
+
+/// Nothing without colours, and for colours that aren't numbers.
+std::optional<double> flip_of(Image a, Image b, bool are_codes) {
+    if (!has_colors(a) || !has_colors(b)) return {};
+    if (are_codes) make_linear(a), make_linear(b);
+    return mean_flip(a, b);
+}
+
+const Plane<float>& plane_of(const Image& image, std::string_view channel) {
+    const auto found = image.planes.find(std::string(channel));
+    if (found != image.planes.end()) return found->second;
+    std::vector<std::string_view> names;
+    for (const auto& [name, plane] : image.planes) names.push_back(name);
+    throw Error(ErrorKind::usage, "the image has no channel {}{}", quote(channel),
+                suggest(channel, names));
+}
+
+/// The names of the planes that an OpenEXR file leaves out.
+std::vector<const char*> left_out(const v1::Channels& channels) {
+    std::vector<const char*> names;
+    const auto leave_out = [&names](bool is_shown, std::initializer_list<const char*> planes) {
+        if (!is_shown) names.insert(names.end(), planes);
+    };
+    leave_out(channels.color, {"R", "G", "B", "A"});
+    leave_out(channels.depth, {"Z"});
+    leave_out(channels.position, {"P.X", "P.Y", "P.Z"});
+    leave_out(channels.normal, {"N.X", "N.Y", "N.Z"});
+    leave_out(channels.object, {"objectId"});
+    return names;
+}
+
+void write_channels(const std::filesystem::path& file, const v1::Image::Implementation& image,
+                    const v1::ImageFileOptions& options) {
+    const ColorDepth depth = options.float_color ? ColorDepth::float32 : ColorDepth::float16;
+    std::vector<const char*> names = left_out(options.channels);
+    std::erase_if(names, [&](const char* name) {
+        return !image.image->planes.contains(name) && !image.image->id_planes.contains(name);
+    });
+    if (names.empty()) {
+        write_exr(file, *image.image, depth, image.attributes);
+        return;
+    }
+    Image shown = *image.image;
+    for (const char* name : names) shown.planes.erase(name), shown.id_planes.erase(name);
+    write_exr(file, shown, depth, image.attributes);
+}
+
+void write(const std::filesystem::path& file, const v1::Image::Implementation& image,
+           const v1::ImageFileOptions& options) {
+    const std::string extension = file.extension();
+    if (extension == ".png") {
+        PngOptions png;
+        png.exposure = float(options.exposure);
+        write_png(file, *image.image, png);
+    } else if (extension == ".exr") {
+        write_channels(file, image, options);
+    } else {
+        throw Error(ErrorKind::usage, "{}: the name of an image ends in .exr or .png",
+                    SourcePlace(file.string()));
+    }
+}
+
+v1::ImageDifference difference_for_callers(const ImageDifference& difference) {
+    v1::ImageDifference result;
+    for (const ChannelDifference& c : difference.channels)
+        result.channels.push_back(
+            {c.channel, c.largest, c.rmse, c.mae, c.mrse, c.differing, c.unmatched});
+    result.only_in_a = difference.only_in_a;
+    result.only_in_b = difference.only_in_b;
+    return result;
+}
+
+}  // namespace
+
+v1::Image api::handle_of(std::shared_ptr<const Image> image, Attributes attributes,
+                         bool holds_codes) {
+    return v1::Image(std::make_shared<const v1::Image::Implementation>(
+        v1::Image::Implementation{std::move(image), std::move(attributes), holds_codes}));
+}
+
+namespace v1 {
+
+Image Image::read(const std::filesystem::path& file) {
+    return api::guarded([&] {
+        const bool holds_codes = is_png(file);
+        auto image = holds_codes ? image_from(read_png(file)) : read_exr(file);
+        return api::handle_of(std::make_shared<const voxelume::Image>(std::move(image)), {},
+                              holds_codes);
+    });
+}
+
+int Image::width() const {
+    return api::inside(*this).width;
+}
+
+int Image::height() const {
+    return api::inside(*this).height;
+}
+
+bool Image::holds_codes() const {
+    return implementation_->holds_codes;
+}
+
+std::vector<std::string> Image::channels() const {
+    std::vector<std::string> names;
+    for (const auto& [name, plane] : api::inside(*this).planes) names.push_back(name);
+    return names;
+}
+
+bool Image::has(std::string_view channel) const {
+    return api::inside(*this).planes.contains(std::string(channel));
+}
+
+std::span<const float> Image::plane(std::string_view channel) const {
+    return api::guarded([&]() -> std::span<const float> {
+        const auto& plane = plane_of(api::inside(*this), channel);
+        return {plane.data(), plane.size()};
+    });
+}
+
+std::span<const uint32_t> Image::object_ids() const {
+    const auto& planes = api::inside(*this).id_planes;
+    const auto found = planes.find("objectId");
+    if (found == planes.end()) return {};
+    return {found->second.data(), found->second.size()};
+}
+
+void Image::copy(std::string_view channel, std::span<float> to) const {
+    const std::span<const float> from = plane(channel);
+    if (from.size() != to.size())
+        throw Error(ErrorKind::usage, "a plane of " + std::to_string(from.size()) +
+                                          " values doesn't go into " + std::to_string(to.size()));
+    std::ranges::copy(from, to.begin());
+}
+
+void Image::write(const std::filesystem::path& file, const ImageFileOptions& options) const {
+    api::guarded([&] { voxelume::write(file, *implementation_, options); });
+}
+
+ImageDifference compare(const Image& a, const Image& b) {
+    return api::guarded([&] {
+        const voxelume::Image& first = api::inside(a);
+        const voxelume::Image& second = api::inside(b);
+        if (a.holds_codes() != b.holds_codes())
+            throw voxelume::Error(voxelume::ErrorKind::usage,
+                                  "one image holds the codes of a PNG, the other light");
+        if (first.width != second.width || first.height != second.height)
+            throw voxelume::Error(voxelume::ErrorKind::render,
+                                  "one image has {} x {} pixels and the other {} x {}", first.width,
+                                  first.height, second.width, second.height);
+        ImageDifference result = difference_for_callers(compare_images(first, second));
+        result.flip = flip_of(first, second, a.holds_codes());
+        return result;
+    });
+}
+
+}  // namespace v1
+}  // namespace voxelume

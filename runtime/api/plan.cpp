@@ -1,0 +1,112 @@
+// What a scene takes, for callers.
+#include "runtime/voxelume/plan.hpp"
+
+#include <fmt/format.h>
+
+#include <numeric>
+
+#include "runtime/analysis/culling.hpp"
+#include "runtime/api/convert.hpp"
+#include "runtime/api/guarded.hpp"
+#include "runtime/api/handles.hpp"
+#include "runtime/api/process.hpp"
+#include "runtime/api/render.hpp"
+#include "runtime/memory/frame_plans.hpp"
+#include "runtime/scene/scene_animation.hpp"
+
+namespace voxelume {
+namespace {
+
+std::vector<int> frames_of(const Scene& scene, const std::vector<int>& frames) {
+    if (!frames.empty()) return frames;
+    std::vector<int> all(moves(scene) ? size_t(scene.animation.frames) : 1);
+    std::iota(all.begin(), all.end(), 1);
+    return all;
+}
+
+v1::GridPlan grid_for_callers(const Scene& scene, const GridPlan& grid) {
+    const std::string& name = grid.object < 0 ? scene.models[size_t(grid.model)].name
+                                              : scene.objects[size_t(grid.object)].name;
+    return {fmt::format("{} {}", grid.object < 0 ? "model" : "object", name),
+            api::array_of(grid.frame.size),
+            grid.triangles,
+            grid.voxels,
+            grid.bricks,
+            grid.made_bytes,
+            grid.kept_bytes};
+}
+
+/// Why the frame doesn't fit, where it doesn't.
+std::optional<v1::Error> refusal_of(const Scene& scene, const FramePlan& planned,
+                                    const DeviceInfo& device) {
+    try {
+        in_frame(scene, planned.frame, [&] { check_memory(planned.scene, planned.plan, device); });
+    } catch (const Error& error) {
+        return api::error_for_callers(error);
+    }
+    return {};
+}
+
+v1::Plan plan_for_callers(const Scene& scene, const FramePlan& planned, size_t frames,
+                          const DeviceInfo& device) {
+    const ScenePlan& plan = planned.plan;
+    v1::Plan result;
+    result.refusal = refusal_of(scene, planned, device);
+    result.frame = planned.frame;
+    result.min_bytes = plan.min_bytes;
+    result.max_bytes = plan.run_bytes(frames, double(device.memory));
+    result.device_bytes = double(device.memory);
+    result.verdict = result.refusal                            ? v1::Verdict::does_not_fit
+                     : result.max_bytes <= result.device_bytes ? v1::Verdict::fits
+                                                               : v1::Verdict::may_fit;
+    BufferPlan largest = plan.largest;
+    for (const GridPlan& grid : plan.grids) {
+        result.grids.push_back(grid_for_callers(planned.scene, grid));
+        keep_larger(largest, grid.largest);
+    }
+    result.grids.push_back({"world",
+                            api::array_of(plan.world.size),
+                            {},
+                            plan.voxels,
+                            plan.bricks,
+                            plan.index_bytes,
+                            plan.world_bytes});
+    result.largest_buffer_bytes = largest.bytes;
+    result.host_bytes = plan.host_bytes;
+    result.stages = {{"voxelize", plan.voxelize_bytes},
+                     {"place", plan.place_bytes},
+                     {"index", plan.index_bytes},
+                     {"image", plan.image_bytes}};
+    return result;
+}
+
+}  // namespace
+
+namespace v1 {
+
+const char* name_of(Verdict verdict) {
+    return verdict == Verdict::fits      ? "fits"
+           : verdict == Verdict::may_fit ? "may fit"
+                                         : "doesn't fit";
+}
+
+Plan plan(const Scene& scene, const Device& device, const PlanOptions& options) {
+    return api::guarded([&] {
+        voxelume::Scene planned = api::inside(scene);
+        planned.render.channels = api::inside(options.channels);
+        const std::vector<int> frames = frames_of(planned, options.frames);
+        const voxelume::DeviceInfo& info = api::inside(device).info();
+        check_tables(planned, info);
+        AssetStore meshes(api::model_cache(options.cache));
+        find_potentially_visible(planned, frames, meshes);
+        return plan_for_callers(planned, plan_frames(planned, frames, meshes, info), frames.size(),
+                                info);
+    });
+}
+
+std::string bytes_text(double bytes) {
+    return voxelume::bytes_text(bytes);
+}
+
+}  // namespace v1
+}  // namespace voxelume

@@ -1,0 +1,51 @@
+#include "runtime/api/process.hpp"
+
+#include <mutex>
+
+#include "runtime/api/guarded.hpp"
+#include "runtime/base/version.hpp"
+#include "runtime/io/image/exr.hpp"
+#include "runtime/io/vdb/vdb.hpp"
+#include "runtime/opencl/pocl_folder.hpp"
+
+namespace voxelume {
+namespace {
+
+std::mutex options_mutex;
+bool are_applied = false;
+
+void apply(const v1::ProcessOptions& options) {
+    PoclFolder::allow(options.set_driver_environment);
+    isolate_vdb_readers(options.isolate_readers);
+    if (options.image_threads > 0) set_exr_threads(options.image_threads);
+    are_applied = true;
+}
+
+}  // namespace
+
+void api::apply_process_options() {
+    const std::lock_guard lock(options_mutex);
+    if (!are_applied) apply({});
+}
+
+ModelCache api::model_cache(const v1::CacheOptions& options) {
+    if (!options.enabled) return {};
+    if (options.folder.empty() && !options.max_megabytes) return ModelCache::of_user();
+    return ModelCache::of_user(options.folder, options.max_megabytes);
+}
+
+namespace v1 {
+
+const char* version() {
+    return voxelume::version();
+}
+
+void configure(const ProcessOptions& options) {
+    api::guarded([&] {
+        const std::lock_guard lock(options_mutex);
+        apply(options);
+    });
+}
+
+}  // namespace v1
+}  // namespace voxelume

@@ -1,0 +1,203 @@
+// Frames rendered for callers, to memory and to files.
+#include "runtime/voxelume/render.hpp"
+
+#include <algorithm>
+#include <chrono>
+
+#include "runtime/api/convert.hpp"
+#include "runtime/api/guarded.hpp"
+#include "runtime/api/handles.hpp"
+#include "runtime/api/process.hpp"
+#include "runtime/api/render.hpp"
+#include "runtime/base/version.hpp"
+#include "runtime/scene/scene_animation.hpp"
+
+namespace voxelume {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+bool is_exr(const std::filesystem::path& file) {
+    return file.extension() == ".exr";
+}
+
+/// The texts that files of a frame have in their headers.
+api::Attributes attributes_of(const Scene& scene, int frame) {
+    api::Attributes attributes;
+    attributes["scene"] = scene.file.filename().string();
+    if (moves(scene)) attributes["frame"] = std::to_string(frame);
+    attributes["software"] = "voxelume " + std::string(version());
+    return attributes;
+}
+
+/// What a job asks for, of all of its frames.
+struct Wanted {
+    bool images = false, volumes = false;  ///< in memory or as files
+    v1::Channels channels;
+};
+
+void add(const v1::Channels& more, v1::Channels& channels) {
+    channels.color |= more.color;
+    channels.depth |= more.depth;
+    channels.position |= more.position;
+    channels.normal |= more.normal;
+    channels.object |= more.object;
+}
+
+/// PNG files and volumetric images show colour, OpenEXR files and memory what their options say.
+Wanted wanted_by(const v1::FrameJob& job, const v1::RenderOptions& options) {
+    constexpr v1::Channels kNone{false, false, false, false, false};
+    Wanted wanted{job.deliver_images, job.deliver_volumes, kNone};
+    if (job.deliver_images) add(options.channels, wanted.channels);
+    for (const v1::FrameFiles& frame : job.frames) {
+        wanted.images |= !frame.images.empty();
+        wanted.volumes |= !frame.volumes.empty();
+        for (const std::filesystem::path& file : frame.images)
+            add(is_exr(file) ? job.image_files.channels : v1::kColorAlone, wanted.channels);
+    }
+    if (!wanted.images && !wanted.volumes) add(job.image_files.channels, wanted.channels);
+    if (wanted.volumes) add(wanted.images ? v1::kColorAlone : v1::Channels(), wanted.channels);
+    return wanted;
+}
+
+/// A run of frames for a caller.
+class Run {
+  public:
+    Run(const v1::Scene& scene, const std::vector<v1::Device>& devices, const v1::FrameJob& job,
+        const v1::RenderOptions& options)
+        : scene_(api::inside(scene)),
+          devices_(api::inside(devices)),
+          job_(job),
+          options_(options),
+          wanted_(wanted_by(job, options)) {
+        scene_.render.channels = api::inside(wanted_.channels);
+    }
+
+    v1::Statistics render() {
+        const auto start = Clock::now();
+        for (const Device& device : devices_) device.time_kernels(options_.time_kernels);
+        const BatchOutcome outcome = render_frames(
+            devices_, scene_, batch_options(), [this](const FrameResult& result) { take(result); });
+        for (const Device& device : devices_) device.finish();
+        if (outcome.is_cancelled)
+            throw v1::Error(v1::ErrorKind::cancelled,
+                            fmt::format("cancelled after {} of {} frames", outcome.frames_done,
+                                        job_.frames.size()));
+        v1::Statistics statistics = api::statistics_of(reports_, devices_);
+        statistics.size = api::array_of(scene_.render.size);
+        statistics.files = files_;
+        statistics.open_seconds = outcome.check_seconds;
+        statistics.write_seconds = write_seconds_;
+        statistics.one_by_one_from = outcome.one_by_one_from;
+        statistics.total_seconds = seconds_since(start);
+        return statistics;
+    }
+
+  private:
+    BatchOptions batch_options() const {
+        BatchOptions batch;
+        batch.frames.clear();
+        for (const v1::FrameFiles& frame : job_.frames) batch.frames.push_back(frame.frame);
+        batch.image = wanted_.images;
+        batch.volume = wanted_.volumes;
+        batch.overlap = options_.overlap;
+        batch.meshes = AssetStore(api::model_cache(options_.cache));
+        batch.progress = api::callback(options_.progress);
+        batch.stop = options_.stop;
+        return batch;
+    }
+
+    void take(const FrameResult& result) {
+        const v1::FrameFiles& files = job_.frames[reports_.size()];
+        reports_.push_back(result.report);
+        const api::Attributes attributes = attributes_of(scene_, files.frame);
+        v1::RenderedFrame rendered{files.frame, {}, {}, api::statistics_of(result.report)};
+        if (result.image) rendered.image = api::handle_of(result.image, attributes);
+        if (result.volume) {
+            api::Attributes all = result.volume->attributes;
+            for (const auto& [name, text] : attributes) all[name] = text;
+            rendered.volume = api::handle_of(result.volume, std::move(all));
+        }
+        write(rendered, files);
+        if (!job_.deliver_images) rendered.image.reset();
+        if (!job_.deliver_volumes) rendered.volume.reset();
+        if (job_.deliver) api::callback(job_.deliver)(rendered);
+    }
+
+    void write(const v1::RenderedFrame& rendered, const v1::FrameFiles& files) {
+        const auto start = Clock::now();
+        for (const std::filesystem::path& file : files.images)
+            rendered.image->write(file, job_.image_files);
+        for (const std::filesystem::path& file : files.volumes) rendered.volume->write(file);
+        files_ += files.images.size() + files.volumes.size();
+        write_seconds_ += seconds_since(start);
+    }
+
+    Scene scene_;
+    std::vector<Device> devices_;
+    const v1::FrameJob& job_;
+    const v1::RenderOptions& options_;
+    Wanted wanted_;
+    std::vector<FrameReport> reports_;
+    size_t files_ = 0;
+    double write_seconds_ = 0;
+};
+
+void check_job(const v1::FrameJob& job) {
+    if (job.frames.empty()) throw Error(ErrorKind::usage, "no frame is given to render");
+    for (const v1::FrameFiles& frame : job.frames)
+        if (frame.images.empty() && frame.volumes.empty() && !job.deliver_images &&
+            !job.deliver_volumes)
+            throw Error(ErrorKind::usage,
+                        "frame {} is to be neither written nor delivered: name a file, or set "
+                        "deliver_images or deliver_volumes",
+                        frame.frame);
+}
+
+}  // namespace
+
+namespace v1 {
+
+Channels needed_channels(const FrameJob& job, const RenderOptions& options) {
+    return wanted_by(job, options).channels;
+}
+
+Statistics render_frames(const Scene& scene, const std::vector<Device>& devices,
+                         const FrameJob& job, const RenderOptions& options) {
+    return api::guarded([&] {
+        api::apply_process_options();
+        check_job(job);
+        return Run(scene, devices, job, options).render();
+    });
+}
+
+Image render_image(const Scene& scene, const std::vector<Device>& devices, int frame,
+                   const RenderOptions& options, Statistics* statistics) {
+    std::optional<Image> image;
+    FrameJob job;
+    job.frames = {{.frame = frame}};
+    job.deliver_images = true;
+    job.deliver = [&image](const RenderedFrame& rendered) { image = rendered.image; };
+    Statistics of_run = render_frames(scene, devices, job, options);
+    if (statistics) *statistics = std::move(of_run);
+    return *image;
+}
+
+Volume render_volume(const Scene& scene, const std::vector<Device>& devices, int frame,
+                     const RenderOptions& options, Statistics* statistics) {
+    std::optional<Volume> volume;
+    FrameJob job;
+    job.frames = {{.frame = frame}};
+    job.deliver_volumes = true;
+    job.deliver = [&volume](const RenderedFrame& rendered) { volume = rendered.volume; };
+    Statistics of_run = render_frames(scene, devices, job, options);
+    if (statistics) *statistics = std::move(of_run);
+    return *volume;
+}
+
+}  // namespace v1
+}  // namespace voxelume

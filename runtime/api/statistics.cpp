@@ -1,0 +1,117 @@
+// Reports of frames and counters of devices -> statistics for callers.
+#include "runtime/voxelume/statistics.hpp"
+
+#include <algorithm>
+
+#include "runtime/api/render.hpp"
+
+namespace voxelume {
+namespace {
+
+v1::StageSeconds seconds_of(const RenderReport& report) {
+    return {report.world.load_seconds,  report.world.voxelize_seconds, report.world.place_seconds,
+            report.world.index_seconds, report.world.keep_seconds,     report.image_seconds};
+}
+
+void add(const v1::StageSeconds& seconds, v1::StageSeconds& sum) {
+    sum.load += seconds.load;
+    sum.voxelize += seconds.voxelize;
+    sum.place += seconds.place;
+    sum.index += seconds.index;
+    sum.cache += seconds.cache;
+    sum.image += seconds.image;
+}
+
+void add(const RenderReport& report, v1::RayCounts& sum) {
+    sum.sight_rays += report.sight_rays;
+    sum.beams += report.beams;
+    sum.clear_beams += report.clear_beams;
+    sum.display_lines += report.display_lines;
+    sum.clear_display_lines += report.clear_display_lines;
+    sum.shadow_rays += report.shadow_rays;
+    sum.light_beams += report.light_beams;
+    sum.secondary_rays += report.secondary_rays;
+    sum.ended_paths += report.ended_paths;
+    sum.medium_overflows += report.medium_overflows;
+    sum.not_finite += report.not_finite;
+}
+
+v1::WorldReuse reuse_of(WorldChange change) {
+    switch (change) {
+        case WorldChange::none:
+            return v1::WorldReuse::kept;
+        case WorldChange::instances:
+            return v1::WorldReuse::instances_moved;
+        case WorldChange::built:
+            break;
+    }
+    return v1::WorldReuse::built;
+}
+
+/// Times and rays of all frames together; of sizes the largest.
+void add_report(const RenderReport& report, v1::Statistics& sum) {
+    add(seconds_of(report), sum.seconds);
+    add(report, sum.rays);
+    sum.voxels = std::max(sum.voxels, report.voxels);
+    sum.world_bytes = std::max(sum.world_bytes, report.world_bytes);
+    sum.triangles = std::max(sum.triangles, report.world.triangles);
+    sum.culled_objects = std::max(sum.culled_objects, report.world.culled);
+    const InstanceReport& i = report.world.instances;
+    if (i.instances >= sum.instances.instances)
+        sum.instances = {i.instances, i.models, i.voxels, i.bytes, i.seconds};
+}
+
+void add_counters(const DeviceCounters& counters, v1::Statistics& sum) {
+    for (const auto& [name, count] : counters.launches) sum.launches[name] += count;
+    for (const auto& [name, ms] : counters.kernel_ms) sum.kernel_ms[name] += ms;
+    for (const auto& [name, bytes] : counters.allocated_bytes) sum.allocated_bytes[name] += bytes;
+    sum.peak_device_bytes += counters.peak_bytes;
+    sum.programs_made += counters.programs_built;
+    sum.programs_from_cache += counters.programs_from_cache;
+    sum.programs_ms += counters.build_ms;
+}
+
+}  // namespace
+
+v1::FrameStatistics api::statistics_of(const FrameReport& frame) {
+    const RenderReport& report = frame.report;
+    v1::FrameStatistics result;
+    result.frame = frame.frame;
+    result.device = frame.device;
+    result.world = reuse_of(report.world.change);
+    result.image = report.is_kept         ? v1::ImageReuse::kept
+                   : report.hits_are_kept ? v1::ImageReuse::shaded
+                                          : v1::ImageReuse::traced;
+    result.meshes_read = report.world.meshes_read;
+    result.voxelized = report.world.voxelized;
+    result.models_from_cache = report.world.from_cache;
+    result.painted_bricks = report.world.painted_bricks;
+    result.world_from_cache = report.world.is_from_cache;
+    result.instances_moved = report.world.instances.moved;
+    result.instance_models_indexed = report.world.instances.indexed;
+    result.keeps_nothing = report.world.lacks_room;
+    result.seconds = seconds_of(report);
+    return result;
+}
+
+v1::Statistics api::statistics_of(std::span<const FrameReport> frames,
+                                  std::span<const Device> devices) {
+    v1::Statistics sum;
+    for (const FrameReport& frame : frames) {
+        add_report(frame.report, sum);
+        sum.frames.push_back(statistics_of(frame));
+    }
+    for (const Device& device : devices) {
+        const DeviceInfo& info = device.info();
+        sum.devices.push_back({info.name, info.driver, info.compute_units, device.lanes()});
+        add_counters(device.counters(), sum);
+    }
+    // Nobody misses what the last frame of a device doesn't keep.
+    for (auto frame = sum.frames.begin(); frame != sum.frames.end(); ++frame)
+        frame->keeps_nothing &= std::any_of(
+            frame + 1, sum.frames.end(),
+            [&](const v1::FrameStatistics& later) { return later.device == frame->device; });
+    return sum;
+}
+
+}  // namespace voxelume

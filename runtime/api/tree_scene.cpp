@@ -1,0 +1,213 @@
+// The world, lights, observer, tracks and settings of a description, and all of it, as the scene
+// format has them.
+#include <array>
+#include <set>
+
+#include "runtime/api/tree.hpp"
+#include "runtime/base/error.hpp"
+#include "runtime/scene_file/scene_fields.hpp"
+
+namespace voxelume::api {
+namespace {
+
+JsonValue tree_of_density(const v1::HeightDensity& density) {
+    ObjectTree object;
+    object.add("kind", "height").add("base", density.base);
+    return object.add("scale_height", density.scale_height).take();
+}
+
+JsonValue tree_of_density(const v1::BallDensity& density) {
+    ObjectTree object;
+    object.add("kind", "ball").add("center", density.center);
+    return object.add("radius", density.radius).add("falloff", density.falloff).take();
+}
+
+JsonValue tree_of_density(const v1::GridDensity& density) {
+    ObjectTree object;
+    object.add("kind", "grid").add("file", density.file.string()).add("grid", density.grid);
+    if (density.sequence) object.put("sequence", tree(*density.sequence));
+    add_pose(density, object);
+    return object.take();
+}
+
+JsonValue tree_of_medium(const v1::Medium& medium) {
+    ObjectTree object;
+    object.add("absorption", medium.absorption).add("color", medium.color);
+    std::visit(
+        [&object](const auto& density) {
+            if constexpr (!std::is_same_v<std::decay_t<decltype(density)>, std::monostate>)
+                object.put("density", tree_of_density(density));
+        },
+        medium.density);
+    return object.take();
+}
+
+void add_source(const v1::PointLight& light, ObjectTree& object) {
+    object.add("type", "point").add("position", light.position);
+}
+
+void add_source(const v1::DirectionalLight& light, ObjectTree& object) {
+    object.add("type", "directional").add("direction", light.direction);
+}
+
+/// What lights have that are aimed.
+template <class Aimed>
+void add_aim(const Aimed& light, ObjectTree& object) {
+    object.add("position", light.position);
+    object.add("direction", light.direction).add("look_at", light.look_at);
+}
+
+void add_source(const v1::SpotLight& light, ObjectTree& object) {
+    add_aim(light, object.add("type", "spot"));
+    object.add("angle", light.angle).add("inner_angle", light.inner_angle);
+}
+
+void add_source(const v1::DiskLight& light, ObjectTree& object) {
+    add_aim(light, object.add("type", "disk"));
+    object.add("radius", light.radius).add("spots", light.samples);
+}
+
+void add_source(const v1::RectangleLight& light, ObjectTree& object) {
+    add_aim(light, object.add("type", "rectangle"));
+    object.add("size", light.size).add("up", light.up).add("spots", light.samples);
+}
+
+void add_shape(const v1::PyramidDisplay& display, ObjectTree& object) {
+    object.add("shape", "pyramid").add("angles", display.angles).add("angle", display.angle);
+    object.add("near", display.near).add("far", display.far);
+}
+
+void add_shape(const v1::SectorDisplay& display, ObjectTree& object) {
+    object.add("shape", "sector").add("angle", display.angle);
+    object.add("near", display.near).add("far", display.far);
+}
+
+void add_shape(const v1::BallDisplay& display, ObjectTree& object) {
+    object.add("shape", "ball").add("radius", display.radius);
+}
+
+void add_shape(const v1::BoxDisplay& display, ObjectTree& object) {
+    object.add("shape", "box").add("size", display.size).add("near", display.near);
+}
+
+JsonValue tree_of_display(const v1::Display& display) {
+    constexpr std::array kLayouts = {"rays", "lattice"};
+    constexpr std::array kVisibilities = {"observer", "outside", "all"};
+    ObjectTree object;
+    std::visit([&object](const auto& shape) { add_shape(shape, object); }, display.shape);
+    object.add("voxels", display.voxels).add("layout", kLayouts.at(size_t(display.layout)));
+    if (display.visibility) object.add("visibility", kVisibilities.at(size_t(*display.visibility)));
+    return object.add("clip", display.cylinder ? "cylinder" : "shape").take();
+}
+
+JsonValue tree_of_track(const v1::Track& track) {
+    constexpr std::array kInterpolations = {"step", "linear", "cubic", "slerp"};
+    std::vector<JsonValue> items;
+    std::visit(
+        [&items](const auto& keys) {
+            for (const auto& key : keys) {
+                ObjectTree object;
+                items.push_back(object.add("frame", key.frame).add("value", key.value).take());
+            }
+        },
+        track.keys);
+    ObjectTree object;
+    object.add("target", track.target).put("keys", list_of(std::move(items)));
+    if (track.interpolation)
+        object.add("interpolation", kInterpolations.at(size_t(*track.interpolation)));
+    return object.take();
+}
+
+template <class Part>
+JsonValue tree_of_list(const std::vector<Part>& parts) {
+    std::vector<JsonValue> items;
+    for (const Part& part : parts) items.push_back(tree(part));
+    return list_of(std::move(items));
+}
+
+/// Parts by their names, of which none may be there twice. `section` is the scene's key for them.
+template <class Part>
+JsonValue tree_by_name(const std::vector<Part>& parts, const std::string& section,
+                       const std::string& file) {
+    ObjectTree object;
+    std::set<std::string_view> names;
+    for (const Part& part : parts) {
+        if (!names.insert(part.name).second)
+            throw Error(ErrorKind::scene, "{}: another of the {} is named {} already",
+                        SourcePlace(file, 0, 0, section), section, quote(part.name));
+        object.put(part.name, tree(part));
+    }
+    return object.take();
+}
+
+}  // namespace
+
+JsonValue tree(const v1::World& world) {
+    ObjectTree bounds, object;
+    bounds.add("min", world.min).add("max", world.max);
+    object.add("voxel_size", world.voxel_size).put("bounds", bounds.take());
+    object.add("background", world.background).add("ambient", world.ambient);
+    if (world.medium) object.put("medium", tree_of_medium(*world.medium));
+    return object.take();
+}
+
+JsonValue tree(const v1::Material& material) {
+    ObjectTree object;
+    object.add("color", material.color).add("diffuse", material.diffuse);
+    object.add("specular", material.specular).add("shininess", material.shininess);
+    object.add("reflection", material.reflection).add("refraction", material.refraction);
+    object.add("ior", material.ior).add("fresnel", material.fresnel);
+    object.add("opacity", material.opacity).add("absorption", material.absorption);
+    object.add("emission", material.emission);
+    if (const auto& checker = material.checker) {
+        ObjectTree inner;
+        inner.add("color", checker->color).add("size", checker->size);
+        object.put("checker", inner.add("origin", checker->origin).take());
+    }
+    return object.take();
+}
+
+JsonValue tree(const v1::Light& light) {
+    ObjectTree object;
+    object.add_text("name", light.name);
+    std::visit([&object](const auto& source) { add_source(source, object); }, light.source);
+    return object.add("color", light.color).add("intensity", light.intensity).take();
+}
+
+JsonValue tree(const v1::Observer& observer) {
+    ObjectTree object;
+    object.add("position", observer.position).add("look_at", observer.look_at);
+    object.add("up", observer.up).add("turn", observer.turn);
+    return object.put("display", tree_of_display(observer.display)).take();
+}
+
+JsonValue tree(const v1::Animation& animation) {
+    std::vector<JsonValue> tracks;
+    for (const v1::Track& track : animation.tracks) tracks.push_back(tree_of_track(track));
+    ObjectTree object;
+    object.add("frames", animation.frames).add("fps", animation.frames_per_second);
+    return object.put("tracks", list_of(std::move(tracks))).take();
+}
+
+JsonValue tree(const v1::RenderSettings& render) {
+    ObjectTree object;
+    object.add("size", render.size).add("samples", render.samples).add("depth", render.depth);
+    object.add("shadows", render.shadows);
+    object.add("shadow", render.filtered_shadows ? "filtered" : "opaque");
+    return object.add("least_weight", render.min_weight).take();
+}
+
+JsonValue tree(const v1::SceneDescription& description) {
+    const std::string& name = description.name;
+    ObjectTree object;
+    object.add("voxelume", 1).put("world", tree(description.world));
+    object.put("materials", tree_by_name(description.materials, "materials", name));
+    object.put("models", tree_by_name(description.models, "models", name));
+    object.put("objects", tree_of_list(description.objects));
+    object.put("lights", tree_of_list(description.lights));
+    object.put("observer", tree(description.observer));
+    object.put("animation", tree(description.animation));
+    return object.put("render", tree(description.render)).take();
+}
+
+}  // namespace voxelume::api

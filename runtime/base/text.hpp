@@ -1,0 +1,23 @@
+// Words for messages: text in quotes, the nearest of several names, a place in a file.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace voxelume {
+
+/// Place in a text; both count from 1, and the column counts characters, not bytes.
+struct TextPosition {
+    int line = 1;
+    int column = 1;
+};
+
+/// Text from a file, in quotes, made safe for a terminal and cut to a readable length.
+std::string quote(std::string_view text);
+
+/// ` did you mean "brick"?` for the nearest of the names, or a list of them, or nothing. Opens with
+/// `; `.
+std::string suggest(std::string_view text, std::span<const std::string_view> names);
+
+}  // namespace voxelume

@@ -1,0 +1,214 @@
+#include "runtime/batch/frame_schedule.hpp"
+
+#include <algorithm>
+#include <deque>
+#include <future>
+#include <mutex>
+#include <thread>
+#include <utility>
+
+#include "runtime/base/error.hpp"
+#include "runtime/batch/frame_queue.hpp"
+#include "runtime/scene/scene_animation.hpp"
+
+namespace voxelume {
+namespace {
+
+/// How each device takes its frames.
+enum class Mode {
+    one_each,    ///< only the frame that has the device's index
+    one_by_one,  ///< one after another
+    overlapped   ///< it builds the next frame's world, on a queue of its own, while one is rendered
+};
+
+/// What the devices of a run share.
+struct Run {
+    const FrameSteps& steps;
+    Mode mode;
+    size_t count;  ///< of frames
+    FrameQueue queue;
+    std::mutex scenes = {};                      ///< held while a scene is made
+    std::optional<size_t> one_by_one_from = {};  ///< as in the outcome
+
+    bool retains() const { return mode != Mode::one_each && count > 1; }
+};
+
+/// A frame whose world is built.
+struct BuiltFrame {
+    Scene scene;
+    BuiltWorld world;
+    WorldReport report;
+};
+
+/// Takes frames from the queue for one device, and gives them back rendered.
+class Lane {
+  public:
+    /// `index` is the device's in the run.
+    Lane(const Device& device, size_t index, Run& run, AssetStore meshes)
+        : device_(device),
+          index_(index),
+          run_(run),
+          cache_(meshes.cache()),
+          builder_(std::in_place, run.mode == Mode::overlapped ? device.with_own_queue() : device,
+                   run.retains(), std::move(meshes)),
+          retains_(run.retains()) {}
+
+    /// Returns when there are no more frames for the device.
+    void run() {
+        if (run_.mode == Mode::one_each) return render_alone(index_);
+        if (run_.mode == Mode::overlapped) overlap();
+        while (const std::optional<size_t> frame = run_.queue.take()) render_alone(*frame);
+    }
+
+  private:
+    void render_alone(size_t frame) {
+        run_.queue.put(frame, attempt(frame, [&] { return build_and_render(frame); }));
+    }
+
+    /// Two worlds at a time: the next is begun when this one is being rendered. Ends with the first
+    /// frame for which memory lacks then.
+    void overlap() {
+        const auto build_next = [this]() -> std::optional<BuiltFrame> {
+            const std::optional<size_t> frame = run_.queue.take();
+            return frame ? std::optional(build(*frame)) : std::nullopt;
+        };
+        auto next = std::async(std::launch::deferred, build_next);
+        for (size_t frame = 0; frame < run_.count; ++frame) {
+            RenderedFrame rendered = attempt(frame, [&] {
+                const std::optional<BuiltFrame> built = next.get();
+                if (!built) return OutputStep();  // the queue is closed
+                next = std::async(std::launch::async, build_next);
+                return render(frame, *built);
+            });
+            if (run_.queue.is_closed()) return;
+            if (rendered.is_limit && run_.steps.forget) {
+                next = {};  // waits for it, and frees its world
+                forget(run_.count - frame > 1);
+                run_.one_by_one_from = frame;
+                return run_.queue.restart(frame);
+            }
+            const bool has_failed = rendered.error != nullptr;
+            run_.queue.put(frame, std::move(rendered));
+            if (has_failed) return;
+        }
+    }
+
+    /// Does what leads to a frame's output. An error is kept for its turn, with the frame's number.
+    template <class Action>
+    RenderedFrame attempt(size_t frame, const Action& action) {
+        const FrameSteps& steps = run_.steps;
+        RenderedFrame rendered;
+        try {
+            rendered.output = action();
+        } catch (const Error& error) {
+            rendered.is_limit = error.kind() == ErrorKind::limit;
+            rendered.error = steps.number
+                                 ? std::make_exception_ptr(at_frame(error, steps.number(frame)))
+                                 : std::current_exception();
+        } catch (...) {
+            rendered.error = std::current_exception();
+        }
+        if (rendered.error && steps.failed) steps.failed();
+        return rendered;
+    }
+
+    /// Where the device has no memory for the frame beside what is retained of those before, that
+    /// is forgotten, now and from then on.
+    OutputStep build_and_render(size_t frame) {
+        if (has_any_ && !retains_) forget(false);
+        try {
+            return render(frame, build(frame));
+        } catch (const Error& error) {
+            const bool makes_room = retains_ && (has_any_ || builder_->keeps());
+            if (error.kind() != ErrorKind::limit || !makes_room || !run_.steps.forget) throw;
+        }
+        lacks_room_ = true;
+        forget(false);
+        return render(frame, build(frame));
+    }
+
+    BuiltFrame build(size_t frame) {
+        const FrameSteps& steps = run_.steps;
+        BuiltFrame built;
+        {
+            const std::lock_guard lock(run_.scenes);
+            built.scene = steps.scene(frame);
+        }
+        built.world = builder_->build(built.scene, built.report,
+                                      steps.retained ? steps.retained(frame) : std::vector<bool>());
+        built.report.lacks_room |= lacks_room_;
+        return built;
+    }
+
+    OutputStep render(size_t frame, const BuiltFrame& built) {
+        OutputStep output = run_.steps.render(
+            {frame, index_, built.scene, built.world, built.report, run_.queue.closed()});
+        has_any_ = true;
+        return output;
+    }
+
+    void forget(bool retains) {
+        builder_.emplace(device_, retains, AssetStore(cache_));
+        run_.steps.forget(index_);
+        retains_ = retains;
+        has_any_ = false;
+    }
+
+    Device device_;
+    size_t index_;
+    Run& run_;
+    ModelCache cache_;
+    std::optional<WorldBuilder> builder_;
+    bool retains_;             ///< frames may leave something for those that follow
+    bool lacks_room_ = false;  ///< for that
+    bool has_any_ = false;     ///< of frames before
+};
+
+/// Threads that end, and are waited for, when the run does.
+struct LaneThreads {
+    FrameQueue& queue;
+    std::vector<std::jthread> threads = {};
+    ~LaneThreads() { queue.close(); }
+};
+
+Mode mode_of(size_t devices, const ScheduleOptions& options) {
+    if (options.one_each) return Mode::one_each;
+    return devices == 1 && options.overlap ? Mode::overlapped : Mode::one_by_one;
+}
+
+/// How many frames are on their way at most. Where one device overlaps them, one's world is built,
+/// one is rendered, one waits, and one is output.
+size_t frames_ahead(Mode mode, size_t devices) {
+    if (mode == Mode::overlapped) return 4;
+    return devices == 1 ? 1 : 2 * devices;
+}
+
+}  // namespace
+
+ScheduleOutcome run_frames(const std::vector<Device>& devices, size_t count,
+                           const FrameSteps& steps, ScheduleOptions options) {
+    const size_t used = std::min(devices.size(), count);
+    const Mode mode = count > 1 ? mode_of(used, options) : Mode::one_by_one;
+    Run run{steps, mode, count, FrameQueue(count, frames_ahead(mode, used))};
+    const std::stop_callback cancel(options.stop, [&run] { run.queue.close(); });
+    std::deque<Lane> lanes;
+    for (size_t i = used; i-- > 0;)  // what was read before counts once, for the first
+        lanes.emplace_front(devices[i], i, run,
+                            i > 0 ? options.meshes.recounted() : std::move(options.meshes));
+    ScheduleOutcome outcome;
+    {
+        LaneThreads running{run.queue};
+        for (Lane& lane : lanes) running.threads.emplace_back([&lane] { lane.run(); });
+        for (; outcome.frames_done < count; ++outcome.frames_done) {
+            const std::optional<RenderedFrame> rendered = run.queue.wait_for_next();
+            if (!rendered) break;
+            if (rendered->error) std::rethrow_exception(rendered->error);
+            rendered->output();
+            run.queue.count_output();
+        }
+    }
+    outcome.one_by_one_from = run.one_by_one_from;
+    return outcome;
+}
+
+}  // namespace voxelume

@@ -1,0 +1,21 @@
+// tiles that several devices made of one image -> the image.
+#pragma once
+
+#include <vector>
+
+#include "runtime/render/renderer.hpp"
+
+namespace voxelume {
+
+/// What one device made of an image.
+struct ImagePart {
+    Image image;                   ///< undefined outside of `tiles`
+    std::vector<TileRange> tiles;  ///< of 4 x 4 pixels
+    RenderReport report;
+};
+
+/// The image of parts that have all its tiles. `report` counts the rays of all; its world and its
+/// times are those of the device that took longest.
+Image join_parts(std::vector<ImagePart> parts, RenderReport& report);
+
+}  // namespace voxelume

@@ -1,0 +1,190 @@
+#include "runtime/batch/render_frames.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <mutex>
+#include <utility>
+
+#include "runtime/analysis/culling.hpp"
+#include "runtime/analysis/model_last_uses.hpp"
+#include "runtime/base/error.hpp"
+#include "runtime/batch/frame_schedule.hpp"
+#include "runtime/batch/image_parts.hpp"
+#include "runtime/memory/frame_plans.hpp"
+#include "runtime/render/volume_renderer.hpp"
+#include "runtime/scene/scene_animation.hpp"
+#include "runtime/stages/trace/sight.hpp"
+
+namespace voxelume {
+namespace {
+
+constexpr uint32_t kPartsPerDevice = 16;  // so that no device waits long for the last one
+constexpr double kSteps = 1 << 20;        // of a frame's progress: their sums are exact
+
+/// Leaves a frame that is not wanted any more; nobody hears of it.
+struct Cancelled {};
+
+[[noreturn]] void refuse_not_finite(uint32_t count) {
+    throw Error(ErrorKind::render,
+                "{} values of the image were not finite and became 0: please report this scene",
+                count);
+}
+
+/// Renders on one device, and retains what later frames show again.
+struct DeviceRenderers {
+    Renderer image;
+    VolumeRenderer volume;
+};
+
+class Batch {
+  public:
+    Batch(const std::vector<Device>& devices, Scene scene, BatchOptions options,
+          const FrameOutput& output)
+        : devices_(devices),
+          scene_(std::move(scene)),
+          options_(std::move(options)),
+          output_(output),
+          done_(options_.frames.size()) {}
+
+    BatchOutcome run() {
+        const auto start = std::chrono::steady_clock::now();
+        check();
+        const std::chrono::duration<double> checked = std::chrono::steady_clock::now() - start;
+        const bool shares_image =
+            devices_.size() > 1 && options_.frames.size() == 1 && !options_.volume;
+        BatchOutcome outcome = shares_image ? run_image_parts() : run_whole_frames();
+        for (const Device& device : devices_) device.finish();
+        outcome.is_cancelled = outcome.frames_done < options_.frames.size();
+        outcome.check_seconds = checked.count();
+        return outcome;
+    }
+
+  private:
+    void check() {
+        find_potentially_visible(scene_, options_.frames, options_.meshes);
+        if (options_.frames.size() == 1) return;  // it is planned when its world is built
+        for (const Device& device : devices_)
+            check_frames(scene_, options_.frames, options_.meshes, device.info());
+    }
+
+    /// The steps that show these frames.
+    FrameSteps steps_of(std::vector<int> frames) const {
+        FrameSteps steps;
+        steps.scene = [this, frames](size_t n) { return scene_at(scene_, frames[n]); };
+        if (moves(scene_)) steps.number = [frames](size_t n) { return double(frames[n]); };
+        return steps;
+    }
+
+    ScheduleOptions schedule(bool one_each) {
+        return {options_.overlap, one_each, std::move(options_.meshes), options_.stop};
+    }
+
+    BatchOutcome run_whole_frames() {
+        const size_t count = options_.frames.size();
+        std::vector<DeviceRenderers> renderers;
+        for (const Device& device : devices_)
+            renderers.push_back({Renderer(device, count > 1), VolumeRenderer(device, count > 1)});
+        FrameSteps steps = steps_of(options_.frames);
+        steps.render = [&](const FrameInput& input) {
+            return output_of(input.frame, rendered(renderers[input.device], input));
+        };
+        steps.forget = [&](size_t device) {
+            renderers[device] = {Renderer(devices_[device]), VolumeRenderer(devices_[device])};
+        };
+        if (count > 1)
+            steps.retained = [until = last_uses(scene_, options_.frames)](size_t n) {
+                std::vector<bool> retained(until.size());
+                for (size_t i = 0; i < until.size(); ++i) retained[i] = until[i] > n + 1;
+                return retained;
+            };
+        const ScheduleOutcome ran = run_frames(devices_, count, steps, schedule(false));
+        BatchOutcome outcome;
+        outcome.frames_done = ran.frames_done;
+        if (ran.one_by_one_from) outcome.one_by_one_from = options_.frames[*ran.one_by_one_from];
+        return outcome;
+    }
+
+    FrameResult rendered(DeviceRenderers& renderers, const FrameInput& input) {
+        if (input.stop.stop_requested()) throw Cancelled();
+        FrameResult result;
+        result.report = {options_.frames[input.frame], input.device, {}};
+        RenderReport& report = result.report.report;
+        report.world = input.report;
+        const int pictures = int(options_.image) + int(options_.volume);
+        const auto progress_after = [&](int before) -> FrameProgress {
+            return [&, before](uint32_t done, uint32_t total) {
+                if (input.stop.stop_requested()) throw Cancelled();
+                advance(input.frame, (before + double(done) / total) / pictures);
+            };
+        };
+        if (options_.image)
+            result.image =
+                renderers.image.image(input.scene, input.world, report, progress_after(0));
+        if (options_.volume)
+            result.volume = renderers.volume.volume(input.scene, input.world, report,
+                                                    progress_after(int(options_.image)));
+        return result;
+    }
+
+    /// The only frame, by all devices.
+    BatchOutcome run_image_parts() {
+        const size_t count = devices_.size();
+        const uint32_t tiles = tile_count(scene_.render.size.x, scene_.render.size.y);
+        const auto tell = [&](uint32_t done, uint32_t) { advance(0, double(done) / tiles); };
+        TileShare share(tiles, tell, std::max(tiles / (kPartsPerDevice * uint32_t(count)), 1u));
+        std::vector<ImagePart> parts(count);
+        FrameSteps steps = steps_of(std::vector(count, options_.frames[0]));
+        steps.render = [&](const FrameInput& input) -> OutputStep {
+            const std::stop_callback cancel(input.stop, [&] { share.close(); });
+            ImagePart& part = parts[input.device];
+            part.report.world = input.report;
+            part.image =
+                Renderer(devices_[input.device], false)
+                    .part_of_image(input.scene, input.world, part.report, {share, part.tiles});
+            return [] {};
+        };
+        steps.failed = [&] { share.close(); };
+        if (run_frames(devices_, count, steps, schedule(true)).frames_done < count) return {};
+        FrameResult result;
+        result.report.frame = options_.frames[0];
+        result.image =
+            std::make_shared<const Image>(join_parts(std::move(parts), result.report.report));
+        output_of(0, std::move(result))();
+        BatchOutcome outcome;
+        outcome.frames_done = 1;
+        return outcome;
+    }
+
+    /// Tells that `part` of a frame is done. It is less than before where the frame is begun again.
+    void advance(size_t n, double part) {
+        const std::lock_guard lock(progress_mutex_);
+        const auto steps = uint64_t(part * kSteps);
+        if (!options_.progress || steps <= done_[n]) return;
+        sum_ += steps - std::exchange(done_[n], steps);
+        options_.progress(double(sum_) / (kSteps * double(done_.size())), options_.frames[n]);
+    }
+
+    OutputStep output_of(size_t n, FrameResult result) {
+        const uint32_t not_finite = result.report.report.not_finite;
+        if (not_finite != 0) refuse_not_finite(not_finite);
+        advance(n, 1);
+        return [this, result = std::move(result)] { output_(result); };
+    }
+
+    const std::vector<Device>& devices_;
+    Scene scene_;
+    BatchOptions options_;
+    const FrameOutput& output_;
+    std::mutex progress_mutex_;
+    std::vector<uint64_t> done_;  ///< of each frame, of kSteps
+    uint64_t sum_ = 0;            ///< of them
+};
+
+}  // namespace
+
+BatchOutcome render_frames(const std::vector<Device>& devices, Scene scene, BatchOptions options,
+                           const FrameOutput& output) {
+    return Batch(devices, std::move(scene), std::move(options), output).run();
+}
+
+}  // namespace voxelume

@@ -1,0 +1,22 @@
+// Boxes along the axes.
+#pragma once
+
+#include <glm/vec3.hpp>
+
+namespace voxelume {
+
+/// An axis-aligned box; `min < max` on every axis unless said otherwise.
+struct Bounds {
+    glm::dvec3 min{0};
+    glm::dvec3 max{0};
+
+    friend bool operator==(const Bounds&, const Bounds&) = default;
+};
+
+/// A corner of the box; bits 0, 1 and 2 of `number`, 0..7, choose max over min on x, y and z.
+inline glm::dvec3 corner(const Bounds& bounds, int number) {
+    return {(number & 1 ? bounds.max : bounds.min).x, (number & 2 ? bounds.max : bounds.min).y,
+            (number & 4 ? bounds.max : bounds.min).z};
+}
+
+}  // namespace voxelume

@@ -1,0 +1,62 @@
+// What a surface looks like: the values of Whitted's model, and a checker.
+#pragma once
+
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "runtime/scene/value_row.hpp"
+
+namespace voxelume {
+
+/// A second colour in every other block of a lattice that stands still in the world.
+struct Checker {
+    glm::vec3 color{0};    ///< linear Rec. 709, 0..1
+    glm::dvec3 size{0};    ///< edges of a block, metres; 0: no change along that axis
+    glm::dvec3 origin{0};  ///< a corner of a block of the material's own colour, metres
+
+    friend bool operator==(const Checker&, const Checker&) = default;
+};
+
+struct Material {
+    std::string name;
+    glm::vec3 color{0.8f};    ///< linear Rec. 709, 0..1
+    float diffuse = 1;        ///< 0..1
+    float specular = 0;       ///< 0..1
+    float shininess = 50;     ///< Blinn-Phong exponent, 1..1e6
+    float reflection = 0;     ///< R_i, 0..1
+    float refraction = 0;     ///< F_i, 0..1
+    float ior = 1.5f;         ///< 0.1..10
+    bool fresnel = false;     ///< the exact unpolarised reflectance scales the two ratios
+    float opacity = 1;        ///< share of the light behind that the surface covers, 0..1
+    glm::vec3 absorption{0};  ///< inside, per metre, >= 0
+    glm::vec3 emission{0};    ///< radiance, >= 0
+    std::optional<Checker> checker;
+
+    friend bool operator==(const Material&, const Material&) = default;
+};
+
+/// What a material's values switch on in rays and kernels, as bits.
+enum MaterialEffect : uint32_t {
+    kReflects = 1,        ///< sends rays back
+    kRefracts = 2,        ///< sends rays on into the object
+    kIsSeenThrough = 4,   ///< covers only a part of what lies behind
+    kHasReflectance = 8,  ///< of Fresnel: by the angle
+    kAbsorbs = 16,        ///< dims light on its way inside
+    kEmits = 32,
+};
+
+/// The values of a material but its checker. A value is added with a member above, a row here, and
+/// the kernels that show it.
+std::span<const ValueRow<Material>> material_rows();
+std::span<const ValueRow<Checker>> checker_rows();
+
+/// The effects of the values that differ from the defaults.
+uint32_t effects_of(const Material& material);
+
+/// Refuses a checker without blocks.
+void check_checker(const Checker& checker, const Refuse& refuse);
+
+}  // namespace voxelume

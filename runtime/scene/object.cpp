@@ -1,0 +1,28 @@
+#include "runtime/scene/object.hpp"
+
+#include <array>
+
+namespace voxelume {
+
+std::span<const ValueRow<Model>> model_rows() {
+    static constexpr std::array<ValueRow<Model>, 2> rows = {
+        {{"mesh", &Model::mesh}, {"voxels", &Model::voxels}}};
+    return rows;
+}
+
+std::span<const ValueRow<Morph>> morph_rows() {
+    static constexpr std::array<ValueRow<Morph>, 3> rows = {
+        {{"amount", &Morph::amount, kRatio},
+         {"center", &Morph::center, kCoordinate},
+         {"radius", &Morph::radius, kLength}}};
+    return rows;
+}
+
+std::span<const ValueRow<Object>> object_rows() {
+    static constexpr std::array<ValueRow<Object>, 3> rows = {{{"visible", &Object::visible},
+                                                              {"model", &Object::model},
+                                                              {"material", &Object::material}}};
+    return rows;
+}
+
+}  // namespace voxelume

@@ -1,0 +1,91 @@
+// The objects O_i: models with their lattices, and where they stand.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "runtime/base/source_place.hpp"
+#include "runtime/scene/bounds.hpp"
+#include "runtime/scene/solid.hpp"
+#include "runtime/scene/surface.hpp"
+#include "runtime/scene/value_row.hpp"
+
+namespace voxelume {
+
+/// A mesh on its way to another shape.
+struct Morph {
+    std::filesystem::path mesh;  ///< of the shape at its end; empty: the sphere below
+    glm::dvec3 center{0};        ///< metres in object space
+    double radius = 1;           ///< metres, > 0
+    double amount = 0;           ///< share of the way, 0..1
+    bool operator==(const Morph&) const = default;
+};
+
+/// O_i before it is placed: a mesh file or a solid, with the lattice that it is voxelized on.
+struct Model {
+    std::string name;
+    std::filesystem::path mesh;    ///< a regular file inside the asset folders; may be empty
+    std::filesystem::path voxels;  ///< likewise, of voxels that are there already; may be empty
+    std::optional<Morph> morph;    ///< of a mesh
+    std::vector<Solid> cuts;       ///< of a mesh that isn't exact: what is taken away from it
+    std::optional<Solid> solid;    ///< has a value exactly when both files are empty
+    glm::dvec3 voxel_size{0};      ///< metres in object space, > 0; 0 when `resolution` decides
+    int resolution = 0;  ///< voxels along the longest side, 1..65536; 0 when `voxel_size` decides
+    Surface surface = Surface::smooth;
+    VoxelSet set = VoxelSet::supercover;  ///< for `cubes`
+    /// Box in object space outside of which no object shows the model: the world's bounds as seen
+    /// from all objects that use it. An infinite solid ends there. Empty (min = max) for a model
+    /// not used.
+    Bounds extent;
+    SourcePlace where;
+
+    friend bool operator==(const Model&, const Model&) = default;
+};
+
+/// The material of one group of faces of an object's mesh.
+struct GroupMaterial {
+    std::string group;  ///< as named in the mesh file
+    int material = 0;
+    SourcePlace where;
+
+    friend bool operator==(const GroupMaterial&, const GroupMaterial&) = default;
+};
+
+/// How an object gets into the picture.
+enum class Placement : uint8_t {
+    automatic,  ///< `world` for what stands still, `instance` for what moves
+    world,      ///< resampled into the world's voxels
+    instance    ///< rays are carried into the object's own voxels
+};
+
+struct Object {
+    std::string name;
+    int model = 0;     ///< index into Scene::models
+    int material = 0;  ///< index into Scene::materials, for all faces that `groups` does not name
+    std::vector<GroupMaterial> groups;
+    int priority = 0;  ///< where objects overlap: the higher wins, then the earlier in the list
+    Placement placement = Placement::automatic;
+    std::optional<int> light_samples;  ///< that its emission lights the world by; none: by its size
+    glm::dmat4 world_from_object{
+        1};               ///< affine and safely invertible; mirrors and shears are allowed
+    bool moves = false;   ///< some track changes where it stands
+    bool visible = true;  ///< otherwise the world is as if it weren't there
+    bool potentially_visible =
+        true;  ///< not in scene files: whether some ray may meet it, see culling.hpp
+    SourcePlace where;
+
+    friend bool operator==(const Object&, const Object&) = default;
+};
+
+/// The values of models and objects that tracks may change, but those of solids and placements.
+std::span<const ValueRow<Model>> model_rows();
+std::span<const ValueRow<Morph>> morph_rows();
+std::span<const ValueRow<Object>> object_rows();
+
+}  // namespace voxelume

@@ -1,0 +1,114 @@
+#include "runtime/scene/predicates.hpp"
+
+#include <algorithm>
+#include <string_view>
+
+#include "runtime/base/error.hpp"
+#include "runtime/base/text.hpp"
+#include "runtime/scene/light.hpp"
+
+namespace voxelume {
+namespace {
+
+/// Why an object can't be an instance; empty if it can.
+std::string refusal(const Scene& scene, const Object& object) {
+    if (is_emissive(scene, object))
+        return "its emission lights the world, and lamps are found in the world's voxels";
+    if (transmits(scene, object))
+        return "a material of it lets light through, and rays go through objects in the world's "
+               "voxels only";
+    const Model& model = scene.models[size_t(object.model)];
+    if (model.solid && is_infinite(*model.solid)) return "its solid has no end";
+    if (scene.observer.display.layout == VolumeLayout::lattice)
+        return "the display's layout is \"lattice\", which shows the world's voxels";
+    return "";
+}
+
+}  // namespace
+
+std::vector<int> materials_of_groups(const Object& object,
+                                     const std::vector<std::string>& group_names) {
+    const std::vector<std::string_view> known(group_names.begin(), group_names.end());
+    std::vector<int> materials(std::max<size_t>(known.size(), 1), object.material);
+    for (const GroupMaterial& entry : object.groups) {
+        const auto found = std::find(known.begin(), known.end(), entry.group);
+        if (found == known.end()) {
+            throw Error(ErrorKind::scene, "{}: the mesh has no group of faces named {}{}",
+                        entry.where, quote(entry.group), suggest(entry.group, known));
+        }
+        materials[found - known.begin()] = entry.material;
+    }
+    return materials;
+}
+
+bool transmits(const Material& material) {
+    return (effects_of(material) & (kRefracts | kIsSeenThrough)) != 0;
+}
+
+bool transmits(const Scene& scene, const Object& object) {
+    return transmits(scene.materials[size_t(object.material)]) ||
+           std::ranges::any_of(object.groups, [&](const GroupMaterial& group) {
+               return transmits(scene.materials[size_t(group.material)]);
+           });
+}
+
+bool has_emission(const Scene& scene, const Object& object) {
+    const auto emits = [&](int material) {
+        return (effects_of(scene.materials[size_t(material)]) & kEmits) != 0;
+    };
+    return emits(object.material) ||
+           std::ranges::any_of(object.groups, emits, &GroupMaterial::material);
+}
+
+bool is_emissive(const Scene& scene, const Object& object) {
+    return object.visible && object.light_samples.value_or(1) > 0 && has_emission(scene, object);
+}
+
+bool shines(const Light& light) {
+    return light.intensity != glm::vec3(0);
+}
+
+bool has_area(const Light& light) {
+    return type_of(light).area != nullptr;
+}
+
+bool shows_inside(const Scene& scene, const Object& object) {
+    const Model& model = scene.models[size_t(object.model)];
+    return shows_voxels(model.surface) && model.set == VoxelSet::solid && transmits(scene, object);
+}
+
+bool is_instanced(const Scene& scene, const Object& object) {
+    if (object.placement == Placement::automatic)
+        return object.moves && refusal(scene, object).empty();
+    return object.placement == Placement::instance;
+}
+
+void check_placements(const Scene& scene) {
+    for (const Object& object : scene.objects) {
+        if (object.placement != Placement::instance) continue;
+        const std::string reason = refusal(scene, object);
+        if (!reason.empty())
+            throw Error(ErrorKind::scene,
+                        "{}: the object \"{}\" can't be placed as an instance: {}; give it "
+                        "\"placement\": \"world\"",
+                        object.where, object.name, reason);
+    }
+}
+
+HollowObjects hollow_objects(const Scene& scene) {
+    HollowObjects hollow;
+    bool has_smooth = false;
+    for (const Object& object : scene.objects) {
+        const Model& model = scene.models[size_t(object.model)];
+        const bool is_smooth = stores_distances(model.surface) && transmits(scene, object);
+        const bool is_mesh =
+            lists_primitives(model.surface) && !model.solid && transmits(scene, object);
+        hollow.flags.push_back(is_smooth || is_mesh);
+        hollow.maximum += is_mesh;
+        has_smooth |= is_smooth;
+    }
+    hollow.maximum += has_smooth;
+    return hollow;
+}
+
+}  // namespace voxelume

@@ -1,0 +1,56 @@
+// What follows from a scene's values alone.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "runtime/scene/scene.hpp"
+
+namespace voxelume {
+
+/// One material per group of a mesh, or one in all for a mesh without groups. Throws Error::scene
+/// when the object names a group that the mesh does not have.
+std::vector<int> materials_of_groups(const Object& object,
+                                     const std::vector<std::string>& group_names);
+
+/// Whether one of the object's materials has emission.
+bool has_emission(const Scene& scene, const Object& object);
+
+/// Whether light goes through or past surfaces of the material.
+bool transmits(const Material& material);
+
+/// Whether a material that the object may show transmits light.
+bool transmits(const Scene& scene, const Object& object);
+
+/// Whether an object's emission lights the world: the paper's source of many light samples.
+bool is_emissive(const Scene& scene, const Object& object);
+
+/// Whether any light comes from it.
+bool shines(const Light& light);
+
+/// Whether it shines from a patch, not from one point or direction.
+bool has_area(const Light& light);
+
+/// Whether rays see the voxels inside of the object, too: solid cubes that let light through.
+bool shows_inside(const Scene& scene, const Object& object);
+
+/// Whether rays are carried into the object's space, instead of the object into the world's.
+///
+/// `auto` is `world` for an object that stands still, and for one that can't be an instance: a lamp
+/// (its light samples are found in the world's voxels), one that lets light through, one in a scene
+/// whose display is a lattice (which shows the world's voxels).
+bool is_instanced(const Scene& scene, const Object& object);
+
+/// Throws Error::scene, saying why, for an object that is to be an `instance` and can't.
+void check_placements(const Scene& scene);
+
+/// Objects that transmit light of which no formula tells whether a ray begins inside: smooth ones
+/// and exact meshes.
+struct HollowObjects {
+    std::vector<uint32_t> flags;  ///< per object: 1 or 0
+    uint32_t maximum = 0;         ///< that a ray may be in at once: the smooth ones count as one
+};
+HollowObjects hollow_objects(const Scene& scene);
+
+}  // namespace voxelume

@@ -1,0 +1,48 @@
+#include "runtime/scene/scene.hpp"
+
+#include <array>
+#include <glm/common.hpp>
+#include <glm/matrix.hpp>
+
+#include "runtime/base/error.hpp"
+#include "runtime/scene/predicates.hpp"
+
+namespace voxelume {
+
+void find_extents(Scene& scene) {
+    const Bounds world = lattice_bounds(scene.world);
+    std::array<glm::dvec4, 8> corners;
+    for (int i = 0; i < 8; ++i) corners[size_t(i)] = glm::dvec4(corner(world, i), 1);
+    for (Model& model : scene.models) model.extent = {};
+    std::vector<bool> is_used(scene.models.size(), false), is_baked(scene.models.size(), false);
+    const auto baked = [&](const Object& object) { return !is_instanced(scene, object); };
+    for (const Object& object : scene.objects)
+        if (object.visible && baked(object)) is_baked[object.model] = true;
+    for (const Object& object : scene.objects) {
+        // Where instances go doesn't matter to voxels that are shown in the world.
+        if (!object.visible || (is_baked[object.model] && !baked(object))) continue;
+        const glm::dmat4 object_from_world = glm::inverse(object.world_from_object);
+        Bounds& extent = scene.models[object.model].extent;
+        for (const glm::dvec4& world_corner : corners) {
+            const glm::dvec3 p(object_from_world * world_corner);
+            const bool is_first = !is_used[object.model];
+            extent.min = is_first ? p : glm::min(extent.min, p);
+            extent.max = is_first ? p : glm::max(extent.max, p);
+            is_used[object.model] = true;
+        }
+    }
+}
+
+void resize(Scene& scene, glm::ivec2 size) {
+    if (size.x < 1 || size.y < 1 || size.x > kMaxImageSide || size.y > kMaxImageSide) {
+        throw Error(ErrorKind::usage, "an image has from 1 to {} pixels on a side, not {}x{}",
+                    kMaxImageSide, size.x, size.y);
+    }
+    scene.render.size = size;
+    Display& display = scene.observer.display;
+    if (display.square_pixels) {
+        display.half_angles.y = square_pixel_half_angle(display.half_angles.x, size);
+    }
+}
+
+}  // namespace voxelume

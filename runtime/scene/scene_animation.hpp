@@ -1,0 +1,34 @@
+// A scene that changes -> the scene of one frame.
+#pragma once
+
+#include "runtime/base/error.hpp"
+#include "runtime/scene/scene.hpp"
+
+namespace voxelume {
+
+/// Whether any frame may differ from another.
+bool moves(const Scene& scene);
+
+/// The scene as it is at a frame, 1 being the first; frames may be fractions and lie outside of the
+/// animation. What no track changes is kept as it is in `scene`, also where it was changed after
+/// reading: lattices of the world and its models, the image's size, the display's voxels.
+///
+/// Nothing is read: files were found when the scene was. Throws Error::scene, with the frame, for
+/// values that don't go together there although they do at all keys.
+Scene scene_at(const Scene& scene, double frame);
+
+/// The error as one of a frame: its sentence ends with "(at frame 7)".
+Error at_frame(const Error& error, double frame);
+
+/// Does what belongs to a frame of `scene`. Errors are rethrown with the frame, if the scene moves.
+template <class Action>
+auto in_frame(const Scene& scene, double frame, const Action& action) {
+    try {
+        return action();
+    } catch (const Error& error) {
+        if (!moves(scene)) throw;
+        throw at_frame(error, frame);
+    }
+}
+
+}  // namespace voxelume

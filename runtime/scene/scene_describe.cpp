@@ -1,0 +1,100 @@
+// Scene -> lines for people.
+#include <fmt/format.h>
+
+#include <glm/trigonometric.hpp>
+
+#include "runtime/scene/light.hpp"
+#include "runtime/scene/observer.hpp"
+#include "runtime/scene/scene.hpp"
+#include "runtime/scene/scene_motion.hpp"
+#include "runtime/scene/solid.hpp"
+
+namespace voxelume {
+namespace {
+
+std::string vector_text(glm::dvec3 v) {
+    return fmt::format("{:.6g} {:.6g} {:.6g}", v.x, v.y, v.z);
+}
+
+std::string solid_text(const Solid& solid) {
+    std::string text(solid_types()[static_cast<size_t>(solid.kind)].name);
+    if (is_combination(solid.kind)) text += fmt::format(" of {} parts", solid.parts.size());
+    return text;
+}
+
+std::string model_text(const Model& model) {
+    const std::string source =
+        model.solid ? solid_text(*model.solid)
+                    : (model.voxels.empty() ? model.mesh : model.voxels).filename().string();
+    if (!model.voxels.empty())
+        return fmt::format("model \"{}\": {}, {}", model.name, source, kind_of(model.surface).name);
+    const std::string cut =
+        model.cuts.empty() ? "" : fmt::format(", cut by {} solids", model.cuts.size());
+    const std::string pitch =
+        model.resolution > 0 ? fmt::format("{} voxels along the longest side", model.resolution)
+                             : fmt::format("voxels of {} m", vector_text(model.voxel_size));
+    return fmt::format("model \"{}\": {}{}, {}, {}", model.name, source, cut,
+                       kind_of(model.surface).name, pitch);
+}
+
+std::string light_text(const Light& light) {
+    const LightType& type = type_of(light);
+    const bool has_place = type.has_position;
+    return fmt::format(
+        "light \"{}\": {}, {} {}, energy {}", light.name, type.name, has_place ? "at" : "along",
+        vector_text(has_place ? light.position : light.direction), vector_text(light.intensity));
+}
+
+std::string density_text(const Density& density) {
+    if (const auto* height = std::get_if<HeightDensity>(&density))
+        return fmt::format(", density 1 up to y {:.6g}, above it a factor of e less every {:.6g} m",
+                           height->base, height->scale_height);
+    if (const auto* ball = std::get_if<BallDensity>(&density))
+        return fmt::format(", density of a ball at {}, radius {:.6g}", vector_text(ball->center),
+                           ball->radius);
+    if (const auto* grid = std::get_if<GridDensity>(&density))
+        return fmt::format(", density of grid \"{}\" of {}", grid->grid,
+                           grid->file.filename().string());
+    return "";
+}
+
+std::string medium_text(const Medium& medium) {
+    return fmt::format("medium: absorption {} per m{}\n",
+                       vector_text(glm::dvec3(medium.absorption)), density_text(medium.density));
+}
+
+std::string observer_text(const Observer& observer) {
+    const Display& d = observer.display;
+    return fmt::format(
+        "observer: at {}, looking along {}, {} display of {}x{}x{} voxels, from {:.6g} to {:.6g} m",
+        vector_text(observer.position), vector_text(observer.world_from_observer[2]),
+        display_shapes()[static_cast<size_t>(d.shape)].name, d.voxels.x, d.voxels.y, d.voxels.z,
+        d.near, d.far);
+}
+
+}  // namespace
+
+std::string describe(const Scene& scene) {
+    const World& world = scene.world;
+    std::string text = fmt::format("world: {}x{}x{} voxels of {} m\n", world.voxels.x,
+                                   world.voxels.y, world.voxels.z, vector_text(world.voxel_size));
+    if (world.medium.absorption != glm::vec3(0)) text += medium_text(world.medium);
+    for (const Model& model : scene.models) text += model_text(model) + "\n";
+    for (const Object& object : scene.objects) {
+        text += fmt::format("object \"{}\": model \"{}\", material \"{}\", at {}\n", object.name,
+                            scene.models[object.model].name, scene.materials[object.material].name,
+                            vector_text(object.world_from_object[3]));
+    }
+    for (const Light& light : scene.lights) text += light_text(light) + "\n";
+    text += observer_text(scene.observer) + "\n";
+    if (scene.motion)
+        text +=
+            fmt::format("animation: {} frames, {:.6g} a second, {} moving parts\n",
+                        scene.animation.frames, scene.animation.fps, scene.motion->parts.size());
+    text += fmt::format("image: {}x{} pixels, {} samples each, depth {}, shadows {}\n",
+                        scene.render.size.x, scene.render.size.y, scene.render.samples,
+                        scene.render.depth, scene.render.shadows ? "on" : "off");
+    return text;
+}
+
+}  // namespace voxelume

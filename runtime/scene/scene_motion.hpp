@@ -1,0 +1,97 @@
+// What changes in a scene from frame to frame: its tracks and numbered files, part by part.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "runtime/base/text.hpp"
+#include "runtime/scene/keyframes.hpp"
+#include "runtime/scene/light.hpp"
+#include "runtime/scene/observer.hpp"
+#include "runtime/scene/scene.hpp"
+#include "runtime/scene/scene_affine.hpp"
+#include "runtime/scene/value_row.hpp"
+
+namespace voxelume {
+
+/// What is placed or formed as a whole when a value in it changes.
+enum class ScenePart : uint8_t { world, material, model, object, light, observer };
+
+/// The value that a track changes: a row of the part, or of what is inside of it.
+using ValueReference =
+    std::variant<const ValueRow<World>*, const ValueRow<Medium>*, const ValueRow<HeightDensity>*,
+                 const ValueRow<BallDensity>*, const ValueRow<GridDensity>*,
+                 const ValueRow<Material>*, const ValueRow<Checker>*, const ValueRow<Model>*,
+                 const ValueRow<Morph>*, const ValueRow<Solid>*, const ValueRow<Factors>*,
+                 const ValueRow<Object>*, const ValueRow<LightParameters>*,
+                 const ValueRow<ObserverParameters>*, const ValueRow<DisplayParameters>*>;
+
+/// A solid of a model: the whole one, or the part of a part that the numbers lead to; of a model
+/// that is cut the first number is that of the cut.
+struct SolidPath {
+    bool is_cut = false;
+    std::vector<size_t> parts;
+
+    friend bool operator==(const SolidPath&, const SolidPath&) = default;
+};
+
+/// A value over time.
+struct Track {
+    ValueReference value;
+    SolidPath solid;  ///< whose value or placement it is, of a model
+    int item = -1;    ///< number of a vector that changes alone, or -1
+    /// Numbers; true is 1 and false 0; models and materials are their indices in the scene; of
+    /// files there are none.
+    Keyframes keys;
+    std::vector<std::filesystem::path> files;  ///< of each key
+    std::string path;                          ///< of the value in its part, as messages have it
+    std::vector<TextPosition> at;              ///< of each key's value, in the scene's text
+};
+
+/// Files that frames show one after the other.
+struct FileSequence {
+    ValueReference value;
+    std::vector<std::filesystem::path> files;
+    int64_t start = 1;  ///< frame that shows the first file
+    bool loop = false;  ///< the first file comes after the last one; otherwise it stays
+
+    const std::filesystem::path& at(double frame) const;
+};
+
+/// The placement of an object, a density, or a part of a solid, before its tracks change it.
+struct MovingPlacement {
+    SolidPath solid;   ///< of a model
+    std::string path;  ///< in front of its keys, as messages have it: "parts[1]."
+    Factors factors;
+};
+
+/// Where a value stands in the scene's text.
+struct ValueOrigin {
+    std::string path;  ///< in its part; "" for the part itself
+    TextPosition at;
+};
+
+/// A part of the scene that tracks or numbered files change.
+struct MovingPart {
+    ScenePart part = ScenePart::world;
+    size_t place = 0;          ///< in the scene's list
+    std::string path;          ///< as messages have it
+    bool only_placed = false;  ///< an object that changes by its placement alone
+    std::vector<Track> tracks;
+    std::vector<FileSequence> sequences;
+    /// What the tracks change of that which the scene has only the outcome of.
+    std::vector<MovingPlacement> placements;
+    std::variant<std::monostate, LightParameters, ObserverParameters> parameters;
+    std::vector<ValueOrigin> origins;
+};
+
+/// What `scene_at` needs besides the scene.
+struct SceneMotion {
+    std::string file;               ///< opens messages
+    std::vector<MovingPart> parts;  ///< world, materials, models, objects, lights, observer
+};
+
+}  // namespace voxelume

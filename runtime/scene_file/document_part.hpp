@@ -1,0 +1,31 @@
+// A part of a scene's text with the tracks that change it, as read.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "runtime/scene/scene_motion.hpp"
+#include "runtime/scene_file/scene_parts.hpp"
+#include "runtime/scene_file/scene_track.hpp"
+
+namespace voxelume {
+
+struct DocumentPart {
+    ScenePart part = ScenePart::world;
+    size_t number = 0;                 ///< in the document
+    size_t place = 0;                  ///< in the scene's list
+    std::string name;                  ///< of a material or model
+    std::string path;                  ///< as messages have it
+    const JsonValue* value = nullptr;  ///< in the document
+    std::vector<DocumentTrack> tracks;
+    bool only_placed = false;  ///< an object that changes by its placement alone
+};
+
+/// Reads the part as it is at each key of its tracks, with the readers of all scenes: between keys
+/// only relations of values can go wrong. Throws as those do, with the frame.
+void check_keys(const DocumentPart& part, const Scene& scene, const AssetSearch& search);
+
+/// The part's tracks and numbered files as values. Throws as `find_asset` does.
+MovingPart moving_part(const DocumentPart& part, const Scene& scene, const AssetSearch& search);
+
+}  // namespace voxelume

@@ -1,0 +1,120 @@
+#include "runtime/scene_file/read_motion.hpp"
+
+#include <algorithm>
+#include <map>
+
+#include "runtime/scene_file/document_part.hpp"
+
+namespace voxelume {
+namespace {
+
+/// Where the scene's list has the part; a material's place is not that in the document.
+size_t place_of(const DocumentPart& part, const Scene& scene) {
+    if (part.part != ScenePart::material) return part.number;
+    return size_t(std::ranges::find(scene.materials, part.name, &Material::name) -
+                  scene.materials.begin());
+}
+
+const JsonMember* find_member(const JsonValue& value, std::string_view key) {
+    const auto found = std::ranges::find(value.members, key, &JsonMember::key);
+    return found == value.members.end() ? nullptr : &*found;
+}
+
+/// Whether one of two targets of a part is the other, or a number of it.
+bool overlap(const TrackTarget& a, const TrackTarget& b) {
+    const size_t shared = std::min(a.steps.size(), b.steps.size());
+    return std::equal(a.steps.begin(), a.steps.begin() + std::ptrdiff_t(shared), b.steps.begin());
+}
+
+bool is_placement(const DocumentTrack& track) {
+    return find_row(factor_rows(), track.target.steps.front().key) != nullptr;
+}
+
+/// Collects what moves, one entry per part of the scene.
+class MotionReader {
+  public:
+    explicit MotionReader(const SceneValue& root) : root_(root) {}
+
+    void add_track(DocumentTrack track, const SceneValue& value) {
+        DocumentPart& part = part_of(track.target);
+        for (const DocumentTrack& other : part.tracks) {
+            if (overlap(other.target, track.target))
+                SceneFields(value, "track")
+                    .get("target")
+                    .fail("another track changes this value already: " + other.where.text());
+        }
+        part.tracks.push_back(std::move(track));
+    }
+
+    /// Models and a density whose files are numbered.
+    void add_sequences() {
+        if (const JsonMember* models = find_member(root_.json(), "models")) {
+            for (size_t i = 0; i < models->value.members.size(); ++i) {
+                const JsonMember& model = models->value.members[i];
+                if (find_member(model.value, "sequence") == nullptr) continue;
+                part_of({ScenePart::model, i, model.key, "models." + model.key, &model.value, {}});
+            }
+        }
+        const JsonValue* world = &find_member(root_.json(), "world")->value;
+        const JsonValue* at = world;
+        for (const std::string_view key : {"medium", "density", "sequence"}) {
+            const JsonMember* inner = find_member(*at, key);
+            if (inner == nullptr) return;
+            at = &inner->value;
+        }
+        part_of({ScenePart::world, 0, "", "world", world, {}});
+    }
+
+    std::vector<DocumentPart> finish(Scene& scene) {
+        std::vector<DocumentPart> parts;
+        for (auto& [key, part] : parts_) {
+            part.place = place_of(part, scene);
+            if (part.part == ScenePart::object) {
+                scene.objects[part.place].moves = std::ranges::any_of(part.tracks, is_placement);
+                part.only_placed = std::ranges::all_of(part.tracks, is_placement);
+            }
+            parts.push_back(std::move(part));
+        }
+        return parts;
+    }
+
+  private:
+    DocumentPart& part_of(const TrackTarget& target) {
+        const auto [found, is_new] = parts_.try_emplace({target.part, target.number});
+        if (is_new)
+            found->second = {.part = target.part,
+                             .number = target.number,
+                             .place = 0,
+                             .name = target.name,
+                             .path = target.path,
+                             .value = target.value,
+                             .tracks = {}};
+        return found->second;
+    }
+
+    const SceneValue& root_;
+    std::map<std::pair<ScenePart, size_t>, DocumentPart> parts_;
+};
+
+}  // namespace
+
+std::shared_ptr<const SceneMotion> read_motion(const SceneValue& root, const AssetSearch& search,
+                                               Scene& scene) {
+    MotionReader reader(root);
+    const SceneFields fields(root, "scene");
+    if (const auto animation = fields.find("animation")) {
+        if (const auto tracks = SceneFields(*animation, "animation").find("tracks")) {
+            for (const SceneValue& value : tracks->items())
+                reader.add_track(read_track(value, root.json(), scene.animation.fps), value);
+        }
+    }
+    reader.add_sequences();
+    const std::vector<DocumentPart> parts = reader.finish(scene);
+    if (parts.empty()) return nullptr;
+    SceneMotion motion{scene.file.string(), {}};
+    for (const DocumentPart& part : parts) check_keys(part, scene, search);
+    for (const DocumentPart& part : parts) motion.parts.push_back(moving_part(part, scene, search));
+    return std::make_shared<const SceneMotion>(std::move(motion));
+}
+
+}  // namespace voxelume

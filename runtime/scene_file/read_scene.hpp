@@ -1,0 +1,29 @@
+// scene.json -> Scene.
+#pragma once
+
+#include <filesystem>
+#include <string_view>
+
+#include "runtime/scene/scene.hpp"
+#include "runtime/scene_file/assets.hpp"
+#include "runtime/scene_file/scene_document.hpp"
+
+namespace voxelume {
+
+/// Reads and checks a scene. The format is described in scenes/README.md.
+///
+/// Throws Error::scene, "file:line:column: key path: sentence", for text or values that are wrong,
+/// Error::input for a scene or asset that is missing, Error::limit for a file of more than 64 MiB.
+Scene read_scene(const std::filesystem::path& file, const AssetFolders& assets);
+
+/// The same for text that is at hand; `file` names it in messages and gives the folder of its
+/// assets.
+Scene parse_scene(std::string_view text, const std::filesystem::path& file,
+                  const AssetFolders& assets);
+
+/// The same for a tree of values, whichever way it was made: all scenes are checked here. Nothing
+/// of the tree is kept.
+Scene read_scene(const JsonValue& root, const std::filesystem::path& file,
+                 const AssetFolders& assets);
+
+}  // namespace voxelume

@@ -1,0 +1,89 @@
+// Voxelume: images of voxel worlds, flat and volumetric, by discrete ray tracing in OpenCL.
+//
+// This header is the library; it includes the parts below voxelume/, each of which is the manual of
+// its subject. A program finds it with CMake by `find_package(voxelume)` and links the target
+// `voxelume::voxelume`, or by `pkg-config --cflags --libs voxelume`. C++20 is needed.
+//
+// Example: a ball hovers over a box, in the light of one lamp; ten frames as PNG files.
+//
+//     #include <voxelume.hpp>
+//
+//     int main() {
+//         using namespace voxelume;
+//         SceneDescription room;
+//         room.world = {.voxel_size = uniform(0.02), .min = {-1, 0, -1}, .max = {1, 2, 1},
+//                       .ambient = {0.1, 0.1, 0.1}};
+//         room.materials = {{.name = "red", .color = {0.8, 0.1, 0.1}}};
+//         room.models = {{.name = "ball", .source = Sphere{0.3}},
+//                        {.name = "box", .source = Box{{1.2, 0.4, 1.2}}}};
+//         room.objects = {{.name = "ball", .model = "ball", .material = "red"},
+//                         {.model = "box", .position = {0, 0.2, 0}}};
+//         room.lights = {{.source = PointLight{{1, 1.9, 0.9}}, .intensity = 3}};
+//         room.observer = {.position = {0.5, 1.6, 3}, .look_at = Vec3{0, 0.7, 0}};
+//         room.animation = {.frames = 10, .tracks = {{"objects.ball.position",
+//                           Keys<Vec3>{{1, {0, 0.8, 0}}, {10, {0, 1.4, 0}}}}}};
+//         const Scene scene = Scene::build(room);
+//         const std::vector<Device> devices = Device::open_all("auto");
+//         FrameJob job;
+//         for (int n = 1; n <= 10; ++n)
+//             job.frames.push_back({.frame = n, .images = {frame_path("room.##.png", n, true)}});
+//         render_frames(scene, devices, job);
+//     }
+//
+// | I want to                          | Call                                      | Part        |
+// | ---------------------------------- | ----------------------------------------- | ----------- |
+// | know what can render here          | list_devices, Device::open                | device.hpp  |
+// | have a scene                       | Scene::load, Scene::parse, Scene::build   | scene.hpp   |
+// | know whether it fits               | plan                                      | plan.hpp    |
+// | have one image or volume in memory | render_image, render_volume               | render.hpp  |
+// | render many frames, or to files    | render_frames                             | render.hpp  |
+// | read, write and compare images     | Image::read, Image::write, compare        | image.hpp   |
+// | read, write and view volumes       | Volume::read, Volume::write, Volume::view | volume.hpp  |
+// | turn a mesh into voxels            | voxelize, describe_file                   | files.hpp   |
+//
+// Units. Lengths are metres, angles degrees, colours linear Rec. 709, radiance is in the scene's
+// own units. Axes are right-handed with Y up.
+//
+// Errors. A call that fails throws `Error`, whose sentence is for people and whose parts (kind,
+// file, line, column, key) are for programs. After that, all objects are as they were before.
+//
+// Ownership. Scene, Device, Image and Volume are handles: a copy costs a pointer and shares what
+// it stands for. Spans point into an Image or Volume and live as long as it or a copy does.
+//
+// Threads. Scenes, images and volumes never change and may be used by any number of threads. A
+// device serves one call at a time. Rendering starts threads of its own and ends them before it
+// returns.
+//
+// The process. The library prints nothing, ends no process, sets no environment variable and starts
+// no process, unless `configure` allows it (process.hpp). It reads the variables VOXELUME_DEVICE,
+// VOXELUME_LANES, VOXELUME_MEMORY_MB, VOXELUME_BUFFER_MB, VOXELUME_ASSETS, VOXELUME_CACHE_DIR and
+// VOXELUME_CACHE_MB. It keeps compiled kernels, voxelized models and worlds in the user's cache.
+//
+// Bits. The same scene gives the same bits on every number of devices, lanes and threads, whatever
+// was rendered before.
+#pragma once
+
+#include "voxelume/animation.hpp"
+#include "voxelume/device.hpp"
+#include "voxelume/error.hpp"
+#include "voxelume/files.hpp"
+#include "voxelume/image.hpp"
+#include "voxelume/lights.hpp"
+#include "voxelume/objects.hpp"
+#include "voxelume/observer.hpp"
+#include "voxelume/plan.hpp"
+#include "voxelume/process.hpp"
+#include "voxelume/render.hpp"
+#include "voxelume/scene.hpp"
+#include "voxelume/statistics.hpp"
+#include "voxelume/values.hpp"
+#include "voxelume/volume.hpp"
+#include "voxelume/world.hpp"
+
+#ifndef VOXELUME_BUILDING
+/// Names of the library's first binary interface, `voxelume::v1`, are those of `voxelume`. (Its own
+/// sources have other types of the same names.)
+namespace voxelume {
+using namespace v1;
+}
+#endif

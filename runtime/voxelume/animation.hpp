@@ -1,0 +1,57 @@
+// What changes from frame to frame, as typed tracks.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "values.hpp"
+
+namespace voxelume::v1 {
+
+/// A value at a frame. Frame 1 is the first; fractions are allowed.
+template <class Value>
+struct Key {
+    double frame = 1;  ///< 1 is the first; fractions are allowed
+    Value value{};     ///< the track's value there
+};
+
+template <class Value>
+/// The keys of one track, in the order of time.
+using Keys = std::vector<Key<Value>>;
+
+/// What a value is between two keys.
+enum class Interpolation {
+    step,    ///< the earlier key's value
+    linear,  ///< number by number, at an even speed
+    cubic,   ///< number by number, smoothly, and never beyond the two keys' values
+    slerp    ///< of a `turn`: the shorter way round one axis, at an even speed
+};
+
+/// One value of the scene over time. Before the first key its value holds, after the last one the
+/// last one's.
+///
+/// `target` is the path to the value by the keys of the scene format (scenes/README.md), which are
+/// the names of these structs' members: "objects.ball.position", "lights.lamp.intensity",
+/// "materials.glass.color", "models.block.parts[1].position", "observer.display.angle",
+/// "world.medium.density.base". Objects and lights without a name have their place in brackets:
+/// "lights[0].color". Names with dots or brackets in them stand in quotes.
+struct Track {
+    std::string target{};  ///< as scene files name it: "objects.ball.position"
+    std::variant<Keys<double>, Keys<std::array<double, 2>>, Keys<Vec3>, Keys<bool>,
+                 Keys<std::string>>
+        keys{};  ///< in the order of time, one or more
+    std::optional<Interpolation>
+        interpolation{};  ///< without it linear, or step of texts and bools
+};
+
+/// Frames of a scene, and the tracks that move it.
+struct Animation {
+    int frames = 1;                 ///< numbered from 1
+    double frames_per_second = 24;  ///< of keys that are given in seconds
+    std::vector<Track> tracks{};    ///< values that change
+};
+
+}  // namespace voxelume::v1

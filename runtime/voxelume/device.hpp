@@ -1,0 +1,83 @@
+// Devices that render: which there are, and how a program chooses among them.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace voxelume::v1 {
+
+/// What a device is.
+enum class DeviceKind { cpu, gpu, other };
+
+/// "cpu", "gpu" or "other".
+const char* name_of(DeviceKind kind);
+
+/// What an OpenCL platform says of a device, and whether Voxelume can render on it.
+struct DeviceInfo {
+    int index = 0;  ///< its number in list_devices(), which Device::open takes
+    DeviceKind kind = DeviceKind::other;  ///< CPU, GPU or other
+    std::string name{};                   ///< as its driver gives it
+    std::string vendor{};                 ///< as its driver gives it
+    std::string platform{};               ///< name of the OpenCL platform that it belongs to
+    std::string platform_version{};       ///< OpenCL version of that platform
+    std::string version{};                ///< of OpenCL
+    std::string driver{};                 ///< version of its driver
+    uint64_t memory_bytes = 0;            ///< at most VOXELUME_MEMORY_MB, where that is set
+    uint64_t max_allocation_bytes = 0;    ///< in one buffer; at most VOXELUME_BUFFER_MB likewise
+    int compute_units = 0;                ///< as OpenCL counts them
+    int lanes = 1;                        ///< rays that one work-item carries
+    std::string unusable_because{};       ///< why it can't render; empty when it can
+    std::string note{};                   ///< what its user should know; mostly empty
+
+    /// True if it can render.
+    bool is_usable() const { return unusable_because.empty(); }
+};
+
+/// Every device of every OpenCL platform, usable or not. A platform that fails is passed over, so
+/// the list may be empty.
+std::vector<DeviceInfo> list_devices();
+
+/// The number of devices that share work for the selectors "all" (1) and "all/N" (N); 0 for a
+/// selector of one device. Throws Error::usage for "all/" without a number.
+int parts_of_all(std::string_view selector);
+
+/// An open device. Copies are handles of the same device; it closes with the last of them.
+///
+/// A device serves one call of this library at a time. Different devices may serve different
+/// threads at once.
+class Device {
+  public:
+    /// Opens the device that `selector` names: "auto", "cpu", "gpu", an index of list_devices(), or
+    /// a part of the name of a device or its platform. An empty selector stands for the environment
+    /// variable VOXELUME_DEVICE, and without that for "auto": a GPU rather than a CPU, then the
+    /// most compute units.
+    ///
+    /// Throws Error::device when nothing fits; the sentence names what is there, or the package to
+    /// install.
+    static Device open(std::string_view selector = {});
+
+    /// Opens all devices that share the work: for "all" every GPU and the best CPU, for "all/N" the
+    /// same with the CPU cut into N parts, for another selector the one device of `open`.
+    static std::vector<Device> open_all(std::string_view selector = {});
+
+    /// What it is.
+    const DeviceInfo& info() const;
+
+    /// Rays that one work-item carries on this device; VOXELUME_LANES overrides info().lanes.
+    int lanes() const;
+
+    struct Implementation;
+    /// For the library's own use.
+    explicit Device(std::shared_ptr<const Implementation> implementation)
+        : implementation_(std::move(implementation)) {}
+    /// For the library's own use.
+    const Implementation& implementation() const { return *implementation_; }
+
+  private:
+    std::shared_ptr<const Implementation> implementation_;
+};
+
+}  // namespace voxelume::v1

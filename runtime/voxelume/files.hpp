@@ -1,0 +1,84 @@
+// Files beside images and volumes: voxelized models, what is in a file, names of frames' files.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "device.hpp"
+#include "objects.hpp"
+
+namespace voxelume::v1 {
+
+/// How a mesh becomes voxels.
+struct VoxelizeOptions {
+    double voxel_size = 0;                ///< metres; 0: `resolution` decides
+    int resolution = 256;                 ///< voxels along the longest side
+    Surface surface = Surface::smooth;    ///< what a voxel shows
+    VoxelSet set = VoxelSet::supercover;  ///< of cubes
+};
+
+/// What voxelizing a mesh made.
+struct VoxelizeReport {
+    uint64_t triangles = 0;     ///< of the mesh
+    std::array<int, 3> size{};  ///< voxels
+    double voxel_size = 0;      ///< metres
+    uint64_t bricks = 0;        ///< of 16 x 16 x 16 voxels, stored
+    double seconds = 0;         ///< without writing files
+};
+
+/// Voxelizes a mesh (.obj, .ply, .stl) and writes its voxels to files: models (.vxm) that scenes
+/// name, or OpenVDB volumes (.vdb). Throws Error::input for a mesh that can't be read, Error::limit
+/// for one that doesn't fit the device, Error::usage for another ending, Error::output.
+VoxelizeReport voxelize(const std::filesystem::path& mesh,
+                        const std::vector<std::filesystem::path>& outputs, const Device& device,
+                        const VoxelizeOptions& options = {});
+
+struct Facts;
+
+/// A value of what is known of a file.
+using Fact =
+    std::variant<std::monostate, bool, int64_t, uint64_t, double, std::string, std::vector<Facts>>;
+
+/// A value with its name, or a list, or a table: what describe_file tells. Elements of lists have
+/// no names.
+struct Facts {
+    /// What a file is.
+    enum class Kind { value, list, object };
+    Kind kind = Kind::value;  ///< decides which facts are given
+    std::string name{};       ///< of the kind, for people
+    Fact value{};             ///< lists and objects have a vector of their elements and members
+};
+
+/// What is in a file, by what it begins with: an OpenEXR or PNG image, a volumetric image, an
+/// OpenVDB volume, a voxelized model, or else a mesh, and how many voxels a mesh would become.
+/// Returns an object whose members stand in the order in which people read them. Throws
+/// Error::input.
+Facts describe_file(const std::filesystem::path& file);
+
+/// The frames of a list like "1-10,20,30-60x5", in its order. Throws Error::usage.
+std::vector<int> parse_frame_list(const std::string& list);
+
+/// The name of a frame's file: the last run of # in the pattern, or a %04d, becomes the number. A
+/// pattern without either gets four digits before its extension where the file is `one_of_many`.
+std::string frame_path(const std::string& pattern, int frame, bool one_of_many);
+
+/// Throws Error::output when no file can be made there, or not of that kind; leaves nothing behind.
+void check_output_file(const std::filesystem::path& file);
+
+/// Writes a file that appears whole or not at all. Throws Error::output.
+void write_file(const std::filesystem::path& file, std::string_view text);
+
+/// A text in quotes, cut to a readable length and safe for a terminal, as messages have it.
+std::string quote(std::string_view text);
+
+/// The end of a message about a name that there isn't: ` did you mean "brick"?` after `;`, a list
+/// of all names where none is near, or nothing.
+std::string suggest(std::string_view text, std::span<const std::string_view> names);
+
+}  // namespace voxelume::v1

@@ -1,0 +1,110 @@
+// Flat images: their channels in memory, and their files.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "values.hpp"
+
+namespace voxelume::v1 {
+
+/// What an image shows of a pixel. What isn't asked for isn't computed.
+struct Channels {
+    bool color = true;     ///< R G B A
+    bool depth = true;     ///< Z
+    bool position = true;  ///< P.X P.Y P.Z
+    bool normal = true;    ///< N.X N.Y N.Z
+    bool object = true;    ///< objectId
+};
+
+/// Colour alone: what a picture shows.
+inline constexpr Channels kColorAlone{true, false, false, false, false};
+
+/// How an image becomes a file.
+struct ImageFileOptions {
+    double exposure = 0;       ///< PNG: stops; colours are multiplied by 2^exposure
+    bool float_color = false;  ///< OpenEXR: colour as 32-bit floats, not halves
+    Channels channels{};       ///< OpenEXR: others that the image has aren't written
+};
+
+/// An image: planes of width x height values, row 0 at the top, x fastest. Copies share the planes,
+/// which never change.
+///
+/// Colour is linear Rec. 709 and multiplied by A. Z is the distance along the observer's axis or
+/// sight ray in metres, P the point and N the normal in the world. Pixels that show no object have
+/// Z = +infinity, P = N = 0 and objectId 0; objects count from 1 in the order of the scene.
+class Image {
+  public:
+    /// Reads an OpenEXR file with all of its channels, or a PNG file, whose R G B A become codes
+    /// over 255 (`holds_codes`). Throws Error::input.
+    static Image read(const std::filesystem::path& file);
+
+    /// Pixels along a row.
+    int width() const;
+    /// Rows.
+    int height() const;
+    bool holds_codes() const;  ///< values are sRGB codes of a PNG file, not light
+
+    /// The names of the float channels in alphabetical order: "A", "B", "G", "N.X", ...
+    std::vector<std::string> channels() const;
+    /// True if it has a channel of this name, such as "R" or "N.X".
+    bool has(std::string_view channel) const;
+
+    /// The plane of a float channel. It lives as long as this image or a copy of it. Throws
+    /// Error::usage for a channel that the image doesn't have.
+    std::span<const float> plane(std::string_view channel) const;
+    /// The numbers of the objects; empty where they weren't asked for.
+    std::span<const uint32_t> object_ids() const;
+
+    /// Copies a plane to the caller's memory of as many values. Throws Error::usage for another
+    /// number of them.
+    void copy(std::string_view channel, std::span<float> to) const;
+
+    /// Writes an OpenEXR or PNG file, by the ending of its name. The file appears whole or not at
+    /// all, and the same image gives the same bytes. Throws Error::usage for another ending,
+    /// Error::output.
+    void write(const std::filesystem::path& file, const ImageFileOptions& options = {}) const;
+
+    struct Implementation;
+    /// For the library's own use.
+    explicit Image(std::shared_ptr<const Implementation> implementation)
+        : implementation_(std::move(implementation)) {}
+    /// For the library's own use.
+    const Implementation& implementation() const { return *implementation_; }
+
+  private:
+    std::shared_ptr<const Implementation> implementation_;
+};
+
+/// How far a channel is from that of a reference.
+struct ChannelDifference {
+    std::string channel{};   ///< its name
+    double max = 0;          ///< largest |a - b|
+    double rmse = 0;         ///< root of the mean of (a - b)^2
+    double mae = 0;          ///< mean of |a - b|
+    double mrse = 0;         ///< mean of ((a - b) / (|b| + 0.01))^2
+    uint64_t differing = 0;  ///< pixels whose values are unequal
+    uint64_t unmatched = 0;  ///< of these, pixels with a value that isn't finite: in no mean
+};
+
+/// How far two images are apart.
+struct ImageDifference {
+    std::vector<ChannelDifference> channels{};  ///< by name; numbers of objects come last
+    std::vector<std::string> only_in_a{};       ///< channels that the second image lacks
+    std::vector<std::string> only_in_b{};       ///< channels that the first image lacks
+    std::optional<double>
+        flip;  ///< mean FLIP (Andersson et al. 2020, LDR), where both have colours
+};
+
+/// Compares `a` with the reference `b`. Throws Error::render for images of different sizes,
+/// Error::usage where one holds codes and the other light.
+ImageDifference compare(const Image& a, const Image& b);
+
+}  // namespace voxelume::v1

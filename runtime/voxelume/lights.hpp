@@ -1,0 +1,59 @@
+// Lights of a scene as plain structs.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <variant>
+
+#include "values.hpp"
+
+namespace voxelume::v1 {
+
+/// Shines from one point to all sides.
+struct PointLight {
+    Vec3 position{};  ///< metres
+};
+
+/// A cone of light; `direction` or `look_at` says where it goes.
+struct SpotLight {
+    Vec3 position{};                      ///< metres
+    std::optional<Vec3> direction{};      ///< along which the light travels, of any length but 0
+    std::optional<Vec3> look_at{};        ///< instead: a point that the light is aimed at
+    double angle = 60;                    ///< degrees; opening of the whole cone, below 180
+    std::optional<double> inner_angle{};  ///< degrees; opening of the cone with full light
+};
+
+/// Parallel light, such as the sun's.
+struct DirectionalLight {
+    Vec3 direction{};  ///< along which the light travels, of any length but 0
+};
+
+/// A disk that shines evenly to one side and is not seen itself.
+struct DiskLight {
+    Vec3 position{};                  ///< of its middle
+    std::optional<Vec3> direction{};  ///< where the light travels; any length but 0
+    std::optional<Vec3> look_at{};    ///< metres; a point to aim at, instead of a direction
+    double radius = 0;                ///< metres, above 0
+    int samples = 64;                 ///< points that it shines from, 1..16384
+};
+
+/// A rectangle that shines evenly to one side and is not seen itself.
+struct RectangleLight {
+    Vec3 position{};                  ///< of its middle
+    std::optional<Vec3> direction{};  ///< where the light travels; any length but 0
+    std::optional<Vec3> look_at{};    ///< metres; a point to aim at, instead of a direction
+    std::array<double, 2> size{};     ///< metres: width, height
+    std::optional<Vec3> up{};         ///< the direction that the height follows
+    int samples = 64;                 ///< points that it shines from, 1..16384
+};
+
+/// A source of light.
+struct Light {
+    std::string name{};  ///< for messages and tracks; empty: "lights[n]"
+    std::variant<PointLight, SpotLight, DirectionalLight, DiskLight, RectangleLight>
+        source{};          ///< its type, with what that type needs
+    Color color{1, 1, 1};  ///< linear Rec. 709; the intensity multiplies it
+    double intensity = 1;  ///< at 1 m, falling with the square; of a directional light everywhere
+};
+
+}  // namespace voxelume::v1

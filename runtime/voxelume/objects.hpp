@@ -1,0 +1,157 @@
+// The bodies of a scene as plain structs: solids and meshes, and the objects that place them.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "values.hpp"
+#include "world.hpp"
+
+namespace voxelume::v1 {
+
+// Solids lie around the origin; their axis is Y; all measures are metres above 0.
+/// A ball around the origin.
+struct Sphere {
+    double radius = 0;  ///< metres
+};
+/// An ellipsoid around the origin.
+struct Ellipsoid {
+    Vec3 radii{};  ///< half axes, metres
+};
+/// A box around the origin.
+struct Box {
+    Vec3 size{};  ///< whole edges
+};
+/// A cylinder around the origin, along Y.
+struct Cylinder {
+    double radius = 0;  ///< metres
+    double height = 0;  ///< metres
+};
+/// A cone around the origin, along Y, upright.
+struct Cone {
+    double radius = 0;      ///< at y = -height / 2
+    double height = 0;      ///< metres
+    double top_radius = 0;  ///< at y = height / 2; 0: a point
+};
+/// A ring around the origin, in the plane of X and Z.
+struct Torus {
+    double radius = 0;  ///< of the ring
+    double tube = 0;    ///< radius of the tube, at most `radius`
+};
+/// A cylinder with round caps around the origin, along Y.
+struct Capsule {
+    double radius = 0;  ///< metres
+    double height = 0;  ///< of the part between the round caps
+};
+/// A slab has no end in x and z: it ends where the world does.
+struct Slab {
+    double thickness = 0;  ///< metres, along Y
+};
+
+struct Part;
+
+/// How parts are combined.
+enum class Operation {
+    union_of,      ///< all parts together
+    intersection,  ///< what is in all parts
+    difference     ///< the first part without the others
+};
+
+/// Solids combined, up to 16 levels deep and with up to 256 shapes in a model. Parts that are to be
+/// one have to overlap a little.
+struct Combination {
+    Operation operation = Operation::union_of;  ///< what is done with the parts
+    std::vector<Part> parts{};  ///< in a difference, all others are taken from the first
+};
+
+/// A shape, or a combination of shapes.
+using Solid =
+    std::variant<Sphere, Ellipsoid, Box, Cylinder, Cone, Torus, Capsule, Slab, Combination>;
+
+/// A solid and its place in its parent.
+struct Part {
+    Solid solid{};        ///< what is placed
+    Vec3 position{};      ///< metres, in its parent
+    Vec3 turn{};          ///< degrees [psi, theta, gamma]: R_y(psi) * R_x(theta) * R_z(gamma)
+    Vec3 scale{1, 1, 1};  ///< negative ones mirror
+    std::optional<Matrix> matrix{};  ///< instead of position, turn and scale
+};
+
+/// The vertices of a mesh on their straight way to another shape.
+struct Morph {
+    double amount = 0;             ///< share of the way, 0..1
+    std::filesystem::path mesh{};  ///< the mesh at the end: as many vertices, the same triangles
+    /// Instead of a mesh, a sphere that each vertex reaches straight away from its centre.
+    std::optional<Vec3> center{};
+    std::optional<double> radius{};  ///< metres
+};
+
+/// Triangles of an OBJ, PLY or STL file. Files are looked for in SceneOptions::assets.
+struct MeshFile {
+    std::filesystem::path file{};        ///< .obj, .ply or .stl
+    std::optional<Sequence> sequence{};  ///< makes it a file for each frame
+    std::optional<Morph> morph{};        ///< moves its vertices
+    std::vector<Part> cuts{};            ///< taken away from the mesh; not of an exact one
+};
+
+/// Voxels that are there already: a .vxm of `voxelize`, or an OpenVDB file.
+struct VoxelFile {
+    std::filesystem::path file{};        ///< .vxm or .vdb
+    std::optional<Sequence> sequence{};  ///< makes it a file for each frame
+};
+
+/// What a voxel shows of the surface in it.
+enum class Surface {
+    cubes,   ///< the voxel is the object
+    smooth,  ///< a distance field runs through the voxels; for closed meshes and solids
+    exact    ///< voxels list their triangles or solid; also for open sheets and sharp edges
+};
+
+/// Which voxels the surface of `cubes` gets.
+enum class VoxelSet {
+    supercover,  ///< all that the surface touches
+    thin,        ///< the fewest that no path through faces can pass
+    solid        ///< all whose centre is inside
+};
+
+/// An object before it is placed, and the lattice that it is voxelized on.
+struct Model {
+    std::string name{};                                 ///< by which objects name it
+    std::variant<Solid, MeshFile, VoxelFile> source{};  ///< a mesh, voxels or a solid
+    std::optional<Vec3> voxel_size{};  ///< metres in object space; without it the world's
+    std::optional<int> resolution{};   ///< instead: voxels along the longest side, 1..65536
+    std::optional<Surface> surface{};  ///< without it smooth, or cubes of a VoxelFile
+    std::optional<VoxelSet> set{};     ///< of cubes; without it supercover
+};
+
+/// How an object gets into the picture.
+enum class Placement {
+    automatic,  ///< `world` for what stands still, `instance` for what moves
+    world,      ///< resampled into the world's voxels
+    instance    ///< rays are transformed into the object's own voxels
+};
+
+/// A model in the world. Scaling comes first, then turning, then shifting.
+struct Object {
+    std::string name{};      ///< for messages and tracks; empty: "objects[n]"
+    std::string model{};     ///< name of its model
+    std::string material{};  ///< empty: "default"
+    std::vector<std::pair<std::string, std::string>>
+        group_materials{};           ///< group of faces, material
+    Vec3 position{};                 ///< metres: where the model's origin goes
+    Vec3 turn{};                     ///< degrees [psi, theta, gamma]
+    Vec3 scale{1, 1, 1};             ///< negative numbers mirror
+    std::optional<Matrix> matrix{};  ///< instead of position, turn and scale
+    int priority = 0;     ///< where objects overlap: the higher wins, then the earlier in the list
+    bool visible = true;  ///< false: it isn't there, casts no shadow and sends out no light
+    std::optional<int>
+        light_samples{};  ///< points that its emission lights the world from, 0..16384
+    Placement placement =
+        Placement::automatic;  ///< in the world's voxels, as an instance, or whichever suits
+};
+
+}  // namespace voxelume::v1

@@ -1,0 +1,82 @@
+// Who looks at a scene, through which display, and at what quality, as plain structs.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <variant>
+
+#include "values.hpp"
+
+namespace voxelume::v1 {
+
+/// A rectangular pyramid: the perspective of a camera.
+struct PyramidDisplay {
+    std::optional<std::array<double, 2>> angles{};  ///< degrees: horizontal and vertical opening
+    std::optional<double>
+        angle{};                  ///< degrees: horizontal opening of square pixels; 40 without both
+    double near = 0;              ///< metres along Z_E
+    std::optional<double> far{};  ///< metres; without it the end of the world
+};
+
+/// A cone of sight rays around Z_E.
+struct SectorDisplay {
+    double angle = 0;             ///< degrees: whole opening, up to 360
+    double near = 0;              ///< metres along the ray
+    std::optional<double> far{};  ///< metres, along the ray; the world's end if not given
+};
+
+/// All directions around the observer.
+struct BallDisplay {
+    double radius = 0;  ///< metres
+};
+
+/// Parallel sight rays along Z_E.
+struct BoxDisplay {
+    Vec3 size{};      ///< metres along X_E, Y_E and Z_E; centred on Z_E
+    double near = 0;  ///< metres: where the box begins
+};
+
+/// How the voxels of a volumetric image lie.
+enum class VolumeLayout {
+    rays,    ///< (u, v, k): sight ray by step; u to the image's right, v down, k away
+    lattice  ///< (x, y, z): Cartesian voxels along X_E, Y_E and Z_E
+};
+
+/// Which surfaces of the world a lattice shows.
+enum class Visibility {
+    observer,  ///< those that the observer sees
+    outside,   ///< those that can be seen from somewhere outside of the world
+    all        ///< all
+};
+
+/// The space that the observer sees, VS_E, and the voxels of a volumetric image of it.
+struct Display {
+    std::variant<PyramidDisplay, SectorDisplay, BallDisplay, BoxDisplay>
+        shape{};  ///< the sight space
+    std::optional<std::array<int, 3>>
+        voxels{};                              ///< u, v, k, or x, y, z; without it image size, 256
+    VolumeLayout layout = VolumeLayout::rays;  ///< how the voxels of a volumetric image lie
+    std::optional<Visibility> visibility{};    ///< of a lattice; without it `observer`
+    bool cylinder = false;  ///< of a lattice: the upright cylinder inside clips it, too
+};
+
+/// The observer looks along +Z_E with Y_E up, so that the right-hand side of the image is -X_E.
+struct Observer {
+    Vec3 position{};                ///< metres
+    std::optional<Vec3> look_at{};  ///< a point in the middle of the view
+    std::optional<Vec3> up{};       ///< what is up in the image; without it +Y
+    std::optional<Vec3> turn{};     ///< degrees [psi, theta, gamma], instead of `look_at` and `up`
+    Display display{};              ///< what is seen, and how display voxels lie
+};
+
+/// The flat image.
+struct RenderSettings {
+    Size size{640, 480};             ///< pixels, 1..kMaxImageSide each
+    int samples = 1;                 ///< sight rays a pixel, 1..4096
+    int depth = 5;                   ///< reflections and refractions in a row, 0..64
+    bool shadows = true;             ///< whether lights cast shadows
+    bool filtered_shadows = false;   ///< refracting objects tint light instead of hiding it
+    double min_weight = 1.0 / 4096;  ///< paths that would add less of a pixel end
+};
+
+}  // namespace voxelume::v1

@@ -1,0 +1,76 @@
+// What rendering a scene takes, before any memory is taken.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "device.hpp"
+#include "error.hpp"
+#include "image.hpp"
+#include "process.hpp"
+#include "scene.hpp"
+
+namespace voxelume::v1 {
+
+/// Whether a frame fits a device.
+enum class Verdict {
+    fits,         ///< the most that it may take is there
+    may_fit,      ///< the least is there, the most isn't
+    does_not_fit  ///< the least isn't there, or a limit is exceeded
+};
+
+/// "fits", "may fit" or "doesn't fit".
+const char* name_of(Verdict verdict);
+
+/// One grid of voxels: a model's, that of one object alone, or the world's.
+struct GridPlan {
+    std::string name{};                   ///< "model NAME", "object NAME" or "world"
+    std::array<int, 3> size{};            ///< voxels
+    std::optional<uint64_t> triangles{};  ///< of a mesh; the world has none of its own
+    double surface_voxels = 0;            ///< estimated
+    double bricks = 0;                    ///< of 16 x 16 x 16 voxels, with a surface in them
+    double made_bytes = 0;                ///< of the device, while it is made
+    double kept_bytes = 0;                ///< of the device, afterwards
+};
+
+/// The memory of the device at the height of a stage.
+struct StagePlan {
+    std::string name{};  ///< "voxelize", "place", "index" or "image"
+    double bytes = 0;    ///< at most
+};
+
+/// Estimates for the frame that takes the most memory, or the first one that doesn't fit.
+struct Plan {
+    Verdict verdict = Verdict::fits;  ///< of the frame that takes the most
+    std::optional<Error> refusal{};   ///< why it doesn't fit: what is too large, and what to do
+    int frame = 1;                    ///< that takes the most memory
+    double min_bytes = 0;             ///< of the device, at least
+    double max_bytes = 0;             ///< of the device, at most
+    double device_bytes = 0;          ///< that can be used
+    double largest_buffer_bytes = 0;  ///< of any stage
+    double host_bytes = 0;            ///< of main memory
+    std::vector<GridPlan> grids{};    ///< the world's is the last
+    std::vector<StagePlan> stages{};  ///< with what each takes
+};
+
+/// What planning assumes.
+struct PlanOptions {
+    std::vector<int> frames{};  ///< empty: all of the animation
+    Channels channels{};        ///< of the images
+    CacheOptions cache{};       ///< knows models that needn't be read
+};
+
+/// Plans frames of a scene on a device. Reads the meshes that they show; takes no memory of the
+/// device.
+///
+/// Throws Error as `Scene::load` does for values that are wrong at a frame, and Error::limit for
+/// lattices that can't be numbered at all. A scene that merely doesn't fit is a plan like others.
+Plan plan(const Scene& scene, const Device& device, const PlanOptions& options = {});
+
+/// "1.5 GB": three digits at most.
+std::string bytes_text(double bytes);
+
+}  // namespace voxelume::v1

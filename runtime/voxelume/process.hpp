@@ -1,0 +1,45 @@
+// What the library may do to the process that it runs in, and what it keeps on disk.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+
+namespace voxelume::v1 {
+
+/// The version of the library: "0.1.0".
+const char* version();
+
+/// What a program may allow the library to do to its process. Without it, nothing: the library sets
+/// no environment variable, starts no process, installs no signal handler and prints nothing.
+/// (OpenCL drivers are not the library: PoCL sets HWLOC_PLUGINS_PATH when it starts up.)
+struct ProcessOptions {
+    /// Sets POCL_CACHE_DIR while OpenCL starts up, and unsets it again: kernels that PoCL, the
+    /// OpenCL of CPUs, compiled are then kept in Voxelume's own cache, where processes can't damage
+    /// each other's. Not thread-safe against code of the program that reads the environment then.
+    /// Without it PoCL keeps kernels where its own rules say, in ~/.cache/pocl.
+    bool set_driver_environment = false;
+
+    /// Has a child process read OpenVDB files first that Voxelume didn't write: OpenVDB ends the
+    /// process on some damaged files. Reading takes twice as long.
+    bool isolate_readers = false;
+
+    /// Threads that compress and expand OpenEXR files; 0: none but the caller's.
+    int image_threads = 0;
+};
+
+/// Sets the options for the whole process; to be called before any other function of the library,
+/// once.
+void configure(const ProcessOptions& options);
+
+/// What a run keeps on disk of voxelized models and of worlds, to be found again by the bytes of
+/// their sources.
+struct CacheOptions {
+    bool enabled = true;  ///< false: neither read nor written
+    /// Empty: `models` in the user's folder of Voxelume, which is VOXELUME_CACHE_DIR or else
+    /// ~/.cache/voxelume. Kernels are always kept in the user's folder.
+    std::filesystem::path folder{};
+    std::optional<uint64_t> max_megabytes{};  ///< without it VOXELUME_CACHE_MB, or else 4096
+};
+
+}  // namespace voxelume::v1

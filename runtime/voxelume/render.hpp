@@ -1,0 +1,86 @@
+// Scene -> images and volumetric images, in memory or as files, of one frame or many.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <stop_token>
+#include <vector>
+
+#include "device.hpp"
+#include "image.hpp"
+#include "process.hpp"
+#include "scene.hpp"
+#include "statistics.hpp"
+#include "volume.hpp"
+
+namespace voxelume::v1 {
+
+/// How frames are rendered.
+struct RenderOptions {
+    Channels channels{};        ///< of images in memory
+    CacheOptions cache{};       ///< of models and worlds on disk
+    bool overlap = true;        ///< whether one device works on the next frame meanwhile
+    bool time_kernels = false;  ///< for Statistics::kernel_ms; costs a little time
+    /// Called with the share of the whole call that is done, from 0 to 1, never decreasing, and the
+    /// number of the frame that got on; by one thread at a time, perhaps not the caller's. What it
+    /// throws ends the call.
+    std::function<void(double done, int frame)> progress{};
+    /// Asks the call to end: it then throws Error::cancelled within about a batch of rays. Frames
+    /// that were complete have been delivered.
+    std::stop_token stop{};
+};
+
+/// Renders the image of a frame. Several devices share its tiles, and the bits are those of one.
+///
+/// `statistics`, where there is some, is filled. Throws Error::limit before memory is taken when
+/// the frame doesn't fit, Error::usage for no device, Error::cancelled, and Error as `Scene::load`
+/// does for values and files that are wrong at that frame.
+Image render_image(const Scene& scene, const std::vector<Device>& devices, int frame = 1,
+                   const RenderOptions& options = {}, Statistics* statistics = nullptr);
+
+/// Renders the volumetric image of a frame's display. One device does it, the first. Throws as
+/// render_image does.
+Volume render_volume(const Scene& scene, const std::vector<Device>& devices, int frame = 1,
+                     const RenderOptions& options = {}, Statistics* statistics = nullptr);
+
+/// A frame that was rendered. What the job doesn't ask for is empty.
+struct RenderedFrame {
+    int frame = 1;                   ///< its number
+    std::optional<Image> image{};    ///< empty if none was asked for
+    std::optional<Volume> volume{};  ///< empty if none was asked for
+    FrameStatistics statistics{};    ///< of this frame
+};
+
+/// A frame to be rendered, and the files to be written of it: images .exr and .png, and volumetric
+/// images of every VolumeFormat.
+struct FrameFiles {
+    int frame = 1;                                 ///< its number
+    std::vector<std::filesystem::path> images{};   ///< .exr and .png
+    std::vector<std::filesystem::path> volumes{};  ///< in any format of volumes
+};
+
+/// Frames to be rendered, and what becomes of them.
+struct FrameJob {
+    std::vector<FrameFiles> frames{};  ///< in the order in which they are delivered; one or more
+    ImageFileOptions image_files{};    ///< how images are written
+    /// Called with each frame, in order, after its files were written; by the thread that called
+    /// render_frames. What it throws ends the call.
+    std::function<void(const RenderedFrame&)> deliver{};
+    bool deliver_images = false;   ///< whether `deliver` wants the images in memory
+    bool deliver_volumes = false;  ///< whether `deliver` wants the volumetric images in memory
+};
+
+/// The channels of images that render_frames computes for a job: those that some file or `deliver`
+/// shows. A job without either stands for the OpenEXR files of its options.
+Channels needed_channels(const FrameJob& job, const RenderOptions& options = {});
+
+/// Renders frames of a scene. What a frame shows doesn't depend on the frames before it, nor on the
+/// number of devices: several devices take a frame each, or the tiles of a job's only image.
+///
+/// Throws as render_image does, and as Image::write and Volume::write do; frames before the one
+/// that failed are written and delivered.
+Statistics render_frames(const Scene& scene, const std::vector<Device>& devices,
+                         const FrameJob& job, const RenderOptions& options = {});
+
+}  // namespace voxelume::v1

@@ -1,0 +1,88 @@
+// A scene: read from a file or text, or built from plain structs; checked once, then unchangeable.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "animation.hpp"
+#include "lights.hpp"
+#include "objects.hpp"
+#include "observer.hpp"
+#include "world.hpp"
+
+namespace voxelume::v1 {
+
+/// All that a scene file says, as plain structs. Lengths are metres, angles degrees, colours linear
+/// Rec. 709; axes are right-handed with Y up. Defaults and ranges are those of the scene format.
+struct SceneDescription {
+    std::string name = "scene";         ///< what messages call it
+    World world{};                      ///< the lattice, and the space in it
+    std::vector<Material> materials{};  ///< by name
+    std::vector<Model> models{};        ///< by name
+    std::vector<Object> objects{};      ///< models placed in the world
+    std::vector<Light> lights{};        ///< sources of light
+    Observer observer{};                ///< who looks, from where, at what
+    Animation animation{};              ///< frames, and what moves
+    RenderSettings render{};            ///< the flat image
+};
+
+/// Where a scene's files are, and what replaces its settings.
+struct SceneOptions {
+    /// Folders in which files that the scene names are looked for, after the scene's own and before
+    /// those of the environment variable VOXELUME_ASSETS. Files must lie below these folders.
+    std::vector<std::filesystem::path> assets{};
+};
+
+/// A scene that was checked. Copies share their values and are cheap; any number of threads may use
+/// one scene.
+class Scene {
+  public:
+    /// Reads a scene file (JSON; scenes/README.md describes it).
+    ///
+    /// Throws Error::scene with file, line, column and key for text or values that are wrong,
+    /// Error::input for a scene or a file that it names that is missing, Error::limit for a file of
+    /// more than 64 MiB.
+    static Scene load(const std::filesystem::path& file, const SceneOptions& options = {});
+
+    /// Reads the text of a scene. `file` names it in messages, and its folder is the first in which
+    /// the scene's files are looked for; there need not be such a file.
+    static Scene parse(std::string_view text, const std::filesystem::path& file = "scene",
+                       const SceneOptions& options = {});
+
+    /// Checks plain structs as a file's values are checked. Throws what `load` throws; an Error has
+    /// the description's name as its file, and a key such as "objects[0].material", but no line.
+    static Scene build(const SceneDescription& description, const SceneOptions& options = {});
+
+    /// The same scene with another image size; the angles of a display with square pixels follow.
+    Scene with_size(Size size) const;
+    /// The same scene with another number of sight rays a pixel, 1..4096.
+    Scene with_samples(int samples) const;
+
+    /// The file that it was read from; empty for a scene that was built.
+    const std::filesystem::path& file() const;
+    /// Width and height of its image, pixels.
+    Size size() const;
+    bool moves() const;  ///< whether any frame may differ from another
+    int frames() const;  ///< of the animation; 1 without one
+    /// Frames a second of its animation.
+    double frames_per_second() const;
+    /// Names of the objects, in the order of the numbers that images have for them, from 1 on.
+    std::vector<std::string> object_names() const;
+    /// What the scene holds, in lines for people.
+    std::string describe() const;
+
+    struct Implementation;
+    /// For the library's own use.
+    explicit Scene(std::shared_ptr<const Implementation> implementation)
+        : implementation_(std::move(implementation)) {}
+    /// For the library's own use.
+    const Implementation& implementation() const { return *implementation_; }
+
+  private:
+    std::shared_ptr<const Implementation> implementation_;
+};
+
+}  // namespace voxelume::v1

@@ -1,0 +1,116 @@
+// What rendering took: counts, times and memory.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "values.hpp"
+
+namespace voxelume::v1 {
+
+/// What a frame's world is to the one before on its device.
+enum class WorldReuse { kept, instances_moved, built };
+
+/// What a frame's image is to the one before on its device.
+enum class ImageReuse {
+    kept,    ///< the frame is still
+    shaded,  ///< new light on the same surfaces
+    traced
+};
+
+/// Seconds that each stage took.
+struct StageSeconds {
+    double load = 0;      ///< reading files of models
+    double voxelize = 0;  ///< meshes and solids to voxels
+    double place = 0;     ///< objects into the world's voxels
+    double index = 0;     ///< the world's pyramid, and instances
+    double cache = 0;     ///< writing models and worlds to the disk
+    double image = 0;     ///< from sight rays to pixels, or to display voxels
+};
+
+/// Rays and paths.
+struct RayCounts {
+    uint64_t sight_rays = 0;           ///< rays from the observer
+    uint64_t beams = 0;                ///< sent along 16 sight rays each
+    uint64_t clear_beams = 0;          ///< of these, those that see nothing
+    uint64_t display_lines = 0;        ///< probe lines along a display's lattice
+    uint64_t clear_display_lines = 0;  ///< not sent, as they pass all objects by
+    uint64_t shadow_rays = 0;          ///< rays to lights
+    uint64_t light_beams = 0;          ///< beams from lights, where shadow rays end
+    uint64_t secondary_rays = 0;       ///< reflected, refracted, and gone on through surfaces
+    uint64_t ended_paths = 0;          ///< not followed for their small weight
+    uint64_t medium_overflows = 0;     ///< rays in more overlapping objects than they can remember
+    uint32_t not_finite = 0;           ///< values that became 0
+};
+
+/// Instances, and the models that they share.
+struct InstanceCounts {
+    uint32_t instances = 0;  ///< in the world
+    uint32_t models = 0;     ///< that they share
+    uint64_t voxels = 0;     ///< of the models, each counted once
+    uint64_t bytes = 0;      ///< of these models
+    double seconds = 0;      ///< making them ready
+};
+
+/// What one frame made anew.
+struct FrameStatistics {
+    int frame = 1;                          ///< its number
+    size_t device = 0;                      ///< its place in Statistics::devices
+    WorldReuse world = WorldReuse::built;   ///< what was done to the world
+    ImageReuse image = ImageReuse::traced;  ///< what was done for the image
+    uint64_t meshes_read = 0;               ///< files of models
+    uint64_t voxelized = 0;                 ///< models, and exact objects
+    uint64_t models_from_cache = 0;         ///< whose voxels were on the disk
+    uint64_t painted_bricks = 0;            ///< that objects were placed into
+    bool world_from_cache = false;          ///< the world of an earlier run was read
+    uint32_t instances_moved = 0;           ///< that are new or stand elsewhere
+    uint32_t instance_models_indexed = 0;   ///< made ready for rays
+    bool keeps_nothing = false;  ///< for want of memory, for the next frame of its device
+    StageSeconds seconds{};      ///< waiting included, where frames overlap
+};
+
+/// A device that took part.
+struct DeviceStatistics {
+    std::string name{};     ///< as its driver gives it
+    std::string driver{};   ///< version of its driver
+    int compute_units = 0;  ///< as OpenCL counts them
+    int lanes = 1;          ///< rays that one work-item takes
+};
+
+/// What a run took: the sums over its frames and devices, or the largest of a frame for sizes.
+struct Statistics {
+    std::vector<DeviceStatistics> devices{};  ///< that rendered
+    Size size{};                              ///< pixels
+    size_t files = 0;                         ///< written
+    uint64_t voxels = 0;                      ///< with a surface, of the frame with most
+    uint64_t triangles = 0;                   ///< of the models, of the frame with most
+    uint64_t culled_objects = 0;              ///< that no ray can meet: not voxelized
+    uint64_t world_bytes = 0;                 ///< on the device, of the frame with most
+    RayCounts rays{};                         ///< of all frames
+    InstanceCounts instances{};               ///< of the frame with most
+    StageSeconds seconds{};                   ///< of all frames, by stage
+    double open_seconds = 0;                  ///< before the first frame
+    double write_seconds = 0;                 ///< writing files, perhaps while other work went on
+    double total_seconds = 0;                 ///< by the clock
+    std::optional<int>
+        one_by_one_from;  ///< frame from which on none overlapped, for want of memory
+    std::vector<FrameStatistics> frames{};  ///< one for each frame
+
+    // Counters of the devices since they were opened.
+    uint64_t peak_device_bytes = 0;              ///< in buffers at once, all devices together
+    std::map<std::string, uint64_t> launches{};  ///< by kernel
+    std::map<std::string, double> kernel_ms{};   ///< by kernel, with RenderOptions::time_kernels
+    std::map<std::string, uint64_t> allocated_bytes{};  ///< by buffer
+    uint64_t programs_made = 0;                         ///< OpenCL programs made ready
+    uint64_t programs_from_cache = 0;                   ///< of these, not compiled again
+    double programs_ms = 0;                             ///< making them ready took
+};
+
+/// The statistics as JSON, as `voxelume render --stats-json` writes them.
+std::string to_json(const Statistics& statistics);
+
+}  // namespace voxelume::v1

@@ -1,0 +1,88 @@
+// The space of a scene as plain structs: the world's lattice, its medium, and materials.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <variant>
+
+#include "values.hpp"
+
+namespace voxelume::v1 {
+
+/// A number for each frame in place of the last run of `#` in a file's name.
+struct Sequence {
+    int first = 1;      ///< number of the first file
+    int last = 1;       ///< number of the last file
+    int start = 1;      ///< frame that shows the first file
+    bool loop = false;  ///< whether the first file follows the last one, which stays otherwise
+};
+
+/// Fog on the ground: density 1 up to y = `base`, above it exp(-(y - base) / scale_height).
+struct HeightDensity {
+    double base = 0;          ///< metres
+    double scale_height = 1;  ///< metres, above 0
+};
+
+/// Density 1 in a ball and 0 outside.
+struct BallDensity {
+    Vec3 center{};       ///< metres
+    double radius = 1;   ///< metres, above 0
+    double falloff = 0;  ///< metres of the rim over which the density falls smoothly, up to radius
+};
+
+/// A float grid of an OpenVDB file, in metres by its own transform and then placed.
+struct GridDensity {
+    std::filesystem::path file{};        ///< .vdb
+    std::optional<Sequence> sequence{};  ///< makes it a file for each frame
+    std::string grid = "density";        ///< its name in the file
+    Vec3 position{};                     ///< metres: where the grid's origin goes
+    Vec3 turn{};          ///< degrees [psi, theta, gamma]: R_y(psi) * R_x(theta) * R_z(gamma)
+    Vec3 scale{1, 1, 1};  ///< negative ones mirror
+    std::optional<Matrix> matrix{};  ///< instead of position, turn and scale
+};
+
+/// What fills the space between the objects.
+struct Medium {
+    Color absorption{};  ///< per metre at density 1, at least 0
+    Color color{};       ///< radiance that an infinitely deep medium shows, at least 0
+    /// The density at each voxel of the world; monostate: 1 everywhere.
+    std::variant<std::monostate, HeightDensity, BallDensity, GridDensity> density{};
+};
+
+/// The lattice S that all objects are placed in, and the space around it.
+struct World {
+    Vec3 voxel_size{};               ///< metres along each axis, above 0
+    Vec3 min{};                      ///< corner of the bounds, where the lattice starts
+    Vec3 max{};                      ///< the opposite corner; the last voxels may reach past it
+    Color background{};              ///< radiance where a ray leaves the world
+    Color ambient{};                 ///< light that reaches every surface
+    std::optional<Medium> medium{};  ///< what fills the space between objects
+};
+
+/// A second colour in every other block of a lattice that stands still in the world.
+struct Checker {
+    Color color{};  ///< linear Rec. 709, of every other block
+    Vec3 size{};    ///< edges of a block; 0: no change along that axis
+    Vec3 origin{};  ///< a corner of a block of the material's own colour
+};
+
+/// How a surface looks (Whitted 1980), and the body behind it. The material named "default" is what
+/// objects without a material have.
+struct Material {
+    std::string name{};          ///< by which objects name it
+    Color color{0.8, 0.8, 0.8};  ///< 0..1
+    double diffuse = 1;          ///< part of the light that Lambert's term returns, 0..1
+    double specular = 0;         ///< part of the light that the Blinn-Phong highlight returns, 0..1
+    double shininess = 50;       ///< exponent of the highlight, 1..1e6
+    double reflection = 0;       ///< part of the reflected ray's value, 0..1
+    double refraction = 0;       ///< part of the refracted ray's value, 0..1
+    double ior = 1.5;            ///< index of refraction inside, 0.1..10
+    bool fresnel = false;        ///< the exact reflectance for the angle scales the two parts above
+    double opacity = 1;          ///< share of what lies behind that the surface covers, 0..1
+    Color absorption{};          ///< inside of the object, per metre, at least 0
+    Color emission{};            ///< radiance that the surface sends out, at least 0
+    std::optional<Checker> checker{};  ///< a second colour in every other block
+};
+
+}  // namespace voxelume::v1

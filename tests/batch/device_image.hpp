@@ -1,0 +1,24 @@
+// The image that one device or several make of a scene's only frame.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "runtime/batch/render_frames.hpp"
+
+namespace voxelume {
+
+inline std::shared_ptr<const Image> image_by(const std::vector<Device>& devices, const Scene& scene,
+                                             RenderReport& report,
+                                             const BatchProgress& progress = {}) {
+    std::shared_ptr<const Image> image;
+    BatchOptions options;
+    options.progress = progress;
+    render_frames(devices, scene, std::move(options), [&](const FrameResult& result) {
+        image = result.image;
+        report = result.report.report;
+    });
+    return image;
+}
+
+}  // namespace voxelume

@@ -1,0 +1,328 @@
+// A whole run of frames through its one door: what comes out, in which order, and how it ends
+// early.
+#include "runtime/batch/render_frames.hpp"
+#include "runtime/scene_file/read_scene.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <map>
+#include <stdexcept>
+#include <thread>
+
+#include "runtime/render/volume_renderer.hpp"
+#include "runtime/scene/scene_animation.hpp"
+#include "tests/oracles/image_hash.hpp"
+#include "tests/support/file_fixture.hpp"
+#include "tests/support/test_device.hpp"
+
+namespace voxelume {
+namespace {
+
+using testing::ElementsAre;
+
+/// Nine frames of a ball that moves until the fifth, on a device with memory for much more.
+Scene moving_scene() {
+    constexpr const char* kText = R"({"voxelume": 1,
+"world": {"voxel_size": 0.05, "bounds": {"min": [-1, -1, -1], "max": [1, 1, 1]}},
+"models": {"ball": {"shape": "sphere", "radius": 0.4, "voxel_size": 0.05}},
+"objects": [{"name": "a", "model": "ball"}, {"name": "b", "model": "ball", "position": [0.5, 0, 0]}],
+"lights": [{"type": "point", "position": [1, 3, -3], "intensity": 20}],
+"observer": {"position": [0, 0.5, -5], "look_at": [0, 0, 0],
+             "display": {"shape": "pyramid", "angles": [50, 40], "near": 0.5, "far": 20,
+                         "voxels": [9, 7, 11]}},
+"render": {"size": [45, 31]},
+"animation": {"frames": 9, "tracks": [{"target": "objects.a.position",
+    "keys": [{"frame": 1, "value": [-0.5, 0, 0]}, {"frame": 5, "value": [-0.1, 0.1, 0]}]}]}})";
+    return parse_scene(kText, "moving.json", {});
+}
+
+std::vector<Device> halves() {
+    const Device whole = test_device();
+    const bool is_cut = whole.is_cpu() && whole.info().compute_units > 1;
+    return is_cut ? Device::open_all("all/2") : std::vector{whole, whole.with_own_queue()};
+}
+
+uint64_t hash_alone(int frame) {
+    static std::map<int, uint64_t> hashes;
+    if (const auto known = hashes.find(frame); known != hashes.end()) return known->second;
+    RenderReport report;
+    const Image image = render(test_device(), scene_at(moving_scene(), frame), report);
+    return hashes[frame] = oracle::image_hash(image);
+}
+
+/// Which devices take part, and how.
+struct Way {
+    const char* name;
+    bool two_devices;
+    bool overlap;
+};
+
+/// What came out of a run.
+struct Results {
+    std::vector<int> frames;
+    std::vector<uint64_t> hashes;
+    BatchOutcome outcome;
+    std::string error;  ///< the sentence, where one was thrown
+};
+
+class RenderFrames : public testing::TestWithParam<Way> {
+  protected:
+    BatchOptions options(std::vector<int> frames) const {
+        BatchOptions options;
+        options.frames = std::move(frames);
+        options.overlap = GetParam().overlap;
+        return options;
+    }
+    /// `after` is called once a result is taken.
+    Results run(const BatchOptions& options,
+                const std::function<void(const FrameResult&)>& after = {}) const {
+        Results results;
+        try {
+            results.outcome =
+                render_frames(devices_, moving_scene(), options, [&](const FrameResult& result) {
+                    results.frames.push_back(result.report.frame);
+                    results.hashes.push_back(oracle::image_hash(*result.image));
+                    if (after) after(result);
+                });
+        } catch (const std::exception& error) {
+            results.error = error.what();
+        }
+        return results;
+    }
+
+    std::vector<Device> devices_ = GetParam().two_devices ? halves() : std::vector{test_device()};
+};
+
+TEST_P(RenderFrames, GivesTheFramesInTheOrderAskedForAndTheirReports) {
+    BatchOptions batch = options({4, 2, 2, 7});
+    double last = 0;
+    batch.progress = [&](double done, int frame) {
+        EXPECT_GT(done, last);
+        EXPECT_THAT(frame, testing::AnyOf(2, 4, 7));
+        last = done;
+    };
+    const Results results = run(batch, [&](const FrameResult& result) {
+        EXPECT_GE(result.report.report.sight_rays, 45u * 31u);
+        EXPECT_LT(result.report.device, devices_.size());
+        EXPECT_EQ(result.volume, nullptr);
+    });
+    EXPECT_EQ(results.error, "");
+    EXPECT_EQ(last, 1);
+    EXPECT_THAT(results.frames, ElementsAre(4, 2, 2, 7));
+    EXPECT_THAT(results.hashes,
+                ElementsAre(hash_alone(4), hash_alone(2), hash_alone(2), hash_alone(7)));
+    EXPECT_EQ(results.outcome.frames_done, 4u);
+    EXPECT_FALSE(results.outcome.is_cancelled);
+    EXPECT_EQ(results.outcome.one_by_one_from, std::nullopt);
+}
+
+TEST_P(RenderFrames, GivesVolumesAloneOrBesideImages) {
+    RenderReport report;
+    const Volume expected = render_volume(test_device(), scene_at(moving_scene(), 3), report);
+    for (const bool image : {false, true}) {
+        BatchOptions batch = options({1, 3});
+        batch.image = image;
+        batch.volume = true;
+        double last = 0;
+        batch.progress = [&](double done, int) { last = done; };
+        std::vector<FrameResult> results;
+        render_frames(devices_, moving_scene(), batch,
+                      [&](const FrameResult& result) { results.push_back(result); });
+        ASSERT_EQ(results.size(), 2u);
+        EXPECT_EQ(last, 1);
+        EXPECT_EQ(results[1].image != nullptr, image);
+        EXPECT_EQ(results[1].volume->indices, expected.indices);
+        EXPECT_EQ(results[1].volume->colors, expected.colors);
+        EXPECT_NE(results[0].volume->indices, expected.indices);
+    }
+}
+
+TEST_P(RenderFrames, CancelledByTheOutputEndWithTheResultThatItTook) {
+    std::stop_source stop;
+    BatchOptions batch = options({1, 2, 3, 4, 5, 6, 7, 8, 9});
+    batch.stop = stop.get_token();
+    const Results results = run(batch, [&](const FrameResult& result) {
+        if (result.report.frame == 3) stop.request_stop();
+    });
+    EXPECT_EQ(results.error, "");
+    EXPECT_THAT(results.frames, ElementsAre(1, 2, 3));
+    EXPECT_THAT(results.hashes, ElementsAre(hash_alone(1), hash_alone(2), hash_alone(3)));
+    EXPECT_EQ(results.outcome.frames_done, 3u);
+    EXPECT_TRUE(results.outcome.is_cancelled);
+}
+
+TEST_P(RenderFrames, CancelledInTheMiddleOfAFrameEndBeforeItsNextBatch) {
+    std::stop_source stop;
+    Scene scene = moving_scene();
+    // Each takes several batches of rays.
+    resize(scene, {500, 300});
+    scene.observer.display.voxels = {500, 300, 2};
+    for (const bool volume : {false, true}) {
+        BatchOptions batch = options({1, 2});
+        batch.image = !volume;
+        batch.volume = volume;
+        batch.stop = stop.get_token();
+        std::atomic<int> calls = 0;
+        batch.progress = [&](double done, int) {
+            EXPECT_LT(done, 0.5);
+            ++calls;
+            stop.request_stop();
+        };
+        const BatchOutcome outcome = render_frames(devices_, scene, batch, [](const FrameResult&) {
+            ADD_FAILURE() << "a frame that isn't whole";
+        });
+        EXPECT_TRUE(outcome.is_cancelled);
+        EXPECT_EQ(outcome.frames_done, 0u);
+        EXPECT_LE(calls, 2) << "each device ends the batch that it has";
+        stop = std::stop_source();
+    }
+}
+
+TEST_P(RenderFrames, CancelledBeforeTheyBeginGiveNothing) {
+    std::stop_source stop;
+    stop.request_stop();
+    for (const std::vector<int>& frames : {std::vector{1}, std::vector{1, 2, 3}}) {
+        BatchOptions batch = options(frames);
+        batch.stop = stop.get_token();
+        batch.progress = [](double, int) { ADD_FAILURE() << "something was rendered"; };
+        const Results results = run(batch);
+        EXPECT_EQ(results.error, "");
+        EXPECT_THAT(results.frames, testing::IsEmpty());
+        EXPECT_TRUE(results.outcome.is_cancelled);
+    }
+}
+
+TEST_P(RenderFrames, CancelledAfterTheLastResultAreDone) {
+    std::stop_source stop;
+    BatchOptions batch = options({1, 2});
+    batch.stop = stop.get_token();
+    const Results results = run(batch, [&](const FrameResult& result) {
+        if (result.report.frame == 2) stop.request_stop();
+    });
+    EXPECT_EQ(results.outcome.frames_done, 2u);
+    EXPECT_FALSE(results.outcome.is_cancelled);
+}
+
+TEST_P(RenderFrames, CancelledByAnotherThreadGiveWholeFramesOnly) {
+    std::stop_source stop;
+    BatchOptions batch = options(std::vector<int>(500, 1));
+    for (size_t i = 0; i < batch.frames.size(); ++i) batch.frames[i] = 1 + int(i % 5);
+    batch.stop = stop.get_token();
+    std::jthread other;
+    const Results results = run(batch, [&](const FrameResult&) {
+        if (!other.joinable()) other = std::jthread([&] { stop.request_stop(); });
+    });
+    EXPECT_EQ(results.error, "");
+    EXPECT_TRUE(results.outcome.is_cancelled);
+    EXPECT_EQ(results.frames.size(), results.outcome.frames_done);
+    for (size_t i = 0; i < results.frames.size(); ++i)
+        EXPECT_EQ(results.hashes[i], hash_alone(results.frames[i])) << i;
+}
+
+TEST_P(RenderFrames, AnErrorOfTheOutputEndsTheRunAndLeavesTheDevicesUsable) {
+    const auto fail = [](const FrameResult& result) {
+        if (result.report.frame == 3) throw std::runtime_error("the disk is full");
+    };
+    const Results results = run(options({1, 2, 3, 4, 5, 6, 7, 8, 9}), fail);
+    EXPECT_EQ(results.error, "the disk is full");
+    EXPECT_THAT(results.frames, ElementsAre(1, 2, 3));
+    EXPECT_EQ(run(options({3}), fail).error, "the disk is full");
+    EXPECT_THAT(run(options({3, 4})).hashes, ElementsAre(hash_alone(3), hash_alone(4)));
+}
+
+TEST_P(RenderFrames, AnErrorOfADeviceComesAfterTheFramesBeforeItWithTheFramesNumber) {
+    BatchOptions batch = options({1, 2, 3, 4, 5});
+    batch.progress = [](double, int frame) {
+        if (frame == 3) throw Error(ErrorKind::render, "the device was lost");
+    };
+    const Results results = run(batch);
+    EXPECT_EQ(results.error, "the device was lost (at frame 3)");
+    EXPECT_THAT(results.frames, ElementsAre(1, 2));
+    batch.frames = {3};
+    EXPECT_EQ(run(batch).error, "the device was lost (at frame 3)");
+}
+
+TEST_P(RenderFrames, AFrameThatFitsNoDeviceIsToldBeforeAnyIsRendered) {
+    Scene scene = moving_scene();
+    scene.world.voxels = glm::ivec3(60000);
+    const Error error = error_of([&] {
+        render_frames(devices_, scene, options({1, 2}),
+                      [](const FrameResult&) { ADD_FAILURE() << "it fits"; });
+    });
+    EXPECT_EQ(error.kind(), ErrorKind::limit);
+}
+
+INSTANTIATE_TEST_SUITE_P(Ways, RenderFrames,
+                         testing::Values(Way{"Overlapped", false, true},
+                                         Way{"OneByOne", false, false},
+                                         Way{"TwoDevices", true, true}),
+                         [](const auto& way) { return std::string(way.param.name); });
+
+/// One image of two devices.
+struct SharedImage {
+    Scene scene = moving_scene();
+    BatchOptions options;
+    int results = 0;
+
+    BatchOutcome run(const std::vector<Device>& devices) {
+        options.frames = {3};
+        return render_frames(devices, scene, options, [&](const FrameResult& result) {
+            ++results;
+            EXPECT_EQ(oracle::image_hash(*result.image), hash_alone(3));
+        });
+    }
+};
+
+TEST(RenderSharedImage, IsOneResultOfAllDevices) {
+    SharedImage image;
+    EXPECT_EQ(image.run(halves()).frames_done, 1u);
+    EXPECT_EQ(image.results, 1);
+}
+
+TEST(RenderSharedImage, CancelledBetweenTilesGivesNothing) {
+    std::stop_source stop;
+    SharedImage image;
+    int calls = 0;
+    image.options.stop = stop.get_token();
+    image.options.progress = [&](double done, int) {
+        EXPECT_LT(done, 1);
+        if (++calls == 3) stop.request_stop();
+    };
+    const BatchOutcome outcome = image.run(halves());
+    EXPECT_TRUE(outcome.is_cancelled);
+    EXPECT_EQ(outcome.frames_done, 0u);
+    EXPECT_EQ(image.results, 0);
+    EXPECT_LE(calls, 4) << "each device ends the tiles that it has";
+}
+
+TEST(RenderSharedImage, AnErrorOfOneDeviceEndsTheOthersTiles) {
+    SharedImage image;
+    int calls = 0;
+    image.options.progress = [&](double, int) {
+        if (++calls == 3) throw Error(ErrorKind::render, "the device was lost");
+    };
+    const Error error = error_of([&] { image.run(halves()); });
+    EXPECT_STREQ(error.what(), "the device was lost (at frame 3)");
+    EXPECT_EQ(image.results, 0);
+    EXPECT_LE(calls, 4);
+}
+
+TEST(RenderSharedImage, ADeviceWithoutTheMemoryIsTheImagesError) {
+    setenv("VOXELUME_MEMORY_MB", "1", 1);
+    const Device small = test_device();
+    unsetenv("VOXELUME_MEMORY_MB");
+    SharedImage image;
+    image.scene.world.voxel_size = glm::dvec3(0.005);
+    image.scene.world.voxels = glm::ivec3(400);
+    for (const bool first : {false, true}) {
+        const std::vector<Device> devices =
+            first ? std::vector{small, test_device()} : std::vector{test_device(), small};
+        EXPECT_EQ(error_of([&] { image.run(devices); }).kind(), ErrorKind::limit) << first;
+    }
+    EXPECT_EQ(image.results, 0);
+}
+
+}  // namespace
+}  // namespace voxelume

@@ -1,0 +1,33 @@
+#!/usr/bin/env bash
+# Checks the documents: no line of more than 100 columns, no relative link that leads nowhere, and
+# a README of at most 60 lines in each folder of code.
+# Usage: documents_test.sh SOURCE_FOLDER
+set -euo pipefail
+export LC_ALL=C.UTF-8
+cd "$1"
+failed=0
+complain() {
+    echo "$*"
+    failed=1
+}
+
+pages=$(find . -name '*.md' -not -path './build*' -not -path './out/*' -not -path './.*' | sort)
+while read -r page; do
+    long=$(grep -nE '^.{101}' "$page" | cut -c 1-60) || true
+    [ -z "$long" ] || complain "$page has lines over 100 columns: $long"
+    # [text](target): without a scheme, and without the heading behind #.
+    while read -r target; do
+        [ -e "$(dirname "$page")/${target%%#*}" ] || complain "$page links to $target, which isn't there"
+    done < <(sed '/^```/,/^```/d' "$page" | tr '\n' ' ' | grep -oE '\]\([^)# ]+[^) ]*\)' |
+        sed -E 's/^\]\((.*)\)$/\1/' | grep -vE '^[a-z]+:' || true)
+done <<<"$pages"
+
+while read -r folder; do
+    readme=$folder/README.md
+    if [ ! -f "$readme" ]; then
+        complain "$folder has no README.md"
+    elif [ "$folder" != scenes ] && [ "$(wc -l <"$readme")" -gt 60 ]; then
+        complain "$readme is longer than a screen"
+    fi
+done < <(find cli kernels runtime scenes tests -type f -not -name README.md -printf '%h\n' | sort -u)
+exit "$failed"

@@ -1,0 +1,75 @@
+# How a folder's tests become one program, and its files, or all of it, tests of ctest.
+
+# Every test of ctest keeps compiled kernels, models and worlds in one folder of the build tree: what one test
+# compiled, others find. Tests of the caches themselves take folders of their own.
+set(test_cache ${CMAKE_BINARY_DIR}/test_cache)
+
+# add_test_program(NAME FILE...): a program of test files. `files_of_NAME` are their stems; for each file STEM.cpp,
+# `program_of_STEM` is the program, `suites_of_STEM` GoogleTest's patterns of the test suites in the file.
+function(add_test_program name)
+    add_executable(${name} ${ARGN})
+    target_link_libraries(${name} PRIVATE voxelume_runtime voxelume_oracles GTest::gmock_main)
+    target_compile_definitions(${name} PRIVATE VXL_SOURCE_DIR="${CMAKE_SOURCE_DIR}"
+                               VXL_BINARY="$<TARGET_FILE:voxelume>")
+    set(stems "")
+    foreach(file IN LISTS ARGN)
+        get_filename_component(stem ${file} NAME_WE)
+        list(APPEND stems ${stem})
+        file(READ ${file} text)
+        string(REGEX MATCHALL "TEST(_[FP])?\\([ \n]*[A-Za-z0-9_]+," tests "${text}")
+        string(REGEX REPLACE "TEST(_[FP])?\\([ \n]*([A-Za-z0-9_]+)," "\\2.*:*/\\2.*" suites "${tests}")
+        list(REMOVE_DUPLICATES suites)
+        list(JOIN suites ":" suites)
+        set(program_of_${stem} ${name} PARENT_SCOPE)
+        set(suites_of_${stem} ${suites} PARENT_SCOPE)
+        set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${file})  # its suites
+    endforeach()
+    set(files_of_${name} ${stems} PARENT_SCOPE)
+endfunction()
+
+# patterns_of(VARIABLE FILE...): GoogleTest's patterns of all suites in the files, named by their stems.
+function(patterns_of variable)
+    set(patterns "")
+    foreach(stem IN LISTS ARGN)
+        if(NOT DEFINED suites_of_${stem})
+            message(FATAL_ERROR "tests/CMakeLists.txt names ${stem}.cpp, which is no file of tests")
+        endif()
+        list(APPEND patterns ${suites_of_${stem}})
+    endforeach()
+    list(JOIN patterns ":" patterns)
+    set(${variable} "${patterns}" PARENT_SCOPE)
+endfunction()
+
+# finish_test(NAME): what all tests of ctest have in common. A filter that names no test fails.
+function(finish_test name)
+    set_tests_properties(${name} PROPERTIES ENVIRONMENT_MODIFICATION VOXELUME_CACHE_DIR=set:${test_cache})
+    set_property(TEST ${name} APPEND PROPERTY FAIL_REGULAR_EXPRESSION "Running 0 tests")
+endfunction()
+
+# add_variant(NAME FILES STEM... [COMMAND WORD...] [EXCEPT PATTERN] [LABELS LABEL] [ENVIRONMENT NAME=VALUE...]
+#             [EXHAUSTIVE]): the tests of some files once more, one test of ctest for each program that has some, named
+# NAME.PROGRAM. EXHAUSTIVE ones run with `ctest -C exhaustive` alone.
+function(add_variant name)
+    cmake_parse_arguments(PARSE_ARGV 1 variant "EXHAUSTIVE" "EXCEPT;LABELS" "FILES;COMMAND;ENVIRONMENT")
+    set(programs "")
+    foreach(stem IN LISTS variant_FILES)
+        list(APPEND programs ${program_of_${stem}})
+        list(APPEND chosen_of_${program_of_${stem}} ${stem})
+    endforeach()
+    list(REMOVE_DUPLICATES programs)
+    set(configurations "")
+    if(variant_EXHAUSTIVE)
+        set(configurations CONFIGURATIONS exhaustive)
+    endif()
+    foreach(program IN LISTS programs)
+        patterns_of(patterns ${chosen_of_${program}})
+        if(variant_EXCEPT)
+            string(APPEND patterns ":-${variant_EXCEPT}")
+        endif()
+        add_test(NAME ${name}.${program} ${configurations}
+                 COMMAND ${variant_COMMAND} $<TARGET_FILE:${program}> --gtest_filter=${patterns})
+        set_tests_properties(${name}.${program} PROPERTIES LABELS "${variant_LABELS}"
+                             ENVIRONMENT "${variant_ENVIRONMENT}")
+        finish_test(${name}.${program})
+    endforeach()
+endfunction()

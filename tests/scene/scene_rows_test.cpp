@@ -1,0 +1,174 @@
+// The descriptor rows of the scene's values say what the published schema and the manual say.
+#include <gmock/gmock.h>
+
+#include <filesystem>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "runtime/scene/light.hpp"
+#include "runtime/scene/material.hpp"
+#include "runtime/scene/object.hpp"
+#include "runtime/scene/observer.hpp"
+#include "runtime/scene/scene_affine.hpp"
+#include "runtime/scene/solid.hpp"
+#include "runtime/scene/world.hpp"
+#include "tests/support/file_fixture.hpp"
+
+namespace voxelume {
+namespace {
+
+using nlohmann::json;
+
+const std::filesystem::path kScenes = std::filesystem::path(VXL_SOURCE_DIR) / "scenes";
+
+class SceneRows : public testing::Test {
+  protected:
+    /// The limits of a number, or of each number of a list, that a property of the schema has.
+    json limits_of(const json& property) const {
+        json limits = json::object();
+        for (const char* key : {"minimum", "maximum", "exclusiveMinimum", "exclusiveMaximum"})
+            if (property.contains(key)) limits[key] = property[key];
+        for (const char* key : {"allOf", "anyOf", "oneOf"})
+            if (property.contains(key)) limits.update(limits_of(property[key][0]));
+        if (property.contains("items")) limits.update(limits_of(property["items"]));
+        if (property.contains("$ref")) {
+            const std::string name = property["$ref"];
+            limits.update(limits_of(definitions[name.substr(name.rfind('/') + 1)]));
+        }
+        return limits;
+    }
+
+    static void expect_range(const json& limits, Range range, const std::string& value) {
+        const auto expect_end = [&](const char* open, const char* closed, double end,
+                                    bool is_open) {
+            ASSERT_TRUE(limits.contains(is_open ? open : closed)) << value << " " << limits;
+            EXPECT_EQ(limits[is_open ? open : closed], end) << value;
+        };
+        expect_end("exclusiveMinimum", "minimum", range.min, range.min_is_open);
+        expect_end("exclusiveMaximum", "maximum", range.max, range.max_is_open);
+    }
+
+    /// Whether the value that a default part has is that of the schema, where that gives one.
+    template <class Part>
+    void expect_default(const json& property, const ValueRow<Part>& row) const {
+        if (!property.contains("default")) return;
+        Part part;
+        const Slot slot = row.slot(part);
+        const json& written = property["default"];
+        const auto expect = [&](const auto& value) { EXPECT_EQ(written, value) << row.key; };
+        if (const auto* number = std::get_if<double*>(&slot)) expect(**number);
+        if (const auto* number = std::get_if<float*>(&slot)) expect(**number);
+        if (const auto* number = std::get_if<int*>(&slot)) expect(**number);
+        if (const auto* flag = std::get_if<bool*>(&slot)) expect(**flag);
+    }
+
+    template <class Part>
+    void expect_rows(const std::string& definition, std::span<const ValueRow<Part>> rows) const {
+        for (const ValueRow<Part>& row : rows) {
+            const std::string key(row.key);
+            ASSERT_TRUE(definitions[definition]["properties"].contains(key)) << definition << key;
+            const json& property = definitions[definition]["properties"][key];
+            expect_default(property, row);
+            const json limits = limits_of(property);
+            EXPECT_EQ(limits.empty(), row.range.min == row.range.max) << definition << " " << key;
+            if (!limits.empty()) expect_range(limits, row.range, definition + " " + key);
+        }
+    }
+
+    /// The branch of a definition that holds for a kind of it.
+    const json& branch_of(const std::string& definition, std::string_view kind) const {
+        for (const json& branch : definitions[definition]["allOf"]) {
+            if (!branch.contains("if") || !branch["if"].contains("properties")) continue;
+            if (branch["if"]["properties"].begin().value().value("const", "") == kind)
+                return branch["then"];
+        }
+        throw std::runtime_error("no kind " + std::string(kind));
+    }
+
+    template <class Kind, class Part>
+    void expect_kinds(const std::string& definition, std::span<const Kind> kinds,
+                      std::span<const ValueRow<Part>> rows) const {
+        for (const Kind& kind : kinds) {
+            const json& branch = branch_of(definition, kind.name);
+            std::set<std::string> required, written;
+            if (branch.contains("required")) written = branch["required"];
+            for (const KindKey& key : kind.keys) {
+                if (key.is_required) required.emplace(key.key);
+                const ValueRow<Part>* row = find_row(rows, key.key);
+                if (row == nullptr || row->range.min == row->range.max) continue;
+                const std::string name(key.key);
+                json limits = limits_of(definitions[definition]["properties"][name]);
+                if (branch.contains("properties") && branch["properties"].contains(name))
+                    limits.update(limits_of(branch["properties"][name]));
+                expect_range(limits, key.range.value_or(row->range), definition + " " + name);
+            }
+            EXPECT_EQ(required, written) << definition << " " << kind.name;
+            EXPECT_THAT(manual, testing::HasSubstr(std::string(kind.name))) << definition;
+        }
+    }
+
+    const json definitions = json::parse(bytes_of(kScenes / "voxelume.schema.json"))["definitions"];
+    const std::string manual = bytes_of(kScenes / "README.md");
+};
+
+/// In place of the display's rows: those of a display have other limits for each shape.
+std::vector<ValueRow<DisplayParameters>> display_rows_alike() {
+    std::vector<ValueRow<DisplayParameters>> rows;
+    for (const ValueRow<DisplayParameters>& row : display_rows())
+        if (row.key != "angle") rows.push_back(row);
+    return rows;
+}
+
+}  // namespace
+
+TEST_F(SceneRows, HaveTheLimitsAndDefaultsOfTheSchema) {
+    expect_rows("world", world_rows());
+    expect_rows("medium", medium_rows());
+    expect_rows("density", height_density_rows());
+    expect_rows("density", ball_density_rows());
+    expect_rows("density", factor_rows());
+    expect_rows("material", material_rows());
+    expect_rows("checker", checker_rows());
+    expect_rows("morph", morph_rows());
+    expect_rows("model", solid_rows());
+    expect_rows("part", solid_rows());
+    expect_rows("part", factor_rows());
+    expect_rows("object", factor_rows());
+    expect_rows("light", light_rows());
+    expect_rows("observer", observer_rows());
+    const auto alike = display_rows_alike();
+    expect_rows("display", std::span<const ValueRow<DisplayParameters>>(alike));
+}
+
+TEST_F(SceneRows, OfEachKindAreThoseThatTheSchemaRequires) {
+    expect_kinds("light", light_types(), light_rows());
+    expect_kinds("display", display_shapes(), display_rows());
+    expect_kinds("part", solid_types(), solid_rows());
+    expect_kinds("density", density_kinds(), height_density_rows());
+}
+
+TEST_F(SceneRows, OfKindsHaveTheOrderOfTheirEnumerators) {
+    for (size_t i = 0; i < light_types().size(); ++i) EXPECT_EQ(size_t(light_types()[i].kind), i);
+    for (size_t i = 0; i < solid_types().size(); ++i) EXPECT_EQ(size_t(solid_types()[i].kind), i);
+    for (size_t i = 0; i < display_shapes().size(); ++i)
+        EXPECT_EQ(size_t(display_shapes()[i].shape), i);
+    EXPECT_EQ(density_kinds().size() + 1, std::variant_size_v<Density>);
+}
+
+TEST(MaterialEffects, AreThoseOfValuesThatDifferFromTheDefaults) {
+    Material material;
+    material.color = {0, 0, 0};
+    material.ior = 2;
+    EXPECT_EQ(effects_of(material), 0);
+    material.opacity = 0.5f;
+    material.emission = {0, 0, 1};
+    EXPECT_EQ(effects_of(material), kIsSeenThrough | kEmits);
+    material = {};
+    material.reflection = material.refraction = 1;
+    material.fresnel = true;
+    material.absorption.x = 1;
+    EXPECT_EQ(effects_of(material), kReflects | kRefracts | kHasReflectance | kAbsorbs);
+}
+
+}  // namespace voxelume

@@ -1,0 +1,23 @@
+// How many combinations of settings a test tries.
+#pragma once
+
+#include <cstddef>
+#include <cstdlib>
+#include <vector>
+
+namespace voxelume {
+
+/// True in `./bootstrap.sh test --all`, which sets VXL_TEST_ALL.
+inline bool is_exhaustive() {
+    return std::getenv("VXL_TEST_ALL") != nullptr;
+}
+
+/// All of `values` in an exhaustive run, else the one whose turn it is. Each value compiles kernels
+/// anew: tests of several scenes take turns, so that each value still comes with some scene.
+template <class T>
+std::vector<T> in_turn(const std::vector<T>& values, size_t turn) {
+    if (is_exhaustive()) return values;
+    return {values[turn % values.size()]};
+}
+
+}  // namespace voxelume
