@@ -37,6 +37,8 @@ class BufferStorage {
     const cl::Buffer& handle() const { return *buffer_; }
 
   private:
+    void allocate();
+
     Device device_;
     std::string name_;
     size_t bytes_;

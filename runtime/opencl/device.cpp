@@ -86,7 +86,8 @@ struct Device::Opened {
     std::map<std::string, cl::Program> programs;
     std::mutex mutex;
     bool timing = false;
-    bool has_run = false;  ///< to its end
+    bool has_run = false;      ///< to its end
+    bool is_counting = false;  ///< without a device
 
     Opened() = default;
     Opened(const Opened&) = delete;
@@ -102,7 +103,9 @@ struct Device::Queue {
     cl::CommandQueue queue;
     std::vector<std::pair<std::string, cl::Event>> timed;  ///< launches whose time isn't added yet
 
-    explicit Queue(std::shared_ptr<Opened> device) : opened(std::move(device)) { renew(); }
+    explicit Queue(std::shared_ptr<Opened> device) : opened(std::move(device)) {
+        if (!opened->is_counting) renew();
+    }
     Queue(const Queue&) = delete;
     Queue& operator=(const Queue&) = delete;
     ~Queue() {
@@ -173,12 +176,23 @@ Device Device::open(const cl::Device& device, const DeviceInfo& info, int lanes,
     return Device(std::make_shared<Queue>(std::move(opened)));
 }
 
+Device Device::counting(DeviceInfo info) {
+    auto opened = std::make_shared<Opened>();
+    opened->info = std::move(info);
+    opened->info.memory = opened->info.max_allocation = std::numeric_limits<uint64_t>::max();
+    opened->is_counting = true;
+    return Device(std::make_shared<Queue>(std::move(opened)));
+}
+
 Device Device::with_own_queue() const {
     return Device(std::make_shared<Queue>(queue_->opened));
 }
 
 const DeviceInfo& Device::info() const {
     return queue_->opened->info;
+}
+bool Device::is_counting() const {
+    return queue_->opened->is_counting;
 }
 const cl::Context& Device::context() const {
     return queue_->opened->context;

@@ -52,6 +52,8 @@ struct DeviceCounters {
     uint64_t programs_built = 0;       ///< number of programs made ready, compiled or not
     uint64_t programs_from_cache = 0;  ///< number of those that weren't compiled again
     double build_ms = 0;               ///< making programs ready; PoCL does most at first launch
+    std::string largest_buffer;        ///< of all so far, by its name
+    uint64_t largest_bytes = 0;
 };
 
 /// An open device and an in-order queue of work for it. Buffers and programs made on it share it.
@@ -81,6 +83,11 @@ class Device {
     /// `open` treats `all` and `all/N` as auto. Throws Error::device as `open` does.
     static std::vector<Device> open_all(std::string_view selector = {}, int lanes = 0);
 
+    /// A device of no memory and no queue, on which buffers are only counted: as they come and go,
+    /// `counters()` tells what the stages that make them take at their height. Nothing can be read
+    /// from its buffers, nothing launched on it; memory is without end.
+    static Device counting(DeviceInfo info);
+
     /// The same device with another queue, for another thread. Its buffers, once written, serve
     /// kernels of both.
     Device with_own_queue() const;
@@ -88,6 +95,7 @@ class Device {
     const DeviceInfo& info() const;
     int lanes() const { return info().lanes; }
     bool is_cpu() const { return info().kind == DeviceKind::cpu; }
+    bool is_counting() const;
 
     const cl::Context& context() const;
     const cl::Device& handle() const;

@@ -16,13 +16,7 @@ std::vector<LightRecord> light_records(const Device& device, const Features& fea
                                        const Scene& scene, const Pyramid& world) {
     std::vector<LightRecord> records;
     if (!has_light(scene, world)) return records;
-    for (const Light& light : scene.lights) {
-        if (!shines(light)) continue;
-        if (has_area(light))
-            std::ranges::copy(area_light_samples(light, world.frame), std::back_inserter(records));
-        else
-            records.push_back(light_record(light, world.frame));
-    }
+    records = given_lights(scene, world.frame);
     if (has_emissive_object(scene, world))
         std::ranges::copy(emissive_light_samples(device, features, scene, world),
                           std::back_inserter(records));
@@ -100,14 +94,12 @@ Illumination::Illumination(const Device& device, const Features& features, const
 
 void Illumination::send_beams(const DilatedOccupancy& dilated_occupancy, uint32_t maximum,
                               std::vector<LightBeams>& sent) {
-    uint32_t left = kLightsOfMaxBeams * maximum;
-    for (const LightRecord& light : lights_) {
-        const BeamGrid grid = beam_grid(light, world_.frame.size, scale_of(dilated_occupancy.of),
-                                        std::min(maximum, left));
+    for (const BeamGrid& grid :
+         beam_grids(lights_, world_.frame.size, scale_of(dilated_occupancy.of), maximum,
+                    kLightsOfMaxBeams * maximum)) {
         const auto known = std::ranges::find_if(
             sent, [&](const LightBeams& kept) { return same_beams(kept.grid, grid); });
         beams_.push_back({grid, known == sent.end() ? Buffer<float>() : known->ends});
-        left -= uint32_t(grid.columns * grid.rows);
     }
     sent.clear();  // frees their memory before others take memory
     std::optional<LightBeamStage> stage;

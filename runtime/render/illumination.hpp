@@ -26,11 +26,6 @@ namespace voxelume {
 void build_programs(const Device& device, const Features& features, const Scene& scene,
                     const Pyramid& world, bool makes_image, bool has_dilated_occupancy);
 
-/// Whether beams of lights can tell where shadow rays end: not where these gather what they pass.
-inline bool lights_send_beams(const Features& features) {
-    return features.shadows && !features.filter;
-}
-
 /// Traces and lights batches of rays. Flat and volumetric images share it.
 ///
 /// Reflected and refracted rays are followed depth by depth, as the tree of Whitted 1980, each
@@ -42,9 +37,6 @@ class Illumination {
     /// it. For `compact` see ScatterStage.
     Illumination(const Device& device, const Features& features, const Scene& scene,
                  const Pyramid& world, uint32_t max_rays, bool compact = true);
-
-    /// So many lights alone may send as many beams as one may.
-    static constexpr uint32_t kLightsOfMaxBeams = 4;
 
     /// Sends beams from the lights, at most `maximum` from one: shadow rays end where their light's
     /// tell that nothing more is before them. `sent` holds beams that were sent through this

@@ -70,7 +70,8 @@ bool Renderer::has_room(const Scene& scene, const Features& features, uint64_t r
     if (!follows_) return false;
     const double bytes = double(rays) * sight_bytes(features),
                  memory = double(device_.info().memory);
-    const double needed = ray_bytes(scene, features).maximum() + image_bytes(scene.render);
+    const double needed =
+        ray_bytes(features, ray_counts(scene, features)).maximum() + image_bytes(scene.render);
     const auto locked = device_.lock();
     return bytes <= memory / 16 &&
            double(device_.counters().bytes_in_use) + needed + bytes <= memory;

@@ -4,13 +4,12 @@
 #include <memory>
 #include <vector>
 
+#include "runtime/analysis/placed_objects.hpp"
 #include "runtime/assets/asset_store.hpp"
 #include "runtime/assets/model_frame.hpp"
 #include "runtime/stages/voxelize/voxelize.hpp"
 
 namespace voxelume {
-
-using SharedGrid = std::shared_ptr<const BrickGrid>;
 
 /// The grids of a scene's objects. A model is voxelized in its own space for all its objects, an
 /// exact one in the world's frame for each object. What the store's cache has of a mesh that an

@@ -1,10 +1,10 @@
 // scene -> instances: the objects that keep voxels of their own, behind the world's pyramid.
 #pragma once
 
+#include "runtime/analysis/placed_objects.hpp"
 #include "runtime/grid/grid.hpp"
 #include "runtime/scene/scene.hpp"
 #include "runtime/stages/instance/instance_model.hpp"
-#include "runtime/world/grid_cache.hpp"
 
 namespace voxelume {
 
@@ -16,18 +16,6 @@ struct InstanceReport {
     uint64_t voxels = 0, bytes = 0;  ///< of the models, each counted once
     double seconds = 0;              ///< indexing and joining models, placing instances
 };
-
-/// A scene's instances with the grids of their models.
-struct ListedInstances {
-    std::vector<SharedGrid> grids;  ///< of the models, each once, numbered as in `list`
-    std::vector<Instance> list;
-    std::vector<uint32_t> materials;  ///< of their groups
-};
-
-/// Lists a scene's instances, and has their models voxelized in their own frames. Throws as
-/// GridCache and materials_of_groups do, and Error::scene for a model some of whose voxels let
-/// light through.
-ListedInstances list_instances(const Scene& scene, AssetStore& meshes, GridCache& grids);
 
 /// Puts instances behind worlds, and keeps the pyramids of their models.
 class InstanceModels {

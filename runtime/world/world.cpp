@@ -7,6 +7,7 @@
 #include "runtime/analysis/culling.hpp"
 #include "runtime/analysis/model_last_uses.hpp"
 #include "runtime/analysis/object_boxes.hpp"
+#include "runtime/analysis/placed_objects.hpp"
 #include "runtime/base/error.hpp"
 #include "runtime/grid/world_frame.hpp"
 #include "runtime/memory/plan.hpp"
@@ -85,32 +86,6 @@ WorldBuilder::Origin WorldBuilder::origin_of(const Scene& scene) {
     return origin;
 }
 
-std::vector<PlacedObject> WorldBuilder::placed_objects(const Scene& scene,
-                                                       std::vector<SharedGrid>& grids) {
-    std::vector<PlacedObject> objects;
-    const std::vector<VoxelBox> boxes = object_boxes(scene, meshes_);
-    for (uint32_t number = 0; number < scene.objects.size(); ++number) {
-        const Object& object = scene.objects[number];
-        if (is_instanced(scene, object) || !is_potentially_visible(scene, object)) continue;
-        if (!overlap(boxes[number], boxes[number])) continue;  // nothing of it is in the world
-        const Model& model = scene.models[size_t(object.model)];
-        const bool has_own_voxels = !model.voxels.empty() && !lists_primitives(model.surface);
-        grids.push_back(grids_->grid_of(scene, object));
-        PlacedObject placed{.grid = grids.back().get(), .object = number};
-        placed.in_world_frame = lists_primitives(model.surface);
-        placed.world_from_object = placed.in_world_frame ? glm::dmat4(1) : object.world_from_object;
-        placed.priority = object.priority;
-        placed.set = has_own_voxels ? meshes_.voxels(model).set : model.set;
-        placed.keeps_inside =
-            shows_inside(scene, object) ||
-            (has_own_voxels && shows_voxels(model.surface) && transmits(scene, object));
-        for (const int material : materials_of_groups(object, meshes_.groups_of(model)))
-            placed.material_of_group.push_back(uint32_t(material));
-        objects.push_back(std::move(placed));
-    }
-    return objects;
-}
-
 /// The world before, with its instances where they are now.
 BuiltWorld WorldBuilder::kept_world(const Scene& scene, WorldReport& report) {
     if (density_ != scene.world.medium.density) {
@@ -179,7 +154,9 @@ BuiltWorld WorldBuilder::build_anew(const Scene& scene, const Origin& origin, Wo
     ListedInstances listed;
     {
         const VoxelizingReport voxelizing(*grids_, meshes_, report);
-        listed = list_instances(scene, meshes_, *grids_);
+        listed = list_instances(scene, meshes_, [&](const Object&, const Model& model) {
+            return grids_->own_grid_of(model);
+        });
     }
     std::vector<VoxelBox> boxes = object_boxes(scene, meshes_);
     BuiltWorld built{kept_or_new_world({scene, retained, keeps_, room, report}, indexer),
@@ -257,7 +234,11 @@ Pyramid WorldBuilder::new_world(const Task& task, Indexer& indexer) {
     std::vector<PlacedObject> objects;
     {
         const VoxelizingReport voxelizing(*grids_, meshes_, report);
-        objects = placed_objects(task.scene, shown);
+        const GridSource grid_of = [&](const Object& object, const Model&) {
+            return grids_->grid_of(task.scene, object);
+        };
+        objects =
+            placed_objects(task.scene, meshes_, object_boxes(task.scene, meshes_), grid_of, shown);
     }
     return for_world(task.scene.world,
                      [&] { return placed_and_indexed(task, objects, std::move(shown), indexer); });

@@ -97,7 +97,6 @@ class WorldBuilder {
     static Origin origin_of(const Scene& scene);
     BuiltWorld build_anew(const Scene& scene, const Origin& origin, WorldReport& report,
                           const std::vector<bool>& retained);
-    std::vector<PlacedObject> placed_objects(const Scene& scene, std::vector<SharedGrid>& grids);
     BuiltWorld kept_world(const Scene& scene, WorldReport& report);
     /// The parameters of building a world.
     struct Task {

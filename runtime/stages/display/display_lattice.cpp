@@ -48,6 +48,10 @@ uint32_t group_count(const Device& device, const glm::ivec3& size) {
 
 }  // namespace
 
+Buffer<uint32_t> allocate_display_mask(const Device& device, const glm::ivec3& size) {
+    return {device, "display mask", size_t(group_count(device, size)) * kGroupWords};
+}
+
 DisplayLatticeStage::DisplayLatticeStage(const Device& device, const Features& features,
                                          const Camera& camera, const VolumeFrame& frame,
                                          const Pyramid& world)
@@ -59,7 +63,7 @@ DisplayLatticeStage::DisplayLatticeStage(const Device& device, const Features& f
       world_(world),
       views_(device, "display views", std::span<const float4>(ways_from_outside(world.frame))),
       groups_(group_count(device, frame.size)),
-      mask_(device, "display mask", size_t(groups_) * kGroupWords),
+      mask_(allocate_display_mask(device, frame.size)),
       program_(device, "display_lattice.cl", features.defines(device)),
       aim_(program_.kernel("aim_rays")),
       note_(program_.kernel("note_view")),
@@ -120,11 +124,8 @@ ShownVoxels DisplayLatticeStage::choose(const std::vector<ProbePoints>& pieces) 
     starts.write(counts);
     list_.launch(WorkItem::light, groups_, mask_, starts, groups_, shown.voxels.indices);
 
+    shown.points = allocate_points(device_, uint32_t(voxels));
     ProbePoints& chosen = shown.points;
-    chosen.count = uint32_t(voxels);
-    chosen.total = (chosen.count + 15) / 16 * 16;
-    chosen.coordinates = Buffer<float>(device_, "display points", size_t(chosen.total) * 3);
-    chosen.views = Buffer<uint32_t>(device_, "display views", chosen.total);
     chosen.views.fill(kNoView);
     Buffer<uint32_t> distances(device_, "display distances", chosen.count);
     Buffer<uint32_t> numbers(device_, "display numbers", chosen.count);

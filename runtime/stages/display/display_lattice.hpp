@@ -14,6 +14,9 @@ struct ShownVoxels {
     ProbePoints points;  ///< one for each voxel
 };
 
+/// One bit for every voxel of a lattice. Throws Error::limit where it has no room.
+Buffer<uint32_t> allocate_display_mask(const Device& device, const glm::ivec3& size);
+
 /// Traces rays 0 .. count-1 of a batch. Where surfaces let light through, also fills what all
 /// surfaces along each ray cover.
 using LookAhead = std::function<void(RayBatch& batch, uint32_t count)>;

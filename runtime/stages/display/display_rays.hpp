@@ -53,6 +53,8 @@ struct RayDepths {
     uint32_t total = 0;        ///< places for rays
 };
 
+RayDepths allocate_ray_depths(const Device& device, const Features& features, uint32_t total);
+
 /// VXL_DEPTHS_PARAMETERS of kernels.
 void bind(KernelArguments& to, const RayDepths& depths);
 

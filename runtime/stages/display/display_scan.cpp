@@ -74,6 +74,23 @@ void check_lines(const Camera& camera, const VolumeFrame& frame) {
 
 }  // namespace
 
+ProbePoints allocate_points(const Device& device, uint32_t count) {
+    ProbePoints points;
+    points.count = count;
+    points.total = (count + 15) / 16 * 16;
+    points.coordinates = Buffer<float>(device, "probe points", size_t(points.total) * 3);
+    points.views = Buffer<uint32_t>(device, "probe views", points.total);
+    return points;
+}
+
+Buffer<float> allocate_crossings(const Device& device, uint32_t lines, uint32_t slots) {
+    return {device, "probe crossings", size_t(lines) * slots};
+}
+
+uint32_t scanned_lines(uint32_t rays) {
+    return std::max(rays / 16 / kBatchParts, 1u) * 16;
+}
+
 void bind(KernelArguments& to, const ProbePoints& points) {
     to.add(points.count, points.total, points.coordinates, points.views);
 }
@@ -149,7 +166,7 @@ ProbePoints DisplayScanStage::scan_batch(const Pyramid& world, const Family& fam
     std::vector<uint32_t> counts;
     for (;;) {
         if (crossings_.size() < size_t(stride) * slots_)
-            crossings_ = Buffer<float>(device_, "probe crossings", size_t(stride) * slots_);
+            crossings_ = allocate_crossings(device_, stride, slots_);
         if (counts_.size() < stride) counts_ = Buffer<uint32_t>(device_, "probe counts", stride);
         scan_.launch_packets(count, world, family.row, batch.rays, count, batch.stride, slots_,
                              stride, counts_, crossings_);
@@ -160,12 +177,8 @@ ProbePoints DisplayScanStage::scan_batch(const Pyramid& world, const Family& fam
     }
     std::vector<uint32_t> starts(count);
     std::exclusive_scan(counts.begin(), counts.end(), starts.begin(), 0u);
-    ProbePoints points;
-    points.count = starts.back() + counts.back();
-    points.total = (points.count + 15) / 16 * 16;
+    ProbePoints points = allocate_points(device_, starts.back() + counts.back());
     if (points.count == 0) return points;
-    points.coordinates = Buffer<float>(device_, "probe points", size_t(points.total) * 3);
-    points.views = Buffer<uint32_t>(device_, "probe views", points.total);
     points.views.fill(kNoView);
     const Buffer<uint32_t> places(device_, "probe starts", std::span<const uint32_t>(starts));
     pack_.launch(WorkItem::light, count, family.axis, uint32_t(family.camera.width), family.last.x,
@@ -177,7 +190,7 @@ ProbePoints DisplayScanStage::scan_batch(const Pyramid& world, const Family& fam
 std::vector<ProbePoints> DisplayScanStage::scan(const Pyramid& world, RayBatch& batch) {
     std::vector<ProbePoints> pieces;
     const VoxelBox shown = world.voxel_count == 0 ? VoxelBox{} : box_of_objects(world);
-    const uint32_t batch_tiles = std::max(batch.stride / 16 / kBatchParts, 1u);
+    const uint32_t batch_tiles = scanned_lines(batch.stride) / 16;
     for (const Family& family : families_) {
         const Camera& camera = family.camera;
         if (camera.width == 0 || camera.height == 0) continue;

@@ -21,6 +21,15 @@ struct ProbePoints {
 };
 inline constexpr uint32_t kNoView = 0xFFFFFFFFu;
 
+/// Points without a view, of so many; where lines' crossings are kept before, `slots` of each line,
+/// and their counts.
+ProbePoints allocate_points(const Device& device, uint32_t count);
+Buffer<float> allocate_crossings(const Device& device, uint32_t lines, uint32_t slots);
+inline constexpr uint32_t kFirstSlots = 64;
+
+/// Lines that are scanned together with a batch of so many rays.
+uint32_t scanned_lines(uint32_t rays);
+
 /// VXL_POINTS_PARAMETERS of kernels.
 void bind(KernelArguments& to, const ProbePoints& points);
 
@@ -66,7 +75,7 @@ class DisplayScanStage {
     SightStage camera_;
     Program program_;
     Kernel scan_, pack_;
-    uint32_t slots_ = 64;  ///< number of crossings that a line has room for; it grows
+    uint32_t slots_ = kFirstSlots;  ///< number of crossings that a line has room for; it grows
     Buffer<float> crossings_;
     Buffer<uint32_t> counts_;
     uint64_t lines_ = 0, clear_lines_ = 0;

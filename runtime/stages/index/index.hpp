@@ -31,6 +31,15 @@ namespace voxelume {
 /// suffice or for more than 2^30 voxels, 2^28 in grids with distances.
 Pyramid build_index(const Device& device, const BrickGrid& grid);
 
+/// What a pyramid holds.
+struct PyramidCounts {
+    size_t sectors = 0;  ///< with voxels
+    size_t leaves = 0, voxels = 0, primitives = 0;
+};
+
+/// The buffers of the pyramid of such a grid, whose triangle and solid buffers it shares.
+Pyramid allocate_pyramid(const Device& device, const BrickGrid& grid, const PyramidCounts& counts);
+
 /// Builds the pyramids of one state of a grid after another, and looks for voxels only where the
 /// grid has changed. The result is that of `build_index`.
 class Indexer {

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "runtime/grid/grid_arguments.hpp"
+#include "runtime/stages/brick_arrays.hpp"
 
 namespace voxelume {
 namespace {
@@ -16,8 +17,8 @@ VoxelMarks mark_listed(const Device& device, const Program& program, const Brick
     const uint32_t count = listed.empty() ? grid.brick_count : uint32_t(listed.size());
     VoxelMarks marks;
     marks.masks = std::move(masks);
-    Buffer<uint64_t> leaf_mask(device, "index leaf masks", count);
-    Buffer<uint32_t> counts(device, "index counts", size_t(count) * 2);
+    const MarkArrays arrays = allocate_marks(device, count);
+    const auto& [leaf_mask, counts] = arrays;
     program.kernel("mark_voxels")
         .launch(WorkItem::heavy, count, count, Buffer<uint32_t>(device, "marked bricks", listed),
                 grid, marks.masks, leaf_mask, counts);
@@ -40,9 +41,14 @@ void for_neighbours(const glm::ivec3& table, uint32_t place, const Visit& visit)
 
 }  // namespace
 
+MarkArrays allocate_marks(const Device& device, size_t bricks) {
+    return {Buffer<uint64_t>(device, "index leaf masks", bricks),
+            Buffer<uint32_t>(device, "index counts", 2 * bricks)};
+}
+
 VoxelMarks mark_voxels(const Device& device, const Program& program, const BrickGrid& grid) {
-    Buffer<uint64_t> masks(device, "index masks", size_t(grid.brick_count) * 64);
-    return mark_listed(device, program, grid, {}, std::move(masks));
+    return mark_listed(device, program, grid, {},
+                       allocate_masks(device, "index masks", grid.brick_count));
 }
 
 VoxelMarks mark_changed_voxels(const Device& device, const Program& program, const BrickGrid& grid,

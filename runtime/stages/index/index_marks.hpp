@@ -18,6 +18,13 @@ struct VoxelMarks {
                                       ///< retained
 };
 
+/// What bricks' marks are summed up to, until they are read.
+struct MarkArrays {
+    Buffer<uint64_t> leaf_mask;
+    Buffer<uint32_t> counts;
+};
+MarkArrays allocate_marks(const Device& device, size_t bricks);
+
 /// The marks of all bricks, by the kernels of index.cl that `program` was built from.
 VoxelMarks mark_voxels(const Device& device, const Program& program, const BrickGrid& grid);
 

@@ -10,6 +10,10 @@
 
 namespace voxelume {
 
+/// The buffers of the joined pyramid.
+Pyramid allocate_joined(const Device& device, const Pyramid& world,
+                        std::span<const ModelPyramid> models);
+
 /// The world's pyramid with the models' behind it in every buffer, and no instances yet.
 ///
 /// The models' packed attributes hold the kind of each voxel or primitive, and its group as the

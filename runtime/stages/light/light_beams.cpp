@@ -112,6 +112,20 @@ BeamGrid beam_grid(const LightRecord& light, const glm::ivec3& size, float scale
     return grid;
 }
 
+std::vector<BeamGrid> beam_grids(std::span<const LightRecord> lights, const glm::ivec3& size,
+                                 float scale, uint32_t maximum, uint32_t together) {
+    std::vector<BeamGrid> grids;
+    for (const LightRecord& light : lights) {
+        grids.push_back(beam_grid(light, size, scale, std::min(maximum, together)));
+        together -= uint32_t(grids.back().columns * grids.back().rows);
+    }
+    return grids;
+}
+
+Buffer<float> allocate_light_beams(const Device& device, const BeamGrid& grid) {
+    return {device, "light beams", size_t(grid.columns) * size_t(grid.rows)};
+}
+
 bool same_beams(const BeamGrid& a, const BeamGrid& b) {
     const auto members = [](const BeamGrid& g) {
         return std::tie(g.axis, g.sign, g.far_side, g.columns, g.rows, g.low_b, g.low_c, g.edge,
@@ -144,7 +158,7 @@ Buffer<float> LightBeamStage::send(const BeamGrid& grid) {
     const std::vector<uint32_t> passing =
         tiles_through(grid, size_, dilated_occupancy_.sectors_with_voxels);
     const auto count = uint32_t(passing.size());
-    Buffer<float> ends(device_, "light beams", size_t(grid.columns) * size_t(grid.rows));
+    Buffer<float> ends = allocate_light_beams(device_, grid);
     ends.fill(-INFINITY);
     const Buffer<uint32_t> tiles(device_, "light beams", std::span<const uint32_t>(passing));
     send_.launch_packets(size_t(count) * VXL_BEAM_TILE, shape_, dilated_occupancy_.sectors,

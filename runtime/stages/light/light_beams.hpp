@@ -11,6 +11,20 @@ namespace voxelume {
 /// `maximum` of them would be needed.
 BeamGrid beam_grid(const LightRecord& light, const glm::ivec3& size, float scale, uint32_t maximum);
 
+/// So many lights alone may send as many beams as one may.
+inline constexpr uint32_t kLightsOfMaxBeams = 4;
+
+/// Whether beams of lights can tell where shadow rays end: not where these gather what they pass.
+inline bool lights_send_beams(const Features& features) {
+    return features.shadows && !features.filter;
+}
+
+/// The grids of several lights, which have `together` beams at most.
+std::vector<BeamGrid> beam_grids(std::span<const LightRecord> lights, const glm::ivec3& size,
+                                 float scale, uint32_t maximum, uint32_t together);
+/// What a grid's beams are kept in.
+Buffer<float> allocate_light_beams(const Device& device, const BeamGrid& grid);
+
 /// Whether two grids of one dilated occupancy have the same beams.
 bool same_beams(const BeamGrid& a, const BeamGrid& b);
 

@@ -182,21 +182,31 @@ DensityPlan plan_density(const World& world) {
                     "{}.medium: the density differs in more than 2^20 bricks of 16x16x16 voxels: "
                     "use larger voxels",
                     world.where);
-    const double table = double(lattice.brick_count()) * sizeof(uint32_t);
-    const double values = double(slots.total() * kBrickCells) * sizeof(float);
+    const Device counting = Device::counting({});
+    const DensityGrid grid = allocate_density(counting, slots.total(), lattice.brick_count());
+    const DeviceCounters& counters = counting.counters();
     return {lattice.bricks(),
             false,
+            slots.total(),
+            lattice.brick_count(),
             double(slots.bricks),
-            std::max(table, values),
-            table + values,
-            table + lattice.field_bytes() + double(kBricksAtOnce * kBrickCells) * sizeof(float)};
+            double(counters.largest_bytes),
+            double(counters.bytes_in_use),
+            double(lattice.brick_count() * sizeof(uint32_t)) + lattice.field_bytes() +
+                double(kBricksAtOnce * kBrickCells) * sizeof(float)};
+}
+
+DensityGrid allocate_density(const Device& device, size_t slots, size_t bricks) {
+    DensityGrid grid;
+    grid.values = Buffer<float>(device, "medium densities", slots * kBrickCells);
+    grid.bricks = Buffer<uint32_t>(device, "medium bricks", bricks);
+    return grid;
 }
 
 DensityGrid form_density_grid(const Device& device, const World& world) {
     const DensityLattice lattice(world);
     const SlotCount slots = count_slots(lattice);
-    DensityGrid grid;
-    grid.values = Buffer<float>(device, "medium densities", slots.total() * kBrickCells);
+    DensityGrid grid = allocate_density(device, slots.total(), lattice.brick_count());
     ConstantTable constants;
     BrickWriter writer(lattice, constants, slots.constants, grid.values);
     std::vector<uint32_t> words(lattice.brick_count());
@@ -205,7 +215,7 @@ DensityGrid form_density_grid(const Device& device, const World& world) {
     grid.values.write(constants.values());
     join_constants(words, lattice.bricks(), 4, 6);
     join_constants(words, lattice.bricks(), 16, 8);
-    grid.bricks = Buffer<uint32_t>(device, "medium bricks", std::span<const uint32_t>(words));
+    grid.bricks.write(words);
     const glm::ivec3 &bricks = lattice.bricks(), &shift = lattice.shift();
     grid.shape = {bricks.x, bricks.y, shift.x, shift.y, shift.z, {}};
     return grid;

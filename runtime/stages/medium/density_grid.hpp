@@ -22,12 +22,13 @@ void bind(KernelArguments& to, const DensityGrid& grid);
 
 /// The size of a density grid, found without allocating it.
 struct DensityPlan {
-    glm::ivec3 bricks{0};      ///< of the lattice
-    bool is_zero = false;      ///< known to be 0 everywhere: nothing is formed
-    double stored_bricks = 0;  ///< at most, besides constants
-    double buffer_bytes = 0;   ///< of the larger buffer
-    double bytes = 0;          ///< on the device
-    double host_bytes = 0;     ///< in main memory while it is formed
+    glm::ivec3 bricks{0};          ///< of the lattice
+    bool is_zero = false;          ///< known to be 0 everywhere: nothing is formed
+    size_t slots = 0, places = 0;  ///< of values, and of bricks
+    double stored_bricks = 0;      ///< at most, besides constants
+    double buffer_bytes = 0;       ///< of the larger buffer
+    double bytes = 0;              ///< on the device
+    double host_bytes = 0;         ///< in main memory while it is formed
 };
 
 /// The plan of the medium's density grid; empty for a medium without density or absorption. Reads
@@ -36,6 +37,9 @@ struct DensityPlan {
 /// Throws Error::input, whose message starts with the place in the scene, for a damaged file or one
 /// without a float grid of that name; Error::limit for more bricks than can be numbered.
 DensityPlan plan_density(const World& world);
+
+/// The grid's buffers.
+DensityGrid allocate_density(const Device& device, size_t slots, size_t bricks);
 
 /// Whether the medium is known to have density 0 at all voxels, without a look at all of them; a
 /// file of all zeros is. Throws Error::input as plan_density.

@@ -7,6 +7,7 @@
 
 #include "kernels/shared/voxel.h"
 #include "runtime/base/error.hpp"
+#include "runtime/stages/brick_arrays.hpp"
 #include "runtime/stages/place/place_exact.hpp"
 #include "runtime/stages/place/place_painter.hpp"
 #include "runtime/stages/place/world_bricks.hpp"
@@ -201,9 +202,8 @@ class Placer::State {
         const glm::ivec3 table = world_.frame.bricks();
         painting.places.assign(size_t(table.x) * size_t(table.y) * size_t(table.z), kBrickOutside);
         for (uint32_t place = 0; place < painted_; ++place) painting.places[bricks[place]] = place;
-        if (parts_.smooth && (parts_.has_attributes() || parts_.colors || parts_.occupancy)) {
-            painting.nearest =
-                Buffer<int16_t>(device_, "nearest surfaces", size_t(painted_) * 4096);
+        if (parts_.measures_nearest()) {
+            painting.nearest = allocate_distances(device_, "nearest surfaces", painted_);
             painting.nearest.fill(32767);
         }
         Painter* smooth = nullptr;

@@ -18,6 +18,8 @@ struct WorldParts {
     std::set<uint32_t> attributes;  ///< all values that voxels can have
 
     bool has_attributes() const { return attributes.size() > 1; }
+    /// Whether voxels take what they have from the smooth surface that is nearest to them.
+    bool measures_nearest() const { return smooth && (has_attributes() || colors || occupancy); }
     /// Whether bricks of both worlds have the same buffers.
     bool is_stored_like(const WorldParts& other) const;
 };

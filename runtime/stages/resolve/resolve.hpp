@@ -15,6 +15,15 @@ namespace voxelume {
 Defines resolve_defines(const Device& device, const Features& features,
                         const ImageChannels& channels);
 
+/// What an image is made in.
+struct ImageArrays {
+    Buffer<float> planes;         ///< one after another
+    Buffer<uint32_t> objects;     ///< number of the object plus 1
+    Buffer<uint32_t> not_finite;  ///< one value
+};
+ImageArrays allocate_image(const Device& device, const glm::ivec2& size,
+                           const ImageChannels& channels);
+
 /// Kernels of resolve.cl and the image they fill, batch by batch.
 class ResolveStage {
   public:
@@ -29,14 +38,12 @@ class ResolveStage {
     Image image() const;
 
     /// Values that were not finite and became 0; anything but 0 is a fault of ours.
-    uint32_t not_finite() const { return not_finite_.read_one(0); }
+    uint32_t not_finite() const { return image_.not_finite.read_one(0); }
 
   private:
     Camera camera_;
     std::vector<const char*> names_;  ///< of the planes
-    Buffer<float> planes_;            ///< one after another
-    Buffer<uint32_t> objects_;        ///< number of the object plus 1
-    Buffer<uint32_t> not_finite_;
+    ImageArrays image_;
     Program program_;
     Kernel pixels_;
 };

@@ -46,10 +46,11 @@ class LeafMasks {
             }
         }
         write_empty_cubes(bricks);
-        return {{device, "dilated sectors", std::span<const uint32_t>(sectors)},
-                {device, "dilated bricks", std::span<const uint32_t>(bricks)},
-                DilationLevel::leaves,
-                {}};
+        DilatedOccupancy dilated_occupancy =
+            allocate_dilated_occupancy(device, sectors.size(), stored);
+        dilated_occupancy.sectors.write(sectors);
+        dilated_occupancy.bricks.write(bricks);
+        return dilated_occupancy;
     }
 
   private:
@@ -119,6 +120,18 @@ PyramidShape dilated_shape(const Pyramid& pyramid, DilationLevel of) {
     return shape;
 }
 
+DilatedOccupancy allocate_dilated_occupancy(const Device& device, size_t sectors, size_t stored) {
+    DilatedOccupancy dilated_occupancy;
+    dilated_occupancy.sectors = Buffer<uint32_t>(device, "dilated sectors", sectors);
+    dilated_occupancy.bricks =
+        Buffer<uint32_t>(device, "dilated bricks", stored * kRecordsPerSector * kWordsPerRecord);
+    return dilated_occupancy;
+}
+
+Buffer<uint32_t> allocate_beams(const Device& device, uint32_t rays) {
+    return {device, "beams", size_t(VXL_BEAM_SLOTS(rays)) * VXL_BEAM_COMPONENTS};
+}
+
 DilatedOccupancy build_dilated_occupancy(const Device& device, const Pyramid& pyramid,
                                          DilationLevel of) {
     // In the coarse pyramid of a dilated occupancy of bricks, a sector of the world is a brick, and
@@ -182,9 +195,7 @@ uint64_t BeamStage::cleared() const {
 }
 
 void BeamStage::start(RayBatch& batch, uint32_t count) {
-    if (batch.beams.empty())
-        batch.beams = Buffer<uint32_t>(device_, "beams",
-                                       size_t(VXL_BEAM_SLOTS(batch.stride)) * VXL_BEAM_COMPONENTS);
+    if (batch.beams.empty()) batch.beams = allocate_beams(device_, batch.stride);
     const uint32_t beams = (count + VXL_BEAM_RAYS - 1) / VXL_BEAM_RAYS;
     start_.launch_packets(beams, shape_, dilated_occupancy_.sectors, dilated_occupancy_.bricks,
                           scale_of(dilated_occupancy_.of), batch.rays, beams, batch.stride,

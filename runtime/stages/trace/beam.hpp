@@ -25,6 +25,11 @@ struct DilatedOccupancy {
     std::vector<glm::ivec3> sectors_with_voxels;  ///< those of the pyramid
 };
 
+/// The buffers of a dilated occupancy whose table has so many sectors, and stores some of them; and
+/// of the beams of so many rays.
+DilatedOccupancy allocate_dilated_occupancy(const Device& device, size_t sectors, size_t stored);
+Buffer<uint32_t> allocate_beams(const Device& device, uint32_t rays);
+
 /// The dilated occupancy of a world without instances. Reads the pyramid's upper levels back; host
 /// work of about 16 nanoseconds a leaf that holds voxels, 2 for a dilated occupancy of bricks.
 DilatedOccupancy build_dilated_occupancy(const Device& device, const Pyramid& pyramid,

@@ -1,7 +1,9 @@
 // features -> the arrays of rays on their way through the stages, and the memory that they take.
 //
-// What is allocated and what is planned are one walk over the same arrays.
+// What is planned is allocated on a counting device.
 #pragma once
+
+#include <vector>
 
 #include "runtime/stages/features.hpp"
 #include "runtime/stages/ray_batch.hpp"
@@ -61,9 +63,24 @@ struct RayBytes {
     double maximum() const { return once + per_depth * double(depth); }
 };
 
-/// What batches of `rays` sight rays take, which are reflected or refracted up to `depth` times, in
-/// a scene with lights or without.
-RayBytes ray_bytes(const Features& features, bool is_lit, uint32_t rays, size_t depth);
+/// Sight rays that go together, which are reflected or refracted up to `depth` times, in a scene
+/// with lights or without.
+struct RayCounts {
+    uint32_t rays = 0;
+    bool is_lit = false;
+    size_t depth = 0;
+};
+
+/// All arrays that they may need.
+struct RayArrays {
+    RayBatch batch;
+    ShadowQueue shadows;
+    std::vector<PathDepth> depths;
+};
+RayArrays allocate_rays(const Device& device, const Features& features, const RayCounts& counts);
+
+/// What these arrays take.
+RayBytes ray_bytes(const Features& features, const RayCounts& counts);
 
 /// The bytes of a sight ray and its hit.
 double sight_bytes(const Features& features);

@@ -33,6 +33,19 @@ glm::vec4 edge_scale(const GridFrame& frame);
 /// The length of `band` shortest edges in lattice units along each axis, rounded up.
 glm::ivec3 band_reach(const GridFrame& frame, double band);
 
+/// Winding numbers of a closed mesh.
+struct Windings {
+    Buffer<int16_t> numbers;  ///< 4096 per brick with triangles, from its left face
+    Buffer<int16_t> carried;  ///< 256 per bin with triangles: at its left face
+    Buffer<int16_t> passing;  ///< one per brick of the frame: of those without triangles
+};
+
+/// The arrays of winding numbers in `stored` bricks and `bins` with triangles of a frame of
+/// `places` bricks; of the rows of stored bricks' points, which are inside; of triangles' shapes.
+Windings allocate_windings(const Device& device, size_t stored, size_t bins, size_t places);
+Buffer<uint16_t> allocate_inside(const Device& device, size_t stored);
+Buffer<float> allocate_shapes(const Device& device, size_t triangles);
+
 /// Vectors and lengths of each triangle that do not depend on a brick, for distances.
 Buffer<float> shape_triangles(const VoxelizeJob& job, const Program& distance);
 
