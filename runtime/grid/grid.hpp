@@ -100,7 +100,7 @@ struct Pyramid {
                                ///< for its own 64³, 8 for its aligned 256³
     Buffer<uint32_t> bricks;   ///< 4 per record: mask low, mask high (of leaves), then the first
                                ///< leaf of each half; or, if the mask is 0, twice 1<<31 | log2 of
-                              ///< the edge of the empty cube: 4 for its own, 5 for its aligned 32³
+    ///< the edge of the empty cube: 4 for its own, 5 for its aligned 32³
     Buffer<uint32_t> leaves;       ///< 2 per leaf: mask low, mask high (of voxels)
     Buffer<uint32_t> leaf_voxels;  ///< first voxel of each leaf
     Buffer<uint32_t> attributes;   ///< one per voxel, see shared/voxel.h; see `attribute`

@@ -6,8 +6,8 @@
 #include "runtime/memory/count_image.hpp"
 #include "runtime/memory/counted_grids.hpp"
 #include "runtime/scene/predicates.hpp"
-#include "runtime/scene_file/scene_animation.hpp"
-#include "runtime/scene_file/scene_motion.hpp"
+#include "runtime/scene/scene_animation.hpp"
+#include "runtime/scene/scene_motion.hpp"
 #include "runtime/stages/trace/sight.hpp"
 
 namespace voxelume {

@@ -10,7 +10,7 @@
 #include "runtime/batch/frame_pipeline.hpp"
 #include "runtime/memory/frame_plans.hpp"
 #include "runtime/render/volume_renderer.hpp"
-#include "runtime/scene_file/scene_animation.hpp"
+#include "runtime/scene/scene_animation.hpp"
 #include "tests/pictures/small_scene.hpp"
 #include "tests/support/display_fixture.hpp"
 #include "tests/support/instance_scenes.hpp"
