@@ -11,8 +11,9 @@
 namespace voxelume {
 namespace {
 
-/// What voxels of space cover: the absorption of the least absorbed channel. A medium that shines
-/// without absorbing all channels covers by the least that it does absorb.
+/// The absorption by which voxels of space cover what lies behind: that of the least absorbed
+/// channel. If a medium emits light but doesn't absorb all channels, it is the smallest positive
+/// absorption.
 double covering_absorption(const Medium& medium) {
     const glm::vec3& a = medium.absorption;
     const double minimum = double(std::min({a.x, a.y, a.z}));

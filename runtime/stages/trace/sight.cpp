@@ -11,7 +11,8 @@
 namespace voxelume {
 namespace {
 
-/// How far the world's nearest corner is ahead of the observer along Z_E, metres; 0 if it is not.
+/// The distance along Z_E from the observer to the world's nearest corner, in metres; 0 if that
+/// corner is not in front.
 double depth_of_world(const Observer& observer, const GridFrame& world) {
     double minimum = std::numeric_limits<double>::infinity();
     for (int corner = 0; corner < 8; ++corner) {
@@ -28,8 +29,8 @@ double depth_of_world(const Observer& observer, const GridFrame& world) {
 Camera camera_of(const Scene& scene, const GridFrame& world) {
     const Observer& observer = scene.observer;
     const glm::dmat3& axes = observer.world_from_observer;
-    // Rays of a distant pyramid or box start at the world's depth: float would lose them on the
-    // way.
+    // Rays of a pyramid or box far from the world start at the world's depth: on the way there
+    // float would lose precision.
     const DisplayShapeRow& shape = shape_row(observer.display);
     const double lead = shape.depth_is_along_z ? depth_of_world(observer, world) : 0.0;
     const glm::dvec3 origin =
