@@ -20,8 +20,8 @@
 #include "runtime/verify/bench/bench.hpp"
 #include "runtime/verify/bench/bench_errors.hpp"
 #include "runtime/verify/bench/bench_subject.hpp"
-#include "tests/bench/peer_embree.hpp"
-#include "tests/bench/peer_openvdb.hpp"
+#include "tests/bench/peers/peer_embree.hpp"
+#include "tests/bench/peers/peer_openvdb.hpp"
 
 namespace voxelume {
 namespace {

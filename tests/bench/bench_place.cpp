@@ -19,7 +19,7 @@
 #include "runtime/stages/place/place.hpp"
 #include "runtime/stages/voxelize/voxelize.hpp"
 #include "tests/bench/mesh_rows.hpp"
-#include "tests/bench/peer_level_set.hpp"
+#include "tests/bench/peers/peer_level_set.hpp"
 
 namespace voxelume {
 namespace {

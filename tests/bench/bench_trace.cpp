@@ -22,8 +22,8 @@
 #include "runtime/grid/pyramid_bytes.hpp"
 #include "runtime/stages/index/index.hpp"
 #include "runtime/stages/voxelize/voxelize.hpp"
+#include "tests/bench/peers/trace_peers.hpp"
 #include "tests/bench/trace_kernels.hpp"
-#include "tests/bench/trace_peers.hpp"
 
 namespace voxelume {
 namespace {

@@ -15,7 +15,7 @@
 #include "runtime/stages/index/index.hpp"
 #include "runtime/stages/voxelize/voxelize.hpp"
 #include "tests/bench/mesh_rows.hpp"
-#include "tests/bench/peer_level_set.hpp"
+#include "tests/bench/peers/peer_level_set.hpp"
 
 namespace voxelume {
 namespace {

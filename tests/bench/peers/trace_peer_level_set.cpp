@@ -9,8 +9,8 @@
 #include <glm/geometric.hpp>
 
 #include "tests/bench/cpu_time.hpp"
-#include "tests/bench/peer_level_set.hpp"
-#include "tests/bench/trace_peers.hpp"
+#include "tests/bench/peers/peer_level_set.hpp"
+#include "tests/bench/peers/trace_peers.hpp"
 
 namespace voxelume {
 namespace {

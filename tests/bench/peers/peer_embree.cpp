@@ -1,4 +1,4 @@
-#include "tests/bench/peer_embree.hpp"
+#include "tests/bench/peers/peer_embree.hpp"
 
 #include <embree3/rtcore.h>
 #include <fmt/format.h>

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "tests/bench/cpu_time.hpp"
-#include "tests/bench/trace_peers.hpp"
+#include "tests/bench/peers/trace_peers.hpp"
 
 namespace voxelume {
 namespace {

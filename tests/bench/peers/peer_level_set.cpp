@@ -1,4 +1,4 @@
-#include "tests/bench/peer_level_set.hpp"
+#include "tests/bench/peers/peer_level_set.hpp"
 
 #include <openvdb/tools/GridTransformer.h>
 #include <openvdb/tools/MeshToVolume.h>

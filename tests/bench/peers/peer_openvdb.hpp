@@ -2,7 +2,7 @@
 #pragma once
 
 #include "runtime/verify/bench/bench_truth.hpp"
-#include "tests/bench/peer_image.hpp"
+#include "tests/bench/peers/peer_image.hpp"
 
 namespace voxelume {
 

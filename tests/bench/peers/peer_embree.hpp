@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "runtime/verify/bench/bench_truth.hpp"
-#include "tests/bench/peer_image.hpp"
+#include "tests/bench/peers/peer_image.hpp"
 
 namespace voxelume {
 

@@ -1,4 +1,4 @@
-#include "tests/bench/peer_openvdb.hpp"
+#include "tests/bench/peers/peer_openvdb.hpp"
 
 #include <fmt/format.h>
 #include <openvdb/openvdb.h>
