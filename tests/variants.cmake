@@ -4,7 +4,7 @@
 
 # The kernels' tests and every scene's golden bits with each number of lanes. By default a fourth of the tests has
 # each; glibc fills memory with another byte each time, so that a value nobody wrote shows.
-set(files_with_lanes sight_test trace_test shade_test light_test resolve_test index_test
+set(files_with_lanes sight_test shade_test light_test resolve_test index_test
                      shipped_scenes_test instance_glass_test golden_test)
 set(all_lanes 1 4 8 16)
 foreach(quarter RANGE 3)
@@ -19,6 +19,10 @@ foreach(quarter RANGE 3)
                     ENVIRONMENT VXL_TEST_LANES=${lanes} MALLOC_PERTURB_=${filling}
                                 GTEST_TOTAL_SHARDS=4 GTEST_SHARD_INDEX=${quarter})
     endforeach()
+endforeach()
+
+foreach(lanes IN LISTS all_lanes)
+    add_variant(lanes${lanes} FILES trace_test EXCEPT *Lanes* LABELS lanes ENVIRONMENT VXL_TEST_LANES=${lanes})
 endforeach()
 
 # What images are made of on a host that takes denormal numbers for zero.
@@ -49,6 +53,10 @@ if(OCLGRIND)
     set_property(TEST ${tests} APPEND PROPERTY FAIL_REGULAR_EXPRESSION "${findings}")
     set_tests_properties(${tests} PROPERTIES TIMEOUT 600)
 endif()
+
+# A million rays of each class of `voxelume stress`; CI has fewer.
+add_test(NAME stress.million CONFIGURATIONS exhaustive COMMAND voxelume stress --rays 1e6)
+finish_test(stress.million)
 
 # All scenes with every combination of settings: up to half an hour for each size of work-groups.
 add_test(NAME matrix.product CONFIGURATIONS exhaustive

@@ -49,7 +49,7 @@ v1::WorldReuse reuse_of(WorldChange change) {
 }
 
 /// Times and rays of all frames together; of sizes the largest.
-void add_frame(const RenderReport& report, v1::Statistics& sum) {
+void add_report(const RenderReport& report, v1::Statistics& sum) {
     add(seconds_of(report), sum.seconds);
     add(report, sum.rays);
     sum.voxels = std::max(sum.voxels, report.voxels);
@@ -98,7 +98,7 @@ v1::Statistics api::statistics_of(std::span<const FrameReport> frames,
                                   std::span<const Device> devices) {
     v1::Statistics sum;
     for (const FrameReport& frame : frames) {
-        add_frame(frame.report, sum);
+        add_report(frame.report, sum);
         sum.frames.push_back(statistics_of(frame));
     }
     for (const Device& device : devices) {

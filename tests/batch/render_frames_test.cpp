@@ -1,5 +1,6 @@
 // A whole run of frames through render_frames(): its results, their order, and how it ends early.
 #include "runtime/batch/render_frames.hpp"
+#include "runtime/scene_file/read_scene.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

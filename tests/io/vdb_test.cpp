@@ -42,8 +42,6 @@ struct Voxels {
     }
 };
 
-}  // namespace
-
 class VdbTest : public FileTest {
   protected:
     std::filesystem::path path() const { return folder / "a.vdb"; }
@@ -141,4 +139,5 @@ TEST_F(VdbTest, AMissingFileIsAnInputError) {
     EXPECT_THAT(error_of([&] { read_vdb_summary(path()); }).what(), HasSubstr("no such file"));
 }
 
+}  // namespace
 }  // namespace voxelume

@@ -80,15 +80,15 @@ std::vector<std::pair<std::string, json>> other_parts() {
 /// texts.
 Scene without_places(Scene scene) {
     scene.motion = nullptr;
-    scene.world.where.clear();
-    if (auto* grid = std::get_if<GridDensity>(&scene.world.medium.density)) grid->where.clear();
-    for (Model& model : scene.models) model.where.clear();
-    for (Light& light : scene.lights) light.where.clear();
+    scene.world.where = {};
+    if (auto* grid = std::get_if<GridDensity>(&scene.world.medium.density)) grid->where = {};
+    for (Model& model : scene.models) model.where = {};
+    for (Light& light : scene.lights) light.where = {};
     for (Object& object : scene.objects) {
-        object.where.clear();
+        object.where = {};
         object.moves = false;
     }
-    scene.observer.where.clear();
+    scene.observer.where = {};
     return scene;
 }
 
