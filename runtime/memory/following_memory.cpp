@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "runtime/analysis/scene_features.hpp"
+#include "runtime/grid/world_frame.hpp"
 #include "runtime/memory/count_image.hpp"
 #include "runtime/memory/counted_grids.hpp"
 #include "runtime/scene/predicates.hpp"

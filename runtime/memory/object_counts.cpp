@@ -6,6 +6,7 @@
 
 #include "runtime/analysis/object_boxes.hpp"
 #include "runtime/assets/model_frame.hpp"
+#include "runtime/grid/world_frame.hpp"
 #include "runtime/scene/predicates.hpp"
 
 namespace voxelume {
@@ -16,9 +17,6 @@ constexpr double kPlacedBand = 5;     ///< around cubes: placing looks at whole 
 
 /// More than areas and distances tell there is of an expected surface's bricks and voxels, at most.
 constexpr double kMargin = 1.0;
-
-/// Triangles that an exact mesh's voxel lists.
-constexpr double kTrianglesPerVoxel = 2.5;
 
 const glm::dmat4 kOwnSpace(1);
 

@@ -1,4 +1,4 @@
-// How far rendered surfaces lie from their mesh: bench_accuracy [MESH-FILE [VOXELS [WIDTH
+// Measures how far rendered surfaces lie from their mesh: bench_accuracy [MESH-FILE [VOXELS [WIDTH
 // HEIGHT]]].
 #include <fmt/format.h>
 

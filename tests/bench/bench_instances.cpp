@@ -30,7 +30,7 @@ namespace {
 constexpr int kImage = 1024, kFrames = 9;
 constexpr double kLength = 0.85;
 
-/// A map that brings the model's middle to `position`, turned by any rotation.
+/// A map that brings the model's middle to `position` with a random rotation.
 glm::dmat4 placement(const Bounds& box, const glm::dvec3& position, std::mt19937& random) {
     std::uniform_real_distribution<double> angle(0, 6.2831853);
     const glm::dvec3 size = box.max - box.min;

@@ -1,5 +1,5 @@
-// Run time of voxelization, kernels compiled, for each surface and voxel set; with `peers` beside
-// OpenVDB's meshToLevelSet.
+// Measures the run time of voxelization with compiled kernels, for each surface and voxel set; with
+// `peers` also OpenVDB's meshToLevelSet.
 //
 //   bench_voxelize [MESH] [voxels along the longest side ... | peers]
 //

@@ -1,4 +1,4 @@
-// CPU time of this process over all its threads, what a shared machine's clock doesn't tell, and
+// CPU time of this process over all its threads, which a shared machine's clock doesn't tell, and
 // medians.
 #pragma once
 

@@ -1,4 +1,4 @@
-// What the peers of `voxelume bench` have in common: times, images, rows of an image by threads.
+// Common parts of the peers of `voxelume bench`: times, images, and an image's rows by threads.
 #pragma once
 
 #include <atomic>

@@ -6,7 +6,7 @@
 
 namespace voxelume {
 
-/// "OpenVDB 10.0.1"
+/// The program's name and version: "OpenVDB 10.0.1".
 std::string openvdb_name();
 
 /// Samples the distance within 3 voxels of the surface: a sphere by OpenVDB's own maker of spheres,
