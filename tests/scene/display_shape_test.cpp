@@ -48,8 +48,9 @@ void expect_rays_enclosed(const Display& display) {
             SCOPED_TRACE(testing::Message() << row.name << " at " << uv.x << ' ' << uv.y);
             EXPECT_NEAR(row.depth_is_along_z ? p.z : glm::length(p), depth, kSlack);
             expect_enclosed(display, p);
-            if (depth == display.near)
+            if (depth == display.near) {
                 EXPECT_LE(glm::length(p), row.start_radius(display) + kSlack);
+            }
         }
     }
 }

@@ -1,4 +1,4 @@
-// What depends on a display's shape: where its sight rays lead, how depths count, what it contains.
+// The functions that depend on a display's shape: its sight rays, its depths, its inside.
 // runtime/scene/display_shape.hpp is the host's side.
 #ifndef VXL_DISPLAY_SHAPE_H
 #define VXL_DISPLAY_SHAPE_H
@@ -13,8 +13,8 @@ typedef struct {
     Vector start, direction;
 } SightRay;
 
-/// Where the sample at (u, v), each in [-1, 1] with u to the right and v down, looks. Takes samples
-/// that the shape has no ray for out of `seen`.
+/// The ray of the sample at (u, v), each in [-1, 1] with u to the right and v down. Samples that
+/// the shape has no ray for are cleared in `seen`.
 static inline SightRay sight_ray(const Camera* camera, lane_float u, lane_float v, lane_int* seen) {
     SightRay ray;
     const lane_float zero = (lane_float)0.0f;
@@ -49,7 +49,7 @@ static inline bool depth_is_along_z(const Camera* camera) {
     return camera->shape == VXL_SHAPE_PYRAMID || camera->shape == VXL_SHAPE_BOX;
 }
 
-/// The sight ray to a point, from where it sets out to the point, in voxels. `eye` leads from E's
+/// The vector along a sight ray from its start to a point, in voxels. `eye` leads from E's
 /// `lead` to the point, which is `depth` metres along Z_E from there. Where depths count along Z_E,
 /// they take the place of `length`, the point's distance in metres.
 static inline Vector sight_way(const Camera* camera, Vector eye, lane_float depth,
@@ -71,7 +71,7 @@ static inline Vector sight_way(const Camera* camera, Vector eye, lane_float dept
     return way;
 }
 
-/// Whether a point within the lattice, metres in the observer's coordinates, lies in the shape.
+/// True if a point within the lattice, metres in the observer's coordinates, lies in the shape.
 static inline bool is_in_shape(const DisplayLattice* l, float3 p) {
     if (l->shape == VXL_SHAPE_PYRAMID)
         return fabs(p.x) <= p.z * l->slope_x && fabs(p.y) <= p.z * l->slope_y;
