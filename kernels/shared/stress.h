@@ -1,4 +1,4 @@
-// Numbers by which `voxelume stress` mixes the cells of a walk, the same on host and device.
+// The numbers with which `voxelume stress` hashes the cells of a walk, on host and device.
 #ifndef VXL_SHARED_STRESS_H
 #define VXL_SHARED_STRESS_H
 

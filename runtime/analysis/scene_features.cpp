@@ -8,6 +8,8 @@
 #include "runtime/analysis/medium_set.hpp"
 #include "runtime/analysis/object_boxes.hpp"
 #include "runtime/scene/predicates.hpp"
+#include "runtime/stages/light/light.hpp"
+#include "runtime/stages/light/light_samples.hpp"
 #include "runtime/stages/trace/sight.hpp"
 
 namespace voxelume {
@@ -136,6 +138,18 @@ size_t reserved_depth(const Features& features, const Scene& scene, const Pyrami
 
 }  // namespace
 
+std::vector<LightRecord> given_lights(const Scene& scene, const GridFrame& world) {
+    std::vector<LightRecord> records;
+    for (const Light& light : scene.lights) {
+        if (!shines(light)) continue;
+        if (has_area(light))
+            std::ranges::copy(area_light_samples(light, world), std::back_inserter(records));
+        else
+            records.push_back(light_record(light, world));
+    }
+    return records;
+}
+
 bool has_emissive_object(const Scene& scene, const Pyramid& world) {
     return std::ranges::any_of(shown_objects(scene, world),
                                [&](const Object* object) { return is_emissive(scene, *object); });
@@ -166,13 +180,13 @@ void add_scene(const Scene& scene, const Pyramid& world, Features& features) {
     add_points(scene, world, features);
 }
 
-RayBytes ray_bytes(const Scene& scene, const Features& features) {
+RayCounts ray_counts(const Scene& scene, const Features& features) {
     const Pyramid any;  // an empty pyramid may show all objects
     const RenderSettings& render = scene.render;
     const uint32_t tiles =
         batch_tiles(features, render.samples, tile_count(render.size.x, render.size.y));
-    return ray_bytes(features, has_light(scene, any), tiles * 16 * uint32_t(render.samples),
-                     reserved_depth(features, scene, any));
+    return {tiles * 16 * uint32_t(render.samples), has_light(scene, any),
+            reserved_depth(features, scene, any)};
 }
 
 }  // namespace voxelume

@@ -16,6 +16,9 @@ Features features_of(const Scene& scene, const Pyramid& world);
 /// objects are, but no voxels.
 void add_scene(const Scene& scene, const Pyramid& world, Features& features);
 
+/// The lights that a scene lists, those with an area by their samples.
+std::vector<LightRecord> given_lights(const Scene& scene, const GridFrame& world);
+
 /// True if some object that the world may show is an emissive object.
 bool has_emissive_object(const Scene& scene, const Pyramid& world);
 
@@ -27,7 +30,7 @@ bool has_light(const Scene& scene, const Pyramid& world);
 /// shown sends rays on in a new direction.
 size_t max_depth(const Features& features, const Scene& scene, const Pyramid& world);
 
-/// The device memory that the rays of the scene's flat image take, in bytes.
-RayBytes ray_bytes(const Scene& scene, const Features& features);
+/// The rays of the scene's flat image that go together.
+RayCounts ray_counts(const Scene& scene, const Features& features);
 
 }  // namespace voxelume

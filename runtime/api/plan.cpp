@@ -47,13 +47,14 @@ std::optional<v1::Error> refusal_of(const Scene& scene, const FramePlan& planned
     return {};
 }
 
-v1::Plan plan_for_callers(const Scene& scene, const FramePlan& planned, const DeviceInfo& device) {
+v1::Plan plan_for_callers(const Scene& scene, const FramePlan& planned, size_t frames,
+                          const DeviceInfo& device) {
     const ScenePlan& plan = planned.plan;
     v1::Plan result;
     result.refusal = refusal_of(scene, planned, device);
     result.frame = planned.frame;
     result.min_bytes = plan.min_bytes;
-    result.max_bytes = plan.peak_bytes();
+    result.max_bytes = plan.run_bytes(frames, double(device.memory));
     result.device_bytes = double(device.memory);
     result.verdict = result.refusal                            ? v1::Verdict::does_not_fit
                      : result.max_bytes <= result.device_bytes ? v1::Verdict::fits
@@ -98,7 +99,8 @@ Plan plan(const Scene& scene, const Device& device, const PlanOptions& options) 
         check_tables(planned, info);
         AssetStore meshes(api::model_cache(options.cache));
         find_potentially_visible(planned, frames, meshes);
-        return plan_for_callers(planned, plan_frames(planned, frames, meshes, info), info);
+        return plan_for_callers(planned, plan_frames(planned, frames, meshes, info), frames.size(),
+                                info);
     });
 }
 

@@ -19,7 +19,7 @@
 namespace voxelume {
 namespace {
 
-constexpr const char* kFormat = "voxelume models 3";
+constexpr const char* kFormat = "voxelume models 4";
 constexpr uint64_t kDefaultMegabytes = 4096;
 
 /// The minimum rate at which the bytes of a grid are read, unpacked and sent to a device.
@@ -66,7 +66,8 @@ std::string bytes_of(const MeshSummary& summary) {
                                  {json_of(summary.area), json_of(summary.min_area)},
                                  summary.has_colors,
                                  // A name consists of the file's bytes, in whatever encoding.
-                                 nlohmann::json::array()};
+                                 nlohmann::json::array(),
+                                 summary.corners};
     nlohmann::json whole = json;
     for (const std::string& name : summary.group_names)
         whole[5].push_back(nlohmann::json::binary({name.begin(), name.end()}));
@@ -83,6 +84,7 @@ MeshSummary summary_of_bytes(const std::string& bytes) {
     summary.area = area_of(json.at(3).at(0));
     summary.min_area = area_of(json.at(3).at(1));
     summary.has_colors = json.at(4).get<bool>();
+    summary.corners = json.at(6).get<uint64_t>();
     for (const nlohmann::json& name : json.at(5))
         summary.group_names.emplace_back(name.get_binary().begin(), name.get_binary().end());
     return summary;

@@ -26,6 +26,7 @@ Bounds mesh_bounds(const Mesh& mesh) {
 MeshSummary summary_of(const Mesh& mesh) {
     MeshSummary summary;
     summary.triangles = mesh.triangles.size();
+    summary.corners = mesh.positions.size();
     summary.surface = mesh_bounds(mesh);
     summary.vertices = kNothing;
     for (const glm::vec3& p : mesh.positions) add(summary.vertices, glm::dvec3(p));

@@ -19,6 +19,7 @@ struct MeshSummary {
     SurfaceArea min_area;  ///< area with coinciding triangles counted once
     bool has_colors = false;
     std::vector<std::string> group_names;
+    uint64_t corners = 0;  ///< positions that triangles share
 };
 
 MeshSummary summary_of(const Mesh& mesh);

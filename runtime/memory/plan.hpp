@@ -27,6 +27,7 @@ struct ScenePlan {
     double place_bytes = 0;
     double index_bytes = 0;
     double image_bytes = 0;
+    double volume_bytes = 0;  ///< instead of the last: of the display's volumetric image
 
     double world_bytes = 0;  ///< the pyramid's, part of the last two
     double dilated_occupancy_bytes =
@@ -44,6 +45,13 @@ struct ScenePlan {
     BufferPlan largest;
 
     double peak_bytes() const;
+
+    /// While the next frame's world is built beside a frame that is rendered and all that is kept
+    /// of both; 0 for a scene that stands still.
+    double following_bytes = 0;
+    /// What a run of so many frames takes of a device of such a memory: what is kept between frames
+    /// is given up where it has no room.
+    double run_bytes(size_t frames, double memory) const;
     /// Where grids, bricks and the pyramid stay while the next world is formed beside them.
     double bytes_with_next() const { return place_bytes + index_bytes + image_bytes; }
 };

@@ -20,7 +20,12 @@ ObjectExtents::ObjectExtents(const Scene& scene, AssetStore& meshes)
 const SurfaceArea& ObjectExtents::area_of(int model_number) {
     const auto [entry, added] = areas_.try_emplace(model_number);
     const Model& model = scene_.models[size_t(model_number)];
-    if (added) entry->second = model_area(model, meshes_.summary_of(model));
+    if (added) {
+        const MeshSummary* mesh = meshes_.summary_of(model);
+        entry->second =
+            mesh ? mesh->area
+                 : solid_area(*model.solid, glm::dmat4(1), {model.extent.min, model.extent.max});
+    }
     return entry->second;
 }
 

@@ -17,8 +17,8 @@ std::string megabytes(uint64_t bytes) {
 
 constexpr size_t kHugePage = size_t{2} << 20;
 
-/// Memory in huge pages where the system gives them: rays read their voxels from all over the
-/// world, and would find a page's address in no cache.
+/// Allocates memory in huge pages if the system offers them. Rays read voxels from all over the
+/// world, and with small pages the page's address would seldom be in a cache.
 std::shared_ptr<void> allocate_huge_pages(size_t bytes) {
     const size_t whole = (bytes + kHugePage - 1) / kHugePage * kHugePage;
     void* memory = std::aligned_alloc(kHugePage, whole);
@@ -31,7 +31,7 @@ void CL_CALLBACK let_go(cl_mem, void* owner) {
     delete static_cast<std::shared_ptr<void>*>(owner);
 }
 
-/// A buffer in the host's memory, which it keeps for as long as the driver uses it.
+/// A buffer in the host's memory. The buffer keeps the memory for as long as the driver uses it.
 cl::Buffer buffer_around(const cl::Context& context, size_t bytes,
                          const std::shared_ptr<void>& memory) {
     cl::Buffer buffer(context, CL_MEM_READ_WRITE | CL_MEM_USE_HOST_PTR, bytes, memory.get());
@@ -55,20 +55,28 @@ BufferStorage::BufferStorage(Device device, std::string name, size_t bytes, cons
         throw Error(ErrorKind::limit, "the {} buffer needs {} on \"{}\", which has {} left: {}",
                     name_, megabytes(bytes), info.name,
                     megabytes(info.memory - counters.bytes_in_use), remedy);
-    try {
-        if (device_.is_cpu() && bytes >= kHugePage) {
-            memory_ = allocate_huge_pages(bytes);
-            buffer_ =
-                std::make_unique<cl::Buffer>(buffer_around(device_.context(), bytes, memory_));
-        } else {
-            buffer_ = std::make_unique<cl::Buffer>(device_.context(), CL_MEM_READ_WRITE, bytes);
-        }
-    } catch (const cl::Error& error) {
-        throw_device_error(error, info, fmt::format("allocating the {} buffer", name_));
-    }
+    if (!device_.is_counting()) allocate();
     counters.allocated_bytes[name_] += bytes;
     counters.bytes_in_use += bytes;
     counters.peak_bytes = std::max(counters.peak_bytes, counters.bytes_in_use);
+    if (bytes > counters.largest_bytes) {
+        counters.largest_bytes = bytes;
+        counters.largest_buffer = name_;
+    }
+}
+
+void BufferStorage::allocate() {
+    try {
+        if (device_.is_cpu() && bytes_ >= kHugePage) {
+            memory_ = allocate_huge_pages(bytes_);
+            buffer_ =
+                std::make_unique<cl::Buffer>(buffer_around(device_.context(), bytes_, memory_));
+        } else {
+            buffer_ = std::make_unique<cl::Buffer>(device_.context(), CL_MEM_READ_WRITE, bytes_);
+        }
+    } catch (const cl::Error& error) {
+        throw_device_error(error, device_.info(), fmt::format("allocating the {} buffer", name_));
+    }
 }
 
 BufferStorage::~BufferStorage() {
@@ -77,6 +85,7 @@ BufferStorage::~BufferStorage() {
 }
 
 void BufferStorage::write(size_t offset, const void* data, size_t bytes) {
+    if (device_.is_counting()) return;
     try {
         device_.queue().enqueueWriteBuffer(*buffer_, CL_TRUE, offset, bytes, data);
     } catch (const cl::Error& error) {
@@ -109,6 +118,7 @@ std::shared_ptr<void> BufferStorage::contents() const {
 }
 
 void BufferStorage::fill(const void* pattern, size_t pattern_bytes, size_t bytes) {
+    if (device_.is_counting()) return;
     const cl_int status = clEnqueueFillBuffer(device_.queue()(), (*buffer_)(), pattern,
                                               pattern_bytes, 0, bytes, 0, nullptr, nullptr);
     if (status != CL_SUCCESS)
@@ -117,6 +127,7 @@ void BufferStorage::fill(const void* pattern, size_t pattern_bytes, size_t bytes
 }
 
 void BufferStorage::copy(const BufferStorage& from, size_t bytes) {
+    if (device_.is_counting()) return;
     try {
         device_.queue().enqueueCopyBuffer(*from.buffer_, *buffer_, 0, 0, bytes);
     } catch (const cl::Error& error) {

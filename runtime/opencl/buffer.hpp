@@ -13,11 +13,11 @@
 
 namespace voxelume {
 
-/// What makes most buffers smaller.
+/// The remedy that makes most buffers smaller.
 inline constexpr const char* kLargerVoxels = "use larger voxels";
 
-/// Bytes on a device. Freed with its last owner. `name` appears in the counters and in messages,
-/// `remedy` where memory doesn't suffice.
+/// Bytes on a device, freed with their last owner. `name` appears in the counters and in messages;
+/// `remedy` is the advice if memory doesn't suffice.
 class BufferStorage {
   public:
     BufferStorage(Device device, std::string name, size_t bytes, const char* remedy);
@@ -27,28 +27,30 @@ class BufferStorage {
 
     void write(size_t offset, const void* data, size_t bytes);
     void read(size_t offset, void* data, size_t bytes) const;
-    /// All bytes, as the queue leaves them; where kernels' memory is the host's own, that memory.
-    /// Nothing may write them from now on.
+    /// All bytes, after all work in the queue is done. If kernels' memory is the host's own, it is
+    /// that memory, not a copy. Nothing may write the bytes afterwards.
     std::shared_ptr<void> contents() const;
     void fill(const void* pattern, size_t pattern_bytes, size_t bytes);
     void copy(const BufferStorage& from, size_t bytes);
-    /// Shows `fill` memory of so many bytes, which become the first of these.
+    /// Calls `fill` with memory of `bytes` bytes, which become the first bytes of the storage.
     void write_in_place(size_t bytes, const std::function<void(void*)>& fill);
     const cl::Buffer& handle() const { return *buffer_; }
 
   private:
+    void allocate();
+
     Device device_;
     std::string name_;
     size_t bytes_;
-    std::shared_ptr<void> memory_;  ///< the host's, which the device uses; or none
+    std::shared_ptr<void> memory_;  ///< the host's memory that the device uses; null otherwise
     std::unique_ptr<cl::Buffer> buffer_;
 };
 
-/// `size()` values of type T on a device; a cheap handle, copies share the memory.
+/// The `size()` values of type T on a device. It is a cheap handle: copies share the memory.
 ///
 /// A default-constructed buffer is empty and is passed to kernels as a null pointer. Reading waits
-/// for the queue; writing, filling and copying are ordered with the kernels. Throws Error::limit
-/// when the device has not enough memory.
+/// for the queue; writing, filling and copying are ordered with the kernels. Throws Error::limit if
+/// the device's memory doesn't suffice.
 template <class T>
 class Buffer {
     static_assert(std::is_trivially_copyable_v<T>);
@@ -74,12 +76,12 @@ class Buffer {
     void fill(const T& value) {
         if (storage_) storage_->fill(&value, sizeof(T), size_ * sizeof(T));
     }
-    /// Begins with the values of `from`, which has no more.
+    /// Copies the values of `from`, which has no more values, to the front of this buffer.
     void copy(const Buffer& from) {
         if (!from.empty()) storage_->copy(*from.storage_, from.size_ * sizeof(T));
     }
-    /// Shows `fill` all values, undefined, to be written; on a CPU they lie where kernels read
-    /// them.
+    /// Calls `fill` with all values, which are undefined, to be written. On a CPU they lie where
+    /// kernels read them.
     template <class Fill>
     void write_in_place(Fill&& fill) {
         if (!storage_) return fill(std::span<T>());
@@ -93,15 +95,15 @@ class Buffer {
         if (count) storage_->read(first * sizeof(T), values.data(), count * sizeof(T));
         return values;
     }
-    /// All values, not copied where kernels' memory is the host's own; nothing may write them
-    /// again.
+    /// All values. They are not copied if kernels' memory is the host's own. Nothing may write them
+    /// afterwards.
     std::shared_ptr<T> contents() const {
         if (!storage_) return {};
         const std::shared_ptr<void> bytes = storage_->contents();
         return {bytes, static_cast<T*>(bytes.get())};
     }
     T read_one(size_t index) const { return read(index, 1).front(); }
-    /// None for an empty buffer.
+    /// The storage; null for an empty buffer.
     const BufferStorage* storage() const { return storage_.get(); }
 
   private:

@@ -18,7 +18,7 @@
 namespace voxelume {
 namespace {
 
-constexpr size_t kTimesKept = 256;  // events waiting to be read; each holds driver memory
+constexpr size_t kTimesKept = 256;  // events that wait to be read; each holds driver memory
 
 std::string environment(const char* name) {
     const char* value = std::getenv(name);
@@ -31,7 +31,7 @@ std::string selector_or_default(std::string_view selector) {
     return by_default.empty() ? "auto" : by_default;
 }
 
-/// The lanes asked for by the caller, else by VOXELUME_LANES, else the device's own.
+/// The lanes that the caller asks for, else those of VOXELUME_LANES, else the device's own.
 int lanes_for(const DeviceInfo& info, int asked) {
     const std::string text = asked != 0 ? std::to_string(asked) : environment("VOXELUME_LANES");
     if (text.empty()) return info.lanes;
@@ -41,7 +41,7 @@ int lanes_for(const DeviceInfo& info, int asked) {
                 text);
 }
 
-/// A number from 1 on in the environment; 0 without one.
+/// The number, at least 1, in an environment variable; 0 if it isn't set.
 int number_in_environment(const char* name) {
     const std::string text = environment(name);
     if (text.empty()) return 0;
@@ -53,7 +53,7 @@ int number_in_environment(const char* name) {
     return number;
 }
 
-/// The part of a device that VOXELUME_UNITS asks for, or all of it.
+/// The part of a device with VOXELUME_UNITS compute units, or all of it if that isn't set.
 cl::Device part_of(const cl::Device& device) {
     const int units = number_in_environment("VOXELUME_UNITS");
     if (units == 0) return device;
@@ -64,7 +64,7 @@ cl::Device part_of(const cl::Device& device) {
     return parts.at(0);
 }
 
-/// Takes a device for a smaller one, as VOXELUME_MEMORY_MB and VOXELUME_BUFFER_MB ask.
+/// Limits a device's memory as VOXELUME_MEMORY_MB and VOXELUME_BUFFER_MB say.
 void limit_memory(DeviceInfo& info) {
     const auto limit = [](const char* name, uint64_t& bytes) {
         const auto megabytes = uint64_t(number_in_environment(name));
@@ -77,7 +77,7 @@ void limit_memory(DeviceInfo& info) {
 
 }  // namespace
 
-/// What all queues of an open device share.
+/// The state that all queues of an open device share.
 struct Device::Opened {
     cl::Device device;
     DeviceInfo info;
@@ -86,13 +86,14 @@ struct Device::Opened {
     std::map<std::string, cl::Program> programs;
     std::mutex mutex;
     bool timing = false;
-    bool has_run = false;  ///< to its end
+    bool has_run = false;      ///< to its end
+    bool is_counting = false;  ///< without a device
 
     Opened() = default;
     Opened(const Opened&) = delete;
     Opened& operator=(const Opened&) = delete;
     ~Opened() {
-        // Nothing runs any more: PoCL compiles kernels at their first launch.
+        // Kept now, after all work is done, since PoCL compiles kernels at their first launch.
         if (has_run) keep_compiled_kernels(info);
     }
 };
@@ -102,7 +103,9 @@ struct Device::Queue {
     cl::CommandQueue queue;
     std::vector<std::pair<std::string, cl::Event>> timed;  ///< launches whose time isn't added yet
 
-    explicit Queue(std::shared_ptr<Opened> device) : opened(std::move(device)) { renew(); }
+    explicit Queue(std::shared_ptr<Opened> device) : opened(std::move(device)) {
+        if (!opened->is_counting) renew();
+    }
     Queue(const Queue&) = delete;
     Queue& operator=(const Queue&) = delete;
     ~Queue() {
@@ -173,12 +176,23 @@ Device Device::open(const cl::Device& device, const DeviceInfo& info, int lanes,
     return Device(std::make_shared<Queue>(std::move(opened)));
 }
 
+Device Device::counting(DeviceInfo info) {
+    auto opened = std::make_shared<Opened>();
+    opened->info = std::move(info);
+    opened->info.memory = opened->info.max_allocation = std::numeric_limits<uint64_t>::max();
+    opened->is_counting = true;
+    return Device(std::make_shared<Queue>(std::move(opened)));
+}
+
 Device Device::with_own_queue() const {
     return Device(std::make_shared<Queue>(queue_->opened));
 }
 
 const DeviceInfo& Device::info() const {
     return queue_->opened->info;
+}
+bool Device::is_counting() const {
+    return queue_->opened->is_counting;
 }
 const cl::Context& Device::context() const {
     return queue_->opened->context;

@@ -15,7 +15,7 @@ namespace voxelume {
 
 enum class DeviceKind { cpu, gpu, other };
 
-/// What the OpenCL platform says of a device, and whether Voxelume can render on it.
+/// A device as its OpenCL platform describes it, and whether Voxelume can render on it.
 struct DeviceInfo {
     int index = 0;  ///< position in `list_devices()`, which `--device N` takes
     DeviceKind kind = DeviceKind::other;
@@ -26,21 +26,22 @@ struct DeviceInfo {
     uint64_t memory = 0;          ///< bytes
     uint64_t max_allocation = 0;  ///< bytes in one buffer
     int compute_units = 0;
-    int lanes = 1;       ///< rays that one work-item of a packet kernel carries
-    int work_group = 0;  ///< work-items in every group; 0: chosen by kernel and kind of device
-    std::string build_options;  ///< added to those of every program
-    std::string unusable;       ///< why it can't render here; empty when it can
-    std::string note;           ///< what its user should know; mostly empty
+    int lanes = 1;       ///< number of rays that one work-item of a packet kernel handles
+    int work_group = 0;  ///< number of work-items in every group; 0: chosen by kernel and kind of
+                         ///< device
+    std::string build_options;  ///< added to the options of every program
+    std::string unusable;       ///< the reason why it can't render; empty if it can
+    std::string note;           ///< a note for its user; mostly empty
 };
 
-/// The name of PoCL's platform, the one for CPUs.
+/// The name of PoCL's platform for CPUs.
 inline constexpr std::string_view kPoclPlatform = "Portable Computing Language";
 
-/// Every device of every platform; a platform that fails is passed over. Their memory is what
-/// Device::open leaves them of it.
+/// Every device of every platform; a platform that fails is skipped. Their memory is what
+/// Device::open lets programs use.
 std::vector<DeviceInfo> list_devices();
 
-/// What was done on a device since it was opened: the tests read it, and so does `--stats-json`.
+/// The counts of a device's work since it was opened. Tests and `--stats-json` read them.
 struct DeviceCounters {
     std::map<std::string, uint64_t> launches;  ///< by kernel name
     std::map<std::string, double> kernel_ms;   ///< by kernel name, while `time_kernels` is on
@@ -48,37 +49,44 @@ struct DeviceCounters {
         allocated_bytes;  ///< by buffer name, summed over all allocations
     uint64_t bytes_in_use = 0;
     uint64_t peak_bytes = 0;
-    uint64_t programs_built = 0;       ///< made ready, compiled or not
-    uint64_t programs_from_cache = 0;  ///< of these, not compiled again
+    uint64_t programs_built = 0;       ///< number of programs made ready, compiled or not
+    uint64_t programs_from_cache = 0;  ///< number of those that weren't compiled again
     double build_ms = 0;               ///< making programs ready; PoCL does most at first launch
+    std::string largest_buffer;        ///< of all so far, by its name
+    uint64_t largest_bytes = 0;
 };
 
-/// An open device and an in-order queue of work for it. Shared by the buffers and programs made on
-/// it. Each thread uses a queue of its own.
+/// An open device and an in-order queue of work for it. Buffers and programs made on it share it.
+/// Each thread uses a queue of its own.
 class Device {
   public:
     /// Opens the device that `selector` names: auto, cpu, gpu, an index of `list_devices()`, or
-    /// part of the name of a device or its platform. An empty one (no --device was given) stands
-    /// for VOXELUME_DEVICE, and without that for auto.
+    /// part of the name of a device or its platform. An empty selector (no --device was given)
+    /// means VOXELUME_DEVICE, or auto if that isn't set.
     ///
-    /// Where several devices match, a GPU goes before a CPU, then the most compute units, then the
-    /// lowest index. `lanes` overrides the lanes per work-item (1, 4, 8 or 16); 0 takes
-    /// VOXELUME_LANES, else the device's own. To look into a driver's faults, VOXELUME_WORK_GROUP
-    /// gives the size of every work-group, VOXELUME_UNITS takes only so many compute units (a
-    /// sub-device), and VOXELUME_BUILD_OPTIONS is added to the compiler's options. Of the device's
-    /// memory no more than VOXELUME_MEMORY_MB megabytes are used, and in one buffer no more than
-    /// VOXELUME_BUFFER_MB.
-    /// Where it is the device of `beside`, they share an OpenCL context: PoCL reads its library of
-    /// functions, 0.7 s, once for each.
-    /// Throws Error::device when nothing fits, naming what is there or the package to install.
+    /// If several devices match, a GPU goes before a CPU, then the most compute units, then the
+    /// lowest index. `lanes` overrides the lanes per work-item (1, 4, 8 or 16); 0 means
+    /// VOXELUME_LANES, else the device's own. Uses at most VOXELUME_MEMORY_MB megabytes of the
+    /// device's memory, and at most VOXELUME_BUFFER_MB in one buffer. For the search of drivers'
+    /// faults, VOXELUME_WORK_GROUP sets the size of every work-group, VOXELUME_UNITS limits the
+    /// compute units (a sub-device), and VOXELUME_BUILD_OPTIONS is added to the compiler's options.
+    ///
+    /// If the device is that of `beside`, both share an OpenCL context: PoCL reads its library of
+    /// functions, 0.7 s, once for each context. Throws Error::device if nothing matches; the
+    /// message names the devices that exist or the package to install.
     static Device open(std::string_view selector = {}, int lanes = 0,
                        const Device* beside = nullptr);
 
-    /// Opens all devices that share the work: for the selector `all` every GPU and the best CPU,
-    /// for `all/N` likewise with the CPU cut into N equal devices (one for each memory node of a
-    /// large machine, say), else the one that `open` opens. `open` takes these two for auto.
-    /// Throws Error::device as `open` does.
+    /// Opens all devices that share the work. For the selector `all` these are every GPU and the
+    /// best CPU; for `all/N` the CPU is divided into N equal devices (one for each memory node of a
+    /// large machine, for example); for any other selector it is the device that `open` opens.
+    /// `open` treats `all` and `all/N` as auto. Throws Error::device as `open` does.
     static std::vector<Device> open_all(std::string_view selector = {}, int lanes = 0);
+
+    /// A device of no memory and no queue, on which buffers are only counted: as they come and go,
+    /// `counters()` tells what the stages that make them take at their height. Nothing can be read
+    /// from its buffers, nothing launched on it; memory is without end.
+    static Device counting(DeviceInfo info);
 
     /// The same device with another queue, for another thread. Its buffers, once written, serve
     /// kernels of both.
@@ -87,24 +95,27 @@ class Device {
     const DeviceInfo& info() const;
     int lanes() const { return info().lanes; }
     bool is_cpu() const { return info().kind == DeviceKind::cpu; }
+    bool is_counting() const;
 
     const cl::Context& context() const;
     const cl::Device& handle() const;
     cl::CommandQueue& queue() const;
     DeviceCounters& counters() const;
-    /// Held while counters or programs are changed.
+    /// A lock to hold while counters or programs are changed.
     std::unique_lock<std::mutex> lock() const;
-    /// The programs made ready so far, by a hash of what they were made of; kept until it closes.
-    /// PoCL preprocesses a source with its own headers of 1 MB to find it on the disk: 20 ms each.
+    /// The programs made ready so far, by a hash of their sources and options. They are kept until
+    /// the device closes, since PoCL takes 20 ms to find a program on the disk: it preprocesses the
+    /// source with its own headers of 1 MB.
     std::map<std::string, cl::Program>& programs() const;
 
-    /// Waits until everything enqueued so far is done. Throws Error::render when the device failed.
+    /// Waits until all enqueued work is done. Throws Error::render if the device failed.
     void finish() const;
 
-    /// Measures every launch from here on into `counters().kernel_ms`, complete after `finish`.
+    /// Adds the time of every launch from here on to `counters().kernel_ms`, which is complete
+    /// after `finish`.
     void time_kernels(bool on) const;
 
-    /// Puts a launch of `kernel`, named `name` in the counters, into the queue.
+    /// Enqueues a launch of `kernel`, which is named `name` in the counters.
     void enqueue(const cl::Kernel& kernel, const std::string& name, const cl::NDRange& items,
                  const cl::NDRange& group) const;
 
@@ -117,7 +128,7 @@ class Device {
     std::shared_ptr<Queue> queue_;
 };
 
-/// The library's error for an OpenCL failure while doing `what` on a device.
+/// Throws the library's error for an OpenCL failure while doing `what` on a device.
 [[noreturn]] void throw_device_error(const cl::Error& error, const DeviceInfo& info,
                                      std::string_view what);
 

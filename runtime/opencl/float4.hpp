@@ -1,4 +1,4 @@
-// Vectors as kernels' records hold them.
+// Vectors in the form that kernels' records hold.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -7,7 +7,7 @@
 
 namespace voxelume {
 
-/// Rounded to float; w is 0.
+/// The vector rounded to float; w is 0.
 inline float4 to_float4(const glm::dvec3& v) {
     return {float(v.x), float(v.y), float(v.z), 0};
 }

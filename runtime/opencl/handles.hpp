@@ -1,5 +1,5 @@
-// Names of OpenCL's C++ types, for headers: only the sources in this folder include CL/opencl.hpp,
-// which takes half a second to read.
+// The names of OpenCL's C++ types, for headers. Only the sources in this folder include
+// CL/opencl.hpp, which takes half a second to read.
 #pragma once
 
 namespace cl {

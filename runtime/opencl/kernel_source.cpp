@@ -18,7 +18,7 @@ std::string_view file_text(const std::string& file) {
     return found->second;
 }
 
-/// The path in `#include "path"`, or empty when the line is something else.
+/// The path in `#include "path"`, or an empty string if the line is something else.
 std::string included_path(std::string_view line) {
     constexpr std::string_view kDirective = "#include \"";
     if (!line.starts_with(kDirective)) return {};

@@ -1,4 +1,4 @@
-// Buffers <-> bytes that are small and quick to read, for what is kept on disk.
+// Buffers <-> bytes that are few and quick to read, for the caches on disk.
 #pragma once
 
 #include <cstring>
@@ -11,8 +11,7 @@
 
 namespace voxelume {
 
-/// Puts values and buffers one behind the other, and stops where they become more than
-/// `max_bytes`.
+/// Writes values and buffers one after another, and stops when they are more than `max_bytes`.
 class PackedWriter {
   public:
     explicit PackedWriter(uint64_t max_bytes = UINT64_MAX) : max_bytes_(max_bytes) {}
@@ -38,7 +37,7 @@ class PackedWriter {
     uint64_t max_bytes_;
 };
 
-/// Takes values and buffers apart from the front of `bytes`; after a failure everything fails.
+/// Reads values and buffers from the front of `bytes`. After a failure every further read fails.
 class PackedReader {
   public:
     explicit PackedReader(std::string_view bytes) : rest_(bytes) {}
@@ -50,7 +49,7 @@ class PackedReader {
         std::memcpy(&value, rest_.data(), sizeof value);
         rest_.remove_prefix(sizeof value);
     }
-    /// Allocates the buffer. Throws Error::limit when the device has not enough memory.
+    /// Allocates the buffer. Throws Error::limit if the device's memory doesn't suffice.
     template <class T>
     void take(const Device& device, const char* name, Buffer<T>& buffer) {
         const uint64_t bytes = begin_array();

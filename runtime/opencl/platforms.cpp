@@ -21,8 +21,8 @@ DeviceKind kind_of(const cl::Device& device) {
     return type & CL_DEVICE_TYPE_CPU ? DeviceKind::cpu : DeviceKind::other;
 }
 
-/// Lanes that one work-item carries: a CPU's vector registers hold 16, 8 or 4 floats; a GPU gives
-/// every ray a work-item of its own.
+/// The lanes that one work-item handles. A CPU's vector registers hold 16, 8 or 4 floats; a GPU
+/// gives every ray a work-item of its own.
 int lanes_of(const cl::Device& device, DeviceKind kind) {
     if (kind != DeviceKind::cpu) return 1;
     const cl_uint width = device.getInfo<CL_DEVICE_NATIVE_VECTOR_WIDTH_FLOAT>();
@@ -64,7 +64,7 @@ DeviceInfo describe(const cl::Platform& platform, const cl::Device& device) {
     return info;
 }
 
-/// What a device that doesn't even answer questions is listed as.
+/// The entry for a device that doesn't even answer questions.
 DeviceInfo silent_device(const cl::Platform& platform, const cl::Error& error) {
     DeviceInfo info;
     info.name = "a device that does not answer";
@@ -101,8 +101,8 @@ void append_platforms(std::vector<Candidate>& found) {
     }
 }
 
-/// The parts of a CPU that don't render anything else than the whole, each with its share of
-/// memory. As many compute units as don't divide are left idle.
+/// The parts of a CPU, each with its share of memory. They render exactly as the whole CPU does.
+/// Compute units that remain after the division are idle.
 std::vector<Candidate> parts_of(const Candidate& whole, int parts) {
     const int units = whole.info.compute_units / parts;
     if (units < 1)
@@ -128,7 +128,7 @@ std::vector<Candidate> parts_of(const Candidate& whole, int parts) {
     return found;
 }
 
-/// Which of two devices most likely renders faster: a GPU before a CPU, then compute units.
+/// True if `a` most likely renders faster than `b`: GPUs go before CPUs, then more compute units.
 bool better(const DeviceInfo& a, const DeviceInfo& b) {
     if ((a.kind == DeviceKind::gpu) != (b.kind == DeviceKind::gpu))
         return a.kind == DeviceKind::gpu;
@@ -179,7 +179,7 @@ std::vector<Candidate> choose_all(const std::vector<Candidate>& candidates, int 
     const bool has_cpu = std::ranges::any_of(candidates, [](const Candidate& candidate) {
         return candidate.info.unusable.empty() && candidate.info.kind == DeviceKind::cpu;
     });
-    // Two platforms' devices of one CPU would take each other's time.
+    // Two platforms' devices of one CPU would compete for its time.
     if (has_cpu) {
         const Candidate& cpu = choose(candidates, "cpu");
         const std::vector<Candidate> parts =

@@ -15,15 +15,17 @@ struct Candidate {
     DeviceInfo info;
 };
 
-/// Every device that answers. A platform that is broken or empty is passed over.
+/// Every device that answers. A platform that is broken or empty is skipped.
 std::vector<Candidate> find_candidates();
 
 /// The best usable candidate that `selector` (auto, cpu, gpu, an index, part of a name) names.
-/// Throws Error::device when there is none, naming what is there or the package to install.
+/// Throws Error::device if there is none; the message names the devices that exist or the package
+/// to install.
 const Candidate& choose(const std::vector<Candidate>& candidates, std::string_view selector);
 
-/// The candidates that share work: every usable GPU, and the best usable CPU cut into `cpu_parts`
-/// equal ones. Throws Error::device when there is none or the CPU can't be cut so.
+/// The candidates that share work: every usable GPU, and the best usable CPU divided into
+/// `cpu_parts` equal parts. Throws Error::device if there is none or if the CPU can't be divided
+/// so.
 std::vector<Candidate> choose_all(const std::vector<Candidate>& candidates, int cpu_parts);
 
 }  // namespace voxelume

@@ -23,8 +23,8 @@ constexpr const char* kLock = "lock";
 
 std::atomic<bool> folder_is_allowed = true;
 
-/// Removes the folders that killed processes left: those whose lock nobody holds. A young one may
-/// belong to a process that has not locked it yet.
+/// Removes the folders that killed processes left: those whose lock nobody holds. A folder less
+/// than a minute old is left, since its process may not have locked it yet.
 void remove_stale_folders(const fs::path& parent) {
     std::error_code error;
     const auto now = fs::file_time_type::clock::now();
@@ -38,8 +38,8 @@ void remove_stale_folders(const fs::path& parent) {
     }
 }
 
-/// A new folder in `parent`, readable by this user alone; empty when that fails, or on a disk so
-/// full that PoCL might end the program for want of room.
+/// A new folder in `parent` that only this user can read. Empty if that fails, or if the disk is so
+/// full that PoCL might end the program.
 fs::path make_folder(const fs::path& parent) {
     constexpr uintmax_t kRoom = 32u << 20;
     std::error_code error;
@@ -64,8 +64,8 @@ std::vector<fs::path> files_worth_keeping(const fs::path& root, const fs::path& 
     return {files.begin(), files.end()};
 }
 
-/// The files of compiled kernels of `part` by path from the program's folder, which begins with the
-/// kernel's name.
+/// The files of the compiled kernels of `part`, by path from the program's folder; such a path
+/// begins with the kernel's name.
 std::vector<fs::path> kernels_of(const fs::path& program, const ProgramPart& part) {
     std::vector<fs::path> files = files_worth_keeping(program, "");
     std::erase_if(files, [&](const fs::path& file) {
@@ -84,7 +84,7 @@ std::string packed(const fs::path& root, const std::vector<fs::path>& files) {
     return bytes;
 }
 
-/// The file appears whole, since PoCL may look for it meanwhile.
+/// Writes a file that appears only when it is whole, since PoCL may look for it meanwhile.
 void write_whole(const fs::path& path, std::string_view text) {
     const fs::path unfinished = path.string() + ".part";
     std::ofstream file(unfinished, std::ios::binary);
@@ -98,8 +98,8 @@ void write_whole(const fs::path& path, std::string_view text) {
     fs::rename(unfinished, path);
 }
 
-/// Writes those files of `packed` below `root` that aren't there, since kernels run from them;
-/// returns the paths of all from there.
+/// Writes the files of `packed` below `root`, except those that exist, since kernels run from them.
+/// Returns the paths of all files relative to `root`.
 std::vector<fs::path> unpack(const fs::path& root, std::string_view bytes) {
     std::vector<fs::path> files;
     while (!bytes.empty()) {
@@ -128,8 +128,8 @@ PoclFolder& PoclFolder::instance() {
 
 PoclFolder::PoclFolder() : process_(getpid()) {
     if (!folder_is_allowed || std::getenv("POCL_CACHE_DIR")) return;
-    // PoCL loads compiled kernels from here, and systems that forbid programs in the temporary
-    // folder allow them at home: that comes second.
+    // PoCL loads compiled kernels from this folder. Some systems forbid programs in the temporary
+    // folder but allow them at home, so the cache folder is tried first.
     std::error_code error;
     for (const fs::path& parent : {cache_folder(), fs::temp_directory_path(error)}) {
         if (parent.empty()) continue;
@@ -146,7 +146,7 @@ void PoclFolder::announce(const std::function<void()>& first_call) const {
     if (folder_.empty()) return first_call();
     setenv("POCL_CACHE_DIR", folder_.c_str(), 1);
     first_call();
-    unsetenv("POCL_CACHE_DIR");  // a child process shall not take it for its user's wish
+    unsetenv("POCL_CACHE_DIR");  // a child process must not mistake it for its user's choice
 }
 
 PoclFolder::~PoclFolder() {
@@ -156,8 +156,8 @@ PoclFolder::~PoclFolder() {
     if (lock_ >= 0) close(lock_);
 }
 
-/// The folder that PoCL touched in the build that just ended, when it is not another program's.
-/// PoCL names it by a hash of its own, two letters and the rest, and leaves `last_accessed` in it.
+/// The folder that PoCL used in the build that just ended, unless it is another program's. PoCL
+/// names it by a hash of its own, two letters and the rest, and leaves `last_accessed` in it.
 fs::path PoclFolder::new_program_folder() const {
     std::set<fs::path> known;
     for (const auto& [key, files] : programs_) known.insert(files.folder);
@@ -171,20 +171,20 @@ fs::path PoclFolder::new_program_folder() const {
     return {};
 }
 
-/// Puts the kernels in place that were compiled of the program's parts for others.
+/// Restores the kernels of the program's parts that were compiled for other programs.
 void PoclFolder::take_kernels(const DiskCache& cache, const ProgramFiles& program) const {
     try {
         for (const ProgramPart& part : program.parts)
             if (const auto bytes = cache.read(part.key)) unpack(folder_ / program.folder, *bytes);
     } catch (const std::exception&) {
-        return;  // the disk is full by now: PoCL compiles what is not there
+        return;  // the disk is full by now: PoCL compiles the missing files
     }
 }
 
 bool PoclFolder::build_with_files(const DiskCache& cache, const std::string& key,
                                   std::span<const ProgramPart> parts,
                                   const std::function<void()>& build) {
-    // One at a time, to know whose folder is new. PoCL's compiler has a global lock anyway.
+    // One build at a time, to know whose folder is new. PoCL's compiler has a global lock anyway.
     const std::lock_guard guard(mutex_);
     if (folder_.empty()) {
         build();
@@ -199,16 +199,16 @@ bool PoclFolder::build_with_files(const DiskCache& cache, const std::string& key
     try {
         if (const auto bytes = cache.read(key)) unpacked = unpack(folder_, *bytes);
     } catch (const std::exception&) {
-        unpacked.clear();  // the disk is full by now: PoCL compiles what is not there
+        unpacked.clear();  // the disk is full by now: PoCL compiles the missing files
     }
     build();
-    // An entry for another folder than PoCL's is of no use, and is replaced.
+    // An entry for a folder other than PoCL's is useless, and is replaced.
     const fs::path folder = new_program_folder();
     if (!unpacked.empty() && !unpacked[0].string().starts_with(folder.string() + "/"))
         unpacked.clear();
     ProgramFiles program = {folder, unpacked.size(), {parts.begin(), parts.end()}};
     if (!parts.empty() && !folder.empty()) {
-        publish_changes(cache);  // what this process compiled of these parts, too
+        publish_changes(cache);  // includes the kernels of these parts that this process compiled
         take_kernels(cache, program);
         if (!unpacked.empty())
             program.published = files_worth_keeping(folder_, program.folder).size();
@@ -221,7 +221,7 @@ void PoclFolder::publish_kernels(const DiskCache& cache, const ProgramFiles& pro
     const fs::path own = folder_ / program.folder;
     for (const ProgramPart& part : program.parts) {
         if (kernels_of(own, part).empty()) continue;
-        const auto bytes = cache.read(part.key);  // others may have added to it since
+        const auto bytes = cache.read(part.key);  // other processes may have added to it since
         const size_t known = bytes ? unpack(own, *bytes).size() : 0;
         const std::vector<fs::path> files = kernels_of(own, part);
         if (files.size() > known) cache.write(part.key, packed(own, files));
@@ -237,7 +237,7 @@ void PoclFolder::publish_changes(const DiskCache& cache) {
         try {
             publish_kernels(cache, program);
         } catch (const std::exception&) {
-            continue;  // a full disk
+            continue;  // the disk is full
         }
         if (!program.parts.empty())
             std::erase_if(files, [](const fs::path& file) { return file.extension() == ".so"; });

@@ -1,5 +1,4 @@
-// The cache folder that PoCL gets from us: this process's own, filled from our cache and emptied
-// into it.
+// PoCL's cache folder: one for each process, filled from our cache and saved to it.
 #pragma once
 
 #include <filesystem>
@@ -15,20 +14,20 @@
 
 namespace voxelume {
 
-/// A kernel file of a program that was joined from several. What is compiled of its kernels serves
-/// every other program that has it.
+/// A kernel file of a program that was joined from several files. Its compiled kernels can be used
+/// by every other program that contains the file.
 struct ProgramPart {
-    std::string key;                ///< of the cache's entry
+    std::string key;                ///< the key of its entry in the cache
     std::set<std::string> kernels;  ///< their names
 };
 
-/// PoCL keeps what it compiled in files that it trusts blindly: processes that share a cold folder
+/// PoCL keeps compiled kernels in files that it trusts blindly: processes that share a cold folder
 /// fail each other's builds (9 of 96 with PoCL 3.1), and a truncated file aborts the program.
 ///
 /// So every process has a folder of its own. Before a program is built, its files of earlier runs
-/// are put there from a checksummed entry of our cache; when a device is closed, files that are new
-/// (PoCL compiles a kernel at its first launch) become the entry. A user who sets POCL_CACHE_DIR
-/// gets PoCL's own behaviour.
+/// are restored from a checksummed entry of our cache. When a device is closed, new files (PoCL
+/// compiles a kernel at its first launch) become the entry. A user who sets POCL_CACHE_DIR gets
+/// PoCL's own behaviour.
 class PoclFolder {
   public:
     /// The process's folder.
@@ -38,16 +37,16 @@ class PoclFolder {
     /// environment. It has one unless this forbids it before `instance` is first called.
     static void allow(bool is_allowed);
 
-    /// Runs `first_call`, which has PoCL start up, with POCL_CACHE_DIR set: PoCL reads it once.
+    /// Runs `first_call`, which makes PoCL start up, with POCL_CACHE_DIR set: PoCL reads it once.
     void announce(const std::function<void()>& first_call) const;
 
-    /// Runs `build`, which has PoCL build one program, with the program's files in place, and puts
-    /// those kernels there that other programs had compiled of the same `parts`.
-    /// True when there were files of this program, from an earlier run or an earlier build.
+    /// Runs `build`, which makes PoCL build one program, after the program's files were restored.
+    /// Also restores the kernels that other programs compiled of the same `parts`. Returns true if
+    /// there were files of this program, from an earlier run or an earlier build.
     bool build_with_files(const DiskCache& cache, const std::string& key,
                           std::span<const ProgramPart> parts, const std::function<void()>& build);
 
-    /// Writes to `cache` what PoCL compiled since.
+    /// Writes to `cache` what PoCL compiled since the last call.
     void publish(const DiskCache& cache);
 
     PoclFolder(const PoclFolder&) = delete;
@@ -58,7 +57,7 @@ class PoclFolder {
     ~PoclFolder();
 
     struct ProgramFiles {
-        std::filesystem::path folder;  ///< of PoCL, below `folder_`; empty when not known
+        std::filesystem::path folder;  ///< PoCL's folder, below `folder_`; empty if unknown
         size_t published = 0;          ///< number of files in our cache's entries
         std::vector<ProgramPart> parts;
     };
@@ -68,9 +67,9 @@ class PoclFolder {
     void publish_changes(const DiskCache& cache);
 
     std::mutex mutex_;
-    std::filesystem::path folder_;  ///< empty when the user chose PoCL's folder
-    int lock_ = -1;                 ///< held while the process lives: a folder without is stale
-    int process_;                   ///< a forked child leaves the folder alone
+    std::filesystem::path folder_;  ///< empty if the user chose PoCL's folder
+    int lock_ = -1;  ///< held while the process lives: a folder without a held lock is stale
+    int process_;    ///< a forked child does not touch the folder
     std::map<std::string, ProgramFiles> programs_;  ///< by key
 };
 

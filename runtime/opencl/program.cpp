@@ -13,15 +13,15 @@
 namespace voxelume {
 namespace {
 
-/// Only the constants that the source mentions, so that scenes which differ in others share what
-/// was compiled.
+/// The compiler's options, with only those constants that the source mentions. So scenes that
+/// differ in other constants share compiled programs.
 std::string build_options(const Device& device, const KernelSource& source, Defines defines) {
     std::string options = "-cl-std=CL1.2 -cl-kernel-arg-info";
     if (std::ranges::find(defines, "VXL_LANES", &Defines::value_type::first) == defines.end())
         defines.emplace_back("VXL_LANES", device.lanes());
     for (const auto& [name, value] : defines)
         if (source.mentions(name)) options += fmt::format(" -D{}={}", name, value);
-    // Oclgrind 21.10 interprets LLVM code, but not the alias hints that its optimizer leaves.
+    // Oclgrind 21.10 interprets LLVM code, but not the alias hints that LLVM's optimizer adds.
     if (device.info().platform == "Oclgrind") options += " -cl-opt-disable";
     if (!device.info().build_options.empty()) options += " " + device.info().build_options;
     return options;
@@ -103,8 +103,8 @@ void Kernel::set_bytes(uint32_t index, size_t bytes, const void* value) {
 
 void Kernel::enqueue(WorkItem work, size_t count) {
     if (count == 0) return;
-    // A fixed local size per kernel and two dimensions below 65535: PoCL builds a kernel again for
-    // every other local size, and for any larger dimension.
+    // The local size is fixed per kernel, and both dimensions are below 65535: PoCL compiles a
+    // kernel again for every other local size, and for any larger dimension.
     const size_t local = group_size(device_, work);
     const size_t row_items = 16384 / local * local;
     const size_t groups = (count + local - 1) / local;

@@ -1,4 +1,4 @@
-// Kernels compiled for a device, and their launches.
+// Kernels compiled for a device, and how they are launched.
 #pragma once
 
 #include <cstdint>
@@ -19,10 +19,10 @@
 
 namespace voxelume {
 
-/// What changes the machine code of a program: names and values of its -D constants.
+/// The names and values of a program's -D constants, which change its machine code.
 using Defines = std::vector<std::pair<std::string, int>>;
 
-/// How much one work-item does, which decides the work-group size.
+/// The amount of work of one work-item, which decides the work-group size.
 enum class WorkItem {
     light,  ///< up to a few hundred operations: grouped, so that a CPU's launch cost is shared
     heavy,  ///< a packet of rays, a brick: one work-item is a work-group on a CPU
@@ -52,12 +52,12 @@ struct Words {
 
 class KernelArguments;
 
-/// One kernel of a program. `launch` enqueues; it does not wait.
+/// One kernel of a program. `launch` only enqueues; it does not wait.
 class Kernel {
   public:
     Kernel(Device device, std::shared_ptr<cl::Kernel> kernel, std::string name);
 
-    /// Runs `count` work-items, numbered by `work_item()` of lib/lanes/work_item.h, on these
+    /// Runs `count` work-items, numbered by `work_item()` of lib/lanes/work_item.h, with these
     /// arguments.
     ///
     /// The kernel must return at once when its number is `count` or more; pass the count to it.
@@ -67,7 +67,8 @@ class Kernel {
     template <class... Args>
     void launch(WorkItem work, size_t count, const Args&... args);
 
-    /// Runs packets of the device's lanes for `rays` rays: the work-items of a packet kernel.
+    /// Runs as many packets of the device's lanes as `rays` rays need: the work-items of a packet
+    /// kernel.
     template <class... Args>
     void launch_packets(size_t rays, const Args&... args) {
         const size_t lanes = static_cast<size_t>(device_.lanes());
@@ -139,15 +140,15 @@ void Kernel::launch(WorkItem work, size_t count, const Args&... args) {
     enqueue(work, count);
 }
 
-/// A kernel file compiled for a device with its constants; VXL_LANES is always among them.
+/// A kernel file compiled for a device with its constants, among which VXL_LANES always is.
 class Program {
   public:
     /// Compiles kernels/`file` (e.g. "trace.cl"). Throws Error::build with the compiler's log.
     Program(const Device& device, const std::string& file, const Defines& defines = {});
 
-    /// Compiles those of several files that weren't with these constants before into one program;
-    /// whoever asks for one of them with these constants, as long as the device is open, gets that.
-    /// Names of functions may be used once in all.
+    /// Compiles several files into one program, without those that were compiled with these
+    /// constants before. As long as the device is open, a Program of one of them with these
+    /// constants uses that program. A function's name may be defined only once in all files.
     static void build_together(const Device& device, std::span<const char* const> files,
                                const Defines& defines);
 

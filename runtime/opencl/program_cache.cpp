@@ -25,7 +25,7 @@ DiskCache program_store() {
     return DiskCache(folder.empty() ? folder : folder / "programs", kMaxCacheBytes);
 }
 
-/// `what` is kept: a program, or compiled kernels.
+/// The key of an entry of the cache. `what` says what is kept: a program, or compiled kernels.
 std::string key_of(const DeviceInfo& info, std::string_view what, const ProgramText& text) {
     const std::array<std::string_view, 8> parts = {kCacheVersion,         what,       info.platform,
                                                    info.platform_version, info.name,  info.driver,
@@ -33,7 +33,7 @@ std::string key_of(const DeviceInfo& info, std::string_view what, const ProgramT
     return cache_key(parts);
 }
 
-/// The words after "kernel void".
+/// The kernels' names: the words after "kernel void".
 std::set<std::string> kernel_names(std::string_view source) {
     constexpr std::string_view kBefore = "kernel void ";
     std::set<std::string> names;
@@ -57,16 +57,16 @@ cl::Program compile(const Device& device, const ProgramText& text) {
     cl::Program program(device.context(), source);
     const cl_device_id id = device.handle()();
     cl_int status = clBuildProgram(program(), 1, &id, options.c_str(), nullptr, nullptr);
-    // A compiler that has nothing to say about the source failed for another reason, which may
-    // have passed: a full disk, other processes in the cache folder that the user gave to PoCL.
+    // If the compiler has no message about the source, it failed for another reason, which may be
+    // over: a full disk, or other processes in the cache folder that the user gave to PoCL.
     if (status != CL_SUCCESS && log_of(program, device.handle()).find("error") == std::string::npos)
         status = clBuildProgram(program(), 1, &id, options.c_str(), nullptr, nullptr);
     if (status == CL_SUCCESS) return program;
     throw Error(ErrorKind::build, "{}:\n{}", status_name(status), log_of(program, device.handle()));
 }
 
-/// The program from the bytes that its driver gave us in an earlier run, unless it now refuses
-/// them.
+/// The program from the bytes that its driver gave us in an earlier run; empty if the driver now
+/// rejects them.
 std::optional<cl::Program> from_binary(const Device& device, const std::string& bytes,
                                        const std::string& options) {
     try {
@@ -79,7 +79,7 @@ std::optional<cl::Program> from_binary(const Device& device, const std::string& 
     }
 }
 
-/// Ordinary drivers: the binary is asked for right after the build.
+/// Builds with an ordinary driver: its binary is read right after the build.
 cl::Program build_with_binary(const Device& device, const ProgramText& text) {
     const DiskCache store = program_store();
     const std::string key = key_of(device.info(), "program", text);
@@ -94,12 +94,13 @@ cl::Program build_with_binary(const Device& device, const ProgramText& text) {
         if (binaries.size() == 1 && !binaries[0].empty())
             store.write(key, std::string(binaries[0].begin(), binaries[0].end()));
     } catch (const cl::Error&) {
-        return program;  // a driver that keeps its binaries to itself
+        return program;  // a driver that doesn't give its binaries
     }
     return program;
 }
 
-/// PoCL compiles twice when asked for a binary, and keeps its own files: see PoclFolder.
+/// Builds with PoCL, which compiles twice if asked for a binary, and keeps its own files: see
+/// PoclFolder.
 cl::Program build_with_pocl(const Device& device, const ProgramText& text,
                             std::span<const ProgramText> texts_of_parts) {
     std::vector<ProgramPart> parts;
@@ -122,7 +123,8 @@ cl::Program build_program(const Device& device, const std::string& label, const 
     try {
         if (device.info().platform == kPoclPlatform)
             program = build_with_pocl(device, text, parts);
-        else if (device.info().platform == "Oclgrind")  // interprets; a binary loses the lines
+        else if (device.info().platform == "Oclgrind")  // it interprets code; a binary would lose
+                                                        // the line numbers
             program = compile(device, text);
         else
             program = build_with_binary(device, text);

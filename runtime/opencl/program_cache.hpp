@@ -1,4 +1,4 @@
-// Programs compiled once: from source, or from what an earlier run left on the disk.
+// Programs compiled once: from source, or from the disk cache of an earlier run.
 #pragma once
 
 #include <span>
@@ -14,20 +14,21 @@ struct ProgramText {
     std::string source, options;
 };
 
-/// A program for `device`, ready for its kernels to be taken.
+/// A program for `device`, built so that its kernels can be created.
 ///
-/// What the compiler made is kept below `cache_folder()`, under a hash of the source with its
-/// includes, the options, and the versions of the platform, the driver and this cache; nothing
-/// damaged is ever handed to a driver. A build that fails without a word about the source is tried
-/// a second time. Throws Error::build with the compiler's log; `label` says whose. Kernels compiled
-/// of one of the `parts` that it was joined from are kept for other programs with that part.
+/// The compiler's result is kept below `cache_folder()`, under a hash of the source with its
+/// includes, the options, and the versions of the platform, the driver and this cache; damaged
+/// files never reach a driver. A build that fails without a message about the source is tried a
+/// second time. Kernels compiled of one of the `parts` that the program was joined from are kept
+/// for other programs with that part. Throws Error::build with the compiler's log, in which `label`
+/// names the program.
 cl::Program build_program(const Device& device, const std::string& label, const ProgramText& text,
                           std::span<const ProgramText> parts = {});
 
-/// The sources of the programs that the device has ready, each program's once.
+/// The sources of the programs that the device has ready, each once.
 std::vector<std::string> program_sources(const Device& device);
 
-/// Keeps what the platform compiled after its programs were built, at the kernels' first launch.
+/// Saves what the platform compiled after its programs were built, at the kernels' first launch.
 /// Called when a device is closed; nothing may run on it.
 void keep_compiled_kernels(const DeviceInfo& info);
 

@@ -1,4 +1,5 @@
-// What a user may write to choose devices: auto, cpu, gpu, all, all/N, an index, part of a name.
+// The selectors with which a user chooses devices: auto, cpu, gpu, all, all/N, an index, part of a
+// name.
 #pragma once
 
 #include <string_view>
@@ -7,10 +8,11 @@
 
 namespace voxelume {
 
-/// 1 for the selector "all", N for "all/N", 0 for others. Throws Error::usage where N is no number.
+/// Returns 1 for the selector "all", N for "all/N", 0 for others. Throws Error::usage if N is no
+/// number.
 int parts_of_all(std::string_view selector);
 
-/// Whether `selector` names the device; "all" and "auto" name every one.
+/// True if `selector` names the device; "all" and "auto" name every device.
 bool names_device(std::string_view selector, const DeviceInfo& info);
 
 }  // namespace voxelume

@@ -8,7 +8,7 @@ namespace voxelume {
 /// "CL_OUT_OF_RESOURCES (-5)"; "status -9999" for a code that OpenCL doesn't define.
 std::string status_name(int status);
 
-/// Whether the code says that the device's or the host's memory is not enough.
+/// True if the code means that the device's or the host's memory doesn't suffice.
 bool is_out_of_memory(int status);
 
 }  // namespace voxelume

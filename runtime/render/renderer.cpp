@@ -30,8 +30,8 @@ void add_counts(const RenderReport& report, RenderReport& sum) {
 
 namespace {
 
-/// The features that sight rays' hits and batches depend on: without those that decide the light on
-/// them alone.
+/// The features on which sight rays' hits and batches depend, without those that only decide their
+/// light.
 Features without_light(Features features) {
     features.shadows = features.area_samples = features.checker = false;
     features.medium = features.medium_grid = features.absorbs = false;
@@ -64,13 +64,14 @@ Renderer::View Renderer::view_of(const Scene& scene, const BuiltWorld& world,
     return view;
 }
 
-/// Hits are kept where they take little of the device's memory, and nothing of what the frame needs
-/// beside the world.
+/// True if hits may be retained: they must take little of the device's memory, and none that the
+/// frame itself needs in addition to the world.
 bool Renderer::has_room(const Scene& scene, const Features& features, uint64_t rays) const {
     if (!follows_) return false;
     const double bytes = double(rays) * sight_bytes(features),
                  memory = double(device_.info().memory);
-    const double needed = ray_bytes(scene, features).maximum() + image_bytes(scene.render);
+    const double needed =
+        ray_bytes(features, ray_counts(scene, features)).maximum() + image_bytes(scene.render);
     const auto locked = device_.lock();
     return bytes <= memory / 16 &&
            double(device_.counters().bytes_in_use) + needed + bytes <= memory;
@@ -143,7 +144,7 @@ Image Renderer::image_of_tiles(const Scene& scene, const BuiltWorld& built, Rend
 
     View view = view_of(scene, built, features);
     report.hits_are_kept = view_ == view && !hits_.empty();
-    view_.reset();  // an error may leave the hits half done
+    view_.reset();  // an error may leave the hits incomplete
     if (!report.hits_are_kept) hits_.clear();
     const uint64_t rays = uint64_t(all_tiles) * rays_per_tile;
     const bool keeps_hits = has_room(scene, features, rays);

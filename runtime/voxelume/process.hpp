@@ -12,6 +12,7 @@ const char* version();
 
 /// What a program may allow the library to do to its process. Without it, nothing: the library sets
 /// no environment variable, starts no process, installs no signal handler and prints nothing.
+/// (OpenCL drivers are not the library: PoCL sets HWLOC_PLUGINS_PATH when it starts up.)
 struct ProcessOptions {
     /// Sets POCL_CACHE_DIR while OpenCL starts up, and unsets it again: kernels that PoCL, the
     /// OpenCL of CPUs, compiled are then kept in Voxelume's own cache, where processes can't damage

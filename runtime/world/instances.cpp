@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <map>
 #include <utility>
 
 #include "runtime/base/error.hpp"
@@ -12,44 +11,6 @@
 #include "runtime/stages/instance/instances.hpp"
 
 namespace voxelume {
-namespace {
-
-constexpr double kFar = 1e9;  // metres
-
-/// The model as an instance shows it: whole, wherever the world ends.
-Model whole(Model model) {
-    model.extent = {glm::dvec3(-kFar), glm::dvec3(kFar)};
-    return model;
-}
-
-}  // namespace
-
-ListedInstances list_instances(const Scene& scene, AssetStore& meshes, GridCache& grids) {
-    ListedInstances listed;
-    std::map<int, uint32_t> numbers;
-    for (uint32_t number = 0; number < scene.objects.size(); ++number) {
-        const Object& object = scene.objects[number];
-        if (!object.visible || !object.potentially_visible || !is_instanced(scene, object))
-            continue;
-        const Model& model = scene.models[size_t(object.model)];
-        const auto [entry, added] =
-            numbers.emplace(object.model, static_cast<uint32_t>(listed.grids.size()));
-        if (added) listed.grids.push_back(grids.own_grid_of(whole(model)));
-        if (listed.grids[entry->second]->transparent)
-            throw Error(ErrorKind::scene,
-                        "{}: some voxels of its model let light through, and rays go through "
-                        "objects in the world's voxels only; give it \"placement\": \"world\"",
-                        object.where);
-        const std::vector<int> groups = materials_of_groups(object, meshes.groups_of(model));
-        listed.list.push_back({.object = number,
-                               .model = entry->second,
-                               .first_material = static_cast<uint32_t>(listed.materials.size()),
-                               .material_count = static_cast<uint32_t>(groups.size())});
-        for (const int material : groups)
-            listed.materials.push_back(static_cast<uint32_t>(material));
-    }
-    return listed;
-}
 
 void InstanceModels::forget_unused(const ListedInstances& listed, uint64_t room) {
     for (Kept& kept : std::exchange(kept_, {})) {

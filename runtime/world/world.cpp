@@ -7,6 +7,7 @@
 #include "runtime/analysis/culling.hpp"
 #include "runtime/analysis/model_last_uses.hpp"
 #include "runtime/analysis/object_boxes.hpp"
+#include "runtime/analysis/placed_objects.hpp"
 #include "runtime/base/error.hpp"
 #include "runtime/grid/world_frame.hpp"
 #include "runtime/memory/plan.hpp"
@@ -33,7 +34,7 @@ class Stopwatch {
     Clock::time_point start_ = Clock::now();
 };
 
-/// Does a part of forming the world, whose limits are the world's.
+/// Calls a part of building the world; its limit errors name the world's size.
 template <class Part>
 auto for_world(const World& world, const Part& part) {
     const std::string size = size_text(world.voxels);
@@ -41,7 +42,7 @@ auto for_world(const World& world, const Part& part) {
                           world.where);
 }
 
-/// Adds to a report the models that are voxelized while it lives, and the time that takes.
+/// Adds to a report the number of models that are voxelized while it lives, and their time.
 class VoxelizingReport {
   public:
     VoxelizingReport(const GridCache& grids, const AssetStore& meshes, WorldReport& report)
@@ -83,32 +84,6 @@ WorldBuilder::Origin WorldBuilder::origin_of(const Scene& scene) {
         origin.instanced.push_back(is_instanced(scene, object));
     leave_out_places_of_instances(scene, origin.models, origin.objects);
     return origin;
-}
-
-std::vector<PlacedObject> WorldBuilder::placed_objects(const Scene& scene,
-                                                       std::vector<SharedGrid>& grids) {
-    std::vector<PlacedObject> objects;
-    const std::vector<VoxelBox> boxes = object_boxes(scene, meshes_);
-    for (uint32_t number = 0; number < scene.objects.size(); ++number) {
-        const Object& object = scene.objects[number];
-        if (is_instanced(scene, object) || !is_potentially_visible(scene, object)) continue;
-        if (!overlap(boxes[number], boxes[number])) continue;  // nothing of it is in the world
-        const Model& model = scene.models[size_t(object.model)];
-        const bool has_own_voxels = !model.voxels.empty() && !lists_primitives(model.surface);
-        grids.push_back(grids_->grid_of(scene, object));
-        PlacedObject placed{.grid = grids.back().get(), .object = number};
-        placed.in_world_frame = lists_primitives(model.surface);
-        placed.world_from_object = placed.in_world_frame ? glm::dmat4(1) : object.world_from_object;
-        placed.priority = object.priority;
-        placed.set = has_own_voxels ? meshes_.voxels(model).set : model.set;
-        placed.keeps_inside =
-            shows_inside(scene, object) ||
-            (has_own_voxels && shows_voxels(model.surface) && transmits(scene, object));
-        for (const int material : materials_of_groups(object, meshes_.groups_of(model)))
-            placed.material_of_group.push_back(uint32_t(material));
-        objects.push_back(std::move(placed));
-    }
-    return objects;
 }
 
 /// The world before, with its instances where they are now.
@@ -158,7 +133,7 @@ BuiltWorld WorldBuilder::build_anew(const Scene& scene, const Origin& origin, Wo
     origin_.reset();
     world_.pyramid = {};
     keeps_ = false;
-    // What an error leaves in the middle is begun afresh.
+    // An exception leaves these empty, so that the next call begins anew.
     Indexer indexer = std::exchange(indexer_, Indexer(device_));
     InstanceModels models = std::exchange(models_, InstanceModels(device_));
     check_placements(scene);
@@ -179,7 +154,9 @@ BuiltWorld WorldBuilder::build_anew(const Scene& scene, const Origin& origin, Wo
     ListedInstances listed;
     {
         const VoxelizingReport voxelizing(*grids_, meshes_, report);
-        listed = list_instances(scene, meshes_, *grids_);
+        listed = list_instances(scene, meshes_, [&](const Object&, const Model& model) {
+            return grids_->own_grid_of(model);
+        });
     }
     std::vector<VoxelBox> boxes = object_boxes(scene, meshes_);
     BuiltWorld built{kept_or_new_world({scene, retained, keeps_, room, report}, indexer),
@@ -223,8 +200,8 @@ std::optional<WorldBuilder::ReadWorld> WorldBuilder::read_world(
     return std::nullopt;
 }
 
-/// The world's voxels as an earlier run formed them, of no more objects than are potentially
-/// visible if it has such, else new ones, which are kept for later runs.
+/// The world's voxels from an earlier run, with only the potentially visible objects if there are
+/// such; else new voxels, which are written to the cache for later runs.
 Pyramid WorldBuilder::kept_or_new_world(const Task& task, Indexer& indexer) {
     const std::vector<std::string> keys =
         placer_ ? std::vector<std::string>() : world_sources(task.scene, meshes_);
@@ -257,7 +234,11 @@ Pyramid WorldBuilder::new_world(const Task& task, Indexer& indexer) {
     std::vector<PlacedObject> objects;
     {
         const VoxelizingReport voxelizing(*grids_, meshes_, report);
-        objects = placed_objects(task.scene, shown);
+        const GridSource grid_of = [&](const Object& object, const Model&) {
+            return grids_->grid_of(task.scene, object);
+        };
+        objects =
+            placed_objects(task.scene, meshes_, object_boxes(task.scene, meshes_), grid_of, shown);
     }
     return for_world(task.scene.world,
                      [&] { return placed_and_indexed(task, objects, std::move(shown), indexer); });
@@ -282,8 +263,8 @@ Pyramid WorldBuilder::placed_and_indexed(const Task& task, const std::vector<Pla
     return pyramid;
 }
 
-/// Frees what wasn't used in this frame, but for models that are retained; unless the task keeps
-/// what the next frame may use, all of it.
+/// Frees the sources that weren't used in this frame, except models that are retained. If the task
+/// keeps nothing for the next frame, it frees all of them.
 void WorldBuilder::forget_sources(const Task& task) {
     grids_->forget_unused(task.scene, task.retained, task.room);
     uint64_t room = device_.info().memory / kRetainedPart;  // a CPU's memory is the meshes', too

@@ -1,4 +1,4 @@
-// The image that one device or several make of a scene's only frame.
+// The image of a scene's only frame, made by one device or several.
 #pragma once
 
 #include <memory>

@@ -11,7 +11,7 @@ done)
 listed=$(sed -nE 's/^- \*\*([VSTPGOXD][0-9]+)\*\* .*/\1/p' CASES.md)
 diff <(echo "$expected") <(echo "$listed") || { echo "CASES.md lists other cases"; failed=1; }
 
-# `Suite.Name`, from TEST(Suite, Name), TEST_F or TEST_P, however the line is broken.
+# The names are `Suite.Name`, from TEST(Suite, Name), TEST_F or TEST_P, however the line is broken.
 existing=$(find . -name '*_test.cpp' -exec cat {} + | tr '\n' ' ' |
     grep -oE '\bTEST(_[FP])?\([[:space:]]*[A-Za-z0-9_]+,[[:space:]]*[A-Za-z0-9_]+\)' |
     sed -E 's/.*\([[:space:]]*([A-Za-z0-9_]+),[[:space:]]*([A-Za-z0-9_]+)\)/\1.\2/' | sort -u)

@@ -1,4 +1,4 @@
-// voxelume convert, and what info says of volumes.
+// The command `voxelume convert`, and the output of `info` for volumes.
 #include <gmock/gmock.h>
 
 #include <nlohmann/json.hpp>

@@ -1,4 +1,4 @@
-// The frame of the program and the commands info and diff.
+// The program's general behaviour, and the commands info and diff.
 #include <gmock/gmock.h>
 
 #include <nlohmann/json.hpp>

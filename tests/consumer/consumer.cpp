@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <cstring>
 #include <string>
+#include <string_view>
 #include <vector>
 #include <voxelume.hpp>
 
@@ -161,9 +162,11 @@ void check_frames(const Scene& scene, const std::vector<Device>& devices) {
     check(file.width() == 64 && file.has("Z"), "the file has the image");
 }
 
+/// Without the variable that PoCL itself sets for its library of hardware locality.
 std::vector<std::string> environment() {
     std::vector<std::string> variables;
-    for (char** variable = environ; *variable; ++variable) variables.emplace_back(*variable);
+    for (char** variable = environ; *variable; ++variable)
+        if (!std::string_view(*variable).starts_with("HWLOC_")) variables.emplace_back(*variable);
     return variables;
 }
 

@@ -1,4 +1,4 @@
-// Meshes on their way to other shapes.
+// Meshes that morph into other shapes.
 #include "runtime/geometry/mesh_morph.hpp"
 
 #include <gmock/gmock.h>

@@ -11,7 +11,7 @@ using testing::HasSubstr;
 
 namespace {
 
-/// 7 x 5 x 3 cells across the origin, each with a value and a colour of its own.
+/// 7 x 5 x 3 cells across the origin, each with its own value and colour.
 struct Voxels {
     std::vector<glm::ivec3> cells;
     std::vector<float> values;
@@ -41,8 +41,6 @@ struct Voxels {
         return volume;
     }
 };
-
-}  // namespace
 
 class VdbTest : public FileTest {
   protected:
@@ -141,4 +139,5 @@ TEST_F(VdbTest, AMissingFileIsAnInputError) {
     EXPECT_THAT(error_of([&] { read_vdb_summary(path()); }).what(), HasSubstr("no such file"));
 }
 
+}  // namespace
 }  // namespace voxelume

@@ -1,4 +1,4 @@
-// A scene of one thing, and its plan.
+// A scene of one object, and its memory plan.
 #pragma once
 
 #include "runtime/memory/plan.hpp"

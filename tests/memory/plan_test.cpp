@@ -1,4 +1,4 @@
-// Plans against what worlds and images take, and what of them is refused.
+// Memory plans against what worlds and images take, and which scenes are refused.
 #include "runtime/memory/plan.hpp"
 
 #include <gmock/gmock.h>

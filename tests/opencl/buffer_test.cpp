@@ -95,5 +95,22 @@ TEST(Buffer, OneBeyondTheLargestAllocationIsRefusedBeforeMemoryIsTaken) {
     EXPECT_TRUE(device.counters().allocated_bytes.empty());
 }
 
+TEST(Buffer, OfACountingDeviceTakesBytesAlone) {
+    const Device device = Device::counting({});
+    const DeviceCounters& counters = device.counters();
+    {
+        Buffer<int> small(device, "small", 100);
+        const Buffer<uint64_t> vast(device, "vast", size_t{1} << 40);
+        small.fill(1);
+        small.write(std::vector<int>{1, 2, 3});
+        EXPECT_EQ(small.size(), 100u);
+        EXPECT_EQ(counters.bytes_in_use, (uint64_t{8} << 40) + 400);
+    }
+    EXPECT_EQ(counters.bytes_in_use, 0u);
+    EXPECT_EQ(counters.peak_bytes, (uint64_t{8} << 40) + 400);
+    EXPECT_EQ(counters.largest_buffer, "vast");
+    EXPECT_EQ(counters.largest_bytes, uint64_t{8} << 40);
+}
+
 }  // namespace
 }  // namespace voxelume

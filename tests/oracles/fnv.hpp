@@ -1,4 +1,4 @@
-// FNV-1a, 64 bits: a number that changes when any bit of what was added does.
+// The hash FNV-1a with 64 bits, which changes when any bit of what was added does.
 #pragma once
 
 #include <cstddef>

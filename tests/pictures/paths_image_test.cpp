@@ -6,7 +6,8 @@
 namespace voxelume {
 namespace {
 
-/// Sizes that aren't powers of two, so that no two strides are equal by chance.
+/// The scene with an image whose sizes aren't powers of two, so that no two strides are equal by
+/// chance.
 Scene scene_of(const char* text) {
     Scene scene = parse_scene(text, "test.json", {});
     resize(scene, {172, 133});

@@ -59,7 +59,7 @@ TEST(Place, MirrorsAndDoublesAndHalves) {
         voxels_of({{8, 9, 9}, {9, 9, 9}}));
 }
 
-/// A lump without symmetry.
+/// A random lump without symmetry.
 VoxelMap random_lump(uint32_t seed, const glm::ivec3& size) {
     std::mt19937 random(seed);
     VoxelMap voxels;

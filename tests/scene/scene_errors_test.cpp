@@ -1,4 +1,4 @@
-// What is said about scene files that are wrong.
+// The errors of wrong scene files.
 #include <gmock/gmock.h>
 
 #include <filesystem>

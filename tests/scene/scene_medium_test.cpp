@@ -1,4 +1,4 @@
-// The medium of a scene: what its keys mean, and what is said of wrong ones.
+// The medium of a scene: the meaning of its keys, and the errors of wrong ones.
 #include <gmock/gmock.h>
 
 #include "runtime/scene/scene.hpp"

@@ -1,4 +1,4 @@
-// What is said about tracks that are wrong.
+// The errors of wrong tracks.
 #include "runtime/scene_file/scene_track.hpp"
 #include "runtime/scene_file/read_scene.hpp"
 

@@ -8,7 +8,7 @@
 #include "lib/traverse/ray_batch.h"
 #include "lib/traverse/ray_queue.h"
 
-/// What a packet's surfaces let through to the layer behind them.
+/// The light that a packet's surfaces let through to the layer behind them.
 typedef struct {
     lane_int valid, hit, leaving;  // masks
     lane_uint packed;

@@ -1,4 +1,4 @@
-// What rays that go on through surfaces need to know of them, and of the medium.
+// The data on surfaces and the medium that rays need to continue through surfaces.
 #ifndef VXL_SURROUNDINGS_H
 #define VXL_SURROUNDINGS_H
 

@@ -26,7 +26,7 @@ typedef struct {
     lane_float from;
 } ShapePath;
 
-/// The ray as a shape sees it, from where it passes the shape's centre closest.
+/// The ray in the shape's space, starting where it passes the shape's centre closest.
 static inline ShapePath shape_path(global const SolidShape* s, const SolidRay* ray) {
     const lane_float x = (ray->ox - (float)s->cell[0]) - s->fraction[0];
     const lane_float y = (ray->oy - (float)s->cell[1]) - s->fraction[1];

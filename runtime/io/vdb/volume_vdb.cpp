@@ -28,7 +28,7 @@ openvdb::Mat4d rows_of(const glm::dmat4& m) {
 openvdb::math::MapBase::Ptr pyramid_map(const VolumeFrame& frame) {
     const glm::dvec3 size(frame.size);
     const double near = frame.display.near, length = frame.step * size.z;
-    const glm::dvec2 half = glm::tan(frame.display.half_angles) * near;
+    const glm::dvec2 half = half_extent(frame.display) * near;
     glm::dmat4 observer_from_frustum(1);
     observer_from_frustum[0][0] = -2 * half.x;
     observer_from_frustum[1][1] = -2 * half.y * size.x / size.y;

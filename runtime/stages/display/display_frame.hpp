@@ -1,4 +1,4 @@
-// display -> the lattice V of its voxels: where they are, for the host and for kernels.
+// display -> the lattice V of its voxels: their places, for the host and for kernels.
 #pragma once
 
 #include "kernels/shared/display.h"
@@ -8,13 +8,13 @@
 
 namespace voxelume {
 
-/// The voxels of the scene's display in its layout; what `Volume::frame` says.
+/// The voxels of the scene's display in its layout, as in `Volume::frame`.
 VolumeFrame display_frame(const Scene& scene);
 
-/// How depth becomes steps, for a frame of layout `rays` in a world with this medium.
+/// The steps along depth of a frame of layout `rays` in a world with this medium.
 DisplaySteps display_steps(const VolumeFrame& frame, const Medium& medium);
 
-/// A frame of layout `lattice` in a world.
+/// The lattice of a frame of layout `lattice` in a world.
 DisplayLattice display_lattice(const VolumeFrame& frame, const GridFrame& world);
 
 }  // namespace voxelume

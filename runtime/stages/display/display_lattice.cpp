@@ -10,14 +10,14 @@
 namespace voxelume {
 namespace {
 
-/// How much the surfaces in front may cover of a point that is still seen.
+/// The maximum share that surfaces in front may cover of a point that still counts as visible.
 constexpr float kMaxCovered = 1 - 1.0f / 1024;
 
 constexpr uint32_t kGroupWords = 8, kGroupBits = 256;
 
-/// Ways from outside of the world to a point in it, in voxels: view 0 is the observer's and has no
-/// way of its own; then along the axes, from above first, along the diagonals of faces, and along
-/// those of the cube.
+/// Vectors from outside of the world to a point in it, in voxels, one for each view. View 0 is the
+/// observer's and has no vector of its own. The others run along the axes, with the view from above
+/// first, then along the diagonals of faces, then along those of the cube.
 std::vector<float4> ways_from_outside(const GridFrame& world) {
     const double length = glm::length(world.voxel_edge * glm::dvec3(world.size));
     std::vector<float4> ways = {{0, 0, 0, 0}};
@@ -48,6 +48,10 @@ uint32_t group_count(const Device& device, const glm::ivec3& size) {
 
 }  // namespace
 
+Buffer<uint32_t> allocate_display_mask(const Device& device, const glm::ivec3& size) {
+    return {device, "display mask", size_t(group_count(device, size)) * kGroupWords};
+}
+
 DisplayLatticeStage::DisplayLatticeStage(const Device& device, const Features& features,
                                          const Camera& camera, const VolumeFrame& frame,
                                          const Pyramid& world)
@@ -59,7 +63,7 @@ DisplayLatticeStage::DisplayLatticeStage(const Device& device, const Features& f
       world_(world),
       views_(device, "display views", std::span<const float4>(ways_from_outside(world.frame))),
       groups_(group_count(device, frame.size)),
-      mask_(device, "display mask", size_t(groups_) * kGroupWords),
+      mask_(allocate_display_mask(device, frame.size)),
       program_(device, "display_lattice.cl", features.defines(device)),
       aim_(program_.kernel("aim_rays")),
       note_(program_.kernel("note_view")),
@@ -93,12 +97,13 @@ void DisplayLatticeStage::find_views(const LookAhead& look, RayBatch& batch,
     for (ProbePoints& points : pieces) {
         if (visibility_ != Visibility::outside) search(look, batch, points, 0, kMaxCovered);
         if (visibility_ == Visibility::observer) continue;
-        // Where a point is seen freely from somewhere, it is not lit as seen through others.
+        // A point that is freely visible from somewhere is not lit as seen through other surfaces.
         for (const float maximum : {0.0f, kMaxCovered})
             for (uint32_t view = 1; view < views_.size() && (transmission_ || maximum == 0); ++view)
                 search(look, batch, points, view, maximum);
         if (visibility_ != Visibility::all) continue;
-        std::vector<uint32_t> views = points.views.read();  // what no view shows is lit as from E
+        std::vector<uint32_t> views = points.views.read();  // a point that no view shows is lit as
+                                                            // from E
         std::ranges::replace(views, kNoView, 0u);
         points.views.write(views);
     }
@@ -119,11 +124,8 @@ ShownVoxels DisplayLatticeStage::choose(const std::vector<ProbePoints>& pieces) 
     starts.write(counts);
     list_.launch(WorkItem::light, groups_, mask_, starts, groups_, shown.voxels.indices);
 
+    shown.points = allocate_points(device_, uint32_t(voxels));
     ProbePoints& chosen = shown.points;
-    chosen.count = uint32_t(voxels);
-    chosen.total = (chosen.count + 15) / 16 * 16;
-    chosen.coordinates = Buffer<float>(device_, "display points", size_t(chosen.total) * 3);
-    chosen.views = Buffer<uint32_t>(device_, "display views", chosen.total);
     chosen.views.fill(kNoView);
     Buffer<uint32_t> distances(device_, "display distances", chosen.count);
     Buffer<uint32_t> numbers(device_, "display numbers", chosen.count);
@@ -165,7 +167,7 @@ void DisplayLatticeStage::light_points(const LightRays& light_rays, const Enviro
                  voxels);
             continue;
         }
-        // The nearest surface is the voxel's; what lies behind has voxels of its own.
+        // The nearest surface is the voxel's; those behind have voxels of their own.
         light_rays(batch, count,
                    [&](const RayBatch& entries, uint32_t, bool is_first, const NodeLight& nodes) {
                        if (is_first) keep(environment, entries, nodes, task, first, count, voxels);
@@ -173,7 +175,7 @@ void DisplayLatticeStage::light_points(const LightRays& light_rays, const Enviro
     }
 }
 
-/// The points of voxels that have no light yet, moved a little.
+/// The points of voxels that have no light yet, moved by `shift`.
 DisplayLatticeStage::LightTask DisplayLatticeStage::missed_points(const ShownVoxels& shown,
                                                                   const glm::vec3& shift,
                                                                   HostPoints& host) {
@@ -210,7 +212,8 @@ void DisplayLatticeStage::light(const LookAhead& look, const LightRays& light_ra
                                 ShownVoxels& shown) {
     light_points(light_rays, environment, batch, {shown.points, {}}, shown.voxels);
     HostPoints host;
-    // A ray along the surface at its point, as at an outline, may pass by: one beside it does not.
+    // A ray along the surface at its point, as at an outline, may miss the surface; a ray next to
+    // it meets it.
     for (const float by : {1.0f / 512, 1.0f / 64})
         for (int side = 0; side < 6; ++side) {
             glm::vec3 shift(0);
@@ -220,7 +223,7 @@ void DisplayLatticeStage::light(const LookAhead& look, const LightRays& light_ra
             light_points(light_rays, environment, batch, missed, shown.voxels);
         }
     if (visibility_ == Visibility::observer) return;
-    // Nor may a whole face that a view looks along: other views see it.
+    // A whole face along which a view looks may be missed, too: other views see it.
     for (const bool hidden : {false, true})
         for (uint32_t view = 1; view < views_.size(); ++view) {
             LightTask missed = missed_points(shown, glm::vec3(0), host);

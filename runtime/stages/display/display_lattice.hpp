@@ -10,26 +10,30 @@ namespace voxelume {
 
 /// The voxels that a lattice shows, each with the probe point that gives it its light.
 struct ShownVoxels {
-    VoxelArrays voxels;  ///< with `places` alone filled
+    VoxelArrays voxels;  ///< only `indices` are filled
     ProbePoints points;  ///< one for each voxel
 };
+
+/// One bit for every voxel of a lattice. Throws Error::limit where it has no room.
+Buffer<uint32_t> allocate_display_mask(const Device& device, const glm::ivec3& size);
 
 /// Traces rays 0 .. count-1 of a batch. Where surfaces let light through, also fills what all
 /// surfaces along each ray cover.
 using LookAhead = std::function<void(RayBatch& batch, uint32_t count)>;
 
-/// Lights rays 0 .. count-1 of a batch; `sink`, where there is one, hears of the layers of
+/// Lights rays 0 .. count-1 of a batch, and calls `sink`, unless it is empty, for each layer of
 /// surfaces.
 using LightRays = std::function<void(RayBatch& batch, uint32_t count, const LayerSink& sink)>;
 
-/// Kernels of display_lattice.cl. The paper's blocks 2 and 3.
+/// The kernels of display_lattice.cl: the paper's blocks 2 and 3.
 class DisplayLatticeStage {
   public:
-    /// `camera` is the observer's; throws Error::limit for a lattice whose mask has no room.
+    /// `camera` is the observer's. Throws Error::limit for a lattice whose mask is too large.
     DisplayLatticeStage(const Device& device, const Features& features, const Camera& camera,
                         const VolumeFrame& frame, const Pyramid& world);
 
-    /// Finds in which view each point is visible, as the display's visibility asks for.
+    /// Finds a view in which each point is visible, among those that the display's visibility
+    /// allows.
     void find_views(const LookAhead& look, RayBatch& batch, std::vector<ProbePoints>& pieces);
 
     /// The voxels of all points that have a view.
@@ -39,22 +43,22 @@ class DisplayLatticeStage {
     void light(const LookAhead& look, const LightRays& light_rays, const Environment& environment,
                RayBatch& batch, ShownVoxels& shown);
 
-    uint64_t rays() const { return rays_; }  ///< aimed so far
+    uint64_t rays() const { return rays_; }  ///< number of rays aimed so far
 
   private:
     void aim(const ProbePoints& points, uint32_t search, uint32_t first, uint32_t count,
              RayBatch& batch);
-    /// Points and the voxels that their light goes to; of point n to voxel n when there is no list.
+    /// Points, and the voxels that get their light. If `targets` is empty, point n lights voxel n.
     struct LightTask {
         ProbePoints points;
         Buffer<uint32_t> targets;
     };
-    /// Takes the light of batch rays from `first` on to their voxels. `nodes` holds it.
+    /// Adds the light of batch rays from `first` on, which `nodes` holds, to their voxels.
     void keep(const Environment& environment, const RayBatch& batch, const NodeLight& nodes,
               const LightTask& task, uint32_t first, uint32_t count, VoxelArrays& voxels);
     void light_points(const LightRays& light_rays, const Environment& environment, RayBatch& batch,
                       const LightTask& task, VoxelArrays& voxels);
-    /// The points of all voxels, read when the first one is missed.
+    /// The points of all voxels, read from the device when the first one is missed.
     struct HostPoints {
         std::vector<float> coordinates;
         std::vector<uint32_t> views;

@@ -10,16 +10,16 @@
 namespace voxelume {
 namespace {
 
-/// Less than this share of the light behind is not told from none.
+/// A smaller share of the light from behind counts as none.
 constexpr double kMinTransmittance = 1.0 / (1 << 20);
 
-/// What one voxel of a ray shows; of the same place, those that come first lie in front.
+/// What one voxel of a ray shows. Samples of one place are in order, the nearest first.
 struct Sample {
     uint64_t place;
-    glm::dvec3 light;  ///< what it adds when nothing covers it
+    glm::dvec3 light;  ///< the light that it adds when nothing covers it
     double opacity;
     float depth;      ///< metres
-    uint32_t object;  ///< plus 1, 0 for space
+    uint32_t object;  ///< number of the object plus 1; 0 for the environment
 };
 
 /// The pixel of a ray in the order of sight.cl: tiles of 4 x 4.
@@ -58,7 +58,7 @@ class Assembly {
 
     void add_record(const LayerRecords& layer, size_t n) {
         const glm::ivec2 pixel = pixel_of(word(layer, n, VXL_LAYER_RAY), size_.x);
-        if (pixel.x >= size_.x || pixel.y >= size_.y) return;  // of a tile that sticks out
+        if (pixel.x >= size_.x || pixel.y >= size_.y) return;  // of a tile beyond the image
         const uint64_t column = uint64_t(pixel.x) + uint64_t(size_.x) * uint64_t(pixel.y);
         glm::dvec3 light = numbers(layer, n, VXL_LAYER_LIGHT);
         const bool in_medium = word(layer, n, VXL_LAYER_IN_MEDIUM) != 0;
@@ -71,8 +71,8 @@ class Assembly {
         put(column, word(layer, n, VXL_LAYER_STEP), light, opacity, depth, object);
     }
 
-    /// Density times metres of the medium in each step of a ray's way to a surface, from `first`
-    /// on.
+    /// For each step of a ray's path to a surface, from step `first` on: the medium's density times
+    /// metres.
     struct Way {
         uint32_t first = 0;
         std::vector<double> amounts;
@@ -100,14 +100,15 @@ class Assembly {
         way.first = std::min(layer.first_step[n], last);
         const size_t from = layer.first_amount[n], to = layer.first_amount[n + 1];
         for (size_t i = from; i < to; ++i) {
-            // Rounding may put a little beyond the surface.
+            // Rounding may put a small amount beyond the surface.
             if (way.first + way.amounts.size() <= last) way.amounts.push_back(0);
             way.amounts.back() += double(layer.amounts[i]);
         }
         return way;
     }
 
-    /// The voxels of the medium on a ray's way to a surface; returns the light that they add.
+    /// Adds the voxels of the medium along a ray's path to a surface. Returns the light that they
+    /// add.
     glm::dvec3 add_environment(const LayerRecords& layer, size_t n, uint64_t column) {
         const glm::dvec3 throughput = numbers(layer, n, VXL_LAYER_THROUGHPUT);
         const Way way = way_of(layer, n);
@@ -129,7 +130,8 @@ class Assembly {
         return sum;
     }
 
-    /// `light` is what reaches E; what the voxels before it cover is given back.
+    /// Adds a voxel. `light` is what reaches E, so it is divided by what the voxels in front let
+    /// through.
     void put(uint64_t column, uint32_t k, const glm::dvec3& light, double opacity, float depth,
              uint32_t object) {
         double& throughput = throughput_[column];
@@ -142,11 +144,13 @@ class Assembly {
     LayerEnvironment environment_;
     glm::ivec3 size_;
     glm::dvec3 absorption_, color_;
-    std::vector<double> throughput_;  ///< of each ray: what its voxels so far leave uncovered
+    std::vector<double> throughput_;  ///< for each ray: the part that its voxels so far leave
+                                      ///< uncovered
     std::vector<Sample> samples_;
 };
 
-/// Samples of one place, laid over one another. The first object names the voxel.
+/// The samples of one place, laid over one another. The first sample with an object names the
+/// voxel.
 Sample merged(std::span<const Sample> samples) {
     Sample sum = samples.front();
     for (const Sample& sample : samples.subspan(1)) {

@@ -1,4 +1,4 @@
-// layers of surfaces along sight rays -> P in the layout `rays`, where some surfaces let light
+// layers of surfaces along sight rays -> P in the layout `rays`, if some surfaces let light
 // through.
 #pragma once
 
@@ -10,19 +10,19 @@
 
 namespace voxelume {
 
-/// What depths and light mean in the records.
+/// The meaning of depths and light in the records.
 struct LayerEnvironment {
-    DisplaySteps steps;  ///< absorption 0: space isn't shown
+    DisplaySteps steps;  ///< absorption 0: the environment isn't shown
     Environment environment;
     float near_depth;  ///< metres
 };
 
-/// Fills the volume, whose frame is set, from the records of all layers: those of a batch one after
-/// another, the nearest first.
+/// Fills the volume, whose frame is set, from the records of all layers. The layers of a batch
+/// follow one another, the nearest first.
 ///
-/// Every surface gets a voxel with its opacity, and so does the medium before it; those that share
-/// a voxel are laid over one another. Laid over one another themselves, a ray's voxels are its
-/// light. What an object that a ray goes through takes of single channels is taken from the colours
+/// Every surface gets a voxel with its opacity, and so does the medium in front of it; surfaces
+/// that share a voxel are laid over one another. A ray's voxels, laid over one another, give its
+/// light. Light of single channels that an object along the ray absorbs is taken from the colours
 /// of the voxels behind.
 void assemble_layers(const std::vector<LayerRecords>& layers, const LayerEnvironment& environment,
                      Volume& volume);

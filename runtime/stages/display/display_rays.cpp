@@ -10,25 +10,14 @@ namespace voxelume {
 namespace {
 
 constexpr uint32_t kSpanComponents = 3;
-constexpr size_t kMaxAmounts = 1 << 23;  ///< steps of rays whose density is measured together
+constexpr size_t kMaxAmounts = 1 << 23;  ///< number of steps of rays whose density is measured
+                                         ///< together
 
 uint32_t ray_count(const Camera& camera) {
     return tile_count(camera.width, camera.height) * 16;
 }
 
-RayDepths allocate_depths(const Device& device, const Features& features, uint32_t total) {
-    RayDepths rays;
-    rays.total = total;
-    rays.steps = Buffer<uint32_t>(device, "display steps", total);
-    rays.objects = Buffer<uint32_t>(device, "display ray objects", total);
-    rays.depths = Buffer<float>(device, "display ray depths", total);
-    rays.colors = Buffer<float>(device, "display ray colors", size_t(total) * 3);
-    if (features.medium)
-        rays.spans = Buffer<float>(device, "display spans", size_t(total) * kSpanComponents);
-    return rays;
-}
-
-/// Replaces counts by the sums of those before; returns the sum of all.
+/// Replaces each count by the sum of those before it. Returns the sum of all.
 uint64_t make_starts(std::vector<uint32_t>& counts) {
     uint64_t sum = 0;
     for (uint32_t& count : counts) {
@@ -47,6 +36,18 @@ void bind(KernelArguments& to, const VoxelArrays& voxels) {
 
 void bind(KernelArguments& to, const RayDepths& depths) {
     to.add(depths.steps, depths.depths, depths.objects, depths.colors, depths.spans, depths.total);
+}
+
+RayDepths allocate_ray_depths(const Device& device, const Features& features, uint32_t total) {
+    RayDepths rays;
+    rays.total = total;
+    rays.steps = Buffer<uint32_t>(device, "display steps", total);
+    rays.objects = Buffer<uint32_t>(device, "display ray objects", total);
+    rays.depths = Buffer<float>(device, "display ray depths", total);
+    rays.colors = Buffer<float>(device, "display ray colors", size_t(total) * 3);
+    if (features.medium)
+        rays.spans = Buffer<float>(device, "display spans", size_t(total) * kSpanComponents);
+    return rays;
 }
 
 VoxelArrays allocate_voxels(const Device& device, uint64_t count) {
@@ -90,7 +91,7 @@ DisplayRaysStage::DisplayRaysStage(const Device& device, const Features& feature
       steps_(display_steps(frame, medium)),
       near_depth_(float(frame.display.near)),
       environment_(environment),
-      rays_(allocate_depths(device, features, ray_count(camera))),
+      rays_(allocate_ray_depths(device, features, ray_count(camera))),
       program_(device, has_layers_ ? "display_layers.cl" : "display_rays.cl",
                features.defines(device)) {
     if (!features.medium) steps_.absorption = 0;
@@ -123,7 +124,7 @@ void DisplayRaysStage::keep_layer(const Pyramid& world, const DensityGrid* densi
     layers_.push_back(std::move(records));
 }
 
-/// A few entries at a time, because a step of a ray has a place whether there is medium or not.
+/// Measures a few entries at a time, since a step of a ray takes room whether it has medium or not.
 void DisplayRaysStage::measure_density(const Pyramid& world, const DensityGrid& density,
                                        const Layer& layer, LayerRecords& records) {
     const auto steps = size_t(steps_.count);

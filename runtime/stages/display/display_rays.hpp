@@ -12,12 +12,12 @@
 
 namespace voxelume {
 
-/// The voxels of P on a device: arrays as long as each other, ascending in `indices`. 32 bytes
-/// each.
+/// The voxels of P on a device: arrays of equal length, ascending in `indices`. A voxel takes 32
+/// bytes.
 struct VoxelArrays {
     size_t count = 0;  ///< the arrays may be longer
     Buffer<uint64_t> indices;
-    Buffer<float> colors;  ///< 3 each, one after another
+    Buffer<float> colors;  ///< 3 for each voxel, one after another
     Buffer<float> opacities;
     Buffer<float> depths;
     Buffer<uint32_t> objects;
@@ -26,18 +26,18 @@ struct VoxelArrays {
 /// VXL_VOXEL_PARAMETERS of kernels.
 void bind(KernelArguments& to, const VoxelArrays& voxels);
 
-/// Arrays for `count` voxels. Throws Error::limit for more than can be numbered.
+/// The arrays for `count` voxels. Throws Error::limit for more voxels than can be numbered.
 VoxelArrays allocate_voxels(const Device& device, uint64_t count);
 
 /// Reads the voxels into a volume. Waits for the device.
 void read_voxels(const VoxelArrays& voxels, Volume& volume);
 
-/// The records of a layer of surfaces along sight rays: VXL_LAYER_WORDS words, `count` apart.
+/// The records of a layer of surfaces along sight rays: VXL_LAYER_WORDS words, each `count` apart.
 struct LayerRecords {
     size_t count = 0;
     std::vector<uint32_t> words;
-    /// Density times metres of entry n in step k, at `first_amount[n] + k - first_step[n]`; empty
-    /// in a medium of density 1. Entry n's end where those of n+1 begin.
+    /// The density times metres of entry n in step k, at `first_amount[n] + k - first_step[n]`;
+    /// empty in a medium of density 1. The amounts of entry n end where those of n+1 begin.
     std::vector<float> amounts;
     std::vector<size_t> first_amount;
     std::vector<uint32_t> first_step;
@@ -53,6 +53,8 @@ struct RayDepths {
     uint32_t total = 0;        ///< places for rays
 };
 
+RayDepths allocate_ray_depths(const Device& device, const Features& features, uint32_t total);
+
 /// VXL_DEPTHS_PARAMETERS of kernels.
 void bind(KernelArguments& to, const RayDepths& depths);
 
@@ -60,16 +62,18 @@ void bind(KernelArguments& to, const RayDepths& depths);
 /// ray. The paper's blocks 2 and 3.
 class DisplayRaysStage {
   public:
-    /// `camera` casts the frame's rays: as wide and high as it, one sample each.
+    /// `camera` casts the frame's rays. It has the frame's width and height and one sample per
+    /// pixel.
     DisplayRaysStage(const Device& device, const Features& features, const Camera& camera,
                      const VolumeFrame& frame, const Medium& medium,
                      const Environment& environment);
 
-    /// Keeps lit rays 0 .. count-1 of the batch, which begin at ray `first_ray` of the display.
+    /// Keeps rays 0 .. count-1 of the batch, which are lit; the batch begins at ray `first_ray` of
+    /// the display.
     void keep(const PyramidShape& world, const RayBatch& batch, uint32_t first_ray, uint32_t count);
 
-    /// A layer of surfaces, the nearest first: which entries of a batch that begins at ray
-    /// `first_ray`, and where the light of their rays is.
+    /// A layer of surfaces, the nearest first: entries of a batch that begins at ray `first_ray`,
+    /// and the light of their rays.
     struct Layer {
         const RayBatch& entries;
         uint32_t count;
@@ -77,12 +81,12 @@ class DisplayRaysStage {
         const NodeLight& nodes;
         uint32_t first_ray;
     };
-    /// Instead of `keep` where light comes from several surfaces along a ray (`transmission`), or a
-    /// medium that differs from voxel to voxel (`medium_grid`).
+    /// Keeps a layer. It is called instead of `keep` if light comes from several surfaces along a
+    /// ray (`transmission`), or through a medium whose density varies (`medium_grid`).
     void keep_layer(const Pyramid& world, const DensityGrid* density, const Layer& layer);
     bool has_layers() const { return has_layers_; }
 
-    /// Puts the voxels of all rays into the volume, once every ray is kept.
+    /// Writes the voxels of all rays to the volume, after every ray was kept.
     void read(Volume& volume);
 
   private:

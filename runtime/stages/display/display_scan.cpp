@@ -14,11 +14,12 @@ namespace {
 
 constexpr int kMaxParts = 64;
 
-/// Lines have places for many crossings, so fewer of them go together; and where these do not do,
-/// only those few are scanned again.
+/// The part of a batch whose lines are scanned together. It is small because lines have room for
+/// many crossings; and if that room is too small, only these few lines are scanned again.
 constexpr uint32_t kBatchParts = 4;
 
-/// Parts of a display voxel's edge of which none is longer than a voxel of the world.
+/// The number of parts into which a display voxel's edge is divided so that none is longer than a
+/// voxel of the world.
 int parts_of(double edge, const GridFrame& world) {
     const glm::dvec3& e = world.voxel_edge;
     const double parts = std::ceil(edge / std::min({e.x, e.y, e.z}) - 1e-6);
@@ -33,7 +34,7 @@ VoxelBox box_of(const GridFrame& world) {
     return {glm::dvec3(0), glm::dvec3(world.size)};
 }
 
-/// Around all that the world shows.
+/// The box around everything that the world shows.
 VoxelBox box_of_objects(const Pyramid& world) {
     if (world.object_boxes.empty()) return box_of(world.frame);
     VoxelBox all{glm::dvec3(INFINITY), glm::dvec3(-INFINITY)};
@@ -44,8 +45,8 @@ VoxelBox box_of_objects(const Pyramid& world) {
     return all;
 }
 
-/// Numbers of the lines that meet a box of the world across one axis of the lattice, which has
-/// `count` parts of a voxel along it; `first` is above `last` where there are none.
+/// The range of numbers of the lines that meet a box of the world, across one axis of the lattice
+/// with `count` parts of a voxel along it. `first` is above `last` if there are none.
 LineRange lines_across(const float4& row, int parts, int count, const VoxelBox& box) {
     const glm::dvec3 along(row.x, row.y, row.z);
     double minimum = double(row.w), maximum = minimum;
@@ -54,7 +55,7 @@ LineRange lines_across(const float4& row, int parts, int count, const VoxelBox& 
         minimum += std::min(low, high);
         maximum += std::max(low, high);
     }
-    // One line more on each side than the floats of `row` may be wrong by.
+    // One line more on each side than the rounding of `row` can change.
     const double slack = 1 + 1e-5 * (std::abs(double(row.w)) + maximum - minimum) * parts;
     const double first = std::floor(minimum * parts - slack),
                  last = std::ceil(maximum * parts + slack);
@@ -72,6 +73,23 @@ void check_lines(const Camera& camera, const VolumeFrame& frame) {
 }
 
 }  // namespace
+
+ProbePoints allocate_points(const Device& device, uint32_t count) {
+    ProbePoints points;
+    points.count = count;
+    points.total = (count + 15) / 16 * 16;
+    points.coordinates = Buffer<float>(device, "probe points", size_t(points.total) * 3);
+    points.views = Buffer<uint32_t>(device, "probe views", points.total);
+    return points;
+}
+
+Buffer<float> allocate_crossings(const Device& device, uint32_t lines, uint32_t slots) {
+    return {device, "probe crossings", size_t(lines) * slots};
+}
+
+uint32_t scanned_lines(uint32_t rays) {
+    return std::max(rays / 16 / kBatchParts, 1u) * 16;
+}
 
 void bind(KernelArguments& to, const ProbePoints& points) {
     to.add(points.count, points.total, points.coordinates, points.views);
@@ -110,7 +128,8 @@ DisplayScanStage::Family DisplayScanStage::family(int axis, const VolumeFrame& f
     corner[b] += 0.5 * (across_b.first + across_b.last) / result.parts.y * frame.edge[b];
     const glm::dvec3 origin =
         (glm::dvec3(map * glm::dvec4(corner, 1)) - world.origin) / world.voxel_edge;
-    // A box of parallel rays whose unit of length is a part across, and a lattice voxel along.
+    // A box of parallel rays. Its unit of length is a part across them, and a lattice voxel along
+    // them.
     Camera& camera = result.camera;
     camera.origin = to_float4(origin);
     camera.origin_low =
@@ -134,7 +153,7 @@ DisplayScanStage::Family DisplayScanStage::family(int axis, const VolumeFrame& f
 glm::uvec2 DisplayScanStage::rows_across(const Family& family, const VoxelBox& box) {
     if (is_empty(box)) return glm::uvec2(0);
     const LineRange lines = lines_across(family.row_second, family.parts.y, family.count, box);
-    // The last line is the first of a picture's rows.
+    // The last line is the first of an image's rows.
     const int first = std::max(family.last.y - lines.last, 0);
     const int last = std::min(family.last.y - lines.first, family.camera.height - 1);
     if (first > last) return glm::uvec2(0);
@@ -147,7 +166,7 @@ ProbePoints DisplayScanStage::scan_batch(const Pyramid& world, const Family& fam
     std::vector<uint32_t> counts;
     for (;;) {
         if (crossings_.size() < size_t(stride) * slots_)
-            crossings_ = Buffer<float>(device_, "probe crossings", size_t(stride) * slots_);
+            crossings_ = allocate_crossings(device_, stride, slots_);
         if (counts_.size() < stride) counts_ = Buffer<uint32_t>(device_, "probe counts", stride);
         scan_.launch_packets(count, world, family.row, batch.rays, count, batch.stride, slots_,
                              stride, counts_, crossings_);
@@ -158,12 +177,8 @@ ProbePoints DisplayScanStage::scan_batch(const Pyramid& world, const Family& fam
     }
     std::vector<uint32_t> starts(count);
     std::exclusive_scan(counts.begin(), counts.end(), starts.begin(), 0u);
-    ProbePoints points;
-    points.count = starts.back() + counts.back();
-    points.total = (points.count + 15) / 16 * 16;
+    ProbePoints points = allocate_points(device_, starts.back() + counts.back());
     if (points.count == 0) return points;
-    points.coordinates = Buffer<float>(device_, "probe points", size_t(points.total) * 3);
-    points.views = Buffer<uint32_t>(device_, "probe views", points.total);
     points.views.fill(kNoView);
     const Buffer<uint32_t> places(device_, "probe starts", std::span<const uint32_t>(starts));
     pack_.launch(WorkItem::light, count, family.axis, uint32_t(family.camera.width), family.last.x,
@@ -175,13 +190,14 @@ ProbePoints DisplayScanStage::scan_batch(const Pyramid& world, const Family& fam
 std::vector<ProbePoints> DisplayScanStage::scan(const Pyramid& world, RayBatch& batch) {
     std::vector<ProbePoints> pieces;
     const VoxelBox shown = world.voxel_count == 0 ? VoxelBox{} : box_of_objects(world);
-    const uint32_t batch_tiles = std::max(batch.stride / 16 / kBatchParts, 1u);
+    const uint32_t batch_tiles = scanned_lines(batch.stride) / 16;
     for (const Family& family : families_) {
         const Camera& camera = family.camera;
         if (camera.width == 0 || camera.height == 0) continue;
         camera_.look(camera);
         const glm::uvec2 tiles =
-            rows_across(family, shown) * tile_count(camera.width, 1);  // first, one beyond the last
+            rows_across(family, shown) * tile_count(camera.width, 1);  // the first, and one beyond
+                                                                       // the last
         clear_lines_ += 16ull * (tile_count(camera.width, camera.height) - (tiles.y - tiles.x));
         for (uint32_t first = tiles.x; first < tiles.y; first += batch_tiles) {
             const uint32_t now = std::min(batch_tiles, tiles.y - first);

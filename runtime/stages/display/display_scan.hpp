@@ -1,4 +1,4 @@
-// world + lattice of a display -> probe points: where its probe lines cross surfaces.
+// world + lattice of a display -> probe points: the points where its probe lines cross surfaces.
 #pragma once
 
 #include <vector>
@@ -15,45 +15,56 @@ namespace voxelume {
 /// Probe points in lattice voxels, in an order that depends on the world and the lattice alone.
 struct ProbePoints {
     uint32_t count = 0;
-    uint32_t total = 0;         ///< places in each array, a multiple of 16
+    uint32_t total = 0;         ///< room in each array, a multiple of 16
     Buffer<float> coordinates;  ///< x, y, z, `total` apart
-    Buffer<uint32_t> views;     ///< in which view each is visible, kNoView for none
+    Buffer<uint32_t> views;     ///< a view in which each point is visible; kNoView for none
 };
 inline constexpr uint32_t kNoView = 0xFFFFFFFFu;
+
+/// Points without a view, of so many; where lines' crossings are kept before, `slots` of each line,
+/// and their counts.
+ProbePoints allocate_points(const Device& device, uint32_t count);
+Buffer<float> allocate_crossings(const Device& device, uint32_t lines, uint32_t slots);
+inline constexpr uint32_t kFirstSlots = 64;
+
+/// Lines that are scanned together with a batch of so many rays.
+uint32_t scanned_lines(uint32_t rays);
 
 /// VXL_POINTS_PARAMETERS of kernels.
 void bind(KernelArguments& to, const ProbePoints& points);
 
-/// Kernel of display_scan.cl: probe lines along the three axes of a lattice.
+/// The kernels of display_scan.cl: probe lines along the three axes of a lattice.
 ///
-/// They are all lines of the lattice's edges, with so many parallels between them that no gap is
-/// wider than a voxel of the world (up to 64 in a voxel). Those that pass the world by are left
-/// out, and rows of four of which all pass its objects by.
+/// The lines are all those of the lattice's edges, with parallel lines between them, up to 64 in a
+/// voxel, so that no gap is wider than a voxel of the world. Lines that miss the world are left
+/// out, and so are rows of four lines that all miss its objects.
 class DisplayScanStage {
   public:
-    /// Throws Error::limit where more than 2^31 lines along an axis meet the world.
+    /// Throws Error::limit if more than 2^31 lines along an axis meet the world.
     DisplayScanStage(const Device& device, const Features& features, const VolumeFrame& frame,
                      const GridFrame& world);
 
-    /// The crossings of all lines, in pieces of a part of a batch each. `batch` serves for rays.
+    /// The crossings of all lines, in pieces that a part of a batch gives. `batch` holds the rays
+    /// meanwhile.
     std::vector<ProbePoints> scan(const Pyramid& world, RayBatch& batch);
 
-    uint64_t lines() const { return lines_; }              ///< cast so far
-    uint64_t clear_lines() const { return clear_lines_; }  ///< left out
+    uint64_t lines() const { return lines_; }              ///< number of lines cast so far
+    uint64_t clear_lines() const { return clear_lines_; }  ///< number of lines left out so far
 
   private:
     /// The lines along one axis.
     struct Family {
         int axis;
-        glm::ivec2 parts;  ///< lines in a voxel, along the next axis and the one after it
-        glm::ivec2 last;   ///< number of the last line along each, counted in parts from the corner
-        int count;         ///< lines along the second in the whole lattice
+        glm::ivec2 parts;  ///< number of lines in a voxel, along the next axis and along the one
+                           ///< after it
+        glm::ivec2 last;   ///< number of the last line along each, in parts from the corner
+        int count;         ///< number of lines along the second axis in the whole lattice
         Camera camera;
-        float4 row;         ///< of the lattice coordinate along the lines
-        float4 row_second;  ///< and along the second axis across them
+        float4 row;         ///< row of the lattice coordinate along the lines
+        float4 row_second;  ///< row of the second coordinate across them
     };
     Family family(int axis, const VolumeFrame& frame, const GridFrame& world) const;
-    /// The rows of tiles that hold the lines which meet `box`, first and one beyond the last.
+    /// The rows of tiles with the lines that meet `box`: the first, and one beyond the last.
     static glm::uvec2 rows_across(const Family& family, const VoxelBox& box);
     ProbePoints scan_batch(const Pyramid& world, const Family& family, uint32_t first_line,
                            uint32_t count, RayBatch& batch);
@@ -64,7 +75,7 @@ class DisplayScanStage {
     SightStage camera_;
     Program program_;
     Kernel scan_, pack_;
-    uint32_t slots_ = 64;  ///< crossings of a line that have a place; grows
+    uint32_t slots_ = kFirstSlots;  ///< number of crossings that a line has room for; it grows
     Buffer<float> crossings_;
     Buffer<uint32_t> counts_;
     uint64_t lines_ = 0, clear_lines_ = 0;

@@ -15,7 +15,8 @@
 namespace voxelume {
 namespace {
 
-/// The pyramid's upper levels, and where each slot's leaves, voxels and primitives start.
+/// The entries of the pyramid's upper levels, and where each slot's leaves, voxels and primitives
+/// start.
 struct Numbering {
     std::vector<uint32_t> sectors, bricks;
     std::vector<uint32_t> starts;  ///< 3 per slot: first leaf, voxel, primitive
@@ -43,7 +44,7 @@ Numbering number_voxels(const BrickGrid& grid, const VoxelMarks& marks) {
     std::vector<bool> occupied(numbers.sectors.size());
     std::vector<glm::uvec2> places(grid.brick_count);  // sector, bit
     for (size_t slot = 0; slot < places.size(); ++slot) {
-        if (marks.leaf_mask[slot] == 0) continue;  // perhaps a brick of nodes beyond all voxels
+        if (marks.leaf_mask[slot] == 0) continue;  // such a brick may hold nodes beyond all voxels
         const int index = int(coordinates[slot]);
         places[slot] = sector_and_bit({index % brick_table.x, index / brick_table.x % brick_table.y,
                                        index / (brick_table.x * brick_table.y)},
@@ -78,7 +79,7 @@ Numbering number_voxels(const BrickGrid& grid, const VoxelMarks& marks) {
         primitives += marks.counts[slot * 2 + 1];
     }
     write_empty_cubes(numbers.bricks);
-    // Kernels gather by signed indices: of two words a leaf, of eight a field.
+    // Kernels gather by signed indices: two words for each leaf, or eight for each field.
     const uint64_t maximum = grid.distance.empty() ? uint64_t{1} << 30 : uint64_t{1} << 28;
     if (std::max(voxels, primitives) > maximum)
         throw Error(ErrorKind::limit,
@@ -95,18 +96,33 @@ Surface occupied_kind(const BrickGrid& grid) {
     return grid.primitive_first.empty() ? Surface::cubes : Surface::exact;
 }
 
-Pyramid allocate(const Device& device, const BrickGrid& grid, const Numbering& numbers) {
-    const size_t voxels = numbers.voxel_count;
+Pyramid upload(const Device& device, const BrickGrid& grid, const Numbering& numbers) {
+    Pyramid pyramid =
+        allocate_pyramid(device, grid,
+                         {numbers.bricks.size() / kWordsPerRecord / kRecordsPerSector,
+                          numbers.leaf_count, numbers.voxel_count, numbers.primitive_count});
+    pyramid.sectors.write(numbers.sectors);
+    pyramid.bricks.write(numbers.bricks);
+    return pyramid;
+}
+
+}  // namespace
+
+Pyramid allocate_pyramid(const Device& device, const BrickGrid& grid, const PyramidCounts& counts) {
+    const size_t voxels = counts.voxels;
     const bool exact = !grid.primitive_first.empty();
     const Surface kind = grid.distance.empty() ? occupied_kind(grid) : Surface::smooth;
+    const glm::ivec3 sectors = grid.frame.sectors();
     Pyramid pyramid;
     pyramid.frame = grid.frame;
-    pyramid.leaf_count = numbers.leaf_count;
-    pyramid.voxel_count = numbers.voxel_count;
-    pyramid.sectors = Buffer<uint32_t>(device, "sectors", numbers.sectors);
-    pyramid.bricks = Buffer<uint32_t>(device, "brick records", numbers.bricks);
-    pyramid.leaves = Buffer<uint32_t>(device, "leaves", size_t(numbers.leaf_count) * 2);
-    pyramid.leaf_voxels = Buffer<uint32_t>(device, "leaf voxels", numbers.leaf_count);
+    pyramid.leaf_count = uint32_t(counts.leaves);
+    pyramid.voxel_count = uint32_t(voxels);
+    pyramid.sectors = Buffer<uint32_t>(device, "sectors",
+                                       size_t(sectors.x) * size_t(sectors.y) * size_t(sectors.z));
+    pyramid.bricks = Buffer<uint32_t>(device, "brick records",
+                                      counts.sectors * kRecordsPerSector * kWordsPerRecord);
+    pyramid.leaves = Buffer<uint32_t>(device, "leaves", counts.leaves * 2);
+    pyramid.leaf_voxels = Buffer<uint32_t>(device, "leaf voxels", counts.leaves);
     if (!grid.attributes.empty() || has_two_sorts(grid))
         pyramid.attributes = Buffer<uint32_t>(device, "voxel attributes", voxels);
     else
@@ -118,7 +134,7 @@ Pyramid allocate(const Device& device, const BrickGrid& grid, const Numbering& n
         pyramid.fields = Buffer<uint32_t>(device, "voxel fields", voxels * VXL_FIELD_WORDS);
     if (exact) {
         pyramid.primitive_first = Buffer<uint32_t>(device, "primitive starts", voxels + 1);
-        pyramid.primitives = Buffer<uint32_t>(device, "primitives", numbers.primitive_count);
+        pyramid.primitives = Buffer<uint32_t>(device, "primitives", counts.primitives);
     }
     pyramid.triangles = grid.triangles;
     pyramid.triangle_attributes = grid.triangle_attributes;
@@ -126,15 +142,13 @@ Pyramid allocate(const Device& device, const BrickGrid& grid, const Numbering& n
     return pyramid;
 }
 
-}  // namespace
-
 namespace {
 
 /// The pyramid of a grid whose voxels are marked.
 Pyramid write_pyramid(const Device& device, const Program& program, const BrickGrid& grid,
                       const VoxelMarks& marks) {
     const Numbering numbers = number_voxels(grid, marks);
-    Pyramid pyramid = allocate(device, grid, numbers);
+    Pyramid pyramid = upload(device, grid, numbers);
     const glm::uvec2 kinds{static_cast<uint32_t>(occupied_kind(grid)) << VXL_KIND_SHIFT,
                            VXL_KIND_SMOOTH << VXL_KIND_SHIFT};
     const Buffer<uint32_t> starts(device, "index starts", numbers.starts);

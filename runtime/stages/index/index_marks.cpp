@@ -5,18 +5,20 @@
 #include <utility>
 
 #include "runtime/grid/grid_arguments.hpp"
+#include "runtime/stages/brick_arrays.hpp"
 
 namespace voxelume {
 namespace {
 
-/// Marks the bricks of the slots `listed`, or all; their leaf masks and counts are in that order.
+/// Marks the bricks of the slots `listed`, or all if it is empty. The leaf masks and counts of the
+/// result are in that order.
 VoxelMarks mark_listed(const Device& device, const Program& program, const BrickGrid& grid,
                        const std::vector<uint32_t>& listed, Buffer<uint64_t> masks) {
     const uint32_t count = listed.empty() ? grid.brick_count : uint32_t(listed.size());
     VoxelMarks marks;
     marks.masks = std::move(masks);
-    Buffer<uint64_t> leaf_mask(device, "index leaf masks", count);
-    Buffer<uint32_t> counts(device, "index counts", size_t(count) * 2);
+    const MarkArrays arrays = allocate_marks(device, count);
+    const auto& [leaf_mask, counts] = arrays;
     program.kernel("mark_voxels")
         .launch(WorkItem::heavy, count, count, Buffer<uint32_t>(device, "marked bricks", listed),
                 grid, marks.masks, leaf_mask, counts);
@@ -25,7 +27,7 @@ VoxelMarks mark_listed(const Device& device, const Program& program, const Brick
     return marks;
 }
 
-/// Calls `visit` with the places of a brick and its neighbours.
+/// Calls `visit` with the indices of a brick and its neighbours.
 template <class Visit>
 void for_neighbours(const glm::ivec3& table, uint32_t place, const Visit& visit) {
     const int index = int(place);
@@ -39,9 +41,14 @@ void for_neighbours(const glm::ivec3& table, uint32_t place, const Visit& visit)
 
 }  // namespace
 
+MarkArrays allocate_marks(const Device& device, size_t bricks) {
+    return {Buffer<uint64_t>(device, "index leaf masks", bricks),
+            Buffer<uint32_t>(device, "index counts", 2 * bricks)};
+}
+
 VoxelMarks mark_voxels(const Device& device, const Program& program, const BrickGrid& grid) {
-    Buffer<uint64_t> masks(device, "index masks", size_t(grid.brick_count) * 64);
-    return mark_listed(device, program, grid, {}, std::move(masks));
+    return mark_listed(device, program, grid, {},
+                       allocate_masks(device, "index masks", grid.brick_count));
 }
 
 VoxelMarks mark_changed_voxels(const Device& device, const Program& program, const BrickGrid& grid,
@@ -58,7 +65,8 @@ VoxelMarks mark_changed_voxels(const Device& device, const Program& program, con
             listed.push_back(slot);
             continue;
         }
-        // From a slot that is no more to one that is, or the masks might be written before read.
+        // A mask may only move from a slot that is no longer used to one that is: otherwise a mask
+        // might be overwritten before it is read.
         if (old >= kBrickInside || (old != slot && old < grid.brick_count))
             return mark_voxels(device, program, grid);
         leaf_mask[slot] = before.leaf_mask[old];

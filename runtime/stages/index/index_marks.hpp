@@ -9,19 +9,27 @@
 
 namespace voxelume {
 
-/// What `mark_voxels` found in the bricks.
+/// The results of `mark_voxels` for a grid's bricks.
 struct VoxelMarks {
-    Buffer<uint64_t> masks;           ///< 64 per slot, and room: the leaves' voxels
+    Buffer<uint64_t> masks;           ///< 64 per slot, and spare room: the voxels of each leaf
     std::vector<uint64_t> leaf_mask;  ///< per slot
     std::vector<uint32_t> counts;     ///< 2 per slot: voxels, primitives
-    std::vector<uint32_t> slots;      ///< BrickGrid::slots, of marks that are kept
+    std::vector<uint32_t> slots;      ///< BrickGrid::slots of the marked grid, for marks that are
+                                      ///< retained
 };
+
+/// What bricks' marks are summed up to, until they are read.
+struct MarkArrays {
+    Buffer<uint64_t> leaf_mask;
+    Buffer<uint32_t> counts;
+};
+MarkArrays allocate_marks(const Device& device, size_t bricks);
 
 /// The marks of all bricks, by the kernels of index.cl that `program` was built from.
 VoxelMarks mark_voxels(const Device& device, const Program& program, const BrickGrid& grid);
 
-/// The same from the marks `before` the bricks at the places `changed` did: a voxel's depend on its
-/// own brick and its neighbours.
+/// The marks of all bricks, from the marks `before` the bricks with indices `changed` were changed.
+/// A voxel's mark depends on its own brick and that brick's neighbours only.
 VoxelMarks mark_changed_voxels(const Device& device, const Program& program, const BrickGrid& grid,
                                const std::vector<uint32_t>& changed, VoxelMarks before);
 

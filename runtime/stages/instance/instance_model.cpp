@@ -10,7 +10,7 @@
 namespace voxelume {
 namespace {
 
-/// The first of the coordinates 0..3 along an axis that a 64-bit mask has a bit at, and the last.
+/// The first and the last of the coordinates 0..3 along an axis at which a 64-bit mask has a bit.
 glm::ivec2 span_of(uint64_t mask, int axis) {
     constexpr uint64_t kFirst[3] = {0x1111111111111111ull, 0x000F000F000F000Full, 0xFFFFull};
     glm::ivec2 span{4, -1};

@@ -11,7 +11,7 @@ struct ModelPyramid {
     glm::ivec3 low{0}, high{0};  ///< the box of its voxels; empty for a model without any
 };
 
-/// Builds the pyramid as build_index does, and finds its box. Throws as that does.
+/// Builds the pyramid as build_index does, and finds its box. Throws as build_index does.
 ModelPyramid index_model(const Device& device, const BrickGrid& grid);
 
 }  // namespace voxelume

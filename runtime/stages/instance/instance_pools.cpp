@@ -14,7 +14,7 @@ namespace {
 
 constexpr uint32_t kWhite = 0xFFFFFF;
 
-/// Sizes of the joined buffers, and during the joining how much of them is full.
+/// The sizes of the joined buffers; during the joining, how much of them is filled.
 struct Extent {
     uint64_t sectors = 0, records = 0, leaves = 0, voxels = 0, primitives = 0, triangles = 0,
              solids = 0;
@@ -34,19 +34,76 @@ struct Parts {
     bool colors = false, fields = false, exact = false;
 };
 
+/// What pyramids are joined to.
+class Total {
+  public:
+    Total(const Pyramid& world, std::span<const ModelPyramid> models) : frame_(world.frame) {
+        add(world);
+        for (const ModelPyramid& model : models) add(model.pyramid);
+    }
+
+    const Parts& parts() const { return parts_; }
+
+    void check_numbers() const {
+        const uint64_t maximum =
+            std::max({total_.sectors, total_.records, 2 * total_.leaves, total_.voxels,
+                      total_.primitives, total_.triangles * kFloatsPerTriangle,
+                      parts_.fields ? total_.voxels * VXL_FIELD_WORDS : 0});
+        constexpr uint64_t kMaxEntries = uint64_t{1} << 31;  // kernels gather by signed indices
+        if (maximum > kMaxEntries)
+            throw Error(ErrorKind::limit,
+                        "this world and the models of its instances need {} entries in one table, "
+                        "at most {} can be numbered: use larger voxels",
+                        maximum, kMaxEntries);
+    }
+
+    Pyramid allocate(const Device& device) const {
+        Pyramid joined;
+        joined.frame = frame_;
+        joined.transparent = transparent_;
+        joined.leaf_count = uint32_t(total_.leaves);
+        joined.voxel_count = uint32_t(total_.voxels);
+        joined.sectors = Buffer<uint32_t>(device, "sectors", total_.sectors);
+        joined.bricks = Buffer<uint32_t>(device, "brick records", total_.records * kWordsPerRecord);
+        joined.leaves = Buffer<uint32_t>(device, "leaves", total_.leaves * 2);
+        joined.leaf_voxels = Buffer<uint32_t>(device, "leaf voxels", total_.leaves);
+        joined.attributes = Buffer<uint32_t>(device, "voxel attributes", total_.voxels);
+        if (parts_.colors) joined.colors = Buffer<uint32_t>(device, "voxel colors", total_.voxels);
+        if (parts_.fields)
+            joined.fields =
+                Buffer<uint32_t>(device, "voxel fields", total_.voxels * VXL_FIELD_WORDS);
+        if (!parts_.exact) return joined;
+        joined.primitive_first = Buffer<uint32_t>(device, "primitive starts", total_.voxels + 1);
+        joined.primitives = Buffer<uint32_t>(device, "primitives", total_.primitives);
+        joined.triangles =
+            Buffer<float>(device, "triangles", total_.triangles * kFloatsPerTriangle);
+        joined.triangle_attributes =
+            Buffer<uint32_t>(device, "triangle attributes", total_.triangles);
+        joined.solids = Buffer<uint32_t>(device, "solids", total_.solids * VXL_SOLID_WORDS);
+        return joined;
+    }
+
+  private:
+    void add(const Pyramid& p) {
+        total_.add(p);
+        parts_.colors |= !p.colors.empty();
+        parts_.fields |= !p.fields.empty();
+        parts_.exact |= !p.primitive_first.empty();
+        transparent_ |= p.transparent;
+    }
+
+    GridFrame frame_;
+    Extent total_;
+    Parts parts_;
+    bool transparent_ = false;
+};
+
 class Joiner {
   public:
-    Joiner(const Device& device, const Pyramid& world, std::span<const ModelPyramid> models)
-        : device_(device), program_(device, "instances.cl", {}) {
-        total_.add(world);
-        note(world);
-        for (const ModelPyramid& model : models) {
-            total_.add(model.pyramid);
-            note(model.pyramid);
-        }
-        check_numbers();
-        allocate(world.frame);
-    }
+    Joiner(const Device& device, const Total& total)
+        : program_(device, "instances.cl", {}),
+          parts_(total.parts()),
+          joined_(total.allocate(device)) {}
 
     void append(const Pyramid& p) {
         const auto first_block = uint32_t(full_.records / kRecordsPerSector);
@@ -79,51 +136,6 @@ class Joiner {
     }
 
   private:
-    void note(const Pyramid& p) {
-        parts_.colors |= !p.colors.empty();
-        parts_.fields |= !p.fields.empty();
-        parts_.exact |= !p.primitive_first.empty();
-        joined_.transparent |= p.transparent;
-    }
-
-    void check_numbers() const {
-        const uint64_t maximum =
-            std::max({total_.sectors, total_.records, 2 * total_.leaves, total_.voxels,
-                      total_.primitives, total_.triangles * kFloatsPerTriangle,
-                      parts_.fields ? total_.voxels * VXL_FIELD_WORDS : 0});
-        constexpr uint64_t kMaxEntries = uint64_t{1} << 31;  // kernels gather by signed indices
-        if (maximum > kMaxEntries)
-            throw Error(ErrorKind::limit,
-                        "this world and the models of its instances need {} entries in one table, "
-                        "at most {} can be numbered: use larger voxels",
-                        maximum, kMaxEntries);
-    }
-
-    void allocate(const GridFrame& frame) {
-        joined_.frame = frame;
-        joined_.leaf_count = uint32_t(total_.leaves);
-        joined_.voxel_count = uint32_t(total_.voxels);
-        joined_.sectors = Buffer<uint32_t>(device_, "sectors", total_.sectors);
-        joined_.bricks =
-            Buffer<uint32_t>(device_, "brick records", total_.records * kWordsPerRecord);
-        joined_.leaves = Buffer<uint32_t>(device_, "leaves", total_.leaves * 2);
-        joined_.leaf_voxels = Buffer<uint32_t>(device_, "leaf voxels", total_.leaves);
-        joined_.attributes = Buffer<uint32_t>(device_, "voxel attributes", total_.voxels);
-        if (parts_.colors)
-            joined_.colors = Buffer<uint32_t>(device_, "voxel colors", total_.voxels);
-        if (parts_.fields)
-            joined_.fields =
-                Buffer<uint32_t>(device_, "voxel fields", total_.voxels * VXL_FIELD_WORDS);
-        if (!parts_.exact) return;
-        joined_.primitive_first = Buffer<uint32_t>(device_, "primitive starts", total_.voxels + 1);
-        joined_.primitives = Buffer<uint32_t>(device_, "primitives", total_.primitives);
-        joined_.triangles =
-            Buffer<float>(device_, "triangles", total_.triangles * kFloatsPerTriangle);
-        joined_.triangle_attributes =
-            Buffer<uint32_t>(device_, "triangle attributes", total_.triangles);
-        joined_.solids = Buffer<uint32_t>(device_, "solids", total_.solids * VXL_SOLID_WORDS);
-    }
-
     template <class T>
     void words(const Buffer<T>& from, uint64_t start, const Buffer<T>& to) {
         program_.kernel("append_words")
@@ -152,7 +164,8 @@ class Joiner {
             words(p.colors, full_.voxels, joined_.colors);
         else if (parts_.colors)
             copies(p.voxel_count, full_.voxels, kWhite, joined_.colors);
-        // An exact voxel has a field, too, where a smooth surface shares it; zeros stand for none.
+        // An exact voxel has a field, too, if a smooth surface shares it; zeros mean that it has
+        // none.
         if (!p.fields.empty())
             words(p.fields, full_.voxels * VXL_FIELD_WORDS, joined_.fields);
         else if (parts_.fields)
@@ -164,7 +177,7 @@ class Joiner {
                        joined_.primitive_first);
             return;
         }
-        // The list's end is where the next one starts.
+        // The end of a list is the start of the next one.
         program_.kernel("append_numbers")
             .launch(WorkItem::light, p.voxel_count, p.voxel_count, uint32_t(full_.voxels),
                     uint32_t(full_.primitives), 0u, p.primitive_first, joined_.primitive_first);
@@ -185,18 +198,24 @@ class Joiner {
         words(p.solids, full_.solids * VXL_SOLID_WORDS, joined_.solids);
     }
 
-    const Device& device_;
     Program program_;
-    Extent total_, full_;
     Parts parts_;
     Pyramid joined_;
+    Extent full_;
 };
 
 }  // namespace
 
+Pyramid allocate_joined(const Device& device, const Pyramid& world,
+                        std::span<const ModelPyramid> models) {
+    return Total(world, models).allocate(device);
+}
+
 Pyramid join_models(const Device& device, const Pyramid& world,
                     std::span<const ModelPyramid> models) {
-    Joiner joiner(device, world, models);
+    const Total total(world, models);
+    total.check_numbers();
+    Joiner joiner(device, total);
     joiner.append(world);
     for (const ModelPyramid& model : models) joiner.append_model(model);
     return joiner.take();

@@ -1,4 +1,5 @@
-// pyramids of models -> behind the world's: the voxels that instances share.
+// pyramids of models -> the world's pyramid with the models' voxels appended, for instances to
+// share.
 #pragma once
 
 #include <span>
@@ -9,10 +10,15 @@
 
 namespace voxelume {
 
+/// The buffers of the joined pyramid.
+Pyramid allocate_joined(const Device& device, const Pyramid& world,
+                        std::span<const ModelPyramid> models);
+
 /// The world's pyramid with the models' behind it in every buffer, and no instances yet.
 ///
-/// The models' words have the kind of each voxel or primitive, and its group as the material.
-/// Throws Error::limit for more voxels or primitives than can be numbered, or too little memory.
+/// The models' packed attributes hold the kind of each voxel or primitive, and its group as the
+/// material. Throws Error::limit for more voxels or primitives than can be numbered, or if memory
+/// doesn't suffice.
 Pyramid join_models(const Device& device, const Pyramid& world,
                     std::span<const ModelPyramid> models);
 

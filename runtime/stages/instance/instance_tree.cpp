@@ -8,7 +8,7 @@
 namespace voxelume {
 namespace {
 
-/// A point that no ray comes to inside of any world.
+/// A coordinate far from every world, where no ray comes.
 constexpr float kNowhere = 1e30f;
 
 class TreeBuilder {
@@ -37,7 +37,7 @@ class TreeBuilder {
     }
 
   private:
-    /// The tree of two instances or more; returns its root's number.
+    /// Builds the tree of two instances or more. Returns its root's number.
     uint32_t build(std::span<uint32_t> numbers) {
         const auto node = static_cast<uint32_t>(nodes_.size());
         nodes_.emplace_back();
@@ -86,7 +86,7 @@ class TreeBuilder {
 
     std::span<const InstanceBox> boxes_;
     double margin_;
-    std::vector<glm::dvec3> middles_;  // twice
+    std::vector<glm::dvec3> middles_;  // twice the middle of each box
     std::vector<uint32_t> order_;
     std::vector<InstanceNode> nodes_;
 };

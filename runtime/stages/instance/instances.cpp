@@ -14,7 +14,7 @@
 namespace voxelume {
 namespace {
 
-constexpr double kWholeBound = 1e-9;  // voxels: decimal placements of whole voxels are as near
+constexpr double kWholeBound = 1e-9;  // voxels; decimal placements of whole voxels are that close
 
 /// The affine map between voxels, object voxels = linear * world voxels + offset.
 struct VoxelMap {
@@ -33,7 +33,7 @@ VoxelMap object_from_world(const GridFrame& object, const GridFrame& world,
     return map;
 }
 
-/// Whether the map surely is invertible: the norms bound its stretch in every direction.
+/// True if the map is surely invertible: the norms bound its stretch in every direction.
 bool is_well_conditioned(const glm::dmat4& map) {
     constexpr double kSafeCondition = 1e4;
     const auto norm = [](const glm::dmat3& m) {
@@ -48,8 +48,8 @@ bool is_whole(double value) {
     return std::abs(value - std::round(value)) < kWholeBound;
 }
 
-/// Whether the map moves by whole voxels, turns by quarters and mirrors, no more, and the object's
-/// voxels are so near that the world's fixed point holds every distance to them.
+/// True if the map only moves by whole voxels, turns by quarters and mirrors, and if the object's
+/// voxels are so near that the world's fixed point can hold every distance to them.
 bool is_aligned(const VoxelMap& map, const InstanceModel& model, const PyramidShape& world) {
     const double extent = std::ldexp(1.0, 24) / double(world.fixed_point);
     const glm::dvec3 size(world.size_x, world.size_y, world.size_z);
@@ -81,7 +81,7 @@ void copy(const glm::dvec3& from, float (&to)[3]) {
     for (int axis = 0; axis < 3; ++axis) to[axis] = float(from[axis]);
 }
 
-/// What one instance is to rays, and its box in the world.
+/// The record of one instance for kernels, and its box in the world.
 struct Placed {
     InstanceRecord record{};
     InstanceBox box;
@@ -91,7 +91,8 @@ struct Placed {
 Placed place_instance(const Instance& instance, const InstanceModel& model,
                       const GridFrame& world_frame, const PyramidShape& world,
                       const glm::dmat4& world_from_object) {
-    if (!is_well_conditioned(world_from_object))  // or tells why not, measuring it exactly
+    if (!is_well_conditioned(world_from_object))  // the call measures the map exactly, and throws
+                                                  // an error if it is singular
         placement_map(model.frame, world_frame, world_from_object, Reach::none, instance.object);
     VoxelMap map = object_from_world(model.frame, world_frame, world_from_object);
     Placed placed;
@@ -137,8 +138,8 @@ Placed place_instance(const Instance& instance, const InstanceModel& model,
     record.first_material = instance.first_material;
     record.material_count = instance.material_count;
 
-    // A point of the surface is right within plane_bound along each axis of the world, and once
-    // carried within twice that of the object.
+    // A point of the surface is right within plane_bound along each axis of the world; a
+    // transformed point is right within twice the plane_bound of the object.
     const glm::dvec3& e = world_frame.voxel_edge;
     const double uneven = std::max({e.x, e.y, e.z}) / std::min({e.x, e.y, e.z});
     placed.origin_offset = std::sqrt(3.0) * uneven *
@@ -176,7 +177,7 @@ void place_instances(const Device& device, std::span<const glm::dmat4> world_fro
         boxes.push_back(placed.box);
         origin_offset = std::max(origin_offset, placed.origin_offset);
     }
-    // Slab tests put planes off by no more than plane_bound, and transformed rays likewise.
+    // Slab tests place planes with an error of at most plane_bound, for transformed rays, too.
     const std::vector<InstanceNode> nodes =
         build_instance_tree(boxes, 4 * double(world.plane_bound) + origin_offset);
     set.origin_offset = float(origin_offset);

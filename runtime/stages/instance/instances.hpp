@@ -1,4 +1,4 @@
-// models -> instances: shares models' voxels between objects that rays are carried into.
+// models -> instances: shares models' voxels between objects whose rays are transformed.
 #pragma once
 
 #include <glm/mat4x4.hpp>
@@ -9,16 +9,16 @@
 
 namespace voxelume {
 
-/// Makes `list` the instances of a joined pyramid. `materials` holds the scene's materials of their
-/// groups. They stand nowhere until they are placed; those of empty models are left out.
+/// Makes `list` the instances of a joined pyramid, without those of empty models. `materials` holds
+/// the scene's materials of their groups. The instances have no placement until they are placed.
 void set_instances(const Device& device, std::span<const Instance> list,
                    std::span<const uint32_t> materials, Pyramid& pyramid);
 
-/// Places the instances, as often as they move, in records of their own: a copy of the pyramid made
-/// before shows them where they were. `world_from_object` has the map of each object of
-/// the scene, metres to metres: mirrors and shears are welcome.
+/// Places the instances. It may be called whenever they move: each call makes new records, so a
+/// copy of the pyramid made before still shows them where they were. `world_from_object` holds the
+/// map of each object of the scene, metres to metres; maps may mirror and shear.
 ///
-/// Throws Error::scene for a map that can't be inverted well
+/// Throws Error::scene for a map that is singular or nearly so
 /// (runtime/stages/place/placement_map.hpp).
 void place_instances(const Device& device, std::span<const glm::dmat4> world_from_object,
                      Pyramid& pyramid);

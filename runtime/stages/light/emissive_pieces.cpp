@@ -14,10 +14,10 @@
 namespace voxelume {
 namespace {
 
-/// Points farther than this from the surface, in voxels, stand for nothing but their area.
+/// A point farther than this from the surface, in voxels, only serves to estimate the area.
 constexpr double kOnSurface = 1.0 / 256;
 
-/// A piece as kernels list it, shared/light_samples.h.
+/// A piece as kernels list it, see shared/light_samples.h.
 using ListedPiece = std::array<uint32_t, 4>;
 
 std::vector<uint32_t> emissive_materials_of(const Scene& scene) {
@@ -27,10 +27,10 @@ std::vector<uint32_t> emissive_materials_of(const Scene& scene) {
     return emissive_materials;
 }
 
-/// What the surface near the middle of a voxel is like.
+/// The surface near the middle of a voxel.
 struct VoxelSurface {
     glm::dvec3 point{0}, gradient{0};  ///< voxels
-    double left = 0;                   ///< from the point to the surface, voxels
+    double left = 0;                   ///< distance from the point to the surface, voxels
 };
 
 /// The kernels of light_samples.cl for one world.
@@ -46,7 +46,7 @@ class PieceFinder {
           emissive_objects_(device, "emissive objects", std::span(is_emissive)),
           emissive_materials_(device, "emissive materials", emissive_materials_of(scene)) {}
 
-    /// In the order of form, z, y and x.
+    /// The pieces, sorted by form, z, y and x.
     std::vector<ListedPiece> pieces() {
         const Buffer<ListedPiece> none;
         const uint32_t count = list(0, none);
@@ -79,7 +79,7 @@ class PieceFinder {
     }
 
   private:
-    /// Counts the pieces, and lists those that fit.
+    /// Counts the pieces, and lists the first `capacity` of them. Returns their number.
     uint32_t list(uint32_t capacity, const Buffer<ListedPiece>& places) {
         const glm::ivec3 sectors = world_.frame.sectors();
         const uint32_t bricks = uint32_t(sectors.x * sectors.y * sectors.z) * 64;
@@ -140,7 +140,7 @@ Polygon clipped(const Polygon& polygon, int axis, double plane, double side) {
 }  // namespace
 
 double area_in_voxel(const glm::dvec3& point, const glm::dvec3& gradient, const glm::dvec3& edge) {
-    constexpr double kFar = 4;  // from a point near the unit cube, more than its diagonal
+    constexpr double kFar = 4;  // more than the unit cube's diagonal, from a point near the cube
     const glm::dvec3 n = glm::normalize(gradient);
     const glm::dvec3 minimum = std::abs(n.x) < 0.6 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
     const glm::dvec3 u = glm::normalize(glm::cross(n, minimum)) * kFar;

@@ -1,4 +1,4 @@
-// a world's emitting objects -> the pieces of surface that they shine with.
+// a world's emissive objects -> the pieces of surface that emit their light.
 #pragma once
 
 #include <map>
@@ -12,21 +12,21 @@
 
 namespace voxelume {
 
-/// The area in square metres that the plane through `point` across `gradient` has in the unit
-/// cube, whose edges are `edge` metres. Both vectors in voxels.
+/// The area in square metres of the plane through `point` perpendicular to `gradient`, within a
+/// voxel whose edges are `edge` metres. `point` and `gradient` are in voxels.
 double area_in_voxel(const glm::dvec3& point, const glm::dvec3& gradient, const glm::dvec3& edge);
 
-/// The pieces of each emissive object: an open face of a cube, what a smooth surface or an exact
-/// solid has in a voxel, a triangle or its parts. A closed mesh shines outwards, an open one to
+/// The pieces of each emissive object: an open face of a cube, the part of a smooth surface or an
+/// exact solid in a voxel, a triangle or its parts. A closed mesh emits outwards, an open one to
 /// both sides.
 ///
-/// `is_emissive` has a value per object. Pieces of cubes and voxels are in the order of their
-/// places, those of triangles in the order of the mesh, after them.
+/// `is_emissive` has a value per object. Pieces of cubes and voxels come first, in the order of
+/// their places, then those of triangles, in the order of the mesh.
 std::map<uint32_t, std::vector<EmissivePiece>> emissive_pieces(
     const Device& device, const Features& features, const Scene& scene, const Pyramid& world,
     const std::vector<uint32_t>& is_emissive);
 
-/// The triangles of the emissive objects alone.
+/// Adds only the triangles of the emissive objects.
 void add_emissive_triangles(const Scene& scene, const Pyramid& world,
                             const std::vector<uint32_t>& is_emissive,
                             std::map<uint32_t, std::vector<EmissivePiece>>& pieces);

@@ -1,4 +1,4 @@
-// the triangles of emissive objects -> pieces of surface: which way they shine, and parts small
+// the triangles of emissive objects -> pieces of surface: the sides that emit, and parts small
 // enough for light samples.
 #include <algorithm>
 #include <array>
@@ -10,15 +10,15 @@
 namespace voxelume {
 namespace {
 
-/// Parts of a triangle are no larger than its emissive object's area over this number times its
-/// light samples.
+/// The maximum area of a triangle's part is its emissive object's area divided by this number and
+/// by the number of its light samples.
 constexpr double kPartsPerLightSample = 16;
-constexpr int kAssumedLightSamples = 128;  ///< where the scene doesn't say
+constexpr int kAssumedLightSamples = 128;  ///< used if the scene doesn't say
 
 using Corner = std::array<float, 3>;  ///< voxels
 using Corners = std::array<Corner, 3>;
 
-/// The triangles of one emissive object, emissive or not.
+/// All triangles of one emissive object, including those that don't emit.
 struct EmissiveMesh {
     std::vector<Corners> triangles;
     std::vector<uint32_t> materials;
@@ -41,7 +41,7 @@ std::map<uint32_t, EmissiveMesh> emissive_meshes(const Pyramid& world,
     return meshes;
 }
 
-/// Whether every edge is gone along as often one way as the other.
+/// True if the triangles use every edge as often in one direction as in the other.
 bool is_closed(const std::vector<Corners>& triangles) {
     std::map<std::array<Corner, 2>, int> balance;
     for (const Corners& t : triangles)
@@ -57,7 +57,7 @@ glm::dvec3 to_vector(const Corner& corner) {
     return {corner[0], corner[1], corner[2]};
 }
 
-/// Six times the volume inside a closed mesh, negative where its triangles face inwards.
+/// Six times the volume inside a closed mesh; negative if its triangles face inwards.
 double signed_volume(const std::vector<Corners>& triangles) {
     double sum = 0;
     for (const Corners& t : triangles)
@@ -71,7 +71,8 @@ glm::dvec3 area_vector(const Triangle& t) {
     return glm::cross(t[1] - t[0], t[2] - t[0]) * 0.5;
 }
 
-/// Halves a triangle across its longest edge until its parts are small.
+/// Halves a triangle across its longest edge, again and again, until its parts are at most
+/// `largest`.
 void add_parts(const Triangle& t, double largest, const EmissivePiece& whole,
                std::vector<EmissivePiece>& pieces) {
     const double area = glm::length(area_vector(t));

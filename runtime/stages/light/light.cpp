@@ -35,7 +35,7 @@ bool may_light(const LightRecord& light, const GridFrame& world) {
     if (light.kind == VXL_LIGHT_AREA_SAMPLE)
         return glm::dot(to_middle, along) + radius + rounding > 0;
     if (light.kind != VXL_LIGHT_SPOT || distance <= radius + rounding) return true;
-    // The ball around the world is seen at an angle of arcsin(radius / distance) around its middle.
+    // The ball around the world subtends an angle of arcsin(radius / distance) around its middle.
     const double aside = std::acos(std::clamp(glm::dot(to_middle, along) / distance, -1.0, 1.0));
     const double half_angle = std::acos(std::clamp(double(light.outer_cosine), -1.0, 1.0));
     return aside - std::asin(radius / distance) <= half_angle + kAngleRounding;

@@ -1,4 +1,4 @@
-// surface points + a light -> radiance, by way of a queue of shadow rays.
+// surface points + a light -> radiance, through a queue of shadow rays.
 #pragma once
 
 #include "kernels/shared/scene.h"
@@ -10,20 +10,21 @@
 
 namespace voxelume {
 
-/// A light as kernels take it: in the voxels of the world.
+/// The light's record for kernels, in the voxels of the world.
 LightRecord light_record(const Light& light, const GridFrame& world);
 
-/// Whether the light, a spot or patch, is turned so that it may reach any point of the world.
+/// True if the light's direction lets it reach some point of the world. Only spot lights and area
+/// light samples can fail.
 bool may_light(const LightRecord& light, const GridFrame& world);
 
-/// Kernel of light.cl for one feature set. The paper's blocks 4.1 and 5.
+/// The kernel of light.cl for one feature set: the paper's blocks 4.1 and 5.
 class LightStage {
   public:
     LightStage(const Device& device, const Features& features,
                const Buffer<MaterialRecord>& materials);
 
-    /// Adds one light to surface points 0 .. count-1: at once where nothing can keep it, else by
-    /// filling the queue, which it empties first.
+    /// Adds one light to surface points 0 .. count-1. If nothing can block the light, it is added
+    /// at once; else its shadow rays are written to the queue, which is emptied first.
     void add(const Pyramid& pyramid, const LightRecord& light, RayBatch& batch, uint32_t count,
              ShadowQueue& queue);
 

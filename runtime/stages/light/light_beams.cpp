@@ -11,21 +11,21 @@
 namespace voxelume {
 namespace {
 
-/// The side of a grid's square in voxels of the dilated occupancy; what is left of a beam's width
-/// is for rounding of the places where rays meet the grid.
+/// The edge of a grid's square in voxels of the dilated occupancy. The rest of a beam's width is
+/// for the rounding of the points where rays meet the grid.
 constexpr double kEdge = 2 * (VXL_BEAM_RADIUS - 0.25);
 
-/// How far rays may go aside for each voxel along their axis, as for other beams, see
+/// The maximum sideways movement of rays for each voxel along their axis, as for other beams; see
 /// lib/traverse/beam.h.
 constexpr double kSteepest = 16;
 
-/// The way from a point to the light.
+/// The vector from a point to the light.
 glm::dvec3 way(const LightRecord& light, const glm::dvec3& point) {
     const glm::dvec3 at(light.position.x, light.position.y, light.position.z);
     return light.kind == VXL_LIGHT_DIRECTIONAL ? at : at - point;
 }
 
-/// The axis that all ways from the world to the light follow most, or -1 if there is none.
+/// The axis that all vectors from the world to the light follow most, or -1 if there is none.
 int common_axis(const LightRecord& light, const glm::dvec3& size) {
     const glm::dvec3 low = way(light, size), high = way(light, {0, 0, 0});
     const glm::dvec3 minimum = glm::max(low, -high);
@@ -76,7 +76,8 @@ BeamGrid beam_grid(const LightRecord& light, const glm::ivec3& size, float scale
     const bool above = way(light, 0.5 * extent)[axis] > 0;
     const double near_side = above ? extent[axis] : 0, far_side = above ? 0 : extent[axis];
 
-    // What the world's corners span on the plane of the far side, seen from the light.
+    // The rectangle that the world's corners span on the plane of the far side, projected from the
+    // light.
     glm::dvec3 low(0), high(extent), steepest(0);
     for (int corner = 0; corner < 8; ++corner) {
         glm::dvec3 place(corner & 1 ? extent.x : 0, corner & 2 ? extent.y : 0,
@@ -111,6 +112,20 @@ BeamGrid beam_grid(const LightRecord& light, const glm::ivec3& size, float scale
     return grid;
 }
 
+std::vector<BeamGrid> beam_grids(std::span<const LightRecord> lights, const glm::ivec3& size,
+                                 float scale, uint32_t maximum, uint32_t together) {
+    std::vector<BeamGrid> grids;
+    for (const LightRecord& light : lights) {
+        grids.push_back(beam_grid(light, size, scale, std::min(maximum, together)));
+        together -= uint32_t(grids.back().columns * grids.back().rows);
+    }
+    return grids;
+}
+
+Buffer<float> allocate_light_beams(const Device& device, const BeamGrid& grid) {
+    return {device, "light beams", size_t(grid.columns) * size_t(grid.rows)};
+}
+
 bool same_beams(const BeamGrid& a, const BeamGrid& b) {
     const auto members = [](const BeamGrid& g) {
         return std::tie(g.axis, g.sign, g.far_side, g.columns, g.rows, g.low_b, g.low_c, g.edge,
@@ -125,7 +140,7 @@ uint32_t light_beams_that_pay(const GridFrame& world, uint64_t rays, int samples
     const double longest = std::max({size.x, size.y, size.z});
     const double middle = size.x + size.y + size.z - longest - std::min({size.x, size.y, size.z});
     const double met = longest * middle * samples / (voxels_a_pixel * voxels_a_pixel);
-    // Seen from a light nearby the world's shadow is several times as large as its faces.
+    // Seen from a light nearby, the world's shadow is several times as large as its faces.
     const double useful = 8 * longest * middle / (kEdge * kEdge);
     return uint32_t(std::min({double(rays) / 16, met / 16, useful, 0x1p28}));
 }
@@ -143,7 +158,7 @@ Buffer<float> LightBeamStage::send(const BeamGrid& grid) {
     const std::vector<uint32_t> passing =
         tiles_through(grid, size_, dilated_occupancy_.sectors_with_voxels);
     const auto count = uint32_t(passing.size());
-    Buffer<float> ends(device_, "light beams", size_t(grid.columns) * size_t(grid.rows));
+    Buffer<float> ends = allocate_light_beams(device_, grid);
     ends.fill(-INFINITY);
     const Buffer<uint32_t> tiles(device_, "light beams", std::span<const uint32_t>(passing));
     send_.launch_packets(size_t(count) * VXL_BEAM_TILE, shape_, dilated_occupancy_.sectors,

@@ -1,41 +1,56 @@
-// a light -> beams: how far from it the world is empty.
+// a light -> beams: how far from the light the world is empty.
 #pragma once
 
 #include "runtime/stages/trace/beam.hpp"
 
 namespace voxelume {
 
-/// The grid of a light's beams through a world of `size` voxels, as narrow as a dilated occupancy
-/// asks for whose voxels are 1 / `scale` of the world's. Without columns where no axis tells the
-/// light from the world, beams would be too oblique, or more than `maximum` of them needed.
+/// The grid of a light's beams through a world of `size` voxels. The beams are narrow enough for a
+/// dilated occupancy whose voxels are 1 / `scale` of the world's. The grid has no columns if no
+/// axis separates the light from the world, if beams would be too oblique, or if more than
+/// `maximum` of them would be needed.
 BeamGrid beam_grid(const LightRecord& light, const glm::ivec3& size, float scale, uint32_t maximum);
+
+/// So many lights alone may send as many beams as one may.
+inline constexpr uint32_t kLightsOfMaxBeams = 4;
+
+/// Whether beams of lights can tell where shadow rays end: not where these gather what they pass.
+inline bool lights_send_beams(const Features& features) {
+    return features.shadows && !features.filter;
+}
+
+/// The grids of several lights, which have `together` beams at most.
+std::vector<BeamGrid> beam_grids(std::span<const LightRecord> lights, const glm::ivec3& size,
+                                 float scale, uint32_t maximum, uint32_t together);
+/// What a grid's beams are kept in.
+Buffer<float> allocate_light_beams(const Device& device, const BeamGrid& grid);
 
 /// Whether two grids of one dilated occupancy have the same beams.
 bool same_beams(const BeamGrid& a, const BeamGrid& b);
 
-/// How many beams of one light save more than they cost where a picture's pixels are so wide and
-/// there are so many sight rays in all: one for every 16 that may meet the world, and no more than
-/// a grid may have whose light isn't close by.
+/// The maximum number of beams of one light that saves more time than it costs, for pixels of this
+/// width and `rays` sight rays in all: one beam for every 16 rays that may meet the world, and no
+/// more than the grid of a light that isn't close by may have.
 uint32_t light_beams_that_pay(const GridFrame& world, uint64_t rays, int samples,
                               double voxels_a_pixel);
 
-/// `send_light_beams` of light_beams.cl. Beams change how long shadow rays take, never what they
-/// meet.
+/// Runs `send_light_beams` of light_beams.cl. Beams change how long shadow rays take, never what
+/// they meet.
 class LightBeamStage {
   public:
     /// `dilated_occupancy` is the pyramid's.
     LightBeamStage(const Device& device, const Features& features, const Pyramid& pyramid,
                    DilatedOccupancy dilated_occupancy);
 
-    /// Sends the beams of a grid with columns that pass sectors with voxels, where shadow rays
-    /// begin; how far they come.
+    /// Sends those beams of a grid with columns that pass sectors with voxels, where shadow rays
+    /// begin. Returns how far each beam comes.
     Buffer<float> send(const BeamGrid& grid);
 
     uint64_t sent() const { return sent_; }
 
   private:
     Device device_;
-    glm::dvec3 size_;  // of the world, voxels
+    glm::dvec3 size_;  // size of the world in voxels
     PyramidShape shape_;
     DilatedOccupancy dilated_occupancy_;
     uint64_t sent_ = 0;

@@ -9,7 +9,7 @@
 namespace voxelume {
 namespace {
 
-/// Where a piece is and which way it faces, in metres.
+/// The position and the normal of a piece, in metres.
 using Place = std::array<double, 6>;
 
 class Division {
@@ -50,8 +50,8 @@ class Division {
         return widest;
     }
 
-    /// The number of pieces with `share` of the area; both sides keep a piece for every light
-    /// sample.
+    /// The number of pieces that have `share` of the area. Both sides keep at least a piece for
+    /// every light sample.
     static size_t cut_at(std::span<const EmissivePiece> pieces, double share, size_t low_count,
                          size_t count) {
         double whole = 0, sum = 0;

@@ -26,16 +26,17 @@ LightRecord area_sample_record(const glm::dvec3& position, const glm::dvec3& nor
     return record;
 }
 
-/// How far above its surface a light sample stands, in voxels' longest edges.
+/// The height of a light sample above its surface, in voxels' longest edges.
 ///
-/// Rays are snapped: the origin by 1/4 of plane_bound, the direction by 2^-23 of a way of up to
-/// 2^22 plane_bound, in each coordinate. So they end within 1.25 sqrt(3) plane_bound of the spot,
-/// 1/32 voxel above the plane that touches the surface there, and nothing convex reaches them.
+/// Rays are snapped: the origin by 1/4 of plane_bound, the direction by 2^-23 of a length of up to
+/// 2^22 plane_bound, in each coordinate. So they end within 1.25 sqrt(3) plane_bound of the light
+/// sample. The sample is 1/32 voxel above the plane that touches the surface there, so nothing
+/// convex reaches them.
 double light_sample_offset(const Pyramid& world) {
     return 1.0 / 32 + 3 * double(shape_of(world).plane_bound);
 }
 
-/// The pieces that are in sight of the world.
+/// The pieces whose light samples lie in the world.
 std::vector<EmissivePiece> pieces_in_world(const std::vector<EmissivePiece>& pieces,
                                            double origin_offset, const GridFrame& world) {
     const glm::dvec3 size = glm::dvec3(world.size) * world.voxel_edge;

@@ -26,13 +26,15 @@ void set_checker(const Checker& checker, const GridFrame& world, MaterialRecord&
     for (int a = 0; a < 3; ++a) {
         if (checker.size[a] == 0) continue;
         record.checker_scale[a] = float(world.voxel_edge[a] / checker.size[a]);
-        // Two blocks make a period: far from the origin a float would round whole blocks off.
+        // Two blocks make a period. Far from the origin a float would lose whole blocks to
+        // rounding.
         const double shift = (world.origin[a] - checker.origin[a]) / checker.size[a];
         record.checker_shift[a] = float(std::fmod(shift, 2.0));
     }
 }
 
-/// The objects' places when they are ordered by priority, of equals the earlier first.
+/// The rank of each object by descending priority; of equal priorities the earlier object comes
+/// first.
 std::vector<uint32_t> object_ranks(const std::vector<Object>& objects) {
     std::vector<uint32_t> order(objects.size());
     std::iota(order.begin(), order.end(), 0u);

@@ -1,4 +1,4 @@
-// hits -> surface points, with what shines there without lights.
+// hits -> surface points, and the radiance that they have without lights.
 #pragma once
 
 #include "kernels/shared/scene.h"
@@ -10,24 +10,25 @@
 
 namespace voxelume {
 
-/// A material as kernels take it, in a world's voxels.
+/// A material's record for kernels, in the voxels of a world.
 MaterialRecord material_record(const Material& material, const GridFrame& world);
 
 /// The world's background, ambient light and medium.
 Environment environment_of(const World& world);
 
-/// Kernels of shade.cl for one feature set and one scene's materials. The paper's block 3.
+/// The kernels of shade.cl for one feature set and one scene's materials: the paper's block 3.
 class ShadeStage {
   public:
     ShadeStage(const Device& device, const Features& features, const Scene& scene,
                const GridFrame& world);
 
-    /// Finds the points, normals and words of hits 0 .. count-1 and starts their radiance.
+    /// Finds the points, normals and packed attributes of hits 0 .. count-1, and starts their
+    /// radiance.
     void surface(const Pyramid& pyramid, RayBatch& batch, uint32_t count);
 
     const Environment& environment() const { return environment_; }
     const Buffer<MaterialRecord>& materials() const { return materials_; }
-    /// Each object's place in the order of priorities; empty in scenes without paths.
+    /// Each object's rank by priority; empty in scenes without paths.
     const Buffer<uint32_t>& ranks() const { return ranks_; }
 
   private:

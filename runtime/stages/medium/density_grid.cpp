@@ -13,14 +13,14 @@ namespace voxelume {
 namespace {
 
 constexpr size_t kBrickCells = 4096;
-/// A cell's place, slot * 4096 + cell, is a 32-bit number.
+/// The maximum number of slots: a cell's index, slot * 4096 + cell, is a 32-bit number.
 constexpr double kMaxSlots = 1 << 20;
-/// Every voxel of a world along one axis: an axis along which nothing changes is one cell.
+/// log2 of the cell's extent along an axis along which nothing changes: the whole axis is one cell.
 constexpr int kWholeAxis = 16;
-/// Bricks sampled before they are written to the device together.
+/// The number of bricks that are sampled before they are written to the device together.
 constexpr size_t kBricksAtOnce = 64;
 
-/// The densities of a world's voxels, brick by brick, in main memory.
+/// The densities of a world's voxels, sampled brick by brick in main memory.
 class DensityLattice {
   public:
     explicit DensityLattice(const World& world)
@@ -64,7 +64,7 @@ class DensityLattice {
     glm::ivec3 bricks_{0}, shift_{0};
 };
 
-/// Numbers the different constant densities.
+/// Numbers the distinct constant densities.
 class ConstantTable {
   public:
     uint32_t word(float density) {
@@ -80,8 +80,8 @@ class ConstantTable {
     std::vector<float> values_;
 };
 
-/// Slots that a lattice needs: for bricks, and before them for the constants, of which every brick
-/// may turn out to be another.
+/// The slots that a lattice needs: for bricks, and before them for constants. Every brick may turn
+/// out to be another constant.
 struct SlotCount {
     size_t constants = 0, bricks = 0;
 
@@ -101,7 +101,7 @@ SlotCount count_slots(const DensityLattice& lattice) {
     return slots;
 }
 
-/// Gives the bricks of aligned cubes of `edge` bricks that all have one word a new size.
+/// Gives a larger size to the bricks of each aligned cube of `edge` bricks that all have one word.
 void join_constants(std::vector<uint32_t>& words, const glm::ivec3& bricks, int edge,
                     uint32_t log2_size) {
     const auto at = [&](int x, int y, int z) -> uint32_t& {
@@ -125,14 +125,14 @@ void join_constants(std::vector<uint32_t>& words, const glm::ivec3& bricks, int 
             }
 }
 
-/// Samples bricks and writes those that vary to their slots.
+/// Samples bricks and writes those with varying density to their slots.
 class BrickWriter {
   public:
     BrickWriter(const DensityLattice& lattice, ConstantTable& constants, size_t first_slot,
                 Buffer<float>& values)
         : lattice_(lattice), constants_(constants), next_slot_(first_slot), values_(values) {}
 
-    /// The word of a brick.
+    /// The word of a brick: its slot or its constant density.
     uint32_t add(size_t number) {
         if (const auto density = lattice_.constant_in(number)) return constants_.word(*density);
         waiting_.resize(waiting_.size() + kBrickCells);
@@ -182,21 +182,31 @@ DensityPlan plan_density(const World& world) {
                     "{}.medium: the density differs in more than 2^20 bricks of 16x16x16 voxels: "
                     "use larger voxels",
                     world.where);
-    const double table = double(lattice.brick_count()) * sizeof(uint32_t);
-    const double values = double(slots.total() * kBrickCells) * sizeof(float);
+    const Device counting = Device::counting({});
+    const DensityGrid grid = allocate_density(counting, slots.total(), lattice.brick_count());
+    const DeviceCounters& counters = counting.counters();
     return {lattice.bricks(),
             false,
+            slots.total(),
+            lattice.brick_count(),
             double(slots.bricks),
-            std::max(table, values),
-            table + values,
-            table + lattice.field_bytes() + double(kBricksAtOnce * kBrickCells) * sizeof(float)};
+            double(counters.largest_bytes),
+            double(counters.bytes_in_use),
+            double(lattice.brick_count() * sizeof(uint32_t)) + lattice.field_bytes() +
+                double(kBricksAtOnce * kBrickCells) * sizeof(float)};
+}
+
+DensityGrid allocate_density(const Device& device, size_t slots, size_t bricks) {
+    DensityGrid grid;
+    grid.values = Buffer<float>(device, "medium densities", slots * kBrickCells);
+    grid.bricks = Buffer<uint32_t>(device, "medium bricks", bricks);
+    return grid;
 }
 
 DensityGrid form_density_grid(const Device& device, const World& world) {
     const DensityLattice lattice(world);
     const SlotCount slots = count_slots(lattice);
-    DensityGrid grid;
-    grid.values = Buffer<float>(device, "medium densities", slots.total() * kBrickCells);
+    DensityGrid grid = allocate_density(device, slots.total(), lattice.brick_count());
     ConstantTable constants;
     BrickWriter writer(lattice, constants, slots.constants, grid.values);
     std::vector<uint32_t> words(lattice.brick_count());
@@ -205,7 +215,7 @@ DensityGrid form_density_grid(const Device& device, const World& world) {
     grid.values.write(constants.values());
     join_constants(words, lattice.bricks(), 4, 6);
     join_constants(words, lattice.bricks(), 16, 8);
-    grid.bricks = Buffer<uint32_t>(device, "medium bricks", std::span<const uint32_t>(words));
+    grid.bricks.write(words);
     const glm::ivec3 &bricks = lattice.bricks(), &shift = lattice.shift();
     grid.shape = {bricks.x, bricks.y, shift.x, shift.y, shift.z, {}};
     return grid;

@@ -1,5 +1,5 @@
-// The medium's density at every voxel of S, on a device: bricks of 16³, those of one density
-// collapsed.
+// The medium's density at every voxel of S, on a device: bricks of 16³, where bricks of constant
+// density take no cells.
 #pragma once
 
 #include "kernels/shared/medium.h"
@@ -10,7 +10,7 @@
 
 namespace voxelume {
 
-/// Kernels read it with lib/traverse/density.h.
+/// The density grid that kernels read with lib/traverse/density.h.
 struct DensityGrid {
     DensityShape shape{};
     Buffer<uint32_t> bricks;  ///< shared/medium.h has the words
@@ -20,28 +20,32 @@ struct DensityGrid {
 /// VXL_DENSITY_PARAMETERS of kernels.
 void bind(KernelArguments& to, const DensityGrid& grid);
 
-/// What the grid takes, found without taking it.
+/// The size of a density grid, found without allocating it.
 struct DensityPlan {
-    glm::ivec3 bricks{0};      ///< of the lattice
-    bool is_zero = false;      ///< known to be 0 everywhere: nothing is formed
-    double stored_bricks = 0;  ///< at most, besides constants
-    double buffer_bytes = 0;   ///< of the larger buffer
-    double bytes = 0;          ///< on the device
-    double host_bytes = 0;     ///< in main memory while it is formed
+    glm::ivec3 bricks{0};          ///< of the lattice
+    bool is_zero = false;          ///< known to be 0 everywhere: nothing is formed
+    size_t slots = 0, places = 0;  ///< of values, and of bricks
+    double stored_bricks = 0;      ///< at most, besides constants
+    double buffer_bytes = 0;       ///< of the larger buffer
+    double bytes = 0;              ///< on the device
+    double host_bytes = 0;         ///< in main memory while it is formed
 };
 
-/// Nothing for a medium without density or absorption. Reads the file of a grid.
+/// The plan of the medium's density grid; empty for a medium without density or absorption. Reads
+/// the file of a grid.
 ///
-/// Throws Error::input, opened by the place in the scene, for a damaged file or one without a float
-/// grid of the name; Error::limit for more bricks than can be numbered.
+/// Throws Error::input, whose message starts with the place in the scene, for a damaged file or one
+/// without a float grid of that name; Error::limit for more bricks than can be numbered.
 DensityPlan plan_density(const World& world);
+
+/// The grid's buffers.
+DensityGrid allocate_density(const Device& device, size_t slots, size_t bricks);
 
 /// Whether the medium is known to have density 0 at all voxels, without a look at all of them; a
 /// file of all zeros is. Throws Error::input as plan_density.
 bool has_no_medium(const World& world);
 
-/// Forms the density's lattice: the density at a voxel is that at its centre. Throws as
-/// plan_density.
+/// Makes the density's lattice: a voxel has the density at its centre. Throws as plan_density does.
 DensityGrid form_density_grid(const Device& device, const World& world);
 
 }  // namespace voxelume

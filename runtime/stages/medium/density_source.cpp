@@ -11,7 +11,7 @@
 namespace voxelume {
 namespace {
 
-/// Calls `density` at each of 16³ points.
+/// Calls `density` with each of 16³ points.
 template <class Density>
 void sample_points(const glm::dvec3& first, const glm::dvec3& step,
                    std::span<float, 4096> densities, const Density& density) {

@@ -7,8 +7,9 @@
 
 namespace voxelume {
 
-/// The field of a medium that has a density. Reads the file of a grid; throws Error::input, opened
-/// by the place in the scene, for a damaged file or one without a float grid of the name.
+/// The density field of a medium that has a density. Reads the file of a grid. Throws Error::input,
+/// whose message starts with the place in the scene, for a damaged file or one without a float grid
+/// of that name.
 std::unique_ptr<DensityField> density_field(const Medium& medium);
 
 }  // namespace voxelume

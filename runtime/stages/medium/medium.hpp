@@ -1,4 +1,4 @@
-// radiance at surfaces -> radiance at the rays' starts: what the medium of S takes and adds.
+// radiance at surfaces -> radiance at the rays' starts: what the medium of S absorbs and emits.
 #pragma once
 
 #include "kernels/shared/scene.h"
@@ -11,24 +11,25 @@
 
 namespace voxelume {
 
-/// Kernels of medium.cl for one feature set. The paper's block 5, as far as the medium goes.
+/// The kernels of medium.cl for one feature set: the part of the paper's block 5 that concerns the
+/// medium.
 class MediumStage {
   public:
-    /// Forms the density's lattice when the features have `medium_grid`. Throws as
-    /// form_density_grid does.
+    /// Makes the density's lattice if the features have `medium_grid`. Throws as form_density_grid
+    /// does.
     MediumStage(const Device& device, const Features& features, const World& world,
                 const Environment& environment, const Buffer<MaterialRecord>& materials);
 
-    /// Lets the medium take its part of the radiance of rays 0 .. count-1, and add its own. With
-    /// `transmission`, rays inside an object go through its material instead; with `paths`,
-    /// `passed` is written.
+    /// Lets the medium absorb its part of the radiance of rays 0 .. count-1 and add its own. With
+    /// `transmission`, rays inside an object pass through its material instead. With `paths`, the
+    /// batch's transmittance is written.
     void sight(const Pyramid& pyramid, RayBatch& batch, uint32_t count);
 
-    /// Takes the medium's part from the light of the queue, at most `maximum` rays of it. Without
-    /// shadows the light that is left arrives at the batch's radiance.
+    /// Takes the part that the medium absorbs from the light of at most `maximum` rays of the
+    /// queue. Without shadows the remaining light is added to the batch's radiance.
     void shadows(const Pyramid& pyramid, ShadowQueue& queue, uint32_t maximum, RayBatch& batch);
 
-    /// Empty when the density is 1 everywhere.
+    /// The density grid; empty if the density is 1 everywhere.
     const DensityGrid& density() const { return density_; }
 
   private:

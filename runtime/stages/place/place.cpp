@@ -7,6 +7,7 @@
 
 #include "kernels/shared/voxel.h"
 #include "runtime/base/error.hpp"
+#include "runtime/stages/brick_arrays.hpp"
 #include "runtime/stages/place/place_exact.hpp"
 #include "runtime/stages/place/place_painter.hpp"
 #include "runtime/stages/place/world_bricks.hpp"
@@ -39,8 +40,7 @@ std::vector<const PlacedObject*> painting_order(std::span<const PlacedObject> ob
 }
 
 /// True if the world can share its only object's buffers: they are in its frame, and all their
-/// voxels
-/// get one value of packed attributes.
+/// voxels get one value of packed attributes.
 bool is_only_object(std::span<const PlacedObject> objects, const WorldParts& parts) {
     return objects.size() == 1 && objects[0].in_world_frame && !parts.has_attributes() &&
            !objects[0].keeps_inside && !lists_primitives(surface_of(*objects[0].grid));
@@ -83,9 +83,8 @@ class Placer::State {
 
   private:
     /// Makes the world store what the objects now need, and nothing else. A part that no object has
-    /// had
-    /// before has one value in every brick, so no brick is painted for it.
-    /// same in every brick, so none is painted for that.
+    /// had before has one value in every brick, so no brick is painted for it. same in every brick,
+    /// so none is painted for that.
     void follow(const WorldParts& parts) {
         const bool is_stored_anew = bricks_ && !parts.is_stored_like(parts_);
         parts_ = parts;
@@ -95,8 +94,7 @@ class Placer::State {
     }
 
     /// Makes a painter for each object that changed, listed in `changed` too, and takes the others
-    /// from
-    /// `left`.
+    /// from `left`.
     void take_painters(std::span<const PlacedObject> objects, std::map<uint32_t, Painter>& left,
                        std::vector<Painter*>& changed) {
         std::map<const BrickGrid*, const Painter*> of_grid;
@@ -127,8 +125,7 @@ class Placer::State {
     }
 
     /// The states that objects give to the world's bricks: to all if `asked` is empty, else only to
-    /// those
-    /// that are true in it.
+    /// those that are true in it.
     template <class Painters>
     std::vector<uint8_t> states(Painters&& painters, const std::vector<bool>& asked) {
         const glm::ivec3 table = world_.frame.bricks();
@@ -156,9 +153,7 @@ class Placer::State {
     }
 
     /// Stores the bricks that the objects need. Returns the bricks to paint: those that a changed
-    /// painter
-    /// has a part in, or had one in before.
-    /// changed has a part, or had one.
+    /// painter has a part in, or had one in before. changed has a part, or had one.
     std::vector<uint32_t> store_bricks(const std::vector<Painter*>& changed) {
         if (!bricks_) {
             bricks_.emplace(device_, parts_, world_);
@@ -207,9 +202,8 @@ class Placer::State {
         const glm::ivec3 table = world_.frame.bricks();
         painting.places.assign(size_t(table.x) * size_t(table.y) * size_t(table.z), kBrickOutside);
         for (uint32_t place = 0; place < painted_; ++place) painting.places[bricks[place]] = place;
-        if (parts_.smooth && (parts_.has_attributes() || parts_.colors || parts_.occupancy)) {
-            painting.nearest =
-                Buffer<int16_t>(device_, "nearest surfaces", size_t(painted_) * 4096);
+        if (parts_.measures_nearest()) {
+            painting.nearest = allocate_distances(device_, "nearest surfaces", painted_);
             painting.nearest.fill(32767);
         }
         Painter* smooth = nullptr;

@@ -38,56 +38,36 @@ struct PlacedObject {
 /// Cubes: a world voxel is set if its centre's image lies in a set voxel of the object, or if a set
 /// voxel touches the box around that image that extends by r = max(0, (max_j |A_aj| - 1) / 2) along
 /// each object axis a. A is the map of world voxels to object voxels. This keeps a SUPERCOVER shell
-/// or
-/// a SOLID tight against paths of voxels that share faces: two voxels that such a set separates
-/// differ
-/// by at least 2 in some index, the boxes of face neighbours come within one voxel of each other
-/// along
-/// every axis, and a box without set voxels lies on one side. At equal or finer world voxels r is
-/// 0,
-/// and shrunk objects are covered block by block. A THIN set needs r = max_j |A_aj| / 2, so its
-/// turned
-/// sheets get up to two voxels thick.
+/// or a SOLID tight against paths of voxels that share faces: two voxels that such a set separates
+/// differ by at least 2 in some index, the boxes of face neighbours come within one voxel of each
+/// other along every axis, and a box without set voxels lies on one side. At equal or finer world
+/// voxels r is 0, and shrunk objects are covered block by block. A THIN set needs r = max_j |A_aj|
+/// / 2, so its turned sheets get up to two voxels thick.
 ///
 /// Smooth: a world node gets the object's half-Taylor distance there, times the map's smallest
 /// stretch, so an unevenly stretched field has the right surface and never overestimates. The
-/// distance
-/// is right within 2.8 world voxels of the surface as far as the object's own band extends. In
-/// cells at
-/// the band's end it is extrapolated linearly; farther out it is saturated with the right sign.
-/// World
-/// voxels that are q times as large as the object's, q <= 1.4, need a band of 2.8 q object voxels
-/// for
-/// full accuracy: with 2.8, cells keep their corners but some lose second differences. From q = 2
-/// on
-/// the surface is only right to about a voxel: such objects should be voxelized more coarsely.
-/// Several
-/// objects are united: the smallest distance counts.
+/// distance is right within 2.8 world voxels of the surface as far as the object's own band
+/// extends. In cells at the band's end it is extrapolated linearly; farther out it is saturated
+/// with the right sign. World voxels that are q times as large as the object's, q <= 1.4, need a
+/// band of 2.8 q object voxels for full accuracy: with 2.8, cells keep their corners but some lose
+/// second differences. From q = 2 on the surface is only right to about a voxel: such objects
+/// should be voxelized more coarsely. Several objects are united: the smallest distance counts.
 ///
 /// Exact objects must be in the world's frame. Their lists are joined per voxel, in the order of
 /// `objects`.
 ///
 /// Overlaps: a voxel shows the object with the larger priority; of two with equal priorities it
-/// shows
-/// the one earlier in `objects`. Of smooth surfaces the one nearest to the voxel's centre is shown,
-/// and
-/// ties follow the rule above. A smooth object that wins takes the voxels its surface passes
-/// through
-/// away from cubes. An exact and a smooth surface share a voxel: the voxel is exact and has the
-/// smooth
-/// surface's packed attributes, since primitives have their own. Between an exact surface and a
-/// cube
-/// the cube wins. The result does not depend on the order of work. Solids end at the world's
-/// bounds,
-/// and the cut is surface.
+/// shows the one earlier in `objects`. Of smooth surfaces the one nearest to the voxel's centre is
+/// shown, and ties follow the rule above. A smooth object that wins takes the voxels its surface
+/// passes through away from cubes. An exact and a smooth surface share a voxel: the voxel is exact
+/// and has the smooth surface's packed attributes, since primitives have their own. Between an
+/// exact surface and a cube the cube wins. The result does not depend on the order of work. Solids
+/// end at the world's bounds, and the cut is surface.
 ///
 /// `attributes` are stored only if the objects together have more than one value of them. A world
-/// whose
-/// only object is in its frame shares that object's buffers. Bricks are stored wherever an object
-/// may
-/// have surface. A brick is kBrickInside only if the voxels around it are full, too, and belong to
-/// an
-/// object that doesn't keep its inside.
+/// whose only object is in its frame shares that object's buffers. Bricks are stored wherever an
+/// object may have surface. A brick is kBrickInside only if the voxels around it are full, too, and
+/// belong to an object that doesn't keep its inside.
 ///
 /// Throws Error::scene for a placement that can't be inverted, Error::limit if memory doesn't
 /// suffice.
@@ -104,10 +84,8 @@ class Placer {
     Placer& operator=(const Placer&) = delete;
 
     /// Places `objects`, whose grids must live until the next call has returned or the placer is
-    /// destroyed.
-    /// The next call changes the result; its slots are in no order. Throws as `place` does; the
-    /// call after
-    /// an exception begins with an empty world.
+    /// destroyed. The next call changes the result; its slots are in no order. Throws as `place`
+    /// does; the call after an exception begins with an empty world.
     const BrickGrid& place(std::span<const PlacedObject> objects, const GridFrame& world);
 
     /// The number of bricks that the last call painted; 0 if the world shares its only object's
@@ -115,8 +93,7 @@ class Placer {
     uint32_t painted_bricks() const;
 
     /// The indices of all bricks that differ from those before the last call, and perhaps of some
-    /// that
-    /// don't; null if the last call began with an empty world.
+    /// that don't; null if the last call began with an empty world.
     const std::vector<uint32_t>* changed_bricks() const;
 
   private:

@@ -3,6 +3,7 @@
 #include "kernels/shared/solid.h"
 #include "runtime/base/error.hpp"
 #include "runtime/opencl/program.hpp"
+#include "runtime/stages/brick_arrays.hpp"
 #include "runtime/stages/place/placement_attributes.hpp"
 
 namespace voxelume {
@@ -18,7 +19,7 @@ Program program_for(const Device& device, const BrickGrid& grid) {
 Buffer<uint32_t> count_primitives(const Device& device, const Program& program,
                                   std::span<const PlacedObject* const> objects,
                                   const BrickGrid& world) {
-    Buffer<uint32_t> counts(device, "primitive counts", size_t(world.brick_count) * 4096);
+    Buffer<uint32_t> counts = allocate_words(device, "primitive counts", world.brick_count);
     counts.fill(0);
     for (const PlacedObject* object : objects)
         program.kernel("count_primitives")
@@ -48,7 +49,8 @@ void start_lists(const Device& device, const Program& program, const Buffer<uint
     const auto end = static_cast<uint32_t>(total);
     const size_t voxels = size_t(world.brick_count) * 4096;
     world.primitives = Buffer<uint32_t>(device, "world primitives", total);
-    world.primitive_first = Buffer<uint32_t>(device, "world primitive starts", voxels + 1);
+    world.primitive_first =
+        allocate_list_starts(device, "world primitive starts", world.brick_count);
     world.primitive_first.write(std::span(&end, 1), voxels);
     program.kernel("start_lists")
         .launch(WorkItem::heavy, world.brick_count, world.brick_count,
@@ -91,6 +93,13 @@ void append_object(const Device& device, const PlacedObject& object, const Buffe
 
 }  // namespace
 
+void allocate_sources(const Device& device, size_t floats, size_t solid_words, BrickGrid& world) {
+    world.triangles = Buffer<float>(device, "world triangles", floats);
+    world.triangle_attributes =
+        Buffer<uint32_t>(device, "world triangle attributes", floats / kFloatsPerTriangle);
+    world.solids = Buffer<uint32_t>(device, "world solids", solid_words);
+}
+
 void join_exact_surfaces(const Device& device, std::span<const PlacedObject> objects,
                          BrickGrid& world) {
     std::vector<const PlacedObject*> exact;
@@ -105,10 +114,7 @@ void join_exact_surfaces(const Device& device, std::span<const PlacedObject> obj
     world.triangles = {};
     world.triangle_attributes = world.solids = {};
     if (exact.empty()) return;
-    world.triangles = Buffer<float>(device, "world triangles", floats);
-    world.triangle_attributes =
-        Buffer<uint32_t>(device, "world triangle attributes", floats / kFloatsPerTriangle);
-    world.solids = Buffer<uint32_t>(device, "world solids", solid_words);
+    allocate_sources(device, floats, solid_words, world);
     const Program program = program_for(device, *exact.front()->grid);
     const Buffer<uint32_t> counts = count_primitives(device, program, exact, world);
     start_lists(device, program, counts, world);

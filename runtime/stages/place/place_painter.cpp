@@ -12,8 +12,7 @@ namespace voxelume {
 namespace {
 
 /// The distance from a surface, in voxels, up to which world distances are evaluated: `index` reads
-/// no
-/// farther ones.
+/// no farther ones.
 constexpr double kBandVoxels = 2.9;
 
 PlacementMap map_of(const PlacedObject& object, const GridFrame& world, Surface surface) {
@@ -40,10 +39,8 @@ BrickBox bricks_of(const PlacedObject& object, const GridFrame& world) {
         low = glm::min(low, voxel), high = glm::max(high, voxel);
     }
     // The placement map's reach is at most half an object voxel's diagonal, as the world sees it.
-    // Two world
-    // voxels cover that and the rounding if the object's voxels are no larger; the margin adds one
-    // of the
-    // object's voxels along each axis for those that are.
+    // Two world voxels cover that and the rounding if the object's voxels are no larger; the margin
+    // adds one of the object's voxels along each axis for those that are.
     const glm::dmat3 turn(object.world_from_object);
     glm::dvec3 margin(2);
     for (int axis = 0; axis < 3; ++axis)

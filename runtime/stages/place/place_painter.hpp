@@ -18,6 +18,8 @@ struct WorldParts {
     std::set<uint32_t> attributes;  ///< all values that voxels can have
 
     bool has_attributes() const { return attributes.size() > 1; }
+    /// Whether voxels take what they have from the smooth surface that is nearest to them.
+    bool measures_nearest() const { return smooth && (has_attributes() || colors || occupancy); }
     /// Whether bricks of both worlds have the same buffers.
     bool is_stored_like(const WorldParts& other) const;
 };
@@ -71,8 +73,7 @@ class Painter {
     const BrickBox& bricks() const { return bricks_; }
 
     /// Raises the states of `count` bricks of the world: the first `count` of `listed`, or all
-    /// bricks if
-    /// `listed` is empty.
+    /// bricks if `listed` is empty.
     void classify(const GridFrame& world, uint32_t count, const Buffer<uint32_t>& listed,
                   const Buffer<uint8_t>& states);
 

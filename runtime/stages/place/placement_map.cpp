@@ -63,8 +63,7 @@ int fraction_bits(const glm::dmat3& linear, const glm::dvec3& offset, const Grid
 }
 
 /// The reach along each object axis. `supercover` closes the gap that steps longer than a voxel
-/// would
-/// leave, `thin` covers half of every step.
+/// would leave, `thin` covers half of every step.
 glm::dvec3 reach_of(const glm::dmat3& linear, Reach reach) {
     if (reach == Reach::none) return glm::dvec3(1);
     glm::dvec3 longest(0);

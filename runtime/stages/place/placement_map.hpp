@@ -12,8 +12,7 @@ namespace voxelume {
 /// The inverse map, from world voxels to object voxels.
 struct PlacementMap {
     /// Three rows of three coefficients and an offset each, then the reach along each object axis;
-    /// see
-    /// lib/voxelize/placed.h. All are multiplied by 2^fraction_bits.
+    /// see lib/voxelize/placed.h. All are multiplied by 2^fraction_bits.
     std::array<int64_t, 16> rows{};
     int fraction_bits = 0;
     double distance_scale = 1;  ///< lower bound of world distance units per object distance unit
@@ -32,13 +31,10 @@ enum class Reach {
 /// Inverts `world_from_object` in double precision and rounds the result to fixed point.
 ///
 /// Offsets are rounded to 2^-24 object voxels and coefficients to 2^-24 or finer. So decimal voxel
-/// edges
-/// and positions that are whole or half voxels in the scene are so here, too, and moving an object
-/// by
-/// whole voxels moves its image exactly. `object` is the object's number in messages. Throws
-/// Error::scene if the map is singular, has a condition number above 10^5, holds an infinity, or
-/// puts
-/// the object too far away to be exact.
+/// edges and positions that are whole or half voxels in the scene are so here, too, and moving an
+/// object by whole voxels moves its image exactly. `object` is the object's number in messages.
+/// Throws Error::scene if the map is singular, has a condition number above 10^5, holds an
+/// infinity, or puts the object too far away to be exact.
 PlacementMap placement_map(const GridFrame& object_frame, const GridFrame& world_frame,
                            const glm::dmat4& world_from_object, Reach reach, uint32_t object);
 

@@ -1,7 +1,9 @@
 #include "runtime/stages/place/world_bricks.hpp"
 
 #include <algorithm>
+#include <utility>
 
+#include "runtime/stages/brick_arrays.hpp"
 #include "runtime/stages/place/place_painter.hpp"
 
 namespace voxelume {
@@ -26,12 +28,11 @@ Program program_for(const Device& device, const WorldParts& parts) {
              {"VXL_COLORS", parts.colors}}};
 }
 
-/// A buffer for `size` values that begins with those of `old`.
+/// Puts a larger buffer in the place of an `old` one, whose values it begins with.
 template <class T>
-Buffer<T> enlarged(const Device& device, const char* name, const Buffer<T>& old, size_t size) {
-    Buffer<T> buffer(device, name, size);
-    buffer.copy(old);
-    return buffer;
+void enlarge(Buffer<T>& old, Buffer<T> larger) {
+    larger.copy(old);
+    old = std::move(larger);
 }
 
 }  // namespace
@@ -128,20 +129,18 @@ void WorldBricks::clear(const std::vector<uint32_t>& brick_numbers) {
 }
 
 /// Makes room for `bricks` slots. A world that grows once may grow again, so from its second growth
-/// on
-/// it gets room for a quarter more, if a buffer may be that large.
+/// on it gets room for a quarter more, if a buffer may be that large.
 void WorldBricks::reserve(uint32_t bricks) {
     if (bricks <= reserved_) return;
     const size_t brick_bytes = kVoxels * (has_attributes_ || colors_ ? 4 : smooth_ ? 2 : 1);
     const size_t maximum = std::max<size_t>(device_.info().max_allocation / brick_bytes, bricks);
     const size_t brick_numbers =
         reserved_ == 0 ? bricks : std::min<size_t>(bricks + bricks / 4, maximum);
-    const size_t voxels = brick_numbers * kVoxels;
-    if (occupancy_) world_.occupancy = enlarged(device_, kOccupancy, world_.occupancy, voxels / 64);
-    if (smooth_) world_.distance = enlarged(device_, kDistances, world_.distance, voxels);
+    if (occupancy_) enlarge(world_.occupancy, allocate_masks(device_, kOccupancy, brick_numbers));
+    if (smooth_) enlarge(world_.distance, allocate_distances(device_, kDistances, brick_numbers));
     if (has_attributes_)
-        world_.attributes = enlarged(device_, kAttributes, world_.attributes, voxels);
-    if (colors_) world_.colors = enlarged(device_, kColors, world_.colors, voxels);
+        enlarge(world_.attributes, allocate_words(device_, kAttributes, brick_numbers));
+    if (colors_) enlarge(world_.colors, allocate_words(device_, kColors, brick_numbers));
     reserved_ = uint32_t(brick_numbers);
 }
 

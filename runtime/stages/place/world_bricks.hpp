@@ -17,17 +17,14 @@ class WorldBricks {
     WorldBricks(const Device& device, const WorldParts& parts, BrickGrid& world);
 
     /// Gives the world the buffers that a world of these parts needs, and no others. A new buffer
-    /// holds the
-    /// values of a world without the objects that need it; a new buffer of attributes holds
-    /// `attribute` in
-    /// every voxel.
+    /// holds the values of a world without the objects that need it; a new buffer of attributes
+    /// holds `attribute` in every voxel.
     void store_like(const WorldParts& parts);
 
     /// Stores the bricks of `brick_numbers` whose state is VXL_SURFACE, marks those that are
-    /// VXL_FULL as
-    /// inside and drops the others; `states` has the states of all bricks of the world. The
-    /// contents of
-    /// bricks that aren't named stay. Returns the stored bricks among `brick_numbers`.
+    /// VXL_FULL as inside and drops the others; `states` has the states of all bricks of the world.
+    /// The contents of bricks that aren't named stay. Returns the stored bricks among
+    /// `brick_numbers`.
     std::vector<uint32_t> store(const std::vector<uint32_t>& brick_numbers,
                                 const std::vector<uint8_t>& states);
 

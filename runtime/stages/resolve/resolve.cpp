@@ -35,16 +35,22 @@ Defines resolve_defines(const Device& device, const Features& features,
     return defines;
 }
 
+ImageArrays allocate_image(const Device& device, const glm::ivec2& size,
+                           const ImageChannels& channels) {
+    const size_t pixels = size_t(size.x) * size_t(size.y);
+    return {{device, "image", plane_names(channels).size() * pixels, kSmallerImage},
+            {device, "object numbers", channels.object ? pixels : 0, kSmallerImage},
+            {device, "not finite", 1}};
+}
+
 ResolveStage::ResolveStage(const Device& device, const Features& features, const Camera& camera,
                            const ImageChannels& channels)
     : camera_(camera),
       names_(plane_names(channels)),
-      planes_(device, "image", names_.size() * pixel_count(camera), kSmallerImage),
-      objects_(device, "object numbers", channels.object ? pixel_count(camera) : 0, kSmallerImage),
-      not_finite_(device, "not finite", 1),
+      image_(allocate_image(device, {camera.width, camera.height}, channels)),
       program_(device, "resolve.cl", resolve_defines(device, features, channels)),
       pixels_(program_.kernel("resolve_pixels")) {
-    not_finite_.fill(0);
+    image_.not_finite.fill(0);
 }
 
 void ResolveStage::pixels(const Pyramid& pyramid, const RayBatch& batch, uint32_t first_tile,
@@ -52,7 +58,7 @@ void ResolveStage::pixels(const Pyramid& pyramid, const RayBatch& batch, uint32_
     const glm::dvec3& o = pyramid.frame.origin;
     const float4 origin = {float(o.x), float(o.y), float(o.z), 0};
     pixels_.launch_packets(size_t(tiles) * 16, camera_, shape_of(pyramid), origin, batch,
-                           first_tile, tiles, planes_, objects_, not_finite_);
+                           first_tile, tiles, image_.planes, image_.objects, image_.not_finite);
 }
 
 Image ResolveStage::image() const {
@@ -60,11 +66,11 @@ Image ResolveStage::image() const {
     image.width = camera_.width;
     image.height = camera_.height;
     const size_t pixels = pixel_count(camera_);
-    const std::shared_ptr<float> planes = planes_.contents();
+    const std::shared_ptr<float> planes = image_.planes.contents();
     for (size_t i = 0; i < names_.size(); ++i)
         image.planes[names_[i]] = {std::shared_ptr<float>(planes, planes.get() + i * pixels),
                                    pixels};
-    if (!objects_.empty()) image.id_planes["objectId"] = {objects_.contents(), pixels};
+    if (!image_.objects.empty()) image.id_planes["objectId"] = {image_.objects.contents(), pixels};
     return image;
 }
 

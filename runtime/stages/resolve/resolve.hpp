@@ -11,32 +11,39 @@
 
 namespace voxelume {
 
-/// The features' build constants, and those of resolve.cl alone.
+/// The build constants of the features, and those of resolve.cl alone.
 Defines resolve_defines(const Device& device, const Features& features,
                         const ImageChannels& channels);
+
+/// What an image is made in.
+struct ImageArrays {
+    Buffer<float> planes;         ///< one after another
+    Buffer<uint32_t> objects;     ///< number of the object plus 1
+    Buffer<uint32_t> not_finite;  ///< one value
+};
+ImageArrays allocate_image(const Device& device, const glm::ivec2& size,
+                           const ImageChannels& channels);
 
 /// Kernels of resolve.cl and the image they fill, batch by batch.
 class ResolveStage {
   public:
-    /// Only the `channels` asked for are allocated and made.
+    /// Only the `channels` that are asked for are allocated and computed.
     ResolveStage(const Device& device, const Features& features, const Camera& camera,
                  const ImageChannels& channels = {});
 
-    /// Makes the pixels of `tiles` tiles from `first_tile` on.
+    /// Computes the pixels of `tiles` tiles from `first_tile` on.
     void pixels(const Pyramid& pyramid, const RayBatch& batch, uint32_t first_tile, uint32_t tiles);
 
-    /// The image, once every tile is made. Waits for the device.
+    /// The image, after every tile was computed. Waits for the device.
     Image image() const;
 
     /// Values that were not finite and became 0; anything but 0 is a fault of ours.
-    uint32_t not_finite() const { return not_finite_.read_one(0); }
+    uint32_t not_finite() const { return image_.not_finite.read_one(0); }
 
   private:
     Camera camera_;
     std::vector<const char*> names_;  ///< of the planes
-    Buffer<float> planes_;            ///< one after another
-    Buffer<uint32_t> objects_;        ///< number of the object plus 1
-    Buffer<uint32_t> not_finite_;
+    ImageArrays image_;
     Program program_;
     Kernel pixels_;
 };

@@ -10,13 +10,13 @@
 namespace voxelume {
 namespace {
 
-/// Leaf masks of a table of sectors, those of sectors without any left out.
+/// The leaf masks of a table of sectors; empty sectors take no room.
 class LeafMasks {
   public:
     explicit LeafMasks(const glm::ivec3& sectors)
         : sectors_(sectors), block_of_(size_t(sectors.x) * sectors.y * sectors.z, kNone) {}
 
-    /// Adds leaves to brick `b`, which may lie outside of the table.
+    /// Adds leaves to brick `b`, or does nothing if it lies outside of the table.
     void add(const glm::ivec3& b, uint64_t mask) {
         const glm::ivec3 size = sectors_ * kBricksPerSector;
         if (mask == 0 || b.x < 0 || b.y < 0 || b.z < 0) return;
@@ -46,10 +46,11 @@ class LeafMasks {
             }
         }
         write_empty_cubes(bricks);
-        return {{device, "dilated sectors", std::span<const uint32_t>(sectors)},
-                {device, "dilated bricks", std::span<const uint32_t>(bricks)},
-                DilationLevel::leaves,
-                {}};
+        DilatedOccupancy dilated_occupancy =
+            allocate_dilated_occupancy(device, sectors.size(), stored);
+        dilated_occupancy.sectors.write(sectors);
+        dilated_occupancy.bricks.write(bricks);
+        return dilated_occupancy;
     }
 
   private:
@@ -59,8 +60,9 @@ class LeafMasks {
     std::vector<std::array<uint64_t, kRecordsPerSector>> blocks_;
 };
 
-/// A mask dilated by one leaf along an axis whose coordinate is worth `step` bits: what falls into
-/// the brick before, the brick itself, and the brick behind. `low` holds the bits of coordinate 0.
+/// A mask dilated by one leaf along an axis whose coordinate is worth `step` bits: the leaves in
+/// the brick before, in the brick itself, and in the brick behind. `low` holds the bits of
+/// coordinate 0.
 std::array<uint64_t, 3> dilated(uint64_t mask, int step, uint64_t low) {
     const uint64_t high = low << 3 * step;
     return {(mask & low) << 3 * step, mask | (mask & ~high) << step | (mask & ~low) >> step,
@@ -98,7 +100,7 @@ uint64_t leaves_of(const uint32_t* record) {
     return record[0] | uint64_t(record[1]) << 32;
 }
 
-/// A pyramid's frame in voxels four times as long.
+/// The size of a frame in voxels four times as long.
 glm::ivec3 coarse_size(const GridFrame& frame) {
     return (frame.size + 3) / 4;
 }
@@ -118,10 +120,22 @@ PyramidShape dilated_shape(const Pyramid& pyramid, DilationLevel of) {
     return shape;
 }
 
+DilatedOccupancy allocate_dilated_occupancy(const Device& device, size_t sectors, size_t stored) {
+    DilatedOccupancy dilated_occupancy;
+    dilated_occupancy.sectors = Buffer<uint32_t>(device, "dilated sectors", sectors);
+    dilated_occupancy.bricks =
+        Buffer<uint32_t>(device, "dilated bricks", stored * kRecordsPerSector * kWordsPerRecord);
+    return dilated_occupancy;
+}
+
+Buffer<uint32_t> allocate_beams(const Device& device, uint32_t rays) {
+    return {device, "beams", size_t(VXL_BEAM_SLOTS(rays)) * VXL_BEAM_COMPONENTS};
+}
+
 DilatedOccupancy build_dilated_occupancy(const Device& device, const Pyramid& pyramid,
                                          DilationLevel of) {
-    // In the coarse pyramid of a dilated occupancy of bricks a sector is a brick, and its bricks
-    // that one's leaves.
+    // In the coarse pyramid of a dilated occupancy of bricks, a sector of the world is a brick, and
+    // a brick of the world is a leaf.
     LeafMasks masks(of == DilationLevel::leaves ? pyramid.frame.sectors()
                                                 : coarse_sectors(pyramid.frame));
     std::vector<glm::ivec3> sectors;
@@ -159,8 +173,8 @@ std::optional<DilationLevel> dilation_that_pays(const Features& features, const 
         std::max({size.x, size.y, size.z}) > kLargest)
         return std::nullopt;
     const std::optional<DilationLevel> of = dilation_for(voxels_a_pixel);
-    // A ray for each leaf pays for its dilated occupancy; that of bricks takes a seventh of the
-    // time.
+    // One ray per leaf pays for the dilated occupancy of leaves; that of bricks takes a seventh of
+    // the time.
     const uint32_t needed = of == DilationLevel::bricks ? world.leaf_count / 7 : world.leaf_count;
     return rays >= needed ? of : std::nullopt;
 }
@@ -181,9 +195,7 @@ uint64_t BeamStage::cleared() const {
 }
 
 void BeamStage::start(RayBatch& batch, uint32_t count) {
-    if (batch.beams.empty())
-        batch.beams = Buffer<uint32_t>(device_, "beams",
-                                       size_t(VXL_BEAM_SLOTS(batch.stride)) * VXL_BEAM_COMPONENTS);
+    if (batch.beams.empty()) batch.beams = allocate_beams(device_, batch.stride);
     const uint32_t beams = (count + VXL_BEAM_RAYS - 1) / VXL_BEAM_RAYS;
     start_.launch_packets(beams, shape_, dilated_occupancy_.sectors, dilated_occupancy_.bricks,
                           scale_of(dilated_occupancy_.of), batch.rays, beams, batch.stride,

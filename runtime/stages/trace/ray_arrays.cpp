@@ -9,23 +9,19 @@ namespace {
 constexpr const char* kFewerRays =
     "render a smaller image, or with fewer samples a pixel or less depth";
 
-/// Makes arrays of so many places on a device; without one it only counts their bytes.
+/// Makes arrays of so many places on a device.
 class ArrayMaker {
   public:
-    ArrayMaker(const Device* device, uint32_t slots) : device_(device), slots_(slots) {}
+    ArrayMaker(const Device& device, uint32_t slots) : device_(device), slots_(slots) {}
 
     template <class T>
     void make(Buffer<T>& array, const char* name, size_t components) {
-        const size_t size = size_t(slots_) * components;
-        bytes_ += double(size * sizeof(T));
-        if (device_) array = Buffer<T>(*device_, name, size, kFewerRays);
+        array = Buffer<T>(device_, name, size_t(slots_) * components, kFewerRays);
     }
-    double bytes() const { return bytes_; }
 
   private:
-    const Device* device_;
+    const Device& device_;
     uint32_t slots_;
-    double bytes_ = 0;
 };
 
 size_t path_components(const Features& features) {
@@ -87,13 +83,6 @@ uint32_t shadow_slots(const Features& features, uint32_t max_rays) {
     return std::bit_ceil(branches_of(features) * max_rays);
 }
 
-double depth_bytes(const Features& features, bool is_first, uint32_t slots) {
-    ArrayMaker maker(nullptr, slots);
-    PathDepth depth;
-    make_depth(features, is_first, maker, depth);
-    return maker.bytes();
-}
-
 }  // namespace
 
 uint32_t batch_tiles(const Features& features, int samples, uint32_t maximum) {
@@ -107,7 +96,7 @@ uint32_t depth_slots(uint32_t count) {
 RayBatch allocate_batch(const Device& device, const Features& features, uint32_t stride) {
     RayBatch batch;
     batch.stride = stride;
-    ArrayMaker maker(&device, stride);
+    ArrayMaker maker(device, stride);
     make_batch(features, maker, batch);
     return batch;
 }
@@ -126,7 +115,7 @@ ShadowQueue allocate_shadow_queue(const Device& device, const Features& features
         queue.traced = Buffer<uint32_t>(device, "shadow rays", 2);
         queue.traced.fill(0);
     }
-    ArrayMaker maker(&device, shadow_slots(features, max_rays));
+    ArrayMaker maker(device, shadow_slots(features, max_rays));
     make_shadow_queue(features, maker, queue);
     return queue;
 }
@@ -134,23 +123,35 @@ ShadowQueue allocate_shadow_queue(const Device& device, const Features& features
 PathDepth allocate_depth(const Device& device, const Features& features, bool is_first,
                          uint32_t slots) {
     PathDepth depth;
-    ArrayMaker maker(&device, slots);
+    ArrayMaker maker(device, slots);
     make_depth(features, is_first, maker, depth);
     depth.entries.stride = depth.next.stride = depth.nodes.stride = slots;
     return depth;
 }
 
-RayBytes ray_bytes(const Features& features, bool is_lit, uint32_t rays, size_t depth) {
-    ArrayMaker sight(nullptr, rays), shadow(nullptr, shadow_slots(features, rays));
-    RayBatch batch;
-    make_batch(features, sight, batch);
-    ShadowQueue queue;
-    if (is_lit && has_shadow_queue(features)) make_shadow_queue(features, shadow, queue);
+RayArrays allocate_rays(const Device& device, const Features& features, const RayCounts& counts) {
+    RayArrays arrays;
+    arrays.batch = allocate_batch(device, features, counts.rays);
+    if (counts.is_lit) arrays.shadows = allocate_shadow_queue(device, features, counts.rays);
+    if (features.paths && features.radiance)
+        arrays.depths.push_back(allocate_depth(device, features, true, counts.rays));
+    for (size_t depth = 0; depth < counts.depth; ++depth)
+        arrays.depths.push_back(allocate_depth(device, features, false,
+                                               depth_slots(branches_of(features) * counts.rays)));
+    return arrays;
+}
+
+RayBytes ray_bytes(const Features& features, const RayCounts& counts) {
+    const auto bytes_of = [&](size_t depth) {
+        const Device device = Device::counting({});
+        const RayArrays arrays =
+            allocate_rays(device, features, {counts.rays, counts.is_lit, depth});
+        return double(device.counters().bytes_in_use);
+    };
     RayBytes bytes;
-    bytes.once = sight.bytes() + shadow.bytes();
-    if (features.paths && features.radiance) bytes.once += depth_bytes(features, true, rays);
-    bytes.per_depth = depth_bytes(features, false, depth_slots(branches_of(features) * rays));
-    bytes.depth = depth;
+    bytes.once = bytes_of(0);
+    bytes.per_depth = bytes_of(1) - bytes.once;
+    bytes.depth = counts.depth;
     return bytes;
 }
 

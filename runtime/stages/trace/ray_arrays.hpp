@@ -1,7 +1,9 @@
 // features -> the arrays of rays on their way through the stages, and the memory that they take.
 //
-// What is allocated and what is planned are one walk over the same arrays.
+// What is planned is allocated on a counting device.
 #pragma once
+
+#include <vector>
 
 #include "runtime/stages/features.hpp"
 #include "runtime/stages/ray_batch.hpp"
@@ -12,20 +14,21 @@ namespace voxelume {
 /// The arrays of one depth of paths.
 struct PathDepth {
     RayBatch entries;
-    RayQueue next;  ///< the layer behind them
+    RayQueue next;  ///< the rays of the layer behind them
     Children children;
     NodeLight nodes;
 };
 
-/// Rays that go through the stages together.
+/// The maximum number of rays that pass through the stages together.
 inline uint32_t batch_rays(const Features& features) {
     return features.paths ? kBatchRays / 2 : kBatchRays;
 }
 
-/// Tiles of 4 x 4 pixels whose rays do, with so many samples a pixel; 1 to `maximum`.
+/// The number of tiles of 4 x 4 pixels whose rays make a batch, with `samples` samples a pixel; 1
+/// to `maximum`.
 uint32_t batch_tiles(const Features& features, int samples, uint32_t maximum);
 
-/// Rays that a surface point may send on.
+/// The maximum number of rays that a surface point sends on.
 inline uint32_t branches_of(const Features& features) {
     return features.refracts ? 2 : 1;
 }
@@ -33,37 +36,53 @@ inline uint32_t branches_of(const Features& features) {
 /// An empty batch for up to `stride` rays, with the arrays that the features need.
 RayBatch allocate_batch(const Device& device, const Features& features, uint32_t stride);
 
-/// Gives the batch other arrays for its rays and hits; whoever holds the old ones keeps them.
+/// Gives the batch new arrays for its rays and hits; holders of the old arrays keep them.
 void renew_sight(const Device& device, RayBatch& batch);
 
-/// For the shadow rays of batches of at most `max_rays` and of what these send on. Empty where
-/// nothing can keep light back.
+/// The queue for the shadow rays of batches of at most `max_rays` and of the rays that these send
+/// on. Empty if nothing can block light.
 ShadowQueue allocate_shadow_queue(const Device& device, const Features& features,
                                   uint32_t max_rays);
 
-/// For `slots` nodes of a depth. The observer's own rays, the first depth, are the caller's.
+/// The arrays for `slots` nodes of one depth. The observer's own rays, the first depth, belong to
+/// the caller.
 PathDepth allocate_depth(const Device& device, const Features& features, bool is_first,
                          uint32_t slots);
 
-/// Places of a later depth in which `count` nodes are kept.
+/// The number of slots of a later depth that holds `count` nodes.
 uint32_t depth_slots(uint32_t count);
 
-/// Bytes that rays take on a device.
+/// The bytes that rays take on a device.
 struct RayBytes {
     double once = 0;       ///< for the observer's rays and their shadow rays
-    double per_depth = 0;  ///< for what is reflected and refracted, of each depth
-    size_t depth = 0;      ///< of those, at most
+    double per_depth = 0;  ///< for the reflected and refracted rays of each depth
+    size_t depth = 0;      ///< maximum number of such depths
 
-    /// With the first depth, whose arrays are made whatever is met.
+    /// Includes the first depth, whose arrays are made whatever the rays meet.
     double minimum() const { return once + (depth > 0 ? per_depth : 0); }
     double maximum() const { return once + per_depth * double(depth); }
 };
 
-/// What batches of `rays` sight rays take, which are reflected or refracted up to `depth` times, in
-/// a scene with lights or without.
-RayBytes ray_bytes(const Features& features, bool is_lit, uint32_t rays, size_t depth);
+/// Sight rays that go together, which are reflected or refracted up to `depth` times, in a scene
+/// with lights or without.
+struct RayCounts {
+    uint32_t rays = 0;
+    bool is_lit = false;
+    size_t depth = 0;
+};
 
-/// Bytes of a sight ray and its hit.
+/// All arrays that they may need.
+struct RayArrays {
+    RayBatch batch;
+    ShadowQueue shadows;
+    std::vector<PathDepth> depths;
+};
+RayArrays allocate_rays(const Device& device, const Features& features, const RayCounts& counts);
+
+/// What these arrays take.
+RayBytes ray_bytes(const Features& features, const RayCounts& counts);
+
+/// The bytes of a sight ray and its hit.
 double sight_bytes(const Features& features);
 
 }  // namespace voxelume

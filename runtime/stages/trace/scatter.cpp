@@ -3,7 +3,7 @@
 namespace voxelume {
 namespace {
 
-// Numbers in `counters`, as scatter.cl has them.
+// The indices in `counters`, as in scatter.cl.
 constexpr uint32_t kCountLayer = 0, kCountChildren = 1, kCountEnded = 2;
 
 }  // namespace

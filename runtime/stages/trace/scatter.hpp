@@ -1,4 +1,4 @@
-// surface points -> the rays that go on from them, and their light back.
+// surface points -> the rays that they send on, and the light that these return.
 #pragma once
 
 #include <functional>
@@ -12,17 +12,18 @@
 
 namespace voxelume {
 
-/// A batch's reflected and refracted rays: which nodes of the next depth they are.
+/// The reflected and refracted rays of a batch: their node numbers in the next depth.
 struct Children {
-    Buffer<uint32_t> nodes;       ///< of each entry's reflected ray; `stride` later its refracted
-    Buffer<float> child_weights;  ///< of the nodes' light that the surface returns
-    Buffer<float> node_weights;   ///< 3: what that light counts in the entry's node
+    Buffer<uint32_t> nodes;  ///< node of each entry's reflected ray; `stride` later that of its
+                             ///< refracted ray
+    Buffer<float> child_weights;  ///< the part of the child node's light that the surface returns
+    Buffer<float> node_weights;   ///< 3: the weight of that light in the entry's node
 };
 
 /// VXL_CHILDREN_PARAMETERS of kernels.
 void bind(KernelArguments& to, const Children& children);
 
-/// The sums of light of nodes.
+/// The sums of light at nodes.
 struct NodeLight {
     Buffer<float> radiance;  ///< 3, `stride` apart
     Buffer<float> coverage;  ///< empty below the first depth
@@ -32,40 +33,41 @@ struct NodeLight {
 /// VXL_NODE_PARAMETERS of kernels.
 void bind(KernelArguments& to, const NodeLight& nodes);
 
-/// Called for each layer of surfaces along the rays of an observer, the nearest first, once its
-/// light is added to the nodes. Entry n of the first layer is ray n; others name theirs in `paths`.
+/// Called for each layer of surfaces along an observer's rays, the nearest first, after its light
+/// was added to the nodes. Entry n of the first layer is ray n; entries of other layers name their
+/// ray in `paths`.
 using LayerSink =
     std::function<void(const RayBatch& entries, uint32_t count, bool is_first, const NodeLight&)>;
 
-/// Kernels of scatter.cl for one feature set. The paper's blocks 6.1 to 9.
+/// The kernels of scatter.cl for one feature set: the paper's blocks 6.1 to 9.
 class ScatterStage {
   public:
-    /// `compact` = false gives every surface point a place for each of its rays, wanted or not: to
-    /// measure what compaction is worth.
+    /// With `compact` = false every surface point gets a slot for each of its possible rays, used
+    /// or not. That serves to measure what compaction gains.
     ScatterStage(const Device& device, const Features& features, Surroundings surroundings,
                  float min_weight, bool compact);
 
-    /// Makes rays 0 .. count-1, which come from an observer, paths of their own.
+    /// Starts a path for each of the rays 0 .. count-1, which come from an observer.
     void begin(const Pyramid& pyramid, RayBatch& batch, uint32_t count);
 
-    /// Adds a layer to its nodes and sends its straight rays into `next`, which has as many places
-    /// as there are nodes; returns their number.
+    /// Adds a layer to its nodes and writes the rays that continue straight to `next`, which has a
+    /// slot for each node. Returns the number of these rays.
     uint32_t layer(const Pyramid& pyramid, RayBatch& entries, uint32_t count, bool first_layer,
                    Children& children, NodeLight& nodes, RayQueue& next);
 
-    /// Sends the reflected and refracted rays of entries begin .. end-1 into `queue`; returns their
+    /// Writes the reflected and refracted rays of entries begin .. end-1 to `queue`. Returns their
     /// number.
     uint32_t rays(const Pyramid& pyramid, RayBatch& entries, uint32_t begin, uint32_t end,
                   Children& children, RayBatch& queue);
 
-    /// Adds to the nodes of entries begin .. end-1 what the children's nodes hold.
+    /// Adds the light of the children's nodes to the nodes of entries begin .. end-1.
     void gather(const RayBatch& entries, uint32_t begin, uint32_t end, const Children& children,
                 const NodeLight& child_nodes, NodeLight& nodes);
 
-    /// Says which analytic solids transmit light: numbers of their first records.
+    /// Sets which analytic solids transmit light: the numbers of their first records.
     void set_bodies(Buffer<uint32_t> solids) { bodies_ = std::move(solids); }
 
-    uint64_t ended() const { return ended_; }  ///< paths that ended for their small weight
+    uint64_t ended() const { return ended_; }  ///< paths ended for their small weight
 
   private:
     uint32_t take(uint32_t counter);

@@ -10,31 +10,29 @@
 
 namespace voxelume {
 
-/// The shape's VXL_SHAPE_* of shared/scene.h.
-int shape_number(DisplayShape shape);
-
-/// The observer as kernels take it: in the voxels of the world.
+/// The observer's camera for kernels, in the voxels of the world.
 Camera camera_of(const Scene& scene, const GridFrame& world);
 
-/// How wide the rays of neighbouring pixels are apart at the middle of the world, in voxels.
+/// The distance between the rays of neighbouring pixels at the middle of the world, in voxels.
 double voxels_a_pixel(const Scene& scene, const Camera& camera, const GridFrame& world);
 
-/// Where the samples of a pixel lie: x and y in [0, 1), the same for every pixel. One sample is the
-/// centre; more are the R2 sequence of Roberts 2018, which fills a square evenly for any number.
+/// The positions of the samples in a pixel: x and y in [0, 1), equal for all pixels. A single
+/// sample is the centre; several are the R2 sequence of Roberts 2018, which fills a square evenly
+/// for any number.
 std::vector<float> sample_offsets(int samples);
 
-/// Tiles of 4 x 4 pixels that cover an image.
+/// The number of tiles of 4 x 4 pixels that cover an image.
 uint32_t tile_count(int width, int height);
 
-/// Kernel of sight.cl. The paper's block 2.
+/// The kernel of sight.cl: the paper's block 2.
 class SightStage {
   public:
     SightStage(const Device& device, const Features& features, const Camera& camera);
 
-    /// Casts for another observer from here on, with as many samples a pixel.
+    /// Sets another observer's camera for the rays from here on; the number of samples stays.
     void look(const Camera& camera) { camera_ = camera; }
 
-    /// Casts the rays of `tiles` tiles from `first_tile` on, 16 * samples each; returns their
+    /// Casts the rays of `tiles` tiles from `first_tile` on, 16 * samples each. Returns their
     /// number.
     uint32_t cast(const PyramidShape& world, uint32_t first_tile, uint32_t tiles, RayBatch& batch);
 

@@ -7,6 +7,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "runtime/opencl/program.hpp"
+#include "runtime/stages/brick_arrays.hpp"
 
 namespace voxelume {
 namespace {
@@ -46,8 +47,7 @@ class Joiner {
         std::vector<cl_uint2> sources;
         store_bricks(a, [&](size_t brick) { return both(share_of(a[brick]), share_of(b[brick])); });
         for (const uint32_t brick : bricks_) sources.push_back({{a[brick], b[brick]}});
-        grid_.distance =
-            Buffer<int16_t>(device_, "distance", size_t(grid_.brick_count) * kVoxelsPerBrick);
+        grid_.distance = allocate_distances(device_, "distance", grid_.brick_count);
         code_.kernel("join_distances")
             .launch(WorkItem::heavy, grid_.brick_count, grid_.brick_count, uploaded(sources),
                     body_.distance, rest.distance, grid_.distance);
@@ -66,7 +66,7 @@ class Joiner {
         for (const uint32_t brick : bricks_)
             sources.push_back({{a[brick], a_in[brick], b[brick], b_in[brick]}});
         const size_t leaves = size_t(grid_.brick_count) * kLeavesPerBrick;
-        grid_.occupancy = Buffer<uint64_t>(device_, "occupancy", leaves);
+        grid_.occupancy = allocate_masks(device_, "occupancy", grid_.brick_count);
         code_.kernel("join_covers")
             .launch(WorkItem::light, leaves, grid_.brick_count, uploaded(sources), body_.occupancy,
                     inside.occupancy, rest.cover.occupancy, rest.inside.occupancy, grid_.occupancy);
@@ -104,7 +104,7 @@ class Joiner {
     }
 
     Buffer<uint32_t> kept_words(const char* name, const Buffer<uint32_t>& from, uint32_t word) {
-        Buffer<uint32_t> words(device_, name, size_t(grid_.brick_count) * kVoxelsPerBrick);
+        Buffer<uint32_t> words = allocate_words(device_, name, grid_.brick_count);
         const Buffer<uint32_t> slots(device_, "source slots", body_slots_);
         code_.kernel("keep_words")
             .launch(WorkItem::heavy, grid_.brick_count, grid_.brick_count, slots, from, word,

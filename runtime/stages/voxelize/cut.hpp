@@ -10,8 +10,7 @@
 namespace voxelume {
 
 /// The whole frame without the solids `cuts`, whose parents are the frame's space. It is to be
-/// voxelized
-/// in the same way as the body that is cut.
+/// voxelized in the same way as the body that is cut.
 Solid rest_of(const GridFrame& frame, const std::vector<Solid>& cuts);
 
 /// A body, or the rest of space, as `cubes`: two grids of one frame.
@@ -22,15 +21,12 @@ struct CoveredBody {
 };
 
 /// The intersection of a body and the rest of space. The grids have one frame. Voxels that only the
-/// rest
-/// concerns have the body's own packed attributes and are white.
+/// rest concerns have the body's own packed attributes and are white.
 ///
 /// The intersection of distance fields is the greater distance, that of SOLID sets the voxels in
-/// both.
-/// For other sets it is what each covers on or in the other, which closes the surface where it was
-/// cut.
-/// Along the edges of the cut the cover may have voxels of both that the common surface just
-/// misses.
+/// both. For other sets it is what each covers on or in the other, which closes the surface where
+/// it was cut. Along the edges of the cut the cover may have voxels of both that the common surface
+/// just misses.
 BrickGrid common_field(const Device& device, const BrickGrid& body, const BrickGrid& rest);
 BrickGrid common_cubes(const Device& device, const CoveredBody& body, const CoveredBody& rest);
 

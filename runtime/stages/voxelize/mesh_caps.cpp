@@ -16,12 +16,10 @@ struct Edge {
 };
 
 /// The edges that triangles use more often in one direction than in the other: one copy for each
-/// use in
-/// excess.
+/// use in excess.
 ///
 /// The edges are sorted into buckets by their lower vertex, in linear time, since every model
-/// passes
-/// through here.
+/// passes through here.
 std::vector<Edge> unpaired_edges(const std::vector<Edge>& edges, size_t vertex_count) {
     std::vector<uint32_t> first(vertex_count + 1, 0);
     for (const Edge& e : edges) ++first[std::min(e.from, e.to) + 1];
@@ -83,9 +81,8 @@ class Outlines {
 };
 
 /// Offset, in lattice units, of the point where an outline's caps meet from the outline's middle.
-/// Winding
-/// numbers don't depend on that point. Away from the middle itself, centres of voxels seldom lie on
-/// edges between caps, where neither cap has an angle.
+/// Winding numbers don't depend on that point. Away from the middle itself, centres of voxels
+/// seldom lie on edges between caps, where neither cap has an angle.
 constexpr glm::i64vec3 kAside(37, 53, 71);
 
 /// The sum and number of an outline's corners, and the vertex at their middle.

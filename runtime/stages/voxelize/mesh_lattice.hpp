@@ -13,8 +13,7 @@ namespace voxelume {
 inline constexpr int kLatticePerVoxel = 4096;
 
 /// The maximum distance of a mesh from its grid and the maximum size of a grid, in voxels. It keeps
-/// every
-/// predicate of kernels/lib/voxelize/lattice.h within its bits.
+/// every predicate of kernels/lib/voxelize/lattice.h within its bits.
 inline constexpr int kLatticeReach = 16384;
 
 /// Corners and triangles as kernels read them.
@@ -38,12 +37,11 @@ glm::dvec3 to_voxels(const glm::vec3& position, const glm::dmat4& frame_from_mes
                      const GridFrame& frame);
 
 /// Closes the mesh: appends triangles that fan from a point near each open outline's middle to its
-/// edges.
-/// The whole then has no boundary and integer winding numbers. A closed mesh gets no triangles.
+/// edges. The whole then has no boundary and integer winding numbers. A closed mesh gets no
+/// triangles.
 ///
 /// Vertices at one lattice point count as one, and opposite edges cancel, so neither seams nor
-/// doubled
-/// sheets count as holes.
+/// doubled sheets count as holes.
 void cap_open_outlines(MeshLattice& mesh);
 
 }  // namespace voxelume

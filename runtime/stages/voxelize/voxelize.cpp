@@ -7,6 +7,7 @@
 
 #include "kernels/shared/voxel.h"
 #include "runtime/base/error.hpp"
+#include "runtime/stages/brick_arrays.hpp"
 #include "runtime/stages/voxelize/mesh_lattice.hpp"
 #include "runtime/stages/voxelize/voxelize_steps.hpp"
 
@@ -28,12 +29,10 @@ void check_frame(const GridFrame& frame) {
 }
 
 DeviceTriangles upload(const Device& device, const MeshLattice& mesh) {
-    DeviceTriangles d;
+    DeviceTriangles d = allocate_triangles(device, mesh.vertices.size(), mesh.triangles.size());
     d.count = static_cast<uint32_t>(mesh.surface_triangles);
-    d.vertices = Buffer<int32_t>(device, "lattice vertices",
-                                 std::span(&mesh.vertices.front().x, 3 * mesh.vertices.size()));
-    d.triangles = Buffer<uint32_t>(device, "lattice triangles",
-                                   std::span(&mesh.triangles.front().x, 3 * mesh.triangles.size()));
+    d.vertices.write(std::span(&mesh.vertices.front().x, 3 * mesh.vertices.size()));
+    d.triangles.write(std::span(&mesh.triangles.front().x, 3 * mesh.triangles.size()));
     return d;
 }
 
@@ -49,8 +48,7 @@ void store_bins(VoxelizeJob& job, TriangleBins bins) {
     job.bins = std::move(bins);
     job.grid.brick_count = job.bins.stored;
     job.grid.coordinates = job.bins.coordinates;
-    const glm::ivec4& b = job.bricks;
-    job.grid.slots = Buffer<uint32_t>(job.device, "brick slots", size_t(b.x) * b.y * b.z);
+    job.grid.slots = allocate_slots(job.device, "brick slots", job.grid.frame);
 }
 
 /// True if the options need to know where a mesh's inside is.

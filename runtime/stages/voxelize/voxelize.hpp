@@ -31,18 +31,13 @@ class Voxelizer {
     ///           are not all on one side. Distances are exact to their rounding within the band and
     ///           saturated (±32767) beyond.
     ///   exact   as cubes, with the triangles of each voxel in ascending order. Voxels are widened
-    ///   by a
-    ///           unit of the lattice, since rays meet corners that aren't snapped to it.
+    ///           by a unit of the lattice, since rays meet corners that aren't snapped to it.
     /// `attributes` is empty for a mesh with one group, `colors` for a mesh without colours.
-    /// Otherwise a
-    /// voxel has the group of the triangle closest to its centre (of equally close ones the
-    /// triangle with
-    /// the lowest number) and the colour of that triangle's closest point. Voxels that no surface
-    /// concerns
-    /// have group 0 and are white. Materials are face groups, object is 0.
+    /// Otherwise a voxel has the group of the triangle closest to its centre (of equally close ones
+    /// the triangle with the lowest number) and the colour of that triangle's closest point. Voxels
+    /// that no surface concerns have group 0 and are white. Materials are face groups, object is 0.
     /// Throws Error::input for a mesh without triangles, with NaNs or bad indices; Error::limit for
-    /// more
-    /// than 16384 voxels along an axis or if memory doesn't suffice.
+    /// more than 16384 voxels along an axis or if memory doesn't suffice.
     BrickGrid voxelize(const Mesh& mesh, const glm::dmat4& frame_from_mesh, const GridFrame& frame,
                        const VoxelizeOptions& options);
 
@@ -65,8 +60,7 @@ BrickGrid voxelize_mesh(const Device& device, const Mesh& mesh, const glm::dmat4
                         const GridFrame& frame, const VoxelizeOptions& options);
 
 /// The frame with voxels of `voxel_edge` (metres) that holds the mesh in its own space, plus
-/// `margin`
-/// voxels on every side. Four voxels hold all distances of `smooth`.
+/// `margin` voxels on every side. Four voxels hold all distances of `smooth`.
 GridFrame frame_around(const Mesh& mesh, const glm::dvec3& voxel_edge, int margin = 4);
 
 /// The frame around a mesh whose vertices span the box `low`..`high`.

@@ -46,12 +46,41 @@ BinLayout lay_out_bins(const std::vector<uint32_t>& counts, uint32_t columns) {
     return layout;
 }
 
-Buffer<uint32_t> upload(const Device& device, const char* name,
-                        const std::vector<uint32_t>& values) {
-    return Buffer<uint32_t>(device, name, std::span<const uint32_t>(values));
+TriangleBins upload(const Device& device, const BinLayout& layout) {
+    TriangleBins bins = allocate_bins(device, {layout.number_of_bin.size(), layout.occupied.size(),
+                                               layout.stored, layout.first.back()});
+    bins.occupied.write(layout.occupied);
+    bins.number_of_bin.write(layout.number_of_bin);
+    bins.coordinates.write(layout.coordinates);
+    bins.first.write(layout.first);
+    return bins;
 }
 
 }  // namespace
+
+DeviceTriangles allocate_triangles(const Device& device, size_t vertices, size_t triangles) {
+    DeviceTriangles d;
+    d.count = uint32_t(triangles);
+    d.vertices = Buffer<int32_t>(device, "lattice vertices", 3 * vertices);
+    d.triangles = Buffer<uint32_t>(device, "lattice triangles", 3 * triangles);
+    return d;
+}
+
+TriangleBins allocate_bins(const Device& device, const BinCounts& counts) {
+    TriangleBins bins;
+    bins.count = uint32_t(counts.occupied);
+    bins.stored = uint32_t(counts.stored);
+    bins.occupied = Buffer<uint32_t>(device, "occupied bins", counts.occupied);
+    bins.number_of_bin = Buffer<uint32_t>(device, "bin numbers", counts.bins);
+    bins.coordinates = Buffer<uint32_t>(device, "brick coordinates", counts.stored);
+    bins.first = Buffer<uint32_t>(device, "bin starts", counts.occupied + 1);
+    bins.lists = Buffer<uint32_t>(device, "bin lists", counts.pairs);
+    return bins;
+}
+
+Buffer<uint32_t> allocate_cursors(const Device& device, size_t bins) {
+    return {device, "bin cursors", bins};
+}
 
 void bind(KernelArguments& to, const DeviceTriangles& triangles) {
     to.add(triangles.first, triangles.count, triangles.vertices, triangles.triangles);
@@ -76,23 +105,17 @@ uint64_t starts_of_counts(std::vector<uint32_t>& counts) {
 TriangleBins bin_triangles(const Device& device, const Program& program,
                            const DeviceTriangles& triangles, const glm::ivec3& bricks,
                            const glm::ivec3& reach, int extent) {
-    TriangleBins bins;
-    bins.size = glm::ivec4(bricks.x + 1, bricks.y, bricks.z, 0);
-    const size_t bin_count = size_t(bins.size.x) * size_t(bins.size.y) * size_t(bins.size.z);
-    Buffer<uint32_t> cursors(device, "bin cursors", bin_count);
+    const glm::ivec4 size(bricks.x + 1, bricks.y, bricks.z, 0);
+    Buffer<uint32_t> cursors =
+        allocate_cursors(device, size_t(size.x) * size_t(size.y) * size_t(size.z));
     cursors.fill(0);
     const glm::ivec4 reach4(reach, 0);
     program.kernel("count_pairs")
-        .launch(WorkItem::light, triangles.count, bins.size, reach4, extent, triangles, cursors);
-    const BinLayout layout = lay_out_bins(cursors.read(), static_cast<uint32_t>(bins.size.x));
-    bins.count = static_cast<uint32_t>(layout.occupied.size());
-    bins.stored = layout.stored;
-    bins.occupied = upload(device, "occupied bins", layout.occupied);
-    bins.number_of_bin = upload(device, "bin numbers", layout.number_of_bin);
-    bins.coordinates = upload(device, "brick coordinates", layout.coordinates);
-    bins.first = upload(device, "bin starts", layout.first);
+        .launch(WorkItem::light, triangles.count, size, reach4, extent, triangles, cursors);
+    const BinLayout layout = lay_out_bins(cursors.read(), static_cast<uint32_t>(size.x));
+    TriangleBins bins = upload(device, layout);
+    bins.size = size;
     cursors.write(layout.cursors);
-    bins.lists = Buffer<uint32_t>(device, "bin lists", layout.first.back());
     if (layout.first.back() == 0) return bins;
     program.kernel("list_pairs")
         .launch(WorkItem::light, triangles.count, bins.size, reach4, extent, triangles, cursors,

@@ -1,22 +1,13 @@
 // triangles of each brick -> which of its points are inside, by winding numbers.
+#include "runtime/stages/brick_arrays.hpp"
 #include "runtime/stages/voxelize/voxelize_steps.hpp"
 
 namespace voxelume {
 
 namespace {
 
-/// Winding numbers of a closed mesh.
-struct Windings {
-    Buffer<int16_t> numbers;  ///< 4096 per brick with triangles, from its left face
-    Buffer<int16_t> carried;  ///< 256 per bin with triangles: at its left face
-    Buffer<int16_t> passing;  ///< one per brick of the frame: of those without triangles
-};
-
 Windings count_windings(VoxelizeJob& job, const Program& winding, const TriangleBins& b) {
-    Windings w;
-    w.numbers = Buffer<int16_t>(job.device, "winding numbers", size_t(4096) * b.stored);
-    w.carried = Buffer<int16_t>(job.device, "crossing totals", size_t(256) * b.count);
-    w.passing = Buffer<int16_t>(job.device, "passing windings", job.grid.slots.size());
+    Windings w = allocate_windings(job.device, b.stored, b.count, job.grid.slots.size());
     winding.kernel("count_crossings")
         .launch(WorkItem::heavy, b.count, job.triangles, b, w.numbers, w.carried);
     const auto rows = static_cast<uint32_t>(job.bricks.y * job.bricks.z);
@@ -78,10 +69,22 @@ Buffer<uint32_t> upload(const VoxelizeJob& job, const char* name,
 
 }  // namespace
 
+Windings allocate_windings(const Device& device, size_t stored, size_t bins, size_t places) {
+    Windings w;
+    w.numbers = allocate_distances(device, "winding numbers", stored);
+    w.carried = Buffer<int16_t>(device, "crossing totals", 256 * bins);
+    w.passing = Buffer<int16_t>(device, "passing windings", places);
+    return w;
+}
+
+Buffer<uint16_t> allocate_inside(const Device& device, size_t stored) {
+    return {device, "inside rows", 256 * stored};
+}
+
 Buffer<uint16_t> find_inside(VoxelizeJob& job, const Program& winding) {
     const uint32_t stored = job.bins.stored;
     const Windings w = count_windings(job, winding, job.bins);
-    Buffer<uint16_t> inside(job.device, "inside rows", size_t(256) * stored);
+    Buffer<uint16_t> inside = allocate_inside(job.device, stored);
     winding.kernel("find_inside")
         .launch(WorkItem::heavy, stored, stored, w.numbers, w.carried, inside);
     return inside;
@@ -97,7 +100,7 @@ Buffer<uint16_t> find_inside_open(VoxelizeJob& job, const Program& winding, cons
     job.bins.coordinates = job.grid.coordinates = upload(job, "brick coordinates", r.coordinates);
     job.bins.first = upload(job, "bin starts", r.first);
     job.grid.slots = upload(job, "brick slots", r.slots);
-    Buffer<uint16_t> inside(job.device, "inside rows", size_t(256) * job.bins.stored);
+    Buffer<uint16_t> inside = allocate_inside(job.device, job.bins.stored);
     caps.kernel("find_inside_open")
         .launch(WorkItem::heavy, job.items(), job.bins.stored, job.bricks,
                 edge_scale(job.grid.frame), job.caps, job.bins.coordinates, states,

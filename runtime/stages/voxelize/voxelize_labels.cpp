@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "runtime/stages/brick_arrays.hpp"
 #include "runtime/stages/voxelize/voxelize_steps.hpp"
 
 namespace voxelume {
@@ -19,10 +20,8 @@ std::vector<float> srgb_thresholds() {
 }
 
 /// The distance, in shortest edges, within which a surface concerns a voxel's centre. A surface
-/// concerns
-/// a voxel that it meets, and one with a corner within 0.35 voxel of it: the zero of a smooth field
-/// can
-/// still lie in that voxel.
+/// concerns a voxel that it meets, and one with a corner within 0.35 voxel of it: the zero of a
+/// smooth field can still lie in that voxel.
 double label_band(const GridFrame& frame) {
     return 0.35 + 0.5 * double(glm::length(glm::vec3(edge_scale(frame))));
 }
@@ -37,7 +36,7 @@ void label_voxels(VoxelizeJob& job, const Program& label, const Program& distanc
                   const TriangleBins& lists, const MeshLabels& labels) {
     const size_t voxels = size_t(4096) * job.bins.stored;
     const glm::vec4 scale = edge_scale(job.grid.frame);
-    Buffer<uint32_t> nearest(job.device, "nearest triangles", voxels);
+    Buffer<uint32_t> nearest = allocate_words(job.device, "nearest triangles", job.bins.stored);
     label.kernel("find_nearest")
         .launch(WorkItem::heavy, job.items(), job.bins.stored, job.bricks,
                 glm::ivec4(label_reach(job.grid.frame), 0), scale,
@@ -47,7 +46,7 @@ void label_voxels(VoxelizeJob& job, const Program& label, const Program& distanc
     if (!labels.triangle_attributes.empty()) {
         const Buffer<uint32_t> words(job.device, "triangle attributes",
                                      std::span<const uint32_t>(labels.triangle_attributes));
-        job.grid.attributes = Buffer<uint32_t>(job.device, "voxel attributes", voxels);
+        job.grid.attributes = allocate_words(job.device, "voxel attributes", job.bins.stored);
         label.kernel("label_voxels")
             .launch(WorkItem::light, voxels, count, labels.attributes, nearest, words,
                     job.grid.attributes);
@@ -58,7 +57,7 @@ void label_voxels(VoxelizeJob& job, const Program& label, const Program& distanc
             std::span(&labels.vertex_colors.front().x, 3 * labels.vertex_colors.size()));
         const std::vector<float> thresholds = srgb_thresholds();
         const Buffer<float> codes(job.device, "sRGB thresholds", std::span(thresholds));
-        job.grid.colors = Buffer<uint32_t>(job.device, "voxel colors", voxels);
+        job.grid.colors = allocate_words(job.device, "voxel colors", job.bins.stored);
         label.kernel("color_voxels")
             .launch(WorkItem::light, voxels, count, job.bricks, scale, job.triangles,
                     job.bins.coordinates, nearest, colors, codes, job.grid.colors);

@@ -14,6 +14,7 @@
 #include "runtime/geometry/solid_membership.hpp"
 #include "runtime/geometry/solid_program.hpp"
 #include "runtime/opencl/program.hpp"
+#include "runtime/stages/brick_arrays.hpp"
 
 namespace voxelume {
 namespace {
@@ -64,10 +65,8 @@ class SolidVoxelizer {
     }
 
     /// The slot of a brick that no surface passes through, with the grid's end taken into account.
-    /// A solid
-    /// set has no voxels beyond the grid's size, so bricks across the end are stored (0) and those
-    /// past it
-    /// are outside.
+    /// A solid set has no voxels beyond the grid's size, so bricks across the end are stored (0)
+    /// and those past it are outside.
     uint32_t state_at_end(uint32_t brick, uint32_t state) const {
         const glm::ivec3 corner = brick_corner(grid_.frame, brick), &size = grid_.frame.size;
         if (glm::any(glm::greaterThanEqual(corner, size))) return kBrickOutside;
@@ -103,7 +102,7 @@ class SolidVoxelizer {
 
     void sample() {
         constexpr uint32_t kBricksPerLaunch = 1u << 16;  // 2^28 nodes: the count fits its type
-        grid_.distance = Buffer<int16_t>(device_, "distance", grid_.brick_count * kVoxelsPerBrick);
+        grid_.distance = allocate_distances(device_, "distance", grid_.brick_count);
         Kernel kernel = code_.kernel("sample_solid");
         for (uint32_t first = 0; first < grid_.brick_count; first += kBricksPerLaunch) {
             const uint32_t bricks = std::min(kBricksPerLaunch, grid_.brick_count - first);
@@ -116,8 +115,8 @@ class SolidVoxelizer {
 
     void occupy(VoxelSet set) {
         const auto leaves = static_cast<uint32_t>(grid_.brick_count * kLeavesPerBrick);
-        grid_.occupancy = Buffer<uint64_t>(device_, "occupancy", leaves);
-        Buffer<uint64_t> undecided(device_, "undecided voxels", leaves);
+        grid_.occupancy = allocate_masks(device_, "occupancy", grid_.brick_count);
+        Buffer<uint64_t> undecided = allocate_masks(device_, "undecided voxels", grid_.brick_count);
         Buffer<uint32_t> undecided_count(device_, "undecided count", 1);
         undecided_count.fill(0);
         code_.kernel("occupy_solid")
@@ -177,7 +176,7 @@ class SolidVoxelizer {
         counts = Buffer<uint32_t>(device_, "first primitives", firsts);
 
         const size_t voxels = bricks * kVoxelsPerBrick;
-        grid_.primitive_first = Buffer<uint32_t>(device_, "primitive_first", voxels + 1);
+        grid_.primitive_first = allocate_list_starts(device_, "primitive_first", bricks);
         code_.kernel("number_voxels")
             .launch(WorkItem::light, bricks, grid_.occupancy, counts, bricks,
                     grid_.primitive_first);

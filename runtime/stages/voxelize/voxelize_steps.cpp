@@ -2,12 +2,13 @@
 
 #include <algorithm>
 
+#include "runtime/stages/brick_arrays.hpp"
+
 namespace voxelume {
 namespace {
 
 /// The slices of a brick that one work-item handles: all of them where cores are few, else one
-/// layer of
-/// leaves.
+/// layer of leaves.
 int slices_per_item(const Device& device) {
     return device.is_cpu() ? kBrickSize : kLeafSize;
 }
@@ -33,9 +34,13 @@ glm::ivec3 band_reach(const GridFrame& frame, double band) {
            1;
 }
 
-Buffer<float> shape_triangles(const VoxelizeJob& job, const Program& distance) {
+Buffer<float> allocate_shapes(const Device& device, size_t triangles) {
     constexpr size_t kShapeFloats = 20;  // SHAPE_FLOATS of kernels/lib/voxelize/point_triangle.h
-    Buffer<float> shapes(job.device, "triangle shapes", kShapeFloats * job.triangles.count);
+    return {device, "triangle shapes", kShapeFloats * triangles};
+}
+
+Buffer<float> shape_triangles(const VoxelizeJob& job, const Program& distance) {
+    Buffer<float> shapes = allocate_shapes(job.device, job.triangles.count);
     distance.kernel("shape_triangles")
         .launch(WorkItem::light, job.triangles.count, edge_scale(job.grid.frame), job.triangles,
                 shapes);
@@ -43,7 +48,7 @@ Buffer<float> shape_triangles(const VoxelizeJob& job, const Program& distance) {
 }
 
 void cover_bricks(VoxelizeJob& job, const Program& cover) {
-    job.grid.occupancy = Buffer<uint64_t>(job.device, "occupancy", size_t(64) * job.bins.stored);
+    job.grid.occupancy = allocate_masks(job.device, "occupancy", job.bins.stored);
     cover.kernel("cover_bricks")
         .launch(WorkItem::heavy, job.items(), job.bins.stored, job.size, job.bricks, job.triangles,
                 job.bins, job.grid.occupancy);
@@ -56,7 +61,7 @@ void mark_outside(VoxelizeJob& job, const Program& bin) {
 }
 
 void fill_solid(VoxelizeJob& job, const Program& winding, const Buffer<uint16_t>& inside) {
-    job.grid.occupancy = Buffer<uint64_t>(job.device, "occupancy", size_t(64) * job.bins.stored);
+    job.grid.occupancy = allocate_masks(job.device, "occupancy", job.bins.stored);
     winding.kernel("fill_solid")
         .launch(WorkItem::heavy, job.bins.stored, job.bins.stored, job.size, job.bricks,
                 job.bins.coordinates, inside, job.grid.occupancy);
@@ -66,7 +71,7 @@ void measure_distances(VoxelizeJob& job, const Program& distance, const Buffer<u
                        double band) {
     const glm::ivec4 reach(band_reach(job.grid.frame, band), 0);
     const Buffer<float> shapes = shape_triangles(job, distance);
-    job.grid.distance = Buffer<int16_t>(job.device, "distances", size_t(4096) * job.bins.stored);
+    job.grid.distance = allocate_distances(job.device, "distances", job.bins.stored);
     distance.kernel("measure_distances")
         .launch(WorkItem::heavy, job.items(), job.bins.stored, job.bricks, reach,
                 edge_scale(job.grid.frame), static_cast<float>(band), job.triangles, job.bins,
@@ -75,8 +80,7 @@ void measure_distances(VoxelizeJob& job, const Program& distance, const Buffer<u
 
 void list_primitives(VoxelizeJob& job, const Program& exact) {
     const uint32_t count = job.bins.stored;
-    job.grid.primitive_first =
-        Buffer<uint32_t>(job.device, "primitive starts", size_t(4096) * count + 1);
+    job.grid.primitive_first = allocate_list_starts(job.device, "primitive starts", count);
     Buffer<uint32_t> totals(job.device, "primitive totals", count);
     exact.kernel("count_primitives")
         .launch(WorkItem::heavy, count, count, job.size, job.bricks, job.triangles, job.bins,

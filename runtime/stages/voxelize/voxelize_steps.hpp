@@ -33,6 +33,19 @@ glm::vec4 edge_scale(const GridFrame& frame);
 /// The length of `band` shortest edges in lattice units along each axis, rounded up.
 glm::ivec3 band_reach(const GridFrame& frame, double band);
 
+/// Winding numbers of a closed mesh.
+struct Windings {
+    Buffer<int16_t> numbers;  ///< 4096 per brick with triangles, from its left face
+    Buffer<int16_t> carried;  ///< 256 per bin with triangles: at its left face
+    Buffer<int16_t> passing;  ///< one per brick of the frame: of those without triangles
+};
+
+/// The arrays of winding numbers in `stored` bricks and `bins` with triangles of a frame of
+/// `places` bricks; of the rows of stored bricks' points, which are inside; of triangles' shapes.
+Windings allocate_windings(const Device& device, size_t stored, size_t bins, size_t places);
+Buffer<uint16_t> allocate_inside(const Device& device, size_t stored);
+Buffer<float> allocate_shapes(const Device& device, size_t triangles);
+
 /// Vectors and lengths of each triangle that do not depend on a brick, for distances.
 Buffer<float> shape_triangles(const VoxelizeJob& job, const Program& distance);
 
@@ -43,14 +56,12 @@ void cover_bricks(VoxelizeJob& job, const Program& cover);
 void mark_outside(VoxelizeJob& job, const Program& bin);
 
 /// Finds which points (voxels' centres or corners, whichever `winding` was built for) are inside,
-/// and
-/// marks the bricks that are not stored.
+/// and marks the bricks that are not stored.
 Buffer<uint16_t> find_inside(VoxelizeJob& job, const Program& winding);
 
 /// Finds the inside of a mesh whose open outlines are closed by the job's caps: the points where
-/// the
-/// generalized winding number is above 1/2. Also stores the bricks that the boundary of this inside
-/// crosses far from any triangle. `cap_bins` holds the caps, `all_bins` caps and triangles.
+/// the generalized winding number is above 1/2. Also stores the bricks that the boundary of this
+/// inside crosses far from any triangle. `cap_bins` holds the caps, `all_bins` caps and triangles.
 Buffer<uint16_t> find_inside_open(VoxelizeJob& job, const Program& winding, const Program& caps,
                                   const TriangleBins& cap_bins, const TriangleBins& all_bins);
 
@@ -77,8 +88,7 @@ void label_voxels(VoxelizeJob& job, const Program& label, const Program& distanc
                   const TriangleBins& lists, const MeshLabels& labels);
 
 /// The maximum distance from a brick, in lattice units, of a triangle that is the closest one of
-/// any of
-/// its voxels that a surface concerns.
+/// any of its voxels that a surface concerns.
 glm::ivec3 label_reach(const GridFrame& frame);
 
 }  // namespace voxelume

@@ -1,0 +1,76 @@
+#include "runtime/analysis/placed_objects.hpp"
+
+#include <map>
+
+#include "runtime/analysis/object_boxes.hpp"
+#include "runtime/assets/model_frame.hpp"
+#include "runtime/base/error.hpp"
+#include "runtime/scene/predicates.hpp"
+
+namespace voxelume {
+namespace {
+
+constexpr double kFar = 1e9;  // metres
+
+/// The model as an instance shows it: whole, wherever the world ends.
+Model whole(Model model) {
+    model.extent = {glm::dvec3(-kFar), glm::dvec3(kFar)};
+    return model;
+}
+
+}  // namespace
+
+std::vector<PlacedObject> placed_objects(const Scene& scene, AssetStore& meshes,
+                                         std::span<const VoxelBox> boxes, const GridSource& grid_of,
+                                         std::vector<SharedGrid>& grids) {
+    std::vector<PlacedObject> objects;
+    for (uint32_t number = 0; number < scene.objects.size(); ++number) {
+        const Object& object = scene.objects[number];
+        if (is_instanced(scene, object) || !is_potentially_visible(scene, object)) continue;
+        if (!overlap(boxes[number], boxes[number])) continue;  // nothing of it is in the world
+        const Model& model = scene.models[size_t(object.model)];
+        const bool has_own_voxels = !model.voxels.empty() && !lists_primitives(model.surface);
+        grids.push_back(grid_of(object, model));
+        PlacedObject placed{.grid = grids.back().get(), .object = number};
+        placed.in_world_frame = lists_primitives(model.surface);
+        placed.world_from_object = placed.in_world_frame ? glm::dmat4(1) : object.world_from_object;
+        placed.priority = object.priority;
+        placed.set = has_own_voxels ? meshes.voxels(model).set : model.set;
+        placed.keeps_inside =
+            shows_inside(scene, object) ||
+            (has_own_voxels && shows_voxels(model.surface) && transmits(scene, object));
+        for (const int material : materials_of_groups(object, meshes.groups_of(model)))
+            placed.material_of_group.push_back(uint32_t(material));
+        objects.push_back(std::move(placed));
+    }
+    return objects;
+}
+
+ListedInstances list_instances(const Scene& scene, AssetStore& meshes, const GridSource& grid_of) {
+    ListedInstances listed;
+    std::map<int, uint32_t> numbers;
+    for (uint32_t number = 0; number < scene.objects.size(); ++number) {
+        const Object& object = scene.objects[number];
+        if (!object.visible || !object.potentially_visible || !is_instanced(scene, object))
+            continue;
+        const Model& model = scene.models[size_t(object.model)];
+        const auto [entry, added] =
+            numbers.emplace(object.model, static_cast<uint32_t>(listed.grids.size()));
+        if (added) listed.grids.push_back(grid_of(object, whole(model)));
+        if (listed.grids[entry->second]->transparent)
+            throw Error(ErrorKind::scene,
+                        "{}: some voxels of its model let light through, and rays go through "
+                        "objects in the world's voxels only; give it \"placement\": \"world\"",
+                        object.where);
+        const std::vector<int> groups = materials_of_groups(object, meshes.groups_of(model));
+        listed.list.push_back({.object = number,
+                               .model = entry->second,
+                               .first_material = static_cast<uint32_t>(listed.materials.size()),
+                               .material_count = static_cast<uint32_t>(groups.size())});
+        for (const int material : groups)
+            listed.materials.push_back(static_cast<uint32_t>(material));
+    }
+    return listed;
+}
+
+}  // namespace voxelume

@@ -1,0 +1,39 @@
+// scene -> the objects that are placed in its world's voxels, those that are instances, and the
+// grids that they show.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "runtime/assets/asset_store.hpp"
+#include "runtime/scene/scene.hpp"
+#include "runtime/stages/place/place.hpp"
+
+namespace voxelume {
+
+using SharedGrid = std::shared_ptr<const BrickGrid>;
+
+/// Gives an object, that shows `model`, its grid.
+using GridSource = std::function<SharedGrid(const Object& object, const Model& model)>;
+
+/// The scene's objects that lie in the world, by their `boxes`, but for instances; `grids` keeps
+/// what they name.
+std::vector<PlacedObject> placed_objects(const Scene& scene, AssetStore& meshes,
+                                         std::span<const VoxelBox> boxes, const GridSource& grid_of,
+                                         std::vector<SharedGrid>& grids);
+
+/// A scene's instances with the grids of their models.
+struct ListedInstances {
+    std::vector<SharedGrid> grids;  ///< of the models, each once, numbered as in `list`
+    std::vector<Instance> list;
+    std::vector<uint32_t> materials;  ///< of their groups
+};
+
+/// Lists a scene's instances with the grids that `grid_of` gives their models, whole, in their own
+/// frames. Throws as that and materials_of_groups do, and Error::scene for a model some of whose
+/// voxels let light through.
+ListedInstances list_instances(const Scene& scene, AssetStore& meshes, const GridSource& grid_of);
+
+}  // namespace voxelume

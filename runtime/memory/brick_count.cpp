@@ -1,0 +1,202 @@
+#include "runtime/memory/brick_count.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/vector_relational.hpp>
+
+namespace voxelume {
+namespace {
+
+constexpr double kMostMarked = 1 << 28;   ///< bricks of a lattice that are told apart
+constexpr double kMostCounted = 1 << 17;  ///< bricks of a surface: some hundredths of a second
+constexpr size_t kSampledBricks = 24;     ///< whose voxels are counted
+constexpr double kLeafEdge = 5.5;         ///< voxels: boxes that aren't divided further
+
+/// A box in a lattice's voxels.
+struct Cell {
+    glm::dvec3 low, high;
+
+    glm::dvec3 middle() const { return 0.5 * (low + high); }
+    glm::dvec3 half() const { return 0.5 * (high - low); }
+    Cell part(int number) const {
+        const glm::dvec3 m = middle();
+        Cell cell = *this;
+        for (int axis = 0; axis < 3; ++axis)
+            (number >> axis & 1 ? cell.low : cell.high)[axis] = m[axis];
+        return cell;
+    }
+};
+
+class BrickCounter {
+  public:
+    BrickCounter(const SolidField& field, const GridFrame& frame, const BrickRule& rule,
+                 TakenBricks& taken)
+        : field_(field), frame_(frame), rule_(rule), taken_(taken) {
+        const glm::dvec3& e = frame.voxel_edge;
+        reach_ = rule.reach * std::min({e.x, e.y, e.z});
+    }
+
+    SurfaceExtent count(const VoxelBox& box) {
+        const glm::dvec3 edge(kBrickSize);
+        const glm::ivec3 last = frame_.bricks() - 1;
+        first_ = glm::ivec3(
+            glm::clamp(glm::floor(box.low / edge) - 1.0, glm::dvec3(0), glm::dvec3(last)));
+        last_ = glm::ivec3(
+            glm::clamp(glm::floor(box.high / edge) + 1.0, glm::dvec3(0), glm::dvec3(last)));
+        const glm::ivec3 size = last_ - first_ + 1;
+        int span = 1;
+        while (span < std::max({size.x, size.y, size.z})) span *= 2;
+        visit(first_, span);
+        return {voxels(), bricks_};
+    }
+
+  private:
+    /// What lies beyond the lattice's ends is cut off where the rule says so.
+    double distance(const glm::dvec3& voxel) const {
+        const double d = field_.distance(frame_.origin + frame_.voxel_edge * voxel);
+        if (!rule_.closes_ends) return d;
+        const glm::dvec3 beyond =
+            glm::max(-voxel, voxel - glm::dvec3(frame_.size)) * frame_.voxel_edge;
+        return std::max({d, beyond.x, beyond.y, beyond.z});
+    }
+    double radius(const Cell& cell) const { return glm::length(cell.half() * frame_.voxel_edge); }
+
+    void visit(const glm::ivec3& brick, int span) {
+        if (glm::any(glm::greaterThan(brick, last_))) return;
+        const glm::dvec3 corner(brick * kBrickSize);
+        const Cell cell{corner + rule_.first,
+                        corner + double((span - 1) * kBrickSize) + rule_.last};
+        const double d = distance(cell.middle());
+        if (std::abs(d) > radius(cell) + reach_) {
+            if (d < 0 && rule_.keeps_inside) keep_inside(brick, span);
+            return;
+        }
+        if (span == 1) {
+            if (is_near(cell, d)) {
+                stored_.push_back(brick);
+                bricks_ += taken_.take(brick) ? 1 : 0;
+            } else if (d < 0 && rule_.keeps_inside) {
+                keep_inside(brick, 1);
+            }
+            return;
+        }
+        for (int part = 0; part < 8; ++part)
+            visit(brick + span / 2 * glm::ivec3(part & 1, part >> 1 & 1, part >> 2), span / 2);
+    }
+
+    /// `d` is the distance in its middle.
+    bool is_near(const Cell& cell, double d) const {
+        if (std::abs(d) <= reach_) return true;
+        const glm::dvec3 half = cell.half();
+        if (std::max({half.x, half.y, half.z}) < kLeafEdge / 2) return false;
+        for (int number = 0; number < 8; ++number) {
+            const Cell part = cell.part(number);
+            const double of_part = distance(part.middle());
+            if (std::abs(of_part) <= radius(part) + reach_ && is_near(part, of_part)) return true;
+        }
+        return false;
+    }
+
+    void keep_inside(const glm::ivec3& brick, int span) {
+        const glm::ivec3 end = glm::min(brick + span - 1, last_);
+        for (int z = brick.z; z <= end.z; ++z)
+            for (int y = brick.y; y <= end.y; ++y)
+                for (int x = brick.x; x <= end.x; ++x) {
+                    bricks_ += taken_.take({x, y, z}) ? 1 : 0;
+                    inside_voxels_ += kVoxelsPerBrick;
+                }
+    }
+
+    /// Those of some bricks, evenly spread, stand for all.
+    double voxels() const {
+        if (stored_.empty()) return inside_voxels_;
+        const size_t sampled = std::min(stored_.size(), kSampledBricks);
+        double sum = 0;
+        for (size_t i = 0; i < sampled; ++i) {
+            const glm::dvec3 corner(stored_[i * stored_.size() / sampled] * kBrickSize);
+            sum += voxels_in({corner, corner + double(kBrickSize)});
+        }
+        return inside_voxels_ + sum * double(stored_.size()) / double(sampled);
+    }
+
+    double voxels_in(const Cell& cell) const {
+        const double d = distance(cell.middle()), size = cell.high.x - cell.low.x;
+        const bool is_inside = (rule_.keeps_inside || rule_.fills) && d < 0;
+        if (std::abs(d) > radius(cell)) return is_inside ? size * size * size : 0;
+        if (size < 1.5) return is_inside || passes(cell.middle(), d) ? 1 : 0;
+        double sum = 0;
+        for (int part = 0; part < 8; ++part) sum += voxels_in(cell.part(part));
+        return sum;
+    }
+
+    /// Whether the plane through the surface near a voxel's middle passes through the voxel.
+    bool passes(const glm::dvec3& middle, double d) const {
+        if (glm::any(glm::greaterThan(middle, glm::dvec3(frame_.size)))) return false;
+        constexpr double kStep = 0.01;  // voxels
+        double across = 0;
+        for (int axis = 0; axis < 3; ++axis) {
+            glm::dvec3 beside = middle;
+            beside[axis] += kStep;
+            across += std::abs(distance(beside) - d) / kStep;
+        }
+        return std::abs(d) <= 0.5 * across;
+    }
+
+    const SolidField& field_;
+    const GridFrame& frame_;
+    BrickRule rule_;
+    TakenBricks& taken_;
+    double reach_;  ///< metres
+    glm::ivec3 first_{0}, last_{0};
+    std::vector<glm::ivec3> stored_;  ///< with surface
+    double bricks_ = 0, inside_voxels_ = 0;
+};
+
+/// Bricks that the surface of a box may pass through.
+double most_bricks(const VoxelBox& box) {
+    const glm::dvec3 size = glm::max(box.high - box.low, 0.0) / double(kBrickSize) + 2.0;
+    return 2 * (size.x * size.y + size.y * size.z + size.z * size.x);
+}
+
+}  // namespace
+
+bool TakenBricks::take(const glm::ivec3& brick) {
+    const double count = double(table_.x) * table_.y * table_.z;
+    if (count > kMostMarked) return true;
+    if (taken_.empty()) taken_.resize(size_t(count));
+    auto place = taken_[size_t(brick.x) +
+                        size_t(table_.x) * (size_t(brick.y) + size_t(table_.y) * size_t(brick.z))];
+    const bool is_new = !place;
+    place = true;
+    return is_new;
+}
+
+BrickRule model_rule(Surface surface, bool is_solid_set) {
+    // Distances are stored about blocks of 4³ nodes, voxels about such of 4³ voxels.
+    if (surface == Surface::smooth) return {.first = 0, .last = 15, .reach = 2.8 + 2.6};
+    return {
+        .first = 0, .last = 16, .reach = 3.46, .fills = is_solid_set, .closes_ends = is_solid_set};
+}
+
+BrickRule world_rule(Surface surface, bool is_solid_set, bool keeps_inside) {
+    // A voxel more on each side, and leaves of the object that reach into that.
+    const double reach = surface == Surface::smooth ? 2.9 + 2.0 : 3.0;
+    return {-2.5, 18.5, reach, keeps_inside, is_solid_set, true};
+}
+
+SurfaceExtent count_bricks(const SolidField& field, const GridFrame& frame, const VoxelBox& box,
+                           const BrickRule& rule, TakenBricks& taken) {
+    if (glm::any(glm::greaterThan(box.low, box.high))) return {};
+    if (most_bricks(box) <= kMostCounted) return BrickCounter(field, frame, rule, taken).count(box);
+    GridFrame coarse = frame;
+    coarse.voxel_edge *= 2;
+    coarse.size = (frame.size + 1) / 2;
+    TakenBricks apart(coarse);
+    const SurfaceExtent quarter =
+        count_bricks(field, coarse, {0.5 * box.low, 0.5 * box.high}, rule, apart);
+    return {4 * quarter.voxels, 4 * quarter.bricks};
+}
+
+}  // namespace voxelume

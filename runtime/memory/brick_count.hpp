@@ -1,0 +1,46 @@
+// solid and lattice -> the bricks that its surface is stored in, and its voxels: counted by
+// distances, from large cubes of bricks down to those that hold some of it.
+#pragma once
+
+#include <vector>
+
+#include "runtime/geometry/surface_extent.hpp"
+#include "runtime/grid/grid.hpp"
+#include "runtime/memory/solid_field.hpp"
+
+namespace voxelume {
+
+/// Which bricks a stage stores for a surface.
+struct BrickRule {
+    double first = 0, last = 0;  ///< the box that decides, in voxels from the brick's corner
+    double reach = 0;           ///< how far from it the surface may be, in shortest edges of voxels
+    bool keeps_inside = false;  ///< bricks inside of the solid are stored, too
+    bool fills = false;         ///< all voxels inside of the solid are stored, in bricks that are
+    bool closes_ends = false;   ///< where the lattice ends, the solid has a surface
+
+    friend bool operator==(const BrickRule&, const BrickRule&) = default;
+};
+
+/// Those of voxelizing a model in its own space, and of placing it in a world.
+BrickRule model_rule(Surface surface, bool is_solid_set);
+BrickRule world_rule(Surface surface, bool is_solid_set, bool keeps_inside);
+
+/// Bricks of a lattice that are stored for one object or another.
+class TakenBricks {
+  public:
+    explicit TakenBricks(const GridFrame& frame) : table_(frame.bricks()) {}
+
+    /// True if it was not taken before. Of a very large lattice each counts as new.
+    bool take(const glm::ivec3& brick);
+
+  private:
+    glm::ivec3 table_;
+    std::vector<bool> taken_;  ///< empty before the first
+};
+
+/// Counts what a solid's surface takes of `frame`'s lattice, in the `box` of its voxels, by such a
+/// rule; of bricks those that aren't taken yet. Of large surfaces coarser lattices tell.
+SurfaceExtent count_bricks(const SolidField& field, const GridFrame& frame, const VoxelBox& box,
+                           const BrickRule& rule, TakenBricks& taken);
+
+}  // namespace voxelume

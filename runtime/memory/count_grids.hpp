@@ -1,0 +1,30 @@
+// how much a grid is expected to hold -> the grid on a counting device, made as voxelizing makes
+// it.
+#pragma once
+
+#include "runtime/grid/grid.hpp"
+#include "runtime/scene/scene.hpp"
+
+namespace voxelume {
+
+/// What voxelizing a model is expected to find.
+struct GridCounts {
+    GridFrame frame;
+    Surface surface = Surface::cubes;
+    VoxelSet set = VoxelSet::supercover;
+    bool words = false, colors = false;  ///< voxels have them
+    size_t bricks = 0;                   ///< stored
+    size_t voxels = 0;                   ///< that the surface passes through
+    size_t vertices = 0, triangles = 0;  ///< of a mesh
+    size_t shapes = 0;                   ///< of an analytic solid
+};
+
+/// The grid of a mesh or of a solid, which has `shapes`. What is made beside it goes when it
+/// returns; the device's counters tell its height.
+BrickGrid count_mesh_grid(const Device& device, const GridCounts& counts);
+BrickGrid count_solid_grid(const Device& device, const GridCounts& counts);
+
+/// What is left of a mesh's `whole` grid, of `counts`, after cuts; the cuts' own grids go.
+BrickGrid count_cut_grid(const Device& device, const BrickGrid& whole, const GridCounts& counts);
+
+}  // namespace voxelume

@@ -1,0 +1,76 @@
+#include "runtime/memory/count_image.hpp"
+
+#include <algorithm>
+
+#include "runtime/analysis/scene_features.hpp"
+#include "runtime/grid/sector_table.hpp"
+#include "runtime/stages/light/light.hpp"
+#include "runtime/stages/light/light_beams.hpp"
+#include "runtime/stages/trace/sight.hpp"
+
+namespace voxelume {
+namespace {
+
+/// Tables that have a record for each material, object and sample, and counters, at most.
+constexpr size_t kSmallTables = 8192, kRecordBytes = 160;
+
+/// As Illumination::send_beams. Lamps stand in the world, and send none.
+std::vector<Buffer<float>> count_light_beams(const Device& device, const Scene& scene,
+                                             const Pyramid& world, DilationLevel of,
+                                             uint32_t maximum) {
+    std::vector<LightRecord> lights = given_lights(scene, world.frame);
+    std::erase_if(lights, [&](const LightRecord& light) { return !may_light(light, world.frame); });
+    std::vector<Buffer<float>> beams;
+    for (const BeamGrid& grid :
+         beam_grids(lights, world.frame.size, scale_of(of), maximum, kLightsOfMaxBeams * maximum))
+        beams.push_back(allocate_light_beams(device, grid));
+    return beams;
+}
+
+}  // namespace
+
+Buffer<uint8_t> count_tables(const Device& device, const Scene& scene) {
+    const size_t records = scene.materials.size() + scene.objects.size();
+    return {device, "small tables", kSmallTables + kRecordBytes * records};
+}
+
+DilatedOccupancy count_dilated_occupancy(const Device& device, const Pyramid& world,
+                                         DilationLevel of) {
+    const glm::dvec3 table(of == DilationLevel::leaves ? world.frame.sectors()
+                                                       : (world.frame.sectors() + 3) / 4);
+    const double places = table.x * table.y * table.z;
+    const double records = double(world.bricks.size() / kWordsPerRecord / kRecordsPerSector);
+    const double stored = (of == DilationLevel::leaves ? records : records / 16);
+    DilatedOccupancy dilated_occupancy =
+        allocate_dilated_occupancy(device, size_t(places), size_t(std::min(places, stored + 1)));
+    dilated_occupancy.of = of;
+    return dilated_occupancy;
+}
+
+ImageMemory count_image(const Device& device, const Scene& scene, const Pyramid& world,
+                        const DensityPlan& medium, size_t depth) {
+    const Features features = features_of(scene, world);
+    const Camera camera = camera_of(scene, world.frame);
+    const uint64_t rays =
+        16ull * tile_count(camera.width, camera.height) * uint64_t(camera.samples);
+    const double pixel = voxels_a_pixel(scene, camera, world.frame);
+    RayCounts counts = ray_counts(scene, features);
+    counts.depth = std::min(counts.depth, depth);
+    ImageMemory memory;
+    memory.rays = allocate_rays(device, features, counts);
+    memory.tables = count_tables(device, scene);
+    if (const auto of = dilation_that_pays(features, world, rays, pixel)) {
+        memory.dilated_occupancy = count_dilated_occupancy(device, world, *of);
+        memory.beams = allocate_beams(device, counts.rays);
+        if (counts.is_lit && lights_send_beams(features))
+            memory.light_beams =
+                count_light_beams(device, scene, world, *of,
+                                  light_beams_that_pay(world.frame, rays, camera.samples, pixel));
+    }
+    if (features.medium_grid)
+        memory.density = allocate_density(device, medium.slots, medium.places);
+    memory.image = allocate_image(device, scene.render.size, scene.render.channels);
+    return memory;
+}
+
+}  // namespace voxelume

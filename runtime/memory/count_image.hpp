@@ -1,0 +1,35 @@
+// scene + world on a counting device -> what rendering its flat image takes there.
+#pragma once
+
+#include "runtime/scene/scene.hpp"
+#include "runtime/stages/medium/density_grid.hpp"
+#include "runtime/stages/resolve/resolve.hpp"
+#include "runtime/stages/trace/beam.hpp"
+#include "runtime/stages/trace/ray_arrays.hpp"
+
+namespace voxelume {
+
+/// What an image is made with.
+struct ImageMemory {
+    RayArrays rays;
+    DilatedOccupancy dilated_occupancy;
+    Buffer<uint32_t> beams;
+    std::vector<Buffer<float>> light_beams;
+    DensityGrid density;
+    Buffer<uint8_t> tables;  ///< of materials, objects and samples
+    ImageArrays image;
+};
+
+/// All that Renderer's image of a world takes, without the world. `depth` is that of the arrays for
+/// reflections and refractions.
+ImageMemory count_image(const Device& device, const Scene& scene, const Pyramid& world,
+                        const DensityPlan& medium, size_t depth);
+
+/// The small tables that light is computed with.
+Buffer<uint8_t> count_tables(const Device& device, const Scene& scene);
+
+/// The buffers of the dilated occupancy of such a world, where it pays for so many rays.
+DilatedOccupancy count_dilated_occupancy(const Device& device, const Pyramid& world,
+                                         DilationLevel of);
+
+}  // namespace voxelume

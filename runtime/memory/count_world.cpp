@@ -1,0 +1,130 @@
+#include "runtime/memory/count_world.hpp"
+
+#include <algorithm>
+#include <set>
+
+#include "runtime/grid/sector_table.hpp"
+#include "runtime/stages/brick_arrays.hpp"
+#include "runtime/stages/index/index.hpp"
+#include "runtime/stages/index/index_marks.hpp"
+#include "runtime/stages/instance/instance_pools.hpp"
+#include "runtime/stages/place/place_exact.hpp"
+#include "runtime/stages/place/place_painter.hpp"
+
+namespace voxelume {
+namespace {
+
+/// Voxels of a surface in a leaf, and in a sector, of those that hold some.
+constexpr double kVoxelsPerLeaf = 11, kVoxelsPerSector = 4096;
+
+/// As the painters of objects, which share what is the same for one grid.
+std::vector<Buffer<uint64_t>> count_painters(const Device& device,
+                                             std::span<const PlacedObject> objects) {
+    std::vector<Buffer<uint64_t>> painters;
+    std::set<const BrickGrid*> grids;
+    for (const PlacedObject& object : objects)
+        if (grids.insert(object.grid).second)
+            painters.emplace_back(device, "near leaves", object.grid->brick_count);
+    return painters;
+}
+
+/// As WorldBricks::store and reserve.
+void count_bricks_of(const Device& device, const WorldParts& parts, size_t bricks,
+                     BrickGrid& world) {
+    world.brick_count = uint32_t(bricks);
+    if (parts.occupancy) world.occupancy = allocate_masks(device, "world occupancy", bricks);
+    if (parts.smooth) world.distance = allocate_distances(device, "world distances", bricks);
+    if (parts.has_attributes())
+        world.attributes = allocate_words(device, "world attributes", bricks);
+    if (parts.colors) world.colors = allocate_words(device, "world colors", bricks);
+    world.slots = allocate_slots(device, "world slots", world.frame);
+    world.coordinates = Buffer<uint32_t>(device, "world coordinates", bricks);
+}
+
+/// As Placer's painting.
+void count_painting(const Device& device, const WorldParts& parts, size_t bricks) {
+    const Buffer<int16_t> nearest = parts.measures_nearest()
+                                        ? allocate_distances(device, "nearest surfaces", bricks)
+                                        : Buffer<int16_t>();
+    const Buffer<uint32_t> painted(device, "painted bricks", 2 * bricks);
+}
+
+/// As join_exact_surfaces.
+void count_lists(const Device& device, std::span<const PlacedObject> objects, size_t primitives,
+                 BrickGrid& world) {
+    size_t floats = 0, solid_words = 0;
+    bool is_exact = false;
+    for (const PlacedObject& object : objects) {
+        is_exact |= !object.grid->primitive_first.empty();
+        floats += object.grid->triangles.size();
+        solid_words += object.grid->solids.size();
+    }
+    if (!is_exact) return;
+    allocate_sources(device, floats, solid_words, world);
+    const Buffer<uint32_t> counts = allocate_words(device, "primitive counts", world.brick_count);
+    world.primitives = Buffer<uint32_t>(device, "world primitives", primitives);
+    world.primitive_first =
+        allocate_list_starts(device, "world primitive starts", world.brick_count);
+    const Buffer<uint32_t> starts(device, "brick starts", world.brick_count);
+}
+
+}  // namespace
+
+CountedWorld count_placing(const Device& device, std::span<const PlacedObject> objects,
+                           const GridFrame& frame, const WorldCounts& counts) {
+    const WorldParts parts = parts_of(objects);
+    CountedWorld world;
+    BrickGrid& grid = world.grid;
+    grid.frame = frame;
+    grid.transparent = parts.transparent;
+    grid.attribute = parts.attributes.size() == 1 ? *parts.attributes.begin() : 0;
+    world.painters = count_painters(device, objects);
+    {
+        const Buffer<uint8_t> states(device, "brick states", brick_places(frame));
+        const Buffer<uint32_t> listed(device, "listed bricks", counts.bricks);
+    }
+    count_bricks_of(device, parts, counts.bricks, grid);
+    count_painting(device, parts, counts.bricks);
+    count_lists(device, objects, counts.primitives, grid);
+    return world;
+}
+
+void count_repainting(const Device& device, std::span<const PlacedObject> objects,
+                      const GridFrame& frame, size_t bricks) {
+    { const Buffer<uint8_t> states(device, "brick states", brick_places(frame)); }
+    count_painting(device, parts_of(objects), bricks);
+}
+
+Pyramid allocate_indexed(const Device& device, const BrickGrid& grid, const WorldCounts& counts) {
+    const glm::dvec3 sectors(grid.frame.sectors());
+    PyramidCounts found;
+    found.sectors = size_t(
+        std::min(sectors.x * sectors.y * sectors.z, 8 + double(counts.voxels) / kVoxelsPerSector));
+    found.leaves = size_t(double(counts.voxels) / kVoxelsPerLeaf);
+    found.voxels = counts.voxels;
+    found.primitives = counts.primitives;
+    return allocate_pyramid(device, grid, found);
+}
+
+CountedPyramid count_index(const Device& device, const BrickGrid& grid, const WorldCounts& counts) {
+    CountedPyramid indexed;
+    indexed.masks = allocate_masks(device, "index masks", grid.brick_count);
+    { const MarkArrays marks = allocate_marks(device, grid.brick_count); }
+    indexed.pyramid = allocate_indexed(device, grid, counts);
+    const Buffer<uint32_t> starts(device, "index starts", 3 * size_t(grid.brick_count));
+    return indexed;
+}
+
+Pyramid count_joining(const Device& device, const ListedInstances& listed, const Pyramid& world,
+                      std::span<const WorldCounts> counts, std::vector<ModelPyramid>& kept) {
+    if (listed.list.empty()) return world;
+    for (size_t i = 0; i < listed.grids.size(); ++i)
+        kept.push_back({.pyramid = count_index(device, *listed.grids[i], counts[i]).pyramid});
+    Pyramid joined = allocate_joined(device, world, kept);
+    joined.instances.list = listed.list;
+    joined.instances.records = Buffer<InstanceRecord>(device, "instances", listed.list.size());
+    joined.instances.nodes = Buffer<InstanceNode>(device, "instance tree", 2 * listed.list.size());
+    return joined;
+}
+
+}  // namespace voxelume

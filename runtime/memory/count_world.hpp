@@ -1,0 +1,50 @@
+// object grids on a counting device -> the world's voxels and pyramid there, made as forming a
+// world makes them.
+#pragma once
+
+#include <span>
+
+#include "runtime/analysis/placed_objects.hpp"
+#include "runtime/stages/instance/instance_model.hpp"
+#include "runtime/stages/place/place.hpp"
+
+namespace voxelume {
+
+/// What placing objects, or indexing a grid, is expected to find.
+struct WorldCounts {
+    size_t bricks = 0;      ///< stored
+    size_t voxels = 0;      ///< that rays must see
+    size_t primitives = 0;  ///< listed by them
+};
+
+/// The voxels of a world, and what its objects are painted with.
+struct CountedWorld {
+    BrickGrid grid;
+    std::vector<Buffer<uint64_t>> painters;
+};
+
+/// As Placer::place for the first time.
+CountedWorld count_placing(const Device& device, std::span<const PlacedObject> objects,
+                           const GridFrame& frame, const WorldCounts& counts);
+
+/// As Placer::place where `bricks` of a world change; what that takes goes.
+void count_repainting(const Device& device, std::span<const PlacedObject> objects,
+                      const GridFrame& frame, size_t bricks);
+
+/// A pyramid, and the marks that it was made from.
+struct CountedPyramid {
+    Pyramid pyramid;
+    Buffer<uint64_t> masks;
+};
+
+/// As Indexer::index.
+CountedPyramid count_index(const Device& device, const BrickGrid& grid, const WorldCounts& counts);
+
+/// The pyramid alone.
+Pyramid allocate_indexed(const Device& device, const BrickGrid& grid, const WorldCounts& counts);
+
+/// As InstanceModels::join; `counts` are those of the listed grids, whose pyramids are `kept`.
+Pyramid count_joining(const Device& device, const ListedInstances& listed, const Pyramid& world,
+                      std::span<const WorldCounts> counts, std::vector<ModelPyramid>& kept);
+
+}  // namespace voxelume

@@ -1,0 +1,103 @@
+#include "runtime/memory/counted_grids.hpp"
+
+#include <algorithm>
+
+#include "runtime/assets/model_frame.hpp"
+#include "runtime/base/error.hpp"
+#include "runtime/stages/voxelize/mesh_lattice.hpp"
+
+namespace voxelume {
+namespace {
+
+bool has_own_voxels(const Model& model) {
+    return !model.voxels.empty() && model.surface != Surface::exact;
+}
+
+/// An exact mesh in the world is voxelized in the world's own lattice.
+void check_lattice(const Object& object, const glm::ivec3& size) {
+    if (std::max({size.x, size.y, size.z}) > kLatticeReach)
+        throw Error(ErrorKind::limit,
+                    "{}: an exact mesh in a world of {} x {} x {} voxels, and {} along an axis "
+                    "are the most for it: give it \"placement\": \"instance\", or the world a "
+                    "larger \"voxel_size\"",
+                    object.where, size.x, size.y, size.z, kLatticeReach);
+}
+
+/// Has `make` give it its grid, and notes what that takes.
+template <class Make>
+void measure(const Device& device, CountedGrid& counted, const Make& make) {
+    DeviceCounters& counters = device.counters();
+    const uint64_t before = counters.bytes_in_use, height = counters.peak_bytes;
+    counters.peak_bytes = before;
+    counters.largest_bytes = 0;
+    counted.grid = std::make_shared<const BrickGrid>(make());
+    counted.made_bytes = double(counters.peak_bytes - before);
+    counted.kept_bytes = double(counters.bytes_in_use - before);
+    counted.largest_buffer = counters.largest_buffer;
+    counted.largest_bytes = double(counters.largest_bytes);
+    counters.peak_bytes = std::max(counters.peak_bytes, height);
+}
+
+}  // namespace
+
+CountedGrid count_mesh(const Device& device, const GridCounts& counts) {
+    CountedGrid counted{.counts = counts};
+    measure(device, counted, [&] { return count_mesh_grid(device, counts); });
+    counted.grid.reset();
+    return counted;
+}
+
+SharedGrid CountedGrids::world_grid(const Object& object, const Model& model) {
+    if (model.surface != Surface::exact) return own_grid(object, model);
+    const int number = int(&object - scene_.objects.data());
+    if (!model.solid) check_lattice(object, scene_.world.voxels);
+    return make({.model = object.model,
+                 .object = number,
+                 .counts = objects_.object_grid(object, estimate_)},
+                model);
+}
+
+SharedGrid CountedGrids::own_grid(const Object& object, const Model& model) {
+    if (has_own_voxels(model)) {
+        const VoxelModel& voxels = meshes_.voxels(model);
+        if (SharedGrid grid = found(object.model, -1, voxels.frame)) return grid;
+        GridCounts counts{.frame = voxels.frame, .surface = voxels.surface, .set = voxels.set};
+        counts.bricks = voxels.coordinates.size();
+        counts.voxels = voxels.voxels();
+        return make({.model = object.model, .counts = counts}, model);
+    }
+    if (SharedGrid grid = found(object.model, -1, model_frame(model, meshes_.summary_of(model))))
+        return grid;
+    return make({.model = object.model, .counts = objects_.model_grid(model, estimate_)}, model);
+}
+
+SharedGrid CountedGrids::make(CountedGrid counted, const Model& model) {
+    measure(device_, counted, [&] {
+        if (has_own_voxels(model)) return meshes_.voxels(model).upload(device_);
+        if (model.solid) return count_solid_grid(device_, counted.counts);
+        BrickGrid grid = count_mesh_grid(device_, counted.counts);
+        if (model.cuts.empty()) return grid;
+        bodies_.push_back(std::move(grid));  // stays beside the cut one
+        return count_cut_grid(device_, bodies_.back(), counted.counts);
+    });
+    grids_.push_back(std::move(counted));
+    return grids_.back().grid;
+}
+
+SharedGrid CountedGrids::found(int model, int object, const GridFrame& frame) const {
+    const auto same = std::ranges::find_if(grids_, [&](const CountedGrid& counted) {
+        return counted.model == model && counted.object == object && counted.counts.frame == frame;
+    });
+    return same == grids_.end() ? nullptr : same->grid;
+}
+
+const GridCounts& CountedGrids::counts_of(const SharedGrid& grid) const {
+    return std::ranges::find(grids_, grid, &CountedGrid::grid)->counts;
+}
+
+void CountedGrids::forget() {
+    bodies_.clear();
+    for (CountedGrid& counted : grids_) counted.grid.reset();
+}
+
+}  // namespace voxelume

@@ -1,0 +1,15 @@
+// scene of an animation -> the memory of a device while one frame is rendered and the next one's
+// world is built.
+#pragma once
+
+#include "runtime/memory/object_counts.hpp"
+#include "runtime/stages/medium/density_grid.hpp"
+
+namespace voxelume {
+
+/// Bytes of the device at the height of a run of frames that keeps what they share, where each
+/// frame's world is built while the one before is rendered. 0 for a scene that stands still.
+double walk_following(const Scene& scene, AssetStore& meshes, ObjectCounts& objects,
+                      const DensityPlan& medium);
+
+}  // namespace voxelume

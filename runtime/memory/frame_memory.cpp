@@ -1,0 +1,117 @@
+#include "runtime/memory/frame_memory.hpp"
+
+#include <algorithm>
+
+#include "runtime/analysis/scene_features.hpp"
+#include "runtime/grid/pyramid_bytes.hpp"
+#include "runtime/memory/count_display.hpp"
+#include "runtime/memory/count_image.hpp"
+
+namespace voxelume {
+namespace {
+
+class FrameWalk {
+  public:
+    FrameWalk(const Scene& scene, AssetStore& meshes, ObjectCounts& objects,
+              const DensityPlan& medium, Estimate estimate)
+        : scene_(scene),
+          meshes_(meshes),
+          objects_(objects),
+          medium_(medium),
+          estimate_(estimate),
+          grids_(device_, scene, meshes, objects, estimate) {}
+
+    FrameMemory run() {
+        Pyramid world = form();
+        world.object_boxes = objects_.boxes();
+        world.clear = medium_.is_zero;
+        memory_.pyramid = double(bytes_of(world));
+        show(world);
+        return std::move(memory_);
+    }
+
+  private:
+    /// As WorldBuilder::form.
+    Pyramid form() {
+        const ListedInstances listed =
+            list_instances(scene_, meshes_, [this](const Object& object, const Model& model) {
+                return grids_.own_grid(object, model);
+            });
+        std::vector<WorldCounts> models;
+        for (const SharedGrid& grid : listed.grids)
+            models.push_back(indexed_counts(grids_.counts_of(grid)));
+        const CountedPyramid placed = form_placed();
+        std::vector<ModelPyramid> kept;
+        const Pyramid joined = count_joining(device_, listed, placed.pyramid, models, kept);
+        memory_.index = height();
+        memory_.largest_buffer = device_.counters().largest_buffer;
+        memory_.largest_bytes = double(device_.counters().largest_bytes);
+        return joined;
+    }
+
+    /// The world without instances.
+    CountedPyramid form_placed() {
+        std::vector<SharedGrid> shown;
+        const std::vector<PlacedObject> objects = placed_objects(
+            scene_, meshes_, objects_.boxes(),
+            [this](const Object& object, const Model& model) {
+                return grids_.world_grid(object, model);
+            },
+            shown);
+        memory_.voxelize = height();
+        memory_.world = objects_.world(estimate_);
+        device_.counters().largest_bytes = 0;
+        const BrickGrid world =
+            count_placing(device_, objects, world_frame(scene_.world), memory_.world).grid;
+        memory_.place = height();
+        memory_.grids = grids_.all();
+        for (CountedGrid& grid : memory_.grids) grid.grid.reset();
+        shown.clear();
+        grids_.forget();
+        return count_index(device_, world, memory_.world);
+    }
+
+    /// As Renderer::image.
+    void show(const Pyramid& world) {
+        const size_t depth = estimate_ == Estimate::minimum ? 1 : SIZE_MAX;
+        height();
+        count_volume(device_, scene_, world, medium_, estimate_);
+        memory_.volume = height();
+        const ImageMemory image = count_image(device_, scene_, world, medium_, depth);
+        memory_.image = height();
+        memory_.dilated_occupancy = double(
+            (image.dilated_occupancy.sectors.size() + image.dilated_occupancy.bricks.size()) * 4);
+        const Features features = features_of(scene_, world);
+        memory_.rays = ray_bytes(features, ray_counts(scene_, features));
+    }
+
+    /// Bytes at the height since the last call.
+    double height() {
+        DeviceCounters& counters = device_.counters();
+        const auto bytes = double(counters.peak_bytes);
+        counters.peak_bytes = counters.bytes_in_use;
+        return bytes;
+    }
+
+    const Scene& scene_;
+    AssetStore& meshes_;
+    ObjectCounts& objects_;
+    const DensityPlan& medium_;
+    Estimate estimate_;
+    const Device device_ = Device::counting({});
+    CountedGrids grids_;
+    FrameMemory memory_;
+};
+
+}  // namespace
+
+double FrameMemory::built() const {
+    return std::max({voxelize, place, index});
+}
+
+FrameMemory walk_frame(const Scene& scene, AssetStore& meshes, ObjectCounts& objects,
+                       const DensityPlan& medium, Estimate estimate) {
+    return FrameWalk(scene, meshes, objects, medium, estimate).run();
+}
+
+}  // namespace voxelume

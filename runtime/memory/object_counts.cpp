@@ -1,0 +1,217 @@
+#include "runtime/memory/object_counts.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/matrix.hpp>
+
+#include "runtime/analysis/object_boxes.hpp"
+#include "runtime/assets/model_frame.hpp"
+#include "runtime/scene/predicates.hpp"
+
+namespace voxelume {
+namespace {
+
+constexpr double kSurfaceBand = 2.8;  ///< voxels around a smooth surface that have distances
+constexpr double kPlacedBand = 5;     ///< around cubes: placing looks at whole leaves of them
+
+/// More than areas and distances tell there is of an expected surface's bricks and voxels, at most.
+constexpr double kMargin = 1.0;
+
+/// Triangles that an exact mesh's voxel lists.
+constexpr double kTrianglesPerVoxel = 2.5;
+
+const glm::dmat4 kOwnSpace(1);
+
+/// Voxels around a surface whose bricks voxelizing stores.
+double stored_band(const Model& model) {
+    return model.surface == Surface::smooth ? kSurfaceBand : 0;
+}
+
+bool is_solid_set(const Model& model) {
+    return model.surface == Surface::cubes && model.set == VoxelSet::solid;
+}
+
+/// A solid set's voxels beside those of the surface: half of what is in its bricks, and no more
+/// than the object has.
+double filled_voxels(const SurfaceExtent& extent, double inside) {
+    return std::min(inside, 0.5 * extent.bricks * double(kVoxelsPerBrick));
+}
+
+double margin(Estimate estimate) {
+    return estimate == Estimate::expected ? kMargin : 1;
+}
+
+VoxelBox whole_of(const GridFrame& frame) {
+    return {glm::dvec3(0), glm::dvec3(frame.size)};
+}
+
+uint32_t count_shapes(const Solid& solid) {
+    uint32_t count = 1;
+    for (const Solid& part : solid.parts) count += count_shapes(part);
+    return count;
+}
+
+/// `mesh` is null for a model that has none.
+GridCounts counts_of(const Model& model, const MeshSummary* mesh, const GridFrame& frame,
+                     const SurfaceExtent& extent) {
+    GridCounts counts{.frame = frame, .surface = model.surface, .set = model.set};
+    const glm::dvec3 table(frame.bricks());
+    counts.bricks = size_t(std::clamp(extent.bricks, 1.0, table.x * table.y * table.z));
+    counts.voxels = size_t(std::max(extent.voxels, 1.0));
+    if (model.solid) counts.shapes = count_shapes(*model.solid);
+    if (!mesh) return counts;
+    counts.words = mesh->group_names.size() > 1;
+    counts.colors = mesh->has_colors;
+    counts.vertices = mesh->corners;
+    counts.triangles = mesh->triangles;
+    return counts;
+}
+
+WorldCounts sum_of(const WorldExtent& extent, double primitives, Estimate estimate,
+                   const GridFrame& frame) {
+    const glm::dvec3 table(frame.bricks());
+    const double more = margin(estimate);
+    return {size_t(std::clamp(more * extent.bricks, 1.0, table.x * table.y * table.z)),
+            size_t(std::max(more * extent.voxels, 1.0)), size_t(more * primitives)};
+}
+
+/// Primitives that a voxel of an exact surface lists.
+double listed(const Model& model) {
+    return model.surface != Surface::exact ? 0 : model.solid ? 1 : kTrianglesPerVoxel;
+}
+
+}  // namespace
+
+GridCounts mesh_grid(const Model& model, const MeshSummary& mesh, const SurfaceArea& area) {
+    const GridFrame frame = model_frame(model, &mesh);
+    return counts_of(model, &mesh, frame,
+                     surface_extent(area, kOwnSpace, frame, stored_band(model)));
+}
+
+GridCounts ObjectCounts::model_grid(const Model& model, Estimate estimate) {
+    const MeshSummary* mesh = meshes_.summary_of(model);
+    const GridFrame frame = model_frame(model, mesh);
+    const bool is_expected = estimate == Estimate::expected;
+    if (model.solid && is_expected) {
+        TakenBricks taken(frame);
+        return counts_of(model, mesh, frame,
+                         count_bricks(SolidField(*model.solid, kOwnSpace), frame, whole_of(frame),
+                                      model_rule(model.surface, is_solid_set(model)), taken));
+    }
+    if (model.solid) {
+        const SurfaceArea area =
+            min_solid_area(*model.solid, kOwnSpace, {model.extent.min, model.extent.max});
+        return counts_of(model, mesh, frame,
+                         surface_extent(area, kOwnSpace, frame, stored_band(model)));
+    }
+    if (is_expected) return mesh_grid(model, *mesh, mesh->area);
+    return mesh_grid(model, *mesh, model.cuts.empty() ? mesh->min_area : SurfaceArea{});
+}
+
+GridCounts ObjectCounts::object_grid(const Object& object, Estimate estimate) {
+    const Model& model = scene_.models[size_t(object.model)];
+    const MeshSummary* mesh = meshes_.summary_of(model);
+    const GridFrame frame = world_frame(scene_.world);
+    if (estimate == Estimate::minimum)
+        return counts_of(model, mesh, frame, extents_.minimum(object, 0));
+    if (!model.solid) return counts_of(model, mesh, frame, extents_.planned(object, 0));
+    TakenBricks taken(frame);
+    return counts_of(model, mesh, frame,
+                     count_bricks(SolidField(*model.solid, object.world_from_object), frame,
+                                  boxes()[size_t(&object - scene_.objects.data())],
+                                  model_rule(Surface::exact, false), taken));
+}
+
+/// In the world there are as many voxels of a file as in its volume, and no fewer bricks; at least
+/// as many as a larger voxel holds of its own, if the world shows all of it.
+SurfaceExtent ObjectCounts::voxels_in_world(const Object& object, const VoxelModel& voxels,
+                                            bool at_least) {
+    const auto volume = [](const glm::dvec3& edge) { return edge.x * edge.y * edge.z; };
+    const GridFrame& frame = voxels.frame;
+    const double own = volume(frame.voxel_edge) / volume(scene_.world.voxel_size) *
+                       std::abs(glm::determinant(object.world_from_object));
+    const auto stored = double(voxels.coordinates.size()), count = double(voxels.voxels());
+    if (!at_least) return {count * std::max(1.0, own), 2 * stored * std::max(1.0, own)};
+    if (!extents_.lies_in_world(frame.origin,
+                                frame.origin + frame.voxel_edge * glm::dvec3(frame.size),
+                                object.world_from_object))
+        return {};
+    return {count * std::min(1.0, own), stored * std::min(1.0, own)};
+}
+
+SurfaceExtent ObjectCounts::expected_in_world(const Object& object, TakenBricks& taken) {
+    const Model& model = scene_.models[size_t(object.model)];
+    if (!model.voxels.empty() && model.surface != Surface::exact)
+        return voxels_in_world(object, meshes_.voxels(model), false);
+    const bool keeps_inside = shows_inside(scene_, object);
+    if (model.solid)
+        return count_bricks(SolidField(*model.solid, object.world_from_object),
+                            world_frame(scene_.world),
+                            boxes()[size_t(&object - scene_.objects.data())],
+                            world_rule(model.surface, is_solid_set(model), keeps_inside), taken);
+    SurfaceExtent extent =
+        extents_.planned(object, model.surface == Surface::smooth ? kSurfaceBand : kPlacedBand);
+    const double inside = keeps_inside || is_solid_set(model) ? extents_.inside_voxels(object) : 0;
+    if (is_solid_set(model)) extent.voxels += filled_voxels(extent, inside);
+    if (keeps_inside) {
+        extent.voxels += inside;
+        extent.bricks += inside / double(kVoxelsPerBrick);
+    }
+    return extent;
+}
+
+WorldExtent ObjectCounts::least_in_world(size_t number) {
+    const Object& object = scene_.objects[number];
+    const Model& model = scene_.models[size_t(object.model)];
+    const bool has_voxels = !model.voxels.empty() && model.surface != Surface::exact;
+    const SurfaceExtent extent =
+        has_voxels ? voxels_in_world(object, meshes_.voxels(model), true)
+                   : extents_.minimum(
+                         object, model.surface == Surface::smooth ? kSurfaceBand : kPlacedBand);
+    return {extent.voxels, extent.bricks, model.surface == Surface::exact ? extent.voxels : 0};
+}
+
+double ObjectCounts::changed_bricks(const std::vector<bool>& objects) {
+    world(Estimate::expected);
+    double sum = 0;
+    for (size_t number = 0; number < objects.size(); ++number)
+        if (objects[number]) sum += bricks_[number];
+    return sum;
+}
+
+WorldCounts ObjectCounts::world(Estimate estimate) {
+    const bool is_expected = estimate == Estimate::expected;
+    if (is_expected && expected_) return *expected_;
+    bricks_.resize(scene_.objects.size());
+    const GridFrame frame = world_frame(scene_.world);
+    TakenBricks taken(frame);
+    WorldExtent sum;
+    double primitives = 0;
+    std::vector<ObjectExtent> apart;
+    for (size_t number = 0; number < scene_.objects.size(); ++number) {
+        const Object& object = scene_.objects[number];
+        if (is_instanced(scene_, object) || !is_potentially_visible(scene_, object)) continue;
+        const VoxelBox& box = boxes()[number];
+        if (is_empty(box)) continue;
+        if (!is_expected) {
+            apart.push_back({box, least_in_world(number)});
+            continue;
+        }
+        const SurfaceExtent extent = expected_in_world(object, taken);
+        sum.voxels += extent.voxels;
+        sum.bricks += bricks_[number] = extent.bricks;
+        primitives += extent.voxels * listed(scene_.models[size_t(object.model)]);
+    }
+    if (is_expected) return *(expected_ = sum_of(sum, primitives, estimate, frame));
+    sum = min_extent(std::move(apart));
+    return sum_of(sum, sum.exact_voxels, estimate, frame);
+}
+
+WorldCounts indexed_counts(const GridCounts& grid) {
+    const double each = grid.surface != Surface::exact ? 0
+                        : grid.triangles > 0           ? kTrianglesPerVoxel
+                                                       : 1;
+    return {grid.bricks, grid.voxels, size_t(each * double(grid.voxels))};
+}
+
+}  // namespace voxelume

@@ -1,0 +1,59 @@
+// scene -> how many bricks and voxels its grids and its world are expected to hold, or hold at
+// least.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "runtime/memory/brick_count.hpp"
+#include "runtime/memory/count_grids.hpp"
+#include "runtime/memory/count_world.hpp"
+#include "runtime/memory/plan_extent.hpp"
+#include "runtime/memory/plan_object.hpp"
+
+namespace voxelume {
+
+enum class Estimate : uint8_t {
+    expected,  ///< with a margin for what surfaces' areas and distances don't tell
+    minimum    ///< what can't be less
+};
+
+/// Counts for one scene; what its objects share is found once. Reads what ObjectExtents does.
+class ObjectCounts {
+  public:
+    ObjectCounts(const Scene& scene, AssetStore& meshes)
+        : scene_(scene), meshes_(meshes), extents_(scene, meshes) {}
+
+    /// The grid of a model in its own space; of an exact object in the world's frame.
+    GridCounts model_grid(const Model& model, Estimate estimate);
+    GridCounts object_grid(const Object& object, Estimate estimate);
+
+    /// What the objects' voxels take of the world.
+    WorldCounts world(Estimate estimate);
+
+    /// Bricks of the world that those of `objects` are expected in that are true.
+    double changed_bricks(const std::vector<bool>& objects);
+
+    /// As object_boxes.
+    const std::vector<VoxelBox>& boxes() { return extents_.boxes(); }
+
+  private:
+    SurfaceExtent expected_in_world(const Object& object, TakenBricks& taken);
+    WorldExtent least_in_world(size_t number);
+    SurfaceExtent voxels_in_world(const Object& object, const VoxelModel& voxels, bool at_least);
+
+    const Scene& scene_;
+    AssetStore& meshes_;
+    ObjectExtents extents_;
+    std::optional<WorldCounts> expected_;  ///< in the world
+    std::vector<double> bricks_;           ///< of each object, of these
+};
+
+/// The grid of a mesh of which the surface has such an area.
+GridCounts mesh_grid(const Model& model, const MeshSummary& mesh, const SurfaceArea& area);
+
+/// The voxels that rays must see of a grid, and the primitives that these list.
+WorldCounts indexed_counts(const GridCounts& grid);
+
+}  // namespace voxelume

@@ -1,0 +1,37 @@
+// solid -> how far points are from its surface, in doubles: what planning counts bricks by.
+#pragma once
+
+#include <glm/mat4x4.hpp>
+#include <vector>
+
+#include "runtime/scene/solid.hpp"
+
+namespace voxelume {
+
+/// The distance to a solid's surface under a map, positive outside.
+///
+/// No map makes it larger than it is, so that a ball of that radius around the point is on one side
+/// of the surface; combinations take the least and the greatest of their parts, as kernels do.
+class SolidField {
+  public:
+    SolidField(const Solid& solid, const glm::dmat4& frame_from_solid);
+
+    /// In metres, as `p` in the frame's space.
+    double distance(const glm::dvec3& p) const { return distance(0, p); }
+
+  private:
+    /// A node of the tree; its parts follow it, each with its own before the next.
+    struct Node {
+        Solid shape;  ///< without parts
+        glm::dmat4 shape_from_frame{1};
+        double scale = 1;  ///< the least by which the map stretches the shape's lengths
+        uint32_t end = 0;  ///< one past the last node of its parts
+    };
+
+    void add(const Solid& solid, const glm::dmat4& frame_from_parent);
+    double distance(uint32_t number, const glm::dvec3& p) const;
+
+    std::vector<Node> nodes_;
+};
+
+}  // namespace voxelume

@@ -1,0 +1,154 @@
+// What `check` promises of a device's memory against what a run takes at its height: of every
+// shipped scene and of built ones. Each test prints its line of a table.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <functional>
+
+#include "runtime/analysis/culling.hpp"
+#include "runtime/batch/frame_pipeline.hpp"
+#include "runtime/memory/frame_plans.hpp"
+#include "runtime/render/volume_renderer.hpp"
+#include "runtime/scene/scene_animation.hpp"
+#include "tests/pictures/small_scene.hpp"
+#include "tests/support/display_fixture.hpp"
+#include "tests/support/instance_scenes.hpp"
+#include "tests/support/test_device.hpp"
+
+namespace voxelume {
+namespace {
+
+// A promise below what is taken is broken; one far above it refuses what fits.
+constexpr double kLeastRatio = 0.3, kMostRatio = 4.0;
+
+double promised(Scene scene, const std::vector<int>& frames, const Device& device) {
+    AssetStore meshes;
+    find_potentially_visible(scene, frames, meshes);
+    const FramePlan planned = plan_frames(scene, frames, meshes, device.info());
+    EXPECT_LE(planned.plan.min_bytes, planned.plan.peak_bytes());
+    return planned.plan.run_bytes(frames.size(), double(device.info().memory));
+}
+
+void expect_kept(const std::string& name, double promise, const Device& device) {
+    const auto fact = double(device.counters().peak_bytes);
+    fmt::print("{:24} promised {:9.3f} MB, taken {:9.3f} MB, ratio {:.3f}\n", name, promise / 1e6,
+               fact / 1e6, promise / fact);
+    if (std::getenv("VXL_TEST_MEMORY"))
+        for (const auto& [buffer, bytes] : device.counters().allocated_bytes)
+            if (double(bytes) > 0.02 * fact)
+                fmt::print("    {:24} {:9.3f} MB in all\n", buffer, double(bytes) / 1e6);
+    EXPECT_GE(promise, kLeastRatio * fact) << name;
+    EXPECT_LE(promise, kMostRatio * fact) << name;
+}
+
+/// Renders a single image.
+void expect_image_kept(const std::string& name, const Scene& scene) {
+    const Device device = test_device();
+    const double promise = promised(scene, {1}, device);
+    RenderReport report;
+    render(device, scene, report);
+    expect_kept(name, promise, device);
+}
+
+/// Renders frames as the command line does, each as soon as its world is formed.
+void expect_frames_kept(const std::string& name, Scene scene, const std::vector<int>& frames) {
+    const Device device = test_device();
+    const double promise = promised(scene, frames, device);
+    AssetStore meshes;
+    find_potentially_visible(scene, frames, meshes);
+    Renderer renderer(device);
+    FrameSteps steps{[&](size_t frame) { return scene_at(scene, frames[frame]); },
+                     [&](const FrameInput& input) -> std::function<void()> {
+                         RenderReport report;
+                         renderer.image(input.scene, input.world, report);
+                         return [] {};
+                     }};
+    run_frames({device}, frames.size(), steps, {});
+    expect_kept(name, promise, device);
+}
+
+std::vector<std::string> shipped_scenes() {
+    std::vector<std::string> names;
+    for (const auto& entry : std::filesystem::directory_iterator(kScenes)) {
+        const std::filesystem::path& file = entry.path();
+        if (file.extension() == ".json" && file.stem().extension() != ".schema")
+            names.push_back(file.stem());
+    }
+    std::ranges::sort(names);
+    return names;
+}
+
+class ShippedScene : public testing::TestWithParam<std::string> {};
+
+TEST_P(ShippedScene, TakesWhatIsPromised) {
+    const Scene scene = small_scene(GetParam(), {96, 72}, 128);
+    if (moves(scene))
+        expect_frames_kept(GetParam(), scene, {1, 2, 3});
+    else
+        expect_image_kept(GetParam(), scene);
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, ShippedScene, testing::ValuesIn(shipped_scenes()),
+                         [](const auto& name) { return name.param; });
+
+TEST(BuiltScene, OfObjectsOfEachSurfaceInTheWorldAndAsInstancesTakesWhatIsPromised) {
+    for (const char* surface : {"cubes", "smooth", "exact"})
+        for (const char* placement : {"world", "instance"})
+            expect_image_kept(fmt::format("{} {}", surface, placement),
+                              instance_scene(surface, placement, turned_objects()));
+}
+
+/// A ball before a wall, of such materials, in such a space.
+Scene room(const char* ball, const char* wall, const char* space, double voxel,
+           const char* surface = "smooth") {
+    const std::string text = fmt::format(
+        R"({{"voxelume": 1,
+"world": {{"voxel_size": {}, "bounds": {{"min": [-1, -1, -1], "max": [1, 1, 1]}}, {} "ambient": [0.1, 0.1, 0.1]}},
+"materials": {{"ball": {{{}}}, "wall": {{{}}}}},
+"models": {{"ball": {{"shape": "sphere", "radius": 0.5, "surface": "{}"}},
+            "wall": {{"shape": "box", "size": [1.9, 1.8, 0.1]}}}},
+"objects": [{{"model": "ball", "material": "ball"}},
+            {{"model": "wall", "material": "wall", "position": [0, 0, 0.9]}}],
+"lights": [{{"type": "point", "position": [0.4, 0.9, -0.9]}}],
+"observer": {{"position": [0.2, 0.4, -2.9], "look_at": [0, 0, 0], "display": {{"shape": "pyramid", "angles": [40, 40]}}}},
+"render": {{"size": [200, 160], "depth": 3}}}})",
+        voxel, space, ball, wall, surface);
+    return parse_scene(text, "test.json", {});
+}
+
+TEST(BuiltScene, OfMirrorsGlassLampsAndMediaTakesWhatIsPromised) {
+    constexpr const char* kFog =
+        R"("medium": {"absorption": 0.4, "density": {"kind": "height", "base": 0, "scale_height": 0.3}},)";
+    expect_image_kept("mirror", room(R"("reflection": 0.8)", R"("reflection": 0.5)", "", 0.02));
+    expect_image_kept("glass", room(R"("refraction": 0.9, "ior": 1.5)", "", "", 0.02));
+    expect_image_kept("glass, exact",
+                      room(R"("refraction": 0.9, "ior": 1.5)", "", "", 0.02, "exact"));
+    expect_image_kept("lamp", room(R"("emission": [3, 2, 1])", "", "", 0.02));
+    expect_image_kept("fog", room("", "", kFog, 0.02));
+}
+
+TEST(BuiltScene, OfALargeWorldTakesWhatIsPromised) {
+    for (const char* surface : {"cubes", "smooth", "exact"})
+        expect_image_kept(fmt::format("large {}", surface), room("", "", "", 1.0 / 200, surface));
+}
+
+TEST(BuiltScene, OfADisplayOfEachShapeAndLayoutTakesWhatIsPromised) {
+    for (const auto& [name, keys] : kDisplayCases)
+        for (const char* layout : {"rays", "lattice"}) {
+            const Scene scene = parsed(display_scene(
+                fmt::format(R"({}, "voxels": [96, 72, 64], "layout": "{}")", keys, layout),
+                "smooth"));
+            const Device device = test_device();
+            AssetStore meshes;
+            const ScenePlan plan = plan_scene(scene, meshes);
+            const double promise = std::max(
+                {plan.voxelize_bytes, plan.place_bytes, plan.index_bytes, plan.volume_bytes});
+            RenderReport report;
+            render_volume(device, scene, report);
+            expect_kept(fmt::format("{} {}", name, layout), promise, device);
+        }
+}
+
+}  // namespace
+}  // namespace voxelume
