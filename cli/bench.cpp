@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // voxelume bench: run time against error, on scenes whose truth is known.
 #include <CLI/CLI.hpp>
 #include <algorithm>

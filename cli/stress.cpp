@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // voxelume stress: what a device does, held against exact arithmetic, case after case.
 #include <CLI/CLI.hpp>
 #include <chrono>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The line of a shell that tries one case of `stress` again.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // object grid, rest of space without solids -> object grid: the intersection of both.
 //
 // A brick of the result has its slots in the operands as sources. An operand that doesn't store the

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // probe points -> P in the layout `lattice`: the voxels that are shown, and the point of each.
 //
 // Probe points are in lattice voxels, three arrays `total` apart: on a probe line two of their

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // lit sight rays, layer by layer -> records of what P shows of each in the layout `rays`.
 //
 // For worlds whose surfaces let light through, or whose medium isn't the same everywhere; the host

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // lit sight rays -> P in the layout `rays`: the voxel of each surface, and those of the medium
 // before it.
 //

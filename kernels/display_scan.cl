@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // probe lines -> probe points: every crossing of the lines of a display's lattice with a surface.
 //
 // One work-item carries VXL_LANES lines through the world. Lanes that reach an occupied voxel wait

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // BrickGrid -> Pyramid: the voxels that a ray must see, and their data in the pyramid's order.
 //
 // Two passes over the stored bricks, one brick a work-item: `mark_voxels` finds each brick's voxels

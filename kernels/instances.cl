@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // pyramids of models -> the world's pyramid with the models' data appended, for instances.
 #include "lib/lanes/work_item.h"
 #include "shared/trace.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // surface points + a light -> a queue of shadow rays, each with the light that it would bring.
 //
 // Whitted 1980: ambient, Lambert's cosine, and the highlight of Blinn's half vector.

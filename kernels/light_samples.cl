@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // world -> the pieces of surface of its emissive objects.
 #include "lib/lanes/vector.h"
 #include "lib/lanes/work_item.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // observer -> rays: one sight ray for every sample of every pixel, clipped to the world.
 //
 // Rays come in tiles of 4 x 4 pixels, a tile's samples one after another: place

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Objects that keep voxels of their own: rays are transformed into their space.
 //
 // Many instances share a model's voxels. The pyramids of all models follow the world's in the same

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Beams from a light through the world, see light_beams.cl. Read by kernels and host code.
 #ifndef VXL_SHARED_LIGHT_BEAMS_H
 #define VXL_SHARED_LIGHT_BEAMS_H

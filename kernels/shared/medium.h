@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The density of the medium for kernels: a number for every voxel of S, in bricks of 16³ cells.
 //
 // A cell holds 2^shift voxels of the world along each axis, so that a density that changes along

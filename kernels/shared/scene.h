@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The scene's records for kernels: lengths are in the world's voxels unless said otherwise, colours
 // are linear.
 #ifndef VXL_SHARED_SCENE_H

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // An analytic solid for rays and voxelizers: a list of shapes and the operations between them.
 //
 // A solid is a run of `shape_count` records. Evaluating it goes through them in order with a stack:

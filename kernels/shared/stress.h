@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The numbers with which `voxelume stress` hashes the cells of a walk, on host and device.
 #ifndef VXL_SHARED_STRESS_H
 #define VXL_SHARED_STRESS_H

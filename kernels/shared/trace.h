@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Rays and hits as stages exchange them: arrays of one component each, `stride` values apart.
 #ifndef VXL_SHARED_TRACE_H
 #define VXL_SHARED_TRACE_H

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The packed data of a surface voxel, for kernels and host alike.
 #ifndef VXL_SHARED_VOXEL_H
 #define VXL_SHARED_VOXEL_H

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The density of a medium anywhere in the world, before it is sampled at voxels.
 #pragma once
 

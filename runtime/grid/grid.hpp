@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The two forms of a voxel grid on a device: the bricks that stages write, the pyramid that rays
 // read.
 //

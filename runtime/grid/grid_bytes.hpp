@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // BrickGrid <-> bytes that are few and quick to read, for the model cache.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The place of a grid's voxels in its space, and boxes of voxels.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The memory that a pyramid takes on a device, and its bytes for the disk.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The upper levels of an occupancy pyramid: which sectors are stored, and the empty cubes around
 // others.
 #pragma once

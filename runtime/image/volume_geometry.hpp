@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The positions of a volumetric image's voxels, in the observer's coordinates and in the world.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // rays -> radiance: the surfaces that each ray meets, and the light along it. Blocks 3 to 9.
 #pragma once
 

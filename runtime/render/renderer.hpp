@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // scene -> image: the paper's algorithm, stage by stage.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The tiles of an image, shared among the devices that render it.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // scene -> P, the volumetric image.
 #pragma once
 

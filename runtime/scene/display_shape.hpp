@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The volumetric display VD_E as values, and one descriptor row for each shape of it.
 //
 // A shape is added with an enumerator of DisplayShape, a row of display_shapes(), and its branch of

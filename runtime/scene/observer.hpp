@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The observer E as values. Its volumetric display VD_E is in display_shape.hpp.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The arrays that a batch of sight rays fills as it passes through the stages.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // models and exact objects -> brick grids: voxelized once, and kept while frames show them.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // scene -> instances: the objects that keep voxels of their own, behind the world's pyramid.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // scene -> S: every object voxelized, placed, and indexed for rays. The paper's block 1.
 #pragma once
 

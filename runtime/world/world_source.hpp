@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // scene -> the name of its world, under which it is stored on disk.
 #pragma once
 

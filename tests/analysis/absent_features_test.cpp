@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The code of features that a scene doesn't use is absent from its kernels: the kernels are built
 // although every function of those features calls one that doesn't exist.
 #include <gtest/gtest.h>

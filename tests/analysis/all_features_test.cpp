@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A scene with all features at once: the six files of kernels that rays go through, compiled into
 // one program.
 #include <gmock/gmock.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Worlds in the cache on disk that hold more objects than are potentially visible.
 #include "runtime/analysis/culling.hpp"
 #include "runtime/world/world_source.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A scene in which the observer sees only one object, for tests of what is potentially visible.
 #pragma once
 

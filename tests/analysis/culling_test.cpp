@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Objects that no ray reaches aren't voxelized, and the image's bits are those of the scene with
 // all objects.
 #include "runtime/analysis/culling.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Sets of overlapping objects that rays are inside of: how many entries a scene's medium set needs,
 // and images against an analytic tracer.
 #include "runtime/analysis/medium_set.hpp"

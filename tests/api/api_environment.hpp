@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Parts that tests of the library's functions share: the options of their process.
 //
 // Tests live in the namespace of the header's names, because their programs know the inner names,

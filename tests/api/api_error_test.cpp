@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The library's errors tell programs by their values what the sentences tell people.
 #include <gmock/gmock.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Images and volumetric images that callers get: they are equal in memory and in files, callers
 // learn of them while they are rendered, and rendering ends once nobody wants them.
 #include <gmock/gmock.h>

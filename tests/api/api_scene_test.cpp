@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Scenes built from plain structs equal those that files describe.
 #include <gmock/gmock.h>
 

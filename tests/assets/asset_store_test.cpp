@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Meshes in memory: which are retained until their model returns, and which are read again.
 #include "runtime/assets/asset_store.hpp"
 

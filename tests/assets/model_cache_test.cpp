@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Models from the cache on disk give the same bits as without it, whatever happens to its files.
 #include "runtime/assets/model_cache.hpp"
 #include "runtime/scene_file/read_scene.hpp"

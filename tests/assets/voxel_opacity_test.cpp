@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Voxels with their own opacity, against their colours composited by hand.
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Several devices that share an animation's frames or an image's tiles give the bits of one device.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The image of a scene's only frame, made by one device or several.
 #pragma once
 

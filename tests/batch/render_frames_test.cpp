@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A whole run of frames through render_frames(): its results, their order, and how it ends early.
 #include "runtime/batch/render_frames.hpp"
 #include "runtime/scene_file/read_scene.hpp"

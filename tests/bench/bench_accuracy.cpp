@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Measures how far rendered surfaces lie from their mesh: bench_accuracy [MESH-FILE [VOXELS [WIDTH
 // HEIGHT]]].
 #include <fmt/format.h>

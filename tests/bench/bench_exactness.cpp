@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Measures what exact arithmetic costs: the kernels are timed in turns with variants that use
 // floats alone.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A whole frame by stage, and how it grows with the voxels: a mesh with one light and shadow at
 // 1024 x 1024.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Sight rays a second over a field of moving instances of one model, and what moving them takes.
 //
 //   bench_instances MESH [instances, 1000] [voxels along the model's longest side, 256]

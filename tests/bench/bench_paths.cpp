@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Secondary rays a second in a scene's frame, and what compaction of their queues is worth.
 //
 //   bench_paths [--compacted] SCENE [asset folder ...]

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Renders the solids of `voxelume bench` with other programs: bench_peers OUTPUT.json [SIDE
 // [REPEATS]].
 //

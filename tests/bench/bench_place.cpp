@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Measures the run time of placing and indexing with compiled kernels; with `peers` also OpenVDB's
 // resampleToMatch of a level set.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Measures what a frame costs when little has changed: frames one after another against frames
 // alone.
 //

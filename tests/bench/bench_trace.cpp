@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Rays a second through a mesh's pyramid: sight rays that hit, shadow rays, incoherent bounces, and
 // all sight rays of the picture, for each surface and number of lanes.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Measures the run time of voxelization with compiled kernels, for each surface and voxel set; with
 // `peers` also OpenVDB's meshToLevelSet.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // CPU time of this process over all its threads, which a shared machine's clock doesn't tell, and
 // medians.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // kernels/voxelize_cover.cl in 32-bit floats, to measure what exactness costs: it makes the
 // kernel's tests, in its order, on coordinates in voxels.
 #pragma once

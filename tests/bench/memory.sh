@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: Apache-2.0
 # Tests whether memory grows over an animation: memory.sh [PROGRAM] [FRAMES]
 #
 # Renders frames that go to and fro every 50. Each differs from the one before in its model, in the

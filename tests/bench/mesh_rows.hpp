@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Common parts of benchmarks of a mesh: the default mesh, medians, rows.
 #pragma once
 

@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: Apache-2.0
 # Measures what overlapping frames saves: overlap.sh [PROGRAM] [SCENE] [FRAMES] [ROUNDS] [OPTION...]
 #
 # Renders the frames by whole processes with and without --no-overlap in turn, so that other work of

@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: Apache-2.0
 # Compares one hash per scene over compilers and devices' settings: same_bits.sh [BUILD-FOLDER
 # [BUILD ...]]
 #

@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: Apache-2.0
 # Compares every frame of the animations in scenes/ at full size: same_frames.sh [PROGRAM]
 # [SCENE...]
 #

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Runs the kernels of one feature set on lists of rays, and times them.
 #pragma once
 

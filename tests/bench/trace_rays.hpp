@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The rays and meshes of bench_trace.
 #pragma once
 

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # Checks tests/CASES.md: all 93 stress cases are in it, and every test that it names exists.
 # Usage: cases_test.sh SOURCE_FOLDER
 set -euo pipefail

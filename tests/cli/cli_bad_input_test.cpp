@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Bad input to the program gives the right exit code, one clear line, and leaves no file behind.
 #include <gmock/gmock.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The cache of models as programs use it, several programs at once too.
 #include <gtest/gtest.h>
 

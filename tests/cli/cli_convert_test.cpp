@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The command `voxelume convert`, and the output of `info` for volumes.
 #include <gmock/gmock.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Frames of moving scenes on the command line.
 #include <gmock/gmock.h>
 

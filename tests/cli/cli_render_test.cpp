@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The commands render, check and voxelize on good input; cli_bad_input_test.cpp has bad input.
 #include <gmock/gmock.h>
 

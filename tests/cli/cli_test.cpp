@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The program's general behaviour, and the commands info and diff.
 #include <gmock/gmock.h>
 

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # Checks the documents: no line of more than 100 columns, no relative link that leads nowhere, and
 # a README of at most 60 lines in each folder of code.
 # Usage: documents_test.sh SOURCE_FOLDER

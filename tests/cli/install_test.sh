@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # Installs the program elsewhere and lets it write and read .vdb files there, by the module that was
 # installed with it. Once the module is removed, both are refused before any work, and commands that
 # need no .vdb still work.

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # Runs every `voxelume` command of README.md and of the command line's manual in order, each page in
 # its own folder. A line that ends in \ continues in the next one.
 # Usage: readme_test.sh SOURCE_FOLDER PROGRAM

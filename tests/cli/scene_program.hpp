@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A small valid scene for the program, and what must hold when a command fails.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The published schema of `render --stats-json` accepts what the program writes, and the manual
 // names the schema's keys.
 #include <gtest/gtest.h>

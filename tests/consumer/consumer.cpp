@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A user's program: builds a scene from plain structs, renders it flat and volumetric, and checks
 // the results. It uses only what is installed of Voxelume.
 #include <unistd.h>

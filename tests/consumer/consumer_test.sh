@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # Installs everything elsewhere, moves it, and builds a program against it that knows nothing of the
 # source tree, by CMake and by pkg-config. The program checks what it renders. The library exports
 # no name but its own.

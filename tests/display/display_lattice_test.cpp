@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The voxels that a Cartesian display shows, against what an observer sees by geometry alone.
 #include <gtest/gtest.h>
 

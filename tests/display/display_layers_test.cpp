@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Volumetric images by sight rays in scenes with surfaces that let light through: each surface is a
 // voxel with its opacity, and the composited voxels are the flat image.
 #include <ImfDeepFrameBuffer.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The paper's formula, voxel by voxel, on a world of 8 x 6 x 4 voxels of a metre: two objects, one
 // light and a medium that absorbs.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Parts of a display that see nothing are left out of volumetric images, are counted, and show
 // nothing.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Volumetric images by sight rays: where they place surfaces, and that their composited voxels are
 // the flat image.
 #include <gtest/gtest.h>

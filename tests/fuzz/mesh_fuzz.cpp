@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A libFuzzer target: any bytes under a mesh's name give a valid Mesh or an error's sentence. It is
 // built once per format.
 #include "runtime/base/error.hpp"

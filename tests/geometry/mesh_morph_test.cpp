@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Meshes that morph into other shapes.
 #include "runtime/geometry/mesh_morph.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The oracles for meshes against brute force over all triangles, and hand-computed cases.
 #include <gtest/gtest.h>
 

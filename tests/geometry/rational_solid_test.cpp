@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Solids' voxels and exact sides against the signs of polynomials in rational numbers, at places on
 // the boundary, too: S8 and S9 of tests/CASES.md.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The side of a solid that a lattice point is on, in exact arithmetic: random solids, maps and
 // points.
 #include "runtime/geometry/solid_membership.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Estimates of area against surfaces whose extent is known.
 #include "runtime/geometry/surface_extent.hpp"
 

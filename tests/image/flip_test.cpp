@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // FLIP: the values that its definition gives in closed form, and the properties that any such
 // measure must have.
 #include "runtime/image/flip.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Pictures of volumetric images: where each side is shown, and what covers what.
 #include "runtime/image/volume_view.hpp"
 

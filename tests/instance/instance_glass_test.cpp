@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Instances inside cubes and exact objects that light goes through. Rays that continue from a face
 // of these objects meet instances' surfaces that lie in the plane of that face.
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Rays that begin on instances neither meet the surface that they leave nor slip through closed
 // ones. Each kind is tested with more than 100,000 rays.
 #include <glm/geometric.hpp>

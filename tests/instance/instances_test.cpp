@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Instances show what the world's voxels show where both have the same voxels, and otherwise show
 // their own models.
 #include <gmock/gmock.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A headless Chromium that a test controls through its debugging pipe: pages, the mouse,
 // screenshots.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Damaged mesh files: each gives a valid Mesh or an error's sentence, never a crash.
 #include "runtime/base/error.hpp"
 #include "runtime/io/mesh/mesh_reader.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // One small mesh in every format that can be read, written by code that shares nothing with the
 // readers.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Faults that the readers of volumes must withstand: any truncation, any changed byte, a full disk.
 #pragma once
 

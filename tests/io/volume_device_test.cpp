@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The formats of displays, KV6, bit planes and cylinder buffers, read back by hand.
 #include <gmock/gmock.h>
 

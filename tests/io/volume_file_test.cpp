@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The common entry of all formats, and the formats for pictures and points.
 #include "runtime/io/volume_file.hpp"
 

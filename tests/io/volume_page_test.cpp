@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The page that shows a volumetric image, in a browser: what it paints, turns and cuts.
 #include "runtime/io/volume/volume_page.hpp"
 

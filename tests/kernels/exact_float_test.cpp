@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // lib/lanes/exact_float.h and lib/lanes/exact_exp.h give the same bits as IEEE arithmetic, and stay
 // within bounds around results in double.
 #include <gtest/gtest.h>

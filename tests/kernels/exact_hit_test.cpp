@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Hits on triangles at and near their edges and corners, against rational numbers.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // lib/surface/field.h against the formula of shared/voxel.h, written out in double.
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // lib/lanes/fixed_point.h against the same rules in double.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Every macro of lib/lanes/lanes.h has the same meaning for each number of lanes.
 #include <gtest/gtest.h>
 

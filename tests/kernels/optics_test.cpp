@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // lib/light/optics.h against geometrical optics in double precision. Cases O1 to O5: bodies that
 // refract rays, the critical angle, Fresnel's reflectance. refraction_test.cpp has whole images of
 // them.

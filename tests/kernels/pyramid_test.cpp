@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The values that kernels read in a pyramid, cell by cell, against the voxels themselves.
 #include <gtest/gtest.h>
 

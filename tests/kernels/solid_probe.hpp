@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Rays at analytic solids on the device, for the tests of their surfaces.
 #pragma once
 

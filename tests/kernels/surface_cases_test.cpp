@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The surfaces of the stress cases G1, G5, G6 and G7 (tests/CASES.md), met by rays in fixed point.
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The walks of the stress cases T1 to T22 (tests/CASES.md), on the device, cell by cell.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

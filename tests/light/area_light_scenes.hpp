@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Scenes with an area light or emissive object above a floor.
 #pragma once
 

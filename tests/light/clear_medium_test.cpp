@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A medium of density 0 everywhere is left out: it causes no kernels, buffers or features.
 #include <gtest/gtest.h>
 

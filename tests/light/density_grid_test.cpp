@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The medium's density at every voxel, from the scene: grids of files, collapsed bricks, memory,
 // and refusals.
 #include "runtime/stages/medium/density_grid.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Pictures lit with the beams of lights equal those lit without.
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Point lights at awkward places: near the terminator, on planes of the lattice, inside voxels.
 // Cases O9 and O10.
 #include <gtest/gtest.h>

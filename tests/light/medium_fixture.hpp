@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A world that holds only medium, rays through it, and what the cells that they pass contribute.
 #pragma once
 

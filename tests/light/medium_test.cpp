@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The light that the medium absorbs and adds, against sums over the cells that an exact walk
 // passes.
 #include "runtime/stages/medium/medium.hpp"

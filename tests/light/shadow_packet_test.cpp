@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Shadow rays whose packets refill lanes as rays end, in a room lit from inside. The light on the
 // visible surfaces is that of packets without refill, for any number of lanes.
 #include <fmt/format.h>

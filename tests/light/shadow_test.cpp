@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Lit surfaces don't shadow themselves however low the light stands, and surfaces that face away
 // from it are dark. Cases O9 and O10.
 #include <gtest/gtest.h>

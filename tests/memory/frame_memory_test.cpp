@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Frames for which the device has too little memory while other frames or retained results take
 // some.
 #include <gmock/gmock.h>

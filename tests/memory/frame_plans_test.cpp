@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Frames of a moving scene, planned before the first is rendered.
 #include "runtime/memory/frame_plans.hpp"
 #include "runtime/scene_file/read_scene.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What is retained for the next frame: in worlds that take less memory than they may, and in worlds
 // that take all.
 #include <gmock/gmock.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What `check` promises of a device's memory against what a run takes at its height: of every
 // shipped scene and of built ones. Each test prints its line of a table.
 #include <gtest/gtest.h>
@@ -10,6 +11,7 @@
 #include "runtime/batch/render_frames.hpp"
 #include "runtime/memory/frame_plans.hpp"
 #include "runtime/render/volume_renderer.hpp"
+#include "runtime/scene/scene_animation.hpp"
 #include "runtime/scene_file/read_scene.hpp"
 #include "tests/pictures/small_scene.hpp"
 #include "tests/support/display_fixture.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Plans against devices that are too small.
 #include <gmock/gmock.h>
 

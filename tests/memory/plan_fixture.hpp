@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A scene of one object, and its memory plan.
 #pragma once
 

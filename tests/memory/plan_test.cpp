@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Memory plans against what worlds and images take, and which scenes are refused.
 #include "runtime/memory/plan.hpp"
 

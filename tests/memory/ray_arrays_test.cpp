@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The device memory of rays, planned before the world is formed, against what they took.
 #include "runtime/stages/trace/ray_arrays.hpp"
 #include "runtime/scene_file/read_scene.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Models that come back are retained in a part of the device's memory, and never take a frame's
 // memory.
 #include <gmock/gmock.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Every struct that host and kernels share is passed once: the host writes it, a kernel reads it
 // field by field.
 #include <gtest/gtest.h>

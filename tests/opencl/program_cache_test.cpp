@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The cache of compiled kernels on disk, tested with real processes: this program starts itself.
 #include <gtest/gtest.h>
 #include <unistd.h>

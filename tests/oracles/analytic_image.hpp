@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The flat image of a scene of analytic solids, with the pixels at which a comparison isn't
 // meaningful.
 #pragma once

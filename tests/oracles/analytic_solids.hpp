@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Analytic solids in long double: distances from the oracle's own formulas, ray crossings by
 // bisection.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The cells that a ray passes, in order, by exact integer arithmetic: Amanatides & Woo 1987 with
 // times compared as fractions. The oracle shares no code with the kernels.
 #pragma once

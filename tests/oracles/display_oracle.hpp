@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Spheres and turned boxes in double precision: the points of them that an observer sees.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The hash FNV-1a with 64 bits, which changes when any bit of what was added does.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A hash that changes when any bit of an image does.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The hits of rays on a mesh, and the distance at which rays pass its silhouette, in long double.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A tree of boxes over triangles in double, for the oracles that search a mesh.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The side of an analytic solid that a point is on, by the signs of polynomials in rational
 // numbers. It shares no code with the kernels or with the host's exact side.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The place at which a ray meets a triangle, in rational numbers.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tests/oracles/rational_walk.hpp"
 
 namespace oracle {

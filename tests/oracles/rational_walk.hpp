@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The cells that a ray passes, in order, in rational numbers: slow, but simple enough to be
 // trusted.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The distance from a point to a triangle, in double, feature by feature.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Exact answers about triangles and voxels, in 128-bit and rational arithmetic.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Rendered surfaces against their mesh in double: distances, depths and masks, in voxels.
 #include <gtest/gtest.h>
 

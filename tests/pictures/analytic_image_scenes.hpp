@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Scenes of exact solids with all kinds of materials and lights, for comparisons of whole images.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Every frame of the animations in scenes/, small and coarse: a run that retains what it can and
 // overlaps its frames gives the bits of each frame rendered from nothing.
 #include <gtest/gtest.h>

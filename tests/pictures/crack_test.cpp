@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Closed smooth surfaces have no cracks: every ray from outside to a point inside hits the surface
 // on its way.
 #include <gtest/gtest.h>

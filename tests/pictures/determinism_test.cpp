@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Equal scenes give equal bytes: the stress cases D2 and D6 (tests/CASES.md), and all properties of
 // a device that must not matter.
 #include <gtest/gtest.h>

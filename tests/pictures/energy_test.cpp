@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Light that mirrors and glass pass on is neither lost nor created. Cases O7 and O11.
 #include <fmt/format.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Objects of cubes that let light through: their voxels form one body, and only its faces refract.
 #include <gtest/gtest.h>
 

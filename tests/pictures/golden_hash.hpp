@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The hashes that the repository keeps in tests/golden/hashes.txt: each line has a name and its
 // hash.
 #pragma once

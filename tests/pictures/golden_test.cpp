@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Golden bits of the parts that images are made from: voxel sets, fields, ordered cell lists,
 // volumes. They are equal for every device, number of lanes and compiler (tests/CASES.md, D1 and
 // D5).

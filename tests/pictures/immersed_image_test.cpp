@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The image of an absorbing pool whose water is cut by the world's sides, against an analytic
 // tracer.
 #include "runtime/scene_file/read_scene.hpp"

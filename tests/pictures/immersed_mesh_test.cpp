@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Images of observers in glass that can only be found by tracing, in meshes and smooth bodies,
 // against an analytic tracer.
 #include "runtime/scene_file/read_scene.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // More than a million reflected and refracted rays hit every closed surface that they reach.
 #include <fmt/format.h>
 #include <gtest/gtest.h>

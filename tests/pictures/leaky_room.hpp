@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A room that no ray can leave, full of objects that send rays everywhere.
 #pragma once
 

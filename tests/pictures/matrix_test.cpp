@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Golden scenes under combinations of all properties in which devices may differ: lanes,
 // work-groups, threads, sub-devices, options of the OpenCL compiler. It combines the stress cases
 // D1 and D2.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Images of reflecting, refracting and veiling objects against an analytic tracer.
 #include "runtime/scene_file/read_scene.hpp"
 #include "tests/pictures/analytic_image_scenes.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Rays that are reflected, refracted or go straight on: the rules that hold for every scene.
 // whitted_test.cpp compares colours with an analytic tracer.
 #include <gmock/gmock.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The sight rays of a scene and their hits, followed through refractions by hand.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The order at which refracted rays converge to the analytic ones as voxels get smaller.
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Images of glass bodies against geometrical optics: where rays meet the wall behind them. Cases
 // O1, O2, O3 and O12; optics_test.cpp tests the functions, paths_test.cpp has O6.
 #include <fmt/format.h>

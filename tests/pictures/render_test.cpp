@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "runtime/render/renderer.hpp"
 #include "runtime/scene_file/read_scene.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A closed white room whose walls tell where light met them, and parallel rays through it.
 // A red, a green and a blue light illuminate every point of a wall in proportions that no other
 // point of it has. So the colour of a pixel tells where its path ended, and how much it lost.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Every scene in scenes/, small and coarse, has its golden bits, and its file has only finite
 // values.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Scenes of scenes/ made small enough for tests.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The picture of Whitted 1980 against an analytic tracer in double precision.
 #include <filesystem>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The smooth half of `index`: the cells of a distance field that are kept, and their field records.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Normals of objects whose placement mirrors them (the stress case P8), against the meshes' own
 // normals under the same maps.
 #include <gtest/gtest.h>

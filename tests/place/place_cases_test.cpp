@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The maps of the stress cases P4 to P7 (tests/CASES.md).
 #include <gtest/gtest.h>
 

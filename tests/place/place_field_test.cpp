@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The smooth half of `place`: distance fields in the world, and which object each voxel belongs to.
 #include <gtest/gtest.h>
 

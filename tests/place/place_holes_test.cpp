@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Placed cubes are as closed as the object's voxels: no holes in solids, no leaks through shells.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Placing only what changed, against placing everything.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Places one object of cubes, for several tests.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Pyramids read back on the host, and compared with the voxels that they should hold.
 #pragma once
 

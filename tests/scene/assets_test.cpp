@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Files that scenes name: in which folders they are found, and in which never.
 #include "runtime/scene_file/assets.hpp"
 #include "runtime/scene/predicates.hpp"

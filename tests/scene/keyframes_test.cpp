@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Keyframes against independent formulas.
 #include "runtime/scene/keyframes.hpp"
 

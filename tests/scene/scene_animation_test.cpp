@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Scenes of an animation's frames, against those scenes written by hand.
 #include "runtime/scene/scene_animation.hpp"
 #include "runtime/scene_file/read_scene.hpp"

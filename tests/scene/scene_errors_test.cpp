@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The errors of wrong scene files.
 #include <gmock/gmock.h>
 

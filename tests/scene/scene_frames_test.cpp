@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Every value that may change, between its keys, against the scene whose text has that value.
 #include <fmt/format.h>
 #include <gmock/gmock.h>

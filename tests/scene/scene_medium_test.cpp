@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The medium of a scene: the meaning of its keys, and the errors of wrong ones.
 #include <gmock/gmock.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The descriptor rows of the scene's values agree with the published schema and the manual.
 #include <gmock/gmock.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The published schema and the parser give the same verdict on thousands of scenes.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The meaning of scene files.
 #include "runtime/scene/scene.hpp"
 #include "runtime/scene_file/read_scene.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The errors of wrong tracks.
 #include "runtime/scene_file/scene_track.hpp"
 #include "runtime/scene_file/read_scene.hpp"

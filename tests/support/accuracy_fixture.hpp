@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The distance of a rendered surface from its mesh: the scene, and the measurements on its image.
 #pragma once
 

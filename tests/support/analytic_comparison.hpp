@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Rendered images against those of the analytic tracer, except for pixels where rounding may
 // decide.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Brick grids written by hand for tests, from sets of voxels or from distances at nodes.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A sphere and a turned box in front of displays of every shape, and the same objects for the
 // oracle.
 #pragma once

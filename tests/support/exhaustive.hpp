@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The number of combinations of settings that a test tries.
 #pragma once
 

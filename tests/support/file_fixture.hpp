@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Parts that tests of files share: a folder for each test, and a limit on file sizes.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A library that is preloaded into a test program. It places the end of every aligned block of
 // memory, which is what OpenCL uses for buffers on the CPU, against pages that may not be touched;
 // a freed block becomes such pages, too. A kernel that reads or writes there ends the program.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Scenes of solids that tests show as instances, and readers of their images.
 #pragma once
 

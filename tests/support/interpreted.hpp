@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Smaller tests for devices that interpret kernels.
 #pragma once
 

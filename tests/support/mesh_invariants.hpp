@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Invariants of every Mesh that a reader returns, whatever the file was.
 #pragma once
 

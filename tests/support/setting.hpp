@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // An environment variable that is set for the duration of a test.
 #pragma once
 

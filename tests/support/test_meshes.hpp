@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Closed meshes that tests render, and the OBJ files that scenes name.
 #pragma once
 

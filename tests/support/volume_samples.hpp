@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Volumetric images for tests: no cube, no symmetry, a turned observer, and every kind of voxel.
 #pragma once
 

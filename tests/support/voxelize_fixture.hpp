@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Meshes in voxels and grids read back, for the tests of voxelization.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Closed-form crossings of lines with solids against hand-computed ones and an inside test.
 #include "runtime/verify/analytic/analytic_crossings.hpp"
 

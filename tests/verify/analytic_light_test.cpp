@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The analytic tracer's lights, shadows, checkers and image, against numbers computed by hand.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Scenes of analytic solids that tests assemble part by part.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The analytic tracer against numbers of geometrical optics, derived by hand.
 #include "runtime/verify/analytic/analytic_tracer.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Volume and area of voxels' content against formulas; shadow edges against a ball's.
 #include <gtest/gtest.h>
 

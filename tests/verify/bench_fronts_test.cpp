@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Other programs compared by `voxelume bench`: where they are quicker at equal error, and their
 // files.
 #include "runtime/verify/report/bench_fronts.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The results of `voxelume bench`: its truth against exact values, fits and fronts, the files it
 // writes.
 #include <gmock/gmock.h>

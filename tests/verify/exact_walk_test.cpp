@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The walk in 64-bit integers that `voxelume stress` trusts, against rational numbers.
 #include "runtime/verify/exact/exact_walk.hpp"
 

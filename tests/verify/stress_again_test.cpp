@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A mismatch that `voxelume stress` finds is found again by its number alone. For this test kernels
 // are built with faults.
 #include <fmt/format.h>

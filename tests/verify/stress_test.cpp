@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The findings of `voxelume stress`: none in correct kernels, and the fault in faulty ones.
 #include "runtime/verify/stress/stress.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The parts of meshes that solids leave: volumes, voxels, closed surfaces, labels, and cuts that
 // move.
 #include "runtime/stages/voxelize/cut.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Floods through grids of voxels, 64 voxels of a row at once.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The voxel sets of the stress cases V3, V4, V6, V14, V17, S2 and S3 (tests/CASES.md).
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Distance fields of meshes, against distances in double and exact winding numbers.
 #include <gtest/gtest.h>
 

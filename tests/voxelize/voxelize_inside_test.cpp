@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The voxels of closed meshes that are inside, against winding numbers in rationals.
 #include <gtest/gtest.h>
 

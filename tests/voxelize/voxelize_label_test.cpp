@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The data of voxels: their triangles, their group, their colour.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

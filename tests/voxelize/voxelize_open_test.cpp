@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Open meshes: a place is inside where the generalized winding number, summed in double, is above
 // 1/2.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Channels that nobody needs are neither computed nor stored. The requested ones have the bits that
 // they have in the image of all channels.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A scene in which one value changes from the first to the second frame, and the kernels that each
 // kind of change launches.
 // Bricks are 0.8 m. All objects except one stand where eight bricks meet, and are so small that

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The work that each kind of change causes: exactly these kernels, and this many of the world's
 // bricks.
 #include <gmock/gmock.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // An object that goes and comes back as the only one of its model and kind: only its own bricks are
 // painted, and the results of its model still exist if they are retained.
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Frames one after another: the work that each kind of change repeats, and that reuse never shows
 // in images.
 #include <gmock/gmock.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Work that a scene doesn't need isn't done. Each row of the table is a change of a scene and the
 // counters that are zero after it but weren't before.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Worlds from the cache on disk are found again by everything that their voxels are made of, and by
 // nothing else.
 #include <gtest/gtest.h>

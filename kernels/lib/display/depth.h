@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Depths of points and rays before an observer.
 #ifndef VXL_DEPTH_H
 #define VXL_DEPTH_H

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Probe points on the voxels of a lattice, and rays that look at them.
 #ifndef VXL_PROBE_H
 #define VXL_PROBE_H

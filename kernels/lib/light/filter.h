@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The light along a shadow ray that transmitting surfaces and objects let through.
 #ifndef VXL_FILTER_H
 #define VXL_FILTER_H

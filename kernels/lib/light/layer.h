@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // One layer of the surfaces on a ray's way: its light and coverage, and the rays that go straight
 // on behind it.
 #ifndef VXL_LAYER_H

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The use of a light's beams: where shadow rays to the light can end.
 #ifndef VXL_LIGHT_BEAMS_H
 #define VXL_LIGHT_BEAMS_H

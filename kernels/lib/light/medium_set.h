@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The set of transmitting objects that a ray is inside of.
 //
 // The effective medium is the object that comes first in the order of priorities, so nothing

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The state that a path's rays hand on, and the nodes that collect their light.
 #ifndef VXL_PATHS_H
 #define VXL_PATHS_H

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The reflection and refraction of rays at the surfaces that they meet: weights and directions.
 #ifndef VXL_SCATTER_POINT_H
 #define VXL_SCATTER_POINT_H

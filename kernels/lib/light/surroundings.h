@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The data on surfaces and the medium that rays need to continue through surfaces.
 #ifndef VXL_SURROUNDINGS_H
 #define VXL_SURROUNDINGS_H

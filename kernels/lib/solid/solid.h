@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The signed distance to an analytic solid (shared/solid.h) at points of its grid, over lanes.
 #ifndef VXL_SOLID_H
 #define VXL_SOLID_H

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Where a ray meets the surface of an analytic solid, over lanes; rays are those of shared/trace.h.
 //
 // Every shape gives the intervals of t in which the ray is inside it. The operations are evaluated

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Reads a mesh file into memory and passes it to the reader of its format.
 #include "runtime/io/mesh/mesh_reader.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Volumetric image <-> OpenVDB: grids density, alpha, Cd, depth, object and kind, each with the
 // display's transform. A lattice has an affine one, sight rays of a pyramid a frustum.
 #include <openvdb/openvdb.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // observer -> rays: one sight ray for every sample of every pixel.
 #pragma once
 

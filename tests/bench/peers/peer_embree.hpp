@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Embree 3 on a tessellated solid.
 #pragma once
 

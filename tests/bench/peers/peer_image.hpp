@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Common parts of the peers of `voxelume bench`: times, images, and an image's rows by threads.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // OpenVDB's ray intersector on a solid's level set.
 #pragma once
 

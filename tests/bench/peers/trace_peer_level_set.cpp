@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include <openvdb/tools/RayIntersector.h>
 
 #if VXL_BENCH_NANOVDB

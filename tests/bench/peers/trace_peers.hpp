@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Other programs that trace the rays of bench_trace, on one thread.
 #pragma once
 
