@@ -130,6 +130,10 @@ void Renderer::note_done(const TileRange& range, const Tiles& tiles) const {
     tiles.share.done(range);
 }
 
+void Renderer::send_light_beams(WorldDilation& through, uint32_t max, Illumination& illumination) {
+    illumination.send_beams(through.dilated_occupancy, max, through.light_beams);
+}
+
 Image Renderer::image_of_tiles(const Scene& scene, const BuiltWorld& built, RenderReport& report,
                                const Tiles& tiles) {
     const auto start = std::chrono::steady_clock::now();
@@ -161,10 +165,8 @@ Image Renderer::image_of_tiles(const Scene& scene, const BuiltWorld& built, Rend
                       dilated_occupancy_of(built, *dilated_occupancy).dilated_occupancy);
     Illumination illumination(device_, features, scene, world, batch.stride);
     if (dilated_occupancy && lights_send_beams(features)) {
-        WorldDilation& sent = dilated_occupancy_of(built, *dilated_occupancy);
-        illumination.send_beams(sent.dilated_occupancy,
-                                light_beams_that_pay(world.frame, rays, observer.samples, pixel),
-                                sent.light_beams);
+        const uint32_t max = light_beams_that_pay(world.frame, rays, observer.samples, pixel);
+        send_light_beams(dilated_occupancy_of(built, *dilated_occupancy), max, illumination);
     }
     ResolveStage resolve(device_, features, observer, scene.render.channels);
     while (const std::optional<TileRange> range = tiles.share.take(in_batch)) {

@@ -16,6 +16,8 @@
 
 namespace voxelume {
 
+class Illumination;
+
 /// The work and time of a frame, for the summary line, --stats-json and the tests.
 struct RenderReport {
     WorldReport world;
@@ -96,6 +98,7 @@ class Renderer {
     bool has_room(const Scene& scene, const Features& features, uint64_t rays) const;
     WorldDilation& dilated_occupancy_of(const BuiltWorld& world, DilationLevel of);
     void note_done(const TileRange& range, const Tiles& tiles) const;
+    static void send_light_beams(WorldDilation& through, uint32_t max, Illumination& illumination);
     Image image_of_tiles(const Scene& scene, const BuiltWorld& world, RenderReport& report,
                          const Tiles& tiles);
 
