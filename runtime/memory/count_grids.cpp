@@ -7,8 +7,8 @@
 namespace voxelume {
 namespace {
 
-/// Triangles that a voxel of an exact surface lists, and bricks that a small triangle is near.
-constexpr double kTrianglesPerVoxel = 2.5, kBinsPerTriangle = 1.3, kBinsInBand = 2.5;
+/// Bricks that a small triangle passes through, and those that it is near.
+constexpr double kBinsPerTriangle = 1.3, kBinsInBand = 2.5;
 
 /// As bin_triangles.
 TriangleBins sort_triangles(const Device& device, const GridCounts& counts, double per_triangle) {

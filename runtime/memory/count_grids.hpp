@@ -19,6 +19,9 @@ struct GridCounts {
     size_t shapes = 0;                   ///< of an analytic solid
 };
 
+/// Triangles that a voxel of an exact mesh lists.
+inline constexpr double kTrianglesPerVoxel = 2.5;
+
 /// The grid of a mesh or of a solid, which has `shapes`. What is made beside it goes when it
 /// returns; the device's counters tell its height.
 BrickGrid count_mesh_grid(const Device& device, const GridCounts& counts);

@@ -4,6 +4,7 @@
 
 #include "runtime/analysis/scene_features.hpp"
 #include "runtime/grid/pyramid_bytes.hpp"
+#include "runtime/grid/world_frame.hpp"
 #include "runtime/memory/count_display.hpp"
 #include "runtime/memory/count_image.hpp"
 
