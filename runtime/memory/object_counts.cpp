@@ -190,7 +190,10 @@ WorldExtent ObjectCounts::least_in_world(size_t number) {
         has_voxels ? voxels_in_world(object, meshes_.voxels(model), true)
                    : extents_.minimum(
                          object, model.surface == Surface::smooth ? kSurfaceBand : kPlacedBand);
-    extent = smaller(extent, with_margin(in_world_[number]));
+    // Areas say too much where objects are small.
+    constexpr double kAreaMargin = 1.2;
+    const SurfaceExtent& counted = in_world_[number];
+    extent = smaller(extent, {kAreaMargin * counted.voxels, kAreaMargin * counted.bricks});
     return {extent.voxels, extent.bricks, model.surface == Surface::exact ? extent.voxels : 0};
 }
 
