@@ -12,8 +12,13 @@ namespace {
 
 constexpr double kMostMarked = 1 << 28;   ///< bricks of a lattice that are told apart
 constexpr double kMostCounted = 1 << 17;  ///< bricks of a surface: some hundredths of a second
-constexpr size_t kSampledBricks = 24;     ///< whose voxels are counted
-constexpr double kLeafEdge = 5.5;         ///< voxels: boxes that aren't divided further
+constexpr size_t kSampledBricks = 256;    ///< whose voxels are counted
+
+/// A plane passes through as many leaves of 4³ voxels as through voxels, over 4²; on one side of it
+/// are half of the others.
+constexpr double kPassedLeaf = 16, kFilledLeaf = 40;
+
+constexpr double kLeafEdge = 5.5;  ///< voxels: boxes that aren't divided further
 
 /// A box in a lattice's voxels.
 struct Cell {
@@ -126,13 +131,17 @@ class BrickCounter {
         const double d = distance(cell.middle()), size = cell.high.x - cell.low.x;
         const bool is_inside = (rule_.keeps_inside || rule_.fills) && d < 0;
         if (std::abs(d) > radius(cell)) return is_inside ? size * size * size : 0;
-        if (size < 1.5) return is_inside || passes(cell.middle(), d) ? 1 : 0;
-        double sum = 0;
-        for (int part = 0; part < 8; ++part) sum += voxels_in(cell.part(part));
-        return sum;
+        if (size > kLeafSize) {
+            double sum = 0;
+            for (int part = 0; part < 8; ++part) sum += voxels_in(cell.part(part));
+            return sum;
+        }
+        const bool is_filled = rule_.keeps_inside || rule_.fills;
+        if (passes(cell.middle(), d)) return is_filled ? kFilledLeaf : kPassedLeaf;
+        return is_inside ? size * size * size : 0;
     }
 
-    /// Whether the plane through the surface near a voxel's middle passes through the voxel.
+    /// Whether the plane through the surface near a leaf's middle passes through the leaf.
     bool passes(const glm::dvec3& middle, double d) const {
         if (glm::any(glm::greaterThan(middle, glm::dvec3(frame_.size)))) return false;
         constexpr double kStep = 0.01;  // voxels
@@ -142,7 +151,7 @@ class BrickCounter {
             beside[axis] += kStep;
             across += std::abs(distance(beside) - d) / kStep;
         }
-        return std::abs(d) <= 0.5 * across;
+        return std::abs(d) <= 0.5 * kLeafSize * across;
     }
 
     const SolidField& field_;
@@ -181,10 +190,11 @@ BrickRule model_rule(Surface surface, bool is_solid_set) {
         .first = 0, .last = 16, .reach = 3.46, .fills = is_solid_set, .closes_ends = is_solid_set};
 }
 
-BrickRule world_rule(Surface surface, bool is_solid_set, bool keeps_inside) {
+BrickRule world_rule(Surface surface, bool is_solid_set, bool keeps_inside, double spread) {
     // A voxel more on each side, and leaves of the object that reach into that.
-    const double reach = surface == Surface::smooth ? 2.9 + 2.0 : 3.0;
-    return {-2.5, 18.5, reach, keeps_inside, is_solid_set, true};
+    const double reach = surface == Surface::smooth ? 2.9 + 2.4 : 3.6;
+    const double half = 9 * spread + 1.5;
+    return {8 - half, 8 + half, reach, keeps_inside, is_solid_set, true};
 }
 
 SurfaceExtent count_bricks(const SolidField& field, const GridFrame& frame, const VoxelBox& box,

@@ -22,9 +22,10 @@ struct BrickRule {
     friend bool operator==(const BrickRule&, const BrickRule&) = default;
 };
 
-/// Those of voxelizing a model in its own space, and of placing it in a world.
+/// Those of voxelizing a model in its own space, and of placing it in a world, where a brick takes
+/// `spread` times its edges along the axes of the object.
 BrickRule model_rule(Surface surface, bool is_solid_set);
-BrickRule world_rule(Surface surface, bool is_solid_set, bool keeps_inside);
+BrickRule world_rule(Surface surface, bool is_solid_set, bool keeps_inside, double spread = 1);
 
 /// Bricks of a lattice that are stored for one object or another.
 class TakenBricks {

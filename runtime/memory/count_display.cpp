@@ -92,26 +92,20 @@ class DisplayCounter {
         allocate_voxels(device_, is_least_ ? 1 : numbered(steps * all));
     }
 
-    /// As that of a lattice.
+    /// As that of a lattice, all of whose arrays stay but the points that aren't shown.
     void lattice() {
         const Features features = begun_anywhere(features_, scene_);
         const uint32_t batch = batch_rays(features);
+        const DisplayLight light =
+            count_light(device_, scene_, features, counts_of(batch), medium_);
         const Buffer<uint32_t> mask = allocate_display_mask(device_, frame_.size);
-        const RayBatch camera = allocate_batch(device_, features, batch);
         const Buffer<float> crossings =
             allocate_crossings(device_, scanned_lines(batch), kFirstSlots);
         const Buffer<uint32_t> lines(device_, "probe counts", scanned_lines(batch));
         const double found = is_least_ ? 16 : probe_points(frame_, world_);
         const double shown =
             is_least_ ? 16 : std::min(found, surface_voxels(world_, mean_edge(frame_.edge)));
-        const DisplayLight light = [&] {
-            const ProbePoints points = allocate_points(device_, numbered(found));
-            // The light's arrays stay while points go; its batch is that of the scan.
-            DisplayLight made = count_light(device_, scene_, features, counts_of(batch), medium_);
-            made.rays.batch = {};
-            choose(numbered(shown));
-            return made;
-        }();
+        const ProbePoints points = allocate_points(device_, numbered(found));
         choose(numbered(shown));
     }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
 #include "runtime/analysis/object_boxes.hpp"
@@ -17,7 +18,7 @@ constexpr double kSurfaceBand = 2.8;  ///< voxels around a smooth surface that h
 constexpr double kPlacedBand = 5;     ///< around cubes: placing looks at whole leaves of them
 
 /// More than areas and distances tell there is of an expected surface's bricks and voxels, at most.
-constexpr double kMargin = 1.0;
+constexpr double kMargin = 1.12;
 
 const glm::dmat4 kOwnSpace(1);
 
@@ -34,6 +35,27 @@ bool is_solid_set(const Model& model) {
 /// than the object has.
 double filled_voxels(const SurfaceExtent& extent, double inside) {
     return std::min(inside, 0.5 * extent.bricks * double(kVoxelsPerBrick));
+}
+
+/// How much longer the box around an object's view of a cube is than the cube, on average over its
+/// axes.
+double spread_of(const Object& object) {
+    const glm::dmat3 turn(object.world_from_object);
+    double sum = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+        const glm::dvec3 direction = glm::normalize(turn[axis]);
+        sum += std::abs(direction.x) + std::abs(direction.y) + std::abs(direction.z);
+    }
+    return sum / 3;
+}
+
+/// Areas say too much of small surfaces, and too little of others.
+SurfaceExtent smaller(const SurfaceExtent& a, const SurfaceExtent& b) {
+    return {std::min(a.voxels, b.voxels), std::min(a.bricks, b.bricks)};
+}
+
+SurfaceExtent with_margin(const SurfaceExtent& extent) {
+    return {kMargin * extent.voxels, kMargin * extent.bricks};
 }
 
 double margin(Estimate estimate) {
@@ -91,17 +113,16 @@ GridCounts ObjectCounts::model_grid(const Model& model, Estimate estimate) {
     const MeshSummary* mesh = meshes_.summary_of(model);
     const GridFrame frame = model_frame(model, mesh);
     const bool is_expected = estimate == Estimate::expected;
-    if (model.solid && is_expected) {
-        TakenBricks taken(frame);
-        return counts_of(model, mesh, frame,
-                         count_bricks(SolidField(*model.solid, kOwnSpace), frame, whole_of(frame),
-                                      model_rule(model.surface, is_solid_set(model)), taken));
-    }
     if (model.solid) {
+        TakenBricks taken(frame);
+        const SurfaceExtent counted =
+            with_margin(count_bricks(SolidField(*model.solid, kOwnSpace), frame, whole_of(frame),
+                                     model_rule(model.surface, is_solid_set(model)), taken));
+        if (is_expected) return counts_of(model, mesh, frame, counted);
         const SurfaceArea area =
             min_solid_area(*model.solid, kOwnSpace, {model.extent.min, model.extent.max});
-        return counts_of(model, mesh, frame,
-                         surface_extent(area, kOwnSpace, frame, stored_band(model)));
+        const SurfaceExtent by_area = surface_extent(area, kOwnSpace, frame, stored_band(model));
+        return counts_of(model, mesh, frame, smaller(counted, by_area));
     }
     if (is_expected) return mesh_grid(model, *mesh, mesh->area);
     return mesh_grid(model, *mesh, model.cuts.empty() ? mesh->min_area : SurfaceArea{});
@@ -111,14 +132,17 @@ GridCounts ObjectCounts::object_grid(const Object& object, Estimate estimate) {
     const Model& model = scene_.models[size_t(object.model)];
     const MeshSummary* mesh = meshes_.summary_of(model);
     const GridFrame frame = world_frame(scene_.world);
-    if (estimate == Estimate::minimum)
-        return counts_of(model, mesh, frame, extents_.minimum(object, 0));
-    if (!model.solid) return counts_of(model, mesh, frame, extents_.planned(object, 0));
+    const bool is_expected = estimate == Estimate::expected;
+    if (!model.solid)
+        return counts_of(model, mesh, frame,
+                         is_expected ? extents_.planned(object, 0) : extents_.minimum(object, 0));
     TakenBricks taken(frame);
+    const SurfaceExtent counted =
+        with_margin(count_bricks(SolidField(*model.solid, object.world_from_object), frame,
+                                 boxes()[size_t(&object - scene_.objects.data())],
+                                 model_rule(Surface::exact, false), taken));
     return counts_of(model, mesh, frame,
-                     count_bricks(SolidField(*model.solid, object.world_from_object), frame,
-                                  boxes()[size_t(&object - scene_.objects.data())],
-                                  model_rule(Surface::exact, false), taken));
+                     is_expected ? counted : smaller(counted, extents_.minimum(object, 0)));
 }
 
 /// In the world there are as many voxels of a file as in its volume, and no fewer bricks; at least
@@ -130,7 +154,7 @@ SurfaceExtent ObjectCounts::voxels_in_world(const Object& object, const VoxelMod
     const double own = volume(frame.voxel_edge) / volume(scene_.world.voxel_size) *
                        std::abs(glm::determinant(object.world_from_object));
     const auto stored = double(voxels.coordinates.size()), count = double(voxels.voxels());
-    if (!at_least) return {count * std::max(1.0, own), 2 * stored * std::max(1.0, own)};
+    if (!at_least) return {count * std::max(1.0, own), 1.4 * stored * std::max(1.0, own)};
     if (!extents_.lies_in_world(frame.origin,
                                 frame.origin + frame.voxel_edge * glm::dvec3(frame.size),
                                 object.world_from_object))
@@ -144,10 +168,10 @@ SurfaceExtent ObjectCounts::expected_in_world(const Object& object, TakenBricks&
         return voxels_in_world(object, meshes_.voxels(model), false);
     const bool keeps_inside = shows_inside(scene_, object);
     if (model.solid)
-        return count_bricks(SolidField(*model.solid, object.world_from_object),
-                            world_frame(scene_.world),
-                            boxes()[size_t(&object - scene_.objects.data())],
-                            world_rule(model.surface, is_solid_set(model), keeps_inside), taken);
+        return count_bricks(
+            SolidField(*model.solid, object.world_from_object), world_frame(scene_.world),
+            boxes()[size_t(&object - scene_.objects.data())],
+            world_rule(model.surface, is_solid_set(model), keeps_inside, spread_of(object)), taken);
     SurfaceExtent extent =
         extents_.planned(object, model.surface == Surface::smooth ? kSurfaceBand : kPlacedBand);
     const double inside = keeps_inside || is_solid_set(model) ? extents_.inside_voxels(object) : 0;
@@ -163,10 +187,14 @@ WorldExtent ObjectCounts::least_in_world(size_t number) {
     const Object& object = scene_.objects[number];
     const Model& model = scene_.models[size_t(object.model)];
     const bool has_voxels = !model.voxels.empty() && model.surface != Surface::exact;
-    const SurfaceExtent extent =
+    SurfaceExtent extent =
         has_voxels ? voxels_in_world(object, meshes_.voxels(model), true)
                    : extents_.minimum(
                          object, model.surface == Surface::smooth ? kSurfaceBand : kPlacedBand);
+    // Areas say too much where objects are small.
+    constexpr double kAreaMargin = 1.2;
+    const SurfaceExtent& counted = in_world_[number];
+    extent = smaller(extent, {kAreaMargin * counted.voxels, kAreaMargin * counted.bricks});
     return {extent.voxels, extent.bricks, model.surface == Surface::exact ? extent.voxels : 0};
 }
 
@@ -174,14 +202,15 @@ double ObjectCounts::changed_bricks(const std::vector<bool>& objects) {
     world(Estimate::expected);
     double sum = 0;
     for (size_t number = 0; number < objects.size(); ++number)
-        if (objects[number]) sum += bricks_[number];
+        if (objects[number]) sum += in_world_[number].bricks;
     return sum;
 }
 
 WorldCounts ObjectCounts::world(Estimate estimate) {
     const bool is_expected = estimate == Estimate::expected;
     if (is_expected && expected_) return *expected_;
-    bricks_.resize(scene_.objects.size());
+    if (!is_expected) world(Estimate::expected);
+    in_world_.resize(scene_.objects.size());
     const GridFrame frame = world_frame(scene_.world);
     TakenBricks taken(frame);
     WorldExtent sum;
@@ -198,7 +227,8 @@ WorldCounts ObjectCounts::world(Estimate estimate) {
         }
         const SurfaceExtent extent = expected_in_world(object, taken);
         sum.voxels += extent.voxels;
-        sum.bricks += bricks_[number] = extent.bricks;
+        sum.bricks += extent.bricks;
+        in_world_[number] = extent;
         primitives += extent.voxels * listed(scene_.models[size_t(object.model)]);
     }
     if (is_expected) return *(expected_ = sum_of(sum, primitives, estimate, frame));

@@ -48,7 +48,7 @@ class ObjectCounts {
     AssetStore& meshes_;
     ObjectExtents extents_;
     std::optional<WorldCounts> expected_;  ///< in the world
-    std::vector<double> bricks_;           ///< of each object, of these
+    std::vector<SurfaceExtent> in_world_;  ///< of each object, of these
 };
 
 /// The grid of a mesh of which the surface has such an area.

@@ -98,7 +98,7 @@ ScenePlan plan_scene(const Scene& scene, AssetStore& meshes) {
     plan.dilated_occupancy_bytes = expected.dilated_occupancy;
     plan.rays = expected.rays;
     plan.min_image_bytes = minimum.image;
-    plan.min_bytes = std::max(minimum.built(), minimum.image);
+    plan.min_bytes = std::min(std::max(minimum.built(), minimum.image), plan.peak_bytes());
     plan.min_with_next = minimum.place + minimum.index + minimum.image;
     plan.following_bytes = walk_following(scene, meshes, objects, plan.medium);
     plan.largest = described_buffer(minimum.largest_buffer, minimum.largest_bytes);

@@ -29,7 +29,7 @@ SurfaceExtent counted(const Solid& solid, const glm::dmat4& map, const GridFrame
                         model_rule(surface, false), taken);
 }
 
-TEST(BrickCount, IsThatOfVoxelizingWithinAFewInAHundred) {
+TEST(BrickCount, IsThatOfVoxelizingWithinAFifth) {
     const Device device = test_device();
     const glm::dmat4 map = glm::rotate(glm::translate(glm::dmat4(1), {0.013, -0.021, 0.007}), 0.4,
                                        glm::dvec3(0.3, 1, -0.2));
@@ -43,9 +43,9 @@ TEST(BrickCount, IsThatOfVoxelizingWithinAFewInAHundred) {
                 voxelize_solid(device, solid, map, frame, {surface, VoxelSet::supercover});
             const double voxels = build_index(device, grid).voxel_count;
             const SurfaceExtent extent = counted(solid, map, frame, surface);
-            EXPECT_NEAR(extent.bricks, grid.brick_count, 0.05 * grid.brick_count + 2)
+            EXPECT_NEAR(extent.bricks, grid.brick_count, 0.12 * grid.brick_count + 2)
                 << int(kind) << " " << int(surface);
-            EXPECT_NEAR(extent.voxels, voxels, 0.15 * voxels) << int(kind) << " " << int(surface);
+            EXPECT_NEAR(extent.voxels, voxels, 0.2 * voxels) << int(kind) << " " << int(surface);
         }
 }
 

@@ -21,8 +21,18 @@
 namespace voxelume {
 namespace {
 
-// A promise below what is taken is broken; one far above it refuses what fits.
-constexpr double kLeastRatio = 0.3, kMostRatio = 4.0;
+// A promise below what is taken is broken; one far above it frightens off what fits.
+constexpr double kMaxRatio = 1.35;
+// Frames that follow each other take what the faster of two threads asks for first.
+constexpr double kMaxOfFrames = 1.7;
+// Rays that are reflected, or go on through surfaces, are promised arrays for every depth.
+constexpr double kMaxOfPaths = 2.5;
+
+bool sends_rays_on(const Scene& scene) {
+    return std::ranges::any_of(scene.materials, [](const Material& m) {
+        return m.reflection > 0 || m.refraction > 0 || m.opacity < 1;
+    });
+}
 
 double promised(Scene scene, const std::vector<int>& frames, const Device& device) {
     AssetStore meshes;
@@ -32,7 +42,8 @@ double promised(Scene scene, const std::vector<int>& frames, const Device& devic
     return planned.plan.run_bytes(frames.size(), double(device.info().memory));
 }
 
-void expect_kept(const std::string& name, double promise, const Device& device) {
+void expect_kept(const std::string& name, double promise, const Device& device,
+                 double max_ratio = kMaxRatio) {
     const auto fact = double(device.counters().peak_bytes);
     fmt::print("{:24} promised {:9.3f} MB, taken {:9.3f} MB, ratio {:.3f}\n", name, promise / 1e6,
                fact / 1e6, promise / fact);
@@ -40,8 +51,8 @@ void expect_kept(const std::string& name, double promise, const Device& device) 
         for (const auto& [buffer, bytes] : device.counters().allocated_bytes)
             if (double(bytes) > 0.02 * fact)
                 fmt::print("    {:24} {:9.3f} MB in all\n", buffer, double(bytes) / 1e6);
-    EXPECT_GE(promise, kLeastRatio * fact) << name;
-    EXPECT_LE(promise, kMostRatio * fact) << name;
+    EXPECT_GE(promise, fact) << name;
+    EXPECT_LE(promise, max_ratio * fact) << name;
 }
 
 /// Renders a single image.
@@ -50,7 +61,8 @@ void expect_image_kept(const std::string& name, const Scene& scene) {
     const double promise = promised(scene, {1}, device);
     RenderReport report;
     render(device, scene, report);
-    expect_kept(name, promise, device);
+    expect_kept(name, promise, device,
+                sends_rays_on(scene) || !scene.models[0].voxels.empty() ? kMaxOfPaths : kMaxRatio);
 }
 
 /// Renders frames as the command line does, each as soon as its world is formed.
@@ -58,7 +70,7 @@ void expect_frames_kept(const std::string& name, Scene scene, const std::vector<
     const Device device = test_device();
     const double promise = promised(scene, frames, device);
     render_frames({device}, scene, {.frames = frames}, [](const FrameResult&) {});
-    expect_kept(name, promise, device);
+    expect_kept(name, promise, device, kMaxOfFrames);
 }
 
 std::vector<std::string> shipped_scenes() {
@@ -112,7 +124,7 @@ Scene room(const char* ball, const char* wall, const char* space, double voxel,
 
 TEST(BuiltScene, OfMirrorsGlassLampsAndMediaTakesWhatIsPromised) {
     constexpr const char* kFog =
-        R"("medium": {"absorption": 0.4, "density": {"kind": "height", "base": 0, "scale_height": 0.3}},)";
+        R"("medium": {"absorption": [0.4, 0.4, 0.4], "density": {"kind": "height", "base": 0, "scale_height": 0.3}},)";
     expect_image_kept("mirror", room(R"("reflection": 0.8)", R"("reflection": 0.5)", "", 0.02));
     expect_image_kept("glass", room(R"("refraction": 0.9, "ior": 1.5)", "", "", 0.02));
     expect_image_kept("glass, exact",
