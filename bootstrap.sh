@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # From a bare Debian 12 to a picture (./bootstrap.sh demo) or to tested code (./bootstrap.sh test).
 set -euo pipefail
 cd "$(dirname "$0")"

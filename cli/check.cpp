@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // voxelume check SCENE: whether a scene is right, and what rendering it takes.
 #include <CLI/CLI.hpp>
 #include <memory>

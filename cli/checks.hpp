@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What commands check of their options before they work: names of outputs, numbers, choices.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The commands of `voxelume`: one file each, plugged into the table in main.cpp.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // voxelume convert A B: a volumetric image as another format.
 #include <CLI/CLI.hpp>
 #include <array>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // voxelume devices: what can render here, and why not otherwise.
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // voxelume diff A B: how far two images are from each other.
 #include <CLI/CLI.hpp>
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the command line of `render` asks for: which frames, and their files.
 #pragma once
 

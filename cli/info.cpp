@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // voxelume info FILE: what is in a file.
 #include <CLI/CLI.hpp>
 #include <memory>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The program `voxelume`: finds the command in its table, reads the options, runs it and turns
 // failures into exit codes.
 #include <malloc.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What rendering a scene takes, for people and programs.
 #include <fmt/format.h>
 

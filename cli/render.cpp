@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // voxelume render: the image of a scene.
 #include <CLI/CLI.hpp>
 #include <chrono>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a render came to, for people: the summary line and -v.
 #pragma once
 

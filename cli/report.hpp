@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a command found out, for people or for programs.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The options that every command on a scene has: which scene, on what device, how large an image.
 #pragma once
 

@@ -1,9 +1,8 @@
+// SPDX-License-Identifier: Apache-2.0
 // voxelume stress: what a device does, held against exact arithmetic, case after case.
 #include <CLI/CLI.hpp>
-#include <array>
 #include <chrono>
 #include <csignal>
-#include <cstdlib>
 #include <memory>
 #include <span>
 #include <string>
@@ -12,6 +11,7 @@
 #include "cli/checks.hpp"
 #include "cli/commands.hpp"
 #include "cli/progress.hpp"
+#include "cli/stress_again.hpp"
 #include "runtime/voxelume_verify.hpp"
 
 namespace voxelume::cli {
@@ -31,15 +31,6 @@ void wait_for_interrupt() {
     sigaction(SIGINT, &action, nullptr);
 }
 
-struct StressCommand {
-    double rays = 1e6;
-    uint64_t seed = 1;
-    std::vector<std::string> only;
-    uint64_t first = 0;
-    std::string device;
-    bool quiet = false;
-};
-
 /// Each once, in the order in which they are named; all without names.
 std::vector<StressTest> chosen_tests(const std::vector<std::string>& only) {
     const std::vector<StressTest> tests = stress_tests();
@@ -53,37 +44,11 @@ std::vector<StressTest> chosen_tests(const std::vector<std::string>& only) {
     return chosen;
 }
 
-/// Variables of the environment that change what a device does.
-constexpr std::array kSettings = {
-    "VOXELUME_DEVICE",    "VOXELUME_LANES",         "VOXELUME_WORK_GROUP",   "VOXELUME_UNITS",
-    "VOXELUME_BUFFER_MB", "VOXELUME_BUILD_OPTIONS", "POCL_MAX_PTHREAD_COUNT"};
-
-/// A word of a shell's line.
-std::string shell_word(const std::string& text) {
-    const char* plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_=+,./:@%";
-    if (!text.empty() && text.find_first_not_of(plain) == std::string::npos) return text;
-    std::string word = "'";
-    for (const char c : text) word += c == '\'' ? "'\\''" : std::string(1, c);
-    return word + "'";
-}
-
-/// The line that tries one case again, beside those that it was tried with.
-std::string command_for(const StressTest& test, uint64_t number, const StressCommand& command) {
-    std::string text;
-    for (const char* name : kSettings)
-        if (const char* value = std::getenv(name); value && *value)
-            text += fmt::format("{}={} ", name, shell_word(value));
-    text += fmt::format("voxelume stress --only {} --seed {} --rays 1 --first {}", test.name,
-                        command.seed, number);
-    if (!command.device.empty()) text += " --device " + shell_word(command.device);
-    return text;
-}
-
 void print_examples(const StressTest& test, std::span<const StressExample> examples,
                     const StressCommand& command) {
     for (const StressExample& example : examples)
         fmt::print("  {} case {}: {}\n    again: {}\n", test.name, example.number, example.text,
-                   command_for(test, example.number, command));
+                   command_for(test.name, example.number, command));
     std::fflush(stdout);
 }
 

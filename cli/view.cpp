@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // voxelume view: a look at a volumetric image, as a picture or as a page for a browser.
 #include <CLI/CLI.hpp>
 #include <filesystem>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // voxelume voxelize MESH: the voxels of a mesh, as files for this and other programs.
 #include <CLI/CLI.hpp>
 #include <array>

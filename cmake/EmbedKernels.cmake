@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # embed_kernels(folder output): generates a source that defines voxelume::embedded_kernels(), the
 # text of every .cl and .h file below `folder`, named by its path from there. The source is
 # generated again when a kernel changes.

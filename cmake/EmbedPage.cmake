@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # embed_page(page script output): generates a source that defines voxelume::page_text() and
 # page_script(), the text of both files. The source is generated again when one of them changes.
 function(embed_page page script output)

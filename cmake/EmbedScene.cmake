@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # embed_scene(file name output): generates a source that defines std::string_view voxelume::NAME(),
 # the text of a scene file. The source is generated again when the file changes.
 function(embed_scene file name output)

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # hash_producers(folder output): generates a source that defines voxelume::producer_hash(), the
 # hashes of the sources below `folder` that turn meshes into models, and models into a world. The
 # source is generated again when one of them changes.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # What `cmake --install` puts where: the program, the library with its header, the module for OpenVDB, and what CMake and
 # pkg-config need to find the library.
 include(CMakePackageConfigHelpers)

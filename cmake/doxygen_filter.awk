@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # Shows Doxygen a header as its reader sees it: the comment at its head is the description of the
 # file, and that of voxelume.hpp the main page. An empty line makes room for what is added, so that
 # warnings have the header's own line numbers.

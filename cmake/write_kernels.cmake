@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # embed_kernels runs this. It writes the kernels below `folder` into the C++ source `output`.
 file(GLOB_RECURSE files RELATIVE ${folder} ${folder}/*.cl ${folder}/*.h)
 list(SORT files)

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # embed_page runs this. It writes the files `page` and `script` into the C++ source `output`.
 set(text "#include \"runtime/io/volume/volume_page.hpp\"\n\nnamespace voxelume {\n\n")
 function(add_part name file)

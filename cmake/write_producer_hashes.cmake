@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # hash_producers runs this. It writes hashes of `files` into the C++ source `output`.
 set(text "#include \"runtime/base/producer_hash.hpp\"\n\nnamespace voxelume {\n\n")
 string(APPEND text "const char* producer_hash() {\n    return\n")

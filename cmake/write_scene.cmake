@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # embed_scene runs this. It writes the text of `file` into the C++ source `output`, as the function
 # `name`.
 file(READ ${file} content HEX)

@@ -1,7 +1,8 @@
-// object grid, what solids leave of space -> object grid: what both have in common.
+// SPDX-License-Identifier: Apache-2.0
+// object grid, rest of space without solids -> object grid: the intersection of both.
 //
-// A brick of the result names its slots in the operands; an operand that doesn't store it is all
-// inside or all outside there.
+// A brick of the result has its slots in the operands as sources. An operand that doesn't store the
+// brick is wholly inside or wholly outside there.
 #include "lib/lanes/work_item.h"
 #include "shared/voxel.h"
 
@@ -14,7 +15,8 @@ static inline short distance_at(global const short* restrict distance, uint slot
     return slot == VXL_BRICK_INSIDE ? -32767 : 32767;
 }
 
-/// One work-item: one brick of the result. The distances to what is common to two bodies.
+/// One work-item: one brick of the result. Computes the distances to the intersection of two
+/// bodies.
 kernel void join_distances(uint count, global const uint2* restrict sources,
                            global const short* restrict body, global const short* restrict rest,
                            global short* restrict distance) {
@@ -31,8 +33,8 @@ static inline ulong mask_at(global const ulong* restrict occupancy, uint slot, u
     return slot == VXL_BRICK_INSIDE ? ~0ul : 0ul;
 }
 
-/// One work-item: one leaf of the result. The voxels of each body's cover that touch the other,
-/// by its cover or inside of it. `sources`: slots in body, body_inside, rest, rest_inside.
+/// One work-item: one leaf of the result. Finds the voxels of each body's cover that are in the
+/// other's cover or inside it. `sources`: slots in body, body_inside, rest, rest_inside.
 kernel void join_covers(uint count, global const uint4* restrict sources,
                         global const ulong* restrict body, global const ulong* restrict body_inside,
                         global const ulong* restrict rest, global const ulong* restrict rest_inside,
@@ -46,8 +48,8 @@ kernel void join_covers(uint count, global const uint4* restrict sources,
                         (b & (a | mask_at(body_inside, slots.y, leaf)));
 }
 
-/// One work-item: one brick's words of voxels, from the slot that it has in `from`; `word` where it
-/// has none.
+/// One work-item: one brick. Copies its voxels' words from its slot in `from`, or writes `word` if
+/// it has no slot there.
 kernel void keep_words(uint count, global const uint* restrict slots,
                        global const uint* restrict from, uint word, global uint* restrict words) {
     const uint brick = work_item();

@@ -1,4 +1,5 @@
-// probe points -> P in the layout `lattice`: which voxels are shown, and by which point.
+// SPDX-License-Identifier: Apache-2.0
+// probe points -> P in the layout `lattice`: the voxels that are shown, and the point of each.
 //
 // Probe points are in lattice voxels, three arrays `total` apart: on a probe line two of their
 // coordinates are exact, so a point on voxels' edges belongs to all of them. A mask of one bit for
@@ -12,6 +13,7 @@
 #include "lib/lanes/vector.h"
 #include "lib/lanes/work_item.h"
 #include "lib/light/paths.h"
+#include "lib/traverse/display_shape.h"
 #include "lib/traverse/ray_batch.h"
 #include "shared/display.h"
 #include "shared/scene.h"
@@ -31,11 +33,10 @@ static inline float3 middle_of(const DisplayLattice* l, int4 v) {
                     fma((float)v.z + 0.5f, l->edge.z, l->corner.z));
 }
 
-/// Whether the display has voxel v: its middle lies in the shape.
+/// True if the display has voxel v, which means that its middle lies in the shape.
 static inline bool is_in_display(const DisplayLattice* l, int4 v) {
     if (v.x < 0 || v.y < 0 || v.z < 0 || v.x >= l->size_x || v.y >= l->size_y || v.z >= l->size_z)
         return false;
-    const float3 p = middle_of(l, v);
     if (l->cylinder) {
         const float x = 2.0f * ((float)v.x + 0.5f) - (float)l->size_x;
         const float z = 2.0f * ((float)v.z + 0.5f) - (float)l->size_z;
@@ -43,19 +44,11 @@ static inline bool is_in_display(const DisplayLattice* l, int4 v) {
         const float radius = (float)l->size_x * (float)l->size_z;
         if (fma(along_x, along_x, along_z * along_z) > radius * radius) return false;
     }
-    if (l->shape == VXL_SHAPE_PYRAMID)
-        return fabs(p.x) <= p.z * l->slope_x && fabs(p.y) <= p.z * l->slope_y;
-    if (l->shape == VXL_SHAPE_BOX) return true;
-    const float squared = fma(p.x, p.x, fma(p.y, p.y, p.z * p.z));
-    if (squared > l->far_depth * l->far_depth) return false;
-    if (l->shape == VXL_SHAPE_BALL) return true;
-    // The angle from Z_E by squares: no root, and the cosine may be negative.
-    const float minimum = l->slope_x * fabs(l->slope_x) * squared;
-    return squared >= l->near_depth * l->near_depth && p.z * fabs(p.z) >= minimum;
+    return is_in_shape(l, middle_of(l, v));
 }
 
-/// Voxel number `which` (0 .. 7) of those that a point lies in or on; those that are told twice, or
-/// that the display doesn't have, have x = -1.
+/// Voxel number `which` (0 .. 7) of those that a point lies in or on. Its x is -1 if it is a voxel
+/// of a lower number, or if the display doesn't have it.
 static inline int4 voxel_at(const DisplayLattice* l, float3 point, uint which) {
     const float3 below = floor(point);
     int4 v = (int4)((int)below.x, (int)below.y, (int)below.z, 0);
@@ -193,7 +186,7 @@ kernel void take_points(VXL_POINTS_PARAMETERS, uint first_number,
     voxel_views[voxel] = view_of_point[n];
 }
 
-/// Takes the light of rays 0 .. count-1 to their voxels: ray n was aimed at the point of voxel
+/// Adds the light of rays 0 .. count-1 to their voxels: ray n was aimed at the point of voxel
 /// targets[first_voxel + n], or of voxel first_voxel + n when it is not `listed`. Where a ray
 /// passes by its surface, the voxel gets object 0. The medium between the ray's start and the
 /// surface counts as air. Where surfaces let light through, the nodes hold its own light and

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // lit sight rays, layer by layer -> records of what P shows of each in the layout `rays`.
 //
 // For worlds whose surfaces let light through, or whose medium isn't the same everywhere; the host
@@ -13,13 +14,13 @@
 #include "shared/trace.h"
 #include "shared/voxel.h"
 
-/// What a layer adds to the light of an entry's node, and what it covers.
+/// The light that a layer adds to an entry's node, and its coverage.
 typedef struct {
     float light[3];
-    float clear_before, clear;  // what is uncovered before the layer and behind it
+    float clear_before, clear;  // the parts that are uncovered before and behind it
 } LayerLight;
 
-/// Tells the layer's light from that of the layers `seen` before, and adds it to them.
+/// Subtracts the light of the layers `seen` before from the node's, and adds the layer to `seen`.
 static inline LayerLight take_light(const NodeLight* nodes, uint ray, bool goes_on, bool hit,
                                     global float* restrict seen) {
     const uint stride = nodes->stride;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // lit sight rays -> P in the layout `rays`: the voxel of each surface, and those of the medium
 // before it.
 //
@@ -18,7 +19,7 @@
 
 #define VXL_NO_STEP 0xFFFFFFFFu
 
-// Less than this share of the light behind is not told from none.
+// A smaller share of the light from behind counts as none.
 #define VXL_MIN_TRANSMITTANCE 9.5367431640625e-7f
 
 /// The parameters that `bind` of RayDepths sets, in its order.
@@ -27,7 +28,7 @@
         global uint *restrict ray_objects, global float *restrict ray_colors, \
         global float *restrict ray_spans, uint total
 
-/// What the voxels of each of `total` rays need; runtime/stages/display/display_rays.hpp.
+/// The data of each of `total` rays for its voxels; runtime/stages/display/display_rays.hpp.
 typedef struct {
     global uint* restrict steps;
     global float* restrict depths;
@@ -56,7 +57,7 @@ static inline lane_float covered_part(lane_float x) {
     return LANES_SELECT(LANE_MASK(x < 0.125f), x * p, 1.0f - exact_exp(-x));
 }
 
-/// Keeps where a ray is in the world, up to the surface that it met.
+/// Keeps the span in which a ray is in the world, up to the surface that it met.
 static inline void measure_span(const Camera* camera, PyramidShape shape, const RayBatch* batch,
                                 uint first, lane_int hit, const RayDepths* kept, uint place) {
     const uint stride = batch->stride;
@@ -103,7 +104,7 @@ kernel void measure_steps(Camera camera, PyramidShape shape, DisplaySteps steps,
     if (VXL_MEDIUM) measure_span(&camera, shape, &batch, first, hit, &kept, place);
 }
 
-/// The place of pixel (u, v)'s ray in the order of sight.cl.
+/// The index of pixel (u, v)'s ray in the order of sight.cl.
 static inline uint ray_of_pixel(uint u, uint v, uint width) {
     const uint tile = v / 4u * ((width + 3u) / 4u) + u / 4u;
     return tile * 16u + (v & 3u) * 4u + (u & 3u);

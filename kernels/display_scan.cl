@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // probe lines -> probe points: every crossing of the lines of a display's lattice with a surface.
 //
 // One work-item carries VXL_LANES lines through the world. Lanes that reach an occupied voxel wait
@@ -19,12 +20,12 @@
 // Crossings of one solid in one voxel, at most.
 #define VXL_SOLID_CROSSINGS 4
 
-/// Where a packet's crossings go: slot i of line n at i * stride + n.
+/// The slots of a packet's crossings: slot i of line n is at i * stride + n.
 typedef struct {
     float4 row;  // of the lattice coordinate along the lines
     uint first, stride, slots;
     global float* restrict crossings;
-    lane_uint count;  // crossings found, with those that had no slot left
+    lane_uint count;  // crossings found, including those without a slot
 } ScanResult;
 
 /// Keeps the `crossed` lanes' crossings at t. A face between two voxels of the display belongs to

@@ -1,4 +1,5 @@
-// BrickGrid -> Pyramid: which voxels a ray must see, and their words in the pyramid's order.
+// SPDX-License-Identifier: Apache-2.0
+// BrickGrid -> Pyramid: the voxels that a ray must see, and their data in the pyramid's order.
 //
 // Two passes over the stored bricks, one brick a work-item: `mark_voxels` finds each brick's voxels
 // and counts them, the host numbers them by prefix sums, `write_voxels` fills the pyramid.
@@ -24,7 +25,7 @@ static inline int4 leaf_origin(int leaf) {
     return (int4)((leaf & 3) << 2, leaf & 12, leaf >> 2 & 12, 0);
 }
 
-// The voxel's place in a brick's 4096 values, from its leaf and its bit there.
+// The voxel's index in a brick's 4096 values, from its leaf and its bit there.
 static inline int voxel_in_brick(int leaf, int bit) {
     const int4 first = leaf_origin(leaf);
     return (first.x + (bit & 3)) | (first.y + (bit >> 2 & 3)) << 4 | (first.z + (bit >> 4)) << 8;
@@ -34,7 +35,7 @@ static inline int lowest_bit(ulong mask) {
     return (int)popcount((mask & -mask) - 1);
 }
 
-// One leaf of a brick whose masks go to another slot: `moves` holds pairs of slots, from and to.
+// Moves the mask of one leaf of a brick to another slot. `moves` holds pairs of slots, from and to.
 kernel void move_masks(const uint count, global const uint* restrict moves, global ulong* masks) {
     const uint item = work_item();
     if (item >= count) return;
@@ -42,8 +43,9 @@ kernel void move_masks(const uint count, global const uint* restrict moves, glob
     masks[(size_t)slots.y * 64 + (item & 63u)] = masks[(size_t)slots.x * 64 + (item & 63u)];
 }
 
-// One brick of those `listed`, or of all where that is null: masks of its voxels, mask of its
-// leaves, and two counts: voxels and primitives, these in the list's order.
+// Marks one brick of those `listed`, or of all if that is null: writes the masks of its voxels, the
+// mask of its leaves, and its counts of voxels and primitives. Leaf masks and counts are in the
+// list's order.
 kernel void mark_voxels(const uint count, global const uint* restrict listed,
                         VXL_BRICK_GRID_PARAMETERS, global ulong* restrict masks,
                         global ulong* restrict leaf_masks, global uint* restrict counts) {
@@ -90,8 +92,8 @@ typedef struct {
     global uint* restrict primitives;
 } WrittenVoxels;
 
-// The word of a voxel in the pyramid, with the kind bits of voxels in the occupancy masks (kinds.x)
-// or of the others (kinds.y).
+// The packed attributes of a voxel in the pyramid, with the kind bits of voxels in the occupancy
+// masks (kinds.x) or of the others (kinds.y).
 static inline uint word_with_kind(const BrickGrid* grid, size_t voxel, bool smooth, uint2 kinds) {
     const uint packed = VXL_ATTRIBUTES ? grid->attributes[voxel] : grid->attribute;
     const uint without_kind = packed & (VXL_MATERIAL_MASK << VXL_MATERIAL_SHIFT | VXL_OBJECT_MASK);
@@ -100,8 +102,8 @@ static inline uint word_with_kind(const BrickGrid* grid, size_t voxel, bool smoo
     return VXL_ATTRIBUTES ? packed : without_kind | kinds.x;
 }
 
-// Writes the voxel at `place` of a brick of the grid as the pyramid's `number`; its primitives from
-// number `primitive` on, of which the first behind them is returned.
+// Writes the voxel at `place` of a brick of the grid as voxel `number` of the pyramid, and its
+// primitives from number `primitive` on. Returns the number after the last primitive.
 static inline uint write_voxel(const BrickGrid* grid, uint slot, int place, bool smooth,
                                uint2 kinds, const short* nodes, uint number, uint primitive,
                                const WrittenVoxels* to) {
@@ -122,9 +124,9 @@ static inline uint write_voxel(const BrickGrid* grid, uint slot, int place, bool
     return primitive;
 }
 
-// One brick: its leaves and voxels, from the numbers in `starts` (first leaf, voxel, primitive of
-// each slot) on. `kinds` holds the kind bits of voxels in the occupancy masks (x) and of the others
-// (y). The last voxel's end in `voxel_primitive_first` is the host's to write.
+// Writes the leaves and voxels of one brick from the numbers in `starts` (first leaf, voxel,
+// primitive of each slot) on. `kinds` holds the kind bits of voxels in the occupancy masks (x) and
+// of the others (y). The host writes the last voxel's end in `voxel_primitive_first`.
 kernel void write_voxels(const uint count, const uint2 kinds, VXL_BRICK_GRID_PARAMETERS,
                          global const ulong* restrict masks, global const uint* restrict starts,
                          global uint* restrict leaves, global uint* restrict leaf_voxels,

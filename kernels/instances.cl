@@ -1,30 +1,32 @@
-// pyramids of models -> behind the world's pyramid: joins what instances share.
+// SPDX-License-Identifier: Apache-2.0
+// pyramids of models -> the world's pyramid with the models' data appended, for instances.
 #include "lib/lanes/work_item.h"
 #include "shared/trace.h"
 #include "shared/voxel.h"
 
-// One word.
+// Copies one word.
 kernel void append_words(const uint count, const uint start, global const uint* restrict from,
                          global uint* restrict to) {
     const uint i = work_item();
     if (i < count) to[start + i] = from[i];
 }
 
-// One word that is the same for all.
+// Writes one copy of `word`.
 kernel void append_copies(const uint count, const uint start, const uint word,
                           global uint* restrict to) {
     const uint i = work_item();
     if (i < count) to[start + i] = word;
 }
 
-// One number of something that `first` others lie before now; numbers with a bit of `kept` stay.
+// Copies one number, increased by `first`, the number of entries that now precede; numbers with a
+// bit of `kept` stay as they are.
 kernel void append_numbers(const uint count, const uint start, const uint first, const uint kept,
                            global const uint* restrict from, global uint* restrict to) {
     const uint i = work_item();
     if (i < count) to[start + i] = from[i] & kept ? from[i] : from[i] + first;
 }
 
-// One brick record: its halves' first leaves get new numbers, unless it is empty.
+// Copies one brick record. Its halves' first leaves get new numbers, unless it is empty.
 kernel void append_bricks(const uint count, const uint start, const uint first_leaf,
                           global const uint* restrict from, global uint* restrict to) {
     const uint i = work_item();
@@ -34,7 +36,7 @@ kernel void append_bricks(const uint count, const uint start, const uint first_l
     vstore4(record, start + i, to);
 }
 
-// One entry of a list of primitives.
+// Copies one entry of a list of primitives with its new number.
 kernel void append_primitives(const uint count, const uint start, const uint first_triangle,
                               const uint first_solid, global const uint* restrict from,
                               global uint* restrict to) {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // surface points + a light -> a queue of shadow rays, each with the light that it would bring.
 //
 // Whitted 1980: ambient, Lambert's cosine, and the highlight of Blinn's half vector.
@@ -10,7 +11,7 @@
 #include "shared/scene.h"
 #include "shared/trace.h"
 
-/// The part of a spot's light that goes along the unit vector `to_surface`: smoothstep of the
+/// The part of a spot light's intensity along the unit vector `to_surface`: smoothstep of the
 /// cosine.
 static inline lane_float spot_falloff(LightRecord light, Vector to_surface) {
     const Vector along = {(lane_float)light.direction.x, (lane_float)light.direction.y,
@@ -22,10 +23,10 @@ static inline lane_float spot_falloff(LightRecord light, Vector to_surface) {
     return s * s * fma(-2.0f, s, 3.0f);
 }
 
-/// What a small patch of an emissive surface gives to a point at distance d, where it is seen at an
-/// angle with this cosine: cosine / (d^2 + A/pi). Beside a disk's middle that is exact, from far
-/// away it is the cosine over d^2, and no nearness makes it more than all the light that a
-/// surface can get (Wallace, Elmquist and Haines 1989).
+/// The falloff of a small part of an emissive surface at a point at distance d, from which it is
+/// seen at an angle with this cosine: cosine / (d^2 + A/pi). Over a disk's middle this is exact;
+/// far away it is the cosine over d^2; and however near, it never exceeds the light that a surface
+/// can receive (Wallace, Elmquist and Haines 1989).
 static inline lane_float area_sample_falloff(LightRecord light, Vector to_surface,
                                              lane_float squared) {
     const Vector normal = {(lane_float)light.direction.x, (lane_float)light.direction.y,
@@ -36,10 +37,10 @@ static inline lane_float area_sample_falloff(LightRecord light, Vector to_surfac
     return LANES_SELECT(faces, cosine * exact_reciprocal(sum), (lane_float)0.0f);
 }
 
-/// How a packet of surface points sees the light.
+/// The light as a packet of surface points sees it.
 typedef struct {
-    lane_int lit;       // mask: the light may give something to the point
-    Vector to_light;    // in voxels: to the light, or for directional ones along the way to it
+    lane_int lit;       // mask: the light may contribute to the point
+    Vector to_light;    // in voxels: to the light; directional light: towards it
     Vector l;           // the unit vector to it, in metres' space
     lane_float cosine;  // between it and the normal
     lane_float falloff;
@@ -111,7 +112,8 @@ static inline void aim_at_light(PyramidShape shape, LightRecord light, const Inc
     if (light.kind != VXL_LIGHT_DIRECTIONAL) r->t_end = exact_reciprocal(scale);
 }
 
-/// The light that surfaces of `material` at `position` return towards the viewer. Mask: any.
+/// The light that surfaces of `material` at `position` return towards the viewer. Returns a mask of
+/// the points that return any.
 static inline lane_int find_shares(LightRecord light, const Incidence* i, lane_float highlight,
                                    Vector position, lane_uint material, lane_uint voxel,
                                    global const float* restrict materials,
@@ -145,7 +147,7 @@ static inline void add_shares(const lane_float* contribution, lane_int lit, cons
     }
 }
 
-/// Puts the `lit` lanes' rays into the queue, each in a place of its own, all reserved at once.
+/// Writes the `lit` lanes' rays to slots of the queue, which are all reserved at once.
 static inline void queue_rays(const ShadowQueue* queue, const LitRays* r, lane_int lit,
                               const RayBatch* batch, uint first) {
     const uint stride = batch->stride;
@@ -182,9 +184,9 @@ static inline void queue_rays(const ShadowQueue* queue, const LitRays* r, lane_i
     }
 }
 
-/// Adds one light: every surface point that faces it, and to which it gives any light, gets a place
-/// in the queue of shadow rays with the light's share. Where neither an object nor the medium can
-/// come between, the share is added at once.
+/// Adds one light: every surface point that faces it and to which it contributes gets a slot in the
+/// queue of shadow rays with the light's contribution. If neither an object nor the medium can come
+/// between, the contribution is added at once.
 kernel void add_light(VXL_WORLD_PARAMETERS, LightRecord light,
                       global const float* restrict materials, VXL_SHADOW_QUEUE_PARAMETERS,
                       VXL_BATCH_PARAMETERS, uint count) {

@@ -1,11 +1,12 @@
-// a light -> beams: how far from it the world is empty.
+// SPDX-License-Identifier: Apache-2.0
+// a light -> beams: how far from the light the world is empty.
 #include "lib/lanes/work_item.h"
 #include "lib/traverse/beam.h"
 #include "shared/light_beams.h"
 
-/// Sends the beams of `count` tiles of the grid and leaves in `ends`, at their places in it, how
-/// far they come: what their rays meet lies at this coordinate of the grid's axis or beyond it, of
-/// minus that axis where its sign is negative; +infinity where they meet nothing. `shape`,
+/// Sends the beams of `count` tiles of the grid, and writes their ends to their places in `ends`.
+/// Everything that a beam's rays meet lies at this coordinate of the grid's axis or beyond it (of
+/// minus that axis if its sign is negative); the end is +infinity if they meet nothing. `shape`,
 /// `sectors` and `bricks` are the dilated occupancy's.
 kernel void send_light_beams(PyramidShape shape, global const uint* restrict sectors,
                              global const uint* restrict bricks, BeamGrid grid,

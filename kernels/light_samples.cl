@@ -1,4 +1,5 @@
-// world -> where it glows: the pieces of surface that objects with emission show.
+// SPDX-License-Identifier: Apache-2.0
+// world -> the pieces of surface of its emissive objects.
 #include "lib/lanes/vector.h"
 #include "lib/lanes/work_item.h"
 #include "lib/solid/solid.h"
@@ -24,7 +25,7 @@ static inline uint attributes_of_voxel(const SurfaceView* s, uint voxel) {
     return VXL_ATTRIBUTES ? s->attributes[voxel] : s->constant_attribute;
 }
 
-/// Whether a cube fills the cell, or the world ends before it.
+/// True if a cube fills the cell, or if the cell is outside of the world.
 static inline bool is_covered(const WorldView* world, int x, int y, int z) {
     const PyramidView* p = &world->pyramid;
     if (x < 0 || y < 0 || z < 0) return true;
@@ -43,8 +44,8 @@ static inline bool is_covered(const WorldView* world, int x, int y, int z) {
     return attributes_of_voxel(&world->surface, voxel) >> VXL_KIND_SHIFT == VXL_KIND_CUBES;
 }
 
-/// Which surfaces are asked for: a value per object and one per material. `found` counts all
-/// pieces; those that fit are listed, in no certain order.
+/// The emissive surfaces to list, with a value per object and one per material. `found` counts all
+/// pieces; the first `capacity` of them are listed, in no particular order.
 typedef struct {
     global const uint* restrict emissive_objects;
     global const uint* restrict emissive_materials;
@@ -53,7 +54,7 @@ typedef struct {
     global uint4* restrict pieces;
 } GlowingPieces;
 
-/// Whether a surface with this word belongs to an emissive object, and glows.
+/// True if a surface with these packed attributes belongs to an emissive object and emits light.
 static inline bool emits(const GlowingPieces* g, uint packed) {
     return g->emissive_objects[packed & VXL_OBJECT_MASK] != 0u &&
            g->emissive_materials[packed >> VXL_MATERIAL_SHIFT & VXL_MATERIAL_MASK] != 0u;

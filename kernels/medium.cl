@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // radiance at surfaces -> radiance at the rays' starts: what the medium of S, and of the objects
 // that rays go through, takes and adds.
 //

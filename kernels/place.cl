@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // object grids -> S: every object's bricks, resampled into the world's by the inverse map.
 //
 // Objects are painted one after another, the winner of an overlap last, each by one launch over the

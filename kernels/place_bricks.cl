@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The world's stored bricks as such: made empty before objects are painted into them, and moved
 // where others have gone, so that slots stay without gaps.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // object grids -> S, exact surfaces: the primitive lists of all objects, joined voxel by voxel.
 //
 // All grids are in the world's frame here. Objects are counted and appended one after another in

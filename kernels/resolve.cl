@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // samples -> pixels: the mean of a pixel's samples, and the geometry of its first sample that hit.
 //
 // Build constants beside the features': VXL_SHOWS_COLOR, VXL_SHOWS_DEPTH, VXL_SHOWS_POSITION,

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // surface points -> the rays that go on from them: straight, reflected, refracted; and back: their
 // light.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // hits -> surface points: where each ray met what, facing which way, and what shines there without
 // lights.
 #include "lib/lanes/vector.h"

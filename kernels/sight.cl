@@ -1,48 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
 // observer -> rays: one sight ray for every sample of every pixel, clipped to the world.
 //
 // Rays come in tiles of 4 x 4 pixels, a tile's samples one after another: place
 // ((tile * samples) + sample) * 16 + pixel of the tile, whatever the number of lanes.
-#include "lib/lanes/exact_exp.h"
 #include "lib/lanes/fixed_point.h"
 #include "lib/lanes/vector.h"
 #include "lib/lanes/work_item.h"
 #include "lib/traverse/beam.h"
+#include "lib/traverse/display_shape.h"
 #include "shared/scene.h"
-
-/// A sight ray in the observer's coordinates, metres.
-typedef struct {
-    Vector start, direction;
-} SightRay;
-
-/// Where the sample at (u, v), each in [-1, 1] with u to the right and v down, looks.
-static inline SightRay sight_ray(const Camera* camera, lane_float u, lane_float v, lane_int* seen) {
-    SightRay ray;
-    const lane_float zero = (lane_float)0.0f;
-    // Image right is -X_E, image up is Y_E.
-    const lane_float x = -u * camera->half_x, y = -v * camera->half_y;
-    ray.start.x = ray.start.y = ray.start.z = zero;
-    if (camera->shape == VXL_SHAPE_PYRAMID) {
-        ray.start.x = x * camera->lead, ray.start.y = y * camera->lead;
-        ray.direction.x = x, ray.direction.y = y, ray.direction.z = (lane_float)1.0f;
-    } else if (camera->shape == VXL_SHAPE_BOX) {
-        ray.start.x = x, ray.start.y = y;
-        ray.direction.x = ray.direction.y = zero, ray.direction.z = (lane_float)1.0f;
-    } else if (camera->shape == VXL_SHAPE_BALL) {  // longitude and latitude
-        lane_float sin_x, cos_x, sin_y, cos_y;
-        exact_sincos(x, &sin_x, &cos_x);
-        exact_sincos(y, &sin_y, &cos_y);
-        ray.direction.x = sin_x * cos_y, ray.direction.y = sin_y, ray.direction.z = cos_x * cos_y;
-    } else {  // sector: the angle from Z_E grows evenly with the distance from the middle
-        const lane_float radius = exact_sqrt(fma(u, u, v * v));
-        lane_float sine, cosine;
-        exact_sincos(radius * camera->half_x, &sine, &cosine);
-        const lane_float by =
-            exact_divide(sine, LANES_SELECT(LANE_MASK(radius > 0.0f), radius, (lane_float)1.0f));
-        ray.direction.x = -u * by, ray.direction.y = -v * by, ray.direction.z = cosine;
-        *seen &= LANE_MASK(radius <= 1.0f);
-    }
-    return ray;
-}
 
 /// Observer metres to voxels, along one axis of the world.
 static inline lane_float along(float ax, float ay, float az, Vector v) {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // rays -> what their discrete walks leave: `voxelume stress` compares it with exact arithmetic.
 #include "lib/lanes/fixed_point.h"
 #include "lib/lanes/work_item.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // rays -> hits: the discrete walk of every ray through the world to the first surface it meets.
 #include "lib/lanes/work_item.h"
 #include "lib/surface/begin_inside.h"

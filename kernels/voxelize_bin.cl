@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // triangles -> the bricks that each of them reaches: counted, then listed.
 //
 // Bins are the frame's bricks and one more column at x = -1, which stands for all space left of the

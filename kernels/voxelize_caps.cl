@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // winding numbers of a mesh closed by caps -> which points are inside the open mesh.
 //
 // The generalized winding number (Jacobson et al. 2013) of the open mesh is the integer of the

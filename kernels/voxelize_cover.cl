@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // triangles of each brick -> its occupancy masks: SUPERCOVER or THIN (6-separating).
 //
 // After Schwarz and Seidel 2010 (projections of the triangle and its plane against the voxel) and

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // triangles of each brick, and what is inside -> signed distances at its nodes, 16 bits each.
 //
 // Gathered: one work-item owns its nodes and goes over the brick's triangles; the smallest squared

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // triangles of each brick -> for each voxel the triangles that it lists, in ascending order.
 //
 // A voxel lists the triangles that its closed cube meets, the SUPERCOVER, widened by VXL_MARGIN.

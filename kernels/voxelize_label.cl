@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // triangles of each brick -> the packed attributes and colour of its voxels.
 //
 // Both come from the triangle closest to the voxel's centre, of equally close ones from that with

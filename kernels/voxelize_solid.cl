@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // analytic solid -> bricks with distances at nodes, or masks of voxels
 #include "lib/lanes/work_item.h"
 #include "lib/solid/solid.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // triangles of each brick -> winding numbers at voxels' corners or centres, exact for closed
 // meshes.
 //

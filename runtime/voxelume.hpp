@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Voxelume: images of voxel worlds, flat and volumetric, by discrete ray tracing in OpenCL.
 //
 // This header is the library; it includes the parts below voxelume/, each of which is the manual of

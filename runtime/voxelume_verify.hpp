@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Voxelume held against the truth: exact arithmetic for what a device does, known surfaces and
 // lights for what images show.
 //

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # How a folder's tests become one program, and its files, or all of it, tests of ctest.
 
 # Every test of ctest keeps compiled kernels, models and worlds in one folder of the build tree: what one test

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # Tests that run once more: with other numbers of lanes, with guarded memory, on oclgrind. What runs by default pairs
 # every test with some setting and every setting with some test; `ctest -C exhaustive` and `./bootstrap.sh test --all`
 # add all other pairs. tests/README.md lists them.

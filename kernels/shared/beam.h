@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How wide beams may be, see lib/traverse/beam.h. Read by kernels and host code.
 #ifndef VXL_SHARED_BEAM_H
 #define VXL_SHARED_BEAM_H

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The display as the kernels see it: where its voxels lie in the world.
 #ifndef VXL_SHARED_DISPLAY_H
 #define VXL_SHARED_DISPLAY_H

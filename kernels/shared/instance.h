@@ -1,12 +1,13 @@
-// Objects that keep voxels of their own: rays are carried into their space.
+// SPDX-License-Identifier: Apache-2.0
+// Objects that keep voxels of their own: rays are transformed into their space.
 //
-// Many instances share a model's voxels. The pyramids of all models lie behind the world's in the
-// same buffers, and what they hold are numbers in those buffers, so that a model is the place
-// where its table of sectors starts.
+// Many instances share a model's voxels. The pyramids of all models follow the world's in the same
+// buffers and hold numbers in those buffers, so a model is given by the start of its table of
+// sectors.
 //
-// The map from world voxels w to object voxels is image + object_from_world * (w - center): w -
-// center is exact for rays' origins near by, and so is what a ray is from its point closest to
-// center on.
+// The map from world voxels w to object voxels is image + object_from_world * (w - center). The
+// difference w - center is exact for rays' origins nearby; a ray from farther away is transformed
+// from its point closest to center.
 #ifndef VXL_SHARED_INSTANCE_H
 #define VXL_SHARED_INSTANCE_H
 

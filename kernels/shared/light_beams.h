@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Beams from a light through the world, see light_beams.cl. Read by kernels and host code.
 #ifndef VXL_SHARED_LIGHT_BEAMS_H
 #define VXL_SHARED_LIGHT_BEAMS_H
@@ -12,9 +13,10 @@ namespace voxelume {
 // Beams of a tile: 4 x 4.
 #define VXL_BEAM_TILE 16
 
-// Where a light's beams end if nothing is in their way: in the middles of the squares of a grid on
-// the world's far side. Places are in the world's voxels, b and c the axes beside `axis` in order.
-// Their ends stand tile by tile along b, then along c; -infinity where no beam was sent.
+// The grid in which a light's beams end if nothing is in their way: in the middles of its squares
+// on the world's far side. Places are in the world's voxels; b and c are the other two axes, in
+// order. The array of ends is ordered tile by tile along b, then along c; it holds -infinity where
+// no beam was sent.
 typedef struct BeamGrid {
     int axis;            // that the beams mostly follow ...
     float sign;          // ... towards larger coordinates (1) or smaller ones (-1)

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The pieces of emissive surface that kernels list for the host.
 #ifndef VXL_SHARED_LIGHT_SAMPLES_H
 #define VXL_SHARED_LIGHT_SAMPLES_H

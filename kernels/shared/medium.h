@@ -1,5 +1,5 @@
-// The density of the medium as the kernels see it: a number for every voxel of S, in bricks of 16³
-// cells.
+// SPDX-License-Identifier: Apache-2.0
+// The density of the medium for kernels: a number for every voxel of S, in bricks of 16³ cells.
 //
 // A cell holds 2^shift voxels of the world along each axis, so that a density that changes along
 // one axis only has one cell along the others. The bricks, x fastest, then y, then z, have a word

@@ -1,5 +1,6 @@
-// The scene as the kernels see it: lengths in the world's voxels unless said otherwise, colours
-// linear.
+// SPDX-License-Identifier: Apache-2.0
+// The scene's records for kernels: lengths are in the world's voxels unless said otherwise, colours
+// are linear.
 #ifndef VXL_SHARED_SCENE_H
 #define VXL_SHARED_SCENE_H
 
@@ -110,7 +111,7 @@ typedef struct LightRecord {
 } LightRecord;
 VXL_SIZE_IS(LightRecord, 64);
 
-// The space of S and what surrounds it.
+// The environment: the medium of S and the light around it.
 typedef struct Environment {
     float4 background;  // radiance
     float4 ambient;

@@ -1,5 +1,5 @@
-// An analytic solid as rays and voxelizers read it: a list of shapes and the operations between
-// them.
+// SPDX-License-Identifier: Apache-2.0
+// An analytic solid for rays and voxelizers: a list of shapes and the operations between them.
 //
 // A solid is a run of `shape_count` records. Evaluating it goes through them in order with a stack:
 // each shape pushes its signed distance, positive outside and negated for a complement, and then
@@ -17,7 +17,7 @@
 // A solid's number is the index of its first record in the buffer, so two buffers are joined by
 // appending one and adding its offset to the numbers.
 //
-// Shape space. A point x of the grid (in voxels) is carried into the shape's own space by
+// Shape space. A point x of the grid (in voxels) is transformed to the shape's own space by
 //   p = shape_from_grid * ((x - cell) - fraction)
 // where x - cell is exact for x on the lattice. The origin is the shape's centre, Y its axis, and a
 // distance there is, in units of the grid's shortest voxel edge, the distance to the shape; where

@@ -1,4 +1,5 @@
-// Numbers by which `voxelume stress` mixes the cells of a walk, the same on host and device.
+// SPDX-License-Identifier: Apache-2.0
+// The numbers with which `voxelume stress` hashes the cells of a walk, on host and device.
 #ifndef VXL_SHARED_STRESS_H
 #define VXL_SHARED_STRESS_H
 

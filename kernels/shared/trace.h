@@ -1,4 +1,5 @@
-// Rays and hits as the stages hand them on: arrays of one component each, `stride` values apart.
+// SPDX-License-Identifier: Apache-2.0
+// Rays and hits as stages exchange them: arrays of one component each, `stride` values apart.
 #ifndef VXL_SHARED_TRACE_H
 #define VXL_SHARED_TRACE_H
 
@@ -16,12 +17,12 @@
 
 #define VXL_DIRECTION_BITS 22
 
-// How far the rays 16 n .. 16 n + 15 may start together: beam n, in two arrays of
+// Beam n says how far ahead the rays 16 n .. 16 n + 15 may start together, in two arrays of
 // VXL_BEAM_SLOTS(stride) words.
 //   VXL_BEAM_START  float: all that they meet lies at this coordinate or beyond it ...
 //   VXL_BEAM_AXIS   ... along axis 0, 1 or 2 towards larger coordinates; with VXL_BEAM_DOWN towards
-//                   smaller ones. VXL_BEAM_NONE: they start where they start; VXL_BEAM_CLEAR: they
-//                   meet nothing
+//                   smaller ones. VXL_BEAM_NONE: no beam, the rays start at their origins;
+//                   VXL_BEAM_CLEAR: the rays meet nothing
 #define VXL_BEAM_RAYS 16
 #define VXL_BEAM_SLOTS(stride) ((stride) / 256 * 16 + 16)
 #define VXL_BEAM_START 0
@@ -31,22 +32,22 @@
 #define VXL_BEAM_NONE 8
 #define VXL_BEAM_CLEAR 16
 
-// Packets of rays that run anywhere, and that a work-item carries one after another.
+// The number of packets of incoherent rays that a work-item traces one after another.
 #define VXL_PACKETS(lanes) ((lanes) > 1 ? 16u : 1u)
-// Whether lanes take on further rays as theirs end, in scenes with paths. A lane's instances come
-// after its walk in the world, which other lanes may still be in.
+// 1 if lanes are refilled with further rays when theirs end, in scenes with paths. A lane's
+// instances come after its walk in the world, which other lanes may still be in.
 #define VXL_REFILLS_LANES(paths, instances) ((paths) && !(instances))
-// The same of shadow rays, also where surfaces' tests take long: rays that pass beside a surface
-// meet many.
+// 1 if shadow rays' lanes are refilled. They are also refilled where surfaces' tests take long,
+// since rays that pass near a surface meet many voxels.
 #define VXL_REFILLS_SHADOW_LANES(paths, smooth, exact, instances) \
     (((paths) || (smooth) || (exact)) && !(instances))
 
-// Packets whose steps take turns in one work-item: where surfaces are cubes, a packet's time is
-// that of its steps, each a long chain of operations that wait for one another.
+// The number of packets whose steps are interleaved in one work-item. Where surfaces are cubes, a
+// packet's time is that of its steps, each a long chain of dependent operations.
 #define VXL_INTERLEAVED_PACKETS(lanes, smooth, exact, instances) \
     ((lanes) > 1 && !((smooth) || (exact) || (instances)) ? 2u : 1u)
 
-// What a ray met.
+// The hit of a ray:
 //   VXL_HIT_T      float: where, as the ray's t
 //   VXL_HIT_VOXEL  the voxel's number in the pyramid, VXL_NO_VOXEL for a miss
 //   VXL_HIT_CELL   x | y << 16
@@ -75,7 +76,7 @@
 #define VXL_NO_PRIMITIVE 0xFFFFFFFFu
 #define VXL_NO_VOXEL 0xFFFFFFFFu
 
-// How a ray came to be, for scenes whose rays are reflected, refracted or go on through surfaces.
+// The origin of a ray, for scenes whose rays are reflected, refracted or continue through surfaces.
 //   VXL_PATH_SOURCE  the primitive that the ray begins on, VXL_NO_PRIMITIVE for other surfaces
 //   VXL_PATH_FLAGS   VXL_PATH_* bits
 //   VXL_PATH_WEIGHT  float: the share of a pixel that the ray's node may add
@@ -105,8 +106,8 @@
 #define VXL_PATH_FROM_CELL 8u      // begins in the cell named
 #define VXL_PATH_JOINED 16u        // inside of cubes whose inner faces are no surfaces
 
-// Surfaces that one ray goes straight on through: more than there are cells on its way through the
-// largest world, 3 * 65536.
+// The maximum number of surfaces that one ray continues through: more than the cells on its way
+// through the largest world, 3 * 65536.
 #define VXL_MAX_LAYERS 0x40000
 
 // Members of a set of objects that a ray is inside of: the first is the smooth one (smooth objects

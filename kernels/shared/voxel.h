@@ -1,12 +1,13 @@
-// The words that a surface voxel carries, for kernels and host alike.
+// SPDX-License-Identifier: Apache-2.0
+// The packed data of a surface voxel, for kernels and host alike.
 #ifndef VXL_SHARED_VOXEL_H
 #define VXL_SHARED_VOXEL_H
 
-// Attribute word of a voxel:
+// The packed attributes of a voxel:
 //   31 30 | 29 ........ 16 | 15 ......... 0
 //   kind  | material       | object
 // kind: 0 cubes, 1 smooth, 2 exact (the numbers of voxelume::Surface). An exact voxel may hold a
-// smooth surface too: then the word is that surface's, and the primitives have their own.
+// smooth surface too: then the attributes are that surface's, and the primitives have their own.
 // `material` and `object` index the scene's lists; in an object's own grid, before placement,
 // `material` is the mesh's face group.
 #define VXL_KIND_SHIFT 30

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // frames of a scene -> the objects that some ray may reach in one of them
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "runtime/analysis/culling_hull.hpp"
 
 #include <algorithm>
@@ -5,6 +6,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <optional>
 
 #include "runtime/analysis/object_boxes.hpp"
 #include "runtime/scene/light.hpp"
@@ -12,8 +14,7 @@
 namespace voxelume {
 namespace {
 
-constexpr double kWidestSector = 1.3;  // in radians; wider sectors are taken for whole balls
-constexpr int kSteps = 64;             // a box counts as met after this many steps
+constexpr int kSteps = 64;  // a box counts as met after this many steps
 
 glm::dvec3 in_voxels(const glm::dvec3& point, const GridFrame& world) {
     return (point - world.origin) / world.voxel_edge;
@@ -60,20 +61,19 @@ const glm::dvec3& farthest(const Hull& hull, const glm::dvec3& direction) {
 
 Hull hull_of_sight_rays(const Observer& observer, const GridFrame& world) {
     const Display& display = observer.display;
-    const bool is_sector = display.shape == DisplayShape::sector;
-    const double angle = display.half_angles.x;
-    if (display.shape == DisplayShape::ball || (is_sector && angle > kWidestSector))
-        return hull_of_ball(observer, world);
-    const glm::dvec2 half = is_sector ? glm::dvec2(std::tan(angle)) : half_extent(display);
+    const DisplayShapeRow& shape = shape_row(display);
+    const std::optional<FlatSides> sides = shape.flat_sides(display);
+    if (!sides) return hull_of_ball(observer, world);
+    const glm::dvec2 half = sides->half;
+    const bool parallel = shape.projection == SightProjection::parallel;
     const glm::dvec2 depths = depths_of(world, observer);
-    const double near = std::max(display.near * (is_sector ? std::cos(angle) : 1.0), depths.x);
+    const double near = std::max(sides->near, depths.x);
     const double far = std::max(near, std::min(display.far, depths.y));
     Hull hull;
     for (const double depth : {near, far})
         for (int corner = 0; corner < 4; ++corner) {
             const glm::dvec2 side(corner & 1 ? half.x : -half.x, corner & 2 ? half.y : -half.y);
-            const glm::dvec3 point(side * (display.shape == DisplayShape::box ? 1.0 : depth),
-                                   depth);
+            const glm::dvec3 point(side * (parallel ? 1.0 : depth), depth);
             hull.push_back(
                 in_voxels(observer.position + observer.world_from_observer * point, world));
         }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // observer and lights -> a convex body in the world that no ray leaves
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "runtime/analysis/medium_set.hpp"
 
 #include <algorithm>
@@ -41,21 +42,12 @@ int max_overlapping(const Scene& scene, const Pyramid& world, const Features& fe
     return int(maximum);
 }
 
-/// The distance from the observer within which rays begin, metres. Rays that enter across the
-/// world's sides don't count.
-double start_radius(const Display& display) {
-    const glm::dvec2 half = half_extent(display);
-    if (display.shape == DisplayShape::pyramid)
-        return display.near * std::sqrt(1 + glm::dot(half, half));
-    if (display.shape == DisplayShape::box)
-        return std::sqrt(display.near * display.near + glm::dot(half, half));
-    return display.near;
-}
-
-/// True if rays from the observer may begin in a box.
+/// True if rays from the observer may begin in a box: near their display's near surface, or where
+/// they enter across the world's sides.
 bool may_begin_in(const VoxelBox& box, const Scene& scene, const GridFrame& world) {
     const glm::dvec3 eye = (scene.observer.position - world.origin) / world.voxel_edge;
-    const glm::dvec3 reach(start_radius(scene.observer.display) / world.voxel_edge);
+    const Display& display = scene.observer.display;
+    const glm::dvec3 reach(shape_row(display).start_radius(display) / world.voxel_edge);
     if (overlap(box, {eye - reach, eye + reach})) return true;
     const VoxelBox all = {glm::dvec3(0), glm::dvec3(world.size)};
     const bool is_at_side = glm::any(glm::lessThanEqual(box.low, all.low)) ||

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The media that the rays of a scene may be inside of.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "runtime/analysis/model_last_uses.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // frames of a scene -> the last use of each of its models
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "runtime/analysis/object_boxes.hpp"
 
 #include <glm/common.hpp>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // scene -> a bound of where each object is in the world's lattice
 #pragma once
 

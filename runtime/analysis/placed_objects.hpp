@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // scene -> the objects that are placed in its world's voxels, those that are instances, and the
 // grids that they show.
 #pragma once

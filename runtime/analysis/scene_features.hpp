@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // scene and world -> the features its kernels are compiled for, and the memory its rays take
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Vectors and matrices between the library's inside and its callers.
 #pragma once
 

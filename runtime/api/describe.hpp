@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What is in a file, as JSON values: one function a kind of file.
 #pragma once
 

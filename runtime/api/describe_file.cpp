@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What is in a file, for callers: by what it begins with.
 #include <algorithm>
 #include <array>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What is in the file of a volumetric image.
 #include "runtime/api/describe.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Devices for callers.
 #include "runtime/voxelume/device.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Voxelized meshes, frames' names and other files, for callers.
 #include "runtime/voxelume/files.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The border of the library: errors of its inside -> the error that callers know.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Flat images for callers: their planes, files and differences.
 #include "runtime/image/image.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a scene takes, for callers.
 #include "runtime/voxelume/plan.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What callers allow the library to do to their process, applied to its inside.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Frames rendered for callers, to memory and to files.
 #include "runtime/voxelume/render.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What rendering for callers shares with planning and statistics.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Scenes for callers.
 #include "runtime/voxelume/scene.hpp"
 

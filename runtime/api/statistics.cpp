@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Reports of frames and counters of devices -> statistics for callers.
 #include "runtime/voxelume/statistics.hpp"
 

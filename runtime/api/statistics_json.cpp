@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Statistics -> JSON, in the order in which people read them.
 #include <algorithm>
 #include <nlohmann/json.hpp>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Plain values -> values of a scene's document, which stand in no text.
 #pragma once
 

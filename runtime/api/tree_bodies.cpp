@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Solids, models and objects as the scene format has them.
 #include <array>
 

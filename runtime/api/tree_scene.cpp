@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The world, lights, observer, tracks and settings of a description, and all of it, as the scene
 // format has them.
 #include <array>

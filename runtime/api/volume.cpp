@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Volumetric images for callers: their arrays, files and views.
 #include "runtime/image/volume.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // files of models -> meshes and voxels in memory. Each file is read once, and only when needed.
 #pragma once
 

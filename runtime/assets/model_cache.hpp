@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The results of processing models' meshes, and the worlds made from them. They are kept on disk
 // between runs under a hash of everything that they come from.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The lattices that a scene requires: that of the world, and that of each model in its own space.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // BrickGrid -> files: voxelume's own model (.vxm) and OpenVDB.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Files of voxels (.vxm, OpenVDB) -> models that need no voxelizing.
 #pragma once
 

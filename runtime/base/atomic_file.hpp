@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A file that appears under its name whole and verified, or not at all.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The bytes of numbers in memory, for the keys of entries on disk.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Uses Clinger's fast path in double with a proof that the float is rounded correctly, and
 // std::from_chars otherwise.
 #include "runtime/base/decimal.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Decimal text -> float and integer, fast and correctly rounded: the inner loop of every text mesh.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Computed results on disk, under a hash of everything that they were computed from.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Sums and products of doubles without rounding: the sign of a polynomial, decided exactly.
 #pragma once
 

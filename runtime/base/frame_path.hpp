@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The path of the file of one frame of an animation.
 #pragma once
 

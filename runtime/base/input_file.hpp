@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A file open for reading. Its size is known before memory is allocated for it.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A hash of the host's code that makes models. The cache of models and worlds depends on it.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Where something stands: a file, a line and column in it, the path of a key.
 #pragma once
 

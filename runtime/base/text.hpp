@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Words for messages: text in quotes, the nearest of several names, a place in a file.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Frames on their way from the devices that render them to the thread that outputs them, in order.
 #pragma once
 

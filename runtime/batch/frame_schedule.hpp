@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // frames -> outputs: which device builds and renders which frame, and when.
 #pragma once
 

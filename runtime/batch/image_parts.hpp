@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tiles that several devices made of one image -> the image.
 #pragma once
 

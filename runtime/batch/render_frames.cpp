@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "runtime/batch/render_frames.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // frames of a scene -> images and volumetric images, on one device or several.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "runtime/geometry/mesh_morph.hpp"
 
 #include <glm/geometric.hpp>

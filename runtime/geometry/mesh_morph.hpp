@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Meshes between two shapes: vertices move from their position in one to that in the other.
 #pragma once
 

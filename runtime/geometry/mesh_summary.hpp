@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // mesh -> what planning and messages need of it, so that a mesh in the model cache isn't read.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How an affine map changes an analytic shape: it keeps the shape's kind, or it doesn't.
 #pragma once
 

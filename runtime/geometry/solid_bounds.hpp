@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // solid -> the smallest box around it that its kinds allow to compute, and a grid over that box
 #pragma once
 

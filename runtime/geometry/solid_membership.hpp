@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Decides exactly whether a lattice point lies in a solid.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // solid -> the list of shapes that kernels evaluate (shared/solid.h)
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Estimates how much of a lattice a surface takes, from its area alone.
 //
 // A flat patch whose area vector is (ax, ay, az), in voxels, passes through |ax| + |ay| + |az|

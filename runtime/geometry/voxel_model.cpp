@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "runtime/geometry/voxel_model.hpp"
 
 #include <bit>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A model whose voxels come from a file: it needs no voxelizing.
 #pragma once
 

@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: Apache-2.0
 // The two forms of a voxel grid on a device: the bricks that stages write, the pyramid that rays
 // read.
 //
 //   voxelize, place ─► BrickGrid ─ index ─► Pyramid ─► trace
 //
-// Index rules, the same in both: x fastest, then y, then z. A brick is 16³ voxels, a leaf 4³, a
+// Index rules, equal for both: x fastest, then y, then z. A brick is 16³ voxels, a leaf 4³, a
 // sector 64³. Bit (x & 3) | (y & 3) << 2 | (z & 3) << 4 of a 64-bit mask stands for one of 4³
 // children.
 #pragma once
@@ -31,7 +32,8 @@ inline constexpr int kDistanceUnitsPerVoxel = 8192;
 /// Set in an entry of `primitives` that names an analytic solid.
 inline constexpr uint32_t kSolidPrimitive = 0x80000000u;
 
-/// A sparse grid of 16³ bricks as `voxelize` and `place` leave it. Buffers not needed are empty.
+/// A sparse grid of 16³ bricks, as `voxelize` and `place` make it. Buffers that aren't needed are
+/// empty.
 struct BrickGrid {
     GridFrame frame;
     uint32_t brick_count = 0;      ///< stored bricks; their slots are 0 .. brick_count-1
@@ -39,31 +41,35 @@ struct BrickGrid {
     Buffer<uint32_t> coordinates;  ///< one per slot: the brick's index into `slots`, ascending
     Buffer<uint64_t> occupancy;    ///< 64 per slot: masks of the leaves; cubes and exact voxels
     Buffer<int16_t> distance;      ///< 4096 per slot: at nodes (voxels' minimum corners), x fastest
-    Buffer<uint32_t> attributes;   ///< 4096 per slot: shared/voxel.h's word of each voxel
-    uint32_t attribute = 0;        ///< the word of every voxel when `attributes` is empty
-    Buffer<uint32_t> colors;       ///< 4096 per slot: shared/voxel.h's colour word of each voxel
-    bool transparent = false;      ///< some voxel's colour says that it isn't opaque
+    Buffer<uint32_t> attributes;   ///< 4096 per slot: packed attributes of each voxel, see
+                                   ///< shared/voxel.h
+    uint32_t attribute = 0;        ///< packed attributes of every voxel if `attributes` is empty
+    Buffer<uint32_t> colors;       ///< 4096 per slot: the colour of each voxel, packed as in
+                                   ///< shared/voxel.h
+    bool transparent = false;      ///< true if some voxel's colour isn't opaque
 
-    // exact surfaces: voxel v of slot s lists primitives[first[s*4096+v] .. first[s*4096+v+1])
+    // Exact surfaces: voxel v of slot s lists primitives[first[s*4096+v] .. first[s*4096+v+1]).
     Buffer<uint32_t> primitive_first;  ///< 4096 per slot + 1
     Buffer<uint32_t> primitives;       ///< triangles' numbers, or kSolidPrimitive | solid's number
     Buffer<float> triangles;           ///< 9 per triangle: its corners in this grid's voxels
-    Buffer<uint32_t> triangle_attributes;  ///< shared/voxel.h's word of each triangle
-    Buffer<uint32_t> solids;               ///< analytic solids, shared/solid.h
+    Buffer<uint32_t> triangle_attributes;  ///< packed attributes of each triangle, see
+                                           ///< shared/voxel.h
+    Buffer<uint32_t> solids;               ///< analytic solids, see shared/solid.h
 };
 
-/// A model that instances share: where its voxels are in a pyramid's buffers.
+/// A model that instances share, and the place of its voxels in a pyramid's buffers.
 struct InstanceModel {
     GridFrame frame;
-    uint32_t first_sector = 0;   ///< of its table in Pyramid::sectors
-    glm::ivec3 low{0}, high{0};  ///< the box of its voxels; empty for a model without any
+    uint32_t first_sector = 0;   ///< start of its table in Pyramid::sectors
+    glm::ivec3 low{0}, high{0};  ///< the box of its voxels; empty for a model without voxels
 };
 
-/// An object that shows a model without being placed in the world's voxels.
+/// An object that shows a model but is not placed in the world's voxels.
 struct Instance {
-    uint32_t object = 0;                              ///< its number in the scene
+    uint32_t object = 0;                              ///< the object's number in the scene
     uint32_t model = 0;                               ///< index into InstanceSet::models
-    uint32_t first_material = 0, material_count = 0;  ///< of its groups, in InstanceSet::materials
+    uint32_t first_material = 0, material_count = 0;  ///< the materials of its groups, in
+                                                      ///< InstanceSet::materials
 };
 
 /// The instances of a world, numbered as in `list`.
@@ -72,45 +78,46 @@ struct InstanceSet {
     std::vector<Instance> list;
     float origin_offset = 0;  ///< PyramidShape::origin_offset
     Buffer<InstanceRecord> records;
-    Buffer<InstanceNode> nodes;  ///< of the tree over their boxes; the root is the first
+    Buffer<InstanceNode> nodes;  ///< the tree over their boxes; the root is the first node
     Buffer<uint32_t> materials;
 
     bool empty() const { return list.empty(); }
 };
 
-/// The sparse 64-ary occupancy pyramid that rays step through, without a stack.
+/// The sparse 64-ary occupancy pyramid that rays traverse without a stack.
 ///
 /// `sectors` is dense; everything below is left-packed in ascending order, so empty space costs
 /// nothing. A leaf's number is its brick's first leaf plus the count of mask bits below its own; a
 /// voxel's number is its leaf's first voxel plus the count of mask bits below its own.
 ///
-/// With instances, the pyramids of their models lie behind the world's in every buffer, with
-/// numbers that count from the buffers' starts; the counts are of all together.
+/// With instances, the pyramids of their models follow the world's in every buffer, with numbers
+/// that count from the buffers' starts. The counts below include the models.
 struct Pyramid {
     GridFrame frame;
     uint32_t leaf_count = 0;
     uint32_t voxel_count = 0;
     Buffer<uint32_t> sectors;  ///< n: its brick records are 64n .. 64n+63, in the order of mask
-                               ///< bits; or 1<<31 | log2 of the empty cube around it: 6 its own
-                               ///< 64³, 8 its aligned 256³
+                               ///< bits; or 1<<31 | log2 of the edge of the empty cube around it: 6
+                               ///< for its own 64³, 8 for its aligned 256³
     Buffer<uint32_t> bricks;   ///< 4 per record: mask low, mask high (of leaves), then the first
-                               ///< leaf of each half; or, when the mask is 0, twice 1<<31 | log2 of
-                               ///< the empty cube: 4 its own, 5 its aligned 32³
-    Buffer<uint32_t> leaves;   ///< 2 per leaf: mask low, mask high (of voxels)
+                               ///< leaf of each half; or, if the mask is 0, twice 1<<31 | log2 of
+    ///< the edge of the empty cube: 4 for its own, 5 for its aligned 32³
+    Buffer<uint32_t> leaves;       ///< 2 per leaf: mask low, mask high (of voxels)
     Buffer<uint32_t> leaf_voxels;  ///< first voxel of each leaf
-    Buffer<uint32_t> attributes;   ///< one per voxel, shared/voxel.h; see `attribute`
-    uint32_t attribute = 0;        ///< the word of every voxel when `attributes` is empty
+    Buffer<uint32_t> attributes;   ///< one per voxel, see shared/voxel.h; see `attribute`
+    uint32_t attribute = 0;        ///< packed attributes of every voxel if `attributes` is empty
     Buffer<uint32_t> colors;       ///< one per voxel
-    bool transparent = false;      ///< some of the voxels aren't opaque
-    Buffer<uint32_t> fields;       ///< 8 per voxel, shared/voxel.h; empty without smooth surfaces
+    bool transparent = false;      ///< true if some of the voxels aren't opaque
+    Buffer<uint32_t> fields;  ///< 8 per voxel, see shared/voxel.h; empty without smooth surfaces
     Buffer<uint32_t> primitive_first;  ///< voxel_count + 1; empty without exact surfaces
-    Buffer<uint32_t> primitives;       ///< these four as in BrickGrid
+    Buffer<uint32_t> primitives;       ///< this and the next three are as in BrickGrid
     Buffer<float> triangles;
     Buffer<uint32_t> triangle_attributes;
     Buffer<uint32_t> solids;
     InstanceSet instances;
-    std::vector<VoxelBox> object_boxes;  ///< around each of the scene's objects; none if not known
-    bool clear = false;                  ///< the space between them is known to hold no medium
+    std::vector<VoxelBox> object_boxes;  ///< the box around each of the scene's objects; empty if
+                                         ///< unknown
+    bool clear = false;  ///< true if the space between them is known to hold no medium
 };
 
 }  // namespace voxelume

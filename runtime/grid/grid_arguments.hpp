@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Grids and pyramids as kernels take them.
 #pragma once
 

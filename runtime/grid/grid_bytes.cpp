@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "runtime/grid/grid_bytes.hpp"
 
 #include <cstring>
@@ -15,7 +16,7 @@ struct GridHeader {
 };
 static_assert(std::is_trivially_copyable_v<GridHeader>);
 
-/// Shows all buffers of a grid to `visit`, in the order of their bytes.
+/// Calls `visit` with each buffer of a grid, in the order of their bytes.
 template <class Grid, class Visit>
 void visit_grid(Grid& grid, const Visit& visit) {
     visit("model slots", grid.slots);
@@ -35,7 +36,7 @@ void visit_grid(Grid& grid, const Visit& visit) {
 
 std::optional<std::string> bytes_of_grid(const BrickGrid& grid, uint64_t max_bytes) {
     GridHeader header;
-    std::memset(static_cast<void*>(&header), 0, sizeof header);  // padding, too
+    std::memset(static_cast<void*>(&header), 0, sizeof header);  // the padding is cleared, too
     header.frame.origin = grid.frame.origin;
     header.frame.voxel_edge = grid.frame.voxel_edge;
     header.frame.size = grid.frame.size;

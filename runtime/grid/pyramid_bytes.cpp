@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "runtime/grid/pyramid_bytes.hpp"
 
 #include <cstring>
@@ -14,7 +15,7 @@ struct PyramidHeader {
 };
 static_assert(std::is_trivially_copyable_v<PyramidHeader>);
 
-/// Shows the buffers of a pyramid's voxels to `visit`, in the order of their bytes.
+/// Calls `visit` with the buffers of a pyramid's voxels, in the order of their bytes.
 template <class AnyPyramid, class Visit>
 void visit_pyramid(AnyPyramid& pyramid, const Visit& visit) {
     visit("sectors", pyramid.sectors);
@@ -47,7 +48,7 @@ uint64_t bytes_of(const Pyramid& pyramid) {
 
 std::string bytes_of_pyramid(const Pyramid& pyramid) {
     PyramidHeader header;
-    std::memset(static_cast<void*>(&header), 0, sizeof header);  // padding, too
+    std::memset(static_cast<void*>(&header), 0, sizeof header);  // the padding is cleared, too
     header.frame.origin = pyramid.frame.origin;
     header.frame.voxel_edge = pyramid.frame.voxel_edge;
     header.frame.size = pyramid.frame.size;

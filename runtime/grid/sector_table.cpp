@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "runtime/grid/sector_table.hpp"
 
 namespace voxelume {
 namespace {
 
-/// For every cell of a table, whether the aligned group of `edge`³ cells around it is empty.
+/// For every cell of a table: true if the aligned group of `edge`³ cells around it is empty.
 template <class IsEmpty>
 std::vector<bool> empty_groups(const glm::ivec3& size, int edge, const IsEmpty& is_empty) {
     const glm::ivec3 groups = (size + edge - 1) / edge;
@@ -43,7 +44,7 @@ uint32_t number_sectors(const glm::ivec3& size, const std::vector<bool>& occupie
 }
 
 void write_empty_cubes(std::vector<uint32_t>& bricks) {
-    constexpr uint64_t kGroup = 0x0000000000330033ull;  // the bits of 2³ aligned bricks
+    constexpr uint64_t kGroup = 0x0000000000330033ull;  // the bits of an aligned group of 2³ bricks
     for (size_t first = 0; first < bricks.size(); first += kRecordsPerSector * kWordsPerRecord) {
         uint64_t occupied = 0;
         for (size_t bit = 0; bit < kRecordsPerSector; ++bit) {

@@ -1,4 +1,6 @@
-// The upper levels of an occupancy pyramid: which sectors are stored, and how empty the others are.
+// SPDX-License-Identifier: Apache-2.0
+// The upper levels of an occupancy pyramid: which sectors are stored, and the empty cubes around
+// others.
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -16,11 +18,11 @@ inline constexpr size_t kRecordsPerSector = 64;
 inline constexpr size_t kWordsPerRecord = 4;
 inline constexpr int kBricksPerSector = kSectorSize / kBrickSize;
 
-/// Sector of brick `b` in a table of `sectors`, and the bit of the brick in it.
+/// The sector of brick `b` in a table of `sectors`, and the brick's bit in it.
 glm::uvec2 sector_and_bit(const glm::ivec3& b, const glm::ivec3& sectors);
 
 /// Numbers the `occupied` sectors of a table of `size` in ascending order; the others get their
-/// empty cube. Returns how many are occupied.
+/// empty cube. Returns the number of occupied sectors.
 uint32_t number_sectors(const glm::ivec3& size, const std::vector<bool>& occupied,
                         std::vector<uint32_t>& sectors);
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A flat image, as the renderer passes it to the writers.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The measured differences between two images.
 #pragma once
 

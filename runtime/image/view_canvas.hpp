@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The canvas on which views of volumes are painted, from back to front, with four samples a pixel.
 #pragma once
 

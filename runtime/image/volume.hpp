@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // P, the volumetric image, as the display stage passes it to the writers.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "runtime/image/volume_geometry.hpp"
 
 #include <fmt/format.h>
@@ -5,23 +6,10 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <glm/trigonometric.hpp>
 
 namespace voxelume {
 
 namespace {
-
-/// The direction of the sight ray at (u, v) in [-1, 1], u to the right (-X_E) and v down (-Y_E).
-glm::dvec3 direction_of(const Display& display, glm::dvec2 half, glm::dvec2 uv) {
-    const glm::dvec2 xy = -uv * half;
-    if (display.shape == DisplayShape::pyramid) return {xy, 1.0};
-    if (display.shape == DisplayShape::ball)
-        return {std::sin(xy.x) * std::cos(xy.y), std::sin(xy.y), std::cos(xy.x) * std::cos(xy.y)};
-    const double radius = glm::length(uv);
-    const double angle = radius * half.x;
-    const double share = radius > 0 ? std::sin(angle) / radius : 0.0;
-    return {-uv * share, std::cos(angle)};
-}
 
 bool is_finite(const glm::dvec3& v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
@@ -58,7 +46,7 @@ glm::ivec3 cell_of(const VolumeFrame& frame, uint64_t place) {
 }
 
 bool depth_is_along_z(const VolumeFrame& frame) {
-    return frame.display.shape == DisplayShape::pyramid || frame.display.shape == DisplayShape::box;
+    return shape_row(frame.display).depth_is_along_z;
 }
 
 std::optional<glm::dmat4> world_from_voxels(const VolumeFrame& frame) {
@@ -66,8 +54,8 @@ std::optional<glm::dmat4> world_from_voxels(const VolumeFrame& frame) {
     if (frame.layout == VolumeLayout::lattice) {
         for (int axis = 0; axis < 3; ++axis) observer_from_voxels[axis][axis] = frame.edge[axis];
         observer_from_voxels[3] = glm::dvec4(frame.origin, 1);
-    } else if (frame.display.shape == DisplayShape::box) {
-        const glm::dvec2 half = frame.display.half_size;
+    } else if (shape_row(frame.display).projection == SightProjection::parallel) {
+        const glm::dvec2 half = half_extent(frame.display);
         observer_from_voxels[0][0] = -2 * half.x / frame.size.x;
         observer_from_voxels[1][1] = -2 * half.y / frame.size.y;
         observer_from_voxels[2][2] = frame.step;
@@ -80,9 +68,7 @@ std::optional<glm::dmat4> world_from_voxels(const VolumeFrame& frame) {
 
 glm::dvec3 point_on_ray(const VolumeFrame& frame, glm::dvec2 uv, double depth) {
     const glm::dvec2 signed_uv = 2.0 * uv / glm::dvec2(frame.size) - 1.0;
-    const glm::dvec2 half = half_extent(frame.display);
-    if (frame.display.shape == DisplayShape::box) return {-signed_uv * half, depth};
-    return direction_of(frame.display, half, signed_uv) * depth;
+    return shape_row(frame.display).point_on_ray(frame.display, signed_uv, depth);
 }
 
 glm::dvec3 voxel_center(const VolumeFrame& frame, glm::ivec3 cell) {

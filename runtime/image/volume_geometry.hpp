@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The positions of a volumetric image's voxels, in the observer's coordinates and in the world.
 #pragma once
 
@@ -20,12 +21,11 @@ uint64_t voxel_count(const VolumeFrame& frame);
 /// The voxel whose number in `indices` is `place`.
 glm::ivec3 cell_of(const VolumeFrame& frame, uint64_t place);
 
-/// True if depths count along Z_E (pyramid and box), false if along the sight ray (sector and
-/// ball).
+/// True if depths count along Z_E, false if along the sight ray.
 bool depth_is_along_z(const VolumeFrame& frame);
 
 /// The matrix from voxel coordinates, where voxel (i,j,k) fills [(i,j,k), (i,j,k)+1], to the world
-/// in metres. Empty where no matrix does this: sight rays of a pyramid, sector or ball.
+/// in metres. Empty where no matrix does this: sight rays that aren't parallel.
 std::optional<glm::dmat4> world_from_voxels(const VolumeFrame& frame);
 
 /// The point of the sight ray through pixel coordinates `uv` at `depth` metres, in the observer's

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "runtime/image/volume_view.hpp"
 
 #include <algorithm>
@@ -70,18 +71,17 @@ std::vector<std::vector<glm::dvec3>> outline_of(const VolumeFrame& frame) {
                 });
         return lines;
     }
-    // A sector's outline is the circle in its image. A ball has no rim; its equator is drawn
-    // instead.
-    const bool is_ball = frame.display.shape == DisplayShape::ball;
+    // A round image's outline is its rim. A ball has no rim; its equator is drawn instead.
+    const bool is_round = shape_row(frame.display).image_is_round;
     const glm::dvec2 half = glm::dvec2(size) / 2.0;
     for (const double k : {0.0, size.z}) {
         add([&](double t) {
             const double angle = 2 * kPi * t;
             const glm::dvec2 rim = half + half * glm::dvec2(std::cos(angle), std::sin(angle));
-            return is_ball ? glm::dvec3(t * size.x, half.y, k) : glm::dvec3(rim, k);
+            return is_round ? glm::dvec3(rim, k) : glm::dvec3(t * size.x, half.y, k);
         });
         add([&](double t) { return glm::dvec3(half.x, t * size.y, k); });
-        if (!is_ball) add([&](double t) { return glm::dvec3(t * size.x, half.y, k); });
+        if (is_round) add([&](double t) { return glm::dvec3(t * size.x, half.y, k); });
     }
     return lines;
 }

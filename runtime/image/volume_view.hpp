@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Volumetric image -> pictures of it, as viewers around the display see them.
 #pragma once
 

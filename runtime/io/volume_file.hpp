@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Volumetric images on disk: one front for every format. scenes/VOLUMES.md describes the formats.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "runtime/io/volume_format_table.hpp"
 
 #include <climits>
@@ -41,9 +42,11 @@ const char* lattice_only(Frame frame) {
                  "rays; write .exr, .nrrd, .raw, .ply or PNG slices";
 }
 
-const char* affine_or_pyramid(Frame frame) {
-    const bool is_pyramid = frame.display.shape == DisplayShape::pyramid && frame.display.near > 0;
-    return frame.layout != VolumeLayout::rays || world_from_voxels(frame) || is_pyramid
+const char* affine_or_perspective(Frame frame) {
+    const bool is_perspective =
+        shape_row(frame.display).projection == SightProjection::perspective &&
+        frame.display.near > 0;
+    return frame.layout != VolumeLayout::rays || world_from_voxels(frame) || is_perspective
                ? nullptr
                : "OpenVDB holds the sight rays of a box, or of a pyramid that begins ahead "
                  "of the observer (near above 0); write .exr, .nrrd, .raw or .ply, or render "
@@ -131,7 +134,7 @@ using enum VolumeFormat;
 const std::array<VolumeFormatEntry, 11> kTable = {{
     // The columns: format, endings, layout_fault, dense_bytes, max_dense_bytes, max_size,
     // check_path, write, read.
-    {vdb, {".vdb"}, affine_or_pyramid, no_bytes, kMaxFileBytes, kAnySize,
+    {vdb, {".vdb"}, affine_or_perspective, no_bytes, kMaxFileBytes, kAnySize,
      check_vdb, written_by<write_volume_vdb>, read_volume_vdb},
     {exr, {".exr"}, rays_only, no_bytes, kMaxFileBytes, kAnySize,
      check_file, written_by<write_volume_exr>, read_volume_exr},

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The table of the formats of volumetric images. Everything that is particular to one format is in
 // its row.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // solid and lattice -> the bricks that its surface is stored in, and its voxels: counted by
 // distances, from large cubes of bricks down to those that hold some of it.
 #pragma once

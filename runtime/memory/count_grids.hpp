@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // how much a grid is expected to hold -> the grid on a counting device, made as voxelizing makes
 // it.
 #pragma once

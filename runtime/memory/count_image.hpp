@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // scene + world on a counting device -> what rendering its flat image takes there.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // object grids on a counting device -> the world's voxels and pyramid there, made as forming a
 // world makes them.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // scene -> the grids of its objects on a counting device, each made once, as GridCache does.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // scene of an animation -> the memory of a device while one frame is rendered and the next one's
 // world is built.
 #pragma once

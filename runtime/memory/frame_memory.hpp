@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // scene -> the memory of a device at each step of rendering it, by a walk through the steps on a
 // counting device.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // frames of a scene -> whether each fits, and which takes the most, before memory is taken.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // scene -> how many bricks and voxels its grids and its world are expected to hold, or hold at
 // least.
 #pragma once

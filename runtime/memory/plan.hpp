@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // scene -> what rendering it takes: the grids of every step and their memory, before any is taken.
 //
 // An estimate: surfaces are counted by runtime/geometry/surface_extent.hpp, bytes by what the

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Whether a plan fits into a device, and what to do if not.
 #include <unistd.h>
 

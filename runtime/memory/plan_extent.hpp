@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // extents of objects -> what they take of the world at least, as they may lie in each other.
 #pragma once
 

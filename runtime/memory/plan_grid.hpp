@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What voxelizing a model takes: its grid's memory, and the largest buffer of it.
 #pragma once
 

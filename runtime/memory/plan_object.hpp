@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // object -> what its surface takes of the world, as planned and at least.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // solid -> how far points are from its surface, in doubles: what planning counts bricks by.
 #pragma once
 

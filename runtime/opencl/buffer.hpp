@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Typed arrays in a device's memory.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A device that can run kernels: found, described, chosen by the user, opened.
 #pragma once
 

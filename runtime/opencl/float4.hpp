@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Vectors in the form that kernels' records hold.
 #pragma once
 

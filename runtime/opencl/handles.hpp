@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The names of OpenCL's C++ types, for headers. Only the sources in this folder include
 // CL/opencl.hpp, which takes half a second to read.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The kernels embedded in the program, and a source made of one of them with its includes.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "runtime/opencl/packed_buffers.hpp"
 
 #include <zstd.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Buffers <-> bytes that are few and quick to read, for the caches on disk.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The devices of all OpenCL platforms, for device.cpp to choose from.
 #pragma once
 

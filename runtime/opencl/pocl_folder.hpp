@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // PoCL's cache folder: one for each process, filled from our cache and saved to it.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Kernels compiled for a device, and how they are launched.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Programs compiled once: from source, or from the disk cache of an earlier run.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The selectors with which a user chooses devices: auto, cpu, gpu, all, all/N, an index, part of a
 // name.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "runtime/render/illumination.hpp"
 
 #include <algorithm>
@@ -25,7 +26,7 @@ std::vector<LightRecord> light_records(const Device& device, const Features& fea
     return records;
 }
 
-/// Surroundings::medium_overflows.
+/// Allocates Surroundings::medium_overflows, set to 0; empty if the features don't need it.
 Buffer<uint32_t> allocate_medium_overflows(const Device& device, const Features& features) {
     if (!features.medium_set_capped) return {};
     Buffer<uint32_t> medium_overflows(device, "medium overflows", 1);
@@ -33,7 +34,7 @@ Buffer<uint32_t> allocate_medium_overflows(const Device& device, const Features&
     return medium_overflows;
 }
 
-/// The first records of the solids that light goes through.
+/// The numbers of the first records of the solids that let light through.
 Buffer<uint32_t> transmitting_solids(const Device& device, const Scene& scene,
                                      const Pyramid& world) {
     const std::vector<uint32_t> words = world.solids.read();
@@ -101,7 +102,7 @@ void Illumination::send_beams(const DilatedOccupancy& dilated_occupancy, uint32_
             sent, [&](const LightBeams& kept) { return same_beams(kept.grid, grid); });
         beams_.push_back({grid, known == sent.end() ? Buffer<float>() : known->ends});
     }
-    sent.clear();  // before others take memory
+    sent.clear();  // frees their memory before others take memory
     std::optional<LightBeamStage> stage;
     for (LightBeams& beams : beams_) {
         if (beams.grid.columns == 0 || !beams.ends.empty()) continue;
@@ -138,7 +139,7 @@ void Illumination::begin_paths(RayBatch& batch, uint32_t count) {
         trace_.begin_inside(world_, surroundings_, hollow_flags_, hollow_.maximum, batch, count);
 }
 
-/// Blocks 4 and 5: lights what the rays have met.
+/// Lights the surfaces that the rays met: blocks 4 and 5.
 void Illumination::direct(RayBatch& entries, uint32_t count) {
     shade_.surface(world_, entries, count);
     for (size_t i = 0; i < lights_.size(); ++i) {
@@ -150,7 +151,7 @@ void Illumination::direct(RayBatch& entries, uint32_t count) {
     if (medium_) medium_->sight(world_, entries, count);
 }
 
-/// Fills the nodes of a depth, whose rays are in `first`.
+/// Fills the nodes of a depth with the light of its rays, which are in `first`.
 void Illumination::follow(size_t number, RayBatch& first, uint32_t count, bool hits_are_known,
                           const LayerSink& sink) {
     PathDepth& depth = *depths_[number];
@@ -173,7 +174,7 @@ void Illumination::follow(size_t number, RayBatch& first, uint32_t count, bool h
     }
 }
 
-/// Blocks 6.1 to 9: follows what surfaces reflect and refract, as much at a time as fits.
+/// Follows reflected and refracted rays, as many at a time as fit: blocks 6.1 to 9.
 void Illumination::scatter(size_t number, RayBatch& entries, uint32_t count) {
     const uint32_t branches = branches_of(features_);
     for (uint32_t begin = 0; begin < count; begin += max_rays_) {
@@ -190,14 +191,14 @@ void Illumination::scatter(size_t number, RayBatch& entries, uint32_t count) {
     }
 }
 
-/// Makes room for `count` nodes of a depth; of the first, whose arrays are exchanged with the
-/// caller's, exactly so much.
+/// Makes room for `count` nodes of a depth. The first depth's arrays are exchanged with the
+/// caller's, so they get room for exactly `count`.
 void Illumination::reserve_nodes(size_t number, uint32_t count) {
     if (depths_.size() <= number) depths_.push_back(std::make_unique<PathDepth>());
     PathDepth& depth = *depths_[number];
     const bool is_first = number == 0;
     if (is_first ? count == depth.nodes.stride : count <= depth.nodes.stride) return;
-    depth = {};  // frees what it had
+    depth = {};  // frees its old arrays
     depth = allocate_depth(device_, features_, is_first, is_first ? count : depth_slots(count));
 }
 

@@ -1,4 +1,5 @@
-// rays -> radiance: what each ray meets and the light that comes along it. Blocks 3 to 9.
+// SPDX-License-Identifier: Apache-2.0
+// rays -> radiance: the surfaces that each ray meets, and the light along it. Blocks 3 to 9.
 #pragma once
 
 #include <memory>
@@ -20,21 +21,21 @@
 
 namespace voxelume {
 
-/// Makes the programs of the stages that sight rays go through in one piece: PoCL reads its own
-/// megabyte of headers for each. `makes_image`: they end in a flat image of the scene's channels;
-/// `has_dilated_occupancy`: lights may send beams.
+/// Builds the programs of the stages that sight rays pass through as one program, since PoCL reads
+/// its own megabyte of headers for each program. `makes_image` says that the rays end in a flat
+/// image of the scene's channels, `has_dilated_occupancy` that lights may send beams.
 void build_programs(const Device& device, const Features& features, const Scene& scene,
                     const Pyramid& world, bool makes_image, bool has_dilated_occupancy);
 
 /// Traces and lights batches of rays. Flat and volumetric images share it.
 ///
 /// Reflected and refracted rays are followed depth by depth, as the tree of Whitted 1980, each
-/// depth as one dense batch. Rays that go straight on through surfaces are further layers of their
-/// depth.
+/// depth as one dense batch. Rays that continue straight through surfaces are further layers of
+/// their depth.
 class Illumination {
   public:
-    /// For batches of at most `max_rays` rays, a multiple of 16. The world must outlive it. For
-    /// `compact` see ScatterStage.
+    /// Prepares for batches of at most `max_rays` rays, a multiple of 16. The world must outlive
+    /// it. For `compact` see ScatterStage.
     Illumination(const Device& device, const Features& features, const Scene& scene,
                  const Pyramid& world, uint32_t max_rays, bool compact = true);
 
@@ -45,30 +46,30 @@ class Illumination {
     void send_beams(const DilatedOccupancy& dilated_occupancy, uint32_t maximum,
                     std::vector<LightBeams>& sent);
 
-    /// Fills hits, and what the features ask for of positions, normals, words and radiance, of rays
-    /// 0 .. count-1, which come from an observer. `sink` hears of layers in scenes with
-    /// `transmission`.
+    /// Fills the hits of rays 0 .. count-1, which come from an observer, and those of their
+    /// positions, normals, packed attributes and radiance that the features ask for. `sink` is
+    /// called for each layer in scenes with `transmission`.
     void light(RayBatch& batch, uint32_t count, const LayerSink& sink = {}) {
         light_all(batch, count, sink, false);
     }
 
-    /// The same where the hits are there already.
+    /// Fills the same data for rays whose hits are known already.
     void light_hits(RayBatch& batch, uint32_t count) { light_all(batch, count, {}, true); }
 
     /// Fills only the hits, without light.
     void find_hits(RayBatch& batch, uint32_t count);
 
     const Features& features() const { return features_; }
-    /// The medium's, null where its density is 1 everywhere.
+    /// The medium's density grid; null if its density is 1 everywhere.
     const DensityGrid* density() const {
         return features_.medium_grid ? &medium_->density() : nullptr;
     }
-    uint64_t shadow_rays() const;  ///< traced so far; waits for the device
-    uint64_t secondary_rays() const { return secondary_rays_; }  ///< and rays that went straight on
-    uint64_t light_beams() const { return light_beams_; }        ///< sent, without those kept
+    uint64_t shadow_rays() const;  ///< number of rays traced so far; waits for the device
+    uint64_t secondary_rays() const { return secondary_rays_; }  ///< includes straight rays
+    uint64_t light_beams() const { return light_beams_; }        ///< sent, without those retained
     uint64_t ended_paths() const { return scatter_ ? scatter_->ended() : 0; }
-    /// How often a ray came into more overlapping objects than it can remember; waits for the
-    /// device.
+    /// The number of times a ray entered more overlapping objects than it can remember. Waits for
+    /// the device.
     uint64_t medium_overflows() const;
 
   private:
@@ -84,19 +85,19 @@ class Illumination {
     Features features_;
     const Pyramid& world_;
     std::vector<LightRecord> lights_;
-    std::vector<LightBeams> beams_;  ///< of each light, or none at all
+    std::vector<LightBeams> beams_;  ///< those of each light; empty if no beams are sent
     uint32_t max_rays_;
     size_t max_depth_;
     TraceStage trace_;
     ShadeStage shade_;
     Surroundings surroundings_;
-    std::optional<LightStage> lighting_;   ///< not even compiled in a scene without lights
-    std::optional<MediumStage> medium_;    ///< nor this where nothing absorbs
-    std::optional<ScatterStage> scatter_;  ///< nor this without paths
+    std::optional<LightStage> lighting_;   ///< not compiled in a scene without lights
+    std::optional<MediumStage> medium_;    ///< not compiled if nothing absorbs
+    std::optional<ScatterStage> scatter_;  ///< not compiled without paths
     ShadowQueue queue_;
-    HollowObjects hollow_;  ///< of observers inside media
+    HollowObjects hollow_;  ///< only for observers inside media
     Buffer<uint32_t> hollow_flags_;
-    std::vector<std::unique_ptr<PathDepth>> depths_;  ///< as large as has been needed
+    std::vector<std::unique_ptr<PathDepth>> depths_;  ///< each as large as was needed so far
     uint64_t secondary_rays_ = 0, light_beams_ = 0;
 };
 

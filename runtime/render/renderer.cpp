@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "runtime/render/renderer.hpp"
 
 #include <algorithm>
@@ -30,8 +31,8 @@ void add_counts(const RenderReport& report, RenderReport& sum) {
 
 namespace {
 
-/// The features that sight rays' hits and batches depend on: without those that decide the light on
-/// them alone.
+/// The features on which sight rays' hits and batches depend, without those that only decide their
+/// light.
 Features without_light(Features features) {
     features.shadows = features.area_samples = features.checker = false;
     features.medium = features.medium_grid = features.absorbs = false;
@@ -64,8 +65,8 @@ Renderer::View Renderer::view_of(const Scene& scene, const BuiltWorld& world,
     return view;
 }
 
-/// Hits are kept where they take little of the device's memory, and nothing of what the frame needs
-/// beside the world.
+/// True if hits may be retained: they must take little of the device's memory, and none that the
+/// frame itself needs in addition to the world.
 bool Renderer::has_room(const Scene& scene, const Features& features, uint64_t rays) const {
     if (!follows_) return false;
     const double bytes = double(rays) * sight_bytes(features),
@@ -129,6 +130,10 @@ void Renderer::note_done(const TileRange& range, const Tiles& tiles) const {
     tiles.share.done(range);
 }
 
+void Renderer::send_light_beams(WorldDilation& through, uint32_t max, Illumination& illumination) {
+    illumination.send_beams(through.dilated_occupancy, max, through.light_beams);
+}
+
 Image Renderer::image_of_tiles(const Scene& scene, const BuiltWorld& built, RenderReport& report,
                                const Tiles& tiles) {
     const auto start = std::chrono::steady_clock::now();
@@ -144,7 +149,7 @@ Image Renderer::image_of_tiles(const Scene& scene, const BuiltWorld& built, Rend
 
     View view = view_of(scene, built, features);
     report.hits_are_kept = view_ == view && !hits_.empty();
-    view_.reset();  // an error may leave the hits half done
+    view_.reset();  // an error may leave the hits incomplete
     if (!report.hits_are_kept) hits_.clear();
     const uint64_t rays = uint64_t(all_tiles) * rays_per_tile;
     const bool keeps_hits = has_room(scene, features, rays);
@@ -160,10 +165,8 @@ Image Renderer::image_of_tiles(const Scene& scene, const BuiltWorld& built, Rend
                       dilated_occupancy_of(built, *dilated_occupancy).dilated_occupancy);
     Illumination illumination(device_, features, scene, world, batch.stride);
     if (dilated_occupancy && lights_send_beams(features)) {
-        WorldDilation& sent = dilated_occupancy_of(built, *dilated_occupancy);
-        illumination.send_beams(sent.dilated_occupancy,
-                                light_beams_that_pay(world.frame, rays, observer.samples, pixel),
-                                sent.light_beams);
+        const uint32_t max = light_beams_that_pay(world.frame, rays, observer.samples, pixel);
+        send_light_beams(dilated_occupancy_of(built, *dilated_occupancy), max, illumination);
     }
     ResolveStage resolve(device_, features, observer, scene.render.channels);
     while (const std::optional<TileRange> range = tiles.share.take(in_batch)) {

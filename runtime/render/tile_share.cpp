@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "runtime/render/tile_share.hpp"
 
 #include <algorithm>

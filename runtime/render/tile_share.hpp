@@ -1,4 +1,5 @@
-// One image's tiles, shared out among the devices that render it.
+// SPDX-License-Identifier: Apache-2.0
+// The tiles of an image, shared among the devices that render it.
 #pragma once
 
 #include <algorithm>
@@ -11,32 +12,33 @@
 
 namespace voxelume {
 
-/// Called with the parts of a frame that are done, and their number; by one thread at a time.
+/// A callback with the number of finished parts of a frame, and of all its parts. One thread at a
+/// time calls it.
 using FrameProgress = std::function<void(uint32_t done, uint32_t total)>;
 
-/// Tiles of 4 x 4 pixels that follow each other, numbered along the image's rows.
+/// Consecutive tiles of 4 x 4 pixels, numbered along the image's rows.
 struct TileRange {
     uint32_t first = 0;
     uint32_t count = 0;
 };
 
-/// Gives an image's tiles, in order, to those who ask.
+/// Hands out an image's tiles, in order, to several threads.
 class TileShare {
   public:
-    /// At most `maximum` tiles at a time.
+    /// Hands out `tiles` tiles, at most `maximum` at a time.
     explicit TileShare(uint32_t tiles, FrameProgress progress = {}, uint32_t maximum = UINT32_MAX)
         : tiles_(tiles), maximum_(maximum), progress_(std::move(progress)) {}
 
-    /// The next tiles, `count` or fewer; nothing when all are given away.
+    /// The next tiles, at most `count`; empty if all were handed out.
     std::optional<TileRange> take(uint32_t count);
-    /// Tells the progress that they are done.
+    /// Reports to the progress callback that these tiles are done.
     void done(const TileRange& range);
-    /// Ends the work of all who ask.
+    /// Ends the work: no more tiles are handed out.
     void close() { is_closed_ = true; }
 
     uint32_t tiles() const { return tiles_; }
-    uint32_t maximum() const { return std::min(maximum_, tiles_); }  ///< at a time
-    /// Whether someone waits to hear what is done, or for the tiles that are left.
+    uint32_t maximum() const { return std::min(maximum_, tiles_); }  ///< maximum at a time
+    /// True if progress is observed or tiles are shared.
     bool is_watched() const { return progress_ || maximum_ < tiles_; }
 
   private:

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "runtime/render/volume_renderer.hpp"
 
 #include <algorithm>
@@ -18,13 +19,13 @@
 namespace voxelume {
 namespace {
 
-/// The channels are a flat image's.
+/// The scene with the default channels; those that it asks for are a flat image's.
 Scene with_all_channels(Scene scene) {
     scene.render.channels = {};
     return scene;
 }
 
-/// What both layouts work with.
+/// The data that both layouts work with.
 struct Work {
     const Device& device;
     const Scene& scene;
@@ -36,15 +37,15 @@ struct Work {
     const FrameProgress& progress;
 };
 
-/// What the lattice's kernels know of the medium: where its density differs from voxel to voxel,
-/// the little of it that lies between a light ray's start and its surface stays in the colours.
+/// The features of the lattice's kernels. If the medium's density varies, the little of it that
+/// lies between a light ray's start and its surface stays in the colours.
 Features without_varying_medium(Features features) {
     features.medium = features.medium && !features.medium_grid;
     features.medium_grid = false;
     return features;
 }
 
-/// A scene of the same surfaces, which only tell how much they cover.
+/// A scene with the same surfaces but without light: it only tells how much they cover.
 Scene without_light(Scene scene) {
     scene.lights.clear();
     scene.world.medium = {};
@@ -53,14 +54,15 @@ Scene without_light(Scene scene) {
     return scene;
 }
 
-/// Refracting surfaces cover all: without opacities in the scene, rays fill the coverage too.
+/// The features with which rays fill the coverage, too, even without opacities in the scene.
+/// Refracting surfaces cover everything behind them.
 Features with_transmission(Features features, const Scene& scene, const Pyramid& world) {
     features.paths = features.transmission = true;
     add_medium_set(scene, world, features);
     return begun_anywhere(features, scene);
 }
 
-/// The observer with one sight ray for each (u, v) of the display.
+/// The observer's camera with one sight ray for each (u, v) of the display.
 Camera display_sight(Scene scene, const VolumeFrame& frame, const GridFrame& world) {
     scene.render.size = {frame.size.x, frame.size.y};
     scene.render.samples = 1;
@@ -139,7 +141,7 @@ void render_rays(Work& work, Volume& volume) {
 void render_lattice(Work& work, Volume& volume) {
     work.features = begun_anywhere(work.features, work.scene);
     RayBatch batch = allocate_batch(work.device, work.features, batch_rays(work.features));
-    // Finding surfaces asks for no more than their geometry.
+    // Finding surfaces needs only their geometry.
     const Features geometry = features_of(work.world);
     DisplayScanStage scan(work.device, geometry, work.frame, work.world.frame);
     DisplayLatticeStage display(work.device, without_varying_medium(work.features), work.camera,
@@ -202,7 +204,7 @@ Volume render_volume(const Device& device, const Scene& shown, const BuiltWorld&
         render_rays(work, volume);
     else
         render_lattice(work, volume);
-    device.finish();  // and kernels' times are known
+    device.finish();  // so that kernels' times are known
     report.not_finite = count_not_finite(volume);
     report.voxels = world.voxel_count;
     report.image_seconds +=
@@ -216,7 +218,7 @@ std::shared_ptr<Volume> VolumeRenderer::volume(const Scene& scene, const BuiltWo
     const bool is_kept = volume_ && world_ == world.version && scene_ == scene;
     std::shared_ptr<Volume> volume = std::exchange(volume_, nullptr);
     if (!is_kept) {
-        volume.reset();  // before the next one needs the memory
+        volume.reset();  // frees it before the next volume needs the memory
         report_ = {};
         volume = std::make_shared<Volume>(render_volume(device_, scene, world, report_, progress));
         report.image_seconds += report_.image_seconds;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // scene -> P, the volumetric image.
 #pragma once
 
@@ -11,22 +12,22 @@ namespace voxelume {
 
 /// Renders the volumetric image of a scene's display in the scene's world, in its layout.
 ///
-/// `progress` is called with the parts done and their number. Fills the report as `render` does;
-/// `sight_rays` counts probe lines and rays to probe points too. Throws Error::limit for a display
-/// whose voxels the device has no memory for, and Error as the stages do.
+/// `progress` is called with the number of finished parts and of all parts. Fills the report as
+/// `render` does; `sight_rays` includes probe lines and rays to probe points. Throws Error::limit
+/// if the device's memory doesn't suffice for the display's voxels, and Error as the stages do.
 Volume render_volume(const Device& device, const Scene& scene, const BuiltWorld& world,
                      RenderReport& report, const FrameProgress& progress = {});
 
-/// Renders the volumetric images of one frame after another, and keeps the last: a frame that shows
-/// nothing else has it.
+/// Renders the volumetric images of successive frames, and retains the last one for a frame that
+/// shows the same.
 class VolumeRenderer {
   public:
-    /// Where nothing `follows` the first frame, nothing is kept.
+    /// With `follows` = false no second frame follows the first, and nothing is retained.
     explicit VolumeRenderer(const Device& device, bool follows = true)
         : device_(device), follows_(follows) {}
 
     /// The volumetric image as `render_volume` renders it, whose counts are added to the report's.
-    /// Attributes of the volume are its users' own: frames that share it have them one after
+    /// The volume's attributes belong to its users: frames that share a volume write them one after
     /// another.
     std::shared_ptr<Volume> volume(const Scene& scene, const BuiltWorld& world,
                                    RenderReport& report, const FrameProgress& progress = {});
@@ -34,13 +35,13 @@ class VolumeRenderer {
   private:
     Device device_;
     bool follows_;
-    std::optional<Scene> scene_;  ///< whose volume is kept
-    uint64_t world_ = 0;          ///< in which world
+    std::optional<Scene> scene_;  ///< the scene whose volume is retained
+    uint64_t world_ = 0;          ///< the version of its world
     std::shared_ptr<Volume> volume_;
-    RenderReport report_;  ///< of rendering it
+    RenderReport report_;  ///< of rendering the volume
 };
 
-/// The same with a world that is formed for it alone.
+/// Renders the volumetric image with a world that is built for it alone.
 Volume render_volume(const Device& device, const Scene& scene, RenderReport& report,
                      const FrameProgress& progress = {});
 

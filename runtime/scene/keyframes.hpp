@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Numbers at chosen frames, and what they are between them.
 #pragma once
 

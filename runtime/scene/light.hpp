@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A light as values, and one descriptor row for each type of light.
 //
 // A type is added with an enumerator of LightKind, a row of light_types(), and the function of

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a surface looks like: the values of Whitted's model, and a checker.
 #pragma once
 

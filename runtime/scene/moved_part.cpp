@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "runtime/scene/moved_part.hpp"
 
 #include <algorithm>
@@ -75,7 +76,7 @@ void MovedPart::form_model() {
 void MovedPart::form_display(Observer& observer) {
     Display display;
     display.shape = observer.display.shape;
-    display_shapes()[size_t(display.shape)].measure(
+    shape_row(display).measure(
         observer_.display,
         {distance_to_farthest_corner(scene_.world, observer.position), scene_.render.size},
         refusal("display."), display);

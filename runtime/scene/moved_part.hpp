@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A part of a scene as it is at one frame.
 #pragma once
 

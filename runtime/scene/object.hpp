@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The objects O_i: models with their lattices, and where they stand.
 #pragma once
 

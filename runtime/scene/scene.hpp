@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The scene as plain values: names are indices, angles are radians, placements are matrices.
 #pragma once
 

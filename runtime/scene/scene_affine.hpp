@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Affine maps from the factors that scene files give: positions, turns in degrees, scales.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A scene that changes -> the scene of one frame.
 #pragma once
 

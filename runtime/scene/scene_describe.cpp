@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Scene -> lines for people.
 #include <fmt/format.h>
 
@@ -68,8 +69,7 @@ std::string observer_text(const Observer& observer) {
     return fmt::format(
         "observer: at {}, looking along {}, {} display of {}x{}x{} voxels, from {:.6g} to {:.6g} m",
         vector_text(observer.position), vector_text(observer.world_from_observer[2]),
-        display_shapes()[static_cast<size_t>(d.shape)].name, d.voxels.x, d.voxels.y, d.voxels.z,
-        d.near, d.far);
+        shape_row(d).name, d.voxels.x, d.voxels.y, d.voxels.z, d.near, d.far);
 }
 
 }  // namespace

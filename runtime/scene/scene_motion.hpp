@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What changes in a scene from frame to frame: its tracks and numbered files, part by part.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Analytic solids and their unions, intersections and differences, as values.
 #pragma once
 

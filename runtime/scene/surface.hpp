@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The two choices that a model makes about its voxels.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "runtime/scene/value_row.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Descriptor rows of a scene's values: the key of each, where it lies, and what it may be.
 //
 // Readers, tracks, the tables of keys, and the tests of the schema and the manual follow the rows.

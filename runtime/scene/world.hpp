@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The world S: its lattice, and what fills the space between the objects.
 #pragma once
 

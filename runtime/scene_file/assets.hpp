@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Files that a scene names: where they are looked for, and that they never lie elsewhere.
 #pragma once
 

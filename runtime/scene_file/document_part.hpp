@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A part of a scene's text with the tracks that change it, as read.
 #pragma once
 

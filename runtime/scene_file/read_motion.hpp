@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The tracks and numbered files of a scene's text -> its motion.
 #pragma once
 

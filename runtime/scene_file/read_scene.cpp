@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // scene.json -> Scene: the order in which its parts are read, and what joins them.
 #include "runtime/scene_file/read_scene.hpp"
 

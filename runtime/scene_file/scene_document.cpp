@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // JSON text -> a tree of values that know their line and column.
 #include "runtime/scene_file/scene_document.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The table of all keys of the scene format: the parser accepts these and no others.
 #pragma once
 

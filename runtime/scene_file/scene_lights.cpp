@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The lights of a scene.
 #include <fmt/format.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The medium of the scene's world, and where it is how dense.
 #include <fmt/format.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The scene's models and the objects that place them in the world.
 #include <fmt/format.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The observer with its display.
 #include <fmt/format.h>
 

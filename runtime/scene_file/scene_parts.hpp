@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The readers of the scene's parts, one per subject. Each takes the value of its key and throws
 // Error::scene.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Analytic solids and their combinations, from a scene's "shape" and "parts".
 #include <fmt/format.h>
 

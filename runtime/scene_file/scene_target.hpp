@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The value of a scene that a track changes: "objects.ball.position", "models.block.parts[1].turn".
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A value of a scene's text over time: its keys, as the scene's "tracks" have them.
 #pragma once
 

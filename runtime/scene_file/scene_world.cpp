@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The parts of a scene that stand alone: world, materials, animation, render settings.
 #include <array>
 #include <cmath>

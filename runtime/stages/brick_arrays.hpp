@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The arrays of a grid's bricks: what each stored brick takes of a device, written once.
 #pragma once
 

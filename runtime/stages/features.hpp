@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The features of a scene: the constants that decide which code its kernels consist of.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The arrays that a batch of sight rays fills as it passes through the stages.
 #pragma once
 
@@ -19,16 +20,16 @@ struct RayQueue {
     Buffer<uint32_t> paths;   ///< VXL_PATH_*; the last component is repeated for each medium of the
                               ///< set
     Buffer<float> starts;     ///< t at which the ray's segment begins
-    Buffer<uint32_t> inside;  ///< 0: open space; else 1 + the material it goes through
-    uint32_t stride = 0;      ///< places for rays, a multiple of 16
+    Buffer<uint32_t> inside;  ///< 0: environment; else 1 + the material that the ray passes through
+    uint32_t stride = 0;      ///< room for this many rays, a multiple of 16
 };
 
 /// VXL_QUEUE_PARAMETERS of kernels.
 void bind(KernelArguments& to, const RayQueue& queue);
 
-/// Rays and what they met.
+/// Rays and their hits.
 struct RayBatch : RayQueue {
-    Buffer<uint32_t> beams;   ///< VXL_BEAM_COMPONENTS, of sight rays; empty: no beams were sent
+    Buffer<uint32_t> beams;   ///< VXL_BEAM_COMPONENTS, for sight rays; empty if no beams were sent
     Buffer<uint32_t> hits;    ///< VXL_HIT_COMPONENTS
     Buffer<float> positions;  ///< 3 per hit, voxels
     Buffer<float> normals;    ///< 3 per hit: unit vectors in metric space that point towards the
@@ -44,7 +45,7 @@ struct RayBatch : RayQueue {
 /// VXL_BATCH_PARAMETERS of kernels.
 void bind(KernelArguments& to, const RayBatch& batch);
 
-/// How far from a light the world is empty, see light_beams.cl; no columns where that isn't known.
+/// How far from a light the world is empty, see light_beams.cl; no columns where that is unknown.
 struct LightBeams {
     BeamGrid grid{};
     Buffer<float> ends;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Devices that render: which there are, and how a program chooses among them.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The one exception type of the library, and what it knows of the place of a mistake.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Files beside images and volumes: voxelized models, what is in a file, names of frames' files.
 #pragma once
 

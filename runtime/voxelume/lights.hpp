@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Lights of a scene as plain structs.
 #pragma once
 

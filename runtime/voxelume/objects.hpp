@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The bodies of a scene as plain structs: solids and meshes, and the objects that place them.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Who looks at a scene, through which display, and at what quality, as plain structs.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What rendering a scene takes, before any memory is taken.
 #pragma once
 

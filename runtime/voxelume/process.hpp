@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the library may do to the process that it runs in, and what it keeps on disk.
 #pragma once
 

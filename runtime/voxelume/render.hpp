@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Scene -> images and volumetric images, in memory or as files, of one frame or many.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A scene: read from a file or text, or built from plain structs; checked once, then unchangeable.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What rendering took: counts, times and memory.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The small values that the other headers share: vectors, colours, sizes.
 #pragma once
 

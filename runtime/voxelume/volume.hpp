@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Volumetric images: their voxels in memory, their files, and views of them.
 #pragma once
 

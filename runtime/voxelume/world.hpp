@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The space of a scene as plain structs: the world's lattice, its medium, and materials.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "runtime/world/grid_cache.hpp"
 
 #include <algorithm>
@@ -18,7 +19,8 @@ bool has_own_voxels(const Model& model) {
     return !model.voxels.empty() && !lists_primitives(model.surface);
 }
 
-/// A model without its name, its place in the scene, and what is in its frame already.
+/// A model without its name, its place in the scene, and the values that its frame contains
+/// already.
 Model source_of(Model model) {
     model.name.clear();
     model.where = {};
@@ -28,14 +30,14 @@ Model source_of(Model model) {
     return model;
 }
 
-/// The whole mesh, in a set, of a model with cuts.
+/// The whole mesh of a model with cuts, as a set.
 Model whole_of(Model model, VoxelSet set) {
     model.cuts.clear();
     model.set = set;
     return model;
 }
 
-/// The sets of its whole mesh that a cut model is made of.
+/// The sets of its whole mesh from which a cut model is made.
 std::vector<VoxelSet> body_sets(const Model& model) {
     if (shows_voxels(model.surface) && model.set != VoxelSet::solid)
         return {model.set, VoxelSet::solid};
@@ -62,7 +64,8 @@ SharedGrid GridCache::find_or_make(const Model& model, const Source& source,
     const auto found = std::ranges::find(kept_, source, &Kept::source);
     if (found != kept_.end()) {
         found->is_used = true;
-        // A cut that stands still goes on some time: the mesh's own grids wait for it.
+        // A cut that stands still may move again later, so the mesh's own grids are retained for
+        // it.
         if (!model.cuts.empty())
             for (const VoxelSet set : body_sets(model)) use(body_source(model, source, set));
         return found->grid;
@@ -123,7 +126,8 @@ void GridCache::use(const Source& source) {
     if (found != kept_.end()) found->is_used = true;
 }
 
-/// The mesh's own grids are kept like any others: while cuts move, only they are voxelized anew.
+/// Makes the grid of a model with cuts. The mesh's own grids are kept like any others, so while
+/// cuts move only the cuts are voxelized again.
 BrickGrid GridCache::make_cut(const Model& model, const Source& source, bool keeps) {
     const Solid rest = rest_of(source.frame, model.cuts);
     const auto body = [&](VoxelSet set) {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // models and exact objects -> brick grids: voxelized once, and kept while frames show them.
 #pragma once
 
@@ -19,30 +20,30 @@ class GridCache {
     GridCache(const Device& device, AssetStore& meshes)
         : device_(device), meshes_(meshes), voxelizer_(device) {}
 
-    /// The grid that shows `object`, of `scene`. Throws Error::input and Error::limit as voxelizing
-    /// does, opened by the place in the scene.
+    /// The grid that shows `object` of `scene`. Throws Error::input and Error::limit as voxelizing
+    /// does, with messages that begin with the place in the scene.
     SharedGrid grid_of(const Scene& scene, const Object& object);
 
-    /// The grid of a model in its own space, of exact ones, too: an instance's.
+    /// The grid of a model in its own space, as an instance uses it; of exact models, too.
     SharedGrid own_grid_of(const Model& model);
 
-    /// Forgets the grids that weren't asked for since the last call, but those of models that are
-    /// `retained` as they are in `scene` and had none of them asked for. Of these it keeps the
-    /// first made that take no more than `room` bytes of the device: what comes back in turns, the
-    /// last made would drive each other out.
+    /// Forgets the grids that weren't asked for since the last call. Grids of models that are
+    /// `retained` and of which none was asked for stay as they are in `scene`: the first made that
+    /// take at most `room` bytes of the device. It keeps the first made because models that are
+    /// shown in turns would otherwise push each other out.
     void forget_unused(const Scene& scene, const std::vector<bool>& retained, uint64_t room);
 
-    /// What the last call kept though nothing asked for it, in bytes of the device.
+    /// The bytes on the device of the grids that the last call kept though nothing asked for them.
     uint64_t retained_bytes() const { return retained_bytes_; }
 
     uint64_t voxelized() const { return voxelized_; }      ///< grids made so far
     uint64_t from_cache() const { return from_cache_; }    ///< grids taken from the cache so far
-    double keep_seconds() const { return keep_seconds_; }  ///< of writing grids to the cache so far
+    double keep_seconds() const { return keep_seconds_; }  ///< writing grids to the cache
 
   private:
-    /// All that a grid depends on.
+    /// Everything that a grid depends on.
     struct Source {
-        Model model;  ///< without what only its frame and messages depend on
+        Model model;  ///< without the values that only its frame and messages depend on
         glm::dmat4 frame_from_model{1};
         GridFrame frame;
         friend bool operator==(const Source&, const Source&) = default;
@@ -53,8 +54,9 @@ class GridCache {
         bool is_used = true;
     };
 
-    /// `where` opens messages; empty, where a caller does. `keeps` lets the cache have it: an exact
-    /// object that moves is another one in every frame, and takes many times its mesh's bytes.
+    /// `where` begins messages; it is empty if a caller adds the place. `keeps` lets the cache
+    /// store the grid. It is false for an exact object that moves: each frame has another grid, of
+    /// many times its mesh's bytes.
     SharedGrid find_or_make(const Model& model, const Source& source, const SourcePlace& where,
                             bool keeps = true);
     bool is_retained(const Scene& scene, const std::vector<bool>& retained,

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // scene -> instances: the objects that keep voxels of their own, behind the world's pyramid.
 #pragma once
 
@@ -8,11 +9,11 @@
 
 namespace voxelume {
 
-/// What instances take, for people and tests.
+/// The work and memory of instances, for people and tests.
 struct InstanceReport {
     uint32_t instances = 0, models = 0;
-    uint32_t moved = 0;    ///< instances that stand elsewhere than in the frame before, or are new
-    uint32_t indexed = 0;  ///< models whose pyramid was built for this frame
+    uint32_t moved = 0;  ///< instances that have another place than in the frame before, or are new
+    uint32_t indexed = 0;            ///< models whose pyramid was built for this frame
     uint64_t voxels = 0, bytes = 0;  ///< of the models, each counted once
     double seconds = 0;              ///< indexing and joining models, placing instances
 };
@@ -22,12 +23,12 @@ class InstanceModels {
   public:
     explicit InstanceModels(const Device& device) : device_(device) {}
 
-    /// Forgets the pyramids of models that aren't `listed`, but those whose grids others keep; of
-    /// these it keeps the first made that take no more than `room` bytes of the device.
+    /// Forgets the pyramids of models that aren't `listed`, except those whose grids others keep.
+    /// Of these it keeps the first made that take at most `room` bytes of the device.
     void forget_unused(const ListedInstances& listed, uint64_t room);
 
-    /// The world with the scene's instances. Without any it stays as it is. Throws Error::limit for
-    /// too little memory.
+    /// The world with the scene's instances; without instances the world is unchanged. Throws
+    /// Error::limit if memory doesn't suffice.
     Pyramid join(const Scene& scene, const ListedInstances& listed, Pyramid world,
                  InstanceReport& report);
 
@@ -41,21 +42,22 @@ class InstanceModels {
     std::vector<Kept> kept_;
 };
 
-/// Where an object stands that is an instance.
+/// The placement of an object that is an instance.
 struct InstancePlace {
     uint32_t object = 0;  ///< its number in the scene
     glm::dmat4 world_from_object{1};
     friend bool operator==(const InstancePlace&, const InstancePlace&) = default;
 };
 
-/// The places of a world's instances, ascending by object.
+/// The placements of a world's instances, ascending by object.
 std::vector<InstancePlace> instance_places(const Scene& scene, const Pyramid& world);
 
-/// How many of the places `now` weren't there `before`.
+/// The number of placements in `now` that aren't in `before`.
 uint32_t count_moved(const std::vector<InstancePlace>& before,
                      const std::vector<InstancePlace>& now);
 
-/// Forgets, in a copy of a scene's models and objects, what changes when instances move alone.
+/// Removes, in a copy of a scene's models and objects, the values that change if only instances
+/// move.
 void leave_out_places_of_instances(const Scene& scene, std::vector<Model>& models,
                                    std::vector<Object>& objects);
 

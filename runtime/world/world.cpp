@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "runtime/world/world.hpp"
 
 #include <algorithm>
@@ -34,7 +35,7 @@ class Stopwatch {
     Clock::time_point start_ = Clock::now();
 };
 
-/// Does a part of forming the world, whose limits are the world's.
+/// Calls a part of building the world; its limit errors name the world's size.
 template <class Part>
 auto for_world(const World& world, const Part& part) {
     const std::string size = size_text(world.voxels);
@@ -42,7 +43,7 @@ auto for_world(const World& world, const Part& part) {
                           world.where);
 }
 
-/// Adds to a report the models that are voxelized while it lives, and the time that takes.
+/// Adds to a report the number of models that are voxelized while it lives, and their time.
 class VoxelizingReport {
   public:
     VoxelizingReport(const GridCache& grids, const AssetStore& meshes, WorldReport& report)
@@ -133,7 +134,7 @@ BuiltWorld WorldBuilder::build_anew(const Scene& scene, const Origin& origin, Wo
     origin_.reset();
     world_.pyramid = {};
     keeps_ = false;
-    // What an error leaves in the middle is begun afresh.
+    // An exception leaves these empty, so that the next call begins anew.
     Indexer indexer = std::exchange(indexer_, Indexer(device_));
     InstanceModels models = std::exchange(models_, InstanceModels(device_));
     check_placements(scene);
@@ -200,8 +201,8 @@ std::optional<WorldBuilder::ReadWorld> WorldBuilder::read_world(
     return std::nullopt;
 }
 
-/// The world's voxels as an earlier run formed them, of no more objects than are potentially
-/// visible if it has such, else new ones, which are kept for later runs.
+/// The world's voxels from an earlier run, with only the potentially visible objects if there are
+/// such; else new voxels, which are written to the cache for later runs.
 Pyramid WorldBuilder::kept_or_new_world(const Task& task, Indexer& indexer) {
     const std::vector<std::string> keys =
         placer_ ? std::vector<std::string>() : world_sources(task.scene, meshes_);
@@ -263,8 +264,8 @@ Pyramid WorldBuilder::placed_and_indexed(const Task& task, const std::vector<Pla
     return pyramid;
 }
 
-/// Frees what wasn't used in this frame, but for models that are retained; unless the task keeps
-/// what the next frame may use, all of it.
+/// Frees the sources that weren't used in this frame, except models that are retained. If the task
+/// keeps nothing for the next frame, it frees all of them.
 void WorldBuilder::forget_sources(const Task& task) {
     grids_->forget_unused(task.scene, task.retained, task.room);
     uint64_t room = device_.info().memory / kRetainedPart;  // a CPU's memory is the meshes', too

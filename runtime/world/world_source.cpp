@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "runtime/world/world_source.hpp"
 
 #include <algorithm>
@@ -36,8 +37,9 @@ bool is_placed(const Scene& scene, const Object& object) {
     return !is_instanced(scene, object);
 }
 
-/// Whether objects that are placed in the world change, or the models of such: lights, observers,
-/// the space and instances leave its voxels alone, and materials all but which are seen inside.
+/// True if objects that are placed in the world change, or their models. Lights, observers, the
+/// environment and instances don't change the world's voxels, and materials only change which are
+/// seen inside.
 bool world_moves(const Scene& scene) {
     if (!moves(scene)) return false;
     return std::ranges::any_of(scene.motion->parts, [&](const MovingPart& part) {

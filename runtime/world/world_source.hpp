@@ -1,4 +1,5 @@
-// scene -> the name of its world, by which it is found on disk.
+// SPDX-License-Identifier: Apache-2.0
+// scene -> the name of its world, under which it is stored on disk.
 #pragma once
 
 #include <string>
@@ -9,16 +10,16 @@
 
 namespace voxelume {
 
-/// Names all that the voxels of a scene's world are made of: sources, lattices and places of the
-/// objects that are placed in it. Meshes whose summaries are known aren't read.
+/// A name of everything from which the voxels of a scene's world are made: sources, lattices and
+/// placements of the objects in it. Meshes whose summaries are known aren't read.
 ///
-/// Empty where nothing is kept: of a scene whose tracks change objects in the world or their
-/// models, since its worlds would fill the disk, and of one with a file of voxels, which no hash is
-/// taken of.
+/// Empty if the world is not stored: for a scene whose tracks change objects in the world or their
+/// models, since its worlds would fill the disk, and for one with a file of voxels, which isn't
+/// hashed.
 std::string world_source(const Scene& scene, AssetStore& meshes);
 
-/// Names of worlds that show the same to the observer: of the objects in reach, and that of all
-/// objects, if there are others.
+/// The names of worlds that show the same to the observer: that of the potentially visible objects,
+/// and that of all objects if there are others.
 std::vector<std::string> world_sources(const Scene& scene, AssetStore& meshes);
 
 }  // namespace voxelume

@@ -1,5 +1,6 @@
-// Code of features that a scene hasn't is not in its kernels: they are built although every
-// function of those features calls one that doesn't exist.
+// SPDX-License-Identifier: Apache-2.0
+// The code of features that a scene doesn't use is absent from its kernels: the kernels are built
+// although every function of those features calls one that doesn't exist.
 #include <gtest/gtest.h>
 
 #include <regex>
@@ -15,7 +16,8 @@
 namespace voxelume {
 namespace {
 
-/// A header in which every function calls one that nobody defines.
+/// The text of a header after the body of every function is replaced by a call of a function that
+/// nobody defines. Adds the number of replaced bodies to `functions`.
 std::string gutted(const std::string& text, size_t& functions) {
     // A body is what stands between a line that ends in ") {" and the first line that is "}".
     static const std::regex body(R"(\) \{\n(?:[^}][^\n]*\n|\n)*\}\n)");
@@ -30,7 +32,7 @@ std::string gutted(const std::string& text, size_t& functions) {
     return result.append(last, text.cend());
 }
 
-/// The text of a file without its kernels that aren't `kept`.
+/// The text of a file without the kernels that aren't in `kept`.
 std::string with_kernels(std::string text, const std::set<std::string>& kept) {
     constexpr std::string_view kKernel = "kernel void ";
     for (size_t at = text.find(kKernel); at != std::string::npos; at = text.find(kKernel, at)) {
@@ -43,7 +45,7 @@ std::string with_kernels(std::string text, const std::set<std::string>& kept) {
     return text;
 }
 
-/// A file with some of its kernels and all that it includes, of which the `removed` files are
+/// A file with only the named kernels and all that it includes. The `removed` files among these are
 /// gutted.
 class Source {
   public:
@@ -75,14 +77,15 @@ class Source {
     size_t functions_ = 0;
 };
 
-/// A scene of cubes, a light and shadows.
+/// The features of a scene of cubes with a light and shadows.
 Features plain_features() {
     Features features;
     features.cubes = features.shadows = true;
     return features;
 }
 
-/// Not of those that the walk of all rays has a part in: medium_set.h, instances.h, cube_body.h.
+/// The headers to gut. medium_set.h, instances.h and cube_body.h stay, because the walk of all rays
+/// uses parts of them.
 const std::set<std::string> kRemoved = {"lib/surface/smooth.h",  "lib/surface/field.h",
                                         "lib/light/filter.h",    "lib/traverse/instance_hit.h",
                                         "lib/solid/solid_hit.h", "lib/surface/triangle.h",

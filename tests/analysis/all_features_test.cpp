@@ -1,5 +1,6 @@
-// A scene of everything at once: the six files of kernels that rays go through, with all features,
-// in one program.
+// SPDX-License-Identifier: Apache-2.0
+// A scene with all features at once: the six files of kernels that rays go through, compiled into
+// one program.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -15,8 +16,8 @@
 namespace voxelume {
 namespace {
 
-/// More balls of glass in one another than a ray can remember, in front of the others; the observer
-/// is inside of a smooth one.
+/// A scene with more nested balls of glass than a ray can remember in front of the other objects.
+/// The observer is inside a smooth ball.
 std::string scene_text() {
     std::string balls;
     for (int i = 0; i < 17; ++i)
@@ -52,7 +53,7 @@ std::string scene_text() {
 "render": {"size": [24, 18], "depth": 2, "shadow": "filtered"}})";
 }
 
-/// Half transparent voxels of two colours.
+/// Writes a grid of half transparent voxels of two colours.
 void write_fog(const std::filesystem::path& path) {
     const std::vector<glm::ivec3> cells = {{0, 0, 0}, {1, 0, 0}, {2, 1, 0}, {2, 2, 1}};
     const std::vector<float> values = {0.5f, 0.25f, 0.5f, 0.75f};

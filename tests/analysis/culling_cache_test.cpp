@@ -1,4 +1,5 @@
-// Worlds from the cache on disk that have more objects than are potentially visible.
+// SPDX-License-Identifier: Apache-2.0
+// Worlds in the cache on disk that hold more objects than are potentially visible.
 #include "runtime/analysis/culling.hpp"
 #include "runtime/world/world_source.hpp"
 #include "tests/analysis/culling_scene.hpp"
@@ -12,7 +13,7 @@ using culling_scene::scene_of;
 
 class CullingFiles : public FileTest {};
 
-/// A ball in view of which every kind differs from those of the rest.
+/// A scene whose visible ball differs in every kind of surface and material from the other objects.
 Scene scene_of_cubes_in_view() {
     Scene scene = scene_of();
     std::swap(scene.objects[0].model, scene.objects[1].model);
@@ -45,7 +46,7 @@ TEST_F(CullingFiles, DecidesWhatIsMadeOfAWiderWorldInTheCache) {
     const RenderReport wide = show(true);
     EXPECT_TRUE(wide.world.is_from_cache);
     EXPECT_EQ(wide.world.voxelized, 0u);
-    // A narrow one comes first.
+    // If the cache also holds a narrower world, that one is taken first.
     AssetStore none;
     RenderReport report;
     const Scene narrow = with_culling(scene, none);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "runtime/analysis/culling_hull.hpp"
 
 #include <gtest/gtest.h>
@@ -112,7 +113,7 @@ TEST(CullingHull, OfANarrowViewIsApartFromWhatStandsBesideIt) {
     EXPECT_FALSE(are_apart(hull, around({35, 18.5, 99}, 2), 1));
 }
 
-/// A view of the world's first quarter along z, 0.1 rad to each side.
+/// A scene that views the world's first quarter along z, 0.1 rad to each side.
 Scene scene_with(const Light& light) {
     Scene scene;
     scene.observer.position = {0.5, -0.3, -2};
@@ -149,7 +150,7 @@ TEST(CullingHull, GoesOnToADistantLightAsFarAsTheWorld) {
     light.kind = LightKind::directional;
     light.direction = glm::normalize(glm::dvec3(-1, -0.1, -1));
     const Hull hull = lit_hull(scene_with(light));
-    // A metre along x and z is 10 and 20 voxels.
+    // One metre is 10 voxels along x and 20 along z.
     EXPECT_FALSE(are_apart(hull, around({65, 20, 80}, 2), 1));
     EXPECT_TRUE(are_apart(hull, around({65, 20, 10}, 2), 1));
     EXPECT_TRUE(are_apart(hull, around({15, 18, 65}, 2), 1));

@@ -1,4 +1,5 @@
-// A scene of which the observer sees one object, for tests of what is potentially visible.
+// SPDX-License-Identifier: Apache-2.0
+// A scene in which the observer sees only one object, for tests of what is potentially visible.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -12,8 +13,8 @@
 
 namespace voxelume::culling_scene {
 
-/// Five balls, of a model each: in view, left and right of it, behind the observer, and beyond what
-/// the display shows.
+/// A scene of five balls, each of its own model: one in view, one left and one right of it, one
+/// behind the observer, and one beyond what the display shows.
 inline constexpr const char* kScene = R"({"voxelume": 1,
 "world": {"voxel_size": 0.05, "bounds": {"min": [-4, -1, -4], "max": [4, 1.5, 4]},
           "background": [0.2, 0.3, 0.5], "ambient": [0.1, 0.1, 0.1]},
@@ -41,7 +42,7 @@ inline Scene scene_of(const std::string& lights = "", const std::string& tracks 
     return parse_scene(text, "s.json", {});
 }
 
-/// Of the image of a world of all objects.
+/// The hash of the image of a world that holds all objects.
 inline uint64_t hash_of_all(const Scene& scene) {
     RenderReport report;
     const BuiltWorld world = WorldBuilder(shared_device(), false).build(scene, report.world);

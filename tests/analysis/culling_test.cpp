@@ -1,4 +1,6 @@
-// Objects that no ray reaches aren't voxelized, and the bits are those of the scene with all.
+// SPDX-License-Identifier: Apache-2.0
+// Objects that no ray reaches aren't voxelized, and the image's bits are those of the scene with
+// all objects.
 #include "runtime/analysis/culling.hpp"
 
 #include <gtest/gtest.h>
@@ -20,7 +22,7 @@ using culling_scene::scene_of;
 constexpr const char* kPointLight =  // beside the left ball
     R"({"type": "point", "position": [-3.6, 0.1, 0], "intensity": 20})";
 
-/// The names of the objects that a single picture takes.
+/// The names of the objects that one picture needs.
 std::string visible_names(const Scene& scene) {
     AssetStore meshes;
     const Scene shown = with_culling(scene, meshes);
@@ -30,7 +32,7 @@ std::string visible_names(const Scene& scene) {
     return names;
 }
 
-/// Renders what rays reach; the bits are those of all objects.
+/// Renders the scene with culling, and expects the bits of the image with all objects.
 WorldReport expect_same_bits(const Scene& scene) {
     RenderReport report;
     EXPECT_EQ(oracle::image_hash(render(shared_device(), scene, report)), hash_of_all(scene));
@@ -86,7 +88,7 @@ TEST(Culling, GoesOnToEmissiveObjectsWhichAreAlwaysInIt) {
     scene.objects[4].material = 2;
     EXPECT_EQ(visible_names(scene), "seen beyond ");
     EXPECT_EQ(expect_same_bits(scene).voxelized, 2u);
-    scene.objects[4].light_samples = 0;  // glows, and lights nothing
+    scene.objects[4].light_samples = 0;  // emissive, but without light samples
     EXPECT_EQ(visible_names(scene), "seen ");
     expect_same_bits(scene);
 }
@@ -213,7 +215,8 @@ TEST(Culling, NeverShowsInThePicture) {
             scene_of(trial % 3 == 0 ? R"({"type": "directional", "direction": [-1, -1, 0.5]})"
                                     : kPointLight);
         scene.lights[0].position = {uniform(-5, 5), uniform(-1, 3), uniform(-5, 5)};
-        // Three that are always seen, so that the kernels stay the same; others anywhere.
+        // Three objects are always seen, so that the kernels stay the same; the others are
+        // anywhere.
         for (const size_t i : {1u, 2u}) {
             scene.objects.push_back(scene.objects[i]);
             scene.objects.back().world_from_object[3] = {0.4 * (double(i) - 1.5), 0.2, 0, 1};

@@ -1,5 +1,6 @@
-// Sets of overlapping objects that rays are inside of: how many members a scene needs, and images
-// against an analytic tracer.
+// SPDX-License-Identifier: Apache-2.0
+// Sets of overlapping objects that rays are inside of: how many entries a scene's medium set needs,
+// and images against an analytic tracer.
 #include "runtime/analysis/medium_set.hpp"
 #include "runtime/scene_file/read_scene.hpp"
 
@@ -9,8 +10,9 @@
 namespace voxelume {
 namespace {
 
-/// `count` balls of glass, each in the one before, the innermost of the highest priority if
-/// `rising`; `step` metres between their centres, which the observer is not inside of.
+/// The scene text of `count` balls of glass, each inside the one before. The innermost has the
+/// highest priority if `rising`. Their centres are `step` metres apart; the observer is outside of
+/// all.
 std::string nested_balls(int count, bool rising, double step = 0.02) {
     std::string objects;
     for (int i = 0; i < count; ++i)

@@ -1,7 +1,8 @@
-// What tests of the library's functions share: the options of their process.
+// SPDX-License-Identifier: Apache-2.0
+// Parts that tests of the library's functions share: the options of their process.
 //
-// Tests live in the namespace that the header's names are in: their programs know of the inside's
-// names, too.
+// Tests live in the namespace of the header's names, because their programs know the inner names,
+// too.
 #pragma once
 
 #ifndef VOXELUME_BUILDING
@@ -17,7 +18,7 @@
 
 namespace voxelume::v1 {
 
-/// Compiled kernels come from the cache that all tests share.
+/// Lets compiled kernels come from the cache that all tests share.
 class ProcessEnvironment : public ::testing::Environment {
   public:
     void SetUp() override { configure({.set_driver_environment = true}); }

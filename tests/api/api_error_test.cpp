@@ -1,4 +1,5 @@
-// Errors of the library tell programs what their sentences tell people.
+// SPDX-License-Identifier: Apache-2.0
+// The library's errors tell programs by their values what the sentences tell people.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -15,7 +16,7 @@ namespace fs = std::filesystem;
 using testing::HasSubstr;
 using testing::StartsWith;
 
-/// The error that an action throws; one of kind `render` without any.
+/// The error that an action throws; an error of kind `render` if it throws none.
 template <class Action>
 Error error_of(const Action& action) {
     try {
@@ -36,7 +37,7 @@ SceneDescription ball_scene() {
     return scene;
 }
 
-/// A folder of this test, empty at first.
+/// The test's own folder, empty at first.
 fs::path fresh_folder(const char* name) {
     const fs::path folder = fs::temp_directory_path() / (std::string("voxelume_") + name);
     fs::remove_all(folder);

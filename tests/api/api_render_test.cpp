@@ -1,5 +1,6 @@
-// Images and volumetric images that callers get: the same in memory and in files, told of while
-// they are rendered, and no longer rendered once nobody wants them.
+// SPDX-License-Identifier: Apache-2.0
+// Images and volumetric images that callers get: they are equal in memory and in files, callers
+// learn of them while they are rendered, and rendering ends once nobody wants them.
 #include <gmock/gmock.h>
 #include <unistd.h>
 
@@ -20,7 +21,7 @@ namespace fs = std::filesystem;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-/// One device for all tests, and a folder for each.
+/// One device for all tests, and one folder for each test.
 class ApiRender : public testing::Test {
   protected:
     static void SetUpTestSuite() { device = new std::vector{Device::open(test_selector())}; }
@@ -37,7 +38,7 @@ class ApiRender : public testing::Test {
     RenderOptions quick{.cache = {.enabled = false}};
 };
 
-/// A ball that rolls past a mirror, seven frames of 40 x 24 pixels.
+/// The scene of a ball that rolls past a mirror, in seven frames of 40 x 24 pixels.
 SceneDescription rolling_ball() {
     SceneDescription scene;
     scene.name = "rolling";
@@ -178,7 +179,7 @@ TEST_F(ApiRender, StopsWhenAskedTo) {
         EXPECT_EQ(error.exit_code(), 130);
     }
     EXPECT_LT(delivered, 7);
-    // Afterwards the device is as it was.
+    // After the stop the device works as before.
     EXPECT_EQ(render_image(scene, *device, 1, quick).width(), 40);
 }
 

@@ -1,4 +1,5 @@
-// Scenes built from plain structs are those that files describe.
+// SPDX-License-Identifier: Apache-2.0
+// Scenes built from plain structs equal those that files describe.
 #include <gmock/gmock.h>
 
 #include "runtime/api/handles.hpp"
@@ -11,7 +12,8 @@ namespace {
 using v1::Keys;
 using v1::Vec3;
 
-/// The scene without what tells where it was read.
+/// The scene without its places in files and texts and without its tracks, so that scenes of
+/// different sources compare equal.
 Scene without_places(Scene scene) {
     const auto strip = [](auto& parts) {
         for (auto& part : parts) part.where = {};
@@ -26,7 +28,7 @@ Scene without_places(Scene scene) {
     return scene;
 }
 
-/// Expects the same values at the first and at a later frame.
+/// Expects that both scenes have the same values in the first frame and at a later time.
 void expect_same(const v1::SceneDescription& description, const std::string& text) {
     const Scene built = api::inside(v1::Scene::build(description));
     const Scene read = api::inside(v1::Scene::parse(text));
@@ -35,7 +37,7 @@ void expect_same(const v1::SceneDescription& description, const std::string& tex
     EXPECT_EQ(without_places(scene_at(built, 2.5)), without_places(scene_at(read, 2.5)));
 }
 
-/// What every scene needs.
+/// The parts that every scene needs.
 v1::SceneDescription empty_scene() {
     v1::SceneDescription scene;
     scene.world = {.voxel_size = {0.5, 0.25, 0.125}, .min = {-1, -2, -3}, .max = {3, 2, 1}};
@@ -43,7 +45,7 @@ v1::SceneDescription empty_scene() {
     return scene;
 }
 
-/// A text with the given members beside those of empty_scene().
+/// A scene text with empty_scene()'s members and the given ones.
 std::string text_with(
     const std::string& members,
     const std::string& observer = R"({"position": [0.5, 1, -6], "display": {"shape": "pyramid"}})",

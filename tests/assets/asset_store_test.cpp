@@ -1,4 +1,5 @@
-// Meshes in memory: what waits for its model's return, and what is read again.
+// SPDX-License-Identifier: Apache-2.0
+// Meshes in memory: which are retained until their model returns, and which are read again.
 #include "runtime/assets/asset_store.hpp"
 
 #include <gtest/gtest.h>
@@ -11,7 +12,7 @@ namespace {
 
 class AssetStoreTest : public FileTest {
   protected:
-    /// A model of a mesh of one triangle, 3 * 12 + 12 bytes.
+    /// A model whose mesh is one triangle: 3 * 12 + 12 bytes.
     Model triangle(const char* name) {
         put_bytes(folder / name, "v 0 0 0\nv 1 0 0\nv 0 0.7 0\nf 1 2 3\n");
         Model model;
@@ -42,7 +43,7 @@ TEST_F(AssetStoreTest, MeshesWaitWhereThereIsRoomAndSummariesAlways) {
     EXPECT_EQ(store.meshes_read(), 4u);
 }
 
-/// A file of a ball as a level set, and of a fog beside it.
+/// Writes a file with two grids: a ball as a level set, and a fog.
 void write_ball_and_fog(const std::filesystem::path& path) {
     openvdb::initialize();
     const auto ball = openvdb::FloatGrid::create(3.0f), fog = openvdb::FloatGrid::create(0.0f);

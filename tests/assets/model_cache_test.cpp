@@ -1,4 +1,5 @@
-// Models from the cache on disk: the same bits as without, whatever happens to its files.
+// SPDX-License-Identifier: Apache-2.0
+// Models from the cache on disk give the same bits as without it, whatever happens to its files.
 #include "runtime/assets/model_cache.hpp"
 #include "runtime/scene_file/read_scene.hpp"
 
@@ -83,7 +84,7 @@ class ModelCacheFiles : public FileTest {
     }
 };
 
-/// The kernels that only the files that voxelize have.
+/// The kernels that only the voxelize files contain.
 std::set<std::string> voxelizing_kernels() {
     std::set<std::string> names, others;
     const std::regex pattern(R"(kernel void (\w+)\()");
@@ -187,7 +188,7 @@ TEST_F(ModelCacheFiles, DamagedAndTruncatedEntriesAreMadeAgain) {
     ASSERT_EQ(entries().size(), 2u);
     for (const fs::path& entry : entries()) {
         const std::string whole = bytes_of(entry);
-        // Of the header, the sizes, the frames and the end.
+        // The places lie in the header, in the sizes, in the frames and at the end.
         for (const double part : {0.0, 0.01, 0.05, 0.1, 0.3, 0.6, 0.9, 1.0}) {
             const size_t place = size_t(part * double(whole.size() - 1));
             std::string damaged = whole;

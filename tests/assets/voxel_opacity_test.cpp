@@ -1,4 +1,5 @@
-// Voxels with an opacity of their own, against what is laid over one another by hand.
+// SPDX-License-Identifier: Apache-2.0
+// Voxels with their own opacity, against their colours composited by hand.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -17,7 +18,8 @@ namespace {
 
 constexpr const char* kColors[] = {"R", "G", "B"};
 
-/// A stack along Z of plates, 12 x 9 voxels each, in a fog of their opacities and colours.
+/// A stack of plates along Z, each of 12 x 9 voxels, as a fog that gives each plate its opacity and
+/// colour.
 struct Stack {
     std::vector<float> opacities = {0.2f, 0.6f, 0.4f, 1.5f, 0.8f};
     std::vector<glm::vec3> colors = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 0}, {1, 1, 1}};
@@ -41,13 +43,14 @@ struct Stack {
         volume.origin = glm::dvec3(0.025);
         write_vdb(path, volume);
     }
-    /// As the file's 8 bits keep it.
+    /// A plate's opacity, rounded to the 8 bits that the file keeps.
     double opacity(size_t plate) const {
         return std::round(255.0 * double(std::min(opacities[plate], 1.0f))) / 255;
     }
 };
 
-/// What a ray sees of voxels, of opacity and own light each, front to back.
+/// The light that a ray sees of voxels composited front to back. Each voxel has an opacity and
+/// emits light.
 struct Laid {
     double left = 1;
     double light[3] = {};
@@ -111,7 +114,8 @@ TEST_F(StackedVoxels, CoverByTheirOwnOpacityFrontToBack) {
 }
 
 TEST_F(StackedVoxels, KeepOpacityAndColourWhenTurnedAndStretched) {
-    // Turned so that the plates follow one another along X, each three voxels of the world deep.
+    // The stack is turned so that its plates follow one another along X, each three voxels of the
+    // world deep.
     Stack stack;
     stack.opacities = {0.2f, 0.6f, 0.4f};
     const std::string placed =
@@ -162,7 +166,7 @@ TEST_F(StackedVoxels, TintTheLightThatPassesThem) {
     Stack stack;
     stack.opacities.resize(3);
     stack.write(folder / "stack.vdb");
-    // Light along Z through three plates onto a wall, seen from the side.
+    // Light along Z falls through three plates onto a wall that is seen from the side.
     const auto text = [](bool with_stack) {
         return std::string(R"({"voxelume": 1,
 "world": {"voxel_size": 0.05, "bounds": {"min": [-1, -0.5, -0.5], "max": [1.5, 1, 1]}},

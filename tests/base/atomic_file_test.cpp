@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "runtime/base/atomic_file.hpp"
 
 #include <gmock/gmock.h>
@@ -121,7 +122,7 @@ TEST_F(AtomicFileTest, ALinkIsFollowed) {
 
 TEST_F(AtomicFileTest, AFolderWithoutPermissionIsAnOutputError) {
     constexpr uid_t kNobody = 65534;
-    const bool is_root = geteuid() == 0;  // who may write everywhere
+    const bool is_root = geteuid() == 0;  // root may write everywhere
     fs::permissions(folder, fs::perms::owner_read | fs::perms::owner_exec);
     ASSERT_TRUE(!is_root || seteuid(kNobody) == 0);
     const Error error = error_of([&] { AtomicFile(folder / "a.bin"); });

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "runtime/base/decimal.hpp"
 
 #include <gtest/gtest.h>
@@ -16,7 +17,7 @@ uint32_t bits(float value) {
     return std::bit_cast<uint32_t>(value);
 }
 
-/// The C library's strtof is the oracle: glibc rounds it correctly.
+/// Expects the result of the C library's strtof, which is the oracle: glibc rounds it correctly.
 void expect_like_strtof(const std::string& text) {
     const Decimal decimal = scan_decimal(text.c_str());
     const float expected = std::strtof(text.c_str(), nullptr);
@@ -89,7 +90,8 @@ TEST(Decimal, RandomNumbersRoundLikeTheCLibrary) {
         const auto sign_and_mantissa = static_cast<uint32_t>(random()) & 0x807FFFFFu;
         const auto exponent = static_cast<uint32_t>(random() % 254);  // 255 would be infinity
         const auto finite = std::bit_cast<float>(sign_and_mantissa | exponent << 23);
-        // Around the midpoint between a float and the next, with 1 to 24 digits behind the first.
+        // The number lies around the midpoint between a float and the next, with 1 to 24 digits
+        // after the first.
         const double middle = static_cast<double>(finite) +
                               (static_cast<double>(std::nextafter(finite, 1e38f)) - finite) / 2;
         std::snprintf(text, sizeof text, "%.*e", static_cast<int>(random() % 24 + 1), middle);

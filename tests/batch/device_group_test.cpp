@@ -1,4 +1,5 @@
-// Several devices that share an animation's frames or an image's tiles: the bits of one.
+// SPDX-License-Identifier: Apache-2.0
+// Several devices that share an animation's frames or an image's tiles give the bits of one device.
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -35,7 +36,7 @@ Scene scene_with(double x, int samples = 1) {
     return scene;
 }
 
-/// The halves of the CPU; one device where it has a single unit.
+/// The halves of the CPU; only the whole device where it has a single compute unit.
 std::vector<Device> halves() {
     const Device whole = test_device();
     const bool is_cut = whole.is_cpu() && whole.info().compute_units > 1;
@@ -69,7 +70,8 @@ TEST(DeviceGroup, TheTilesOfAnImageMakeTheImageOfOneDevice) {
     }
 }
 
-/// Mirrors without anything that light passes: the rays of a second batch found no arrays once.
+/// The scene has mirrors, but nothing that light passes. A second batch's rays once found no arrays
+/// in such a scene.
 TEST(DeviceGroup, OneDeviceMakesTheImageInParts) {
     const Scene scene = scene_with(0.1);
     RenderReport report;
@@ -101,7 +103,7 @@ TEST(DeviceGroup, AnErrorOfOneDeviceIsTheImagesError) {
     }
 }
 
-/// Frames of several devices, and what was written of them.
+/// The frames of several devices, and what was written of them.
 struct SharedFrames {
     std::vector<size_t> written;
     std::vector<uint64_t> hashes;
@@ -194,7 +196,7 @@ TEST_F(DeviceGroupProgram, WritesTheFilesOfOneDevice) {
                         scene, name, device));
         EXPECT_EQ(frames.exit_code, 0) << frames.err;
     }
-    // Each device takes its frames in turn in any case.
+    // Without overlap, too, each device takes its frames in turn.
     const ProgramResult in_turn = run(
         fmt::format("render {} --frames 3-7 --size 40x30 -q --float -o three.#.exr --device all/2 "
                     "--no-overlap",

@@ -1,4 +1,5 @@
-// The image that one device or several make of a scene's only frame.
+// SPDX-License-Identifier: Apache-2.0
+// The image of a scene's only frame, made by one device or several.
 #pragma once
 
 #include <memory>

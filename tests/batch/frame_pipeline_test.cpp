@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Frames in order, on one thread and on three, with errors in each step.
 #include "runtime/batch/frame_schedule.hpp"
 

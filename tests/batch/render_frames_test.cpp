@@ -1,5 +1,5 @@
-// A whole run of frames through its one door: what comes out, in which order, and how it ends
-// early.
+// SPDX-License-Identifier: Apache-2.0
+// A whole run of frames through render_frames(): its results, their order, and how it ends early.
 #include "runtime/batch/render_frames.hpp"
 #include "runtime/scene_file/read_scene.hpp"
 
@@ -22,7 +22,8 @@ namespace {
 
 using testing::ElementsAre;
 
-/// Nine frames of a ball that moves until the fifth, on a device with memory for much more.
+/// A scene of nine frames with a ball that moves until the fifth. The device has memory for much
+/// more.
 Scene moving_scene() {
     constexpr const char* kText = R"({"voxelume": 1,
 "world": {"voxel_size": 0.05, "bounds": {"min": [-1, -1, -1], "max": [1, 1, 1]}},
@@ -52,19 +53,19 @@ uint64_t hash_alone(int frame) {
     return hashes[frame] = oracle::image_hash(image);
 }
 
-/// Which devices take part, and how.
+/// The way of a run: whether two devices take part, and whether their frames overlap.
 struct Way {
     const char* name;
     bool two_devices;
     bool overlap;
 };
 
-/// What came out of a run.
+/// The results of a run.
 struct Results {
     std::vector<int> frames;
     std::vector<uint64_t> hashes;
     BatchOutcome outcome;
-    std::string error;  ///< the sentence, where one was thrown
+    std::string error;  ///< the thrown sentence; empty if there is none
 };
 
 class RenderFrames : public testing::TestWithParam<Way> {
@@ -75,7 +76,7 @@ class RenderFrames : public testing::TestWithParam<Way> {
         options.overlap = GetParam().overlap;
         return options;
     }
-    /// `after` is called once a result is taken.
+    /// Calls `after` after each result.
     Results run(const BatchOptions& options,
                 const std::function<void(const FrameResult&)>& after = {}) const {
         Results results;
@@ -156,7 +157,7 @@ TEST_P(RenderFrames, CancelledByTheOutputEndWithTheResultThatItTook) {
 TEST_P(RenderFrames, CancelledInTheMiddleOfAFrameEndBeforeItsNextBatch) {
     std::stop_source stop;
     Scene scene = moving_scene();
-    // Each takes several batches of rays.
+    // Each image takes several batches of rays.
     resize(scene, {500, 300});
     scene.observer.display.voxels = {500, 300, 2};
     for (const bool volume : {false, true}) {
@@ -260,7 +261,7 @@ INSTANTIATE_TEST_SUITE_P(Ways, RenderFrames,
                                          Way{"TwoDevices", true, true}),
                          [](const auto& way) { return std::string(way.param.name); });
 
-/// One image of two devices.
+/// One image that two devices share.
 struct SharedImage {
     Scene scene = moving_scene();
     BatchOptions options;

@@ -1,4 +1,5 @@
-// How far rendered surfaces lie from their mesh: bench_accuracy [MESH-FILE [VOXELS [WIDTH
+// SPDX-License-Identifier: Apache-2.0
+// Measures how far rendered surfaces lie from their mesh: bench_accuracy [MESH-FILE [VOXELS [WIDTH
 // HEIGHT]]].
 #include <fmt/format.h>
 

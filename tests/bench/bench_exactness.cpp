@@ -1,13 +1,16 @@
-// What exact arithmetic costs: the kernels against the same with floats alone, in turns.
+// SPDX-License-Identifier: Apache-2.0
+// Measures what exact arithmetic costs: the kernels are timed in turns with variants that use
+// floats alone.
 //
 //   bench_exactness MESH [voxels along the longest side, 64,512] [turns, 15] [part of a row's name]
 //
 // Runs every row at each of the sizes, and prints all ratios again at the end.
 //
-// Traversal: sight rays at the mesh, whose crossings are left to floats by VXL_ARBITRATE=0, where
-// cells that would lie behind are refused so that the walk ends at all.
-// Voxelization: the supercover's predicates, by tests/bench/float_cover.h in 32-bit floats. Times
-// are the process's CPU time over all threads; ratios are medians of the turns' own ratios.
+// Traversal: traces sight rays at the mesh. The variant leaves crossings to floats by
+// VXL_ARBITRATE=0, and refuses cells that would lie behind so that the walk ends at all.
+// Voxelization: runs the supercover's predicates; the variant is tests/bench/float_cover.h in
+// 32-bit floats. Times are the process's CPU time over all threads; ratios are medians of the
+// turns' ratios.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -34,21 +37,21 @@
 namespace voxelume {
 namespace {
 
-/// Says at once what is being measured: kernels take seconds to compile.
+/// Prints at once what is being measured, because kernels take seconds to compile.
 void tell(const std::string& what) {
     fmt::print(stderr, "{} ...\n", what);
 }
 
-/// What is measured, and what came out.
+/// The settings of a measurement, and its results.
 struct Run {
     int turns;
-    std::string part;  ///< of the names of rows that are wanted
+    std::string part;  ///< a part that the names of measured rows contain
     std::vector<std::pair<std::string, double>> ratios;
 
     bool wants(const std::string& name) const { return name.find(part) != std::string::npos; }
 };
 
-/// Prints the medians of both, and of their ratios.
+/// Prints the medians of both times and of their ratios.
 void compare(Run& run, const std::string& name, const std::function<void()>& exact,
              const std::function<void()>& floats) {
     const auto timed = [](const std::function<void()>& work) {
@@ -57,7 +60,7 @@ void compare(Run& run, const std::string& name, const std::function<void()>& exa
         return cpu_seconds() - start;
     };
     tell(name);
-    exact(), floats();  // kernels are compiled on the way
+    exact(), floats();  // this also compiles the kernels
     std::vector<double> exact_seconds, float_seconds, ratios;
     for (int turn = 0; turn < run.turns; ++turn) {
         exact_seconds.push_back(timed(exact));
@@ -79,7 +82,7 @@ double longest_side(const Mesh& mesh) {
     return double(std::max({size.x, size.y, size.z}));
 }
 
-/// Sight rays of 1024 x 1024 pixels at the whole of a pyramid, on a device of its own.
+/// Sight rays of 1024 x 1024 pixels that view a whole pyramid, on its own device.
 class Tracing {
   public:
     Tracing(const char* options, const Mesh& mesh, const GridFrame& frame, Surface surface)
@@ -128,7 +131,7 @@ class Tracing {
     uint32_t count_ = 0;
 };
 
-/// The covering of all bricks by triangles that are binned already.
+/// The covering of all bricks by triangles that are already binned.
 class Covering {
   public:
     Covering(const Device& device, const Mesh& mesh, const GridFrame& frame)
@@ -202,7 +205,7 @@ void measure_covering(Run& run, const Mesh& mesh, const GridFrame& frame, int re
     fmt::print("voxels that floats have wrong: {}\n", differing_bits(right, covering.occupancy()));
 }
 
-/// "64,512".
+/// The numbers in a text such as "64,512".
 std::vector<int> numbers_of(const std::string& text) {
     std::vector<int> numbers;
     std::istringstream stream(text);

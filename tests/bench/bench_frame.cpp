@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A whole frame by stage, and how it grows with the voxels: a mesh with one light and shadow at
 // 1024 x 1024.
 //
@@ -24,7 +25,7 @@
 namespace voxelume {
 namespace {
 
-/// The set-up of bench_trace: the mesh's longest side 1 m, its middle the origin.
+/// The set-up of bench_trace: the mesh's longest side is 1 m, and its middle is the origin.
 Scene scene_of(const std::filesystem::path& mesh, const std::string& surface, int voxels) {
     const std::string text = fmt::format(
         R"({{"voxelume": 1,
@@ -54,7 +55,7 @@ Scene scene_of(const std::filesystem::path& mesh, const std::string& surface, in
 struct Sample {
     double form = 0, image = 0;  ///< CPU seconds
     RenderReport report;
-    double rays_ms = 0;  ///< of the kernels that follow rays
+    double rays_ms = 0;  ///< the time of the kernels that follow rays
     uint64_t peak = 0;   ///< bytes on the device
 };
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Sight rays a second over a field of moving instances of one model, and what moving them takes.
 //
 //   bench_instances MESH [instances, 1000] [voxels along the model's longest side, 256]
@@ -30,7 +31,7 @@ namespace {
 constexpr int kImage = 1024, kFrames = 9;
 constexpr double kLength = 0.85;
 
-/// A map that brings the model's middle to `position`, turned by any rotation.
+/// A map that brings the model's middle to `position` with a random rotation.
 glm::dmat4 placement(const Bounds& box, const glm::dvec3& position, std::mt19937& random) {
     std::uniform_real_distribution<double> angle(0, 6.2831853);
     const glm::dvec3 size = box.max - box.min;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Secondary rays a second in a scene's frame, and what compaction of their queues is worth.
 //
 //   bench_paths [--compacted] SCENE [asset folder ...]
@@ -23,7 +24,7 @@ namespace {
 
 constexpr int kRuns = 5;
 
-/// A scene's frame, again and again.
+/// A scene's frame that is rendered repeatedly.
 class Frame {
   public:
     Frame(const Device& device, const Scene& scene, const Pyramid& world, bool compact)
@@ -53,7 +54,7 @@ class Frame {
         return cpu_seconds() - start;
     }
 
-    /// The part of a frame's time in kernels that tracing the secondary rays takes.
+    /// The fraction of a frame's time in kernels that tracing the secondary rays takes.
     double tracing_part() {
         device_.time_kernels(true);
         const auto before = device_.counters().kernel_ms;
@@ -69,7 +70,7 @@ class Frame {
         return tracing / all;
     }
 
-    /// Of the last frame. Without compaction, places that no ray is in count, too.
+    /// The secondary rays of the last frame. Without compaction, slots without a ray count, too.
     uint64_t secondary_rays() const { return rays_; }
 
   private:

@@ -1,8 +1,11 @@
-// The solids of `voxelume bench` in other programs: bench_peers OUTPUT.json [SIDE [REPEATS]].
+// SPDX-License-Identifier: Apache-2.0
+// Renders the solids of `voxelume bench` with other programs: bench_peers OUTPUT.json [SIDE
+// [REPEATS]].
 //
-// Embree 3 on tessellations, OpenVDB's LevelSetRayIntersector on level sets. Same rays, same
-// errors; building their structures counts, making triangles or reading files doesn't. A level set
-// is sampled from the solid's distance within OpenVDB's narrow band of 3 voxels.
+// The programs are Embree 3 on tessellations and OpenVDB's LevelSetRayIntersector on level sets,
+// with equal rays and equal error measures. Building their structures counts; making triangles or
+// reading files doesn't. A level set is sampled from the solid's distance within OpenVDB's narrow
+// band of 3 voxels.
 #include <fmt/format.h>
 #include <openvdb/openvdb.h>
 #include <tbb/global_control.h>
@@ -20,8 +23,8 @@
 #include "runtime/verify/bench/bench.hpp"
 #include "runtime/verify/bench/bench_errors.hpp"
 #include "runtime/verify/bench/bench_subject.hpp"
-#include "tests/bench/peer_embree.hpp"
-#include "tests/bench/peer_openvdb.hpp"
+#include "tests/bench/peers/peer_embree.hpp"
+#include "tests/bench/peers/peer_openvdb.hpp"
 
 namespace voxelume {
 namespace {
@@ -30,13 +33,14 @@ struct Bench {
     nlohmann::ordered_json rows = nlohmann::ordered_json::array();
     int repeats = 5;
 
-    /// `run` builds and traces once, into an image.
+    /// Adds rows; `run` builds and traces once, into an image.
     void add(const BenchSolid& solid, const BenchTruth& truth, const std::string& program,
              const std::string& setting, double voxel_size,
              const std::function<PeerTimes(Image&)>& run) {
         PeerTimes best{INFINITY, 0};
         Image image = empty_peer_image(truth.size);
-        // As voxelume bench does: the first run warms up, and counts where it is long.
+        // The runs are timed as in voxelume bench: the first run warms up, and counts if it is
+        // long.
         double spent = 0;
         for (int i = 0; i <= repeats && (i < 1 || spent < kMaxRowSeconds); ++i) {
             const PeerTimes times = run(image);
@@ -64,7 +68,7 @@ struct Bench {
 };
 
 void measure(const char* output, int side, int repeats) {
-    constexpr double kNoVoxels = 1e9;  // metres: triangles know no 6 voxels
+    constexpr double kNoVoxels = 1e9;  // metres: triangles have no limit of 6 voxels
     const unsigned threads = std::thread::hardware_concurrency();
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
     openvdb::initialize();

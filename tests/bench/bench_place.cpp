@@ -1,5 +1,6 @@
-// Run time of placing and indexing, kernels compiled; with `peers` beside OpenVDB's resampleToMatch
-// of a level set.
+// SPDX-License-Identifier: Apache-2.0
+// Measures the run time of placing and indexing with compiled kernels; with `peers` also OpenVDB's
+// resampleToMatch of a level set.
 //
 //   bench_place [MESH] [voxels along the longest side of the world ... | peers]
 //
@@ -19,12 +20,12 @@
 #include "runtime/stages/place/place.hpp"
 #include "runtime/stages/voxelize/voxelize.hpp"
 #include "tests/bench/mesh_rows.hpp"
-#include "tests/bench/peer_level_set.hpp"
+#include "tests/bench/peers/peer_level_set.hpp"
 
 namespace voxelume {
 namespace {
 
-/// A world of the object's voxels that holds it however it is turned.
+/// A world of the object's voxels that contains it under every turn.
 GridFrame world_around(const GridFrame& object, int voxels) {
     const glm::dvec3 middle = object.origin + object.voxel_edge * glm::dvec3(object.size) * 0.5;
     const glm::ivec3 size(voxels);

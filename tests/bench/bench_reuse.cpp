@@ -1,4 +1,6 @@
-// What a frame costs when little has changed: frames one after another against frames alone.
+// SPDX-License-Identifier: Apache-2.0
+// Measures what a frame costs when little has changed: frames one after another against frames
+// alone.
 //
 //   bench_reuse MESH
 //
@@ -47,7 +49,7 @@ Scene scene_of(const std::filesystem::path& mesh, bool with_balls) {
     return parse_scene(text, mesh.parent_path() / "bench.json", {mesh.parent_path()});
 }
 
-/// Scales the mesh so that it fills the world, and moves it to the middle.
+/// Scales the mesh to fill the world, and moves it to the middle.
 void fit(Scene& scene) {
     AssetStore meshes;
     const Bounds box = mesh_bounds(*meshes.mesh_of(scene.models[0]));
@@ -65,7 +67,7 @@ struct Frame {
     RenderReport report;
 };
 
-/// Frames of a scene one after another.
+/// Renders frames of a scene one after another.
 class Frames {
   public:
     explicit Frames(const Device& device) : device_(device), builder_(device), renderer_(device) {}
@@ -87,7 +89,7 @@ class Frames {
     Renderer renderer_;
 };
 
-/// Times the frame that `change` makes of the one before it, and the same frame alone.
+/// Times the frame that `change` makes of the previous one, and that frame rendered alone.
 void measure(const Device& device, const Scene& first, const char* what,
              const std::function<void(Scene&, int)>& change) {
     std::vector<double> times, alone_times, indices, places, alone_places, shares;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Rays a second through a mesh's pyramid: sight rays that hit, shadow rays, incoherent bounces, and
 // all sight rays of the picture, for each surface and number of lanes.
 //
@@ -22,16 +23,17 @@
 #include "runtime/grid/pyramid_bytes.hpp"
 #include "runtime/stages/index/index.hpp"
 #include "runtime/stages/voxelize/voxelize.hpp"
+#include "tests/bench/peers/trace_peers.hpp"
 #include "tests/bench/trace_kernels.hpp"
-#include "tests/bench/trace_peers.hpp"
 
 namespace voxelume {
 namespace {
 
-/// Million rays a second: that hit, of shadow, that bounced, of the picture.
+/// Million rays a second of each kind: rays that hit, shadow rays, bounced rays, the picture's
+/// rays.
 struct Row {
     std::string name;
-    double build_seconds = 0;  ///< of CPU time: to a pyramid, to a peer's own
+    double build_seconds = 0;  ///< CPU time to build a pyramid, or a peer's own structure
     double rates[4] = {};
     std::string note;
 };
@@ -78,7 +80,7 @@ std::vector<PeerRay> in_metres(const std::vector<Ray>& rays, const GridFrame& fr
     return list;
 }
 
-/// The peers on the rays that the exact surface gives.
+/// Measures the peers on the rays that the exact surface gives.
 std::vector<Row> bench_peers(const Mesh& mesh, int voxels) {
     const Device device = Device::open("cpu");
     const GridFrame frame = frame_around(mesh, glm::dvec3(1.0 / voxels));
@@ -114,7 +116,8 @@ std::vector<Row> bench_peers(const Mesh& mesh, int voxels) {
     return rows;
 }
 
-/// What our rates are of a peer's; of its best row for each kind of ray, where it has several.
+/// Prints the ratios of our rates to a peer's. If the peer has several rows, its best one for each
+/// kind of ray counts.
 void print_ratios(const std::vector<Row>& ours, const std::vector<Row>& theirs) {
     std::vector<Row> best;
     for (const Row& row : theirs) {

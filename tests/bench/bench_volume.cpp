@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Volumetric images of a scene in a Cartesian display: time against a flat image with as many
 // shaded points, and memory against stored voxels.
 //

@@ -1,5 +1,6 @@
-// Run time of voxelization, kernels compiled, for each surface and voxel set; with `peers` beside
-// OpenVDB's meshToLevelSet.
+// SPDX-License-Identifier: Apache-2.0
+// Measures the run time of voxelization with compiled kernels, for each surface and voxel set; with
+// `peers` also OpenVDB's meshToLevelSet.
 //
 //   bench_voxelize [MESH] [voxels along the longest side ... | peers]
 //
@@ -15,7 +16,7 @@
 #include "runtime/stages/index/index.hpp"
 #include "runtime/stages/voxelize/voxelize.hpp"
 #include "tests/bench/mesh_rows.hpp"
-#include "tests/bench/peer_level_set.hpp"
+#include "tests/bench/peers/peer_level_set.hpp"
 
 namespace voxelume {
 namespace {

@@ -1,4 +1,5 @@
-// CPU time of this process over all its threads, what a shared machine's clock doesn't tell, and
+// SPDX-License-Identifier: Apache-2.0
+// CPU time of this process over all its threads, which a shared machine's clock doesn't tell, and
 // medians.
 #pragma once
 

@@ -1,16 +1,18 @@
 #!/bin/sh
-# Whether memory grows over an animation: memory.sh [PROGRAM] [FRAMES]
+# SPDX-License-Identifier: Apache-2.0
+# Tests whether memory grows over an animation: memory.sh [PROGRAM] [FRAMES]
 #
-# Renders frames that go to and fro every 50, each other than the one before in its model, in the place of an
-# object in the world's voxels and in that of an instance, and prints the process's memory in kB at every tenth of
-# the run. Exits with 1 if the last is more than 5 % above that at two tenths.
+# Renders frames that go to and fro every 50. Each differs from the one before in its model, in the
+# place of an object in the world's voxels, and in that of an instance. Prints the process's memory
+# in kB at every tenth of the run. Exits with 1 if the last value is more than 5 % above that at two
+# tenths.
 set -eu
 source=$(cd "$(dirname "$0")/../.." && pwd)
 program=${1:-$source/build/voxelume}
 frames=${2:-500}
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-# keys A B: of a track that goes from A to B and back.
+# keys A B: prints the keys of a track that goes from A to B and back.
 keys() {
     awk -v a="$1" -v b="$2" -v last="$frames" 'BEGIN {
         for (frame = 1; frame < last + 50; frame += 50)

@@ -1,4 +1,5 @@
-// What benchmarks of a mesh have in common: the mesh without one, medians, rows.
+// SPDX-License-Identifier: Apache-2.0
+// Common parts of benchmarks of a mesh: the default mesh, medians, rows.
 #pragma once
 
 #include <fmt/format.h>
@@ -15,7 +16,7 @@
 
 namespace voxelume {
 
-/// Debian's bunny (glmark2-data), for benchmarks that are given no mesh.
+/// Debian's bunny (glmark2-data), the mesh of benchmarks that are given none.
 inline constexpr const char* kDebianBunny = "/usr/share/glmark2/models/bunny.obj";
 
 struct Milliseconds {
@@ -33,7 +34,7 @@ Milliseconds time_of(const Run& run) {
         1e3 * (cpu_seconds() - cpu)};
 }
 
-/// Of five runs, after one that isn't counted.
+/// The median of five runs, after one that isn't counted.
 template <class Run>
 Milliseconds median_time(const Run& run) {
     constexpr int kTurns = 5;
@@ -53,7 +54,7 @@ inline void print_time(const std::string& name, int voxels, const Milliseconds& 
     std::fflush(stdout);
 }
 
-/// [MESH] [voxels ... | peers]
+/// The arguments [MESH] [voxels ... | peers].
 struct MeshArguments {
     std::string mesh = kDebianBunny;
     std::vector<int> voxels;

@@ -1,9 +1,10 @@
 #!/bin/sh
-# What overlapping frames saves: overlap.sh [PROGRAM] [SCENE] [FRAMES] [ROUNDS] [OPTION...]
+# SPDX-License-Identifier: Apache-2.0
+# Measures what overlapping frames saves: overlap.sh [PROGRAM] [SCENE] [FRAMES] [ROUNDS] [OPTION...]
 #
-# Renders the frames by whole processes with and without --no-overlap in turn, so that what else the machine
-# does slows both alike. Prints each time, the ratio of the medians, and which part of a frame without overlap is
-# voxelization.
+# Renders the frames by whole processes with and without --no-overlap in turn, so that other work of
+# the machine slows both equally. Prints each time, the ratio of the medians, and the fraction of a
+# frame without overlap that is voxelization.
 set -eu
 source=$(cd "$(dirname "$0")/../.." && pwd)
 program=${1:-$source/build/voxelume}
@@ -14,7 +15,7 @@ rounds=${4:-5}
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
-# run NAME OPTION...: milliseconds of a run, behind those of the runs before it.
+# run NAME OPTION...: appends the milliseconds of a run to those of the earlier runs.
 run() {
     name=$1
     shift
@@ -37,7 +38,7 @@ echo "with overlap:    $(tr '\n' ' ' <"$work/overlapped")ms"
 echo "without overlap: $(tr '\n' ' ' <"$work/in_turn")ms"
 awk -v a="$(median "$work/overlapped")" -v b="$(median "$work/in_turn")" \
     'BEGIN {printf "medians: %d of %d ms, %.3f\n", a, b, a / b}'
-# The statistics' first "seconds" are the run's.
+# The first "seconds" in the statistics are those of the run.
 awk '/"seconds": \{/ {inside = 1} inside && /"(load|voxelize|place|index|image)"/ {gsub(/[",:]/, ""); s[$1] = $2; n += $2}
      inside && /\}/ {printf "voxelization: %.2f of a frame without overlap (place %.2f, index %.2f, image %.2f)\n",
                      s["voxelize"] / n, s["place"] / n, s["index"] / n, s["image"] / n; exit}' "$work/in_turn.json"

@@ -1,15 +1,18 @@
 #!/bin/sh
-# One hash per scene, whatever compiles and runs it: same_bits.sh [BUILD-FOLDER [BUILD ...]]
+# SPDX-License-Identifier: Apache-2.0
+# Compares one hash per scene over compilers and devices' settings: same_bits.sh [BUILD-FOLDER
+# [BUILD ...]]
 #
-# A BUILD is g++-Release, g++-Debug, clang++-Release or clang++-Debug; without any it is all four.
-# SCENES="solids fog" in the environment takes some of the scenes only, JOBS=1 compiles one file at a time,
-# COMPILERS_ONLY=1 leaves out lanes, work-groups, threads, units and the OpenCL compiler's options.
-# CMake's environment variable CMAKE_CXX_COMPILER_LAUNCHER=ccache makes the second run short.
+# A BUILD is g++-Release, g++-Debug, clang++-Release or clang++-Debug; by default all four run.
+# SCENES="solids fog" in the environment restricts the scenes, JOBS=1 compiles one file at a time,
+# and COMPILERS_ONLY=1 leaves out lanes, work-groups, threads, units and the OpenCL compiler's
+# options. CMake's environment variable CMAKE_CXX_COMPILER_LAUNCHER=ccache shortens the second run.
 #
 # Builds the program with g++ and clang++, as Debug and Release, and renders every scene of scenes/
-# small with lanes {1,4,8,16}, work-groups {own,1,24}, threads {own,1,2}, one compute unit, and with the
-# OpenCL compiler's optimizer off. Prints a line per scene and setting that differs from the first, and
-# the number of images; exits with 1 if any differs. The first run compiles for an hour on two cores, and all settings take half an hour more.
+# small with lanes {1,4,8,16}, work-groups {own,1,24}, threads {own,1,2}, one compute unit, and with
+# the OpenCL compiler's optimizer off. Prints a line for each scene and setting that differs from
+# the first, and the number of images; exits with 1 if any differs. The first run compiles for an
+# hour on two cores, and all settings take half an hour more.
 set -eu
 source=$(cd "$(dirname "$0")/../.." && pwd)
 work=${1:-$source/build/same-bits}
@@ -48,7 +51,8 @@ for build in $builds; do
     program=$folder/voxelume
     check "$program" VOXELUME_DEVICE=cpu
     echo "$build: $images images so far, $differing differ"
-    # What isn't compiled by the compiler need not be tried with each of them.
+    # The settings of the device don't depend on the C++ compiler, so only the first build tries
+    # them.
     [ "$build" = "${builds%% *}" ] && [ "${COMPILERS_ONLY:-0}" = 0 ] || continue
     for lanes in 1 4 8 16; do
         check "$program" VOXELUME_LANES=$lanes

@@ -1,10 +1,12 @@
 #!/bin/sh
-# Every frame of the animations in scenes/, full size: same_frames.sh [PROGRAM] [SCENE...]
+# SPDX-License-Identifier: Apache-2.0
+# Compares every frame of the animations in scenes/ at full size: same_frames.sh [PROGRAM]
+# [SCENE...]
 #
-# Renders each animation in one run, which keeps what it can between frames and overlaps them, and then
-# every frame by a process of its own. Prints the frames whose files differ, and the number compared;
-# exits with 1 if any differs. Takes twenty minutes on two busy cores. (The
-# turntable's volumes are compared by animation_frames_test, smaller.)
+# Renders each animation in one run, which retains what it can between frames and overlaps them, and
+# then every frame by its own process. Prints the frames whose files differ, and the number
+# compared; exits with 1 if any differs. It takes twenty minutes on two busy cores.
+# (animation_frames_test compares the turntable's volumes, smaller.)
 set -eu
 source=$(cd "$(dirname "$0")/../.." && pwd)
 program=${1:-$source/build/voxelume}
@@ -15,7 +17,7 @@ trap 'rm -rf "$work"' EXIT
 compared=0
 differing=0
 
-# frames SCENE FOLDER OPTION...: renders into a folder.
+# frames SCENE FOLDER OPTION...: renders the scene's frames into the folder.
 frames() {
     scene=$1
     folder=$2

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tests/bench/trace_kernels.hpp"
 
 #include <xxhash.h>
@@ -10,7 +11,7 @@
 namespace voxelume {
 namespace {
 
-/// Of the hits' t, voxels, cells and faces; what a miss leaves beside its voxel doesn't count.
+/// The hash of the hits' t, voxels, cells and faces. Of a miss only its voxel counts.
 uint64_t hash_of(const RayBatch& batch, size_t count) {
     std::vector<uint32_t> words = batch.hits.read();
     uint64_t hash = 0;

@@ -1,4 +1,5 @@
-// The kernels of one feature set at work on lists of rays, timed.
+// SPDX-License-Identifier: Apache-2.0
+// Runs the kernels of one feature set on lists of rays, and times them.
 #pragma once
 
 #include <algorithm>
@@ -25,25 +26,25 @@ double median_seconds(const Pass& pass) {
     return median_of(std::move(seconds));
 }
 
-/// A batch that holds rays as a frame's stages would hand them on.
+/// A batch that holds the rays as a frame's stages would pass them on.
 RayBatch batch_of(const Device& device, const Features& features, const Pyramid& pyramid,
                   const std::vector<Ray>& rays);
 
-/// What the batch's rays have met.
+/// The hits of the batch's rays.
 std::vector<Hit> hits_of(const RayBatch& batch, size_t count);
 
-/// Each list goes through the kernel that a frame sends such rays through; rates are million rays
-/// a second and core. The pyramid must outlive it.
+/// Sends each list through the kernel that a frame uses for such rays. Rates are million rays a
+/// second and core. The pyramid must outlive this.
 class TraceKernels {
   public:
     TraceKernels(const Device& device, const Pyramid& pyramid);
 
     double sight(const std::vector<Ray>& rays, std::vector<Hit>* hits = nullptr);
     double bounce(const std::vector<Ray>& rays);
-    /// With the beams of their light.
+    /// The rate of shadow rays, with the beams of their light.
     double shadow(const std::vector<Ray>& rays);
 
-    /// Of the closest hits of all lists so far.
+    /// The hash of the closest hits of all lists so far.
     uint64_t hash() const { return hash_; }
 
   private:

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The rays and meshes of bench_trace.
 #pragma once
 
@@ -25,10 +26,11 @@ struct Hit {
 constexpr int kPictureSide = 1024;  ///< pixels
 constexpr glm::dvec3 kLightPosition{1.5, 2.5, 2};
 
-/// All rays of the picture in 4 x 4 tiles, entering the grid's box; rays past it have an end of -1.
+/// All rays of the picture in 4 x 4 tiles, from the grid's box on. Rays that miss the box have an
+/// end of -1.
 std::vector<Ray> picture_rays(const GridFrame& frame);
 
-/// The rays of `rays` that met something, and from where they did: bounces and shadow rays start
+/// The rays of `rays` that hit something, and rays from their hits: bounces and shadow rays start
 /// two voxels back towards the eye, on the outside.
 struct RayLists {
     std::vector<Ray> hitting, shadow, bounce;
@@ -40,7 +42,7 @@ RayLists split_rays(const std::vector<Ray>& rays, const std::vector<Hit>& hits,
 /// A mesh file's mesh with its longest side 1, centred at the origin.
 Mesh scaled_mesh(const char* path);
 
-/// Each triangle as the four between its corners and the middles of its edges.
+/// The mesh with each triangle cut into four, between its corners and the middles of its edges.
 Mesh halved(const Mesh& mesh);
 
 }  // namespace voxelume

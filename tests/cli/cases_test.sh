@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # Checks tests/CASES.md: all 93 stress cases are in it, and every test that it names exists.
 # Usage: cases_test.sh SOURCE_FOLDER
 set -euo pipefail
@@ -11,7 +12,7 @@ done)
 listed=$(sed -nE 's/^- \*\*([VSTPGOXD][0-9]+)\*\* .*/\1/p' CASES.md)
 diff <(echo "$expected") <(echo "$listed") || { echo "CASES.md lists other cases"; failed=1; }
 
-# `Suite.Name`, from TEST(Suite, Name), TEST_F or TEST_P, however the line is broken.
+# The names are `Suite.Name`, from TEST(Suite, Name), TEST_F or TEST_P, however the line is broken.
 existing=$(find . -name '*_test.cpp' -exec cat {} + | tr '\n' ' ' |
     grep -oE '\bTEST(_[FP])?\([[:space:]]*[A-Za-z0-9_]+,[[:space:]]*[A-Za-z0-9_]+\)' |
     sed -E 's/.*\([[:space:]]*([A-Za-z0-9_]+),[[:space:]]*([A-Za-z0-9_]+)\)/\1.\2/' | sort -u)

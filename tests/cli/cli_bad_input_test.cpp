@@ -1,4 +1,5 @@
-// Bad input through the program: the right exit code, one clear line, and no file left behind.
+// SPDX-License-Identifier: Apache-2.0
+// Bad input to the program gives the right exit code, one clear line, and leaves no file behind.
 #include <gmock/gmock.h>
 
 #include "tests/cli/scene_program.hpp"
@@ -52,11 +53,11 @@ TEST_F(CliBadInputTest, WorldsBeyondMemoryAreRefusedBeforeItIsTaken) {
             scene["objects"][0]["position"] = {0.5, 0.5, 0.5};
         });
     };
-    world_of(65536);  // the table of bricks alone
+    world_of(65536);  // the table of bricks alone exceeds the memory
     EXPECT_THAT(expect_render_failure(8), HasSubstr("use voxels larger than"));
-    world_of(65537);  // the scene's limit
+    world_of(65537);  // the scene's limit is exceeded
     EXPECT_THAT(expect_render_failure(8), HasSubstr("65536"));
-    world_of(15000);  // the surface
+    world_of(15000);  // the surface exceeds the memory
     EXPECT_THAT(expect_render_failure(8), HasSubstr("use voxels larger than"));
     EXPECT_EQ(run("check scene.json").exit_code, 8);
     world_of(400);

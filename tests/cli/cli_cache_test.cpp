@@ -1,4 +1,5 @@
-// The cache of models as programs use it, several at once too.
+// SPDX-License-Identifier: Apache-2.0
+// The cache of models as programs use it, several programs at once too.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -29,7 +30,7 @@ class CliCache : public ProgramTest {
         cache_ = folder / "cache";
         fs::create_directory(cache_);
         if (cache_folder().empty()) return;
-        // Kernels are taken from where all tests have them.
+        // Kernels come from the folder that all tests share.
         fs::create_directories(cache_folder() / "programs");
         fs::create_directory_symlink(cache_folder() / "programs", cache_ / "programs");
     }
@@ -48,7 +49,7 @@ class CliCache : public ProgramTest {
     }
     nlohmann::json frame(const std::string& name) const { return frames(name).at(0); }
 
-    /// Moves the observer around in three frames.
+    /// Adds tracks that move the observer around in three frames.
     void turn_observer() const {
         std::string text = bytes_of(folder / "s.json");
         text.replace(text.find("\"render\""), 8, R"("animation": {"frames": 3, "tracks": [

@@ -1,4 +1,5 @@
-// voxelume convert, and what info says of volumes.
+// SPDX-License-Identifier: Apache-2.0
+// The command `voxelume convert`, and the output of `info` for volumes.
 #include <gmock/gmock.h>
 
 #include <nlohmann/json.hpp>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Frames of moving scenes on the command line.
 #include <gmock/gmock.h>
 
@@ -14,7 +15,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::Not;
 
-/// The fixture's scene with an object that turns until frame 3.
+/// Tests with the fixture's scene and an object that turns until frame 3.
 class CliFramesTest : public SceneProgramTest {
   protected:
     void write_moving_scene(int frames, double last_scale = 1) {
@@ -64,7 +65,7 @@ TEST_F(CliFramesTest, ChosenFramesAreTheSameFramesAndMayLieOutside) {
                             "some.3.exr", "some.5.exr", "v.2.nrrd", "v.3.nrrd", "v.5.nrrd"));
     EXPECT_EQ(bytes_of(folder / "all.2.exr"), bytes_of(folder / "some.2.exr"));
     EXPECT_NE(bytes_of(folder / "v.2.nrrd"), bytes_of(folder / "v.3.nrrd"));
-    // Past the last key nothing moves.
+    // After the last key nothing moves.
     EXPECT_EQ(read_exr(folder / "some.3.exr").planes, read_exr(folder / "some.5.exr").planes);
 }
 

@@ -1,4 +1,5 @@
-// The commands render, check and voxelize on good input; cli_bad_input_test has the other.
+// SPDX-License-Identifier: Apache-2.0
+// The commands render, check and voxelize on good input; cli_bad_input_test.cpp has bad input.
 #include <gmock/gmock.h>
 
 #include <nlohmann/json.hpp>
@@ -136,7 +137,7 @@ TEST_F(CliRenderTest, ShadowRaysAreCountedOverAllBatchesAndLights) {
         scene["lights"][1]["name"] = "moon";
         scene["render"]["samples"] = 4;
     });
-    // Two batches; without shadows none.
+    // The image takes two batches; without shadows it takes no shadow rays.
     ASSERT_EQ(run("render scene.json -o a.exr --size 512x128 --stats-json two.json").exit_code, 0);
     write_scene([](Json& scene) { scene["render"]["samples"] = 4; });
     ASSERT_EQ(run("render scene.json -o a.exr --size 512x128 --stats-json one.json").exit_code, 0);

@@ -1,4 +1,5 @@
-// The frame of the program and the commands info and diff.
+// SPDX-License-Identifier: Apache-2.0
+// The program's general behaviour, and the commands info and diff.
 #include <gmock/gmock.h>
 
 #include <nlohmann/json.hpp>

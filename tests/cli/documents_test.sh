@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # Checks the documents: no line of more than 100 columns, no relative link that leads nowhere, and
 # a README of at most 60 lines in each folder of code.
 # Usage: documents_test.sh SOURCE_FOLDER
@@ -15,7 +16,7 @@ pages=$(find . -name '*.md' -not -path './build*' -not -path './out/*' -not -pat
 while read -r page; do
     long=$(grep -nE '^.{101}' "$page" | cut -c 1-60) || true
     [ -z "$long" ] || complain "$page has lines over 100 columns: $long"
-    # [text](target): without a scheme, and without the heading behind #.
+    # The links are [text](target) without a scheme; a heading after # is cut off.
     while read -r target; do
         [ -e "$(dirname "$page")/${target%%#*}" ] || complain "$page links to $target, which isn't there"
     done < <(sed '/^```/,/^```/d' "$page" | tr '\n' ' ' | grep -oE '\]\([^)# ]+[^) ]*\)' |

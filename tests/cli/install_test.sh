@@ -1,6 +1,8 @@
 #!/usr/bin/env bash
-# Installs the program elsewhere and has it write and read .vdb there, by the module that was installed with it: once
-# that is gone, both are refused before any work, and what needs no .vdb goes on.
+# SPDX-License-Identifier: Apache-2.0
+# Installs the program elsewhere and lets it write and read .vdb files there, by the module that was
+# installed with it. Once the module is removed, both are refused before any work, and commands that
+# need no .vdb still work.
 # Usage: install_test.sh BUILD_FOLDER SOURCE_FOLDER
 set -euo pipefail
 build=$1
@@ -12,7 +14,8 @@ cd "$folder"
 printf '%s\n' 'v 0 0 0' 'v 3 0 0' 'v 0 2 0' 'v 0 0 1' 'f 1 3 2' 'f 1 2 4' 'f 2 3 4' 'f 3 1 4' >a.obj
 failed=0
 
-# expect CODE TEXT ARGUMENT...: the program, given the arguments, exits with the code and prints the text.
+# expect CODE TEXT ARGUMENT...: expects that the program, given the arguments, exits with the code
+# and prints the text.
 expect() {
     local code=0 said
     said=$(bin/voxelume "${@:3}" 2>&1) || code=$?

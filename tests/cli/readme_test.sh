@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# Runs every `voxelume` command of README.md and of the command line's manual, in order, each page in
-# a folder of its own. A line that ends in \ goes on in the next one.
+# SPDX-License-Identifier: Apache-2.0
+# Runs every `voxelume` command of README.md and of the command line's manual in order, each page in
+# its own folder. A line that ends in \ continues in the next one.
 # Usage: readme_test.sh SOURCE_FOLDER PROGRAM
 set -euo pipefail
 source=$1
@@ -8,7 +9,7 @@ program=$2
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 
-# run_page PAGE LEAST: the page's commands, of which there are at least so many.
+# run_page PAGE COUNT: runs the page's commands; fails if it has fewer than COUNT.
 run_page() {
     local page=$1 here commands=0
     here=$folder/$(basename "$page" .md)

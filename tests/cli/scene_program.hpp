@@ -1,4 +1,5 @@
-// A small good scene for the program, and what must hold when it fails.
+// SPDX-License-Identifier: Apache-2.0
+// A small valid scene for the program, and what must hold when a command fails.
 #pragma once
 
 #include <gmock/gmock.h>
@@ -33,7 +34,7 @@ inline constexpr const char* kTriangle = "v 0 0 0\nv 1 0 0\nv 0 0.7 0\nf 1 2 3\n
 inline constexpr const char* kTetrahedron =
     "v 0 0 0\nv 1 0 0\nv 0 0.7 0\nv 0 0 0.5\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
 
-/// Tests with the good scene as scene.json in their folder.
+/// Tests with the valid scene as scene.json in their folder.
 class SceneProgramTest : public ProgramTest {
   protected:
     void SetUp() override {
@@ -42,7 +43,7 @@ class SceneProgramTest : public ProgramTest {
         write_scene([](Json&) {});
     }
 
-    /// The good scene after a change, as scene.json.
+    /// Writes the valid scene, changed by `change`, as scene.json.
     template <class Change>
     void write_scene(const Change& change) {
         Json scene = Json::parse(kScene);
@@ -57,7 +58,7 @@ class SceneProgramTest : public ProgramTest {
         });
     }
 
-    /// Everything in the folder but what the runner itself puts there.
+    /// The names in the folder, except for those that the runner itself writes.
     std::vector<std::string> names() const {
         std::vector<std::string> found;
         for (const auto& entry : std::filesystem::directory_iterator(folder)) {
@@ -68,7 +69,7 @@ class SceneProgramTest : public ProgramTest {
         return found;
     }
 
-    /// A failure is told in one line, with this code, and leaves no file behind.
+    /// Expects that the command fails with this exit code and one line, and leaves no file behind.
     std::string expect_failure(int code, const std::string& arguments) const {
         const std::vector<std::string> before = names();
         const ProgramResult result = run(arguments);

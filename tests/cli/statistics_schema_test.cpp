@@ -1,5 +1,6 @@
-// The published schema of `render --stats-json` holds for what the program writes, and the manual
-// has the schema's keys.
+// SPDX-License-Identifier: Apache-2.0
+// The published schema of `render --stats-json` accepts what the program writes, and the manual
+// names the schema's keys.
 #include <gtest/gtest.h>
 
 // GCC 12 sees an overlap in std::string::replace where there is none (its PR 105651).
@@ -30,7 +31,7 @@ class StatisticsSchemaTest : public SceneProgramTest {
         parser.populateSchema(valijson::adapters::NlohmannJsonAdapter(text_), schema_);
     }
 
-    /// What is wrong with a document, or nothing.
+    /// The faults of a document; empty if there are none.
     std::string faults(const Json& document) {
         valijson::Validator validator;
         valijson::ValidationResults results;
@@ -43,7 +44,7 @@ class StatisticsSchemaTest : public SceneProgramTest {
         return text;
     }
 
-    /// The statistics that the program writes on `render` with these options.
+    /// The statistics that the program writes for `render` with these options.
     Json statistics(const std::string& options) {
         const ProgramResult result =
             run("render scene.json --no-cache --stats-json stats.json " + options);
@@ -57,7 +58,7 @@ class StatisticsSchemaTest : public SceneProgramTest {
     valijson::Schema schema_;
 };
 
-/// Adds every key that a schema names, its own and those of its parts.
+/// Adds every key that a schema names, at its top and in its parts.
 void list_keys(const Json& schema, std::vector<std::string>& keys) {
     if (schema.contains("items") && schema["items"].is_object()) list_keys(schema["items"], keys);
     if (!schema.contains("properties")) return;

@@ -1,5 +1,6 @@
+// SPDX-License-Identifier: Apache-2.0
 // A user's program: builds a scene from plain structs, renders it flat and volumetric, and checks
-// what it gets. It knows of Voxelume what is installed, and nothing else.
+// the results. It uses only what is installed of Voxelume.
 #include <unistd.h>
 
 #include <algorithm>
@@ -25,7 +26,7 @@ void check(bool holds, const char* claim) {
     ++failures;
 }
 
-/// A red ball rises over a grey box, in front of the observer.
+/// A scene of a red ball that rises over a grey box, in front of the observer.
 SceneDescription room() {
     SceneDescription room;
     room.name = "room";
@@ -52,7 +53,7 @@ SceneDescription room() {
     return room;
 }
 
-/// The same scene as a file would have it.
+/// The text of that scene as a file.
 constexpr const char* kText = R"({"voxelume": 1,
 "world": {"voxel_size": 0.02, "bounds": {"min": [-1, 0, -1], "max": [1, 2, 1]},
           "background": [0, 0, 0.5], "ambient": [0.25, 0.25, 0.25]},

@@ -1,6 +1,8 @@
 #!/usr/bin/env bash
-# Installs everything elsewhere, moves it, and builds a program against it that knows nothing of the source tree: by CMake
-# and by pkg-config. The program checks what it renders. The library gives away no name but its own.
+# SPDX-License-Identifier: Apache-2.0
+# Installs everything elsewhere, moves it, and builds a program against it that knows nothing of the
+# source tree, by CMake and by pkg-config. The program checks what it renders. The library exports
+# no name but its own.
 # Usage: consumer_test.sh BUILD_FOLDER SOURCE_FOLDER
 set -euo pipefail
 build=$1
@@ -17,7 +19,7 @@ fail() {
     exit 1
 }
 
-# Headers of the inside, of OpenCL or of JSON stay at home.
+# Inner headers and those of OpenCL and JSON aren't installed.
 if grep -rnE '#include.*(runtime/|CL/|nlohmann|glm|fmt)' "$prefix/include"; then
     fail "an installed header includes what isn't installed with it"
 fi
@@ -25,7 +27,7 @@ if nm -D --defined-only "$library/libvoxelume.so" | grep -vE ' A | _Z(N|NK|TI|TS
     fail "the library exports names that aren't in its header"
 fi
 
-# The example at the header's head is a program.
+# The example at the head of the header is a program.
 sed -nE 's#^//     ##p' "$prefix/include/voxelume.hpp" >"$folder/example.cpp"
 grep -q 'int main' "$folder/example.cpp" || fail "the header has no example"
 c++ -std=c++20 -Wall -Wextra -Wpedantic -Werror -fsyntax-only -I"$prefix/include" "$folder/example.cpp"

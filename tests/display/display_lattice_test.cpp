@@ -1,4 +1,5 @@
-// Which voxels a Cartesian display shows, against what an observer sees by geometry alone.
+// SPDX-License-Identifier: Apache-2.0
+// The voxels that a Cartesian display shows, against what an observer sees by geometry alone.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -11,7 +12,7 @@
 namespace voxelume {
 namespace {
 
-/// A lattice by its documented rules, in double.
+/// A lattice by its documented rules, in double precision.
 struct LatticeOracle {
     const VolumeFrame& frame;
     const Observer& observer;
@@ -24,7 +25,7 @@ struct LatticeOracle {
         const glm::dvec3 q = glm::transpose(observer.world_from_observer) * (p - observer.position);
         return (q - frame.origin) / frame.edge;
     }
-    /// How far the middle of a voxel is inside the display's shape, roughly; its sign is exact.
+    /// A measure of how far a voxel's middle is inside the display's shape. Only its sign is exact.
     double inside(const glm::dvec3& middle) const {
         const glm::dvec3 q = frame.origin + frame.edge * middle;
         const Display& d = frame.display;
@@ -45,7 +46,8 @@ struct LatticeOracle {
         }
         return minimum;
     }
-    /// From where the observer sees a point: E, or the point beside it on the box's plane.
+    /// The place from which the observer sees a point: E, or for a box display the nearest point of
+    /// the box's plane.
     glm::dvec3 eye(const glm::dvec3& p) const {
         if (frame.display.shape != DisplayShape::box) return observer.position;
         const glm::dvec3& ahead = observer.world_from_observer[2];
@@ -62,7 +64,7 @@ struct LatticeOracle {
     }
 };
 
-/// Voxels that a point lies in, or within `margin` voxels of.
+/// Visits the voxels that contain a point or lie within `margin` voxels of it.
 template <class Visit>
 void for_each_voxel_near(const glm::dvec3& p, double margin, const Visit& visit) {
     const glm::ivec3 low(glm::floor(p - margin)), high(glm::floor(p + margin));
@@ -73,7 +75,8 @@ void for_each_voxel_near(const glm::dvec3& p, double margin, const Visit& visit)
 
 class Lattice : public testing::TestWithParam<DisplayCase> {};
 
-/// How surely a point can be seen: by E, or along the ways from outside that the manual names.
+/// How surely a point can be seen, from E or along the directions from outside that the manual
+/// names.
 struct Sightings {
     bool surely = false, maybe = false;
 };
@@ -98,7 +101,7 @@ Sightings sightings_of(const LatticeOracle& lattice, const oracle::SimpleScene& 
     return result;
 }
 
-/// The voxels that hold a surface point that can be seen, surely and within rounding.
+/// The voxels that hold visible surface points: `must` for certain, `may` within rounding.
 struct ExpectedVoxels {
     std::set<uint64_t> must, may;
 };
@@ -161,11 +164,12 @@ TEST(LatticeOfCoarseVoxels, ReachesFarBeyondTheWorld) {
     Scene scene = parsed(display_scene(R"("shape": "box", "size": [91, 60.2, 73], "near": 0,
                                           "layout": "lattice", "voxels": [700, 700, 730])"));
     const Volume far = volume_of(scene);
-    // Only lines that meet the world are scanned: some 3 m in 0.04 m each way, on three sides.
+    // Only lines that meet the world are scanned: about 3 m in steps of 0.04 m in each direction,
+    // on three sides.
     RenderReport report;
     render_volume(test_device(), scene, report);
     EXPECT_LT(report.sight_rays, 120'000u);
-    // The same voxels of a display that ends around the world.
+    // A display that ends around the world shows the same voxels.
     scene.observer.display.voxels = {70, 70, 73};
     scene.observer.display.half_size = {4.55, 3.01};
     scene.observer.display.far = 7.3;
@@ -179,7 +183,7 @@ TEST(LatticeOfCoarseVoxels, ReachesFarBeyondTheWorld) {
     }
 }
 
-/// Of worlds with much room around their objects, along each axis in turn.
+/// Worlds with much room around their objects, along each axis in turn.
 TEST(LatticeOfEmptySpace, IsScannedWhereObjectsAreWithTheSameBits) {
     constexpr const char* kText = R"({{"voxelume": 1,
         "world": {{"voxel_size": 0.05, "bounds": {{"min": [-1, -1, -1], "max": [{}, {}, {}]}}}},
@@ -206,8 +210,8 @@ TEST(LatticeOfEmptySpace, IsScannedWhereObjectsAreWithTheSameBits) {
     }
 }
 
-/// Rays that look ahead begin as those that are lit do, whatever was in their memory: those that
-/// come upon a ball where the world cuts it off aren't taken to begin on it.
+/// Rays that look ahead for a display's voxels begin as lit rays do, whatever was in their memory.
+/// Rays that meet a ball where the world cuts it off aren't taken to begin on it.
 TEST(LatticeOfMirrors, ShowsTheVoxelsOfDullSurfaces) {
     constexpr const char* kText = R"({{"voxelume": 1,
         "world": {{"voxel_size": 0.04, "bounds": {{"min": [-0.4, -0.4, -0.4], "max": [0.4, 0.4, 0.4]}}}},

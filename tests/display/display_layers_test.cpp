@@ -1,5 +1,6 @@
+// SPDX-License-Identifier: Apache-2.0
 // Volumetric images by sight rays in scenes with surfaces that let light through: each surface is a
-// voxel with its opacity, and laid over one another they are the flat image.
+// voxel with its opacity, and the composited voxels are the flat image.
 #include <ImfDeepFrameBuffer.h>
 #include <ImfDeepScanLineInputFile.h>
 #include <gtest/gtest.h>
@@ -14,8 +15,8 @@
 namespace voxelume {
 namespace {
 
-/// Two panes and a wall that only shine, one behind the other along +Z, in a box display of steps
-/// of half a metre. The panes are 0.25 m thick, so that each has two surfaces.
+/// A scene of two panes and a wall that only emit light, one behind the other along +Z, in a box
+/// display with steps of half a metre. The panes are 0.25 m thick, so each has two surfaces.
 constexpr const char* kPanes = R"({"voxelume": 1,
 "world": {"voxel_size": 0.25, "bounds": {"min": [0, 0, 0], "max": [3, 2, 5]},
           "background": [0, 0, 0], "ambient": [0, 0, 0]%s},
@@ -42,7 +43,7 @@ struct Seen {
     uint32_t object;
 };
 
-/// The voxels of one ray, by their step.
+/// The voxels of one ray by their step.
 std::map<int, Seen> column_of(const Volume& volume, int u, int v) {
     std::map<int, Seen> column;
     const glm::ivec3& size = volume.frame.size;
@@ -58,8 +59,8 @@ std::map<int, Seen> column_of(const Volume& volume, int u, int v) {
 
 TEST(Layers, EverySurfaceIsAVoxelWithItsOpacity) {
     const Volume volume = volume_of(parsed(panes("")));
-    // u 0 is the image's left, x 2.75: the second pane alone, whose surfaces at 2.25 and 2.5 lie in
-    // the steps 4 and 5, and the wall at 3.75 in step 7.
+    // Column u = 0 is the image's left, x = 2.75: the ray meets only the second pane, whose
+    // surfaces at 2.25 and 2.5 lie in steps 4 and 5, and the wall at 3.75 in step 7.
     const auto left = column_of(volume, 0, 1);
     ASSERT_EQ(left.size(), 3u);
     for (const auto& [k, depth] : {std::pair{4, 3.25f}, {5, 3.5f}}) {
@@ -72,7 +73,7 @@ TEST(Layers, EverySurfaceIsAVoxelWithItsOpacity) {
     EXPECT_EQ(left.at(7).object, 3u);
     EXPECT_EQ(left.at(7).opacity, 1.0f);
     EXPECT_NEAR(left.at(7).color[2], 0.8f, 1e-6f);
-    // u 3, x 1.25: the first pane's surfaces at 1 and 1.25 share step 2.
+    // Column u = 3 is x = 1.25: the first pane's surfaces at 1 and 1.25 share step 2.
     const auto both = column_of(volume, 3, 1);
     ASSERT_EQ(both.size(), 4u);
     EXPECT_EQ(both.at(2).object, 1u);
@@ -96,14 +97,14 @@ TEST(Layers, TheMediumGoesOnBehindTransparentSurfaces) {
         EXPECT_NEAR(space.depth, 1 + 0.5 * k + 0.25, 1e-6) << k;
     }
     EXPECT_EQ(both.at(7).object, 3u);
-    // A quarter of a metre of space and the wall behind it.
+    // The ray passes a quarter of a metre of space in front of the wall.
     const double before = std::exp(-0.3 * 0.25);
     EXPECT_NEAR(both.at(7).color[2], 0.8 * before + 0.3 * (1 - before), 1e-5);
 }
 
 constexpr const char* kLamp = R"({"type": "point", "position": [-1, 2, -1.5], "intensity": 6})";
 
-/// The fixture's ball and block, the ball of clear material.
+/// The scene of the fixture's ball and block; the ball's material lets light through.
 Scene clear_scene(const std::string& keys, const std::string& world, const std::string& material) {
     std::string text = display_scene(keys, "smooth", world, kLamp);
     const std::string red = R"("red": {"color": [0.8, 0.3, 0.2])";
@@ -111,8 +112,8 @@ Scene clear_scene(const std::string& keys, const std::string& world, const std::
     return parsed(text);
 }
 
-/// The largest difference between the flat image and the volume laid over itself, and how far the
-/// rays' coverage is from A.
+/// The largest difference in colour between the flat image and the composited volume, and the
+/// largest difference between the rays' coverage and A.
 std::pair<double, double> difference(Scene scene, const Volume& volume, bool everywhere) {
     const glm::ivec3& size = volume.frame.size;
     const size_t pixels = size_t(size.x) * size_t(size.y);
@@ -173,11 +174,12 @@ TEST(Layers, AMediumOfVaryingDensityIsShownByVoxels) {
     const Volume volume = volume_of(
         parsed(panes(R"(, "medium": {"absorption": [0.3, 0.3, 0.3], "color": [0.1, 0.2, 0.3],
                         "density": {"kind": "height", "base": 1, "scale_height": 0.5}})")));
-    // Above the base the density falls: e^(-(y - 1) / 0.5), taken at the voxels' middles.
+    // Above the base the density falls as e^(-(y - 1) / 0.5), sampled at the voxels' middles.
     for (const auto& [v, y] : {std::pair{0, 1.75}, {1, 1.25}, {2, 0.75}}) {
         const auto column = column_of(volume, 3, v);
         ASSERT_EQ(column.size(), 8u) << v;
-        // Rays through the middles of pixels lie between two rows of voxels of 0.25 m: the upper.
+        // Rays through pixels' middles lie between two rows of voxels of 0.25 m and may sample
+        // either.
         double minimum = 1e9, maximum = 0;
         for (const double side : {-0.125, 0.125}) {
             const double density = y + side < 1 ? 1.0 : std::exp(-(y + side - 1) / 0.5);
@@ -219,7 +221,7 @@ TEST(Layers, ALatticeShowsWhatIsSeenThroughPanes) {
             constexpr std::array kGreen = {0.2f, 0.6f, 0.3f};
             EXPECT_NEAR(volume.colors[i].g, kGreen[object - 1], 1e-5) << i;
         }
-        // The front of the wall: 6 x 4 voxels, behind one pane or two.
+        // The front of the wall is 6 x 4 voxels behind one or two panes.
         EXPECT_GE(counts[3], 24) << int(visibility);
         EXPECT_GE(counts[1], 16);
         EXPECT_GE(counts[2], 16);
@@ -242,7 +244,7 @@ TEST(Layers, HaveTheSameBitsForEveryNumberOfLanes) {
     }
 }
 
-/// R, G, B, A of a deep image's pixels, flattened by what OpenEXR's own reader gives.
+/// R, G, B and A of a deep image's pixels, flattened from what OpenEXR's own reader gives.
 std::vector<glm::dvec4> flattened_file(const std::filesystem::path& path, size_t width,
                                        size_t height) {
     Imf::DeepScanLineInputFile file(path.c_str());

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The paper's formula, voxel by voxel, on a world of 8 x 6 x 4 voxels of a metre: two objects, one
 // light and a medium that absorbs.
 //
@@ -50,8 +51,8 @@ const Surface* surface_at(double x, double y) {
     return nullptr;
 }
 
-/// Whether the block lies between the wall at (x, y, 3) and the light at (1.5, 4.5, -2): the way to
-/// the light leaves the block's depth, at z 1, after two fifths of it.
+/// True if the block lies between the wall at (x, y, 3) and the light at (1.5, 4.5, -2). The way to
+/// the light leaves the block's range of z, at z = 1, after two fifths of its length.
 bool is_in_shade(double x, double y) {
     double first = 0, last = 0.4;
     const double from[2] = {x, y}, way[2] = {1.5 - x, 4.5 - y};
@@ -67,7 +68,7 @@ bool is_in_shade(double x, double y) {
     return first < last;
 }
 
-/// The light that leaves the face at (x, y) towards the observer: the paper's blocks 4 and 5.
+/// The light that leaves the face at (x, y) towards the observer, by the paper's blocks 4 and 5.
 double surface_light(const Surface& s, double x, double y, int c) {
     double light = s.emission[c] + s.color[c] * s.diffuse * kAmbient[c];
     if (&s == &kWall && is_in_shade(x, y)) return light;
@@ -83,8 +84,9 @@ double surface_light(const Surface& s, double x, double y, int c) {
     return light;
 }
 
-/// C_P of a metre of space, k metres into the medium: what it adds, by the opacity 1 - e^-0.1 with
-/// which it covers; the light that its channel lost more than that in front is gone already.
+/// C_P of a metre of space, k metres inside the medium: the light that it adds, divided by the
+/// opacity 1 - e^-0.1 with which it covers. It includes the channel's loss in front of it beyond
+/// what those opacities take.
 double space_color(int k, int c) {
     const double lost = std::exp(-(kAbsorption[c] - 0.1) * k);
     return kMedium[c] * (1 - std::exp(-kAbsorption[c])) / (1 - std::exp(-0.1)) * lost;
@@ -136,8 +138,8 @@ TEST(PaperFormula, HoldsForEveryVoxelOfSightRays) {
 TEST(PaperFormula, HoldsForTheSurfacesOfALattice) {
     Scene scene = parse_scene(kPaperScene, "test.json", {});
     scene.observer.display.layout = VolumeLayout::lattice;
-    // Four probe points and more in a voxel of the world, and no face between voxels of the
-    // display.
+    // Each voxel of the world has more than four probe points, and no face lies between voxels of
+    // the display.
     scene.observer.display.voxels = {24, 18, 5};
     RenderReport report;
     const Volume p = render_volume(test_device(), scene, report);
@@ -147,9 +149,10 @@ TEST(PaperFormula, HoldsForTheSurfacesOfALattice) {
         EXPECT_EQ(p.kinds[i], VoxelKind::object);
         ASSERT_TRUE(p.objects[i] == 1 || p.objects[i] == 2);
         const Surface& surface = p.objects[i] == 1 ? kBlock : kWall;
-        if (std::abs(p.depths[i] - 1 - surface.z) > 1e-5) continue;  // a side of it
+        if (std::abs(p.depths[i] - 1 - surface.z) > 1e-5) continue;  // a side face
         ++fronts[p.objects[i] - 1];
-        // Lit at one of the four corners of the voxel, which are as near to its middle.
+        // The point may be lit at any of the voxel's four corners, which are equally near to its
+        // middle.
         const double x = double(p.indices[i] % 24) / 3, y = double(p.indices[i] / 24 % 18) / 3;
         bool is_one = false;
         for (const double dx : {0.0, 1.0 / 3})

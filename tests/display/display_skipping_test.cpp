@@ -1,4 +1,6 @@
-// What of a display sees nothing is left out of volumetric images, is counted, and shows nothing.
+// SPDX-License-Identifier: Apache-2.0
+// Parts of a display that see nothing are left out of volumetric images, are counted, and show
+// nothing.
 #include <gtest/gtest.h>
 
 #include "runtime/render/volume_renderer.hpp"
@@ -8,7 +10,7 @@
 namespace voxelume {
 namespace {
 
-/// A small ball, off the middle of a large display.
+/// A scene of a small ball off the middle of a large display.
 constexpr const char* kScene = R"({"voxelume": 1,
 "world": {"voxel_size": 0.025, "bounds": {"min": [-2, -2, -2], "max": [2, 2.2, 2.4]}},
 "models": {"ball": {"shape": "sphere", "radius": 0.3}},
@@ -62,7 +64,7 @@ TEST(DisplaySkipping, BeamsEndTilesThatSeeNothingAndChangeNoVoxel) {
     EXPECT_LE(many.clear_beams, empty);
     EXPECT_GT(many.clear_beams, empty * 3 / 5);
 
-    // With an instance beside the display, which might be met, no beams are sent.
+    // If an instance beside the display might be met, no beams are sent.
     Scene scene = scene_of("256, 256, 24", "rays");
     scene.objects.push_back(scene.objects[0]);
     scene.objects[1].placement = Placement::instance;

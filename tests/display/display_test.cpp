@@ -1,4 +1,5 @@
-// Volumetric images by sight rays: where they put surfaces, and that laid over one another they are
+// SPDX-License-Identifier: Apache-2.0
+// Volumetric images by sight rays: where they place surfaces, and that their composited voxels are
 // the flat image.
 #include <gtest/gtest.h>
 
@@ -11,10 +12,10 @@
 namespace voxelume {
 namespace {
 
-/// A sight ray by the manual's table, in the world; `direction` is as long as a metre of depth.
+/// A sight ray of the world by the manual's table; `direction` is as long as one metre of depth.
 struct ManualRay {
     glm::dvec3 start, direction;
-    bool is_one = true;  ///< false in the corners of a sector's image
+    bool is_one = true;  ///< false in the corners of a sector's image, which have no ray
 };
 
 ManualRay manual_ray(const Observer& observer, double u, double v, glm::dvec2 size) {
@@ -73,8 +74,8 @@ TEST_P(Rays, ShowExactlyTheFirstSurfaceOfEverySightRay) {
         size_t certain = 0, wrong = 0;
         for (int v = 0; v < 71; ++v)
             for (int u = 0; u < 97; ++u) {
-                // Smooth surfaces round edges off within their voxel; there a few rays are
-                // doubtful.
+                // Smooth surfaces round edges off within their voxel, so a few rays there may go
+                // either way.
                 const double around = exact ? 1e-3 : 0.45;
                 std::set<int> may;
                 for (const double du : {-around, 0.0, around})
@@ -111,12 +112,12 @@ TEST_P(Rays, HoldSurfacesWithinHalfAStep) {
 INSTANTIATE_TEST_SUITE_P(Shapes, Rays, testing::ValuesIn(kDisplayCases),
                          [](const auto& shape) { return shape.param.name; });
 
-/// A volume laid over itself along each ray, front to back, before `behind`.
+/// The colours of a volume composited along each ray, front to back, in front of `behind`.
 std::vector<glm::dvec3> flattened(const Volume& volume, const glm::dvec3& behind) {
     const size_t pixels = size_t(volume.frame.size.x) * size_t(volume.frame.size.y);
     std::vector<glm::dvec3> colors(pixels, glm::dvec3(0));
     std::vector<double> transmittance(pixels, 1);
-    for (size_t i = 0; i < volume.indices.size(); ++i) {  // ascending: by step
+    for (size_t i = 0; i < volume.indices.size(); ++i) {  // indices ascend, by step
         const size_t pixel = volume.indices[i] % pixels;
         const double opacity = volume.opacities[i];
         colors[pixel] += transmittance[pixel] * opacity * glm::dvec3(volume.colors[i]);
@@ -130,8 +131,8 @@ constexpr const char* kLamp =
     R"({"type": "point", "position": [-1, 2, -1.5], "intensity": 6},
        {"type": "directional", "direction": [1, -1, 0.4], "color": [0.2, 0.3, 0.4]})";
 
-/// Compares a flattened volume with the flat image of the same observer; `everywhere`: where
-/// nothing was hit, too.
+/// Compares a flattened volume with the flat image of the same observer. If `everywhere`, compares
+/// pixels that hit nothing, too.
 void expect_flattens_to_the_image(Scene scene, bool everywhere) {
     const Volume volume = volume_of(scene);
     resize(scene, {scene.observer.display.voxels.x, scene.observer.display.voxels.y});

@@ -1,4 +1,6 @@
-// libFuzzer: any bytes under a mesh's name give a valid Mesh or a sentence. Built once per format.
+// SPDX-License-Identifier: Apache-2.0
+// A libFuzzer target: any bytes under a mesh's name give a valid Mesh or an error's sentence. It is
+// built once per format.
 #include "runtime/base/error.hpp"
 #include "runtime/io/mesh/mesh_reader.hpp"
 #include "tests/support/mesh_invariants.hpp"

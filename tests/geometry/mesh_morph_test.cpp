@@ -1,4 +1,5 @@
-// Meshes on their way to other shapes.
+// SPDX-License-Identifier: Apache-2.0
+// Meshes that morph into other shapes.
 #include "runtime/geometry/mesh_morph.hpp"
 
 #include <gmock/gmock.h>

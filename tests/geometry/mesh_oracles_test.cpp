@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The oracles for meshes against brute force over all triangles, and hand-computed cases.
 #include <gtest/gtest.h>
 
@@ -12,7 +13,7 @@ namespace {
 
 constexpr unsigned kSeed = 20261121;
 
-/// Triangles of very different sizes, a tenth of them without area.
+/// Random triangles of very different sizes; a tenth of them have no area.
 std::vector<oracle::Triangle> random_triangles(int count, std::mt19937& random) {
     std::uniform_real_distribution<double> place(-3, 5), size(-1, 1);
     std::vector<oracle::Triangle> triangles;
@@ -28,7 +29,7 @@ std::vector<oracle::Triangle> random_triangles(int count, std::mt19937& random) 
     return triangles;
 }
 
-/// Plane and barycentric coordinates; nothing near an edge is asked of it.
+/// The first hit by plane and barycentric coordinates, for rays that don't pass near an edge.
 double brute_force_hit(const std::vector<oracle::Triangle>& triangles, const glm::dvec3& origin,
                        const glm::dvec3& direction) {
     double nearest = INFINITY;
@@ -98,7 +99,8 @@ TEST(MeshRay, CannotPassBetweenTwoTrianglesOfAFan) {
 }
 
 TEST(MeshRay, MeasuresTheDistanceToASilhouette) {
-    // A tetrahedron seen along -z from above its top: the base's three edges are its silhouette.
+    // The tetrahedron is seen along -z from above its top, so the base's three edges are its
+    // silhouette.
     const glm::dvec3 a(0, 0, 0), b(4, 0, 0), c(0, 3, 0), top(1, 1, 2);
     const std::vector<oracle::Triangle> faces = {{a, c, b}, {a, b, top}, {b, c, top}, {c, a, top}};
     const auto edges = oracle::silhouette_edges(faces, {1, 1, 100});

@@ -1,5 +1,6 @@
-// Solids' voxels and exact sides against the signs of polynomials in rational numbers: S8 and S9 of
-// tests/CASES.md, places on the boundary included.
+// SPDX-License-Identifier: Apache-2.0
+// Solids' voxels and exact sides against the signs of polynomials in rational numbers, at places on
+// the boundary, too: S8 and S9 of tests/CASES.md.
 #include <gtest/gtest.h>
 
 #include <random>
@@ -24,7 +25,7 @@ TEST(RationalSolid, SidesAreThoseWorkedOutByHand) {
     cone.kind = SolidKind::cone, cone.radius = 3, cone.top_radius = 1, cone.height = 4;
     ellipsoid.kind = SolidKind::ellipsoid, ellipsoid.radii = {3, 5, 7};
     capsule.kind = SolidKind::capsule, capsule.radius = 2, capsule.height = 6;
-    // (x, y, z) -> (2y + 7, x, z): what was along Y lies along X, twice as long.
+    // The map takes (x, y, z) to (2y + 7, x, z): what was along Y lies along X, twice as long.
     const oracle::RationalMap map =
         oracle::rational_map(glm::dmat4({0, 1, 0, 0}, {2, 0, 0, 0}, {0, 0, 1, 0}, {7, 0, 0, 1}));
     const struct {
@@ -53,7 +54,8 @@ TEST(RationalSolid, ATurnHasAnInverseWithoutRounding) {
         }
 }
 
-/// Counts of voxels whose centres are inside, as the set SOLID has them, and of those that differ.
+/// The number of voxels whose centres are inside by the set SOLID, and of those that differ from
+/// the oracle.
 struct Compared {
     size_t inside = 0, different = 0;
 };
@@ -94,7 +96,7 @@ TEST(RationalSolid, S8VoxelsOfTurnedSolidsAreExact) {
     }
 }
 
-/// Small integers, so that places of the lattice are on boundaries all the time.
+/// Random solids of small integers, so that places of the lattice often lie on boundaries.
 class TouchingSolids {
   public:
     explicit TouchingSolids(uint64_t seed) : random_(seed) {}
@@ -116,7 +118,8 @@ class TouchingSolids {
         for (Solid& part : parts) part.parent_from_solid = moved(glm::dmat4(1), point(4));
         return combined(SolidKind(8 + whole(0, 2)), parts);
     }
-    /// Entries and inverse are doubles: turns by quarters, shears by whole numbers, powers of two.
+    /// A map whose entries and inverse are exact doubles: quarter turns, shears by whole numbers,
+    /// powers of two.
     glm::dmat4 map() {
         glm::dmat4 m(1);
         for (int i = whole(0, 4); i > 0; --i) {

@@ -1,4 +1,6 @@
-// Which side of a solid a lattice point is on, in exact arithmetic: random solids, maps and points.
+// SPDX-License-Identifier: Apache-2.0
+// The side of a solid that a lattice point is on, in exact arithmetic: random solids, maps and
+// points.
 #include "runtime/geometry/solid_membership.hpp"
 
 #include <gtest/gtest.h>
@@ -64,7 +66,7 @@ TEST(SolidMembership, S9OfRandomSolidsUnderRationalMapsIsExact) {
         const SolidProgram program = make_solid_program(solid, map, frame);
         const oracle::AnalyticSolid exact(solid, map);
         for (int i = 0; i < kPoints; ++i) {
-            // In half voxels, around the solid.
+            // The place lies around the solid; `at` is in half voxels.
             const glm::dvec3 place = glm::dvec3(map[3]) + glm::dvec3(random.point(192)) / 16.0;
             const glm::ivec3 at =
                 glm::ivec3(glm::round(2.0 * (place - frame.origin) / frame.voxel_edge));

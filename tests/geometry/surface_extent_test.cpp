@@ -1,4 +1,5 @@
-// Estimates against surfaces whose extent is known.
+// SPDX-License-Identifier: Apache-2.0
+// Estimates of area against surfaces whose extent is known.
 #include "runtime/geometry/surface_extent.hpp"
 
 #include <gtest/gtest.h>
@@ -31,7 +32,7 @@ TEST(SurfaceExtent, AFlatPatchTakesItsShadowsVoxels) {
     const SurfaceExtent flat = surface_extent(area, glm::dmat4(1), frame, 0);
     EXPECT_NEAR(flat.voxels, 300 * 100, 1e-6);
     EXPECT_NEAR(flat.bricks, 300 * 100 / 256.0 + 8, 1e-6);
-    // Stood up by swapping y and z: 3 m / 0.01 times 2 m / 0.05.
+    // The rectangle stands upright after y and z are swapped: 3 m / 0.01 times 2 m / 0.05.
     const glm::dmat4 upright(glm::dmat3({1, 0, 0}, {0, 0, 1}, {0, 1, 0}));
     EXPECT_NEAR(surface_extent(area, upright, frame, 0).voxels, 300 * 40, 1e-6);
 }

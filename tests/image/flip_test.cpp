@@ -1,4 +1,6 @@
-// FLIP: the values that its definition gives in closed form, and what any such measure must keep.
+// SPDX-License-Identifier: Apache-2.0
+// FLIP: the values that its definition gives in closed form, and the properties that any such
+// measure must have.
 #include "runtime/image/flip.hpp"
 
 #include <gtest/gtest.h>
@@ -27,17 +29,17 @@ Image flat(glm::vec3 color) {
 }
 
 TEST(Flip, OfAFlatImageIsTheColorsDistanceAlone) {
-    // Greys: HyAB is the difference of L*, 27.5 of 0.1 and 0.05 (L* 37.842 and 26.734).
+    // For greys HyAB is the difference of L*: the values 0.1 and 0.05 have L* 37.842 and 26.734.
     const double grey = std::pow(37.8424 - 26.7347, 0.7);
-    // Green and blue have the largest distance of the scale: L* 87.735 and 32.297, a* -86.183 and
-    // 79.188, b* 83.180 and -107.860, chroma times L* over 100.
+    // Green and blue are the farthest apart on the scale: L* 87.735 and 32.297, a* -86.183 and
+    // 79.188, b* 83.180 and -107.860, with chroma multiplied by L* / 100.
     const double a = 0.87735 * -86.183 - 0.32297 * 79.188;
     const double b = 0.87735 * 83.180 + 0.32297 * 107.860;
     const double largest = std::pow(87.735 - 32.297 + std::hypot(a, b), 0.7);
     EXPECT_NEAR(mean_flip(flat({0.1f, 0.1f, 0.1f}), flat({0.05f, 0.05f, 0.05f})),
                 grey * 0.95 / (0.4 * largest), 1e-4);
     EXPECT_NEAR(mean_flip(flat({0, 1, 0}), flat({0, 0, 1})), 1, 1e-6);
-    // Black and white are beyond the knee: 100^0.7.
+    // Black and white differ by more than the knee: by 100^0.7.
     const double white = std::pow(100, 0.7), knee = 0.4 * largest;
     EXPECT_NEAR(mean_flip(flat({0, 0, 0}), flat({1, 1, 1})),
                 0.95 + (white - knee) / (largest - knee) * 0.05, 1e-4);
@@ -66,7 +68,7 @@ TEST(Flip, SeesAnEdgeMoreThanAShadeAndALineOnlyNearIt) {
     const auto at = [&](int x, int y) { return map[size_t(y * kWidth + x)]; };
     EXPECT_GT(at(18, 11), 0.05);
     EXPECT_EQ(at(2, 11), 0);
-    EXPECT_NEAR(at(18, 4), at(18, 19), 1e-6);  // alike along the line
+    EXPECT_NEAR(at(18, 4), at(18, 19), 1e-6);  // equal along the line
     EXPECT_NEAR(at(17, 11), at(19, 11), 1e-6);
     // An edge that only one image has raises the colours' difference to a lower power.
     const Image edge = image_of([](int x, int) { return glm::vec3(x < 18 ? 0.2f : 0.21f); });

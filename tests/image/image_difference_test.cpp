@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "runtime/image/image_difference.hpp"
 
 #include <gmock/gmock.h>

@@ -1,4 +1,5 @@
-// Pictures of volumetric images: which side is where, what covers what.
+// SPDX-License-Identifier: Apache-2.0
+// Pictures of volumetric images: where each side is shown, and what covers what.
 #include "runtime/image/volume_view.hpp"
 
 #include <gmock/gmock.h>
@@ -25,7 +26,8 @@ void add_voxel(Volume& volume, glm::ivec3 cell, glm::vec3 color, float opacity =
     volume.kinds.push_back(VoxelKind::object);
 }
 
-/// The middle of the pixels in which a channel is the brightest by far, in shares of the picture.
+/// The middle of the pixels in which one channel is by far the brightest, as a fraction of the
+/// picture.
 glm::dvec2 middle_of(const Image& image, const char* channel) {
     glm::dvec2 sum(0);
     double count = 0;
@@ -46,7 +48,7 @@ glm::vec3 pixel_of(const Image& image, double x, double y) {
     return {image.planes.at("R")[i], image.planes.at("G")[i], image.planes.at("B")[i]};
 }
 
-/// Red to the image's left, green on top, blue at the far end, in a lattice of cubes.
+/// A lattice of cubes with red on the image's left, green on top and blue at the far end.
 Volume three_sides() {
     Volume volume = lattice_volume({9, 9, 9}, 0);
     volume.frame.edge = glm::dvec3(0.5);
@@ -113,7 +115,7 @@ TEST(VolumeView, NeighboursLeaveNoGapsAndCoverNothingTwice) {
     volume.frame.edge = {0.01, 0.01, 1e-6};
     for (int y = 0; y < 40; ++y)
         for (int x = 0; x < 40; ++x) add_voxel(volume, {x, y, 0}, {1, 1, 1}, 0.5f);
-    // Seen straight on, no voxel lies before another; at a slant some do.
+    // Seen straight on, no voxel hides another; at a slant some do.
     const Image image = view_volume(volume, {}, kSize);
     for (double y = 0.3; y < 0.7; y += 0.01)
         for (double x = 0.35; x < 0.65; x += 0.01)

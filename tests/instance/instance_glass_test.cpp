@@ -1,5 +1,6 @@
-// Instances inside of cubes and exact objects that light goes through: rays that go on from a face
-// of these meet what of an instance lies in the very plane of that face.
+// SPDX-License-Identifier: Apache-2.0
+// Instances inside cubes and exact objects that light goes through. Rays that continue from a face
+// of these objects meet instances' surfaces that lie in the plane of that face.
 #include <fmt/format.h>
 
 #include <array>
@@ -16,7 +17,7 @@
 namespace voxelume {
 namespace {
 
-constexpr double kVoxel = 0.25;  // a power of two: whole voxels are whole in every number
+constexpr double kVoxel = 0.25;  // a power of two, so whole voxels are exact in all formats
 constexpr double kOpacity = 0.125;
 constexpr std::array<double, 3> kGlass = {0.25, 0.5, 0.75}, kBody = {0.9, 0.3, 0.1};
 constexpr std::array<double, 3> kBackground = {0.2, 0.3, 0.5};
@@ -26,13 +27,13 @@ constexpr const char* kColors[] = {"R", "G", "B"};
 struct Body {
     std::string model = "solid", placement = "instance";
     std::array<int, 3> position{};  // voxels from the middle
-    std::array<int, 3> quarters{};  // of turns
+    std::array<int, 3> quarters{};  // quarter turns about each axis
 };
 
 class InstanceInGlass : public FileTest {
   protected:
-    /// A block of 20 x 18 x 22 clear cubes around bodies, in the middle of a world of 32 x 28 x 36.
-    /// Bodies out of the world have all scenes rendered by the same programs.
+    /// A scene with a block of 20 x 18 x 22 clear cubes around bodies, in the middle of a world of
+    /// 32 x 28 x 36. Bodies outside the world make all scenes use the same programs.
     Scene scene(const std::vector<Body>& bodies, const std::string& observer,
                 const std::string& more_objects = "", const std::string& glass = "block") {
         write_obj(folder / "body.obj", box({-0.5, -0.75, -1}, {0.5, 0.75, 1}));
@@ -73,7 +74,7 @@ class InstanceInGlass : public FileTest {
     }
 };
 
-/// Looks along or against an axis with parallel rays through the middles of voxels.
+/// A view along or against an axis, by parallel rays through the middles of voxels.
 std::string along_axis(int axis, int sign) {
     std::array<double, 3> from{}, up{};
     from[size_t(axis)] = -20 * sign;
@@ -83,7 +84,7 @@ std::string along_axis(int axis, int sign) {
         from[0], from[1], from[2], up[0], up[1], up[2]);
 }
 
-/// Light of `color` behind `layers` of glass.
+/// The light of `color` seen through `layers` of glass.
 double behind(int layers, double color, double glass) {
     const double left = std::pow(1 - kOpacity, layers);
     return left * color + (1 - left) * glass;
@@ -96,7 +97,8 @@ TEST_F(InstanceInGlass, AFaceInALatticePlaneIsSeenThroughAllVoxelsBeforeIt) {
             for (const int sign : {1, -1}) {
                 const size_t a = size_t(axis);
                 const Image image = rendered(scene({{.model = model}}, along_axis(axis, sign)));
-                // The voxel behind the face lies there, too, and the world's come first.
+                // The block's voxel behind the face also begins in its plane, and the world's
+                // voxels come first.
                 const int before = (block[a] - body[a]) / 2 + 1;
                 size_t seen = 0, through = 0, outside = 0;
                 for (size_t i = 0; i < image.planes.at("R").size(); ++i) {
@@ -127,7 +129,7 @@ TEST_F(InstanceInGlass, AFaceInALatticePlaneIsSeenThroughAllVoxelsBeforeIt) {
             }
 }
 
-/// Rays in the world's smooth body are outside of an instance's.
+/// Rays inside the world's smooth body are outside an instance's body.
 TEST_F(InstanceInGlass, ASmoothBodyInSmoothGlassIsMetFromOutside) {
     const Image image = rendered(scene({{.model = "ball"}}, along_axis(2, 1), "", "glass ball"));
     size_t seen = 0;
@@ -137,7 +139,7 @@ TEST_F(InstanceInGlass, ASmoothBodyInSmoothGlassIsMetFromOutside) {
     EXPECT_NEAR(double(seen), area, 0.06 * area);
 }
 
-/// A view from somewhere outside of the world towards its middle.
+/// A view from a random place outside the world towards its middle.
 std::string random_view(std::mt19937& random) {
     std::uniform_real_distribution<double> angle(0, 360), height(-6, 6);
     const double turn = angle(random), up = height(random);
@@ -160,15 +162,15 @@ std::vector<Body> random_bodies(std::mt19937& random, const std::string& model,
 
 constexpr unsigned kSeed = 6126;
 
-/// Whether `one` is `other`, or seen through one voxel of glass more or less.
+/// True if `one` equals `other`, or is `other` seen through one voxel of glass more or less.
 bool is_beside(double one, double other, double glass) {
     const double a = one - glass, b = other - glass;
     return std::min({std::abs(a - b), std::abs(a - (1 - kOpacity) * b),
                      std::abs(b - (1 - kOpacity) * a)}) < 2e-6;
 }
 
-/// The same bodies of cubes tell what is seen; rounding, whether the voxel in whose face an exact
-/// face lies comes before it.
+/// Equal bodies of cubes give the expected colours. Rounding decides whether the voxel whose face
+/// holds an exact face comes before it.
 TEST_F(InstanceInGlass, ExactBodiesOfWholeVoxelsAreSeenWhereTheirCubesAre) {
     for (unsigned i = 0; i < 8; ++i) {
         const auto shown = [&](const std::string& model) {
@@ -188,8 +190,8 @@ TEST_F(InstanceInGlass, ExactBodiesOfWholeVoxelsAreSeenWhereTheirCubesAre) {
     }
 }
 
-/// What of the world comes first: clear bodies of the same shape in both scenes make the same
-/// hollow in the cubes, and the instances' faces lie in theirs.
+/// The world's voxels come first. Clear bodies of the same shape in both scenes make equal hollows
+/// in the cubes, so that the instances' faces lie in the hollows' faces.
 TEST_F(InstanceInGlass, InTheSameHollowTheWorldsImageIsShownToTheBit) {
     for (unsigned i = 0; i < 8; ++i)
         for (const char* model : {"solid", "mesh"}) {

@@ -1,5 +1,6 @@
+// SPDX-License-Identifier: Apache-2.0
 // Rays that begin on instances neither meet the surface that they leave nor slip through closed
-// ones: more than 100,000 of either sort.
+// ones. Each kind is tested with more than 100,000 rays.
 #include <glm/geometric.hpp>
 
 #include "runtime/scene_file/read_scene.hpp"
@@ -11,8 +12,8 @@ namespace {
 class InstanceRays : public testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(Surfaces, InstanceRays, testing::Values("cubes", "smooth", "exact"));
 
-/// A turned room of mirrors with a turned ball and block in it. Its background and the light
-/// outside are far too bright: 1e6 against 1 of its walls.
+/// A turned room of mirrors with a turned ball and a turned block in it. Its background and the
+/// light outside are far too bright: 1e6, against 1 for its walls.
 Scene closed_room(const std::string& surface) {
     const std::string set = surface == "cubes" ? R"(, "set": "solid")" : "";
     return parse_scene(fmt::format(R"({{"voxelume": 1,
@@ -49,7 +50,8 @@ TEST_P(InstanceRays, NoneGetsThroughClosedWalls) {
 }
 
 TEST_P(InstanceRays, LitSidesOfConvexObjectsAreLit) {
-    const bool is_cubes = std::string(GetParam()) == "cubes";  // stairs do shadow one another
+    const bool is_cubes =
+        std::string(GetParam()) == "cubes";  // the steps of cubes shadow one another
     const std::string object = is_cubes ? R"("model": "block", "turn": [33, 25, 12], "scale": 2)"
                                         : R"("model": "ball", "turn": [33, 25, 12], "scale": 2)";
     Scene scene = instance_scene(GetParam(), "instance", {object});

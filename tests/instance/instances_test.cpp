@@ -1,5 +1,6 @@
-// Instances show what the world's voxels show where these are the same, and elsewhere what their
-// own models are.
+// SPDX-License-Identifier: Apache-2.0
+// Instances show what the world's voxels show where both have the same voxels, and otherwise show
+// their own models.
 #include <gmock/gmock.h>
 
 #include <glm/geometric.hpp>
@@ -20,7 +21,7 @@ namespace {
 class Instances : public testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(Surfaces, Instances, testing::Values("cubes", "smooth", "exact"));
 
-/// Pixels whose colours differ by more than 1e-5.
+/// The number of pixels whose colours differ by more than 1e-5.
 size_t count_different(const Image& a, const Image& b) {
     size_t count = 0;
     for (size_t i = 0; i < a.planes.at("R").size(); ++i) {
@@ -103,7 +104,7 @@ TEST_P(InstancesOfAMesh, WholeVoxelPlacementsShowTheWorldsImage) {
     }
 }
 
-/// The surface of an ellipsoid that a map makes of a ball.
+/// The hits lie on the ellipsoid's surface that a map makes of a ball.
 TEST(Instance, TurnedAndShearedBallsLieWhereTheirMapsPutThem) {
     for (const auto& [surface, bound] : {std::pair{"exact", 2e-6}, std::pair{"smooth", 1.5e-4}}) {
         const Scene scene = instance_scene(surface, "instance", turned_objects());
@@ -143,7 +144,7 @@ TEST(Instance, TheNearestOfManyIsSeen) {
         if (shown == 0 || shown > objects.size()) continue;
         ++seen;
         const glm::dvec3 hit = vector_at(image, "P", i);
-        // What lies before the hit by more than rounding is hit by nothing in double precision.
+        // In double precision the ray hits no object before the rendered hit by more than rounding.
         for (size_t o = 0; o < objects.size(); ++o) {
             const glm::dmat4 inverse = glm::inverse(scene.objects[o].world_from_object);
             const glm::dvec3 a(inverse * glm::dvec4(eye, 1.0));

@@ -1,4 +1,6 @@
-// A headless Chromium that a test steers through its debugging pipe: pages, the mouse, screenshots.
+// SPDX-License-Identifier: Apache-2.0
+// A headless Chromium that a test controls through its debugging pipe: pages, the mouse,
+// screenshots.
 #pragma once
 
 #include <fcntl.h>
@@ -20,30 +22,31 @@
 
 namespace voxelume {
 
-/// What a mouse button does to `button` and `buttons` of its events.
+/// A mouse button, by its value in `button` and `buttons` of its events.
 enum class MouseButton { left = 1, right = 2 };
 
-/// One page of 640 x 480 pixels. Whatever fails is a std::runtime_error.
+/// One page of 640 x 480 pixels. Every failure throws a std::runtime_error.
 class Browser {
   public:
     using Json = nlohmann::json;
 
-    /// `folder` takes its profile.
+    /// Uses `folder` for the browser's profile.
     explicit Browser(const std::filesystem::path& folder) : folder_(folder) {
-        std::signal(SIGPIPE, SIG_IGN);  // a browser that isn't there is a failed write
+        std::signal(SIGPIPE, SIG_IGN);  // without a browser, writing fails instead
         std::array<int, 2> to{}, from{};
         if (pipe(to.data()) != 0 || pipe(from.data()) != 0)
             throw std::runtime_error("no pipes for the browser");
         process_ = fork();
         if (process_ == 0) {
-            // Numbers above 4, so that none is overwritten before it has moved.
+            // The numbers are above 4, so none is overwritten before it has moved.
             const int in = fcntl(to[0], F_DUPFD, 10), out = fcntl(from[1], F_DUPFD, 10);
             dup2(in, 3);
             dup2(out, 4);
             const int nowhere = open("/dev/null", O_RDWR);
             for (int i = 0; i < 3; ++i) dup2(nowhere, i);
             const std::string profile = "--user-data-dir=" + (folder / "profile").string();
-            // Without a sandbox, because tests may run as root; the page is the tests' own.
+            // The browser runs without a sandbox, because tests may run as root; the page is the
+            // tests' own.
             execlp("chromium", "chromium", "--headless", "--no-sandbox", "--disable-gpu",
                    "--disable-dev-shm-usage", "--no-first-run", "--disable-background-networking",
                    "--remote-debugging-pipe", "--window-size=640,480", profile.c_str(),
@@ -88,7 +91,7 @@ class Browser {
         throw std::runtime_error("the page never came to " + expression);
     }
 
-    /// Presses, moves in four steps, lets go.
+    /// Presses the button, moves the mouse in four steps, and releases the button.
     void drag(int x, int y, int dx, int dy, MouseButton button = MouseButton::left) {
         const auto send = [&](const char* type, int step, int buttons) {
             ask("Input.dispatchMouseEvent",
@@ -110,7 +113,7 @@ class Browser {
         return read_png(folder_ / "screenshot.png");
     }
 
-    int requests() const { return requests_; }  ///< that the page has made, itself included
+    int requests() const { return requests_; }  ///< made by the page, its own included
 
   private:
     static std::string from_base64(const std::string& text) {
@@ -127,7 +130,7 @@ class Browser {
         return bytes;
     }
 
-    /// Sends a command and returns its answer; events on the way are counted.
+    /// Sends a command and returns its answer; counts events that arrive meanwhile.
     Json ask(const std::string& method, const Json& parameters) {
         const int id = ++last_id_;
         Json message = {{"id", id}, {"method", method}, {"params", parameters}};
@@ -145,7 +148,7 @@ class Browser {
         }
     }
 
-    /// Messages end with a zero byte.
+    /// Reads a message; it ends with a zero byte.
     Json read_message() {
         size_t end = 0;
         while ((end = buffer_.find('\0')) == std::string::npos) {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "runtime/io/image/exr.hpp"
 
 #include <gmock/gmock.h>
@@ -17,7 +18,8 @@ namespace {
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 
-/// 7 x 5 pixels of random bits that are numbers, in every channel of the renderer.
+/// An image of 7 x 5 pixels whose values are random bits, but all numbers, in every channel of the
+/// renderer.
 Image random_image(int width = 7, int height = 5) {
     std::mt19937 random(20170613);
     Image image{width, height, {}, {}, {{"scene", "bunny.json"}, {"version", "voxelume 0.1.0"}}};
@@ -63,7 +65,7 @@ TEST_F(ExrTest, EveryBitOfAFloatImageComesBack) {
 }
 
 TEST_F(ExrTest, HalvesAreRoundedToNearestAndClamped) {
-    // 2049 lies between the halves 2048 and 2050, on the tie that goes to the even one.
+    // 2049 lies halfway between the halves 2048 and 2050, and the tie goes to the even one.
     write_exr(path(),
               red_row({0.5f, 2049.0f, 2051.0f, 65504.0f, 65519.0f, 65520.0f, 1e30f, -1e9f, 6e-8f}));
     EXPECT_EQ(read_exr(path()).planes["R"],
@@ -107,8 +109,8 @@ TEST_F(ExrTest, TheSameImageGivesTheSameBytes) {
 }
 
 TEST_F(ExrTest, ASmallFileOnAFullDiskFailsAndLeavesNothing) {
-    // The table of rows, the last write, is what OpenEXR loses silently: every limit up to the size
-    // must fail.
+    // OpenEXR silently ignores a failed write of the table of rows, which is the last write. Every
+    // limit up to the file's size must fail.
     write_exr(path(), random_image(3, 2));
     const auto size = std::filesystem::file_size(path());
     std::filesystem::remove(path());

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "runtime/io/mesh/mesh_reader.hpp"
 #include "tests/io/mesh_refusal.hpp"
 
@@ -13,7 +14,7 @@ using testing::ElementsAre;
 using testing::IsEmpty;
 using testing::StartsWith;
 
-/// Three vertices for tests of what follows them.
+/// Three vertices for tests of the lines after them.
 const std::string kObjVertices = "v 0 0 0\nv 5 0 0\nv 0 3 1\n";
 
 }  // namespace

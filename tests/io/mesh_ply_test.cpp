@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "runtime/io/mesh/mesh_reader.hpp"
 #include "tests/io/mesh_refusal.hpp"
 #include "tests/io/mesh_samples.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "runtime/io/mesh/mesh_polygon.hpp"
 
 #include <gmock/gmock.h>
@@ -27,7 +28,7 @@ struct Outline {
     }
 };
 
-/// The outline's triangles, in the plane z = 2 unless placed elsewhere.
+/// The triangles of the outline in the plane z = 2, or in the plane that `x` and `y` span.
 Mesh cut(const Outline& outline, glm::vec3 x = {1, 0, 0}, glm::vec3 y = {0, 1, 0}) {
     Mesh mesh;
     std::vector<uint32_t> corners(outline.corners.size());
@@ -41,7 +42,7 @@ Mesh cut(const Outline& outline, glm::vec3 x = {1, 0, 0}, glm::vec3 y = {0, 1, 0
     return mesh;
 }
 
-/// The areas of the triangles, negative where one is turned over; `outline` is in the xy plane.
+/// The triangles' areas, negative for those that are turned over; `outline` is in the xy plane.
 std::vector<double> signed_areas(const Outline& outline, const Mesh& mesh) {
     std::vector<double> areas;
     for (const glm::uvec3& t : mesh.triangles) {
@@ -63,7 +64,7 @@ TEST(PolygonCutter, AConvexPolygonIsAFanFromItsFirstCorner) {
 }
 
 TEST(PolygonCutter, AConcaveQuadrangleIsCutAtItsReflexCorner) {
-    // From corner 0 the fan would leave the arrow: only the diagonal 1-3 lies within.
+    // A fan from corner 0 would leave the arrow; only the diagonal 1-3 lies inside it.
     const Outline arrow{{{0, 0}, {4, 3}, {8, 0}, {4, 7}}};
     const Mesh mesh = cut(arrow);
     ASSERT_EQ(mesh.triangles.size(), 2u);

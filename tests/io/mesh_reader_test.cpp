@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "runtime/io/mesh/mesh_reader.hpp"
 
 #include "tests/io/mesh_refusal.hpp"
@@ -25,7 +26,7 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::StartsWith;
 
-/// A folder of its own, gone at the end of the test.
+/// Tests with their own folder, which is removed at the end of the test.
 class MeshFile : public testing::Test {
   protected:
     MeshFile() : folder_(fs::temp_directory_path() / fmt::format("voxelume_mesh_{}", getpid())) {
@@ -112,7 +113,7 @@ TEST(MeshReader, TheSameMeshComesFromEveryFormat) {
             EXPECT_THAT(mesh.group_names, IsEmpty()) << name;
             if (with_colors && !name.ends_with(".stl")) {
                 ASSERT_EQ(mesh.vertex_colors.size(), 5u) << name;
-                for (size_t i = 0; i < 5; ++i) {  // 20/255 isn't the same number in text and bytes
+                for (size_t i = 0; i < 5; ++i) {  // 20/255 differs between text and bytes
                     for (int k = 0; k < 3; ++k) {
                         EXPECT_FLOAT_EQ(mesh.vertex_colors[i][k], kLinearColors[i][k]) << name;
                     }
@@ -157,7 +158,7 @@ TEST_F(MeshFile, ThatIsMissingOrNoFileIsRefused) {
 
 TEST_F(MeshFile, OfMoreThan16GibibytesIsALimit) {
     const fs::path path = write("huge.ply", "ply\n");
-    fs::resize_file(path, (uintmax_t{16} << 30) + 1);  // sparse: takes no space on the disk
+    fs::resize_file(path, (uintmax_t{16} << 30) + 1);  // sparse, so it takes no space on the disk
     EXPECT_THAT(sentence_of(path, ErrorKind::limit), HasSubstr("17179869185 bytes"));
 }
 

@@ -1,4 +1,5 @@
-// The sentence with which a damaged mesh is refused.
+// SPDX-License-Identifier: Apache-2.0
+// The sentence with which a reader refuses a damaged mesh.
 #pragma once
 
 #include "runtime/base/error.hpp"
@@ -10,7 +11,7 @@
 
 namespace voxelume {
 
-/// What the error says, which is expected to be one of the input.
+/// The sentence of the error, which is expected to be an input error.
 inline std::string refusal(const std::string& bytes, const std::string& name) {
     try {
         parse_mesh(bytes, name);

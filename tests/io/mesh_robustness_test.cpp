@@ -1,4 +1,5 @@
-// Damaged mesh files: every one gives a valid Mesh or a sentence, never a crash.
+// SPDX-License-Identifier: Apache-2.0
+// Damaged mesh files: each gives a valid Mesh or an error's sentence, never a crash.
 #include "runtime/base/error.hpp"
 #include "runtime/io/mesh/mesh_reader.hpp"
 #include "tests/io/mesh_samples.hpp"
@@ -14,7 +15,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Whether the bytes are a mesh; expects a valid one, or an error of the input that names the file.
+/// True if the bytes are read as a mesh. Expects a valid mesh, or an input error that names the
+/// file.
 bool is_read(const std::string& bytes, const std::string& name) {
     try {
         EXPECT_EQ(broken_invariant(parse_mesh(bytes, name)), "");
@@ -41,8 +43,8 @@ TEST(DamagedMesh, EveryTruncationIsSurvived) {
         for (size_t length = 0; length < bytes.size(); ++length) {
             const bool read = is_read(bytes.substr(0, length), name);
             ASSERT_FALSE(HasFailure()) << name << " cut to " << length << " bytes";
-            // OBJ has no end that could be missed; ascii STL may lose the name behind "endsolid",
-            // ascii PLY its last newline.
+            // OBJ has no end that could be missing; ascii STL may lose the name after "endsolid",
+            // and ascii PLY its last newline.
             if (!name.ends_with(".obj")) {
                 const size_t optional = name == "ascii.stl" ? 11 : name == "ascii.ply" ? 1 : 0;
                 ASSERT_EQ(read, length + optional >= bytes.size())
@@ -92,7 +94,8 @@ TEST(DamagedMesh, AssimpsTestModelsAreReadOrRefused) {
             ++refused;
         }
     }
-    // Refused are the point clouds, the damaged files and one whose coordinates are no numbers.
+    // The readers refuse the point clouds, the damaged files and a file whose coordinates are no
+    // numbers.
     EXPECT_GE(read, 28);
     RecordProperty("read", read);
     RecordProperty("refused", refused);

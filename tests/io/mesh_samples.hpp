@@ -1,4 +1,5 @@
-// One small mesh written as every format that can be read, by a writer that shares nothing with the
+// SPDX-License-Identifier: Apache-2.0
+// One small mesh in every format that can be read, written by code that shares nothing with the
 // readers.
 #pragma once
 
@@ -11,8 +12,8 @@
 
 namespace voxelume::samples {
 
-/// A pyramid over a 5 x 3 rectangle: no two coordinates play the same part. Vertices are in the
-/// order in which the triangles name them, which is the order that STL gives them.
+/// A pyramid over a 5 x 3 rectangle; no two coordinates play the same part. The order of the
+/// vertices is that in which the triangles first name them, as STL gives them.
 struct Pyramid {
     double positions[5][3] = {{0.5, 0.25, -1.0},
                               {5.5, 0.25, -1.0},
@@ -46,7 +47,7 @@ inline std::string obj(bool with_colors) {
     return text;
 }
 
-/// Appends the bytes of `value`, the lowest first or last.
+/// Appends the bytes of `value`, lowest first or highest first.
 template <class T>
 void append(std::string& bytes, T value, bool big_endian) {
     std::string raw(reinterpret_cast<const char*>(&value), sizeof value);
@@ -145,7 +146,7 @@ inline std::string stl_binary(const std::string& title) {
     return bytes;
 }
 
-/// A sample as a file: its content and a name with its extension.
+/// A sample as a file: its content, and a name with its extension.
 struct Sample {
     std::string name;
     std::string bytes;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "runtime/io/voxels/model_file.hpp"
 
 #include <gmock/gmock.h>
@@ -111,8 +112,8 @@ TEST_F(ModelFileTest, AnyChangedByteIsAnInputError) {
         std::string damaged = bytes;
         damaged[i] = static_cast<char>(damaged[i] ^ 0x10);
         put_bytes(path(), damaged);
-        // A frame's own bits may change without changing its content; then what is read has to be
-        // right.
+        // Bits of a frame's header may change without an effect on its content; then the read
+        // content has to be right.
         try {
             EXPECT_EQ(read_model_file(path()).arrays, small_model().arrays) << i;
         } catch (const Error& error) {

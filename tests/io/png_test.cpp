@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "runtime/io/image/png.hpp"
 
 #include <gmock/gmock.h>
@@ -15,7 +16,8 @@ using Pixel = std::array<uint8_t, 4>;
 
 namespace {
 
-/// 3 x 2 pixels: half grey, primaries of different strength, white beyond 1, black and a negative.
+/// An image of 3 x 2 pixels: half grey, primaries of different strengths, white above 1, black and
+/// a negative value.
 Image small_image() {
     Image image{3, 2, {}, {}, {}};
     image.planes["R"] = {0.5f, 1.0f, 0.0f, 2.0f, 0.0f, -1.0f};
@@ -45,7 +47,7 @@ TEST(SrgbCode, IsTheNearestOfTheStandardsCurve) {
     EXPECT_EQ(srgb_code(0.5f), 188);
     EXPECT_EQ(srgb_code(0.18f), 118);
     EXPECT_EQ(srgb_code(0.0031308f), 10);
-    // The curve's forward formula in double, away from the roundings' ties.
+    // The oracle is the curve's forward formula in double, away from ties of rounding.
     for (int i = 0; i <= 10000; ++i) {
         const double linear = i / 10000.0;
         const double code =

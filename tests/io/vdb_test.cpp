@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "runtime/io/vdb/vdb.hpp"
 
 #include <gmock/gmock.h>
@@ -11,7 +12,7 @@ using testing::HasSubstr;
 
 namespace {
 
-/// 7 x 5 x 3 cells across the origin, each with a value and a colour of its own.
+/// 7 x 5 x 3 cells across the origin, each with its own value and colour.
 struct Voxels {
     std::vector<glm::ivec3> cells;
     std::vector<float> values;

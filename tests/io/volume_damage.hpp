@@ -1,4 +1,5 @@
-// What the readers of volumes have to stand: any truncation, any changed byte, a full disk.
+// SPDX-License-Identifier: Apache-2.0
+// Faults that the readers of volumes must withstand: any truncation, any changed byte, a full disk.
 #pragma once
 
 #include <random>
@@ -9,7 +10,7 @@
 
 namespace voxelume {
 
-/// `damaged` is what is cut and changed, `opened` what is read: the same file, or its header.
+/// Truncates `damaged` at every place and reads `opened`, which is the same file or its header.
 inline void expect_truncations_refused(const std::filesystem::path& damaged,
                                        const std::filesystem::path& opened, size_t stride) {
     const std::string bytes = bytes_of(damaged);
@@ -20,7 +21,8 @@ inline void expect_truncations_refused(const std::filesystem::path& damaged,
     put_bytes(damaged, bytes);
 }
 
-/// A changed byte is refused, or what is read is whole (the byte stood in a comment, say).
+/// The number of changed bytes that the reader refuses. Any other change leaves the content that is
+/// read intact (the byte was in a comment, for example).
 inline size_t count_refused_changes(const std::filesystem::path& damaged,
                                     const std::filesystem::path& opened, size_t trials) {
     const std::string bytes = bytes_of(damaged);
@@ -41,7 +43,7 @@ inline size_t count_refused_changes(const std::filesystem::path& damaged,
     return refused;
 }
 
-/// Writing fails at every limit below the size and leaves nothing.
+/// Expects that writing fails at every limit below the size and leaves nothing.
 inline void expect_full_disk_leaves_nothing(const std::filesystem::path& path,
                                             const Volume& volume) {
     write_volume(path, volume);
@@ -54,7 +56,7 @@ inline void expect_full_disk_leaves_nothing(const std::filesystem::path& path,
     }
 }
 
-/// Another program's exit code and what it printed; 127 when it isn't installed.
+/// Another program's exit code and output; the code is 127 if it isn't installed.
 inline ProgramResult run_tool(const std::filesystem::path& folder, const std::string& line) {
     const std::string whole =
         fmt::format("cd '{}' && {} >tool.txt 2>&1 </dev/null", folder.string(), line);

@@ -1,4 +1,5 @@
-// Formats of displays: KV6, bit planes and cylinder buffers, read back by hand.
+// SPDX-License-Identifier: Apache-2.0
+// The formats of displays, KV6, bit planes and cylinder buffers, read back by hand.
 #include <gmock/gmock.h>
 
 #include <cstring>
@@ -60,7 +61,8 @@ class VolumeDeviceTest : public FileTest {
 };
 
 TEST_F(VolumeDeviceTest, BayersMatrixHasEveryThresholdOnce) {
-    // The first rows of the classic matrix: 0 32 8 40 2 34 10 42; 48 16 56 24 50 18 58 26.
+    // The first rows of the classic dither matrix are 0 32 8 40 2 34 10 42 and 48 16 56 24 50 18 58
+    // 26.
     const auto rank = [](int x, int y) {
         return threshold_at(Dither::bayer8, x, y, 0) * 64.0f - 0.5f;
     };
@@ -87,7 +89,7 @@ TEST_F(VolumeDeviceTest, LevelsKeepTheirMean) {
 }
 
 TEST_F(VolumeDeviceTest, Kv6HoldsTheSurfaceAsVoxlapReadsIt) {
-    // 3 x 4 x 5 voxels whose inside is 1 x 2 x 3, in x 1..3, y 0..3, z 2..6.
+    // The box has 3 x 4 x 5 voxels, of which 1 x 2 x 3 are inside: x in 1..3, y in 0..3, z in 2..6.
     const Volume volume = solid_box({7, 5, 8}, {1, 0, 2}, {3, 3, 6}, {1, 0.5f, 0});
     const std::string bytes = write("a.kv6", volume);
     EXPECT_EQ(bytes.substr(0, 4), "Kvxl");
@@ -110,7 +112,7 @@ TEST_F(VolumeDeviceTest, Kv6HoldsTheSurfaceAsVoxlapReadsIt) {
                 const auto z = int(u16_at(bytes, at + 4));
                 EXPECT_GT(z, before);
                 before = z;
-                // x is 6 - x, y is 7 - z and z is 4 - y of the lattice.
+                // The lattice's x is 6 - x, its y is 7 - z and its z is 4 - y.
                 const int faces = (x == 3) | (x == 5) << 1 | (y == 1) << 2 | (y == 5) << 3 |
                                   (z == 1) << 4 | (z == 4) << 5;
                 EXPECT_EQ(uint8_t(bytes[at + 6]), faces) << x << " " << y << " " << z;
@@ -125,10 +127,10 @@ TEST_F(VolumeDeviceTest, Kv6HoldsTheSurfaceAsVoxlapReadsIt) {
 }
 
 TEST_F(VolumeDeviceTest, Kv6NormalsPointOutwards) {
-    // A slab over the whole bottom: its top faces upwards, which is -z in KV6.
+    // A slab covers the whole bottom; its top faces upwards, which is -z in KV6.
     const Volume volume = solid_box({9, 5, 8}, {0, 0, 0}, {8, 1, 7}, {1, 1, 1});
     const std::string bytes = write("a.kv6", volume);
-    // The spiral's z grows evenly from -1; beside the box's sides the normal leans outwards.
+    // The spiral's z grows evenly from -1; at the box's edges the normal leans outwards.
     int minimum = 255;
     for (size_t at = 32, n = 0; n < u32_at(bytes, 28); ++n, at += 8)
         if (uint8_t(bytes[at + 6]) == 0x10) {
@@ -177,7 +179,8 @@ TEST_F(VolumeDeviceTest, ColourPlanesComeOneAfterAnother) {
         write("a.cplanes", volume, device_options(Dither::none, SweepAxis::z));
     ASSERT_EQ(bytes.size(), 3u * 3 * 5 * 2);
     for (size_t i = 0; i < bytes.size(); ++i) {
-        // Slice 2: planes 6 (red), 7 (green), 8 (blue); the bottom row, the first column.
+        // Slice 2 uses planes 6 (red), 7 (green) and 8 (blue); the voxel is in the bottom row,
+        // first column.
         const bool lit = i == (6 * 5 + 4) * 2 || i == (8 * 5 + 4) * 2;
         EXPECT_EQ(uint8_t(bytes[i]), lit ? 0x80 : 0) << i;
     }
@@ -189,7 +192,7 @@ TEST_F(VolumeDeviceTest, ACylinderHasItsAnglesRingsAndHeights) {
     volume.frame.edge = {0.5, 0.25, 0.5};
     for (size_t i = 0; i < volume.indices.size(); ++i) {
         const int x = int(i % 8), y = int(i / 8 % 3), z = int(i / 24);
-        // Image right is -X_E: red. Far is +Z_E: green. The top: blue.
+        // Red is at the image's right, -X_E; green is far, +Z_E; blue is at the top.
         volume.colors[i] = {x < 4 ? 1 : 0, z >= 4 ? 1 : 0, y == 2 ? 1 : 0};
     }
     VolumeOptions options = device_options(Dither::none);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include <ImfChannelList.h>
 #include <ImfDeepFrameBuffer.h>
 #include <ImfDeepScanLineInputFile.h>
@@ -15,7 +16,8 @@ namespace {
 constexpr std::array kChannels = {"R", "G", "B", "A", "Z", "ZBack"};
 using DeepSample = std::array<float, kChannels.size()>;
 
-/// OpenEXR's own reader, whole image at once; row by row, samples of each pixel in file order.
+/// Reads a whole deep image by OpenEXR's own reader: row by row, each pixel's samples in file
+/// order.
 std::vector<std::vector<DeepSample>> read_deep(const std::filesystem::path& path, size_t pixels,
                                                size_t width) {
     Imf::DeepScanLineInputFile file(path.c_str());
@@ -66,7 +68,7 @@ TEST_F(VolumeExrTest, AllButRoundingComesBack) {
         Volume back = read_volume(path());
         ASSERT_EQ(back.colors.size(), volume.colors.size());
         for (size_t i = 0; i < volume.colors.size(); ++i)
-            for (int c = 0; c < 3; ++c)  // multiplied and divided again; lost where alpha is 0
+            for (int c = 0; c < 3; ++c)  // multiplied and divided by alpha; lost where alpha is 0
                 EXPECT_NEAR(back.colors[i][c], volume.opacities[i] > 0 ? volume.colors[i][c] : 0.0f,
                             3e-7f);
         back.colors = volume.colors;

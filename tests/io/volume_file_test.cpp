@@ -1,4 +1,5 @@
-// The front of all formats, and the formats that pictures and points need.
+// SPDX-License-Identifier: Apache-2.0
+// The common entry of all formats, and the formats for pictures and points.
 #include "runtime/io/volume_file.hpp"
 
 #include <gmock/gmock.h>
@@ -51,7 +52,7 @@ TEST_F(VolumeFileTest, SizesBeyondAFormatAreRefusedBeforeMemoryIsTaken) {
     for (const char* name : {"a.nrrd", "a.raw", "a.####.png", "a.kv6", "a.planes", "a.cplanes",
                              "a.rgb332", "a.rgb565"})
         EXPECT_EQ(refusal(name, huge).exit_code(), 8) << name;
-    write_volume(folder / "a.vdb", huge);  // holds what shows something
+    write_volume(folder / "a.vdb", huge);  // it holds only voxels that show something
     EXPECT_EQ(refusal("a.kv6", lattice_volume({257, 1, 1}, 0)).exit_code(), 8);
     EXPECT_EQ(files_in_folder(), 1u);
 }
@@ -95,7 +96,7 @@ TEST_F(VolumeFileTest, GeometryAgreesWithTheMatrix) {
 }
 
 TEST_F(VolumeFileTest, SlicesShowWhatTheObserverSees) {
-    // The lattice's X_E runs to the left and its Y_E up: voxel (6, 4) is at the top left.
+    // The lattice's X_E points left and its Y_E up, so voxel (6, 4) is at the top left.
     write_volume(folder / "s.####.png", single_voxel({7, 5, 3}, {5, 4, 2}, {1, 0.25f, 0}, 0.5f));
     EXPECT_EQ(files_in_folder(), 4u);
     const Picture empty = read_png(folder / "s.0000.png"), last = read_png(folder / "s.0002.png");

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include <gmock/gmock.h>
 #include <zlib.h>
 
@@ -20,7 +21,7 @@ VolumeOptions nrrd_options(bool all_values, bool compress) {
     return options;
 }
 
-/// A strict reader of what NRRD says of attached headers: one field a line, an empty line, data.
+/// A strict reader of NRRD with attached headers: one field a line, an empty line, then the data.
 struct Nrrd {
     std::map<std::string, std::string> fields, keys;
     std::vector<float> values;
@@ -92,7 +93,8 @@ TEST_F(VolumeNrrdTest, ColourAndOpacityAloneComeBackWithMiddlesForDepths) {
     EXPECT_EQ(back.colors, volume.colors);
     EXPECT_EQ(back.opacities, volume.opacities);
     EXPECT_EQ(back.kinds, volume.kinds);
-    // The ball's depths count along the ray: |(-1.75 + 0.5 * 4.5, 0.1 + 0.25 * 1.5, 3 + 2 * 2.5)|.
+    // The ball's depths are distances along the ray: |(-1.75 + 0.5 * 4.5, 0.1 + 0.25 * 1.5, 3 + 2 *
+    // 2.5)|.
     EXPECT_NEAR(back.depths[0], std::hypot(0.5, 0.475, 8.0), 1e-6);
 }
 

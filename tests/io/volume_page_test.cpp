@@ -1,4 +1,5 @@
-// The page that shows a volumetric image, in a browser: what is painted, turned and cut.
+// SPDX-License-Identifier: Apache-2.0
+// The page that shows a volumetric image, in a browser: what it paints, turns and cuts.
 #include "runtime/io/volume/volume_page.hpp"
 
 #include <gmock/gmock.h>
@@ -13,7 +14,8 @@ using testing::HasSubstr;
 
 namespace {
 
-/// A box of opaque voxels: the layer that the observer sees first is red, those behind are blue.
+/// A box of opaque voxels: the layer that the observer sees first is red, the layers behind are
+/// blue.
 Volume two_layers() {
     Volume volume = lattice_volume({12, 10, 8}, 0);
     volume.frame.edge = glm::dvec3(0.25);
@@ -63,7 +65,8 @@ TEST_F(VolumePageTest, ADragOfTheMouseTurnsAndCutsTheVolume) {
     EXPECT_LT(count_of(front, is_blue), count_of(front, is_red) / 10);
     EXPECT_TRUE(is_red(front.pixels[240 * 640 + 320]));
 
-    // Half of the height is a quarter of a turn: what was on the left comes to the front.
+    // A drag over half the height is a quarter of a turn, so what was on the left comes to the
+    // front.
     auto drawn_again = [&, times = 1]() mutable {
         browser.wait_for(fmt::format("Number(document.body.dataset.drawn) > {}", times));
         times = browser.evaluate("Number(document.body.dataset.drawn)").get<int>();
@@ -98,7 +101,7 @@ TEST_F(VolumePageTest, EveryShapeStandsWhereTheVolumeSays) {
         const Volume volume = rays_volume(shape);
         write_volume_page(folder / "a.html", volume);
         browser.open_page(folder / "a.html");
-        // Against the world's points: the page has the observer's.
+        // The points are compared in the world; the page has them in the observer's coordinates.
         const auto p = browser.evaluate("JSON.stringify(point(2.5, 4.5, 6.5))");
         const auto found = nlohmann::json::parse(p.get<std::string>());
         const glm::dvec4 world =

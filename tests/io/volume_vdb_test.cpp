@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include <gmock/gmock.h>
 #include <openvdb/openvdb.h>
 
@@ -12,7 +13,7 @@ using testing::HasSubstr;
 
 namespace {
 
-/// Written out once more, without the library's geometry: where the middle of a voxel is.
+/// The expected middle of a voxel, computed again without the library's geometry.
 glm::dvec3 expected_position(const VolumeFrame& frame, glm::dvec3 cell) {
     glm::dvec3 p;
     if (frame.layout == VolumeLayout::lattice) {

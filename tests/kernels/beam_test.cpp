@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "runtime/stages/trace/beam.hpp"
 
 #include <gtest/gtest.h>
@@ -16,9 +17,9 @@ namespace voxelume {
 namespace {
 
 constexpr uint32_t kSeed = 20261122;
-constexpr uint32_t kTiles = 1501;  // odd: the last packet has none to take turns with
+constexpr uint32_t kTiles = 1501;  // odd: the last packet has none to interleave with
 
-/// Rays in groups of 16 that run beside each other, snapped as shared/trace.h has it.
+/// Rays in groups of 16 that run next to each other, snapped as in shared/trace.h.
 struct RayList {
     std::vector<float> values;
     uint32_t stride;
@@ -48,7 +49,7 @@ struct RayList {
     }
 };
 
-/// Tiles of rays from random points through random ones, narrow and wide, some places idle.
+/// Tiles of rays from random points through random points, narrow and wide; some slots are idle.
 RayList random_tiles(const Pyramid& pyramid, uint32_t tiles) {
     std::mt19937 random(kSeed);
     const auto uniform = [&] { return double(random()) / 4294967296.0; };
@@ -60,7 +61,7 @@ RayList random_tiles(const Pyramid& pyramid, uint32_t tiles) {
         for (int a = 0; a < 3; ++a) {
             origin[a] = uniform() * size[a], target[a] = uniform() * size[a];
             if (tile % 3 == 0) target[a] = origin[a] + (a == int(tile % 7 % 3) ? 1 : 0);
-            shift[a] = tile % 2 ? uniform() : 0;  // origins apart
+            shift[a] = tile % 2 ? uniform() : 0;  // different origins
         }
         for (uint32_t i = 0; i < VXL_BEAM_RAYS; ++i) {
             if (tile % 5 == 0 && random() % 4 == 0) continue;
@@ -82,7 +83,7 @@ HostBricks scattered_cubes(const glm::ivec3& size, int count) {
     return bare_bricks(frame_of(size), voxels);
 }
 
-/// The hits' words; what a miss leaves beside its mark counts as nothing.
+/// The packed values of the hits. Of a miss only its mark counts, the rest is cleared.
 std::vector<uint32_t> hits_of(const RayBatch& batch) {
     std::vector<uint32_t> words = batch.hits.read(0, size_t(batch.stride) * VXL_HIT_PRIMITIVE);
     for (uint32_t i = 0; i < batch.stride; ++i)
@@ -129,7 +130,7 @@ TEST_P(BeamLanes, LeaveTheHitsAsTheyAre) {
 
 INSTANTIATE_TEST_SUITE_P(Lanes, BeamLanes, testing::Values(1, 4, 8, 16));
 
-/// Where the first of the beams starts its rays, and along which axis.
+/// The place where the first beam starts its rays, and the axis along which they run.
 struct Start {
     float s;
     uint32_t axis;

@@ -1,5 +1,6 @@
-// lib/lanes/exact_float.h and lib/lanes/exact_exp.h: the same bits as IEEE arithmetic, and bounds
-// against double.
+// SPDX-License-Identifier: Apache-2.0
+// lib/lanes/exact_float.h and lib/lanes/exact_exp.h give the same bits as IEEE arithmetic, and stay
+// within bounds around results in double.
 #include <gtest/gtest.h>
 
 #include <bit>
@@ -43,7 +44,7 @@ std::vector<float> evaluate(const std::string& expression, const std::vector<flo
     return results.read();
 }
 
-/// Numbers of both signs with exponents in [low, high], among them those with few or all bits set.
+/// Random numbers of both signs with exponents in [low, high]; some have few bits set, some all.
 std::vector<float> spread_numbers(uint32_t count, int low, int high, bool negative, unsigned seed) {
     std::mt19937 random(seed);
     std::vector<float> numbers(count);
@@ -60,7 +61,7 @@ std::vector<float> spread_numbers(uint32_t count, int low, int high, bool negati
     return numbers;
 }
 
-/// From where a value lies to another, in units in the last place of the second.
+/// The difference between a value and the expected one, in units in the last place of the latter.
 double ulps(double value, double expected) {
     int exponent;
     std::frexp(expected, &exponent);
@@ -121,7 +122,7 @@ INSTANTIATE_TEST_SUITE_P(Ways, ExactFloat,
                                     std::to_string(way.param.lanes);
                          });
 
-/// Evenly spread numbers.
+/// Evenly spread numbers in [low, high].
 std::vector<float> between(float low, float high, unsigned seed) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<float> place(low, high);
@@ -178,7 +179,7 @@ TEST_P(ExactFunctions, PowersLoseAsManyUnitsAsTheirExponentIsLarge) {
             ASSERT_LT(values[i], 0x1p-124) << x[i] << " to the " << y[i];
             continue;
         }
-        // The exponent y ln x is wrong by about three units of 2^-24 of itself, at most 87.
+        // The exponent y ln x, at most 87, has a relative error of about three units of 2^-24.
         const double bound = 4 + 4 * std::abs(std::log(expected));
         ASSERT_LT(ulps(values[i], expected), bound) << x[i] << " to the " << y[i];
     }

@@ -1,4 +1,5 @@
-// Hits on triangles at and beside their edges and corners, against rational numbers.
+// SPDX-License-Identifier: Apache-2.0
+// Hits on triangles at and near their edges and corners, against rational numbers.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -47,7 +48,7 @@ Mesh ring_on_quarters() {
 
 struct RationalHit {
     mpq_class t;
-    dvec3 normal{0};  ///< of the triangle, of unit length
+    dvec3 normal{0};  ///< the triangle's, of unit length
 };
 
 class RationalMesh {
@@ -94,13 +95,14 @@ double largest_of(const dvec3& v) {
     return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
 }
 
-/// Towards a place on the mesh from the grid's sides.
+/// A ray from a side of the grid towards a point of the mesh.
 struct AimedRay {
     FixedRay ray;
-    double t = 0;  ///< of the place aimed at
+    double t = 0;  ///< of the point aimed at
 };
 
-/// Exactly through `target`, which lies on eighths of voxels: directions are quarters.
+/// A ray exactly through `target`, which lies on eighths of voxels, as its direction consists of
+/// quarters.
 std::optional<AimedRay> ray_through(const FixedGrid& grid, const dvec3& target,
                                     const glm::ivec3& quarters) {
     if (largest_of(dvec3(quarters)) < 2) return {};
@@ -119,7 +121,8 @@ std::optional<AimedRay> ray_through(const FixedGrid& grid, const dvec3& target,
     return aimed;
 }
 
-/// From anywhere on a side of the grid past `target`, as near as directions of 22 bits come to it.
+/// A ray from a random point on a side of the grid past `target`, as near as directions of 22 bits
+/// allow.
 AimedRay ray_towards(const FixedGrid& grid, const dvec3& target, std::mt19937_64& random) {
     AimedRay aimed;
     const size_t face = random() % 3;
@@ -155,7 +158,7 @@ std::vector<AimedRay> rays_at_edges(const Mesh& mesh, const FixedGrid& grid) {
     return rays;
 }
 
-/// A ray's exact numbers, moved sideways by some of voxels.
+/// A ray's origin and direction as exact rationals, moved sideways by fractions of voxels.
 std::pair<oracle::RationalPoint, oracle::RationalPoint> exact_ray(const FixedGrid& grid,
                                                                   const FixedRay& ray,
                                                                   const dvec3& moved = dvec3(0)) {
@@ -167,14 +170,16 @@ std::pair<oracle::RationalPoint, oracle::RationalPoint> exact_ray(const FixedGri
     return {o, d};
 }
 
-// Voxels. Hits' places are bounded by measurement: 1.1e-5 was the most of these 3408, and twice
-// that is allowed. Of it, a shear rounded twice moves corners up to 43 voxels away by 43 * 2 *
-// 2^-24 = 5e-6 on each of two axes; the edge functions' rounding depends on the triangles' shapes.
+// This bound is in voxels. The largest measured error of hits' positions over these 3408 was
+// 1.1e-5; twice that is allowed. A shear that is rounded twice moves corners up to 43 voxels away
+// by 43 * 2 * 2^-24 = 5e-6 on each of two axes; the rounding of the edge functions depends on the
+// triangles' shapes.
 constexpr double kMaxOffPlane = 2e-5;
 
-// Voxels by which rays are moved to see whether they pass an outline: some hundred times as much as
-// rounding moves them. Then another t by more than kOtherPlace is that of another place, or of a
-// surface seen at less than 1 / 50.
+// kAside is the distance in voxels by which rays are moved to see whether they pass an outline:
+// about a hundred times as much as rounding moves them. A t that then differs by more than
+// kOtherPlace belongs to another place, or to a surface that is seen at a slope of less than 1 /
+// 50.
 constexpr double kAside = 1e-3, kOtherPlace = 0.05;
 
 TEST(ExactHit, IsTheRationalOneAtEdgesAndCorners) {
@@ -197,7 +202,7 @@ TEST(ExactHit, IsTheRationalOneAtEdgesAndCorners) {
     for (size_t i = 0; i < rays.size(); ++i) {
         const auto [o, d] = exact_ray(grid, rays[i]);
         const auto truth = exact.first_hit(o, d);
-        // On an outline rounding may decide: rays a little aside meet something else there.
+        // At an outline rounding may decide: rays moved slightly aside meet something else there.
         bool outline = !truth;
         for (int side = 0; side < 6 && !outline; ++side) {
             dvec3 moved(0);

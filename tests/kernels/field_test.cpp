@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // lib/surface/field.h against the formula of shared/voxel.h, written out in double.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -15,9 +16,9 @@ namespace {
 
 constexpr unsigned kSeed = 20261121;
 
-/// Decoded record: distances at corners and second differences of edges, in 1/8192 voxel.
+/// A decoded record: distances at corners and second differences along edges, in 1/8192 voxel.
 struct Record {
-    std::array<int, 8> f{};                 ///< number x | y << 1 | z << 2
+    std::array<int, 8> f{};                 ///< the corner's index is x | y << 1 | z << 2
     std::array<std::array<int, 4>, 3> d{};  ///< per axis and edge: first other axis | second << 1
 };
 
@@ -58,7 +59,7 @@ double interpolant(const Record& r, const std::array<double, 3>& s) {
     return sum;
 }
 
-/// The derivative along an axis; F is a quadratic on it, so a central difference is exact.
+/// The derivative along an axis. F is a quadratic along it, so a central difference is exact.
 double slope(const Record& r, std::array<double, 3> s, size_t axis) {
     const double at = s[axis], step = 0.125;
     s[axis] = at + step;
@@ -69,7 +70,7 @@ double slope(const Record& r, std::array<double, 3> s, size_t axis) {
 
 using Result = std::array<double, 4>;  ///< value, gradient
 
-/// What the device function makes of each record at its point.
+/// The values and gradients that the device function gives for each record at its point.
 std::vector<Result> evaluate(const Device& device, const std::vector<Record>& records,
                              const std::vector<std::array<float, 3>>& points) {
     const auto count = uint32_t(records.size());
@@ -136,7 +137,8 @@ TEST_P(FieldLanes, AgreesWithTheFormulaInDouble) {
     const auto results = evaluate(test_device(GetParam()), records, points);
     for (size_t i = 0; i < records.size(); ++i) {
         const std::array<double, 3> s = {points[i][0], points[i][1], points[i][2]};
-        // |F| < 2^15 and each of some sixteen roundings is half a unit in the last place, 2^-10.
+        // The tolerance: |F| < 2^15, and each of about sixteen roundings is half a unit in the last
+        // place, 2^-10.
         ASSERT_NEAR(results[i][0], interpolant(records[i], s), 1.0 / 64)
             << "seed " << kSeed << " point " << i;
         for (size_t axis = 0; axis < 3; ++axis)
@@ -212,7 +214,7 @@ TEST_P(FieldLanes, ReproducesPlanesAndQuadraticsExactly) {
 }
 
 TEST_P(FieldLanes, HoldsTheSameBitsOnBothSidesOfASharedFace) {
-    // Two voxels beside each other along each axis share four distances and the edges of the face.
+    // Two neighbouring voxels along each axis share four distances and the edges of their face.
     std::mt19937 random(kSeed);
     std::vector<Record> low(1536), high(1536);
     auto points = random_points(1536, random), high_points = points;
@@ -228,7 +230,7 @@ TEST_P(FieldLanes, HoldsTheSameBitsOnBothSidesOfASharedFace) {
         for (size_t other = 0; other < 3; ++other) {
             if (other == axis) continue;
             const size_t first = other == 0 ? 1 : 0;
-            const size_t bit = first == axis ? 1 : 2;  // of the edge's number, for `axis`
+            const size_t bit = first == axis ? 1 : 2;  // the bit of the edge's index for `axis`
             for (size_t e = 0; e < 4; ++e)
                 if (e & bit) high[i].d[other][e & ~bit] = low[i].d[other][e];
         }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // lib/lanes/fixed_point.h against the same rules in double.
 #include <gtest/gtest.h>
 
@@ -32,7 +33,7 @@ using Values = std::vector<float>;
 
 class FixedPoint : public testing::TestWithParam<int> {
   protected:
-    /// An expression in x, y, z, `size` and what clip_axis makes of [0.25, 1000].
+    /// The values of an expression in x, y, z, `size` and the result of clip_axis for [0.25, 1000].
     Values evaluate(const std::string& expression, float size, const Values& x, const Values& y,
                     const Values& z) const {
         const Device device = test_device(GetParam());

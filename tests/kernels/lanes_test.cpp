@@ -1,4 +1,5 @@
-// Every macro of lib/lanes/lanes.h means the same in each number of lanes.
+// SPDX-License-Identifier: Apache-2.0
+// Every macro of lib/lanes/lanes.h has the same meaning for each number of lanes.
 #include <gtest/gtest.h>
 
 #include <bit>
@@ -33,12 +34,12 @@ const std::vector<int32_t>& integers() {
     return values;
 }
 
-/// Indices into the arrays, in no order, some of them twice.
+/// Indices into the arrays in no order; some occur twice.
 uint32_t shuffled(uint32_t i) {
     return (i * 37 + i / 7) % kCount;
 }
 
-/// An expression of a 32-bit lane type, and its bits at a place.
+/// An expression of a 32-bit lane type, and its expected bits at an index.
 struct Case {
     std::string expression;
     std::function<uint32_t(uint32_t)> bits;
@@ -53,7 +54,7 @@ int32_t mask(bool condition) {
     return condition ? -1 : 0;
 }
 
-/// Every macro; in the expressions f, n, i and first are at hand.
+/// The cases of all macros. The expressions may use f, n, i and first.
 std::vector<Case> cases_of(uint32_t lanes) {
     std::vector<Case> cases = {
         {"f", [](uint32_t i) { return floats()[i]; }},
@@ -89,13 +90,14 @@ std::vector<Case> cases_of(uint32_t lanes) {
         {"LANES_INT(LANES_LONG(f * 4.0f))", [](uint32_t i) { return int32_t(4 * floats()[i]); }},
         {"LANES_INT(LANES_SHORT(n >> 16))", [](uint32_t i) { return integers()[i] >> 16; }},
 
-        // Bits pass through reinterpretation.
+        // Reinterpretation keeps the bits.
         {"LANES_AS_INT(f)", [](uint32_t i) { return floats()[i]; }},
         {"LANES_AS_UINT(n)", [](uint32_t i) { return integers()[i]; }},
         {"LANES_AS_FLOAT(LANES_AS_INT(f) ^ (int)0x80000000)",
          [](uint32_t i) { return -floats()[i]; }},
     };
-    // What a packet answers in all of its lanes: whether it holds a place; then for an empty mask.
+    // These cases test what a packet answers in all of its lanes: whether it holds an index. Then
+    // follows an empty mask.
     for (const uint32_t place : {0u, 1u, 6u, 7u, 8u, 15u, 37u, 63u})
         cases.push_back({"(lane_int)(lanes_any(LANE_MASK(LANES_NUMBERS + (int)first == " +
                              std::to_string(place) + ")) != 0)",
@@ -104,7 +106,7 @@ std::vector<Case> cases_of(uint32_t lanes) {
     return cases;
 }
 
-/// One kernel that writes the bits of every expression, kCount apart.
+/// The source of one kernel that writes the bits of every expression, kCount apart.
 std::string source_of(const std::vector<Case>& cases) {
     std::string source = R"(
 #include "lib/lanes/lanes.h"

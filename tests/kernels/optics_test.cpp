@@ -1,5 +1,7 @@
+// SPDX-License-Identifier: Apache-2.0
 // lib/light/optics.h against geometrical optics in double precision. Cases O1 to O5: bodies that
-// bend rays, the critical angle, Fresnel's shares. Whole images of them are in refraction_test.cpp.
+// refract rays, the critical angle, Fresnel's reflectance. refraction_test.cpp has whole images of
+// them.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -46,7 +48,7 @@ kernel void meet_boundaries(uint count, uint stride, global const float* etas,
 }
 )";
 
-/// A ray on a boundary; `normal` stands against `direction`.
+/// A ray at a boundary; `normal` points against `direction`.
 struct Boundary {
     double eta;
     glm::dvec3 direction, normal;
@@ -111,7 +113,7 @@ class Boundaries {
     Program program_;
 };
 
-/// Turns the plane of incidence, which is z = 0 below, into none of the axes' planes.
+/// Turns the plane of incidence, which is z = 0 in the tests, away from the planes of all axes.
 glm::dvec3 askew(const glm::dvec3& v) {
     const glm::dvec3 x = glm::normalize(glm::dvec3(1, 2, -3)),
                      y = glm::normalize(glm::dvec3(3, 0, 1));
@@ -126,8 +128,8 @@ double angle_between(const glm::dvec3& a, const glm::dvec3& b) {
     return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
 }
 
-/// Whether light of cosine `c` is reflected totally, and else the cosine behind; of the floats
-/// themselves, in long double.
+/// The cosine of the refracted ray for light of cosine `c`, or nothing where it is reflected
+/// totally; computed from the floats themselves in long double.
 std::optional<long double> cosine_behind(float eta, float cosine) {
     const long double e = eta, c = cosine;
     if (e <= 1) return std::sqrt((1 - e) * (1 + e) + e * c * e * c);
@@ -154,7 +156,8 @@ TEST(Optics, O1SlabShiftsRaysAndLeavesTheirDirection) {
         EXPECT_NEAR(glm::length(glm::cross(crossed, d)),
                     kThickness * std::sin(incidence - inside) / std::cos(inside), 3e-7)
             << incidence / kDegree << " degrees";
-        // What a float turns within, the second face turns by n cos(inside) / cos(incidence) more.
+        // An error in a float's angle inside grows by n cos(inside) / cos(incidence) at the second
+        // face.
         EXPECT_LT(angle_between(out[i], d), 3e-7 / std::cos(incidence))
             << incidence / kDegree << " degrees";
         EXPECT_NEAR(glm::length(out[i]), 1, 4e-7);
@@ -211,7 +214,7 @@ TEST(Optics, O3PrismDeviatesTheLeastOnTheSymmetricPath) {
                 << "index " << ior << ", incidence " << incidences[i] / kDegree;
             minimum = std::min(minimum, deviation);
         }
-        // Fraunhofer: n = sin((A + D) / 2) / sin(A / 2)
+        // Fraunhofer's formula is n = sin((A + D) / 2) / sin(A / 2).
         EXPECT_NEAR(minimum, 2 * symmetric - kApex, 1e-6) << ior;
         EXPECT_NEAR(std::sin((kApex + minimum) / 2) / std::sin(kApex / 2), ior, 1e-6);
     }
@@ -253,7 +256,7 @@ TEST(Optics, O4TotalReflectionBeginsAtTheCriticalAngleOfTheFloatsThemselves) {
     EXPECT_LT(totals, 2 * all.size() / 3);
 }
 
-/// Ratios from 0.1 to 10 and cosines from grazing to normal incidence.
+/// Ratios of indices from 0.1 to 10, and cosines from grazing to normal incidence.
 std::pair<std::vector<float>, std::vector<float>> all_sorts(uint32_t count) {
     std::mt19937 random(kSeed + 1);
     std::uniform_real_distribution<float> unit(0, 1);
@@ -281,7 +284,7 @@ TEST(Optics, O5WhatIsReflectedAndWhatIsRefractedMakeOne) {
         ASSERT_GE(m.reflected, 0);
         ASSERT_GE(m.refracted, 0);
         if (m.total) continue;
-        // Fresnel's equations for both polarisations, as fluxes.
+        // The oracle is Fresnel's equations for both polarisations, as fluxes.
         const double e = double(etas[i]), c = double(cosines[i]);
         const double behind = double(*cosine_behind(etas[i], cosines[i]));
         const double rs = (e * c - behind) / (e * c + behind);

@@ -1,4 +1,5 @@
-// What kernels read in a pyramid, cell by cell, against the voxels themselves.
+// SPDX-License-Identifier: Apache-2.0
+// The values that kernels read in a pyramid, cell by cell, against the voxels themselves.
 #include <gtest/gtest.h>
 
 #include <random>
@@ -13,7 +14,7 @@
 namespace voxelume {
 namespace {
 
-// Of each cell the log2 of the empty block around it, -1 for a voxel.
+// The kernel writes for each cell the log2 of the empty block around it, or -1 for a voxel.
 constexpr const char* kSource = R"(
 #include "lib/traverse/pyramid.h"
 #include "lib/lanes/work_item.h"
@@ -44,7 +45,7 @@ std::vector<int> sizes_of(const Device& device, const Pyramid& pyramid) {
     return sizes.read(0, count);
 }
 
-/// Blocks of 1 << log2 cells that hold voxels, by their numbers along the axes.
+/// The blocks of 1 << log2 cells that hold voxels, by their indices along the axes.
 std::set<std::array<int, 3>> blocks_with_voxels(const VoxelMap& voxels, int log2) {
     std::set<std::array<int, 3>> blocks;
     for (const auto& [voxel, word] : voxels)
@@ -76,7 +77,7 @@ TEST_P(LookUp, TellsTheLargestEmptyBlockAroundEveryCell) {
         while (largest >= 0 &&
                blocks[size_t(largest)].contains({v.x >> largest, v.y >> largest, v.z >> largest}))
             --largest;
-        if (largest == 7) largest = 6;  // of sectors only groups of 4 x 4 x 4 are told
+        if (largest == 7) largest = 6;  // a sector reports only groups of 4 x 4 x 4
         if (largest >= 0) ++seen[size_t(largest)];
         if (sizes[cell] != largest && wrong++ < 5)
             ADD_FAILURE() << v.x << ' ' << v.y << ' ' << v.z << ": " << sizes[cell]

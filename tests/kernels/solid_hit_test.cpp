@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
 #include <cstring>
@@ -114,7 +115,7 @@ TEST(SolidHit, ARayFromTheSurfaceDoesNotMeetItAgain) {
         for (const Hit& hit : probe()(program, out, true)) ASSERT_EQ(hit.t, INFINITY) << c.name;
         const std::vector<Hit> far = probe()(program, in, true);
         for (size_t i = 0; i < in.size(); ++i) {
-            if (!std::isfinite(far[i].t)) {  // so flat that it grazes
+            if (!std::isfinite(far[i].t)) {  // so flat an angle that it grazes
                 ASSERT_LT(std::abs(static_cast<double>(exact.distance(in[i].at(1e-3L)))), 1e-4);
                 continue;
             }

@@ -1,4 +1,5 @@
-// Rays at analytic solids on the device: what the tests of their surfaces share.
+// SPDX-License-Identifier: Apache-2.0
+// Rays at analytic solids on the device, for the tests of their surfaces.
 #pragma once
 
 #include <cmath>
@@ -26,7 +27,7 @@ struct Hit {
     glm::vec3 normal{0};
 };
 
-/// Runs hit_solids() and solid_normals() with a number of lanes.
+/// Runs hit_solids() and solid_normals() with a given number of lanes.
 class HitProbe {
   public:
     explicit HitProbe(int lanes)
@@ -103,7 +104,7 @@ inline glm::dmat4 grid_from_solid() {
     return moved(rational_rotation(1, 2, 3, 4), -ray_frame().origin);
 }
 
-/// Rays as the tracer has them: multiples of 2^-18 in the grid, directions of 2^-22.
+/// Rays as the tracer has them: origins in the grid are multiples of 2^-18, directions of 2^-22.
 inline std::vector<Ray> random_rays(unsigned seed, size_t count) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> unit(0, 1);

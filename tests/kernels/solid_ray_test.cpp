@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -9,7 +10,7 @@
 namespace voxelume {
 namespace {
 
-/// Hits, normals and misses of a case against the oracle; VXL_TEST_RAYS asks for more rays.
+/// Compares a case's hits, normals and misses with the oracle; VXL_TEST_RAYS asks for more rays.
 void expect_oracle_hits(const SolidCase& c, unsigned seed) {
     const char* asked = std::getenv("VXL_TEST_RAYS");
     const size_t count = asked ? std::strtoul(asked, nullptr, 10) : 4000;
@@ -30,7 +31,8 @@ void expect_oracle_hits(const SolidCase& c, unsigned seed) {
         if (!truth.is_certain) continue;
         ASSERT_EQ(is_hit, truth.is_hit) << where();
         if (!is_hit) continue;
-        // How far from the surface, in roundings (2^-24) of the way and the solid's reach.
+        // The hit's distance from the surface, in roundings (2^-24) of the way and the solid's
+        // size.
         const auto off = static_cast<double>(std::abs(exact.distance(ray.at(hits[i].t))));
         const auto way = static_cast<double>(truth.t);
         if (way > 150) continue;  // a slab out of the grid, nearly parallel to the ray
@@ -74,8 +76,7 @@ TEST(SolidRay, AgreesWithTheOracleForShearedShapes) {
     }
 }
 
-/// A point of the surface of a convex case on an edge of it, and the outward normals that meet
-/// there.
+/// A point on an edge of a convex case's surface, and the outward normals that meet there.
 struct EdgePoint {
     glm::dvec3 at, first, second;
 };

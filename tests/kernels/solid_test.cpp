@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -18,7 +19,7 @@ struct Distances {
     std::vector<float> distance, rounding;
 };
 
-/// Runs solid_distance() with a number of lanes.
+/// Runs solid_distance() with a given number of lanes.
 class Measurement {
   public:
     explicit Measurement(int lanes)
@@ -42,7 +43,7 @@ kernel void measure(global const SolidShape* solids, global const int* cells,
 }
 )")) {}
 
-    /// The distances at cells + offsets, a multiple of 16 of them.
+    /// The distances at cells + offsets; their number is a multiple of 16.
     Distances operator()(const SolidProgram& program, const std::vector<glm::ivec3>& cells,
                          const std::vector<glm::vec3>& offsets) const {
         const size_t n = cells.size();
@@ -158,8 +159,8 @@ kernel void copy_fields(global const SolidShape* s, global uint* out) {
     EXPECT_EQ(shape.derived[3], std::bit_cast<float>(words[28]));
 }
 
-/// Distances of a case against the oracle: within the stated rounding where they are exact, of the
-/// right sign and not above the Euclidean distance elsewhere.
+/// Compares a case's distances with the oracle. Where they are exact, they are within the stated
+/// rounding; elsewhere they have the right sign and don't exceed the Euclidean distance.
 void expect_oracle_distances(const SolidCase& c, const glm::dmat4& frame_from_solid,
                              unsigned seed) {
     static const Measurement measure(0);
@@ -189,7 +190,7 @@ TEST(SolidDistance, ShearedShapesAreScaledByTheSmallestStretch) {
     glm::dmat4 shear(1);
     shear[1] = {0.7, 1.2, -0.3, 0};
     for (const SolidCase& c : shape_cases()) {
-        // the images of these are of the same kind, with a distance of their own
+        // The images of these solids have the same kind and an exact distance of their own.
         if (c.solid.kind == SolidKind::sphere || c.solid.kind == SolidKind::ellipsoid ||
             c.solid.kind == SolidKind::slab)
             continue;
@@ -205,7 +206,7 @@ TEST(SolidDistance, AShearedEllipsoidHasItsTrueDistance) {
     const Lattice lattice = random_lattice(14, 1024);
     const Distances d = Measurement(0)(make_solid_program(ball, shear, lattice.frame),
                                        lattice.cells, lattice.offsets);
-    // The oracle: the nearest of many points of the sheared ball.
+    // The oracle is the nearest of many points of the sheared ball.
     for (size_t i = 0; i < 40; ++i) {
         const oracle::Vector at = lattice.point(i);
         double nearest = INFINITY;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The surfaces of the stress cases G1, G5, G6 and G7 (tests/CASES.md), met by rays in fixed point.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -17,7 +18,7 @@ namespace {
 
 constexpr uint64_t kSeed = 20261121;
 
-/// A ray as doubles, exactly.
+/// A ray in doubles, which hold it exactly.
 struct Ray {
     glm::dvec3 origin, direction;
 
@@ -30,7 +31,8 @@ struct Ray {
     glm::dvec3 at(double t) const { return origin + direction * t; }
 };
 
-/// Half the distance between the crossings of a ray and a ball, and the t of their middle.
+/// Half the distance between a ray's two crossings with a ball, and the t of the middle between
+/// them.
 struct Chord {
     double middle, half;  ///< half: not a number when the ray misses
 };
@@ -52,8 +54,8 @@ Pyramid smooth_ball(const Device& device, int n, const glm::dvec3& center, doubl
         device, voxelize_solid(device, solid, map, unit_frame(glm::ivec3(n)), VoxelizeOptions{}));
 }
 
-/// RMS of the depths' errors, in metres of a world of 2.2, where the incidence's cosine is above
-/// 0.3.
+/// RMS of the depths' errors where the cosine of incidence is above 0.3, in metres of a world of
+/// 2.2.
 double depth_error(const Device& device, int n) {
     const FixedGrid grid = fixed_grid(glm::ivec3(n));
     const glm::dvec3 center = glm::dvec3(1.113, 1.079, 1.137) * (n / 2.2);
@@ -89,7 +91,7 @@ TEST(SurfaceCases, G1TheDepthOfASmoothBallIsOfThirdOrder) {
     const double coarse = depth_error(device, 12), fine = depth_error(device, 24);
     const double slope = std::log2(coarse / fine);
     RecordProperty("slope", fmt::format("{:.3f}", slope));
-    // Steps of a search that stopped short gave 2.25, and 5.4e-5 m.
+    // A search whose steps stopped too early gave 2.25, and 5.4e-5 m.
     EXPECT_GT(slope, 2.9) << coarse << " m, then " << fine << " m";
     EXPECT_LT(fine, 2.1e-5);
 }
@@ -102,7 +104,7 @@ TEST(SurfaceCases, G5GrazingRaysMeetOrMissASmoothBall) {
     const double radius = 17.3;
     const Pyramid pyramid = smooth_ball(device, n, center, radius);
     std::vector<FixedRay> rays;
-    std::vector<double> inside;  // how deep the ray comes, voxels
+    std::vector<double> inside;  // how deep the ray enters, voxels
     for (int i = 0; i < 20000; ++i) {
         const double angle = i * 0.37, depth = (i % 2 ? 1 : -1) * std::pow(10, -1 - i % 7);
         FixedRay ray;
@@ -127,7 +129,8 @@ TEST(SurfaceCases, G5GrazingRaysMeetOrMissASmoothBall) {
     }
 }
 
-/// The x where rays along x, through nodes, edges and faces, meet a field of x alone.
+/// The x at which rays along x, through nodes, edges and faces, meet a field that depends on x
+/// alone.
 std::vector<double> places_met(const std::function<double(int)>& distance) {
     const Device device = test_device();
     const glm::ivec3 size(14, 9, 7);
@@ -153,7 +156,7 @@ TEST(SurfaceCases, G6ZerosAtNodesAreMet) {
 }
 
 TEST(SurfaceCases, G6ACellOfZerosIsNoTrap) {
-    // 0 from 5 to 6: the surface is met somewhere there, once.
+    // The field is 0 from 5 to 6: the ray meets the surface once somewhere there.
     for (const double x : places_met([](int x) { return x < 5 ? 5.0 - x : x > 6 ? 6.0 - x : 0; })) {
         EXPECT_GE(x, 4.9);
         EXPECT_LE(x, 6.1);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "runtime/stages/trace/trace.hpp"
 
 #include <gtest/gtest.h>
@@ -16,7 +17,7 @@ namespace {
 
 constexpr uint32_t kRays = 4096;
 
-/// A ray in fixed point, as shared/trace.h has it: exact integers, whatever the size of the grid.
+/// A ray in fixed point as in shared/trace.h: exact integers for any size of the grid.
 struct SnappedRay {
     glm::dvec3 origin, direction;
 };
@@ -55,7 +56,7 @@ struct TracedHit {
     int axis;
 };
 
-/// Traces rays on a device with the given lanes.
+/// Traces rays on a device with the given number of lanes.
 std::vector<TracedHit> trace(const Device& device, const Pyramid& pyramid,
                              const std::vector<SnappedRay>& rays) {
     const uint32_t count = uint32_t(rays.size()), stride = (count + 15) / 16 * 16;
@@ -109,7 +110,7 @@ std::vector<SnappedRay> difficult_rays(glm::ivec3 size, int fraction_bits, uint3
             }
         }
         if (kind == 2) ray.direction[int(random() % 3)] = step * double(int(random() % 5) - 2);
-        if (kind == 3) {  // along a diagonal, off by units
+        if (kind == 3) {  // along a diagonal, off by single units
             const double sign = random() % 2 ? 1 : -1;
             for (int a = 0; a < 3; ++a) ray.direction[a] = sign * (1 - step * double(random() % 3));
         }
@@ -151,7 +152,8 @@ TEST_P(TraceLanes, FindsTheCellThatExactArithmeticFinds) {
 INSTANTIATE_TEST_SUITE_P(Lanes, TraceLanes, testing::Values(1, 4, 8, 16));
 
 TEST(Trace, TakesTiesLowestAxisFirst) {
-    // T3 of the stress cases: from the corner along the diagonal, (000)(100)(110)(111)...
+    // T3 of the stress cases: the ray goes from the corner along the diagonal,
+    // (000)(100)(110)(111)...
     const Device device = test_device();
     const std::vector<SnappedRay> diagonal = {{{0, 0, 0}, {1, 1, 1}}};
     const auto first = [&](std::vector<glm::ivec3> voxels) {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The walks of the stress cases T1 to T22 (tests/CASES.md), on the device, cell by cell.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -18,7 +19,8 @@ namespace {
 using glm::ivec3;
 using glm::vec3;
 
-/// One device and its kernels for all cases; never freed, a platform may be gone before it is.
+/// One device and its kernels for all cases. It is never freed, because its platform may be gone
+/// before.
 DeviceWalks& walks() {
     static DeviceWalks* const shared = new DeviceWalks(test_device());
     return *shared;
@@ -26,7 +28,7 @@ DeviceWalks& walks() {
 
 using Cells = std::vector<std::array<int, 3>>;
 
-/// The cells of a ray as rays of a scene have them: snapped, and clipped to the grid.
+/// The cells of a ray as rays of a scene pass them: snapped, and clipped to the grid.
 Cells device_cells(const vec3& origin, const vec3& direction, const ivec3& size,
                    uint32_t maximum = 1000) {
     const FixedGrid grid = fixed_grid(size);
@@ -39,7 +41,7 @@ Cells device_cells(const vec3& origin, const vec3& direction, const ivec3& size,
     return cells;
 }
 
-/// The same of the ray as it is, unrounded, in rational numbers.
+/// The cells of the unrounded ray, in rational numbers.
 Cells exact_cells_of(const vec3& origin, const vec3& direction, const ivec3& size) {
     Cells cells;
     for (const auto& c :
@@ -102,7 +104,8 @@ TEST(WalkCases, T9InThroughAnEdge) {
 
 TEST(WalkCases, T10AlongTheUpperSideIsOutside) {
     EXPECT_EQ(device_cells({-1, .5f, 4}, {1, 0, 0}, ivec3(4)), Cells());
-    // One unit of fixed point below; 3.9999998 is half a unit, and is snapped to 4.
+    // The coordinate is one unit of fixed point below 4; 3.9999998 is half a unit below and is
+    // snapped to 4.
     EXPECT_EQ(device_cells({-1, .5f, 3.9999995f}, {1, 0, 0}, ivec3(4)),
               cells_of({3, 103, 203, 303}));
 }
@@ -135,7 +138,8 @@ TEST(WalkCases, T12OneUnitBelowTheDiagonal) {
 }
 
 TEST(WalkCases, T13ALoopOfAnotherProgramEnds) {
-    // From (-668,-340,77) to (404,-64,-784) in cells of 16, moved by 43, 23 and 50 cells.
+    // The ray goes from (-668,-340,77) to (404,-64,-784) in cells of 16, moved by 43, 23 and 50
+    // cells.
     const vec3 o(-668 / 16.f + 43, -340 / 16.f + 23, 77 / 16.f + 50);
     const vec3 d = vec3(404 + 668, -64 + 340, -784 - 77) / 16.f / 128.f;
     const FixedGrid grid = fixed_grid({100, 60, 70});
@@ -214,7 +218,7 @@ TEST(WalkCases, T18AWorldWithoutVoxelsEndsEveryRay) {  // gvdb 115: empty masks
     frame.size = size;
     const Device device = test_device();
     BrickGrid bricks = cubes_of(device, VoxelBits(size), frame);
-    // One brick is stored all the same, without a voxel.
+    // One brick is stored nevertheless, without a voxel.
     std::vector<uint32_t> slots = bricks.slots.read();
     slots[7] = 0;
     bricks.brick_count = 1;
@@ -236,7 +240,8 @@ TEST(WalkCases, T19TheReverseRayHasTheReverseList) {
     const FixedGrid grid = fixed_grid({64, 61, 37});
     int compared = 0;
     for (uint64_t number = 0; number < 400; ++number) {
-        // Directions of 17 bits: after whole t the ray is at a place of the fixed point again.
+        // Directions have 17 bits, so that after a whole t the ray is at a place of the fixed point
+        // again.
         FixedRay ray = ray_of_class(RayClass::random, grid, 19, number), back;
         int64_t t = 1000;
         for (size_t a = 0; a < 3; ++a) {

@@ -1,4 +1,5 @@
-// Scenes with a lamp above a floor, for tests of light that has an area.
+// SPDX-License-Identifier: Apache-2.0
+// Scenes with an area light or emissive object above a floor.
 #pragma once
 
 #include <filesystem>
@@ -12,11 +13,10 @@
 
 namespace voxelume {
 
-/// A world of 1.2 x 0.9 x 1 m from (-0.5, -0.1, -0.4) on, with a floor whose top is y = 0, seen
+/// A scene of 1.2 x 0.9 x 1 m from (-0.5, -0.1, -0.4) on, with a floor whose top is y = 0, seen
 /// from straight above by parallel rays: 0.9 x 0.62 m around (0.05, 0.1), in 45 x 31 pixels of 2
 /// cm.
-///
-/// `models` and `objects` are the scene's further ones, each with a comma behind it.
+/// `models` and `objects` are the scene's further ones, each followed by a comma.
 inline Scene floor_scene(const std::string& models, const std::string& objects,
                          const std::string& lights) {
     return parse_scene(

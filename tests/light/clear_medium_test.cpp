@@ -1,4 +1,5 @@
-// A medium that is nowhere is left out: of its kernels, buffers and features nothing is made.
+// SPDX-License-Identifier: Apache-2.0
+// A medium of density 0 everywhere is left out: it causes no kernels, buffers or features.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -14,7 +15,7 @@
 namespace voxelume {
 namespace {
 
-/// A ball of glass, or of clay, in fog.
+/// A scene of a ball of glass or clay in fog.
 constexpr const char* kScene = R"({"voxelume": 1,
 "world": {"voxel_size": 0.05, "bounds": {"min": [-1, -1, -1], "max": [1, 1.2, 1.4]},
           "background": [0.2, 0.3, 0.5], "ambient": [0.1, 0.2, 0.3],
@@ -49,7 +50,7 @@ class ClearMedium : public FileTest {
         scene.world.medium = {};
         return scene;
     }
-    /// Two cells of these values amid a background.
+    /// Writes a grid of two cells with these values in a background.
     void write_grid(const char* name, float first, float second, float background) const {
         const std::array cells = {glm::ivec3(0), glm::ivec3(3, 2, 1)};
         const std::array values = {first, second};

@@ -1,4 +1,6 @@
-// Scene -> the medium's density at every voxel: grids of files, collapsed bricks, memory, refusals.
+// SPDX-License-Identifier: Apache-2.0
+// The medium's density at every voxel, from the scene: grids of files, collapsed bricks, memory,
+// and refusals.
 #include "runtime/stages/medium/density_grid.hpp"
 #include "runtime/scene_file/read_scene.hpp"
 
@@ -38,7 +40,7 @@ class DensityReader {
         if (word >> 31) return values_.at(word & 0x3FFFFFF);
         return values_.at(size_t(word) * 4096 + inside.x + 16 * inside.y + 256 * inside.z);
     }
-    /// Words of bricks by the size of the cube that has their density; 0: stored.
+    /// The number of bricks by the log2 size of the cube that shares their density; 0 means stored.
     std::map<int, int> sizes() const {
         std::map<int, int> sizes;
         for (const uint32_t word : bricks_) ++sizes[word >> 31 ? int(word >> 26 & 31) : 0];
@@ -55,7 +57,7 @@ class DensityReader {
 
 class DensityGridTest : public FileTest {
   protected:
-    /// Writes `smoke.vdb`: one value at each of 9 x 7 x 5 cells of the given edges.
+    /// Writes `smoke.vdb`, which has one value at each of 9 x 7 x 5 cells with the given edges.
     void write_smoke(const glm::dvec3& edges, const glm::dvec3& origin) {
         std::vector<glm::ivec3> cells;
         std::vector<float> values;
@@ -106,11 +108,11 @@ TEST_F(DensityGridTest, AGridOfTheWorldsOwnVoxelsKeepsItsValues) {
 }
 
 TEST_F(DensityGridTest, APlacedGridIsLinearBetweenItsValues) {
-    // The values are a linear function of the place: trilinear samples inside give it back.
+    // The values are a linear function of position, so trilinear samples inside reproduce it.
     write_smoke({2, 1, 3}, {0, 0, 0});
     World world = smoky_world();
     GridDensity density = grid_density();
-    // Grid x runs along the world's z, y along y, z along -x; then shifted.
+    // The grid's x runs along the world's z, its y along y, its z along -x; then it is shifted.
     density.world_from_grid = glm::dmat4({0, 0, 1, 0}, {0, 1, 0, 0}, {-1, 0, 0, 0}, {20, 1, 5, 1});
     world.medium.density = density;
     const DensityReader read(form_density_grid(test_device(), world));
@@ -164,7 +166,7 @@ TEST_F(DensityGridTest, SpaceOfOneDensityIsOneBlock) {
     EXPECT_GT(sizes.at(4), 0);
     EXPECT_GT(sizes.at(6), 3000);
     EXPECT_EQ(plan.bytes, double(4 * (grid.bricks.size() + grid.values.size())));
-    // The centre, just outside the ball, just inside.
+    // The points are the centre, just outside the ball, and just inside it.
     EXPECT_EQ(read.at({46, 164, 178}), 1.0f);
     EXPECT_EQ(read.at({46, 164, 165}), 0.0f) << "z 167.5";
     EXPECT_GT(read.at({46, 164, 166}), 0.0f);

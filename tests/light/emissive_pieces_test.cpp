@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "runtime/stages/light/emissive_pieces.hpp"
 
 #include <gmock/gmock.h>
@@ -44,9 +45,9 @@ TEST(AreaInVoxel, OfPlanesByHand) {
     const glm::dvec3 edge(2, 3, 5), middle(0.5);
     EXPECT_NEAR(area_in_voxel(middle, {1, 0, 0}, edge), 15, 1e-12);
     EXPECT_NEAR(area_in_voxel(middle, {0, -7, 0}, edge), 10, 1e-12);
-    // Across the diagonal of the xy side: sqrt(2² + 3²) long, 5 wide.
+    // The plane runs across the diagonal of the xy side: sqrt(2² + 3²) long, 5 wide.
     EXPECT_NEAR(area_in_voxel(middle, {1, 1, 0}, edge), std::sqrt(13.0) * 5, 1e-12);
-    // A corner: the triangle (1,0,0) (0,1,0) (0,0,1) of the unit cube.
+    // The plane cuts a corner: the triangle (1,0,0) (0,1,0) (0,0,1) of the unit cube.
     EXPECT_NEAR(area_in_voxel({1.0 / 3, 1.0 / 3, 1.0 / 3}, {1, 1, 1}, {1, 1, 1}),
                 std::sqrt(3.0) / 2, 1e-12);
     EXPECT_NEAR(area_in_voxel({0.5, 1.2, 0.5}, {0, 1, 0}, edge), 0, 1e-12);
@@ -69,8 +70,8 @@ TEST(EmissivePieces, OfABallHaveItsAreaAndLieOnIt) {
 }
 
 TEST(EmissivePieces, OfABoxOfCubesAreItsOuterFaces) {
-    // 10 x 6 x 4 world voxels from voxel (22, 20, 18) on: its middle lies at ((0.05 + 0.5) / 0.02,
-    // ...) = (27.5, 28.9, 23.4), so the box spans 5, 3 and 2 voxels to both sides.
+    // The box has 10 x 6 x 4 world voxels from voxel (22, 20, 18) on. Its middle lies at ((0.05 +
+    // 0.5) / 0.02, ...) = (27.5, 28.9, 23.4), and it spans 5, 3 and 2 voxels to both sides.
     const std::vector<EmissivePiece> pieces = pieces_of(emissive_scene(
         R"({"shape": "box", "size": [0.2, 0.1038, 0.0856], "surface": "cubes", "set": "solid",
             "voxel_size": [0.02, 0.0173, 0.0214]})",

@@ -1,4 +1,5 @@
-// Pictures lit with lights' beams are those lit without.
+// SPDX-License-Identifier: Apache-2.0
+// Pictures lit with the beams of lights equal those lit without.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -16,7 +17,8 @@ namespace {
 
 constexpr uint32_t kSeed = 20261123;
 
-/// Balls of a surface, some of which mirror, above a floor, with two lights outside of the world.
+/// A scene of balls of one surface above a floor, some of which are mirrors, with two lights
+/// outside the world.
 Scene balls(const std::string& surface, double reflection, const std::string& light) {
     std::mt19937 random(kSeed);
     const auto uniform = [&] { return double(random()) / 0x1p32; };
@@ -44,7 +46,7 @@ Scene balls(const std::string& surface, double reflection, const std::string& li
 constexpr const char* kDistant =
     R"({"type": "directional", "direction": [-1, -2, 0.5], "intensity": 1})";
 
-/// The light that the observer's rays bring, 3 components.
+/// The light that the observer's rays bring back: three components per ray.
 std::vector<float> light_of(const Scene& scene, const BuiltWorld& built, bool with_beams) {
     const Device device = test_device();
     const Pyramid& world = built.pyramid;
@@ -80,7 +82,7 @@ TEST_P(LightBeamSurfaces, AreLitAsWithoutBeams) {
     EXPECT_EQ(light_of(scene, world, true), light_of(scene, world, false));
 }
 
-/// What didn't change isn't sent again: a light that stays keeps its beams while another moves.
+/// Unchanged beams aren't built again: a light that stays keeps its beams while another moves.
 TEST(LightBeams, AreKeptForLightsThatStay) {
     const Device device = test_device();
     WorldBuilder builder(device, true, AssetStore());

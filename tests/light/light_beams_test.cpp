@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "runtime/stages/light/light_beams.hpp"
 
 #include <gtest/gtest.h>
@@ -18,7 +19,7 @@ namespace voxelume {
 namespace {
 
 constexpr uint32_t kSeed = 20261123;
-constexpr uint32_t kRays = 16 * 301;  // odd: the last packet has none to take turns with
+constexpr uint32_t kRays = 16 * 301;  // odd: the last packet has none to interleave with
 constexpr glm::ivec3 kSize{230, 137,
                            301};  // a dilated occupancy of bricks ends beyond it on all axes
 
@@ -54,7 +55,7 @@ Light distant_light(const glm::dvec3& direction) {
     return light;
 }
 
-/// Lights around the world, near and far, and such that shine from everywhere.
+/// Lights around the world: near, far, and directional.
 std::vector<Light> lights_outside() {
     Random random;
     const glm::dvec3 size(kSize), middle = 0.5 * size;
@@ -98,7 +99,7 @@ class ShadowedCubes {
 
     const std::vector<glm::ivec3>& voxels() const { return voxels_; }
 
-    /// Sets rays from random points beside voxels to the light, snapped as shared/trace.h has it.
+    /// Aims rays from random points next to voxels at the light, snapped as in shared/trace.h.
     void aim(const Light& light) {
         Random random;
         const LightRecord record = light_record(light, pyramid_.frame);
@@ -125,7 +126,7 @@ class ShadowedCubes {
         queue_.rays.write(std::span<const float>(values));
     }
 
-    /// Of each ray, whether it reaches the light.
+    /// For each ray, whether it reaches the light.
     std::vector<float> reached(const LightBeams& beams = {}) {
         TraceStage trace(device_, features_);
         queue_.beams = beams;
@@ -194,7 +195,7 @@ TEST_P(LightBeamLanes, LeaveEveryShadowAsItIs) {
     EXPECT_GT(shortened, 1000);
 }
 
-/// What the test above would find if beams were too narrow for their rays.
+/// Shows that the test above would find beams that are too narrow for their rays.
 TEST(LightBeams, OfSquaresTooWideLetLightThroughVoxels) {
     ShadowedCubes world(test_device(), 4000);
     int wrong = 0;
@@ -228,7 +229,7 @@ TEST(LightBeams, EndOneLeafBeforeVoxels) {
         // The voxel's sector spans 64 x 64 voxels, which are 3 or 4 tiles of 28 along each axis.
         EXPECT_LE(ends.size(), 16u * 16);
         EXPECT_NEAR(*std::ranges::min_element(ends), side > 0 ? 196 : -208, 0.1);
-        // Its leaf and those around it, 12 voxels wide, are in the way of 2 x 2 or 3 x 3 beams.
+        // Its leaf and the leaves around it, 12 voxels wide, block 2 x 2 or 3 x 3 beams.
         const auto ended = std::ranges::count_if(ends, [](float end) { return end < INFINITY; });
         EXPECT_GE(ended, 1);
         EXPECT_LE(ended, 9);

@@ -1,4 +1,5 @@
-// Point lights at awkward places: beside the terminator, on planes of the lattice, within voxels.
+// SPDX-License-Identifier: Apache-2.0
+// Point lights at awkward places: near the terminator, on planes of the lattice, inside voxels.
 // Cases O9 and O10.
 #include <gtest/gtest.h>
 
@@ -20,7 +21,7 @@ const glm::dvec3 kCenter(0.013, 0.327, -0.021);
 
 enum Part : uint32_t { kNothing = 0, kFloor = 1, kBall = 2 };
 
-/// A white ball above a floor whose top is y = 0, a plane of the lattice, and one lamp.
+/// A white ball above a floor whose top is y = 0, a plane of the lattice, and one point light.
 Json lamp_scene(const std::string& surface, const glm::dvec3& lamp) {
     Json scene = Json::parse(R"({"voxelume": 1,
 "world": {"voxel_size": 0.02, "bounds": {"min": [-0.8, -0.2, -0.7], "max": [0.8, 0.9, 0.7]}},
@@ -92,7 +93,8 @@ TEST_P(Lamps, O9ABallIsLitUpToItsTerminatorAndDarkBeyond) {
     }
 }
 
-/// Floor pixels that the ball's shadow leaves free by one voxel, against 1/d^2 and the cosine.
+/// Compares the floor's pixels that are clear of the ball's shadow by one voxel with 1/d^2 and the
+/// cosine.
 void expect_floor_light(const Json& scene, const glm::dvec3& lamp, double bound) {
     size_t compared = 0;
     for (const Pixel& pixel : pixels_of(scene)) {
@@ -103,7 +105,7 @@ void expect_floor_light(const Json& scene, const glm::dvec3& lamp, double bound)
         const double along = glm::dot(to_center, l) / distance;
         const double past = glm::length(glm::cross(to_center, l)) / distance;
         if (along > 0 && past < kRadius + kVoxel) continue;
-        // Within some voxels of its edges a smooth floor is round.
+        // Near its edges, within some voxels, a smooth floor is round.
         if (std::abs(pixel.position.x) > 0.5 || std::abs(pixel.position.z) > 0.4) continue;
         ++compared;
         const double brightest = 1 / (distance * distance);

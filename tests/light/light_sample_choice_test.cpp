@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "runtime/stages/light/light_sample_choice.hpp"
 
 #include <gmock/gmock.h>
@@ -8,7 +9,7 @@
 namespace voxelume {
 namespace {
 
-/// A sheet of 12 x 5 squares of 0.5 x 0.25 m that glows to both sides.
+/// The pieces of a sheet of 12 x 5 squares of 0.5 x 0.25 m that emits light to both sides.
 std::vector<EmissivePiece> sheet() {
     std::vector<EmissivePiece> pieces;
     for (int side : {-1, 1})

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "runtime/stages/light/light_samples.hpp"
 
 #include <gmock/gmock.h>
@@ -23,7 +24,8 @@ std::string ball_model(const std::string& surface) {
            surface + (surface == "cubes" ? R"(", "set": "solid"},)" : R"("},)");
 }
 
-/// An emissive ball of 0.1 m around (0.05, 0.5, 0.1); the observer above sees it in the middle.
+/// An emissive ball of 0.1 m around (0.05, 0.5, 0.1); the observer above sees it in the image's
+/// middle.
 Scene ball_scene(const std::string& surface, const std::string& more = "") {
     return floor_scene(
         ball_model(surface),
@@ -37,7 +39,8 @@ bool is_floor(const Image& image, size_t pixel) {
 }
 
 TEST(AreaLights, ADiskGivesThePointBelowItsMiddleWhatItsSolidAngleHolds) {
-    // Radiance is pi energy / area; of it a Lambertian surface returns color R^2 / (R^2 + d^2).
+    // The radiance is pi intensity / area; a Lambertian surface returns color R^2 / (R^2 + d^2) of
+    // it.
     const double radius = 0.23, height = 0.31;
     for (const int light_samples : {1, 256}) {
         const Scene scene = floor_scene("", "",
@@ -69,14 +72,14 @@ TEST(AreaLights, ATinyDiskIsAPointLightTimesItsCosine) {
     }
 }
 
-/// The form factor of a rectangle a x b with a corner straight above the point, at height d.
+/// The form factor of a rectangle a x b with one corner straight above the point, at height d.
 double corner_form_factor(double a, double b, double d) {
     const double x = a / d, y = b / d, p = std::sqrt(1 + x * x), q = std::sqrt(1 + y * y);
     return (x / p * std::atan(y / p) + y / q * std::atan(x / q)) / (2 * kPi);
 }
 
 TEST(AreaLights, ARectangleGivesItsFormFactor) {
-    // 0.4 m along z, 0.2 m along x, its corner above the pixel at (0.05, 0.1).
+    // The light is 0.4 m along z and 0.2 m along x, with a corner above the pixel at (0.05, 0.1).
     const Image image = image_of(floor_scene("", "", R"({"type": "rectangle",
         "position": [0.15, 0.3, 0.3], "look_at": [0.15, 0, 0.3], "up": [1, 0, 0],
         "size": [0.4, 0.2], "intensity": 0.5, "spots": 256})"));
@@ -122,7 +125,7 @@ TEST(AreaLights, DivideARectangleAndADiskEvenly) {
 }
 
 TEST(AreaLights, ShadowEdgesLieBetweenUmbraAndPenumbra) {
-    // A board, its edge at x = 0.05, y = 0.3; the light at y = 0.6 reaches from x = -0.23 to -0.07.
+    // A board has its edge at x = 0.05, y = 0.3; the light at y = 0.6 spans x = -0.23 to -0.07.
     const std::string light = R"({"type": "rectangle", "position": [-0.15, 0.6, 0.1],
         "direction": [0, -1, 0], "up": [0, 0, 1], "size": [0.16, 0.16], "spots": 256})";
     const Image bare = image_of(floor_scene("", "", light));
@@ -133,7 +136,7 @@ TEST(AreaLights, ShadowEdgesLieBetweenUmbraAndPenumbra) {
     for (size_t i = 0; i < image.planes.at("R").size(); ++i) {
         const double x = point_at(image, i).x;
         if (!is_floor(image, i) || x < 0) continue;
-        // Over the edge, a line from x on the floor meets the light's plane at 0.1 - x.
+        // The line over the edge from x on the floor meets the light's plane at 0.1 - x.
         const double seen = (-0.07 - (0.1 - x)) / 0.16;
         const double share = image.planes.at("R")[i] / bare.planes.at("R")[i];
         if (seen < 0) {
@@ -188,7 +191,7 @@ TEST_P(EmissiveObjects, AreNotHiddenByTheirOwnSurface) {
         ASSERT_EQ(shadowed.planes.at("R")[i], bare.planes.at("R")[i]) << i;
 }
 
-// Not of cubes: the stairs of a ball light and shadow one another, and make it larger.
+// Cubes are left out: the stairs of a ball light and shadow one another, and enlarge it.
 INSTANTIATE_TEST_SUITE_P(Surfaces, EmissiveObjects, testing::Values("smooth", "exact"));
 
 TEST(EmissiveObject, OfCubesGivesTheFormFactorOfTheFaceThatIsSeen) {
@@ -201,7 +204,8 @@ TEST(EmissiveObject, OfCubesGivesTheFormFactorOfTheFaceThatIsSeen) {
     const Pyramid world = build_world(device, scene, report.world);
     const glm::dvec3& edge = world.frame.voxel_edge;
     glm::dvec3 low(1e9),
-        high(-1e9);  // of the light samples that face down, metres from the first corner
+        high(-1e9);  // height of the light samples that face down, in metres from the world's first
+                     // corner
     for (const LightRecord& light_sample :
          emissive_light_samples(device, features_of(world), scene, world)) {
         if (light_sample.direction.y > -0.5f) continue;
@@ -211,7 +215,8 @@ TEST(EmissiveObject, OfCubesGivesTheFormFactorOfTheFaceThatIsSeen) {
         low = glm::min(low, p - edge / 2.0);
         high = glm::max(high, p + edge / 2.0);
     }
-    Scene from_below = scene;  // an observer between floor and emissive object sees the floor alone
+    Scene from_below =
+        scene;  // an observer between the floor and the emissive object sees only the floor
     from_below.observer.position = {0.05, 0.2, 0.1};
     from_below.observer.display.half_size = {0.05, 0.03};
     const Image image = image_of(from_below);
@@ -226,7 +231,7 @@ TEST(EmissiveObject, OfCubesGivesTheFormFactorOfTheFaceThatIsSeen) {
     }
 }
 
-/// A box turned a little, or, of cubes, along the axes: flat faces, seen at all angles.
+/// A box turned a little, or of cubes along the axes: flat faces, seen at all angles.
 class FlatEmissiveObjects : public testing::TestWithParam<const char*> {};
 
 TEST_P(FlatEmissiveObjects, AreNotHiddenByTheirOwnSurface) {
@@ -254,8 +259,8 @@ INSTANTIATE_TEST_SUITE_P(Surfaces, FlatEmissiveObjects,
                          testing::Values("cubes", "smooth", "exact"));
 
 TEST(EmissiveObject, InsideAGlowingShellASurfaceReturnsItsColorTimesTheRadiance) {
-    // A hollow ball around the whole floor, cut off at the world's bottom: half of the surface's
-    // sky is the shell down to the floor.
+    // A hollow ball surrounds the whole floor and is cut off at the world's bottom. Half of the sky
+    // that the surface sees is the shell down to the floor.
     Scene scene = floor_scene(
         R"("shell": {"shape": "difference", "surface": "exact",
                      "parts": [{"shape": "sphere", "radius": 0.36}, {"shape": "sphere", "radius": 0.3}]},)",
@@ -294,7 +299,7 @@ TEST(EmissiveObject, WithoutLightSamplesGlowsButLightsNothing) {
 }
 
 TEST(EmissiveObject, ThatTheWorldCutsOffShinesInwardsOnly) {
-    // A slab that reaches above the world's top, y = 0.8.
+    // The slab extends above the world's top, y = 0.8.
     Scene scene = floor_scene(
         R"("lamp": {"shape": "box", "size": [0.3, 0.4, 0.2], "surface": "cubes", "set": "solid"},)",
         R"({"model": "lamp", "material": "glow", "position": [0.05, 0.9, 0.1], "spots": 64},)", "");

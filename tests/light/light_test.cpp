@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "runtime/stages/light/light.hpp"
 
 #include <gtest/gtest.h>
@@ -14,8 +15,8 @@ namespace {
 
 constexpr uint32_t kRays = 48;
 
-/// 48 places for rays, of which numbers 3, 17 and 40 met something in a world of 40 x 30 x 20
-/// voxels of 0.5 x 0.25 x 1 m: at voxel (10, 8, 5), facing up.
+/// A batch of 48 ray slots in a world of 40 x 30 x 20 voxels of 0.5 x 0.25 x 1 m. Rays 3, 17 and 40
+/// hit voxel (10, 8, 5), which faces up.
 class Lit {
   public:
     Lit() : device_(test_device()) {
@@ -45,7 +46,7 @@ class Lit {
         material.diffuse = 0.5f;
     }
 
-    /// Adds a light; returns the number of shadow rays queued.
+    /// Adds a light; returns the number of queued shadow rays.
     uint32_t add(const Light& light) {
         features.shadows = true;
         const MaterialRecord record = material_of();
@@ -82,14 +83,16 @@ Light point_light(const glm::dvec3& position) {
 
 TEST(Light, QueuesARayToTheLightForEveryPointThatFacesIt) {
     Lit lit;
-    // The points lie at (5, 2, 5) m; the light 3 m above and 4 m along z: 5 m away, cosine 0.6.
+    // The points lie at (5, 2, 5) m, the light 3 m above and 4 m along z: 5 m away, with cosine
+    // 0.6.
     ASSERT_EQ(lit.add(point_light({5, 5, 9})), 3u);
     std::vector<uint32_t> targets = lit.queue.targets.read(0, 3);
     std::ranges::sort(targets);
     EXPECT_EQ(targets, (std::vector<uint32_t>{3, 17, 40}));
     const std::vector<float> rays = lit.queue.rays.read(),
                              contributions = lit.queue.contributions.read();
-    // (0, 3, 4) m is (0, 12, 4) voxels; scaled by 1/16, so that the largest lies in [1/2, 1).
+    // (0, 3, 4) m is (0, 12, 4) voxels, scaled by 1/16 so that the largest component lies in [1/2,
+    // 1).
     EXPECT_EQ(rays[VXL_RAY_OX * kRays], 10.0f);
     EXPECT_EQ(rays[VXL_RAY_OY * kRays], 8.0f);
     EXPECT_EQ(rays[VXL_RAY_OZ * kRays], 5.0f);

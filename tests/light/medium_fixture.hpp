@@ -1,4 +1,5 @@
-// A world of medium alone, rays through it, and what the cells that they pass say.
+// SPDX-License-Identifier: Apache-2.0
+// A world that holds only medium, rays through it, and what the cells that they pass contribute.
 #pragma once
 
 #include <fmt/format.h>
@@ -46,7 +47,7 @@ inline glm::dvec3 snapped(const glm::dvec3& v, int bits) {
            std::ldexp(1.0, -bits);
 }
 
-/// Rays from anywhere in the world to anywhere, some of them grazing: along axes and faces.
+/// Rays between random places of the world. Some of them graze: along axes and faces.
 inline std::vector<MediumRay> medium_rays(const glm::ivec3& size, size_t count, unsigned seed) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> unit(-1, 1);
@@ -71,10 +72,11 @@ inline std::vector<MediumRay> medium_rays(const glm::ivec3& size, size_t count, 
     return rays;
 }
 
-/// Density at a voxel's centre in metres, or at a voxel.
+/// The density at a voxel's centre in metres, or at a voxel.
 using DensityAt = std::function<double(const glm::dvec3& center, const glm::ivec3& voxel)>;
 
-/// Density times metres on a ray's way, from the cells that it passes, in double precision.
+/// The sum of density times metres on a ray's way, over the cells that it passes, in double
+/// precision.
 inline double depth_of(const World& world, const MediumRay& ray, const DensityAt& density) {
     const double t_last = double(ray.t_hit >= 0 ? ray.t_hit : ray.t_end);
     double sum = 0;
@@ -126,8 +128,8 @@ class MediumBatch {
 
     MediumStage stage() const { return {device, features, world_, environment, materials}; }
 
-    /// The rays' radiance after the medium, three planes `batch.stride` apart, when `behind` comes
-    /// from their ends.
+    /// The rays' radiance after the medium when `behind` comes from their ends: three planes,
+    /// `batch.stride` apart.
     std::vector<float> sight(float behind) {
         batch.radiance.fill(behind);
         stage().sight(pyramid, batch, count);

@@ -1,4 +1,6 @@
-// What the medium takes and adds, against sums over the cells that an exact walk passes.
+// SPDX-License-Identifier: Apache-2.0
+// The light that the medium absorbs and adds, against sums over the cells that an exact walk
+// passes.
 #include "runtime/stages/medium/medium.hpp"
 
 #include <gmock/gmock.h>
@@ -24,8 +26,8 @@ double ball_density(const BallDensity& ball, const glm::dvec3& p) {
     return double(float(s * s * (3 - 2 * s)));
 }
 
-/// Every ray's transmittance against exp(-absorption * depth), within 1e-6 of it for optical depths
-/// to 4, then within 2.5e-7 of the optical depth.
+/// Compares every ray's transmittance with exp(-absorption * depth): within 1e-6 of it for optical
+/// depths up to 4, then within 2.5e-7 of the optical depth.
 void expect_beers_law(const World& world, const DensityAt& density, unsigned seed) {
     const std::vector<MediumRay> rays = medium_rays(world.voxels, full_or(300, 3000), seed);
     MediumBatch batch(world, rays);
@@ -67,7 +69,7 @@ TEST(Medium, ABallIsSummedOverTheVoxelsThatARayPasses) {
 }
 
 TEST(Medium, AThinLayerFarAwayCountsExactly) {
-    // One of 4000 layers is dense; rays cross it slantwise, far from where they begin.
+    // One of 4000 layers is dense; rays cross it at a slant, far from their origins.
     World world = medium_world({40, 4000, 40});
     world.medium.density = HeightDensity{-1 + 0.25 * 0.5, 0.01};  // e^-25 in the next voxel
     std::vector<MediumRay> rays;

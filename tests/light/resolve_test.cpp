@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "runtime/stages/resolve/resolve.hpp"
 
 #include <gtest/gtest.h>
@@ -11,7 +12,8 @@
 namespace voxelume {
 namespace {
 
-/// Two samples a pixel of a 3 x 2 image in one tile: 32 rays, numbered sample * 16 + pixel.
+/// A batch with two samples per pixel of a 3 x 2 image in one tile: 32 rays, numbered sample * 16 +
+/// pixel.
 struct Batch {
     explicit Batch(const Device& device) : device_(device) {
         scene.render.size = {3, 2};

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "runtime/stages/light/shade.hpp"
 
 #include <gtest/gtest.h>
@@ -12,7 +13,7 @@
 namespace voxelume {
 namespace {
 
-/// One ray of sixteen, in a world of 9 x 7 x 5 voxels of 0.5 x 0.25 x 1 m, and what it met.
+/// One of sixteen rays in a world of 9 x 7 x 5 voxels of 0.5 x 0.25 x 1 m, and what it hit.
 class Shaded {
   public:
     Shaded() : device_(test_device()) {
@@ -81,7 +82,7 @@ class Shaded {
 TEST(Shade, ACubeIsHitExactlyOnTheFaceThatWasCrossed) {
     Shaded s;
     s.set_ray({0.25f, 6.5f, 2.125f}, {0.75f, -0.5f, 0.125f});
-    s.set_hit(1.0f, {1, 6, 2}, 0);  // entered cell (1,6,2) across x = 1 at t = 1, which says y = 6
+    s.set_hit(1.0f, {1, 6, 2}, 0);  // entered cell (1,6,2) across x = 1 at t = 1, where y = 6
     Features features;
     features.cubes = true;
     s.shade(features);
@@ -110,7 +111,8 @@ TEST(Shade, ACheckerKeepsItsBlocksFarFromTheOrigin) {
 TEST(Shade, AFieldsNormalIsItsGradientInMetres) {
     Shaded s;
     s.pyramid.attribute |= VXL_KIND_SMOOTH << VXL_KIND_SHIFT;
-    // f = 1000 x + 2000 y - 500 z - 1100 distance units, without bends: pairs at x = 0 and 1.
+    // The field is f = 1000 x + 2000 y - 500 z - 1100 distance units, without bends: pairs at x = 0
+    // and 1.
     std::vector<uint32_t> record(8, 0);
     for (uint32_t pair = 0; pair < 4; ++pair) {
         const int base = -1100 + 2000 * int(pair & 1) - 500 * int(pair >> 1);
@@ -131,7 +133,7 @@ TEST(Shade, ATrianglesNormalFacesTheRayAndItsWordIsItsOwn) {
     Shaded s;
     s.pyramid.attribute = VXL_KIND_EXACT << VXL_KIND_SHIFT;
     s.pyramid.triangles =
-        s.buffer<float>({0, 0, 0, 1, 1, 1, 2, 3, 4,  // number 0 is not the one hit
+        s.buffer<float>({0, 0, 0, 1, 1, 1, 2, 3, 4,  // triangle 0 is not the one hit
                          3, 5, 2, 5, 5, 2, 3, 9, 4});
     s.pyramid.triangle_attributes =
         s.buffer<uint32_t>({0, VXL_KIND_EXACT << VXL_KIND_SHIFT | 2u << VXL_MATERIAL_SHIFT | 7u});
@@ -143,7 +145,8 @@ TEST(Shade, ATrianglesNormalFacesTheRayAndItsWordIsItsOwn) {
     features.triangles = true;
     s.shade(features);
     EXPECT_EQ(s.position, glm::vec3(3.5f, 6, 2.5f));
-    // Edges (1, 0, 0) and (0, 1, 2) metres: normal (0, -2, 1), turned towards the ray.
+    // The edges are (1, 0, 0) and (0, 1, 2) metres, so the normal is (0, -2, 1), turned towards the
+    // ray.
     const glm::vec3 expected = glm::normalize(glm::vec3(0, 2, -1));
     EXPECT_LT(glm::length(s.normal - expected), 1e-6f);
     EXPECT_EQ(s.word & VXL_OBJECT_MASK, 7u);

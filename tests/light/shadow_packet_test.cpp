@@ -1,5 +1,6 @@
-// Shadow rays whose packets take on others as theirs end, in a room lit from inside: the light on
-// what is seen is that of packets that keep their rays, for any number of lanes.
+// SPDX-License-Identifier: Apache-2.0
+// Shadow rays whose packets refill lanes as rays end, in a room lit from inside. The light on the
+// visible surfaces is that of packets without refill, for any number of lanes.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -15,9 +16,9 @@ namespace {
 
 constexpr uint32_t kSeed = 20261122;
 
-/// A room inside of a ball, with 40 balls in it and two lamps; every fourth lets half of the light
-/// through where there are `veils`. Behind the observer, where nothing that it sees shows it, is a
-/// ball of `hidden`.
+/// A scene of a room inside a ball, with 40 balls and two lamps in it. With `veils` every fourth
+/// ball lets half of the light through. A ball of the material `hidden` is behind the observer,
+/// where nothing that it sees shows it.
 Scene room(bool veils, const std::string& hidden, const std::string& placement = "world") {
     std::mt19937 random(kSeed);
     const auto coordinate = [&] { return double(random()) / 0x1p32 * 3.2 - 1.6; };
@@ -55,7 +56,7 @@ std::map<std::string, Plane<float>> colors(const Scene& scene, int lanes = 0) {
     return colors;
 }
 
-/// In scenes with instances packets keep their rays.
+/// In scenes with instances packets keep their rays: no lane is refilled.
 TEST(ShadowPacket, AnInstanceThatNobodySeesChangesNothing) {
     Scene flying = room(false, "wall"), keeping = room(false, "wall", "instance");
     for (const Surface surface : {Surface::exact, Surface::smooth}) {
@@ -84,8 +85,8 @@ TEST_P(Veils, LanesDoNotChangeABit) {
         EXPECT_EQ(colors(scene, lanes), expected) << lanes;
 }
 
-/// The light on a wall that a lamp far away shines on through a row of `voxels` voxels, of which
-/// each takes a thousandth.
+/// The light on a wall that a far lamp lights through a row of `voxels` voxels, each of which takes
+/// a thousandth.
 double light_behind(int voxels) {
     const Scene scene = parse_scene(fmt::format(R"({{"voxelume": 1,
 "world": {{"voxel_size": 1, "bounds": {{"min": [-4, -4, -4], "max": [{0}, 4, 4]}}}},

@@ -1,5 +1,6 @@
-// Lit surfaces don't shadow themselves, however low the light stands, and what is turned from it is
-// dark. Cases O9 and O10.
+// SPDX-License-Identifier: Apache-2.0
+// Lit surfaces don't shadow themselves however low the light stands, and surfaces that face away
+// from it are dark. Cases O9 and O10.
 #include <gtest/gtest.h>
 
 #include <numbers>
@@ -18,8 +19,8 @@ const glm::dvec3 kCenter(0.03, 0.31, -0.02);  // of the ball, metres
 
 enum Part : uint32_t { kNothing = 0, kBall = 1, kGround = 2 };
 
-/// A ball above a ground that ends outside of the world, where no rounded edge throws a shadow on
-/// it, lit from `elevation` radians above the horizon.
+/// A ball above a ground that ends outside the world, so that no rounded edge shadows it. The light
+/// stands `elevation` radians above the horizon.
 class Shadows : public FileTest, public testing::WithParamInterface<Surface> {
   protected:
     void SetUp() override {
@@ -60,8 +61,8 @@ class Shadows : public FileTest, public testing::WithParamInterface<Surface> {
             glm::dvec3(0.8 * std::cos(elevation), std::sin(elevation), 0.6 * std::cos(elevation)));
     }
 
-    /// Pixels that face the light by a cosine above 1e-3 and are darker with shadows than without,
-    /// of those that `may_be_shadowed` says are free.
+    /// Expects that no pixel that faces the light by a cosine above 1e-3, and that `is_free` says
+    /// is clear of cast shadows, is darker with shadows than without.
     template <class Free>
     void expect_no_acne(double elevation, const Free& is_free, size_t minimum) const {
         Scene s = scene(elevation);
@@ -91,14 +92,14 @@ class Shadows : public FileTest, public testing::WithParamInterface<Surface> {
     }
 };
 
-/// Whether a point of the ground is clear of the shadow that the world's bounds throw on it: there
-/// the ground ends, and the rim of a smooth surface stands up to a quarter of a voxel above it.
+/// True if a point of the ground is clear of the shadow at the world's bounds. The ground ends
+/// there, and the rim of a smooth surface stands up to a quarter of a voxel above it.
 bool clear_of_rim(const glm::dvec3& p, const glm::dvec3& l, const Bounds& world) {
     const glm::dvec3 at_rim = p + l * (0.25 * kEdge / l.y);
     return at_rim.x < world.max.x - 3 * kEdge && at_rim.z < world.max.z - 3 * kEdge;
 }
 
-/// Whether a point of the ground is clear of the ball's shadow, by two voxels.
+/// True if a point of the ground is clear of the ball's shadow by two voxels.
 bool clear_of_ball(const glm::dvec3& p, const glm::dvec3& l) {
     return glm::length(glm::cross(kCenter - p, l)) > kRadius + 0.02 || glm::dot(kCenter - p, l) < 0;
 }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "runtime/stages/trace/sight.hpp"
 
 #include <gtest/gtest.h>
@@ -20,7 +21,7 @@ Pyramid world() {
     return pyramid;
 }
 
-/// An observer off every axis, with its axes turned.
+/// A scene with an observer off every axis, whose own axes are turned.
 Scene scene(DisplayShape shape) {
     Scene s;
     s.observer.position = {0.3, -0.2, 0.4};
@@ -38,7 +39,8 @@ Scene scene(DisplayShape shape) {
     return s;
 }
 
-/// Where a pixel's centre looks, in the observer's coordinates, from the shapes' definitions.
+/// The direction in which a pixel's centre looks, in the observer's coordinates, from the shapes'
+/// definitions.
 struct Look {
     glm::dvec3 start{0}, direction{0};
     bool seen = true;

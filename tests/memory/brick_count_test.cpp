@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Bricks and voxels of solids counted by distances, against those that are voxelized.
 #include "runtime/memory/brick_count.hpp"
 

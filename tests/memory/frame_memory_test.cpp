@@ -1,4 +1,6 @@
-// Frames for which the device has no memory beside each other, or beside what is kept.
+// SPDX-License-Identifier: Apache-2.0
+// Frames for which the device has too little memory while other frames or retained results take
+// some.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -26,8 +28,8 @@ Device small_device() {
     return device;
 }
 
-/// Where memory ends: forming frame 3 while frame 2 is rendered, rendering frame 2 while frame 3 is
-/// formed, rendering frame 2 beside what was kept.
+/// The step in which memory runs out: forming frame 3 while frame 2 is rendered, rendering frame 2
+/// while frame 3 is formed, or rendering frame 2 with retained results in memory.
 enum class End { none, forming, rendering, kept };
 
 class CrowdedFrames : public testing::Test {
@@ -43,7 +45,8 @@ class CrowdedFrames : public testing::Test {
         return steps;
     }
 
-    /// Frame 3, of which memory ends, waits until frame 2 is being rendered and takes all of it.
+    /// Frame 3, in which memory runs out, waits until frame 2 is being rendered, and then takes all
+    /// memory.
     Scene scene(size_t frame, End end) {
         if (frame == 3 && forgotten_ == 0 && (end == End::forming || end == End::rendering)) {
             std::unique_lock lock(mutex_);

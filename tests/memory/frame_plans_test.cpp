@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Frames of a moving scene, planned before the first is rendered.
 #include "runtime/memory/frame_plans.hpp"
 #include "runtime/scene_file/read_scene.hpp"
@@ -31,7 +32,7 @@ TEST_F(FramePlans, OfFramesTheLargestCountsAndTheFirstThatDoesNotFitIsNamed) {
     EXPECT_EQ(maximum.frame, 3);
     EXPECT_EQ(maximum.plan.peak_bytes(), plan_of(scene_at(scene, 3)).peak_bytes());
     EXPECT_NO_THROW(check_frames(scene, frames, meshes, device));
-    // The first takes 0.9 MB, the second 4.0, the third 9.4.
+    // The first frame takes 0.9 MB, the second 4.0 MB, the third 9.4 MB.
     device.memory = 3'000'000;
     EXPECT_EQ(plan_frames(scene, frames, meshes, device).frame, 2);
     const Error error = error_of([&] { check_frames(scene, frames, meshes, device); });
@@ -40,7 +41,7 @@ TEST_F(FramePlans, OfFramesTheLargestCountsAndTheFirstThatDoesNotFitIsNamed) {
     EXPECT_NO_THROW(check_frames(scene, std::vector<int>{1, 5}, meshes, device));
 }
 
-/// The frame of 1 to 3 that takes most, where there is room for any.
+/// The plan of the frame of 1 to 3 that needs most memory, on a device with room for any.
 FramePlan largest_of_three(const Scene& scene) {
     DeviceInfo device;
     device.memory = device.max_allocation = 8'000'000'000;

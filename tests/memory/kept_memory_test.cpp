@@ -1,5 +1,6 @@
-// What stays for the next frame: where worlds take less memory than they may, and where they take
-// all.
+// SPDX-License-Identifier: Apache-2.0
+// What is retained for the next frame: in worlds that take less memory than they may, and in worlds
+// that take all.
 #include <gmock/gmock.h>
 
 #include <cstdlib>
@@ -14,7 +15,7 @@
 namespace voxelume {
 namespace {
 
-/// What two balls have in common, the second `apart` metres above the first.
+/// A scene of the lens that two balls have in common; the second is `apart` metres above the first.
 Scene lens(double apart, int width) {
     const std::string text = fmt::format(R"({{"voxelume": 1,
 "world": {{"voxel_size": 0.005, "bounds": {{"min": [-0.5, -0.5, -0.5], "max": [0.5, 0.6, 0.4]}}}},
@@ -36,7 +37,7 @@ Device device_of(uint64_t megabytes) {
     return device;
 }
 
-/// What the frames of a scene that stands still gave.
+/// The results of the frames of a scene without motion.
 struct Still {
     std::vector<uint64_t> hashes, launches;
     std::vector<bool> lacks_room;
@@ -63,7 +64,7 @@ Still run(const Scene& scene, const Device& device, bool overlap) {
     return still;
 }
 
-/// Bytes at the height of a frame's world and image, of which the world `follows` others or not.
+/// The peak bytes of a frame's world and image; `follows` says whether the world follows others.
 uint64_t peak_of(const Scene& scene, bool follows) {
     const Device device = device_of(2000);
     WorldBuilder builder(device, follows);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What `check` promises of a device's memory against what a run takes at its height: of every
 // shipped scene and of built ones. Each test prints its line of a table.
 #include <gtest/gtest.h>
@@ -7,10 +8,11 @@
 #include <functional>
 
 #include "runtime/analysis/culling.hpp"
-#include "runtime/batch/frame_schedule.hpp"
+#include "runtime/batch/render_frames.hpp"
 #include "runtime/memory/frame_plans.hpp"
 #include "runtime/render/volume_renderer.hpp"
 #include "runtime/scene/scene_animation.hpp"
+#include "runtime/scene_file/read_scene.hpp"
 #include "tests/pictures/small_scene.hpp"
 #include "tests/support/display_fixture.hpp"
 #include "tests/support/instance_scenes.hpp"
@@ -67,16 +69,7 @@ void expect_image_kept(const std::string& name, const Scene& scene) {
 void expect_frames_kept(const std::string& name, Scene scene, const std::vector<int>& frames) {
     const Device device = test_device();
     const double promise = promised(scene, frames, device);
-    AssetStore meshes;
-    find_potentially_visible(scene, frames, meshes);
-    Renderer renderer(device);
-    FrameSteps steps{[&](size_t frame) { return scene_at(scene, frames[frame]); },
-                     [&](const FrameInput& input) -> OutputStep {
-                         RenderReport report;
-                         renderer.image(input.scene, input.world, report);
-                         return [] {};
-                     }};
-    run_frames({device}, frames.size(), steps, {});
+    render_frames({device}, scene, {.frames = frames}, [](const FrameResult&) {});
     expect_kept(name, promise, device, kMaxOfFrames);
 }
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Plans against devices that are too small.
 #include <gmock/gmock.h>
 
@@ -35,7 +36,8 @@ TEST_F(PlanCheck, ABufferBeyondOnePieceIsNamedWithItsOwnerAndTheWayOut) {
         return std::string(error.what());
     };
     const std::string ball = R"({"shape": "sphere", "radius": 0.35, "surface": ")";
-    // 369,000 voxels in three pairs of disks 280 wide, 2.8 about them: 1,780 bricks of 8,192 bytes
+    // The surface has 369,000 voxels, in three pairs of disks 280 wide and 2.8 around them: 1,780
+    // bricks of 8,192 bytes.
     EXPECT_THAT(refusal(ball + "smooth\"}", 12),
                 HasSubstr(": models.thing: a model of 288x288x288 voxels needs a buffer of "
                           "14.6 MB for its distances, and \"Small One\" allows 12.0 MB in "
@@ -58,7 +60,7 @@ TEST_F(PlanCheck, ABufferOfTrianglesAsksForFewerOfThem) {
     device.max_allocation = 2'400'000;
     const Scene scene = scene_of(R"({"mesh": "ring.obj", "voxel_size": 0.2})", 0.05);
     const Error error = error_of([&] { check_memory(scene, plan_of(scene), device); });
-    // 120,000 triangles of 80 bytes
+    // 120,000 triangles take 80 bytes each.
     EXPECT_THAT(error.what(), HasSubstr("needs a buffer of 9.6 MB for its triangles"));
     EXPECT_THAT(error.what(), testing::EndsWith("use meshes with 0.24 of the triangles"));
 }
@@ -84,7 +86,7 @@ TEST_F(PlanCheck, TablesAreCheckedBeforeAnyMeshIsRead) {
     const Scene scene = scene_of(R"({"shape": "sphere", "radius": 0.35})", 1.0 / 2000);
     const Error error = error_of([&] { check_tables(scene, device); });
     EXPECT_EQ(error.kind(), ErrorKind::limit);
-    // 126 x 113 x 101 bricks of 4 bytes
+    // The table has 126 x 113 x 101 bricks of 4 bytes.
     EXPECT_THAT(error.what(), HasSubstr("a table of 5.8 MB, and \"Small One\" allows 1.0 MB"));
     device.memory = device.max_allocation = uint64_t{1} << 60;
     const Scene largest = scene_of(R"({"shape": "sphere", "radius": 0.35})", 1.0 / 65536);

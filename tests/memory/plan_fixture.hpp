@@ -1,4 +1,5 @@
-// A scene of one thing, and its plan.
+// SPDX-License-Identifier: Apache-2.0
+// A scene of one object, and its memory plan.
 #pragma once
 
 #include "runtime/memory/plan.hpp"

@@ -1,4 +1,5 @@
-// Plans against what worlds and images take, and what of them is refused.
+// SPDX-License-Identifier: Apache-2.0
+// Memory plans against what worlds and images take, and which scenes are refused.
 #include "runtime/memory/plan.hpp"
 
 #include <gmock/gmock.h>

@@ -1,4 +1,5 @@
-// What rays take on a device, planned before the world is formed, against what they took.
+// SPDX-License-Identifier: Apache-2.0
+// The device memory of rays, planned before the world is formed, against what they took.
 #include "runtime/stages/trace/ray_arrays.hpp"
 #include "runtime/scene_file/read_scene.hpp"
 
@@ -64,7 +65,7 @@ RayBytes planned(const Scene& scene) {
     return plan_scene(scene, meshes).rays;
 }
 
-/// Bytes that a frame's rays took at their height, with some small tables.
+/// The peak bytes of a frame's rays, with some small tables.
 double taken(const Scene& scene) {
     const Device device = test_device();
     RenderReport report;
@@ -110,7 +111,7 @@ TEST(RayArrays, OfDepthsThatFewRaysReachLieBetweenTheLeastAndTheMost) {
 }
 
 TEST(RayArrays, OfPathsThatEndForTheirWeightArePlannedUpToThere) {
-    // 0.2^5 is more than 1/4096, 0.2^6 less: the sixth depth is made, and finds no rays.
+    // 0.2^5 is above 1/4096 and 0.2^6 below: arrays for the sixth depth are made and get no rays.
     const Scene scene = scene_of({.wall = R"({"reflection": 0.2})", .depth = 64});
     const RayBytes plan = planned(scene);
     EXPECT_EQ(plan.depth, 6u);
@@ -154,7 +155,7 @@ TEST(RayArrays, ThatDoNotFitAskForFewerRays) {
     scene.render.samples = 4;
     EXPECT_THAT(refusal(), testing::EndsWith(": render a smaller one, or with fewer samples a "
                                              "pixel, or with less depth"));
-    // What the plan can't tell, the arrays do.
+    // The arrays' allocation reports what the plan can't foresee.
     const Device device = device_of(24);
     RenderReport report;
     scene = scene_of({.wall = kMirror, .lights = kLamp, .depth = 16, .size = {256, 128}});

@@ -1,4 +1,6 @@
-// Models that come back wait in a part of the device's memory, and never in a frame's way.
+// SPDX-License-Identifier: Apache-2.0
+// Models that come back are retained in a part of the device's memory, and never take a frame's
+// memory.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -18,7 +20,7 @@ namespace {
 
 constexpr int kModels = 10;
 
-/// One object that goes twice through ten spheres, from frame to frame.
+/// A scene text of one object that goes twice through ten spheres, from frame to frame.
 std::string scene_text(const std::string& placement) {
     std::string models, keys;
     for (int i = 0; i < 2 * kModels; ++i) {
@@ -48,7 +50,7 @@ Device device_of(const char* megabytes) {
     return device;
 }
 
-/// What rendering frames gave.
+/// The results of rendering frames.
 struct Rendered {
     std::optional<size_t> alone;
     int forgotten = 0;
@@ -58,7 +60,7 @@ struct Rendered {
 
 class RetainedMemory : public FileTest, public testing::WithParamInterface<const char*> {
   protected:
-    /// Renders the first `count` frames on a device of so many megabytes.
+    /// Renders the first `count` frames on a device with that many megabytes.
     Rendered run(const char* megabytes, int count, bool overlap) {
         const Scene moving = parse_scene(scene_text(GetParam()), folder / "scene.json", {});
         const Device device = device_of(megabytes);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "runtime/opencl/device.hpp"
 
 #include <gtest/gtest.h>
@@ -15,7 +16,7 @@ namespace {
 
 using DriverFilesDeathTest = FileTest;
 
-/// Kind and sentence of the error that opening `selector` throws.
+/// The kind and the sentence of the error that opening `selector` throws.
 std::pair<int, std::string> refusal(std::string_view selector, int lanes = 0) {
     try {
         Device::open(selector, lanes);
@@ -115,8 +116,8 @@ TEST(Status, HasItsName) {
     EXPECT_EQ(status_name(-9999), "status -9999");
 }
 
-/// Opens any device in a new process that finds its drivers in `folder`: the ICD loader reads it
-/// once.
+/// Opens any device in a new process that finds its drivers in `folder`. It takes a new process
+/// because the ICD loader reads the folder once.
 void open_with_drivers(const std::filesystem::path& folder) {
     setenv("OCL_ICD_VENDORS", (folder.string() + "/").c_str(), 1);
     const auto [code, sentence] = refusal("auto");

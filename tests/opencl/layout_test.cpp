@@ -1,4 +1,6 @@
-// Every struct that host and kernels share crosses once: written by the host, read field by field.
+// SPDX-License-Identifier: Apache-2.0
+// Every struct that host and kernels share is passed once: the host writes it, a kernel reads it
+// field by field.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -13,8 +15,8 @@
 #include "runtime/opencl/program.hpp"
 #include "tests/support/test_device.hpp"
 
-// The fields of each struct: F float, V float4, I int, and with a length arrays FA, IA. The kernel
-// reads the text of a list, the host what the list stands for.
+// The lists name the fields of each struct: F is a float, V a float4, I an int, and FA and IA
+// arrays with a length. The kernel gets a list as text, the host expands it as a macro.
 // clang-format off
 #define PYRAMID_SHAPE_FIELDS \
     V(edge) V(inverse_edge) I(size_x) I(size_y) I(size_z) I(sectors_x) I(sectors_y) \
@@ -69,7 +71,7 @@ constexpr const char* kInstanceNodeText = TEXT_OF(INSTANCE_NODE_FIELDS);
 
 using Words = std::vector<uint32_t>;
 
-/// A value whose words are all different floats between 1 and 2.
+/// A value whose 32-bit parts are all different floats between 1 and 2.
 template <class T>
 T numbered_words() {
     std::array<uint32_t, sizeof(T) / 4> words;
@@ -77,7 +79,7 @@ T numbered_words() {
     return std::bit_cast<T>(words);
 }
 
-/// What a kernel reads from the fields of a value that it is given as its argument.
+/// The values that a kernel reads from the fields of its argument.
 template <class T>
 Words read_by_kernel(const T& value, const std::string& type, const std::string& fields) {
     const Device device = test_device();

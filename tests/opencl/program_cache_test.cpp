@@ -1,4 +1,5 @@
-// The compiled kernels on disk, with real processes: this program starts itself.
+// SPDX-License-Identifier: Apache-2.0
+// The cache of compiled kernels on disk, tested with real processes: this program starts itself.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -20,8 +21,8 @@ using ProgramCacheFiles = FileTest;
 
 namespace fs = std::filesystem;
 
-/// What a process of these tests does: two programs, one kernel launched of each, `scale` unless
-/// VXL_TEST_KERNEL names the other. It returns how many were compiled.
+/// The work of a process of these tests: builds two programs and launches one kernel of each,
+/// `scale` unless VXL_TEST_KERNEL names the other. Returns how many were compiled.
 int build_and_run() {
     const char* name = std::getenv("VXL_TEST_KERNEL");
     const std::string kernel = name ? name : "scale";
@@ -49,13 +50,13 @@ int build_and_run() {
     return int(device.counters().programs_built - device.counters().programs_from_cache);
 }
 
-/// Run in a process of its own by the tests below; its exit code is 10 + the programs compiled.
+/// The tests below run this in its own process; its exit code is 10 + the programs compiled.
 TEST(ProgramCacheProcess, DISABLED_BuildsAndRuns) {
     const int compiled = build_and_run();
     if (!HasFailure()) std::exit(10 + compiled);
 }
 
-/// Compiled files of the kernel `keep_words` that lie ready for PoCL.
+/// The number of compiled files of the kernel `keep_words` that are ready for PoCL.
 int count_ready() {
     int count = 0;
     for (const auto& entry : fs::recursive_directory_iterator(cache_folder()))
@@ -63,8 +64,9 @@ int count_ready() {
     return count;
 }
 
-/// Two programs joined of cut.cl and a file with other constants, each on a device of its own that
-/// stays open; keep_words runs in both. It returns how many of it were ready when they were built.
+/// Builds cut.cl together with shade.cl twice, with different constants, each time on its own
+/// device, which stays open; keep_words runs on both. Returns for each build how many compiled
+/// files of keep_words were ready after it.
 std::array<int, 2> ready_when_joined() {
     constexpr std::array kFiles = {"cut.cl", "shade.cl"};
     const std::vector<uint32_t> slot = {0}, numbers(4096, 7);
@@ -86,14 +88,15 @@ std::array<int, 2> ready_when_joined() {
     return ready;
 }
 
-/// Run in a process of its own; its exit code is 10 + 3 x those ready for the first program + those
-/// for the second.
+/// Run in its own process; the exit code is 10 + 3 x the ready files of the first program + those
+/// of the second.
 TEST(ProgramCacheProcess, DISABLED_JoinsAndRuns) {
     const auto [first, second] = ready_when_joined();
     if (!HasFailure()) std::exit(10 + 3 * first + second);
 }
 
-/// Starts `processes` at once on one cache folder; returns what each compiled, -1 for a failure.
+/// Starts `processes` processes at once on one cache folder; returns the number that each compiled,
+/// -1 for a failure.
 std::vector<int> compiled_by_processes(int processes, const std::string& environment,
                                        const char* work = "BuildsAndRuns") {
     const std::string self = fs::read_symlink("/proc/self/exe").string();
@@ -124,7 +127,7 @@ TEST_F(ProgramCacheFiles, ASecondRunCompilesNothing) {
     EXPECT_EQ(compiled_by_processes(1, environment), std::vector<int>{0});
 }
 
-/// What an entry holds must do for kernels that no run before has launched.
+/// The content of an entry must also serve kernels that no earlier run has launched.
 TEST_F(ProgramCacheFiles, AKernelFirstLaunchedByALaterRunIsMadeOfTheKeptBitcode) {
     if (!device_keeps_programs()) GTEST_SKIP() << "this device's programs are not kept";
     const std::string environment = "VOXELUME_CACHE_DIR=" + folder.string();
@@ -143,7 +146,7 @@ TEST_F(ProgramCacheFiles, AKernelFirstLaunchedByALaterRunIsMadeOfTheKeptBitcode)
     EXPECT_EQ(compiled_by_processes(1, environment), std::vector<int>{0});
 }
 
-/// VXL_STRESS_ROUNDS=12 makes the 96 processes that PoCL's own folder fails with.
+/// VXL_STRESS_ROUNDS=12 starts the 96 processes with which PoCL's own folder fails.
 TEST_F(ProgramCacheFiles, EightProcessesShareAColdFolder) {
     const char* text = std::getenv("VXL_STRESS_ROUNDS");
     const int rounds = text ? std::atoi(text) : 1;

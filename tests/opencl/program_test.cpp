@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "runtime/opencl/program.hpp"
 
 #include <gtest/gtest.h>
@@ -81,7 +82,7 @@ TEST(Program, FilesBuiltTogetherAreThoseThatWereNotBuiltBefore) {
     features.cubes = true;
     const std::array<const char*, 2> files = {"sight.cl", "light.cl"};
     Program::build_together(device, files, features.defines(device));
-    features.shadows = true;  // which only light.cl mentions
+    features.shadows = true;  // a feature that only light.cl mentions
     Program::build_together(device, files, features.defines(device));
     const auto programs_with = [&](const std::string& kernel) {
         return std::ranges::count_if(program_sources(device), [&](const std::string& source) {
@@ -112,7 +113,7 @@ kernel void add_pair(uint count, global uint* numbers, global float* shares, uin
 }
 )";
 
-/// What a launch of add_pair with these arguments throws.
+/// The error that a launch of add_pair with these arguments throws.
 template <class... Args>
 std::string refusal(const Args&... args) {
     try {

@@ -1,4 +1,6 @@
-// The flat image of a scene of analytic solids, with the places where a comparison makes no sense.
+// SPDX-License-Identifier: Apache-2.0
+// The flat image of a scene of analytic solids, with the pixels at which a comparison isn't
+// meaningful.
 #pragma once
 
 #include <cstdint>
@@ -14,12 +16,12 @@ struct AnalyticImage {
     int width = 0;
     int height = 0;
     std::vector<glm::dvec3> radiance;
-    std::vector<uint8_t> edge;  ///< 1: something else was decided on the way to the pixel than to
-                                ///< one of its eight neighbours, so rounding may decide, too
+    std::vector<uint8_t> edge;  ///< 1 if the way to the pixel had another decision than that to one
+                                ///< of its eight neighbours, so that rounding may decide
 };
 
-/// One sight ray through each pixel's centre. Throws std::invalid_argument for displays other than
-/// pyramids and for objects that AnalyticTracer refuses.
+/// Traces one sight ray through each pixel's centre. Throws std::invalid_argument for displays
+/// other than pyramids and for objects that AnalyticTracer refuses.
 AnalyticImage analytic_image(const Scene& scene);
 
 }  // namespace voxelume::oracle

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tests/oracles/analytic_solids.hpp"
 
 #include <algorithm>
@@ -10,7 +11,7 @@ namespace {
 
 using Real = long double;
 
-/// The distance to a convex polygon in the plane, counter-clockwise, positive outside.
+/// The distance to a convex polygon in the plane, corners counter-clockwise; positive outside.
 Real polygon_distance(const std::vector<std::pair<Real, Real>>& corners, Real x, Real y) {
     Real nearest = INFINITY;
     bool inside = true;
@@ -26,7 +27,8 @@ Real polygon_distance(const std::vector<std::pair<Real, Real>>& corners, Real x,
     return inside ? -nearest : nearest;
 }
 
-/// Solids of revolution: the profile mirrored at the axis, whose inner edges don't count.
+/// The distance to a solid of revolution: its profile is mirrored at the axis, and the inner edges
+/// don't count.
 Real revolved_distance(Real bottom, Real top, Real half_height, const Vector& p) {
     return polygon_distance(
         {{-bottom, -half_height}, {bottom, -half_height}, {top, half_height}, {-top, half_height}},
@@ -43,7 +45,8 @@ Real box_distance(const Vector& half, const Vector& p) {
     return inside > 0 ? std::sqrt(outside) : inside;
 }
 
-/// Bisection for the foot point's multiplier, in the variable u = t + r_min², on (0, ...).
+/// The distance to an ellipsoid: bisects for the foot point's multiplier, in the variable u = t +
+/// r_min², on (0, ...).
 Real ellipsoid_distance(const Vector& r, const Vector& point) {
     const Vector p = glm::abs(point);
     const int k = r.x <= r.y && r.x <= r.z ? 0 : r.y <= r.z ? 1 : 2;
@@ -168,8 +171,8 @@ AnalyticSolid::Crossing AnalyticSolid::first_crossing(const Vector& origin, cons
     return found;
 }
 
-/// An interval whose middle is farther from the surface than its ends are from the middle has no
-/// crossing; one shorter than `uncertainty` is decided by its ends.
+/// Searches an interval for crossings. An interval whose middle is farther from the surface than
+/// its ends are from the middle has none; one shorter than `uncertainty` is decided by its ends.
 void AnalyticSolid::search(const Vector& origin, const Vector& direction, long double first,
                            long double last, long double uncertainty, Crossing& found) const {
     if (found.is_hit) return;

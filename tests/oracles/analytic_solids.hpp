@@ -1,4 +1,6 @@
-// Analytic solids in long double: distances from formulas of their own, ray crossings by bisection.
+// SPDX-License-Identifier: Apache-2.0
+// Analytic solids in long double: distances from the oracle's own formulas, ray crossings by
+// bisection.
 #pragma once
 
 #include <glm/mat4x4.hpp>
@@ -12,13 +14,14 @@ namespace voxelume::oracle {
 
 using Vector = glm::vec<3, long double>;
 
-/// A tree of solids in a grid's space: points are metres there.
+/// A tree of solids in a grid's space, in which points are in metres.
 class AnalyticSolid {
   public:
     AnalyticSolid(const Solid& solid, const glm::dmat4& frame_from_solid);
 
-    /// Positive outside. Of one shape under a turn and a uniform scale it is the Euclidean
-    /// distance; in general it has the right sign and never exceeds that.
+    /// The distance, positive outside. For one shape under a turn and a uniform scale it is the
+    /// Euclidean distance; otherwise it has the right sign and never exceeds the Euclidean
+    /// distance.
     long double distance(const Vector& point) const;
 
     struct Crossing {

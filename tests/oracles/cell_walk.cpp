@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tests/oracles/cell_walk.hpp"
 
 #include <cmath>
@@ -37,7 +38,7 @@ void walk(const glm::dvec3& o, const glm::dvec3& d, const glm::ivec3& size, int 
     for (int a = 0; a < 3; ++a) {
         origin[a] = std::llround(std::ldexp(o[a], fraction_bits));
         direction[a] = std::llround(std::ldexp(d[a], 22));
-        // floor for a ray that moves up or not at all, ceil - 1 for one that moves down
+        // floor for a ray that moves up or doesn't move, ceil - 1 for a ray that moves down
         cell[a] =
             direction[a] >= 0 ? floor_divide(origin[a], unit) : -floor_divide(-origin[a], unit) - 1;
     }

@@ -1,5 +1,6 @@
+// SPDX-License-Identifier: Apache-2.0
 // The cells that a ray passes, in order, by exact integer arithmetic: Amanatides & Woo 1987 with
-// times compared as fractions. Shares no code with the kernels.
+// times compared as fractions. The oracle shares no code with the kernels.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -29,7 +30,7 @@ struct FirstHit {
 FirstHit first_hit(const glm::dvec3& o, const glm::dvec3& d, const glm::ivec3& size,
                    int fraction_bits, const VoxelSet& voxels);
 
-/// A cell that a ray passes, and when it is in it.
+/// A cell that a ray passes, and the times at which it enters and leaves it.
 struct CrossedCell {
     glm::ivec3 cell{0};
     double t_in = 0, t_out = 0;  ///< relative error 2^-52

@@ -1,4 +1,5 @@
-// Spheres and turned boxes in double precision: what an observer sees of them, point by point.
+// SPDX-License-Identifier: Apache-2.0
+// Spheres and turned boxes in double precision: the points of them that an observer sees.
 #pragma once
 
 #include <glm/mat3x3.hpp>
@@ -8,7 +9,7 @@
 
 namespace voxelume::oracle {
 
-/// A sphere (`radius` > 0) or a box with these half edges along the columns of `axes`.
+/// A sphere (`radius` > 0), or a box with the given half edges along the columns of `axes`.
 struct SimpleSolid {
     glm::dvec3 center{0};
     double radius = 0;
@@ -18,7 +19,7 @@ struct SimpleSolid {
     /// Metres to the surface, negative inside.
     double distance(const glm::dvec3& p) const;
 
-    /// Where the ray is inside; t in lengths of `direction`.
+    /// The interval in which the ray is inside, with t in lengths of `direction`.
     struct Span {
         double enter, leave;
     };
@@ -33,11 +34,11 @@ struct SimpleScene {
 
     double distance(const glm::dvec3& p) const;  ///< to the nearest surface, >= 0
 
-    /// The least t >= first at which the ray meets a surface.
+    /// The smallest t >= first at which the ray meets a surface.
     std::optional<double> first_hit(const glm::dvec3& origin, const glm::dvec3& direction,
                                     double first) const;
 
-    /// Whether nothing before `clear` metres in front of `p` hides it from `from`.
+    /// True if nothing hides `p` from `from`, except within `clear` metres in front of `p`.
     bool is_seen(const glm::dvec3& from, const glm::dvec3& p, double clear) const;
 };
 

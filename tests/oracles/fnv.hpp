@@ -1,4 +1,5 @@
-// FNV-1a, 64 bits: a number that changes when any bit of what was added does.
+// SPDX-License-Identifier: Apache-2.0
+// The hash FNV-1a with 64 bits, which changes when any bit of what was added does.
 #pragma once
 
 #include <cstddef>

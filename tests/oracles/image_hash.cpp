@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tests/oracles/image_hash.hpp"
 
 #include "tests/oracles/fnv.hpp"

@@ -1,4 +1,5 @@
-// A number that changes when any bit of an image does.
+// SPDX-License-Identifier: Apache-2.0
+// A hash that changes when any bit of an image does.
 #pragma once
 
 #include <cstdint>
@@ -7,7 +8,7 @@
 
 namespace oracle {
 
-/// FNV-1a over the size, and every plane's name and bits in the order of names.
+/// FNV-1a over the size and every plane's name and bits, in the order of names.
 uint64_t image_hash(const voxelume::Image& image);
 
 }  // namespace oracle

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tests/oracles/mesh_distance.hpp"
 
 #include <algorithm>
@@ -17,7 +18,8 @@ double squared_to_segment(const glm::dvec3& p, const glm::dvec3& a, const glm::d
     return squared(p - a - edge * std::clamp(glm::dot(p - a, edge) / length, 0.0, 1.0));
 }
 
-/// The plane's distance where the foot of `p` lies inside the triangle, else that of an edge.
+/// The squared distance to the plane if the foot of `p` lies inside the triangle, else to the
+/// nearest edge.
 double squared_to_triangle(const glm::dvec3& p, const Triangle& t) {
     const glm::dvec3 normal = glm::cross(t[1] - t[0], t[2] - t[0]);
     const double area = squared(normal);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The closest point of a mesh, in double.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tests/oracles/mesh_ray.hpp"
 
 #include <algorithm>
@@ -15,7 +16,8 @@ using Vector = glm::vec<3, long double>;
 struct Shear {
     Vector origin;
     int x, y, z;
-    long double over_x, over_y, over_z;  ///< direction's x and y over its z; 1 over its z
+    long double over_x, over_y,
+        over_z;  ///< the direction's x and y divided by its z; 1 divided by its z
 
     Shear(const glm::dvec3& from, const glm::dvec3& direction) : origin(from) {
         const glm::dvec3 size = glm::abs(direction);
@@ -46,7 +48,8 @@ void meet(const Triangle& triangle, const Shear& shear, long double& nearest) {
     if (t > 0) nearest = std::min(nearest, t);
 }
 
-/// Whether the ray may come into the box before `nearest`; widened by far more than doubles round.
+/// True if the ray may enter the box before `nearest`. The box is widened by far more than doubles
+/// round.
 bool may_enter(const MeshTree::Node& box, const glm::dvec3& origin, const glm::dvec3& direction,
                long double nearest) {
     const glm::dvec3 margin = 1e-9 * (glm::abs(box.low) + glm::abs(box.high) + glm::abs(origin));
@@ -66,8 +69,8 @@ bool may_enter(const MeshTree::Node& box, const glm::dvec3& origin, const glm::d
 }
 
 double distance_to_edge(const Edge& edge, const glm::dvec3& origin, const glm::dvec3& direction) {
-    // The nearest pair of points of a segment a + s e and a half line o + t d: at their common
-    // perpendicular, or at an end of one of them.
+    // The nearest points of a segment a + s e and a half line o + t d are at their common
+    // perpendicular or at an end of one of them.
     const Vector o(origin), d(direction), a(edge[0]), e = Vector(edge[1]) - a, r = a - o;
     const long double dd = glm::dot(d, d), ee = glm::dot(e, e), de = glm::dot(d, e);
     const long double common = dd * ee - de * de;
@@ -89,7 +92,7 @@ struct PointLess {
     }
 };
 
-/// How the triangles at an edge are seen.
+/// From which sides the triangles at an edge are seen.
 struct Sides {
     int front = 0, back = 0;
 };

@@ -1,4 +1,5 @@
-// Where rays meet a mesh, and how near they pass its silhouette, in long double.
+// SPDX-License-Identifier: Apache-2.0
+// The hits of rays on a mesh, and the distance at which rays pass its silhouette, in long double.
 #pragma once
 
 #include <optional>
@@ -17,10 +18,10 @@ std::optional<double> first_hit(const MeshTree& mesh, const glm::dvec3& origin,
 using Edge = std::array<glm::dvec3, 2>;
 
 /// The edges where the mesh, seen from `eye`, turns from front to back or ends. Triangles are
-/// neighbours where their corners are equal; an edge of three or more triangles counts too.
+/// neighbours where their corners are equal; an edge of three or more triangles counts, too.
 std::vector<Edge> silhouette_edges(const std::vector<Triangle>& triangles, const glm::dvec3& eye);
 
-/// From the half line origin + direction * t, t >= 0, to the nearest of the edges.
+/// The distance from the half line origin + direction * t, t >= 0, to the nearest of the edges.
 double distance_to_edges(const std::vector<Edge>& edges, const glm::dvec3& origin,
                          const glm::dvec3& direction);
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A tree of boxes over triangles in double, for the oracles that search a mesh.
 #pragma once
 
@@ -10,12 +11,13 @@ namespace voxelume::oracle {
 
 using Triangle = std::array<glm::dvec3, 3>;
 
-/// Triangles halved at the median of the longest axis until four or fewer are left.
+/// A tree that halves triangles at the median of the longest axis until four or fewer are left.
 class MeshTree {
   public:
     struct Node {
         glm::dvec3 low, high;
-        uint32_t first = 0;  ///< leaf: of its triangles in `order`; else its first child of two
+        uint32_t first = 0;  ///< leaf: index of its first triangle in `order`; else index of the
+                             ///< first of its two children
         uint32_t count = 0;  ///< triangles of a leaf, 0 for a node with children
     };
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tests/oracles/rational_map.hpp"
 
 #include <stdexcept>
@@ -40,7 +41,7 @@ RationalMap rational_map(const glm::dmat4& m) {
 
 RationalMap rational_turn(int a, int b, int c, int d) {
     const mpq_class n(a * a + b * b + c * c + d * d);
-    // The image of v is q v q* / n; written out for the three unit vectors.
+    // The image of v is q v q* / n, written out for the three unit vectors.
     RationalMap turn;
     turn.linear[0] = {mpq_class(a * a + b * b - c * c - d * d) / n,
                       mpq_class(2 * (b * c - a * d)) / n, mpq_class(2 * (b * d + a * c)) / n};

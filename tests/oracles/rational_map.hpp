@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Affine maps in rational numbers.
 #pragma once
 
@@ -10,10 +11,10 @@ namespace voxelume::oracle {
 
 using RationalPoint = std::array<mpq_class, 3>;
 
-/// The numbers themselves, of which every double is a rational one.
+/// The point's exact coordinates; every double is a rational number.
 RationalPoint rational_point(const glm::dvec3& p);
 
-/// p -> linear * p + offset; `linear` by rows.
+/// The map p -> linear * p + offset, with `linear` stored by rows.
 struct RationalMap {
     std::array<RationalPoint, 3> linear{RationalPoint{1, 0, 0}, RationalPoint{0, 1, 0},
                                         RationalPoint{0, 0, 1}};
@@ -23,13 +24,13 @@ struct RationalMap {
     RationalMap operator*(const RationalMap& inner) const;
 };
 
-/// The map that has a matrix's doubles as entries.
+/// The map whose entries are a matrix's doubles.
 RationalMap rational_map(const glm::dmat4& m);
 
-/// The turn of the quaternion (a,b,c,d), unrounded: whole numbers over a²+b²+c²+d².
+/// The unrounded turn by the quaternion (a,b,c,d): whole numbers over a²+b²+c²+d².
 RationalMap rational_turn(int a, int b, int c, int d);
 
-/// Throws std::invalid_argument for a map that has none.
+/// The inverse of a map. Throws std::invalid_argument if it has none.
 RationalMap inverse(const RationalMap& map);
 
 }  // namespace voxelume::oracle

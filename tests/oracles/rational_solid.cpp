@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tests/oracles/rational_solid.hpp"
 
 #include <algorithm>
@@ -10,7 +11,7 @@ int sign_of(const mpq_class& value) {
     return sgn(value);
 }
 
-/// A number that may be a little wrong, and by how much at most.
+/// A number, and a bound of its error.
 struct Rounded {
     long double value = 0, error = 0;
 
@@ -63,8 +64,8 @@ int side_of_ellipsoid(const std::array<Number, 3>& p, const glm::dvec3& radii) {
     return sign_of(Number(x * x + y * y + z * z - r * r));
 }
 
-/// Between the planes at -h/2 and h/2 the radius goes from `radius` to `top_radius`: times 2h it is
-/// r0 (h - 2y) + r1 (h + 2y).
+/// Between the planes at -h/2 and h/2 the radius goes from `radius` to `top_radius`. Multiplied by
+/// 2h it is r0 (h - 2y) + r1 (h + 2y).
 template <class Number>
 int side_of_cone(const std::array<Number, 3>& p, const Solid& s) {
     const Number h(s.height), two_y = p[1] * Number(2.0);
@@ -118,7 +119,7 @@ int side_of_shape(const std::array<Number, 3>& p, const Solid& s) {
     }
 }
 
-/// A rational as a long double, half a unit off at most.
+/// A rational as a long double, with an error of at most half a unit in the last place.
 long double rounded(const mpq_class& value) {
     const double high = value.get_d();
     const mpq_class rest = value - mpq_class(high);

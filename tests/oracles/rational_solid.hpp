@@ -1,5 +1,6 @@
-// Which side of an analytic solid a point is on, by the signs of polynomials in rational numbers.
-// Shares no code with the kernels, nor with the host's exact side.
+// SPDX-License-Identifier: Apache-2.0
+// The side of an analytic solid that a point is on, by the signs of polynomials in rational
+// numbers. It shares no code with the kernels or with the host's exact side.
 #pragma once
 
 #include <vector>
@@ -14,20 +15,20 @@ class RationalSolid {
   public:
     RationalSolid(const Solid& solid, const RationalMap& frame_from_solid);
 
-    /// -1 inside, 0 on the boundary, 1 outside. Of a combination: the least of its parts' sides
-    /// (union) or the greatest (intersection), those taken away with the other sign.
-    ///
-    /// Signs are first asked of long doubles, and believed where the value is 10^6 times as large
-    /// as what rounding leaves of it.
+    /// Returns -1 inside, 0 on the boundary, 1 outside. For a combination it is the minimum of its
+    /// parts' sides (union) or the maximum (intersection); parts that are taken away have the
+    /// opposite sign.
+    /// Signs are first computed in long double, and trusted where the value is 10^6 times as large
+    /// as the bound of rounding.
     int side(const glm::dvec3& point) const;
 
   private:
-    /// The side, or something else where long doubles don't say.
+    /// The side, or another value where long doubles can't tell it.
     int likely_side(const glm::dvec3& point) const;
 
     Solid solid_;
     RationalMap solid_from_frame_;
-    std::array<long double, 12> rounded_{};  // of that map: three rows of linear, then the offset
+    std::array<long double, 12> rounded_{};  // that map: three rows of linear, then the offset
     std::vector<RationalSolid> parts_;
 };
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tests/oracles/rational_triangle.hpp"
 
 namespace voxelume::oracle {
@@ -24,8 +25,8 @@ std::optional<mpq_class> ray_meets_triangle(const RationalPoint& o, const Ration
     if (facing == 0) return {};
     const mpq_class t = dot(n, minus(triangle[0], o)) / facing;
     if (t < 0) return {};
-    // The signs of the three volumes that the ray's line spans with the edges: all of the same sign
-    // where it passes through, 0 on an edge.
+    // The ray's line spans three volumes with the edges. Where it passes through the triangle all
+    // have one sign; on an edge one is 0.
     bool any_positive = false, any_negative = false;
     for (size_t i = 0; i < 3; ++i) {
         const mpq_class volume =

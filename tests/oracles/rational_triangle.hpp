@@ -1,4 +1,5 @@
-// Where a ray meets a triangle, in rational numbers.
+// SPDX-License-Identifier: Apache-2.0
+// The place at which a ray meets a triangle, in rational numbers.
 #pragma once
 
 #include <optional>
@@ -7,8 +8,8 @@
 
 namespace voxelume::oracle {
 
-/// The t >= 0 at which o + d t is in the closed triangle, from either side; nothing for a ray that
-/// passes it, lies in its plane, or a triangle without area.
+/// The t >= 0 at which o + d t is in the closed triangle, from either side. Returns nothing for a
+/// ray that misses the triangle or lies in its plane, and for a triangle without area.
 std::optional<mpq_class> ray_meets_triangle(const RationalPoint& o, const RationalPoint& d,
                                             const std::array<RationalPoint, 3>& triangle);
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tests/oracles/rational_walk.hpp"
 
 namespace oracle {
@@ -9,7 +10,7 @@ mpz_class floor_of(const mpq_class& q) {
     return result;
 }
 
-/// The cell along one axis that the ray is in at or just behind the place `p`.
+/// The cell along one axis that contains the ray at, or just after, the coordinate `p`.
 long cell_being_entered(const mpq_class& p, const mpq_class& d) {
     const mpz_class low = floor_of(p);
     return low.get_si() - (d < 0 && mpq_class(low) == p);
@@ -37,7 +38,8 @@ bool is_inside(const long (&cell)[3], const glm::ivec3& size) {
     return true;
 }
 
-/// When the ray is last to come between the planes of an axis; false when it never does.
+/// Sets `entry` to the t at which the ray has come between the planes of every axis. Returns false
+/// if it never does.
 bool find_entry(const Rational3& o, const Rational3& d, const glm::ivec3& size, mpq_class& entry) {
     mpq_class exit;
     bool ends = false;
@@ -67,8 +69,8 @@ std::vector<RationalCell> rational_walk(const Rational3& o, const Rational3& d,
     std::vector<RationalCell> cells;
     mpq_class entry = 0;
     if (!find_entry(o, d, size, entry)) return cells;
-    // The whole infinite lattice is walked from just before the grid on, so that the order of
-    // crossings at one t decides at the grid's sides as everywhere.
+    // The walk starts in the infinite lattice just before the grid, so that at the grid's sides the
+    // order of crossings at one t decides as everywhere else.
     long cell[3];
     for (int a = 0; a < 3; ++a) {
         const size_t i = size_t(a);

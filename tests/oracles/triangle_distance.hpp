@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The distance from a point to a triangle, in double, feature by feature.
 #pragma once
 
@@ -5,7 +6,7 @@
 
 namespace voxelume::oracle {
 
-/// From `p` to the closed triangle abc, which may have no area.
+/// The distance from `p` to the closed triangle abc, which may have no area.
 double distance_to_triangle(const glm::dvec3& p, const glm::dvec3& a, const glm::dvec3& b,
                             const glm::dvec3& c);
 

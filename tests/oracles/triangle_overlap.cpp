@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tests/oracles/triangle_overlap.hpp"
 
 #include <gmpxx.h>
@@ -58,7 +59,7 @@ Rational turn(const Point& a, const Point& b, const Point& p, int u, int w) {
     return (b[u] - a[u]) * (p[w] - a[w]) - (b[w] - a[w]) * (p[u] - a[u]);
 }
 
-/// Whether the line through `p` along `axis` passes the triangle's bounding box: most don't.
+/// True if the line through `p` along `axis` passes the triangle's bounding box; most lines don't.
 bool passes_box(const glm::ivec3& p, int axis, const LatticeCorners& t) {
     for (int a = 0; a < 3; ++a)
         if (a != axis && (p[a] < std::min({t[0][a], t[1][a], t[2][a]}) ||
@@ -67,8 +68,8 @@ bool passes_box(const glm::ivec3& p, int axis, const LatticeCorners& t) {
     return true;
 }
 
-/// Whether the line through p along `axis` crosses the triangle: 0, or the sign of the crossing,
-/// and then where.
+/// Returns 0 if the line through p along `axis` doesn't cross the triangle; else the sign of the
+/// crossing, and its place in `at`.
 int line_crossing(const Point& p, int axis, const LatticeCorners& triangle, Rational& at) {
     const int u = (axis + 1) % 3, w = (axis + 2) % 3;
     const Point a = to_point(triangle[0]), b = to_point(triangle[1]), c = to_point(triangle[2]);
@@ -81,7 +82,8 @@ int line_crossing(const Point& p, int axis, const LatticeCorners& triangle, Rati
     return area > 0 ? 1 : -1;
 }
 
-/// Where the line through p along `axis` crosses the triangle's plane, which is not parallel to it.
+/// The place at which the line through p along `axis` crosses the triangle's plane, which is not
+/// parallel to the line.
 Rational plane_crossing(const Point& p, int axis, const LatticeCorners& triangle) {
     const int u = (axis + 1) % 3, w = (axis + 2) % 3;
     const Point a = to_point(triangle[0]), b = to_point(triangle[1]), c = to_point(triangle[2]);
@@ -112,7 +114,8 @@ bool crosshair_meets_triangle(const glm::ivec3& v, const LatticeCorners& triangl
         if (!passes_box(v * 4096 + 2048, axis, triangle)) continue;
         Rational at;
         if (line_crossing(moved(center), axis, triangle, at) == 0) continue;
-        // The move only decides which triangle owns an edge; the place is that on the line itself.
+        // The shift only decides which triangle owns an edge; the place is that on the unshifted
+        // line.
         at = plane_crossing(center, axis, triangle);
         if (at >= v[axis] * 4096 && at < (v[axis] + 1) * 4096) return true;
     }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Images of absorbing objects in an absorbing medium against an analytic tracer.
 #include "runtime/scene_file/read_scene.hpp"
 #include "tests/pictures/analytic_image_scenes.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Rendered surfaces against their mesh in double: distances, depths and masks, in voxels.
 #include <gtest/gtest.h>
 
@@ -67,8 +68,8 @@ TEST_F(Accuracy, ExactSurfacesLieWithinAThousandthOfAVoxel) {
 }
 
 TEST_F(Accuracy, EverySurfaceKeepsItsOwnInAWorldOfThreeKinds) {
-    // Three rings that run through one another. A voxel has one kind, so where two of them meet,
-    // within two voxels, only the coarser bound holds.
+    // The scene has three rings that run through one another. A voxel has one kind, so within two
+    // voxels of the places where two rings meet, only the coarser bound holds.
     Scene scene = mesh_scene(file, mesh, {"exact", Surface::exact}, kResolution, kImage);
     const double edge = scene.world.voxel_size.x;
     scene.world.bounds.min -= edge * glm::dvec3(32, 24, 40);

@@ -1,9 +1,11 @@
-// Scenes of exact solids with every sort of material and light, for comparisons of whole images.
+// SPDX-License-Identifier: Apache-2.0
+// Scenes of exact solids with all kinds of materials and lights, for comparisons of whole images.
 #pragma once
 
 namespace voxelume {
 
-/// A glass of water with a bubble of glass in it: nested by priority, all with Fresnel's ratios.
+/// A scene of a glass of water with a bubble of glass in it, nested by priority; all surfaces have
+/// Fresnel's reflectance.
 inline constexpr const char* kNestedScene = R"({"voxelume": 1,
  "world": {"voxel_size": 0.02, "bounds": {"min": [-1.5, -0.1, -1.3], "max": [1.7, 2, 1.4]}, "background": [0.3, 0.4, 0.6],
            "ambient": [0.2, 0.1, 0.3], "medium": {"absorption": [0.1, 0.05, 0.2], "color": [0.5, 0.4, 0.3]}},
@@ -29,8 +31,9 @@ inline constexpr const char* kNestedScene = R"({"voxelume": 1,
  "observer": {"position": [0.5, 1.4, 3.3], "look_at": [0, 0.5, 0], "display": {"shape": "pyramid", "angle": 42, "near": 1.2}},
  "render": {"size": [240, 180], "depth": 7}})";
 
-/// Opacity with and without refraction, overlapping by priority, squeezed and mirrored; filtered
-/// shadows, a light inside of an object, voxels that aren't cubes.
+/// A scene of objects with opacity, with and without refraction, that overlap by priority, some
+/// squeezed or mirrored. It has filtered shadows, a light inside an object, and voxels that aren't
+/// cubes.
 inline constexpr const char* kVeiledScene = R"({"voxelume": 1,
  "world": {"voxel_size": [0.03, 0.02, 0.025], "bounds": {"min": [-1.5, -0.1, -1.3], "max": [1.7, 2, 1.4]}, "background": [0.3, 0.4, 0.6],
            "ambient": [0.2, 0.1, 0.3], "medium": {"absorption": [0.1, 0.05, 0.2], "color": [0.5, 0.4, 0.3]}},
@@ -59,7 +62,8 @@ inline constexpr const char* kVeiledScene = R"({"voxelume": 1,
  "observer": {"position": [0.5, 1.4, 3.3], "look_at": [0, 0.5, 0], "display": {"shape": "pyramid", "angle": 42, "near": 1.2}},
  "render": {"size": [240, 180], "depth": 5, "shadow": "filtered"}})";
 
-/// Water that the sides of the world cut: sight rays and background below its surface.
+/// A scene of water that the sides of the world cut, with sight rays and background below its
+/// surface.
 inline constexpr const char* kPoolScene = R"({"voxelume": 1,
  "world": {"voxel_size": 0.02, "bounds": {"min": [-1.5, -1, -1.3], "max": [1.7, 1.2, 1.4]}, "background": [0.3, 0.4, 0.6],
            "ambient": [0.2, 0.1, 0.3]},

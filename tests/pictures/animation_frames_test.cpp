@@ -1,5 +1,6 @@
-// Every frame of the animations in scenes/, small and coarse: the bits of a run that keeps what it
-// can and overlaps its frames are those of each frame from scratch.
+// SPDX-License-Identifier: Apache-2.0
+// Every frame of the animations in scenes/, small and coarse: a run that retains what it can and
+// overlaps its frames gives the bits of each frame rendered from nothing.
 #include <gtest/gtest.h>
 
 #include "runtime/batch/frame_schedule.hpp"
@@ -12,7 +13,7 @@
 namespace voxelume {
 namespace {
 
-/// A scene, and what of it a test of many frames can afford.
+/// A scene, and the frames, size and voxels of it that a test of many frames can afford.
 struct Animation {
     const char* name;
     glm::ivec2 size;
@@ -29,7 +30,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, AnimationFrames,
                                          Animation{"drill", {48, 36}, 40}),
                          [](const auto& animation) { return std::string(animation.param.name); });
 
-/// All that a volume shows.
+/// All values that a volume shows.
 struct ShownVolume {
     std::vector<uint64_t> indices;
     std::vector<glm::vec3> colors;

@@ -1,4 +1,6 @@
-// Closed smooth surfaces have no cracks: every ray from outside to a point inside hits before it.
+// SPDX-License-Identifier: Apache-2.0
+// Closed smooth surfaces have no cracks: every ray from outside to a point inside hits the surface
+// on its way.
 #include <gtest/gtest.h>
 
 #include <bit>
@@ -23,7 +25,7 @@ struct Ring {
     glm::dvec3 center{43.3, 41.1, 22.6};
     double radius = 25.2, tube = 11.4, flatness = 1.3;
 
-    /// Less than -1 about a voxel or more inside, more than 1 outside.
+    /// A measure that is less than -1 about a voxel or more inside, and more than 1 outside.
     double outside(const glm::dvec3& p) const {
         const glm::dvec3 q = p - center;
         return std::hypot(std::hypot(q.x, q.y) - radius, q.z * flatness) - tube;
@@ -50,7 +52,7 @@ double uniform(std::mt19937& random) {
     return double(random()) / 4294967296.0;
 }
 
-/// From a face of the grid towards a point near the middle of the tube.
+/// A ray from a face of the grid towards a point near the middle of the tube.
 CrackRay ray_from_outside(const Ring& ring, double unit, std::mt19937& random) {
     const glm::dvec3 target =
         ring.point(2 * kPi * uniform(random), 2 * kPi * uniform(random), 0.8 * uniform(random));
@@ -67,8 +69,8 @@ CrackRay ray_from_outside(const Ring& ring, double unit, std::mt19937& random) {
     return ray;
 }
 
-/// Through lattice points or edges: from a lattice point deep inside, backwards along a direction
-/// of few bits to half-integer places, until outside.
+/// A ray through lattice points or edges: from a lattice point deep inside it goes backwards, along
+/// a direction of few bits, to half-integer places until it is outside.
 std::optional<CrackRay> ray_through_corners(const Ring& ring, std::mt19937& random) {
     glm::dvec3 target = glm::round(
         ring.point(2 * kPi * uniform(random), 2 * kPi * uniform(random), 0.7 * uniform(random)));

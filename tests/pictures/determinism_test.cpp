@@ -1,5 +1,6 @@
-// The same scene gives the same bytes: the stress cases D2 and D6 (tests/CASES.md), and everything
-// about a device that must not matter.
+// SPDX-License-Identifier: Apache-2.0
+// Equal scenes give equal bytes: the stress cases D2 and D6 (tests/CASES.md), and all properties of
+// a device that must not matter.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -17,7 +18,7 @@
 namespace voxelume {
 namespace {
 
-/// A ring of triangles, as an OBJ file has it.
+/// The text of an OBJ file of a ring of triangles.
 std::string ring_text() {
     constexpr int kAround = 24, kAcross = 12;
     std::string text;
@@ -98,7 +99,7 @@ TEST_F(Determinism, D6TenRendersOfTheSameDeviceGiveTheSameBits) {
     Scene scene = read_scene(folder / "rings.json", {});
     resize(scene, {52, 39});
     const Device device = test_device();
-    const auto hash = [&] {  // of an image from files on: nothing is kept
+    const auto hash = [&] {  // the hash of an image made from files; nothing is kept
         RenderReport report;
         return oracle::image_hash(render(device, scene, report));
     };
@@ -110,7 +111,7 @@ TEST_F(Determinism, WorkGroupsOfAnySizeGiveTheSameBytes) {
     expect_same_image("VOXELUME_WORK_GROUP", in_turn<const char*>({"32", "64", "256"}, 1));
 }
 
-/// Those of solids are matrix_test's.
+/// Only meshes are tested here; matrix_test.cpp tests solids.
 TEST_F(Determinism, WorkGroupsOfOtherSizesGiveTheSameBytesOfMeshes) {
     scenes = {kRingsCommand};
     expect_same_image("VOXELUME_WORK_GROUP", in_turn<const char*>({"1", "24"}, 1));

@@ -1,4 +1,5 @@
-// Light that mirrors and glass only pass on is neither lost nor made. Cases O7 and O11.
+// SPDX-License-Identifier: Apache-2.0
+// Light that mirrors and glass pass on is neither lost nor created. Cases O7 and O11.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -116,8 +117,8 @@ TEST_P(BothSurfaces, O11WhatReturnsAllLightIsInvisibleInAWhiteFurnace) {
 }
 
 TEST_P(BothSurfaces, O11GlassInAWhiteFurnaceLosesOnlyPathsThatEnd) {
-    // Balls, as rings of glass keep some rays in for ever, by total reflection. Between two balls
-    // paths multiply without end, so small weights end them.
+    // The scene has balls, because rings of glass keep some rays inside for ever by total
+    // reflection. Between two balls paths multiply without end, so small weights end them.
     Json scene = furnace(64);
     scene["render"]["least_weight"] = 1e-5;
     add_thing(scene, ball(0.2, GetParam()), "glass", {0.1, 0.05, 0.15});
@@ -125,11 +126,13 @@ TEST_P(BothSurfaces, O11GlassInAWhiteFurnaceLosesOnlyPathsThatEnd) {
     send_rays(scene, {0, 0, -0.47}, {0, 0, 1}, 0.8, 48);
     const Furnace f = heat(scene);
     EXPECT_LE(f.above, 1e-6);
-    EXPECT_LE(f.below, 1e-2);  // grazing, of one ball (1-R) R^63 < 0.006 is deeper than the limit
+    EXPECT_LE(
+        f.below,
+        1e-2);  // at grazing angles; for one ball (1-R) R^63 < 0.006 is beyond the depth limit
     EXPECT_LE(f.mean_below, 1e-5);
 }
 
-/// Reflectance of glass in air, as fluxes of the two polarisations.
+/// The reflectance of glass in air, as the mean of the fluxes of both polarisations.
 double reflectance(double incidence, double ior) {
     const double within = std::asin(std::sin(incidence) / ior);
     const double rs = std::sin(incidence - within) / std::sin(incidence + within);
@@ -138,8 +141,8 @@ double reflectance(double incidence, double ior) {
 }
 
 TEST(Energy, O11ADepthLimitTakesFromABallOfGlassWhatTheSeriesSays) {
-    // Each meeting with the ball reflects R: of R + (1-R)^2 (1 + R + ...) the limit n leaves
-    // 1 - (1-R) R^(n-1).
+    // Each meeting with the ball reflects R. Of R + (1-R)^2 (1 + R + ...) the depth limit n keeps 1
+    // - (1-R) R^(n-1).
     const glm::dvec3 center(0.017, -0.028, 0.05);
     for (const int depth : {2, 3, 6}) {
         Json scene = furnace(depth);

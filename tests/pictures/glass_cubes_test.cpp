@@ -1,4 +1,5 @@
-// Objects of cubes that let light through: their voxels are one body, and only its faces refract.
+// SPDX-License-Identifier: Apache-2.0
+// Objects of cubes that let light through: their voxels form one body, and only its faces refract.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -25,7 +26,8 @@ Image rendered(const std::string& text, int lanes = 0, uint64_t* secondary_rays 
     return image;
 }
 
-/// What every scene here has out of sight, so that all of them are rendered by the same programs.
+/// Materials that every scene here has out of sight, so that all scenes are rendered by the same
+/// programs.
 constexpr const char* kMaterials =
     R"("all": {"refraction": 1, "opacity": 0.5, "absorption": [1, 1, 1], "checker": {"size": 0.3}})";
 constexpr const char* kModels =
@@ -34,14 +36,14 @@ constexpr const char* kModels =
 
 constexpr const char* kFromAbove = R"("position": [0.9, 5, -1.7], "look_at": [0, 0.5, 0],
               "display": {"shape": "pyramid", "angle": 20})";
-/// Parallel rays along X, through 30 voxels of the block.
+/// An observer with parallel rays along X, through 30 voxels of the block.
 constexpr const char* kThrough = R"("position": [-6, 0.07, 0.03], "look_at": [0, 0.07, 0.03],
               "display": {"shape": "box", "size": [0.8, 0.6, 12]})";
 constexpr const char* kBlock =
     R"({"model": "block", "material": "m", "position": [0.0625, 0.0625, 0.0625]}, )";
 
-/// A world of 48 x 40 x 56 voxels of 0.125 m around objects, as a rule one solid block of 30 x 8 x
-/// 22 voxels, whose top face is at y = 0.5. `floor` is where the floor is.
+/// A world of 48 x 40 x 56 voxels of 0.125 m around objects, by default one solid block of 30 x 8 x
+/// 22 voxels whose top face is at y = 0.5. `floor` is the floor's height.
 std::string block_scene(const std::string& material, double floor = -2,
                         const std::string& observer = kFromAbove,
                         const std::string& block = kBlock) {
@@ -128,7 +130,7 @@ TEST(GlassCubes, OfTheSpacesOwnIndexAreInvisibleToTheBit) {
 }
 
 TEST(GlassCubes, TouchingAnotherObjectAreLeftWhereItBegins) {
-    // The floor lies against the block's lower face.
+    // The floor touches the block's lower face.
     const char* observer = R"("position": [4, 3, -5], "look_at": [0, -0.5, 0],
               "display": {"shape": "pyramid", "angle": 25})";
     const Image with = rendered(block_scene(kGhost, -0.6, observer));
@@ -138,7 +140,7 @@ TEST(GlassCubes, TouchingAnotherObjectAreLeftWhereItBegins) {
 }
 
 TEST(GlassCubes, SolidOnesAbsorbAlongTheWholeWay) {
-    // Bricks inside of the block count, too.
+    // Bricks inside the block must count, too.
     const Image image = rendered(block_scene(
         R"({"diffuse": 0, "refraction": 1, "ior": 1, "absorption": [0.3, 0.7, 0]})", -2, kThrough));
     const double expected[] = {0.25 * std::exp(-0.3 * 3.75), 0.5 * std::exp(-0.7 * 3.75), 0.75};
@@ -148,7 +150,7 @@ TEST(GlassCubes, SolidOnesAbsorbAlongTheWholeWay) {
 }
 
 TEST(GlassCubes, EveryVoxelOfLittleOpacityCoversOnce) {
-    // The light shines on faces that aren't seen.
+    // The light falls on faces that the observer doesn't see.
     std::string scene =
         block_scene(R"({"color": [1, 1, 1], "diffuse": 1, "opacity": 0.07})", -2, kThrough);
     const std::string light = "[0.3, 2.2, -2.1]";
@@ -162,7 +164,7 @@ TEST(GlassCubes, EveryVoxelOfLittleOpacityCoversOnce) {
     for (const float value : image.planes.at("A")) EXPECT_NEAR(value, 1 - left, 1e-5);
 }
 
-/// A closed room of cubes with a far too bright background, full of glass cubes and mirrors.
+/// A closed room of cubes full of glass cubes and mirrors; its background is far too bright.
 std::string leaky_room(int depth, int pixels) {
     return R"({"voxelume": 1,
 "world": {"voxel_size": 0.05, "bounds": {"min": [-1.1, -1.1, -1.1], "max": [1.1, 1.1, 1.1]},
@@ -207,8 +209,8 @@ TEST(GlassCubes, NoRayLeavesAClosedRoom) {
     EXPECT_EQ(leaks, 0u) << "of " << secondary_rays << " secondary rays";
 }
 
-// CTest runs this program with 1, 4, 8 and 16 lanes. A change that is meant to change the image
-// takes the hash that this prints.
+// CTest runs this program with 1, 4, 8 and 16 lanes. A change that intends to change the image
+// replaces the hash by the one that this prints.
 TEST(GlassCubes, AreTheSameToTheBitHoweverManyRaysAreTracedAtOnce) {
     EXPECT_EQ(fmt::format("{:016x}", oracle::image_hash(rendered(leaky_room(3, 40)))),
               "68fcb889cc039359");

@@ -1,4 +1,6 @@
-// The hashes that the repository keeps: tests/golden/hashes.txt, lines of a name and its hash.
+// SPDX-License-Identifier: Apache-2.0
+// The hashes that the repository keeps in tests/golden/hashes.txt: each line has a name and its
+// hash.
 #pragma once
 
 #include <fmt/format.h>
@@ -18,7 +20,7 @@ inline std::string golden_hash(const std::string& wanted) {
     return "none";
 }
 
-/// Fails where `hash` isn't the one that the repository has under `name`.
+/// Fails if `hash` isn't the one that the repository has under `name`.
 inline void expect_golden(const std::string& name, uint64_t hash) {
     EXPECT_EQ(fmt::format("{:016x}", hash), golden_hash(name))
         << name << ": if it was meant to change, look at what it stands for and write the hash to "

@@ -1,5 +1,7 @@
-// Golden bits of what images are made from: voxel sets, fields, ordered cell lists, volumes. The
-// same for every device, number of lanes and compiler (tests/CASES.md, D1 and D5).
+// SPDX-License-Identifier: Apache-2.0
+// Golden bits of the parts that images are made from: voxel sets, fields, ordered cell lists,
+// volumes. They are equal for every device, number of lanes and compiler (tests/CASES.md, D1 and
+// D5).
 #include <gtest/gtest.h>
 
 #include <array>
@@ -26,8 +28,8 @@ namespace {
 using glm::dvec3;
 
 #if defined(__SSE__)
-/// With VXL_TEST_FLUSH in the environment the host takes denormal numbers for zero, from before the
-/// device's threads on: the stress case D4.
+/// With VXL_TEST_FLUSH in the environment the host treats denormal numbers as zero, from before the
+/// device's threads start: the stress case D4.
 [[maybe_unused]] const bool kFlushed = [] {
     if (!std::getenv("VXL_TEST_FLUSH")) return false;
     _mm_setcsr(_mm_getcsr() | 0x8040u);  // flush to zero, denormals are zero
@@ -35,7 +37,7 @@ using glm::dvec3;
 }();
 #endif
 
-/// A point of the unit circle, whose coordinates are rational: no library's sine is in them.
+/// A point of the unit circle with rational coordinates, so that no library's sine takes part.
 glm::dvec2 on_circle(int i, int quarter) {
     const double t = double(i % quarter) / quarter;
     const glm::dvec2 p = glm::dvec2(1 - t * t, 2 * t) / (1 + t * t);
@@ -72,7 +74,8 @@ GridFrame ring_frame() {
     return frame;
 }
 
-/// Every voxel's bit, brick after brick, and the data of stored bricks in the order of places.
+/// The hash of every voxel's bit, brick after brick, and of the data of stored bricks in the order
+/// of slots.
 uint64_t hash_of(const BrickGrid& grid) {
     oracle::Fnv hash;
     const ReadOccupancy occupancy(grid);
@@ -152,8 +155,8 @@ TEST(Golden, VoxelsOfAPlacedMesh) {
     }
 }
 
-/// Digests stand for every cell, axis and t of a walk in their order; exact ones give the same
-/// hash.
+/// Digests stand for every cell, axis and t of a walk in order. The walk in exact arithmetic gives
+/// the same hash.
 TEST(Golden, OrderedCellLists) {
     constexpr uint32_t kMax = 3000;
     DeviceWalks walks(shared_device());

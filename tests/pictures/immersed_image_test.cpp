@@ -1,4 +1,6 @@
-// The image of an absorbing pool whose water the world's sides cut against an analytic tracer.
+// SPDX-License-Identifier: Apache-2.0
+// The image of an absorbing pool whose water is cut by the world's sides, against an analytic
+// tracer.
 #include "runtime/scene_file/read_scene.hpp"
 #include "tests/pictures/analytic_image_scenes.hpp"
 #include "tests/support/analytic_comparison.hpp"

@@ -1,5 +1,6 @@
-// Images of observers inside of glass that only tracing finds, meshes and smooth bodies, against an
-// analytic tracer.
+// SPDX-License-Identifier: Apache-2.0
+// Images of observers in glass that can only be found by tracing, in meshes and smooth bodies,
+// against an analytic tracer.
 #include "runtime/scene_file/read_scene.hpp"
 #include "tests/support/analytic_comparison.hpp"
 #include "tests/support/file_fixture.hpp"
@@ -8,8 +9,8 @@
 namespace voxelume {
 namespace {
 
-/// A block of glass 1.6 x 1.2 x 1.4 m around an observer, with a painted ring and a ball of water
-/// in it, over a floor. `block` is its model.
+/// A scene of a block of glass 1.6 x 1.2 x 1.4 m around an observer, with a painted ring and a ball
+/// of water in it, over a floor. `block` is the block's model.
 std::string block_scene(const std::string& block, const std::string& observer) {
     return R"({"voxelume": 1,
  "world": {"voxel_size": 0.02, "bounds": {"min": [-1.5, -1, -1.3], "max": [1.7, 1.2, 1.4]}, "background": [0.3, 0.4, 0.6],
@@ -37,16 +38,17 @@ std::string block_scene(const std::string& block, const std::string& observer) {
 }
 
 constexpr const char* kBlock = R"({"shape": "box", "size": [1.6, 1.2, 1.4], "surface": "exact"})";
-/// Rays that meet the ring, the drop or the block's walls first.
+/// An observer whose rays first meet the ring, the drop or the block's walls.
 constexpr const char* kInTheMiddle =
     R"({"position": [0.3, 0.2, 0.55], "look_at": [0.1, 0.05, -0.2], "display": {"shape": "pyramid", "angle": 80}})";
-/// From open space in front, all rays but a few begin on a near plane in the block.
+/// An observer in open space in front of the block. All but a few rays begin on a near plane inside
+/// the block.
 constexpr const char* kInFront =
     R"({"position": [0.5, 0.3, 1.1], "look_at": [0.1, 0.05, -0.2], "display": {"shape": "pyramid", "angle": 60, "near": 0.5}})";
 
 class ObserverInMediumMesh : public FileTest {
   protected:
-    /// A closed mesh of the block.
+    /// Writes a closed mesh of the block.
     void SetUp() override {
         FileTest::SetUp();
         write_obj(folder / "block.obj", box({-0.8f, -0.6f, -0.7f}, {0.8f, 0.6f, 0.7f}));

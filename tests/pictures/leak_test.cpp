@@ -1,4 +1,5 @@
-// More than a million reflected and refracted rays meet every closed surface that they come to.
+// SPDX-License-Identifier: Apache-2.0
+// More than a million reflected and refracted rays hit every closed surface that they reach.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -26,14 +27,14 @@ TEST_P(Leaks, NoRayLeavesAClosedRoom) {
     const Image image = rendered(leaky_room(GetParam(), 20), 1'000'000);
     size_t leaks = 0;
     for (size_t i = 0; i < image.planes.at("R").size(); ++i) {
-        // Every path weighs 1/4096 or more, so one of them would show 244.
+        // Every path has a weight of 1/4096 or more, so one leak would show 244.
         leaks += image.planes.at("R")[i] > 2 || image.id_planes.at("objectId")[i] == 0;
     }
     EXPECT_EQ(leaks, 0u);
 }
 
-/// A bubble of 0.1 m in the middle of 1 m of glass, before a white background: rays that come in
-/// can't be kept in by total reflection. Its thickest part lets half of the red light through.
+/// A bubble of 0.1 m in the middle of 1 m of glass, before a white background. Total reflection
+/// can't trap rays that enter. The glass's thickest part lets half of the red light through.
 Scene bubble(const std::string& surface) {
     return parse_scene(R"({"voxelume": 1,
 "world": {"voxel_size": 0.0125, "bounds": {"min": [-0.5, -0.5, -0.5], "max": [0.5, 0.5, 0.5]}, "background": [1, 1, 1]},
@@ -52,7 +53,7 @@ TEST_P(Leaks, NoRayMissesTheBackOfABubble) {
     for (size_t i = 0; i < image.planes.at("R").size(); ++i) {
         if (image.id_planes.at("objectId")[i] == 0) continue;
         ++met;
-        // To the world's end no more than a quarter would pass.
+        // A ray that passes on to the world's end would keep at most a quarter.
         missed += image.planes.at("R")[i] < 0.499f || image.planes.at("G")[i] != 1;
     }
     EXPECT_EQ(missed, 0u) << "of " << met;

@@ -1,4 +1,5 @@
-// A room that no ray can leave, full of things that send rays everywhere.
+// SPDX-License-Identifier: Apache-2.0
+// A room that no ray can leave, full of objects that send rays everywhere.
 #pragma once
 
 #include <string>
@@ -8,7 +9,7 @@
 
 namespace voxelume {
 
-/// Its background is far too bright: 1e6, against 1 of its walls.
+/// A leaky room: its background is far too bright, 1e6 against 1 for its walls.
 inline Scene leaky_room(const std::string& surface, int depth) {
     const std::string text = R"({"voxelume": 1,
 "world": {"voxel_size": 0.03, "bounds": {"min": [-1.1, -1.1, -1.1], "max": [1.1, 1.1, 1.1]},

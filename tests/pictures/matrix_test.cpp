@@ -1,5 +1,7 @@
-// Golden scenes under combinations of all that a device may differ in: lanes, work-groups, threads,
-// sub-devices, options of the OpenCL compiler. The stress cases D1 and D2 taken together.
+// SPDX-License-Identifier: Apache-2.0
+// Golden scenes under combinations of all properties in which devices may differ: lanes,
+// work-groups, threads, sub-devices, options of the OpenCL compiler. It combines the stress cases
+// D1 and D2.
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -24,7 +26,7 @@ struct Combination {
     const char* work_group;  ///< VOXELUME_WORK_GROUP; "": each kernel's own
     const char* options;     ///< of the OpenCL compiler
     int threads;             ///< of each part
-    int parts;               ///< that the CPU is cut into, which share an image's tiles
+    int parts;               ///< parts of the CPU that share an image's tiles
 };
 
 std::string text_of(const Combination& c) {
@@ -38,7 +40,7 @@ constexpr std::array kWorkGroups = {"", "1", "24"};
 constexpr std::array kOptions = {"", "-cl-opt-disable"};
 constexpr std::array kCounts = {1, 2};  // of threads, of parts
 
-/// All of them, those that share compiled kernels side by side.
+/// All combinations; those that share compiled kernels are neighbours.
 std::vector<Combination> product() {
     std::vector<Combination> all;
     for (const char* work_group : kWorkGroups)
@@ -50,8 +52,8 @@ std::vector<Combination> product() {
     return all;
 }
 
-/// Every pair of lanes and work-groups once, the other values spread over them so that every pair
-/// of any two settings' values is there.
+/// Combinations that contain each pair of lanes and work-groups once. The other settings are spread
+/// over them so that every pair of values of any two settings occurs.
 std::vector<Combination> covering_array() {
     std::vector<Combination> rows;
     for (size_t i = 0; i < kLanes.size(); ++i)
@@ -66,7 +68,7 @@ std::array<std::string, 5> settings_of(const Combination& c) {
             std::to_string(c.parts)};
 }
 
-/// Pairs of settings with their values, as texts, that occur in some of the combinations.
+/// The pairs of settings' values, as texts, that occur in the combinations.
 std::set<std::string> pairs_in(const std::vector<Combination>& combinations) {
     std::set<std::string> pairs;
     for (const Combination& c : combinations) {
@@ -97,7 +99,7 @@ std::vector<Device> cpu_in_parts(int parts) {
     return devices;
 }
 
-/// How many of the scenes come out with other bits than their golden ones; tells which.
+/// The number of scenes whose bits differ from the golden ones; prints which they are.
 int count_differing(const Combination& c, const std::vector<std::string>& scenes) {
     const Setting lanes("VOXELUME_LANES", std::to_string(c.lanes));
     const Setting work_group("VOXELUME_WORK_GROUP", c.work_group);
@@ -118,8 +120,8 @@ int count_differing(const Combination& c, const std::vector<std::string>& scenes
     return differing;
 }
 
-/// Starts `work` in a process of its own, which ends with its result, or 255 where it fails: PoCL
-/// reads the number of threads only once.
+/// Starts `work` in its own process, which exits with its result, or with 255 if it fails. PoCL
+/// reads the number of threads only once per process.
 template <class Work>
 pid_t start_in_own_process(const Work& work) {
     std::fflush(stdout);
@@ -140,14 +142,14 @@ int result_of(pid_t child) {
     return waitpid(child, &status, 0) == child && WIFEXITED(status) ? WEXITSTATUS(status) : 255;
 }
 
-/// Cubes, mirrors and glass of triangles, smooth ones, instances: those whose kernels compile
-/// soonest.
+/// Scenes of cubes, mirrors and glass of triangles, smooth objects and instances. Their kernels
+/// compile the fastest.
 constexpr std::array kScenesInTurn = {"cubes", "prism", "turntable", "procession"};
 
 TEST(Matrix, EveryPairOfSettingsGivesTheGoldenBits) {
     const std::vector<Combination> rows = covering_array();
     const auto scene_of = [](size_t row) { return kScenesInTurn[row % kScenesInTurn.size()]; };
-    // Two at a time: most of the time is one compiler's.
+    // Two processes run at a time, because most of the time is one compiler's.
     for (size_t first = 0; first < rows.size(); first += 2) {
         std::array<pid_t, 2> children;
         for (size_t i = 0; i < 2; ++i)
@@ -167,8 +169,9 @@ std::vector<std::string> golden_scenes() {
     return names;
 }
 
-/// All scenes with every combination, a test for each size of work-groups. Up to half an hour each;
-/// asked for by name: matrix_test --gtest_also_run_disabled_tests --gtest_filter='*Product*'.
+/// All scenes with every combination, one test for each size of work-groups. Each takes up to half
+/// an hour and runs only by name: matrix_test --gtest_also_run_disabled_tests
+/// --gtest_filter='*Product*'.
 class MatrixProduct : public testing::TestWithParam<const char*> {};
 
 TEST_P(MatrixProduct, DISABLED_GivesTheGoldenBits) {

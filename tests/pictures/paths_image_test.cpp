@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Images of reflecting, refracting and veiling objects against an analytic tracer.
 #include "runtime/scene_file/read_scene.hpp"
 #include "tests/pictures/analytic_image_scenes.hpp"
@@ -6,7 +7,8 @@
 namespace voxelume {
 namespace {
 
-/// Sizes that aren't powers of two, so that no two strides are equal by chance.
+/// The scene with an image whose sizes aren't powers of two, so that no two strides are equal by
+/// chance.
 Scene scene_of(const char* text) {
     Scene scene = parse_scene(text, "test.json", {});
     resize(scene, {172, 133});

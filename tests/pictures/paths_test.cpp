@@ -1,5 +1,6 @@
-// Rays that are reflected, refracted or go straight on: what every scene may rely on. Colours are
-// compared with an analytic tracer in whitted_test.cpp.
+// SPDX-License-Identifier: Apache-2.0
+// Rays that are reflected, refracted or go straight on: the rules that hold for every scene.
+// whitted_test.cpp compares colours with an analytic tracer.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -36,7 +37,8 @@ Rendered rendered(const Scene& scene, int lanes = 0) {
     return result;
 }
 
-/// A red and white floor and a blue ball behind whatever `objects` (with a leading comma) adds.
+/// A scene with a red and white floor and a blue ball behind the `objects` (which begin with a
+/// comma).
 Scene scene_with(const std::string& materials, const std::string& objects,
                  const std::string& more_render = "", const std::string& surface = "exact") {
     const std::string text = R"({"voxelume": 1,
@@ -103,8 +105,8 @@ TEST(Paths, AMirrorWithoutDepthReflectsNothing) {
 }
 
 TEST(Paths, PanesCoverWhatLiesBehindByTheirOpacity) {
-    // Three panes of 0.25, 0.5 and 0.75 before the background, ambient light alone, each with two
-    // faces.
+    // The scene has three panes of opacity 0.25, 0.5 and 0.75 before the background, with ambient
+    // light alone; each pane has two faces.
     const std::string text = R"({"voxelume": 1,
 "world": {"voxel_size": 0.05, "bounds": {"min": [-1, -1, -1], "max": [1, 1, 1]},
           "background": [0.25, 0.5, 0.75], "ambient": [1, 1, 1]},

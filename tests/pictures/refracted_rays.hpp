@@ -1,4 +1,5 @@
-// Sight rays of a scene and what they met, followed by hand through refractions.
+// SPDX-License-Identifier: Apache-2.0
+// The sight rays of a scene and their hits, followed through refractions by hand.
 #pragma once
 
 #include <glm/geometric.hpp>
@@ -11,8 +12,8 @@
 
 namespace voxelume {
 
-/// The rays of a flat image, one a pixel; width times height is a multiple of 16. Lengths are in
-/// voxels, from the world's first corner.
+/// The rays of a flat image, one per pixel; width times height is a multiple of 16. Lengths are in
+/// voxels, and positions are relative to the world's first corner.
 class RefractedRays {
   public:
     RefractedRays(const Scene& scene, uint32_t count)
@@ -29,7 +30,7 @@ class RefractedRays {
         find_points();
     }
 
-    /// Goes on with the refracted rays. All rays must have one, and none a reflected one.
+    /// Continues with the refracted rays. Every ray must have a refracted ray and no reflected one.
     void refract() {
         Children children;
         children.nodes = Buffer<uint32_t>(device_, "children", 2 * rays_.stride);

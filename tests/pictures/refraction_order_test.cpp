@@ -1,4 +1,5 @@
-// How fast refracted rays come nearer to the analytic ones as voxels get smaller.
+// SPDX-License-Identifier: Apache-2.0
+// The order at which refracted rays converge to the analytic ones as voxels get smaller.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -14,8 +15,8 @@ namespace {
 constexpr double kIor = 1.5;
 constexpr uint32_t kWidth = 32, kHeight = 32;
 
-/// A ball of radius 0.9 around (0.013, -0.021, 0.017), `smooth`, that the whole view is inside of,
-/// up to incidence at 60 degrees.
+/// A `smooth` ball of radius 0.9 around (0.013, -0.021, 0.017), inside which the whole view lies,
+/// up to an incidence of 60 degrees.
 Scene ball_scene(double voxel_size) {
     return parse_scene(fmt::format(R"({{"voxelume": 1,
 "world": {{"voxel_size": {}, "bounds": {{"min": [-1, -1, -1], "max": [1, 1, 1]}}}},
@@ -29,7 +30,8 @@ Scene ball_scene(double voxel_size) {
                        "ball.json", {});
 }
 
-/// Where a ray leaves the unit ball around the origin, and its direction then; Snell's law twice.
+/// The point and direction with which a ray leaves the unit ball around the origin, by Snell's law
+/// at both surfaces.
 glm::dvec3 direction_behind_ball(const glm::dvec3& o, const glm::dvec3& d) {
     const auto bend = [](const glm::dvec3& in, const glm::dvec3& n, double ratio) {
         const double cosine = -glm::dot(in, n);
@@ -71,7 +73,7 @@ TEST(RefractionOrder, TheDirectionBehindASmoothBallConvergesQuadratically) {
 }
 
 TEST(RefractionOrder, TheRoundingOfDistancesIsItsFloor) {
-    // 1/8192 voxel: some 5e-5 rad. The world's bounds, three voxels away, don't add to it.
+    // 1/8192 voxel gives about 5e-5 rad. The world's bounds, three voxels away, don't add to it.
     EXPECT_LT(direction_error(128), 6e-5);
 }
 

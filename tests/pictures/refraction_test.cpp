@@ -1,5 +1,6 @@
-// Images of bodies of glass against geometrical optics: where rays meet the wall behind them. Cases
-// O1, O2, O3 and O12; optics_test.cpp has the functions, paths_test.cpp has O6.
+// SPDX-License-Identifier: Apache-2.0
+// Images of glass bodies against geometrical optics: where rays meet the wall behind them. Cases
+// O1, O2, O3 and O12; optics_test.cpp tests the functions, paths_test.cpp has O6.
 #include <fmt/format.h>
 
 #include <numbers>
@@ -12,7 +13,7 @@ namespace {
 constexpr double kDegree = std::numbers::pi / 180;
 const glm::dvec3 kEye(0.013, -0.021, -0.47), kAhead(0, 0, 1);
 
-/// How far the walls' readings lie from where rays must end.
+/// The distances between the places that the walls show and those that rays must reach.
 struct Misses {
     size_t rays = 0;
     double worst = 0, squares = 0, worst_excess = 0;
@@ -60,7 +61,7 @@ glm::dvec3 sideways(const glm::dvec3& n, const glm::dvec3& d) {
     return glm::normalize(n - glm::dot(n, d) * d) * (glm::dot(n, d) > 0 ? 1.0 : -1.0);
 }
 
-/// O1: slabs at 45 degrees and askew.
+/// O1: slabs at 45 degrees and at a general angle.
 Misses slab_misses(const char* surface) {
     Misses misses;
     for (const glm::dvec3& turn : {glm::dvec3(0, 45, 0), glm::dvec3(25, 50, 0)}) {
@@ -82,28 +83,30 @@ Misses slab_misses(const char* surface) {
 
 TEST(Refraction, O1SlabShiftsRaysSideways) {
     expect_places(slab_misses("exact"), 1e-6, "exact slab");
-    // In 16 bits over some voxels, normals are right to 1e-4. With 6 voxels or less from face to
-    // face a slanting slab's differences reach its middle, and a few rays miss by 3e-4.
+    // Normals from 16 bits over several voxels are right to 1e-4. With 6 voxels or less from face
+    // to face the differences of a slanted slab reach its middle, and a few rays miss by 3e-4.
     expect_places(slab_misses("smooth"), 1e-4, "smooth slab");
 }
 
 constexpr double kRadius = 0.2;
 const glm::dvec3 kCenter(0.017, -0.028, -0.05);
 
-/// O2: where the ray that runs `b` radii beside the axis of a ball of glass leaves the room.
+/// O2: the point where the ray that passes at `b` radii from the axis of a ball of glass leaves the
+/// room.
 WallPoint behind_ball(const SensedRay& ray, double b) {
     const glm::dvec3 beside = ray.origin - kCenter;
     const glm::dvec3 across =
         glm::normalize(beside - glm::dot(beside, ray.direction) * ray.direction);
     const double incidence = std::asin(b), within = std::asin(b / 1.5);
-    const double place = incidence + std::numbers::pi - 2 * within;  // around, from the front
+    const double place =
+        incidence + std::numbers::pi - 2 * within;  // angle around the ball, from the front
     const double turned = 2 * (incidence - within);
     const glm::dvec3 exit =
         kCenter + kRadius * (std::sin(place) * across - std::cos(place) * ray.direction);
     return wall_behind(exit, std::cos(turned) * ray.direction - std::sin(turned) * across);
 }
 
-/// Rays between `minimum` and `maximum` radii beside the axis.
+/// The misses of rays between `minimum` and `maximum` radii from the axis.
 Misses ball_misses(const std::vector<SensedRay>& rays, double minimum, double maximum) {
     Misses misses;
     for (const SensedRay& ray : rays) {
@@ -153,7 +156,7 @@ glm::dvec3 at_elevation(double angle) {
     return {std::sin(angle), 0, std::cos(angle)};
 }
 
-/// Where a line meets a prism's face with the outward normal n.
+/// The point where a line meets the prism's face with the outward normal n.
 glm::dvec3 on_face(const glm::dvec3& middle, const glm::dvec3& n, const glm::dvec3& origin,
                    const glm::dvec3& direction) {
     return origin + direction * ((0.05 - glm::dot(origin - middle, n)) / glm::dot(direction, n));
@@ -189,7 +192,7 @@ TEST(Refraction, O3PrismDeviatesByTheFormulaAroundItsLeast) {
     expect_places(prism_misses("smooth"), 1e-4, "smooth prism");
 }
 
-/// O12: a slab of glass within one of water, in either order and with a priority.
+/// O12: a slab of glass inside one of water, in either order and with a priority.
 TEST(Refraction, O12GlassInWaterCountsByPriorityThenByItsPlaceInTheList) {
     const Json turn = {25, 40, 0};
     const double psi = 25 * kDegree, theta = 40 * kDegree;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "runtime/render/renderer.hpp"
 #include "runtime/scene_file/read_scene.hpp"
 
@@ -41,7 +42,7 @@ Scene scene_of(const std::string& text) {
     return parse_scene(text, "test.json", {});
 }
 
-/// Pixels along an edge.
+/// The number of pixels along an edge.
 int pixels(int count) {
     return int(full_or(uint32_t(count) / 4, uint32_t(count)));
 }
@@ -67,7 +68,7 @@ Rendered rendered(const Scene& scene, int lanes = 0) {
 TEST(Render, GivesDepthPositionNormalAndObjectOfAFace) {
     for (const char* surface : {"cubes", "exact"}) {
         const Rendered r = rendered(scene_of(box_scene(surface, "")));
-        // The box spans x -0.3..0.4, y -0.3..0.2, z -0.1..0.2; image right is -X_E, which is -x
+        // The box spans x -0.3..0.4, y -0.3..0.2, z -0.1..0.2. Image right is -X_E, which is -x
         // here.
         EXPECT_NEAR(r.at("Z", 8, 6), 2.9f, 1e-6f) << surface;
         EXPECT_NEAR(r.at("P.Z", 8, 6), -0.1f, 1e-6f) << surface;
@@ -83,7 +84,7 @@ TEST(Render, GivesDepthPositionNormalAndObjectOfAFace) {
 }
 
 TEST(Render, AFaceOnTheSideOfTheWorldIsAFaceLikeAnyOther) {
-    // The world begins at the box's front face: sight rays begin on it.
+    // The world begins at the box's front face, so sight rays begin on it.
     std::string text = box_scene("cubes", R"({"type": "directional", "direction": [0, 0, 1]})");
     const std::string whole = R"("min": [-1, -1, -1])";
     text.replace(text.find(whole), whole.size(), R"("min": [-1, -1, -0.1])");
@@ -95,8 +96,8 @@ TEST(Render, AFaceOnTheSideOfTheWorldIsAFaceLikeAnyOther) {
 }
 
 TEST(Render, CoversThePixelsThatTheBoxCovers) {
-    // Pixels are 0.1 m: x from 0.8 down to -0.8. The box covers 0.4..-0.3: columns 4 to 10, and
-    // rows for y 0.2..-0.3: 4 to 8.
+    // A pixel is 0.1 m, and x runs from 0.8 down to -0.8. The box covers x 0.4..-0.3, which are
+    // columns 4 to 10, and y 0.2..-0.3, which are rows 4 to 8.
     const Rendered r = rendered(scene_of(box_scene("exact", "")));
     for (int y = 0; y < 12; ++y)
         for (int x = 0; x < 16; ++x)
@@ -105,13 +106,14 @@ TEST(Render, CoversThePixelsThatTheBoxCovers) {
 }
 
 TEST(Render, AddsAmbientDiffuseAndHighlightByHand) {
-    // A point light 2 m in front of the point (-0.05, -0.05, -0.1), 1 m up: to it (0, 1,
-    // -2)/sqrt 5.
+    // A point light is 2 m in front of the point (-0.05, -0.05, -0.1) and 1 m above it: its
+    // direction is (0, 1, -2)/sqrt 5.
     const Rendered r = rendered(scene_of(box_scene(
         "exact",
         R"({"type": "point", "position": [-0.05, 0.95, -2.1], "color": [1, 0.5, 0.25], "intensity": 10})")));
     const double cosine = 2 / std::sqrt(5.0), falloff = 10 / 5.0;
-    // The viewer is at (0, 0, -1): half vector of (0, 1/sqrt 5, -2/sqrt 5) and it.
+    // The viewer's direction is (0, 0, -1); the half vector lies between it and (0, 1/sqrt 5,
+    // -2/sqrt 5).
     const double hy = 1 / std::sqrt(5.0), hz = -2 / std::sqrt(5.0) - 1;
     const double highlight = std::pow(-hz / std::hypot(hy, hz), 8);
     const double color[3] = {0.8, 0.4, 0.2}, ambient[3] = {0.5, 0.25, 0.125},
@@ -125,8 +127,8 @@ TEST(Render, AddsAmbientDiffuseAndHighlightByHand) {
 }
 
 TEST(Render, AbsorbsLightOnTheWayToTheSurfaceAndToTheObserver) {
-    // The medium fills the world, z -1..1. Sight goes 0.9 m through it; light from
-    // (-0.05,-0.05,-2.1), too.
+    // The medium fills the world, z -1..1. Sight rays go 0.9 m through it, and so does light from
+    // (-0.05,-0.05,-2.1).
     const char* lamp =
         R"({"type": "point", "position": [-0.05, -0.05, -2.1], "color": [1, 1, 1], "intensity": 4})";
     const Rendered clear = rendered(scene_of(box_scene("exact", lamp)));
@@ -149,7 +151,7 @@ TEST(Render, AbsorbsLightOnTheWayToTheSurfaceAndToTheObserver) {
 }
 
 TEST(Render, AShadowFallsWhereTheLightIsHidden) {
-    // A wall at z = 0.5 behind the box, lit from the front: the box's shadow on it is larger.
+    // A wall at z = 0.5 behind the box is lit from the front, so the box's shadow on it is larger.
     std::string text = box_scene(
         "cubes",
         R"({"type": "directional", "direction": [0, -1, 1], "color": [1, 1, 1], "intensity": 1})");
@@ -160,15 +162,15 @@ TEST(Render, AShadowFallsWhereTheLightIsHidden) {
         text.find("\"objects\": ["), 12,
         R"("objects": [{"name": "w", "model": "wall", "material": "paint", "position": [0, 0, 0.6]}, )");
     const Rendered r = rendered(scene_of(text));
-    // Light travels down at 45 degrees; the wall is 0.4 m behind the box's front face (z -0.1) at z
-    // 0.5: shadow over y from 0.2 - 0.6 = -0.4 (front top edge) up to the box, and below to -0.6
-    // (its back).
+    // Light travels down at 45 degrees. The wall at z 0.5 is 0.6 m behind the box's front face (z
+    // -0.1): the shadow spans y from 0.2 - 0.6 = -0.4 (front top edge) up to the box, and down to
+    // -0.6 (its back).
     EXPECT_GT(r.at("R", 8, 2), 1.2f * r.at("R", 8, 9)) << "row 2 is lit, row 9 (y -0.35) in shade";
     EXPECT_GT(r.at("R", 1, 9), 1.2f * r.at("R", 8, 9)) << "beside the shadow";
 }
 
 TEST(Render, AnExactSurfaceOnTheWorldsBoundsHasNoHoles) {
-    // The box is the world: rays meet its faces where they come in, before or behind their rounded
+    // The box fills the world: rays meet its faces where they enter, before or after their rounded
     // start.
     std::string text = box_scene("exact", "");
     const auto replace = [&text](const std::string& from, const std::string& to) {
@@ -219,7 +221,7 @@ TEST(Render, ADistantObserverSeesWhatANearOneDoesWithTheSameAngle) {
         ASSERT_NEAR(near.image.planes.at("P.X")[i], far.image.planes.at("P.X")[i], 5e-4);
 }
 
-/// A ball of 4 voxels with one light, all moved by as many metres along each axis.
+/// A scene of a ball of 4 voxels with one light, all moved by `metres` along each axis.
 Scene ball_moved_by(int metres, const std::string& surface) {
     return scene_of(fmt::format(R"({{"voxelume": 1,
 "world": {{"voxel_size": 1, "bounds": {{"min": [{0}, {0}, {0}], "max": [{1}, {1}, {1}]}}}},
@@ -267,7 +269,7 @@ std::vector<std::string> names(const std::map<std::string, T>& counters) {
 }
 
 TEST(Render, ASceneOfPlainCubesHasNothingElseInIt) {
-    // One object of cubes without lights: of all features, kernels and buffers these are left.
+    // One object of cubes without lights uses only these features, kernels and buffers.
     const Scene scene = scene_of(box_scene("cubes", ""));
     const Rendered r = rendered(scene);
     const Device device = test_device();

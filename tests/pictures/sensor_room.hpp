@@ -1,7 +1,7 @@
+// SPDX-License-Identifier: Apache-2.0
 // A closed white room whose walls tell where light met them, and parallel rays through it.
-//
-// A red, a green and a blue lamp light every point of a wall with three shares that no other point
-// of it gets, so the colour that a pixel shows says where its path ended, and what it lost.
+// A red, a green and a blue light illuminate every point of a wall in proportions that no other
+// point of it has. So the colour of a pixel tells where its path ended, and how much it lost.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -24,7 +24,7 @@ inline constexpr double kWall = 0.5;  ///< the walls' distance from the middle, 
 inline const std::array<glm::dvec3, 3> kLamps{
     {{-0.3, 0.2, 0.1}, {0.25, 0.3, -0.2}, {0.1, -0.35, 0.3}}};  ///< red, green, blue; 1 at 1 m
 
-/// The room without anything in it, as a scene file. Shadows are off, so lamps shine through all.
+/// The empty room as a scene file. Shadows are off, so lights shine through everything.
 inline Json sensor_room(double voxel_size = 0.02) {
     Json scene = Json::parse(R"({"voxelume": 1,
 "world": {"bounds": {"min": [-0.6, -0.6, -0.6], "max": [0.6, 0.6, 0.6]}, "background": [1e6, 1e6, 1e6]},
@@ -46,7 +46,7 @@ inline Json sensor_room(double voxel_size = 0.02) {
     return scene;
 }
 
-/// Adds an object of a model of its own.
+/// Adds an object with its own model.
 inline void add_thing(Json& scene, const Json& model, const char* material,
                       const glm::dvec3& position, const Json& more = Json::object()) {
     const std::string name = "thing " + std::to_string(scene["objects"].size());
@@ -68,13 +68,13 @@ inline void send_rays(Json& scene, const glm::dvec3& position, const glm::dvec3&
     scene["render"]["size"] = {pixels, pixels};
 }
 
-/// What became of one of the parallel rays.
+/// The result of one of the parallel rays.
 struct SensedRay {
     glm::dvec3 origin, direction;
     glm::dvec3 color;
 };
 
-/// Renders a scene and takes its rays' colours.
+/// Renders a scene and reads its rays' results from their colours.
 inline std::vector<SensedRay> sense(const Json& text) {
     const Scene scene = parse_scene(text.dump(), "sensor room", {});
     RenderReport report;
@@ -96,13 +96,13 @@ inline std::vector<SensedRay> sense(const Json& text) {
     return rays;
 }
 
-/// A point of a wall across axis `axis`.
+/// A point on a wall across axis `axis`.
 struct WallPoint {
     glm::dvec3 position;
     int axis;
 };
 
-/// Where a ray in the room meets a wall.
+/// The point where a ray in the room meets a wall.
 inline WallPoint wall_behind(const glm::dvec3& origin, const glm::dvec3& direction) {
     double t = INFINITY;
     int axis = 0;
@@ -113,8 +113,8 @@ inline WallPoint wall_behind(const glm::dvec3& origin, const glm::dvec3& directi
     return {origin + t * direction, axis};
 }
 
-/// The place that a wall's colour tells, and the squared distance to the red lamp over what that
-/// place would have: 1 if no light was lost. `wall` says which wall it is.
+/// The point that a wall's colour tells, and the ratio of the squared distance to the red light to
+/// what that point would have: 1 if no light was lost. `wall` says which wall it is.
 struct Reading {
     glm::dvec3 position;
     double excess;
@@ -122,12 +122,12 @@ struct Reading {
 
 inline Reading read_color(const glm::dvec3& color, const WallPoint& wall) {
     const int a = wall.axis, u = (a + 1) % 3, v = (a + 2) % 3;
-    glm::dvec3 squared;  // distances: the share of a lamp is height / distance^3
+    glm::dvec3 squared;  // squared distances: a light's share is height / distance^3
     for (int i = 0; i < 3; ++i) {
         const double height = std::abs(kLamps[size_t(i)][a] - wall.position[a]);
         squared[i] = std::pow(height / color[i], 2.0 / 3);
     }
-    // Differences of squares are linear in the place.
+    // Differences of squared distances are linear in the point.
     double m[2][2], r[2];
     for (size_t i = 0; i < 2; ++i) {
         const glm::dvec3 &p = kLamps[i + 1], &q = kLamps[0];

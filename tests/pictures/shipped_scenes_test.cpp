@@ -1,5 +1,6 @@
-// Every scene in scenes/, small and coarse: its golden bits, and a file without a value that isn't
-// finite.
+// SPDX-License-Identifier: Apache-2.0
+// Every scene in scenes/, small and coarse, has its golden bits, and its file has only finite
+// values.
 #include <gtest/gtest.h>
 
 #include <algorithm>

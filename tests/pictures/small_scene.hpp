@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Scenes of scenes/ made small enough for tests.
 #pragma once
 
@@ -13,8 +14,8 @@ namespace voxelume {
 
 inline const std::filesystem::path kScenes = std::filesystem::path(VXL_SOURCE_DIR) / "scenes";
 
-/// Makes the world's voxels larger until none of its axes has more than `maximum`, and with them
-/// the models' own.
+/// Enlarges the world's voxels until none of its axes has more than `maximum`, and the models' own
+/// voxels with them.
 inline void coarsen(Scene& scene, double maximum) {
     const int longest =
         std::max({scene.world.voxels.x, scene.world.voxels.y, scene.world.voxels.z});
@@ -27,7 +28,7 @@ inline void coarsen(Scene& scene, double maximum) {
     }
 }
 
-/// A scene of scenes/ by its name, with an image of `size` and at most `voxels` along an axis.
+/// The scene of that name in scenes/, with an image of `size` and at most `voxels` along an axis.
 inline Scene small_scene(const std::string& name, glm::ivec2 size, double voxels) {
     const AssetFolders assets{"/usr/share/glmark2/models"};  // Debian's glmark2-data
     Scene scene = read_scene(kScenes / (name + ".json"), assets);

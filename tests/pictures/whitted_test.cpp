@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The picture of Whitted 1980 against an analytic tracer in double precision.
 #include <filesystem>
 
@@ -12,8 +13,8 @@ Scene whitted() {
     return read_scene(std::filesystem::path(VXL_SOURCE_DIR) / "scenes/whitted.json", {});
 }
 
-/// The same scene of `smooth` surfaces. They are united where objects overlap, so the glass ball
-/// is hollowed by a difference.
+/// The Whitted scene with `smooth` surfaces. They form a union where objects overlap, so a
+/// difference hollows the glass ball.
 Scene smooth_whitted() {
     Scene scene = whitted();
     for (Model& model : scene.models) model.surface = Surface::smooth;

@@ -1,4 +1,5 @@
-// The smooth half of `index`: which cells of a distance field are kept, and their field records.
+// SPDX-License-Identifier: Apache-2.0
+// The smooth half of `index`: the cells of a distance field that are kept, and their field records.
 #include <gtest/gtest.h>
 
 #include <glm/geometric.hpp>
@@ -31,7 +32,7 @@ glm::ivec3 edge_start(const glm::ivec3& c, int axis, int e) {
     return c + offsets[axis];
 }
 
-/// The documented rule.
+/// True if the documented rule keeps the cell.
 bool rule_keeps(const NodeDistance& f, const glm::ivec3& c) {
     int low = 32767, high = -32767, unsaturated = 0;
     for (int i = 0; i < 8; ++i) {
@@ -60,13 +61,14 @@ VoxelMap cells_by_rule(const glm::ivec3& size, const NodeDistance& f, uint32_t w
     return cells;
 }
 
-/// D from its ten bits.
+/// The value of D in its ten bits.
 int second_difference(uint32_t bits) {
     const int size = (64 + int(bits % 64)) * (1 << bits / 64 % 8) - 64;
     return bits / 512 ? -size : size;
 }
 
-/// The bits of the second difference nearest to D, from 2D: by search among all, of two the even.
+/// The bits of the second difference nearest to D, given 2D. Searches all; of two equally near
+/// takes the even one.
 uint32_t nearest_bits(int twice) {
     uint32_t best = twice < 0 ? 512 : 0;
     const uint32_t first = best;
@@ -90,7 +92,7 @@ EdgeDifferences rounded_differences(const NodeDistance& f, const glm::ivec3& c) 
     return differences;
 }
 
-/// Half-Taylor interpolation in cell `c` at `s`, with its `differences` rounded as in records.
+/// The half-Taylor interpolation in cell `c` at `s`, with its `differences` rounded as in records.
 double interpolate(const NodeDistance& f, const EdgeDifferences& differences, const glm::ivec3& c,
                    const glm::dvec3& s) {
     const double w[3][2] = {{1 - s.x, s.x}, {1 - s.y, s.y}, {1 - s.z, s.z}};
@@ -107,7 +109,7 @@ double interpolate(const NodeDistance& f, const EdgeDifferences& differences, co
     return sum;
 }
 
-/// Distance to a torus, in stored units, outside of the table like the missing bricks there.
+/// The distance to a torus in stored units; outside the table it is outside, as in missing bricks.
 NodeDistance torus(const glm::ivec3& size) {
     const glm::ivec3 nodes = (size / 16 + 1) * 16;
     return [=](const glm::ivec3& n) -> int16_t {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "runtime/stages/index/index.hpp"
 
 #include <gmock/gmock.h>
@@ -116,7 +117,8 @@ TEST(Index, CarriesColoursInThePyramidsOrder) {
 
 TEST(Index, RenumbersThePrimitiveListsOfExactVoxels) {
     const Device device = test_device();
-    // In the brick's order (x fastest) voxel (5,0,0) precedes (0,1,0); in the pyramid's it follows.
+    // In the brick's order (x fastest) voxel (5,0,0) comes before (0,1,0); in the pyramid's order
+    // it comes after.
     const VoxelMap voxels = {{{5, 0, 0}, 0x80000001u}, {{0, 1, 0}, 0x80000002u}};
     BrickGrid grid = occupied_bricks(frame_of({7, 5, 3}), voxels).upload(device);
     std::vector<uint32_t> first(4097, 0);

@@ -1,5 +1,6 @@
-// Normals of objects whose placement mirrors them (the stress case P8), held against what the maps
-// make of their meshes' own.
+// SPDX-License-Identifier: Apache-2.0
+// Normals of objects whose placement mirrors them (the stress case P8), against the meshes' own
+// normals under the same maps.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -22,7 +23,7 @@ glm::dmat4 rows(const std::array<double, 12>& m) {
                                      m[10], m[11], 0, 0, 0, 1));
 }
 
-/// The last one doesn't mirror: it is there to compare with.
+/// Placements. The last one doesn't mirror: it is there for comparison.
 const std::array<Map, 4> kMaps = {{
     {"Mirrored", rows({-1, 0, 0, 0.05, 0, 1, 0, -0.03, 0, 0, 1, 0.02})},
     {"Inverted", rows({-1, 0, 0, 0.05, 0, -1, 0, -0.03, 0, 0, -1, 0.02})},
@@ -30,7 +31,7 @@ const std::array<Map, 4> kMaps = {{
     {"Plain", rows({0.9, 0.4, 0.2, 0.05, -0.3, 0.8, -0.4, -0.03, -0.1, 0.5, 0.9, 0.02})},
 }};
 
-/// A tetrahedron of four different faces, outwards.
+/// A tetrahedron with four different faces that face outwards.
 Mesh wedge() {
     Mesh mesh;
     mesh.positions = {
@@ -47,7 +48,7 @@ struct Ring {
             return glm::dvec3(r * std::cos(u), r * std::sin(u), tube * std::sin(v));
         });
     }
-    /// Outwards from the middle of the tube, through p.
+    /// The outward direction from the middle of the tube through p.
     glm::dvec3 out(const glm::dvec3& p) const {
         const glm::dvec2 middle = glm::normalize(glm::dvec2(p)) * radius;
         return glm::normalize(p - glm::dvec3(middle, 0));
@@ -61,7 +62,7 @@ constexpr glm::dvec3 kEye{0.4, 0.9, -1.9};
 
 using Case = std::tuple<Map, const char*>;
 
-/// A mesh under a map, placed one way or the other.
+/// A mesh under a map, with one of the placements.
 class MirroredObjects : public FileTest, public testing::WithParamInterface<Case> {
   protected:
     MirroredObjects() : map(std::get<0>(GetParam()).world_from_object) {}
@@ -92,8 +93,8 @@ class MirroredObjects : public FileTest, public testing::WithParamInterface<Case
         return rendered(read_scene(folder / "scene.json", {}));
     }
 
-    /// Calls `check(place, normal, way)` for what is seen, and checks that normals have a length of
-    /// 1 and look at the observer.
+    /// Calls `check(place, normal, way)` for every hit, and checks that normals have length 1 and
+    /// face the observer.
     void for_each_hit(const Image& image, const auto& check) {
         size_t hits = 0;
         for (size_t i = 0; i < image.planes.at("Z").size(); ++i) {
@@ -109,7 +110,7 @@ class MirroredObjects : public FileTest, public testing::WithParamInterface<Case
         EXPECT_GT(hits, 1500u);
     }
 
-    /// A normal of the mesh, as the map carries it.
+    /// A normal of the mesh, transformed by the map.
     glm::dvec3 carried(const glm::dvec3& normal) const {
         return glm::normalize(glm::transpose(glm::inverse(glm::dmat3(map))) * normal);
     }
@@ -120,8 +121,8 @@ class MirroredObjects : public FileTest, public testing::WithParamInterface<Case
     glm::dmat4 map;
 };
 
-/// Outwards is away from the corner that a face hasn't: under maps that mirror, corners go the
-/// other way round.
+/// A face's outward side is away from the corner that it lacks. Under maps that mirror, corners go
+/// the other way round.
 TEST_P(MirroredObjects, ExactFacesHaveTheirPlanesNormals) {
     const Mesh mesh = wedge();
     std::array<glm::dvec3, 4> corners, normals;
@@ -171,7 +172,8 @@ TEST_P(MirroredObjects, SmoothSurfacesHaveTheirRingsNormals) {
     EXPECT_LT(sum / double(count), 1);
 }
 
-/// Cubes of the world have its axes' directions, those of instances their own.
+/// The normals of cubes in the world have the directions of its axes, those of instances the
+/// directions of their own.
 TEST_P(MirroredObjects, CubesHaveTheirFacesNormals) {
     const Ring ring;
     const bool is_instance = std::string(std::get<1>(GetParam())) == "instance";
@@ -197,7 +199,7 @@ TEST_P(MirroredObjects, CubesHaveTheirFacesNormals) {
     for (const size_t count : seen) EXPECT_GT(count, 100u);
 }
 
-/// Mirrored along x, faces outwards again.
+/// The mesh mirrored along x, with its faces turned outwards again.
 Mesh mirrored(Mesh mesh) {
     for (glm::vec3& p : mesh.positions) p.x = -p.x;
     for (glm::uvec3& t : mesh.triangles) std::swap(t.y, t.z);
@@ -206,7 +208,8 @@ Mesh mirrored(Mesh mesh) {
 
 class MirroredGlass : public MirroredObjects {};
 
-/// Light is weakened where it is inside: which side that is has to be right on its whole way.
+/// Light is weakened inside the mesh, so the side that counts as inside has to be right on its
+/// whole way.
 TEST_P(MirroredGlass, WeakensLightAsAMeshDoesThatIsMirroredInItsFile) {
     constexpr const char* kGlass =
         R"({"diffuse": 0, "refraction": 1, "ior": 1.5, "absorption": [3, 1.5, 0.7]})";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The maps of the stress cases P4 to P7 (tests/CASES.md).
 #include <gtest/gtest.h>
 
@@ -19,9 +20,9 @@ double largest_difference(const glm::dmat3& a, const glm::dmat3& b) {
 }
 
 TEST(PlaceCases, P4ComposedQuarterTurnsAndGimbalLock) {
-    // Columns: the images of X, Y, Z.
+    // The columns are the images of X, Y and Z.
     EXPECT_EQ(rotation_from_turn({90, 90, 90}), glm::dmat3(1, 0, 0, 0, 0, 1, 0, -1, 0));
-    // With theta at 90 degrees only psi - gamma counts, at -90 only their sum.
+    // With theta at 90 degrees only psi - gamma matters, at -90 degrees only their sum.
     for (const double psi : {0.0, 17.0, 133.0})
         for (const double gamma : {-40.0, 5.0, 250.0}) {
             EXPECT_LT(largest_difference(rotation_from_turn({psi, 90, gamma}),
@@ -49,7 +50,8 @@ TEST(PlaceCases, P5ThreeHundredAndSixtyDegreesComposedAreTheIdentity) {
 }
 
 TEST(PlaceCases, P6AMillionTurnsOfAnObjectDoNotDrift) {
-    // Angles are kept and matrices made from them anew, so the millionth is as good as the first.
+    // Objects keep their angles and matrices are computed from them each time, so the millionth
+    // matrix is as good as the first.
     double worst = 0;
     for (int i = 1; i <= 1000000; ++i) {
         const glm::dmat3 turn = rotation_from_turn({i * 0.37, i * 0.11, i * -0.73});
@@ -70,7 +72,8 @@ TEST(PlaceCases, P7UnevenScalesComeBackToTheirVoxels) {
                             .voxel_edge = glm::dvec3(scale * uneven / 500),
                             .size = glm::ivec3(1000)};
             const PlacementMap inverse = placement_map(object, world, map, Reach::none, 0);
-            for (int i = 0; i < 200; ++i) {  // voxels of the object, there and back
+            for (int i = 0; i < 200;
+                 ++i) {  // voxels of the object are mapped to the world and back
                 const glm::dvec3 voxel(i % 7 * 36 + 0.5, i % 11 * 23 + 0.25, i % 13 * 19 + 0.75);
                 const glm::dvec3 there(map *
                                        glm::dvec4(object.origin + voxel * object.voxel_edge, 1));

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The exact half of `place`: primitive lists of several objects joined in the world.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

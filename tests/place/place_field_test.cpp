@@ -1,4 +1,5 @@
-// The smooth half of `place`: distance fields in the world, and whose voxel is whose.
+// SPDX-License-Identifier: Apache-2.0
+// The smooth half of `place`: distance fields in the world, and which object each voxel belongs to.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -14,7 +15,8 @@
 namespace voxelume {
 namespace {
 
-constexpr double kBand = 2.8;  // voxels to which the objects' fields are exact, as voxelizers leave
+constexpr double kBand =
+    2.8;  // voxels; objects' fields are exact within this band, as voxelizers make them
 
 int16_t banded(double voxels) {
     return std::abs(voxels) <= kBand ? stored_distance(voxels)
@@ -49,7 +51,7 @@ void for_each_node(const BrickGrid& world, const Visit& visit) {
 }
 
 struct Accuracy {
-    double near = 0, band = 0;  // largest errors within 1.75 and `reach` voxels of the surface
+    double near = 0, band = 0;  // maximum errors within 1.75 and `reach` voxels of the surface
     int wrong_sides = 0;
 };
 
@@ -186,7 +188,8 @@ TEST(PlaceField, UnitesObjectsByTheSmallestDistance) {
 }
 
 TEST(PlaceField, TakesTheGroupOfTheCellThatTheSurfaceCrosses) {
-    // Group 1 above the sphere's equator, 0 below; words stand only where the surface passes.
+    // Group 1 is above the sphere's equator, group 0 below. Only voxels that the surface passes
+    // have attributes.
     const Device& device = shared_device();
     HostBricks bricks = sphere_bricks(2.0, 0.1);
     bricks.attributes.assign(bricks.distance.size(), 2u << 16);

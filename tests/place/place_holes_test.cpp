@@ -1,4 +1,5 @@
-// Placed cubes are as tight as the object's were: no holes in solids, no leaks through shells.
+// SPDX-License-Identifier: Apache-2.0
+// Placed cubes are as closed as the object's voxels: no holes in solids, no leaks through shells.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -82,7 +83,7 @@ TEST(PlaceHoles, TurnedShrunkAndStretchedShellsLetNoPathThroughFacesIn) {
 }
 
 TEST(PlaceHoles, TurnedThinShellsLetNoPathThroughFacesIn) {
-    VoxelMap voxels;  // |x|+|y|+|z| about 12: voxels that meet only along edges
+    VoxelMap voxels;  // |x|+|y|+|z| is about 12: voxels that meet only along edges
     for (glm::ivec3 v{0}; v.z < 25; ++v.z)
         for (v.y = 0; v.y < 25; ++v.y)
             for (v.x = 0; v.x < 25; ++v.x) {
@@ -113,7 +114,7 @@ TEST(PlaceHoles, StoresEveryBrickOfASolidWithAVoxelBesideAnEmptyOne) {
                 if (glm::length(glm::dvec3(v) - glm::dvec3{56, 56, 55}) < 54) ball[v] = 0;
     HostBricks bricks = occupied_bricks(frame_at(glm::dvec3(-56), glm::dvec3(1), size), ball);
     bricks.attributes.clear();
-    HostBricks sparse(bricks.frame);  // the same with its full inner bricks not stored
+    HostBricks sparse(bricks.frame);  // the grid without its full inner bricks, which aren't stored
     for (size_t i = 0; i < bricks.slots.size(); ++i) {
         const glm::ivec3 n = bricks.frame.bricks(),
                          low =

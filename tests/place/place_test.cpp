@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "runtime/stages/place/place.hpp"
 
 #include <gmock/gmock.h>
@@ -59,7 +60,7 @@ TEST(Place, MirrorsAndDoublesAndHalves) {
         voxels_of({{8, 9, 9}, {9, 9, 9}}));
 }
 
-/// A lump without symmetry.
+/// A random lump without symmetry.
 VoxelMap random_lump(uint32_t seed, const glm::ivec3& size) {
     std::mt19937 random(seed);
     VoxelMap voxels;

@@ -1,4 +1,5 @@
-// Placing again what changed, against placing everything afresh.
+// SPDX-License-Identifier: Apache-2.0
+// Placing only what changed, against placing everything.
 #include <gtest/gtest.h>
 
 #include <glm/gtc/matrix_transform.hpp>
@@ -32,7 +33,7 @@ PlacedObject at(const BrickGrid& grid, uint32_t number, const glm::dvec3& positi
             .material_of_group = {number % 3}};
 }
 
-/// What rays read of a world: every buffer of its pyramid.
+/// All buffers of a world's pyramid, which are what rays read.
 std::vector<std::vector<uint32_t>> buffers_of(const Pyramid& p) {
     return {p.sectors.read(),    p.bricks.read(),
             p.leaves.read(),     p.leaf_voxels.read(),
@@ -124,7 +125,7 @@ TEST(Placer, PaintsTheBricksOfAMovedObjectOnly) {
     placer.place(objects, world_of(100));
     EXPECT_GE(placer.painted_bricks(), of_one / 2);
     EXPECT_LE(placer.painted_bricks(), 2 * of_one);
-    // The moved object's grid is the other's, so its near leaves are known.
+    // The moved object shares its grid with the other, so its near leaves are known.
     EXPECT_EQ(counters.launches.count("mark_near_leaves"), 0u);
 }
 
@@ -191,7 +192,8 @@ TEST(Placer, JoinsExactObjectsAgain) {
     expect_as_placed_afresh(follower, objects, frame, "the cubes moved");
 }
 
-// Bricks that an exact object neither left nor reached keep their marks, whatever its lists become.
+// Bricks that an exact object neither left nor reached keep their marks, even where its lists
+// change.
 TEST(Placer, FollowsRandomChangesOfExactObjects) {
     constexpr uint32_t kSeed = 19;
     std::mt19937 random(kSeed);
@@ -217,7 +219,7 @@ TEST(Placer, FollowsRandomChangesOfExactObjects) {
         object.in_world_frame = true;
         return object;
     };
-    // Stored alike throughout: one of each sort stays.
+    // One object of each kind stays, so that bricks are stored alike throughout.
     std::vector<PlacedObject> objects = {at(exact[0], 0, {0, 0, 0}), at(smooth, 1, {.3, 0, 0}),
                                          at(cubes, 2, {-.4, .2, 0})};
     objects[0].in_world_frame = true;
@@ -231,7 +233,7 @@ TEST(Placer, FollowsRandomChangesOfExactObjects) {
     }
 }
 
-/// A block of cubes with a colour for each voxel.
+/// A block of cubes with a different colour for each voxel.
 BrickGrid colored_block() {
     const GridFrame frame = frame_at(glm::dvec3(0), glm::dvec3(kEdge), glm::ivec3(9, 7, 5));
     VoxelMap voxels;
@@ -243,7 +245,8 @@ BrickGrid colored_block() {
     return bricks.upload(shared_device());
 }
 
-// Objects of every kind, few enough that each is often the only one of its kind, or of all.
+// Objects of every kind come and go. They are so few that each is often the only one of its kind,
+// or the only one.
 TEST(Placer, FollowsObjectsThatComeAndGoAsTheOnlyOnesOfTheirKind) {
     constexpr uint32_t kSeed = 11;
     std::mt19937 random(kSeed);

@@ -1,4 +1,5 @@
-// Placing one object of cubes, as several tests do.
+// SPDX-License-Identifier: Apache-2.0
+// Places one object of cubes, for several tests.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -16,7 +17,8 @@ inline GridFrame frame_at(const glm::dvec3& origin, const glm::dvec3& edge,
     return {.origin = origin, .voxel_edge = edge, .size = size};
 }
 
-/// Places a grid of cubes alone and reads the world's voxels back; all have word 0.
+/// Places a grid of cubes alone and reads the world's voxels back; the packed attributes of all are
+/// 0.
 inline VoxelMap place_cubes(const BrickGrid& grid, const glm::dmat4& world_from_object,
                             const GridFrame& world, VoxelSet set = VoxelSet::supercover) {
     const std::vector<PlacedObject> objects = {{.grid = &grid,

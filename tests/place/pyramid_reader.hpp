@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Pyramids read back on the host, and compared with the voxels that they should hold.
 #pragma once
 
@@ -10,7 +11,7 @@
 
 namespace voxelume {
 
-/// A pyramid read back, and looked up as grid.hpp says.
+/// A pyramid read back to the host, with lookups as grid.hpp documents them.
 struct HostPyramid {
     explicit HostPyramid(const Pyramid& p)
         : frame(p.frame),
@@ -22,7 +23,8 @@ struct HostPyramid {
           attribute(p.attribute),
           fields(p.fields.read()) {}
 
-    /// The voxel's number, or nothing and in `empty_log2` the cube that is promised to be empty.
+    /// The voxel's index. Returns nothing for an empty place, and sets `empty_log2` to the log2
+    /// edge of the cube that is promised to be empty.
     std::optional<uint32_t> find(const glm::ivec3& v, int& empty_log2) const {
         const int sectors_x = (frame.size.x + 63) / 64, sectors_y = (frame.size.y + 63) / 64;
         const uint32_t sector =
@@ -66,8 +68,8 @@ inline bool any_in_cube(const VoxelMap& voxels, const glm::ivec3& v, int log2) {
     return false;
 }
 
-/// Checks every voxel of the grid: found with its word, numbered once; empty places and cubes
-/// empty.
+/// Checks every voxel of the grid: each is found with its packed attributes and a unique index, and
+/// empty places and cubes are empty.
 inline void expect_holds(const Pyramid& pyramid, const VoxelMap& voxels) {
     const HostPyramid host(pyramid);
     ASSERT_EQ(pyramid.voxel_count, voxels.size());

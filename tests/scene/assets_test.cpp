@@ -1,4 +1,5 @@
-// Files that scenes name: where they are found, and where never.
+// SPDX-License-Identifier: Apache-2.0
+// Files that scenes name: in which folders they are found, and in which never.
 #include "runtime/scene_file/assets.hpp"
 #include "runtime/scene/predicates.hpp"
 #include "runtime/scene_file/read_scene.hpp"
@@ -18,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 using testing::HasSubstr;
 
-/// Two asset folders beside the scene's, and a secret outside of all.
+/// Two asset folders next to the scene's, and a secret file outside all of them.
 class SceneAssets : public FileTest {
   protected:
     void SetUp() override {

@@ -1,4 +1,5 @@
-// Keyframes against formulas of their own.
+// SPDX-License-Identifier: Apache-2.0
+// Keyframes against independent formulas.
 #include "runtime/scene/keyframes.hpp"
 
 #include <gmock/gmock.h>
@@ -83,9 +84,9 @@ TEST(Keyframes, OfTwoCubicKeysAreSmoothstep) {
     }
 }
 
-// By hand: slopes around frame 3 are 1 and 4, spans 2 and 1, so weights are 2*1+2 = 4 and 1+2*2 = 5
-// and the slope there is 9 / (4/1 + 5/4) = 12/7. Cubic Bezier control values lie a third of the
-// span along the slopes.
+// By hand: the slopes around frame 3 are 1 and 4 and the spans 2 and 1. So the weights are 2*1+2 =
+// 4 and 1+2*2 = 5, and the slope there is 9 / (4/1 + 5/4) = 12/7. The control values of the cubic
+// Bezier curve lie a third of the span along the slopes.
 TEST(Keyframes, OfCubicKeysAreTheHandComputedBezier) {
     const Keyframes keys = keys_of(Interpolation::cubic, {1, 3, 4}, {0, 2, 6});
     const double slope = 12.0 / 7;
@@ -139,7 +140,7 @@ TEST(Keyframes, OfCubicKeysHaveAContinuousSpeed) {
 }
 
 TEST(Keyframes, OfSlerpTurnAboutOneAxisTheShortWayAtAnEvenSpeed) {
-    // From 350 to 20 degrees about Y: 30 degrees, through 0.
+    // The turn about Y goes from 350 to 20 degrees: 30 degrees, through 0.
     const Keyframes keys = keys_of(Interpolation::slerp, {1, 4}, {350, 0, 0, 20, 0, 0}, 3);
     EXPECT_LT(distance(rotation_from_turn(turn_at(keys, 2)), rotation_about({0, 1, 0}, 0)), 1e-15);
     EXPECT_LT(distance(rotation_from_turn(turn_at(keys, 3)), rotation_about({0, 1, 0}, 10)), 1e-15);

@@ -1,4 +1,5 @@
-// Scenes of frames against the same scenes written by hand.
+// SPDX-License-Identifier: Apache-2.0
+// Scenes of an animation's frames, against those scenes written by hand.
 #include "runtime/scene/scene_animation.hpp"
 #include "runtime/scene_file/read_scene.hpp"
 
@@ -19,7 +20,7 @@ namespace {
 
 using nlohmann::json;
 
-/// A scene in which everything can move: see the places that the tests' tracks name.
+/// A scene in which everything can move, at the places that the tests' tracks name.
 json still_scene() {
     return json::parse(R"({"voxelume": 1,
         "world": {"voxel_size": 0.1, "bounds": {"min": [-1, -0.7, -1.2], "max": [1, 0.7, 1.2]},
@@ -112,7 +113,7 @@ TEST(SceneAnimation, ShowsWhatASceneWrittenByHandShows) {
          track("observer.display.angles", {key(1, {44, 34}), key(9, {36, 26})})}));
 
     json first = still_scene();
-    first["objects"][1]["material"] = "red";  // the first key's value holds before it
+    first["objects"][1]["material"] = "red";  // before the first key its value holds
     expect_same_image(moving, first);
 
     json half = still_scene();
@@ -140,7 +141,7 @@ TEST(SceneAnimation, ShowsWhatASceneWrittenByHandShows) {
     without["objects"].erase(0);
     json hidden = still_scene();
     hidden["objects"][0]["visible"] = false;
-    // The objects' numbers differ, all else is alike.
+    // The objects' numbers differ; everything else is equal.
     RenderReport report;
     EXPECT_EQ(render(test_device(), parse(hidden), report).planes,
               render(test_device(), parse(without), report).planes);

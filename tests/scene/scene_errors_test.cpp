@@ -1,4 +1,5 @@
-// What is said about scene files that are wrong.
+// SPDX-License-Identifier: Apache-2.0
+// The errors of wrong scene files.
 #include <gmock/gmock.h>
 
 #include <filesystem>

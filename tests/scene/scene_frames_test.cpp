@@ -1,4 +1,5 @@
-// Every value that may change, between keys: against the same scene whose text has that value.
+// SPDX-License-Identifier: Apache-2.0
+// Every value that may change, between its keys, against the scene whose text has that value.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -20,7 +21,7 @@ namespace {
 
 using nlohmann::json;
 
-/// A scene with every number that a track may change, but those of `other_parts`.
+/// A scene with every number that a track may change, except for those of `other_parts`.
 json full_scene() {
     return json::parse(R"({"voxelume": 1,
         "world": {"voxel_size": 0.1, "bounds": {"min": [-1, -0.7, -1.2], "max": [1, 0.7, 1.2]},
@@ -56,7 +57,8 @@ json full_scene() {
         "animation": {"frames": 9}, "render": {"size": [48, 36]}})");
 }
 
-/// Other densities, displays and views than those of the full scene, each with where it goes.
+/// Densities, displays and views that the full scene doesn't have, each with its place in a
+/// document.
 std::vector<std::pair<std::string, json>> other_parts() {
     const auto parsed = [](const char* text) { return json::parse(text); };
     return {
@@ -75,7 +77,8 @@ std::vector<std::pair<std::string, json>> other_parts() {
     };
 }
 
-/// Text places and identities of motions differ between scenes that are read from two texts.
+/// The scene without text places and motions' identities, which differ between scenes read from two
+/// texts.
 Scene without_places(Scene scene) {
     scene.motion = nullptr;
     scene.world.where = {};
@@ -113,7 +116,7 @@ class SceneFrames : public FileTest {
         return target;
     }
 
-    /// Another value; of a direction, another one.
+    /// A different value; for a direction, a different direction.
     static json scaled(const json& value, double factor) {
         if (value.is_number()) return value.get<double>() * factor;
         json list = json::array();
@@ -129,7 +132,7 @@ class SceneFrames : public FileTest {
         return list;
     }
 
-    /// Has a track change the value at a place, and compares the scene between its keys.
+    /// Adds a track that changes the value at a place, and compares the scene between its keys.
     void expect_moved(const json& document, const json::json_pointer& place) {
         const std::string target = target_of(place);
         const json& value = document[place];
@@ -145,7 +148,8 @@ class SceneFrames : public FileTest {
         EXPECT_FALSE(without_places(now) == without_places(parse(document))) << target;
     }
 
-    /// Has a track change each number and vector of a part of a document, and each of its numbers.
+    /// Adds tracks that change each number and vector of a part of a document, and each of its
+    /// numbers.
     void expect_all_moved(const json& document, const json::json_pointer& place) {
         for (const auto& [key, value] : document[place].items()) {
             const json::json_pointer at = place / key;

@@ -1,4 +1,5 @@
-// The medium of a scene: what its keys mean, and what is said of wrong ones.
+// SPDX-License-Identifier: Apache-2.0
+// The medium of a scene: the meaning of its keys, and the errors of wrong ones.
 #include <gmock/gmock.h>
 
 #include "runtime/scene/scene.hpp"

@@ -1,4 +1,5 @@
-// The descriptor rows of the scene's values say what the published schema and the manual say.
+// SPDX-License-Identifier: Apache-2.0
+// The descriptor rows of the scene's values agree with the published schema and the manual.
 #include <gmock/gmock.h>
 
 #include <filesystem>
@@ -24,7 +25,7 @@ const std::filesystem::path kScenes = std::filesystem::path(VXL_SOURCE_DIR) / "s
 
 class SceneRows : public testing::Test {
   protected:
-    /// The limits of a number, or of each number of a list, that a property of the schema has.
+    /// The limits that a property of the schema gives for a number, or for each number of a list.
     json limits_of(const json& property) const {
         json limits = json::object();
         for (const char* key : {"minimum", "maximum", "exclusiveMinimum", "exclusiveMaximum"})
@@ -49,7 +50,7 @@ class SceneRows : public testing::Test {
         expect_end("exclusiveMaximum", "maximum", range.max, range.max_is_open);
     }
 
-    /// Whether the value that a default part has is that of the schema, where that gives one.
+    /// True if a default part's value is that of the schema, or if the schema gives none.
     template <class Part>
     void expect_default(const json& property, const ValueRow<Part>& row) const {
         if (!property.contains("default")) return;
@@ -76,7 +77,7 @@ class SceneRows : public testing::Test {
         }
     }
 
-    /// The branch of a definition that holds for a kind of it.
+    /// The branch of a definition that applies to a kind.
     const json& branch_of(const std::string& definition, std::string_view kind) const {
         for (const json& branch : definitions[definition]["allOf"]) {
             if (!branch.contains("if") || !branch["if"].contains("properties")) continue;
@@ -112,7 +113,7 @@ class SceneRows : public testing::Test {
     const std::string manual = bytes_of(kScenes / "README.md");
 };
 
-/// In place of the display's rows: those of a display have other limits for each shape.
+/// Rows that replace the display's rows, because those have different limits for each shape.
 std::vector<ValueRow<DisplayParameters>> display_rows_alike() {
     std::vector<ValueRow<DisplayParameters>> rows;
     for (const ValueRow<DisplayParameters>& row : display_rows())

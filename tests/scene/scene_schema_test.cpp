@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The published schema and the parser give the same verdict on thousands of scenes.
 #include <gtest/gtest.h>
 
@@ -59,7 +60,7 @@ class SceneSchema : public FileTest {
             put_bytes(folder / file, "v 0 0 0\n");
     }
 
-    /// The parser's objection, or nothing.
+    /// The parser's objection; empty if it accepts the scene.
     std::string objection(const json& document) {
         try {
             parse_scene(document.dump(), "s.json", {folder});
@@ -89,7 +90,7 @@ TEST_F(SceneSchema, AcceptsEveryShippedSceneAsTheParserDoes) {
 
 namespace {
 
-/// Scenes that between them have every key of the format; the parser and the schema accept each.
+/// Scenes that together contain every key of the format; the parser and the schema accept each.
 std::vector<json> full_scenes() {
     const char* const texts[] = {
         R"({"$schema": "x", "voxelume": 1,
@@ -181,7 +182,8 @@ std::vector<json> full_scenes() {
     return scenes;
 }
 
-/// Objections to what a schema can't express: names and files, relations between values, geometry.
+/// True for objections that a schema can't express: names and files, relations between values,
+/// geometry.
 bool is_beyond_a_schema(const std::string& objection) {
     for (const char* part : {"no material named",
                              "no model named",

@@ -1,4 +1,5 @@
-// What scene files mean.
+// SPDX-License-Identifier: Apache-2.0
+// The meaning of scene files.
 #include "runtime/scene/scene.hpp"
 #include "runtime/scene_file/read_scene.hpp"
 
@@ -47,7 +48,7 @@ glm::dvec3 move(const glm::dmat4& map, glm::dvec3 p) {
     return glm::dvec3(map * glm::dvec4(p, 1));
 }
 
-/// An observer with the given members beside its position (1, 2, 3) and a ball as its display.
+/// An observer with the given members, position (1, 2, 3) and a ball as its display.
 Observer observer_with(const std::string& members) {
     return parse(
                R"({"voxelume": 1, "world": {"voxel_size": 1, "bounds": {"min": [0, 0, 0], "max": [1, 2, 3]}},
@@ -67,11 +68,11 @@ Display display_with(const std::string& display, const std::string& render = "{}
 }  // namespace
 
 TEST(ScenePlacement, NinetyDegreeTurnsAreExact) {
-    // One axis each: psi carries Z to X, theta carries Y to Z, gamma carries X to Y.
+    // Each turn uses one axis: psi carries Z to X, theta carries Y to Z, gamma carries X to Y.
     EXPECT_EQ(move(placed(R"("turn": [90, 0, 0])"), {2, 3, 5}), glm::dvec3(5, 3, -2));
     EXPECT_EQ(move(placed(R"("turn": [0, 90, 0])"), {2, 3, 5}), glm::dvec3(2, -5, 3));
     EXPECT_EQ(move(placed(R"("turn": [0, 0, 90])"), {2, 3, 5}), glm::dvec3(-3, 2, 5));
-    // gamma first, then theta, then psi: (2,3,5) -> (-3,2,5) -> (-3,-5,2) -> (2,-5,3).
+    // gamma turns first, then theta, then psi: (2,3,5) -> (-3,2,5) -> (-3,-5,2) -> (2,-5,3).
     EXPECT_EQ(move(placed(R"("turn": [90, 90, 90])"), {2, 3, 5}), glm::dvec3(2, -5, 3));
     EXPECT_EQ(move(placed(R"("turn": [-270, 450, 36090])"), {2, 3, 5}), glm::dvec3(2, -5, 3));
     EXPECT_EQ(move(placed(R"("turn": [180, 0, -90])"), {2, 3, 5}), glm::dvec3(-3, -2, -5));
@@ -100,7 +101,7 @@ TEST(ScenePlacement, AnyTurnIsTheProductOfThreeRotations) {
         const double psi = degrees(random), theta = degrees(random), gamma = degrees(random);
         SCOPED_TRACE(testing::Message() << "seed " << seed << ", case " << i);
         const glm::dmat4 map = placed(fmt::format("\"turn\": [{}, {}, {}]", psi, theta, gamma));
-        // Each rotation written out by itself on the running point.
+        // Each rotation is applied to the point by its own formula.
         glm::dvec3 p(0.3, -0.5, 0.7);
         const glm::dvec3 start = p;
         const double g = gamma * kPi / 180, t = theta * kPi / 180, s = psi * kPi / 180;
@@ -112,7 +113,7 @@ TEST(ScenePlacement, AnyTurnIsTheProductOfThreeRotations) {
 }
 
 TEST(SceneObserver, LooksAlongItsZWithItsYUpAndItsXToTheLeftOfTheImage) {
-    // Looking along -X with Y up, the right hand points along -Z and X_E along +Z.
+    // When the observer looks along -X with Y up, its right hand points along -Z and X_E along +Z.
     const Observer observer = observer_with(R"(, "look_at": [-4, 2, 3])");
     EXPECT_EQ(observer.world_from_observer[0], glm::dvec3(0, 0, 1));
     EXPECT_EQ(observer.world_from_observer[1], glm::dvec3(0, 1, 0));

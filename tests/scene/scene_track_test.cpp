@@ -1,4 +1,5 @@
-// What is said about tracks that are wrong.
+// SPDX-License-Identifier: Apache-2.0
+// The errors of wrong tracks.
 #include "runtime/scene_file/scene_track.hpp"
 #include "runtime/scene_file/read_scene.hpp"
 

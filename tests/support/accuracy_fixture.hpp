@@ -1,4 +1,5 @@
-// How far a rendered surface lies from its mesh: the scene, and the measurements on its image.
+// SPDX-License-Identifier: Apache-2.0
+// The distance of a rendered surface from its mesh: the scene, and the measurements on its image.
 #pragma once
 
 #include <algorithm>
@@ -54,15 +55,15 @@ inline Observer observer_at(const glm::dvec3& position, const glm::dvec3& target
     return observer;
 }
 
-/// A way to show a mesh.
+/// The surface and the voxel set with which a mesh is shown.
 struct SurfaceChoice {
     const char* name;
     Surface surface;
     VoxelSet set = VoxelSet::supercover;  ///< for cubes
 };
 
-/// The mesh in `file`, `resolution` voxels along its longest side, where it is, and an observer 1.8
-/// longest sides from its centre. There are no lights.
+/// A scene of the mesh in `file` at its own place, `resolution` voxels along its longest side, and
+/// of an observer 1.8 longest sides from its centre. There are no lights.
 inline Scene mesh_scene(const std::filesystem::path& file, const Mesh& mesh,
                         const SurfaceChoice& choice, int resolution, const glm::ivec2& size) {
     constexpr int kMargin = 8;  // voxels of air around the mesh
@@ -112,7 +113,7 @@ struct SurfaceErrors {
     double mask_share() const { return double(mask_differs) / double(std::max<size_t>(pixels, 1)); }
 };
 
-/// The value below which a share of the values lies; sorts them.
+/// The value below which the fraction `share` of the values lies; sorts them.
 inline double quantile(std::vector<double>& values, double share) {
     if (values.empty()) return 0;
     std::sort(values.begin(), values.end());

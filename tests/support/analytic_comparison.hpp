@@ -1,4 +1,6 @@
-// Rendered images against the analytic tracer's, apart from pixels where rounding may decide.
+// SPDX-License-Identifier: Apache-2.0
+// Rendered images against those of the analytic tracer, except for pixels where rounding may
+// decide.
 #pragma once
 
 #include <fmt/format.h>
@@ -14,7 +16,7 @@
 
 namespace voxelume {
 
-/// Of the colours of an image, channel by channel.
+/// The errors of an image's colours, channel by channel.
 struct ColorError {
     double squares = 0;
     size_t pixels = 0;
@@ -36,8 +38,8 @@ inline std::string in_words(const char* where, const ColorError& error, int widt
                        error.worst_pixel / size_t(width));
 }
 
-/// Renders a scene and expects it to be an analytic image: RMS at most `rms`, no colour off by
-/// more than `worst`, over all pixels but those at edges. Prints the errors with the edges, too.
+/// Renders a scene and expects an analytic image: RMS at most `rms`, and no colour off by more than
+/// `worst`, over all pixels except those at edges. Also prints the errors with the edges.
 inline void expect_image(const Scene& scene, const oracle::AnalyticImage& expected, double rms,
                          double worst) {
     RenderReport report;

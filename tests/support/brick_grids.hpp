@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Brick grids written by hand for tests, from sets of voxels or from distances at nodes.
 #pragma once
 
@@ -71,7 +72,7 @@ struct HostBricks {
     std::vector<uint32_t> attributes, colors;
 };
 
-/// Bricks that hold `voxels`, with their words as attributes.
+/// Bricks that hold `voxels` with their packed attributes.
 inline HostBricks occupied_bricks(const GridFrame& frame, const VoxelMap& voxels) {
     HostBricks bricks(frame);
     for (const auto& [voxel, word] : voxels) bricks.slots[bricks.brick_index(voxel)] = 0;
@@ -88,7 +89,7 @@ inline HostBricks occupied_bricks(const GridFrame& frame, const VoxelMap& voxels
     return bricks;
 }
 
-/// The same without attributes.
+/// Bricks that hold `voxels` without attributes.
 inline HostBricks bare_bricks(const GridFrame& frame, const std::vector<glm::ivec3>& voxels) {
     VoxelMap words;
     for (const glm::ivec3& voxel : voxels) words[voxel] = 0;
@@ -157,7 +158,7 @@ struct ReadBricks {
     uint32_t word(const glm::ivec3& v) const {
         return host.attributes.empty() ? attribute : host.attributes[host.place(v)];
     }
-    /// Every set voxel, with its word unless its brick is full.
+    /// Every set voxel, with its packed attributes unless its brick is full.
     VoxelMap voxels() const {
         VoxelMap set;
         for (glm::ivec3 v{0}; v.z < host.frame.size.z; ++v.z)

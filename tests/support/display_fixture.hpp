@@ -1,4 +1,6 @@
-// A sphere and a turned box in front of displays of every shape, and the same for the oracle.
+// SPDX-License-Identifier: Apache-2.0
+// A sphere and a turned box in front of displays of every shape, and the same objects for the
+// oracle.
 #pragma once
 
 #include <fmt/format.h>
@@ -16,7 +18,7 @@
 
 namespace voxelume {
 
-/// A display's shape with its keys but for `layout`.
+/// A display's shape, with its keys except for `layout`.
 struct DisplayCase {
     const char* name;
     const char* keys;
@@ -28,7 +30,7 @@ inline constexpr std::array kDisplayCases = {
     DisplayCase{"ball", R"("shape": "ball", "radius": 4.3)"},
     DisplayCase{"box", R"("shape": "box", "size": [2.9, 2.3, 3.1], "near": 1.3)"}};
 
-/// `display` are keys of the display; the observer stands at (-1.2, 0.8, -2.4).
+/// A scene text; `display` has the display's keys. The observer stands at (-1.2, 0.8, -2.4).
 inline std::string display_scene(const std::string& display, const std::string& surface = "exact",
                                  const std::string& world = "", const std::string& lights = "") {
     return R"({"voxelume": 1,
@@ -50,7 +52,7 @@ inline std::string display_scene(const std::string& display, const std::string& 
 "render": {"size": [32, 24]}})";
 }
 
-/// What display_scene holds, by its own numbers.
+/// The objects of display_scene, from numbers written independently.
 inline oracle::SimpleScene display_solids() {
     const double y = 25 * M_PI / 180, x = 10 * M_PI / 180;
     const glm::dmat3 about_y(std::cos(y), 0, -std::sin(y), 0, 1, 0, std::sin(y), 0, std::cos(y));

@@ -1,4 +1,5 @@
-// How many combinations of settings a test tries.
+// SPDX-License-Identifier: Apache-2.0
+// The number of combinations of settings that a test tries.
 #pragma once
 
 #include <cstddef>
@@ -12,8 +13,9 @@ inline bool is_exhaustive() {
     return std::getenv("VXL_TEST_ALL") != nullptr;
 }
 
-/// All of `values` in an exhaustive run, else the one whose turn it is. Each value compiles kernels
-/// anew: tests of several scenes take turns, so that each value still comes with some scene.
+/// All of `values` in an exhaustive run, otherwise only the one whose turn it is. Each value makes
+/// kernels compile again: tests of several scenes take turns, so that each value still occurs with
+/// some scene.
 template <class T>
 std::vector<T> in_turn(const std::vector<T>& values, size_t turn) {
     if (is_exhaustive()) return values;

@@ -1,4 +1,5 @@
-// What tests of files share: a folder of their own and a limit on file sizes.
+// SPDX-License-Identifier: Apache-2.0
+// Parts that tests of files share: a folder for each test, and a limit on file sizes.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -15,7 +16,7 @@
 
 namespace voxelume {
 
-/// A test with an empty folder that goes when it ends.
+/// A test with an empty folder that is removed when the test ends.
 class FileTest : public testing::Test {
   protected:
     void SetUp() override {
@@ -33,7 +34,7 @@ class FileTest : public testing::Test {
     std::filesystem::path folder;
 };
 
-/// Lets no file grow beyond `bytes` while it lives: the writer meets a full disk without a disk.
+/// Lets no file grow beyond `bytes` during its lifetime, so that the writer meets a full disk.
 class FileSizeLimit {
   public:
     explicit FileSizeLimit(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
@@ -62,7 +63,7 @@ inline void put_bytes(const std::filesystem::path& path, const std::string& byte
     std::ofstream(path, std::ios::binary) << bytes;
 }
 
-/// The error that `action` throws; fails the test when there is none.
+/// The error that `action` throws; fails the test if there is none.
 template <class Action>
 Error error_of(Action action) {
     try {

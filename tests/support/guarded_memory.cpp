@@ -1,7 +1,8 @@
-// Preloaded into a test program: the end of every aligned block of memory, which is what OpenCL
-// takes for buffers on the CPU, lies against pages that may not be touched, and so does all of it
-// once it is freed. A kernel that reads or writes there ends the program. Blocks begin with bytes
-// that no code wrote on purpose.
+// SPDX-License-Identifier: Apache-2.0
+// A library that is preloaded into a test program. It places the end of every aligned block of
+// memory, which is what OpenCL uses for buffers on the CPU, against pages that may not be touched;
+// a freed block becomes such pages, too. A kernel that reads or writes there ends the program.
+// Blocks begin with bytes that no code wrote on purpose.
 #include <dlfcn.h>
 #include <sys/mman.h>
 
@@ -19,7 +20,7 @@ constexpr size_t kForbidden = size_t{16} << 20;  // behind each block: room for 
 constexpr size_t kBuffer = 64;  // least alignment of what may be a buffer; compilers ask for less
 constexpr int kFilling = 0xA5;
 
-/// In front of a block.
+/// The header in front of a block.
 struct Header {
     char* pages;
     size_t bytes;

@@ -1,4 +1,5 @@
-// Scenes of solids that tests show as instances, and what they read of their images.
+// SPDX-License-Identifier: Apache-2.0
+// Scenes of solids that tests show as instances, and readers of their images.
 #pragma once
 
 #include <fmt/format.h>
@@ -40,7 +41,7 @@ inline Scene instance_scene(const std::string& surface, const std::string& place
                        "test.json", {});
 }
 
-/// Moved by whole voxels, turned by quarters, mirrored.
+/// Objects moved by whole voxels, turned by quarters, and mirrored.
 inline std::vector<std::string> whole_voxel_objects() {
     return {
         R"("model": "ball", "position": [-0.5, 0.11, 0.2])",
@@ -49,7 +50,7 @@ inline std::vector<std::string> whole_voxel_objects() {
         R"("model": "ball", "position": [0.1, -0.13, -0.3])"};
 }
 
-/// Turned by any angle, stretched, mirrored and sheared.
+/// Objects turned by arbitrary angles, stretched, mirrored and sheared.
 inline std::vector<std::string> turned_objects() {
     return {
         R"("model": "ball", "position": [-0.5, 0.112, 0.203], "turn": [20, 30, 5])",

@@ -1,4 +1,5 @@
-// What must hold of every Mesh that a reader returns, whatever the file was.
+// SPDX-License-Identifier: Apache-2.0
+// Invariants of every Mesh that a reader returns, whatever the file was.
 #pragma once
 
 #include "runtime/geometry/mesh.hpp"
@@ -8,7 +9,7 @@
 
 namespace voxelume {
 
-/// The first promise of struct Mesh that `mesh` breaks; empty if it keeps them all.
+/// The first invariant of struct Mesh that `mesh` breaks; empty if it keeps all.
 inline std::string broken_invariant(const Mesh& mesh) {
     if (mesh.triangles.empty()) {
         return "no triangles";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A ball that moves past another, as tests of several frames show it.
 #pragma once
 

@@ -1,4 +1,5 @@
-// Runs the built program and takes what it says.
+// SPDX-License-Identifier: Apache-2.0
+// Runs the built program and returns its output.
 #pragma once
 
 #include <fmt/format.h>
@@ -20,12 +21,12 @@ struct ProgramResult {
 /// Tests of the command line: the program runs in the test's folder.
 class ProgramTest : public FileTest {
   protected:
-    /// `arguments` are a shell's words.
+    /// Runs the program; `arguments` are words of a shell.
     ProgramResult run(const std::string& arguments) const {
         return run_line(fmt::format("'{}' {}", VXL_BINARY, arguments));
     }
 
-    /// A whole line of a shell, which finds `voxelume`.
+    /// Runs a whole line of a shell, which finds `voxelume`.
     ProgramResult run_line(const std::string& line) const {
         const std::filesystem::path programs = std::filesystem::path(VXL_BINARY).parent_path();
         const int status = std::system(

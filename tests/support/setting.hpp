@@ -1,4 +1,5 @@
-// A variable of the environment while a test needs it.
+// SPDX-License-Identifier: Apache-2.0
+// An environment variable that is set for the duration of a test.
 #pragma once
 
 #include <cstdlib>
@@ -7,8 +8,8 @@
 
 namespace voxelume {
 
-/// Sets an environment variable while it lives, or unsets it where no value is given; puts back
-/// what was there before.
+/// Sets an environment variable during its lifetime, or unsets it if no value is given; restores
+/// the previous value afterwards.
 class Setting {
   public:
     Setting(const char* name, const std::optional<std::string>& value) : name_(name) {

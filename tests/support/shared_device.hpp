@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // One device for all tests of a program, which makes each kernel ready once.
 #pragma once
 

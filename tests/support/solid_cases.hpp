@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Analytic solids to test with: every kind, turned by a rational rotation, and combinations.
 #pragma once
 

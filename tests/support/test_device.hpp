@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The device that the tests run on.
 #pragma once
 
@@ -11,8 +12,8 @@
 
 namespace voxelume {
 
-/// A device on which nothing runs, open until the tests' end: what a context costs the compiler is
-/// paid once by all that are opened beside it. Left open where the process ends within a test, as
+/// A device on which nothing runs, open until the tests' end. All devices opened meanwhile share
+/// the compiler's cost of a context. It stays open where the process ends within a test, because
 /// the driver ends before static variables do.
 class OpenContext : public ::testing::Environment {
   public:
@@ -23,8 +24,8 @@ class OpenContext : public ::testing::Environment {
 inline ::testing::Environment* const kOpenContext =
     ::testing::AddGlobalTestEnvironment(new OpenContext);
 
-/// The device named by VXL_TEST_DEVICE, else the first CPU; `lanes` 0 takes VXL_TEST_LANES or its
-/// own.
+/// The device named by VXL_TEST_DEVICE, else the first CPU. If `lanes` is 0, uses VXL_TEST_LANES or
+/// the device's own number.
 inline Device test_device(int lanes = 0) {
     const char* name = std::getenv("VXL_TEST_DEVICE");
     const char* lanes_text = std::getenv("VXL_TEST_LANES");

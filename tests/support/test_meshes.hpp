@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Closed meshes that tests render, and the OBJ files that scenes name.
 #pragma once
 
@@ -39,7 +40,8 @@ inline Mesh wavy_ring(int around, int across) {
     });
 }
 
-/// The mesh with every triangle once more: by corners of its own, or turned over by the same ones.
+/// The mesh with every triangle doubled: the copy has its own corners, or the same corners in the
+/// opposite order.
 inline Mesh doubled(Mesh mesh, bool has_own_corners) {
     const auto positions = mesh.positions;
     const auto triangles = mesh.triangles;
@@ -92,7 +94,7 @@ inline Mesh box(const glm::vec3& low, const glm::vec3& high) {
     return mesh;
 }
 
-/// Writes an OBJ file that gives back the very same coordinates.
+/// Writes an OBJ file that gives exactly the same coordinates when it is read.
 inline void write_obj(const std::filesystem::path& path, const Mesh& mesh) {
     std::ofstream file(path);
     for (const glm::vec3& p : mesh.positions)

@@ -1,4 +1,5 @@
-// Volumetric images for tests: no cube, no symmetry, a turned observer, every kind of voxel.
+// SPDX-License-Identifier: Apache-2.0
+// Volumetric images for tests: no cube, no symmetry, a turned observer, and every kind of voxel.
 #pragma once
 
 #include <cmath>
@@ -15,7 +16,8 @@ inline glm::dmat4 turned_observer() {
     return m;
 }
 
-/// Lists about `share` of the voxels, with random values; objects' depths lie within their steps.
+/// Lists about the fraction `share` of the voxels with random values; objects' depths lie within
+/// their steps.
 inline void fill_volume(Volume& volume, double share, uint32_t seed) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<float> unit(0.0f, 1.0f);
@@ -102,7 +104,7 @@ inline void expect_same_frame(const VolumeFrame& a, const VolumeFrame& b) {
     EXPECT_EQ(a.world_from_observer, b.world_from_observer);
 }
 
-/// Every bit of it.
+/// Expects that every bit of both volumes is equal.
 inline void expect_same_volume(const Volume& a, const Volume& b) {
     expect_same_frame(a.frame, b.frame);
     EXPECT_EQ(a.indices, b.indices);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Meshes in voxels and grids read back, for the tests of voxelization.
 #pragma once
 
@@ -23,8 +24,8 @@ struct VoxelLess {
 };
 using VoxelSetOf = std::set<glm::ivec3, VoxelLess>;
 
-/// One voxelizer for all tests, so that each kernel is built once. Never freed: a platform may be
-/// gone before static objects are.
+/// One voxelizer for all tests, so that each kernel is built once. It is never freed, because its
+/// platform may be gone before static objects are.
 inline Voxelizer& shared_voxelizer() {
     static Voxelizer* const voxelizer = new Voxelizer(test_device());
     return *voxelizer;
@@ -115,7 +116,7 @@ inline std::vector<oracle::LatticeCorners> lattice_mesh(const Mesh& mesh) {
     return all;
 }
 
-/// Where a voxel or node is in the arrays of a brick grid read back.
+/// The position of a voxel or node in the arrays of a brick grid that was read back.
 struct GridPlace {
     uint32_t slot;    ///< or kBrickOutside, kBrickInside
     uint32_t number;  ///< within the brick, x fastest
@@ -128,7 +129,7 @@ inline GridPlace place_in(const BrickGrid& grid, const std::vector<uint32_t>& sl
             uint32_t(l.z * 256 + l.y * 16 + l.x)};
 }
 
-/// The voxels that are set; those of bricks marked inside too.
+/// The set voxels, including those of bricks marked inside.
 inline VoxelSetOf occupied_voxels(const BrickGrid& grid) {
     const std::vector<uint32_t> slots = grid.slots.read();
     const std::vector<uint64_t> masks = grid.occupancy.read();
@@ -160,7 +161,7 @@ inline VoxelSetOf voxels_of(const Mesh& mesh, const glm::ivec3& size, VoxelSet s
     return occupied_voxels(voxelizer.voxelize(mesh, glm::dmat4(1), unit_frame(size), cubes(set)));
 }
 
-/// The voxels of the frame for which `is_set` says so.
+/// The voxels of the frame for which `is_set` returns true.
 template <class Predicate>
 VoxelSetOf voxels_where(const glm::ivec3& size, Predicate is_set) {
     VoxelSetOf voxels;
@@ -195,7 +196,8 @@ inline VoxelSetOf exact_solid(const Mesh& mesh, const glm::ivec3& size) {
     });
 }
 
-/// Nothing when equal; else how many voxels differ, and the first of them.
+/// Returns an empty text if both are equal; otherwise how many voxels differ, and the first of
+/// them.
 inline std::string difference(const VoxelSetOf& actual, const VoxelSetOf& expected) {
     size_t missing = 0, extra = 0;
     std::string first;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Closed-form crossings of lines with solids against hand-computed ones and an inside test.
 #include "runtime/verify/analytic/analytic_crossings.hpp"
 
@@ -34,7 +35,7 @@ void expect_crossings(const Crossings& found, const std::vector<double>& expecte
 }
 
 TEST(PolynomialRoots, AreThePlacesWhereTheSignChanges) {
-    // (t - 1)(t - 2)^2 (t - 3): only touches zero at 2.
+    // (t - 1)(t - 2)^2 (t - 3) only touches zero at 2.
     const auto found = oracle::sign_changes({12, -28, 23, -8, 1}, 0.5L, 9);
     ASSERT_EQ(found.size(), 2u);
     EXPECT_NEAR(double(found[0]), 1, 1e-15);

@@ -1,4 +1,5 @@
-// The analytic tracer's lights, shadows, checkers and image against numbers worked out by hand.
+// SPDX-License-Identifier: Apache-2.0
+// The analytic tracer's lights, shadows, checkers and image, against numbers computed by hand.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -105,7 +106,8 @@ TEST(AnalyticLight, ShadowsAreOpaqueUnlessFilteredOrSeenThrough) {
     glass.opacity = 0.5f;
     const glm::dvec3 veiled = lit(false), both = lit(true);
     for (int c = 0; c < 3; ++c) {
-        // (1 - a) ((1 - a) + a color) at each of two surfaces; filtered, a * refraction more.
+        // Each of two surfaces passes (1 - a) ((1 - a) + a color); with filtered shadows, a *
+        // refraction more.
         const double transmittance = 0.5 * (0.5 + 0.5 * double(glass.color[c]));
         const double absorbed = std::exp(-double(glass.absorption[c]));
         EXPECT_NEAR(veiled[c], transmittance * transmittance * absorbed, 1e-15) << c;

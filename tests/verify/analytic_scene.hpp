@@ -1,4 +1,5 @@
-// Scenes of analytic solids that tests put together piece by piece.
+// SPDX-License-Identifier: Apache-2.0
+// Scenes of analytic solids that tests assemble part by part.
 #pragma once
 
 #include <glm/ext/matrix_transform.hpp>
@@ -8,7 +9,8 @@
 
 namespace voxelume {
 
-/// Nothing in 20 x 20 x 20 m around the origin; black unless told; deep recursion.
+/// An empty scene of 20 x 20 x 20 m around the origin, with deep recursion and by default a black
+/// background.
 inline Scene empty_scene(const glm::vec3& background = glm::vec3(0)) {
     Scene scene;
     scene.world.voxel_size = glm::dvec3(1);
@@ -41,7 +43,7 @@ inline Solid box_solid(const glm::dvec3& size) {
     return solid;
 }
 
-/// Adds an object of its own model and material; returns its index.
+/// Adds an object with its own model and material; returns its index.
 inline int add_object(Scene& scene, const Solid& solid, const Material& material,
                       const glm::dmat4& world_from_object = glm::dmat4(1), int priority = 0) {
     Model model;
@@ -65,7 +67,7 @@ inline int add_box(Scene& scene, const glm::dvec3& low, const glm::dvec3& high,
                       glm::translate(glm::dmat4(1), (low + high) / 2.0));
 }
 
-/// Sends out light and returns none.
+/// A material that emits light and reflects none.
 inline Material emitter(const glm::vec3& radiance) {
     Material m;
     m.diffuse = 0;
@@ -73,7 +75,7 @@ inline Material emitter(const glm::vec3& radiance) {
     return m;
 }
 
-/// Bends light and does nothing else.
+/// A material that refracts light and does nothing else.
 inline Material clear_glass(float ior) {
     Material m;
     m.diffuse = 0;

@@ -1,4 +1,5 @@
-// The analytic tracer against numbers of geometrical optics that were derived by hand.
+// SPDX-License-Identifier: Apache-2.0
+// The analytic tracer against numbers of geometrical optics, derived by hand.
 #include "runtime/verify/analytic/analytic_tracer.hpp"
 
 #include <gtest/gtest.h>
@@ -15,20 +16,20 @@ using oracle::AnalyticTracer;
 
 constexpr double kDegree = std::numbers::pi / 180;
 
-/// Green of what a ray sees.
+/// The green component of what a ray sees.
 double seen(const Scene& scene, const glm::dvec3& origin, const glm::dvec3& direction) {
     return AnalyticTracer(scene).trace(origin, glm::normalize(direction)).radiance.y;
 }
 
-/// Where a ray of the plane z = 0 that falls meets the line x = 4: the edge of a lamp that just
-/// shows.
+/// The height at which a falling ray of the plane z = 0 meets the line x = 4, found by the edge of
+/// an emissive object that is just visible.
 double height_at_4(Scene scene, const glm::dvec3& origin, const glm::dvec3& direction) {
     const int lamp = add_box(scene, {4, 0, -1}, {5, 1, 1}, emitter(glm::vec3(1)));
     const glm::dmat4 around_origin(1);
     double low = -9, high = 9;
     for (int step = 0; step < 60; ++step) {
         const double middle = (low + high) / 2;
-        // The lamp is at x 4..5 and reaches from `middle` upwards.
+        // The emissive object is at x 4..5 and extends upwards from `middle`.
         scene.models[size_t(lamp)].solid->size = {1, 20, 2};
         scene.objects[size_t(lamp)].world_from_object =
             glm::translate(around_origin, {4.5, middle + 10, 0});
@@ -38,7 +39,7 @@ double height_at_4(Scene scene, const glm::dvec3& origin, const glm::dvec3& dire
 }
 
 TEST(AnalyticTracer, ASlabShiftsARaySideways) {
-    // A slab of 0.5 m stands across x, a ray falls at 50 degrees to its normal.
+    // A slab of 0.5 m stands across x; the ray falls at 50 degrees to its normal.
     const double incidence = 50 * kDegree, within = std::asin(std::sin(incidence) / 1.5);
     Scene scene = empty_scene();
     add_object(scene, slab_solid(0.5), clear_glass(1.5),
@@ -86,8 +87,8 @@ TEST(AnalyticTracer, ABallTurnsARayByTwiceTheAngleOfRefraction) {
 }
 
 TEST(AnalyticTracer, ARightAngledPrismDeviatesTheLeastOnTheSymmetricPath) {
-    // Fraunhofer: n = sin((A + D) / 2) / sin(A / 2), with A = 90 degrees at the top of a turned
-    // box.
+    // Fraunhofer's formula is n = sin((A + D) / 2) / sin(A / 2), with A = 90 degrees at the top of
+    // a turned box.
     Scene scene = empty_scene();
     add_object(scene, box_solid(glm::dvec3(2)), clear_glass(1.25),
                glm::rotate(glm::dmat4(1), 45 * kDegree, {0, 0, 1}));
@@ -163,7 +164,7 @@ TEST(AnalyticTracer, ABallOfTheSameIndexOnlyAbsorbs) {
     for (int c = 0; c < 3; ++c)
         EXPECT_NEAR(ray.radiance[c], 0.5 * std::exp(-double(tint.absorption[c]) * chord), 1e-15);
     EXPECT_NEAR(ray.t, 6 - chord / 2, 1e-14);
-    // From within, the way is shorter.
+    // The way from inside is shorter.
     EXPECT_NEAR(seen(scene, {1, 0, 0}, {0, 0, 1}), 0.5 * std::exp(-1.0), 1e-15);
 }
 
@@ -221,7 +222,7 @@ TEST(AnalyticTracer, TheMediumFillsTheWorldButNotTheGlass) {
 TEST(AnalyticTracer, TheWorldsLatticeCutsObjectsOpen) {
     Scene scene = empty_scene(glm::vec3(1));
     add_object(scene, slab_solid(2), emitter(glm::vec3(4)));
-    // The ray comes in across x = -10 inside the slab and goes out of its top.
+    // The ray enters across x = -10 inside the slab and leaves at its top.
     EXPECT_EQ(seen(scene, {-12, 0, 0}, {1, 0.2, 0}), 4.0);
     EXPECT_EQ(seen(scene, {-12, 0, 0}, {1, 0.01, 0}), 1.0) << "out of the world without a surface";
     const oracle::Seen ray = AnalyticTracer(scene).trace({-12, 0, 0}, {1, 0, 0}, 0, 5);

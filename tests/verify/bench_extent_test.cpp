@@ -1,4 +1,5 @@
-// Volume and area of what voxels hold, against formulas; shadow edges against a ball's.
+// SPDX-License-Identifier: Apache-2.0
+// Volume and area of voxels' content against formulas; shadow edges against a ball's.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -28,7 +29,8 @@ Pyramid pyramid_of(const glm::ivec3& size, const NodeDistance& distance) {
 
 TEST(CubesExtent, CountsVoxelsAndWhatTheyShutIn) {
     const Device device = test_device();
-    // A shell of 7x5x3 around 5x3x1, a voxel beside it, and one that touches it by an edge only.
+    // The voxels are a shell of 7x5x3 around 5x3x1, one voxel next to it, and one that touches it
+    // only by an edge.
     VoxelMap voxels;
     for (glm::ivec3 v{0}; v.z < 3; ++v.z)
         for (v.y = 0; v.y < 5; ++v.y)
@@ -119,7 +121,7 @@ TEST_P(EveryPlacement, HasTheSolidsVolumeAndArea) {
                                                               : 2e-7;
             EXPECT_NEAR(extent->volume / subject.extent->volume, 1, bound)
                 << solid.name << " " << name_of(surface);
-            if (surface == Surface::cubes) continue;  // steps never become a slope's area
+            if (surface == Surface::cubes) continue;  // steps never have a slope's area
             EXPECT_NEAR(extent->area / subject.extent->area, 1, bound)
                 << solid.name << " " << name_of(surface);
         }
@@ -151,7 +153,7 @@ TEST(ShadowEdge, OfABallIsAnEllipseThatExactSurfacesHit) {
     const ShadowErrors cubes = measured(Surface::cubes, 16);
     EXPECT_GT(cubes.mean, 1);
     EXPECT_GT(cubes.max, cubes.mean);
-    // A supercover's cubes reach up to a diagonal, 0.108 m, beyond the ball; 1 m is 43 pixels.
+    // A supercover's cubes extend up to a diagonal, 0.108 m, beyond the ball; 1 m is 43 pixels.
     EXPECT_LT(cubes.max, 2 * 0.108 * 43);
 }
 
@@ -163,7 +165,7 @@ TEST(PixelContour, FollowsALineAndTellsHowFarPixelsAreFromIt) {
             sides.push_back(is_inside({column + 0.5, row + 0.5}) ? PixelSide::inside
                                                                  : PixelSide::outside);
     const PixelContour contour = contour_of({9, 7}, sides, is_inside);
-    // From x = 0.5 to x = 8.5, between the outermost centres.
+    // The contour goes from x = 0.5 to x = 8.5, between the outermost centres.
     EXPECT_NEAR(contour.length, 8 * std::sqrt(1.25), 1e-6);
     EXPECT_NEAR(contour.distance_to({3, 1}), (11.3 - 3 - 2) / std::sqrt(5), 1e-6);
     ContourError error(contour);

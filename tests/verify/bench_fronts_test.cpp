@@ -1,4 +1,6 @@
-// Other programs beside `voxelume bench`: where they are quicker at equal error, and their files.
+// SPDX-License-Identifier: Apache-2.0
+// Other programs compared by `voxelume bench`: where they are quicker at equal error, and their
+// files.
 #include "runtime/verify/report/bench_fronts.hpp"
 
 #include <gmock/gmock.h>
@@ -24,8 +26,8 @@ TEST(BenchFronts, AFrontIsWhatNothingBeatsFromCoarseToFine) {
 }
 
 TEST(BenchFronts, TheyCrossWhereStraightLinesOfLogarithmsDo) {
-    // The other takes 1 s at 1e-1 and 10,000 s at 1e-5, ten times as long per decade; ours always
-    // takes 100 s: they are equal at 1e-3.
+    // The other program takes 1 s at 1e-1 and 10,000 s at 1e-5, ten times as long per decade. Ours
+    // always takes 100 s, so both are equal at 1e-3.
     const std::vector<FrontPiece> pieces =
         compare_fronts({{1e-2, 100}, {1e-6, 100.0000001}}, {{1e-1, 1}, {1e-5, 1e4}}, 1e-1);
     ASSERT_EQ(pieces.size(), 2u);
@@ -47,7 +49,7 @@ TEST(BenchFronts, OnlyErrorsThatBothReachAreCompared) {
     EXPECT_NEAR(pieces[0].fine, 1e-4, 1e-12);
     EXPECT_NEAR(pieces[0].minimum, 5, 1e-9);                   // 10 s over 2 s
     EXPECT_NEAR(pieces[0].maximum, std::cbrt(1e4) / 4, 1e-9);  // 21.5 s over 4 s
-    // A coarser image takes what the front's coarsest takes.
+    // A coarser image takes as long as the front's coarsest.
     EXPECT_NEAR(compare_fronts({{1e-2, 1}, {1e-4, 4}}, {{1e-3, 10}, {1e-6, 100}}, 1e-1)[0].maximum,
                 10, 1e-9);
     EXPECT_TRUE(compare_fronts({{1e-2, 1}}, {{1e-3, 1}}, 1e-3).empty());
@@ -115,7 +117,7 @@ class BenchPeers : public ProgramTest {
     }
 };
 
-/// A file with one row, of whose values one is replaced, or left out if `text` is empty.
+/// A file with one row, in which one value is replaced, or left out if `text` is empty.
 std::string file_with(const std::string& key, const std::string& text) {
     std::string row;
     for (const auto& [name, value] :

@@ -1,4 +1,6 @@
-// What `voxelume bench` says: its truth against exact values, fits and fronts, the files it writes.
+// SPDX-License-Identifier: Apache-2.0
+// The results of `voxelume bench`: its truth against exact values, fits and fronts, the files it
+// writes.
 #include <gmock/gmock.h>
 
 #include <glm/geometric.hpp>
@@ -77,7 +79,7 @@ TEST(AnalyticRay, HitsLieOnTheSurfaceAndNothingLiesBeforeThem) {
         const glm::dvec3 origin = 3.0 * glm::normalize(vector());
         const glm::dvec3 direction = glm::normalize(0.5 * vector() - origin);
         const auto hit = analytic_hit(solid.solid, solid.world_from_solid, origin, direction);
-        // Steps that are no longer than the distance can't pass a surface.
+        // Steps that are no longer than the distance can't pass through a surface.
         const glm::dmat4 back = glm::inverse(solid.world_from_solid);
         const auto distance = [&](double t) {
             const glm::dvec3 p(back * glm::dvec4(origin + t * direction, 1));

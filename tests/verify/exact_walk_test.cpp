@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The walk in 64-bit integers that `voxelume stress` trusts, against rational numbers.
 #include "runtime/verify/exact/exact_walk.hpp"
 
@@ -29,7 +30,7 @@ std::vector<oracle::RationalCell> expected_cells(const FixedGrid& grid, const Fi
                                  in_voxels(ray.direction, 22), grid.size, maximum);
 }
 
-/// The cells of a list that are first outside of the block left before.
+/// The cells of a list that are the first outside the block that the ray left before.
 std::vector<oracle::RationalCell> first_of_blocks(const std::vector<oracle::RationalCell>& cells) {
     std::vector<oracle::RationalCell> first;
     for (const oracle::RationalCell& c : cells) {
@@ -63,7 +64,7 @@ TEST_P(ExactWalk, EntersTheCellsThatRationalsEnter) {
 }
 
 TEST_P(ExactWalk, LeavesBlocksWhereTheirLastCellIsLeft) {
-    constexpr size_t kMaxCells = 2000;  // no walk through the first two has so many
+    constexpr size_t kMaxCells = 2000;  // no walk through the first two grids has so many
     for (const glm::ivec3 size :
          {glm::ivec3(33, 64, 50), glm::ivec3(600, 300, 400), glm::ivec3(65536, 40001, 65536)})
         for (uint64_t number = 0; number < 150; ++number) {
@@ -81,7 +82,7 @@ TEST_P(ExactWalk, LeavesBlocksWhereTheirLastCellIsLeft) {
         }
 }
 
-/// Holds whole walks against those of the oracle in 128 bits.
+/// Compares whole walks with those of the oracle in 128 bits.
 void expect_walks_of_128_bits(RayClass kind, const glm::ivec3& size, uint64_t count) {
     const FixedGrid grid = fixed_grid(size);
     for (uint64_t number = 0; number < count; ++number) {

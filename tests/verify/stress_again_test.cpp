@@ -1,5 +1,6 @@
-// A mismatch that `voxelume stress` finds is found again by its number alone: kernels are built
-// with faults for that.
+// SPDX-License-Identifier: Apache-2.0
+// A mismatch that `voxelume stress` finds is found again by its number alone. For this test kernels
+// are built with faults.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -14,18 +15,19 @@ namespace {
 
 constexpr uint64_t kSeed = 20261122;
 
-/// Floats decide alone where a ray leaves a voxel.
+/// Floats alone decide where a ray leaves a voxel.
 constexpr const char* kNotArbitrated = "-DVXL_ARBITRATE=0";
-/// Voxels reach a unit of the lattice too far.
+/// Voxels extend one unit of the lattice too far.
 constexpr const char* kTooWide = "-DVXL_MARGIN=1";
-/// Voxels that list triangles are smaller than their cubes; triangles have too small a box.
+/// The voxels that list triangles are smaller than their cubes, and the triangles' boxes are too
+/// small.
 constexpr const char* kTooNarrow = "-DVXL_MARGIN=-16";
-/// Points are decided a voxel beyond the bricks whose triangles are gathered for them.
+/// Decides points one voxel beyond the bricks whose triangles are gathered for them.
 constexpr const char* kCornersBeyond = "-DVXL_CENTERS=2";
 constexpr const char* kCentersBeyond = "-DVXL_CENTERS=3";
-/// Beams are wider than what is known around them.
+/// Beams are wider than the empty space that is known around them.
 constexpr const char* kWideBeams = "-DVXL_BEAM_RADIUS=12.0f";
-/// Voxels of the world are taken from another place of the object.
+/// Takes the world's voxels from a wrong place of the object.
 constexpr const char* kElsewhere = "-Dvoxel=low";
 
 struct Fault {
@@ -34,7 +36,7 @@ struct Fault {
     uint64_t first, count;
 };
 
-/// Runs begin within a batch, and some go on into the next one, where something else is compared.
+/// Runs begin within a batch; some continue into the next one, which compares something else.
 constexpr Fault kFaults[] = {
     {"random", kNotArbitrated, 32791, 20000},
     {"ties", kNotArbitrated, 16381, 40},

@@ -1,4 +1,5 @@
-// What `voxelume stress` finds: nothing wrong here, and what is wrong where something is.
+// SPDX-License-Identifier: Apache-2.0
+// The findings of `voxelume stress`: none in correct kernels, and the fault in faulty ones.
 #include "runtime/verify/stress/stress.hpp"
 
 #include <gtest/gtest.h>
@@ -35,7 +36,8 @@ class Stress : public testing::TestWithParam<std::string> {};
 TEST_P(Stress, FindsNothing) {
     const StressTest& test = test_named(GetParam());
     const Device device = test_device();
-    // All grids of the rays' classes; all classes of triangles; both kinds of maps.
+    // The numbers cover all grids of the rays' classes, all classes of triangles, and both kinds of
+    // maps.
     const uint64_t rays = kRayGrids * kRaysOfOneGrid;
     const uint64_t count = std::max<uint64_t>(rays / test.rays_per_case, 27);
     const bool has_triangles = GetParam() == "triangles" || GetParam() == "crosshairs";
@@ -57,7 +59,8 @@ std::vector<std::string> names_of_tests() {
 INSTANTIATE_TEST_SUITE_P(Tests, Stress, testing::ValuesIn(names_of_tests()),
                          [](const auto& name) { return name.param; });
 
-// The triangle's corners, snapped, lie on the other side of the voxel's edge than those that the
+// The triangle's snapped corners lie on the other side of the voxel's edge than the corners that
+// the ray meets.
 // ray meets.
 TEST(StressFound, ARayAlongAVoxelsEdgeMeetsTheTriangleBesideIt) {
     const StressResult result = test_named("exact").run({test_device(), kSeed, 6494911, 1, {}});
@@ -104,7 +107,7 @@ TEST(DeviceWalks, DoNotDependOnTheHostsTreatmentOfDenormals) {
 #endif
 }
 
-/// As far as the largest world reaches, where floats are coarsest.
+/// The walks extend as far as the largest world, where floats are coarsest.
 TEST(DeviceWalks, AreExactToTheEndOfTheLargestWorlds) {
     constexpr uint32_t kMax = 3 * 65536;
     constexpr uint64_t kRays = 24;
@@ -187,8 +190,8 @@ TEST(ExactThin, HasTheVoxelsWhoseCrosshairsRationalsMeet) {
     EXPECT_GT(count, 2000u);
 }
 
-/// The largest magnitude of a corner's component times the triangle's area vector: of the terms
-/// that a plane is formed of.
+/// The largest magnitude of the terms of a plane: a corner's component times the triangle's area
+/// vector.
 double largest_plane_term(const TriangleOnLattice& t) {
     const glm::dvec3 a(t[0]), n = glm::cross(glm::dvec3(t[1]) - a, glm::dvec3(t[2]) - a);
     const glm::dvec3 terms = glm::abs(n * a);

@@ -1,4 +1,6 @@
-// What solids leave of meshes: volumes, voxels, closed surfaces, labels, and cuts that move.
+// SPDX-License-Identifier: Apache-2.0
+// The parts of meshes that solids leave: volumes, voxels, closed surfaces, labels, and cuts that
+// move.
 #include "runtime/stages/voxelize/cut.hpp"
 #include "runtime/scene_file/read_scene.hpp"
 
@@ -61,7 +63,7 @@ glm::dvec3 point_at(const GridFrame& frame, const glm::dvec3& voxels) {
 constexpr const char* kBall =
     R"("cut": [{"shape": "sphere", "radius": 0.5, "position": [0.5, 0.4, -0.3], "scale": [1, 1.25, 1]}])";
 
-/// The distance beyond the ball, in units that change over its axes.
+/// The distance beyond the ball, in units that differ by axis.
 double beyond_ball(const glm::dvec3& p) {
     return glm::length((p - glm::dvec3(0.5, 0.4, -0.3)) / glm::dvec3(1, 1.25, 1)) - 0.5;
 }
@@ -87,13 +89,13 @@ TEST_F(Cut, ASmoothBallWithoutACapHasTheVolumeOfItsFormula) {
     const ReadBricks grid = bricks_of(
         R"("resolution": 96, "cut": [{"shape": "slab", "thickness": 4, "position": [0, 2.4, 0]}])");
     const GridFrame& frame = grid.host.frame;
-    // The volume below a surface that crosses a node's cell: the node's distance in it.
+    // The volume below a surface that crosses a node's cell is taken from the node's distance.
     double cells = 0;
     for (glm::ivec3 v(0); v.z < frame.size.z; ++v.z)
         for (v.y = 0; v.y < frame.size.y; ++v.y)
             for (v.x = 0; v.x < frame.size.x; ++v.x)
                 cells += std::clamp(0.5 - grid.distance_at(v) / 8192.0, 0.0, 1.0);
-    const double edge = frame.voxel_edge.x, height = 1.4;  // of what is left of the ball
+    const double edge = frame.voxel_edge.x, height = 1.4;  // the height of what is left of the ball
     const double volume = std::numbers::pi * height * height * (3 - height) / 3;
     EXPECT_NEAR(cells * edge * edge * edge, volume, 0.002 * volume);
 }
@@ -121,7 +123,8 @@ TEST_F(Cut, ASmoothFieldIsTheGreaterDistance) {
             }
 }
 
-/// Whether a walk through faces gets from the frame's corner to `inside` without a set voxel.
+/// True if a walk through faces gets from the frame's corner to `inside` without entering a set
+/// voxel.
 bool leaks(const ReadBricks& grid, const glm::ivec3& inside) {
     const glm::ivec3 size = grid.host.frame.size;
     const auto number = [&](const glm::ivec3& v) {
@@ -186,7 +189,7 @@ TEST_F(Cut, ASupercoverHasEveryVoxelThatTheSurfaceTouches) {
         }
         const glm::dvec3 voxel = (p - frame.origin) / frame.voxel_edge;
         const glm::dvec3 inner = glm::abs(glm::fract(voxel) - 0.5);
-        if (std::max({inner.x, inner.y, inner.z}) > 0.5 - 1e-3) continue;  // rounding decides
+        if (std::max({inner.x, inner.y, inner.z}) > 0.5 - 1e-3) continue;  // rounding decides here
         ++seen;
         ASSERT_TRUE(grid.is_set(glm::ivec3(voxel))) << "point " << i << ", seed 89";
     }

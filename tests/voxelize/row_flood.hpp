@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Floods through grids of voxels, 64 voxels of a row at once.
 #pragma once
 
@@ -9,7 +10,7 @@
 
 namespace voxelume {
 
-/// The voxels of a grid, rows along x in whole words. Bits beyond the grid are 0.
+/// The voxels of a grid, in rows along x of whole 64-bit words. Bits beyond the grid are 0.
 class VoxelRows {
   public:
     explicit VoxelRows(const glm::ivec3& size)
@@ -30,7 +31,7 @@ class VoxelRows {
     uint64_t* row(int y, int z) { return &bits_[words_ * size_t(y + size_.y * z)]; }
     const uint64_t* row(int y, int z) const { return &bits_[words_ * size_t(y + size_.y * z)]; }
 
-    /// How many voxels both have.
+    /// The number of voxels that are in both sets.
     size_t common(const VoxelRows& other) const {
         size_t count = 0;
         for (size_t i = 0; i < bits_.size(); ++i)
@@ -58,8 +59,8 @@ class VoxelRows {
     std::vector<uint64_t> bits_;
 };
 
-/// A flood from voxel (0, 0, 0) through all voxels but the walls': from voxel to voxel through
-/// faces, or through edges and corners, too.
+/// A flood from voxel (0, 0, 0) through all voxels except the walls: from voxel to voxel through
+/// faces, or through edges and corners as well.
 class RowFlood {
   public:
     RowFlood(const VoxelRows& wall, bool through_corners)
@@ -91,7 +92,7 @@ class RowFlood {
         return grid & ~wall_.row(y, z)[word];
     }
 
-    /// Spreads along a row, then into those beside it.
+    /// Spreads along a row, then into the neighbouring rows.
     void leave_row(int y, int z) {
         uint64_t* row = reached_.row(y, z);
         for (bool grows = true; grows;) {
@@ -120,7 +121,7 @@ class RowFlood {
         }
     }
 
-    /// The voxels of a word one further on or back than some of the row.
+    /// The voxels of a word that are next to one of the row's along x.
     uint64_t beside(const uint64_t* row, size_t word) const {
         uint64_t near = row[word] << 1 | row[word] >> 1;
         if (word > 0) near |= row[word - 1] >> 63;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The voxel sets of the stress cases V3, V4, V6, V14, V17, S2 and S3 (tests/CASES.md).
 #include <gtest/gtest.h>
 
@@ -36,7 +37,7 @@ VoxelSetOf exact_rows(const Mesh& mesh, const ivec3& size) {
 }
 
 TEST(VoxelCases, V4ACubeOnTheFramesSidesHasNoHoles) {
-    // cuda_voxelizer 61: a cube of 400 in 256 voxels along each edge.
+    // cuda_voxelizer 61 has a cube of 400 in 256 voxels along each edge.
     const vec3 low(150.100006f, 400.100006f, 150.100006f),
         high(550.099976f, 800.099976f, 550.099976f);
     Mesh mesh = box_mesh(low, high);
@@ -59,8 +60,8 @@ TEST(VoxelCases, V6FourThousandSliversAreExact) {
 }
 
 TEST(VoxelCases, SliversOfUpTo16384VoxelsAreInEveryBrickThatTheyTouch) {
-    // Edges pass bricks' corners exactly, far from the sliver's ends: without the room for rounding
-    // in voxelize_bin.cl 20 of these are wrong.
+    // Edges pass exactly through bricks' corners, far from the sliver's ends. Without the margin
+    // for rounding in voxelize_bin.cl 20 of these are wrong.
     constexpr uint64_t kFirst = 28 * kTrianglesOfOneGrid;
     const ivec3 region = grid_of_triangle(kFirst).region;
     ASSERT_EQ(std::max({region.x, region.y, region.z}), 16384);
@@ -69,7 +70,8 @@ TEST(VoxelCases, SliversOfUpTo16384VoxelsAreInEveryBrickThatTheyTouch) {
     EXPECT_EQ(result.mismatches, 0u) << result.examples.front().text;
 }
 
-/// The 48 symmetries of a cube of `n` voxels carry the mesh's voxels along, mirrors as well.
+/// Expects that the 48 symmetries of a cube of `n` voxels, mirrors included, map the mesh's voxels
+/// like the mesh.
 void expect_carried(const Mesh& mesh, int n, VoxelSet set) {
     const VoxelSetOf expected = voxels_of(mesh, ivec3(n), set);
     int axes[3] = {0, 1, 2};
@@ -116,18 +118,19 @@ VoxelRows rows_of(const Mesh& mesh, const ivec3& size, VoxelSet set) {
         shared_voxelizer().voxelize(mesh, glm::dmat4(1), unit_frame(size), cubes(set)));
 }
 
-/// Neither a flood through faces comes through the THIN shell, nor one through faces, edges and
-/// corners through the SUPERCOVER.
+/// Expects that no flood through faces passes the THIN shell, and that no flood through faces,
+/// edges and corners passes the SUPERCOVER.
 void expect_tight(const Mesh& mesh, const ivec3& size) {
     const VoxelRows solid = rows_of(mesh, size, VoxelSet::solid);
     const auto flooded = [&](const VoxelRows& wall, bool through_corners) {
         return solid.common(RowFlood(wall, through_corners).reached());
     };
     EXPECT_GT(solid.common(solid), 400u);
-    EXPECT_EQ(flooded(VoxelRows(size), false), solid.common(solid));  // nothing in the way
+    EXPECT_EQ(flooded(VoxelRows(size), false), solid.common(solid));  // without walls
     const VoxelRows thin = rows_of(mesh, size, VoxelSet::thin);
     EXPECT_EQ(flooded(thin, false), 0u) << size.z;
-    EXPECT_GT(flooded(thin, true), 0u) << size.z;  // corners are no part of THIN's promise
+    EXPECT_GT(flooded(thin, true), 0u)
+        << size.z;  // THIN doesn't promise to stop floods through corners
     EXPECT_EQ(flooded(rows_of(mesh, size, VoxelSet::supercover), true), 0u) << size.z;
 }
 
@@ -156,7 +159,7 @@ TEST(VoxelCases, S2ColumnsThroughEdgesAndCornersDoNotLeak) {
     EXPECT_EQ(difference(voxels_of(mesh, size, VoxelSet::solid), exact_solid(mesh, size)), "");
 }
 
-/// What a column of voxels along z holds.
+/// The content of a column of voxels along z.
 struct Column {
     int lowest = 1 << 20, highest = -1, count = 0;
 
@@ -167,7 +170,7 @@ struct Column {
     }
 };
 
-/// All columns of a cubic grid, x fastest; bricks of one kind are counted as a whole.
+/// All columns of a cubic grid, x fastest. Bricks that are full or empty are counted as a whole.
 std::vector<Column> columns_of(const BrickGrid& grid, int n) {
     const ReadOccupancy read(grid);
     const ivec3 bricks = grid.frame.bricks();

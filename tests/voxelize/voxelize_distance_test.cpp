@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Distance fields of meshes, against distances in double and exact winding numbers.
 #include <gtest/gtest.h>
 
@@ -39,7 +40,7 @@ struct Field {
     std::vector<int16_t> distance_;
 };
 
-/// The mesh's corners rounded to the lattice, in shortest edges.
+/// The triangles' corners, rounded to the lattice, in units of the shortest edge.
 std::vector<std::array<dvec3, 3>> metric_triangles(const Mesh& mesh, const GridFrame& frame) {
     const double shortest = std::min({frame.voxel_edge.x, frame.voxel_edge.y, frame.voxel_edge.z});
     std::vector<std::array<dvec3, 3>> all;
@@ -53,15 +54,16 @@ std::vector<std::array<dvec3, 3>> metric_triangles(const Mesh& mesh, const GridF
     return all;
 }
 
-/// Whether the triangle's bounding box is farther than the band from p: spares the oracle most
-/// work.
+/// True if the triangle's bounding box is farther from p than the band. This spares the oracle most
+/// of its work.
 bool is_beyond(const dvec3& p, const std::array<dvec3, 3>& t, double band) {
     const dvec3 low = glm::min(glm::min(t[0], t[1]), t[2]) - band - 0.001;
     const dvec3 high = glm::max(glm::max(t[0], t[1]), t[2]) + band + 0.001;
     return glm::any(glm::lessThan(p, low)) || glm::any(glm::greaterThan(p, high));
 }
 
-/// Checks every node of the frame; `sign` of a node is -1 inside, 1 outside, 0 when unknown.
+/// Checks every node of the frame; `sign` gives -1 for a node inside, 1 outside, 0 where it is
+/// unknown.
 template <class Sign>
 void expect_field(const Mesh& mesh, const GridFrame& frame, double band, Sign sign) {
     const BrickGrid grid = smooth_grid(mesh, frame, band);
@@ -94,7 +96,7 @@ void expect_field(const Mesh& mesh, const GridFrame& frame, double band, Sign si
     EXPECT_EQ(wrong_signs, 0u);
     EXPECT_EQ(unsaturated, 0u);
     EXPECT_GT(exact, 100u);
-    EXPECT_LT(worst, 0.6) << "1/8192 voxel";  // 0.5 by rounding, the rest by floats
+    EXPECT_LT(worst, 0.6) << "1/8192 voxel";  // 0.5 comes from rounding, the rest from floats
 }
 
 auto winding_sign(const Mesh& mesh) {
@@ -163,7 +165,7 @@ TEST(Distance, OfGiantTrianglesLosesNoDigit) {
         const auto vector = [&](float size) {
             return vec3(at(random), at(random), at(random)) * size;
         };
-        // The second has an edge near the frame, the third a corner.
+        // The second triangle has an edge near the frame, the third a corner.
         const vec3 middle(17, 13, 11), u = vector(4000), v = vector(4000);
         Mesh mesh = single_triangle(middle + u, middle + v, middle - u - v);
         add_triangle(mesh, middle + u, middle - u * 0.7f, middle + v);

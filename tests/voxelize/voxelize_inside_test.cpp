@@ -1,4 +1,5 @@
-// Which voxels of closed meshes are inside, against winding numbers in rationals.
+// SPDX-License-Identifier: Apache-2.0
+// The voxels of closed meshes that are inside, against winding numbers in rationals.
 #include <gtest/gtest.h>
 
 #include "tests/support/voxelize_fixture.hpp"
@@ -13,7 +14,7 @@ TEST(Solid, MatchesWindingNumbersInRationals) {
     const ivec3 size(33, 31, 18);
     Mesh mesh = torus_mesh({16, 15, 9}, 10, 4, 17, 9);
     EXPECT_EQ(difference(voxels_of(mesh, size, VoxelSet::solid), exact_solid(mesh, size)), "");
-    // Corners on half voxels: centres on edges and corners.
+    // Corners lie on half voxels, so centres lie on edges and corners.
     for (vec3& p : mesh.positions) p = glm::round(p * 2.0f) / 2.0f;
     EXPECT_EQ(difference(voxels_of(mesh, size, VoxelSet::solid), exact_solid(mesh, size)), "");
 }
@@ -26,7 +27,7 @@ TEST(Solid, CountsShellsLeftOfTheFrame) {
 
 TEST(Solid, OfEightVoxelsHasAllEight) {
     EXPECT_EQ(voxels_of(box_mesh({0, 0, 0}, {8, 8, 8}), {8, 8, 8}, VoxelSet::solid).size(), 512u);
-    // A face at 0.3 leaves the centre of voxel 0 inside, one at 0.6 doesn't.
+    // A face at 0.3 keeps the centre of voxel 0 inside; a face at 0.6 doesn't.
     EXPECT_EQ(voxels_of(box_mesh({0.3f, 0, 0}, {7, 5, 3}), {8, 6, 4}, VoxelSet::solid).size(),
               105u);
     EXPECT_EQ(voxels_of(box_mesh({0.6f, 0, 0}, {7, 5, 3}), {8, 6, 4}, VoxelSet::solid).size(), 90u);

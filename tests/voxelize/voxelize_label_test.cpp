@@ -1,4 +1,5 @@
-// What voxels carry: their triangles, their group, their colour.
+// SPDX-License-Identifier: Apache-2.0
+// The data of voxels: their triangles, their group, their colour.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -24,7 +25,7 @@ BrickGrid grid_of(const Mesh& mesh, const VoxelizeOptions& options) {
     return shared_voxelizer().voxelize(mesh, glm::dmat4(1), unit_frame(kSize), options);
 }
 
-/// A torus whose triangles belong to three groups by turns of `run`.
+/// A torus whose triangles belong to three groups in turn, `run` at a time.
 Mesh grouped_torus(uint32_t run) {
     Mesh mesh = torus_mesh({16.3f, 15.1f, 9.2f}, 9.7f, 4.3f, 31, 17);
     mesh.group_names = {"red", "green", "blue"};
@@ -32,7 +33,8 @@ Mesh grouped_torus(uint32_t run) {
     return mesh;
 }
 
-// Rays meet corners that aren't on the lattice, so cubes are one of its units wider.
+// Rays meet the corners before they are rounded to the lattice, so cubes are widened by one unit of
+// it.
 TEST(ExactVoxels, ListTheTrianglesThatTheirWidenedCubesMeetInOrder) {
     Mesh mesh = torus_mesh({16.3f, 15.1f, 9.2f}, 9.7f, 4.3f, 31, 17);
     add_triangle(mesh, {2, 2, 2}, {2, 2, 2}, {2, 2, 2});
@@ -142,7 +144,7 @@ TEST(Labels, ColorsAreTheClosestPointsInSrgb) {
     EXPECT_EQ(color({0, 0, 2}), 0x0000FFu);
     EXPECT_EQ(color({20, 0, 2}), 0x00FF00u);
     EXPECT_EQ(color({0, 20, 2}), 0x800000u);
-    EXPECT_EQ(color({10, 0, 2}), 0x00BCBCu);  // linear half and half
+    EXPECT_EQ(color({10, 0, 2}), 0x00BCBCu);  // the mean in linear light
     EXPECT_TRUE(grid.attributes.empty());
 }
 

@@ -1,4 +1,6 @@
-// Open meshes: inside is where the generalized winding number, summed in double, is above 1/2.
+// SPDX-License-Identifier: Apache-2.0
+// Open meshes: a place is inside where the generalized winding number, summed in double, is above
+// 1/2.
 #include <gtest/gtest.h>
 
 #include <glm/glm.hpp>
@@ -14,7 +16,7 @@ using glm::ivec3;
 
 constexpr ivec3 kSize(37, 34, 26);
 
-/// The solid angle of the mesh in turns, triangle by triangle.
+/// The mesh's solid angle in turns, summed triangle by triangle.
 double winding_of_angles(const dvec3& p, const std::vector<oracle::LatticeCorners>& mesh,
                          const dvec3& scale) {
     double sum = 0;
@@ -35,7 +37,8 @@ Mesh without_triangles(Mesh mesh, size_t first, size_t count) {
     return mesh;
 }
 
-/// Compares SOLID with the sum of angles wherever that is clear of 1/2; returns the voxels inside.
+/// Compares SOLID with the sum of angles wherever that isn't near 1/2; returns the number of voxels
+/// inside.
 size_t expect_solid(const Mesh& mesh, Voxelizer& voxelizer = shared_voxelizer()) {
     const VoxelSetOf voxels = voxels_of(mesh, kSize, VoxelSet::solid, voxelizer);
     const auto triangles = lattice_mesh(mesh);
@@ -62,10 +65,12 @@ TEST(OpenMesh, WithHolesIsFilledAsIfClosed) {
 }
 
 TEST(OpenMesh, HemisphereIsClosedByTheSurfaceOfHalfAWinding) {
-    // Its outline lies in the plane z = 13, in which no centre lies, and then in one full of them.
+    // The outline lies first in the plane z = 13, which contains no centre, and then in one full of
+    // centres.
     for (const float z : {13.0f, 12.5f}) {
         const size_t size = expect_solid(ball_mesh({18.3f, 17.1f, z}, 10, 24, 14, 0, 7));
-        EXPECT_NEAR(double(size), 2094.4, 250.0);  // the lid's own layer is 314 voxels, in or out
+        EXPECT_NEAR(double(size), 2094.4,
+                    250.0);  // the lid's own layer of 314 voxels may be in or out
     }
 }
 
@@ -77,7 +82,7 @@ TEST(OpenMesh, WarpedOutlinesAndSheetsFollowTheSumOfAngles) {
 }
 
 TEST(OpenMesh, FarBricksThatTheHalfWindingCrossesAreStored) {
-    // A box without lid, its outline far from a middle that bulges through several bricks.
+    // A box without a lid has its outline far from a middle that bulges through several bricks.
     Mesh mesh = box_mesh({3, 3, 3}, {60, 55, 40});
     mesh.triangles.erase(mesh.triangles.begin() + 2, mesh.triangles.begin() + 4);
     for (glm::vec3& p : mesh.positions)
@@ -96,7 +101,7 @@ TEST(OpenMesh, FarBricksThatTheHalfWindingCrossesAreStored) {
 }
 
 TEST(OpenMesh, BricksAroundALidAreHalfInside) {
-    // The lid lies in a plane of bricks' middle points, at one of which all caps meet.
+    // The lid lies in a plane of bricks' middle points; all caps meet at one of them.
     const glm::vec3 middle(72.5f, 72.5f, 72.5f);
     const Mesh mesh = ball_mesh(middle, 60, 256, 64, 0, 32);
     const VoxelSetOf voxels = voxels_of(mesh, {145, 145, 90}, VoxelSet::solid);
@@ -114,7 +119,7 @@ TEST(OpenMesh, BricksAroundALidAreHalfInside) {
 
 using Outline = std::vector<glm::vec2>;
 
-/// Walls along the outline, counter-clockwise, from a floor up to a rim; corners every 2 voxels.
+/// Walls along a counter-clockwise outline, from a floor up to a rim, with corners every 2 voxels.
 Mesh tray_mesh(const Outline& outline, float floor, float rim) {
     Mesh mesh;
     for (size_t i = 0; i < outline.size(); ++i) {
@@ -127,7 +132,8 @@ Mesh tray_mesh(const Outline& outline, float floor, float rim) {
         }
     }
     const uint32_t size = uint32_t(mesh.positions.size());
-    mesh.positions.emplace_back(outline[0] + glm::vec2(-20, 60), floor);  // sees all of it
+    mesh.positions.emplace_back(outline[0] + glm::vec2(-20, 60),
+                                floor);  // a point that sees all of the outline
     for (uint32_t i = 0; i < size; i += 2) {
         const uint32_t next = (i + 2) % size;
         mesh.triangles.emplace_back(i, next, next + 1);
@@ -165,7 +171,7 @@ TEST(OpenMesh, ATrayWhoseLidsMiddleLiesOnTheLineOfAnEdgeIsFilledToItsRim) {
 }
 
 TEST(OpenMesh, CentresOnTheEdgesOfALidAreOnTheSideOfTheSum) {
-    // An outline of eight corners, half of them up and down; its middle is a voxel's centre.
+    // The outline has eight corners, alternately up and down; its middle is a voxel's centre.
     Mesh mesh;
     const glm::vec3 middle(18.5f, 17.5f, 12.5f);
     const glm::vec3 outline[] = {{12, 0, 0},  {8, 8, 3},    {0, 12, 0},  {-8, 8, -3},
@@ -212,7 +218,7 @@ TEST(OpenMesh, IsTheSameForEveryNumberOfLanes) {
 }
 
 TEST(Caps, AreNoneForSeamsAndClosedMeshes) {
-    // ball_mesh gives each triangle corners of its own: only their places pair them.
+    // ball_mesh gives each triangle its own corners, so only their positions pair them.
     const Mesh ball = ball_mesh({8, 7, 6}, 4, 12, 7);
     MeshLattice lattice = snap_to_lattice(ball, glm::dmat4(1), unit_frame({16, 15, 14}));
     cap_open_outlines(lattice);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "runtime/stages/voxelize/voxelize_solid.hpp"
 
 #include <gtest/gtest.h>
@@ -15,7 +16,7 @@
 namespace voxelume {
 namespace {
 
-/// A grid on the host: the oracle's questions are asked by voxel or node.
+/// A grid on the host, for questions by voxel or node.
 struct HostGrid {
     GridFrame frame;
     std::vector<uint32_t> slots;
@@ -103,9 +104,9 @@ TEST(VoxelizeSolid, ABoxThatEndsBeforeACentreDoesNotHoldItsVoxel) {
     frame.size = {8, 6, 5};
     const HostGrid grid(voxelize_solid(test_device(), box, glm::dmat4(1), frame,
                                        {Surface::cubes, VoxelSet::solid}));
-    EXPECT_FALSE(grid.has_voxel({6, 2, 2}));  // its centre is at x = 0.5
+    EXPECT_FALSE(grid.has_voxel({6, 2, 2}));  // its centre is at x = 0.5, outside
     EXPECT_TRUE(grid.has_voxel({5, 2, 2}));
-    EXPECT_TRUE(grid.has_voxel({1, 1, 1}));  // at x = -4.5
+    EXPECT_TRUE(grid.has_voxel({1, 1, 1}));  // its centre is at x = -4.5, inside
     EXPECT_FALSE(grid.has_voxel({0, 1, 1}));
     size_t count = 0;
     for_each(frame.size, [&](const glm::ivec3& p) { count += grid.has_voxel(p); });
@@ -181,7 +182,7 @@ TEST(VoxelizeSolid, TheSupercoverMissesNoVoxelOfTheSurface) {
             const bool is_crossed = inside > 0 && inside < 64;
             const bool is_covered = grid.has_voxel(p);
             ASSERT_TRUE(is_covered || !is_crossed) << c.name;
-            // at a corner, 0.44 voxel from the surface, the middle is half a diagonal farther
+            // At a corner, 0.44 voxel from the surface, the middle is half a diagonal farther.
             ASSERT_TRUE(!is_covered || d <= 0.76 * glm::length(frame.voxel_edge)) << c.name;
             covered += is_covered, crossed += is_crossed;
         });
@@ -210,7 +211,8 @@ TEST(VoxelizeSolid, DistancesAtNodesAreRightToTheUnit) {
 TEST(VoxelizeSolid, DistancesFarFromTheOriginAreThoseNearIt) {
     for (const SolidCase& c : all_cases()) {
         const GridFrame near = case_frame();
-        GridFrame far = near;  // by whole voxels: powers of two times the edges, exact in double
+        GridFrame far =
+            near;  // moved by whole voxels: powers of two times the edges, exact in double
         const glm::dvec3 shift = near.voxel_edge * 1048576.0;
         far.origin += shift;
         const VoxelizeOptions smooth{Surface::smooth, {}};

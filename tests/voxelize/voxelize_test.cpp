@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "runtime/stages/voxelize/voxelize.hpp"
 
 #include <gmock/gmock.h>
@@ -85,8 +86,8 @@ TEST(Supercover, OfATriangleOneUlpAboveAPlaneIsExact) {
                   "");
 }
 
-/// Triangles of the kinds that floats get wrong; `kind` 0 small, 1 sliver, 2 on half voxels,
-/// 3 nearly in a grid plane, 4 large and partly outside, 5 collinear.
+/// A random triangle of a kind that floats get wrong. `kind` is 0 small, 1 sliver, 2 on half
+/// voxels, 3 nearly in a grid plane, 4 large and partly outside, 5 collinear.
 Mesh random_triangle(std::mt19937& random, int kind) {
     std::uniform_real_distribution<float> at(-1.0f, 1.0f);
     const auto vector = [&](float size) { return vec3(at(random), at(random), at(random)) * size; };
@@ -128,7 +129,7 @@ TEST(Supercover, OfAGiantTriangleFarBeyondTheFrameIsExact) {
     const Mesh mesh = single_triangle({-9000.3f, -7100.7f, -3000.1f}, {8000.9f, -2000.3f, 5000.7f},
                                       {-3000.2f, 9000.1f, -1000.9f});
     GridFrame frame = unit_frame({40, 39, 25});
-    // A point of the plane inside the triangle becomes the frame's middle.
+    // A point of the plane inside the triangle is moved to the frame's middle.
     const vec3 middle = (mesh.positions[0] + mesh.positions[1] + mesh.positions[2]) / 3.0f;
     frame.origin = glm::dvec3(glm::floor(middle)) - glm::dvec3(20, 19, 12);
     Mesh moved = mesh;
@@ -154,7 +155,7 @@ TEST(Voxelize, TrianglesOnTheFramesFacesAndOutsideAreClipped) {
 }
 
 TEST(Voxelize, ASplitQuadHasTheSameVoxelsAsTwoTriangles) {
-    const auto corner = [](int i, int j) {  // a lattice plane: any split is the same surface
+    const auto corner = [](int i, int j) {  // a lattice plane: every split is the same surface
         return vec3(2, 3, 4) + vec3(1.25f, 0.5f, 0.25f) * float(i) +
                vec3(-0.25f, 1, 0.75f) * float(j);
     };
@@ -183,7 +184,7 @@ TEST(Voxelize, OrderOfTrianglesAndCornersMakesNoDifference) {
     size_t i = 0;
     for (const VoxelSet set : sets)
         EXPECT_EQ(difference(voxels_of(mesh, size, set), expected[i++]), "");
-    // Every other one turned round: of shells it makes no difference either.
+    // Every second triangle is turned over; for shells that makes no difference, either.
     for (i = 0; i < mesh.triangles.size(); i += 2)
         std::swap(mesh.triangles[i].y, mesh.triangles[i].z);
     for (i = 0; i < 2; ++i)
@@ -192,7 +193,7 @@ TEST(Voxelize, OrderOfTrianglesAndCornersMakesNoDifference) {
 
 TEST(Voxelize, AMapMovesVoxelsAlongAndMirrorsAxes) {
     const Mesh mesh = torus_mesh({16, 15, 9}, 9.3f, 4.1f, 23, 11);
-    // x -> y, y -> z, z -> 40 - x; doubled lengths in voxels half as large.
+    // The map takes x -> y, y -> z, z -> 40 - x; it doubles lengths in voxels half as large.
     const glm::dmat4 map(glm::dvec4(0, 2, 0, 0), glm::dvec4(0, 0, 2, 0), glm::dvec4(-2, 0, 0, 0),
                          glm::dvec4(80, 0, 0, 1));
     GridFrame frame = unit_frame({41, 33, 31});

@@ -1,5 +1,6 @@
-// What no channel needs is neither computed nor stored, and those that are asked for have the bits
-// that they have in the image of all.
+// SPDX-License-Identifier: Apache-2.0
+// Channels that nobody needs are neither computed nor stored. The requested ones have the bits that
+// they have in the image of all channels.
 #include <gtest/gtest.h>
 
 #include "runtime/memory/plan.hpp"
@@ -12,7 +13,8 @@
 namespace voxelume {
 namespace {
 
-/// Cubes, smooth and exact surfaces of glass, a mirror and a veil in a medium, with shadows.
+/// A scene of cubes, smooth and exact surfaces of glass, a mirror and a veil in a medium, with
+/// shadows.
 constexpr const char* kGlass = R"({"voxelume": 1,
 "world": {"voxel_size": 0.05, "bounds": {"min": [-1, -1, -2], "max": [1, 1.2, 1.4]},
           "background": [0.2, 0.3, 0.5], "ambient": [0.1, 0.2, 0.3],
@@ -70,7 +72,7 @@ class Channels : public FileTest {
     }
 };
 
-/// What is in both images has the same bits.
+/// Expects that the channels that both images have are equal to the bit.
 void expect_same(const Image& some, const Image& all) {
     for (const auto& [name, plane] : some.planes) EXPECT_EQ(plane, all.planes.at(name)) << name;
     for (const auto& [name, plane] : some.id_planes)

@@ -1,9 +1,9 @@
+// SPDX-License-Identifier: Apache-2.0
 // A scene in which one value changes from the first to the second frame, and the kernels that each
-// kind of change takes.
-//
-// Bricks are 0.8 m. All objects but one stand where eight of them meet, and are so small that these
-// are all that they have a part in, wherever they go; a brick that nothing is left in isn't painted
-// but dropped. The block stands in the middle of one, and goes to where two meet.
+// kind of change launches.
+// Bricks are 0.8 m. All objects except one stand where eight bricks meet, and are so small that
+// they only ever overlap these eight. A brick in which nothing is left is dropped and not painted.
+// The block stands in the middle of one brick, and moves to where two meet.
 #pragma once
 
 #include <fmt/format.h>
@@ -73,7 +73,7 @@ inline std::string gem(double top) {
         top);
 }
 
-/// A value of the scene that changes from the first to the second frame, and what follows.
+/// A value of the scene that changes from the first to the second frame, and the work that follows.
 struct Change {
     const char* name;
     const char* target;
@@ -84,11 +84,11 @@ struct Change {
     bool hits_are_kept = false;
     uint64_t voxelized = 0, painted_bricks = 0;
     uint32_t instances_moved = 0;
-    const char* replaced = "";  ///< in the scene
-    const char* by = "";        ///< that
+    const char* replaced = "";  ///< the text that is replaced in the scene
+    const char* by = "";        ///< the text that replaces it
 };
 
-/// For the name of a test.
+/// Prints the change in the name of a test.
 inline void PrintTo(const Change& change, std::ostream* out) {
     *out << change.name;
 }
@@ -99,22 +99,23 @@ inline Kernels all_of(std::initializer_list<Kernels> parts) {
     return all;
 }
 
-// The lamp's light samples are found anew with the light.
+// The light samples of emissive objects are found again with the light.
 inline const Kernels kShade = {"absorb_shadows", "absorb_sight",  "add_light",
                                "find_surface",   "list_emissive", "resolve_pixels",
                                "shade_surface",  "trace_shadows"};
 inline const Kernels kTrace = all_of({kShade, {"cast_sight", "trace_closest"}});
-// The models of instances behind the world's voxels.
+// Joins the models of instances to the world's voxels.
 inline const Kernels kJoin = all_of(
     {kTrace,
      {"append_bricks", "append_copies", "append_numbers", "append_primitives", "append_words"}});
-// Where something lets light through, rays go on, and shadow rays lose light where they are traced.
+// Where something lets light through, rays continue, and shadow rays lose light where they are
+// traced.
 inline const Kernels kPaths = {
     "absorb_sight",   "add_light",         "append_bricks", "append_copies",
     "append_numbers", "append_primitives", "append_words",  "begin_paths",
     "cast_sight",     "find_surface",      "list_emissive", "pass_layer",
     "resolve_pixels", "shade_surface",     "trace_closest", "trace_shadows"};
-// Bricks, the lists of the exact objects in them, and what rays read of them.
+// Builds bricks, the lists of the exact objects in them, and the buffers that rays read of them.
 inline const Kernels kEmpty =
     all_of({kJoin,
             {"classify_bricks", "count_primitives", "sum_counts", "start_lists",

@@ -1,4 +1,6 @@
-// What each kind of change makes anew: exactly these kernels, and this many of the world's bricks.
+// SPDX-License-Identifier: Apache-2.0
+// The work that each kind of change causes: exactly these kernels, and this many of the world's
+// bricks.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -34,7 +36,7 @@ uint64_t hash_alone(const Scene& scene) {
     return oracle::image_hash(render(shared_device(), scene, report));
 }
 
-/// The voxels of gem.N.obj as gem.N.vxm.
+/// Writes the voxels of gem.N.obj as gem.N.vxm.
 void voxelize_gem(const std::filesystem::path& folder, int number) {
     const std::string name = fmt::format("gem.{}", number);
     const Mesh mesh = read_mesh(folder / (name + ".obj"));

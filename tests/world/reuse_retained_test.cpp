@@ -1,5 +1,6 @@
-// An object that goes and comes back as the only one of its model and of its kind: only its own
-// bricks are painted, and what was made of its model is there still, if it is waited for.
+// SPDX-License-Identifier: Apache-2.0
+// An object that goes and comes back as the only one of its model and kind: only its own bricks are
+// painted, and the results of its model still exist if they are retained.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -14,7 +15,8 @@
 namespace voxelume {
 namespace {
 
-// Bricks are 0.8 m. The thing stands where eight of them meet, the stayers elsewhere.
+// Bricks are 0.8 m. The object `thing` stands where eight of them meet, the objects that stay stand
+// elsewhere.
 constexpr const char* kScene = R"({{"voxelume": 1,
 "world": {{"voxel_size": 0.05, "bounds": {{"min": [-3.2, -0.8, -3.2], "max": [3.2, 0.8, 3.2]}},
           "ambient": [0.1, 0.2, 0.3]}},
@@ -34,7 +36,7 @@ constexpr const char* kScene = R"({{"voxelume": 1,
 constexpr const char* kStayer =
     R"({"name": "ball", "model": "ball", "material": "red", "position": [1.6, 0, 1.6]},)";
 
-/// A thing, what stays beside it, and how it is placed.
+/// The object that comes and goes, the one that stays, and how they are placed.
 struct Toggled {
     const char* name;
     const char* thing;
@@ -43,7 +45,7 @@ struct Toggled {
     const char* placement = "world";
 };
 
-/// For the name of a test.
+/// Prints the case in the name of a test.
 void PrintTo(const Toggled& toggled, std::ostream* out) {
     *out << toggled.name;
 }
@@ -61,7 +63,8 @@ class Retained : public FileTest, public testing::WithParamInterface<Toggled> {
                            folder / "scene.json", {});
     }
 
-    /// The reports of frames 1 to 4; each must look as it does alone.
+    /// The reports of frames 1 to 4; expects that each frame looks as it does when it is rendered
+    /// alone.
     std::vector<WorldReport> frames(const std::vector<bool>& retained) {
         const Scene moving = scene();
         WorldBuilder builder(shared_device());

@@ -1,4 +1,6 @@
-// One frame after another: what is done again after each kind of change, and that it never shows.
+// SPDX-License-Identifier: Apache-2.0
+// Frames one after another: the work that each kind of change repeats, and that reuse never shows
+// in images.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -44,7 +46,7 @@ Scene scene_of(const std::string& material) {
     return parse_scene(text, "test.json", {});
 }
 
-/// Frames rendered one after another, and the kernels that each launched.
+/// Renders frames one after another and records the kernels that each launched.
 class Frames {
   public:
     explicit Frames(const Scene& first) { render(first); }
@@ -232,7 +234,7 @@ TEST(Reuse, AGlassBringsItsKernelsWhenItComesIntoTheWorldAndTakesThemAlong) {
     }
 }
 
-// A lamp's light samples are found in the world's voxels, so it can't stay an instance.
+// An emissive object's light samples are found in the world's voxels, so it can't stay an instance.
 TEST(Reuse, AnInstanceThatBeginsToShineIsPlacedInTheWorld) {
     Scene scene = scene_of("blue");
     scene.objects[0].moves = true;

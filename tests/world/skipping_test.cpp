@@ -1,5 +1,6 @@
-// What a scene doesn't need isn't done: each row of the table is a change of a scene, and counters
-// that are zero after it and weren't before.
+// SPDX-License-Identifier: Apache-2.0
+// Work that a scene doesn't need isn't done. Each row of the table is a change of a scene and the
+// counters that are zero after it but weren't before.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -15,7 +16,7 @@
 namespace voxelume {
 namespace {
 
-/// A floor in a medium, a mirroring ball above it and a mesh beside that.
+/// A scene of a floor in a medium, with a mirroring ball and a mesh above it.
 constexpr const char* kScene = R"({"voxelume": 1,
 "world": {"voxel_size": 0.05, "bounds": {"min": [-1, -1, -1], "max": [1, 1.2, 1.4]},
           "ambient": [0.1, 0.2, 0.3], "medium": {"absorption": [0.1, 0.2, 0.3]}},
@@ -33,7 +34,7 @@ constexpr const char* kScene = R"({"voxelume": 1,
              "display": {"shape": "pyramid", "angle": 40}},
 "render": {"size": [48, 36], "depth": 2}})";
 
-/// The floor alone, without the medium.
+/// A scene of the floor alone, without the medium.
 constexpr const char* kFloor = R"({"voxelume": 1,
 "world": {"voxel_size": 0.05, "bounds": {"min": [-1, -1, -1], "max": [1, 1.2, 1.4]}},
 "materials": {"clay": {"color": [0.8, 0.6, 0.4], "diffuse": 0.9, "specular": 0}},
@@ -44,7 +45,7 @@ constexpr const char* kFloor = R"({"voxelume": 1,
              "display": {"shape": "pyramid", "angle": 40}},
 "render": {"size": [48, 36], "depth": 2}})";
 
-/// A lamp above the floor.
+/// A scene of an emissive object above the floor.
 constexpr const char* kLamp = R"({"voxelume": 1,
 "world": {"voxel_size": 0.05, "bounds": {"min": [-1, -1, -1], "max": [1, 1.2, 1.4]}},
 "materials": {"clay": {"color": [0.8, 0.6, 0.4]}, "glow": {"emission": [3, 2, 1]}},
@@ -56,7 +57,8 @@ constexpr const char* kLamp = R"({"voxelume": 1,
              "display": {"shape": "pyramid", "angle": 40}},
 "render": {"size": [48, 36], "depth": 2}})";
 
-/// Of one frame from nothing: "kernel" or "buffer", its name, or "report" and the field's.
+/// The counters of one frame rendered from nothing. A key is "kernel" or "buffer" and its name, or
+/// "report" and a field's name.
 using Counters = std::map<std::string, uint64_t>;
 
 struct Row {
@@ -253,7 +255,7 @@ TEST_F(SkippingFiles, EmptySpaceTakesNoVoxelsLeavesOrFields) {
     EXPECT_EQ(large["report voxels"], small["report voxels"]);
     for (const char* name : {"buffer leaves", "buffer leaf voxels", "buffer voxel fields"})
         EXPECT_EQ(large[name], small[name]) << name;
-    // 64 records for each sector of 64³ voxels that has any; 16 bytes each.
+    // There are 64 records of 16 bytes for each sector of 64³ voxels that isn't empty.
     EXPECT_EQ(large["buffer brick records"], small["buffer brick records"]);
 }
 

@@ -1,5 +1,6 @@
-// Worlds from the cache on disk: found again by all that their voxels are made of, and nothing
-// else.
+// SPDX-License-Identifier: Apache-2.0
+// Worlds from the cache on disk are found again by everything that their voxels are made of, and by
+// nothing else.
 #include <gtest/gtest.h>
 
 #include <set>
@@ -31,7 +32,7 @@ constexpr const char* kScene = R"({"voxelume": 1,
 constexpr const char* kMesh =
     "v 0 0 0\nv 1 0 0\nv 0 0.7 0\nv 0 0 0.5\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
 
-/// A text in the scene, and another in its place.
+/// A text in the scene, and the text that replaces it.
 struct Change {
     const char* from = "";
     const char* to = "";
@@ -138,7 +139,7 @@ TEST_F(WorldCacheFiles, LightsMaterialsAndObserversKeepIt) {
     }
 }
 
-/// The value of a track at frames 1 and 3.
+/// The values of a track at frames 1 and 3.
 struct Motion {
     const char* target;
     const char* from;
@@ -182,7 +183,7 @@ TEST_F(MovingWorldFiles, AreThoseOfAStillWorldWhereTracksLeaveTheirVoxelsAlone) 
                                  Motion{"world.ambient", "[0, 0, 0]", "[1, 1, 1]"},
                                  Motion{"world.background", "[0, 0, 0]", "[1, 1, 1]"}})
         EXPECT_EQ(world_source(moving_scene(motion), meshes), still) << motion.target;
-    // Without the ball, which is an instance.
+    // The world is cached without the ball, which is an instance.
     const Motion moves{"objects.b.position", "[0.3, 0.2, 0.1]", "[0.2, 0.2, 0.1]", "instance"};
     const Motion stretches{"models.ball.radius", "0.3", "0.2", "instance"};
     EXPECT_NE(world_source(moving_scene(moves), meshes), "");

@@ -1,13 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
 // Depths of points and rays before an observer.
 #ifndef VXL_DEPTH_H
 #define VXL_DEPTH_H
 
 #include "lib/lanes/fixed_point.h"
 #include "lib/lanes/vector.h"
+#include "lib/traverse/display_shape.h"
 #include "shared/display.h"
 #include "shared/scene.h"
 
-/// From E's `lead` to a point, in voxels.
+/// The vector from E's `lead` to a point, in voxels.
 static inline Vector from_eye(const Camera* camera, Vector p) {
     const Vector result = {p.x - camera->origin.x - camera->origin_low.x,
                            p.y - camera->origin.y - camera->origin_low.y,
@@ -22,12 +24,10 @@ static inline lane_float along_sight(const Camera* camera, float4 edge, Vector m
                fma(metres.y, camera->axis_z.y * edge.y, metres.z * (camera->axis_z.z * edge.z)));
 }
 
-/// How far a point, in voxels from E's `lead`, is away from there in metres: along Z_E, or along
-/// the ray.
+/// The depth in metres of a point given in voxels from E's `lead`: along Z_E, or along the ray.
 static inline lane_float depth_of(const Camera* camera, float4 edge, Vector from_eye) {
     const Vector metres = scaled(from_eye, edge);
-    if (camera->shape == VXL_SHAPE_SECTOR || camera->shape == VXL_SHAPE_BALL)
-        return exact_sqrt(dot_product(metres, metres));
+    if (!depth_is_along_z(camera)) return exact_sqrt(dot_product(metres, metres));
     return along_sight(camera, edge, metres);
 }
 
@@ -37,7 +37,7 @@ static inline lane_uint step_of(const DisplaySteps* steps, lane_float depth) {
     return LANES_AS_UINT(clamp(step, (lane_int)0, (lane_int)(steps->count - 1)));
 }
 
-/// How a ray's t becomes depth beyond the near surface.
+/// The relation of a ray's t to depth beyond the near surface.
 typedef struct {
     lane_float metres;  // of a unit of t
     lane_float along;   // depth of a unit of t
@@ -48,8 +48,7 @@ static inline DepthScale depth_scale(const Camera* camera, float4 edge, Vector o
     DepthScale s;
     s.metres = metres_per_t(edge, d);
     s.along = s.metres;
-    if (camera->shape == VXL_SHAPE_PYRAMID || camera->shape == VXL_SHAPE_BOX)
-        s.along = depth_of(camera, edge, d);
+    if (depth_is_along_z(camera)) s.along = depth_of(camera, edge, d);
     s.origin = depth_of(camera, edge, from_eye(camera, o)) - camera->near_plane;
     return s;
 }

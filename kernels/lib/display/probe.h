@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Probe points on the voxels of a lattice, and rays that look at them.
 #ifndef VXL_PROBE_H
 #define VXL_PROBE_H
@@ -45,26 +46,13 @@ typedef struct {
 
 /// From E.
 static inline ProbeWay way_from_eye(const Camera* camera, float4 edge, Vector point) {
-    const float4 ahead = camera->axis_z;
     const Vector eye = from_eye(camera, point);
     const Vector metres = scaled(eye, edge);
     const lane_float depth = along_sight(camera, edge, metres);
     ProbeWay w;
     w.point = point;
-    w.way = eye;
     lane_float length = exact_sqrt(dot_product(metres, metres));
-    if (camera->shape == VXL_SHAPE_PYRAMID) {
-        const lane_float whole = depth + camera->lead;
-        const lane_float part =
-            exact_divide(depth, LANES_SELECT(LANE_MASK(whole > 0.0f), whole, (lane_float)1.0f));
-        w.way.x = fma((lane_float)ahead.x, (lane_float)camera->lead, eye.x) * part;
-        w.way.y = fma((lane_float)ahead.y, (lane_float)camera->lead, eye.y) * part;
-        w.way.z = fma((lane_float)ahead.z, (lane_float)camera->lead, eye.z) * part;
-        length = depth;
-    } else if (camera->shape == VXL_SHAPE_BOX) {
-        w.way.x = ahead.x * depth, w.way.y = ahead.y * depth, w.way.z = ahead.z * depth;
-        length = depth;
-    }
+    w.way = sight_way(camera, eye, depth, &length);
     w.aimed = LANE_MASK(length > 0.0f);
     w.near = exact_divide((lane_float)camera->near_plane,
                           LANES_SELECT(w.aimed, length, (lane_float)1.0f));

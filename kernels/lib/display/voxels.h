@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The voxels of P as kernels write them.
 #ifndef VXL_VOXELS_H
 #define VXL_VOXELS_H

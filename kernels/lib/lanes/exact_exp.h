@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Exponential, logarithm, power, sine and cosine from correctly rounded operations only, so that
 // every device gives the same bits. Errors: about one unit in the last place; `exact_power` about
 // |y| of them.

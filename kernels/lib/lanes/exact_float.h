@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Division and square root that round correctly on every device, so that all give the same bits.
 //
 // OpenCL lets a device miss x/y by 2.5 units in the last place. Markstein's correction by fma makes

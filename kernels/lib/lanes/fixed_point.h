@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Snapping rays to the fixed point in which the walk is exact (shared/trace.h).
 #ifndef VXL_FIXED_POINT_H
 #define VXL_FIXED_POINT_H

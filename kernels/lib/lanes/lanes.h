@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Lane types: a kernel is written once and carries VXL_LANES rays in each work-item.
 //
 // With 16, 8 or 4 lanes a lane_float is a vector register of a CPU; with 1 it is a plain float,

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Records of eight words, one for each lane, read whole.
 //
 // Eight gathers would touch every record eight times. Instead each lane's record is one load, and

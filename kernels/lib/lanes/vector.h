@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Vectors of lanes: three components, each a lane type, and how they lie in memory `stride` apart.
 #ifndef VXL_VECTOR_H
 #define VXL_VECTOR_H

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The number of a work-item in the launch, whatever its two-dimensional shape.
 #ifndef VXL_WORK_ITEM_H
 #define VXL_WORK_ITEM_H

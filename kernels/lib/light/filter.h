@@ -1,4 +1,5 @@
-// What transmitting surfaces and objects leave of the light along a shadow ray.
+// SPDX-License-Identifier: Apache-2.0
+// The light along a shadow ray that transmitting surfaces and objects let through.
 #ifndef VXL_FILTER_H
 #define VXL_FILTER_H
 
@@ -23,7 +24,7 @@ static inline lane_float medium_between(const PyramidView* p, const MediumView* 
                         (lane_float)0.0f);
 }
 
-/// How far shadow rays have come, and what surfaces and objects on the way leave of their light.
+/// The progress of shadow rays, and the light that surfaces and objects so far let through.
 typedef struct {
     lane_float throughput[3];  // by surfaces
     lane_float depth[3];       // optical depth of objects and of the medium between them
@@ -33,7 +34,7 @@ typedef struct {
     lane_int layers;           // surfaces met
 } Filter;
 
-/// For rays that set out.
+/// The filter of rays at their start.
 static inline Filter begin_filter(PyramidShape shape, const Walk* w, lane_float t_end) {
     Filter filter;
     for (int channel = 0; channel < 3; ++channel) {
@@ -76,8 +77,8 @@ static inline void add_depth(const WorldView* world, const Surroundings* around,
             fma((lane_float)per_metre[channel], amount, filter->depth[channel]);
 }
 
-/// Takes the `passing` rays across a surface: changes the objects that they are inside of. Returns
-/// the mask of those for which the surface is hidden: the same object counts before and behind it.
+/// Moves the `passing` rays across a surface: updates their medium sets. Returns the mask of those
+/// for which the surface is hidden: the same object is the effective medium before and behind it.
 static inline lane_int cross_surface(const Surroundings* around, const SurfaceHit* found,
                                      lane_uint packed, lane_uint before, lane_float refraction,
                                      lane_int passing, lane_int* leaving, RayState* ray_state) {
@@ -104,7 +105,8 @@ static inline lane_int cross_surface(const Surroundings* around, const SurfaceHi
     return hidden;
 }
 
-/// Takes from the light of the `tinted` rays what a surface with this opacity and refraction keeps.
+/// Reduces the light of the `tinted` rays by the part that a surface with this opacity and
+/// refraction absorbs.
 static inline void tint_light(const WorldView* world, const Surroundings* around, const Walk* w,
                               lane_float t, lane_uint material, lane_uint voxel, lane_float opacity,
                               lane_float refraction, lane_int tinted, Filter* filter) {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // One layer of the surfaces on a ray's way: its light and coverage, and the rays that go straight
 // on behind it.
 #ifndef VXL_LAYER_H
@@ -8,7 +9,7 @@
 #include "lib/traverse/ray_batch.h"
 #include "lib/traverse/ray_queue.h"
 
-/// What a packet's surfaces let through to the layer behind them.
+/// The light that a packet's surfaces let through to the layer behind them.
 typedef struct {
     lane_int valid, hit, leaving;  // masks
     lane_uint packed;

@@ -1,7 +1,8 @@
+// SPDX-License-Identifier: Apache-2.0
 // The set of transmitting objects that a ray is inside of.
 //
-// What counts of them is the one whose object comes first in the order of priorities, so nothing
-// depends on the order in which their surfaces were crossed.
+// The effective medium is the object that comes first in the order of priorities, so nothing
+// depends on the order in which surfaces were crossed.
 #ifndef VXL_MEDIUM_SET_H
 #define VXL_MEDIUM_SET_H
 
@@ -9,10 +10,10 @@
 #include "shared/trace.h"
 #include "shared/voxel.h"
 
-// The build constant says how many others a scene needs.
+// The build constant VXL_OTHER_MEDIA is the number of other objects that a scene needs.
 #define VXL_MEDIUM_SET_SIZE (1 + VXL_OTHER_MEDIA)
 
-/// Attribute words, VXL_NO_MEDIUM for none: the smooth body's, then the others'.
+/// Packed attributes of the objects, VXL_NO_MEDIUM for none: the smooth body's, then the others'.
 typedef struct {
     lane_uint members[VXL_MEDIUM_SET_SIZE];
 } MediumSet;
@@ -23,8 +24,8 @@ static inline MediumSet empty_medium_set(void) {
     return media;
 }
 
-/// The sets of the paths from `first` on. Lanes that are not of `some` are inside of nothing:
-/// beyond a queue's end there may be anything, and no object's number.
+/// The sets of the paths from `first` on. The sets of lanes outside of `some` are empty, since
+/// memory beyond a queue's end may hold anything.
 static inline MediumSet load_medium_set(global const uint* paths, uint stride, uint first,
                                         lane_int some) {
     global const uint* p = paths + VXL_PATH_INSIDE * (size_t)stride;
@@ -58,14 +59,15 @@ static inline lane_int is_medium(lane_uint member, lane_uint packed) {
            LANE_MASK(member != VXL_NO_MEDIUM);
 }
 
-/// Mask: the set holds the object of an packed attributes, which shows the smooth body or not.
+/// Mask: the set holds the object of these packed attributes; `smooth` tells the smooth body's.
 static inline lane_int medium_set_holds(const MediumSet* in, lane_uint packed, lane_int smooth) {
     lane_int other = (lane_int)0;
     for (int i = 1; i < VXL_MEDIUM_SET_SIZE; ++i) other |= is_medium(in->members[i], packed);
     return (smooth & LANE_MASK(in->members[0] != VXL_NO_MEDIUM)) | (~smooth & other);
 }
 
-/// cross_medium; `overflowed` is the mask of lanes whose sets had no room for what they came into.
+/// Does what cross_medium does; `overflowed` is the mask of lanes whose sets had no room for the
+/// object that they entered.
 static inline MediumSet cross_medium_or_overflow(MediumSet in, lane_uint packed, lane_int smooth,
                                                  lane_int leaving, lane_int crossing,
                                                  lane_int* overflowed) {
@@ -108,7 +110,7 @@ static inline lane_uint first_in_rank(lane_uint packed, lane_uint* rank, lane_ui
     return LANES_SELECT(before, other, packed);
 }
 
-/// The packed attributes of the object that counts, VXL_NO_MEDIUM in open space.
+/// The packed attributes of the effective medium; VXL_NO_MEDIUM outside of all objects.
 static inline lane_uint effective_medium(const MediumSet* in, global const uint* ranks) {
     lane_uint packed = in->members[0], rank = rank_of(ranks, packed);
     for (int i = 1; i < VXL_MEDIUM_SET_SIZE; ++i)
@@ -121,8 +123,8 @@ static inline lane_int same_medium(lane_uint a, lane_uint b) {
     return LANE_MASK(a == b) | (is_medium(a, b) & LANE_MASK(b != VXL_NO_MEDIUM));
 }
 
-/// Mask: a surface is hidden, for the object that counts is the same before and behind it. Who
-/// leaves an object that the set doesn't hold began inside of it.
+/// Mask: a surface is hidden, since the effective medium is the same before and behind it. A ray
+/// that leaves an object that its set doesn't hold began inside that object.
 static inline lane_int hides_surface(const MediumSet* in, lane_uint packed, lane_int smooth,
                                      lane_int leaving, global const uint* ranks) {
     const MediumSet before = cross_medium(*in, packed, smooth, (lane_int)0,
@@ -131,7 +133,7 @@ static inline lane_int hides_surface(const MediumSet* in, lane_uint packed, lane
     return same_medium(effective_medium(&before, ranks), effective_medium(&behind, ranks));
 }
 
-/// RayBatch::inside of a ray inside of the object that counts.
+/// The value of RayBatch::inside for a ray with this medium set.
 static inline lane_uint medium_inside(const MediumSet* in, global const uint* ranks) {
     const lane_uint packed = effective_medium(in, ranks);
     const lane_uint material = (packed >> VXL_MATERIAL_SHIFT) & VXL_MATERIAL_MASK;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Snell and Fresnel over lanes, without cancellation where it would hurt.
 #ifndef VXL_OPTICS_H
 #define VXL_OPTICS_H

@@ -1,4 +1,5 @@
-// What the rays of a path carry on, and the nodes that their light goes to.
+// SPDX-License-Identifier: Apache-2.0
+// The state that a path's rays hand on, and the nodes that collect their light.
 #ifndef VXL_PATHS_H
 #define VXL_PATHS_H
 
@@ -75,7 +76,7 @@ static inline void count_lanes(lane_int mask, global uint* counter) {
     if (lanes_any(mask)) atomic_add(counter, (uint)lanes_count(mask));
 }
 
-/// cross_medium; sets that have no room are counted in `overflows`.
+/// Does what cross_medium does, and counts the sets without room in `overflows`.
 static inline MediumSet cross_counted(MediumSet in, lane_uint packed, lane_int smooth,
                                       lane_int leaving, lane_int crossing, global uint* overflows) {
     lane_int full;

@@ -1,5 +1,5 @@
-// What surfaces do with the light of rays that meet them: which part they reflect and refract, and
-// where to.
+// SPDX-License-Identifier: Apache-2.0
+// The reflection and refraction of rays at the surfaces that they meet: weights and directions.
 #ifndef VXL_SCATTER_POINT_H
 #define VXL_SCATTER_POINT_H
 
@@ -54,8 +54,8 @@ static inline ScatterPoint load_point(const RayBatch* batch, float4 edge, uint f
     return p;
 }
 
-/// Finds the objects behind the surfaces. Who leaves a transmitting object that the set doesn't
-/// hold began inside of it. Mask: surfaces of transmitting objects.
+/// Finds the objects behind the surfaces. A ray that leaves a transmitting object that its set
+/// doesn't hold began inside that object. Returns the mask of surfaces of transmitting objects.
 static inline lane_int cross_objects(const Surroundings* around, ScatterPoint* p) {
     global const float* materials = around->materials;
     const lane_int body = is_smooth(p->packed, p->source);
@@ -94,7 +94,7 @@ static inline void refract_light(const Surroundings* around, ScatterPoint* p, la
         LANES_SELECT(fresnel, refracted->returned * bend.refracted, refracted->returned));
 }
 
-/// Of a packet's points, the shares of light that are reflected and refracted.
+/// Finds the shares of light that a packet's points reflect and refract.
 static inline void scatter_light(const Surroundings* around, ScatterPoint* p, Scattered* reflected,
                                  Scattered* refracted) {
     global const float* materials = around->materials;

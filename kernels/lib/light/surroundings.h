@@ -1,4 +1,5 @@
-// What rays that go on through surfaces need to know of them, and of the medium.
+// SPDX-License-Identifier: Apache-2.0
+// The data on surfaces and the medium that rays need to continue through surfaces.
 #ifndef VXL_SURROUNDINGS_H
 #define VXL_SURROUNDINGS_H
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The signed distance to an analytic solid (shared/solid.h) at points of its grid, over lanes.
 #ifndef VXL_SOLID_H
 #define VXL_SOLID_H
@@ -35,8 +36,8 @@ static inline SolidDistance shape_distance_at(global const SolidShape* s, Lattic
     return d;
 }
 
-/// The distance to the solid that starts at record `number`; never more than the true one to a
-/// combination's surface, and 0 exactly on it.
+/// The distance to the solid that starts at record `number`. It never exceeds the true distance to
+/// a combination's surface, and is exactly 0 on the surface.
 static inline SolidDistance solid_distance(global const SolidShape* solids, uint number,
                                            LatticePoint at) {
     lane_float stack[VXL_SOLID_STACK];

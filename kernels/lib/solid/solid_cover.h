@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Which voxels a solid or its surface covers, over lanes.
 #ifndef VXL_SOLID_COVER_H
 #define VXL_SOLID_COVER_H

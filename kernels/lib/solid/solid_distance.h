@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Signed distances to the analytic shapes of shared/solid.h, over lanes, positive outside.
 //
 // All but the ellipsoid's are closed forms of the exact Euclidean distance; near its surface each

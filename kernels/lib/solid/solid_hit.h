@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Where a ray meets the surface of an analytic solid, over lanes; rays are those of shared/trace.h.
 //
 // Every shape gives the intervals of t in which the ray is inside it. The operations are evaluated
@@ -26,7 +27,7 @@ typedef struct {
     lane_float from;
 } ShapePath;
 
-/// The ray as a shape sees it, from where it passes the shape's centre closest.
+/// The ray in the shape's space, starting where it passes the shape's centre closest.
 static inline ShapePath shape_path(global const SolidShape* s, const SolidRay* ray) {
     const lane_float x = (ray->ox - (float)s->cell[0]) - s->fraction[0];
     const lane_float y = (ray->oy - (float)s->cell[1]) - s->fraction[1];

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Where a ray is inside a convex analytic shape: one interval, from the intervals of its surfaces.
 //
 // A finite cylinder is a tube and a slab, a box three slabs: the ray is in the shape where it is in

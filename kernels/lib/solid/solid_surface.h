@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The surface of analytic solids for the tracer: closest hits and normals of packets whose lanes
 // may concern different solids.
 #ifndef VXL_SOLID_SURFACE_H

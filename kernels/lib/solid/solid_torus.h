@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Where a ray is inside a torus: up to two intervals.
 //
 // Along the ray the torus is a quartic, which between its extrema is monotone. They are the roots

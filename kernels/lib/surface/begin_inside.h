@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // In which of the objects that have no formula, the smooth body and meshes, rays begin.
 #ifndef VXL_BEGIN_INSIDE_H
 #define VXL_BEGIN_INSIDE_H

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Cells of a brick's distance field: which ones its half-Taylor interpolant can cross, and their
 // records. Works on nodes gathered by lib/voxelize/brick_nodes.h.
 #ifndef VXL_BRICK_FIELD_H

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Cubes of one object that a ray is inside of, as one body.
 //
 // Voxels of such an object don't touch the set of objects that the ray is inside of: entering the

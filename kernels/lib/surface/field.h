@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The sub-voxel surface of a smooth voxel: half-Taylor interpolation of its corners' distances.
 //
 // shared/voxel.h has the record and the formula. Values are in distance units (1/8192 voxel),

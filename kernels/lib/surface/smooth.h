@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Where a ray meets the surface inside a smooth voxel.
 #ifndef VXL_SMOOTH_H
 #define VXL_SMOOTH_H

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The colour of a surface point: its material's, times its voxel's own.
 #ifndef VXL_SURFACE_COLOR_H
 #define VXL_SURFACE_COLOR_H

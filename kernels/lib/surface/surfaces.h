@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a packet's rays meet inside of the voxels that they come to.
 #ifndef VXL_SURFACES_H
 #define VXL_SURFACES_H

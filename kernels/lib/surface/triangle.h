@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Where a ray meets the source triangles that an exact voxel lists.
 //
 // The watertight test of Woop, Benthin and Wald 2013: the ray becomes the z axis by a shear, and

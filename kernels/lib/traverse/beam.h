@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Beams: how far groups of 16 neighbouring rays run through empty space together.
 //
 // A beam is the straight line in the middle of its rays, along the axis that they mostly follow:

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How much medium a ray goes through: the sum of density times length over the voxels on its way.
 //
 // A length is the difference of two crossing times, each carried in two floats, so that a thin

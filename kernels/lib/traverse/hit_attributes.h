@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Whose surface a ray met: the packed attributes behind a hit.
 #ifndef VXL_HIT_ATTRIBUTES_H
 #define VXL_HIT_ATTRIBUTES_H

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Hits on instances as they are in the instances' own voxels.
 #ifndef VXL_INSTANCE_HIT_H
 #define VXL_INSTANCE_HIT_H

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The nearest surface of a packet's rays among the world's and those of instances.
 //
 // The packet goes through a tree over the instances' boxes, the nearer child first, as far as the

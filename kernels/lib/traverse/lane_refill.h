@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Packets of rays that run anywhere, whose lanes take on further rays as theirs end.
 #ifndef VXL_LANE_REFILL_H
 #define VXL_LANE_REFILL_H

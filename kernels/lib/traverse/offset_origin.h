@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Where rays set out from the surfaces of instances.
 #ifndef VXL_OFFSET_ORIGIN_H
 #define VXL_OFFSET_ORIGIN_H

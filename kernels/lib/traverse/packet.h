@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Packets of rays on their way to the first surface: how they set out, go on from cell to cell and
 // end.
 //

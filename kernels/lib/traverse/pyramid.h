@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Reading the occupancy pyramid (runtime/grid/grid.hpp has its layout).
 //
 // A half of a 64-bit mask covers 4 x 4 x 2 children: bit x | y << 2 | (z & 1) << 4 of half z >> 1.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The arrays of a batch of rays as kernels take them; runtime/stages/ray_batch.hpp has their
 // meaning. A kernel that needs three or more of a structure's arrays takes the whole structure.
 #ifndef VXL_RAY_BATCH_H

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Rays that are born on surfaces, and the left-packed queues that they wait in.
 #ifndef VXL_RAY_QUEUE_H
 #define VXL_RAY_QUEUE_H

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Packets of shadow rays on their way to their light.
 //
 // Where rays run anywhere, lanes take on further rays as theirs end: a ray that has met a

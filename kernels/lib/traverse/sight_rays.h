@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Packets of rays that run beside each other, and where their hits are stored.
 #ifndef VXL_SIGHT_RAYS_H
 #define VXL_SIGHT_RAYS_H

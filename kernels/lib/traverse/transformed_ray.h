@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Rays transformed into the space of an instance: shared/instance.h.
 //
 // A ray goes to its point closest to the instance's centre first: o - center + t d is rounded only

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Which sorts of surface voxels hold.
 #ifndef VXL_VOXEL_KINDS_H
 #define VXL_VOXEL_KINDS_H

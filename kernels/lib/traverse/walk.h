@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A discrete walk along a ray from cell to cell: floats propose, integers arbitrate.
 //
 // The cells visited are exactly those of the snapped ray, in order: 6-connected, a point on a plane

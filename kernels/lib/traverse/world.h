@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The world as kernels take it: the pyramid of its voxels, the surfaces in these, and the instances
 // behind it.
 #ifndef VXL_WORLD_H

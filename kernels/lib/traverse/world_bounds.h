@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The world ends at its bounds: solids that reach further are cut off there, and the cut is
 // surface.
 #ifndef VXL_WORLD_BOUNDS_H

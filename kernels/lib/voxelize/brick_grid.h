@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A sparse grid of bricks as kernels take it.
 #ifndef VXL_BRICK_GRID_H
 #define VXL_BRICK_GRID_H

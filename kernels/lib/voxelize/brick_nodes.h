@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The distances at a brick's nodes and around it, gathered from the bricks of a sparse grid.
 #ifndef VXL_BRICK_NODES_H
 #define VXL_BRICK_NODES_H

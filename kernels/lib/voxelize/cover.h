@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Which voxels of a brick's row a triangle covers, exactly.
 #ifndef VXL_COVER_H
 #define VXL_COVER_H

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Exact integer geometry of triangles on the lattice of 1/4096 voxel that voxelization works on.
 //
 // Coordinates are lattice units from a brick's minimum corner, |v| <= 2^27. Edge functions then fit

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A mesh's triangles on the lattice, and the bins of bricks that list them.
 #ifndef VXL_MESH_H
 #define VXL_MESH_H

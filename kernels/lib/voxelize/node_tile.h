@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A brick's nodes as tiles of VXL_LANES neighbours in x and y, one tile to a vector.
 //
 // Compact tiles waste fewer lanes on nodes that a small triangle does not concern than rows of 16.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The bricks of the world that an object is painted into.
 #ifndef VXL_PAINTED_WORLD_H
 #define VXL_PAINTED_WORLD_H

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // An object's brick grid seen from the world's voxels, through a map in fixed point.
 #ifndef VXL_PLACED_H
 #define VXL_PLACED_H

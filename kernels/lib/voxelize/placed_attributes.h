@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a world voxel takes from the object's voxel that it shows, and which voxel that is.
 #ifndef VXL_PLACED_ATTRIBUTES_H
 #define VXL_PLACED_ATTRIBUTES_H

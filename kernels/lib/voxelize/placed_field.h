@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A distance field read between its nodes, from a block of nodes gathered for a few neighbours.
 #ifndef VXL_PLACED_FIELD_H
 #define VXL_PLACED_FIELD_H

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The squared distance from points near a brick to a triangle, as accurate as floats can be.
 //
 // In the frame of the triangle everything is affine in the point: h above its plane, s_i outside of

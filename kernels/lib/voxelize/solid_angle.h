@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The part of a point's winding number that the triangles which cap open outlines make, in floats.
 #ifndef VXL_SOLID_ANGLE_H
 #define VXL_SOLID_ANGLE_H

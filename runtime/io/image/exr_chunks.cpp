@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "runtime/io/image/exr_chunks.hpp"
 
 #include <half.h>

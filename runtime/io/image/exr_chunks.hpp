@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Planes of pixels -> the compressed chunks of 16 rows that a scanline OpenEXR file holds.
 #pragma once
 

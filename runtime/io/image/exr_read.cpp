@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // OpenEXR -> Image and header.
 #include <ImfChannelList.h>
 #include <ImfFrameBuffer.h>

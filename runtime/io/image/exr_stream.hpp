@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // OpenEXR's output stream onto an AtomicFile. OpenEXR 3.1.5's own stream truncates small files
 // silently on a full disk.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Image -> scanline OpenEXR.
 #include <IexBaseExc.h>
 #include <ImfInputFile.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Image -> 8-bit sRGB PNG, and PNG -> 8-bit picture.
 #pragma once
 

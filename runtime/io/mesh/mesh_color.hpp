@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Colours of mesh files -> linear Rec. 709.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Wavefront OBJ -> Mesh, in one pass over the text.
 #include "runtime/base/decimal.hpp"
 #include "runtime/io/mesh/mesh_color.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // PLY -> Mesh.
 #include "runtime/io/mesh/mesh_color.hpp"
 #include "runtime/io/mesh/mesh_ply_rows.hpp"

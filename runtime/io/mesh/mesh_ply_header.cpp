@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Header of a PLY file, after Turk, "The PLY Polygon File Format", 1994.
 #include "runtime/io/mesh/mesh_ply_header.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The header of a PLY file: the elements that follow it, and the properties of each.
 #pragma once
 

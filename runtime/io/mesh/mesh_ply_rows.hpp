@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The body of a PLY file, value by value: one interface for text and both byte orders.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Cuts polygons as fans or by their ears. Decisions use the signs of areas in double. They choose
 // between triangulations that are all valid meshes, so a wrong sign does no more than place a
 // diagonal badly.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Polygon -> triangles, for the mesh formats whose faces may have any number of corners.
 #pragma once
 

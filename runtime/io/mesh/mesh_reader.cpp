@@ -1,9 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
 // Reads a mesh file into memory and passes it to the reader of its format.
 #include "runtime/io/mesh/mesh_reader.hpp"
 
 #include "runtime/io/mesh/mesh_source.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
@@ -62,6 +64,30 @@ std::string lower_extension(const fs::path& name) {
     return extension;
 }
 
+/// One format. A new format is a row of kFormats and the functions that it names, which lie in a
+/// file of their own.
+struct MeshFormat {
+    const char* extension;                         ///< of file names, in lower case
+    bool (*looks_like)(const std::string& bytes);  ///< null where the content has no mark
+    Mesh (*parse)(const MeshSource& source);
+};
+
+constexpr std::array<MeshFormat, 3> kFormats = {{
+    {".ply", looks_like_ply, parse_ply},
+    {".stl", looks_like_stl, parse_stl},
+    {".obj", nullptr, parse_obj},
+}};
+
+/// The format that the content has, or else the one that the name stands for; null if neither is
+/// known.
+const MeshFormat* format_of(const std::string& bytes, const std::string& extension) {
+    for (const MeshFormat& format : kFormats)
+        if (format.looks_like && format.looks_like(bytes)) return &format;
+    for (const MeshFormat& format : kFormats)
+        if (extension == format.extension) return &format;
+    return nullptr;
+}
+
 }  // namespace
 
 Mesh parse_mesh(const std::string& bytes, const fs::path& name) {
@@ -71,17 +97,8 @@ Mesh parse_mesh(const std::string& bytes, const fs::path& name) {
         source.fail("the file is empty");
     }
     try {
-        if (looks_like_ply(bytes)) {
-            return parse_ply(source);
-        }
-        if (looks_like_stl(bytes) || extension == ".stl") {
-            return parse_stl(source);
-        }
-        if (extension == ".obj") {
-            return parse_obj(source);
-        }
-        if (extension == ".ply") {
-            return parse_ply(source);
+        if (const MeshFormat* format = format_of(bytes, extension)) {
+            return format->parse(source);
         }
     } catch (const std::bad_alloc&) {
         throw Error(ErrorKind::limit, "{}: not enough memory to read this mesh of {} bytes",

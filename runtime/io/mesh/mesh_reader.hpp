@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Mesh file -> Mesh: OBJ, PLY (ascii and binary of both endians) and STL (ascii and binary).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The messages of the mesh readers, and the scanners that their text formats share.
 #include "runtime/io/mesh/mesh_source.hpp"
 

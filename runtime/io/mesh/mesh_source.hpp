@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The bytes of a mesh file, and the messages that say where they are wrong.
 #pragma once
 

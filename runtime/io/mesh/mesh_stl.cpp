@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // STL -> Mesh: triangles that each have their own corners become triangles that share vertices.
 #include "runtime/io/mesh/mesh_polygon.hpp"
 #include "runtime/io/mesh/mesh_reader.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Voxels -> OpenVDB, and summaries of OpenVDB files.
 #pragma once
 

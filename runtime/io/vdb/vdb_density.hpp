@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A float grid of an OpenVDB file -> the density of a medium.
 #pragma once
 

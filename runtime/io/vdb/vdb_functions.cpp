@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The table of functions that the program takes from the module.
 #include "runtime/io/vdb/vdb_module.hpp"
 

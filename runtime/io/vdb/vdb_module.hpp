@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The code that uses OpenVDB is a module, libvoxelume_vdb.so. The program opens it when it first
 // reads or writes a .vdb, because OpenVDB's 64,000 relocations would cost each start of the program
 // 45 ms.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "runtime/io/vdb/vdb_read.hpp"
 
 #include <fcntl.h>

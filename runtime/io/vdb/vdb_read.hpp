@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // An OpenVDB file of any origin -> its grids. Only the sources of this folder include this header,
 // because OpenVDB's headers take long to compile.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Volumetric image <-> OpenVDB: grids density, alpha, Cd, depth, object and kind, each with the
 // display's transform. A lattice has an affine one, sight rays of a pyramid a frustum.
 #include <openvdb/openvdb.h>
@@ -28,7 +29,7 @@ openvdb::Mat4d rows_of(const glm::dmat4& m) {
 openvdb::math::MapBase::Ptr pyramid_map(const VolumeFrame& frame) {
     const glm::dvec3 size(frame.size);
     const double near = frame.display.near, length = frame.step * size.z;
-    const glm::dvec2 half = glm::tan(frame.display.half_angles) * near;
+    const glm::dvec2 half = half_extent(frame.display) * near;
     glm::dmat4 observer_from_frustum(1);
     observer_from_frustum[0][0] = -2 * half.x;
     observer_from_frustum[1][1] = -2 * half.y * size.x / size.y;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Volumetric image -> the buffer of a display whose panel turns around Y_E: angle by radius by
 // height, with one byte (RGB332) or two (RGB565) a cell.
 #include <xxhash.h>

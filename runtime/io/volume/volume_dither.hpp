@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Light -> the few levels of a display's voxel.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The conventions that the writer and the reader of deep images share.
 //
 // Each pixel (u, v) is a sight ray, each sample a display voxel; samples are sorted and don't

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Deep scanline OpenEXR of voxelume -> volumetric image.
 #include <ImfChannelList.h>
 #include <ImfDeepFrameBuffer.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Volumetric image along sight rays -> deep scanline OpenEXR.
 #include <ImfChannelList.h>
 #include <ImfChromaticitiesAttribute.h>

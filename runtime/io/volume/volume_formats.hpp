@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // One function per format. volume_file.cpp calls it with a volume that has passed its checks.
 #pragma once
 

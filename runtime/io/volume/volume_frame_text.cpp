@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "runtime/io/volume/volume_frame_text.hpp"
 
 #include <array>
@@ -13,7 +14,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr std::array<const char*, 2> kLayouts = {"rays", "lattice"};
-constexpr std::array<const char*, 4> kShapes = {"pyramid", "sector", "ball", "box"};
 
 template <class Vector>
 Json numbers(const Vector& v) {
@@ -40,11 +40,18 @@ Enum take_name(const Json& json, const char* key, const std::array<const char*, 
     throw Json::other_error::create(501, key, nullptr);
 }
 
+DisplayShape take_shape(const Json& json) {
+    const auto& name = json.at("shape").get_ref<const std::string&>();
+    for (const DisplayShapeRow& row : display_shapes())
+        if (name == row.name) return row.shape;
+    throw Json::other_error::create(501, "shape", nullptr);
+}
+
 VolumeFrame take_frame(const Json& json) {
     VolumeFrame frame;
     frame.layout = take_name<VolumeLayout>(json, "layout", kLayouts);
     Display& display = frame.display;
-    display.shape = take_name<DisplayShape>(json, "shape", kShapes);
+    display.shape = take_shape(json);
     display.half_angles = take<glm::dvec2>(json, "half_angles");
     display.half_size = take<glm::dvec2>(json, "half_size");
     display.near = json.at("near").get<double>();
@@ -72,7 +79,7 @@ std::string write_frame_text(const VolumeFrame& frame) {
     }
     const Display& display = frame.display;
     return Json{{"layout", kLayouts[size_t(frame.layout)]},
-                {"shape", kShapes[size_t(display.shape)]},
+                {"shape", shape_row(display).name},
                 {"half_angles", numbers(display.half_angles)},
                 {"half_size", numbers(display.half_size)},
                 {"near", display.near},

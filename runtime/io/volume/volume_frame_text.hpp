@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // VolumeFrame <-> one line of JSON. Every format that can be read back has it in its header.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "runtime/io/volume/volume_json.hpp"
 
 #include <fstream>

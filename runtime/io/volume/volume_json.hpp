@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the JSON headers next to raw arrays have in common.
 #pragma once
 

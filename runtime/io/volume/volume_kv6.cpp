@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Volumetric image -> KV6, the voxel models of Voxlap, Slab6 and displays that read them.
 //
 // The file is little-endian: "Kvxl", the three sizes (i32), the pivot in voxels (f32), the number

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // NRRD of voxelume -> volumetric image.
 #include <zlib.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Volumetric image -> NRRD: one dense array of floats with an attached header.
 #include <zlib.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The formats of volumetric images, and their options.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "runtime/io/volume/volume_page.hpp"
 
 #include <fmt/format.h>
@@ -5,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/trigonometric.hpp>
 #include <nlohmann/json.hpp>
 
 #include "runtime/base/atomic_file.hpp"
@@ -102,18 +102,14 @@ std::string base64(const std::vector<uint8_t>& bytes) {
     return text;
 }
 
-/// The values that the script's `point` needs. Angles are in radians, but a pyramid has tangents.
+/// The values that the script's `point` needs.
 std::string frame_json(const Volume& volume, const PageVoxels& voxels, const PageOptions& options) {
-    constexpr std::array<const char*, 4> kShapeNames = {"pyramid", "sector", "ball", "box"};
     const VolumeFrame& frame = volume.frame;
     const Display& display = frame.display;
-    glm::dvec2 half = display.half_angles;
-    if (display.shape == DisplayShape::pyramid) half = glm::tan(half);
-    if (display.shape == DisplayShape::ball) half = {M_PI, M_PI / 2};
-    if (display.shape == DisplayShape::box) half = display.half_size;
+    const glm::dvec2 half = half_extent(display);
     nlohmann::ordered_json json;
     json["layout"] = frame.layout == VolumeLayout::lattice ? "lattice" : "rays";
-    json["shape"] = kShapeNames[size_t(display.shape)];
+    json["shape"] = shape_row(display).name;
     json["size"] = {frame.size.x, frame.size.y, frame.size.z};
     json["origin"] = {frame.origin.x, frame.origin.y, frame.origin.z};
     json["edge"] = {frame.edge.x, frame.edge.y, frame.edge.z};

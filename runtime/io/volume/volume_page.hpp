@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Volumetric image -> one HTML page in which the user turns and slices it with the mouse.
 #pragma once
 

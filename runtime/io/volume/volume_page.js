@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Shows the volumetric image that the page holds: turned, zoomed and sliced with the mouse.
 //
 // Voxels are painted from the back to the front as squares on a plain canvas, sorted by depth with

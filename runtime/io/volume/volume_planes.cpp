@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Volumetric image -> planes of one bit a voxel for displays that sweep a projection plane. A
 // .planes has one plane for each slice; a .cplanes has three: red, green and blue.
 #include <xxhash.h>

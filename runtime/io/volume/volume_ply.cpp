@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Volumetric image -> PLY: a point in the world for every visible voxel.
 #include <cmath>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // .raw and .json of voxelume -> volumetric image.
 #include <xxhash.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Volumetric image -> dense arrays in one .raw file, and a .json that describes them.
 #include <xxhash.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A sparse volume, row by row along its first axis, as dense formats need it.
 #pragma once
 

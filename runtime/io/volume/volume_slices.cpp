@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Volumetric image -> a PNG for each slice k, as the observer sees it, and a JSON header.
 #include "runtime/base/frame_path.hpp"
 #include "runtime/image/volume_geometry.hpp"

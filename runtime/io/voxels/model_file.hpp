@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Voxelized models on disk (.vxm): named arrays with checksums and a header of text.
 //
 // The file is little-endian, in this order:

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the writer and the reader of .vxm share. model_file.hpp describes the layout.
 #pragma once
 

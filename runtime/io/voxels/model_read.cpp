@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // .vxm -> voxelized model
 #include <xxhash.h>
 #include <zstd.h>

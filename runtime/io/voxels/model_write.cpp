@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Voxelized model -> .vxm
 #include <xxhash.h>
 #include <zstd.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Limits of the voxels and bricks of a model from a file.
 #pragma once
 

@@ -1,39 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "runtime/stages/display/display_frame.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
-#include <glm/trigonometric.hpp>
 #include <limits>
 
 #include "runtime/opencl/float4.hpp"
-#include "runtime/stages/trace/sight.hpp"
 
 namespace voxelume {
 namespace {
-
-/// The box around a display's shape, in the observer's coordinates, metres.
-Bounds bounds_of(const Display& display) {
-    const double far = display.far;
-    switch (display.shape) {
-        case DisplayShape::pyramid: {
-            const glm::dvec2 half = far * glm::tan(display.half_angles);
-            return {{-half.x, -half.y, display.near}, {half.x, half.y, far}};
-        }
-        case DisplayShape::sector: {
-            const double angle = display.half_angles.x, cosine = std::cos(angle);
-            const double half = cosine > 0 ? far * std::sin(angle) : far;
-            return {{-half, -half, cosine * (cosine > 0 ? display.near : far)}, {half, half, far}};
-        }
-        case DisplayShape::ball:
-            return {glm::dvec3(-far), glm::dvec3(far)};
-        case DisplayShape::box:
-            break;
-    }
-    const glm::dvec2 half = display.half_size;
-    return {{-half.x, -half.y, display.near}, {half.x, half.y, far}};
-}
 
 /// The absorption by which voxels of space cover what lies behind: that of the least absorbed
 /// channel. If a medium emits light but doesn't absorb all channels, it is the smallest positive
@@ -61,7 +38,7 @@ VolumeFrame display_frame(const Scene& scene) {
     if (frame.layout == VolumeLayout::rays) {
         frame.step = (frame.display.far - frame.display.near) / frame.size.z;
     } else {
-        const Bounds bounds = bounds_of(frame.display);
+        const Bounds bounds = shape_row(frame.display).bounds(frame.display);
         frame.origin = bounds.min;
         frame.edge = (bounds.max - bounds.min) / glm::dvec3(frame.size);
     }
@@ -101,13 +78,11 @@ DisplayLattice display_lattice(const VolumeFrame& frame, const GridFrame& world)
     lattice.size_x = frame.size.x;
     lattice.size_y = frame.size.y;
     lattice.size_z = frame.size.z;
-    lattice.shape = shape_number(display.shape);
-    if (display.shape == DisplayShape::pyramid) {
-        lattice.slope_x = float(std::tan(display.half_angles.x));
-        lattice.slope_y = float(std::tan(display.half_angles.y));
-    } else if (display.shape == DisplayShape::sector) {
-        lattice.slope_x = float(std::cos(display.half_angles.x));
-    }
+    const DisplayShapeRow& shape = shape_row(display);
+    lattice.shape = shape.kernel_number;
+    const glm::dvec2 slopes = shape.clip_slopes(display);
+    lattice.slope_x = float(slopes.x);
+    lattice.slope_y = float(slopes.y);
     lattice.near_depth = float(display.near);
     lattice.far_depth = float(display.far);
     lattice.cylinder = display.cylinder ? 1 : 0;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // display -> the lattice V of its voxels: their places, for the host and for kernels.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // probe points -> P in the layout `lattice`: the voxels that are shown, and their light.
 #pragma once
 

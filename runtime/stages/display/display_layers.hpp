@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // layers of surfaces along sight rays -> P in the layout `rays`, if some surfaces let light
 // through.
 #pragma once

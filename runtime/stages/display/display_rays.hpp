@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // lit sight rays -> P in the layout `rays`, voxel by voxel along each ray.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // world + lattice of a display -> probe points: the points where its probe lines cross surfaces.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "runtime/stages/index/index.hpp"
 
 #include <glm/vec4.hpp>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // BrickGrid -> Pyramid: the voxels that rays must see, numbered and packed.
 #pragma once
 

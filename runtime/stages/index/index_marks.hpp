@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The first pass of indexing: which voxels of a grid rays must see.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // object grid -> a model that instances share: its pyramid, and the box of its voxels.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // pyramids of models -> the world's pyramid with the models' voxels appended, for instances to
 // share.
 #pragma once

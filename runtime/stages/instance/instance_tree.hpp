@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // boxes of instances -> the tree that packets of rays traverse: kernels/lib/traverse/instances.h.
 #pragma once
 

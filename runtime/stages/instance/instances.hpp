@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // models -> instances: shares models' voxels between objects whose rays are transformed.
 #pragma once
 

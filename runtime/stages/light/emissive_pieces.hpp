@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // a world's emissive objects -> the pieces of surface that emit their light.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // the triangles of emissive objects -> pieces of surface: the sides that emit, and parts small
 // enough for light samples.
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // surface points + a light -> radiance, through a queue of shadow rays.
 #pragma once
 

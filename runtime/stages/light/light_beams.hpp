@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // a light -> beams: how far from the light the world is empty.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "runtime/stages/light/light_sample_choice.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // emissive surface -> light samples: parts of it that lie together and face the same way.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // lights with an area -> the light samples that represent them.
 #pragma once
 

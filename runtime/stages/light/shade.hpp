@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // hits -> surface points, and the radiance that they have without lights.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The medium's density at every voxel of S, on a device: bricks of 16³, where bricks of constant
 // density take no cells.
 #pragma once

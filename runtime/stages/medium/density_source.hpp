@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // medium -> its density anywhere in the world, from a formula or from a file.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // object grids -> S: the world as the list of its objects defines it.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // object grids -> S: joins the primitive lists of exact surfaces.
 #pragma once
 

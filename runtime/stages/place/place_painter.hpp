@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // An object on its way into the world: its inverse map, and the kernels that paint its voxels.
 #pragma once
 

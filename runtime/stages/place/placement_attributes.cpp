@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "runtime/stages/place/placement_attributes.hpp"
 
 #include <algorithm>

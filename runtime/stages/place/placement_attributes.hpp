@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The packed attributes that an object's voxels get in the world.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The place of an object's voxels in the world, as the exact fixed-point map that kernels use.
 #pragma once
 

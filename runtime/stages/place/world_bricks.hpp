@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The bricks that a world stores: which ones, in what slots, and the buffers that hold them.
 #pragma once
 

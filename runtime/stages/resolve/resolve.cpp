@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "runtime/stages/resolve/resolve.hpp"
 
 #include "runtime/grid/grid_arguments.hpp"

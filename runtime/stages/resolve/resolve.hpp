@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // samples -> pixels: the flat image.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // rays -> beams: how far groups of neighbouring rays run through empty space together.
 #pragma once
 

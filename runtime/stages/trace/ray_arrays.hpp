@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // features -> the arrays of rays on their way through the stages, and the memory that they take.
 //
 // What is planned is allocated on a counting device.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // surface points -> the rays that they send on, and the light that these return.
 #pragma once
 

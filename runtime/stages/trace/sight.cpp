@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "runtime/stages/trace/sight.hpp"
 
 #include <algorithm>
@@ -26,31 +27,16 @@ double depth_of_world(const Observer& observer, const GridFrame& world) {
 
 }  // namespace
 
-int shape_number(DisplayShape shape) {
-    switch (shape) {
-        case DisplayShape::pyramid:
-            return VXL_SHAPE_PYRAMID;
-        case DisplayShape::sector:
-            return VXL_SHAPE_SECTOR;
-        case DisplayShape::ball:
-            return VXL_SHAPE_BALL;
-        case DisplayShape::box:
-            return VXL_SHAPE_BOX;
-    }
-    return VXL_SHAPE_PYRAMID;
-}
-
 Camera camera_of(const Scene& scene, const GridFrame& world) {
     const Observer& observer = scene.observer;
     const glm::dmat3& axes = observer.world_from_observer;
     // Rays of a pyramid or box far from the world start at the world's depth: on the way there
     // float would lose precision.
-    const bool along_z = observer.display.shape == DisplayShape::pyramid ||
-                         observer.display.shape == DisplayShape::box;
-    const double lead = along_z ? depth_of_world(observer, world) : 0.0;
+    const DisplayShapeRow& shape = shape_row(observer.display);
+    const double lead = shape.depth_is_along_z ? depth_of_world(observer, world) : 0.0;
     const glm::dvec3 origin =
         (observer.position + axes[2] * lead - world.origin) / world.voxel_edge;
-    const glm::dvec2 half = half_extent(observer.display);
+    const glm::dvec2 half = shape.half_extent(observer.display);
     Camera camera{};
     camera.origin = to_float4(origin);
     camera.origin_low =
@@ -66,7 +52,7 @@ Camera camera_of(const Scene& scene, const GridFrame& world) {
     camera.width = scene.render.size.x;
     camera.height = scene.render.size.y;
     camera.samples = scene.render.samples;
-    camera.shape = shape_number(observer.display.shape);
+    camera.shape = shape.kernel_number;
     camera.sample_weight = 1.0f / float(scene.render.samples);
     return camera;
 }
@@ -76,7 +62,7 @@ double voxels_a_pixel(const Scene& scene, const Camera& camera, const GridFrame&
     const glm::dvec2 pixel =
         2.0 * half_extent(observer.display) / glm::dvec2(camera.width, camera.height);
     const glm::dvec3 middle = world.origin + 0.5 * world.voxel_edge * glm::dvec3(world.size);
-    const double metres = observer.display.shape == DisplayShape::box
+    const double metres = shape_row(observer.display).projection == SightProjection::parallel
                               ? 1.0
                               : glm::distance(middle, observer.position);
     const glm::dvec3& edge = world.voxel_edge;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // observer -> rays: one sight ray for every sample of every pixel.
 #pragma once
 
@@ -9,9 +10,6 @@
 #include "runtime/stages/ray_batch.hpp"
 
 namespace voxelume {
-
-/// The shape's VXL_SHAPE_* of shared/scene.h.
-int shape_number(DisplayShape shape);
 
 /// The observer's camera for kernels, in the voxels of the world.
 Camera camera_of(const Scene& scene, const GridFrame& world);

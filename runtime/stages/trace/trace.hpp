@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // rays -> hits: the discrete traversal of every ray to the first surface it meets.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // object grid -> object grid: what remains of a body after solids are cut away from it.
 #pragma once
 

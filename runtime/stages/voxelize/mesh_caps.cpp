@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The open outlines of a mesh, and the triangles that close them.
 #include <algorithm>
 #include <cstdlib>

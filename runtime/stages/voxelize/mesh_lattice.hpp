@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A mesh on the lattice of 1/4096 voxel: the exact input of voxelization.
 #pragma once
 

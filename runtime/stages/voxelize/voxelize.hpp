@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // mesh -> object grid: the voxels that a triangle mesh covers or fills, or its distance field.
 #pragma once
 

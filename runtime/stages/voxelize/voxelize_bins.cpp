@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "runtime/stages/voxelize/voxelize_bins.hpp"
 
 #include "runtime/base/error.hpp"

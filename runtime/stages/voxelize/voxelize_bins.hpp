@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Triangles sorted into the bricks that they meet: the input of every kernel of voxelization.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // triangles of each brick -> which of its points are inside, by winding numbers.
 #include "runtime/stages/brick_arrays.hpp"
 #include "runtime/stages/voxelize/voxelize_steps.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // mesh groups and colours -> the packed attributes and colours of voxels.
 #include <algorithm>
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The options of voxelization: shared by the stages that voxelize meshes and analytic solids.
 #pragma once
 

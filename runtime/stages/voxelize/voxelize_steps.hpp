@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The steps of voxelizing a mesh. Each runs a few kernels on what the steps before left in the job.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The points where a straight line enters and leaves an analytic solid, in closed form.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The point where a ray meets an analytic solid, in double. `voxelume bench` compares images with
 // it.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Whitted's ray tracing of analytic solids in double precision: the light that a ray brings.
 #pragma once
 

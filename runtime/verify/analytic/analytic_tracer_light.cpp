@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The part of the analytic tracer between a surface point and a light.
 #include <algorithm>
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the parts of the analytic tracer share: a surface point, and the record of decisions.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "runtime/verify/analytic/pixel_contour.hpp"
 
 #include <algorithm>

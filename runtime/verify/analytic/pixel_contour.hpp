@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The border between two kinds of pixels of an ideal image, between the pixels' centres.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "runtime/verify/analytic/polynomial_roots.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The real roots of polynomials. Each is searched between two roots of the derivative.
 #pragma once
 

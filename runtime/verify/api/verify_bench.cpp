@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The benchmark, for callers.
 #include <algorithm>
 #include <nlohmann/json.hpp>

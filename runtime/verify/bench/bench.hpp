@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Run time against error: subjects with a known truth, shown by every surface at every voxel size.
 #pragma once
 

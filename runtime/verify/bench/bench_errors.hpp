@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The differences between an image and the truth of its subject.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Volume and area of what an object's voxels enclose, summed in double over the voxels themselves.
 #pragma once
 

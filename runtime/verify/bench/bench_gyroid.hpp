@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A gyroid inside a ball: its field, the points where rays meet it, and a fine mesh of it.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The points where rays meet a mesh, in double, and a subject of `voxelume bench` from a mesh file.
 #pragma once
 

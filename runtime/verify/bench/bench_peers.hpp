@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Times of other programs for the same rays, from a file that tests/bench/bench_peers writes.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The scenes of `voxelume bench` that show one object, which the observer sees whole.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The edges of shadows: a bench's subject above a ground, in sunlight.
 #pragma once
 

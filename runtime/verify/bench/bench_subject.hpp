@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The subjects that `voxelume bench` shows, with the truth that images are compared with.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The contents of an ideal image of a subject, pixel by pixel.
 #pragma once
 

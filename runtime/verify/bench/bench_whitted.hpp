@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The scene after the picture of Whitted 1980. Its light is traced in double.
 #pragma once
 

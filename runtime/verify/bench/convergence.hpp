@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Conclusions from rows of errors and times: how fast errors decrease, and which choices nothing
 // beats.
 #pragma once

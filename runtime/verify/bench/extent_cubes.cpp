@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Computes what cubes enclose by following rows of empty voxels from the lattice's outside.
 #include <algorithm>
 #include <glm/vec2.hpp>

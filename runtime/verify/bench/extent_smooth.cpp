@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Computes what smooth surfaces enclose by quadrature over the zero of every voxel's field.
 //
 // The field is a quadratic along every axis, so it is kept as its values at the 27 points whose

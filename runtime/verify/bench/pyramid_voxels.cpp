@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "runtime/verify/bench/pyramid_voxels.hpp"
 
 #include <bit>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The voxels of a pyramid, read back from the device.
 #pragma once
 

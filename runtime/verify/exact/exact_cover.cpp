@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "runtime/verify/exact/exact_cover.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The voxels that a triangle meets, in integers: the reference for the device's SUPERCOVER.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Where a ray of any origin and length has to enter a grid: the reference for snapping.
 #pragma once
 

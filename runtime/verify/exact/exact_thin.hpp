@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The voxels whose crosshairs a triangle meets, in integers: the reference for the device's THIN.
 #pragma once
 

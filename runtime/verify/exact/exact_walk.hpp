@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The cells that a ray passes, in order, in integers: the reference for the device's walk. It
 // shares no code with the kernels.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The bits of a brick grid's voxels on the host.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The errors at which other programs are quicker, and those at which they aren't.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A bench as one self-contained HTML file: plots, slopes, rows.
 #pragma once
 

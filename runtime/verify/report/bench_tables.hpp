@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A bench's rows as text for people, spreadsheets and programs.
 #pragma once
 

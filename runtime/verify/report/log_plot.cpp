@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "runtime/verify/report/log_plot.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Curves between two logarithmic axes, as SVG.
 #pragma once
 

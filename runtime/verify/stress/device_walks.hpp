@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The walks of stress.cl and the hits of trace.cl, for rays in fixed point.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Triangles far larger than their grid: their planes need the upper of 128 bits.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Rays from outside of a ring to points inside it.
 #pragma once
 

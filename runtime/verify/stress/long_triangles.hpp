@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Triangles many times as long as wide. From 128 voxels on their planes are computed in 128 bits.
 #pragma once
 

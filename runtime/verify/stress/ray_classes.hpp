@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Classes of rays that are difficult for a walk.
 #pragma once
 

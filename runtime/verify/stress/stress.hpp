@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The tests of `voxelume stress`: they compare a device's results with exact arithmetic on the
 // host.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // rays into closed surfaces -> the number that reach a point inside, which must be 0
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "runtime/verify/stress/stress_placement.hpp"
 
 #include <fmt/format.h>

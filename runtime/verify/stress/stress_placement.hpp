@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // affine maps -> mismatches between the voxels that place.cl sets and the exact ones.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Random numbers by case number: case n of a seed is the same whichever other cases are tried.
 #pragma once
 

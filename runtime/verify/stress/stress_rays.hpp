@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // rays of a class -> mismatches between the device's walk and the exact one.
 #pragma once
 

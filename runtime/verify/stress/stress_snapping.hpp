@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // rays of any origin and length -> mismatches in how they are snapped, and in their walks after
 // that
 #pragma once

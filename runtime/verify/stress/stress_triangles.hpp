@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // triangles of difficult classes -> mismatches between their voxels and the exact ones
 #pragma once
 

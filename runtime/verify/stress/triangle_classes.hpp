@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Classes of triangles that are difficult to voxelize, and the grids in which they lie.
 #pragma once
 

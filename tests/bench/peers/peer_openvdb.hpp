@@ -1,12 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
 // OpenVDB's ray intersector on a solid's level set.
 #pragma once
 
 #include "runtime/verify/bench/bench_truth.hpp"
-#include "tests/bench/peer_image.hpp"
+#include "tests/bench/peers/peer_image.hpp"
 
 namespace voxelume {
 
-/// "OpenVDB 10.0.1"
+/// The program's name and version: "OpenVDB 10.0.1".
 std::string openvdb_name();
 
 /// Samples the distance within 3 voxels of the surface: a sphere by OpenVDB's own maker of spheres,

@@ -1,4 +1,5 @@
-#include "tests/bench/peer_embree.hpp"
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/bench/peers/peer_embree.hpp"
 
 #include <embree3/rtcore.h>
 #include <fmt/format.h>
@@ -24,7 +25,7 @@ glm::dvec3 surface_point(const Solid& solid, double u, double v) {
     return {radius * std::cos(around), solid.tube * std::sin(along), radius * std::sin(around)};
 }
 
-/// One device for the program's life, with its threads.
+/// The only device, with its threads; it lives as long as the program.
 RTCDevice embree_device() {
     static const RTCDevice device =
         rtcNewDevice(fmt::format("threads={}", std::thread::hardware_concurrency()).c_str());
@@ -82,7 +83,7 @@ PeerMesh tessellated(const BenchSolid& solid, int rings) {
         for (int u = 0; u < columns; ++u) {
             const uint32_t corner = number(u, v), across = number(u + 1, v + 1);
             uint32_t beside = number(u + 1, v), above = number(u, v + 1);
-            // v runs downwards on the sphere, and upwards on the torus's outer side.
+            // v runs downwards on the sphere but upwards on the torus's outer side.
             if (solid.solid.kind != SolidKind::sphere) std::swap(beside, above);
             mesh.triangles.emplace_back(corner, beside, across);
             mesh.triangles.emplace_back(corner, across, above);

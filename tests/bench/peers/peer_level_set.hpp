@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // OpenVDB's narrow-band level sets of meshes, three voxels wide on each side.
 #pragma once
 

@@ -1,24 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
 // Embree 3 on a tessellated solid.
 #pragma once
 
 #include <vector>
 
 #include "runtime/verify/bench/bench_truth.hpp"
-#include "tests/bench/peer_image.hpp"
+#include "tests/bench/peers/peer_image.hpp"
 
 namespace voxelume {
 
-/// With a margin behind the positions, which Embree reads in blocks of 16 bytes.
+/// A mesh with a margin after the positions, because Embree reads them in blocks of 16 bytes.
 struct PeerMesh {
     std::vector<glm::vec3> positions;  ///< metres in the world, on the surface
     std::vector<glm::uvec3> triangles;
 };
 
-/// A sphere in `rings` by 2 `rings` quadrilaterals, a torus likewise around the tube and the ring,
-/// each cut into two triangles.
+/// A sphere of `rings` by 2 `rings` quadrilaterals, or a torus with these numbers around the tube
+/// and the ring; each quadrilateral is cut into two triangles.
 PeerMesh tessellated(const BenchSolid& solid, int rings);
 
-/// "Embree 3.13.5"
+/// The program's name and version: "Embree 3.13.5".
 std::string embree_name();
 
 /// Builds a watertight scene of medium quality and traces packets of 16 coherent rays.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Other programs that trace the rays of bench_trace, on one thread.
 #pragma once
 
@@ -18,7 +19,7 @@ struct PeerRay {
 
 enum class PeerQuery { closest_coherent, occluded_coherent, closest_incoherent };
 
-/// Rays as a peer wants them, and its pass over them; returns how many of them hit.
+/// A peer's pass over rays in its own layout; returns how many of them hit.
 using PeerPass = std::function<size_t()>;
 
 struct TracePeer {

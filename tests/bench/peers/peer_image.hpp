@@ -1,4 +1,5 @@
-// What the peers of `voxelume bench` have in common: times, images, rows of an image by threads.
+// SPDX-License-Identifier: Apache-2.0
+// Common parts of the peers of `voxelume bench`: times, images, and an image's rows by threads.
 #pragma once
 
 #include <atomic>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include <openvdb/tools/RayIntersector.h>
 
 #if VXL_BENCH_NANOVDB
@@ -9,8 +10,8 @@
 #include <glm/geometric.hpp>
 
 #include "tests/bench/cpu_time.hpp"
-#include "tests/bench/peer_level_set.hpp"
-#include "tests/bench/trace_peers.hpp"
+#include "tests/bench/peers/peer_level_set.hpp"
+#include "tests/bench/peers/trace_peers.hpp"
 
 namespace voxelume {
 namespace {

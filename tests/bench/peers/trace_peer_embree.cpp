@@ -1,15 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
 #include <embree3/rtcore.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "tests/bench/cpu_time.hpp"
-#include "tests/bench/trace_peers.hpp"
+#include "tests/bench/peers/trace_peers.hpp"
 
 namespace voxelume {
 namespace {
 
-/// Embree's calls for packets of so many rays.
+/// Embree's calls for packets of kWidth rays.
 template <int kWidth>
 struct Packets;
 
@@ -100,7 +101,7 @@ PeerPass single_pass(RTCScene scene, const std::vector<PeerRay>& rays, PeerQuery
     };
 }
 
-/// A scene with its own copy of the mesh, for the program's life.
+/// A scene with its own copy of the mesh; it lives as long as the program.
 RTCScene build_scene(const Mesh& mesh) {
     static const RTCDevice device = rtcNewDevice("threads=1");
     RTCScene scene = rtcNewScene(device);

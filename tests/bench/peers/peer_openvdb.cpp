@@ -1,4 +1,5 @@
-#include "tests/bench/peer_openvdb.hpp"
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/bench/peers/peer_openvdb.hpp"
 
 #include <fmt/format.h>
 #include <openvdb/openvdb.h>
@@ -18,7 +19,7 @@ constexpr double kBand = 3;  // voxels
 
 using Leaf = openvdb::FloatTree::LeafNodeType;
 
-/// The torus's distance in the leaves that its band touches; they are found by their centres.
+/// The torus's distance in the leaves that its band touches, which are found by their centres.
 openvdb::FloatGrid::Ptr torus_level_set(const BenchSolid& solid, double voxel) {
     const glm::dmat4 solid_from_world = glm::inverse(solid.world_from_solid);
     const auto distance = [&](const openvdb::Vec3d& index) {

@@ -1,4 +1,5 @@
-#include "tests/bench/peer_level_set.hpp"
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/bench/peers/peer_level_set.hpp"
 
 #include <openvdb/tools/GridTransformer.h>
 #include <openvdb/tools/MeshToVolume.h>
@@ -28,7 +29,7 @@ openvdb::FloatGrid::Ptr placed_level_set(openvdb::FloatGrid& grid, double voxel,
     for (int row = 0; row < 4; ++row)
         for (int column = 0; column < 4; ++column)
             map[row][column] = world_from_object[row][column];
-    const openvdb::FloatGrid::Ptr moved = grid.copy();  // of the same tree
+    const openvdb::FloatGrid::Ptr moved = grid.copy();  // shares the tree
     moved->setTransform(grid.transform().copy());
     moved->transform().postMult(map);
     const openvdb::FloatGrid::Ptr placed = openvdb::FloatGrid::create(grid.background());
