@@ -177,7 +177,7 @@ TEST_F(CliRenderTest, CheckTellsProgramsWhetherTheSceneFits) {
     write_scene([](Json& scene) {
         const Json ball = {{"shape", "sphere"}, {"radius", 0.45}};
         scene["models"]["thing"] = {{"shape", "intersection"}, {"parts", {ball, ball}}};
-        scene["world"]["voxel_size"] = 0.02;
+        scene["world"]["voxel_size"] = 0.016;
     });
     const auto plan = [&](const char* option, int code) {
         const ProgramResult result = run(fmt::format("check scene.json --json {}", option));
