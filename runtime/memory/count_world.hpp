@@ -29,8 +29,7 @@ CountedWorld count_placing(const Device& device, std::span<const PlacedObject> o
                            const GridFrame& frame, const WorldCounts& counts);
 
 /// As Placer::place where `bricks` of a world change; what that takes goes.
-void count_repainting(const Device& device, std::span<const PlacedObject> objects,
-                      const GridFrame& frame, size_t bricks);
+void count_repainting(const Device& device, const GridFrame& frame, size_t bricks);
 
 /// A pyramid, and the marks that it was made from.
 struct CountedPyramid {

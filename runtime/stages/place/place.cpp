@@ -5,6 +5,7 @@
 #include <map>
 #include <numeric>
 #include <optional>
+#include <stdexcept>
 
 #include "kernels/shared/voxel.h"
 #include "runtime/base/error.hpp"
@@ -84,8 +85,7 @@ class Placer::State {
 
   private:
     /// Makes the world store what the objects now need, and nothing else. A part that no object has
-    /// had before has one value in every brick, so no brick is painted for it. same in every brick,
-    /// so none is painted for that.
+    /// had before has one value in every brick, so no brick is painted for it.
     void follow(const WorldParts& parts) {
         const bool is_stored_anew = bricks_ && !parts.is_stored_like(parts_);
         parts_ = parts;
@@ -154,7 +154,7 @@ class Placer::State {
     }
 
     /// Stores the bricks that the objects need. Returns the bricks to paint: those that a changed
-    /// painter has a part in, or had one in before. changed has a part, or had one.
+    /// painter has a part in, or had one in before.
     std::vector<uint32_t> store_bricks(const std::vector<Painter*>& changed) {
         if (!bricks_) {
             bricks_.emplace(device_, parts_, world_);
@@ -176,21 +176,13 @@ class Placer::State {
         return bricks_->store(*changed_, states(all_painters(), asked));
     }
 
-    /// The index of each of the world's bricks in the list of painted bricks, or kBrickOutside.
-    struct Painting {
-        std::vector<uint32_t> places;
-        Buffer<int16_t> nearest;
-    };
-
-    PaintedBricks painted_bricks(const Painting& painting, const BrickBox& box) {
+    /// The bricks of a box that are among the `painted` ones of the world.
+    PaintedBricks painted_bricks(const std::vector<bool>& painted, const BrickBox& box) {
         std::vector<uint32_t> slots;
         for_each_brick(box, [&](uint32_t brick) {
-            if (painting.places[brick] == kBrickOutside) return;
-            slots.push_back(bricks_->slot(brick));
-            slots.push_back(painting.places[brick]);
+            if (painted[brick]) slots.push_back(bricks_->slot(brick));
         });
-        return {uint32_t(slots.size() / 2), Buffer<uint32_t>(device_, "painted bricks", slots),
-                painting.nearest};
+        return {uint32_t(slots.size()), Buffer<uint32_t>(device_, "painted bricks", slots)};
     }
 
     void paint(std::span<const PlacedObject> objects, const std::vector<uint32_t>& bricks) {
@@ -199,14 +191,9 @@ class Placer::State {
         world_.attribute = parts_.attributes.size() == 1 ? *parts_.attributes.begin() : 0;
         if (bricks.empty()) return;
         bricks_->clear(bricks);
-        Painting painting;
         const glm::ivec3 table = world_.frame.bricks();
-        painting.places.assign(size_t(table.x) * size_t(table.y) * size_t(table.z), kBrickOutside);
-        for (uint32_t place = 0; place < painted_; ++place) painting.places[bricks[place]] = place;
-        if (parts_.measures_nearest()) {
-            painting.nearest = allocate_distances(device_, "nearest surfaces", painted_);
-            painting.nearest.fill(32767);
-        }
+        std::vector<bool> painting(brick_places(world_.frame));
+        for (const uint32_t brick : bricks) painting[brick] = true;
         Painter* smooth = nullptr;
         for (const PlacedObject* object : painting_order(objects)) {
             Painter& painter = painters_.at(object->object);
@@ -232,6 +219,9 @@ Placer::~Placer() = default;
 const BrickGrid& Placer::place(std::span<const PlacedObject> objects, const GridFrame& world) {
     for (const PlacedObject& object : objects) check_object(object, world);
     const WorldParts parts = parts_of(objects);
+    if (parts.smooth && objects.size() > 1)
+        throw std::logic_error(
+            "fields of several objects don't merge: place_world keeps them apart");
     std::unique_ptr<State> state = std::move(state_);
     if (is_only_object(objects, parts)) {
         state = std::make_unique<State>(device_, world);

@@ -19,8 +19,6 @@ struct WorldParts {
     std::set<uint32_t> attributes;  ///< all values that voxels can have
 
     bool has_attributes() const { return attributes.size() > 1; }
-    /// Whether voxels take what they have from the smooth surface that is nearest to them.
-    bool measures_nearest() const { return smooth && (has_attributes() || colors || occupancy); }
     /// Whether bricks of both worlds have the same buffers.
     bool is_stored_like(const WorldParts& other) const;
 };
@@ -41,13 +39,13 @@ struct BrickBox {
     bool is_empty() const { return first.x > last.x || first.y > last.y || first.z > last.z; }
 };
 
+/// The world's bricks that the object's grid, and a margin around it, lie in.
+BrickBox bricks_of(const PlacedObject& object, const GridFrame& world);
+
 /// The bricks of the world that are painted, on the device.
 struct PaintedBricks {
     uint32_t count = 0;
-    Buffer<uint32_t> slots;   ///< 2 for each brick: its slot, its index in `nearest`
-    Buffer<int16_t> nearest;  ///< 4096 for each brick that any object is painted into: the distance
-                              ///< of the nearest smooth surface to each voxel's centre; empty where
-                              ///< it decides nothing
+    Buffer<uint32_t> slots;
 };
 
 /// The bricks of a world, of which some are painted.
