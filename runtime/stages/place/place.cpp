@@ -53,7 +53,10 @@ bool is_only_object(std::span<const PlacedObject> objects, const WorldParts& par
 /// The objects placed last, and their world.
 class Placer::State {
   public:
-    State(const Device& device, const GridFrame& frame) : device_(device) { world_.frame = frame; }
+    State(const Device& device, const GridFrame& frame, NearLeaves& near)
+        : device_(device), near_(near) {
+        world_.frame = frame;
+    }
 
     bool continues_with(const GridFrame& frame) const { return bricks_ && frame == world_.frame; }
 
@@ -98,18 +101,14 @@ class Placer::State {
     /// from `left`.
     void take_painters(std::span<const PlacedObject> objects, std::map<uint32_t, Painter>& left,
                        std::vector<Painter*>& changed) {
-        std::map<const BrickGrid*, const Painter*> of_grid;
-        for (const auto& [number, painter] : left) of_grid[painter.object().grid] = &painter;
         for (const PlacedObject& object : objects) {
             const auto before = left.find(object.object);
             if (before != left.end() && before->second.object() == object) {
                 painters_.insert(left.extract(before));
                 continue;
             }
-            const Painter*& same_grid = of_grid[object.grid];
             const auto added = painters_.try_emplace(object.object, device_, object, world_.frame,
-                                                     parts_, same_grid);
-            same_grid = &added.first->second;
+                                                     parts_, near_);
             changed.push_back(&added.first->second);
         }
     }
@@ -205,6 +204,7 @@ class Placer::State {
     }
 
     Device device_;
+    NearLeaves& near_;
     BrickGrid world_;
     WorldParts parts_;
     std::optional<WorldBricks> bricks_;     ///< empty before the first call of `place`
@@ -213,22 +213,26 @@ class Placer::State {
     uint32_t painted_ = 0;
 };
 
-Placer::Placer(const Device& device) : device_(device) {}
+Placer::Placer(const Device& device, std::shared_ptr<NearLeaves> near)
+    : device_(device),
+      owns_near_(!near),
+      near_(near ? std::move(near) : std::make_shared<NearLeaves>()) {}
 Placer::~Placer() = default;
 
 const BrickGrid& Placer::place(std::span<const PlacedObject> objects, const GridFrame& world) {
     for (const PlacedObject& object : objects) check_object(object, world);
+    if (owns_near_) near_->begin_list();
     const WorldParts parts = parts_of(objects);
     if (parts.smooth && objects.size() > 1)
         throw std::logic_error(
             "fields of several objects don't merge: place_world keeps them apart");
     std::unique_ptr<State> state = std::move(state_);
     if (is_only_object(objects, parts)) {
-        state = std::make_unique<State>(device_, world);
+        state = std::make_unique<State>(device_, world, *near_);
         state->share(objects[0], parts);
     } else {
         if (!state || !state->continues_with(world))
-            state = std::make_unique<State>(device_, world);
+            state = std::make_unique<State>(device_, world, *near_);
         state->place(objects, parts);
     }
     state_ = std::move(state);

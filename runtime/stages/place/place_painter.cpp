@@ -110,7 +110,7 @@ WorldBounds bounds_of(const GridFrame& frame) {
 }
 
 Painter::Painter(const Device& device, const PlacedObject& object, const GridFrame& world,
-                 const WorldParts& parts, const Painter* before)
+                 const WorldParts& parts, NearLeaves& near)
     : object_(object),
       surface_(surface_of(*object.grid)),
       map_(map_of(object, world, surface_)),
@@ -120,14 +120,27 @@ Painter::Painter(const Device& device, const PlacedObject& object, const GridFra
       attribute_map_(attribute_map(device, object, surface_)),
       threshold_(near_threshold(map_)) {
     const BrickGrid& grid = *object.grid;
-    if (before && before->object_.grid == object.grid && before->threshold_ == threshold_) {
-        near_ = before->near_;
-        return;
-    }
-    near_ = Buffer<uint64_t>(device, "near leaves", grid.brick_count);
-    program_.kernel("mark_near_leaves")
-        .launch(WorkItem::heavy, grid.brick_count, grid.brick_count, threshold_, grid.occupancy,
-                grid.distance, near_);
+    near_ = near.of(grid, threshold_, [&] {
+        Buffer<uint64_t> masks(device, "near leaves", grid.brick_count);
+        program_.kernel("mark_near_leaves")
+            .launch(WorkItem::heavy, grid.brick_count, grid.brick_count, threshold_, grid.occupancy,
+                    grid.distance, masks);
+        return masks;
+    });
+}
+
+Buffer<uint64_t> NearLeaves::of(const BrickGrid& grid, int threshold,
+                                const std::function<Buffer<uint64_t>()>& mark) {
+    const auto [found, is_new] = entries_.try_emplace({&grid, threshold});
+    Entry& entry = found->second;
+    if (is_new) entry.masks = mark();
+    entry.is_used = true;
+    return entry.masks;
+}
+
+void NearLeaves::begin_list() {
+    std::erase_if(entries_, [](const auto& entry) { return !entry.second.is_used; });
+    for (auto& [key, entry] : entries_) entry.is_used = false;
 }
 
 void bind(KernelArguments& to, const Painter& painter) {

@@ -2,7 +2,10 @@
 // An object on its way into the world: its inverse map, and the kernels that paint its voxels.
 #pragma once
 
+#include <functional>
+#include <map>
 #include <set>
+#include <utility>
 
 #include "runtime/opencl/program.hpp"
 #include "runtime/stages/place/place.hpp"
@@ -57,13 +60,30 @@ struct PaintedWorld {
 /// VXL_PAINTED_PARAMETERS of kernels.
 void bind(KernelArguments& to, const PaintedWorld& painted);
 
+/// The near leaves of objects' grids, which objects with the same grid share.
+class NearLeaves {
+  public:
+    /// Per slot: a mask of the leaves with voxels, or with distances below `threshold`. `mark`
+    /// makes them if no object had them in this list of objects or the last.
+    Buffer<uint64_t> of(const BrickGrid& grid, int threshold,
+                        const std::function<Buffer<uint64_t>()>& mark);
+
+    /// Begins the next list: forgets what the last one didn't ask for.
+    void begin_list();
+
+  private:
+    struct Entry {
+        Buffer<uint64_t> masks;
+        bool is_used = true;
+    };
+    std::map<std::pair<const BrickGrid*, int>, Entry> entries_;
+};
+
 /// An object ready to be painted into a world. Its grid must outlive it.
 class Painter {
   public:
-    /// `before` may be any object's painter or null; what depends on the same grid is taken from
-    /// it.
     Painter(const Device& device, const PlacedObject& object, const GridFrame& world,
-            const WorldParts& parts, const Painter* before);
+            const WorldParts& parts, NearLeaves& near);
 
     const PlacedObject& object() const { return object_; }
     Surface surface() const { return surface_; }
@@ -99,8 +119,7 @@ class Painter {
     Program program_;
     AttributeMap attribute_map_;
     int threshold_;          ///< leaves with a smaller distance are near
-    Buffer<uint64_t> near_;  ///< per slot: a mask of the leaves with voxels, or with distances in
-                             ///< the band
+    Buffer<uint64_t> near_;
 };
 
 }  // namespace voxelume

@@ -37,6 +37,9 @@ GridFrame part_of(const GridFrame& world, const glm::ivec3& first, const glm::iv
 
 }  // namespace
 
+WorldPlacer::WorldPlacer(const Device& device)
+    : device_(device), near_(std::make_shared<NearLeaves>()), voxels_(device, near_) {}
+
 std::optional<PlacedField> WorldPlacer::place_field(const PlacedObject& object,
                                                     const GridFrame& world) {
     PlacedField field;
@@ -50,7 +53,7 @@ std::optional<PlacedField> WorldPlacer::place_field(const PlacedObject& object,
         frame = part_of(world, box.first, box.last);
         field.first_brick = box.first;
     }
-    Placer placer(device_);
+    Placer placer(device_, near_);
     field.grid = placer.place(std::span(&object, 1), frame);
     painted_ += placer.painted_bricks();
     return field;
@@ -67,6 +70,7 @@ void WorldPlacer::place_voxels(std::span<const PlacedObject> objects, const Grid
 const PlacedWorld& WorldPlacer::place(std::span<const PlacedObject> objects,
                                       const GridFrame& world) {
     painted_ = 0;
+    near_->begin_list();
     const bool had_fields = !world_.fields.empty();
     world_.fields.clear();
     world_.ranks = ranks_of(objects);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <optional>
 
 #include "runtime/grid/placed_world.hpp"
@@ -17,7 +18,7 @@ namespace voxelume {
 /// objects that touch don't merge.
 class WorldPlacer {
   public:
-    explicit WorldPlacer(const Device& device) : device_(device), voxels_(device) {}
+    explicit WorldPlacer(const Device& device);
 
     /// Places `objects`, whose grids must live until the next call has returned or the placer is
     /// destroyed. The next call changes the result. Throws as `place` does.
@@ -41,6 +42,7 @@ class WorldPlacer {
     std::optional<PlacedField> place_field(const PlacedObject& object, const GridFrame& world);
 
     Device device_;
+    std::shared_ptr<NearLeaves> near_;
     Placer voxels_;
     GridFrame frame_;
     std::map<uint32_t, Kept> fields_;  ///< by their objects' numbers
