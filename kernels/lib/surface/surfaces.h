@@ -120,11 +120,12 @@ static inline lane_int comes_after(lane_uint primitive, lane_uint source) {
 /// ray's rounded origin: there, hits count from behind it as well, as far as the world reaches. A
 /// ray that goes on meets what lies at the very t of its last surface in the order of numbers.
 static inline lane_int hit_exact(const PyramidView* p, const SurfaceView* s, const Walk* w,
-                                 lane_int tested, const RayState* ray_state, SurfaceHit* found) {
+                                 lane_uint voxel, lane_int tested, const RayState* ray_state,
+                                 SurfaceHit* found) {
     const lane_int entering = LANE_MASK(w->t == 0.0f) & LANE_MASK(w->axis != 3);
     const lane_float t_min = LANES_SELECT(entering, (lane_float)-INFINITY, ray_state->t_first);
     const RayShear shear = ray_shear(w);
-    const lane_uint voxel = found->voxel & LANES_AS_UINT(tested);
+    voxel &= LANES_AS_UINT(tested);
     lane_uint next = LANES_GATHER_UINT(s->primitive_first, voxel);
     const lane_uint end = LANES_GATHER_UINT(s->primitive_first, voxel + 1u);
     lane_int listing = tested & LANE_MASK(next < end);
@@ -243,7 +244,8 @@ static inline lane_int test_surfaces(const PyramidView* p, const SurfaceView* s,
     if (VXL_CUBES) take_voxel_hit(found, w->t, cubes);
     if (VXL_SMOOTH && lanes_any(smooth))
         accepted |= hit_fields(p, s, w, voxel, smooth, kinds.lists, beginning, ray_state, found);
-    if (VXL_EXACT && lanes_any(exact)) accepted |= hit_exact(p, s, w, exact, ray_state, found);
+    if (VXL_EXACT && lanes_any(exact))
+        accepted |= hit_exact(p, s, w, voxel, exact, ray_state, found);
     return accepted;
 }
 
