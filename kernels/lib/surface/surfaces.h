@@ -38,6 +38,8 @@ typedef struct {
     lane_uint solid;     // the last one tested
     lane_float level;    // shift of smooth surfaces for rays that began on one, see hit_smooth
     lane_int within;     // mask: the hit is on a field, met from inside of its object
+    lane_uint inside;    // packed attributes of a smooth object that an unsure ray was found to be
+                         // inside of, VXL_NO_MEDIUM for none
     lane_int in_body;    // mask: the walk has been in a cell of the body that the ray is inside of
     lane_int exit;       // mask: the hit is the face across which it left the body
     lane_uint instance;  // whose surface was hit, VXL_NO_INSTANCE for the world's
@@ -170,16 +172,18 @@ static inline lane_int hit_field(const PyramidView* p, const SurfaceView* s, con
                                  lane_uint number, lane_int tested, lane_int beginning,
                                  const RayState* ray_state, SurfaceHit* found) {
     const Field field = read_field(s->fields, number);
-    FieldApproach from = {(lane_int)0, ray_state->unsure, beginning};
+    FieldApproach from = {(lane_int)0, ray_state->unsure & tested, beginning};
+    const int any_unsure = lanes_any(from.unsure);
     if (VXL_FIELD_LISTS)
         from.beginning &= LANE_MASK(ray_state->source == (number | VXL_FIELD_SOURCE));
-    if (VXL_TRANSMISSION) {
-        lane_uint packed = (lane_uint)s->constant_attribute;
-        if (VXL_ATTRIBUTES) packed = LANES_GATHER_UINT(s->attributes, number);
-        from.within = medium_set_holds(&ray_state->media, packed);
-    }
+    lane_uint packed = (lane_uint)s->constant_attribute;
+    if (VXL_ATTRIBUTES && (VXL_TRANSMISSION || any_unsure))
+        packed = LANES_GATHER_UINT(s->attributes, number);
+    if (VXL_TRANSMISSION) from.within = medium_set_holds(&ray_state->media, packed);
+    if (any_unsure) from.within |= from.unsure & is_medium(found->inside, packed);
     lane_float t = (lane_float)INFINITY;
     const lane_int met = hit_smooth(&field, w, p->plane_bound, tested, &from, &found->level, &t);
+    if (any_unsure) found->inside = LANES_SELECT(from.unsure & from.within, packed, found->inside);
     // A ray that goes straight on has its hits beyond this voxel where any other ray has them.
     if (VXL_TRANSMISSION)
         found->level = LANES_SELECT(ray_state->goes_on, (lane_float)0.0f, found->level);

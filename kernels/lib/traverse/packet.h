@@ -29,6 +29,7 @@ static inline SurfaceHit no_hit_yet(const RayState* ray_state) {
     found.primitive = found.solid = (lane_uint)VXL_NO_PRIMITIVE;
     found.level = (lane_float)0.0f;
     found.within = (lane_int)0;
+    found.inside = (lane_uint)VXL_NO_MEDIUM;
     found.in_body = found.exit = (lane_int)0;
     found.instance = (lane_uint)VXL_NO_INSTANCE;
     return found;
@@ -263,6 +264,7 @@ static inline void take_hit(const SurfaceHit* other, lane_int taken, SurfaceHit*
     found->voxel = LANES_SELECT(taken, other->voxel, found->voxel);
     if (VXL_SMOOTH) {
         found->within = LANES_SELECT(taken, other->within, found->within);
+        found->inside = LANES_SELECT(taken, other->inside, found->inside);
         found->level = LANES_SELECT(taken, other->level, found->level);
     }
     if (VXL_EXACT) {
