@@ -54,6 +54,8 @@ struct BrickGrid {
     Buffer<float> triangles;           ///< 9 per triangle: its corners in this grid's voxels
     Buffer<uint32_t> triangle_attributes;  ///< packed attributes of each triangle, see
                                            ///< shared/voxel.h
+    Buffer<uint32_t> triangle_normals;     ///< 3 per triangle, see shared/normal.h; empty if no
+                                           ///< triangle has some
     Buffer<uint32_t> solids;               ///< analytic solids, see shared/solid.h
 };
 
@@ -110,9 +112,10 @@ struct Pyramid {
     bool transparent = false;      ///< true if some of the voxels aren't opaque
     Buffer<uint32_t> fields;  ///< 8 per voxel, see shared/voxel.h; empty without smooth surfaces
     Buffer<uint32_t> primitive_first;  ///< voxel_count + 1; empty without exact surfaces
-    Buffer<uint32_t> primitives;       ///< this and the next three are as in BrickGrid
+    Buffer<uint32_t> primitives;       ///< this and the next four are as in BrickGrid
     Buffer<float> triangles;
     Buffer<uint32_t> triangle_attributes;
+    Buffer<uint32_t> triangle_normals;
     Buffer<uint32_t> solids;
     InstanceSet instances;
     std::vector<VoxelBox> object_boxes;  ///< the box around each of the scene's objects; empty if
