@@ -197,9 +197,8 @@ static inline ShadingPoint shading_point(const WorldView* world, const ShadedHit
         lift = add_scaled(lift, n, share[i] * below);
     }
     sum = unit(sum);
-    const lane_int faces = curved & LANE_MASK(dot_product(sum, normal) > 0.0f);
-    s.normal = select_vector(faces, sum, s.normal);
-    s.lift = select_vector(faces, lift, s.lift);
+    s.normal = select_vector(curved & LANE_MASK(dot_product(sum, sum) > 0.0f), sum, s.normal);
+    s.lift = select_vector(curved & LANE_MASK(dot_product(lift, normal) > 0.0f), lift, s.lift);
     return s;
 }
 

@@ -69,8 +69,9 @@ static inline void corner_shares(const Vector* from, lane_float* share) {
 
 /// How a surface point is lit.
 typedef struct {
-    Vector normal;  // a unit vector in metres' space, on the side of the geometric normal
-    Vector lift;    // metres: how far from the point rays to lights begin
+    Vector normal;  // a unit vector in metres' space
+    Vector lift;    // metres: how far from the point rays to lights begin, on the side of the
+                    // geometric normal
 } ShadingPoint;
 
 // The batch's `shading` holds six values for each ray, those of ShadingPoint: from 0 on the normal,
@@ -90,8 +91,9 @@ static inline Vector keep_on_side(Vector v, Vector n, lane_float least) {
 
 /// The normal by which light that comes along the unit vector `way` is reflected and refracted: the
 /// shading normal, bent towards the geometric one `n` as far as it takes for the reflected ray to
-/// stay above the surface. As Keller et al. 2017 ("The Iray Light Transport Simulation and
-/// Rendering System", A.3), it is the half vector of the corrected reflected ray.
+/// stay above the surface; that itself where the shading normal points behind it. As Keller et al.
+/// 2017 ("The Iray Light Transport Simulation and Rendering System", A.3), it is the half vector of
+/// the corrected reflected ray.
 static inline Vector reflecting_normal(Vector way, Vector n, Vector shading) {
     const lane_float above = -dot_product(way, n);
     const lane_float least = fmin(0.9f * fmax(above, 0.0f), 0.01f);
@@ -100,7 +102,8 @@ static inline Vector reflecting_normal(Vector way, Vector n, Vector shading) {
     const lane_int below = LANE_MASK(dot_product(mirrored, n) < least);
     const Vector kept = unit(keep_on_side(mirrored, n, least));
     const Vector half_way = unit(difference(kept, way));
-    return select_vector(below, half_way, shading);
+    const Vector used = select_vector(below, half_way, shading);
+    return select_vector(LANE_MASK(dot_product(shading, n) > 0.0f), used, n);
 }
 
 #endif
