@@ -68,6 +68,9 @@ void add_mesh(const v1::MeshFile& mesh, ObjectTree& object) {
     if (mesh.sequence) object.put("sequence", tree(*mesh.sequence));
     if (mesh.morph) object.put("morph", tree_of_morph(*mesh.morph));
     if (!mesh.cuts.empty()) object.put("cut", list_of_parts(mesh.cuts));
+    constexpr std::array kShadings = {"auto", "flat", "smooth"};
+    if (mesh.shading) object.add("shading", kShadings.at(size_t(*mesh.shading)));
+    object.add("crease_angle", mesh.crease_angle);
 }
 
 void add_voxels(const v1::VoxelFile& voxels, ObjectTree& object) {

@@ -34,7 +34,8 @@ uint64_t bytes_in(const std::vector<Values>&... arrays) {
 }
 
 uint64_t mesh_bytes(const Mesh& mesh) {
-    return bytes_in(mesh.positions, mesh.triangles, mesh.vertex_colors, mesh.triangle_group);
+    return bytes_in(mesh.positions, mesh.triangles, mesh.vertex_colors, mesh.normals,
+                    mesh.triangle_normals, mesh.triangle_group);
 }
 
 uint64_t voxel_bytes(const VoxelModel& voxels) {

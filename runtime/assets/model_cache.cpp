@@ -68,7 +68,9 @@ std::string bytes_of(const MeshSummary& summary) {
                                  summary.has_colors,
                                  // A name consists of the file's bytes, in whatever encoding.
                                  nlohmann::json::array(),
-                                 summary.corners};
+                                 summary.corners,
+                                 summary.has_normals,
+                                 summary.longest_edge};
     nlohmann::json whole = json;
     for (const std::string& name : summary.group_names)
         whole[5].push_back(nlohmann::json::binary({name.begin(), name.end()}));
@@ -86,6 +88,8 @@ MeshSummary summary_of_bytes(const std::string& bytes) {
     summary.min_area = area_of(json.at(3).at(1));
     summary.has_colors = json.at(4).get<bool>();
     summary.corners = json.at(6).get<uint64_t>();
+    summary.has_normals = json.at(7).get<bool>();
+    summary.longest_edge = json.at(8).get<double>();
     for (const nlohmann::json& name : json.at(5))
         summary.group_names.emplace_back(name.get_binary().begin(), name.get_binary().end());
     return summary;
@@ -128,6 +132,7 @@ std::string grid_key(const std::string& source, const VoxelizeOptions& options,
                      const glm::dmat4& frame_from_mesh, const GridFrame& frame) {
     CacheKey words;
     words.add(int(options.surface)).add(int(options.set)).add(double(options.band));
+    words.add(int(options.shading.kind)).add(options.shading.crease_angle);
     words.add_columns(frame_from_mesh);
     words.add_all(frame.origin).add_all(frame.voxel_edge).add_all(frame.size);
     return key_of({producers(), "grid", source, words.bytes()});

@@ -13,6 +13,7 @@
 
 #include "runtime/base/source_place.hpp"
 #include "runtime/scene/bounds.hpp"
+#include "runtime/scene/shading.hpp"
 #include "runtime/scene/solid.hpp"
 #include "runtime/scene/surface.hpp"
 #include "runtime/scene/value_row.hpp"
@@ -40,6 +41,7 @@ struct Model {
     int resolution = 0;  ///< voxels along the longest side, 1..65536; 0 when `voxel_size` decides
     Surface surface = Surface::smooth;
     VoxelSet set = VoxelSet::supercover;  ///< for `cubes`
+    Shading shading;                      ///< of an exact mesh
     /// Box in object space outside of which no object shows the model: the world's bounds as seen
     /// from all objects that use it. An infinite solid ends there. Empty (min = max) for a model
     /// not used.

@@ -53,7 +53,8 @@ std::vector<KeyTable> make_tables() {
     add_kinds("density", {"kind"}, density_kinds(), {}, tables);
     tables.push_back({"material", keys_of(material_rows()) + Keys{"checker"}});
     tables.push_back({"checker", keys_of(checker_rows())});
-    tables.push_back({"model:mesh", Keys{"mesh", "sequence", "morph", "cut"} + lattice});
+    tables.push_back({"model:mesh", Keys{"mesh", "sequence", "morph", "cut"} + lattice +
+                                        Keys{"shading", "crease_angle"}});
     tables.push_back({"model:voxels", {"voxels", "sequence", "surface"}});
     tables.push_back({"sequence", {"first", "last", "start", "loop"}});
     tables.push_back({"morph", {"mesh", "center", "radius", "amount"}});

@@ -74,6 +74,21 @@ Morph read_morph(const SceneValue& value, const AssetSearch& search) {
     return morph;
 }
 
+constexpr Range kCreaseAngle{0, 180};  // degrees
+
+/// The shading of a mesh, which counts where the mesh is exact.
+Shading read_shading(const SceneFields& fields) {
+    Shading shading;
+    if (const auto kind = fields.find("shading"))
+        shading.kind = static_cast<ShadingKind>(kind->choice(Names{"auto", "flat", "smooth"}));
+    if (const auto angle = fields.find("crease_angle")) {
+        shading.crease_angle = angle->number(kCreaseAngle);
+        if (shading.kind != ShadingKind::smooth)
+            angle->fail("only a mesh with \"shading\": \"smooth\" has creases; leave it out");
+    }
+    return shading;
+}
+
 void read_materials_of(const SceneFields& fields, const NameTable& materials, Object& object) {
     if (const auto material = fields.find("material")) object.material = materials.find(*material);
     if (const auto groups = fields.find("materials")) {
@@ -125,6 +140,7 @@ Model read_model(const std::string& name, const SceneValue& value, const ModelCo
         if (const auto morph = fields.find("morph"))
             model.morph = read_morph(*morph, context.search);
         read_lattice(fields, context.world_voxel_size, model);
+        model.shading = read_shading(fields);
         if (const auto cut = fields.find("cut")) {
             model.cuts = read_cuts(*cut);
             if (model.surface == Surface::exact)

@@ -91,12 +91,21 @@ struct Morph {
     std::optional<double> radius{};  ///< metres
 };
 
+/// The normals by which light falls on an exact mesh.
+enum class Shading {
+    automatic,  ///< those of the file's vertices, where it has some; else flat
+    flat,       ///< each triangle's own
+    smooth      ///< as automatic; of a mesh without normals those of the faces around a vertex
+};
+
 /// Triangles of an OBJ, PLY or STL file. Files are looked for in SceneOptions::assets.
 struct MeshFile {
-    std::filesystem::path file{};        ///< .obj, .ply or .stl
-    std::optional<Sequence> sequence{};  ///< makes it a file for each frame
-    std::optional<Morph> morph{};        ///< moves its vertices
-    std::vector<Part> cuts{};            ///< taken away from the mesh; not of an exact one
+    std::filesystem::path file{};          ///< .obj, .ply or .stl
+    std::optional<Sequence> sequence{};    ///< makes it a file for each frame
+    std::optional<Morph> morph{};          ///< moves its vertices
+    std::vector<Part> cuts{};              ///< taken away from the mesh; not of an exact one
+    std::optional<Shading> shading{};      ///< of an exact mesh; without it automatic
+    std::optional<double> crease_angle{};  ///< degrees, of Shading::smooth; without it 30
 };
 
 /// Voxels that are there already: a .vxm of `voxelize`, or an OpenVDB file.
