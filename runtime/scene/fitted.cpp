@@ -107,8 +107,7 @@ std::string world_text(const Scene& scene) {
         members.push_back(fmt::format("\"voxel_size\": {}", size_text(world.voxel_size)));
     if (scene.fitted.bounds)
         members.push_back(fmt::format("\"bounds\": {{\"min\": {}, \"max\": {}}}",
-                                      list_text(world.bounds.min),
-                                      list_text(world.bounds.max)));
+                                      list_text(world.bounds.min), list_text(world.bounds.max)));
     if (scene.fitted.ambient)
         members.push_back(fmt::format("\"ambient\": [{}, {}, {}]", world.ambient.r, world.ambient.g,
                                       world.ambient.b));
