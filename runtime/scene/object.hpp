@@ -43,7 +43,7 @@ struct FileMap {
 struct Model {
     std::string name;
     std::filesystem::path mesh;    ///< a regular file inside the asset folders; may be empty
-    std::filesystem::path voxels;  ///< likewise, of voxels that are there already; may be empty
+    std::filesystem::path voxels;  ///< such a file of voxels that are there already; may be empty
     double fit = 0;              ///< metres that the file's longest side becomes; 0: as in the file
     FileMap object_from_file;    ///< of both files, and of the mesh that a morph ends as
     std::optional<Morph> morph;  ///< of a mesh
