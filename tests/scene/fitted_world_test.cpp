@@ -1,61 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
-// What scenes leave out is found from their objects.
+// The lattice of a scene that leaves it out is found from its objects.
 #include "runtime/scene/fitted.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
-#include <array>
 #include <cmath>
-#include <glm/geometric.hpp>
-#include <glm/matrix.hpp>
+#include <glm/common.hpp>
 #include <numbers>
 #include <random>
+#include <string>
+#include <vector>
 
-#include "runtime/base/error.hpp"
-#include "runtime/scene/scene_animation.hpp"
-#include "runtime/scene_file/read_scene.hpp"
-#include "tests/support/file_fixture.hpp"
+#include "tests/scene/fitted_scenes.hpp"
 
 namespace voxelume {
 namespace {
 
 using testing::HasSubstr;
-using testing::StartsWith;
-
-/// A scene of these members alone, on line 2.
-std::string scene_of(const std::string& members) {
-    return "{\"voxelume\": 1,\n" + members + "}";
-}
-
-Scene parse(const std::string& members) {
-    return parse_scene(scene_of(members), "s.json", {});
-}
-
-std::string message(const std::string& members) {
-    return error_of([&] { parse(members); }).what();
-}
-
-constexpr const char* kBall = R"("models": {"ball": {"shape": "sphere", "radius": 0.5}},
-"objects": [{"name": "ball", "model": "ball", "position": [1, -2, 3]}])";
-
-/// Where a point is seen: -1..1 across and down the image.
-glm::dvec2 place_in_image(const Observer& observer, const glm::dvec3& p) {
-    const glm::dvec3 e = glm::transpose(observer.world_from_observer) * (p - observer.position);
-    EXPECT_GT(e.z, 0);
-    return {-e.x / e.z / std::tan(observer.display.half_angles.x),
-            -e.y / e.z / std::tan(observer.display.half_angles.y)};
-}
-
-/// The largest coordinate, in the image, of all corners of a box.
-double farthest_in_image(const Observer& observer, const Bounds& box) {
-    double farthest = 0;
-    for (int i = 0; i < 8; ++i) {
-        const glm::dvec2 place = place_in_image(observer, corner(box, i));
-        farthest = std::max({farthest, std::abs(place.x), std::abs(place.y)});
-    }
-    return farthest;
-}
 
 /// Expects that the world's bounds leave 4 to 5 voxels around a box whose sides are known to be
 /// within `tolerance` of these.
@@ -73,7 +35,7 @@ void expect_fitted(const World& world, const Bounds& box, double tolerance) {
 }  // namespace
 
 TEST(FittedWorld, SurroundsABallWithAMarginInWholeVoxels) {
-    const World world = parse(kBall).world;
+    const World world = parse_members(kBall).world;
     EXPECT_EQ(world.voxel_size, glm::dvec3(0.003907));  // 1 / 256 = 0.00390625, rounded up
     // 0.5 / 0.003907 = 127.98 and so on: 4 voxels more on every side.
     EXPECT_EQ(world.bounds.min, glm::dvec3(0.480561, -2.516108, 2.480945));
@@ -82,13 +44,15 @@ TEST(FittedWorld, SurroundsABallWithAMarginInWholeVoxels) {
 }
 
 TEST(FittedWorld, HasTheAskedResolutionOrVoxelSize) {
-    const World coarse = parse(fmt::format(R"("world": {{"resolution": 20}}, {})", kBall)).world;
+    const World coarse =
+        parse_members(fmt::format(R"("world": {{"resolution": 20}}, {})", kBall)).world;
     EXPECT_EQ(coarse.voxel_size, glm::dvec3(0.05));
     EXPECT_EQ(coarse.bounds.min, glm::dvec3(0.3, -2.7, 2.3));
     EXPECT_EQ(coarse.bounds.max, glm::dvec3(1.7, -1.3, 3.7));
     EXPECT_EQ(coarse.voxels, glm::ivec3(28));
     const World sized =
-        parse(fmt::format(R"("world": {{"voxel_size": [0.1, 0.25, 0.5]}}, {})", kBall)).world;
+        parse_members(fmt::format(R"("world": {{"voxel_size": [0.1, 0.25, 0.5]}}, {})", kBall))
+            .world;
     EXPECT_EQ(sized.bounds.min, glm::dvec3(0.1, -3.5, 0.5));
     EXPECT_EQ(sized.bounds.max, glm::dvec3(1.9, -0.5, 5.5));
     EXPECT_EQ(sized.voxels, glm::ivec3(18, 12, 10));
@@ -97,11 +61,12 @@ TEST(FittedWorld, HasTheAskedResolutionOrVoxelSize) {
 TEST(FittedWorld, DividesGivenBoundsByTheResolution) {
     const std::string bounds = R"("bounds": {"min": [-1, -2, 0], "max": [1, 1, 2]})";
     const World world =
-        parse(fmt::format(R"("world": {{"resolution": 30, {}}}, {})", bounds, kBall)).world;
+        parse_members(fmt::format(R"("world": {{"resolution": 30, {}}}, {})", bounds, kBall)).world;
     EXPECT_EQ(world.voxel_size, glm::dvec3(0.1));
     EXPECT_EQ(world.bounds, (Bounds{{-1, -2, 0}, {1, 1, 2}}));
     EXPECT_EQ(world.voxels, glm::ivec3(20, 30, 20));
-    const World by_default = parse(fmt::format(R"("world": {{{}}}, {})", bounds, kBall)).world;
+    const World by_default =
+        parse_members(fmt::format(R"("world": {{{}}}, {})", bounds, kBall)).world;
     EXPECT_EQ(by_default.voxel_size, glm::dvec3(3.0 / 256));
 }
 
@@ -172,9 +137,10 @@ TEST(FittedWorld, FitsSolidsUnderAffineMapsExactly) {
             box = {glm::min(box.min, q), glm::max(box.max, q)};
         }
         const World world =
-            parse(fmt::format(
-                      R"("models": {{"m": {{{}}}}}, "objects": [{{"model": "m", "matrix": [{}]}}])",
-                      solid.text, rows))
+            parse_members(
+                fmt::format(
+                    R"("models": {{"m": {{{}}}}}, "objects": [{{"model": "m", "matrix": [{}]}}])",
+                    solid.text, rows))
                 .world;
         expect_fitted(world, box, 1e-4);
     }
@@ -194,7 +160,7 @@ TEST(FittedWorld, HoldsTheObjectsOfAllFrames) {
  {{"target": "models.egg.radii", "keys": [{{"frame": 6, "value": [1, 2, 1]}},
                                         {{"frame": 7, "value": [1, 3, 1]}}]}}]}})";
     const auto bounds_of = [&](int frames) {
-        return parse(fmt::format(kMoving, frames)).world.bounds;
+        return parse_members(fmt::format(kMoving, frames)).world.bounds;
     };
     const glm::dvec3 margin(0.25);
     EXPECT_EQ(bounds_of(1), (Bounds{-glm::dvec3(0.5) - margin, glm::dvec3(0.5) + margin}));
@@ -217,43 +183,46 @@ TEST(FittedWorld, LeavesOutWhatIsInfiniteOrInvisible) {
         "far": {"shape": "sphere", "radius": 100},
         "none": {"shape": "intersection", "parts": [{"shape": "sphere", "radius": 1},
             {"shape": "sphere", "radius": 1, "position": [5, 0, 0]}]}, )");
-    EXPECT_EQ(parse(alone).world.bounds, parse(more).world.bounds);
+    EXPECT_EQ(parse_members(alone).world.bounds, parse_members(more).world.bounds);
 }
 
 TEST(FittedWorld, SaysWhatToDoWhereNothingCanBeFitted) {
     const std::string advice =
         "so nothing tells how large the world is; give it \"bounds\": {\"min\": [x, y, z], "
         "\"max\": [x, y, z]}";
-    EXPECT_EQ(message("\"objects\": []"), "s.json:1:1: world: there are no objects, " + advice);
-    EXPECT_EQ(message("\"world\": {\"voxel_size\": 1}"),
+    EXPECT_EQ(message_about("\"objects\": []"),
+              "s.json:1:1: world: there are no objects, " + advice);
+    EXPECT_EQ(message_about("\"world\": {\"voxel_size\": 1}"),
               "s.json:2:10: world: there are no objects, " + advice);
     const std::string floor = R"("models": {"floor": {"shape": "slab", "thickness": 0.1}},
 "objects": [{"model": "floor")";
-    EXPECT_EQ(message(floor + "}]"),
+    EXPECT_EQ(message_about(floor + "}]"),
               "s.json:1:1: world: all visible objects are infinite, such as a slab, " + advice);
-    EXPECT_EQ(message(floor + R"(, "visible": false}])"),
+    EXPECT_EQ(message_about(floor + R"(, "visible": false}])"),
               "s.json:1:1: world: no object is visible in any frame, " + advice);
     EXPECT_THAT(
-        message(R"("models": {"b": {"shape": "sphere", "radius": 9e8}},
+        message_about(R"("models": {"b": {"shape": "sphere", "radius": 9e8}},
 "objects": [{"model": "b", "position": [0, 5e8, 0]}])"),
         HasSubstr("its objects reach 1.43e+09 m from the origin along y, farther than 1e+09 m"));
-    const Error many =
-        error_of([&] { parse(fmt::format(R"("world": {{"voxel_size": 1e-6}}, {})", kBall)); });
+    const Error many = error_of(
+        [&] { parse_members(fmt::format(R"("world": {{"voxel_size": 1e-6}}, {})", kBall)); });
     EXPECT_EQ(many.kind(), ErrorKind::limit);
     EXPECT_THAT(many.what(), HasSubstr("voxels along x are more than 65536; use voxels of at"));
-    EXPECT_THAT(message(fmt::format(R"("world": {{"voxel_size": 1, "resolution": 9}}, {})", kBall)),
-                HasSubstr("\"voxel_size\" and \"resolution\" say the same thing"));
+    EXPECT_THAT(
+        message_about(fmt::format(R"("world": {{"voxel_size": 1, "resolution": 9}}, {})", kBall)),
+        HasSubstr("\"voxel_size\" and \"resolution\" say the same thing"));
 }
 
 TEST(FittedWorld, NeedsNoBoundsOfObjectsWhereItsOwnAreGiven) {
-    const Scene scene = parse(R"("world": {"bounds": {"min": [-1, -2, -3], "max": [1, 2, 3]}})");
+    const Scene scene =
+        parse_members(R"("world": {"bounds": {"min": [-1, -2, -3], "max": [1, 2, 3]}})");
     EXPECT_EQ(scene.world.bounds, (Bounds{{-1, -2, -3}, {1, 2, 3}}));
     EXPECT_EQ(scene.fitted.shown, lattice_bounds(scene.world))
         << "an observer without objects to see sees the world";
 }
 
 TEST(FittedWorld, GivesModelsItsVoxelSize) {
-    const Scene scene = parse(R"("world": {"resolution": 10}, "models": {
+    const Scene scene = parse_members(R"("world": {"resolution": 10}, "models": {
  "a": {"shape": "sphere", "radius": 1}, "b": {"shape": "sphere", "radius": 1, "voxel_size": 0.3},
  "c": {"shape": "sphere", "radius": 1, "resolution": 7}}, "objects": [{"model": "a"}])");
     EXPECT_EQ(scene.models[0].voxel_size, glm::dvec3(0.2));
@@ -261,116 +230,6 @@ TEST(FittedWorld, GivesModelsItsVoxelSize) {
     EXPECT_EQ(scene.models[2].voxel_size, glm::dvec3(0));
     EXPECT_EQ(scene.models[2].resolution, 7);
     EXPECT_GT(scene.models[0].extent.max.x, 1) << "extents follow the fitted bounds";
-}
-
-TEST(FittedObserver, ShowsTheWholeOfTheObjectsInEverySize) {
-    for (const char* radii :
-         {"[1, 2, 3]", "[0.01, 4, 0.02]", "[5, 0.1, 5]", "[1e-3, 1e-3, 2e-3]", "[1e6, 2e6, 1e6]"}) {
-        Scene scene = parse(fmt::format(
-            R"("models": {{"egg": {{"shape": "ellipsoid", "radii": {}}}}},
-               "objects": [{{"model": "egg", "position": [7, -5, 3]}}])",
-            radii));
-        for (const glm::ivec2 size : {glm::ivec2(640, 480), glm::ivec2(100, 900),
-                                      glm::ivec2(1920, 200), glm::ivec2(1, 1)}) {
-            SCOPED_TRACE(fmt::format("{} in {}x{}", radii, size.x, size.y));
-            resize(scene, size);
-            const double farthest = farthest_in_image(scene.observer, scene.fitted.shown);
-            EXPECT_LT(farthest, 0.93);
-            EXPECT_GT(farthest, 0.91);
-        }
-    }
-}
-
-TEST(FittedObserver, LooksFromTheRightOfTheFrontAndFromAbove) {
-    const Scene scene = parse(kBall);
-    const glm::dvec3 from = scene.observer.position - glm::dvec3(1, -2, 3);
-    EXPECT_GT(from.x, 0);
-    EXPECT_GT(from.y, 0);
-    EXPECT_GT(from.z, from.x);
-    EXPECT_NEAR(scene.observer.world_from_observer[0].y, 0, 1e-12) << "the horizon is level";
-    EXPECT_EQ(scene.observer.display.voxels, glm::ivec3(640, 480, 256));
-    const glm::dvec2 middle = place_in_image(scene.observer, {1, -2, 3});
-    EXPECT_LT(glm::length(middle), 0.1);
-}
-
-TEST(FittedObserver, ShowsTheObjectsOfAllFramesThatLieInTheWorld) {
-    const Scene scene = parse(R"("models": {"ball": {"shape": "sphere", "radius": 0.5}},
-"objects": [{"name": "a", "model": "ball"}], "animation": {"frames": 3, "tracks": [
-  {"target": "objects.a.position", "keys": [{"frame": 1, "value": [0, 0, 0]},
-                                            {"frame": 3, "value": [4, 0, 0]}]}]},
-"world": {"voxel_size": 0.1, "bounds": {"min": [-1, -1, -1], "max": [3, 1, 1]}})");
-    EXPECT_EQ(scene.fitted.shown, (Bounds{{-0.5, -0.5, -0.5}, {3, 0.5, 0.5}}));
-    EXPECT_EQ(scene_at(scene, 3).observer, scene.observer);
-}
-
-TEST(DefaultLight, ComesFromTheObserversUpperLeft) {
-    const Scene scene = parse(kBall);
-    ASSERT_EQ(scene.lights.size(), 1u);
-    EXPECT_TRUE(scene.has_default_light);
-    EXPECT_EQ(scene.lights[0].kind, LightKind::directional);
-    EXPECT_EQ(scene.lights[0].intensity, glm::vec3(1));
-    const glm::dvec3 to_light =
-        glm::transpose(scene.observer.world_from_observer) * -scene.lights[0].direction;
-    EXPECT_GT(to_light.x, 0.3) << "the image's left is +X_E";
-    EXPECT_GT(to_light.y, 0.3);
-    EXPECT_LT(to_light.z, -0.3);
-    EXPECT_EQ(scene.world.ambient, glm::vec3(0.15f));
-}
-
-TEST(DefaultLight, FollowsAnObserverThatMoves) {
-    const Scene scene = parse(fmt::format(R"({}, "observer": {{"position": [1, -2, 9],
- "look_at": [1, -2, 3], "display": {{"shape": "pyramid"}}}}, "animation": {{"frames": 2, "tracks": [
- {{"target": "observer.position", "keys": [{{"frame": 1, "value": [1, -2, 9]}},
-                                         {{"frame": 2, "value": [1, -2, -9]}}]}}]}})",
-                                          kBall));
-    const glm::dvec3 first = scene.lights[0].direction;
-    const glm::dvec3 second = scene_at(scene, 2).lights[0].direction;
-    EXPECT_NEAR(first.x, -second.x, 1e-9);
-    EXPECT_NEAR(first.y, second.y, 1e-9);
-    EXPECT_NEAR(first.z, -second.z, 1e-9);
-}
-
-TEST(DefaultLight, IsThereOnlyWhereASceneSaysNothingOfLight) {
-    const auto lights_of = [&](const std::string& members) {
-        const Scene scene = parse(fmt::format("{}, {}", kBall, members));
-        EXPECT_EQ(scene.has_default_light, scene.lights.size() == 1);
-        if (!scene.has_default_light) EXPECT_EQ(scene.world.ambient, glm::vec3(0));
-        return scene.lights.size();
-    };
-    EXPECT_EQ(lights_of(R"("render": {})"), 1u);
-    EXPECT_EQ(lights_of(R"("lights": [])"), 0u);
-    EXPECT_EQ(lights_of(R"("materials": {"lamp": {"emission": [0, 1, 0]}})"), 0u);
-    EXPECT_EQ(lights_of(R"("materials": {"lamp": {}}, "animation": {"frames": 2, "tracks": [
-        {"target": "materials.lamp.emission", "keys": [{"frame": 2, "value": [1, 1, 1]}]}]})"),
-              0u);
-    const Scene lit = parse(fmt::format(R"({}, "world": {{"ambient": [0, 0, 0.5]}})", kBall));
-    EXPECT_TRUE(lit.has_default_light);
-    EXPECT_EQ(lit.world.ambient, glm::vec3(0, 0, 0.5f)) << "given ambient light stays";
-    EXPECT_THAT(message(fmt::format(R"({}, "animation": {{"tracks": [
-        {{"target": "lights[0].color", "keys": [{{"frame": 2, "value": [1, 1, 1]}}]}}]}})",
-                                    kBall)),
-                HasSubstr("the scene has no \"lights\" to change"));
-}
-
-TEST(FittedScene, CanBeCopied) {
-    const Scene fitted = parse(kBall);
-    const std::string text = fitted_text(fitted);
-    std::string members = text.substr(0, text.size() - 1);
-    for (char& c : members) c = c == '\n' ? ',' : c;
-    const Scene copied = parse(fmt::format("{}, {}", kBall, members));
-    EXPECT_EQ(copied.fitted.voxel_size || copied.fitted.bounds || copied.fitted.observer ||
-                  copied.has_default_light,
-              false);
-    EXPECT_EQ(copied.world.voxel_size, fitted.world.voxel_size);
-    EXPECT_EQ(copied.world.bounds, fitted.world.bounds);
-    EXPECT_EQ(copied.world.voxels, fitted.world.voxels);
-    EXPECT_EQ(copied.world.ambient, fitted.world.ambient);
-    EXPECT_EQ(copied.observer.position, fitted.observer.position);
-    EXPECT_EQ(copied.observer.world_from_observer, fitted.observer.world_from_observer);
-    EXPECT_EQ(copied.observer.display, fitted.observer.display);
-    ASSERT_EQ(copied.lights.size(), 1u);
-    EXPECT_EQ(copied.lights[0].direction, fitted.lights[0].direction);
-    EXPECT_EQ(fitted_text(copied), "");
 }
 
 }  // namespace voxelume
