@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <charconv>
 #include <cstdlib>
 #include <cstring>
@@ -13,6 +12,7 @@
 #include "runtime/base/cache_key.hpp"
 #include "runtime/base/error.hpp"
 #include "runtime/base/producer_hash.hpp"
+#include "runtime/base/text.hpp"
 #include "runtime/grid/grid_bytes.hpp"
 #include "runtime/grid/pyramid_bytes.hpp"
 #include "runtime/opencl/kernel_source.hpp"
@@ -116,10 +116,13 @@ uint64_t megabytes_of_user() {
 }  // namespace
 
 std::string mesh_source(const std::string& bytes, const std::filesystem::path& name) {
-    std::string extension = name.extension().string();
-    std::ranges::transform(extension, extension.begin(),
-                           [](unsigned char c) { return char(std::tolower(c)); });
-    return key_of({extension, bytes});
+    return key_of({ending_of(name), bytes});
+}
+
+std::string mapped_source(const std::string& source, const FileMap& map) {
+    CacheKey words;
+    words.add(map.scale).add_all(map.shift);
+    return key_of({"mapped", source, words.bytes()});
 }
 
 std::string morph_source(const std::string& from, const std::string& to, const Morph& morph) {
