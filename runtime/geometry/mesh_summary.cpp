@@ -35,6 +35,9 @@ MeshSummary summary_of(const Mesh& mesh) {
     summary.min_area = min_mesh_area(mesh);
     summary.has_colors = !mesh.vertex_colors.empty();
     summary.group_names = mesh.group_names;
+    summary.topology = mesh_topology(mesh);
+    summary.material_library = mesh.material_library;
+    summary.texture = mesh.texture;
     return summary;
 }
 
