@@ -33,6 +33,9 @@ class AssetStore {
     const Mesh* mesh_of(const Model& model);
     /// A summary of the mesh that mesh_of() returns; null where there is none.
     const MeshSummary* summary_of(const Model& model);
+    /// The winding number around a point, in object space, of the mesh that mesh_of() returns: how
+    /// far it encloses the point. 0 for other models. Reads the mesh unless the cache knows.
+    double winding_of(const Model& model, const glm::dvec3& point);
     /// The names of a model's groups of faces or voxels.
     const std::vector<std::string>& groups_of(const Model& model);
     /// A hash of everything that the model's mesh is made from. Empty for a model without a mesh
