@@ -6,6 +6,7 @@
 
 #include "cli/report.hpp"
 #include "cli/scene_options.hpp"
+#include "cli/warnings.hpp"
 
 namespace voxelume::cli {
 namespace {
@@ -57,6 +58,10 @@ void add_verdict(const Plan& plan, Report& report) {
     report["least MB"] = megabytes(plan.min_bytes);
     report["most MB"] = megabytes(plan.max_bytes);
     report["device MB"] = megabytes(plan.device_bytes);
+    report["warnings"] = Report::array();
+    for (const Warning& warning : plan.warnings)
+        report["warnings"].push_back(
+            {{"kind", name_of(warning.kind)}, {"where", warning.where}, {"text", warning.text}});
 }
 
 void print_verdict(const Plan& plan, bool is_of_frames) {
@@ -72,8 +77,10 @@ void print_verdict(const Plan& plan, bool is_of_frames) {
 }  // namespace
 
 void print_plan(const Scene& scene, const Device& device, const PlanOptions& options,
-                bool as_json) {
+                const PlanPrint& print) {
     const Plan plan = voxelume::plan(scene, device, options);
+    tell_warnings(plan.warnings, print.quiet, print.strict);
+    const bool as_json = print.as_json;
     if (!as_json) fmt::print("{}\n", scene.describe());
     Report report = plan_report(plan, device);
     if (scene.moves()) report["frame"] = plan.frame;
