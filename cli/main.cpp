@@ -125,10 +125,10 @@ int complain(const std::string& sentence, ErrorKind kind) {
 
 }  // namespace
 
-/// Has freed memory stay with the process: buffers of some hundred megabytes come and go with every
-/// frame on a CPU, and the system clears each of their pages anew. Measured at 1024 x 1024 pixels:
-/// 75 -> 12 ms a frame outside of kernels. All threads share one heap: PoCL's workers take aligned
-/// pieces that glibc 2.36 doesn't use again in theirs, 21 kB a frame.
+/// Makes freed memory stay with the process: buffers of some hundred megabytes come and go with
+/// every frame on a CPU, and the system would clear each of their pages again. Measured at 1024 x
+/// 1024 pixels: 75 -> 12 ms a frame outside of kernels. All threads share one heap: PoCL's workers
+/// take aligned pieces that glibc 2.36 doesn't use again in theirs, 21 kB a frame.
 void keep_freed_memory() {
 #ifdef __GLIBC__
     mallopt(M_MMAP_THRESHOLD, 1 << 30);

@@ -16,7 +16,7 @@
 namespace voxelume::cli {
 namespace {
 
-/// Of OpenEXR files.
+/// The channels of OpenEXR files that `--channels` names.
 Channels listed_channels(const RenderCommand& command) {
     Channels channels{false, false, false, false, false};
     for (const std::string& name : CLI::detail::split(command.channels, ',')) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// hits -> surface points: where each ray met what, facing which way, and what shines there without
-// lights.
+// hits -> surface points: the place, surface and normal that each ray met, and the light there
+// without lights: ambient light and emission.
 #include "lib/lanes/vector.h"
 #include "lib/lanes/work_item.h"
 #include "lib/light/medium_set.h"
@@ -16,15 +16,15 @@
 #include "shared/trace.h"
 #include "shared/voxel.h"
 
-/// What a packet of rays has met, and where. Lanes that met nothing have harmless numbers.
+/// The surfaces that a packet of rays has met. Lanes that met nothing have harmless numbers.
 typedef struct {
     lane_int hit, of_instance;  // masks
     lane_int exact, smooth;     // masks: triangles and solids; the smooth body
     lane_uint voxel, primitive, packed, face;
     Vector cell;                     // the minimum corner of the voxel
-    Vector world_origin, world_way;  // of the ray, in the world's voxels
+    Vector world_origin, world_way;  // the ray in the world's voxels
     lane_float world_t;
-    HitRay ray;  // in the voxels that the cell is one of: an instance's or the world's
+    HitRay ray;  // in the voxels of the instance that was met, or the world's
 } ShadedHit;
 
 static inline ShadedHit load_hits(const WorldView* world, const RayBatch* batch, uint first) {
@@ -58,19 +58,20 @@ static inline ShadedHit load_hits(const WorldView* world, const RayBatch* batch,
     return h;
 }
 
-/// Where rays have met their surfaces: the place in the voxel, and the unit normal in metres'
-/// space.
+/// The points where rays met their surfaces: the place in the voxel, and the unit normal in
+/// metric space.
 typedef struct {
     Vector place, normal;
 } SurfacePoint;
 
-/// A gradient in the voxels of the hits, as a unit normal in metres' space.
+/// A gradient in the voxels of the hits, as a unit normal in metric space.
 static inline Vector normal_of(const WorldView* world, const ShadedHit* h, Vector gradient) {
     if (VXL_INSTANCES) gradient = world_gradient(&h->ray, gradient, h->of_instance);
     return unit(scaled(gradient, world->shape.inverse_edge));
 }
 
-/// Cubes: exactly on the face that was crossed, which faces the ray.
+/// Cubes: the point lies exactly on the face that was crossed; the normal is that face's, towards
+/// the ray.
 static inline void meet_cubes(const WorldView* world, const ShadedHit* h, SurfacePoint* p) {
     const Vector d = h->ray.direction;
     const lane_uint axis = (h->face >> VXL_FACE_AXIS_SHIFT) & VXL_FACE_AXIS_MASK;
@@ -103,7 +104,7 @@ static inline void meet_smooth(const WorldView* world, const ShadedHit* h, Surfa
     p->normal = select_vector(h->smooth, normal_of(world, h, g), p->normal);
 }
 
-/// Triangles.
+/// Triangles: the normal is that of the plane.
 static inline void meet_triangles(const WorldView* world, const ShadedHit* h, lane_int triangles,
                                   SurfacePoint* p) {
     global const float* corners = world->surface.triangles;
@@ -128,11 +129,10 @@ static inline void meet_solids(const WorldView* world, const ShadedHit* h, lane_
     p->normal = select_vector(solids, normal_of(world, h, g), p->normal);
 }
 
-/// Mask: surfaces whose normals point along the rays. Those without an inside, and insides that a
-/// ray began in, face the ray.
+/// Mask: surfaces whose normals point along the rays, which see them from behind.
 static inline lane_int faces_away(const WorldView* world, const ShadedHit* h, Vector normal) {
     const Vector metric = scaled(h->world_way, world->shape.edge);
-    // A smooth one's gradient may turn too far at its silhouette, but the walk knows the side.
+    // A smooth surface's gradient may turn too far at its silhouette, but the walk knows the side.
     lane_int behind = LANE_MASK(dot_product(metric, normal) > 0.0f);
     if (VXL_SMOOTH)
         behind = LANES_SELECT(h->smooth, LANE_MASK((h->face & VXL_FACE_WITHIN) != 0u), behind);
@@ -170,8 +170,8 @@ static inline Vector position_of(const ShadedHit* h, const SurfacePoint* p) {
     return select_vector(h->of_instance, on_ray, in_cell);
 }
 
-/// VXL_SIDE_* bits of surfaces that rays meet inside of the objects of `before`. The opacity of
-/// those that are hidden becomes 0.
+/// VXL_SIDE_* bits of surfaces that rays meet inside of the objects of `before`. Sets the opacity
+/// of hidden surfaces to 0.
 static inline lane_uint side_of(const ShadedHit* h, const MediumSet* before, lane_int behind,
                                 lane_uint material, global const float* restrict materials,
                                 global const uint* restrict ranks, lane_float* opacity) {
@@ -220,10 +220,9 @@ static inline void store_own_light(const WorldView* world, const ShadedHit* h,
     }
 }
 
-/// Finds of every hit what is asked for: its point, normal and word, and the ambient light and
-/// emission that start its radiance; rays that hit nothing take the background. The batch's
-/// `hit_attributes` keep each hit's packed attributes, its `sides` how the surface was met, where
-/// the scene has transmitting objects or mirrors.
+/// Writes what is asked for of every hit: its point, normal and packed attributes, and its ambient
+/// light and emission, which begin the ray's radiance. Rays that hit nothing take the background.
+/// In scenes with transmitting objects or mirrors the batch's `sides` say how the surface was met.
 kernel void shade_surface(VXL_WORLD_PARAMETERS, Environment environment,
                           global const float* restrict materials, global const uint* restrict ranks,
                           VXL_BATCH_PARAMETERS, uint count) {

@@ -54,11 +54,11 @@
 //   VXL_HIT_FACE   z | axis << 16: the axis (0, 1, 2) across which the ray entered the cell, or
 //                  came into the world; 3: it began there. Where it left the object of the cell's
 //                  voxel, VXL_FACE_EXIT is set, the axis is that across which it left the cell,
-//                  and VXL_FACE_UP says that this was towards larger coordinates. Of smooth
-//                  surfaces VXL_FACE_WITHIN says that they were met from inside.
+//                  and VXL_FACE_UP says that this was towards larger coordinates.
+//                  VXL_FACE_WITHIN says that a smooth surface was met from inside.
 //   VXL_HIT_PRIMITIVE  the triangle or solid hit, VXL_NO_PRIMITIVE for other surfaces
 //   VXL_HIT_INSTANCE   the instance hit, in whose voxels the cell and the axis are;
-//                      VXL_NO_INSTANCE for the world. Of scenes with instances.
+//                      VXL_NO_INSTANCE for the world. Only scenes with instances have it.
 #define VXL_HIT_T 0
 #define VXL_HIT_VOXEL 1
 #define VXL_HIT_CELL 2
@@ -110,8 +110,8 @@
 // through the largest world, 3 * 65536.
 #define VXL_MAX_LAYERS 0x40000
 
-// Members of a set of objects that a ray is inside of: the first is the smooth one (smooth objects
-// are one body), the others are exact or of cubes, as many as Features::other_media says.
+// A ray's medium set: the objects that it is inside of. The first is the smooth one (smooth objects
+// are one body); the others are exact or of cubes, and Features::other_media is their number.
 #define VXL_NO_MEDIUM 0xFFFFFFFFu
 
 // How a ray meets a surface: bits of RayBatch::sides.

@@ -36,7 +36,7 @@ struct v1::Scene::Implementation {
 
 struct v1::Image::Implementation {
     std::shared_ptr<const voxelume::Image> image;
-    api::Attributes attributes;  ///< beside the image's own
+    api::Attributes attributes;  ///< in addition to the image's own
     bool holds_codes = false;
 };
 

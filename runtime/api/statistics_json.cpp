@@ -32,7 +32,7 @@ const char* text_of(ImageReuse image) {
     return image == ImageReuse::kept ? "kept" : image == ImageReuse::shaded ? "shaded" : "traced";
 }
 
-/// What a frame did anew, and what it took over from the frame before.
+/// What a frame computed, and what it took over from the frame before.
 Json json_of(const FrameStatistics& frame) {
     return {{"frame", frame.frame},
             {"device", frame.device},

@@ -58,7 +58,8 @@ class ModelCache {
     /// of at least 0.
     static ModelCache of_user();
 
-    /// The same with another folder, where one is given, and another number of megabytes likewise.
+    /// The user's cache with another folder, unless `folder` is empty, and another limit, if
+    /// `megabytes` has a value.
     static ModelCache of_user(const std::filesystem::path& folder,
                               std::optional<uint64_t> megabytes);
 

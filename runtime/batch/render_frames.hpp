@@ -48,7 +48,7 @@ struct FrameReport {
 struct FrameResult {
     FrameReport report;
     std::shared_ptr<const Image> image;  ///< null where none is asked for
-    std::shared_ptr<Volume> volume;      ///< null likewise; its attributes are free to be set
+    std::shared_ptr<Volume> volume;  ///< null where none is asked for; its attributes may be set
 };
 
 /// Takes the results, in the order of the frames, on the thread that called `render_frames`.

@@ -8,10 +8,10 @@
 namespace voxelume {
 namespace {
 
-/// Bricks that a small triangle passes through, and those that it is near.
+/// The number of bricks that a small triangle passes through, and the number that it is near.
 constexpr double kBinsPerTriangle = 1.3, kBinsInBand = 2.5;
 
-/// As bin_triangles.
+/// Follows bin_triangles.
 TriangleBins sort_triangles(const Device& device, const GridCounts& counts, double per_triangle) {
     const glm::ivec3 bricks = counts.frame.bricks();
     const size_t bins = size_t(bricks.x + 1) * size_t(bricks.y) * size_t(bricks.z);
@@ -20,14 +20,14 @@ TriangleBins sort_triangles(const Device& device, const GridCounts& counts, doub
     return allocate_bins(device, {bins, counts.bricks, counts.bricks, pairs});
 }
 
-/// As find_inside.
+/// Follows find_inside.
 Buffer<uint16_t> count_inside(const Device& device, const GridCounts& counts) {
     const Windings windings =
         allocate_windings(device, counts.bricks, counts.bricks, brick_places(counts.frame));
     return allocate_inside(device, counts.bricks);
 }
 
-/// As label_voxels.
+/// Follows label_voxels.
 void count_labels(const Device& device, const GridCounts& counts, BrickGrid& grid) {
     const TriangleBins lists = sort_triangles(device, counts, kBinsInBand);
     const Buffer<uint32_t> nearest = allocate_words(device, "nearest triangles", counts.bricks);
@@ -61,7 +61,7 @@ void count_surface(const Device& device, const GridCounts& counts, BrickGrid& gr
     grid.occupancy = allocate_masks(device, "occupancy", counts.bricks);
 }
 
-/// As list_primitives and keep_triangles.
+/// Follows list_primitives and keep_triangles.
 void count_triangles(const Device& device, const GridCounts& counts, BrickGrid& grid) {
     const auto listed = size_t(kTrianglesPerVoxel * double(counts.voxels));
     grid.primitive_first = allocate_list_starts(device, "primitive starts", counts.bricks);

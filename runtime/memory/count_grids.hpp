@@ -20,15 +20,15 @@ struct GridCounts {
     size_t shapes = 0;                   ///< of an analytic solid
 };
 
-/// Triangles that a voxel of an exact mesh lists.
+/// The number of triangles that a voxel of an exact mesh lists.
 inline constexpr double kTrianglesPerVoxel = 2.5;
 
-/// The grid of a mesh or of a solid, which has `shapes`. What is made beside it goes when it
-/// returns; the device's counters tell its height.
+/// The grid of a mesh, or of a solid, which has `shapes`. Whatever else is made is freed before it
+/// returns; the device's counters tell the maximum.
 BrickGrid count_mesh_grid(const Device& device, const GridCounts& counts);
 BrickGrid count_solid_grid(const Device& device, const GridCounts& counts);
 
-/// What is left of a mesh's `whole` grid, of `counts`, after cuts; the cuts' own grids go.
+/// The part of a mesh's `whole` grid, of `counts`, that cuts leave. The cuts' own grids are freed.
 BrickGrid count_cut_grid(const Device& device, const BrickGrid& whole, const GridCounts& counts);
 
 }  // namespace voxelume

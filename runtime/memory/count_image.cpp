@@ -12,10 +12,10 @@
 namespace voxelume {
 namespace {
 
-/// Tables that have a record for each material, object and sample, and counters, at most.
+/// The maximum bytes of counters and samples' tables, and of the records of a material or object.
 constexpr size_t kSmallTables = 8192, kRecordBytes = 160;
 
-/// As Illumination::send_beams. Lamps stand in the world, and send none.
+/// Follows Illumination::send_beams. Emissive objects are in the world, and send none.
 std::vector<Buffer<float>> count_light_beams(const Device& device, const Scene& scene,
                                              const Pyramid& world, DilationLevel of,
                                              uint32_t maximum) {

@@ -15,10 +15,10 @@
 namespace voxelume {
 namespace {
 
-/// Voxels of a surface in a leaf, and in a sector, of those that hold some.
+/// The voxels of a surface in a leaf, and in a sector, that holds any.
 constexpr double kVoxelsPerLeaf = 11, kVoxelsPerSector = 4096;
 
-/// As the painters of objects, which share what is the same for one grid.
+/// Follows the painters of objects, which share what depends on the grid alone.
 std::vector<Buffer<uint64_t>> count_painters(const Device& device,
                                              std::span<const PlacedObject> objects) {
     std::vector<Buffer<uint64_t>> painters;
@@ -29,7 +29,7 @@ std::vector<Buffer<uint64_t>> count_painters(const Device& device,
     return painters;
 }
 
-/// As WorldBricks::store and reserve.
+/// Follows WorldBricks::store and reserve.
 void count_bricks_of(const Device& device, const WorldParts& parts, size_t bricks,
                      BrickGrid& world) {
     world.brick_count = uint32_t(bricks);
@@ -42,7 +42,7 @@ void count_bricks_of(const Device& device, const WorldParts& parts, size_t brick
     world.coordinates = Buffer<uint32_t>(device, "world coordinates", bricks);
 }
 
-/// As Placer's painting.
+/// Follows Placer's painting.
 void count_painting(const Device& device, const WorldParts& parts, size_t bricks) {
     const Buffer<int16_t> nearest = parts.measures_nearest()
                                         ? allocate_distances(device, "nearest surfaces", bricks)
@@ -50,7 +50,7 @@ void count_painting(const Device& device, const WorldParts& parts, size_t bricks
     const Buffer<uint32_t> painted(device, "painted bricks", 2 * bricks);
 }
 
-/// As join_exact_surfaces.
+/// Follows join_exact_surfaces.
 void count_lists(const Device& device, std::span<const PlacedObject> objects, size_t primitives,
                  BrickGrid& world) {
     size_t floats = 0, solid_words = 0;

@@ -15,7 +15,7 @@
 namespace voxelume {
 namespace {
 
-/// What tracks change.
+/// What the scene's tracks change.
 struct Changes {
     std::vector<bool> models;   ///< of each model, whether its grids do
     std::vector<bool> objects;  ///< of each object in the world's voxels, whether it does
@@ -79,7 +79,7 @@ class FollowingWalk {
     }
 
   private:
-    /// What the next frame's world needs beside all that is there.
+    /// Counts what the next frame's world needs in addition to all that is there.
     void build_next(std::span<const PlacedObject> placed, const BrickGrid& world,
                     const WorldCounts& counts, const ListedInstances& listed) {
         std::vector<BrickGrid> made;
@@ -91,7 +91,7 @@ class FollowingWalk {
         const auto bricks = size_t(objects_.changed_bricks(changes_.objects));
         if (bricks == 0) return;
         count_repainting(device_, placed, world.frame, std::min(2 * bricks, counts.bricks));
-        // The marks stay, and all else of the index is made anew.
+        // The marks stay, and all else of the index is made again.
         const Pyramid before = allocate_indexed(device_, world, counts);
         std::vector<ModelPyramid> kept;
         if (!listed.list.empty()) count_joining(device_, {{}, listed.list, {}}, before, {}, kept);

@@ -93,7 +93,7 @@ class Device {
     /// from its buffers, nothing launched on it; memory is without end.
     static Device counting(DeviceInfo info);
 
-    /// The same device with another queue, for another thread. Its buffers, once written, serve
+    /// Returns this device with another queue, for another thread. Its buffers, once written, serve
     /// kernels of both.
     Device with_own_queue() const;
 

@@ -32,7 +32,7 @@ struct Morph {
 struct Model {
     std::string name;
     std::filesystem::path mesh;    ///< a regular file inside the asset folders; may be empty
-    std::filesystem::path voxels;  ///< likewise, of voxels that are there already; may be empty
+    std::filesystem::path voxels;  ///< such a file of voxels that are there already; may be empty
     std::optional<Morph> morph;    ///< of a mesh
     std::vector<Solid> cuts;       ///< of a mesh that isn't exact: what is taken away from it
     std::optional<Solid> solid;    ///< has a value exactly when both files are empty

@@ -57,9 +57,10 @@ class Scene {
     /// the description's name as its file, and a key such as "objects[0].material", but no line.
     static Scene build(const SceneDescription& description, const SceneOptions& options = {});
 
-    /// The same scene with another image size; the angles of a display with square pixels follow.
+    /// Returns the scene with another image size; the angles of a display with square pixels
+    /// follow.
     Scene with_size(Size size) const;
-    /// The same scene with another number of sight rays a pixel, 1..4096.
+    /// Returns the scene with another number of sight rays a pixel, 1..4096.
     Scene with_samples(int samples) const;
 
     /// The file that it was read from; empty for a scene that was built.

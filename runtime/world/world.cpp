@@ -136,7 +136,7 @@ BuiltWorld WorldBuilder::build_anew(const Scene& scene, const Origin& origin, Wo
     origin_.reset();
     world_.pyramid = {};
     keeps_ = false;
-    // An exception leaves these empty, so that the next call begins anew.
+    // An exception leaves these empty, so that the next call keeps nothing.
     Indexer indexer = std::exchange(indexer_, Indexer(device_));
     InstanceModels models = std::exchange(models_, InstanceModels(device_));
     check_placements(scene);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// In which of the objects that have no formula, the smooth body and meshes, rays begin.
+// The objects without a formula in which rays begin: the smooth body and meshes.
 #ifndef VXL_BEGIN_INSIDE_H
 #define VXL_BEGIN_INSIDE_H
 
@@ -8,7 +8,7 @@
 #include "lib/surface/surface_color.h"
 #include "lib/traverse/packet.h"
 
-/// Mask: the surfaces that rays have met are left by them, each as its kind tells.
+/// Mask: rays have met their surfaces from behind, as each kind of surface tells.
 static inline lane_int meets_from_behind(const SurfaceView* s, const Walk* w,
                                          const RayState* ray_state, const SurfaceHit* found,
                                          lane_int smooth, lane_int hit) {
@@ -33,9 +33,9 @@ static inline lane_int meets_from_behind(const SurfaceView* s, const Walk* w,
     return behind;
 }
 
-/// The packed attributes of the objects that the `active` rays of a packet begin in, of those that
-/// `hollow` asks for: of whose surface a ray meets the back first, whatever else is in its way.
-/// Surfaces of `hollow` objects that don't transmit light tell nothing.
+/// The packed attributes of those objects of `hollow` in which the `active` rays of a packet begin.
+/// A ray begins in an object if the first surface of that object on its way is met from behind,
+/// whatever else it meets. Surfaces of `hollow` objects that don't transmit light tell nothing.
 static inline MediumSet find_beginnings(const WorldView* world, const Surroundings* around, Walk* w,
                                         lane_int active, RayState* ray_state,
                                         global const uint* restrict hollow, uint maximum) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where a ray meets the surface inside a smooth voxel.
+// The point where a ray meets the surface inside a smooth voxel.
 #ifndef VXL_SMOOTH_H
 #define VXL_SMOOTH_H
 
@@ -10,8 +10,8 @@
 // the error, and three from a bracket of half a voxel reach the rounding of t.
 #define VXL_SECANT_STEPS 3
 
-// Bound on the rounding of field_value, in distance units: |F| < 2^15, some sixteen roundings of
-// half a unit in the last place each, 2^-10 (1.2e-7 voxel).
+// A bound on the rounding of field_value, in distance units: |F| < 2^15 and some sixteen roundings
+// of half a unit in the last place each, 2^-10 (1.2e-7 voxel).
 #define VXL_FIELD_ROUNDING 0.015625f
 
 /// A ray inside one voxel: local position s(u) = s0 + d u, u counted from where the ray entered.
@@ -28,7 +28,8 @@ static inline LocalRay local_ray(const Walk* w) {
     return r;
 }
 
-/// The field along the ray, seen from where the ray comes: -1 for `side` looks from the inside.
+/// The field along the ray, with the sign that it has on the ray's side: `side` is -1 for rays that
+/// come from the inside.
 static inline lane_float field_along(const Field* f, const LocalRay* r, lane_float side,
                                      lane_float u) {
     return side * field_value(f, clamp(fma(r->dx, u, r->sx), 0.0f, 1.0f),
@@ -89,9 +90,9 @@ static inline lane_int hit_smooth(const Field* f, const Walk* w, lane_float side
     const lane_int crossed = (before | after | entered) & tested;
     const lane_int bracketed = crossed & ~entered;
     if (lanes_any(bracketed)) {
-        // Regula falsi on a bracket with F(a) >= 0 > F(b); an end kept twice has its value halved
-        // (Illinois), so both ends close in. Halved at once it would be as far off on the other
-        // side.
+        // Regula falsi on a bracket with F(a) >= 0 > F(b). The value at an end kept twice is halved
+        // (Illinois), so that both ends close in. Halving it at once would put the estimate as far
+        // off on the other side.
         lane_int kept_a = (lane_int)0, kept_b = (lane_int)0;
         for (int step = 0; step < VXL_SECANT_STEPS; ++step) {
             const lane_float gap = LANES_SELECT(bracketed, fa - fb, (lane_float)1.0f);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a packet's rays meet inside of the voxels that they come to.
+// The tests of a packet's rays against the surfaces inside of voxels.
 #ifndef VXL_SURFACES_H
 #define VXL_SURFACES_H
 
@@ -64,9 +64,9 @@ static inline lane_float float_before(lane_float t) {
     return LANES_SELECT(LANE_MASK(t == 0.0f), (lane_float)-FLT_MIN, next);
 }
 
-/// Tests solid `number` of each lane in `tested`: closer hits in the world than *t replace it.
-/// Those at t_first itself count for the lanes of `at_least`.
-/// `entering` lanes look from one unit of t before their origin first.
+/// Tests solid `number` of each lane in `tested`; hits in the world that are closer than *t replace
+/// it. Hits at t_first itself count only for the lanes of `at_least`. Lanes that are `entering`
+/// begin one unit of t before their origin.
 static inline lane_int hit_solids_in_world(const PyramidView* p, const SurfaceView* s,
                                            const Walk* w, lane_uint number,
                                            const RayState* ray_state, lane_int tested,
@@ -143,7 +143,7 @@ static inline lane_int hit_exact(const PyramidView* p, const SurfaceView* s, con
                                        triangle, &found->t);
             }
         }
-        if (VXL_SOLIDS) {  // a solid is met by the whole ray at once: once is enough
+        if (VXL_SOLIDS) {  // one test of a solid covers the whole ray
             const lane_int solid = listing & is_solid & LANE_MASK(primitive != found->solid);
             found->solid = LANES_SELECT(solid, primitive, found->solid);
             if (lanes_any(solid))

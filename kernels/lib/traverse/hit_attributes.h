@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whose surface a ray met: the packed attributes behind a hit.
+// The packed attributes of the surface that a ray met.
 #ifndef VXL_HIT_ATTRIBUTES_H
 #define VXL_HIT_ATTRIBUTES_H
 

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which sorts of surface voxels hold.
+// The kinds of surface that voxels hold.
 #ifndef VXL_VOXEL_KINDS_H
 #define VXL_VOXEL_KINDS_H
 
 #include "lib/lanes/lanes.h"
 #include "shared/voxel.h"
 
-/// Masks; an exact voxel may hold the smooth body, too.
+/// A mask for each kind; an exact voxel may hold the smooth body, too.
 typedef struct {
     lane_int cubes, smooth, exact;
 } VoxelKinds;
 
-/// The kinds of the `tested` lanes' voxels. Read only where a world holds several.
+/// The kinds of the `tested` lanes' voxels; they are read only if the world has several.
 static inline VoxelKinds kinds_of(global const uint* restrict attributes, lane_uint voxel,
                                   lane_int tested) {
     const lane_int none = (lane_int)0;

@@ -41,7 +41,7 @@ typedef struct {
     global const uint* restrict group_materials;
 } InstanceView;
 
-/// All of them; buffers that the world doesn't need are null.
+/// The whole world; buffers that it doesn't need are null.
 typedef struct {
     PyramidShape shape;
     PyramidView pyramid;

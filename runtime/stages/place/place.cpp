@@ -84,8 +84,7 @@ class Placer::State {
 
   private:
     /// Makes the world store what the objects now need, and nothing else. A part that no object has
-    /// had before has one value in every brick, so no brick is painted for it. same in every brick,
-    /// so none is painted for that.
+    /// had before has one value in every brick, so no brick is painted for it.
     void follow(const WorldParts& parts) {
         const bool is_stored_anew = bricks_ && !parts.is_stored_like(parts_);
         parts_ = parts;
@@ -154,7 +153,7 @@ class Placer::State {
     }
 
     /// Stores the bricks that the objects need. Returns the bricks to paint: those that a changed
-    /// painter has a part in, or had one in before. changed has a part, or had one.
+    /// painter has a part in, or had one in before.
     std::vector<uint32_t> store_bricks(const std::vector<Painter*>& changed) {
         if (!bricks_) {
             bricks_.emplace(device_, parts_, world_);

@@ -58,8 +58,8 @@ struct PlacedObject {
 /// `objects`.
 ///
 /// Overlaps: a voxel shows the object with the larger priority; of two with equal priorities it
-/// shows the one earlier in `objects`. Of smooth surfaces the one nearest to the voxel's centre is
-/// shown, and ties follow the rule above. A smooth object that wins takes the voxels its surface
+/// shows the one earlier in `objects`. Among smooth surfaces it shows the one nearest to its
+/// centre, and ties follow the rule above. A smooth object that wins takes the voxels its surface
 /// passes through away from cubes. An exact and a smooth surface share a voxel: the voxel is exact
 /// and has the smooth surface's packed attributes, since primitives have their own. Between an
 /// exact surface and a cube the cube wins. The result does not depend on the order of work. Solids

@@ -10,7 +10,7 @@ namespace {
 constexpr const char* kFewerRays =
     "render a smaller image, or with fewer samples a pixel or less depth";
 
-/// Makes arrays of so many places on a device.
+/// Makes arrays of `slots` places on a device.
 class ArrayMaker {
   public:
     ArrayMaker(const Device& device, uint32_t slots) : device_(device), slots_(slots) {}
