@@ -5,6 +5,7 @@
 #include "lib/lanes/vector.h"
 #include "lib/lanes/work_item.h"
 #include "lib/surface/surface_color.h"
+#include "lib/traverse/hit_attributes.h"
 #include "lib/traverse/offset_origin.h"
 #include "lib/traverse/ray_batch.h"
 #include "lib/traverse/world.h"
@@ -169,8 +170,10 @@ static inline void queue_rays(const ShadowQueue* queue, const LitRays* r, lane_i
     LANES_STORE(r->contribution[0], queued, 7 * VXL_LANES);
     LANES_STORE(r->contribution[1], queued, 8 * VXL_LANES);
     LANES_STORE(r->contribution[2], queued, 9 * VXL_LANES);
-    if (VXL_EXACT)
-        LANES_STORE(LANES_LOAD(batch->hits, VXL_HIT_PRIMITIVE * stride + first), source, 0);
+    if (VXL_SOURCES)
+        LANES_STORE(
+            source_of_hits(batch->hits, stride, first, LANES_LOAD(batch->hit_attributes, first)),
+            source, 0);
     for (int lane = 0; lane < VXL_LANES; ++lane) {
         if (!lit_lane[lane]) continue;
         for (uint c = 0; c < VXL_RAY_COMPONENTS; ++c)
@@ -179,7 +182,7 @@ static inline void queue_rays(const ShadowQueue* queue, const LitRays* r, lane_i
             queue->contributions[c * stride + place] =
                 queued[(VXL_RAY_COMPONENTS + c) * VXL_LANES + (uint)lane];
         queue->targets[place] = first + (uint)lane;
-        if (VXL_EXACT) queue->sources[place] = source[lane];
+        if (VXL_SOURCES) queue->sources[place] = source[lane];
         ++place;
     }
 }

@@ -19,7 +19,7 @@
 /// The surfaces that a packet of rays has met. Lanes that met nothing have harmless numbers.
 typedef struct {
     lane_int hit, of_instance;  // masks
-    lane_int exact, smooth;     // masks: triangles and solids; the smooth body
+    lane_int exact, smooth;     // masks: triangles and solids; fields
     lane_uint voxel, primitive, packed, face;
     Vector cell;                     // the minimum corner of the voxel
     Vector world_origin, world_way;  // the ray in the world's voxels
@@ -175,8 +175,7 @@ static inline Vector position_of(const ShadedHit* h, const SurfacePoint* p) {
 static inline lane_uint side_of(const ShadedHit* h, const MediumSet* before, lane_int behind,
                                 lane_uint material, global const float* restrict materials,
                                 global const uint* restrict ranks, lane_float* opacity) {
-    const lane_int body = is_smooth(h->packed, h->primitive) & ~h->of_instance;
-    lane_int leaving = medium_set_holds(before, h->packed, body) | behind;
+    lane_int leaving = medium_set_holds(before, h->packed) | behind;
     lane_int inner = (lane_int)0, exit = (lane_int)0;  // faces between cubes, and out of them
     if (VXL_CUBE_BODIES) {
         const lane_int cube = is_cube(h->packed, h->primitive) & h->hit;
@@ -184,7 +183,7 @@ static inline lane_uint side_of(const ShadedHit* h, const MediumSet* before, lan
         inner = cube & leaving & ~exit;
         leaving = LANES_SELECT(cube, exit, leaving);
     }
-    lane_int hidden = hides_surface(before, h->packed, body, leaving, ranks);
+    lane_int hidden = hides_surface(before, h->packed, leaving, ranks);
     if (VXL_CUBE_BODIES) {
         hidden |= exit & ~is_joined(h->packed, materials);
         hidden =

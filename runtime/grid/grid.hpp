@@ -108,7 +108,9 @@ struct Pyramid {
     uint32_t attribute = 0;        ///< packed attributes of every voxel if `attributes` is empty
     Buffer<uint32_t> colors;       ///< one per voxel
     bool transparent = false;      ///< true if some of the voxels aren't opaque
-    Buffer<uint32_t> fields;  ///< 8 per voxel, see shared/voxel.h; empty without smooth surfaces
+    Buffer<uint32_t> fields;     ///< 8 per voxel, see shared/voxel.h; empty without smooth surfaces
+    uint32_t listed_fields = 0;  ///< records of fields, attributes and colours behind the voxels':
+                                 ///< of voxels that several surfaces pass
     Buffer<uint32_t> primitive_first;  ///< voxel_count + 1; empty without exact surfaces
     Buffer<uint32_t> primitives;       ///< this and the next three are as in BrickGrid
     Buffer<float> triangles;
@@ -118,6 +120,9 @@ struct Pyramid {
     std::vector<VoxelBox> object_boxes;  ///< the box around each of the scene's objects; empty if
                                          ///< unknown
     bool clear = false;  ///< true if the space between them is known to hold no medium
+
+    /// The values of `attributes`, `colors` and (times 8) `fields`.
+    uint32_t records() const { return voxel_count + listed_fields; }
 };
 
 }  // namespace voxelume

@@ -43,11 +43,8 @@ void count_bricks_of(const Device& device, const WorldParts& parts, size_t brick
 }
 
 /// Follows Placer's painting.
-void count_painting(const Device& device, const WorldParts& parts, size_t bricks) {
-    const Buffer<int16_t> nearest = parts.measures_nearest()
-                                        ? allocate_distances(device, "nearest surfaces", bricks)
-                                        : Buffer<int16_t>();
-    const Buffer<uint32_t> painted(device, "painted bricks", 2 * bricks);
+void count_painting(const Device& device, size_t bricks) {
+    const Buffer<uint32_t> painted(device, "painted bricks", bricks);
 }
 
 /// Follows join_exact_surfaces.
@@ -85,15 +82,14 @@ CountedWorld count_placing(const Device& device, std::span<const PlacedObject> o
         const Buffer<uint32_t> listed(device, "listed bricks", counts.bricks);
     }
     count_bricks_of(device, parts, counts.bricks, grid);
-    count_painting(device, parts, counts.bricks);
+    count_painting(device, counts.bricks);
     count_lists(device, objects, counts.primitives, grid);
     return world;
 }
 
-void count_repainting(const Device& device, std::span<const PlacedObject> objects,
-                      const GridFrame& frame, size_t bricks) {
+void count_repainting(const Device& device, const GridFrame& frame, size_t bricks) {
     { const Buffer<uint8_t> states(device, "brick states", brick_places(frame)); }
-    count_painting(device, parts_of(objects), bricks);
+    count_painting(device, bricks);
 }
 
 Pyramid allocate_indexed(const Device& device, const BrickGrid& grid, const WorldCounts& counts) {

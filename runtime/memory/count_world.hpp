@@ -29,8 +29,7 @@ CountedWorld count_placing(const Device& device, std::span<const PlacedObject> o
                            const GridFrame& frame, const WorldCounts& counts);
 
 /// Follows Placer::place where `bricks` of a world change. All buffers are freed again.
-void count_repainting(const Device& device, std::span<const PlacedObject> objects,
-                      const GridFrame& frame, size_t bricks);
+void count_repainting(const Device& device, const GridFrame& frame, size_t bricks);
 
 /// A pyramid, and the marks that it was made from.
 struct CountedPyramid {

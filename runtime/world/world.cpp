@@ -260,7 +260,7 @@ Pyramid WorldBuilder::placed_and_indexed(const Task& task, const std::vector<Pla
                                          std::vector<SharedGrid> shown, Indexer& indexer) {
     Stopwatch placing(task.report.place_seconds);
     if (!placer_) placer_.emplace(device_);
-    BrickGrid world = placer_->place(objects, world_frame(task.scene.world));
+    const PlacedWorld world = placer_->place(objects, world_frame(task.scene.world));
     device_.finish();
     task.report.painted_bricks = placer_->painted_bricks();
     shown_ = std::move(shown);

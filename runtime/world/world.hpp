@@ -10,7 +10,7 @@
 #include "runtime/grid/grid.hpp"
 #include "runtime/scene/scene.hpp"
 #include "runtime/stages/index/index.hpp"
-#include "runtime/stages/place/place.hpp"
+#include "runtime/stages/place/placed_world.hpp"
 #include "runtime/world/grid_cache.hpp"
 #include "runtime/world/instances.hpp"
 
@@ -131,7 +131,7 @@ class WorldBuilder {
     std::optional<GridCache> grids_;
     std::vector<SharedGrid> shown_;  ///< the grids that the placer's objects point to
     std::optional<ReadWorld> read_;
-    std::optional<Placer> placer_;
+    std::optional<WorldPlacer> placer_;
     Indexer indexer_;
     std::optional<Origin> origin_;
     InstanceModels models_;

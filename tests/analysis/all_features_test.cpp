@@ -41,6 +41,7 @@ std::string scene_text() {
 "objects": [)" +
            balls + R"(
             {"model": "lens", "material": "glass", "position": [0, 0.1, -2]},
+            {"model": "lens", "material": "clay", "position": [0.4, 0.5, -1.8]},
             {"model": "ice", "material": "glass", "position": [-0.8, -0.5, 0.3]},
             {"model": "floor", "material": "clay", "position": [0, -0.9, 0]},
             {"model": "thing", "material": "veil", "position": [0.5, -0.7, -0.3]},

@@ -19,7 +19,8 @@ typedef struct {
 typedef struct {
     lane_int valid;         // mask: entries of the batch
     lane_int hit, leaving;  // masks: the surface is met; from inside of its object
-    lane_uint packed, material, source;
+    lane_uint packed, material, primitive;
+    lane_uint source;  // of the rays that leave the point
     Vector position, normal, way;
     lane_float cosine;  // of the angle of incidence
     lane_float eta;     // the index of refraction before the surface over that behind it
@@ -39,8 +40,9 @@ static inline ScatterPoint load_point(const RayBatch* batch, float4 edge, uint f
     p.leaving = LANE_MASK((side & VXL_SIDE_LEAVING) != 0u);
     p.packed = LANES_LOAD(batch->hit_attributes, first);
     p.material = material_offset(p.packed) & LANES_AS_UINT(p.hit);
-    p.source = (lane_uint)VXL_NO_PRIMITIVE;
-    if (VXL_EXACT) p.source = LANES_LOAD(batch->hits, VXL_HIT_PRIMITIVE * stride + first);
+    p.primitive = (lane_uint)VXL_NO_PRIMITIVE;
+    if (VXL_EXACT) p.primitive = LANES_LOAD(batch->hits, VXL_HIT_PRIMITIVE * stride + first);
+    p.source = source_of_hits(batch->hits, stride, first, p.packed);
     p.way = unit(scaled(load_vector(batch->rays + VXL_RAY_DX * stride, stride, first), edge));
     p.normal = load_vector(batch->normals, stride, first);
     p.position = load_vector(batch->positions, stride, first);
@@ -58,15 +60,12 @@ static inline ScatterPoint load_point(const RayBatch* batch, float4 edge, uint f
 /// doesn't hold began inside that object. Returns the mask of surfaces of transmitting objects.
 static inline lane_int cross_objects(const Surroundings* around, ScatterPoint* p) {
     global const float* materials = around->materials;
-    const lane_int body = is_smooth(p->packed, p->source);
     const lane_int open =
         p->hit & transmits(materials, p->material,
                            LANES_GATHER_FLOAT(materials, p->material + VXL_MATERIAL_OPACITY));
-    const lane_int began = open & p->leaving & ~medium_set_holds(&p->before, p->packed, body);
-    p->before =
-        cross_counted(p->before, p->packed, body, (lane_int)0, began, around->medium_overflows);
-    p->behind =
-        cross_counted(p->before, p->packed, body, p->leaving, open, around->medium_overflows);
+    const lane_int began = open & p->leaving & ~medium_set_holds(&p->before, p->packed);
+    p->before = cross_counted(p->before, p->packed, (lane_int)0, began, around->medium_overflows);
+    p->behind = cross_counted(p->before, p->packed, p->leaving, open, around->medium_overflows);
     return open;
 }
 

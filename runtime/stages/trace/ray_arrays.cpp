@@ -26,7 +26,7 @@ class ArrayMaker {
 };
 
 size_t path_components(const Features& features) {
-    if (features.transmission) return VXL_PATH_INSIDE + 1 + size_t(features.other_media);
+    if (features.transmission) return VXL_PATH_INSIDE + size_t(std::max(features.media, 1));
     return features.instances ? VXL_PATH_INSIDE : VXL_PATH_CELL;
 }
 
@@ -64,7 +64,7 @@ bool has_shadow_queue(const Features& features) {
 void make_shadow_queue(const Features& features, ArrayMaker& maker, ShadowQueue& queue) {
     maker.make(queue.rays, "shadow queue", VXL_RAY_COMPONENTS);
     maker.make(queue.targets, "shadow queue", 1);
-    if (features.exact()) maker.make(queue.sources, "shadow queue", 1);
+    if (features.sources()) maker.make(queue.sources, "shadow queue", 1);
     maker.make(queue.contributions, "shadow queue", 3);
 }
 
