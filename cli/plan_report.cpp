@@ -9,6 +9,7 @@
 
 #include "cli/report.hpp"
 #include "cli/scene_options.hpp"
+#include "cli/warnings.hpp"
 
 namespace voxelume::cli {
 namespace {
@@ -60,6 +61,10 @@ void add_verdict(const Plan& plan, Report& report) {
     report["least MB"] = megabytes(plan.min_bytes);
     report["most MB"] = megabytes(plan.max_bytes);
     report["device MB"] = megabytes(plan.device_bytes);
+    report["warnings"] = Report::array();
+    for (const Warning& warning : plan.warnings)
+        report["warnings"].push_back(
+            {{"kind", name_of(warning.kind)}, {"where", warning.where}, {"text", warning.text}});
 }
 
 /// What the scene leaves out, as values to copy into it.
@@ -95,8 +100,10 @@ void print_verdict(const Plan& plan, bool is_of_frames) {
 }  // namespace
 
 void print_plan(const Scene& scene, const Device& device, const PlanOptions& options,
-                bool as_json) {
+                const PlanPrint& print) {
     const Plan plan = voxelume::plan(scene, device, options);
+    tell_warnings(plan.warnings, print.quiet, print.strict);
+    const bool as_json = print.as_json;
     if (!as_json) {
         fmt::print("{}\n", scene.describe());
         print_fitted(scene);

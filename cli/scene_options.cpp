@@ -21,6 +21,7 @@ void add_scene_options(CLI::App& app, SceneOptions& options) {
         "device: auto, cpu, gpu, a number, part of a name, or all to share frames and tiles");
     app.add_flag("--no-cache", options.no_cache,
                  "neither read nor write the cache of models and worlds");
+    app.add_flag("--strict", options.strict, "take warnings for errors, exit code 3");
 }
 
 CacheOptions cache_options(const SceneOptions& options) {

@@ -7,6 +7,7 @@
 #include "runtime/base/error.hpp"
 #include "runtime/geometry/file_map.hpp"
 #include "runtime/geometry/mesh_morph.hpp"
+#include "runtime/geometry/winding_number.hpp"
 #include "runtime/io/mesh/mesh_reader.hpp"
 
 namespace voxelume {
@@ -187,6 +188,21 @@ const MeshSummary* AssetStore::summary_of(const Model& model) {
         return model.morph ? &morphed_summary(model)
                            : &summary_of_file(model.mesh, model.object_from_file);
     return lists_primitives(model.surface) ? &voxel_file(model).summary : nullptr;
+}
+
+double AssetStore::winding_of(const Model& model, const glm::dvec3& point) {
+    const std::string source = source_of(model);
+    if (!source.empty())
+        if (const auto known = cache_.winding(source, point)) return *known;
+    const Mesh* mesh = mesh_of(model);
+    if (!mesh) return 0;
+    double seconds = 0, winding = 0;
+    {
+        const LoadTimer timer(seconds);
+        winding = winding_number(*mesh, point);
+    }
+    if (!source.empty()) cache_.keep(source, point, winding, seconds);
+    return winding;
 }
 
 const std::vector<std::string>& AssetStore::groups_of(const Model& model) {

@@ -35,6 +35,9 @@ class AssetStore {
     const Mesh* mesh_of(const Model& model);
     /// A summary of the mesh that mesh_of() returns; null where there is none.
     const MeshSummary* summary_of(const Model& model);
+    /// The winding number around a point, in object space, of the mesh that mesh_of() returns: how
+    /// far it encloses the point. 0 for other models. Reads the mesh unless the cache knows.
+    double winding_of(const Model& model, const glm::dvec3& point);
     /// The names of a model's groups of faces or voxels.
     const std::vector<std::string>& groups_of(const Model& model);
     /// The box around the surface in a model's file, in the file's own coordinates. Contents that

@@ -31,6 +31,9 @@ struct Mesh {
         triangle_group;  ///< index into `group_names`, one per triangle; empty: all group 0
     std::vector<std::string>
         group_names;  ///< material groups in order of appearance; empty: one unnamed group
+    // Files that the mesh's file names, and that aren't read.
+    std::string material_library = {};  ///< of OBJ's first mtllib
+    std::string texture = {};           ///< of PLY's first comment TextureFile
 };
 
 }  // namespace voxelume

@@ -51,6 +51,9 @@ MeshSummary summary_of(const Mesh& mesh) {
     summary.has_normals = !mesh.normals.empty();
     summary.longest_edge = longest_edge(mesh);
     summary.group_names = mesh.group_names;
+    summary.topology = mesh_topology(mesh);
+    summary.material_library = mesh.material_library;
+    summary.texture = mesh.texture;
     return summary;
 }
 

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "values.hpp"
+#include "warning.hpp"
 
 namespace voxelume::v1 {
 
@@ -103,6 +104,7 @@ struct Statistics {
     std::optional<int>
         one_by_one_from;  ///< frame from which on none overlapped, for want of memory
     std::vector<FrameStatistics> frames{};  ///< one for each frame
+    std::vector<Warning> warnings{};        ///< what is probably wrong, each once
 
     // Counters of the devices since they were opened.
     uint64_t peak_device_bytes = 0;              ///< in buffers at once, all devices together

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "runtime/base/warning.hpp"
 #include "runtime/grid/grid.hpp"
 #include "runtime/scene/scene.hpp"
 #include "runtime/stages/index/index.hpp"
@@ -40,6 +41,7 @@ struct WorldReport {
     bool lacks_room = false;     ///< true if memory doesn't suffice to keep what the next frame may
                                  ///< use
     InstanceReport instances;
+    std::vector<Warning> warnings;
 };
 
 /// S on a device.

@@ -32,6 +32,17 @@ TEST(MeshObj, HasItsVerticesTrianglesAndGroups) {
     EXPECT_THAT(mesh.group_names, ElementsAre("red brick", "glass"));
     EXPECT_THAT(mesh.triangle_group, ElementsAre(0u, 1u, 0u));
     EXPECT_THAT(mesh.vertex_colors, IsEmpty());
+    EXPECT_EQ(mesh.material_library, "house.mtl");
+}
+
+TEST(MeshObj, KeepsTheNameOfItsFirstMaterialLibrary) {
+    const auto library = [](const std::string& lines) {
+        return parse_mesh(lines + kObjVertices + "f 1 2 3\n", "a.obj").material_library;
+    };
+    EXPECT_EQ(library(""), "");
+    EXPECT_EQ(library("mtllib my house.mtl \r\nmtllib other.mtl\n"), "my house.mtl");
+    EXPECT_EQ(library("mtllib\n"), "");
+    EXPECT_EQ(library("mtllib a.mtl \\\n b.mtl\n"), "a.mtl \\");  // a name over two lines is none
 }
 
 TEST(MeshObj, FacesBeforeTheFirstMaterialAreInTheUnnamedGroup) {

@@ -66,6 +66,19 @@ TEST(MeshPly, TakesFloatColors) {
     EXPECT_THAT(mesh.vertex_colors, Each(vec3(1.0f, 0.21404114f, 0.0f)));
 }
 
+TEST(MeshPly, KeepsTheNameOfItsTexture) {
+    const auto texture = [](const std::string& first, const std::string& second) {
+        return parse_mesh("ply\n" + first + "format ascii 1.0\n" + second + "element vertex 3\n" +
+                              kPlyVertex + "element face 1\n" + kPlyFace +
+                              "end_header\n0 0 0\n5 0 0\n0 3 1\n3 0 1 2",
+                          "a.ply")
+            .texture;
+    };
+    EXPECT_EQ(texture("comment any\n", "comment TextureFile\n"), "");
+    EXPECT_EQ(texture("", "comment TextureFile my wood.png\r\n"), "my wood.png");
+    EXPECT_EQ(texture("comment TextureFile a.png\n", "comment TextureFile b.png\n"), "a.png");
+}
+
 TEST(MeshPly, RefusesDamageWithTheLine) {
     const std::string body = "0 0 0\n5 0 0\n0 3 1\n";
     const auto damaged = [&](const std::string& rest) {

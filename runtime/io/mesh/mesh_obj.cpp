@@ -16,12 +16,11 @@ namespace {
 /// Statements of the format that say nothing about a triangle mesh. The parser handles v, f, vn and
 /// vt itself.
 constexpr std::string_view kSkippedStatements[] = {
-    "vp",     "deg",        "bmat",      "step",     "cstype", "p",      "l",
-    "fo",     "curv",       "curv2",     "surf",     "parm",   "trim",   "hole",
-    "scrv",   "sp",         "end",       "con",      "g",      "s",      "mg",
-    "o",      "bevel",      "c_interp",  "d_interp", "lod",    "mtllib", "maplib",
-    "usemap", "shadow_obj", "trace_obj", "ctech",    "stech",  "call",   "scmp",
-    "csh",    "bsp",        "bzp",       "cdc",      "cdp",    "res",    "ctexp"};
+    "vp",     "deg",        "bmat",      "step",  "cstype", "p",        "l",        "fo",  "curv",
+    "curv2",  "surf",       "parm",      "trim",  "hole",   "scrv",     "sp",       "end", "con",
+    "g",      "s",          "mg",        "o",     "bevel",  "c_interp", "d_interp", "lod", "maplib",
+    "usemap", "shadow_obj", "trace_obj", "ctech", "stech",  "call",     "scmp",     "csh", "bsp",
+    "bzp",    "cdc",        "cdp",       "res",   "ctexp"};
 
 class ObjParser {
   public:
@@ -67,7 +66,13 @@ class ObjParser {
             source_.fail_at_line(p_, fmt::format("'{}' without numbers", word));
         }
         if (word == "usemtl") {
-            parse_material();
+            material_ = name_after_word(p_);
+            skip_line();
+            group_known_ = false;
+        } else if (word == "mtllib") {
+            const char* const line = p_;
+            skip_statement();
+            if (mesh_.material_library.empty()) mesh_.material_library = name_after_word(line);
         } else if (word == "vn" || word == "vt" ||
                    std::ranges::find(kSkippedStatements, word) != std::end(kSkippedStatements)) {
             skip_statement();
@@ -216,16 +221,14 @@ class ObjParser {
         }
     }
 
-    /// Reads the material's name: the rest of the line, with the spaces within it.
-    void parse_material() {
-        const char* const begin = skip_blanks(skip_token(p_));
-        skip_line();
-        const char* end = p_;
+    /// What follows the word on the line, with the spaces within it.
+    std::string name_after_word(const char* word) const {
+        const char* const begin = skip_blanks(skip_token(word));
+        const char* end = after_line(word);
         while (end > begin && (is_blank(end[-1]) || end[-1] == '\n')) {
             --end;
         }
-        material_.assign(begin, std::max(begin, end));
-        group_known_ = false;
+        return {begin, std::max(begin, end)};
     }
 
     /// Returns the current material's group. A group begins to exist with its first face.

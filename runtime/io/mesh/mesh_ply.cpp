@@ -278,6 +278,7 @@ Mesh parse_ply(const MeshSource& source) {
     if (mesh.triangles.empty()) {
         source.fail("the mesh has no triangles: no element 'face' with corners in the file");
     }
+    mesh.texture = header.texture;
     return mesh;
 }
 
