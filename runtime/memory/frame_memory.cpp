@@ -44,7 +44,7 @@ class FrameWalk {
             models.push_back(indexed_counts(grids_.counts_of(grid)));
         const CountedPyramid placed = form_placed();
         std::vector<ModelPyramid> kept;
-        const Pyramid joined = count_joining(device_, listed, placed.pyramid, models, kept);
+        Pyramid joined = count_joining(device_, listed, placed.pyramid, models, kept);
         memory_.index = height();
         memory_.largest_buffer = device_.counters().largest_buffer;
         memory_.largest_bytes = double(device_.counters().largest_bytes);
