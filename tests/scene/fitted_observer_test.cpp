@@ -109,7 +109,7 @@ TEST(DefaultLight, IsThereOnlyWhereASceneSaysNothingOfLight) {
     const auto lights_of = [&](const std::string& members) {
         const Scene scene = parse_members(fmt::format("{}, {}", kBall, members));
         EXPECT_EQ(scene.has_default_light, scene.lights.size() == 1);
-        if (!scene.has_default_light) EXPECT_EQ(scene.world.ambient, glm::vec3(0));
+        EXPECT_EQ(scene.world.ambient, glm::vec3(scene.has_default_light ? 0.15f : 0.0f));
         return scene.lights.size();
     };
     EXPECT_EQ(lights_of(R"("render": {})"), 1u);
