@@ -99,8 +99,8 @@ PlacedModel placed(const Scene& scene, const Object& object, AssetStore& meshes)
     return result;
 }
 
-/// The unit in which lengths would fit the world; empty if none would.
-std::string unit_advice(double times_world, double world_voxel) {
+/// The unit in which lengths would fit the world. `scale` is the object's own.
+std::string unit_advice(double times_world, double scale, double world_voxel) {
     struct Unit {
         double metres;
         const char* name;
@@ -110,9 +110,9 @@ std::string unit_advice(double times_world, double world_voxel) {
     for (const Unit& unit : kUnits)
         if (times_world * unit.metres > 0.02 && times_world * unit.metres < 2)
             return fmt::format(
-                "if the file is in {}, give the object \"scale\": {}, and the model "
+                "if the file is in {}, give the object \"scale\": {:.3g}, and the model "
                 "\"voxel_size\": {:.3g}",
-                unit.name, unit.metres, world_voxel / unit.metres);
+                unit.name, scale * unit.metres, world_voxel / (scale * unit.metres));
     return "a \"scale\" of the object converts its unit";
 }
 
@@ -127,8 +127,8 @@ bool add_unit_warning(const Scene& scene, const Object& object, const PlacedMode
                          side < 2 * largest(scene.world.voxel_size) && side > 0;
     if (times < kTooLarge && !is_tiny) return false;
     const std::string advice =
-        is_tiny ? "if the scene is in millimetres, give the object \"scale\": 1000"
-                : unit_advice(times, smallest(scene.world.voxel_size));
+        is_tiny ? "if the scene is in millimetres, give the object a \"scale\" 1000 times as large"
+                : unit_advice(times, largest(placed.scale), smallest(scene.world.voxel_size));
     return add_once(
         {WarningKind::unlikely_unit, object.where,
          fmt::format("{} is {:.3g} m large in a world of {:.3g} m, so its unit is probably wrong: "

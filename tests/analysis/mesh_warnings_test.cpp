@@ -34,7 +34,7 @@ TEST_F(MeshWarnings, NameAMeshInMetresInAWorldOfMillimetres) {
                      {"bounds", {{"min", {-500, -500, -500}}, {"max", {500, 500, 500}}}}};
     json["objects"].erase(1);
     EXPECT_THAT(kinds(), ElementsAre(Kind::unlikely_unit));
-    EXPECT_THAT(warnings()[0].text, HasSubstr("\"scale\": 1000"));
+    EXPECT_THAT(warnings()[0].text, HasSubstr("a \"scale\" 1000 times as large"));
 }
 
 TEST_F(MeshWarnings, NameAnOpenMeshWhereAnInsideIsNeeded) {
