@@ -30,7 +30,7 @@ CacheOptions cache_options(const SceneOptions& options) {
 
 Scene read_with(const SceneOptions& options, const char* command) {
     const Size size = options.size.empty() ? Size{} : parse_size(options.size, command);
-    Scene scene = Scene::load(options.scene, {options.assets});
+    Scene scene = Scene::load(options.scene, {options.assets, cache_options(options)});
     if (size[0] != 0) scene = scene.with_size(size);
     if (options.samples != 0) scene = scene.with_samples(options.samples);
     return scene;

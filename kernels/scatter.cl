@@ -195,8 +195,8 @@ static inline void refract_rays(PyramidShape shape, const Surroundings* around,
                VXL_PATH_ON_SURFACE;
     r->media = p->behind;
     r->medium = medium_inside(&p->behind, around->ranks);
-    const Vector bent = refracted_direction(p->way, p->normal, p->eta, p->cosine, &p->bend);
     const Vector into = opposite(p->normal);
+    const Vector bent = bent_direction(p, into);
     set_out_child(r, shape, offset_origin(shape, p->position, into, hits, stride, first), into,
                   bent);
     const lane_int same = LANE_MASK(p->eta == 1.0f);

@@ -100,7 +100,7 @@ Plan plan(const Scene& scene, const Device& device, const PlanOptions& options) 
         const std::vector<int> frames = frames_of(planned, options.frames);
         const voxelume::DeviceInfo& info = api::inside(device).info();
         check_tables(planned, info);
-        AssetStore meshes(api::model_cache(options.cache));
+        AssetStore meshes = api::assets_of(scene, options.cache);
         const std::vector<voxelume::Warning> warnings = scene_warnings(planned, frames, meshes);
         find_potentially_visible(planned, frames, meshes);
         Plan result = plan_for_callers(planned, plan_frames(planned, frames, meshes, info),

@@ -11,6 +11,7 @@
 #include "runtime/api/process.hpp"
 #include "runtime/api/render.hpp"
 #include "runtime/api/warning.hpp"
+#include "runtime/base/text.hpp"
 #include "runtime/base/version.hpp"
 #include "runtime/scene/scene_animation.hpp"
 
@@ -24,7 +25,7 @@ double seconds_since(Clock::time_point start) {
 }
 
 bool is_exr(const std::filesystem::path& file) {
-    return file.extension() == ".exr";
+    return ending_of(file) == ".exr";
 }
 
 /// The texts that files of a frame have in their headers.
@@ -89,6 +90,7 @@ class Run {
     Run(const v1::Scene& scene, const std::vector<v1::Device>& devices, const v1::FrameJob& job,
         const v1::RenderOptions& options)
         : scene_(api::inside(scene)),
+          assets_(api::assets_of(scene, options.cache)),
           devices_(api::inside(devices)),
           job_(job),
           options_(options),
@@ -109,6 +111,8 @@ class Run {
                                         job_.frames.size()));
         v1::Statistics statistics = api::statistics_of(reports_, devices_);
         statistics.size = api::array_of(scene_.render.size);
+        if (wanted_.volumes) statistics.volume_size = api::array_of(scene_.observer.display.voxels);
+        statistics.images = wanted_.images;
         statistics.files = files_;
         statistics.open_seconds = outcome.check_seconds;
         statistics.write_seconds = write_seconds_;
@@ -126,7 +130,7 @@ class Run {
         batch.image = wanted_.images;
         batch.volume = wanted_.volumes;
         batch.overlap = options_.overlap;
-        batch.meshes = AssetStore(api::model_cache(options_.cache));
+        batch.meshes = std::move(assets_);
         batch.progress = api::callback(options_.progress);
         batch.warn = [this](std::span<const Warning> warnings) { tell(warnings); };
         batch.stop = options_.stop;
@@ -173,6 +177,7 @@ class Run {
     }
 
     Scene scene_;
+    AssetStore assets_;
     std::vector<Device> devices_;
     const v1::FrameJob& job_;
     const v1::RenderOptions& options_;

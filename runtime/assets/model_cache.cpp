@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <charconv>
 #include <cstdlib>
 #include <cstring>
@@ -13,6 +12,7 @@
 #include "runtime/base/cache_key.hpp"
 #include "runtime/base/error.hpp"
 #include "runtime/base/producer_hash.hpp"
+#include "runtime/base/text.hpp"
 #include "runtime/grid/grid_bytes.hpp"
 #include "runtime/grid/pyramid_bytes.hpp"
 #include "runtime/opencl/kernel_source.hpp"
@@ -80,7 +80,9 @@ std::string bytes_of(const MeshSummary& summary) {
         nlohmann::json::array(),
         summary.corners,
         {summary.topology.open_edges, summary.topology.hole_area, summary.topology.volume},
-        {json_of(summary.material_library), json_of(summary.texture)}};
+        {json_of(summary.material_library), json_of(summary.texture)},
+        summary.has_normals,
+        summary.longest_edge};
     nlohmann::json whole = json;
     for (const std::string& name : summary.group_names) whole[5].push_back(json_of(name));
     const std::vector<uint8_t> bytes = nlohmann::json::to_cbor(whole);
@@ -103,6 +105,8 @@ MeshSummary summary_of_bytes(const std::string& bytes) {
                         topology.at(2).get<double>()};
     summary.material_library = text_of(json.at(8).at(0));
     summary.texture = text_of(json.at(8).at(1));
+    summary.has_normals = json.at(9).get<bool>();
+    summary.longest_edge = json.at(10).get<double>();
     return summary;
 }
 
@@ -133,10 +137,13 @@ uint64_t megabytes_of_user() {
 }  // namespace
 
 std::string mesh_source(const std::string& bytes, const std::filesystem::path& name) {
-    std::string extension = name.extension().string();
-    std::ranges::transform(extension, extension.begin(),
-                           [](unsigned char c) { return char(std::tolower(c)); });
-    return key_of({extension, bytes});
+    return key_of({ending_of(name), bytes});
+}
+
+std::string mapped_source(const std::string& source, const FileMap& map) {
+    CacheKey words;
+    words.add(map.scale).add_all(map.shift);
+    return key_of({"mapped", source, words.bytes()});
 }
 
 std::string morph_source(const std::string& from, const std::string& to, const Morph& morph) {
@@ -149,6 +156,7 @@ std::string grid_key(const std::string& source, const VoxelizeOptions& options,
                      const glm::dmat4& frame_from_mesh, const GridFrame& frame) {
     CacheKey words;
     words.add(int(options.surface)).add(int(options.set)).add(double(options.band));
+    words.add(int(options.shading.kind)).add(options.shading.crease_angle);
     words.add_columns(frame_from_mesh);
     words.add_all(frame.origin).add_all(frame.voxel_edge).add_all(frame.size);
     return key_of({producers(), "grid", source, words.bytes()});

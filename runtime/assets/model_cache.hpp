@@ -19,6 +19,9 @@ namespace voxelume {
 /// file's name counts.
 std::string mesh_source(const std::string& bytes, const std::filesystem::path& name);
 
+/// Names the mesh of a source after a map.
+std::string mapped_source(const std::string& source, const FileMap& map);
+
 /// Names a mesh that is morphed from one source to another; `to` is empty for a sphere.
 std::string morph_source(const std::string& from, const std::string& to, const Morph& morph);
 

@@ -20,6 +20,8 @@ struct MeshSummary {
     SurfaceArea area;      ///< in the mesh's own space
     SurfaceArea min_area;  ///< area with coinciding triangles counted once
     bool has_colors = false;
+    bool has_normals = false;
+    double longest_edge = 0;  ///< metres
     std::vector<std::string> group_names;
     uint64_t corners = 0;  ///< positions that triangles share
     MeshTopology topology;

@@ -30,6 +30,7 @@ void visit_pyramid(AnyPyramid& pyramid, const Visit& visit) {
     visit("primitives", pyramid.primitives);
     visit("source triangles", pyramid.triangles);
     visit("source attributes", pyramid.triangle_attributes);
+    visit("source normals", pyramid.triangle_normals);
     visit("source solids", pyramid.solids);
 }
 

@@ -50,15 +50,14 @@ void count_painting(const Device& device, size_t bricks) {
 /// Follows join_exact_surfaces.
 void count_lists(const Device& device, std::span<const PlacedObject> objects, size_t primitives,
                  BrickGrid& world) {
-    size_t floats = 0, solid_words = 0;
+    SourceCounts sources;
     bool is_exact = false;
     for (const PlacedObject& object : objects) {
         is_exact |= !object.grid->primitive_first.empty();
-        floats += object.grid->triangles.size();
-        solid_words += object.grid->solids.size();
+        sources.add(*object.grid);
     }
     if (!is_exact) return;
-    allocate_sources(device, floats, solid_words, world);
+    allocate_sources(device, sources, world);
     const Buffer<uint32_t> counts = allocate_words(device, "primitive counts", world.brick_count);
     world.primitives = Buffer<uint32_t>(device, "world primitives", primitives);
     world.primitive_first =

@@ -36,7 +36,7 @@ std::string scene_text() {
            "lens": {"shape": "sphere", "radius": 0.5, "surface": "smooth"},
            "ice": {"shape": "box", "size": [0.6, 0.5, 0.4], "surface": "cubes", "set": "solid"},
            "floor": {"shape": "box", "size": [2.8, 0.2, 3], "surface": "cubes"},
-           "thing": {"mesh": "m.obj", "voxel_size": 0.1, "surface": "exact"},
+           "thing": {"mesh": "m.obj", "voxel_size": 0.1, "surface": "exact", "shading": "smooth"},
            "fog": {"voxels": "fog.vdb"}},
 "objects": [)" +
            balls + R"(

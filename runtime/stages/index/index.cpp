@@ -91,6 +91,7 @@ Pyramid allocate_pyramid(const Device& device, const BrickGrid& grid, const Pyra
     }
     pyramid.triangles = grid.triangles;
     pyramid.triangle_attributes = grid.triangle_attributes;
+    pyramid.triangle_normals = grid.triangle_normals;
     pyramid.solids = grid.solids;
     return pyramid;
 }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "kernels/shared/normal.h"
 #include "kernels/shared/solid.h"
 #include "kernels/shared/trace.h"
 #include "kernels/shared/voxel.h"
@@ -32,7 +33,7 @@ struct Extent {
 };
 
 struct Parts {
-    bool colors = false, fields = false, exact = false;
+    bool colors = false, fields = false, exact = false, normals = false;
 };
 
 /// What pyramids are joined to.
@@ -81,6 +82,9 @@ class Total {
             Buffer<float>(device, "triangles", total_.triangles * kFloatsPerTriangle);
         joined.triangle_attributes =
             Buffer<uint32_t>(device, "triangle attributes", total_.triangles);
+        if (parts_.normals)
+            joined.triangle_normals = Buffer<uint32_t>(device, "triangle normals",
+                                                       total_.triangles * VXL_TRIANGLE_NORMALS);
         joined.solids = Buffer<uint32_t>(device, "solids", total_.solids * VXL_SOLID_WORDS);
         return joined;
     }
@@ -92,6 +96,7 @@ class Total {
         parts_.colors |= !p.colors.empty();
         parts_.fields |= !p.fields.empty();
         parts_.exact |= !p.primitive_first.empty();
+        parts_.normals |= !p.triangle_normals.empty();
         transparent_ |= p.transparent;
     }
 
@@ -199,6 +204,12 @@ class Joiner {
                    VXL_KIND_EXACT << VXL_KIND_SHIFT, joined_.triangle_attributes);
         else
             words(p.triangle_attributes, full_.triangles, joined_.triangle_attributes);
+        const uint64_t normals = full_.triangles * VXL_TRIANGLE_NORMALS;
+        if (!p.triangle_normals.empty())
+            words(p.triangle_normals, normals, joined_.triangle_normals);
+        else if (parts_.normals)
+            copies(p.triangles.size() / kFloatsPerTriangle * VXL_TRIANGLE_NORMALS, normals,
+                   VXL_NO_NORMAL, joined_.triangle_normals);
         words(p.solids, full_.solids * VXL_SOLID_WORDS, joined_.solids);
     }
 
