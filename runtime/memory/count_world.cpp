@@ -88,7 +88,7 @@ std::vector<PlacedObject> count_fields(const Device& device, std::span<const Pla
                                        size_t bricks, CountedWorld& world) {
     // Bricks that two objects have a part in are stored for both. In the world an object has a part
     // in more bricks than it has itself, since it stands anywhere among them.
-    constexpr double kShared = 1.15, kAnywhere = 1.35;
+    constexpr double kShared = 1.4, kAnywhere = 1.5;
     std::vector<PlacedObject> others, smooth;
     double own_bricks = 0;
     for (const PlacedObject& object : objects) {
