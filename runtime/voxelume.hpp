@@ -90,6 +90,6 @@
 /// Names of the library's first binary interface, `voxelume::v1`, are those of `voxelume`. (Its own
 /// sources have other types of the same names.)
 namespace voxelume {
-using namespace v1;
+using namespace v1;  // NOLINT(google-build-using-namespace): all of them, for every caller
 }
 #endif

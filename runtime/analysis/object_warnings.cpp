@@ -99,21 +99,20 @@ PlacedModel placed(const Scene& scene, const Object& object, AssetStore& meshes)
     return result;
 }
 
-/// The unit in which lengths would fit the world; empty if none would.
-std::string unit_advice(double times_world, double world_voxel) {
+/// What makes a mesh that is too large fit the world.
+std::string unit_advice(const Model& model, double times_world) {
     struct Unit {
         double metres;
-        const char* name;
+        const char *name, *key;
     };
     constexpr std::array<Unit, 3> kUnits = {
-        {{0.001, "millimetres"}, {0.01, "centimetres"}, {0.0254, "inches"}}};
+        {{0.001, "millimetres", "mm"}, {0.01, "centimetres", "cm"}, {0.0254, "inches", "in"}}};
     for (const Unit& unit : kUnits)
-        if (times_world * unit.metres > 0.02 && times_world * unit.metres < 2)
-            return fmt::format(
-                "if the file is in {}, give the object \"scale\": {}, and the model "
-                "\"voxel_size\": {:.3g}",
-                unit.name, unit.metres, world_voxel / unit.metres);
-    return "a \"scale\" of the object converts its unit";
+        if (model.object_from_file.is_identity() && times_world * unit.metres > 0.02 &&
+            times_world * unit.metres < 2)
+            return fmt::format("if the file is in {}, give its model \"unit\": \"{}\"", unit.name,
+                               unit.key);
+    return "change its model's \"unit\", or the object's \"scale\"";
 }
 
 /// Files have no unit, so this is the most frequent mistake.
@@ -127,12 +126,12 @@ bool add_unit_warning(const Scene& scene, const Object& object, const PlacedMode
                          side < 2 * largest(scene.world.voxel_size) && side > 0;
     if (times < kTooLarge && !is_tiny) return false;
     const std::string advice =
-        is_tiny ? "if the scene is in millimetres, give the object \"scale\": 1000"
-                : unit_advice(times, smallest(scene.world.voxel_size));
+        is_tiny ? "if the scene is in millimetres, give the object a \"scale\" 1000 times as large"
+                : unit_advice(placed.model, times);
     return add_once(
         {WarningKind::unlikely_unit, object.where,
          fmt::format("{} is {:.3g} m large in a world of {:.3g} m, so its unit is probably wrong: "
-                     "lengths are metres; {}",
+                     "coordinates are metres; {}",
                      title_of(object), side, world, advice)},
         warnings);
 }

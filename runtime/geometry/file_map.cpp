@@ -61,6 +61,8 @@ MeshSummary mapped(const FileMap& map, const MeshSummary& summary) {
     result.vertices = rounded(map, summary.vertices);
     result.area = scaled(summary.area, map.scale * map.scale);
     result.min_area = scaled(summary.min_area, map.scale * map.scale);
+    result.topology.hole_area *= map.scale * map.scale;
+    result.topology.volume *= map.scale * map.scale * map.scale;
     return result;
 }
 

@@ -44,7 +44,7 @@ class FrameWalk {
             models.push_back(indexed_counts(grids_.counts_of(grid)));
         const CountedPyramid placed = form_placed();
         std::vector<ModelPyramid> kept;
-        const Pyramid joined = count_joining(device_, listed, placed.pyramid, models, kept);
+        Pyramid joined = count_joining(device_, listed, placed.pyramid, models, kept);
         memory_.index = height();
         memory_.largest_buffer = device_.counters().largest_buffer;
         memory_.largest_bytes = double(device_.counters().largest_bytes);
@@ -63,8 +63,9 @@ class FrameWalk {
         memory_.voxelize = height();
         memory_.world = objects_.world(estimate_);
         device_.counters().largest_bytes = 0;
-        const BrickGrid world =
-            count_placing(device_, objects, world_frame(scene_.world), memory_.world).grid;
+        CountedWorld world =
+            count_placing(device_, objects, world_frame(scene_.world), memory_.world);
+        world.painters.clear();
         memory_.place = height();
         memory_.grids = grids_.all();
         for (CountedGrid& grid : memory_.grids) grid.grid.reset();

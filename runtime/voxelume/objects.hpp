@@ -66,7 +66,7 @@ enum class Operation {
 /// one have to overlap a little.
 struct Combination {
     Operation operation = Operation::union_of;  ///< what is done with the parts
-    std::vector<Part> parts{};  ///< in a difference, all others are taken from the first
+    std::vector<Part> parts;  ///< in a difference, all others are taken from the first
 };
 
 /// A shape, or a combination of shapes.

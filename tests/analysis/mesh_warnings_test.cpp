@@ -19,13 +19,14 @@ TEST_F(MeshWarnings, NameAMeshInMillimetresAndNothingElseOfIt) {
     show_mesh("part.obj", ball({0, 0, 0}, 150, 32, 16));
     EXPECT_THAT(kinds(), ElementsAre(Kind::unlikely_unit));
     EXPECT_THAT(warnings()[0].text,
-                HasSubstr("300 m large in a world of 2 m, so its unit is probably wrong: lengths "
-                          "are metres; if the file is in millimetres, give the object \"scale\": "
-                          "0.001, and the model \"voxel_size\": 50"));
-    json["objects"][0]["scale"] = 0.002;
-    EXPECT_THAT(kinds(), ElementsAre(Kind::finer_than_world));
-    json["models"]["ball"]["resolution"] = 16;
+                HasSubstr("300 m large in a world of 2 m, so its unit is probably wrong: "
+                          "coordinates are metres; if the file is in millimetres, give its model "
+                          "\"unit\": \"mm\""));
+    json["models"]["ball"]["unit"] = "mm";
     EXPECT_THAT(kinds(), IsEmpty());
+    json["models"]["ball"]["unit"] = "km";
+    EXPECT_THAT(kinds(), ElementsAre(Kind::unlikely_unit));
+    EXPECT_THAT(warnings()[0].text, HasSubstr("change its model's \"unit\""));
 }
 
 TEST_F(MeshWarnings, NameAMeshInMetresInAWorldOfMillimetres) {
@@ -34,7 +35,7 @@ TEST_F(MeshWarnings, NameAMeshInMetresInAWorldOfMillimetres) {
                      {"bounds", {{"min", {-500, -500, -500}}, {"max", {500, 500, 500}}}}};
     json["objects"].erase(1);
     EXPECT_THAT(kinds(), ElementsAre(Kind::unlikely_unit));
-    EXPECT_THAT(warnings()[0].text, HasSubstr("\"scale\": 1000"));
+    EXPECT_THAT(warnings()[0].text, HasSubstr("a \"scale\" 1000 times as large"));
 }
 
 TEST_F(MeshWarnings, NameAnOpenMeshWhereAnInsideIsNeeded) {

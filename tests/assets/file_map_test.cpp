@@ -65,6 +65,20 @@ TEST_F(FileMaps, GiveTheSummaryOfTheMovedMesh) {
         EXPECT_NEAR(given.min_area.shadows[axis], computed.min_area.shadows[axis], 1e-6);
 }
 
+TEST_F(FileMaps, ScaleHolesAndVolumesWithTheMesh) {
+    put_bytes(folder / "m.obj",
+              "v 1 0 0\nv 3 0 0.1\nv 1 0.7 0\nv 1 0 -0.5\n"
+              "f 1 3 2\nf 1 2 4\nf 2 3 4\n");
+    AssetStore store;
+    const Model moved = mapped_model(kMap.scale, kMap.shift);
+    const MeshTopology given = store.summary_of(moved)->topology;
+    const MeshTopology computed = mesh_topology(*store.mesh_of(moved));
+    EXPECT_EQ(given.open_edges, 3u);
+    EXPECT_NEAR(given.hole_area, 0.09 * 0.5 * 0.7 * 0.5, 1e-7);
+    EXPECT_NEAR(given.hole_area, computed.hole_area, 1e-7);
+    EXPECT_NEAR(given.volume, computed.volume, 1e-7);
+}
+
 TEST_F(FileMaps, AFileIsReadOnceForItsBoxItsSummaryAndItsMesh) {
     for (const bool has_cache : {false, true}) {
         AssetStore store(has_cache ? cache() : ModelCache());
