@@ -50,9 +50,8 @@ void count_painting(const Device& device, const WorldParts& parts, size_t bricks
     const Buffer<uint32_t> painted(device, "painted bricks", 2 * bricks);
 }
 
-/// Follows join_exact_surfaces.
-void count_lists(const Device& device, std::span<const PlacedObject> objects, size_t primitives,
-                 BrickGrid& world) {
+/// Makes the world's triangles and solids; false if no object has any.
+bool count_sources(const Device& device, std::span<const PlacedObject> objects, BrickGrid& world) {
     size_t floats = 0, solid_words = 0;
     bool is_exact = false;
     for (const PlacedObject& object : objects) {
@@ -60,13 +59,31 @@ void count_lists(const Device& device, std::span<const PlacedObject> objects, si
         floats += object.grid->triangles.size();
         solid_words += object.grid->solids.size();
     }
-    if (!is_exact) return;
-    allocate_sources(device, floats, solid_words, world);
+    if (is_exact) allocate_sources(device, floats, solid_words, world);
+    return is_exact;
+}
+
+/// Follows join_exact_surfaces.
+void count_lists(const Device& device, std::span<const PlacedObject> objects, size_t primitives,
+                 BrickGrid& world) {
+    if (!count_sources(device, objects, world)) return;
     const Buffer<uint32_t> counts = allocate_words(device, "primitive counts", world.brick_count);
     world.primitives = Buffer<uint32_t>(device, "world primitives", primitives);
     world.primitive_first =
         allocate_list_starts(device, "world primitive starts", world.brick_count);
     const Buffer<uint32_t> starts(device, "brick starts", world.brick_count);
+}
+
+/// The pyramid of a grid, without what indexing needs.
+Pyramid allocate_indexed(const Device& device, const BrickGrid& grid, const WorldCounts& counts) {
+    const glm::dvec3 sectors(grid.frame.sectors());
+    PyramidCounts found;
+    found.sectors = size_t(
+        std::min(sectors.x * sectors.y * sectors.z, 8 + double(counts.voxels) / kVoxelsPerSector));
+    found.leaves = size_t(double(counts.voxels) / kVoxelsPerLeaf);
+    found.voxels = counts.voxels;
+    found.primitives = counts.primitives;
+    return allocate_pyramid(device, grid, found);
 }
 
 }  // namespace
@@ -90,29 +107,29 @@ CountedWorld count_placing(const Device& device, std::span<const PlacedObject> o
     return world;
 }
 
-void count_repainting(const Device& device, std::span<const PlacedObject> objects,
-                      const GridFrame& frame, size_t bricks) {
-    { const Buffer<uint8_t> states(device, "brick states", brick_places(frame)); }
+BrickGrid count_repainting(const Device& device, std::span<const PlacedObject> objects,
+                           const BrickGrid& world, size_t bricks) {
+    { const Buffer<uint8_t> states(device, "brick states", brick_places(world.frame)); }
     count_painting(device, parts_of(objects), bricks);
+    // New lists take the place of those before, but pyramids still have the sources of these.
+    BrickGrid sources;
+    if (count_sources(device, objects, sources))
+        const Buffer<uint32_t> counts =
+            allocate_words(device, "primitive counts", world.brick_count);
+    return sources;
 }
 
-Pyramid allocate_indexed(const Device& device, const BrickGrid& grid, const WorldCounts& counts) {
-    const glm::dvec3 sectors(grid.frame.sectors());
-    PyramidCounts found;
-    found.sectors = size_t(
-        std::min(sectors.x * sectors.y * sectors.z, 8 + double(counts.voxels) / kVoxelsPerSector));
-    found.leaves = size_t(double(counts.voxels) / kVoxelsPerLeaf);
-    found.voxels = counts.voxels;
-    found.primitives = counts.primitives;
-    return allocate_pyramid(device, grid, found);
+Pyramid count_reindexing(const Device& device, const BrickGrid& grid, const WorldCounts& counts) {
+    { const MarkArrays marks = allocate_marks(device, grid.brick_count); }
+    Pyramid pyramid = allocate_indexed(device, grid, counts);
+    const Buffer<uint32_t> starts(device, "index starts", 3 * size_t(grid.brick_count));
+    return pyramid;
 }
 
 CountedPyramid count_index(const Device& device, const BrickGrid& grid, const WorldCounts& counts) {
     CountedPyramid indexed;
     indexed.masks = allocate_masks(device, "index masks", grid.brick_count);
-    { const MarkArrays marks = allocate_marks(device, grid.brick_count); }
-    indexed.pyramid = allocate_indexed(device, grid, counts);
-    const Buffer<uint32_t> starts(device, "index starts", 3 * size_t(grid.brick_count));
+    indexed.pyramid = count_reindexing(device, grid, counts);
     return indexed;
 }
 

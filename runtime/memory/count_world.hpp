@@ -28,9 +28,10 @@ struct CountedWorld {
 CountedWorld count_placing(const Device& device, std::span<const PlacedObject> objects,
                            const GridFrame& frame, const WorldCounts& counts);
 
-/// Follows Placer::place where `bricks` of a world change. All buffers are freed again.
-void count_repainting(const Device& device, std::span<const PlacedObject> objects,
-                      const GridFrame& frame, size_t bricks);
+/// Follows Placer::place where `bricks` of a world change. Returns the triangles and solids that
+/// the world then has; all other buffers are freed again.
+BrickGrid count_repainting(const Device& device, std::span<const PlacedObject> objects,
+                           const BrickGrid& world, size_t bricks);
 
 /// A pyramid, and the marks that it was made from.
 struct CountedPyramid {
@@ -41,8 +42,8 @@ struct CountedPyramid {
 /// Follows Indexer::index.
 CountedPyramid count_index(const Device& device, const BrickGrid& grid, const WorldCounts& counts);
 
-/// The pyramid alone.
-Pyramid allocate_indexed(const Device& device, const BrickGrid& grid, const WorldCounts& counts);
+/// Follows Indexer::index where it has indexed the grid before, whose marks it keeps.
+Pyramid count_reindexing(const Device& device, const BrickGrid& grid, const WorldCounts& counts);
 
 /// Follows InstanceModels::join; `counts` are those of the listed grids, whose pyramids are added
 /// to `kept`.

@@ -108,15 +108,35 @@ GridCounts mesh_grid(const Model& model, const MeshSummary& mesh, const SurfaceA
                      surface_extent(area, kOwnSpace, frame, stored_band(model)));
 }
 
+/// What a solid's surface takes of its own lattice.
+SurfaceExtent ObjectCounts::solid_extent(const Model& model) {
+    const auto [entry, added] = of_solids_.try_emplace(&model);
+    if (!added) return entry->second;
+    const GridFrame frame = model_frame(model, nullptr);
+    TakenBricks taken(frame);
+    return entry->second =
+               with_margin(count_bricks(SolidField(*model.solid, kOwnSpace), frame, whole_of(frame),
+                                        model_rule(model.surface, is_solid_set(model)), taken));
+}
+
+/// What an exact solid takes of the world's lattice, where it has a grid of its own.
+SurfaceExtent ObjectCounts::exact_extent(const Object& object, const Model& model) {
+    const auto [entry, added] = of_exact_solids_.try_emplace(&object);
+    if (!added) return entry->second;
+    const GridFrame frame = world_frame(scene_.world);
+    TakenBricks taken(frame);
+    return entry->second =
+               with_margin(count_bricks(SolidField(*model.solid, object.world_from_object), frame,
+                                        boxes()[size_t(&object - scene_.objects.data())],
+                                        model_rule(Surface::exact, false), taken));
+}
+
 GridCounts ObjectCounts::model_grid(const Model& model, Estimate estimate) {
     const MeshSummary* mesh = meshes_.summary_of(model);
     const GridFrame frame = model_frame(model, mesh);
     const bool is_expected = estimate == Estimate::expected;
     if (model.solid) {
-        TakenBricks taken(frame);
-        const SurfaceExtent counted =
-            with_margin(count_bricks(SolidField(*model.solid, kOwnSpace), frame, whole_of(frame),
-                                     model_rule(model.surface, is_solid_set(model)), taken));
+        const SurfaceExtent counted = solid_extent(model);
         if (is_expected) return counts_of(model, mesh, frame, counted);
         const SurfaceArea area =
             min_solid_area(*model.solid, kOwnSpace, {model.extent.min, model.extent.max});
@@ -135,11 +155,7 @@ GridCounts ObjectCounts::object_grid(const Object& object, Estimate estimate) {
     if (!model.solid)
         return counts_of(model, mesh, frame,
                          is_expected ? extents_.planned(object, 0) : extents_.minimum(object, 0));
-    TakenBricks taken(frame);
-    const SurfaceExtent counted =
-        with_margin(count_bricks(SolidField(*model.solid, object.world_from_object), frame,
-                                 boxes()[size_t(&object - scene_.objects.data())],
-                                 model_rule(Surface::exact, false), taken));
+    const SurfaceExtent counted = exact_extent(object, model);
     return counts_of(model, mesh, frame,
                      is_expected ? counted : smaller(counted, extents_.minimum(object, 0)));
 }

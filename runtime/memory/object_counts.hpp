@@ -41,6 +41,8 @@ class ObjectCounts {
     const std::vector<VoxelBox>& boxes() { return extents_.boxes(); }
 
   private:
+    SurfaceExtent solid_extent(const Model& model);
+    SurfaceExtent exact_extent(const Object& object, const Model& model);
     SurfaceExtent expected_in_world(const Object& object, TakenBricks& taken);
     WorldExtent least_in_world(size_t number);
     SurfaceExtent voxels_in_world(const Object& object, const VoxelModel& voxels, bool at_least);
@@ -48,8 +50,10 @@ class ObjectCounts {
     const Scene& scene_;
     AssetStore& meshes_;
     ObjectExtents extents_;
-    std::optional<WorldCounts> expected_;  ///< in the world
-    std::vector<SurfaceExtent> in_world_;  ///< of each object, of these
+    std::map<const Model*, SurfaceExtent> of_solids_;         ///< in their own spaces
+    std::map<const Object*, SurfaceExtent> of_exact_solids_;  ///< in the world
+    std::optional<WorldCounts> expected_;                     ///< in the world
+    std::vector<SurfaceExtent> in_world_;                     ///< of each object, of these
 };
 
 /// The grid of a mesh whose surface has such an area.
