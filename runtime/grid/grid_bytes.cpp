@@ -23,7 +23,7 @@ void visit_grid(Grid& grid, const Visit& visit) {
 }
 
 /// Calls its argument with each buffer of a grid.
-auto buffers_of(auto& grid) {
+auto grid_buffers(auto& grid) {
     return [&grid](const auto& visit) { visit_grid(grid, visit); };
 }
 
@@ -31,12 +31,12 @@ auto buffers_of(auto& grid) {
 
 std::optional<std::string> bytes_of_grid(const BrickGrid& grid, uint64_t max_bytes) {
     const std::array<uint32_t, 4> counts{grid.brick_count, grid.attribute, grid.transparent, 0};
-    return packed_bytes({grid.frame, counts}, buffers_of(grid), max_bytes);
+    return packed_bytes({grid.frame, counts}, grid_buffers(grid), max_bytes);
 }
 
 std::optional<BrickGrid> grid_of_bytes(const Device& device, std::string_view bytes) {
     BrickGrid grid;
-    const auto header = unpack_bytes(device, bytes, buffers_of(grid));
+    const auto header = unpack_bytes(device, bytes, grid_buffers(grid));
     if (!header) return std::nullopt;
     grid.frame = header->frame;
     grid.brick_count = header->counts[0];
@@ -49,7 +49,7 @@ std::optional<BrickGrid> grid_of_bytes(const Device& device, std::string_view by
 }
 
 uint64_t device_bytes(const BrickGrid& grid) {
-    return buffer_bytes(buffers_of(grid));
+    return buffer_bytes(grid_buffers(grid));
 }
 
 }  // namespace voxelume

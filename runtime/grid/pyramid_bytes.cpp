@@ -24,7 +24,7 @@ void visit_pyramid(AnyPyramid& pyramid, const Visit& visit) {
 }
 
 /// Calls its argument with each buffer of a pyramid's voxels.
-auto buffers_of(auto& pyramid) {
+auto pyramid_buffers(auto& pyramid) {
     return [&pyramid](const auto& visit) { visit_pyramid(pyramid, visit); };
 }
 
@@ -42,12 +42,12 @@ uint64_t bytes_of(const Pyramid& pyramid) {
 std::string bytes_of_pyramid(const Pyramid& pyramid) {
     const std::array<uint32_t, 4> counts{pyramid.leaf_count, pyramid.voxel_count, pyramid.attribute,
                                          pyramid.transparent};
-    return *packed_bytes({pyramid.frame, counts}, buffers_of(pyramid));
+    return *packed_bytes({pyramid.frame, counts}, pyramid_buffers(pyramid));
 }
 
 std::optional<Pyramid> pyramid_of_bytes(const Device& device, std::string_view bytes) {
     Pyramid pyramid;
-    const auto header = unpack_bytes(device, bytes, buffers_of(pyramid));
+    const auto header = unpack_bytes(device, bytes, pyramid_buffers(pyramid));
     if (!header) return std::nullopt;
     pyramid.frame = header->frame;
     pyramid.leaf_count = header->counts[0];
