@@ -14,10 +14,6 @@ constexpr double kMostMarked = 1 << 28;   ///< bricks of a lattice that are told
 constexpr double kMostCounted = 1 << 17;  ///< bricks of a surface: some hundredths of a second
 constexpr size_t kSampledBricks = 256;    ///< whose voxels are counted
 
-/// The voxels of a leaf of 4³ through which a plane passes: about 4² of them meet the plane, and
-/// half of the others are on one side of it.
-constexpr double kPassedLeaf = 16, kFilledLeaf = 40;
-
 constexpr double kLeafEdge = 5.5;  ///< voxels: boxes that aren't divided further
 
 /// A box in a lattice's voxels.
@@ -136,22 +132,39 @@ class BrickCounter {
             for (int part = 0; part < 8; ++part) sum += voxels_in(cell.part(part));
             return sum;
         }
-        const bool is_filled = rule_.keeps_inside || rule_.fills;
-        if (passes(cell.middle(), d)) return is_filled ? kFilledLeaf : kPassedLeaf;
-        return is_inside ? size * size * size : 0;
+        return voxels_in_leaf(cell, d);
     }
 
-    /// True if the plane through the surface near a leaf's middle passes through the leaf.
-    bool passes(const glm::dvec3& middle, double d) const {
-        if (glm::any(glm::greaterThan(middle, glm::dvec3(frame_.size)))) return false;
+    /// The voxels of a leaf that the surface passes through, or that are filled. A quarter of them
+    /// stands for all, the same number in each layer along each axis: a surface that runs exactly
+    /// between two layers belongs to both, and a thin slab has two surfaces in one leaf.
+    double voxels_in_leaf(const Cell& leaf, double d) const {
+        constexpr int kEdge = int(kLeafSize);
+        const double reach = 0.5 * slope_at(leaf.middle(), d) * (1 + 1e-9);
+        const bool is_filled = rule_.keeps_inside || rule_.fills;
+        int found = 0;
+        for (int y = 0; y < kEdge; ++y)
+            for (int z = 0; z < kEdge; ++z) {
+                const glm::dvec3 centre =
+                    leaf.low + glm::dvec3((y + z) % kEdge + 0.5, y + 0.5, z + 0.5);
+                if (glm::any(glm::greaterThan(centre, glm::dvec3(frame_.size)))) continue;
+                const double of_voxel = distance(centre);
+                found += std::abs(of_voxel) <= reach || (is_filled && of_voxel < 0);
+            }
+        return found * kEdge;
+    }
+
+    /// The sum of the distance's slopes along the axes, metres a voxel: half of it is the distance
+    /// at the centre of a voxel that the surface just touches.
+    double slope_at(const glm::dvec3& middle, double d) const {
         constexpr double kStep = 0.01;  // voxels
-        double across = 0;
+        double sum = 0;
         for (int axis = 0; axis < 3; ++axis) {
-            glm::dvec3 beside = middle;
-            beside[axis] += kStep;
-            across += std::abs(distance(beside) - d) / kStep;
+            glm::dvec3 moved = middle;
+            moved[axis] += kStep;
+            sum += std::abs(distance(moved) - d) / kStep;
         }
-        return std::abs(d) <= 0.5 * kLeafSize * across;
+        return sum;
     }
 
     const SolidField& field_;

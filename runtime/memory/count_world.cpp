@@ -50,6 +50,11 @@ void count_painting(const Device& device, const WorldParts& parts, size_t bricks
     const Buffer<uint32_t> painted(device, "painted bricks", 2 * bricks);
 }
 
+/// The bricks that arrays have room for once they have grown.
+size_t with_more_room(size_t bricks) {
+    return bricks + bricks / 4;
+}
+
 /// Makes the world's triangles and solids; false if no object has any.
 bool count_sources(const Device& device, std::span<const PlacedObject> objects, BrickGrid& world) {
     size_t floats = 0, solid_words = 0;
@@ -86,6 +91,14 @@ Pyramid allocate_indexed(const Device& device, const BrickGrid& grid, const Worl
     return allocate_pyramid(device, grid, found);
 }
 
+/// Marks and packs the voxels of a grid.
+Pyramid count_packing(const Device& device, const BrickGrid& grid, const WorldCounts& counts) {
+    { const MarkArrays marks = allocate_marks(device, grid.brick_count); }
+    Pyramid pyramid = allocate_indexed(device, grid, counts);
+    const Buffer<uint32_t> starts(device, "index starts", 3 * size_t(grid.brick_count));
+    return pyramid;
+}
+
 }  // namespace
 
 CountedWorld count_placing(const Device& device, std::span<const PlacedObject> objects,
@@ -107,6 +120,17 @@ CountedWorld count_placing(const Device& device, std::span<const PlacedObject> o
     return world;
 }
 
+void count_growth(const Device& device, BrickGrid& world) {
+    const size_t bricks = with_more_room(world.brick_count);
+    if (!world.occupancy.empty())
+        world.occupancy = allocate_masks(device, "world occupancy", bricks);
+    if (!world.distance.empty())
+        world.distance = allocate_distances(device, "world distances", bricks);
+    if (!world.attributes.empty())
+        world.attributes = allocate_words(device, "world attributes", bricks);
+    if (!world.colors.empty()) world.colors = allocate_words(device, "world colors", bricks);
+}
+
 BrickGrid count_repainting(const Device& device, std::span<const PlacedObject> objects,
                            const BrickGrid& world, size_t bricks) {
     { const Buffer<uint8_t> states(device, "brick states", brick_places(world.frame)); }
@@ -119,17 +143,16 @@ BrickGrid count_repainting(const Device& device, std::span<const PlacedObject> o
     return sources;
 }
 
-Pyramid count_reindexing(const Device& device, const BrickGrid& grid, const WorldCounts& counts) {
-    { const MarkArrays marks = allocate_marks(device, grid.brick_count); }
-    Pyramid pyramid = allocate_indexed(device, grid, counts);
-    const Buffer<uint32_t> starts(device, "index starts", 3 * size_t(grid.brick_count));
-    return pyramid;
+Pyramid count_reindexing(const Device& device, const BrickGrid& grid, const WorldCounts& counts,
+                         Buffer<uint64_t>& masks) {
+    masks = allocate_masks(device, "index masks", with_more_room(grid.brick_count));
+    return count_packing(device, grid, counts);
 }
 
 CountedPyramid count_index(const Device& device, const BrickGrid& grid, const WorldCounts& counts) {
     CountedPyramid indexed;
     indexed.masks = allocate_masks(device, "index masks", grid.brick_count);
-    indexed.pyramid = count_reindexing(device, grid, counts);
+    indexed.pyramid = count_packing(device, grid, counts);
     return indexed;
 }
 

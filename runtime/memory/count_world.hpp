@@ -28,6 +28,10 @@ struct CountedWorld {
 CountedWorld count_placing(const Device& device, std::span<const PlacedObject> objects,
                            const GridFrame& frame, const WorldCounts& counts);
 
+/// Follows WorldBricks where a world comes to have more bricks than it has room for: each array is
+/// copied to a larger one, with room for a quarter more.
+void count_growth(const Device& device, BrickGrid& world);
+
 /// Follows Placer::place where `bricks` of a world change. Returns the triangles and solids that
 /// the world then has; all other buffers are freed again.
 BrickGrid count_repainting(const Device& device, std::span<const PlacedObject> objects,
@@ -42,8 +46,10 @@ struct CountedPyramid {
 /// Follows Indexer::index.
 CountedPyramid count_index(const Device& device, const BrickGrid& grid, const WorldCounts& counts);
 
-/// Follows Indexer::index where it has indexed the grid before, whose marks it keeps.
-Pyramid count_reindexing(const Device& device, const BrickGrid& grid, const WorldCounts& counts);
+/// Follows Indexer::index where it has indexed the grid before: its `masks` are copied to larger
+/// ones, for a quarter more bricks.
+Pyramid count_reindexing(const Device& device, const BrickGrid& grid, const WorldCounts& counts,
+                         Buffer<uint64_t>& masks);
 
 /// Follows InstanceModels::join; `counts` are those of the listed grids, whose pyramids are added
 /// to `kept`.

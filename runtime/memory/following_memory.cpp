@@ -55,8 +55,8 @@ class FollowingWalk {
         const std::vector<PlacedObject> placed = grids_.placed();
         const WorldCounts counts = objects_.world(Estimate::expected);
         const GridFrame frame = world_frame(scene_.world);
-        const CountedWorld world = count_placing(device_, placed, frame, counts);
-        const CountedPyramid indexed = count_index(device_, world.grid, counts);
+        CountedWorld world = count_placing(device_, placed, frame, counts);
+        CountedPyramid indexed = count_index(device_, world.grid, counts);
         std::vector<ModelPyramid> kept;
         Pyramid joined =
             count_joining(device_, instances.listed, indexed.pyramid, instances.models, kept);
@@ -64,25 +64,26 @@ class FollowingWalk {
         joined.clear = medium_.is_zero;
         const ImageMemory image = count_image(device_, scene_, joined, medium_, SIZE_MAX);
         const Buffer<uint8_t> hits(device_, "hits", hit_bytes(joined));
-        build_next(placed, world.grid, counts, instances.listed);
+        build_next(placed, world.grid, indexed.masks, instances.listed);
         return double(device_.counters().peak_bytes);
     }
 
   private:
     /// Counts what the next frame's world needs in addition to all that is there. It may be built
     /// while this frame's image is made, so both are counted together.
-    void build_next(std::span<const PlacedObject> placed, const BrickGrid& world,
-                    const WorldCounts& counts, const ListedInstances& listed) {
+    void build_next(std::span<const PlacedObject> placed, BrickGrid& world, Buffer<uint64_t>& masks,
+                    const ListedInstances& listed) {
+        const WorldCounts counts = objects_.world(Estimate::expected);
         const auto is_changed = [this](const CountedGrid& grid) { return changes_.are_of(grid); };
         const std::vector<BrickGrid> made = grids_.make_again(is_changed);
         const auto bricks = size_t(objects_.changed_bricks(changes_.objects));
         if (bricks == 0) return;
+        count_growth(device_, world);
         // An object that moves changes the bricks that it leaves and those that it comes to.
         const BrickGrid sources =
             count_repainting(device_, placed, world, std::min(2 * bricks, counts.bricks));
         grids_.forget_if(is_changed);
-        // The marks stay, and all else of the index is made again.
-        const Pyramid next = count_reindexing(device_, world, counts);
+        const Pyramid next = count_reindexing(device_, world, counts, masks);
         std::vector<ModelPyramid> kept;
         if (!listed.list.empty()) count_joining(device_, {{}, listed.list, {}}, next, {}, kept);
     }
