@@ -64,14 +64,14 @@ class FollowingWalk {
         joined.clear = medium_.is_zero;
         const ImageMemory image = count_image(device_, scene_, joined, medium_, SIZE_MAX);
         const Buffer<uint8_t> hits(device_, "hits", hit_bytes(joined));
-        build_next(placed, world.grid, indexed.masks, instances.listed);
+        build_next(placed, world.grid, indexed, instances.listed);
         return double(device_.counters().peak_bytes);
     }
 
   private:
     /// Counts what the next frame's world needs in addition to all that is there. It may be built
     /// while this frame's image is made, so both are counted together.
-    void build_next(std::span<const PlacedObject> placed, BrickGrid& world, Buffer<uint64_t>& masks,
+    void build_next(std::span<const PlacedObject> placed, BrickGrid& world, CountedPyramid& indexed,
                     const ListedInstances& listed) {
         const WorldCounts counts = objects_.world(Estimate::expected);
         const auto is_changed = [this](const CountedGrid& grid) { return changes_.are_of(grid); };
@@ -83,7 +83,8 @@ class FollowingWalk {
         const BrickGrid sources =
             count_repainting(device_, placed, world, std::min(2 * bricks, counts.bricks));
         grids_.forget_if(is_changed);
-        const Pyramid next = count_reindexing(device_, world, counts, masks);
+        indexed.pyramid = {};  // the image shows its copy that has the instances
+        const Pyramid next = count_reindexing(device_, world, counts, indexed.masks);
         std::vector<ModelPyramid> kept;
         if (!listed.list.empty()) count_joining(device_, {{}, listed.list, {}}, next, {}, kept);
     }

@@ -20,6 +20,9 @@ constexpr double kPlacedBand = 5;     ///< around cubes: placing looks at whole 
 /// The maximum by which a surface's bricks and voxels exceed what areas and distances tell.
 constexpr double kMargin = 1.12;
 
+/// That of a solid's voxels, which are counted one by one.
+constexpr double kSolidMargin = 1.04;
+
 const glm::dmat4 kOwnSpace(1);
 
 /// Voxels around a surface whose bricks voxelizing stores.
@@ -53,12 +56,8 @@ SurfaceExtent smaller(const SurfaceExtent& a, const SurfaceExtent& b) {
     return {std::min(a.voxels, b.voxels), std::min(a.bricks, b.bricks)};
 }
 
-SurfaceExtent with_margin(const SurfaceExtent& extent) {
-    return {kMargin * extent.voxels, kMargin * extent.bricks};
-}
-
-double margin(Estimate estimate) {
-    return estimate == Estimate::expected ? kMargin : 1;
+SurfaceExtent with_margin(const SurfaceExtent& extent, double voxel_margin = kMargin) {
+    return {voxel_margin * extent.voxels, kMargin * extent.bricks};
 }
 
 VoxelBox whole_of(const GridFrame& frame) {
@@ -87,12 +86,10 @@ GridCounts counts_of(const Model& model, const MeshSummary* mesh, const GridFram
     return counts;
 }
 
-WorldCounts sum_of(const WorldExtent& extent, double primitives, Estimate estimate,
-                   const GridFrame& frame) {
+WorldCounts sum_of(const WorldExtent& extent, double primitives, const GridFrame& frame) {
     const glm::dvec3 table(frame.bricks());
-    const double more = margin(estimate);
-    return {size_t(std::clamp(more * extent.bricks, 1.0, table.x * table.y * table.z)),
-            size_t(std::max(more * extent.voxels, 1.0)), size_t(more * primitives)};
+    return {size_t(std::clamp(extent.bricks, 1.0, table.x * table.y * table.z)),
+            size_t(std::max(extent.voxels, 1.0)), size_t(primitives)};
 }
 
 /// Primitives that a voxel of an exact surface lists.
@@ -241,15 +238,17 @@ WorldCounts ObjectCounts::world(Estimate estimate) {
             apart.push_back({box, least_in_world(number)});
             continue;
         }
-        const SurfaceExtent extent = expected_in_world(object, taken);
+        const Model& model = scene_.models[size_t(object.model)];
+        in_world_[number] = expected_in_world(object, taken);
+        const SurfaceExtent extent =
+            with_margin(in_world_[number], model.solid ? kSolidMargin : kMargin);
         sum.voxels += extent.voxels;
         sum.bricks += extent.bricks;
-        in_world_[number] = extent;
-        primitives += extent.voxels * listed(scene_.models[size_t(object.model)]);
+        primitives += extent.voxels * listed(model);
     }
-    if (is_expected) return *(expected_ = sum_of(sum, primitives, estimate, frame));
+    if (is_expected) return *(expected_ = sum_of(sum, primitives, frame));
     sum = min_extent(std::move(apart));
-    return sum_of(sum, sum.exact_voxels, estimate, frame);
+    return sum_of(sum, sum.exact_voxels, frame);
 }
 
 WorldCounts indexed_counts(const GridCounts& grid) {
