@@ -16,6 +16,7 @@
 
 #include "cli/checks.hpp"
 #include "cli/commands.hpp"
+#include "cli/warnings.hpp"
 
 namespace voxelume::cli {
 
@@ -113,13 +114,12 @@ void flush_stdout() {
                     fmt::format("can't write to standard output: {}", std::strerror(errno)));
 }
 
-/// One line that can't steer the terminal, whatever is in a file's name; a compiler's log has more.
-int complain(std::string sentence, ErrorKind kind) {
-    for (char& c : sentence) {
-        const bool is_control = static_cast<unsigned char>(c) < 0x20 || c == 0x7f;
-        if (is_control && !(c == '\n' && kind == ErrorKind::build)) c = '?';
-    }
-    fmt::print(stderr, "voxelume: {}\n", sentence);
+/// A line; a compiler's log has more.
+int complain(const std::string& sentence, ErrorKind kind) {
+    std::vector<std::string> lines = {sentence};
+    if (kind == ErrorKind::build) lines = CLI::detail::split(sentence, '\n');
+    for (std::string& line : lines) line = harmless_line(std::move(line));
+    fmt::print(stderr, "voxelume: {}\n", fmt::join(lines, "\n"));
     return static_cast<int>(kind);
 }
 

@@ -87,8 +87,14 @@ static inline void list_voxel(const WorldView* world, const EmissivePieces* g, i
     const uint kind = packed >> VXL_KIND_SHIFT;
     if (VXL_CUBES && kind == VXL_KIND_CUBES && emits(g, packed))
         list_faces(world, g, x, y, z, voxel, packed);
-    if (VXL_SMOOTH && kind != VXL_KIND_CUBES && emits(g, packed))
+    if (VXL_SMOOTH && kind == VXL_KIND_SMOOTH && emits(g, packed))
         list_piece(g, x, y, z, VXL_PIECE_FIELD, voxel, packed);
+    if (VXL_FIELD_LISTS && kind == VXL_KIND_EXACT) {
+        const uint2 list = vload2(0, s->fields + (size_t)voxel * VXL_FIELD_WORDS);
+        for (uint field = list.x; field < list.x + list.y; ++field)
+            if (emits(g, s->attributes[field]))
+                list_piece(g, x, y, z, VXL_PIECE_FIELD, field, s->attributes[field]);
+    }
     if (!VXL_SOLIDS || kind != VXL_KIND_EXACT) return;
     for (uint i = s->primitive_first[voxel]; i < s->primitive_first[voxel + 1]; ++i) {
         if (!(s->primitives[i] & VXL_SOLID_PRIMITIVE)) continue;

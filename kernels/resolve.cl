@@ -81,7 +81,7 @@ static inline void store_color(lane_float value, const Pixels* at, global float*
     store_pixels(LANES_SELECT(finite, value, (lane_float)0.0f), at, plane);
 }
 
-/// Stores depth, position and normal of the `hit` pixels' rays.
+/// Stores depth, position and normal of the `hit` pixels' rays; the normal is that of their light.
 static inline void store_geometry(const Camera* camera, float4 voxel_edge, float4 world_origin,
                                   const RayBatch* batch, lane_uint ray, lane_int hit,
                                   const Pixels* at, size_t pixels, global float* restrict image) {
@@ -95,6 +95,7 @@ static inline void store_geometry(const Camera* camera, float4 voxel_edge, float
     // Z_E in voxels per metre. Multiplied by the edge twice, it measures voxels along Z_E in
     // metres.
     const float ahead[3] = {camera->axis_z.x, camera->axis_z.y, camera->axis_z.z};
+    global const float* normals = VXL_SHADING_NORMALS ? batch->shading : batch->normals;
     const lane_float nothing = (lane_float)0.0f;
     lane_float depth = (lane_float)camera->lead;
     for (uint a = 0; a < 3; ++a) {
@@ -109,8 +110,7 @@ static inline void store_geometry(const Camera* camera, float4 voxel_edge, float
                 image + (position_plane + a) * pixels);
         if (VXL_SHOWS_NORMAL)
             store_pixels(
-                LANES_SELECT(hit, LANES_GATHER_FLOAT(batch->normals + a * batch->stride, ray),
-                             nothing),
+                LANES_SELECT(hit, LANES_GATHER_FLOAT(normals + a * batch->stride, ray), nothing),
                 at, image + (normal_plane + a) * pixels);
     }
     if (VXL_SHOWS_DEPTH)

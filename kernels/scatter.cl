@@ -55,7 +55,7 @@ kernel void begin_paths(global const SolidShape* restrict solids, uint body_coun
             LANE_MASK(LANES_LOAD(batch.rays, VXL_RAY_END * batch.stride + first) >= 0.0f);
         for (uint i = 0; i < body_count; ++i) {
             const SolidEvent event = event_at(solids, bodies[i], &ray, (lane_float)0.0f);
-            in = cross_counted(in, (lane_uint)solids[bodies[i]].attribute, (lane_int)0, (lane_int)0,
+            in = cross_counted(in, (lane_uint)solids[bodies[i]].attribute, (lane_int)0,
                                event.after & valid, around.medium_overflows);
         }
     }
@@ -173,7 +173,7 @@ static inline void reflect_rays(PyramidShape shape, const Surroundings* around,
     r->medium = (lane_uint)0;
     if (VXL_TRANSMISSION) r->medium = medium_inside(&p->before, around->ranks);
     if (VXL_CUBE_BODIES) {  // on a cube's side towards its inside, rays begin in a known cell
-        const lane_int cube = is_cube(p->packed, p->source);
+        const lane_int cube = is_cube(p->packed, p->primitive);
         r->flags |= joined_flag(&p->before, around->materials) |
                     (LANES_AS_UINT(cube & p->leaving) & VXL_PATH_FROM_CELL);
         r->cell_xy = LANES_LOAD(batch->hits, VXL_HIT_CELL * stride + first);
@@ -195,8 +195,8 @@ static inline void refract_rays(PyramidShape shape, const Surroundings* around,
                VXL_PATH_ON_SURFACE;
     r->media = p->behind;
     r->medium = medium_inside(&p->behind, around->ranks);
-    const Vector bent = refracted_direction(p->way, p->normal, p->eta, p->cosine, &p->bend);
     const Vector into = opposite(p->normal);
+    const Vector bent = bent_direction(p, into);
     set_out_child(r, shape, offset_origin(shape, p->position, into, hits, stride, first), into,
                   bent);
     const lane_int same = LANE_MASK(p->eta == 1.0f);
@@ -211,7 +211,7 @@ static inline void refract_rays(PyramidShape shape, const Surroundings* around,
     r->flags |= LANES_AS_UINT(same) & VXL_PATH_GOES_ON;
     if (VXL_CUBE_BODIES)
         r->flags |= joined_flag(&p->behind, around->materials) |
-                    (LANES_AS_UINT(is_cube(p->packed, p->source)) & VXL_PATH_FROM_CELL);
+                    (LANES_AS_UINT(is_cube(p->packed, p->primitive)) & VXL_PATH_FROM_CELL);
     r->cell_xy = LANES_LOAD(hits, VXL_HIT_CELL * stride + first);
     r->cell_z = LANES_LOAD(hits, VXL_HIT_FACE * stride + first);
 }

@@ -95,9 +95,8 @@ kernel void begin_inside(VXL_WORLD_PARAMETERS, VXL_SURROUNDINGS_PARAMETERS,
         find_beginnings(&world, &around, &f.walk, active, &f.ray_state, hollow, maximum);
     for (int i = 0; i < VXL_MEDIUM_SET_SIZE; ++i) {
         lane_int full;
-        in =
-            cross_medium_or_overflow(in, began.members[i], (lane_int)(i == 0 ? -1 : 0), (lane_int)0,
-                                     LANE_MASK(began.members[i] != VXL_NO_MEDIUM), &full);
+        in = cross_medium_or_overflow(in, began.members[i], (lane_int)0,
+                                      LANE_MASK(began.members[i] != VXL_NO_MEDIUM), &full);
         if (VXL_MEDIUM_SET_CAPPED && lanes_any(full))
             atomic_add(medium_overflows, (uint)lanes_count(full));
     }

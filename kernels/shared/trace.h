@@ -75,9 +75,12 @@
 #define VXL_SOLID_PRIMITIVE 0x80000000u
 #define VXL_NO_PRIMITIVE 0xFFFFFFFFu
 #define VXL_NO_VOXEL 0xFFFFFFFFu
+// With the number of a field: what a ray begins on, where voxels may hold several fields.
+#define VXL_FIELD_SOURCE 0x40000000u
 
 // The origin of a ray, for scenes whose rays are reflected, refracted or continue through surfaces.
-//   VXL_PATH_SOURCE  the primitive that the ray begins on, VXL_NO_PRIMITIVE for other surfaces
+//   VXL_PATH_SOURCE  the primitive that the ray begins on, VXL_FIELD_SOURCE with a field's number,
+//                    or VXL_NO_PRIMITIVE for other surfaces
 //   VXL_PATH_FLAGS   VXL_PATH_* bits
 //   VXL_PATH_WEIGHT  float: the share of a pixel that the ray's node may add
 // The others exist in scenes with transmitting objects only:
@@ -110,8 +113,7 @@
 // through the largest world, 3 * 65536.
 #define VXL_MAX_LAYERS 0x40000
 
-// A ray's medium set: the objects that it is inside of. The first is the smooth one (smooth objects
-// are one body); the others are exact or of cubes, and Features::other_media is their number.
+// A free place in the set of objects that a ray is inside of; Features::media is its size.
 #define VXL_NO_MEDIUM 0xFFFFFFFFu
 
 // How a ray meets a surface: bits of RayBatch::sides.

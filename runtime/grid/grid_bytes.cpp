@@ -19,6 +19,7 @@ void visit_grid(Grid& grid, const Visit& visit) {
     visit("source primitives", grid.primitives);
     visit("source triangles", grid.triangles);
     visit("source attributes", grid.triangle_attributes);
+    visit("source normals", grid.triangle_normals);
     visit("source solids", grid.solids);
 }
 
@@ -30,7 +31,7 @@ auto grid_buffers(auto& grid) {
 }  // namespace
 
 std::optional<std::string> bytes_of_grid(const BrickGrid& grid, uint64_t max_bytes) {
-    const std::array<uint32_t, 4> counts{grid.brick_count, grid.attribute, grid.transparent, 0};
+    const std::array<uint32_t, 5> counts{grid.brick_count, grid.attribute, grid.transparent};
     return packed_bytes({grid.frame, counts}, grid_buffers(grid), max_bytes);
 }
 

@@ -15,7 +15,7 @@ namespace voxelume {
 /// What stands before the buffers.
 struct PackedHeader {
     GridFrame frame;
-    std::array<uint32_t, 4> counts{};  ///< numbers whose meaning the caller knows
+    std::array<uint32_t, 5> counts{};  ///< numbers whose meaning the caller knows
 };
 
 /// The bytes of a header and of the buffers that `for_each` passes to its argument, with their

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "runtime/memory/count_grids.hpp"
 
+#include "kernels/shared/normal.h"
 #include "kernels/shared/solid.h"
 #include "runtime/stages/brick_arrays.hpp"
 #include "runtime/stages/voxelize/voxelize_steps.hpp"
@@ -61,7 +62,7 @@ void count_surface(const Device& device, const GridCounts& counts, BrickGrid& gr
     grid.occupancy = allocate_masks(device, "occupancy", counts.bricks);
 }
 
-/// Follows list_primitives and keep_triangles.
+/// Follows list_primitives, keep_triangles and keep_normals.
 void count_triangles(const Device& device, const GridCounts& counts, BrickGrid& grid) {
     const auto listed = size_t(kTrianglesPerVoxel * double(counts.voxels));
     grid.primitive_first = allocate_list_starts(device, "primitive starts", counts.bricks);
@@ -69,6 +70,9 @@ void count_triangles(const Device& device, const GridCounts& counts, BrickGrid& 
     grid.triangles =
         Buffer<float>(device, "source triangles", kFloatsPerTriangle * counts.triangles);
     grid.triangle_attributes = Buffer<uint32_t>(device, "source attributes", counts.triangles);
+    if (counts.normals)
+        grid.triangle_normals =
+            Buffer<uint32_t>(device, "source normals", VXL_TRIANGLE_NORMALS * counts.triangles);
 }
 
 }  // namespace

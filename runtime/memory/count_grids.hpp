@@ -14,6 +14,7 @@ struct GridCounts {
     Surface surface = Surface::cubes;
     VoxelSet set = VoxelSet::supercover;
     bool words = false, colors = false;  ///< voxels have them
+    bool normals = false;                ///< triangles of an exact mesh have them
     size_t bricks = 0;                   ///< stored
     size_t voxels = 0;                   ///< that the surface passes through
     size_t vertices = 0, triangles = 0;  ///< of a mesh

@@ -40,7 +40,8 @@ DilatedOccupancy count_dilated_occupancy(const Device& device, const Pyramid& wo
     const glm::dvec3 table(of == DilationLevel::leaves ? world.frame.sectors()
                                                        : (world.frame.sectors() + 3) / 4);
     const double places = table.x * table.y * table.z;
-    const double records = double(world.bricks.size() / kWordsPerRecord / kRecordsPerSector);
+    const size_t whole = world.bricks.size() / kWordsPerRecord / kRecordsPerSector;
+    const double records = double(whole);
     const double stored = (of == DilationLevel::leaves ? records : records / 16);
     DilatedOccupancy dilated_occupancy =
         allocate_dilated_occupancy(device, size_t(places), size_t(std::min(places, stored + 1)));

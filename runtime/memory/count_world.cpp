@@ -43,11 +43,8 @@ void count_bricks_of(const Device& device, const WorldParts& parts, size_t brick
 }
 
 /// Follows Placer's painting.
-void count_painting(const Device& device, const WorldParts& parts, size_t bricks) {
-    const Buffer<int16_t> nearest = parts.measures_nearest()
-                                        ? allocate_distances(device, "nearest surfaces", bricks)
-                                        : Buffer<int16_t>();
-    const Buffer<uint32_t> painted(device, "painted bricks", 2 * bricks);
+void count_painting(const Device& device, size_t bricks) {
+    const Buffer<uint32_t> painted(device, "painted bricks", bricks);
 }
 
 /// The bricks that arrays have room for once they have grown.
@@ -57,14 +54,13 @@ size_t with_more_room(size_t bricks) {
 
 /// Makes the world's triangles and solids; false if no object has any.
 bool count_sources(const Device& device, std::span<const PlacedObject> objects, BrickGrid& world) {
-    size_t floats = 0, solid_words = 0;
+    SourceCounts sources;
     bool is_exact = false;
     for (const PlacedObject& object : objects) {
         is_exact |= !object.grid->primitive_first.empty();
-        floats += object.grid->triangles.size();
-        solid_words += object.grid->solids.size();
+        sources.add(*object.grid);
     }
-    if (is_exact) allocate_sources(device, floats, solid_words, world);
+    if (is_exact) allocate_sources(device, sources, world);
     return is_exact;
 }
 
@@ -115,7 +111,7 @@ CountedWorld count_placing(const Device& device, std::span<const PlacedObject> o
         const Buffer<uint32_t> listed(device, "listed bricks", counts.bricks);
     }
     count_bricks_of(device, parts, counts.bricks, grid);
-    count_painting(device, parts, counts.bricks);
+    count_painting(device, counts.bricks);
     count_lists(device, objects, counts.primitives, grid);
     return world;
 }
@@ -134,7 +130,7 @@ void count_growth(const Device& device, BrickGrid& world) {
 BrickGrid count_repainting(const Device& device, std::span<const PlacedObject> objects,
                            const BrickGrid& world, size_t bricks) {
     { const Buffer<uint8_t> states(device, "brick states", brick_places(world.frame)); }
-    count_painting(device, parts_of(objects), bricks);
+    count_painting(device, bricks);
     // New lists take the place of those before, but pyramids still have the sources of these.
     BrickGrid sources;
     if (count_sources(device, objects, sources))

@@ -37,7 +37,7 @@ class FrameWalk {
         const CountedInstances instances = grids_.instances();
         const CountedPyramid placed = form_placed();
         std::vector<ModelPyramid> kept;
-        const Pyramid joined =
+        Pyramid joined =
             count_joining(device_, instances.listed, placed.pyramid, instances.models, kept);
         memory_.index = height();
         memory_.largest_buffer = device_.counters().largest_buffer;

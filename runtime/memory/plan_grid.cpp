@@ -29,6 +29,8 @@ constexpr std::array kWords = {
     BufferWords{"voxel fields", "its voxels' fields"},
     BufferWords{"attributes of", "its triangles", BufferGrowth::triangles},
     BufferWords{"triangle", "its triangles", BufferGrowth::triangles},
+    BufferWords{"source normals", "its triangles' normals", BufferGrowth::triangles},
+    BufferWords{"world normals", "its triangles' normals", BufferGrowth::triangles},
     BufferWords{"lattice", "its triangles", BufferGrowth::triangles},
     BufferWords{"bin lists", "its triangles", BufferGrowth::triangles},
     BufferWords{"starts", "the starts of its voxels' lists"},

@@ -13,6 +13,7 @@
 #include "image.hpp"
 #include "process.hpp"
 #include "scene.hpp"
+#include "warning.hpp"
 
 namespace voxelume::v1 {
 
@@ -57,6 +58,7 @@ struct Plan {
     /// What each stage takes. The stage "volume" is that of the display's volumetric image, which
     /// only runs if one is asked for.
     std::vector<StagePlan> stages{};
+    std::vector<Warning> warnings{};  ///< what is probably wrong, as far as it shows unrendered
 };
 
 /// What planning assumes.

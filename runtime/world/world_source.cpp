@@ -26,6 +26,7 @@ void add_solid(CacheKey& words, const Solid& solid) {
 
 void add_model(CacheKey& words, const Model& model, AssetStore& meshes) {
     words.add_text(meshes.source_of(model)).add(int(model.surface)).add(int(model.set));
+    words.add(int(model.shading.kind)).add(model.shading.crease_angle);
     if (!lists_primitives(model.surface))
         add_frame(words, model_frame(model, meshes.summary_of(model)));
     words.add(model.cuts.size());

@@ -23,7 +23,7 @@ static inline lane_int is_cube(lane_uint packed, lane_uint primitive) {
 static inline lane_uint body_inside(const MediumSet* in) {
     const lane_uint kind = (lane_uint)VXL_KIND_CUBES;
     lane_uint body = (lane_uint)VXL_NO_MEDIUM;
-    for (int i = 1; i < VXL_MEDIUM_SET_SIZE; ++i)
+    for (int i = 0; i < VXL_MEDIUM_SET_SIZE; ++i)
         body = LANES_SELECT(LANE_MASK((in->members[i] >> VXL_KIND_SHIFT) == kind), in->members[i],
                             body);
     return body;

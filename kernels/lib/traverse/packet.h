@@ -29,8 +29,8 @@ static inline SurfaceHit no_hit_yet(const RayState* ray_state) {
     found.leaf = found.voxel = (lane_uint)0;
     found.primitive = found.solid = (lane_uint)VXL_NO_PRIMITIVE;
     found.level = (lane_float)0.0f;
-    found.asked = ~ray_state->unsure;
     found.within = (lane_int)0;
+    found.inside = (lane_uint)VXL_NO_MEDIUM;
     found.in_body = found.exit = (lane_int)0;
     found.instance = (lane_uint)VXL_NO_INSTANCE;
     return found;
@@ -141,7 +141,7 @@ static inline RayState load_ray_state(const RayBatch* batch, uint count, lane_ui
     RayState ray_state = sight_ray_state();
     ray_state.on_surface = has_flag(flags, VXL_PATH_ON_SURFACE);
     ray_state.within_source = has_flag(flags, VXL_PATH_WITHIN_SOURCE);
-    if (VXL_EXACT) ray_state.source = LANES_GATHER_UINT(paths + VXL_PATH_SOURCE * stride, ray);
+    if (VXL_SOURCES) ray_state.source = LANES_GATHER_UINT(paths + VXL_PATH_SOURCE * stride, ray);
     if (VXL_INSTANCES)
         ray_state.instance = LANES_GATHER_UINT(paths + VXL_PATH_INSTANCE * stride, ray);
     if (VXL_TRANSMISSION) {
@@ -265,8 +265,8 @@ static inline void take_hit(const SurfaceHit* other, lane_int taken, SurfaceHit*
     found->leaf = LANES_SELECT(taken, other->leaf, found->leaf);
     found->voxel = LANES_SELECT(taken, other->voxel, found->voxel);
     if (VXL_SMOOTH) {
-        found->asked = LANES_SELECT(taken, other->asked, found->asked);
         found->within = LANES_SELECT(taken, other->within, found->within);
+        found->inside = LANES_SELECT(taken, other->inside, found->inside);
         found->level = LANES_SELECT(taken, other->level, found->level);
     }
     if (VXL_EXACT) {

@@ -46,7 +46,8 @@ static inline void send_shadows(const WorldView* world, const Surroundings* arou
     ray_state->on_surface = (lane_int)-1;
     const lane_uint target =
         VXL_RAY_UINTS(q->targets, packet->ray, VXL_REFILLS_SHADOWS) & LANES_AS_UINT(fresh);
-    if (VXL_EXACT) ray_state->source = VXL_RAY_UINTS(q->sources, packet->ray, VXL_REFILLS_SHADOWS);
+    if (VXL_SOURCES)
+        ray_state->source = VXL_RAY_UINTS(q->sources, packet->ray, VXL_REFILLS_SHADOWS);
     if (VXL_INSTANCES)
         ray_state->instance = LANES_GATHER_UINT(batch->hits + VXL_HIT_INSTANCE * stride, target);
     if (VXL_SOLIDS) {
@@ -78,7 +79,7 @@ static inline void keep_way(const ShadowPacket* before, lane_int fresh, ShadowPa
             LANES_SELECT(fresh, ray_state->within_source, was->within_source);
     if (!VXL_FILTER) return;
     ray_state->goes_on = LANES_SELECT(fresh, ray_state->goes_on, was->goes_on);
-    if (VXL_EXACT) ray_state->source = LANES_SELECT(fresh, ray_state->source, was->source);
+    if (VXL_SOURCES) ray_state->source = LANES_SELECT(fresh, ray_state->source, was->source);
     ray_state->t_first = LANES_SELECT(fresh, ray_state->t_first, was->t_first);
     for (int i = 0; i < VXL_MEDIUM_SET_SIZE; ++i)
         ray_state->media.members[i] =

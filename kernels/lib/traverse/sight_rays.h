@@ -14,8 +14,7 @@ static inline Hit hit_of(const Packet* f, lane_int hit) {
     Hit h;
     Walk walk = f->walk;
     lane_uint face = hit_face(&walk, f->found.exit & hit);
-    if (VXL_SMOOTH)
-        face |= LANES_AS_UINT(within_smooth(&f->found, &f->ray_state)) & VXL_FACE_WITHIN;
+    if (VXL_SMOOTH) face |= LANES_AS_UINT(f->found.within) & VXL_FACE_WITHIN;
     h.values[VXL_HIT_T] = LANES_AS_UINT(f->found.t);
     h.values[VXL_HIT_VOXEL] = LANES_SELECT(hit, f->found.voxel, (lane_uint)VXL_NO_VOXEL);
     h.values[VXL_HIT_CELL] = LANES_AS_UINT(walk.x | (walk.y << 16));

@@ -32,14 +32,9 @@ static inline long index_of_voxel(const PlacedObject* object, int4 v) {
     return (long)slot * VXL_BRICK_VOXELS + ((v.x & 15) | (v.y & 15) << 4 | (v.z & 15) << 8);
 }
 
-// Leaves are painted brick by brick: `painted` lists slots, each with the brick's place among all
-// that are painted.
+// Leaves are painted brick by brick: `painted` lists slots.
 static inline uint painted_leaf(uint item, global const uint* painted) {
-    return painted[item >> 6 << 1] << 6 | (item & 63u);
-}
-
-static inline uint painted_index(uint item, global const uint* painted) {
-    return painted[(item >> 6 << 1) + 1u];
+    return painted[item >> 6] << 6 | (item & 63u);
 }
 
 // The first node, in half steps, of the world's leaf number 64 * slot + bit.

@@ -75,11 +75,14 @@ struct PlacedObject {
 BrickGrid place(const Device& device, std::span<const PlacedObject> objects,
                 const GridFrame& world);
 
+class NearLeaves;
+
 /// Places one list of objects after another. It paints only those bricks of the world again that a
 /// changed object had a part in or has one in now. The voxels are those that `place` gives.
 class Placer {
   public:
-    explicit Placer(const Device& device);
+    /// Placers that place objects with the same grids may share their near leaves.
+    explicit Placer(const Device& device, std::shared_ptr<NearLeaves> near = {});
     ~Placer();
     Placer(const Placer&) = delete;
     Placer& operator=(const Placer&) = delete;
@@ -100,6 +103,8 @@ class Placer {
   private:
     class State;
     Device device_;
+    const bool owns_near_;
+    std::shared_ptr<NearLeaves> near_;
     std::unique_ptr<State> state_;
 };
 
