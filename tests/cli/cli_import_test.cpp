@@ -48,6 +48,13 @@ TEST_F(CliImportTest, ImportWritesWhatRenderShows) {
     EXPECT_THAT(run("import wedge.obj -o scenes/wedge.json").err, HasSubstr("--assets"));
 }
 
+TEST_F(CliImportTest, AModelFileIsViewedAsAVolumetricImage) {
+    const ProgramResult result = run("view wedge.obj -o a.html -o a.png --size 200x160");
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_THAT(bytes_of(folder / "a.html"), HasSubstr("<html"));
+    EXPECT_GT(bytes_of(folder / "a.png").size(), 1000u);
+}
+
 TEST_F(CliImportTest, ChoicesThatMakeNoSenseAreUsageErrors) {
     const auto refused = [&](const char* arguments) {
         const ProgramResult result = run(arguments);
