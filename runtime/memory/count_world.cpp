@@ -46,17 +46,27 @@ void count_painting(const Device& device, size_t bricks) {
     const Buffer<uint32_t> painted(device, "painted bricks", bricks);
 }
 
-/// Follows join_exact_surfaces.
-void count_lists(const Device& device, std::span<const PlacedObject> objects, size_t primitives,
-                 BrickGrid& world) {
+/// The bricks that arrays have room for once they have grown.
+size_t with_more_room(size_t bricks) {
+    return bricks + bricks / 4;
+}
+
+/// Makes the world's triangles and solids; false if no object has any.
+bool count_sources(const Device& device, std::span<const PlacedObject> objects, BrickGrid& world) {
     SourceCounts sources;
     bool is_exact = false;
     for (const PlacedObject& object : objects) {
         is_exact |= !object.grid->primitive_first.empty();
         sources.add(*object.grid);
     }
-    if (!is_exact) return;
-    allocate_sources(device, sources, world);
+    if (is_exact) allocate_sources(device, sources, world);
+    return is_exact;
+}
+
+/// Follows join_exact_surfaces.
+void count_lists(const Device& device, std::span<const PlacedObject> objects, size_t primitives,
+                 BrickGrid& world) {
+    if (!count_sources(device, objects, world)) return;
     const Buffer<uint32_t> counts = allocate_words(device, "primitive counts", world.brick_count);
     world.primitives = Buffer<uint32_t>(device, "world primitives", primitives);
     world.primitive_first =
@@ -64,48 +74,24 @@ void count_lists(const Device& device, std::span<const PlacedObject> objects, si
     const Buffer<uint32_t> starts(device, "brick starts", world.brick_count);
 }
 
-}  // namespace
-
-namespace {
-
 bool is_smooth(const PlacedObject& object) {
     return stores_distances(surface_of(*object.grid));
-}
-
-/// The share of the objects' bricks that are smooth objects'.
-double smooth_share(std::span<const PlacedObject> objects) {
-    double all = 0, smooth = 0;
-    for (const PlacedObject& object : objects) {
-        const double bricks = std::max(object.grid->brick_count, 1u);
-        all += bricks;
-        smooth += is_smooth(object) ? bricks : 0;
-    }
-    return smooth / all;
 }
 
 /// Follows WorldPlacer's fields: makes their grids, and returns the other objects.
 std::vector<PlacedObject> count_fields(const Device& device, std::span<const PlacedObject> objects,
                                        size_t bricks, CountedWorld& world) {
-    // Bricks that two objects have a part in are stored for both. In the world an object has a part
-    // in more bricks than it has itself, since it stands anywhere among them.
-    constexpr double kShared = 1.15, kAnywhere = 1.4;
     std::vector<PlacedObject> others, smooth;
-    double own_bricks = 0;
-    for (const PlacedObject& object : objects) {
+    for (const PlacedObject& object : objects)
         (is_smooth(object) ? smooth : others).push_back(object);
-        own_bricks += is_smooth(object) ? double(object.grid->brick_count) : 0;
-    }
     const auto own = [](const PlacedObject& object) { return !object.grid->attributes.empty(); };
     const auto colored = [](const PlacedObject& object) { return !object.grid->colors.empty(); };
-    world.fields.brick_count = uint32_t(std::max(kShared * double(bricks) * smooth_share(objects),
-                                                 kAnywhere * own_bricks)) +
-                               1;
-    const size_t stored = world.fields.brick_count;
-    world.fields.distance = allocate_distances(device, "world distances", stored);
+    world.fields.brick_count = uint32_t(bricks);
+    world.fields.distance = allocate_distances(device, "world distances", bricks);
     if (std::ranges::any_of(smooth, own))
-        world.fields.attributes = allocate_words(device, "world attributes", stored);
+        world.fields.attributes = allocate_words(device, "world attributes", bricks);
     if (std::ranges::any_of(smooth, colored))
-        world.fields.colors = allocate_words(device, "world colors", stored);
+        world.fields.colors = allocate_words(device, "world colors", bricks);
     world.parts = {
         .attributes = true, .colors = std::ranges::any_of(objects, colored), .fields = true};
     return others;
@@ -124,10 +110,8 @@ CountedWorld count_placing(const Device& device, std::span<const PlacedObject> o
     std::vector<PlacedObject> others(objects.begin(), objects.end());
     size_t bricks = counts.bricks;
     if (objects.size() > 1 && std::ranges::any_of(objects, is_smooth)) {
-        others = count_fields(device, objects, counts.bricks, world);
-        double own = double(counts.bricks) * (1 - smooth_share(objects)), sum = 0;
-        for (const PlacedObject& object : others) sum += double(object.grid->brick_count);
-        bricks = std::min(counts.bricks, size_t(std::max(own, sum) + 0.5));
+        others = count_fields(device, objects, std::max(counts.field_bricks, size_t{1}), world);
+        bricks = counts.other_bricks;
     }
     const WorldParts parts = parts_of(others);
     BrickGrid& grid = world.grid;
@@ -141,9 +125,31 @@ CountedWorld count_placing(const Device& device, std::span<const PlacedObject> o
     return world;
 }
 
-void count_repainting(const Device& device, const GridFrame& frame, size_t bricks) {
-    { const Buffer<uint8_t> states(device, "brick states", brick_places(frame)); }
-    count_painting(device, bricks);
+void count_growth(const Device& device, BrickGrid& world) {
+    const size_t bricks = with_more_room(world.brick_count);
+    if (!world.occupancy.empty())
+        world.occupancy = allocate_masks(device, "world occupancy", bricks);
+    if (!world.distance.empty())
+        world.distance = allocate_distances(device, "world distances", bricks);
+    if (!world.attributes.empty())
+        world.attributes = allocate_words(device, "world attributes", bricks);
+    if (!world.colors.empty()) world.colors = allocate_words(device, "world colors", bricks);
+}
+
+BrickGrid count_repainting(const Device& device, std::span<const PlacedObject> objects,
+                           const CountedWorld& world, const PartBricks& bricks) {
+    { const Buffer<uint8_t> states(device, "brick states", brick_places(world.grid.frame)); }
+    count_painting(device, size_t(std::max(bricks.of_fields, bricks.of_others)));
+    std::vector<PlacedObject> others(objects.begin(), objects.end());
+    CountedWorld changed;  // smooth objects' new grids are there while they take the others' places
+    if (world.fields.brick_count > 0)
+        others = count_fields(device, objects, size_t(bricks.of_fields), changed);
+    // New lists take the place of those before, but pyramids still have the sources of these.
+    BrickGrid sources;
+    if (count_sources(device, others, sources))
+        const Buffer<uint32_t> counts =
+            allocate_words(device, "primitive counts", world.grid.brick_count);
+    return sources;
 }
 
 namespace {
@@ -159,43 +165,52 @@ PyramidCounts pyramid_counts(const GridFrame& frame, const WorldCounts& counts) 
     return found;
 }
 
-}  // namespace
-
-Pyramid allocate_indexed(const Device& device, const BrickGrid& grid, const WorldCounts& counts) {
-    return allocate_pyramid(device, grid, pyramid_counts(grid.frame, counts));
-}
-
-Pyramid allocate_indexed(const Device& device, const CountedWorld& world,
-                         const WorldCounts& counts) {
-    if (world.fields.brick_count == 0) return allocate_indexed(device, world.grid, counts);
-    return allocate_pyramid(device, world.grid, world.parts,
-                            pyramid_counts(world.grid.frame, counts));
-}
-
-CountedPyramid count_index(const Device& device, const BrickGrid& grid, const WorldCounts& counts) {
-    CountedPyramid indexed;
-    indexed.masks = allocate_masks(device, "index masks", grid.brick_count);
+/// Marks and packs the voxels of a grid.
+Pyramid count_packing(const Device& device, const BrickGrid& grid, const WorldCounts& counts) {
     { const MarkArrays marks = allocate_marks(device, grid.brick_count); }
-    indexed.pyramid = allocate_indexed(device, grid, counts);
+    Pyramid pyramid = allocate_pyramid(device, grid, pyramid_counts(grid.frame, counts));
     const Buffer<uint32_t> starts(device, "index starts", 3 * size_t(grid.brick_count));
-    return indexed;
+    return pyramid;
 }
 
-CountedPyramid count_index(const Device& device, const CountedWorld& world,
-                           const WorldCounts& counts) {
-    if (world.fields.brick_count == 0) return count_index(device, world.grid, counts);
+/// Follows FieldIndexer::index, without the marks that stay.
+Pyramid count_uniting(const Device& device, const CountedWorld& world, const WorldCounts& counts) {
     const size_t bricks = world.fields.brick_count;
-    CountedPyramid indexed;
-    indexed.masks = allocate_masks(device, "index masks", bricks);
     { const MarkArrays marks = allocate_marks(device, bricks); }
     const Buffer<uint64_t> joined = allocate_masks(device, "field masks", bricks);
     const Buffer<uint64_t> united = allocate_masks(device, "united masks", counts.bricks);
     const Buffer<uint64_t> listing = allocate_masks(device, "list masks", counts.bricks);
     const Buffer<uint64_t> of_base =
         allocate_masks(device, "base masks", world.grid.brick_count > 0 ? counts.bricks : 0);
-    indexed.pyramid = allocate_indexed(device, world, counts);
+    Pyramid pyramid =
+        allocate_pyramid(device, world.grid, world.parts, pyramid_counts(world.grid.frame, counts));
     const Buffer<uint32_t> starts(device, "index starts", 4 * counts.bricks);
+    return pyramid;
+}
+
+}  // namespace
+
+CountedPyramid count_index(const Device& device, const BrickGrid& grid, const WorldCounts& counts) {
+    CountedPyramid indexed;
+    indexed.masks = allocate_masks(device, "index masks", grid.brick_count);
+    indexed.pyramid = count_packing(device, grid, counts);
     return indexed;
+}
+
+CountedPyramid count_index(const Device& device, const CountedWorld& world,
+                           const WorldCounts& counts) {
+    if (world.fields.brick_count == 0) return count_index(device, world.grid, counts);
+    CountedPyramid indexed;
+    indexed.masks = allocate_masks(device, "index masks", world.fields.brick_count);
+    indexed.pyramid = count_uniting(device, world, counts);
+    return indexed;
+}
+
+Pyramid count_reindexing(const Device& device, const CountedWorld& world, const WorldCounts& counts,
+                         Buffer<uint64_t>& masks) {
+    if (world.fields.brick_count > 0) return count_uniting(device, world, counts);
+    masks = allocate_masks(device, "index masks", with_more_room(world.grid.brick_count));
+    return count_packing(device, world.grid, counts);
 }
 
 Pyramid count_joining(const Device& device, const ListedInstances& listed, const Pyramid& world,

@@ -20,6 +20,9 @@ constexpr double kPlacedBand = 5;     ///< around cubes: placing looks at whole 
 /// The maximum by which a surface's bricks and voxels exceed what areas and distances tell.
 constexpr double kMargin = 1.12;
 
+/// That of a solid's voxels, which are counted one by one.
+constexpr double kSolidMargin = 1.04;
+
 const glm::dmat4 kOwnSpace(1);
 
 /// Voxels around a surface whose bricks voxelizing stores.
@@ -53,12 +56,8 @@ SurfaceExtent smaller(const SurfaceExtent& a, const SurfaceExtent& b) {
     return {std::min(a.voxels, b.voxels), std::min(a.bricks, b.bricks)};
 }
 
-SurfaceExtent with_margin(const SurfaceExtent& extent) {
-    return {kMargin * extent.voxels, kMargin * extent.bricks};
-}
-
-double margin(Estimate estimate) {
-    return estimate == Estimate::expected ? kMargin : 1;
+SurfaceExtent with_margin(const SurfaceExtent& extent, double voxel_margin = kMargin) {
+    return {voxel_margin * extent.voxels, kMargin * extent.bricks};
 }
 
 VoxelBox whole_of(const GridFrame& frame) {
@@ -88,12 +87,16 @@ GridCounts counts_of(const Model& model, const MeshSummary* mesh, const GridFram
     return counts;
 }
 
-WorldCounts sum_of(const WorldExtent& extent, double primitives, Estimate estimate,
+WorldCounts sum_of(const WorldExtent& extent, double primitives, const PartBricks& parts,
                    const GridFrame& frame) {
-    const glm::dvec3 table(frame.bricks());
-    const double more = margin(estimate);
-    return {size_t(std::clamp(more * extent.bricks, 1.0, table.x * table.y * table.z)),
-            size_t(std::max(more * extent.voxels, 1.0)), size_t(more * primitives)};
+    const double table = brick_table(frame);
+    WorldCounts counts;
+    counts.bricks = size_t(std::clamp(extent.bricks, 1.0, table));
+    counts.voxels = size_t(std::max(extent.voxels, 1.0));
+    counts.primitives = size_t(primitives);
+    counts.field_bricks = size_t(std::ceil(parts.of_fields));
+    counts.other_bricks = size_t(std::ceil(std::min(parts.of_others, table)));
+    return counts;
 }
 
 /// Primitives that a voxel of an exact surface lists.
@@ -109,15 +112,37 @@ GridCounts mesh_grid(const Model& model, const MeshSummary& mesh, const SurfaceA
                      surface_extent(area, kOwnSpace, frame, stored_band(model)));
 }
 
+/// What a solid's surface takes of its own lattice.
+SurfaceExtent ObjectCounts::solid_extent(const Model& model) {
+    const auto [entry, added] = of_solids_.try_emplace(&model);
+    if (!added) return entry->second;
+    const GridFrame frame = model_frame(model, nullptr);
+    TakenBricks taken(frame);
+    return entry->second =
+               with_margin(count_bricks(SolidField(*model.solid, kOwnSpace), frame, whole_of(frame),
+                                        model_rule(model.surface, is_solid_set(model)), taken)
+                               .extent);
+}
+
+/// What an exact solid takes of the world's lattice, where it has a grid of its own.
+SurfaceExtent ObjectCounts::exact_extent(const Object& object, const Model& model) {
+    const auto [entry, added] = of_exact_solids_.try_emplace(&object);
+    if (!added) return entry->second;
+    const GridFrame frame = world_frame(scene_.world);
+    TakenBricks taken(frame);
+    return entry->second =
+               with_margin(count_bricks(SolidField(*model.solid, object.world_from_object), frame,
+                                        boxes()[size_t(&object - scene_.objects.data())],
+                                        model_rule(Surface::exact, false), taken)
+                               .extent);
+}
+
 GridCounts ObjectCounts::model_grid(const Model& model, Estimate estimate) {
     const MeshSummary* mesh = meshes_.summary_of(model);
     const GridFrame frame = model_frame(model, mesh);
     const bool is_expected = estimate == Estimate::expected;
     if (model.solid) {
-        TakenBricks taken(frame);
-        const SurfaceExtent counted =
-            with_margin(count_bricks(SolidField(*model.solid, kOwnSpace), frame, whole_of(frame),
-                                     model_rule(model.surface, is_solid_set(model)), taken));
+        const SurfaceExtent counted = solid_extent(model);
         if (is_expected) return counts_of(model, mesh, frame, counted);
         const SurfaceArea area =
             min_solid_area(*model.solid, kOwnSpace, {model.extent.min, model.extent.max});
@@ -136,11 +161,7 @@ GridCounts ObjectCounts::object_grid(const Object& object, Estimate estimate) {
     if (!model.solid)
         return counts_of(model, mesh, frame,
                          is_expected ? extents_.planned(object, 0) : extents_.minimum(object, 0));
-    TakenBricks taken(frame);
-    const SurfaceExtent counted =
-        with_margin(count_bricks(SolidField(*model.solid, object.world_from_object), frame,
-                                 boxes()[size_t(&object - scene_.objects.data())],
-                                 model_rule(Surface::exact, false), taken));
+    const SurfaceExtent counted = exact_extent(object, model);
     return counts_of(model, mesh, frame,
                      is_expected ? counted : smaller(counted, extents_.minimum(object, 0)));
 }
@@ -163,10 +184,13 @@ SurfaceExtent ObjectCounts::voxels_in_world(const Object& object, const VoxelMod
     return {count * std::min(1.0, own), stored * std::min(1.0, own)};
 }
 
-SurfaceExtent ObjectCounts::expected_in_world(const Object& object, TakenBricks& taken) {
+BrickCount ObjectCounts::expected_in_world(const Object& object, TakenBricks& taken) {
+    const auto alone = [](const SurfaceExtent& extent) {
+        return BrickCount{extent, extent.bricks};
+    };
     const Model& model = scene_.models[size_t(object.model)];
     if (!model.voxels.empty() && model.surface != Surface::exact)
-        return voxels_in_world(object, meshes_.voxels(model), false);
+        return alone(voxels_in_world(object, meshes_.voxels(model), false));
     const bool keeps_inside = shows_inside(scene_, object);
     if (model.solid)
         return count_bricks(
@@ -181,7 +205,7 @@ SurfaceExtent ObjectCounts::expected_in_world(const Object& object, TakenBricks&
         extent.voxels += inside;
         extent.bricks += inside / double(kVoxelsPerBrick);
     }
-    return extent;
+    return alone(extent);
 }
 
 WorldExtent ObjectCounts::least_in_world(size_t number) {
@@ -199,48 +223,77 @@ WorldExtent ObjectCounts::least_in_world(size_t number) {
     return {extent.voxels, extent.bricks, model.surface == Surface::exact ? extent.voxels : 0};
 }
 
-double ObjectCounts::changed_bricks(const std::vector<bool>& objects) {
+PartBricks ObjectCounts::changed_bricks(const std::vector<bool>& objects) {
     world(Estimate::expected);
-    double sum = 0;
+    PartBricks sum;
     for (size_t number = 0; number < objects.size(); ++number)
-        if (objects[number]) sum += in_world_[number].bricks;
+        if (objects[number])
+            (is_smooth(number) ? sum.of_fields : sum.of_others) += in_world_[number].bricks;
     return sum;
 }
 
-WorldCounts ObjectCounts::world(Estimate estimate) {
-    const bool is_expected = estimate == Estimate::expected;
-    if (is_expected && expected_) return *expected_;
-    if (!is_expected) world(Estimate::expected);
-    in_world_.resize(scene_.objects.size());
+std::vector<size_t> ObjectCounts::placed_numbers() {
+    std::vector<size_t> numbers;
+    for (size_t number = 0; number < scene_.objects.size(); ++number) {
+        const Object& object = scene_.objects[number];
+        if (!is_instanced(scene_, object) && is_potentially_visible(scene_, object) &&
+            !is_empty(boxes()[number]))
+            numbers.push_back(number);
+    }
+    std::ranges::stable_partition(numbers, [this](size_t number) { return !is_smooth(number); });
+    return numbers;
+}
+
+bool ObjectCounts::is_smooth(size_t number) const {
+    return scene_.models[size_t(scene_.objects[number].model)].surface == Surface::smooth;
+}
+
+WorldCounts ObjectCounts::expected_world() {
     const GridFrame frame = world_frame(scene_.world);
     TakenBricks taken(frame);
     WorldExtent sum;
-    double primitives = 0;
-    std::vector<ObjectExtent> apart;
-    for (size_t number = 0; number < scene_.objects.size(); ++number) {
+    double primitives = 0, of_fields = 0, of_others = 0;
+    for (const size_t number : placed_numbers()) {
         const Object& object = scene_.objects[number];
-        if (is_instanced(scene_, object) || !is_potentially_visible(scene_, object)) continue;
-        const VoxelBox& box = boxes()[number];
-        if (is_empty(box)) continue;
-        if (!is_expected) {
-            apart.push_back({box, least_in_world(number)});
-            continue;
-        }
-        const SurfaceExtent extent = expected_in_world(object, taken);
+        const Model& model = scene_.models[size_t(object.model)];
+        const auto [counted, new_bricks] = expected_in_world(object, taken);
+        in_world_[number] = counted;
+        const SurfaceExtent extent = with_margin(counted, model.solid ? kSolidMargin : kMargin);
         sum.voxels += extent.voxels;
-        sum.bricks += extent.bricks;
-        in_world_[number] = extent;
-        primitives += extent.voxels * listed(scene_.models[size_t(object.model)]);
+        sum.bricks += kMargin * new_bricks;
+        if (is_smooth(number))
+            of_fields += extent.bricks;
+        else
+            of_others += kMargin * new_bricks;
+        primitives += extent.voxels * listed(model);
     }
-    if (is_expected) return *(expected_ = sum_of(sum, primitives, estimate, frame));
-    sum = min_extent(std::move(apart));
-    return sum_of(sum, sum.exact_voxels, estimate, frame);
+    return sum_of(sum, primitives, {of_fields, of_others}, frame);
+}
+
+WorldCounts ObjectCounts::least_world() {
+    std::vector<ObjectExtent> others, all;
+    double of_fields = 0;
+    for (const size_t number : placed_numbers()) {
+        all.push_back({boxes()[number], least_in_world(number)});
+        if (is_smooth(number))
+            of_fields += all.back().extent.bricks;
+        else
+            others.push_back(all.back());
+    }
+    const WorldExtent sum = min_extent(std::move(all));
+    const double of_others = min_extent(std::move(others)).bricks;
+    return sum_of(sum, sum.exact_voxels, {of_fields, of_others}, world_frame(scene_.world));
+}
+
+WorldCounts ObjectCounts::world(Estimate estimate) {
+    in_world_.resize(scene_.objects.size());
+    if (!expected_) expected_ = expected_world();
+    return estimate == Estimate::expected ? *expected_ : least_world();
 }
 
 WorldCounts indexed_counts(const GridCounts& grid) {
-    const double each = grid.surface != Surface::exact ? 0
-                        : grid.triangles > 0           ? kTrianglesPerVoxel
-                                                       : 1;
+    const double solid_or_mesh = grid.triangles > 0 ? kTrianglesPerVoxel : 1;
+    const double each = grid.surface == Surface::exact ? solid_or_mesh : 0;
     return {grid.bricks, grid.voxels, size_t(each * double(grid.voxels))};
 }
 

@@ -33,23 +33,31 @@ class ObjectCounts {
     /// What the objects' voxels take of the world.
     WorldCounts world(Estimate estimate);
 
-    /// The number of the world's bricks that the objects are expected in for which `objects` is
-    /// true.
-    double changed_bricks(const std::vector<bool>& objects);
+    /// The bricks that the objects are expected in for which `objects` is true.
+    PartBricks changed_bricks(const std::vector<bool>& objects);
 
     /// As object_boxes.
     const std::vector<VoxelBox>& boxes() { return extents_.boxes(); }
 
   private:
-    SurfaceExtent expected_in_world(const Object& object, TakenBricks& taken);
+    /// Of the objects in the world's voxels, smooth ones last.
+    std::vector<size_t> placed_numbers();
+    bool is_smooth(size_t number) const;
+    WorldCounts expected_world();
+    WorldCounts least_world();
+    SurfaceExtent solid_extent(const Model& model);
+    SurfaceExtent exact_extent(const Object& object, const Model& model);
+    BrickCount expected_in_world(const Object& object, TakenBricks& taken);
     WorldExtent least_in_world(size_t number);
     SurfaceExtent voxels_in_world(const Object& object, const VoxelModel& voxels, bool at_least);
 
     const Scene& scene_;
     AssetStore& meshes_;
     ObjectExtents extents_;
-    std::optional<WorldCounts> expected_;  ///< in the world
-    std::vector<SurfaceExtent> in_world_;  ///< of each object, of these
+    std::map<const Model*, SurfaceExtent> of_solids_;         ///< in their own spaces
+    std::map<const Object*, SurfaceExtent> of_exact_solids_;  ///< in the world
+    std::optional<WorldCounts> expected_;                     ///< in the world
+    std::vector<SurfaceExtent> in_world_;                     ///< of each object, of these
 };
 
 /// The grid of a mesh whose surface has such an area.
