@@ -268,7 +268,7 @@ TEST_F(CliRenderTest, AMeshBecomesAModelAndAVolumeAtOnce) {
     ASSERT_EQ(result.exit_code, 0) << result.err;
     EXPECT_THAT(result.err, StartsWith("4 triangles to 48x36x28 voxels of 0.025 m in "));
     EXPECT_THAT(run("info t.vxm").out, HasSubstr("surface         smooth\n"));
-    const std::vector<VdbSummary> grids = read_vdb_summary(folder / "t.vdb");
+    const std::vector<VdbSummary> grids = read_vdb_summary(folder / "t.vdb").grids;
     ASSERT_EQ(grids.size(), 1u);
     EXPECT_EQ(grids[0].name, "surface");
     EXPECT_EQ(grids[0].grid_class, "level set");
@@ -280,7 +280,7 @@ TEST_F(CliRenderTest, SolidCubesFillTheirVolume) {
     ASSERT_EQ(
         run("voxelize t.obj -o t.vdb --voxel-size 0.01 --surface cubes --set solid -q").exit_code,
         0);
-    const std::vector<VdbSummary> grids = read_vdb_summary(folder / "t.vdb");
+    const std::vector<VdbSummary> grids = read_vdb_summary(folder / "t.vdb").grids;
     ASSERT_EQ(grids.size(), 1u);
     EXPECT_EQ(grids[0].name, "density");
     const double volume = 1 * 0.7 * 0.5 / 6 / 1e-6;  // voxels
