@@ -20,7 +20,7 @@ Surface surface_in(const std::filesystem::path& path) {
         InputFile(path).refuse("has no voxels of a model that this voxelume reads");
     }
     if (ending_of(path) == ".vox") return Surface::cubes;
-    for (const VdbSummary& grid : read_vdb_summary(path))
+    for (const VdbSummary& grid : read_vdb_summary(path).grids)
         if (grid.grid_class == "level set") return Surface::smooth;
     return Surface::cubes;
 }
