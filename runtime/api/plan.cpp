@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "runtime/analysis/culling.hpp"
+#include "runtime/analysis/scene_choices.hpp"
 #include "runtime/api/convert.hpp"
 #include "runtime/api/guarded.hpp"
 #include "runtime/api/handles.hpp"
@@ -99,6 +100,7 @@ Plan plan(const Scene& scene, const Device& device, const PlanOptions& options) 
         const voxelume::DeviceInfo& info = api::inside(device).info();
         check_tables(planned, info);
         AssetStore meshes(api::model_cache(options.cache));
+        make_choices(planned, meshes);
         find_potentially_visible(planned, frames, meshes);
         return plan_for_callers(planned, plan_frames(planned, frames, meshes, info), frames.size(),
                                 info);

@@ -8,6 +8,7 @@
 
 #include "runtime/analysis/culling.hpp"
 #include "runtime/analysis/model_last_uses.hpp"
+#include "runtime/analysis/scene_choices.hpp"
 #include "runtime/base/error.hpp"
 #include "runtime/batch/frame_schedule.hpp"
 #include "runtime/batch/image_parts.hpp"
@@ -62,6 +63,7 @@ class Batch {
 
   private:
     void check() {
+        make_choices(scene_, options_.meshes);
         find_potentially_visible(scene_, options_.frames, options_.meshes);
         if (options_.frames.size() == 1) return;  // it is planned when its world is built
         for (const Device& device : devices_)

@@ -32,7 +32,7 @@ class CountedGrids {
         : device_(device), scene_(scene), meshes_(meshes), objects_(objects), estimate_(estimate) {}
 
     /// The grid that shows an object in the world, and that of its model, whole, in its own space.
-    SharedGrid world_grid(const Object& object, const Model& model);
+    SharedGrid world_grid(const Object& object, const Model& model, const ObjectLattice& lattice);
     SharedGrid own_grid(const Object& object, const Model& model);
 
     const std::vector<CountedGrid>& all() const { return grids_; }
@@ -42,6 +42,7 @@ class CountedGrids {
     void forget();
 
   private:
+    SharedGrid model_grid(const Object& object, const Model& model, const GridFrame& frame);
     SharedGrid make(CountedGrid counted, const Model& model);
     SharedGrid found(int model, int object, const GridFrame& frame) const;
 

@@ -58,8 +58,8 @@ class FollowingWalk {
         std::vector<SharedGrid> shown;
         const std::vector<PlacedObject> placed = placed_objects(
             scene_, meshes_, objects_.boxes(),
-            [this](const Object& object, const Model& model) {
-                return grids_.world_grid(object, model);
+            [this](const Object& object, const Model& model, const ObjectLattice& lattice) {
+                return grids_.world_grid(object, model, lattice);
             },
             shown);
         const WorldCounts counts = objects_.world(Estimate::expected);
@@ -84,7 +84,8 @@ class FollowingWalk {
                     const WorldCounts& counts, const ListedInstances& listed) {
         std::vector<BrickGrid> made;
         for (const CountedGrid& grid : grids_.all())
-            if (changes_.models[size_t(grid.model)])
+            if (changes_.models[size_t(grid.model)] ||
+                (grid.object >= 0 && changes_.objects[size_t(grid.object)]))
                 made.push_back(scene_.models[size_t(grid.model)].solid
                                    ? count_solid_grid(device_, grid.counts)
                                    : count_mesh_grid(device_, grid.counts));

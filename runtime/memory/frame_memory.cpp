@@ -56,8 +56,8 @@ class FrameWalk {
         std::vector<SharedGrid> shown;
         const std::vector<PlacedObject> objects = placed_objects(
             scene_, meshes_, objects_.boxes(),
-            [this](const Object& object, const Model& model) {
-                return grids_.world_grid(object, model);
+            [this](const Object& object, const Model& model, const ObjectLattice& lattice) {
+                return grids_.world_grid(object, model, lattice);
             },
             shown);
         memory_.voxelize = height();

@@ -103,15 +103,14 @@ double listed(const Model& model) {
 
 }  // namespace
 
-GridCounts mesh_grid(const Model& model, const MeshSummary& mesh, const SurfaceArea& area) {
-    const GridFrame frame = model_frame(model, &mesh);
+GridCounts mesh_grid(const Model& model, const MeshSummary& mesh, const GridFrame& frame,
+                     const SurfaceArea& area) {
     return counts_of(model, &mesh, frame,
                      surface_extent(area, kOwnSpace, frame, stored_band(model)));
 }
 
-GridCounts ObjectCounts::model_grid(const Model& model, Estimate estimate) {
+GridCounts ObjectCounts::model_grid(const Model& model, const GridFrame& frame, Estimate estimate) {
     const MeshSummary* mesh = meshes_.summary_of(model);
-    const GridFrame frame = model_frame(model, mesh);
     const bool is_expected = estimate == Estimate::expected;
     if (model.solid) {
         TakenBricks taken(frame);
@@ -124,25 +123,32 @@ GridCounts ObjectCounts::model_grid(const Model& model, Estimate estimate) {
         const SurfaceExtent by_area = surface_extent(area, kOwnSpace, frame, stored_band(model));
         return counts_of(model, mesh, frame, smaller(counted, by_area));
     }
-    if (is_expected) return mesh_grid(model, *mesh, mesh->area);
-    return mesh_grid(model, *mesh, model.cuts.empty() ? mesh->min_area : SurfaceArea{});
+    if (is_expected) return mesh_grid(model, *mesh, frame, mesh->area);
+    return mesh_grid(model, *mesh, frame, model.cuts.empty() ? mesh->min_area : SurfaceArea{});
 }
 
-GridCounts ObjectCounts::object_grid(const Object& object, Estimate estimate) {
+GridCounts ObjectCounts::object_grid(const Object& object, const GridFrame& frame,
+                                     Estimate estimate) {
     const Model& model = scene_.models[size_t(object.model)];
     const MeshSummary* mesh = meshes_.summary_of(model);
-    const GridFrame frame = world_frame(scene_.world);
+    const double band = stored_band(model);
+    const SurfaceExtent minimum = extents_.minimum(object, band);
     const bool is_expected = estimate == Estimate::expected;
     if (!model.solid)
         return counts_of(model, mesh, frame,
-                         is_expected ? extents_.planned(object, 0) : extents_.minimum(object, 0));
+                         is_expected ? extents_.planned(object, band) : minimum);
     TakenBricks taken(frame);
     const SurfaceExtent counted =
         with_margin(count_bricks(SolidField(*model.solid, object.world_from_object), frame,
-                                 boxes()[size_t(&object - scene_.objects.data())],
-                                 model_rule(Surface::exact, false), taken));
-    return counts_of(model, mesh, frame,
-                     is_expected ? counted : smaller(counted, extents_.minimum(object, 0)));
+                                 box_in(frame, object), model_rule(model.surface, false), taken));
+    return counts_of(model, mesh, frame, is_expected ? counted : smaller(counted, minimum));
+}
+
+/// An object's box in the voxels of a part of the world.
+VoxelBox ObjectCounts::box_in(const GridFrame& frame, const Object& object) {
+    const VoxelBox& box = boxes()[size_t(&object - scene_.objects.data())];
+    const glm::dvec3 first = (frame.origin - scene_.world.bounds.min) / frame.voxel_edge;
+    return {box.low - first, box.high - first};
 }
 
 /// In the world there are as many voxels of a file as in its volume, and no fewer bricks; at least

@@ -26,9 +26,9 @@ class ObjectCounts {
     ObjectCounts(const Scene& scene, AssetStore& meshes)
         : scene_(scene), meshes_(meshes), extents_(scene, meshes) {}
 
-    /// The grid of a model in its own space; of an exact object in the world's frame.
-    GridCounts model_grid(const Model& model, Estimate estimate);
-    GridCounts object_grid(const Object& object, Estimate estimate);
+    /// The grid of a model in its own space; of an object in the world's, or a part of it.
+    GridCounts model_grid(const Model& model, const GridFrame& frame, Estimate estimate);
+    GridCounts object_grid(const Object& object, const GridFrame& frame, Estimate estimate);
 
     /// What the objects' voxels take of the world.
     WorldCounts world(Estimate estimate);
@@ -40,6 +40,7 @@ class ObjectCounts {
     const std::vector<VoxelBox>& boxes() { return extents_.boxes(); }
 
   private:
+    VoxelBox box_in(const GridFrame& frame, const Object& object);
     SurfaceExtent expected_in_world(const Object& object, TakenBricks& taken);
     WorldExtent least_in_world(size_t number);
     SurfaceExtent voxels_in_world(const Object& object, const VoxelModel& voxels, bool at_least);
@@ -52,7 +53,8 @@ class ObjectCounts {
 };
 
 /// The grid of a mesh of which the surface has such an area.
-GridCounts mesh_grid(const Model& model, const MeshSummary& mesh, const SurfaceArea& area);
+GridCounts mesh_grid(const Model& model, const MeshSummary& mesh, const GridFrame& frame,
+                     const SurfaceArea& area);
 
 /// The voxels that rays must see of a grid, and the primitives that these list.
 WorldCounts indexed_counts(const GridCounts& grid);

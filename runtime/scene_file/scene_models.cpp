@@ -26,6 +26,7 @@ Surface read_surface(const SceneValue& value) {
 /// The pitch, surface and set of a model, whose source is already read.
 void read_lattice(const SceneFields& fields, glm::dvec3 world_voxel_size, Model& model) {
     fields.refuse_both("voxel_size", "resolution");
+    model.is_sized = fields.has("resolution") || fields.has("voxel_size");
     if (const auto resolution = fields.find("resolution")) {
         if (model.solid && is_infinite(*model.solid)) {
             resolution->fail(
