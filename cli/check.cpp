@@ -11,15 +11,17 @@ namespace voxelume::cli {
 Action add_check(CLI::App& app) {
     struct Options {
         SceneOptions scene;
-        bool json = false;
+        bool json = false, quiet = false;
     };
     const auto options = std::make_shared<Options>();
     add_scene_options(app, options->scene);
     app.add_flag("--json", options->json, "print the plan as JSON");
+    app.add_flag("-q,--quiet", options->quiet, "print no warnings");
     return [options] {
         const Scene scene = read_with(options->scene, "check");
         print_plan(scene, Device::open(options->scene.device),
-                   {.cache = cache_options(options->scene)}, options->json);
+                   {.cache = cache_options(options->scene)},
+                   {options->json, options->quiet, options->scene.strict});
         return 0;
     };
 }

@@ -2,6 +2,7 @@
 #include "cli/checks.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -10,9 +11,16 @@
 
 namespace voxelume::cli {
 
+std::string ending_of(const std::filesystem::path& file) {
+    std::string ending = file.extension().string();
+    std::ranges::transform(ending, ending.begin(),
+                           [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return ending;
+}
+
 void check_output(const std::string& path, std::initializer_list<const char*> extensions,
                   const char* command) {
-    const std::string extension = std::filesystem::path(path).extension();
+    const std::string extension = ending_of(path);
     if (extensions.size() > 0 && std::ranges::find(extensions, extension) == extensions.end()) {
         std::string list;
         for (const char* known : extensions)
@@ -60,9 +68,10 @@ void check_distinct(const std::vector<std::string>& paths, const char* command) 
 
 Size parse_size(const std::string& text, const char* command) {
     int width = 0, height = 0;
-    char rest = 0;
-    if (std::sscanf(text.c_str(), "%6dx%6d%c", &width, &height, &rest) != 2 || width < 1 ||
-        height < 1 || width > kMaxImageSide || height > kMaxImageSide)
+    char by = 0, rest = 0;
+    if (std::sscanf(text.c_str(), "%6d%c%6d%c", &width, &by, &height, &rest) != 3 ||
+        std::tolower(static_cast<unsigned char>(by)) != 'x' || width < 1 || height < 1 ||
+        width > kMaxImageSide || height > kMaxImageSide)
         fail_usage("{}: --size {}: give WIDTHxHEIGHT, 1 to {} each", command, text, kMaxImageSide);
     return {width, height};
 }

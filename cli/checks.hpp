@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <filesystem>
 #include <functional>
 #include <initializer_list>
 #include <string>
@@ -22,6 +23,9 @@ template <class... Args>
     throw Error(ErrorKind::usage, fmt::format(format, std::forward<Args>(args)...));
 }
 
+/// What a file's name ends with, in small letters: ".png" of "Bunny.PNG".
+std::string ending_of(const std::filesystem::path& file);
+
 /// Throws Error::usage when the name has none of the extensions (any will do if there are none),
 /// Error::output when no file can be made there. `command` opens the message about the name.
 void check_output(const std::string& path, std::initializer_list<const char*> extensions,
@@ -30,7 +34,7 @@ void check_output(const std::string& path, std::initializer_list<const char*> ex
 /// Throws Error::usage when two outputs are one file, however it is spelled; empty names are none.
 void check_distinct(const std::vector<std::string>& paths, const char* command);
 
-/// "640x480". Throws Error::usage; `command` opens the message.
+/// "640x480", or with a capital X. Throws Error::usage; `command` opens the message.
 Size parse_size(const std::string& text, const char* command);
 
 enum class Number { whole, any };

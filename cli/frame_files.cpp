@@ -11,6 +11,23 @@
 namespace voxelume::cli {
 namespace {
 
+bool is_slices(const std::string& volume) {
+    return ending_of(volume) == ".png";
+}
+
+/// A frame's name of slices, which keep the last #### for themselves: the frame's number takes the
+/// place of one before it, or comes before it. A name without any is left for a message about it.
+std::string slices_path(const std::string& pattern, int frame) {
+    const size_t name = pattern.find_last_of('/') + 1;
+    const size_t last = pattern.find_last_of("#%");
+    if (last == std::string::npos || last < name) return pattern;
+    const size_t before = pattern.find_last_not_of('#', last);
+    const size_t run = pattern[last] == '%' ? last : before == pattern.npos ? 0 : before + 1;
+    const std::string start = pattern.substr(0, run), own = pattern.substr(run);
+    const std::string numbered = frame_path(start, frame, false);
+    return numbered != start ? numbered + own : start + fmt::format("{:04}.", frame) + own;
+}
+
 bool is_pattern(const std::string& path) {
     return frame_path(path, 1, false) != path;
 }
@@ -20,7 +37,7 @@ bool is_pattern(const std::string& path) {
 bool wants_all_frames(const RenderCommand& options) {
     return std::ranges::any_of(options.outputs, is_pattern) ||
            std::ranges::any_of(options.volumes, [](const std::string& path) {
-               return is_pattern(path) && std::filesystem::path(path).extension() != ".png";
+               return is_pattern(path) && !is_slices(path);
            });
 }
 
@@ -75,8 +92,10 @@ std::vector<FrameFiles> frame_files(const RenderCommand& options, const Scene& s
         for (const std::string& pattern : options.outputs)
             list.back().images.emplace_back(frame_path(pattern, frame, animation));
         for (const std::string& pattern : options.volumes)
-            list.back().volumes.emplace_back(animation ? frame_path(pattern, frame, true)
-                                                       : pattern);
+            list.back().volumes.emplace_back(!animation ? pattern
+                                             : is_slices(pattern)
+                                                 ? slices_path(pattern, frame)
+                                                 : frame_path(pattern, frame, true));
     }
     return list;
 }

@@ -16,6 +16,7 @@
 
 #include "cli/checks.hpp"
 #include "cli/commands.hpp"
+#include "cli/warnings.hpp"
 
 namespace voxelume::cli {
 
@@ -113,22 +114,21 @@ void flush_stdout() {
                     fmt::format("can't write to standard output: {}", std::strerror(errno)));
 }
 
-/// One line that can't steer the terminal, whatever is in a file's name; a compiler's log has more.
-int complain(std::string sentence, ErrorKind kind) {
-    for (char& c : sentence) {
-        const bool is_control = static_cast<unsigned char>(c) < 0x20 || c == 0x7f;
-        if (is_control && !(c == '\n' && kind == ErrorKind::build)) c = '?';
-    }
-    fmt::print(stderr, "voxelume: {}\n", sentence);
+/// A line; a compiler's log has more.
+int complain(const std::string& sentence, ErrorKind kind) {
+    std::vector<std::string> lines = {sentence};
+    if (kind == ErrorKind::build) lines = CLI::detail::split(sentence, '\n');
+    for (std::string& line : lines) line = harmless_line(std::move(line));
+    fmt::print(stderr, "voxelume: {}\n", fmt::join(lines, "\n"));
     return static_cast<int>(kind);
 }
 
 }  // namespace
 
-/// Has freed memory stay with the process: buffers of some hundred megabytes come and go with every
-/// frame on a CPU, and the system clears each of their pages anew. Measured at 1024 x 1024 pixels:
-/// 75 -> 12 ms a frame outside of kernels. All threads share one heap: PoCL's workers take aligned
-/// pieces that glibc 2.36 doesn't use again in theirs, 21 kB a frame.
+/// Makes freed memory stay with the process: buffers of some hundred megabytes come and go with
+/// every frame on a CPU, and the system would clear each of their pages again. Measured at 1024 x
+/// 1024 pixels: 75 -> 12 ms a frame outside of kernels. All threads share one heap: PoCL's workers
+/// take aligned pieces that glibc 2.36 doesn't use again in theirs, 21 kB a frame.
 void keep_freed_memory() {
 #ifdef __GLIBC__
     mallopt(M_MMAP_THRESHOLD, 1 << 30);

@@ -2,10 +2,14 @@
 // What rendering a scene takes, for people and programs.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <sstream>
+#include <string>
 
 #include "cli/report.hpp"
 #include "cli/scene_options.hpp"
+#include "cli/warnings.hpp"
 
 namespace voxelume::cli {
 namespace {
@@ -57,6 +61,30 @@ void add_verdict(const Plan& plan, Report& report) {
     report["least MB"] = megabytes(plan.min_bytes);
     report["most MB"] = megabytes(plan.max_bytes);
     report["device MB"] = megabytes(plan.device_bytes);
+    report["warnings"] = Report::array();
+    for (const Warning& warning : plan.warnings)
+        report["warnings"].push_back(
+            {{"kind", name_of(warning.kind)}, {"where", warning.where}, {"text", warning.text}});
+}
+
+/// What the scene leaves out, as values to copy into it.
+void print_fitted(const Scene& scene) {
+    if (scene.has_default_light())
+        fmt::print(
+            "The scene has no \"lights\", so one shines from the observer's upper left.\n\n");
+    if (scene.fitted().empty()) return;
+    fmt::print("What the scene leaves out was found from its objects. To keep it, copy:\n");
+    std::istringstream lines(scene.fitted());
+    for (std::string line; std::getline(lines, line);) fmt::print("  {}\n", line);
+    fmt::print("\n");
+}
+
+/// The same for programs: members of an object.
+Report fitted_report(const Scene& scene) {
+    std::string text = scene.fitted();
+    if (!text.empty()) text.pop_back();
+    std::ranges::replace(text, '\n', ',');
+    return Report::parse("{" + text + "}");
 }
 
 void print_verdict(const Plan& plan, bool is_of_frames) {
@@ -72,12 +100,20 @@ void print_verdict(const Plan& plan, bool is_of_frames) {
 }  // namespace
 
 void print_plan(const Scene& scene, const Device& device, const PlanOptions& options,
-                bool as_json) {
+                const PlanPrint& print) {
     const Plan plan = voxelume::plan(scene, device, options);
-    if (!as_json) fmt::print("{}\n", scene.describe());
+    tell_warnings(plan.warnings, print.quiet, print.strict);
+    const bool as_json = print.as_json;
+    if (!as_json) {
+        fmt::print("{}\n", scene.describe());
+        print_fitted(scene);
+    }
     Report report = plan_report(plan, device);
     if (scene.moves()) report["frame"] = plan.frame;
-    if (as_json) add_verdict(plan, report);
+    if (as_json) {
+        if (!scene.fitted().empty()) report["fitted"] = fitted_report(scene);
+        add_verdict(plan, report);
+    }
     print_report(report, as_json);
     if (plan.refusal) throw *plan.refusal;
     if (as_json) return;

@@ -82,17 +82,35 @@ Progress::Progress(std::string label, uint64_t total, std::FILE* stream, bool qu
 }
 
 Progress::~Progress() {
+    clear();
+}
+
+void Progress::clear() {
+    const std::lock_guard lock(mutex_);
     if (drawn_ == Clock::time_point{}) return;
     std::fwrite(kClearLine.data(), 1, kClearLine.size(), stream_);
     std::fflush(stream_);
 }
 
+void Progress::say(const std::string& text) {
+    const std::lock_guard lock(mutex_);
+    const Clock::time_point now = Clock::now();
+    if (!terminal_.draws_bars || now - std::max(start_, moved_) < std::chrono::seconds(1)) return;
+    drawn_ = now;
+    const std::string line =
+        fmt::format("{}{}", kClearLine,
+                    text.substr(0, static_cast<size_t>(std::max(0, terminal_.columns - 1))));
+    std::fwrite(line.data(), 1, line.size(), stream_);
+    std::fflush(stream_);
+}
+
 void Progress::advance(uint64_t count) {
+    const std::lock_guard lock(mutex_);
     state_.done += count;
     if (!terminal_.draws_bars) return;
     const Clock::time_point now = Clock::now();
     if (now - drawn_ < std::chrono::milliseconds(100) && state_.done < state_.total) return;
-    drawn_ = now;
+    drawn_ = moved_ = now;
     state_.seconds = std::chrono::duration<double>(now - start_).count();
     const std::string line = fmt::format("\r{}", progress_line(state_, terminal_));
     std::fwrite(line.data(), 1, line.size(), stream_);

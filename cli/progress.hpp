@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <functional>
+#include <mutex>
 #include <string>
 
 namespace voxelume {
@@ -38,7 +39,8 @@ struct ProgressState {
 /// left.
 std::string progress_line(const ProgressState& state, const Terminal& terminal);
 
-/// Redraws a line on `stream` at most ten times a second; silent where no bar is to be drawn.
+/// Redraws a line on `stream` at most ten times a second; silent where no bar is to be drawn. Any
+/// thread may call it.
 class Progress {
   public:
     Progress(std::string label, uint64_t total, std::FILE* stream, bool quiet = false);
@@ -48,15 +50,22 @@ class Progress {
     Progress& operator=(const Progress&) = delete;
 
     void advance(uint64_t count = 1);
+    /// Shows a text instead of the bar until there is progress, if a second has passed without
+    /// any.
+    void say(const std::string& text);
+    /// Clears the line; it is drawn again when there is progress.
+    void clear();
 
   private:
     using Clock = std::chrono::steady_clock;
 
     ProgressState state_;
+    std::mutex mutex_;
     std::FILE* stream_;
     Terminal terminal_;
     Clock::time_point start_ = Clock::now();
     Clock::time_point drawn_{};
+    Clock::time_point moved_{};  ///< when the bar was last drawn
 };
 
 }  // namespace voxelume

@@ -11,11 +11,12 @@
 #include "cli/frame_files.hpp"
 #include "cli/progress.hpp"
 #include "cli/render_report.hpp"
+#include "cli/warnings.hpp"
 
 namespace voxelume::cli {
 namespace {
 
-/// Of OpenEXR files.
+/// The channels of OpenEXR files that `--channels` names.
 Channels listed_channels(const RenderCommand& command) {
     Channels channels{false, false, false, false, false};
     for (const std::string& name : CLI::detail::split(command.channels, ',')) {
@@ -56,6 +57,11 @@ Statistics render_files(const Scene& scene, const std::vector<Device>& devices, 
         bar.advance(now - shown);
         shown = now;
     };
+    render.compiling = [&bar](int kernel, int known) {
+        bar.say(fmt::format("compiling kernels: {} of {}", kernel, known));
+    };
+    render.strict = command.scene.strict;
+    if (!command.quiet) render.warn = warning_printer(render.strict, [&bar] { bar.clear(); });
     const bool tells =
         !command.quiet && job.frames.size() > 1 && !describe_terminal(stderr).draws_bars;
     if (tells)
@@ -80,7 +86,7 @@ int run(const RenderCommand& command) {
     if (command.plan_only) {
         print_plan(scene, devices[0],
                    {numbers_of(job.frames), needed_channels(job), cache_options(command.scene)},
-                   false);
+                   {.quiet = command.quiet, .strict = command.scene.strict});
         return 0;
     }
     const double open_seconds = seconds();

@@ -38,6 +38,14 @@ std::string count_text(uint64_t count) {
     return n < 1e6 ? fmt::format("{:.1f} k", n / 1e3) : fmt::format("{:.2f} M", n / 1e6);
 }
 
+/// "640x480", "64x48x256 voxels", or both.
+std::string size_text(const Statistics& statistics) {
+    const std::string image = fmt::format("{}", fmt::join(statistics.size, "x"));
+    if (!statistics.volume_size) return image;
+    const std::string volume = fmt::format("{} voxels", fmt::join(*statistics.volume_size, "x"));
+    return statistics.images ? image + " and " + volume : volume;
+}
+
 /// How many frames took over what, where there are several.
 std::string reuse_text(const std::vector<FrameStatistics>& frames) {
     if (frames.size() < 2) return "";
@@ -81,10 +89,10 @@ void print_summary(const Statistics& statistics) {
             : "";
     fmt::print(
         stderr,
-        "{}x{} in {:.2f} s on {}: {}{} voxels, {} sight and {} shadow rays{}; "
+        "{} in {:.2f} s on {}: {}{} voxels, {} sight and {} shadow rays{}; "
         "open {:.0f} ms, load {:.0f}, voxelize {:.0f}, place {:.0f}, index {:.0f}, image {:.0f}, "
         "write {:.0f}\n",
-        statistics.size[0], statistics.size[1], statistics.total_seconds, names_of(statistics),
+        size_text(statistics), statistics.total_seconds, names_of(statistics),
         reuse_text(statistics.frames), count_text(statistics.voxels), count_text(rays.sight_rays),
         count_text(rays.shadow_rays), secondary, statistics.open_seconds * 1e3, seconds.load * 1e3,
         seconds.voxelize * 1e3, seconds.place * 1e3, seconds.index * 1e3, seconds.image * 1e3,

@@ -21,6 +21,7 @@ void add_scene_options(CLI::App& app, SceneOptions& options) {
         "device: auto, cpu, gpu, a number, part of a name, or all to share frames and tiles");
     app.add_flag("--no-cache", options.no_cache,
                  "neither read nor write the cache of models and worlds");
+    app.add_flag("--strict", options.strict, "take warnings for errors, exit code 3");
 }
 
 CacheOptions cache_options(const SceneOptions& options) {
@@ -29,7 +30,7 @@ CacheOptions cache_options(const SceneOptions& options) {
 
 Scene read_with(const SceneOptions& options, const char* command) {
     const Size size = options.size.empty() ? Size{} : parse_size(options.size, command);
-    Scene scene = Scene::load(options.scene, {options.assets});
+    Scene scene = Scene::load(options.scene, {options.assets, cache_options(options)});
     if (size[0] != 0) scene = scene.with_size(size);
     if (options.samples != 0) scene = scene.with_samples(options.samples);
     return scene;

@@ -22,6 +22,7 @@ struct SceneOptions {
     int samples = 0;  ///< 0: the scene's
     std::string device;
     bool no_cache = false;
+    bool strict = false;
 };
 
 void add_scene_options(CLI::App& app, SceneOptions& options);
@@ -32,10 +33,19 @@ Scene read_with(const SceneOptions& options, const char* command);
 /// The user's cache of models, unless --no-cache was given.
 CacheOptions cache_options(const SceneOptions& options);
 
+/// How a plan is printed.
+struct PlanPrint {
+    bool as_json = false;
+    bool quiet = false;   ///< without warnings, but for those in JSON
+    bool strict = false;  ///< warnings are errors
+};
+
 /// Says what a scene holds and what rendering takes on a device, on stdout, of the frames the one
-/// that takes the most, and whether all fit.
+/// that takes the most, and whether all fit; and its warnings on stderr.
 ///
-/// Throws Error::limit when one doesn't, after saying why.
-void print_plan(const Scene& scene, const Device& device, const PlanOptions& options, bool as_json);
+/// Throws Error::limit when one doesn't, after saying why, and Error::scene for warnings if they
+/// are errors.
+void print_plan(const Scene& scene, const Device& device, const PlanOptions& options,
+                const PlanPrint& print);
 
 }  // namespace voxelume::cli

@@ -33,7 +33,7 @@ void wait_for_interrupt() {
 
 /// Each once, in the order in which they are named; all without names.
 std::vector<StressTest> chosen_tests(const std::vector<std::string>& only) {
-    const std::vector<StressTest> tests = stress_tests();
+    std::vector<StressTest> tests = stress_tests();
     if (only.empty()) return tests;
     std::vector<StressTest> chosen;
     std::vector<std::string_view> names;

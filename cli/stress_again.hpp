@@ -17,7 +17,7 @@ struct StressCommand {
     bool quiet = false;
 };
 
-/// The line that tries one case of a test again, beside those that it was tried with.
+/// The command that tries one case of a test again, with the cases that it was tried with.
 std::string command_for(const std::string& test, uint64_t number, const StressCommand& command);
 
 }  // namespace voxelume::cli

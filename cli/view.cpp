@@ -30,7 +30,7 @@ int run(const ViewCommand& command) {
     const Volume volume = Volume::read(command.from);
     const ViewPoint view{command.around, command.above};
     for (const std::string& output : command.outputs) {
-        if (std::filesystem::path(output).extension() == ".html")
+        if (ending_of(output) == ".html")
             volume.write_page(output, view, command.exposure);
         else
             volume.view(view, size).write(output, {.exposure = command.exposure});

@@ -173,7 +173,7 @@ kernel void choose_points(DisplayLattice lattice, VXL_POINTS_PARAMETERS, uint fi
     }
 }
 
-/// Copies to voxels 0 .. voxels-1 their points and views, those that are among these points.
+/// Copies the points and views of those voxels 0 .. voxels-1 whose points are among these.
 kernel void take_points(VXL_POINTS_PARAMETERS, uint first_number,
                         global const uint* restrict numbers, uint voxels, uint voxel_stride,
                         global float* restrict voxel_points, global uint* restrict voxel_views) {

@@ -71,9 +71,9 @@ static inline void cross_field(const Field* f, const Walk* w, const LocalRay* ra
     keep_crossings(r, w, crossed, w->t + clamp(fma(exact_divide(fa, gap), b - a, a), a, b), enters);
 }
 
-static inline void scan_smooth(const SurfaceView* s, const Walk* w, lane_uint voxel,
-                               lane_int tested, ScanResult* r) {
-    const Field field = read_field(s->fields, voxel);
+static inline void scan_field(const SurfaceView* s, const Walk* w, lane_uint number,
+                              lane_int tested, ScanResult* r) {
+    const Field field = read_field(s->fields, number);
     const LocalRay ray = local_ray(w);
     const lane_float zero = (lane_float)0.0f, outside = (lane_float)1.0f;
     const lane_float end = fmax(exit_time(w) - w->t, 0.0f), middle = 0.5f * end;
@@ -90,6 +90,25 @@ static inline void scan_smooth(const SurfaceView* s, const Walk* w, lane_uint vo
                     LANES_SELECT(before, at_middle, at_exit), r);
     const lane_int twice = before & after;
     if (lanes_any(twice)) cross_field(&field, w, &ray, twice, middle, end, at_middle, at_exit, r);
+}
+
+/// Keeps the crossings with the fields of the `tested` lanes' voxels: one, or those that the record
+/// lists.
+static inline void scan_smooth(const SurfaceView* s, const Walk* w, lane_uint voxel,
+                               lane_int tested, lane_int lists, ScanResult* r) {
+    lane_uint number = voxel & LANES_AS_UINT(tested), end = number + 1u;
+    if (VXL_FIELD_LISTS && lanes_any(lists)) {
+        const lane_uint record = (voxel & LANES_AS_UINT(lists)) * VXL_FIELD_WORDS;
+        number = LANES_SELECT(lists, LANES_GATHER_UINT(s->fields, record), number);
+        end = LANES_SELECT(lists, number + LANES_GATHER_UINT(s->fields, record + 1u), end);
+        tested &= LANE_MASK(number < end);
+    }
+    while (lanes_any(tested)) {
+        scan_field(s, w, number & LANES_AS_UINT(tested), tested, r);
+        if (!VXL_FIELD_LISTS) return;
+        number += 1u;
+        tested &= LANE_MASK(number < end);
+    }
 }
 
 /// Keeps the crossings with solid `number` between t and t_exit.
@@ -153,7 +172,8 @@ static inline lane_int scan_voxels(const PyramidView* p, const SurfaceView* s, c
         voxel_number(p, leaf & LANES_AS_UINT(tested), w->x & tested, w->y & tested, w->z & tested) &
         LANES_AS_UINT(tested);
     const VoxelKinds kinds = kinds_of(s->attributes, voxel, tested);
-    if (VXL_SMOOTH && lanes_any(kinds.smooth)) scan_smooth(s, w, voxel, kinds.smooth, r);
+    if (VXL_SMOOTH && lanes_any(kinds.smooth))
+        scan_smooth(s, w, voxel, kinds.smooth, kinds.lists, r);
     if (VXL_EXACT && lanes_any(kinds.exact)) scan_primitives(p, s, w, voxel, kinds.exact, r);
     return kinds.cubes;
 }

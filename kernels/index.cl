@@ -10,30 +10,7 @@
 #include "lib/surface/brick_field.h"
 #include "lib/voxelize/brick_grid.h"
 #include "lib/voxelize/brick_nodes.h"
-
-// Voxels of a leaf that lie below `room` voxels along each axis from the leaf's minimum corner.
-static inline ulong mask_within(int4 room) {
-    const int4 n = clamp(room, (int4)(0), (int4)(4));  // oclgrind misreads scalar limits
-    if (n.x == 0 || n.y == 0 || n.z == 0) return 0;
-    const ulong x = 0x1111111111111111ul * ((1ul << n.x) - 1);
-    const ulong y = 0x0001000100010001ul * (n.y == 4 ? 0xFFFFul : (1ul << 4 * n.y) - 1);
-    const ulong z = n.z == 4 ? ~0ul : (1ul << 16 * n.z) - 1;
-    return x & y & z;
-}
-
-static inline int4 leaf_origin(int leaf) {
-    return (int4)((leaf & 3) << 2, leaf & 12, leaf >> 2 & 12, 0);
-}
-
-// The voxel's index in a brick's 4096 values, from its leaf and its bit there.
-static inline int voxel_in_brick(int leaf, int bit) {
-    const int4 first = leaf_origin(leaf);
-    return (first.x + (bit & 3)) | (first.y + (bit >> 2 & 3)) << 4 | (first.z + (bit >> 4)) << 8;
-}
-
-static inline int lowest_bit(ulong mask) {
-    return (int)popcount((mask & -mask) - 1);
-}
+#include "lib/voxelize/leaf_voxels.h"
 
 // Moves the mask of one leaf of a brick to another slot. `moves` holds pairs of slots, from and to.
 kernel void move_masks(const uint count, global const uint* restrict moves, global ulong* masks) {
@@ -112,9 +89,7 @@ static inline uint write_voxel(const BrickGrid* grid, uint slot, int place, bool
     if (VXL_COLORS) to->colors[number] = grid->colors[voxel];
     if (VXL_SMOOTH) {
         const int4 cell = (int4)(place & 15, place >> 4 & 15, place >> 8, 0);
-        const bool has_list =
-            VXL_PRIMITIVES && grid->primitive_first[voxel] != grid->primitive_first[voxel + 1];
-        vstore8(smooth || has_list ? field_record(nodes, cell) : (uint8)(0), number, to->fields);
+        vstore8(smooth ? field_record(nodes, cell) : (uint8)(0), number, to->fields);
     }
     if (VXL_PRIMITIVES) {
         to->primitive_first[number] = primitive;

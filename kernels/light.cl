@@ -4,7 +4,9 @@
 // Whitted 1980: ambient, Lambert's cosine, and the highlight of Blinn's half vector.
 #include "lib/lanes/vector.h"
 #include "lib/lanes/work_item.h"
+#include "lib/surface/shading_normal.h"
 #include "lib/surface/surface_color.h"
+#include "lib/traverse/hit_attributes.h"
 #include "lib/traverse/offset_origin.h"
 #include "lib/traverse/ray_batch.h"
 #include "lib/traverse/world.h"
@@ -42,7 +44,7 @@ typedef struct {
     lane_int lit;       // mask: the light may contribute to the point
     Vector to_light;    // in voxels: to the light; directional light: towards it
     Vector l;           // the unit vector to it, in metres' space
-    lane_float cosine;  // between it and the normal
+    lane_float cosine;  // between it and the shading normal
     lane_float falloff;
 } Incidence;
 
@@ -147,9 +149,19 @@ static inline void add_shares(const lane_float* contribution, lane_int lit, cons
     }
 }
 
-/// Writes the `lit` lanes' rays to slots of the queue, which are all reserved at once.
+/// The primitives that rays to the light begin on, and don't meet. A ray that begins above its
+/// triangle, towards a light behind it, may meet it.
+static inline lane_uint sources_of(const RayBatch* batch, uint first, lane_int behind) {
+    const lane_uint packed = LANES_LOAD(batch->hit_attributes, first);
+    const lane_uint source = source_of_hits(batch->hits, batch->stride, first, packed);
+    if (!VXL_SHADING_NORMALS) return source;
+    return LANES_SELECT(behind, (lane_uint)VXL_NO_PRIMITIVE, source);
+}
+
+/// Writes the `lit` lanes' rays to slots of the queue, which are all reserved at once. Their light
+/// is `behind` the triangles that they begin above.
 static inline void queue_rays(const ShadowQueue* queue, const LitRays* r, lane_int lit,
-                              const RayBatch* batch, uint first) {
+                              lane_int behind, const RayBatch* batch, uint first) {
     const uint stride = batch->stride;
     int lit_lane[VXL_LANES];
     LANES_STORE(lit, lit_lane, 0);
@@ -169,8 +181,7 @@ static inline void queue_rays(const ShadowQueue* queue, const LitRays* r, lane_i
     LANES_STORE(r->contribution[0], queued, 7 * VXL_LANES);
     LANES_STORE(r->contribution[1], queued, 8 * VXL_LANES);
     LANES_STORE(r->contribution[2], queued, 9 * VXL_LANES);
-    if (VXL_EXACT)
-        LANES_STORE(LANES_LOAD(batch->hits, VXL_HIT_PRIMITIVE * stride + first), source, 0);
+    if (VXL_SOURCES) LANES_STORE(sources_of(batch, first, behind), source, 0);
     for (int lane = 0; lane < VXL_LANES; ++lane) {
         if (!lit_lane[lane]) continue;
         for (uint c = 0; c < VXL_RAY_COMPONENTS; ++c)
@@ -179,7 +190,7 @@ static inline void queue_rays(const ShadowQueue* queue, const LitRays* r, lane_i
             queue->contributions[c * stride + place] =
                 queued[(VXL_RAY_COMPONENTS + c) * VXL_LANES + (uint)lane];
         queue->targets[place] = first + (uint)lane;
-        if (VXL_EXACT) queue->sources[place] = source[lane];
+        if (VXL_SOURCES) queue->sources[place] = source[lane];
         ++place;
     }
 }
@@ -203,21 +214,34 @@ kernel void add_light(VXL_WORLD_PARAMETERS, LightRecord light,
     const lane_uint voxel = number & LANES_AS_UINT(lit);
     const Vector position = load_vector(positions, stride, first);
     const Vector normal = load_vector(normals, stride, first);
-    const Incidence incidence = incidence_of(light, edge, position, normal, lit);
+    Vector shading_normal = normal;
+    if (VXL_SHADING_NORMALS) shading_normal = load_vector(shading, stride, first);
+    Incidence incidence = incidence_of(light, edge, position, shading_normal, lit);
     lit = incidence.lit;
+    Vector start = position;
+    lane_int behind = (lane_int)0;
+    if (VXL_SHADING_NORMALS) {
+        behind = LANE_MASK(dot_product(normal, incidence.l) <= 0.0f);
+        const Vector lift = load_vector(shading + VXL_SHADING_LIFT * stride, stride, first);
+        lit &= ~behind | LANE_MASK(dot_product(lift, normal) > 0.0f);
+        const Vector up = scaled(lift, world.shape.inverse_edge);
+        start = add_scaled(start, up, (lane_float)1.0f);
+        if (light.kind != VXL_LIGHT_DIRECTIONAL)
+            incidence.to_light = difference(incidence.to_light, up);
+    }
     if (!lanes_any(lit)) return;
 
     const Vector d = load_vector(rays + VXL_RAY_DX * stride, stride, first);
-    const lane_float highlight = highlight_of(normal, incidence.l, d, edge);
+    const lane_float highlight = highlight_of(shading_normal, incidence.l, d, edge);
     const lane_uint material =
         material_offset(LANES_LOAD(hit_attributes, first)) & LANES_AS_UINT(lit);
     LitRays r;
-    const Vector start = offset_origin(shape, position, normal, hits, stride, first);
+    start = offset_origin(shape, start, normal, hits, stride, first);
     aim_at_light(shape, light, &incidence, start, normal, &r);
     lit &= find_shares(light, &incidence, highlight, position, material, voxel, materials,
                        world.surface.colors, r.contribution);
     if (VXL_SHADOWS | VXL_MEDIUM)
-        queue_rays(&queue, &r, lit, &batch, first);
+        queue_rays(&queue, &r, lit, behind, &batch, first);
     else
         add_shares(r.contribution, lit, &batch, first);
 }

@@ -11,7 +11,7 @@
 #include "shared/trace.h"
 #include "shared/voxel.h"
 
-/// The bits of a 64-bit mask below `bit`, counted.
+/// The number of bits set below `bit` in a 64-bit mask.
 static inline uint bits_below(uint low, uint high, uint bit) {
     const uint all = bit < 32 ? low : high;
     return popcount(all & ((1u << (bit & 31)) - 1u)) + (bit < 32 ? 0u : popcount(low));
@@ -52,16 +52,16 @@ typedef struct {
     uint capacity;
     global uint* restrict found;
     global uint4* restrict pieces;
-} GlowingPieces;
+} EmissivePieces;
 
 /// True if a surface with these packed attributes belongs to an emissive object and emits light.
-static inline bool emits(const GlowingPieces* g, uint packed) {
+static inline bool emits(const EmissivePieces* g, uint packed) {
     return g->emissive_objects[packed & VXL_OBJECT_MASK] != 0u &&
            g->emissive_materials[packed >> VXL_MATERIAL_SHIFT & VXL_MATERIAL_MASK] != 0u;
 }
 
 /// Lists the piece of `number`, a voxel's or solid's, in voxel (x,y,z).
-static inline void list_piece(const GlowingPieces* g, int x, int y, int z, uint form, uint number,
+static inline void list_piece(const EmissivePieces* g, int x, int y, int z, uint form, uint number,
                               uint packed) {
     const uint place = atomic_inc(g->found);
     if (place < g->capacity)
@@ -69,7 +69,7 @@ static inline void list_piece(const GlowingPieces* g, int x, int y, int z, uint 
 }
 
 /// Lists the open faces of a cube.
-static inline void list_faces(const WorldView* world, const GlowingPieces* g, int x, int y, int z,
+static inline void list_faces(const WorldView* world, const EmissivePieces* g, int x, int y, int z,
                               uint voxel, uint packed) {
     for (int face = 0; face < 6; ++face) {
         const int axis = face >> 1, step = (face & 1) * 2 - 1;
@@ -79,16 +79,22 @@ static inline void list_faces(const WorldView* world, const GlowingPieces* g, in
     }
 }
 
-/// Lists what glows in one voxel.
-static inline void list_voxel(const WorldView* world, const GlowingPieces* g, int x, int y, int z,
+/// Lists the emissive surfaces in one voxel.
+static inline void list_voxel(const WorldView* world, const EmissivePieces* g, int x, int y, int z,
                               uint voxel) {
     const SurfaceView* s = &world->surface;
     const uint packed = attributes_of_voxel(s, voxel);
     const uint kind = packed >> VXL_KIND_SHIFT;
     if (VXL_CUBES && kind == VXL_KIND_CUBES && emits(g, packed))
         list_faces(world, g, x, y, z, voxel, packed);
-    if (VXL_SMOOTH && kind != VXL_KIND_CUBES && emits(g, packed))
+    if (VXL_SMOOTH && kind == VXL_KIND_SMOOTH && emits(g, packed))
         list_piece(g, x, y, z, VXL_PIECE_FIELD, voxel, packed);
+    if (VXL_FIELD_LISTS && kind == VXL_KIND_EXACT) {
+        const uint2 list = vload2(0, s->fields + (size_t)voxel * VXL_FIELD_WORDS);
+        for (uint field = list.x; field < list.x + list.y; ++field)
+            if (emits(g, s->attributes[field]))
+                list_piece(g, x, y, z, VXL_PIECE_FIELD, field, s->attributes[field]);
+    }
     if (!VXL_SOLIDS || kind != VXL_KIND_EXACT) return;
     for (uint i = s->primitive_first[voxel]; i < s->primitive_first[voxel + 1]; ++i) {
         if (!(s->primitives[i] & VXL_SOLID_PRIMITIVE)) continue;
@@ -98,8 +104,8 @@ static inline void list_voxel(const WorldView* world, const GlowingPieces* g, in
     }
 }
 
-/// Lists what glows in one brick: the open faces of cubes, smooth voxels, and solids in the voxels
-/// that list them. One work-item takes one of each sector's 64 bricks.
+/// Lists the emissive surfaces in one brick: the open faces of cubes, smooth voxels, and solids in
+/// the voxels that list them. One work-item takes one of each sector's 64 bricks.
 kernel void list_emissive(const uint count, VXL_WORLD_PARAMETERS,
                           global const uint* restrict emissive_objects,
                           global const uint* restrict emissive_materials, const uint capacity,
@@ -107,7 +113,7 @@ kernel void list_emissive(const uint count, VXL_WORLD_PARAMETERS,
     const uint item = work_item();
     if (item >= count) return;
     const WorldView world = VXL_WORLD;
-    const GlowingPieces asked = {emissive_objects, emissive_materials, capacity, found, pieces};
+    const EmissivePieces asked = {emissive_objects, emissive_materials, capacity, found, pieces};
     const int sector = (int)(item >> 6), brick = (int)(item & 63u);
     const uint entry = sectors[sector];
     if ((int)entry < 0) return;
@@ -134,8 +140,8 @@ kernel void list_emissive(const uint count, VXL_WORLD_PARAMETERS,
 
 #define VXL_PROJECT_STEPS 6
 
-/// Brings the points p, within voxels, onto the fields' surfaces by Newton's steps; `g` is the
-/// gradient there, `left` how far it still is, in voxels.
+/// Brings the points p, within voxels, onto the fields' surfaces by Newton's steps. `g` becomes the
+/// gradient there, `left` the distance that remains, in voxels.
 static inline void project_on_field(const Field* f, Vector* p, Vector* g, lane_float* left) {
     for (int step = 0; step <= VXL_PROJECT_STEPS; ++step) {
         const lane_float value = field_value(f, p->x, p->y, p->z);
@@ -154,7 +160,8 @@ static inline void project_on_field(const Field* f, Vector* p, Vector* g, lane_f
     }
 }
 
-/// The same for the solid `number`, by its distance along its normal.
+/// Brings the points p onto the surface of solid `number` by steps along its normal; `g` and `left`
+/// are as in project_on_field.
 static inline void project_on_solid(PyramidShape shape, global const SolidShape* solids,
                                     uint number, lane_int x, lane_int y, lane_int z, Vector* p,
                                     Vector* g, lane_float* left) {
@@ -162,7 +169,7 @@ static inline void project_on_solid(PyramidShape shape, global const SolidShape*
     for (int step = 0; step <= VXL_PROJECT_STEPS; ++step) {
         const LatticePoint at = {x, y, z, p->x, p->y, p->z};
         const SolidDistance distance = solid_distance(solids, number, at);
-        // solid_normal looks at the origin of the ray: any direction will do
+        // With t = 0, solid_normal takes the origin of the ray, so the direction doesn't matter.
         const SolidRay ray = {LANES_FLOAT(x) + p->x, LANES_FLOAT(y) + p->y, LANES_FLOAT(z) + p->z,
                               (lane_float)1.0f,      (lane_float)0.0f,      (lane_float)0.0f};
         const SolidPoint gradient = solid_normal(solids, number, &ray, (lane_float)0.0f);
@@ -179,9 +186,9 @@ static inline void project_on_solid(PyramidShape shape, global const SolidShape*
     }
 }
 
-/// Finds the surface in each piece's voxel, near its middle: the point within the voxel, the
-/// gradient of the distance there, along the grid's axes in voxels, and how far from the surface
-/// the point still is, in voxels. Seven components, `stride` values apart; cubes are left out.
+/// Finds the surface in each piece's voxel, near its middle. Writes seven components, `stride`
+/// values apart: the point within the voxel, the gradient of the distance there, along the grid's
+/// axes in voxels, and the distance of the point from the surface, in voxels. Cubes are left out.
 kernel void find_surface(PyramidShape shape, const uint count, const uint stride,
                          global const uint* restrict pieces, global const uint* restrict fields,
                          global const SolidShape* restrict solids, global float* restrict found) {

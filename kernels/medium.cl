@@ -27,7 +27,7 @@ static inline lane_float length_in_world(PyramidShape shape, const Segment* s) {
     return fmax(t_last - t_first, 0.0f);
 }
 
-/// Density times t on the segments of the `active` lanes.
+/// The sum of density times t along the segments of the `active` lanes.
 static inline lane_float depth_of(PyramidShape shape, const DensityView* density, const Segment* s,
                                   lane_int active) {
     if (!VXL_MEDIUM_GRID) return length_in_world(shape, s);
@@ -37,8 +37,8 @@ static inline lane_float depth_of(PyramidShape shape, const DensityView* density
     return walk_density(&p, density, &walk, s->t_first, s->t_last, active);
 }
 
-/// Rays up to what they met; one that met nothing goes on to the far surface, or to the world's
-/// end.
+/// The rays' parts up to what they met. A ray that met nothing goes on to the far surface, or to
+/// the world's end.
 static inline Segment sight_segment(const RayBatch* batch, uint first) {
     global const uint* hits = batch->hits;
     const uint stride = batch->stride;
@@ -53,8 +53,8 @@ static inline Segment sight_segment(const RayBatch* batch, uint first) {
     return segment;
 }
 
-/// Gives each ray's radiance what the medium does to it between the ray's start, or its segment's,
-/// and its end. `transmittance` takes the part of the light that comes through.
+/// Applies the medium between the start of each ray, or of its segment, and its end to the ray's
+/// radiance. Writes the part of the light that comes through to `transmittance`.
 kernel void absorb_sight(PyramidShape shape, Environment environment, VXL_DENSITY_PARAMETERS,
                          global const float* restrict materials, VXL_BATCH_PARAMETERS, uint count) {
     const uint first = work_item() * VXL_LANES;
@@ -96,8 +96,9 @@ kernel void absorb_sight(PyramidShape shape, Environment environment, VXL_DENSIT
     }
 }
 
-/// Takes from the light that waits in the queue of shadow rays what the medium keeps on its way.
-/// Without shadows it then arrives: every target stands in the queue at most once.
+/// Takes the part that the medium absorbs from the light in the queue of shadow rays. Without
+/// shadows the rest is added to the radiance of the targets, each of which stands in the queue at
+/// most once.
 kernel void absorb_shadows(PyramidShape shape, Environment environment, VXL_DENSITY_PARAMETERS,
                            VXL_SHADOW_QUEUE_PARAMETERS, VXL_BATCH_PARAMETERS) {
     const uint first = work_item() * VXL_LANES;

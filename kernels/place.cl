@@ -7,9 +7,7 @@
 //
 // Build constants: VXL_SMOOTH: the object has distances, else occupancy. VXL_ATTRIBUTES,
 // VXL_COLORS: the world has them. VXL_OBJECT_ATTRIBUTES, VXL_OBJECT_COLORS: the object has them.
-// VXL_WORLD_OCCUPANCY: the world has cubes or exact voxels as well. VXL_REACH: the reach is not 0.
-// VXL_KEEPS_INSIDE: bricks inside of the object are stored, too. VXL_AMONG_SMOOTH: the object is
-// exact in a world with smooth ones.
+// VXL_REACH: the reach is not 0. VXL_KEEPS_INSIDE: bricks inside of the object are stored, too.
 #include "lib/lanes/work_item.h"
 #include "lib/traverse/world_bounds.h"
 #include "lib/voxelize/painted_world.h"
@@ -128,10 +126,7 @@ kernel void close_distances(const uint count, VXL_PAINTED_PARAMETERS) {
     }
 }
 
-// One leaf of the world: the words and colours of its smooth voxels, where this object's surface is
-// the nearest to the voxel's centre so far; `nearest` has 4096 distances for each painted brick. A
-// voxel that the surface crosses is no longer a cube;
-// an exact one stays exact, with the smooth surface's word: its primitives have their own.
+// One leaf of the world: the attributes and colours of the voxels near the object's surface.
 kernel void paint_smooth_voxels(const uint count, const int crossing, VXL_OBJECT_PARAMETERS,
                                 VXL_PAINTED_PARAMETERS) {
     const uint item = work_item();
@@ -148,15 +143,15 @@ kernel void paint_smooth_voxels(const uint count, const int crossing, VXL_OBJECT
     CellBox gathered = nodes_of_cells(cells);
     const bool at_once = fits_block(gathered);
     if (at_once) gather_block(&object, object.distance, gathered, block);
-    ulong crossed = 0;
     for (int i = 0; i < 64; ++i) {
         const int4 voxel = (int4)(i & 3, i >> 2 & 3, i >> 4, 0);
         const int place = leaf_index(leaf) + voxel.x + (voxel.y << 4) + (voxel.z << 8);
         const size_t number = (size_t)(leaf >> 6) * VXL_BRICK_VOXELS + place;
-        // Where this object's surface crosses, the corners' distances, which are no larger than its
-        // own, are within a voxel's diagonal: most voxels near it need no more than this look.
+        // Where the surface crosses, the corners' distances are within a voxel's diagonal: most
+        // voxels need no more than this look.
         if (world.distance[number] > 3 * crossing) continue;
-        const FixedPoint centre = map_half_steps(&object, low + voxel * 2 + (int4)(1, 1, 1, 0));
+        const int4 half_steps = low + voxel * 2 + (int4)(1, 1, 1, 0);
+        const FixedPoint centre = map_half_steps(&object, half_steps);
         const int4 cell = cell_at(centre, object.fraction_bits);
         if (!at_once) {
             const CellBox one = {cell, cell};
@@ -165,34 +160,22 @@ kernel void paint_smooth_voxels(const uint count, const int crossing, VXL_OBJECT
         }
         const short own = stored_distance(object.distance_scale *
                                           distance_at(&object, block, gathered.first, centre));
-        const int4 half_steps = low + voxel * 2 + (int4)(1, 1, 1, 0);
-        const short value = (short)max((int)own, -depth_in_world(world.bounds, half_steps));
+        const int value = max((int)own, -depth_in_world(world.bounds, half_steps));
         // `crossing` is half a voxel's diagonal; the bend of a distance field adds less than that.
-        if ((int)abs(value) > 2 * crossing) continue;
-        const uint kind =
-            VXL_ATTRIBUTES ? world.attributes[number] & VXL_KIND_EXACT << VXL_KIND_SHIFT : 0u;
-        if (kind == 0u && (int)abs(value) <= crossing) crossed |= 1ul << i;
-        const size_t kept = (size_t)painted_index(item, world.painted) * VXL_BRICK_VOXELS + place;
-        if (value > world.nearest[kept]) continue;
-        world.nearest[kept] = value;
+        if (abs(value) > 2 * crossing) continue;
         const int4 at = cell - gathered.first;
         const int4 source =
             cell_on_surface(block + at.x + at.y * VXL_BLOCK_ROW + at.z * VXL_BLOCK_LAYER, cell);
         const long from = index_of_voxel(&object, source);
-        if (VXL_ATTRIBUTES) {
-            const uint packed =
-                attributes_of(object.attribute_map, object.materials, object.attributes, from);
+        if (VXL_ATTRIBUTES)
             world.attributes[number] =
-                kind == 0u ? packed : (packed & ~(3u << VXL_KIND_SHIFT)) | kind;
-        }
+                attributes_of(object.attribute_map, object.materials, object.attributes, from);
         if (VXL_COLORS) world.colors[number] = color_of(object.colors, from);
     }
-    if (VXL_WORLD_OCCUPANCY) world.occupancy[leaf] &= ~crossed;
 }
 
 // One leaf of the world: voxels whose centre's image lies in an occupied voxel of the object, or
-// has one within the reach. A voxel of the smooth body that becomes an exact one keeps the body's
-// word: its primitives have their own.
+// has one within the reach.
 kernel void paint_cubes(const uint count, VXL_OBJECT_PARAMETERS, VXL_PAINTED_PARAMETERS) {
     const uint item = work_item();
     if (item >= count) return;
@@ -217,14 +200,6 @@ kernel void paint_cubes(const uint count, VXL_OBJECT_PARAMETERS, VXL_PAINTED_PAR
         set |= 1ul << i;
         const size_t number = (size_t)(leaf >> 6) * VXL_BRICK_VOXELS + leaf_index(leaf) + voxel.x +
                               (voxel.y << 4) + (voxel.z << 8);
-        const size_t kept = (size_t)painted_index(item, world.painted) * VXL_BRICK_VOXELS +
-                            number % VXL_BRICK_VOXELS;
-        if (VXL_AMONG_SMOOTH && world.nearest[kept] != VXL_SATURATED &&
-            world.attributes[number] >> VXL_KIND_SHIFT != VXL_KIND_CUBES) {
-            const uint packed = world.attributes[number] & ~(3u << VXL_KIND_SHIFT);
-            world.attributes[number] = packed | VXL_KIND_EXACT << VXL_KIND_SHIFT;
-            continue;
-        }
         if (VXL_ATTRIBUTES)
             world.attributes[number] =
                 attributes_of(object.attribute_map, object.materials, object.attributes, from);

@@ -21,7 +21,7 @@ kernel void clear_bricks(const uint count, global const uint* restrict listed,
     }
 }
 
-// The same part of a brick that moves: `moves` holds pairs of slots, from and to.
+// Copies 64 voxels of a brick that moves; `moves` holds pairs of slots, from and to.
 kernel void move_bricks(const uint count, global const uint* restrict moves,
                         global short* restrict distance, global ulong* restrict occupancy,
                         global uint* restrict attributes, global uint* restrict colors) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // samples -> pixels: the mean of a pixel's samples, and the geometry of its first sample that hit.
 //
-// Build constants beside the features': VXL_SHOWS_COLOR, VXL_SHOWS_DEPTH, VXL_SHOWS_POSITION,
-// VXL_SHOWS_NORMAL, VXL_SHOWS_OBJECT: the channels asked for.
+// The build constants VXL_SHOWS_COLOR, VXL_SHOWS_DEPTH, VXL_SHOWS_POSITION, VXL_SHOWS_NORMAL and
+// VXL_SHOWS_OBJECT, in addition to the features', are the channels asked for.
 #include "lib/lanes/lanes.h"
 #include "lib/lanes/work_item.h"
 #include "lib/traverse/ray_batch.h"
@@ -10,11 +10,11 @@
 #include "shared/trace.h"
 #include "shared/voxel.h"
 
-/// The pixels of a packet, some of a tile of 4 x 4.
+/// The pixels of a packet: some or all of a tile of 4 x 4.
 typedef struct {
     size_t place[VXL_LANES];
     bool is_in_image[VXL_LANES];
-    bool is_whole;  // all are, and their rows begin at every fourth
+    bool is_whole;  // all are in the image, and each row begins at every fourth of them
 } Pixels;
 
 static inline Pixels pixels_of(const Camera* camera, uint tile, uint first) {
@@ -70,7 +70,7 @@ static inline Samples sum_samples(const RayBatch* batch, uint first_ray, uint sa
     return s;
 }
 
-/// Stores the mean of a channel's samples; counts values that are not finite, as 0.
+/// Stores the mean of a channel's samples. Values that are not finite are counted and stored as 0.
 static inline void store_color(lane_float value, const Pixels* at, global float* restrict plane,
                                global uint* restrict not_finite) {
     const lane_int finite = LANE_MASK(fabs(value) < INFINITY);
@@ -81,7 +81,7 @@ static inline void store_color(lane_float value, const Pixels* at, global float*
     store_pixels(LANES_SELECT(finite, value, (lane_float)0.0f), at, plane);
 }
 
-/// Stores depth, position and normal of the `hit` pixels' rays.
+/// Stores depth, position and normal of the `hit` pixels' rays; the normal is that of their light.
 static inline void store_geometry(const Camera* camera, float4 voxel_edge, float4 world_origin,
                                   const RayBatch* batch, lane_uint ray, lane_int hit,
                                   const Pixels* at, size_t pixels, global float* restrict image) {
@@ -92,8 +92,10 @@ static inline void store_geometry(const Camera* camera, float4 voxel_edge, float
     const uint normal_plane = position_plane + 3 * VXL_SHOWS_POSITION;
     const float eye[3] = {camera->origin.x, camera->origin.y, camera->origin.z};
     const float eye_low[3] = {camera->origin_low.x, camera->origin_low.y, camera->origin_low.z};
-    // Z_E in voxels per metre; times the edge twice it measures voxels along Z_E in metres.
+    // Z_E in voxels per metre. Multiplied by the edge twice, it measures voxels along Z_E in
+    // metres.
     const float ahead[3] = {camera->axis_z.x, camera->axis_z.y, camera->axis_z.z};
+    global const float* normals = VXL_SHADING_NORMALS ? batch->shading : batch->normals;
     const lane_float nothing = (lane_float)0.0f;
     lane_float depth = (lane_float)camera->lead;
     for (uint a = 0; a < 3; ++a) {
@@ -108,8 +110,7 @@ static inline void store_geometry(const Camera* camera, float4 voxel_edge, float
                 image + (position_plane + a) * pixels);
         if (VXL_SHOWS_NORMAL)
             store_pixels(
-                LANES_SELECT(hit, LANES_GATHER_FLOAT(batch->normals + a * batch->stride, ray),
-                             nothing),
+                LANES_SELECT(hit, LANES_GATHER_FLOAT(normals + a * batch->stride, ray), nothing),
                 at, image + (normal_plane + a) * pixels);
     }
     if (VXL_SHOWS_DEPTH)
@@ -117,8 +118,9 @@ static inline void store_geometry(const Camera* camera, float4 voxel_edge, float
                      image + depth_plane * pixels);
 }
 
-/// One work-item makes VXL_LANES pixels. `image` holds, `pixels` apart, what is asked for of R G B
-/// A Z P.X P.Y P.Z N.X N.Y N.Z; `objects` the number of the object plus 1, 0 for none.
+/// One work-item makes VXL_LANES pixels. `image` holds those of the planes R G B A Z P.X P.Y P.Z
+/// N.X N.Y N.Z that are asked for, `pixels` apart; `objects` holds the number of the object plus 1,
+/// 0 for none.
 kernel void resolve_pixels(Camera camera, PyramidShape shape, float4 world_origin,
                            VXL_BATCH_PARAMETERS, uint first_tile, uint tile_count,
                            global float* restrict image, global uint* restrict objects,

@@ -20,8 +20,8 @@
 #include "lib/traverse/ray_queue.h"
 #include "shared/scene.h"
 
-/// Makes rays from an observer entries of their own nodes. `bodies` are the solids that transmit
-/// light: a ray may begin inside of them.
+/// Makes each ray from an observer the entry of a node of its own. `bodies` are the solids that
+/// transmit light, in which a ray may begin.
 kernel void begin_paths(global const SolidShape* restrict solids, uint body_count,
                         global const uint* restrict bodies, VXL_SURROUNDINGS_PARAMETERS,
                         VXL_BATCH_PARAMETERS, uint count) {
@@ -55,7 +55,7 @@ kernel void begin_paths(global const SolidShape* restrict solids, uint body_coun
             LANE_MASK(LANES_LOAD(batch.rays, VXL_RAY_END * batch.stride + first) >= 0.0f);
         for (uint i = 0; i < body_count; ++i) {
             const SolidEvent event = event_at(solids, bodies[i], &ray, (lane_float)0.0f);
-            in = cross_counted(in, (lane_uint)solids[bodies[i]].attribute, (lane_int)0, (lane_int)0,
+            in = cross_counted(in, (lane_uint)solids[bodies[i]].attribute, (lane_int)0,
                                event.after & valid, around.medium_overflows);
         }
     }
@@ -63,9 +63,9 @@ kernel void begin_paths(global const SolidShape* restrict solids, uint body_coun
     LANES_STORE(medium_inside(&in, around.ranks), batch.inside, first);
 }
 
-/// Adds a layer's light to its nodes (in the first layer: begins their sums), and sends the rays on
-/// that surfaces leave uncovered. `node_weights` takes what an entry's reflected and refracted
-/// light counts in its node.
+/// Adds a layer's light to its nodes, whose sums the first layer begins, and sends on the rays that
+/// surfaces don't cover wholly. Writes to `node_weights` the weight that an entry's reflected and
+/// refracted light has in its node.
 kernel void pass_layer(VXL_SURROUNDINGS_PARAMETERS, global const uint* restrict colors,
                        float min_weight, uint first_layer, VXL_BATCH_PARAMETERS, uint count,
                        global float* restrict node_weights, VXL_NODE_PARAMETERS,
@@ -106,18 +106,18 @@ static inline void set_out_child(NewRays* r, PyramidShape shape, Vector position
     r->t_end = (lane_float)INFINITY;
 }
 
-/// Where the reflected or refracted rays of entries from `first` on are put.
+/// The place to which the reflected or refracted rays of a packet's entries are written.
 typedef struct {
     RayQueue queue;
-    uint compact;  // 0: every entry has its place `place` + lane, wanted or not
+    uint compact;  // 0: every entry has the place `place` + lane, wanted or not
     uint place;
     global uint* counters;
     global uint* restrict nodes;           // of the entries' children
-    global float* restrict child_weights;  // of these
+    global float* restrict child_weights;  // of the children
 } Destination;
 
 /// Puts the wanted lanes of `r` into the queue of children and notes where, for gather_light.
-/// Without compaction every entry has its place, and those not wanted hold idle rays.
+/// Without compaction every entry has its place, and unwanted places hold idle rays.
 static inline void put_children(const Destination* to, NewRays* r, Scattered s, lane_int valid) {
     Slots slots;
     lane_uint at;
@@ -135,7 +135,7 @@ static inline void put_children(const Destination* to, NewRays* r, Scattered s, 
     LANES_STORE(s.returned, to->child_weights, 0);
 }
 
-/// What all rays that leave the points have in common: they begin nodes of their own.
+/// What all rays that leave the points have in common. Each begins a node of its own.
 static inline NewRays begin_node(const ScatterPoint* p, const RayBatch* batch, uint first) {
     const lane_float one = (lane_float)1.0f;
     NewRays r;
@@ -173,7 +173,7 @@ static inline void reflect_rays(PyramidShape shape, const Surroundings* around,
     r->medium = (lane_uint)0;
     if (VXL_TRANSMISSION) r->medium = medium_inside(&p->before, around->ranks);
     if (VXL_CUBE_BODIES) {  // on a cube's side towards its inside, rays begin in a known cell
-        const lane_int cube = is_cube(p->packed, p->source);
+        const lane_int cube = is_cube(p->packed, p->primitive);
         r->flags |= joined_flag(&p->before, around->materials) |
                     (LANES_AS_UINT(cube & p->leaving) & VXL_PATH_FROM_CELL);
         r->cell_xy = LANES_LOAD(batch->hits, VXL_HIT_CELL * stride + first);
@@ -184,8 +184,8 @@ static inline void reflect_rays(PyramidShape shape, const Surroundings* around,
                   mirrored_direction(p));
 }
 
-/// Turns `r` into the rays that the surfaces refract. Between equal media the very same ray goes
-/// on.
+/// Turns `r` into the rays that the surfaces refract. Between equal media the ray goes on
+/// unchanged.
 static inline void refract_rays(PyramidShape shape, const Surroundings* around,
                                 const ScatterPoint* p, const RayBatch* batch, uint first,
                                 NewRays* r) {
@@ -195,8 +195,8 @@ static inline void refract_rays(PyramidShape shape, const Surroundings* around,
                VXL_PATH_ON_SURFACE;
     r->media = p->behind;
     r->medium = medium_inside(&p->behind, around->ranks);
-    const Vector bent = refracted_direction(p->way, p->normal, p->eta, p->cosine, &p->bend);
     const Vector into = opposite(p->normal);
+    const Vector bent = bent_direction(p, into);
     set_out_child(r, shape, offset_origin(shape, p->position, into, hits, stride, first), into,
                   bent);
     const lane_int same = LANE_MASK(p->eta == 1.0f);
@@ -211,14 +211,14 @@ static inline void refract_rays(PyramidShape shape, const Surroundings* around,
     r->flags |= LANES_AS_UINT(same) & VXL_PATH_GOES_ON;
     if (VXL_CUBE_BODIES)
         r->flags |= joined_flag(&p->behind, around->materials) |
-                    (LANES_AS_UINT(is_cube(p->packed, p->source)) & VXL_PATH_FROM_CELL);
+                    (LANES_AS_UINT(is_cube(p->packed, p->primitive)) & VXL_PATH_FROM_CELL);
     r->cell_xy = LANES_LOAD(hits, VXL_HIT_CELL * stride + first);
     r->cell_z = LANES_LOAD(hits, VXL_HIT_FACE * stride + first);
 }
 
 /// Sends reflected and refracted rays from entries begin .. end-1 of the batch. The children hold,
-/// for each entry, the node and share of its reflected light, then (`stride` later) of its
-/// refracted.
+/// for each entry, the node and the weight of its reflected light and, `stride` values later, those
+/// of its refracted light.
 kernel void scatter_rays(PyramidShape shape, VXL_SURROUNDINGS_PARAMETERS, float min_weight,
                          uint compact, VXL_BATCH_PARAMETERS, uint begin, uint end,
                          VXL_CHILDREN_PARAMETERS, global uint* restrict counters,
@@ -252,7 +252,7 @@ kernel void scatter_rays(PyramidShape shape, VXL_SURROUNDINGS_PARAMETERS, float 
     put_children(&to, &ray, refracted, p.valid);
 }
 
-/// Adds to each node what its entry's children brought, whose nodes hold `light`; one work-item is
+/// Adds to each node the light of its entry's children, which `light` holds. One work-item takes
 /// one entry.
 kernel void gather_light(uint begin, uint end, VXL_CHILDREN_PARAMETERS,
                          global const float* restrict transmittance,

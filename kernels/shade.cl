@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// hits -> surface points: where each ray met what, facing which way, and what shines there without
-// lights.
+// hits -> surface points: the place, surface and normal that each ray met, and the light there
+// without lights: ambient light and emission.
 #include "lib/lanes/vector.h"
 #include "lib/lanes/work_item.h"
 #include "lib/light/medium_set.h"
 #include "lib/solid/solid_surface.h"
 #include "lib/surface/cube_body.h"
 #include "lib/surface/field.h"
+#include "lib/surface/shading_normal.h"
 #include "lib/surface/surface_color.h"
 #include "lib/surface/triangle.h"
 #include "lib/traverse/hit_attributes.h"
@@ -16,15 +17,15 @@
 #include "shared/trace.h"
 #include "shared/voxel.h"
 
-/// What a packet of rays has met, and where. Lanes that met nothing have harmless numbers.
+/// The surfaces that a packet of rays has met. Lanes that met nothing have harmless numbers.
 typedef struct {
     lane_int hit, of_instance;  // masks
-    lane_int exact, smooth;     // masks: triangles and solids; the smooth body
+    lane_int exact, smooth;     // masks: triangles and solids; fields
     lane_uint voxel, primitive, packed, face;
     Vector cell;                     // the minimum corner of the voxel
-    Vector world_origin, world_way;  // of the ray, in the world's voxels
+    Vector world_origin, world_way;  // the ray in the world's voxels
     lane_float world_t;
-    HitRay ray;  // in the voxels that the cell is one of: an instance's or the world's
+    HitRay ray;  // in the voxels of the instance that was met, or the world's
 } ShadedHit;
 
 static inline ShadedHit load_hits(const WorldView* world, const RayBatch* batch, uint first) {
@@ -58,19 +59,20 @@ static inline ShadedHit load_hits(const WorldView* world, const RayBatch* batch,
     return h;
 }
 
-/// Where rays have met their surfaces: the place in the voxel, and the unit normal in metres'
-/// space.
+/// The points where rays met their surfaces: the place in the voxel, and the unit normal in
+/// metric space.
 typedef struct {
     Vector place, normal;
 } SurfacePoint;
 
-/// A gradient in the voxels of the hits, as a unit normal in metres' space.
+/// A gradient in the voxels of the hits, as a unit normal in metric space.
 static inline Vector normal_of(const WorldView* world, const ShadedHit* h, Vector gradient) {
     if (VXL_INSTANCES) gradient = world_gradient(&h->ray, gradient, h->of_instance);
     return unit(scaled(gradient, world->shape.inverse_edge));
 }
 
-/// Cubes: exactly on the face that was crossed, which faces the ray.
+/// Cubes: the point lies exactly on the face that was crossed; the normal is that face's, towards
+/// the ray.
 static inline void meet_cubes(const WorldView* world, const ShadedHit* h, SurfacePoint* p) {
     const Vector d = h->ray.direction;
     const lane_uint axis = (h->face >> VXL_FACE_AXIS_SHIFT) & VXL_FACE_AXIS_MASK;
@@ -103,7 +105,7 @@ static inline void meet_smooth(const WorldView* world, const ShadedHit* h, Surfa
     p->normal = select_vector(h->smooth, normal_of(world, h, g), p->normal);
 }
 
-/// Triangles.
+/// Triangles: the normal is that of the plane.
 static inline void meet_triangles(const WorldView* world, const ShadedHit* h, lane_int triangles,
                                   SurfacePoint* p) {
     global const float* corners = world->surface.triangles;
@@ -128,11 +130,10 @@ static inline void meet_solids(const WorldView* world, const ShadedHit* h, lane_
     p->normal = select_vector(solids, normal_of(world, h, g), p->normal);
 }
 
-/// Mask: surfaces whose normals point along the rays. Those without an inside, and insides that a
-/// ray began in, face the ray.
+/// Mask: surfaces whose normals point along the rays, which see them from behind.
 static inline lane_int faces_away(const WorldView* world, const ShadedHit* h, Vector normal) {
     const Vector metric = scaled(h->world_way, world->shape.edge);
-    // A smooth one's gradient may turn too far at its silhouette, but the walk knows the side.
+    // A smooth surface's gradient may turn too far at its silhouette, but the walk knows the side.
     lane_int behind = LANE_MASK(dot_product(metric, normal) > 0.0f);
     if (VXL_SMOOTH)
         behind = LANES_SELECT(h->smooth, LANE_MASK((h->face & VXL_FACE_WITHIN) != 0u), behind);
@@ -160,6 +161,47 @@ static inline SurfacePoint meet_surface(const WorldView* world, const ShadedHit*
     return p;
 }
 
+/// The light's normal of points whose geometric normals are `normal`, turned over where the surface
+/// is met from `behind`, and how far above the triangle rays to lights begin: as if each corner
+/// were a round surface's, at the height of the tangent planes (Hanika 2021, "Hacking the Shadow
+/// Terminator", Ray Tracing Gems II, chapter 4).
+static inline ShadingPoint shading_point(const WorldView* world, const ShadedHit* h, Vector normal,
+                                         lane_int behind) {
+    const lane_float zero = (lane_float)0.0f;
+    ShadingPoint s = {normal, {zero, zero, zero}};
+    const lane_int triangle = h->exact & LANE_MASK((h->primitive & VXL_SOLID_PRIMITIVE) == 0u);
+    const lane_uint number = h->primitive & LANES_AS_UINT(triangle);
+    global const uint* packed = world->surface.triangle_normals;
+    const lane_uint place = number * (uint)VXL_TRIANGLE_NORMALS;
+    const lane_int curved = triangle & LANE_MASK(LANES_GATHER_UINT(packed, place) != VXL_NO_NORMAL);
+    if (!lanes_any(curved)) return s;
+    const Vector o = h->ray.origin, d = h->ray.direction;
+    Vector from[3];
+    lane_float share[3];
+    for (uint i = 0; i < 3; ++i) {
+        const Vector corner = triangle_corner(world->surface.triangles, number, i);
+        from[i] = add_scaled(difference(o, corner), d, h->ray.t);
+    }
+    corner_shares(from, share);
+    Vector sum = {zero, zero, zero}, lift = sum;
+    for (uint i = 0; i < 3; ++i) {
+        Vector g = unpack_normal(LANES_GATHER_UINT(packed, place + i));
+        g = select_vector(behind, opposite(g), g);
+        Vector metric = g;
+        if (VXL_INSTANCES) metric = world_gradient(&h->ray, metric, h->of_instance);
+        metric = scaled(metric, world->shape.inverse_edge);
+        const lane_float inverse = exact_reciprocal(exact_sqrt(dot_product(metric, metric)));
+        const lane_float below = fmax(-dot_product(g, from[i]) * inverse, 0.0f);
+        const Vector n = unit(metric);
+        sum = add_scaled(sum, n, share[i]);
+        lift = add_scaled(lift, n, share[i] * below);
+    }
+    sum = unit(sum);
+    s.normal = select_vector(curved & LANE_MASK(dot_product(sum, sum) > 0.0f), sum, s.normal);
+    s.lift = select_vector(curved & LANE_MASK(dot_product(lift, normal) > 0.0f), lift, s.lift);
+    return s;
+}
+
 /// Where the points are in the world, in voxels.
 static inline Vector position_of(const ShadedHit* h, const SurfacePoint* p) {
     const Vector in_cell = {h->cell.x + p->place.x, h->cell.y + p->place.y, h->cell.z + p->place.z};
@@ -170,13 +212,12 @@ static inline Vector position_of(const ShadedHit* h, const SurfacePoint* p) {
     return select_vector(h->of_instance, on_ray, in_cell);
 }
 
-/// VXL_SIDE_* bits of surfaces that rays meet inside of the objects of `before`. The opacity of
-/// those that are hidden becomes 0.
+/// VXL_SIDE_* bits of surfaces that rays meet inside of the objects of `before`. Sets the opacity
+/// of hidden surfaces to 0.
 static inline lane_uint side_of(const ShadedHit* h, const MediumSet* before, lane_int behind,
                                 lane_uint material, global const float* restrict materials,
                                 global const uint* restrict ranks, lane_float* opacity) {
-    const lane_int body = is_smooth(h->packed, h->primitive) & ~h->of_instance;
-    lane_int leaving = medium_set_holds(before, h->packed, body) | behind;
+    lane_int leaving = medium_set_holds(before, h->packed) | behind;
     lane_int inner = (lane_int)0, exit = (lane_int)0;  // faces between cubes, and out of them
     if (VXL_CUBE_BODIES) {
         const lane_int cube = is_cube(h->packed, h->primitive) & h->hit;
@@ -184,7 +225,7 @@ static inline lane_uint side_of(const ShadedHit* h, const MediumSet* before, lan
         inner = cube & leaving & ~exit;
         leaving = LANES_SELECT(cube, exit, leaving);
     }
-    lane_int hidden = hides_surface(before, h->packed, body, leaving, ranks);
+    lane_int hidden = hides_surface(before, h->packed, leaving, ranks);
     if (VXL_CUBE_BODIES) {
         hidden |= exit & ~is_joined(h->packed, materials);
         hidden =
@@ -220,10 +261,9 @@ static inline void store_own_light(const WorldView* world, const ShadedHit* h,
     }
 }
 
-/// Finds of every hit what is asked for: its point, normal and word, and the ambient light and
-/// emission that start its radiance; rays that hit nothing take the background. The batch's
-/// `hit_attributes` keep each hit's packed attributes, its `sides` how the surface was met, where
-/// the scene has transmitting objects or mirrors.
+/// Writes what is asked for of every hit: its point, normal and packed attributes, and its ambient
+/// light and emission, which begin the ray's radiance. Rays that hit nothing take the background.
+/// In scenes with transmitting objects or mirrors the batch's `sides` say how the surface was met.
 kernel void shade_surface(VXL_WORLD_PARAMETERS, Environment environment,
                           global const float* restrict materials, global const uint* restrict ranks,
                           VXL_BATCH_PARAMETERS, uint count) {
@@ -238,6 +278,11 @@ kernel void shade_surface(VXL_WORLD_PARAMETERS, Environment environment,
     const Vector position = position_of(&h, &p);
     if (VXL_POSITIONS) store_vector(position, positions, stride, first);
     if (VXL_NORMALS) store_vector(p.normal, normals, stride, first);
+    if (VXL_NORMALS && VXL_SHADING_NORMALS) {
+        const ShadingPoint s = shading_point(&world, &h, p.normal, behind);
+        store_vector(s.normal, shading, stride, first);
+        store_vector(s.lift, shading + VXL_SHADING_LIFT * stride, stride, first);
+    }
     if (VXL_HIT_ATTRIBUTES) LANES_STORE(h.packed, hit_attributes, first);
     if (!VXL_RADIANCE) return;
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // observer -> rays: one sight ray for every sample of every pixel, clipped to the world.
 //
-// Rays come in tiles of 4 x 4 pixels, a tile's samples one after another: place
-// ((tile * samples) + sample) * 16 + pixel of the tile, whatever the number of lanes.
+// Rays come in tiles of 4 x 4 pixels, a tile's samples one after another. Whatever the number of
+// lanes, a ray's place is ((tile * samples) + sample) * 16 + pixel of the tile.
 #include "lib/lanes/fixed_point.h"
 #include "lib/lanes/vector.h"
 #include "lib/lanes/work_item.h"
@@ -67,19 +67,19 @@ kernel void cast_sight(Camera camera, PyramidShape shape, global const float* re
     LANES_STORE(dx, rays, VXL_RAY_DX * stride + first);
     LANES_STORE(dy, rays, VXL_RAY_DY * stride + first);
     LANES_STORE(dz, rays, VXL_RAY_DZ * stride + first);
-    // The ray ends at the far surface; that it leaves the world the walk finds by itself, exactly.
+    // The ray ends at the far surface. Where it leaves the world, the walk finds out exactly.
     const lane_float t_end = LANES_SELECT(seen, t_far - t_first, (lane_float)-1.0f);
     LANES_STORE(t_end, rays, VXL_RAY_END * stride + first);
 }
 
-/// Groups of 16 rays, and what becomes of each one's beam. Its s is the coordinate along the main
-/// axis, times the sign of the way there.
+/// Groups of 16 rays, one a lane, and the beam of each. A beam's s is the coordinate along its main
+/// axis, times the sign of its direction there.
 typedef struct {
     lane_uint first_ray;
     lane_int axis, axis_b, axis_c;  // the main axis, and the two across it
     lane_float sign, s_near, s_far;
     lane_int active;      // mask: the beam can be sent
-    lane_int idle;        // mask: none of its rays is one
+    lane_int idle;        // mask: the group has no ray
     Span b_span, c_span;  // across: where the rays are at s_near and s_far
     lane_float s_first;   // where the first ray begins
 } BeamGroup;
@@ -120,8 +120,8 @@ static inline void add_ray(BeamGroup* g, const BeamRays* r, uint i) {
 }
 
 /// One work-item sends VXL_LANES beams, each along the 16 rays of its group; see shared/trace.h.
-/// `scale`, a power of two, is what the dilated occupancy's coordinates are of the rays'. Adds the
-/// number of clear ones, low word and high word, to `cleared`.
+/// `scale`, a power of two, turns the rays' coordinates into the dilated occupancy's. Adds the
+/// number of clear beams, low word and high word, to `cleared`.
 kernel void start_beams(PyramidShape shape, global const uint* restrict sectors,
                         global const uint* restrict bricks, float scale,
                         global const float* restrict rays, uint count, uint stride,
@@ -142,8 +142,8 @@ kernel void start_beams(PyramidShape shape, global const uint* restrict sectors,
     const lane_float start = (fmin(end, s_last) - 2.0f * VXL_BEAM_STEP) * (1.0f / scale);
     const uint slots = VXL_BEAM_SLOTS(stride);
     LANES_STORE(LANES_AS_UINT(start), beams, VXL_BEAM_START * slots + first);
-    // The dilated occupancy's last leaf knows of 4 voxels more, and so of the step past its planes.
-    // A beam that begins within a step of the far side has looked at nothing.
+    // The dilated occupancy's last leaf covers 4 voxels more, and so the step past its planes. A
+    // beam that begins within a step of the far side has looked at nothing.
     const lane_int clear = LANE_MASK(s_last >= g.s_far) & LANE_MASK(end >= g.s_far) &
                            LANE_MASK(g.s_first + VXL_BEAM_STEP < g.s_far);
     lane_int towards = g.axis | (~LANE_MASK(g.sign > 0.0f) & VXL_BEAM_DOWN);

@@ -24,8 +24,8 @@ static inline lane_int block_log2(const Walk* w) {
 
 /// Walks rays 0 .. count-1 through at most `maximum` cells each. Arrays hold a multiple of 16 rays.
 ///
-/// Of each ray: the number of cells entered, and a hash of the cells, axes and times in their
-/// order. With VXL_BLOCKS the walk leaves blocks of up to 64 cells in one step.
+/// Writes for each ray the number of cells entered, and a hash of the cells, axes and times in
+/// their order. With VXL_BLOCKS the walk leaves blocks of up to 64 cells in one step.
 kernel void digest_walks(PyramidShape shape, global const float* restrict rays, uint count,
                          uint stride, uint maximum, global uint* restrict digests) {
     const uint first = work_item() * VXL_LANES;
@@ -47,8 +47,8 @@ kernel void digest_walks(PyramidShape shape, global const float* restrict rays, 
     LANES_STORE(hash, digests, stride + first);
 }
 
-/// The cells themselves: `maximum` places of x, y, z, axis and t, `stride` values apart. Places
-/// that a walk doesn't reach keep what they had.
+/// Lists the cells themselves: `maximum` places of x, y, z, axis and t, `stride` values apart.
+/// Places that a walk doesn't reach keep their contents.
 kernel void list_walks(PyramidShape shape, global const float* restrict rays, uint count,
                        uint stride, uint maximum, global int* restrict lists) {
     const uint first = work_item() * VXL_LANES;
@@ -68,8 +68,8 @@ kernel void list_walks(PyramidShape shape, global const float* restrict rays, ui
     }
 }
 
-/// Snaps rays of any origin and length to the fixed point, from where they come into the grid on,
-/// as sight rays are. Rays that pass the grid get t_end = -1. `snapped` may not be `rays`.
+/// Snaps rays of any origin and length to fixed point, as sight rays are, beginning where they
+/// enter the grid. Rays that miss the grid get t_end = -1. `snapped` may not be `rays`.
 kernel void snap_rays(PyramidShape shape, global const float* restrict rays, uint count,
                       uint stride, global float* restrict snapped) {
     const uint first = work_item() * VXL_LANES;
@@ -90,7 +90,8 @@ kernel void snap_rays(PyramidShape shape, global const float* restrict rays, uin
     t_first = LANES_SELECT(seen, t_first, (lane_float)0.0f);
     for (int a = 0; a < 3; ++a) {
         LANES_STORE(d[a], snapped, (uint)(VXL_RAY_DX + a) * stride + first);
-        // start_coordinate takes the origin's rounded part for all lanes: the rest is what differs
+        // start_coordinate takes one rounded part of the origin for all lanes: here 0, so that the
+        // rest is the lane's whole origin.
         const lane_float at = start_coordinate(0.0f, o[a], d[a], size[a], t_first);
         LANES_STORE(snap_position(at, (lane_float)0.0f, shape.fixed_point), snapped,
                     (uint)(VXL_RAY_OX + a) * stride + first);

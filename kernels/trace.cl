@@ -7,8 +7,8 @@
 #include "lib/traverse/sight_rays.h"
 #include "shared/scene.h"
 
-/// The closest hit of rays 0 .. count-1 that run beside each other. Arrays hold a multiple of 16
-/// rays. Hits don't depend on whether there are beams.
+/// Finds the closest hits of the coherent rays 0 .. count-1. Arrays hold a multiple of 16 rays.
+/// Hits don't depend on whether there are beams.
 kernel void trace_closest(VXL_WORLD_PARAMETERS, VXL_BATCH_PARAMETERS, uint count) {
     const uint first = work_item() * (VXL_LANES * VXL_PACKETS_INTERLEAVED);
     if (first >= count) return;
@@ -35,11 +35,11 @@ kernel void trace_closest(VXL_WORLD_PARAMETERS, VXL_BATCH_PARAMETERS, uint count
 }
 
 #if VXL_PATHS
-/// The closest hit of rays 0 .. count-1 that run anywhere: reflected and refracted ones.
+/// Finds the closest hits of the incoherent rays 0 .. count-1: reflected and refracted ones.
 ///
-/// A work-item carries VXL_PACKETS(VXL_LANES) packets' rays in two packets whose steps take turns.
-/// Lanes whose rays have ended wait until several have; then their hits are stored, and they go on
-/// with the next rays. The hits' bits are those of trace_closest.
+/// A work-item traces VXL_PACKETS(VXL_LANES) packets' rays in two interleaved packets. Lanes whose
+/// rays have ended wait until several have; then their hits are stored, and the lanes take on the
+/// next rays. The hits' bits are those of trace_closest.
 kernel void trace_scattered(VXL_WORLD_PARAMETERS, VXL_BATCH_PARAMETERS, uint count) {
     const uint first = work_item() * (VXL_LANES * VXL_PACKETS(VXL_LANES));
     if (first >= count) return;
@@ -75,9 +75,9 @@ kernel void trace_scattered(VXL_WORLD_PARAMETERS, VXL_BATCH_PARAMETERS, uint cou
 #endif
 
 #if VXL_OBSERVER_IN_MEDIUM
-/// Adds to the objects that rays 0 .. count-1 are inside of, as begin_paths left them, those that
-/// only tracing finds; see find_beginnings. `maximum` is their number in the scene, smooth ones as
-/// one.
+/// Adds to the medium sets of rays 0 .. count-1, as begin_paths left them, the objects that only
+/// tracing finds; see find_beginnings. `maximum` is the number of such objects in the scene, smooth
+/// ones counted as one.
 kernel void begin_inside(VXL_WORLD_PARAMETERS, VXL_SURROUNDINGS_PARAMETERS,
                          global const uint* restrict hollow, uint maximum, VXL_BATCH_PARAMETERS,
                          uint count) {
@@ -95,9 +95,8 @@ kernel void begin_inside(VXL_WORLD_PARAMETERS, VXL_SURROUNDINGS_PARAMETERS,
         find_beginnings(&world, &around, &f.walk, active, &f.ray_state, hollow, maximum);
     for (int i = 0; i < VXL_MEDIUM_SET_SIZE; ++i) {
         lane_int full;
-        in =
-            cross_medium_or_overflow(in, began.members[i], (lane_int)(i == 0 ? -1 : 0), (lane_int)0,
-                                     LANE_MASK(began.members[i] != VXL_NO_MEDIUM), &full);
+        in = cross_medium_or_overflow(in, began.members[i], (lane_int)0,
+                                      LANE_MASK(began.members[i] != VXL_NO_MEDIUM), &full);
         if (VXL_MEDIUM_SET_CAPPED && lanes_any(full))
             atomic_add(medium_overflows, (uint)lanes_count(full));
     }
@@ -106,8 +105,8 @@ kernel void begin_inside(VXL_WORLD_PARAMETERS, VXL_SURROUNDINGS_PARAMETERS,
 }
 #endif
 
-/// Traces a queue of shadow rays that begin on surfaces; what reaches its light adds its share of
-/// light to the radiance of the ray of the batch that it was sent for.
+/// Traces a queue of shadow rays that begin on surfaces. A ray that reaches its light adds its
+/// contribution to the radiance of the batch's ray for which it was sent.
 ///
 /// Every target stands in the queue at most once, so no two work-items add to the same place. The
 /// first work-item alone adds the queue's length to `shadow_traced`, low word and high word.

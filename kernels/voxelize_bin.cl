@@ -5,9 +5,9 @@
 // frame: crossings there count for the winding numbers to their right.
 #include "lib/voxelize/lattice.h"
 
-// What floats may lose, with u = 2^-24. Values come from integers, so each is within u of itself. A
-// term of a sum has two such factors and passes their product and two sums, at most: 5 u of the
-// terms' magnitudes, which are themselves summed within 6 u of that. 8 u are taken.
+// A bound on the rounding of floats, with u = 2^-24. Values come from integers, so each has a
+// relative error of at most u. A term of a sum has two such factors and passes their product and at
+// most two sums: 5 u of the terms' magnitudes, whose own sum is right within 6 u. 8 u are taken.
 #define SUM_ROUNDING 0x1p-21f
 // A term of a radius has one such factor and passes its product and three sums, and the half box in
 // it was rounded three times: 8 u. 16 u are taken.
@@ -30,9 +30,8 @@ static inline BrickRange reached_bricks(const LatticeTriangle* t, int3 reach, in
     return r;
 }
 
-/// Whether the triangle's plane passes within the brick's box widened by the reach.
-///
-/// In floats, and conservative.
+/// True if the triangle's plane may pass through the brick's box widened by the reach: a
+/// conservative test in floats.
 static inline bool plane_reaches(float3 n, float3 to_corner, float3 half_box) {
     const float3 size = fabs(n);
     const float distance = fabs(n.x * to_corner.x + n.y * to_corner.y + n.z * to_corner.z);
@@ -41,7 +40,8 @@ static inline bool plane_reaches(float3 n, float3 to_corner, float3 half_box) {
     return distance <= size.x * half_box.x + size.y * half_box.y + size.z * half_box.z + slack;
 }
 
-/// One edge seen along an axis, against the same box; likewise conservative.
+/// True if one edge, seen along an axis, may leave the triangle and the box unseparated: a
+/// conservative test in floats.
 static inline bool edge_reaches(float2 edge, float2 to_corner, float2 to_opposite,
                                 float2 half_box) {
     const float at = edge.x * to_corner.y - edge.y * to_corner.x;
@@ -62,7 +62,7 @@ static inline bool triangle_reaches(const LatticeTriangle* t, float3 n, int3 bri
                          convert_float3(t->corner[2] - center)};
     if (!plane_reaches(n, p[0], half_box)) return false;
     for (int i = 0; i < 3; ++i) {
-        // From the integers: the difference of two corners is only as right as they are.
+        // The difference is taken of the integers: that of two floats would have their errors.
         const float3 edge = convert_float3(t->corner[(i + 1) % 3] - t->corner[i]);
         const float3 a = p[i], opposite = p[(i + 2) % 3];
         if (!edge_reaches(edge.xy, a.xy, opposite.xy, half_box.xy)) return false;
@@ -91,8 +91,7 @@ static inline void visit_bins(const LatticeMesh* mesh, uint number, int4 bins, i
             }
 }
 
-/// One work-item: one of the mesh's triangles. Adds 1 to `counts` of each bin that it
-/// reaches.
+/// One work-item: one of the mesh's triangles. Adds 1 to the count of each bin that it reaches.
 kernel void count_pairs(int4 bins, int4 reach, int extent, VXL_MESH_PARAMETERS,
                         global uint* restrict counts) {
     if (work_item() >= triangle_count) return;
@@ -100,7 +99,8 @@ kernel void count_pairs(int4 bins, int4 reach, int extent, VXL_MESH_PARAMETERS,
     visit_bins(&mesh, mesh.first + work_item(), bins, reach, extent, false, counts, counts);
 }
 
-/// One work-item: the same triangles. Writes its number at the cursor of each bin that it reaches.
+/// One work-item: one of the mesh's triangles. Writes its number at the cursor of each bin that it
+/// reaches.
 ///
 /// The order within a list depends on the device: every reader gives the same result for any order.
 kernel void list_pairs(int4 bins, int4 reach, int extent, VXL_MESH_PARAMETERS,

@@ -23,10 +23,10 @@
 #define INVERSE_SPHERE 0.0796f
 // A length is right within some ten units of 2^-24. An edge's middle is rounded by half a unit
 // of the lattice on each axis, 2.2e-4 voxel, and a gap above 0 is that of a middle at least a
-// brick's half, 8 voxels, away: 2.8e-5 of its distance. Of both a part in 1000 is taken.
+// brick's half, 8 voxels, away: 2.8e-5 of its distance. A part in 1000 is taken for both.
 #define LENGTH_ROUNDING 1e-3f
-// Voxels, in place of none: with it an edge of a lattice unit already has a slope of 10^7 a voxel,
-// so the brick is open whatever else there is.
+// The smallest gap, in voxels, that is divided by. With it an edge of one lattice unit already has
+// a slope of 10^7 a voxel, so the brick is open whatever else there is.
 #define MIN_GAP 1e-6f
 // Four times 2^-24 of each sum: one for it, the others for the product with TURNS and this bound.
 #define SUM_ROUNDING 2.4e-7f
@@ -37,8 +37,9 @@
 #define STATE_CLOSED 2u  // stored: caps change nothing, the closed mesh's winding numbers decide
 #define STATE_OPEN 3u    // stored: every point needs the caps' solid angle
 
-/// An upper bound on the slope of the caps' winding number within `radius` of the points: by the
-/// law of Biot and Savart their outline, each cap's first edge, makes it.
+/// An upper bound on the slope of the caps' winding number within `radius` of the points. By the
+/// law of Biot and Savart the slope comes from the outline, which consists of each cap's first
+/// edge.
 static inline lane_float slope_bound(const Cap* cap, const LanePoints* p, float radius,
                                      float3 to_metric) {
     const int3 first = cap->lattice.corner[0], second = cap->lattice.corner[1];

@@ -21,8 +21,8 @@ static inline void add_row(ulong* masks, uint row, int y, int z) {
 
 /// One work-item: VXL_SLICES slices of one brick, gathered over the brick's triangles.
 ///
-/// `size` is the frame's, in voxels: those beyond stay empty. Lists are lists[first[i] ..
-/// first[i+1]).
+/// `size` is the frame's, in voxels; voxels beyond it stay empty. The list of bin i is
+/// lists[first[i]] .. lists[first[i+1] - 1].
 kernel void cover_bricks(uint count, int4 size, int4 bricks, VXL_MESH_PARAMETERS,
                          VXL_BINS_PARAMETERS, global ulong* restrict occupancy) {
     if (work_item() >= count * (16 / VXL_SLICES)) return;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // triangles of each brick, and what is inside -> signed distances at its nodes, 16 bits each.
 //
-// Gathered: one work-item owns its nodes and goes over the brick's triangles; the smallest squared
-// distance does not depend on their order. A triangle concerns only nodes within the band; tiles
-// surely beyond it are passed over, and all beyond it is stored as saturated.
+// Distances are gathered: one work-item owns its nodes and goes over the brick's triangles; the
+// smallest squared distance does not depend on their order. A triangle concerns only nodes within
+// the band. Tiles surely beyond the band are left out, and nodes beyond it are stored as saturated.
 #include "lib/voxelize/cover.h"
 #include "lib/voxelize/node_tile.h"
 #include "lib/voxelize/point_triangle.h"
@@ -15,7 +15,7 @@
 #define TILE_COLUMNS (TILES_X * TILES_Y)
 #define BRICK_CENTER (LATTICE_BRICK / 2 - LATTICE_VOXEL / 2)
 
-/// One work-item: one triangle. Writes what does not depend on the brick.
+/// One work-item: one triangle. Writes the part of its frame that does not depend on the brick.
 kernel void shape_triangles(float4 scale, VXL_MESH_PARAMETERS, global float* restrict shapes) {
     if (work_item() >= triangle_count) return;
     const LatticeMesh mesh = VXL_MESH;
@@ -23,7 +23,7 @@ kernel void shape_triangles(float4 scale, VXL_MESH_PARAMETERS, global float* res
     shape_of_triangle(&t, scale.xyz, shapes + (size_t)SHAPE_FLOATS * work_item());
 }
 
-/// z in voxels from the brick's centre.
+/// A range of z, in voxels from the brick's centre; empty if first > last.
 typedef struct {
     float first, last;
 } SliceRange;
@@ -42,9 +42,9 @@ static inline void narrow(SliceRange* range, float at, float slope, float limit)
         range->first = fmax(range->first, bound);
 }
 
-/// The slices whose tile at (x, y) can have a node within `band` of the triangle. Only what is
-/// surely farther is left out (the margin is far above rounding), so the result has no part in any
-/// value.
+/// The slices whose tile at (x, y) can have a node within `band` of the triangle. Only slices that
+/// are surely farther are left out (the margin is far above rounding), so no stored value depends
+/// on the result.
 static inline SliceRange concerned_slices(const TriangleFrame* f, float x, float y, float band,
                                           SliceRange range) {
     const float half_x = 0.5f * (TILE_X - 1), half_y = 0.5f * (TILE_Y - 1), margin = 0.01f;

@@ -2,7 +2,7 @@
 // triangles of each brick -> for each voxel the triangles that it lists, in ascending order.
 //
 // A voxel lists the triangles that its closed cube meets, the SUPERCOVER, widened by VXL_MARGIN.
-// Counted, summed, written.
+// Lists are counted, their starts summed, and then they are written.
 #include "lib/voxelize/cover.h"
 
 static inline uint voxel_index(int x, int y, int z) {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // triangles of each brick -> the packed attributes and colour of its voxels.
 //
-// Both come from the triangle closest to the voxel's centre, of equally close ones from that with
-// the lowest number: a rule that no order of work changes. Used only for meshes that have several
-// groups or colours.
+// Both come from the triangle closest to the voxel's centre, and from the one with the lowest
+// number among equally close ones, so they don't depend on the order of work. These kernels run
+// only for meshes that have several groups or colours.
 #include "lib/voxelize/cover.h"
 #include "lib/voxelize/node_tile.h"
 #include "lib/voxelize/point_triangle.h"
@@ -33,7 +33,8 @@ static inline void compare_nearest(Nearest* best, lane_float squared, uint numbe
 /// centre; voxels farther than `band` from all get NO_TRIANGLE. `band` is in shortest edges,
 /// `reach` the same in lattice units, rounded up.
 ///
-/// The lists are of bins that may be more than the stored bricks, which `coordinates_of_slots` has.
+/// There may be more bins with lists than stored bricks, whose coordinates are in
+/// `coordinates_of_slots`.
 kernel void find_nearest(uint count, int4 bricks, int4 reach, float4 scale, float band,
                          VXL_MESH_PARAMETERS, VXL_BINS_PARAMETERS,
                          global const uint* restrict coordinates_of_slots,
@@ -81,8 +82,8 @@ kernel void find_nearest(uint count, int4 bricks, int4 reach, float4 scale, floa
                                      16u * (uint)(j * TILE_Y) + (uint)(k * TILE_X));
 }
 
-/// One work-item: one voxel. Its word is that of its closest triangle; `packed` where there is
-/// none.
+/// One work-item: one voxel. Its packed attributes are those of its closest triangle, or `packed`
+/// if there is none.
 kernel void label_voxels(uint count, uint packed, global const uint* restrict nearest,
                          global const uint* restrict triangle_attributes,
                          global uint* restrict attributes) {

@@ -19,7 +19,8 @@
 /// Adds one triangle's crossings to the rows of a brick: `winding` at 16 points a row, and
 /// `totals`.
 ///
-/// Each crossing is counted in the brick that holds it; `left` is the column of all space x < 0.
+/// Each crossing is counted in the brick that holds it. `left` is true for the column that stands
+/// for all space x < 0.
 static inline void add_crossings(const LatticeTriangle* t, bool left, short16* winding,
                                  short* totals) {
     const long3 n = area_vector(t);
@@ -76,8 +77,8 @@ kernel void count_crossings(VXL_MESH_PARAMETERS, VXL_BINS_PARAMETERS,
 }
 
 /// One work-item: one row of bricks along x. Turns the totals into each brick's winding numbers at
-/// its left face, and marks bricks without triangles as inside or outside; `passing` is the winding
-/// number of all their points.
+/// its left face, marks bricks without triangles as inside or outside, and writes the winding
+/// number of all their points to `passing`.
 kernel void carry_rows(uint count, int4 bins, global const uint* restrict number_of_bin,
                        global short* restrict totals, global uint* restrict slots,
                        global short* restrict passing) {
@@ -121,7 +122,8 @@ kernel void find_inside(uint count, global const short* restrict winding,
     }
 }
 
-/// One work-item: one brick. SOLID occupancy from the rows of `inside`, within the frame's size.
+/// One work-item: one brick. Writes its SOLID occupancy from the rows of `inside`, within the
+/// frame's size.
 kernel void fill_solid(uint count, int4 size, int4 bricks, global const uint* restrict coordinates,
                        global const ushort* restrict inside, global ulong* restrict occupancy) {
     const uint slot = work_item();

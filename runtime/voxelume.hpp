@@ -48,6 +48,10 @@
 // Errors. A call that fails throws `Error`, whose sentence is for people and whose parts (kind,
 // file, line, column, key) are for programs. After that, all objects are as they were before.
 //
+// Warnings. What is probably wrong and stops nothing, as an object outside the world, is in
+// Statistics::warnings and Plan::warnings; RenderOptions::warn hears of it, RenderOptions::strict
+// makes errors of it.
+//
 // Ownership. Scene, Device, Image and Volume are handles: a copy costs a pointer and shares what
 // it stands for. Spans point into an Image or Volume and live as long as it or a copy does.
 //
@@ -79,12 +83,13 @@
 #include "voxelume/statistics.hpp"
 #include "voxelume/values.hpp"
 #include "voxelume/volume.hpp"
+#include "voxelume/warning.hpp"
 #include "voxelume/world.hpp"
 
 #ifndef VOXELUME_BUILDING
 /// Names of the library's first binary interface, `voxelume::v1`, are those of `voxelume`. (Its own
 /// sources have other types of the same names.)
 namespace voxelume {
-using namespace v1;
+using namespace v1;  // NOLINT(google-build-using-namespace): all of them, for every caller
 }
 #endif

@@ -3,7 +3,7 @@
 // lights for what images show.
 //
 // The library libvoxelume has none of this: programs of this source tree link `voxelume_verify`
-// beside it. `voxelume stress` and `voxelume bench` are made of these calls.
+// in addition. `voxelume stress` and `voxelume bench` are made of these calls.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@
 
 namespace voxelume::v1 {
 
-/// A test of what devices do. A case costs about as much as so many rays.
+/// A test of what devices do. A case costs about as much as `rays_per_case` rays.
 struct StressTest {
     std::string name;
     std::string help;  ///< one line: what its cases are

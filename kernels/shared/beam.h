@@ -3,8 +3,8 @@
 #ifndef VXL_SHARED_BEAM_H
 #define VXL_SHARED_BEAM_H
 
-// Of a beam, in voxels of its dilated occupancy. Tests have others, to see that beams too wide are
-// found.
+// The radius of a beam, in voxels of its dilated occupancy. Tests set others, to see that beams too
+// wide are found.
 #ifndef VXL_BEAM_RADIUS
 #define VXL_BEAM_RADIUS 3.75f
 #endif

@@ -41,8 +41,8 @@ typedef struct DisplayLattice {
     float4 axis_x;
     float4 axis_y;
     float4 axis_z;
-    float4 row_x;  // lattice coordinate x of a point p in voxels of the world: row_x.xyz . p +
-    float4 row_y;  // row_x.w; likewise y, z
+    float4 row_x;  // lattice coordinate x of a point p in voxels of the world is row_x.xyz . p +
+    float4 row_y;  // row_x.w; row_y and row_z give y and z in the same way
     float4 row_z;
     float4 corner;               // xyz: of voxel (0,0,0), metres in the observer's coordinates
     float4 edge;                 // xyz: of a voxel, metres

@@ -64,8 +64,8 @@ typedef struct SolidShape {
     float rounding[2];  // |error of the distance at q| <= rounding[0] * (|q.x|+|q.y|+|q.z|) +
                         // rounding[1], with q = x - centre in voxels
     float derived[5];   // cone: the unit normal of its side (outwards, along Y), then its side's
-                        // direction from the lower rim divided by its squared length, likewise,
-                        // then the growth of its radius along Y;
+                        // direction from the lower rim divided by its squared length (both as
+                        // outwards, along Y), then the growth of its radius along Y;
                         // ellipsoid: half axes divided by the shortest, and 1 / the shortest
     float unused[2];    // 0
 } SolidShape;

@@ -54,11 +54,11 @@
 //   VXL_HIT_FACE   z | axis << 16: the axis (0, 1, 2) across which the ray entered the cell, or
 //                  came into the world; 3: it began there. Where it left the object of the cell's
 //                  voxel, VXL_FACE_EXIT is set, the axis is that across which it left the cell,
-//                  and VXL_FACE_UP says that this was towards larger coordinates. Of smooth
-//                  surfaces VXL_FACE_WITHIN says that they were met from inside.
+//                  and VXL_FACE_UP says that this was towards larger coordinates.
+//                  VXL_FACE_WITHIN says that a smooth surface was met from inside.
 //   VXL_HIT_PRIMITIVE  the triangle or solid hit, VXL_NO_PRIMITIVE for other surfaces
 //   VXL_HIT_INSTANCE   the instance hit, in whose voxels the cell and the axis are;
-//                      VXL_NO_INSTANCE for the world. Of scenes with instances.
+//                      VXL_NO_INSTANCE for the world. Only scenes with instances have it.
 #define VXL_HIT_T 0
 #define VXL_HIT_VOXEL 1
 #define VXL_HIT_CELL 2
@@ -75,9 +75,12 @@
 #define VXL_SOLID_PRIMITIVE 0x80000000u
 #define VXL_NO_PRIMITIVE 0xFFFFFFFFu
 #define VXL_NO_VOXEL 0xFFFFFFFFu
+// With the number of a field: what a ray begins on, where voxels may hold several fields.
+#define VXL_FIELD_SOURCE 0x40000000u
 
 // The origin of a ray, for scenes whose rays are reflected, refracted or continue through surfaces.
-//   VXL_PATH_SOURCE  the primitive that the ray begins on, VXL_NO_PRIMITIVE for other surfaces
+//   VXL_PATH_SOURCE  the primitive that the ray begins on, VXL_FIELD_SOURCE with a field's number,
+//                    or VXL_NO_PRIMITIVE for other surfaces
 //   VXL_PATH_FLAGS   VXL_PATH_* bits
 //   VXL_PATH_WEIGHT  float: the share of a pixel that the ray's node may add
 // The others exist in scenes with transmitting objects only:
@@ -110,8 +113,7 @@
 // through the largest world, 3 * 65536.
 #define VXL_MAX_LAYERS 0x40000
 
-// Members of a set of objects that a ray is inside of: the first is the smooth one (smooth objects
-// are one body), the others are exact or of cubes, as many as Features::other_media says.
+// A free place in the set of objects that a ray is inside of; Features::media is its size.
 #define VXL_NO_MEDIUM 0xFFFFFFFFu
 
 // How a ray meets a surface: bits of RayBatch::sides.

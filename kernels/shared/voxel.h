@@ -6,8 +6,8 @@
 // The packed attributes of a voxel:
 //   31 30 | 29 ........ 16 | 15 ......... 0
 //   kind  | material       | object
-// kind: 0 cubes, 1 smooth, 2 exact (the numbers of voxelume::Surface). An exact voxel may hold a
-// smooth surface too: then the attributes are that surface's, and the primitives have their own.
+// kind: 0 cubes, 1 smooth, 2 exact (the numbers of voxelume::Surface). An exact voxel lists
+// primitives, which have attributes of their own, and fields, below.
 // `material` and `object` index the scene's lists; in an object's own grid, before placement,
 // `material` is the mesh's face group.
 #define VXL_KIND_SHIFT 30
@@ -34,6 +34,11 @@
 //   The ten bits are a sign and 64 e + m: |D| = 2^e (64 + m) - 64, in 1/8192 voxel, up to 16192.
 //   D of flat surfaces is kept to the unit of f, whatever edges the world has besides. An edge's
 //   bits depend on its own four nodes only, so the voxels around it agree.
+//
+// Where surfaces of several smooth objects pass one voxel, or one passes an exact voxel, each keeps
+// a record of its own, numbered after all voxels': a number for attributes, colours and fields
+// alike. The voxel's kind is exact, and its own record's first two words are the number of the
+// first of them and how many there are.
 #define VXL_FIELD_WORDS 8
 #define VXL_DISTANCE_UNITS 8192
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 
 #include "runtime/analysis/culling_hull.hpp"
 #include "runtime/analysis/object_boxes.hpp"
@@ -38,7 +39,7 @@ bool sends_rays_on(const Scene& scene, const Object& object, AssetStore& meshes,
 /// The hull that no ray leaves, and the distance from it at which a box is culled.
 class RayHull {
   public:
-    RayHull(const Scene& scene, const std::vector<VoxelBox>& emissive_objects) {
+    RayHull(const Scene& scene, const std::vector<VoxelBox>& emissive_objects, double lift) {
         const GridFrame world = world_frame(scene.world);
         hull_ = hull_of_sight_rays(scene.observer, world);
         if (scene.render.shadows && scene.render.channels.color)
@@ -50,7 +51,7 @@ class RayHull {
         };
         include(eye);
         for (const glm::dvec3& point : hull_) include(point);
-        gap_ = 1 + kRounding * largest;
+        gap_ = 1 + lift + kRounding * largest;
     }
 
     bool meets(const VoxelBox& box) const {
@@ -74,11 +75,39 @@ bool is_shown_instance(const Scene& scene, const Object& object) {
     return object.visible && is_instanced(scene, object);
 }
 
+/// The longest way, in voxels, from a surface of an object to where its rays to lights begin: the
+/// shadow terminator's fix lifts them by less than the longest edge of a triangle. A file that
+/// isn't read (`reads` is false) may have triangles of any size.
+double lift_of(const Scene& scene, const Object& object, AssetStore& meshes, bool reads) {
+    const Model& model = scene.models[size_t(object.model)];
+    if (!object.visible || !lists_primitives(model.surface) || model.solid) return 0;
+    if (model.shading.kind == ShadingKind::flat) return 0;
+    if (!reads) return INFINITY;
+    const MeshSummary* mesh = meshes.summary_of(model);
+    if (!mesh || !has_shading_normals(model.shading, mesh->has_normals)) return 0;
+    const glm::dmat3 map(object.world_from_object);
+    const double stretch =
+        std::sqrt(glm::dot(map[0], map[0]) + glm::dot(map[1], map[1]) + glm::dot(map[2], map[2]));
+    const glm::dvec3 edge = world_frame(scene.world).voxel_edge;
+    return mesh->longest_edge * stretch / std::min({edge.x, edge.y, edge.z});
+}
+
+/// The largest of all objects; those `unread` have files that aren't read.
+double max_lift(const Scene& scene, AssetStore& meshes, const std::vector<bool>& unread) {
+    double lift = 0;
+    if (scene.render.shadows && scene.render.channels.color)
+        for (size_t i = 0; i < scene.objects.size(); ++i)
+            lift = std::max(lift, lift_of(scene, scene.objects[i], meshes, !unread[i]));
+    return lift;
+}
+
 /// Adds the objects that rays may reach in a frame to those of earlier frames, whose boxes no
-/// longer matter.
-void add_potentially_visible(Scene scene, AssetStore& meshes,
+/// longer matter. Those `unread` are among these, because their files aren't read.
+void add_potentially_visible(Scene scene, AssetStore& meshes, const std::vector<bool>& unread,
                              std::vector<bool>& potentially_visible) {
     const std::vector<Object> objects = scene.objects;
+    const double lift = max_lift(scene, meshes, unread);
+    const bool is_bounded = std::isfinite(lift);
     for (size_t i = 0; i < objects.size(); ++i)
         if (potentially_visible[i] && !is_emissive(scene, objects[i]))
             scene.objects[i].visible = false;
@@ -88,9 +117,9 @@ void add_potentially_visible(Scene scene, AssetStore& meshes,
     for (size_t i = 0; i < objects.size(); ++i)
         if (scene.render.channels.color && is_emissive(scene, objects[i]) && !is_empty(boxes[i]))
             emissive_objects.push_back(boxes[i]);
-    const RayHull hull(scene, emissive_objects);
+    const RayHull hull(scene, emissive_objects, is_bounded ? lift : 0);
     std::vector<bool> met = potentially_visible;
-    bool all = scene.observer.display.layout == VolumeLayout::lattice;
+    bool all = scene.observer.display.layout == VolumeLayout::lattice || !is_bounded;
     for (size_t i = 0; i < objects.size(); ++i) {
         if (!met[i])
             met[i] = !is_empty(boxes[i]) &&
@@ -124,13 +153,13 @@ std::vector<bool> objects_of_moving_models(const Scene& scene) {
 }  // namespace
 
 void find_potentially_visible(Scene& scene, std::span<const int> frames, AssetStore& meshes) {
-    std::vector<bool> potentially_visible = frames.size() > 1
-                                                ? objects_of_moving_models(scene)
-                                                : std::vector<bool>(scene.objects.size());
+    const std::vector<bool> unread = frames.size() > 1 ? objects_of_moving_models(scene)
+                                                       : std::vector<bool>(scene.objects.size());
+    std::vector<bool> potentially_visible = unread;
     for (const int frame : frames) {
         if (std::ranges::find(potentially_visible, false) == potentially_visible.end()) return;
         in_frame(scene, frame, [&] {
-            add_potentially_visible(scene_at(scene, frame), meshes, potentially_visible);
+            add_potentially_visible(scene_at(scene, frame), meshes, unread, potentially_visible);
         });
     }
     for (size_t i = 0; i < potentially_visible.size(); ++i)
@@ -147,13 +176,15 @@ void leave_out_culled(const Scene& scene, Pyramid& world) {
     if (!has(Surface::smooth)) world.fields = {};
     if (has(Surface::exact)) return;
     world.primitive_first = world.primitives = world.triangle_attributes = world.solids = {};
+    world.triangle_normals = {};
     world.triangles = {};
 }
 
 Scene with_culling(Scene scene, AssetStore& meshes) {
     make_choices(scene, meshes);
     std::vector<bool> potentially_visible(scene.objects.size());
-    add_potentially_visible(scene, meshes, potentially_visible);
+    const std::vector<bool> unread = potentially_visible;
+    add_potentially_visible(scene, meshes, unread, potentially_visible);
     for (size_t i = 0; i < potentially_visible.size(); ++i)
         scene.objects[i].potentially_visible = potentially_visible[i];
     return scene;

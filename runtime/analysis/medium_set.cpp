@@ -23,14 +23,12 @@ bool may_transmit(const Scene& scene, const Object& object, const Features& feat
            (features.voxel_opacity && shows_voxels(model_of(scene, object).surface));
 }
 
-/// An upper bound of the number of transmitting objects, without smooth ones, at one point: the
-/// maximum number of boxes that overlap the box of one of them.
+/// An upper bound of the number of transmitting objects at one point: the maximum number of boxes
+/// that overlap the box of one of them.
 int max_overlapping(const Scene& scene, const Pyramid& world, const Features& features) {
     std::vector<size_t> objects;
     for (size_t i = 0; i < scene.objects.size(); ++i)
-        if (!stores_distances(model_of(scene, scene.objects[i]).surface) &&
-            may_transmit(scene, scene.objects[i], features))
-            objects.push_back(i);
+        if (may_transmit(scene, scene.objects[i], features)) objects.push_back(i);
     if (world.object_boxes.empty()) return int(objects.size());
     const auto overlapping = [&](size_t i) {
         return std::ranges::count_if(objects, [&](size_t j) {
@@ -77,9 +75,9 @@ bool may_begin_inside(const Scene& scene, const Pyramid& world) {
 
 void add_medium_set(const Scene& scene, const Pyramid& world, Features& features) {
     if (!features.transmission) return;
-    const int others = max_overlapping(scene, world, features);
-    features.other_media = std::min(others, kMaxMedia);
-    features.medium_set_capped = others > kMaxMedia;
+    const int media = max_overlapping(scene, world, features);
+    features.media = std::min(media, kMaxMedia);
+    features.medium_set_capped = media > kMaxMedia;
     const std::vector<uint32_t> hollow = hollow_objects(scene).flags;
     for (size_t i = 0; i < world.object_boxes.size(); ++i)
         features.observer_in_medium |=

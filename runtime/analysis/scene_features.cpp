@@ -108,7 +108,7 @@ Features without_light(Features voxels, const Scene& scene, const Pyramid& world
     if (all.transmission && may_begin_inside(scene, world)) {
         voxels.paths = voxels.transmission = true;
         voxels.observer_in_medium = all.observer_in_medium;
-        voxels.other_media = all.other_media;
+        voxels.media = all.media;
         voxels.medium_set_capped = all.medium_set_capped;
     }
     voxels.radiance = voxels.colors = voxels.voxel_opacity = false;

@@ -15,7 +15,7 @@ Report describe_mesh(const std::filesystem::path& path);
 /// A deep OpenEXR, OpenVDB, NRRD or JSON header of voxelume. `kind` opens the report.
 Report describe_volume(const std::filesystem::path& path, const char* kind);
 
-/// The JSON header beside a raw or a display's own file.
+/// The JSON header that accompanies a raw file or a display's own.
 Report describe_volume_header(const std::filesystem::path& path);
 
 /// The header of a KV6 model.

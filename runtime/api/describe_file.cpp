@@ -10,6 +10,7 @@
 
 #include "runtime/base/error.hpp"
 #include "runtime/base/input_file.hpp"
+#include "runtime/base/text.hpp"
 #include "runtime/io/image/exr.hpp"
 #include "runtime/io/image/png.hpp"
 #include "runtime/io/vdb/vdb.hpp"
@@ -133,7 +134,7 @@ Describe find_description(const fs::path& path) {
     file.read(0, start.data(), start.size());
     for (const auto& [mark, describe] : kKinds)
         if (start.starts_with(mark)) return describe;
-    return path.extension() == ".json" ? describe_volume_header : describe_mesh;
+    return ending_of(path) == ".json" ? describe_volume_header : describe_mesh;
 }
 
 }  // namespace

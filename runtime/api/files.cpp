@@ -11,6 +11,7 @@
 #include "runtime/base/atomic_file.hpp"
 #include "runtime/base/frame_list.hpp"
 #include "runtime/base/frame_path.hpp"
+#include "runtime/base/text.hpp"
 #include "runtime/io/mesh/mesh_reader.hpp"
 #include "runtime/io/vdb/vdb.hpp"
 #include "runtime/memory/plan.hpp"
@@ -37,7 +38,7 @@ Model model_of(const fs::path& mesh, const v1::VoxelizeOptions& options) {
 
 void check_endings(const std::vector<fs::path>& outputs) {
     for (const fs::path& output : outputs)
-        if (output.extension() != ".vdb" && output.extension() != ".vxm")
+        if (ending_of(output) != ".vdb" && ending_of(output) != ".vxm")
             throw Error(ErrorKind::usage, "{}: the name of voxels ends in .vxm or .vdb",
                         SourcePlace(output.string()));
 }
@@ -57,7 +58,7 @@ v1::VoxelizeReport voxelize_to_files(const fs::path& path, const std::vector<fs:
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     const VoxelExport voxels(grid, mesh, model.surface, model.set);
     for (const fs::path& output : outputs) {
-        if (output.extension() == ".vdb")
+        if (ending_of(output) == ".vdb")
             voxels.write_vdb(output);
         else
             voxels.write_model(output);
@@ -87,7 +88,7 @@ std::string frame_path(const std::string& pattern, int frame, bool one_of_many) 
 void check_output_file(const fs::path& file) {
     api::guarded([&] {
         const AtomicFile trial(file);  // leaves nothing behind without commit()
-        if (file.extension() == ".vdb") check_vdb_output(file);
+        if (ending_of(file) == ".vdb") check_vdb_output(file);
     });
 }
 

@@ -17,7 +17,7 @@ struct CallerException {
     std::exception_ptr exception;
 };
 
-/// The same error for callers.
+/// An engine's error as the type that callers catch.
 v1::Error error_for_callers(const Error& error);
 
 /// Does what a function of the library does for its caller.

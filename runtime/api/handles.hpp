@@ -4,21 +4,40 @@
 
 #include <map>
 #include <memory>
+#include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "runtime/assets/asset_store.hpp"
 #include "runtime/image/image.hpp"
 #include "runtime/image/volume.hpp"
 #include "runtime/opencl/device.hpp"
 #include "runtime/scene/scene.hpp"
 #include "runtime/voxelume/device.hpp"
 #include "runtime/voxelume/image.hpp"
+#include "runtime/voxelume/process.hpp"
 #include "runtime/voxelume/scene.hpp"
 #include "runtime/voxelume/volume.hpp"
 
 namespace voxelume {
 
 namespace api {
+
+/// What was read to fit a scene, for the first that renders or plans it.
+class ReadAssets {
+  public:
+    ReadAssets(AssetStore store, v1::CacheOptions cache)
+        : store_(std::move(store)), cache_(std::move(cache)) {}
+
+    /// Hands the store over once, to those who use the same cache.
+    std::optional<AssetStore> take(const v1::CacheOptions& cache);
+
+  private:
+    std::mutex mutex_;
+    std::optional<AssetStore> store_;
+    v1::CacheOptions cache_;
+};
 
 /// Texts for the header of a file.
 using Attributes = std::map<std::string, std::string>;
@@ -32,11 +51,12 @@ struct v1::Device::Implementation {
 
 struct v1::Scene::Implementation {
     voxelume::Scene scene;
+    std::shared_ptr<api::ReadAssets> read;  ///< shared by scenes that differ in settings alone
 };
 
 struct v1::Image::Implementation {
     std::shared_ptr<const voxelume::Image> image;
-    api::Attributes attributes;  ///< beside the image's own
+    api::Attributes attributes;  ///< in addition to the image's own
     bool holds_codes = false;
 };
 
@@ -50,7 +70,7 @@ namespace api {
 
 v1::DeviceInfo info_for_callers(const DeviceInfo& info);
 
-v1::Scene handle_of(Scene scene);
+v1::Scene handle_of(Scene scene, std::shared_ptr<ReadAssets> read);
 v1::Image handle_of(std::shared_ptr<const Image> image, Attributes attributes = {},
                     bool holds_codes = false);
 v1::Volume handle_of(std::shared_ptr<Volume> volume, Attributes attributes);
@@ -58,6 +78,9 @@ v1::Volume handle_of(std::shared_ptr<Volume> volume, Attributes attributes);
 inline const Scene& inside(const v1::Scene& scene) {
     return scene.implementation().scene;
 }
+/// The store to render a scene from: what was read with it, if that wasn't taken before.
+AssetStore assets_of(const v1::Scene& scene, const v1::CacheOptions& cache);
+
 inline const Device& inside(const v1::Device& device) {
     return device.implementation().device;
 }

@@ -8,6 +8,7 @@
 #include "runtime/api/guarded.hpp"
 #include "runtime/api/handles.hpp"
 #include "runtime/base/input_file.hpp"
+#include "runtime/base/text.hpp"
 #include "runtime/image/flip.hpp"
 #include "runtime/image/image_difference.hpp"
 #include "runtime/io/image/exr.hpp"
@@ -103,7 +104,7 @@ void write_channels(const std::filesystem::path& file, const v1::Image::Implemen
 
 void write(const std::filesystem::path& file, const v1::Image::Implementation& image,
            const v1::ImageFileOptions& options) {
-    const std::string extension = file.extension();
+    const std::string extension = ending_of(file);
     if (extension == ".png") {
         PngOptions png;
         png.exposure = float(options.exposure);

@@ -8,11 +8,13 @@
 
 #include "runtime/analysis/culling.hpp"
 #include "runtime/analysis/scene_choices.hpp"
+#include "runtime/analysis/scene_warnings.hpp"
 #include "runtime/api/convert.hpp"
 #include "runtime/api/guarded.hpp"
 #include "runtime/api/handles.hpp"
 #include "runtime/api/process.hpp"
 #include "runtime/api/render.hpp"
+#include "runtime/api/warning.hpp"
 #include "runtime/memory/frame_plans.hpp"
 #include "runtime/scene/scene_animation.hpp"
 
@@ -99,11 +101,14 @@ Plan plan(const Scene& scene, const Device& device, const PlanOptions& options) 
         const std::vector<int> frames = frames_of(planned, options.frames);
         const voxelume::DeviceInfo& info = api::inside(device).info();
         check_tables(planned, info);
-        AssetStore meshes(api::model_cache(options.cache));
+        AssetStore meshes = api::assets_of(scene, options.cache);
         make_choices(planned, meshes);
+        const std::vector<voxelume::Warning> warnings = scene_warnings(planned, frames, meshes);
         find_potentially_visible(planned, frames, meshes);
-        return plan_for_callers(planned, plan_frames(planned, frames, meshes, info), frames.size(),
-                                info);
+        Plan result = plan_for_callers(planned, plan_frames(planned, frames, meshes, info),
+                                       frames.size(), info);
+        result.warnings = api::warnings_for_callers(warnings);
+        return result;
     });
 }
 

@@ -10,6 +10,8 @@
 #include "runtime/api/handles.hpp"
 #include "runtime/api/process.hpp"
 #include "runtime/api/render.hpp"
+#include "runtime/api/warning.hpp"
+#include "runtime/base/text.hpp"
 #include "runtime/base/version.hpp"
 #include "runtime/scene/scene_animation.hpp"
 
@@ -23,7 +25,7 @@ double seconds_since(Clock::time_point start) {
 }
 
 bool is_exr(const std::filesystem::path& file) {
-    return file.extension() == ".exr";
+    return ending_of(file) == ".exr";
 }
 
 /// The texts that files of a frame have in their headers.
@@ -65,12 +67,30 @@ Wanted wanted_by(const v1::FrameJob& job, const v1::RenderOptions& options) {
     return wanted;
 }
 
+/// Lets a caller hear of compiling as long as it lives.
+class CompilerWatch {
+  public:
+    CompilerWatch(std::span<const Device> devices, const CompileListener& listener)
+        : devices_(devices) {
+        for (const Device& device : devices_) device.listen_to_compiler(listener);
+    }
+    ~CompilerWatch() {
+        for (const Device& device : devices_) device.listen_to_compiler({});
+    }
+    CompilerWatch(const CompilerWatch&) = delete;
+    CompilerWatch& operator=(const CompilerWatch&) = delete;
+
+  private:
+    std::span<const Device> devices_;
+};
+
 /// A run of frames for a caller.
 class Run {
   public:
     Run(const v1::Scene& scene, const std::vector<v1::Device>& devices, const v1::FrameJob& job,
         const v1::RenderOptions& options)
         : scene_(api::inside(scene)),
+          assets_(api::assets_of(scene, options.cache)),
           devices_(api::inside(devices)),
           job_(job),
           options_(options),
@@ -81,6 +101,7 @@ class Run {
     v1::Statistics render() {
         const auto start = Clock::now();
         for (const Device& device : devices_) device.time_kernels(options_.time_kernels);
+        const CompilerWatch watch(devices_, api::callback(options_.compiling));
         const BatchOutcome outcome = render_frames(
             devices_, scene_, batch_options(), [this](const FrameResult& result) { take(result); });
         for (const Device& device : devices_) device.finish();
@@ -90,26 +111,43 @@ class Run {
                                         job_.frames.size()));
         v1::Statistics statistics = api::statistics_of(reports_, devices_);
         statistics.size = api::array_of(scene_.render.size);
+        if (wanted_.volumes) statistics.volume_size = api::array_of(scene_.observer.display.voxels);
+        statistics.images = wanted_.images;
         statistics.files = files_;
         statistics.open_seconds = outcome.check_seconds;
         statistics.write_seconds = write_seconds_;
         statistics.one_by_one_from = outcome.one_by_one_from;
+        statistics.warnings = std::move(warnings_);
         statistics.total_seconds = seconds_since(start);
         return statistics;
     }
 
   private:
-    BatchOptions batch_options() const {
+    BatchOptions batch_options() {
         BatchOptions batch;
         batch.frames.clear();
         for (const v1::FrameFiles& frame : job_.frames) batch.frames.push_back(frame.frame);
         batch.image = wanted_.images;
         batch.volume = wanted_.volumes;
         batch.overlap = options_.overlap;
-        batch.meshes = AssetStore(api::model_cache(options_.cache));
+        batch.meshes = std::move(assets_);
         batch.progress = api::callback(options_.progress);
+        batch.warn = [this](std::span<const Warning> warnings) { tell(warnings); };
         batch.stop = options_.stop;
         return batch;
+    }
+
+    void tell(std::span<const Warning> found) {
+        const std::vector<v1::Warning> warnings = api::warnings_for_callers(found);
+        for (const v1::Warning& warning : warnings) {
+            warnings_.push_back(warning);
+            if (options_.warn) api::callback(options_.warn)(warning);
+        }
+        if (!options_.strict) return;
+        const std::string more =
+            found.size() > 1 ? fmt::format(" (the first of {} warnings)", found.size()) : "";
+        throw Error(found[0].where, ErrorKind::scene,
+                    fmt::format("{}: {}{}", found[0].where, found[0].text, more));
     }
 
     void take(const FrameResult& result) {
@@ -139,11 +177,13 @@ class Run {
     }
 
     Scene scene_;
+    AssetStore assets_;
     std::vector<Device> devices_;
     const v1::FrameJob& job_;
     const v1::RenderOptions& options_;
     Wanted wanted_;
     std::vector<FrameReport> reports_;
+    std::vector<v1::Warning> warnings_;
     size_t files_ = 0;
     double write_seconds_ = 0;
 };

@@ -12,34 +12,68 @@
 
 namespace voxelume {
 
-v1::Scene api::handle_of(Scene scene) {
-    return v1::Scene(std::make_shared<const v1::Scene::Implementation>(
-        v1::Scene::Implementation{std::move(scene)}));
+std::optional<AssetStore> api::ReadAssets::take(const v1::CacheOptions& cache) {
+    const std::lock_guard lock(mutex_);
+    const bool is_same = cache.enabled == cache_.enabled && cache.folder == cache_.folder &&
+                         cache.max_megabytes == cache_.max_megabytes;
+    return is_same ? std::exchange(store_, std::nullopt) : std::nullopt;
 }
+
+v1::Scene api::handle_of(Scene scene, std::shared_ptr<ReadAssets> read) {
+    return v1::Scene(std::make_shared<const v1::Scene::Implementation>(
+        v1::Scene::Implementation{std::move(scene), std::move(read)}));
+}
+
+AssetStore api::assets_of(const v1::Scene& scene, const v1::CacheOptions& cache) {
+    const std::shared_ptr<ReadAssets>& read = scene.implementation().read;
+    std::optional<AssetStore> store = read ? read->take(cache) : std::nullopt;
+    return store ? std::move(*store) : AssetStore(model_cache(cache));
+}
+
+namespace {
+
+/// A handle of the scene that `read` makes with the boxes of files. Those are read only where the
+/// scene is fitted to them; what was read is kept until the scene is rendered.
+template <class Read>
+v1::Scene fitted_handle(const v1::SceneOptions& options, const Read& read) {
+    return api::guarded([&] {
+        api::apply_process_options();
+        std::optional<AssetStore> store;
+        const FileBoxes boxes = [&](const Model& model, bool is_first) {
+            if (!store) store.emplace(api::model_cache(options.cache));
+            try {
+                return store->box_of_file(model, is_first);
+            } catch (const Error& error) {
+                throw Error(error.kind(), "{}: {}", model.where, error.what());
+            }
+        };
+        Scene scene = read(asset_folders(options.assets), boxes);
+        std::shared_ptr<api::ReadAssets> assets;
+        if (store) assets = std::make_shared<api::ReadAssets>(std::move(*store), options.cache);
+        return api::handle_of(std::move(scene), std::move(assets));
+    });
+}
+
+}  // namespace
 
 namespace v1 {
 
 Scene Scene::load(const std::filesystem::path& file, const SceneOptions& options) {
-    return api::guarded([&] {
-        api::apply_process_options();
-        return api::handle_of(read_scene(file, asset_folders(options.assets)));
+    return fitted_handle(options, [&](const AssetFolders& assets, const FileBoxes& boxes) {
+        return read_scene(file, assets, boxes);
     });
 }
 
 Scene Scene::parse(std::string_view text, const std::filesystem::path& file,
                    const SceneOptions& options) {
-    return api::guarded([&] {
-        api::apply_process_options();
-        return api::handle_of(parse_scene(text, file, asset_folders(options.assets)));
+    return fitted_handle(options, [&](const AssetFolders& assets, const FileBoxes& boxes) {
+        return parse_scene(text, file, assets, boxes);
     });
 }
 
 Scene Scene::build(const SceneDescription& description, const SceneOptions& options) {
-    return api::guarded([&] {
-        api::apply_process_options();
-        const JsonValue document = api::tree(description);
-        return api::handle_of(
-            read_scene(document, description.name, asset_folders(options.assets)));
+    return fitted_handle(options, [&](const AssetFolders& assets, const FileBoxes& boxes) {
+        return read_scene(api::tree(description), description.name, assets, boxes);
     });
 }
 
@@ -47,7 +81,7 @@ Scene Scene::with_size(Size size) const {
     return api::guarded([&] {
         voxelume::Scene scene = api::inside(*this);
         resize(scene, api::vector_of(size));
-        return api::handle_of(std::move(scene));
+        return api::handle_of(std::move(scene), implementation().read);
     });
 }
 
@@ -58,7 +92,7 @@ Scene Scene::with_samples(int samples) const {
                                   "an image has from 1 to 4096 samples a pixel, not {}", samples);
         voxelume::Scene scene = api::inside(*this);
         scene.render.samples = samples;
-        return api::handle_of(std::move(scene));
+        return api::handle_of(std::move(scene), implementation().read);
     });
 }
 
@@ -86,6 +120,14 @@ std::vector<std::string> Scene::object_names() const {
     std::vector<std::string> names;
     for (const voxelume::Object& object : api::inside(*this).objects) names.push_back(object.name);
     return names;
+}
+
+std::string Scene::fitted() const {
+    return fitted_text(api::inside(*this));
+}
+
+bool Scene::has_default_light() const {
+    return api::inside(*this).has_default_light;
 }
 
 std::string Scene::describe() const {

@@ -32,7 +32,7 @@ const char* text_of(ImageReuse image) {
     return image == ImageReuse::kept ? "kept" : image == ImageReuse::shaded ? "shaded" : "traced";
 }
 
-/// What a frame did anew, and what it took over from the frame before.
+/// What a frame computed, and what it took over from the frame before.
 Json json_of(const FrameStatistics& frame) {
     return {{"frame", frame.frame},
             {"device", frame.device},
@@ -75,6 +75,14 @@ void add_rays(const RayCounts& rays, Json& json) {
     json["not_finite"] = rays.not_finite;
 }
 
+Json json_of(const std::vector<Warning>& warnings) {
+    Json list = Json::array();
+    for (const Warning& warning : warnings)
+        list.push_back(
+            {{"kind", name_of(warning.kind)}, {"where", warning.where}, {"text", warning.text}});
+    return list;
+}
+
 void add_frames(const Statistics& statistics, Json& json) {
     if (statistics.one_by_one_from) json["one_by_one_from"] = *statistics.one_by_one_from;
     const auto& frames = statistics.frames;
@@ -91,7 +99,9 @@ std::string to_json(const Statistics& statistics) {
     json["version"] = voxelume::version();
     add_devices(statistics, json);
     json["size"] = {statistics.size[0], statistics.size[1]};
+    if (statistics.volume_size) json["volume_size"] = *statistics.volume_size;
     json["files"] = statistics.files;
+    json["warnings"] = json_of(statistics.warnings);
     json["voxels"] = statistics.voxels;
     json["triangles"] = statistics.triangles;
     json["culled_objects"] = statistics.culled_objects;

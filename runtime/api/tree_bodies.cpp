@@ -57,6 +57,14 @@ JsonValue list_of_parts(const std::vector<v1::Part>& parts) {
     return list_of(std::move(items));
 }
 
+/// How large what a file holds becomes.
+void add_file_size(const std::optional<double>& fit, const std::optional<v1::Unit>& unit,
+                   ObjectTree& object) {
+    constexpr std::array kUnits = {"um", "mm", "cm", "dm", "m", "km", "in", "ft", "yd"};
+    object.add("fit", fit);
+    if (unit) object.add("unit", kUnits.at(size_t(*unit)));
+}
+
 JsonValue tree_of_morph(const v1::Morph& morph) {
     ObjectTree object;
     object.add("amount", morph.amount).add_text("mesh", morph.mesh.string());
@@ -65,13 +73,18 @@ JsonValue tree_of_morph(const v1::Morph& morph) {
 
 void add_mesh(const v1::MeshFile& mesh, ObjectTree& object) {
     object.add("mesh", mesh.file.string());
+    add_file_size(mesh.fit, mesh.unit, object);
     if (mesh.sequence) object.put("sequence", tree(*mesh.sequence));
     if (mesh.morph) object.put("morph", tree_of_morph(*mesh.morph));
     if (!mesh.cuts.empty()) object.put("cut", list_of_parts(mesh.cuts));
+    constexpr std::array kShadings = {"auto", "flat", "smooth"};
+    if (mesh.shading) object.add("shading", kShadings.at(size_t(*mesh.shading)));
+    object.add("crease_angle", mesh.crease_angle);
 }
 
 void add_voxels(const v1::VoxelFile& voxels, ObjectTree& object) {
     object.add("voxels", voxels.file.string());
+    add_file_size(voxels.fit, voxels.unit, object);
     if (voxels.sequence) object.put("sequence", tree(*voxels.sequence));
 }
 

@@ -144,10 +144,14 @@ JsonValue tree_by_name(const std::vector<Part>& parts, const std::string& sectio
 }  // namespace
 
 JsonValue tree(const v1::World& world) {
+    constexpr v1::Vec3 kNone{};
     ObjectTree bounds, object;
-    bounds.add("min", world.min).add("max", world.max);
-    object.add("voxel_size", world.voxel_size).put("bounds", bounds.take());
-    object.add("background", world.background).add("ambient", world.ambient);
+    if (world.voxel_size != kNone) object.add("voxel_size", world.voxel_size);
+    object.add("resolution", world.resolution);
+    if (world.min != kNone || world.max != kNone)
+        object.put("bounds", bounds.add("min", world.min).add("max", world.max).take());
+    object.add("background", world.background);
+    if (world.ambient != kNone) object.add("ambient", world.ambient);
     if (world.medium) object.put("medium", tree_of_medium(*world.medium));
     return object.take();
 }
@@ -205,8 +209,8 @@ JsonValue tree(const v1::SceneDescription& description) {
     object.put("materials", tree_by_name(description.materials, "materials", name));
     object.put("models", tree_by_name(description.models, "models", name));
     object.put("objects", tree_of_list(description.objects));
-    object.put("lights", tree_of_list(description.lights));
-    object.put("observer", tree(description.observer));
+    if (description.lights) object.put("lights", tree_of_list(*description.lights));
+    if (description.observer) object.put("observer", tree(*description.observer));
     object.put("animation", tree(description.animation));
     return object.put("render", tree(description.render)).take();
 }

@@ -5,7 +5,9 @@
 
 #include "runtime/assets/voxel_model_file.hpp"
 #include "runtime/base/error.hpp"
+#include "runtime/geometry/file_map.hpp"
 #include "runtime/geometry/mesh_morph.hpp"
+#include "runtime/geometry/winding_number.hpp"
 #include "runtime/io/mesh/mesh_reader.hpp"
 
 namespace voxelume {
@@ -34,7 +36,8 @@ uint64_t bytes_in(const std::vector<Values>&... arrays) {
 }
 
 uint64_t mesh_bytes(const Mesh& mesh) {
-    return bytes_in(mesh.positions, mesh.triangles, mesh.vertex_colors, mesh.triangle_group);
+    return bytes_in(mesh.positions, mesh.triangles, mesh.vertex_colors, mesh.normals,
+                    mesh.triangle_normals, mesh.triangle_group);
 }
 
 uint64_t voxel_bytes(const VoxelModel& voxels) {
@@ -56,21 +59,49 @@ AssetStore::MeshFile& AssetStore::file(const std::filesystem::path& name) {
     return files_.emplace(name, std::move(file)).first->second;
 }
 
-const Mesh& AssetStore::mesh(const std::filesystem::path& name) {
-    MeshFile& file = this->file(name);
-    if (file.mesh) return *file.mesh;
-    const LoadTimer timer(load_seconds_);
+AssetStore::MapKey AssetStore::key_of(const FileMap& map) {
+    return {map.scale, map.shift.x, map.shift.y, map.shift.z};
+}
+
+void AssetStore::MeshFile::forget_meshes() {
+    mesh.reset();
+    for (auto& [map, mapped_mesh] : mapped) mapped_mesh.mesh.reset();
+}
+
+Mesh AssetStore::read(const std::filesystem::path& name, const MeshFile& file) {
     const std::string bytes = read_mesh_bytes(name);
     if (cache_.is_open() && mesh_source(bytes, name) != file.source)
         throw Error(ErrorKind::input, "{}: the file changed while it was being read: try again",
                     name.string());
-    file.mesh = parse_mesh(bytes, name);
+    Mesh mesh = parse_mesh(bytes, name);
     ++meshes_read_;
-    return *file.mesh;
+    return mesh;
 }
 
-const MeshSummary& AssetStore::summary_of_file(const std::filesystem::path& name) {
+const Mesh& AssetStore::mesh(const std::filesystem::path& name, const FileMap& map) {
     MeshFile& file = this->file(name);
+    std::optional<Mesh>& mesh = map.is_identity() ? file.mesh : file.mapped[key_of(map)].mesh;
+    if (mesh) return *mesh;
+    const LoadTimer timer(load_seconds_);
+    if (!map.is_identity() && file.mesh) {
+        // What was read to measure the file is moved instead of read again or copied.
+        mesh = std::move(file.mesh);
+        file.mesh.reset();
+    } else {
+        mesh = read(name, file);
+    }
+    if (!map.is_identity()) apply(map, name, *mesh);
+    return *mesh;
+}
+
+const MeshSummary& AssetStore::summary_of_file(const std::filesystem::path& name,
+                                               const FileMap& map) {
+    MeshFile& file = this->file(name);
+    if (!map.is_identity()) {
+        std::optional<MeshSummary>& summary = file.mapped[key_of(map)].summary;
+        if (!summary) summary = mapped(map, summary_of_file(name));
+        return *summary;
+    }
     if (file.summary) return *file.summary;
     file.summary = cache_.summary(file.source);
     if (file.summary) return *file.summary;
@@ -85,14 +116,21 @@ const MeshSummary& AssetStore::summary_of_file(const std::filesystem::path& name
 
 const AssetStore::VoxelFile& AssetStore::voxel_file(const Model& model) {
     used_.insert(model.voxels);
-    const std::pair key(model.voxels, model.surface);
+    const FileMap& map = model.object_from_file;
+    const VoxelKey key(model.voxels, model.surface, key_of(map));
     const auto found = voxels_.find(key);
     if (found != voxels_.end()) return found->second;
     const LoadTimer timer(load_seconds_);
-    VoxelFile read{read_voxel_model(model.voxels, model.surface), {}};
-    if (lists_primitives(model.surface)) read.summary = voxelume::summary_of(read.voxels.mesh);
-    ++meshes_read_;
-    return voxels_.emplace(key, std::move(read)).first->second;
+    VoxelFile file;
+    if (auto plain = voxels_.extract({model.voxels, model.surface, key_of({})})) {
+        file = std::move(plain.mapped());
+    } else {
+        file.voxels = read_voxel_model(model.voxels, model.surface);
+        ++meshes_read_;
+    }
+    if (!map.is_identity()) apply(map, model.voxels, file.voxels);
+    if (lists_primitives(model.surface)) file.summary = voxelume::summary_of(file.voxels.mesh);
+    return voxels_.emplace(key, std::move(file)).first->second;
 }
 
 const VoxelModel& AssetStore::voxels(const Model& model) {
@@ -104,9 +142,9 @@ AssetStore::Morphed& AssetStore::morphed(const Model& model) {
     used_morphs_.insert(model.name);
     const auto found = morphed_.find(model.name);
     if (found != morphed_.end() && found->second.file == model.mesh &&
-        found->second.morph == *model.morph)
+        found->second.map == model.object_from_file && found->second.morph == *model.morph)
         return found->second;
-    Morphed fresh{model.mesh, *model.morph, {}, {}};
+    Morphed fresh{model.mesh, model.object_from_file, *model.morph, {}, {}};
     return morphed_.insert_or_assign(model.name, std::move(fresh)).first->second;
 }
 
@@ -114,10 +152,11 @@ const Mesh& AssetStore::morphed_mesh(const Model& model) {
     Morphed& entry = morphed(model);
     if (entry.mesh) return *entry.mesh;
     const Morph& morph = *model.morph;
-    const Mesh& from = mesh(model.mesh);
+    const FileMap& map = model.object_from_file;
+    const Mesh& from = mesh(model.mesh, map);
     entry.mesh = morph.mesh.empty()
                      ? morphed_to_sphere(from, morph.center, morph.radius, morph.amount)
-                     : ::voxelume::morphed(from, mesh(morph.mesh), morph.amount, model.where);
+                     : ::voxelume::morphed(from, mesh(morph.mesh, map), morph.amount, model.where);
     return *entry.mesh;
 }
 
@@ -138,15 +177,32 @@ const MeshSummary& AssetStore::morphed_summary(const Model& model) {
 
 const Mesh* AssetStore::mesh_of(const Model& model) {
     if (model.solid) return nullptr;
-    if (model.voxels.empty()) return model.morph ? &morphed_mesh(model) : &mesh(model.mesh);
+    if (model.voxels.empty())
+        return model.morph ? &morphed_mesh(model) : &mesh(model.mesh, model.object_from_file);
     return lists_primitives(model.surface) ? &voxels(model).mesh : nullptr;
 }
 
 const MeshSummary* AssetStore::summary_of(const Model& model) {
     if (model.solid) return nullptr;
     if (model.voxels.empty())
-        return model.morph ? &morphed_summary(model) : &summary_of_file(model.mesh);
+        return model.morph ? &morphed_summary(model)
+                           : &summary_of_file(model.mesh, model.object_from_file);
     return lists_primitives(model.surface) ? &voxel_file(model).summary : nullptr;
+}
+
+double AssetStore::winding_of(const Model& model, const glm::dvec3& point) {
+    const std::string source = source_of(model);
+    if (!source.empty())
+        if (const auto known = cache_.winding(source, point)) return *known;
+    const Mesh* mesh = mesh_of(model);
+    if (!mesh) return 0;
+    double seconds = 0, winding = 0;
+    {
+        const LoadTimer timer(seconds);
+        winding = winding_number(*mesh, point);
+    }
+    if (!source.empty()) cache_.keep(source, point, winding, seconds);
+    return winding;
 }
 
 const std::vector<std::string>& AssetStore::groups_of(const Model& model) {
@@ -157,20 +213,45 @@ const std::vector<std::string>& AssetStore::groups_of(const Model& model) {
 
 std::string AssetStore::source_of(const Model& model) {
     if (model.mesh.empty() || !cache_.is_open()) return {};
-    std::string from = file(model.mesh).source;
+    const FileMap& map = model.object_from_file;
+    const auto source = [&](const std::filesystem::path& name) {
+        return map.is_identity() ? file(name).source : mapped_source(file(name).source, map);
+    };
+    const std::string from = source(model.mesh);
     if (!model.morph) return from;
     const Morph& morph = *model.morph;
-    return morph_source(from, morph.mesh.empty() ? std::string() : file(morph.mesh).source, morph);
+    return morph_source(from, morph.mesh.empty() ? std::string() : source(morph.mesh), morph);
 }
 
 /// The bytes of memory that the loaded contents of a file take.
 uint64_t AssetStore::bytes_of(const std::filesystem::path& name) const {
     uint64_t bytes = 0;
-    if (const auto found = files_.find(name); found != files_.end() && found->second.mesh)
-        bytes += mesh_bytes(*found->second.mesh);
+    if (const auto found = files_.find(name); found != files_.end()) {
+        if (found->second.mesh) bytes += mesh_bytes(*found->second.mesh);
+        for (const auto& [map, mapped] : found->second.mapped)
+            if (mapped.mesh) bytes += mesh_bytes(*mapped.mesh);
+    }
     for (const auto& [key, file] : voxels_)
-        if (key.first == name) bytes += voxel_bytes(file.voxels);
+        if (std::get<0>(key) == name) bytes += voxel_bytes(file.voxels);
     return bytes;
+}
+
+/// Forgets what is loaded of a file.
+void AssetStore::forget(const std::filesystem::path& name) {
+    if (const auto found = files_.find(name); found != files_.end()) found->second.forget_meshes();
+    std::erase_if(voxels_, [&](const auto& entry) { return std::get<0>(entry.first) == name; });
+}
+
+Bounds AssetStore::box_of_file(const Model& model, bool keeps) {
+    Model plain = model;
+    plain.morph.reset();
+    plain.object_from_file = {};
+    const std::filesystem::path& name = plain.voxels.empty() ? plain.mesh : plain.voxels;
+    const bool was_loaded = bytes_of(name) > 0;
+    const Bounds box =
+        plain.voxels.empty() ? summary_of_file(name).surface : occupied_bounds(voxels(plain));
+    if (!keeps && !was_loaded) forget(name);
+    return box;
 }
 
 void AssetStore::retain(const Model& model, uint64_t& room) {
@@ -184,9 +265,7 @@ void AssetStore::retain(const Model& model, uint64_t& room) {
     } else {
         for (const auto& name : files) {
             if (used_.contains(name)) continue;
-            if (const auto found = files_.find(name); found != files_.end())
-                found->second.mesh.reset();
-            std::erase_if(voxels_, [&](const auto& entry) { return entry.first.first == name; });
+            forget(name);
         }
     }
     used_.merge(files);
@@ -201,7 +280,8 @@ AssetStore AssetStore::recounted() const {
 
 void AssetStore::forget_unused() {
     std::erase_if(files_, [&](const auto& entry) { return !used_.contains(entry.first); });
-    std::erase_if(voxels_, [&](const auto& entry) { return !used_.contains(entry.first.first); });
+    std::erase_if(voxels_,
+                  [&](const auto& entry) { return !used_.contains(std::get<0>(entry.first)); });
     for (auto& [model, morphed] : morphed_)
         if (!used_morphs_.contains(model)) morphed.mesh.reset();
     used_.clear();
@@ -213,6 +293,8 @@ void AssetStore::forget_unused() {
 uint64_t AssetStore::triangles_of(const std::filesystem::path& name, const MeshFile& file) const {
     if (file.summary) return file.summary->triangles;
     if (file.mesh) return file.mesh->triangles.size();
+    for (const auto& [map, mapped] : file.mapped)
+        if (mapped.mesh) return mapped.mesh->triangles.size();
     for (const auto& [model, morphed] : morphed_)
         if (morphed.summary && (morphed.file == name || morphed.morph.mesh == name))
             return morphed.summary->triangles;

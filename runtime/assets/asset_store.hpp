@@ -2,11 +2,13 @@
 // files of models -> meshes and voxels in memory. Each file is read once, and only when needed.
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <map>
 #include <optional>
 #include <set>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -23,9 +25,9 @@ class AssetStore {
   public:
     explicit AssetStore(ModelCache cache = {}) : cache_(std::move(cache)) {}
 
-    /// The mesh of a file. Throws Error::input as read_mesh does, and for a file that changed since
-    /// it was first read.
-    const Mesh& mesh(const std::filesystem::path& file);
+    /// The mesh of a file after a map. Throws Error::input as read_mesh does, and for a file that
+    /// changed since it was first read.
+    const Mesh& mesh(const std::filesystem::path& file, const FileMap& map = {});
     /// The voxels of a model that has a file of them. Throws Error::input as read_voxel_model does.
     const VoxelModel& voxels(const Model& model);
     /// The mesh that is voxelized for a model: its own, or the triangles of a file of exact voxels.
@@ -33,8 +35,14 @@ class AssetStore {
     const Mesh* mesh_of(const Model& model);
     /// A summary of the mesh that mesh_of() returns; null where there is none.
     const MeshSummary* summary_of(const Model& model);
+    /// The winding number around a point, in object space, of the mesh that mesh_of() returns: how
+    /// far it encloses the point. 0 for other models. Reads the mesh unless the cache knows.
+    double winding_of(const Model& model, const glm::dvec3& point);
     /// The names of a model's groups of faces or voxels.
     const std::vector<std::string>& groups_of(const Model& model);
+    /// The box around the surface in a model's file, in the file's own coordinates. Contents that
+    /// aren't to be kept are forgotten if they had to be read for it. Throws Error::input likewise.
+    Bounds box_of_file(const Model& model, bool keeps);
     /// A hash of everything that the model's mesh is made from. Empty for a model without a mesh
     /// file, and where nothing is kept on disk.
     std::string source_of(const Model& model);
@@ -54,13 +62,23 @@ class AssetStore {
     uint64_t triangles() const;                            ///< sum over the meshes that are in use
 
   private:
+    struct MappedMesh {
+        std::optional<Mesh> mesh;
+        std::optional<MeshSummary> summary;
+    };
+    /// The numbers of a FileMap, which maps can be keyed by.
+    using MapKey = std::array<double, 4>;
     struct MeshFile {
         std::string source;  ///< hash of the file's bytes; empty without a cache
         std::optional<Mesh> mesh;
         std::optional<MeshSummary> summary;
+        std::map<MapKey, MappedMesh> mapped;
+
+        void forget_meshes();
     };
     struct Morphed {
         std::filesystem::path file;
+        FileMap map;
         Morph morph;
         std::optional<Mesh> mesh;
         std::optional<MeshSummary> summary;
@@ -70,10 +88,13 @@ class AssetStore {
         MeshSummary summary;  ///< summary of the voxels' mesh
     };
 
+    static MapKey key_of(const FileMap& map);
     MeshFile& file(const std::filesystem::path& name);
+    Mesh read(const std::filesystem::path& name, const MeshFile& file);
     uint64_t triangles_of(const std::filesystem::path& name, const MeshFile& file) const;
     uint64_t bytes_of(const std::filesystem::path& name) const;
-    const MeshSummary& summary_of_file(const std::filesystem::path& name);
+    void forget(const std::filesystem::path& name);
+    const MeshSummary& summary_of_file(const std::filesystem::path& name, const FileMap& map = {});
     const VoxelFile& voxel_file(const Model& model);
     Morphed& morphed(const Model& model);
     const Mesh& morphed_mesh(const Model& model);
@@ -82,8 +103,9 @@ class AssetStore {
     ModelCache cache_;
     std::map<std::filesystem::path, MeshFile> files_;
     std::map<std::string, Morphed> morphed_;  ///< by the model's name, as last used
-    /// Keyed by the file, and the surface that it is read as.
-    std::map<std::pair<std::filesystem::path, Surface>, VoxelFile> voxels_;
+    /// Keyed by the file, the surface that it is read as, and its map.
+    using VoxelKey = std::tuple<std::filesystem::path, Surface, MapKey>;
+    std::map<VoxelKey, VoxelFile> voxels_;
     std::set<std::filesystem::path> used_;
     std::set<std::string> used_morphs_;  ///< names of models
     double load_seconds_ = 0;

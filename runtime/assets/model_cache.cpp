@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <charconv>
 #include <cstdlib>
 #include <cstring>
@@ -13,6 +12,7 @@
 #include "runtime/base/cache_key.hpp"
 #include "runtime/base/error.hpp"
 #include "runtime/base/producer_hash.hpp"
+#include "runtime/base/text.hpp"
 #include "runtime/grid/grid_bytes.hpp"
 #include "runtime/grid/pyramid_bytes.hpp"
 #include "runtime/opencl/kernel_source.hpp"
@@ -20,7 +20,7 @@
 namespace voxelume {
 namespace {
 
-constexpr const char* kFormat = "voxelume models 4";
+constexpr const char* kFormat = "voxelume models 5";
 constexpr uint64_t kDefaultMegabytes = 4096;
 
 /// The minimum rate at which the bytes of a grid are read, unpacked and sent to a device.
@@ -59,19 +59,32 @@ SurfaceArea area_of(const nlohmann::json& json) {
     return {vector_of(json.at(0)), json.at(1).get<double>()};
 }
 
+/// A name consists of the file's bytes, in whatever encoding.
+nlohmann::json json_of(const std::string& name) {
+    return nlohmann::json::binary({name.begin(), name.end()});
+}
+
+std::string text_of(const nlohmann::json& json) {
+    const auto& bytes = json.get_binary();
+    return {bytes.begin(), bytes.end()};
+}
+
 /// The summary as CBOR, in which numbers keep all their bits.
 std::string bytes_of(const MeshSummary& summary) {
-    const nlohmann::json json = {summary.triangles,
-                                 {json_of(summary.surface.min), json_of(summary.surface.max)},
-                                 {json_of(summary.vertices.min), json_of(summary.vertices.max)},
-                                 {json_of(summary.area), json_of(summary.min_area)},
-                                 summary.has_colors,
-                                 // A name consists of the file's bytes, in whatever encoding.
-                                 nlohmann::json::array(),
-                                 summary.corners};
+    const nlohmann::json json = {
+        summary.triangles,
+        {json_of(summary.surface.min), json_of(summary.surface.max)},
+        {json_of(summary.vertices.min), json_of(summary.vertices.max)},
+        {json_of(summary.area), json_of(summary.min_area)},
+        summary.has_colors,
+        nlohmann::json::array(),
+        summary.corners,
+        {summary.topology.open_edges, summary.topology.hole_area, summary.topology.volume},
+        {json_of(summary.material_library), json_of(summary.texture)},
+        summary.has_normals,
+        summary.longest_edge};
     nlohmann::json whole = json;
-    for (const std::string& name : summary.group_names)
-        whole[5].push_back(nlohmann::json::binary({name.begin(), name.end()}));
+    for (const std::string& name : summary.group_names) whole[5].push_back(json_of(name));
     const std::vector<uint8_t> bytes = nlohmann::json::to_cbor(whole);
     return {bytes.begin(), bytes.end()};
 }
@@ -86,13 +99,25 @@ MeshSummary summary_of_bytes(const std::string& bytes) {
     summary.min_area = area_of(json.at(3).at(1));
     summary.has_colors = json.at(4).get<bool>();
     summary.corners = json.at(6).get<uint64_t>();
-    for (const nlohmann::json& name : json.at(5))
-        summary.group_names.emplace_back(name.get_binary().begin(), name.get_binary().end());
+    for (const nlohmann::json& name : json.at(5)) summary.group_names.push_back(text_of(name));
+    const nlohmann::json& topology = json.at(7);
+    summary.topology = {topology.at(0).get<uint64_t>(), topology.at(1).get<double>(),
+                        topology.at(2).get<double>()};
+    summary.material_library = text_of(json.at(8).at(0));
+    summary.texture = text_of(json.at(8).at(1));
+    summary.has_normals = json.at(9).get<bool>();
+    summary.longest_edge = json.at(10).get<double>();
     return summary;
 }
 
 std::string summary_key(const std::string& source) {
     return key_of({producers(), "summary", source});
+}
+
+std::string winding_key(const std::string& source, const glm::dvec3& point) {
+    CacheKey words;
+    words.add_all(point);
+    return key_of({producers(), "winding", source, words.bytes()});
 }
 
 uint64_t megabytes_of_user() {
@@ -112,10 +137,13 @@ uint64_t megabytes_of_user() {
 }  // namespace
 
 std::string mesh_source(const std::string& bytes, const std::filesystem::path& name) {
-    std::string extension = name.extension().string();
-    std::ranges::transform(extension, extension.begin(),
-                           [](unsigned char c) { return char(std::tolower(c)); });
-    return key_of({extension, bytes});
+    return key_of({ending_of(name), bytes});
+}
+
+std::string mapped_source(const std::string& source, const FileMap& map) {
+    CacheKey words;
+    words.add(map.scale).add_all(map.shift);
+    return key_of({"mapped", source, words.bytes()});
 }
 
 std::string morph_source(const std::string& from, const std::string& to, const Morph& morph) {
@@ -128,6 +156,7 @@ std::string grid_key(const std::string& source, const VoxelizeOptions& options,
                      const glm::dmat4& frame_from_mesh, const GridFrame& frame) {
     CacheKey words;
     words.add(int(options.surface)).add(int(options.set)).add(double(options.band));
+    words.add(int(options.shading.kind)).add(options.shading.crease_angle);
     words.add_columns(frame_from_mesh);
     words.add_all(frame.origin).add_all(frame.voxel_edge).add_all(frame.size);
     return key_of({producers(), "grid", source, words.bytes()});
@@ -178,7 +207,7 @@ bool ModelCache::is_quick(double seconds, uint64_t bytes) const {
 void ModelCache::keep(const std::string& key, const BrickGrid& grid, double seconds) const {
     if (!is_open_ || is_quick(seconds, device_bytes(grid))) return;
     try {
-        if (const auto bytes = bytes_of_grid(grid, max_bytes_ / 8)) store_.write(key, *bytes);
+        if (const auto bytes = bytes_of_grid(grid, max_entry_bytes())) store_.write(key, *bytes);
     } catch (const std::bad_alloc&) {
         return;  // too little memory for a second copy is no reason to stop
     }
@@ -192,12 +221,33 @@ std::optional<Pyramid> ModelCache::world(const Device& device, const std::string
 
 void ModelCache::keep(const std::string& key, const Pyramid& world, double seconds) const {
     const uint64_t bytes = bytes_of(world);
-    if (!keeps_worlds() || is_quick(seconds, bytes) || bytes > max_bytes_ / 8) return;
+    if (!keeps_worlds() || is_quick(seconds, bytes) || bytes > max_entry_bytes()) return;
     try {
         store_.write(key, bytes_of_pyramid(world));
     } catch (const std::bad_alloc&) {
         return;
     }
+}
+
+bool ModelCache::is_too_large(uint64_t bytes, double seconds) const {
+    return keeps_worlds() && !is_quick(seconds, bytes) && bytes > max_entry_bytes();
+}
+
+std::optional<double> ModelCache::winding(const std::string& source,
+                                          const glm::dvec3& point) const {
+    if (!is_open_) return std::nullopt;
+    const auto bytes = store_.read(winding_key(source, point));
+    if (!bytes || bytes->size() != sizeof(double)) return std::nullopt;
+    double winding = 0;
+    std::memcpy(&winding, bytes->data(), sizeof winding);
+    return winding;
+}
+
+void ModelCache::keep(const std::string& source, const glm::dvec3& point, double winding,
+                      double seconds) const {
+    if (!is_open_ || seconds < min_seconds_) return;
+    store_.write(winding_key(source, point),
+                 {reinterpret_cast<const char*>(&winding), sizeof winding});
 }
 
 }  // namespace voxelume

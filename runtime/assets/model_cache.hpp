@@ -19,6 +19,9 @@ namespace voxelume {
 /// file's name counts.
 std::string mesh_source(const std::string& bytes, const std::filesystem::path& name);
 
+/// Names the mesh of a source after a map.
+std::string mapped_source(const std::string& source, const FileMap& map);
+
 /// Names a mesh that is morphed from one source to another; `to` is empty for a sphere.
 std::string morph_source(const std::string& from, const std::string& to, const Morph& morph);
 
@@ -58,11 +61,15 @@ class ModelCache {
     /// of at least 0.
     static ModelCache of_user();
 
-    /// The same with another folder, where one is given, and another number of megabytes likewise.
+    /// The user's cache with another folder, unless `folder` is empty, and another limit, if
+    /// `megabytes` has a value.
     static ModelCache of_user(const std::filesystem::path& folder,
                               std::optional<uint64_t> megabytes);
 
     bool is_open() const { return is_open_; }
+    /// As those of DiskCache; the folder of a cache that isn't open is of no use.
+    std::string refusal() const { return is_open_ ? store_.refusal() : std::string(); }
+    const std::filesystem::path& folder() const { return store_.folder(); }
     bool keeps_worlds() const { return is_open_ && keeps_worlds_; }
 
     std::optional<MeshSummary> summary(const std::string& source) const;
@@ -79,6 +86,15 @@ class ModelCache {
     /// the device.
     std::optional<Pyramid> world(const Device& device, const std::string& key) const;
     void keep(const std::string& key, const Pyramid& world, double seconds) const;
+    /// Whether a world that took `seconds` to make would be worth keeping, but takes so many bytes
+    /// that it isn't.
+    bool is_too_large(uint64_t bytes, double seconds) const;
+    uint64_t max_entry_bytes() const { return max_bytes_ / 8; }
+
+    /// The winding number of the mesh that `source` names around a point, if it is known.
+    std::optional<double> winding(const std::string& source, const glm::dvec3& point) const;
+    void keep(const std::string& source, const glm::dvec3& point, double winding,
+              double seconds) const;
 
   private:
     bool is_quick(double seconds, uint64_t bytes) const;

@@ -50,6 +50,7 @@ VoxelExport::VoxelExport(const BrickGrid& grid, const Mesh& mesh, Surface surfac
       primitive_first_(grid.primitive_first.read()),
       primitives_(grid.primitives.read()),
       triangle_attributes_(grid.triangle_attributes.read()),
+      triangle_normals_(grid.triangle_normals.read()),
       triangles_(grid.triangles.read()) {
     header_ = {{"format", "voxelume bricks 1"},
                {"software", fmt::format("voxelume {}", version())},
@@ -79,6 +80,7 @@ void VoxelExport::write_model(const std::filesystem::path& path) const {
     add("primitives", primitives_);
     add("triangles", triangles_);
     add("triangle_attributes", triangle_attributes_);
+    add("triangle_normals", triangle_normals_);
     write_model_file(path, file);
 }
 

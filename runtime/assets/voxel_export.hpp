@@ -49,7 +49,7 @@ class VoxelExport {
     std::vector<uint64_t> occupancy_;
     std::vector<int16_t> distance_;
     std::vector<uint32_t> attributes_, colors_;
-    std::vector<uint32_t> primitive_first_, primitives_, triangle_attributes_;
+    std::vector<uint32_t> primitive_first_, primitives_, triangle_attributes_, triangle_normals_;
     std::vector<float> triangles_;
 };
 

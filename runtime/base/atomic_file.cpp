@@ -50,6 +50,9 @@ std::string reason_for(int code, const fs::path& folder) {
             return fmt::format("the folder {} doesn't allow it; check its permissions",
                                folder.string());
         case ENOENT:
+            if (std::error_code ignored; fs::is_directory(folder, ignored))
+                return fmt::format("the folder {} takes no new files; write to another folder",
+                                   folder.string());
             return fmt::format("there is no folder {}; create it first", folder.string());
         case ENOTDIR:
             return fmt::format("{} isn't a folder", folder.string());
@@ -131,10 +134,10 @@ void AtomicFile::sync_folder() {
 }
 
 void AtomicFile::fail(const std::string& reason) {
-    const Error error(ErrorKind::output, "{}: can't be written: {}", SourcePlace(target_.string()),
-                      reason);
-    if (!failure_) failure_ = error;
-    throw error;
+    if (!failure_)
+        failure_ = Error(ErrorKind::output, "{}: can't be written: {}",
+                         SourcePlace(target_.string()), reason);
+    throw *failure_;
 }
 
 void AtomicFile::fail_with_errno(int code) {

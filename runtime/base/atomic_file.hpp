@@ -36,7 +36,8 @@ class AtomicFile {
     /// Writes the bytes to the disk and gives the file its name.
     void commit();
 
-    /// Records `reason` as the failure of this file, so that commit() refuses it, and throws it.
+    /// Throws the first failure of this file, which is `reason` if there was none before: what a
+    /// library says of a write that failed says less. commit() refuses the file from then on.
     [[noreturn]] void fail(const std::string& reason);
 
   private:

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cerrno>
 #include <chrono>
 #include <cstdlib>
 #include <cstring>
@@ -111,6 +112,18 @@ void DiskCache::write(const std::string& key, std::string_view bytes) const noex
     trim();
 } catch (const std::exception&) {
     return;  // the next run computes it again
+}
+
+std::string DiskCache::refusal() const {
+    std::error_code error;
+    fs::path existing = fs::absolute(folder_, error);
+    if (folder_.empty() || error) return {};
+    // A folder that doesn't exist is made in the nearest one above it that does.
+    while (!fs::exists(existing, error) && !error && existing.has_relative_path())
+        existing = existing.parent_path();
+    if (error) return error.message();
+    if (!fs::is_directory(existing, error)) return std::strerror(ENOTDIR);
+    return access(existing.c_str(), W_OK | X_OK) == 0 ? "" : std::strerror(errno);
 }
 
 void DiskCache::trim() const {

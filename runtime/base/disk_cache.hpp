@@ -35,6 +35,11 @@ class DiskCache {
     std::optional<std::string> read(const std::string& key) const noexcept;
     void write(const std::string& key, std::string_view bytes) const noexcept;
 
+    /// Why nothing can be written, in the words of the system: "Permission denied". Empty if
+    /// something can be, and for a cache that keeps nothing. Writes nothing.
+    std::string refusal() const;
+    const std::filesystem::path& folder() const { return folder_; }
+
   private:
     void trim() const;
 

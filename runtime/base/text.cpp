@@ -44,6 +44,19 @@ std::string quote(std::string_view text) {
     return quoted + (text.size() > kLongest ? "...\"" : "\"");
 }
 
+std::string with_article(std::string_view name) {
+    const bool is_vowel =
+        !name.empty() && std::string_view("aeiouAEIOU").find(name.front()) != name.npos;
+    return (is_vowel ? "an " : "a ") + quote(name);
+}
+
+std::string ending_of(const std::filesystem::path& file) {
+    std::string ending = file.extension().string();
+    std::ranges::transform(ending, ending.begin(),
+                           [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return ending;
+}
+
 std::string suggest(std::string_view text, std::span<const std::string_view> names) {
     constexpr size_t kLongest = 60;  // bounds the work for names that are no names
     size_t nearest = text.size() <= kLongest ? std::max<size_t>(2, text.size() / 2) : 0;

@@ -2,6 +2,7 @@
 // Words for messages: text in quotes, the nearest of several names, a place in a file.
 #pragma once
 
+#include <filesystem>
 #include <span>
 #include <string>
 #include <string_view>
@@ -16,6 +17,12 @@ struct TextPosition {
 
 /// Text from a file, in quotes, made safe for a terminal and cut to a readable length.
 std::string quote(std::string_view text);
+
+/// `a "model"` or `an "observer"`.
+std::string with_article(std::string_view name);
+
+/// What a file's name ends with, in small letters: ".png" of "Bunny.PNG".
+std::string ending_of(const std::filesystem::path& file);
 
 /// ` did you mean "brick"?` for the nearest of the names, or a list of them, or nothing. Opens with
 /// `; `.

@@ -113,8 +113,8 @@ class Lane {
         return rendered;
     }
 
-    /// Where the device has no memory for the frame beside what is retained of those before, that
-    /// is forgotten, now and from then on.
+    /// If the device has no memory for the frame and what is retained of those before, that is
+    /// forgotten, now and from then on.
     OutputStep build_and_render(size_t frame) {
         if (has_any_ && !retains_) forget(false);
         try {

@@ -41,16 +41,15 @@ struct FrameSteps {
 };
 
 struct ScheduleOptions {
-    bool overlap = true;  ///< of one device: a world is built while another is rendered
-    bool one_each =
-        false;  ///< there are as many frames as devices, each for the device of its index
+    bool overlap = true;    ///< of one device: a world is built while another is rendered
+    bool one_each = false;  ///< true if each device renders the one frame of its own index
     AssetStore meshes = AssetStore();  ///< what was read already, and the cache of models
     std::stop_token stop = {};         ///< cancels the run
 };
 
 struct ScheduleOutcome {
     size_t frames_done = 0;  ///< those output: all, unless the run was cancelled
-    /// The first frame that was rendered with no other world beside it, because memory lacked.
+    /// The first frame that was rendered with no other world in memory, because memory lacked.
     std::optional<size_t> one_by_one_from;
 };
 

@@ -9,9 +9,11 @@
 #include "runtime/analysis/culling.hpp"
 #include "runtime/analysis/model_last_uses.hpp"
 #include "runtime/analysis/scene_choices.hpp"
+#include "runtime/analysis/scene_warnings.hpp"
 #include "runtime/base/error.hpp"
 #include "runtime/batch/frame_schedule.hpp"
 #include "runtime/batch/image_parts.hpp"
+#include "runtime/batch/run_warnings.hpp"
 #include "runtime/memory/frame_plans.hpp"
 #include "runtime/render/volume_renderer.hpp"
 #include "runtime/scene/scene_animation.hpp"
@@ -57,6 +59,7 @@ class Batch {
         BatchOutcome outcome = shares_image ? run_image_parts() : run_whole_frames();
         for (const Device& device : devices_) device.finish();
         outcome.is_cancelled = outcome.frames_done < options_.frames.size();
+        if (options_.warn && !outcome.is_cancelled) warnings_->end(scene_, options_.frames);
         outcome.check_seconds = checked.count();
         return outcome;
     }
@@ -64,6 +67,9 @@ class Batch {
   private:
     void check() {
         make_choices(scene_, options_.meshes);
+        if (options_.warn)
+            warnings_.emplace(scene_warnings(scene_, options_.frames, options_.meshes),
+                              options_.meshes.cache(), options_.warn);
         find_potentially_visible(scene_, options_.frames, options_.meshes);
         if (options_.frames.size() == 1) return;  // it is planned when its world is built
         for (const Device& device : devices_)
@@ -171,7 +177,10 @@ class Batch {
         const uint32_t not_finite = result.report.report.not_finite;
         if (not_finite != 0) refuse_not_finite(not_finite);
         advance(n, 1);
-        return [this, result = std::move(result)] { output_(result); };
+        return [this, result = std::move(result)] {
+            if (warnings_) warnings_->add(result);
+            output_(result);
+        };
     }
 
     const std::vector<Device>& devices_;
@@ -181,6 +190,7 @@ class Batch {
     std::mutex progress_mutex_;
     std::vector<uint64_t> done_;  ///< of each frame, of kSteps
     uint64_t sum_ = 0;            ///< of them
+    std::optional<RunWarnings> warnings_;
 };
 
 }  // namespace

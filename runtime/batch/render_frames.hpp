@@ -5,10 +5,12 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <stop_token>
 #include <vector>
 
 #include "runtime/assets/asset_store.hpp"
+#include "runtime/base/warning.hpp"
 #include "runtime/image/volume.hpp"
 #include "runtime/render/renderer.hpp"
 
@@ -19,6 +21,10 @@ namespace voxelume {
 /// frame.
 using BatchProgress = std::function<void(double done, int frame)>;
 
+/// Hears of warnings, which are about different things each: before the first frame of those that
+/// need no rendering, after the last one of the others. It may throw, which ends the run.
+using BatchWarnings = std::function<void(std::span<const Warning>)>;
+
 /// What to render of a scene.
 struct BatchOptions {
     std::vector<int> frames = {1};  ///< their numbers, in the order of the results; one or more
@@ -27,6 +33,7 @@ struct BatchOptions {
     bool overlap = true;  ///< on one device, two worlds at a time; false: needs less memory
     AssetStore meshes = AssetStore();  ///< what was read already, and the cache of models
     BatchProgress progress = {};
+    BatchWarnings warn = {};    ///< without it nothing is looked for
     std::stop_token stop = {};  ///< cancels the run
 };
 
@@ -41,7 +48,7 @@ struct FrameReport {
 struct FrameResult {
     FrameReport report;
     std::shared_ptr<const Image> image;  ///< null where none is asked for
-    std::shared_ptr<Volume> volume;      ///< null likewise; its attributes are free to be set
+    std::shared_ptr<Volume> volume;  ///< null where none is asked for; its attributes may be set
 };
 
 /// Takes the results, in the order of the frames, on the thread that called `render_frames`.

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "runtime/geometry/mesh_summary.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 
 namespace voxelume {
 namespace {
@@ -12,6 +14,18 @@ const Bounds kNothing{glm::dvec3(INFINITY), glm::dvec3(-INFINITY)};
 void add(Bounds& box, const glm::dvec3& p) {
     box.min = glm::min(box.min, p);
     box.max = glm::max(box.max, p);
+}
+
+/// The length of the longest side of a triangle.
+double longest_edge(const Mesh& mesh) {
+    double squared = 0;
+    for (const glm::uvec3& t : mesh.triangles)
+        for (int i = 0; i < 3; ++i) {
+            const glm::dvec3 side =
+                glm::dvec3(mesh.positions[t[i]]) - glm::dvec3(mesh.positions[t[(i + 1) % 3]]);
+            squared = std::max(squared, glm::dot(side, side));
+        }
+    return std::sqrt(squared);
 }
 
 }  // namespace
@@ -34,7 +48,12 @@ MeshSummary summary_of(const Mesh& mesh) {
     summary.area = mesh_area(mesh);
     summary.min_area = min_mesh_area(mesh);
     summary.has_colors = !mesh.vertex_colors.empty();
+    summary.has_normals = !mesh.normals.empty();
+    summary.longest_edge = longest_edge(mesh);
     summary.group_names = mesh.group_names;
+    summary.topology = mesh_topology(mesh);
+    summary.material_library = mesh.material_library;
+    summary.texture = mesh.texture;
     return summary;
 }
 

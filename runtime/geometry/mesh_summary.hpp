@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "runtime/geometry/mesh.hpp"
+#include "runtime/geometry/mesh_topology.hpp"
 #include "runtime/geometry/surface_extent.hpp"
 #include "runtime/scene/scene.hpp"
 
@@ -19,8 +20,13 @@ struct MeshSummary {
     SurfaceArea area;      ///< in the mesh's own space
     SurfaceArea min_area;  ///< area with coinciding triangles counted once
     bool has_colors = false;
+    bool has_normals = false;
+    double longest_edge = 0;  ///< metres
     std::vector<std::string> group_names;
     uint64_t corners = 0;  ///< positions that triangles share
+    MeshTopology topology;
+    std::string material_library;  ///< as in Mesh
+    std::string texture;           ///< likewise
 };
 
 MeshSummary summary_of(const Mesh& mesh);

@@ -54,6 +54,8 @@ struct BrickGrid {
     Buffer<float> triangles;           ///< 9 per triangle: its corners in this grid's voxels
     Buffer<uint32_t> triangle_attributes;  ///< packed attributes of each triangle, see
                                            ///< shared/voxel.h
+    Buffer<uint32_t> triangle_normals;     ///< 3 per triangle, see shared/normal.h; empty if no
+                                           ///< triangle has some
     Buffer<uint32_t> solids;               ///< analytic solids, see shared/solid.h
 };
 
@@ -108,16 +110,22 @@ struct Pyramid {
     uint32_t attribute = 0;        ///< packed attributes of every voxel if `attributes` is empty
     Buffer<uint32_t> colors;       ///< one per voxel
     bool transparent = false;      ///< true if some of the voxels aren't opaque
-    Buffer<uint32_t> fields;  ///< 8 per voxel, see shared/voxel.h; empty without smooth surfaces
+    Buffer<uint32_t> fields;     ///< 8 per voxel, see shared/voxel.h; empty without smooth surfaces
+    uint32_t listed_fields = 0;  ///< records of fields, attributes and colours behind the voxels':
+                                 ///< of voxels that several surfaces pass
     Buffer<uint32_t> primitive_first;  ///< voxel_count + 1; empty without exact surfaces
-    Buffer<uint32_t> primitives;       ///< this and the next three are as in BrickGrid
+    Buffer<uint32_t> primitives;       ///< this and the next four are as in BrickGrid
     Buffer<float> triangles;
     Buffer<uint32_t> triangle_attributes;
+    Buffer<uint32_t> triangle_normals;
     Buffer<uint32_t> solids;
     InstanceSet instances;
     std::vector<VoxelBox> object_boxes;  ///< the box around each of the scene's objects; empty if
                                          ///< unknown
     bool clear = false;  ///< true if the space between them is known to hold no medium
+
+    /// The values of `attributes`, `colors` and (times 8) `fields`.
+    uint32_t records() const { return voxel_count + listed_fields; }
 };
 
 }  // namespace voxelume

@@ -29,6 +29,7 @@ void visit_grid(Grid& grid, const Visit& visit) {
     visit("source primitives", grid.primitives);
     visit("source triangles", grid.triangles);
     visit("source attributes", grid.triangle_attributes);
+    visit("source normals", grid.triangle_normals);
     visit("source solids", grid.solids);
 }
 

@@ -12,6 +12,7 @@ struct PyramidHeader {
     GridFrame frame;
     uint32_t leaf_count = 0, voxel_count = 0;
     uint32_t attribute = 0, transparent = 0;
+    uint32_t listed_fields = 0, reserved = 0;
 };
 static_assert(std::is_trivially_copyable_v<PyramidHeader>);
 
@@ -29,6 +30,7 @@ void visit_pyramid(AnyPyramid& pyramid, const Visit& visit) {
     visit("primitives", pyramid.primitives);
     visit("source triangles", pyramid.triangles);
     visit("source attributes", pyramid.triangle_attributes);
+    visit("source normals", pyramid.triangle_normals);
     visit("source solids", pyramid.solids);
 }
 
@@ -54,6 +56,7 @@ std::string bytes_of_pyramid(const Pyramid& pyramid) {
     header.frame.size = pyramid.frame.size;
     header.leaf_count = pyramid.leaf_count;
     header.voxel_count = pyramid.voxel_count;
+    header.listed_fields = pyramid.listed_fields;
     header.attribute = pyramid.attribute;
     header.transparent = pyramid.transparent;
     PackedWriter writer;
@@ -70,6 +73,7 @@ std::optional<Pyramid> pyramid_of_bytes(const Device& device, std::string_view b
     pyramid.frame = header.frame;
     pyramid.leaf_count = header.leaf_count;
     pyramid.voxel_count = header.voxel_count;
+    pyramid.listed_fields = header.listed_fields;
     pyramid.attribute = header.attribute;
     pyramid.transparent = header.transparent != 0;
     visit_pyramid(pyramid,

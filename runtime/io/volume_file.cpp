@@ -52,7 +52,7 @@ void check_output(const VolumePath& path, const VolumeFrame& frame, const Volume
 }  // namespace
 
 VolumeFormat volume_format_of(const std::filesystem::path& path) {
-    const std::string ending = path.extension().string();
+    const std::string ending = ending_of(path);
     std::string list;
     for (const VolumeFormatEntry& entry : volume_format_table())
         for (const char* known : entry.endings) {

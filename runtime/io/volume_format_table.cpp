@@ -6,6 +6,7 @@
 #include "runtime/base/atomic_file.hpp"
 #include "runtime/base/error.hpp"
 #include "runtime/base/frame_path.hpp"
+#include "runtime/base/text.hpp"
 #include "runtime/image/volume_geometry.hpp"
 #include "runtime/io/vdb/vdb.hpp"
 #include "runtime/io/volume/volume_json.hpp"
@@ -95,7 +96,7 @@ void check_vdb(const VolumePath& path, VolumeFormat format) {
 
 void check_raw(const VolumePath& path, VolumeFormat format) {
     check_file(path, format);
-    check_header(path.extension() == ".json" ? path : header_path_of(path), format);
+    check_header(ending_of(path) == ".json" ? path : header_path_of(path), format);
 }
 
 void check_with_header(const VolumePath& path, VolumeFormat format) {

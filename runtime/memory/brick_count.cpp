@@ -14,8 +14,8 @@ constexpr double kMostMarked = 1 << 28;   ///< bricks of a lattice that are told
 constexpr double kMostCounted = 1 << 17;  ///< bricks of a surface: some hundredths of a second
 constexpr size_t kSampledBricks = 256;    ///< whose voxels are counted
 
-/// A plane passes through as many leaves of 4³ voxels as through voxels, over 4²; on one side of it
-/// are half of the others.
+/// The voxels of a leaf of 4³ through which a plane passes: about 4² of them meet the plane, and
+/// half of the others are on one side of it.
 constexpr double kPassedLeaf = 16, kFilledLeaf = 40;
 
 constexpr double kLeafEdge = 5.5;  ///< voxels: boxes that aren't divided further
@@ -115,7 +115,7 @@ class BrickCounter {
                 }
     }
 
-    /// Those of some bricks, evenly spread, stand for all.
+    /// The number of voxels. Some bricks, evenly spread, stand for all.
     double voxels() const {
         if (stored_.empty()) return inside_voxels_;
         const size_t sampled = std::min(stored_.size(), kSampledBricks);
@@ -141,7 +141,7 @@ class BrickCounter {
         return is_inside ? size * size * size : 0;
     }
 
-    /// Whether the plane through the surface near a leaf's middle passes through the leaf.
+    /// True if the plane through the surface near a leaf's middle passes through the leaf.
     bool passes(const glm::dvec3& middle, double d) const {
         if (glm::any(glm::greaterThan(middle, glm::dvec3(frame_.size)))) return false;
         constexpr double kStep = 0.01;  // voxels
@@ -164,7 +164,7 @@ class BrickCounter {
     double bricks_ = 0, inside_voxels_ = 0;
 };
 
-/// Bricks that the surface of a box may pass through.
+/// The maximum number of bricks that the surface of a box passes through.
 double most_bricks(const VoxelBox& box) {
     const glm::dvec3 size = glm::max(box.high - box.low, 0.0) / double(kBrickSize) + 2.0;
     return 2 * (size.x * size.y + size.y * size.z + size.z * size.x);

@@ -22,17 +22,17 @@ struct BrickRule {
     friend bool operator==(const BrickRule&, const BrickRule&) = default;
 };
 
-/// Those of voxelizing a model in its own space, and of placing it in a world, where a brick takes
-/// `spread` times its edges along the axes of the object.
+/// The rules of voxelizing a model in its own space, and of placing it in a world, where a brick
+/// extends over `spread` times its edges along the axes of the object.
 BrickRule model_rule(Surface surface, bool is_solid_set);
 BrickRule world_rule(Surface surface, bool is_solid_set, bool keeps_inside, double spread = 1);
 
-/// Bricks of a lattice that are stored for one object or another.
+/// The bricks of a lattice that are stored for any object.
 class TakenBricks {
   public:
     explicit TakenBricks(const GridFrame& frame) : table_(frame.bricks()) {}
 
-    /// True if it was not taken before. Of a very large lattice each counts as new.
+    /// Takes a brick; true if it was not taken before. In a very large lattice each counts as new.
     bool take(const glm::ivec3& brick);
 
   private:
@@ -40,8 +40,8 @@ class TakenBricks {
     std::vector<bool> taken_;  ///< empty before the first
 };
 
-/// Counts what a solid's surface takes of `frame`'s lattice, in the `box` of its voxels, by such a
-/// rule; of bricks those that aren't taken yet. Of large surfaces coarser lattices tell.
+/// Counts the bricks that a solid's surface takes in the `box` of `frame`'s voxels by such a rule
+/// and that aren't taken yet, and its voxels. Large surfaces are counted in coarser lattices.
 SurfaceExtent count_bricks(const SolidField& field, const GridFrame& frame, const VoxelBox& box,
                            const BrickRule& rule, TakenBricks& taken);
 

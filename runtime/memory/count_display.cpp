@@ -30,14 +30,15 @@ DisplayLight count_light(const Device& device, const Scene& scene, const Feature
     return light;
 }
 
-/// Of a world's surface voxels, as many as a lattice of other `edge`s has of the same surface.
+/// The number of voxels with surface that a lattice whose voxels have this `edge` has of the
+/// world's surface.
 double surface_voxels(const Pyramid& world, double edge) {
     const glm::dvec3& e = world.frame.voxel_edge;
     const double own = std::cbrt(e.x * e.y * e.z) / edge;
     return double(world.voxel_count) * own * own;
 }
 
-/// More can't be numbered: a device that does it refuses them.
+/// The count as it is numbered on devices, which refuse larger ones.
 uint32_t numbered(double count) {
     return uint32_t(std::min(count, double(UINT32_MAX - 16)));
 }
@@ -46,7 +47,8 @@ double mean_edge(const glm::dvec3& edge) {
     return std::cbrt(edge.x * edge.y * edge.z);
 }
 
-/// The points where probe lines cross surfaces: none are further apart than the world's voxels.
+/// The number of points where probe lines cross surfaces. The lines are no further apart than the
+/// world's voxels.
 double probe_points(const VolumeFrame& frame, const Pyramid& world) {
     const glm::dvec3& e = world.frame.voxel_edge;
     const double widest = std::min({e.x, e.y, e.z});
@@ -74,7 +76,7 @@ class DisplayCounter {
     }
 
   private:
-    /// As the layout of rays.
+    /// Follows VolumeRenderer in the layout `rays`.
     void rays() {
         const uint32_t tiles = tile_count(frame_.size.x, frame_.size.y), all = tiles * 16;
         const uint32_t in_batch = batch_tiles(features_, 1, tiles) * 16;
@@ -92,7 +94,8 @@ class DisplayCounter {
         allocate_voxels(device_, is_least_ ? 1 : numbered(steps * all));
     }
 
-    /// As that of a lattice, all of whose arrays stay but the points that aren't shown.
+    /// Follows VolumeRenderer in the layout `lattice`. All arrays stay, except the points that
+    /// aren't shown.
     void lattice() {
         const Features features = begun_anywhere(features_, scene_);
         const uint32_t batch = batch_rays(features);
@@ -109,7 +112,7 @@ class DisplayCounter {
         choose(numbered(shown));
     }
 
-    /// The voxels that are shown, and their points.
+    /// Counts the voxels that are shown, and their points.
     void choose(uint32_t shown) const {
         const VoxelArrays voxels = allocate_voxels(device_, shown);
         const ProbePoints chosen = allocate_points(device_, shown);

@@ -7,11 +7,10 @@
 
 namespace voxelume {
 
-/// Has the device count all that render_volume's image of a world takes, without the world.
-/// `depth` is that of the arrays for reflections and refractions.
+/// Makes the device count all that render_volume's image of a world takes, without the world.
 ///
-/// Of the voxels that a display shows, surfaces' areas tell: those of a lattice as many as of a
-/// world of such voxels, of each ray one, and with a medium all before the far end.
+/// The number of voxels that a display shows follows from the areas of surfaces: a lattice shows as
+/// many as a world of such voxels has, a ray shows one, and with a medium half of its steps.
 void count_volume(const Device& device, const Scene& scene, const Pyramid& world,
                   const DensityPlan& medium, Estimate estimate);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "runtime/memory/count_grids.hpp"
 
+#include "kernels/shared/normal.h"
 #include "kernels/shared/solid.h"
 #include "runtime/stages/brick_arrays.hpp"
 #include "runtime/stages/voxelize/voxelize_steps.hpp"
@@ -8,10 +9,10 @@
 namespace voxelume {
 namespace {
 
-/// Bricks that a small triangle passes through, and those that it is near.
+/// The number of bricks that a small triangle passes through, and the number that it is near.
 constexpr double kBinsPerTriangle = 1.3, kBinsInBand = 2.5;
 
-/// As bin_triangles.
+/// Follows bin_triangles.
 TriangleBins sort_triangles(const Device& device, const GridCounts& counts, double per_triangle) {
     const glm::ivec3 bricks = counts.frame.bricks();
     const size_t bins = size_t(bricks.x + 1) * size_t(bricks.y) * size_t(bricks.z);
@@ -20,14 +21,14 @@ TriangleBins sort_triangles(const Device& device, const GridCounts& counts, doub
     return allocate_bins(device, {bins, counts.bricks, counts.bricks, pairs});
 }
 
-/// As find_inside.
+/// Follows find_inside.
 Buffer<uint16_t> count_inside(const Device& device, const GridCounts& counts) {
     const Windings windings =
         allocate_windings(device, counts.bricks, counts.bricks, brick_places(counts.frame));
     return allocate_inside(device, counts.bricks);
 }
 
-/// As label_voxels.
+/// Follows label_voxels.
 void count_labels(const Device& device, const GridCounts& counts, BrickGrid& grid) {
     const TriangleBins lists = sort_triangles(device, counts, kBinsInBand);
     const Buffer<uint32_t> nearest = allocate_words(device, "nearest triangles", counts.bricks);
@@ -61,7 +62,7 @@ void count_surface(const Device& device, const GridCounts& counts, BrickGrid& gr
     grid.occupancy = allocate_masks(device, "occupancy", counts.bricks);
 }
 
-/// As list_primitives and keep_triangles.
+/// Follows list_primitives, keep_triangles and keep_normals.
 void count_triangles(const Device& device, const GridCounts& counts, BrickGrid& grid) {
     const auto listed = size_t(kTrianglesPerVoxel * double(counts.voxels));
     grid.primitive_first = allocate_list_starts(device, "primitive starts", counts.bricks);
@@ -69,6 +70,9 @@ void count_triangles(const Device& device, const GridCounts& counts, BrickGrid& 
     grid.triangles =
         Buffer<float>(device, "source triangles", kFloatsPerTriangle * counts.triangles);
     grid.triangle_attributes = Buffer<uint32_t>(device, "source attributes", counts.triangles);
+    if (counts.normals)
+        grid.triangle_normals =
+            Buffer<uint32_t>(device, "source normals", VXL_TRIANGLE_NORMALS * counts.triangles);
 }
 
 }  // namespace

@@ -14,21 +14,22 @@ struct GridCounts {
     Surface surface = Surface::cubes;
     VoxelSet set = VoxelSet::supercover;
     bool words = false, colors = false;  ///< voxels have them
+    bool normals = false;                ///< triangles of an exact mesh have them
     size_t bricks = 0;                   ///< stored
     size_t voxels = 0;                   ///< that the surface passes through
     size_t vertices = 0, triangles = 0;  ///< of a mesh
     size_t shapes = 0;                   ///< of an analytic solid
 };
 
-/// Triangles that a voxel of an exact mesh lists.
+/// The number of triangles that a voxel of an exact mesh lists.
 inline constexpr double kTrianglesPerVoxel = 2.5;
 
-/// The grid of a mesh or of a solid, which has `shapes`. What is made beside it goes when it
-/// returns; the device's counters tell its height.
+/// The grid of a mesh, or of a solid, which has `shapes`. Whatever else is made is freed before it
+/// returns; the device's counters tell the maximum.
 BrickGrid count_mesh_grid(const Device& device, const GridCounts& counts);
 BrickGrid count_solid_grid(const Device& device, const GridCounts& counts);
 
-/// What is left of a mesh's `whole` grid, of `counts`, after cuts; the cuts' own grids go.
+/// The part of a mesh's `whole` grid, of `counts`, that cuts leave. The cuts' own grids are freed.
 BrickGrid count_cut_grid(const Device& device, const BrickGrid& whole, const GridCounts& counts);
 
 }  // namespace voxelume

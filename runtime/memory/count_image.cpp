@@ -12,10 +12,10 @@
 namespace voxelume {
 namespace {
 
-/// Tables that have a record for each material, object and sample, and counters, at most.
+/// The maximum bytes of counters and samples' tables, and of the records of a material or object.
 constexpr size_t kSmallTables = 8192, kRecordBytes = 160;
 
-/// As Illumination::send_beams. Lamps stand in the world, and send none.
+/// Follows Illumination::send_beams. Emissive objects are in the world, and send none.
 std::vector<Buffer<float>> count_light_beams(const Device& device, const Scene& scene,
                                              const Pyramid& world, DilationLevel of,
                                              uint32_t maximum) {
@@ -40,7 +40,8 @@ DilatedOccupancy count_dilated_occupancy(const Device& device, const Pyramid& wo
     const glm::dvec3 table(of == DilationLevel::leaves ? world.frame.sectors()
                                                        : (world.frame.sectors() + 3) / 4);
     const double places = table.x * table.y * table.z;
-    const double records = double(world.bricks.size() / kWordsPerRecord / kRecordsPerSector);
+    const size_t whole = world.bricks.size() / kWordsPerRecord / kRecordsPerSector;
+    const double records = double(whole);
     const double stored = (of == DilationLevel::leaves ? records : records / 16);
     DilatedOccupancy dilated_occupancy =
         allocate_dilated_occupancy(device, size_t(places), size_t(std::min(places, stored + 1)));

@@ -10,7 +10,7 @@
 
 namespace voxelume {
 
-/// What an image is made with.
+/// The buffers with which an image is made.
 struct ImageMemory {
     RayArrays rays;
     DilatedOccupancy dilated_occupancy;
@@ -29,7 +29,7 @@ ImageMemory count_image(const Device& device, const Scene& scene, const Pyramid&
 /// The small tables that light is computed with.
 Buffer<uint8_t> count_tables(const Device& device, const Scene& scene);
 
-/// The buffers of the dilated occupancy of such a world, where it pays for so many rays.
+/// The buffers of the dilated occupancy of a world.
 DilatedOccupancy count_dilated_occupancy(const Device& device, const Pyramid& world,
                                          DilationLevel of);
 

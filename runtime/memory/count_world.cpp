@@ -15,10 +15,10 @@
 namespace voxelume {
 namespace {
 
-/// Voxels of a surface in a leaf, and in a sector, of those that hold some.
+/// The voxels of a surface in a leaf, and in a sector, that holds any.
 constexpr double kVoxelsPerLeaf = 11, kVoxelsPerSector = 4096;
 
-/// As the painters of objects, which share what is the same for one grid.
+/// Follows the painters of objects, which share what depends on the grid alone.
 std::vector<Buffer<uint64_t>> count_painters(const Device& device,
                                              std::span<const PlacedObject> objects) {
     std::vector<Buffer<uint64_t>> painters;
@@ -29,7 +29,7 @@ std::vector<Buffer<uint64_t>> count_painters(const Device& device,
     return painters;
 }
 
-/// As WorldBricks::store and reserve.
+/// Follows WorldBricks::store and reserve.
 void count_bricks_of(const Device& device, const WorldParts& parts, size_t bricks,
                      BrickGrid& world) {
     world.brick_count = uint32_t(bricks);
@@ -42,26 +42,22 @@ void count_bricks_of(const Device& device, const WorldParts& parts, size_t brick
     world.coordinates = Buffer<uint32_t>(device, "world coordinates", bricks);
 }
 
-/// As Placer's painting.
-void count_painting(const Device& device, const WorldParts& parts, size_t bricks) {
-    const Buffer<int16_t> nearest = parts.measures_nearest()
-                                        ? allocate_distances(device, "nearest surfaces", bricks)
-                                        : Buffer<int16_t>();
-    const Buffer<uint32_t> painted(device, "painted bricks", 2 * bricks);
+/// Follows Placer's painting.
+void count_painting(const Device& device, size_t bricks) {
+    const Buffer<uint32_t> painted(device, "painted bricks", bricks);
 }
 
-/// As join_exact_surfaces.
+/// Follows join_exact_surfaces.
 void count_lists(const Device& device, std::span<const PlacedObject> objects, size_t primitives,
                  BrickGrid& world) {
-    size_t floats = 0, solid_words = 0;
+    SourceCounts sources;
     bool is_exact = false;
     for (const PlacedObject& object : objects) {
         is_exact |= !object.grid->primitive_first.empty();
-        floats += object.grid->triangles.size();
-        solid_words += object.grid->solids.size();
+        sources.add(*object.grid);
     }
     if (!is_exact) return;
-    allocate_sources(device, floats, solid_words, world);
+    allocate_sources(device, sources, world);
     const Buffer<uint32_t> counts = allocate_words(device, "primitive counts", world.brick_count);
     world.primitives = Buffer<uint32_t>(device, "world primitives", primitives);
     world.primitive_first =
@@ -85,15 +81,14 @@ CountedWorld count_placing(const Device& device, std::span<const PlacedObject> o
         const Buffer<uint32_t> listed(device, "listed bricks", counts.bricks);
     }
     count_bricks_of(device, parts, counts.bricks, grid);
-    count_painting(device, parts, counts.bricks);
+    count_painting(device, counts.bricks);
     count_lists(device, objects, counts.primitives, grid);
     return world;
 }
 
-void count_repainting(const Device& device, std::span<const PlacedObject> objects,
-                      const GridFrame& frame, size_t bricks) {
+void count_repainting(const Device& device, const GridFrame& frame, size_t bricks) {
     { const Buffer<uint8_t> states(device, "brick states", brick_places(frame)); }
-    count_painting(device, parts_of(objects), bricks);
+    count_painting(device, bricks);
 }
 
 Pyramid allocate_indexed(const Device& device, const BrickGrid& grid, const WorldCounts& counts) {

@@ -24,13 +24,12 @@ struct CountedWorld {
     std::vector<Buffer<uint64_t>> painters;
 };
 
-/// As Placer::place for the first time.
+/// Follows the first call of Placer::place.
 CountedWorld count_placing(const Device& device, std::span<const PlacedObject> objects,
                            const GridFrame& frame, const WorldCounts& counts);
 
-/// As Placer::place where `bricks` of a world change; what that takes goes.
-void count_repainting(const Device& device, std::span<const PlacedObject> objects,
-                      const GridFrame& frame, size_t bricks);
+/// Follows Placer::place where `bricks` of a world change. All buffers are freed again.
+void count_repainting(const Device& device, const GridFrame& frame, size_t bricks);
 
 /// A pyramid, and the marks that it was made from.
 struct CountedPyramid {
@@ -38,13 +37,14 @@ struct CountedPyramid {
     Buffer<uint64_t> masks;
 };
 
-/// As Indexer::index.
+/// Follows Indexer::index.
 CountedPyramid count_index(const Device& device, const BrickGrid& grid, const WorldCounts& counts);
 
 /// The pyramid alone.
 Pyramid allocate_indexed(const Device& device, const BrickGrid& grid, const WorldCounts& counts);
 
-/// As InstanceModels::join; `counts` are those of the listed grids, whose pyramids are `kept`.
+/// Follows InstanceModels::join; `counts` are those of the listed grids, whose pyramids are added
+/// to `kept`.
 Pyramid count_joining(const Device& device, const ListedInstances& listed, const Pyramid& world,
                       std::span<const WorldCounts> counts, std::vector<ModelPyramid>& kept);
 

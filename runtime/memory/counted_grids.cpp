@@ -26,7 +26,7 @@ void check_lattice(const Object& object, const Model& model, const glm::ivec3& s
                 kLatticeReach);
 }
 
-/// Has `make` give it its grid, and notes what that takes.
+/// Makes the grid by `make`, and notes what that takes.
 template <class Make>
 void measure(const Device& device, CountedGrid& counted, const Make& make) {
     DeviceCounters& counters = device.counters();
@@ -86,7 +86,7 @@ SharedGrid CountedGrids::make(CountedGrid counted, const Model& model) {
         if (model.solid) return count_solid_grid(device_, counted.counts);
         BrickGrid grid = count_mesh_grid(device_, counted.counts);
         if (model.cuts.empty()) return grid;
-        bodies_.push_back(std::move(grid));  // stays beside the cut one
+        bodies_.push_back(std::move(grid));  // kept together with the cut one
         return count_cut_grid(device_, bodies_.back(), counted.counts);
     });
     grids_.push_back(std::move(counted));

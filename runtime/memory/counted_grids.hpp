@@ -16,13 +16,13 @@ struct CountedGrid {
     int object = -1;  ///< whose grid it is alone; -1 for a model's, which objects share
     GridCounts counts;
     SharedGrid grid = {};
-    double made_bytes = 0;  ///< at the height of making it, its own included
-    double kept_bytes = 0;  ///< what it keeps
+    double made_bytes = 0;  ///< the maximum while it is made, its own bytes included
+    double kept_bytes = 0;  ///< its own bytes
     std::string largest_buffer = {};
     double largest_bytes = 0;
 };
 
-/// A mesh's grid, given up again.
+/// A mesh's grid, freed again.
 CountedGrid count_mesh(const Device& device, const GridCounts& counts);
 
 class CountedGrids {
@@ -38,7 +38,7 @@ class CountedGrids {
     const std::vector<CountedGrid>& all() const { return grids_; }
     const GridCounts& counts_of(const SharedGrid& grid) const;
 
-    /// Gives up the grids; what they take is still known.
+    /// Frees the grids; what they take is still known.
     void forget();
 
   private:

@@ -15,7 +15,7 @@
 namespace voxelume {
 namespace {
 
-/// What tracks change.
+/// What the scene's tracks change.
 struct Changes {
     std::vector<bool> models;   ///< of each model, whether its grids do
     std::vector<bool> objects;  ///< of each object in the world's voxels, whether it does
@@ -72,16 +72,16 @@ class FollowingWalk {
         joined.clear = medium_.is_zero;
         const ImageMemory image = count_image(device_, scene_, joined, medium_, SIZE_MAX);
         const Buffer<uint8_t> hits(device_, "hits", hit_bytes(joined));
-        build_next(placed, world.grid, counts, listed);
+        build_next(world.grid, counts, listed);
         // What two frames have at once depends on which of them is ahead.
         constexpr double kAhead = 1.15;
         return kAhead * double(device_.counters().peak_bytes);
     }
 
   private:
-    /// What the next frame's world needs beside all that is there.
-    void build_next(std::span<const PlacedObject> placed, const BrickGrid& world,
-                    const WorldCounts& counts, const ListedInstances& listed) {
+    /// Counts what the next frame's world needs in addition to all that is there.
+    void build_next(const BrickGrid& world, const WorldCounts& counts,
+                    const ListedInstances& listed) {
         std::vector<BrickGrid> made;
         for (const CountedGrid& grid : grids_.all())
             if (changes_.models[size_t(grid.model)] ||
@@ -91,8 +91,8 @@ class FollowingWalk {
                                    : count_mesh_grid(device_, grid.counts));
         const auto bricks = size_t(objects_.changed_bricks(changes_.objects));
         if (bricks == 0) return;
-        count_repainting(device_, placed, world.frame, std::min(2 * bricks, counts.bricks));
-        // The marks stay, and all else of the index is made anew.
+        count_repainting(device_, world.frame, std::min(2 * bricks, counts.bricks));
+        // The marks stay, and all else of the index is made again.
         const Pyramid before = allocate_indexed(device_, world, counts);
         std::vector<ModelPyramid> kept;
         if (!listed.list.empty()) count_joining(device_, {{}, listed.list, {}}, before, {}, kept);

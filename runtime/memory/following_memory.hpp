@@ -8,8 +8,8 @@
 
 namespace voxelume {
 
-/// Bytes of the device at the height of a run of frames that keeps what they share, where each
-/// frame's world is built while the one before is rendered. 0 for a scene that stands still.
+/// The maximum bytes of the device in a run of frames that keeps what they share and builds each
+/// frame's world while the one before is rendered. 0 for a scene that stands still.
 double walk_following(const Scene& scene, AssetStore& meshes, ObjectCounts& objects,
                       const DensityPlan& medium);
 

@@ -33,7 +33,7 @@ class FrameWalk {
     }
 
   private:
-    /// As WorldBuilder::form.
+    /// Follows WorldBuilder::form.
     Pyramid form() {
         const ListedInstances listed =
             list_instances(scene_, meshes_, [this](const Object& object, const Model& model) {
@@ -44,7 +44,7 @@ class FrameWalk {
             models.push_back(indexed_counts(grids_.counts_of(grid)));
         const CountedPyramid placed = form_placed();
         std::vector<ModelPyramid> kept;
-        const Pyramid joined = count_joining(device_, listed, placed.pyramid, models, kept);
+        Pyramid joined = count_joining(device_, listed, placed.pyramid, models, kept);
         memory_.index = height();
         memory_.largest_buffer = device_.counters().largest_buffer;
         memory_.largest_bytes = double(device_.counters().largest_bytes);
@@ -73,7 +73,7 @@ class FrameWalk {
         return count_index(device_, world, memory_.world);
     }
 
-    /// As Renderer::image.
+    /// Follows Renderer::image.
     void show(const Pyramid& world) {
         const size_t depth = estimate_ == Estimate::minimum ? 1 : SIZE_MAX;
         height();
@@ -87,7 +87,7 @@ class FrameWalk {
         memory_.rays = ray_bytes(features, ray_counts(scene_, features));
     }
 
-    /// Bytes at the height since the last call.
+    /// The maximum bytes since the last call.
     double height() {
         DeviceCounters& counters = device_.counters();
         const auto bytes = double(counters.peak_bytes);

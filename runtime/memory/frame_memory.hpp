@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// scene -> the memory of a device at each step of rendering it, by a walk through the steps on a
-// counting device.
+// scene -> the memory that each step of rendering it takes of a device, by a walk through the steps
+// on a counting device.
 #pragma once
 
 #include <string>
@@ -12,19 +12,19 @@
 
 namespace voxelume {
 
-/// Bytes of the device at the height of each step, what stays from the steps before included.
+/// The maximum bytes of the device during each step, with what stays from the steps before.
 struct FrameMemory {
-    std::vector<CountedGrid> grids;  ///< given up
+    std::vector<CountedGrid> grids;  ///< freed
     WorldCounts world;
     double voxelize = 0, place = 0, index = 0, image = 0;
-    double volume = 0;             ///< instead of the image: of the volumetric one of its display
-    double pyramid = 0;            ///< part of the last two
-    double dilated_occupancy = 0;  ///< part of the last
+    double volume = 0;             ///< for the display's volumetric image instead of the image
+    double pyramid = 0;            ///< part of `image` and `volume`
+    double dilated_occupancy = 0;  ///< part of `image`
     RayBytes rays;                 ///< all that they may need
     std::string largest_buffer;    ///< of placing and indexing
     double largest_bytes = 0;
 
-    double built() const;  ///< at the height of forming the world
+    double built() const;  ///< the maximum while the world is built
 };
 
 /// Follows WorldBuilder and Renderer through a single frame. With the least estimate only the first

@@ -13,9 +13,9 @@
 namespace voxelume {
 namespace {
 
-/// Whether both frames have the same plan, as nothing changed that it depends on: of lights that is
-/// whether they shine, and of the observer nothing, but where without colour rays are only followed
-/// through surfaces that he may be behind.
+/// True if both frames have the same plan, as nothing changed that it depends on. It depends on
+/// whether lights shine, but not on their other values. It depends on the observer only in images
+/// without colour, whose rays are followed through surfaces that he may be behind.
 bool is_planned_like(const Scene& a, const Scene& b) {
     return (a.render.channels.color || a.observer == b.observer) && a.objects == b.objects &&
            a.models == b.models && a.materials == b.materials &&
@@ -23,14 +23,15 @@ bool is_planned_like(const Scene& a, const Scene& b) {
            a.world.medium == b.world.medium;
 }
 
-/// Whether both frames show the same meshes and voxels.
+/// True if both frames show the same meshes and voxels.
 bool has_files_of(const Scene& a, const Scene& b) {
     return std::ranges::equal(a.models, b.models, [](const Model& m, const Model& n) {
         return m.mesh == n.mesh && m.voxels == n.voxels && m.morph == n.morph;
     });
 }
 
-/// Leaves in main memory the meshes of a frame, and as many of others as may wait for theirs.
+/// Frees the meshes in main memory except a frame's, as far as they take more than meshes of other
+/// frames may.
 void forget_largest(const Scene& scene, const DeviceInfo& device, AssetStore& meshes) {
     uint64_t room = device.memory / kRetainedPart;
     for (const Model& model : scene.models) meshes.retain(model, room);

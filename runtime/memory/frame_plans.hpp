@@ -16,7 +16,7 @@ struct FramePlan {
     int plans = 1;  ///< made for this and other frames; the rest have the plans of those before
 };
 
-/// Whether check_memory refuses the frame.
+/// True if check_memory refuses the frame.
 bool is_refused(const FramePlan& planned, const DeviceInfo& device);
 
 /// Plans all `frames` of a scene, one or more, and returns the first that doesn't fit the device,

@@ -17,7 +17,7 @@ namespace {
 constexpr double kSurfaceBand = 2.8;  ///< voxels around a smooth surface that have distances
 constexpr double kPlacedBand = 5;     ///< around cubes: placing looks at whole leaves of them
 
-/// More than areas and distances tell there is of an expected surface's bricks and voxels, at most.
+/// The maximum by which a surface's bricks and voxels exceed what areas and distances tell.
 constexpr double kMargin = 1.12;
 
 const glm::dmat4 kOwnSpace(1);
@@ -31,14 +31,13 @@ bool is_solid_set(const Model& model) {
     return model.surface == Surface::cubes && model.set == VoxelSet::solid;
 }
 
-/// A solid set's voxels beside those of the surface: half of what is in its bricks, and no more
-/// than the object has.
+/// A solid set's voxels without those of the surface: half of those in its bricks, and no more than
+/// the object has.
 double filled_voxels(const SurfaceExtent& extent, double inside) {
     return std::min(inside, 0.5 * extent.bricks * double(kVoxelsPerBrick));
 }
 
-/// How much longer the box around an object's view of a cube is than the cube, on average over its
-/// axes.
+/// The ratio of the box around a cube in the object's space to the cube, on average over its axes.
 double spread_of(const Object& object) {
     const glm::dmat3 turn(object.world_from_object);
     double sum = 0;
@@ -49,7 +48,7 @@ double spread_of(const Object& object) {
     return sum / 3;
 }
 
-/// Areas say too much of small surfaces, and too little of others.
+/// The smaller of two counts: areas tell too much of small surfaces, and too little of others.
 SurfaceExtent smaller(const SurfaceExtent& a, const SurfaceExtent& b) {
     return {std::min(a.voxels, b.voxels), std::min(a.bricks, b.bricks)};
 }
@@ -83,6 +82,7 @@ GridCounts counts_of(const Model& model, const MeshSummary* mesh, const GridFram
     if (!mesh) return counts;
     counts.words = mesh->group_names.size() > 1;
     counts.colors = mesh->has_colors;
+    counts.normals = has_shading_normals(model.shading, mesh->has_normals);
     counts.vertices = mesh->corners;
     counts.triangles = mesh->triangles;
     return counts;
@@ -151,8 +151,9 @@ VoxelBox ObjectCounts::box_in(const GridFrame& frame, const Object& object) {
     return {box.low - first, box.high - first};
 }
 
-/// In the world there are as many voxels of a file as in its volume, and no fewer bricks; at least
-/// as many as a larger voxel holds of its own, if the world shows all of it.
+/// What a file's voxels take of the world: the world's voxels in their volume, and no fewer bricks
+/// than the file's; at least one for all of the file's voxels that a larger voxel of the world
+/// holds, if the world shows all of them.
 SurfaceExtent ObjectCounts::voxels_in_world(const Object& object, const VoxelModel& voxels,
                                             bool at_least) {
     const auto volume = [](const glm::dvec3& edge) { return edge.x * edge.y * edge.z; };

@@ -33,7 +33,8 @@ class ObjectCounts {
     /// What the objects' voxels take of the world.
     WorldCounts world(Estimate estimate);
 
-    /// Bricks of the world that those of `objects` are expected in that are true.
+    /// The number of the world's bricks that the objects are expected in for which `objects` is
+    /// true.
     double changed_bricks(const std::vector<bool>& objects);
 
     /// As object_boxes.
@@ -52,7 +53,7 @@ class ObjectCounts {
     std::vector<SurfaceExtent> in_world_;  ///< of each object, of these
 };
 
-/// The grid of a mesh of which the surface has such an area.
+/// The grid of a mesh whose surface has such an area.
 GridCounts mesh_grid(const Model& model, const MeshSummary& mesh, const GridFrame& frame,
                      const SurfaceArea& area);
 

@@ -12,11 +12,11 @@
 namespace voxelume {
 namespace {
 
-// Bytes of main memory: for each brick of the world's lattice, slots and states; of a model's,
-// while it is made; for each triangle.
+// Bytes of main memory for a brick of the world's lattice (slots and states), for a brick of a
+// model's lattice while its grid is made, and for a triangle.
 constexpr double kWorldTable = 5, kModelTable = 12, kTriangleBytes = 36;
 
-/// What a grid takes, expected and at least; the largest buffer is the least grid's.
+/// What a grid takes, expected and at least; the largest buffer is that of the minimum.
 GridPlan grid_plan(const CountedGrid& expected, const CountedGrid& minimum) {
     GridPlan grid{.model = expected.model,
                   .object = expected.object,

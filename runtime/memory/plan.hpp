@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // scene -> what rendering it takes: the grids of every step and their memory, before any is taken.
 //
-// An estimate: surfaces are counted by runtime/geometry/surface_extent.hpp, bytes by what the
-// stages store for each brick, voxel, triangle, ray and pixel (listed in plan_grid.hpp,
-// plan_stages.cpp and ray_arrays.cpp).
+// It is an estimate of surfaces (by runtime/geometry/surface_extent.hpp and brick_count.hpp). Bytes
+// follow exactly: the functions that allocate the stages' buffers run on a device that only counts.
 #pragma once
 
 #include <string>
@@ -23,37 +22,37 @@ struct ScenePlan {
     double voxels = 0;  ///< surface voxels of the world
     double bricks = 0;
 
-    // device memory at the height of each stage
+    // The maximum bytes of the device during each stage.
     double voxelize_bytes = 0;
     double place_bytes = 0;
     double index_bytes = 0;
     double image_bytes = 0;
-    double volume_bytes = 0;  ///< instead of the last: of the display's volumetric image
+    double volume_bytes = 0;  ///< for the display's volumetric image, instead of image_bytes
 
-    double world_bytes = 0;  ///< the pyramid's, part of the last two
+    double world_bytes = 0;  ///< the pyramid's, part of image_bytes and volume_bytes
     double dilated_occupancy_bytes =
-        0;                  ///< of the grid that beams of rays are sent through, part of the last
-    RayBytes rays;          ///< of which the most are part of the last
-    DensityPlan medium;     ///< part of the last one
+        0;               ///< of the grid that beams of rays are sent through, part of image_bytes
+    RayBytes rays;       ///< their maximum is part of image_bytes
+    DensityPlan medium;  ///< part of image_bytes
     double host_bytes = 0;  ///< tables, meshes and the image in main memory
 
-    /// At the height of all stages, and of the world's buffers but those of its tables and medium,
-    /// at least: what objects take that can't lie in each other's bricks. No more than that is
-    /// refused before it is tried.
+    /// The minimum that all stages need, and the world's buffers except those of its tables and
+    /// medium: the bytes of objects that can't lie in each other's bricks. Only a frame that needs
+    /// more than the device has by this count is refused before it is tried.
     double min_bytes = 0;
-    double min_image_bytes = 0;  ///< of the last one, the same way
-    double min_with_next = 0;    ///< of bytes_with_next, the same way
+    double min_image_bytes = 0;  ///< such a minimum of image_bytes
+    double min_with_next = 0;    ///< such a minimum of bytes_with_next
     BufferPlan largest;
 
     double peak_bytes() const;
 
-    /// While the next frame's world is built beside a frame that is rendered and all that is kept
-    /// of both; 0 for a scene that stands still.
+    /// The maximum while a frame is rendered and the next one's world is built, with all that is
+    /// kept of both; 0 for a scene that stands still.
     double following_bytes = 0;
-    /// What a run of so many frames takes of a device of such a memory: what is kept between frames
-    /// is given up where it has no room.
+    /// The bytes that a run of `frames` frames takes of a device with `memory` bytes: what is kept
+    /// between frames is freed where it has no room.
     double run_bytes(size_t frames, double memory) const;
-    /// Where grids, bricks and the pyramid stay while the next world is formed beside them.
+    /// The bytes if grids, bricks and the pyramid stay while the next world is built.
     double bytes_with_next() const { return place_bytes + index_bytes + image_bytes; }
 };
 
@@ -76,10 +75,10 @@ void check_tables(const Scene& scene, const DeviceInfo& device);
 /// Throws Error::limit, saying what is too large and what to do, when a plan doesn't fit.
 void check_memory(const Scene& scene, const ScenePlan& plan, const DeviceInfo& device);
 
-/// Bytes for each pixel in the largest buffer of an image.
+/// The bytes of a pixel in the largest buffer of an image.
 double pixel_bytes(const ImageChannels& channels);
 
-/// Bytes of the device for an image.
+/// The bytes of an image on a device.
 double image_bytes(const RenderSettings& render);
 
 /// "400x360x320"

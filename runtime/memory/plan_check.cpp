@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whether a plan fits into a device, and what to do if not.
+// Refuses plans that don't fit a device, and says what to do.
 #include <unistd.h>
 
 #include <algorithm>
@@ -38,7 +38,7 @@ double surface_factor(double bytes, double there) {
     return 1.05 * std::sqrt(bytes / there);
 }
 
-/// What makes a buffer fit into `piece` bytes.
+/// The change that makes a buffer fit into `piece` bytes.
 std::string smaller_buffer(const BufferPlan& buffer, double piece, const glm::dvec3& edge) {
     switch (buffer.growth) {
         case BufferGrowth::surface:
@@ -51,7 +51,8 @@ std::string smaller_buffer(const BufferPlan& buffer, double piece, const glm::dv
     return fmt::format("use meshes with {:.2g} of the triangles", 0.95 * piece / buffer.bytes);
 }
 
-/// Refuses what has a buffer that the device allows no piece for; `subject` names it: "a model".
+/// Refuses a buffer that is larger than the device allows in one piece; `subject` names its owner:
+/// "a model".
 void check_piece(const SourcePlace& place, const char* subject, const GridFrame& frame,
                  const BufferPlan& largest, const DeviceInfo& device) {
     const double piece = double(device.max_allocation);
@@ -68,7 +69,7 @@ double main_memory() {
     return double(sysconf(_SC_PHYS_PAGES)) * double(sysconf(_SC_PAGE_SIZE));
 }
 
-/// What makes an image and its rays take less.
+/// The changes that make an image and its rays take less.
 std::string smaller_image(const RenderSettings& render, const RayBytes& rays) {
     std::string text = "render a smaller one";
     if (rays.minimum() < image_bytes(render)) return text;
@@ -146,7 +147,7 @@ void check_model(const Model& model, const GridPlan& plan, const DeviceInfo& dev
 void check_tables(const Scene& scene, const DeviceInfo& device) {
     const World& world = scene.world;
     const GridFrame frame = world_frame(world);
-    // 4 bytes for each brick, in one buffer, and again in main memory with what is made of them.
+    // The table has 4 bytes for each brick in one buffer, and main memory holds a copy.
     const double bricks = brick_table(frame), bytes = 4 * bricks;
     const double there = double(std::min(device.memory, device.max_allocation));
     if (bytes > there) {

@@ -9,7 +9,7 @@
 namespace voxelume {
 namespace {
 
-constexpr size_t kMaxCompared = 1024;  // each with all before: some milliseconds
+constexpr size_t kMaxCompared = 1024;  // each is compared with all before it: some milliseconds
 
 struct BrickRange {
     glm::dvec3 first, last;

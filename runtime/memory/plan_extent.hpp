@@ -20,8 +20,9 @@ struct ObjectExtent {
     WorldExtent extent;
 };
 
-/// The sum over objects of which no two can share a brick: those with most bricks first, each if
-/// its box is apart from those taken before. Of very many the smallest are left out.
+/// The sum over objects of which no two can share a brick: beginning with those of most bricks,
+/// each counts if its box is apart from those counted before. The smallest of very many are left
+/// out.
 WorldExtent min_extent(std::vector<ObjectExtent> objects);
 
 }  // namespace voxelume

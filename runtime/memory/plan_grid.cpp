@@ -6,14 +6,14 @@
 namespace voxelume {
 namespace {
 
-/// A part of buffers' names, and what messages call such.
+/// A part of buffers' names, and the words for such buffers in messages.
 struct BufferWords {
     const char* part;
     const char* what;
     BufferGrowth growth = BufferGrowth::surface;
 };
 
-/// The first whose part a name has is meant.
+/// A buffer is described by the first row whose part its name contains.
 constexpr std::array kWords = {
     BufferWords{"slots", "the table of its bricks", BufferGrowth::table},
     BufferWords{"bin numbers", "the table of its bricks", BufferGrowth::table},
@@ -29,6 +29,8 @@ constexpr std::array kWords = {
     BufferWords{"voxel fields", "its voxels' fields"},
     BufferWords{"attributes of", "its triangles", BufferGrowth::triangles},
     BufferWords{"triangle", "its triangles", BufferGrowth::triangles},
+    BufferWords{"source normals", "its triangles' normals", BufferGrowth::triangles},
+    BufferWords{"world normals", "its triangles' normals", BufferGrowth::triangles},
     BufferWords{"lattice", "its triangles", BufferGrowth::triangles},
     BufferWords{"bin lists", "its triangles", BufferGrowth::triangles},
     BufferWords{"starts", "the starts of its voxels' lists"},

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What voxelizing a model takes: its grid's memory, and the largest buffer of it.
+// What voxelizing a model takes: its grid's memory and its largest buffer.
 #pragma once
 
 #include <cstdint>
@@ -26,13 +26,13 @@ struct BufferPlan {
     BufferGrowth growth = BufferGrowth::surface;
 };
 
-/// What a message says of a buffer that the counters know by such a name.
+/// The buffer, as messages name it, that the counters know by `name`.
 BufferPlan described_buffer(const std::string& name, double bytes);
 
 /// Keeps the larger of two.
 void keep_larger(BufferPlan& largest, const BufferPlan& buffer);
 
-/// Of a grid, at least: less than planned where a solid's parts may lie in each other.
+/// The minimum of a grid: less than planned where a solid's parts may lie in each other.
 struct MinGrid {
     double voxels = 0, made_bytes = 0, kept_bytes = 0;
 };
@@ -51,7 +51,7 @@ struct GridPlan {
     BufferPlan largest = {};  ///< of the buffers that it takes while it is made
 };
 
-/// Bricks of a lattice, stored or not.
+/// The number of bricks of a lattice, stored or not.
 double brick_table(const GridFrame& frame);
 
 }  // namespace voxelume

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// object -> what its surface takes of the world, as planned and at least.
+// object -> what its surface takes of the world, expected and at least.
 #pragma once
 
 #include <map>
@@ -17,18 +17,18 @@ class ObjectExtents {
   public:
     ObjectExtents(const Scene& scene, AssetStore& meshes);
 
-    /// Of a model's surface in its own space.
+    /// The area of a model's surface in its own space.
     const SurfaceArea& area_of(int model_number);
 
     SurfaceExtent planned(const Object& object, double band) { return extent(object, band, false); }
 
-    /// No more than it takes; nothing of a mesh that is cut.
+    /// The minimum that it takes; nothing for a mesh that is cut.
     SurfaceExtent minimum(const Object& object, double band);
 
-    /// Voxels of the world inside of an object whose inside rays see: those of its box.
+    /// The world's voxels in an object whose inside rays see: at most those of its box.
     double inside_voxels(const Object& object);
 
-    /// Whether the map takes all of a box into the world.
+    /// True if the map takes all of a box into the world.
     bool lies_in_world(const glm::dvec3& low, const glm::dvec3& high, const glm::dmat4& map) const;
 
     /// As object_boxes.

@@ -61,8 +61,8 @@ double shape_distance(const glm::dvec3& p, const Solid& s) {
     }
 }
 
-/// No more than the least length that a map gives to a unit vector: one over the largest that its
-/// inverse gives, by its rows' lengths.
+/// A lower bound on the length that a map gives to a unit vector: one over an upper bound on the
+/// length that its inverse gives.
 double least_stretch(const glm::dmat4& inverse) {
     const glm::dmat3 turn(inverse);
     const double columns = std::sqrt(glm::dot(turn[0], turn[0]) + glm::dot(turn[1], turn[1]) +

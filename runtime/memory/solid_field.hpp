@@ -11,8 +11,8 @@ namespace voxelume {
 
 /// The distance to a solid's surface under a map, positive outside.
 ///
-/// No map makes it larger than it is, so that a ball of that radius around the point is on one side
-/// of the surface; combinations take the least and the greatest of their parts, as kernels do.
+/// It is a lower bound under any map, so that a ball of that radius around the point is on one side
+/// of the surface. Combinations take the minimum or maximum over their parts, as kernels do.
 class SolidField {
   public:
     SolidField(const Solid& solid, const glm::dmat4& frame_from_solid);

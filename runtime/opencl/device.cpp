@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <limits>
 #include <mutex>
+#include <set>
 #include <utility>
 
 #include "runtime/base/error.hpp"
@@ -86,6 +87,10 @@ struct Device::Opened {
     DeviceCounters counters;
     std::map<std::string, cl::Program> programs;
     std::mutex mutex;
+    std::set<cl_program> fresh;             ///< programs that no earlier run compiled
+    std::map<std::string, bool> compiling;  ///< their kernels: whether they were launched
+    CompileListener compile_listener;
+    std::mutex telling;  ///< held while the listener is called
     bool timing = false;
     bool has_run = false;      ///< to its end
     bool is_counting = false;  ///< without a device
@@ -229,9 +234,38 @@ void Device::time_kernels(bool on) const {
     queue_->renew();
 }
 
+void Device::listen_to_compiler(CompileListener listener) const {
+    const std::scoped_lock locked(queue_->opened->telling, queue_->opened->mutex);
+    queue_->opened->compile_listener = std::move(listener);
+}
+
+void Device::note_fresh(const cl::Program& program) const {
+    queue_->opened->fresh.insert(program());
+}
+
+void Device::note_kernel(const cl::Program& program, const std::string& kernel) const {
+    const auto locked = lock();
+    if (queue_->opened->fresh.contains(program())) queue_->opened->compiling.emplace(kernel, false);
+}
+
+void Device::tell_compiling(const std::string& kernel) const {
+    Opened& opened = *queue_->opened;
+    int known = 0, launched = 0;
+    {
+        const auto locked = lock();
+        const auto found = opened.compiling.find(kernel);
+        if (found == opened.compiling.end() || std::exchange(found->second, true)) return;
+        known = int(opened.compiling.size());
+        for (const auto& [name, was_launched] : opened.compiling) launched += int(was_launched);
+    }
+    const std::lock_guard telling(opened.telling);
+    if (opened.compile_listener) opened.compile_listener(launched, known);
+}
+
 void Device::enqueue(const cl::Kernel& kernel, const std::string& name, const cl::NDRange& items,
                      const cl::NDRange& group) const {
     const bool timing = queue_->opened->timing;
+    tell_compiling(name);
     try {
         cl::Event event;
         queue_->queue.enqueueNDRangeKernel(kernel, cl::NullRange, items, group, nullptr,

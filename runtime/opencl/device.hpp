@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -57,6 +58,9 @@ struct DeviceCounters {
     uint64_t largest_bytes = 0;
 };
 
+/// Hears that a kernel is about to be compiled, the `kernel`-th of `known` such kernels so far.
+using CompileListener = std::function<void(int kernel, int known)>;
+
 /// An open device and an in-order queue of work for it. Buffers and programs made on it share it.
 /// Each thread uses a queue of its own.
 class Device {
@@ -89,7 +93,7 @@ class Device {
     /// from its buffers, nothing launched on it; memory is without end.
     static Device counting(DeviceInfo info);
 
-    /// The same device with another queue, for another thread. Its buffers, once written, serve
+    /// Returns this device with another queue, for another thread. Its buffers, once written, serve
     /// kernels of both.
     Device with_own_queue() const;
 
@@ -116,6 +120,15 @@ class Device {
     /// after `finish`.
     void time_kernels(bool on) const;
 
+    /// Has `listener` called, by one thread at a time, before the first launch of each kernel whose
+    /// program wasn't ready from an earlier run. PoCL compiles it then; other drivers have, when
+    /// the program was built. An empty one ends that.
+    void listen_to_compiler(CompileListener listener) const;
+    /// Notes a program that no earlier run compiled. To be called with `lock` held.
+    void note_fresh(const cl::Program& program) const;
+    /// Notes a kernel of a program, which may be such a program.
+    void note_kernel(const cl::Program& program, const std::string& kernel) const;
+
     /// Enqueues a launch of `kernel`, which is named `name` in the counters.
     void enqueue(const cl::Kernel& kernel, const std::string& name, const cl::NDRange& items,
                  const cl::NDRange& group) const;
@@ -125,6 +138,7 @@ class Device {
     struct Queue;
     static Device open(const cl::Device& device, const DeviceInfo& info, int lanes,
                        const Device* beside);
+    void tell_compiling(const std::string& kernel) const;
     explicit Device(std::shared_ptr<Queue> queue) : queue_(std::move(queue)) {}
     std::shared_ptr<Queue> queue_;
 };

@@ -157,7 +157,9 @@ Program::Program(const Device& device, const std::string& label, const KernelSou
 
 Kernel Program::kernel(const std::string& name) const {
     try {
-        return Kernel(device_, std::make_shared<cl::Kernel>(*program_, name.c_str()), name);
+        Kernel kernel(device_, std::make_shared<cl::Kernel>(*program_, name.c_str()), name);
+        device_.note_kernel(*program_, name);
+        return kernel;
     } catch (const cl::Error& error) {
         throw Error(ErrorKind::build, "{} has no kernel {} on \"{}\" ({})", label_, name,
                     device_.info().name, status_name(error.err()));

@@ -95,7 +95,7 @@ class Kernel {
 /// The arguments of one launch, set in the order of the kernel's parameters.
 ///
 /// A structure that kernels take whole has a function `bind(KernelArguments&, const Structure&)`
-/// beside it, and a macro of parameters in kernels/lib: whoever adds a buffer to it adds one to
+/// and a macro of parameters in kernels/lib. A buffer that is added to the structure is added to
 /// these two, in the same place.
 class KernelArguments {
   public:

@@ -120,6 +120,7 @@ cl::Program build_with_pocl(const Device& device, const ProgramText& text,
 cl::Program build_program(const Device& device, const std::string& label, const ProgramText& text,
                           std::span<const ProgramText> parts) {
     const auto start = std::chrono::steady_clock::now();
+    const uint64_t from_cache = device.counters().programs_from_cache;
     cl::Program program;
     try {
         if (device.info().platform == kPoclPlatform)
@@ -136,6 +137,7 @@ cl::Program build_program(const Device& device, const std::string& label, const 
         throw_device_error(error, device.info(), "compiling " + label);
     }
     ++device.counters().programs_built;
+    if (device.counters().programs_from_cache == from_cache) device.note_fresh(program);
     device.counters().build_ms +=
         std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
     return program;

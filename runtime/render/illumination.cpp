@@ -174,7 +174,7 @@ void Illumination::follow(size_t number, RayBatch& first, uint32_t count, bool h
     }
 }
 
-/// Follows reflected and refracted rays, as many at a time as fit: blocks 6.1 to 9.
+/// Follows reflected and refracted rays, at most `max_rays_` entries at a time: blocks 6.1 to 9.
 void Illumination::scatter(size_t number, RayBatch& entries, uint32_t count) {
     const uint32_t branches = branches_of(features_);
     for (uint32_t begin = 0; begin < count; begin += max_rays_) {

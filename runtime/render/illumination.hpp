@@ -39,10 +39,10 @@ class Illumination {
     Illumination(const Device& device, const Features& features, const Scene& scene,
                  const Pyramid& world, uint32_t max_rays, bool compact = true);
 
-    /// Sends beams from the lights, at most `maximum` from one: shadow rays end where their light's
-    /// tell that nothing more is before them. `sent` holds beams that were sent through this
-    /// dilated occupancy before, afterwards those of these lights. For features with
-    /// `lights_send_beams`.
+    /// Sends beams from the lights, at most `maximum` from one. Shadow rays end where their light's
+    /// beams tell that only empty space is before them. `sent` holds beams that were sent through
+    /// this dilated occupancy before, and afterwards those of these lights. Call it only for
+    /// features with `lights_send_beams`.
     void send_beams(const DilatedOccupancy& dilated_occupancy, uint32_t maximum,
                     std::vector<LightBeams>& sent);
 

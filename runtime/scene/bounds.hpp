@@ -2,6 +2,7 @@
 // Boxes along the axes.
 #pragma once
 
+#include <algorithm>
 #include <glm/vec3.hpp>
 
 namespace voxelume {
@@ -13,6 +14,12 @@ struct Bounds {
 
     friend bool operator==(const Bounds&, const Bounds&) = default;
 };
+
+/// The length of the box's longest side.
+inline double longest_side(const Bounds& bounds) {
+    const glm::dvec3 size = bounds.max - bounds.min;
+    return std::max({size.x, size.y, size.z});
+}
 
 /// A corner of the box; bits 0, 1 and 2 of `number`, 0..7, choose max over min on x, y and z.
 inline glm::dvec3 corner(const Bounds& bounds, int number) {

@@ -53,7 +53,7 @@ struct Display {
 /// What a scene says of a display's shape, of all shapes.
 struct DisplayParameters {
     std::optional<glm::dvec2> angles;  ///< degrees, from edge to edge
-    std::optional<double> angle;       ///< likewise, both or the horizontal one
+    std::optional<double> angle;       ///< degrees: both of these, or the horizontal one
     double near = 0;                   ///< metres
     std::optional<double> far;         ///< metres; without one up to the end of the world
     double radius = 0;                 ///< metres

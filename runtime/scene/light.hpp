@@ -51,7 +51,7 @@ struct LightParameters {
     glm::vec3 color{1};
     double intensity = 1;
     std::optional<double> angle;        ///< degrees, from edge to edge
-    std::optional<double> inner_angle;  ///< likewise, of the full light
+    std::optional<double> inner_angle;  ///< degrees, from edge to edge of the full light
     double radius = 0;                  ///< metres
     glm::dvec2 size{0};                 ///< metres
     int light_samples = 64;

@@ -9,7 +9,7 @@
 
 namespace voxelume {
 
-/// Sets the values that a part's tracks change, and forms anew what follows from them.
+/// Sets the values that a part's tracks change, and what follows from them.
 class MovedPart {
   public:
     MovedPart(const MovingPart& part, const std::string& file, double frame, Scene& scene);

@@ -13,6 +13,7 @@
 
 #include "runtime/base/source_place.hpp"
 #include "runtime/scene/bounds.hpp"
+#include "runtime/scene/shading.hpp"
 #include "runtime/scene/solid.hpp"
 #include "runtime/scene/surface.hpp"
 #include "runtime/scene/value_row.hpp"
@@ -28,20 +29,34 @@ struct Morph {
     bool operator==(const Morph&) const = default;
 };
 
+/// The map from the coordinates of a model's files to object space.
+struct FileMap {
+    double scale = 1;     ///< metres per unit of the file, > 0
+    glm::dvec3 shift{0};  ///< metres; added after scaling
+    bool operator==(const FileMap&) const = default;
+
+    bool is_identity() const { return *this == FileMap(); }
+    glm::dvec3 operator()(const glm::dvec3& p) const { return scale * p + shift; }
+    Bounds operator()(const Bounds& box) const { return {(*this)(box.min), (*this)(box.max)}; }
+};
+
 /// O_i before it is placed: a mesh file or a solid, with the lattice that it is voxelized on.
 struct Model {
     std::string name;
     std::filesystem::path mesh;    ///< a regular file inside the asset folders; may be empty
-    std::filesystem::path voxels;  ///< likewise, of voxels that are there already; may be empty
-    std::optional<Morph> morph;    ///< of a mesh
-    std::vector<Solid> cuts;       ///< of a mesh that isn't exact: what is taken away from it
-    std::optional<Solid> solid;    ///< has a value exactly when both files are empty
-    glm::dvec3 voxel_size{0};      ///< metres in object space, > 0; 0 when `resolution` decides
+    std::filesystem::path voxels;  ///< such a file of voxels that are there already; may be empty
+    double fit = 0;              ///< metres that the file's longest side becomes; 0: as in the file
+    FileMap object_from_file;    ///< of both files, and of the mesh that a morph ends as
+    std::optional<Morph> morph;  ///< of a mesh
+    std::vector<Solid> cuts;     ///< of a mesh that isn't exact: what is taken away from it
+    std::optional<Solid> solid;  ///< has a value exactly when both files are empty
+    glm::dvec3 voxel_size{0};    ///< metres in object space, > 0; 0 when `resolution` decides
     int resolution = 0;  ///< voxels along the longest side, 1..65536; 0 when `voxel_size` decides
     bool is_sized = false;  ///< the scene says one of these two, and may want coarser voxels than
                             ///< the world's
     Surface surface = Surface::smooth;
     VoxelSet set = VoxelSet::supercover;  ///< for `cubes`
+    Shading shading;                      ///< of an exact mesh
     /// Box in object space outside of which no object shows the model: the world's bounds as seen
     /// from all objects that use it. An infinite solid ends there. Empty (min = max) for a model
     /// not used.

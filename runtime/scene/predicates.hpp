@@ -40,11 +40,11 @@ bool shows_inside(const Scene& scene, const Object& object);
 /// stands in a scene whose display is a lattice.
 bool can_be_instance(const Scene& scene, const Object& object);
 
-/// Whether rays are carried into the object's space, instead of the object into the world's.
+/// True if rays are transformed into the object's space, instead of the object into the world's.
 ///
-/// `auto` is `world` for an object that stands still, and for one that can't be an instance: a lamp
-/// (its light samples are found in the world's voxels), one that lets light through, one in a scene
-/// whose display is a lattice (which shows the world's voxels).
+/// `auto` is `world` for an object that stands still, and for one that can't be an instance: an
+/// emissive object (its light samples are found in the world's voxels), one that lets light
+/// through, or one in a scene whose display is a lattice (which shows the world's voxels).
 bool is_instanced(const Scene& scene, const Object& object);
 
 /// Throws Error::scene, saying why, for an object that is to be an `instance` and can't.

@@ -40,6 +40,7 @@ void resize(Scene& scene, glm::ivec2 size) {
                     kMaxImageSide, size.x, size.y);
     }
     scene.render.size = size;
+    if (scene.fitted.observer) return frame_observer(scene);
     Display& display = scene.observer.display;
     if (display.square_pixels) {
         display.half_angles.y = square_pixel_half_angle(display.half_angles.x, size);

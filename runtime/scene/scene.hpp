@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "runtime/scene/fitted.hpp"
 #include "runtime/scene/light.hpp"
 #include "runtime/scene/material.hpp"
 #include "runtime/scene/object.hpp"
@@ -64,11 +65,14 @@ struct Scene {
     Animation animation;
     std::shared_ptr<const SceneMotion> motion;  ///< null: the world stands still
     RenderSettings render;
+    Fitted fitted;                   ///< what was left out, and found from the objects
+    bool has_default_light = false;  ///< the only light follows the observer: none was given
 
     friend bool operator==(const Scene&, const Scene&) = default;
 };
 
-/// Changes the size of the image and with it the angles of a display with square pixels.
+/// Changes the size of the image, and with it the angles of a display with square pixels and the
+/// place of a fitted observer.
 void resize(Scene& scene, glm::ivec2 size);
 
 /// Sets where each model can be seen: the world's box carried into the space of every object that

@@ -36,6 +36,7 @@ Scene scene_at(const Scene& scene, double frame) {
             throw at_frame(error, frame);
         }
     }
+    if (scene.has_default_light) place_default_light(now);
     find_extents(now);
     return now;
 }

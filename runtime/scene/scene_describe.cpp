@@ -27,14 +27,17 @@ std::string model_text(const Model& model) {
     const std::string source =
         model.solid ? solid_text(*model.solid)
                     : (model.voxels.empty() ? model.mesh : model.voxels).filename().string();
+    const FileMap& map = model.object_from_file;
+    const std::string scaled = map.scale == 1 ? "" : fmt::format(" scaled by {:.6g}", map.scale);
     if (!model.voxels.empty())
-        return fmt::format("model \"{}\": {}, {}", model.name, source, kind_of(model.surface).name);
+        return fmt::format("model \"{}\": {}{}, {}", model.name, source, scaled,
+                           kind_of(model.surface).name);
     const std::string cut =
         model.cuts.empty() ? "" : fmt::format(", cut by {} solids", model.cuts.size());
     const std::string pitch =
         model.resolution > 0 ? fmt::format("{} voxels along the longest side", model.resolution)
                              : fmt::format("voxels of {} m", vector_text(model.voxel_size));
-    return fmt::format("model \"{}\": {}{}, {}, {}", model.name, source, cut,
+    return fmt::format("model \"{}\": {}{}{}, {}, {}", model.name, source, scaled, cut,
                        kind_of(model.surface).name, pitch);
 }
 

@@ -37,8 +37,9 @@ using Slot = std::variant<double*, float*, int*, bool*, glm::dvec2*, glm::dvec3*
                           std::optional<double>*, std::optional<glm::dvec2>*,
                           std::optional<glm::dvec3>*, std::filesystem::path*>;
 
-/// Sets a value by as many numbers as it has, or by one that stands for all of them; true is any
-/// number but 0. With an `item` from 0 on it sets that number of a vector alone. Not for files.
+/// Sets a value by one number for each of its components, or by one that stands for all of them;
+/// true is any number but 0. With an `item` from 0 on it sets that number of a vector alone. Not
+/// for files.
 void put(const Slot& slot, std::span<const double> numbers, int item = -1);
 
 /// A value of a part of the scene.

@@ -63,6 +63,7 @@ inline bool has_density(const Medium& medium) {
 /// S: its lattice starts at `bounds.min`; the last voxels may reach past `bounds.max`.
 struct World {
     glm::dvec3 voxel_size{0};  ///< metres per axis, > 0
+    int resolution = 256;      ///< voxels along the longest side, where no voxel size is given
     Bounds bounds;             ///< metres
     glm::ivec3 voxels{0};      ///< per axis: bounds over voxel_size, rounded up
     glm::vec3 background{0};   ///< radiance where a ray leaves the world

@@ -56,8 +56,9 @@ class MotionReader {
                 part_of({ScenePart::model, i, model.key, "models." + model.key, &model.value, {}});
             }
         }
-        const JsonValue* world = &find_member(root_.json(), "world")->value;
-        const JsonValue* at = world;
+        const JsonMember* member = find_member(root_.json(), "world");
+        if (member == nullptr) return;
+        const JsonValue *world = &member->value, *at = world;
         for (const std::string_view key : {"medium", "density", "sequence"}) {
             const JsonMember* inner = find_member(*at, key);
             if (inner == nullptr) return;
@@ -99,8 +100,7 @@ class MotionReader {
 
 }  // namespace
 
-std::shared_ptr<const SceneMotion> read_motion(const SceneValue& root, const AssetSearch& search,
-                                               Scene& scene) {
+std::vector<DocumentPart> moving_parts(const SceneValue& root, Scene& scene) {
     MotionReader reader(root);
     const SceneFields fields(root, "scene");
     if (const auto animation = fields.find("animation")) {
@@ -110,12 +110,13 @@ std::shared_ptr<const SceneMotion> read_motion(const SceneValue& root, const Ass
         }
     }
     reader.add_sequences();
-    const std::vector<DocumentPart> parts = reader.finish(scene);
-    if (parts.empty()) return nullptr;
-    SceneMotion motion{scene.file.string(), {}};
-    for (const DocumentPart& part : parts) check_keys(part, scene, search);
-    for (const DocumentPart& part : parts) motion.parts.push_back(moving_part(part, scene, search));
-    return std::make_shared<const SceneMotion>(std::move(motion));
+    return reader.finish(scene);
+}
+
+void add_part(const DocumentPart& part, const AssetSearch& search, const Scene& scene,
+              SceneMotion& motion) {
+    check_keys(part, scene, search);
+    motion.parts.push_back(moving_part(part, scene, search));
 }
 
 }  // namespace voxelume

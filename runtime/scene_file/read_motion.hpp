@@ -2,18 +2,23 @@
 // The tracks and numbered files of a scene's text -> its motion.
 #pragma once
 
-#include <memory>
+#include <vector>
 
 #include "runtime/scene/scene_motion.hpp"
+#include "runtime/scene_file/document_part.hpp"
 #include "runtime/scene_file/scene_parts.hpp"
 
 namespace voxelume {
 
-/// The motion of a scene whose plain values are read, or null when it stands still. Marks objects
-/// that move. Nothing of the text is kept.
-///
-/// Throws Error::scene for tracks that are wrong, and for values that are at some key.
-std::shared_ptr<const SceneMotion> read_motion(const SceneValue& root, const AssetSearch& search,
-                                               Scene& scene);
+/// The parts of a scene that tracks or numbered files change, in the order of ScenePart. Marks
+/// objects that move; the scene's plain values but the world's lattice and the observer must be
+/// read. Throws Error::scene for tracks that are wrong.
+std::vector<DocumentPart> moving_parts(const SceneValue& root, Scene& scene);
+
+/// Adds the part to the motion. What it depends on must be read: the display of an observer that
+/// moves depends on the world's lattice. Nothing of the text is kept. Throws Error::scene for
+/// values that are wrong at some key.
+void add_part(const DocumentPart& part, const AssetSearch& search, const Scene& scene,
+              SceneMotion& motion);
 
 }  // namespace voxelume

@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "runtime/base/error.hpp"
+#include "runtime/scene/fitted.hpp"
 #include "runtime/scene/scene_animation.hpp"
 #include "runtime/scene_file/read_motion.hpp"
 #include "runtime/scene_file/scene_parts.hpp"
@@ -50,6 +51,61 @@ void check_version(const SceneFields& fields) {
     }
 }
 
+/// Reads the world; what it leaves out is marked as to be fitted.
+void read_or_leave_world(const SceneFields& fields, const AssetSearch& search, Scene& scene) {
+    const auto value = fields.find("world");
+    if (value) scene.world = read_world(*value, search);
+    if (!value) {
+        scene.world.where = fields.value().where();
+        scene.world.where.key = "world";
+    }
+    const auto has = [&](std::string_view key) {
+        return value && SceneFields(*value, "world").has(key);
+    };
+    scene.fitted.voxel_size = !has("voxel_size");
+    scene.fitted.bounds = !has("bounds");
+}
+
+void read_or_frame_observer(const SceneFields& fields, Scene& scene) {
+    if (const auto value = fields.find("observer")) {
+        scene.observer = read_observer(*value, scene);
+        return;
+    }
+    scene.observer.where = fields.value().where();
+    scene.observer.where.key = "observer";
+    scene.observer.display.voxels = {scene.render.size, 256};
+    frame_observer(scene);
+}
+
+/// Whether some material shines, in any frame.
+bool has_emission(const Scene& scene, const std::vector<DocumentPart>& parts) {
+    const auto changes_emission = [](const DocumentTrack& track) {
+        return track.target.steps.front().key == "emission";
+    };
+    return std::ranges::any_of(
+               scene.materials,
+               [](const Material& material) { return material.emission != glm::vec3(0); }) ||
+           std::ranges::any_of(parts, [&](const DocumentPart& part) {
+               return part.part == ScenePart::material &&
+                      std::ranges::any_of(part.tracks, changes_emission);
+           });
+}
+
+/// Adds the light that a scene has which says nothing of lights, and some ambient light with it.
+void add_default_light(const SceneFields& fields, Scene& scene) {
+    constexpr float kAmbient = 0.15f;
+    scene.has_default_light = true;
+    Light& light = scene.lights.emplace_back();
+    light.name = "lights[0]";
+    light.where = fields.value().where();
+    light.where.key = "lights";
+    place_default_light(scene);
+    const auto world = fields.find("world");
+    if (world && SceneFields(*world, "world").has("ambient")) return;
+    scene.fitted.ambient = true;
+    scene.world.ambient = glm::vec3(kAmbient);
+}
+
 }  // namespace
 
 int NameTable::find(const SceneValue& value) const {
@@ -62,7 +118,7 @@ int NameTable::find(const SceneValue& value) const {
 }
 
 Scene read_scene(const JsonValue& document, const std::filesystem::path& file,
-                 const AssetFolders& assets) {
+                 const AssetFolders& assets, const FileBoxes& boxes) {
     const std::string file_name = file.string();
     const SceneValue root(document, "", file_name);
     const SceneFields fields(root, "scene");
@@ -73,7 +129,7 @@ Scene read_scene(const JsonValue& document, const std::filesystem::path& file,
     scene.file = file;
     scene.materials.emplace_back().name = "default";
     const AssetSearch search{file.parent_path(), assets};
-    scene.world = read_world(fields.get("world"), search);
+    read_or_leave_world(fields, search, scene);
     if (const auto value = fields.find("materials")) scene.materials = read_materials(*value);
     if (const auto value = fields.find("models")) {
         scene.models = read_models(*value, {search, scene.world.voxel_size});
@@ -82,19 +138,36 @@ Scene read_scene(const JsonValue& document, const std::filesystem::path& file,
     if (const auto value = fields.find("lights")) scene.lights = read_lights(*value);
     if (const auto value = fields.find("render")) scene.render = read_render(*value);
     if (const auto value = fields.find("animation")) scene.animation = read_animation(*value);
-    scene.observer = read_observer(fields.get("observer"), scene);
+    const std::vector<DocumentPart> parts = moving_parts(root, scene);
+    SceneMotion motion{file_name, {}};
+    const auto is_observer = [](const DocumentPart& part) {
+        return part.part == ScenePart::observer;
+    };
+    for (const DocumentPart& part : parts)
+        if (!is_observer(part)) add_part(part, search, scene, motion);
+    fit_models(boxes, scene);
+    scene.fitted.observer = !fields.has("observer");
+    fit_to_objects(motion, boxes, scene);
+    read_or_frame_observer(fields, scene);
+    for (const DocumentPart& part : parts)
+        if (is_observer(part)) add_part(part, search, scene, motion);
+    if (!fields.has("lights") && !has_emission(scene, parts)) add_default_light(fields, scene);
+    if (!parts.empty()) {
+        scene.motion = std::make_shared<const SceneMotion>(std::move(motion));
+        return scene_at(scene, 1);
+    }
     find_extents(scene);
-    scene.motion = read_motion(root, search, scene);
-    return scene.motion ? scene_at(scene, 1) : scene;
+    return scene;
 }
 
 Scene parse_scene(std::string_view text, const std::filesystem::path& file,
-                  const AssetFolders& assets) {
-    return read_scene(parse_json(text, file.string()), file, assets);
+                  const AssetFolders& assets, const FileBoxes& boxes) {
+    return read_scene(parse_json(text, file.string()), file, assets, boxes);
 }
 
-Scene read_scene(const std::filesystem::path& file, const AssetFolders& assets) {
-    return parse_scene(read_text(file), file, assets);
+Scene read_scene(const std::filesystem::path& file, const AssetFolders& assets,
+                 const FileBoxes& boxes) {
+    return parse_scene(read_text(file), file, assets, boxes);
 }
 
 }  // namespace voxelume

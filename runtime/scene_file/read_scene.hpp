@@ -7,24 +7,28 @@
 
 #include "runtime/scene/scene.hpp"
 #include "runtime/scene_file/assets.hpp"
+#include "runtime/scene_file/fit_scene.hpp"
 #include "runtime/scene_file/scene_document.hpp"
 
 namespace voxelume {
 
-/// Reads and checks a scene. The format is described in scenes/README.md.
+/// Reads and checks a scene. The format is described in scenes/README.md. What the scene leaves out
+/// is fitted to its objects, for which `boxes` tells how large the contents of files are; scenes
+/// that leave out nothing need none.
 ///
 /// Throws Error::scene, "file:line:column: key path: sentence", for text or values that are wrong,
 /// Error::input for a scene or asset that is missing, Error::limit for a file of more than 64 MiB.
-Scene read_scene(const std::filesystem::path& file, const AssetFolders& assets);
+Scene read_scene(const std::filesystem::path& file, const AssetFolders& assets,
+                 const FileBoxes& boxes = {});
 
 /// The same for text that is at hand; `file` names it in messages and gives the folder of its
 /// assets.
 Scene parse_scene(std::string_view text, const std::filesystem::path& file,
-                  const AssetFolders& assets);
+                  const AssetFolders& assets, const FileBoxes& boxes = {});
 
 /// The same for a tree of values, whichever way it was made: all scenes are checked here. Nothing
 /// of the tree is kept.
 Scene read_scene(const JsonValue& root, const std::filesystem::path& file,
-                 const AssetFolders& assets);
+                 const AssetFolders& assets, const FileBoxes& boxes = {});
 
 }  // namespace voxelume

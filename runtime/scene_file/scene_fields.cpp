@@ -190,7 +190,7 @@ SceneFields::SceneFields(SceneValue value, std::string_view table)
     for (const JsonMember& m : value_.json().members) {
         if (std::find(keys.begin(), keys.end(), m.key) != keys.end()) continue;
         throw Error(ErrorKind::scene, "{}: unknown key {}{}", value_.where(m.at), quote(m.key),
-                    suggest(m.key, keys));
+                    suggest_key(m.key, keys));
     }
 }
 
@@ -211,7 +211,7 @@ std::optional<SceneValue> SceneFields::find(std::string_view key) const {
 
 SceneValue SceneFields::get(std::string_view key) const {
     if (auto found = find(key)) return *found;
-    value_.fail(fmt::format("needs a \"{}\"", key));
+    value_.fail(fmt::format("needs {}", with_article(key)));
 }
 
 void SceneFields::refuse_both(std::string_view key, std::string_view other) const {
@@ -247,7 +247,7 @@ size_t kind_of(const SceneValue& value, std::string_view key, std::string_view p
     for (const JsonMember& m : value.json().members) {
         if (m.key == key) return value.member(m).choice(kinds);
     }
-    value.fail(fmt::format("needs a \"{}\"{}", key, suggest("", kinds)));
+    value.fail(fmt::format("needs {}{}", with_article(key), suggest("", kinds)));
 }
 
 }  // namespace voxelume

@@ -3,9 +3,12 @@
 #include "runtime/scene_file/scene_keys.hpp"
 
 #include <algorithm>
+#include <array>
 #include <span>
 #include <stdexcept>
+#include <utility>
 
+#include "runtime/base/text.hpp"
 #include "runtime/scene/light.hpp"
 #include "runtime/scene/material.hpp"
 #include "runtime/scene/observer.hpp"
@@ -46,15 +49,17 @@ std::vector<KeyTable> make_tables() {
         {"scene",
          {"$schema", "voxelume", "world", "materials", "models", "objects", "lights", "observer",
           "animation", "render"}},
-        {"world", Keys{"voxel_size", "bounds"} + keys_of(world_rows()) + Keys{"medium"}},
+        {"world",
+         Keys{"voxel_size", "resolution", "bounds"} + keys_of(world_rows()) + Keys{"medium"}},
         {"bounds", {"min", "max"}},
         {"medium", keys_of(medium_rows()) + Keys{"density"}},
     };
     add_kinds("density", {"kind"}, density_kinds(), {}, tables);
     tables.push_back({"material", keys_of(material_rows()) + Keys{"checker"}});
     tables.push_back({"checker", keys_of(checker_rows())});
-    tables.push_back({"model:mesh", Keys{"mesh", "sequence", "morph", "cut"} + lattice});
-    tables.push_back({"model:voxels", {"voxels", "sequence", "surface"}});
+    tables.push_back({"model:mesh", Keys{"mesh", "fit", "unit", "sequence", "morph", "cut"} +
+                                        lattice + Keys{"shading", "crease_angle"}});
+    tables.push_back({"model:voxels", {"voxels", "fit", "unit", "sequence", "surface"}});
     tables.push_back({"sequence", {"first", "last", "start", "loop"}});
     tables.push_back({"morph", {"mesh", "center", "radius", "amount"}});
     add_kinds("model", {"shape"}, solid_types(), lattice, tables);
@@ -86,6 +91,28 @@ const KeyTable& scene_keys(std::string_view name) {
                                     [&](const KeyTable& t) { return t.name == name; });
     if (found == tables.end()) throw std::logic_error("no key table " + std::string(name));
     return *found;
+}
+
+std::string suggest_key(std::string_view key, std::span<const std::string_view> keys) {
+    using Pair = std::pair<std::string_view, std::string_view>;
+    static constexpr std::array<Pair, 26> kOtherWords = {
+        {{"rotation", "turn"},       {"rotate", "turn"},
+         {"euler", "turn"},          {"translation", "position"},
+         {"translate", "position"},  {"location", "position"},
+         {"origin", "position"},     {"transform", "matrix"},
+         {"to_world", "matrix"},     {"target", "look_at"},
+         {"fov", "angle"},           {"camera", "observer"},
+         {"shapes", "objects"},      {"instances", "objects"},
+         {"emitters", "lights"},     {"albedo", "color"},
+         {"diffuse_color", "color"}, {"transparency", "opacity"},
+         {"alpha", "opacity"},       {"power", "intensity"},
+         {"energy", "intensity"},    {"file", "mesh"},
+         {"filename", "mesh"},       {"units", "unit"},
+         {"pitch", "voxel_size"},    {"spp", "samples"}}};
+    for (const auto& [other, ours] : kOtherWords)
+        if (key == other && std::ranges::find(keys, ours) != keys.end())
+            return "; did you mean " + quote(ours) + "?";
+    return suggest(key, keys);
 }
 
 std::vector<std::string_view> scene_kinds(std::string_view prefix) {

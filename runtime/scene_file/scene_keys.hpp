@@ -2,6 +2,7 @@
 // The table of all keys of the scene format: the parser accepts these and no others.
 #pragma once
 
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,6 +21,9 @@ const std::vector<KeyTable>& scene_key_tables();
 
 /// The table of that name, which must exist.
 const KeyTable& scene_keys(std::string_view name);
+
+/// `suggest` for a key. Knows the words of other programs, such as "rotation" for "turn".
+std::string suggest_key(std::string_view key, std::span<const std::string_view> keys);
 
 /// What follows the colon in the tables "prefix:...": the values that select a kind.
 std::vector<std::string_view> scene_kinds(std::string_view prefix);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <glm/common.hpp>
 #include <glm/matrix.hpp>
 #include <unordered_set>
@@ -21,6 +22,31 @@ Surface read_surface(const SceneValue& value) {
     Names names;
     for (const SurfaceKind& kind : kSurfaceKinds) names.push_back(kind.name);
     return kSurfaceKinds[value.choice(names)].surface;
+}
+
+/// How many metres a unit of a file has, or its longest side is to have.
+void read_file_size(const SceneFields& fields, Model& model) {
+    struct Unit {
+        std::string_view name;
+        double metres;
+    };
+    static constexpr std::array<Unit, 9> kUnits = {{{"um", 1e-6},
+                                                    {"mm", 1e-3},
+                                                    {"cm", 1e-2},
+                                                    {"dm", 1e-1},
+                                                    {"m", 1},
+                                                    {"km", 1e3},
+                                                    {"in", 0.0254},
+                                                    {"ft", 0.3048},
+                                                    {"yd", 0.9144}}};
+    if (fields.has("fit") && fields.has("unit"))
+        fields.get("unit").fail(
+            "\"fit\" decides the size, whatever the file's unit is; leave one of them out");
+    model.fit = fields.number("fit", kLength, 0);
+    Names names;
+    for (const Unit& unit : kUnits) names.push_back(unit.name);
+    if (const auto unit = fields.find("unit"))
+        model.object_from_file.scale = kUnits[unit->choice(names)].metres;
 }
 
 /// The pitch, surface and set of a model, whose source is already read.
@@ -51,6 +77,7 @@ void read_lattice(const SceneFields& fields, glm::dvec3 world_voxel_size, Model&
 /// A model whose file holds its voxels, with a lattice of their own.
 void read_voxels(const SceneFields& fields, const ModelContext& context, Model& model) {
     model.voxels = first_file(fields, "voxels", context.search);
+    read_file_size(fields, model);
     model.surface = Surface::cubes;
     if (const auto surface = fields.find("surface")) model.surface = read_surface(*surface);
 }
@@ -73,6 +100,21 @@ Morph read_morph(const SceneValue& value, const AssetSearch& search) {
     fields.get("radius");
     fields.read_rows(morph_rows(), morph);
     return morph;
+}
+
+constexpr Range kCreaseAngle{0, 180};  // degrees
+
+/// The shading of a mesh, which counts where the mesh is exact.
+Shading read_shading(const SceneFields& fields) {
+    Shading shading;
+    if (const auto kind = fields.find("shading"))
+        shading.kind = static_cast<ShadingKind>(kind->choice(Names{"auto", "flat", "smooth"}));
+    if (const auto angle = fields.find("crease_angle")) {
+        shading.crease_angle = angle->number(kCreaseAngle);
+        if (shading.kind != ShadingKind::smooth)
+            angle->fail("only a mesh with \"shading\": \"smooth\" has creases; leave it out");
+    }
+    return shading;
 }
 
 void read_materials_of(const SceneFields& fields, const NameTable& materials, Object& object) {
@@ -123,9 +165,11 @@ Model read_model(const std::string& name, const SceneValue& value, const ModelCo
     } else {
         const SceneFields fields(value, "model:mesh");
         model.mesh = first_file(fields, "mesh", context.search);
+        read_file_size(fields, model);
         if (const auto morph = fields.find("morph"))
             model.morph = read_morph(*morph, context.search);
         read_lattice(fields, context.world_voxel_size, model);
+        model.shading = read_shading(fields);
         if (const auto cut = fields.find("cut")) {
             model.cuts = read_cuts(*cut);
             if (model.surface == Surface::exact)

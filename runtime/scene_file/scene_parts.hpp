@@ -40,7 +40,8 @@ struct AssetSearch {
     bool all_files = true;  ///< whether all files of a sequence must be there, not the first alone
 };
 
-/// Where models find their files, and the pitch that they take from the world.
+/// Where models find their files, and the voxel size that they take from the world, which is 0
+/// where it isn't known yet.
 struct ModelContext {
     AssetSearch search;
     glm::dvec3 world_voxel_size;
@@ -59,6 +60,7 @@ class ObjectReader {
     NameTable materials_{"material"};
 };
 
+/// Bounds, and a voxel size with them, that are left out stay 0.
 World read_world(const SceneValue& value, const AssetSearch& search);
 Medium read_medium(const SceneValue& value, const AssetSearch& search);
 Material read_material(const std::string& name, const SceneValue& value);

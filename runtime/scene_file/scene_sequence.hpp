@@ -9,8 +9,8 @@
 
 namespace voxelume {
 
-/// The file that `key` names. With a `sequence` beside it the name is a pattern such as
-/// "smoke.####.vdb", as outputs have it, and the file is the first one.
+/// The file that `key` names. If there is a `sequence`, too, the name is a pattern such as
+/// "smoke.####.vdb", as for outputs, and the file is the first one.
 ///
 /// Throws Error::scene for a name without a place for the number, Error::input when files are
 /// missing, all of them named in one sentence.

@@ -156,10 +156,13 @@ class PathWalker {
             return;
         }
         const Names names = is_list ? names_of_items(all) : names_of_members(all);
-        const std::string& name = next_key(section, names);
+        Names given = names;
+        std::erase(given, std::string_view());
+        const std::string& name = next_key(section, given);
         const auto found = std::ranges::find(names, name);
         if (found == names.end())
-            path_.fail(fmt::format("no {} named {}{}", kind, quote(name), suggest(name, names)));
+            path_.fail(fmt::format("no {} named {}{}", kind, quote(name),
+                                   suggest_item(section, name, names.size(), given)));
         target_.number = size_t(found - names.begin());
         target_.name = name;
         target_.value = is_list ? &all.items[target_.number] : &all.members[target_.number].value;
@@ -167,6 +170,21 @@ class PathWalker {
             is_list ? fmt::format("{}[{}]", section, target_.number)
                     : fmt::format("{}.{}", section,
                                   name.find_first_of(".[") == name.npos ? name : quote(name));
+    }
+
+    /// What else the path might name: a list's items also go by their places, and those without a
+    /// name by nothing else.
+    static std::string suggest_item(const std::string& section, const std::string& name,
+                                    size_t count, const Names& given) {
+        const std::string nearest = suggest(name, given);
+        if (given.size() == count || nearest.starts_with("; did you mean")) return nearest;
+        if (count == 1)
+            return fmt::format("; the only one has no name: give it one, or write \"{}[0]\"",
+                               section);
+        return fmt::format(
+            "{}; {} of {} have no name: give them one, or write places such as "
+            "\"{}[0]\"",
+            nearest, count - given.size(), count, section);
     }
 
     /// Items without a name of their own have an empty one.
@@ -203,7 +221,7 @@ class PathWalker {
         }
         if (std::ranges::find(place.values, key) == place.values.end())
             path_.fail(fmt::format("{} has no value {} that can change{}", here, quote(key),
-                                   suggest(key, known)));
+                                   suggest_key(key, known)));
         check_rivals(value, key);
         target_.steps.push_back({key});
         if (is_at_end()) return;

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // The parts of a scene that stand alone: world, materials, animation, render settings.
-#include <array>
-#include <cmath>
+#include <fmt/format.h>
 
-#include "runtime/base/error.hpp"
+#include <array>
+
+#include "runtime/scene/fitted.hpp"
 #include "runtime/scene_file/scene_parts.hpp"
 
 namespace voxelume {
 namespace {
 
-constexpr int kMaxVoxelsPerAxis = 65536;
 constexpr std::array<std::string_view, 2> kShadowNames = {"opaque", "filtered"};
 
 Bounds read_bounds(const SceneValue& value) {
@@ -23,30 +23,6 @@ Bounds read_bounds(const SceneValue& value) {
         }
     }
     return bounds;
-}
-
-/// Voxels that cover a length. Decimal fractions have no exact binary form, so a quotient within a
-/// billionth of a whole number is that number: 0.6 / 0.2 gives 3 voxels, and 0.9 / 0.3 does too.
-double voxels_along(double length, double voxel) {
-    const double quotient = length / voxel;
-    const double whole = std::round(quotient);
-    return whole >= 1 && std::abs(quotient - whole) <= 1e-9 * whole ? whole : std::ceil(quotient);
-}
-
-glm::ivec3 count_voxels(const SceneValue& value, const World& world) {
-    glm::ivec3 voxels;
-    for (int axis = 0; axis < 3; ++axis) {
-        const double length = world.bounds.max[axis] - world.bounds.min[axis];
-        const double count = voxels_along(length, world.voxel_size[axis]);
-        if (count > kMaxVoxelsPerAxis) {
-            throw Error(
-                ErrorKind::limit,
-                "{}: {:.0f} voxels along {} are more than {}; use voxels of at least {:.3g} m",
-                value.where(), count, "xyz"[axis], kMaxVoxelsPerAxis, length / kMaxVoxelsPerAxis);
-        }
-        voxels[axis] = static_cast<int>(count);
-    }
-    return voxels;
 }
 
 Checker read_checker(const SceneValue& value) {
@@ -72,12 +48,19 @@ Material read_material(const std::string& name, const SceneValue& value) {
 World read_world(const SceneValue& value, const AssetSearch& search) {
     const SceneFields fields(value, "world");
     World world;
-    world.voxel_size = fields.get("voxel_size").number_or_vector(kLength);
-    world.bounds = read_bounds(fields.get("bounds"));
-    world.voxels = count_voxels(value, world);
+    world.where = value.where();
+    fields.refuse_both("voxel_size", "resolution");
+    if (const auto size = fields.find("voxel_size"))
+        world.voxel_size = size->number_or_vector(kLength);
+    world.resolution = fields.integer("resolution", 1, 65536, world.resolution);
+    if (const auto bounds = fields.find("bounds")) {
+        world.bounds = read_bounds(*bounds);
+        if (!fields.has("voxel_size"))
+            world.voxel_size = glm::dvec3(longest_side(world.bounds) / world.resolution);
+        count_voxels(world);
+    }
     fields.read_rows(world_rows(), world);
     if (const auto medium = fields.find("medium")) world.medium = read_medium(*medium, search);
-    world.where = value.where();
     return world;
 }
 

@@ -8,20 +8,22 @@ namespace voxelume {
 
 /// A feature that is false does not exist in the machine code, and its buffers are not allocated.
 struct Features {
-    bool cubes = false;         ///< some voxel is a surface itself
-    bool smooth = false;        ///< some voxel has a distance field
-    bool triangles = false;     ///< some voxel lists triangles
-    bool solids = false;        ///< some voxel lists analytic solids
-    bool attributes = false;    ///< voxels differ in object, material or kind
-    bool colors = false;        ///< voxels have colours of their own
-    bool medium = false;        ///< the environment absorbs light
-    bool medium_grid = false;   ///< ... and its density varies
-    bool shadows = false;       ///< lights can be hidden
-    bool area_samples = false;  ///< some light has an area
-    bool checker = false;       ///< some material changes its colour from block to block
-    bool paths = false;         ///< rays are reflected, refracted or continue through surfaces
-    bool transmission = false;  ///< some object lets light through
-    bool refracts = false;      ///< some surface bends rays, or reflects by Fresnel's law
+    bool cubes = false;            ///< some voxel is a surface itself
+    bool smooth = false;           ///< some voxel has a distance field
+    bool triangles = false;        ///< some voxel lists triangles
+    bool shading_normals = false;  ///< some triangle has normals at its corners
+    bool solids = false;           ///< some voxel lists analytic solids
+    bool field_lists = false;      ///< some voxel lists the distance fields in it
+    bool attributes = false;       ///< voxels differ in object, material or kind
+    bool colors = false;           ///< voxels have colours of their own
+    bool medium = false;           ///< the environment absorbs light
+    bool medium_grid = false;      ///< ... and its density varies
+    bool shadows = false;          ///< lights can be hidden
+    bool area_samples = false;     ///< some light has an area
+    bool checker = false;          ///< some material changes its colour from block to block
+    bool paths = false;            ///< rays are reflected, refracted or continue through surfaces
+    bool transmission = false;     ///< some object lets light through
+    bool refracts = false;         ///< some surface bends rays, or reflects by Fresnel's law
     bool absorbs = false;  ///< the environment, or an object that light passes through, absorbs
                            ///< light
     bool filter = false;   ///< shadow rays may pass through transmitting objects
@@ -30,10 +32,10 @@ struct Features {
     bool voxel_opacity = false;        ///< voxels have opacities of their own
     bool observer_in_medium = false;   ///< observers' rays may begin inside a transmitting mesh or
                                        ///< smooth object
-    int other_media = 0;  ///< size of the sets of transmitting objects that rays are inside of,
-                          ///< without the smooth body
-    bool medium_set_capped = false;  ///< ... and this size may not be enough
-    bool instances = false;          ///< some objects keep voxels of their own
+    int media = 0;                     ///< size of the sets of transmitting objects that rays are
+                                       ///< inside of
+    bool medium_set_capped = false;    ///< ... and this size may not be enough
+    bool instances = false;            ///< some objects keep voxels of their own
     // The results that are asked for:
     bool radiance = true;   ///< the light along rays, and how much of what lies behind they cover
     bool positions = true;  ///< of the points that rays meet ...
@@ -43,13 +45,18 @@ struct Features {
     friend bool operator==(const Features&, const Features&) = default;
 
     bool exact() const { return triangles || solids; }
+    /// Whether rays must know on which of a voxel's surfaces they begin.
+    bool sources() const { return exact() || field_lists; }
 
     Defines defines(const Device& device) const {
         return {{"VXL_CUBES", cubes},
                 {"VXL_SMOOTH", smooth},
                 {"VXL_EXACT", exact()},
                 {"VXL_TRIANGLES", triangles},
+                {"VXL_SHADING_NORMALS", shading_normals},
                 {"VXL_SOLIDS", solids},
+                {"VXL_FIELD_LISTS", field_lists},
+                {"VXL_SOURCES", sources()},
                 {"VXL_ATTRIBUTES", attributes},
                 {"VXL_COLORS", colors},
                 {"VXL_MEDIUM", medium},
@@ -66,7 +73,7 @@ struct Features {
                 {"VXL_CUBE_BODIES", cube_bodies},
                 {"VXL_VOXEL_OPACITY", voxel_opacity},
                 {"VXL_OBSERVER_IN_MEDIUM", observer_in_medium},
-                {"VXL_OTHER_MEDIA", other_media},
+                {"VXL_MEDIA", media},
                 {"VXL_MEDIUM_SET_CAPPED", medium_set_capped},
                 {"VXL_INSTANCES", instances},
                 {"VXL_RADIANCE", radiance},

@@ -9,8 +9,8 @@ void bind(KernelArguments& to, const RayQueue& queue) {
 
 void bind(KernelArguments& to, const RayBatch& batch) {
     bind(to, static_cast<const RayQueue&>(batch));
-    to.add(batch.beams, batch.hits, batch.positions, batch.normals, batch.hit_attributes,
-           batch.radiance, batch.sides, batch.transmittance, batch.coverage);
+    to.add(batch.beams, batch.hits, batch.positions, batch.normals, batch.shading,
+           batch.hit_attributes, batch.radiance, batch.sides, batch.transmittance, batch.coverage);
 }
 
 void bind(KernelArguments& to, const ShadowQueue& queue) {

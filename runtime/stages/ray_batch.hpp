@@ -34,6 +34,9 @@ struct RayBatch : RayQueue {
     Buffer<float> positions;  ///< 3 per hit, voxels
     Buffer<float> normals;    ///< 3 per hit: unit vectors in metric space that point towards the
                               ///< ray's start
+    Buffer<float> shading;    ///< 6 per hit, of scenes with shading normals: the unit vector in
+                              ///< metric space by which light falls, and by how many metres rays
+                              ///< to lights begin off the hit
     Buffer<uint32_t> hit_attributes;  ///< the packed attributes of each hit
     Buffer<float> radiance;           ///< 3
     // only in scenes with paths:

@@ -66,7 +66,7 @@ enum class Operation {
 /// one have to overlap a little.
 struct Combination {
     Operation operation = Operation::union_of;  ///< what is done with the parts
-    std::vector<Part> parts{};  ///< in a difference, all others are taken from the first
+    std::vector<Part> parts;  ///< in a difference, all others are taken from the first
 };
 
 /// A shape, or a combination of shapes.
@@ -91,18 +91,45 @@ struct Morph {
     std::optional<double> radius{};  ///< metres
 };
 
+/// The normals by which light falls on an exact mesh.
+enum class Shading {
+    automatic,  ///< those of the file's vertices, where it has some; else flat
+    flat,       ///< each triangle's own
+    smooth      ///< as automatic; of a mesh without normals those of the faces around a vertex
+};
+
+/// The length that a file's coordinate 1 stands for.
+enum class Unit {
+    micrometre,
+    millimetre,
+    centimetre,
+    decimetre,
+    metre,
+    kilometre,
+    inch,
+    foot,
+    yard
+};
+
 /// Triangles of an OBJ, PLY or STL file. Files are looked for in SceneOptions::assets.
 struct MeshFile {
     std::filesystem::path file{};        ///< .obj, .ply or .stl
     std::optional<Sequence> sequence{};  ///< makes it a file for each frame
     std::optional<Morph> morph{};        ///< moves its vertices
     std::vector<Part> cuts{};            ///< taken away from the mesh; not of an exact one
+    /// Metres that the longest side of the mesh becomes, with the middle of its box at the origin.
+    std::optional<double> fit{};
+    std::optional<Unit> unit{};            ///< of the file, instead of `fit`; without both metres
+    std::optional<Shading> shading{};      ///< of an exact mesh; without it automatic
+    std::optional<double> crease_angle{};  ///< degrees, of Shading::smooth; without it 30
 };
 
 /// Voxels that are there already: a .vxm of `voxelize`, or an OpenVDB file.
 struct VoxelFile {
     std::filesystem::path file{};        ///< .vxm or .vdb
     std::optional<Sequence> sequence{};  ///< makes it a file for each frame
+    std::optional<double> fit{};         ///< as of a mesh
+    std::optional<Unit> unit{};          ///< likewise
 };
 
 /// What a voxel shows of the surface in it.

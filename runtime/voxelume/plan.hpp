@@ -13,6 +13,7 @@
 #include "image.hpp"
 #include "process.hpp"
 #include "scene.hpp"
+#include "warning.hpp"
 
 namespace voxelume::v1 {
 
@@ -55,6 +56,7 @@ struct Plan {
     double host_bytes = 0;            ///< of main memory
     std::vector<GridPlan> grids{};    ///< the world's is the last
     std::vector<StagePlan> stages{};  ///< with what each takes
+    std::vector<Warning> warnings{};  ///< what is probably wrong, as far as it shows unrendered
 };
 
 /// What planning assumes.

@@ -14,6 +14,7 @@
 #include "scene.hpp"
 #include "statistics.hpp"
 #include "volume.hpp"
+#include "warning.hpp"
 
 namespace voxelume::v1 {
 
@@ -27,6 +28,17 @@ struct RenderOptions {
     /// number of the frame that got on; by one thread at a time, perhaps not the caller's. What it
     /// throws ends the call.
     std::function<void(double done, int frame)> progress{};
+    /// Called with each warning, once: before the first frame is rendered for those that need no
+    /// rendering, after the last frame for the others; by the thread that called. What it throws
+    /// ends the call. Without it they are in Statistics::warnings alone.
+    std::function<void(const Warning&)> warn{};
+    /// Whether warnings end the call: it then throws Error::scene with the first one's sentence,
+    /// after `warn` had those that were found with it.
+    bool strict = false;
+    /// Called before each kernel that no earlier run compiled is first launched: the `kernel`-th of
+    /// `known` such kernels so far. By one thread at a time, perhaps not the caller's. What it
+    /// throws ends the call.
+    std::function<void(int kernel, int known)> compiling{};
     /// Asks the call to end: it then throws Error::cancelled within about a batch of rays. Frames
     /// that were complete have been delivered.
     std::stop_token stop{};

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -12,6 +13,7 @@
 #include "lights.hpp"
 #include "objects.hpp"
 #include "observer.hpp"
+#include "process.hpp"
 #include "world.hpp"
 
 namespace voxelume::v1 {
@@ -24,10 +26,14 @@ struct SceneDescription {
     std::vector<Material> materials{};  ///< by name
     std::vector<Model> models{};        ///< by name
     std::vector<Object> objects{};      ///< models placed in the world
-    std::vector<Light> lights{};        ///< sources of light
-    Observer observer{};                ///< who looks, from where, at what
-    Animation animation{};              ///< frames, and what moves
-    RenderSettings render{};            ///< the flat image
+    /// Sources of light. Without a value, and without a material that shines, one comes from over
+    /// the observer's left shoulder; an empty list is dark.
+    std::optional<std::vector<Light>> lights{};
+    /// Who looks, from where, at what; without a value one who sees all objects, from the right of
+    /// the front and from above.
+    std::optional<Observer> observer{};
+    Animation animation{};    ///< frames, and what moves
+    RenderSettings render{};  ///< the flat image
 };
 
 /// Where a scene's files are, and what replaces its settings.
@@ -35,6 +41,9 @@ struct SceneOptions {
     /// Folders in which files that the scene names are looked for, after the scene's own and before
     /// those of the environment variable VOXELUME_ASSETS. Files must lie below these folders.
     std::vector<std::filesystem::path> assets{};
+    /// What is known of models that the scene is fitted to. Rendering with the same options uses
+    /// what was read for that, once.
+    CacheOptions cache{};
 };
 
 /// A scene that was checked. Copies share their values and are cheap; any number of threads may use
@@ -44,8 +53,8 @@ class Scene {
     /// Reads a scene file (JSON; scenes/README.md describes it).
     ///
     /// Throws Error::scene with file, line, column and key for text or values that are wrong,
-    /// Error::input for a scene or a file that it names that is missing, Error::limit for a file of
-    /// more than 64 MiB.
+    /// Error::input for a scene or a file that it names that is missing, or one that the scene is
+    /// fitted to that can't be read, Error::limit for a file of more than 64 MiB.
     static Scene load(const std::filesystem::path& file, const SceneOptions& options = {});
 
     /// Reads the text of a scene. `file` names it in messages, and its folder is the first in which
@@ -57,9 +66,10 @@ class Scene {
     /// the description's name as its file, and a key such as "objects[0].material", but no line.
     static Scene build(const SceneDescription& description, const SceneOptions& options = {});
 
-    /// The same scene with another image size; the angles of a display with square pixels follow.
+    /// Returns the scene with another image size; the angles of a display with square pixels
+    /// follow, and so does a fitted observer.
     Scene with_size(Size size) const;
-    /// The same scene with another number of sight rays a pixel, 1..4096.
+    /// Returns the scene with another number of sight rays a pixel, 1..4096.
     Scene with_samples(int samples) const;
 
     /// The file that it was read from; empty for a scene that was built.
@@ -72,6 +82,11 @@ class Scene {
     double frames_per_second() const;
     /// Names of the objects, in the order of the numbers that images have for them, from 1 on.
     std::vector<std::string> object_names() const;
+    /// What the scene leaves out and was found from its objects: members of a scene file, a line
+    /// each; empty where nothing was.
+    std::string fitted() const;
+    /// Whether its only light is the one of scenes that say nothing of lights.
+    bool has_default_light() const;
     /// What the scene holds, in lines for people.
     std::string describe() const;
 

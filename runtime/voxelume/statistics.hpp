@@ -2,6 +2,7 @@
 // What rendering took: counts, times and memory.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <map>
@@ -10,6 +11,7 @@
 #include <vector>
 
 #include "values.hpp"
+#include "warning.hpp"
 
 namespace voxelume::v1 {
 
@@ -84,22 +86,25 @@ struct DeviceStatistics {
 
 /// What a run took: the sums over its frames and devices, or the largest of a frame for sizes.
 struct Statistics {
-    std::vector<DeviceStatistics> devices{};  ///< that rendered
-    Size size{};                              ///< pixels
-    size_t files = 0;                         ///< written
-    uint64_t voxels = 0;                      ///< with a surface, of the frame with most
-    uint64_t triangles = 0;                   ///< of the models, of the frame with most
-    uint64_t culled_objects = 0;              ///< that no ray can meet: not voxelized
-    uint64_t world_bytes = 0;                 ///< on the device, of the frame with most
-    RayCounts rays{};                         ///< of all frames
-    InstanceCounts instances{};               ///< of the frame with most
-    StageSeconds seconds{};                   ///< of all frames, by stage
-    double open_seconds = 0;                  ///< before the first frame
-    double write_seconds = 0;                 ///< writing files, perhaps while other work went on
-    double total_seconds = 0;                 ///< by the clock
+    std::vector<DeviceStatistics> devices{};          ///< that rendered
+    Size size{};                                      ///< pixels of an image
+    bool images = true;                               ///< false: volumetric images alone
+    std::optional<std::array<int, 3>> volume_size{};  ///< voxels of a volumetric image, if any
+    size_t files = 0;                                 ///< written
+    uint64_t voxels = 0;                              ///< with a surface, of the frame with most
+    uint64_t triangles = 0;                           ///< of the models, of the frame with most
+    uint64_t culled_objects = 0;                      ///< that no ray can meet: not voxelized
+    uint64_t world_bytes = 0;                         ///< on the device, of the frame with most
+    RayCounts rays{};                                 ///< of all frames
+    InstanceCounts instances{};                       ///< of the frame with most
+    StageSeconds seconds{};                           ///< of all frames, by stage
+    double open_seconds = 0;                          ///< before the first frame
+    double write_seconds = 0;  ///< writing files, perhaps while other work went on
+    double total_seconds = 0;  ///< by the clock
     std::optional<int>
         one_by_one_from;  ///< frame from which on none overlapped, for want of memory
     std::vector<FrameStatistics> frames{};  ///< one for each frame
+    std::vector<Warning> warnings{};        ///< what is probably wrong, each once
 
     // Counters of the devices since they were opened.
     uint64_t peak_device_bytes = 0;              ///< in buffers at once, all devices together

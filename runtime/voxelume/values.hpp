@@ -18,7 +18,7 @@ using Size = std::array<int, 2>;
 /// Three rows of four numbers: world = matrix * (x, y, z, 1).
 using Matrix = std::array<std::array<double, 4>, 3>;
 
-/// The same number along all three axes.
+/// A vector with one number along all three axes.
 constexpr Vec3 uniform(double x) {
     return {x, x, x};
 }

@@ -59,7 +59,7 @@ struct VolumeFileOptions {
     std::optional<VolumeFormat> format{};  ///< without it the name's ending says it
     bool compress = true;                  ///< NRRD: gzip instead of raw
     bool all_values = false;               ///< NRRD: depth, object and kind beside RGBA
-    // Of displays' own formats:
+    // The options of displays' own formats:
     double exposure = 0;             ///< stops: colours are multiplied by 2^exposure
     Dither dither = Dither::bayer8;  ///< of displays' formats
     Axis sweep = Axis::y;            ///< along which planes are swept

@@ -53,11 +53,14 @@ struct Medium {
 
 /// The lattice S that all objects are placed in, and the space around it.
 struct World {
-    Vec3 voxel_size{};               ///< metres along each axis, above 0
-    Vec3 min{};                      ///< corner of the bounds, where the lattice starts
-    Vec3 max{};                      ///< the opposite corner; the last voxels may reach past it
-    Color background{};              ///< radiance where a ray leaves the world
-    Color ambient{};                 ///< light that reaches every surface
+    Vec3 voxel_size{};                ///< metres along each axis; 0: by `resolution`
+    std::optional<int> resolution{};  ///< voxels along the longest side; without it 256
+    /// Corner of the bounds, where the lattice starts. Both corners 0: around the objects of all
+    /// frames, with a margin; infinite solids don't count.
+    Vec3 min{};
+    Vec3 max{};          ///< the opposite corner; the last voxels may reach past it
+    Color background{};  ///< radiance where a ray leaves the world
+    Color ambient{};     ///< light that reaches every surface; black: none, or the default light's
     std::optional<Medium> medium{};  ///< what fills the space between objects
 };
 

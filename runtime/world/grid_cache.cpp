@@ -92,7 +92,7 @@ BrickGrid GridCache::read_or_make(const Model& model, const Source& source, bool
     const std::string mesh = keeps ? meshes_.source_of(model) : std::string();
     std::string key;
     if (!mesh.empty()) {
-        key = grid_key(mesh, {model.surface, model.set}, source.frame_from_model, source.frame);
+        key = grid_key(mesh, options_of(model), source.frame_from_model, source.frame);
         if (auto grid = cache.grid(device_, key)) {
             ++from_cache_;
             return std::move(*grid);
@@ -110,7 +110,7 @@ BrickGrid GridCache::read_or_make(const Model& model, const Source& source, bool
 
 BrickGrid GridCache::make(const Model& model, const Source& source) {
     if (has_own_voxels(model)) return meshes_.voxels(model).upload(device_);
-    const VoxelizeOptions options = {model.surface, model.set};
+    const VoxelizeOptions options = options_of(model);
     if (model.solid)
         return voxelize_solid(device_, *model.solid, source.frame_from_model, source.frame,
                               options);

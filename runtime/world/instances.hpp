@@ -24,7 +24,8 @@ class InstanceModels {
     explicit InstanceModels(const Device& device) : device_(device) {}
 
     /// Forgets the pyramids of models that aren't `listed`, except those whose grids others keep.
-    /// Of these it keeps the first made that take at most `room` bytes of the device.
+    /// Among those it keeps the ones made first, as far as they take at most `room` bytes of the
+    /// device.
     void forget_unused(const ListedInstances& listed, uint64_t room);
 
     /// The world with the scene's instances; without instances the world is unchanged. Throws

@@ -10,11 +10,13 @@
 #include "runtime/analysis/object_boxes.hpp"
 #include "runtime/analysis/placed_objects.hpp"
 #include "runtime/base/error.hpp"
+#include "runtime/grid/pyramid_bytes.hpp"
 #include "runtime/grid/world_frame.hpp"
 #include "runtime/memory/plan.hpp"
 #include "runtime/scene/predicates.hpp"
 #include "runtime/stages/index/index.hpp"
 #include "runtime/stages/medium/density_grid.hpp"
+#include "runtime/world/voxel_warnings.hpp"
 #include "runtime/world/world_source.hpp"
 
 namespace voxelume {
@@ -134,7 +136,7 @@ BuiltWorld WorldBuilder::build_anew(const Scene& scene, const Origin& origin, Wo
     origin_.reset();
     world_.pyramid = {};
     keeps_ = false;
-    // An exception leaves these empty, so that the next call begins anew.
+    // An exception leaves these empty, so that the next call keeps nothing.
     Indexer indexer = std::exchange(indexer_, Indexer(device_));
     InstanceModels models = std::exchange(models_, InstanceModels(device_));
     check_placements(scene);
@@ -169,6 +171,7 @@ BuiltWorld WorldBuilder::build_anew(const Scene& scene, const Origin& origin, Wo
     for_world(scene.world, [&] {
         built.pyramid = models.join(scene, listed, std::move(built.pyramid), report.instances);
     });
+    add_empty_instances(scene, built.pyramid.instances, report.warnings);
     std::vector<InstancePlace> places = instance_places(scene, built.pyramid);
     report.instances.moved = count_moved(instance_places_, places);
     instance_places_ = std::move(places);
@@ -221,10 +224,13 @@ Pyramid WorldBuilder::kept_or_new_world(const Task& task, Indexer& indexer) {
     }
     task.report.is_from_cache = false;
     Pyramid world = new_world(task, indexer);
+    if (!task.report.warnings.empty()) return world;  // which a kept world couldn't say again
+    const double seconds = task.report.place_seconds + task.report.index_seconds;
     Stopwatch keeping(task.report.keep_seconds);
-    meshes_.cache().keep(keys.front(), world,
-                         task.report.place_seconds + task.report.index_seconds);
+    meshes_.cache().keep(keys.front(), world, seconds);
     keeping.stop();
+    add_large_world(task.scene.world, bytes_of(world), seconds, meshes_.cache(),
+                    task.report.warnings);
     return world;
 }
 
@@ -242,8 +248,12 @@ Pyramid WorldBuilder::new_world(const Task& task, Indexer& indexer) {
         objects =
             placed_objects(task.scene, meshes_, object_boxes(task.scene, meshes_), grid_of, shown);
     }
-    return for_world(task.scene.world,
-                     [&] { return placed_and_indexed(task, objects, std::move(shown), indexer); });
+    add_empty_objects(task.scene, objects, report.warnings);
+    Pyramid world = for_world(task.scene.world, [&] {
+        return placed_and_indexed(task, objects, std::move(shown), indexer);
+    });
+    if (world.voxel_count == 0) add_all_objects(task.scene, objects, report.warnings);
+    return world;
 }
 
 /// `shown` are the objects' grids.
@@ -251,7 +261,7 @@ Pyramid WorldBuilder::placed_and_indexed(const Task& task, const std::vector<Pla
                                          std::vector<SharedGrid> shown, Indexer& indexer) {
     Stopwatch placing(task.report.place_seconds);
     if (!placer_) placer_.emplace(device_);
-    BrickGrid world = placer_->place(objects, world_frame(task.scene.world));
+    const PlacedWorld world = placer_->place(objects, world_frame(task.scene.world));
     device_.finish();
     task.report.painted_bricks = placer_->painted_bricks();
     shown_ = std::move(shown);

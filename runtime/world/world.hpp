@@ -6,10 +6,11 @@
 #include <string>
 #include <vector>
 
+#include "runtime/base/warning.hpp"
 #include "runtime/grid/grid.hpp"
 #include "runtime/scene/scene.hpp"
 #include "runtime/stages/index/index.hpp"
-#include "runtime/stages/place/place.hpp"
+#include "runtime/stages/place/placed_world.hpp"
 #include "runtime/world/grid_cache.hpp"
 #include "runtime/world/instances.hpp"
 
@@ -40,6 +41,7 @@ struct WorldReport {
     bool lacks_room = false;     ///< true if memory doesn't suffice to keep what the next frame may
                                  ///< use
     InstanceReport instances;
+    std::vector<Warning> warnings;
 };
 
 /// S on a device.
@@ -129,7 +131,7 @@ class WorldBuilder {
     std::optional<GridCache> grids_;
     std::vector<SharedGrid> shown_;  ///< the grids that the placer's objects point to
     std::optional<ReadWorld> read_;
-    std::optional<Placer> placer_;
+    std::optional<WorldPlacer> placer_;
     Indexer indexer_;
     std::optional<Origin> origin_;
     InstanceModels models_;

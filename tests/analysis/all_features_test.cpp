@@ -36,11 +36,12 @@ std::string scene_text() {
            "lens": {"shape": "sphere", "radius": 0.5, "surface": "smooth"},
            "ice": {"shape": "box", "size": [0.6, 0.5, 0.4], "surface": "cubes", "set": "solid"},
            "floor": {"shape": "box", "size": [2.8, 0.2, 3], "surface": "cubes"},
-           "thing": {"mesh": "m.obj", "voxel_size": 0.1, "surface": "exact"},
+           "thing": {"mesh": "m.obj", "voxel_size": 0.1, "surface": "exact", "shading": "smooth"},
            "fog": {"voxels": "fog.vdb"}},
 "objects": [)" +
            balls + R"(
             {"model": "lens", "material": "glass", "position": [0, 0.1, -2]},
+            {"model": "lens", "material": "clay", "position": [0.4, 0.5, -1.8]},
             {"model": "ice", "material": "glass", "position": [-0.8, -0.5, 0.3]},
             {"model": "floor", "material": "clay", "position": [0, -0.9, 0]},
             {"model": "thing", "material": "veil", "position": [0.5, -0.7, -0.3]},

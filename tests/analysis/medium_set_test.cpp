@@ -44,10 +44,10 @@ Features needed(const Scene& scene) {
 }
 
 TEST(MediumSet, HasRoomForTheObjectsThatOverlap) {
-    EXPECT_EQ(needed(parse(nested_balls(7, true))).other_media, 7);
-    EXPECT_EQ(needed(parse(nested_balls(3, true, 5))).other_media, 1) << "two are out of reach";
+    EXPECT_EQ(needed(parse(nested_balls(7, true))).media, 7);
+    EXPECT_EQ(needed(parse(nested_balls(3, true, 5))).media, 1) << "two are out of reach";
     const Features capped = needed(parse(nested_balls(16, true)));
-    EXPECT_EQ(capped.other_media, 15);
+    EXPECT_EQ(capped.media, 15);
     EXPECT_TRUE(capped.medium_set_capped);
     EXPECT_FALSE(needed(parse(nested_balls(15, true))).medium_set_capped);
 }

@@ -33,7 +33,7 @@ SceneDescription ball_scene() {
     scene.world = {.voxel_size = uniform(0.1), .min = {-1, -1, -1}, .max = {1, 1, 1}};
     scene.models = {{.name = "ball", .source = Sphere{0.5}}};
     scene.objects = {{.model = "ball"}};
-    scene.observer.position = {0, 0, -4};
+    scene.observer.emplace().position = {0, 0, -4};
     return scene;
 }
 

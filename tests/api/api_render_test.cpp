@@ -10,6 +10,7 @@
 #include <iterator>
 
 #include "tests/api/api_environment.hpp"
+#include "tests/support/setting.hpp"
 
 extern char** environ;
 
@@ -192,6 +193,53 @@ TEST_F(ApiRender, LetsExceptionsOfCallbacksThrough) {
     RenderOptions options = quick;
     options.progress = [](double, int) { throw std::out_of_range("enough"); };
     EXPECT_THROW(render_image(scene, *device, 1, options), std::out_of_range);
+}
+
+TEST_F(ApiRender, TellsOfWarningsOnceAndMakesErrorsOfThemIfAsked) {
+    SceneDescription description = rolling_ball();
+    description.objects.push_back({.name = "far", .model = "ball", .position = {0, 7, 0}});
+    const Scene scene = Scene::build(description);
+    std::vector<std::string> heard;
+    RenderOptions options = quick;
+    options.warn = [&](const Warning& warning) { heard.push_back(warning.where); };
+    const Statistics statistics = render_frames(scene, *device, job_of({1, 2, 3}), options);
+    EXPECT_THAT(heard, ElementsAre("rolling: objects[2]"));
+    ASSERT_EQ(statistics.warnings.size(), 1u);
+    EXPECT_EQ(statistics.warnings[0].kind, WarningKind::outside_world);
+    EXPECT_STREQ(name_of(statistics.warnings[0].kind), "outside_world");
+    EXPECT_THAT(statistics.warnings[0].text, HasSubstr("\"far\" lies outside the world"));
+    EXPECT_EQ(plan(scene, device->front()).warnings.size(), 1u);
+    options.strict = true;
+    options.progress = [](double, int) { FAIL() << "a frame was begun"; };
+    try {
+        render_image(scene, *device, 1, options);
+        ADD_FAILURE() << "no error";
+    } catch (const Error& error) {
+        EXPECT_EQ(error.kind(), ErrorKind::scene);
+        EXPECT_EQ(error.key(), "objects[2]");
+        EXPECT_THAT(error.what(), HasSubstr("lies outside the world"));
+    }
+    options.warn = [](const Warning&) { throw std::out_of_range("enough"); };
+    EXPECT_THROW(render_image(scene, *device, 1, options), std::out_of_range);
+}
+
+TEST_F(ApiRender, TellsOfKernelsThatNoEarlierRunCompiled) {
+    const fs::path cache = folder / "cache";
+    const Setting setting("VOXELUME_CACHE_DIR", cache.string());
+    const std::vector<Device> fresh = {Device::open(test_selector())};
+    const Scene scene = Scene::build(rolling_ball());
+    std::vector<std::pair<int, int>> heard;
+    RenderOptions options = quick;
+    options.compiling = [&](int kernel, int known) { heard.emplace_back(kernel, known); };
+    render_image(scene, fresh, 1, options);
+    ASSERT_GT(heard.size(), 3u);
+    for (size_t i = 0; i < heard.size(); ++i) {
+        EXPECT_EQ(heard[i].first, int(i) + 1);
+        EXPECT_LE(heard[i].first, heard[i].second);
+    }
+    heard.clear();
+    render_image(scene, fresh, 1, options);
+    EXPECT_THAT(heard, testing::IsEmpty());
 }
 
 TEST_F(ApiRender, PrintsNothingAndLeavesTheEnvironment) {

@@ -41,7 +41,7 @@ void expect_same(const v1::SceneDescription& description, const std::string& tex
 v1::SceneDescription empty_scene() {
     v1::SceneDescription scene;
     scene.world = {.voxel_size = {0.5, 0.25, 0.125}, .min = {-1, -2, -3}, .max = {3, 2, 1}};
-    scene.observer.position = {0.5, 1, -6};
+    scene.observer.emplace().position = {0.5, 1, -6};
     return scene;
 }
 
@@ -164,7 +164,7 @@ TEST(ApiScene, HasEveryLight) {
 TEST(ApiScene, HasEveryDisplay) {
     const auto observed = [](const v1::Display& display, const char* text) {
         v1::SceneDescription scene = empty_scene();
-        scene.observer.display = display;
+        scene.observer->display = display;
         expect_same(scene, text_with("", R"({"position": [0.5, 1, -6], "display": )" +
                                              std::string(text) + "}"));
     };
@@ -212,7 +212,7 @@ TEST(ApiScene, HasTracksOfEveryType) {
     scene.models = {{.name = "ball", .source = v1::Sphere{0.3}}};
     scene.objects = {{.name = "o", .model = "ball"}};
     scene.lights = {{.source = v1::PointLight{{1, 2, 3}}}};
-    scene.observer.display.shape = v1::PyramidDisplay{.angles = std::array{50.0, 40.0}};
+    scene.observer->display.shape = v1::PyramidDisplay{.angles = std::array{50.0, 40.0}};
     using v1::Interpolation;
     scene.animation = {
         .frames = 9,

@@ -76,6 +76,7 @@ std::string stack_scene(const std::string& objects, const std::string& observer)
            "mirror": {"shape": "box", "size": [1, 0.9, 0.12], "surface": "cubes"}},
 "objects": [)" +
            objects + R"(],
+"lights": [],
 "observer": {)" +
            observer + R"(, "display": {"shape": "box", "size": [0.3, 0.2, 5]}},
 "render": {"size": [6, 5]}})";

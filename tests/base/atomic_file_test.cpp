@@ -86,6 +86,23 @@ TEST_F(AtomicFileTest, AFailureThatWasSwallowedStillPreventsTheCommit) {
     EXPECT_EQ(files_in_folder(), 0u);
 }
 
+TEST_F(AtomicFileTest, ALaterFailureDoesntHideTheFirst) {
+    AtomicFile file(folder / "a.bin");
+    {
+        const FileSizeLimit limit(2);
+        EXPECT_THROW(file.write("voxel", 5), Error);
+    }
+    const Error error = error_of([&] { file.fail("Error writing to stream"); });
+    EXPECT_THAT(error.what(), HasSubstr("a.bin: can't be written: the file grows"));
+}
+
+TEST_F(AtomicFileTest, AFolderThatTakesNoFilesIsToldFromAMissingOne) {
+    const Error error = error_of([&] { AtomicFile("/proc/a.bin"); });
+    EXPECT_EQ(error.exit_code(), 5);
+    EXPECT_THAT(error.what(), HasSubstr("the folder /proc "));
+    EXPECT_THAT(error.what(), testing::Not(HasSubstr("there is no folder")));
+}
+
 TEST_F(AtomicFileTest, AMissingFolderIsNamed) {
     const Error error = error_of([&] { AtomicFile(folder / "frames" / "a.bin"); });
     EXPECT_EQ(error.exit_code(), 5);

@@ -2,6 +2,7 @@
 #include "runtime/base/disk_cache.hpp"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <fstream>
 
@@ -26,6 +27,19 @@ TEST_F(DiskCacheFiles, GivesBackWhatWasWritten) {
     cache.write(key_of("one"), bytes);
     EXPECT_EQ(cache.read(key_of("one")), bytes);
     EXPECT_EQ(cache.read(key_of("two")), std::nullopt);
+}
+
+TEST_F(DiskCacheFiles, SaysWhyItCannotBeWrittenWithoutWriting) {
+    EXPECT_EQ(DiskCache(folder / "new" / "deep", 1000).refusal(), "");
+    EXPECT_FALSE(fs::exists(folder / "new"));
+    EXPECT_EQ(DiskCache({}, 1000).refusal(), "");
+    std::ofstream(folder / "file") << "no folder";
+    EXPECT_EQ(DiskCache(folder / "file", 1000).refusal(), "Not a directory");
+    EXPECT_EQ(DiskCache(folder / "file" / "deep", 1000).refusal(), "Not a directory");
+    if (geteuid() == 0) return;  // for whom everything can be written
+    fs::create_directory(folder / "locked");
+    fs::permissions(folder / "locked", fs::perms::owner_read);
+    EXPECT_EQ(DiskCache(folder / "locked" / "deep", 1000).refusal(), "Permission denied");
 }
 
 TEST(DiskCache, AKeyDependsOnWhereItsPartsEnd) {

@@ -54,6 +54,7 @@ class Field {
 "world": {{"voxel_size": {}, "bounds": {{"min": [{}, -1, {}], "max": [{}, 1, {}]}}}},
 "models": {{"one": {{"mesh": "{}", "resolution": {}, "surface": "{}"}}}},
 "objects": [],
+"lights": [],
 "observer": {{"position": [0, {}, {}], "look_at": [0, 0, 0],
   "display": {{"shape": "pyramid", "angle": 50, "near": 0.01, "far": {}, "voxels": [8, 8, 8]}}}},
 "render": {{"size": [{}, {}]}}}})",

@@ -87,6 +87,22 @@ TEST_F(CliFramesTest, ANameWithoutAPlaceForTheNumberGetsItBesideOneThatHasIt) {
     EXPECT_EQ(bytes_of(folder / "x0002.exr"), bytes_of(folder / "y.02.exr"));
 }
 
+TEST_F(CliFramesTest, SlicesKeepTheirOwnNumberBehindTheFrames) {
+    write_moving_scene(2);
+    ASSERT_EQ(run("render scene.json --volume s.##.png --frames 1-2").exit_code, 0);
+    ASSERT_EQ(run("render scene.json --volume f#_s##.png --frames 1-2").exit_code, 0);
+    std::vector<std::string> expected = {"scene.json"};
+    for (const char* frame : {"s.0001", "s.0002", "f1_s", "f2_s"}) {
+        expected.push_back(std::string(frame) + ".json");
+        for (int slice = 0; slice < 9; ++slice)
+            expected.push_back(
+                fmt::format("{}{}{:02}.png", frame, frame[0] == 's' ? "." : "", slice));
+    }
+    EXPECT_THAT(names(), testing::UnorderedElementsAreArray(expected));
+    EXPECT_THAT(expect_failure(2, "render scene.json --volume s.png --frames 1-2"),
+                HasSubstr("s.png: a stack of slices needs their number in its name: s.####.png"));
+}
+
 TEST_F(CliFramesTest, AFrameThatIsWrongIsToldBeforeAnyIsRendered) {
     write_moving_scene(3, -1);
     for (const char* line :

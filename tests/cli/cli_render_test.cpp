@@ -80,6 +80,60 @@ TEST_F(CliRenderTest, OptionsComeInAnyOrder) {
     }
 }
 
+TEST_F(CliRenderTest, EndingsAndSizesMayHaveCapitals) {
+    ASSERT_EQ(run("render scene.json --size 10X6 -o A.PNG -o B.Exr --volume C.NRRD").exit_code, 0);
+    ASSERT_EQ(run("render scene.json --size 10x6 -o a.png -o b.exr --volume c.nrrd").exit_code, 0);
+    EXPECT_EQ(bytes_of(folder / "A.PNG"), bytes_of(folder / "a.png"));
+    EXPECT_EQ(bytes_of(folder / "B.Exr"), bytes_of(folder / "b.exr"));
+    EXPECT_EQ(bytes_of(folder / "C.NRRD"), bytes_of(folder / "c.nrrd"));
+    for (const char* size : {"10y6", "10x", "10x6x", "x6"})
+        expect_failure(2, fmt::format("render scene.json --size {} -o a.png", size));
+}
+
+TEST_F(CliRenderTest, TheLastLineHasTheSizeOfWhatWasMade) {
+    EXPECT_THAT(run("render scene.json -o a.png").err, StartsWith("20x12 in "));
+    EXPECT_THAT(run("render scene.json --volume a.nrrd").err, StartsWith("16x12x9 voxels in "));
+    EXPECT_THAT(run("render scene.json -o a.png --volume a.nrrd").err,
+                StartsWith("20x12 and 16x12x9 voxels in "));
+}
+
+TEST_F(CliRenderTest, WhatASceneLeavesOutIsFoundAndToldByCheck) {
+    put_bytes(folder / "m.obj", kTetrahedron);
+    put_bytes(folder / "scene.json", R"({
+  "voxelume": 1, "render": {"size": [64, 48]},
+  "models": {"thing": {"mesh": "m.obj", "fit": 2}}, "objects": [{"model": "thing"}]
+})");
+    const ProgramResult check = run("check scene.json");
+    EXPECT_EQ(check.exit_code, 0) << check.err;
+    EXPECT_THAT(check.out, HasSubstr("model \"thing\": m.obj scaled by 2, smooth"));
+    EXPECT_THAT(check.out, HasSubstr("The scene has no \"lights\", so one shines from the "
+                                     "observer's upper left.\n"));
+    EXPECT_THAT(check.out,
+                HasSubstr("To keep it, copy:\n  \"world\": {\"voxel_size\": 0.007813, "));
+    const Json fitted = Json::parse(run("check --json scene.json").out)["fitted"];
+    EXPECT_EQ(fitted["world"]["bounds"]["min"][0], -1.031316);
+    EXPECT_EQ(fitted["lights"].size(), 1u);
+    ASSERT_EQ(run("render scene.json -o fitted.exr").exit_code, 0);
+    Json copied = Json::parse(bytes_of(folder / "scene.json"));
+    copied.update(fitted);
+    put_bytes(folder / "scene.json", copied.dump());
+    ASSERT_EQ(run("render scene.json -o copied.exr").exit_code, 0);
+    EXPECT_EQ(bytes_of(folder / "fitted.exr"), bytes_of(folder / "copied.exr"));
+    EXPECT_FALSE(Json::parse(run("check --json scene.json").out).contains("fitted"));
+}
+
+TEST_F(CliRenderTest, AMeshThatASceneIsFittedToIsReadOnce) {
+    put_bytes(folder / "m.obj", kTetrahedron);
+    put_bytes(folder / "scene.json", R"({"voxelume": 1, "render": {"size": [16, 12]},
+        "models": {"thing": {"mesh": "m.obj", "unit": "cm"}}, "objects": [{"model": "thing"}]})");
+    for (const char* option : {"", " --no-cache"}) {
+        ASSERT_EQ(
+            run(fmt::format("render scene.json -o a.png --stats-json s.json{}", option)).exit_code,
+            0);
+        EXPECT_EQ(Json::parse(bytes_of(folder / "s.json"))["triangles"], 4);
+    }
+}
+
 TEST_F(CliRenderTest, TwoOutputsOfOneNameAreRefused) {
     for (const char* outputs :
          {"-o a.exr -o a.exr", "-o a.exr -o ./a.exr", "-o a.exr --volume a.exr",

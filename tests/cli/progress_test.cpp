@@ -59,6 +59,16 @@ TEST(ProgressLine, FitsAnyTerminal) {
                   static_cast<size_t>(std::max(0, columns - 1)));
 }
 
+TEST(Progress, SaysNothingInAFile) {
+    std::FILE* file = std::tmpfile();
+    ASSERT_NE(file, nullptr);
+    Progress progress("frame", 3, file);
+    progress.say("compiling kernels: 1 of 2");
+    progress.clear();
+    EXPECT_EQ(std::ftell(file), 0);
+    std::fclose(file);
+}
+
 TEST(Progress, IsSilentInAFile) {
     std::FILE* file = std::tmpfile();
     ASSERT_NE(file, nullptr);

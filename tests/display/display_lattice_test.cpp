@@ -191,7 +191,7 @@ TEST(LatticeOfEmptySpace, IsScannedWhereObjectsAreWithTheSameBits) {
                    "box": {{"shape": "box", "size": [0.3, 0.4, 0.5], "surface": "exact"}}}},
         "objects": [{{"model": "ball", "position": [-0.4, -0.5, -0.3]}},
                     {{"model": "box", "turn": [20, 30, 40], "position": [0.2, 0.4, 0.1]}}],
-        "observer": {{"position": [3, 2.5, -3], "look_at": [0.9, 0.7, 0.8],
+        "lights": [], "observer": {{"position": [3, 2.5, -3], "look_at": [0.9, 0.7, 0.8],
             "display": {{"shape": "box", "size": [9, 8, 11], "near": 0, "layout": "lattice",
                         "voxels": [120, 110, 130]}}}}}})";
     for (const glm::dvec3& high : {glm::dvec3(8, 1, 1), glm::dvec3(1, 8, 1), glm::dvec3(1, 1, 8)}) {
@@ -218,7 +218,7 @@ TEST(LatticeOfMirrors, ShowsTheVoxelsOfDullSurfaces) {
         "models": {{"ball": {{"shape": "sphere", "radius": 0.5, "surface": "{}"}}}},
         "materials": {{"mirror": {{"reflection": {}}}}},
         "objects": [{{"model": "ball", "material": "mirror"}}],
-        "observer": {{"position": [0.6, 0.9, -1.5], "look_at": [0, 0, 0],
+        "lights": [], "observer": {{"position": [0.6, 0.9, -1.5], "look_at": [0, 0, 0],
             "display": {{"shape": "pyramid", "angles": [50, 50], "layout": "lattice",
                         "voxels": [41, 37, 33]}}}},
         "render": {{"depth": 2}}}})";

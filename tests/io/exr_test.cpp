@@ -116,7 +116,9 @@ TEST_F(ExrTest, ASmallFileOnAFullDiskFailsAndLeavesNothing) {
     std::filesystem::remove(path());
     for (rlim_t limit = 1; limit < size; limit += 13) {
         const FileSizeLimit full(limit);
-        EXPECT_EQ(error_of([&] { write_exr(path(), random_image(3, 2)); }).exit_code(), 5) << limit;
+        const Error error = error_of([&] { write_exr(path(), random_image(3, 2)); });
+        EXPECT_EQ(error.exit_code(), 5) << limit;
+        EXPECT_THAT(error.what(), HasSubstr("the file grows beyond the size allowed")) << limit;
         ASSERT_EQ(files_in_folder(), 0u) << limit;
     }
 }

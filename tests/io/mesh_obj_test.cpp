@@ -32,6 +32,17 @@ TEST(MeshObj, HasItsVerticesTrianglesAndGroups) {
     EXPECT_THAT(mesh.group_names, ElementsAre("red brick", "glass"));
     EXPECT_THAT(mesh.triangle_group, ElementsAre(0u, 1u, 0u));
     EXPECT_THAT(mesh.vertex_colors, IsEmpty());
+    EXPECT_EQ(mesh.material_library, "house.mtl");
+}
+
+TEST(MeshObj, KeepsTheNameOfItsFirstMaterialLibrary) {
+    const auto library = [](const std::string& lines) {
+        return parse_mesh(lines + kObjVertices + "f 1 2 3\n", "a.obj").material_library;
+    };
+    EXPECT_EQ(library(""), "");
+    EXPECT_EQ(library("mtllib my house.mtl \r\nmtllib other.mtl\n"), "my house.mtl");
+    EXPECT_EQ(library("mtllib\n"), "");
+    EXPECT_EQ(library("mtllib a.mtl \\\n b.mtl\n"), "a.mtl \\");  // a name over two lines is none
 }
 
 TEST(MeshObj, FacesBeforeTheFirstMaterialAreInTheUnnamedGroup) {
@@ -54,6 +65,34 @@ TEST(MeshObj, VertexColorsBecomeLinearAndWhiteWhereMissing) {
     EXPECT_EQ(mesh.vertex_colors[0], vec3(1.0f));
     EXPECT_EQ(mesh.vertex_colors[1], vec3(1.0f, 0.21404114f, 0.00154798757f));
     EXPECT_EQ(mesh.vertex_colors[2], vec3(1.0f));
+}
+
+TEST(MeshObj, CornersHaveTheNormalsThatTheyName) {
+    const Mesh mesh = parse_mesh(
+        "vn 0 0 1\nv 0 0 0\nv 5 0 0\nv 5 3 0\nv 0 3 0\nvn 0 2 0 \nf 1//1 2/7/2 3//-1 4//3\n"
+        "f 1 2 3\nf 3//9 2//1 1//0\nvn 1e0 -.5 \\\n 2\n",
+        "a.obj");
+    EXPECT_THAT(mesh.normals, ElementsAre(vec3(0, 0, 1), vec3(0, 2, 0), vec3(1, -0.5f, 2)));
+    EXPECT_THAT(mesh.triangles.size(), 4u);
+    EXPECT_THAT(mesh.triangle_normals, ElementsAre(uvec3(0, 1, 1), uvec3(0, 1, 2), uvec3(kNoNormal),
+                                                   uvec3(kNoNormal, 0, kNoNormal)));
+}
+
+TEST(MeshObj, NormalsFollowTheCornersOfAConcaveFace) {
+    const Mesh mesh = parse_mesh(
+        "v 0 0 0\nv 4 0 0\nv 1 1 0\nv 0 4 0\nvn 1 0 0\nvn 2 0 0\nvn 3 0 0\nvn 4 0 0\n"
+        "f 4//4 1//1 2//2 3//3\n",
+        "a.obj");
+    EXPECT_EQ(mesh.triangles.size(), 2u);
+    EXPECT_EQ(mesh.triangle_normals, mesh.triangles);
+}
+
+TEST(MeshObj, NormalsThatAreNoneAreNoMistake) {
+    const std::string v = kObjVertices;
+    const Mesh mesh = parse_mesh(v + "vn nan 0 0\nvn 1\nvn 1e99 0 0\nf 1//1 2//2 3//3\n", "a.obj");
+    EXPECT_THAT(mesh.normals, ElementsAre(vec3(0), vec3(0), vec3(0)));
+    EXPECT_THAT(parse_mesh(v + "vn 0 0 1\nf 1 2 3\n", "a.obj").normals, IsEmpty());
+    EXPECT_THAT(parse_mesh(v + "f 1//1 2//1 3//1\n", "a.obj").triangle_normals, IsEmpty());
 }
 
 TEST(MeshObj, AStatementContinuesBehindABackslash) {

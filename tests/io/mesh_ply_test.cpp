@@ -44,12 +44,39 @@ TEST(MeshPly, TakesPropertiesInAnyOrderAndSkipsOthers) {
     EXPECT_THAT(mesh.vertex_colors, Each(vec3(0.0f, 0.033104766f, 1.0f)));
 }
 
+TEST(MeshPly, VerticesHaveNormals) {
+    const std::string normal = "property float nx\nproperty double nz\nproperty float ny\n";
+    const Mesh mesh = parse_mesh(ply(kPlyVertex + normal, kPlyFace,
+                                     "0 0 0 1 3 2\n5 0 0 nan 0 0\n0 3 1 0 -1e-2 0\n3 0 1 2\n"),
+                                 "a.ply");
+    EXPECT_THAT(mesh.normals, ElementsAre(vec3(1, 2, 3), vec3(0), vec3(0, 0, -0.01f)));
+    EXPECT_TRUE(mesh.triangle_normals.empty()) << "as the positions";
+    const std::string two = "property float nx\nproperty float ny\n";
+    EXPECT_TRUE(
+        parse_mesh(ply(kPlyVertex + two, kPlyFace, "0 0 0 1 3\n5 0 0 inf 0\n0 3 1 0 -1\n3 0 1 2\n"),
+                   "a.ply")
+            .normals.empty());
+}
+
 TEST(MeshPly, TakesFloatColors) {
     const Mesh mesh = parse_mesh(
         ply(kPlyVertex + "property float red\nproperty float green\nproperty float blue\n",
             kPlyFace, "0 0 0 1 0.5 0\n5 0 0 1 0.5 0\n0 3 1 1 0.5 0\n3 0 1 2"),
         "a.ply");
     EXPECT_THAT(mesh.vertex_colors, Each(vec3(1.0f, 0.21404114f, 0.0f)));
+}
+
+TEST(MeshPly, KeepsTheNameOfItsTexture) {
+    const auto texture = [](const std::string& first, const std::string& second) {
+        return parse_mesh("ply\n" + first + "format ascii 1.0\n" + second + "element vertex 3\n" +
+                              kPlyVertex + "element face 1\n" + kPlyFace +
+                              "end_header\n0 0 0\n5 0 0\n0 3 1\n3 0 1 2",
+                          "a.ply")
+            .texture;
+    };
+    EXPECT_EQ(texture("comment any\n", "comment TextureFile\n"), "");
+    EXPECT_EQ(texture("", "comment TextureFile my wood.png\r\n"), "my wood.png");
+    EXPECT_EQ(texture("comment TextureFile a.png\n", "comment TextureFile b.png\n"), "a.png");
 }
 
 TEST(MeshPly, RefusesDamageWithTheLine) {

@@ -23,6 +23,7 @@ Scene lens(double apart, int width) {
     {{"shape": "sphere", "radius": 0.35}},
     {{"shape": "sphere", "radius": 0.35, "position": [0, {}, 0]}}]}}}},
 "objects": [{{"name": "lens", "model": "lens", "placement": "world"}}],
+"lights": [],
 "observer": {{"position": [0, 1, -3], "look_at": [0, 0.2, 0],
              "display": {{"shape": "pyramid", "angle": 25}}}},
 "render": {{"size": [{}, 48]}}}})",

@@ -16,7 +16,7 @@ class PlanTest : public FileTest {
             "world": {{"voxel_size": {}, "bounds": {{"min": [0,0,0], "max": [1,0.9,0.8]}}}},
             "models": {{"thing": {}}},
             "objects": [{{"name": "thing", "model": "thing", "position": [0.5011,0.4007,0.4013]}}],
-            "observer": {{"position": [0.5,0.4,3], "look_at": [0.5,0.4,0.4],
+            "lights": [], "observer": {{"position": [0.5,0.4,3], "look_at": [0.5,0.4,0.4],
                 "display": {{"shape": "pyramid", "angles": [40,30], "near": 0.1, "far": 8,
                             "voxels": [8,6,4]}}}},
             "render": {{"size": [8, 6]}}}})",

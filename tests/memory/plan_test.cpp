@@ -145,6 +145,22 @@ TEST_F(PlanTest, AMeshThatHoldsEveryTriangleTwiceIsRefusedForOneAlone) {
     }
 }
 
+TEST_F(PlanTest, NormalsTakeTwelveBytesATriangle) {
+    const Mesh mesh = wavy_ring(60, 40);
+    write_obj(folder / "ring.obj", mesh);
+    const auto plan = [&](const char* shading) {
+        return plan_of(scene_of(
+            fmt::format(R"({{"mesh": "ring.obj", "surface": "exact", "shading": "{}"}})", shading),
+            1.0 / 200));
+    };
+    const ScenePlan flat = plan("flat"), smooth = plan("smooth");
+    const double bytes = 12.0 * double(mesh.triangles.size());
+    EXPECT_EQ(plan("auto").index_bytes, flat.index_bytes);
+    EXPECT_EQ(smooth.world_bytes - flat.world_bytes, bytes);
+    EXPECT_EQ(smooth.grids.at(0).kept_bytes - flat.grids.at(0).kept_bytes, bytes);
+    EXPECT_GT(smooth.image_bytes, flat.image_bytes + bytes) << "six floats more a ray";
+}
+
 TEST_F(PlanTest, TheImagesBytesAreThoseOfItsChannelsRaysAndDilatedOccupancy) {
     for (const double voxel : {1.0 / 120, 1.0 / 400}) {
         Scene scene = scene_of(R"({"shape": "sphere", "radius": 0.35})", voxel);

@@ -36,6 +36,7 @@ std::string scene_text(const std::string& placement) {
           "ambient": [0.2, 0.2, 0.2]}},
 "models": {{{}}},
 "objects": [{{"name": "o", "model": "s0", "placement": "{}"}}],
+"lights": [],
 "observer": {{"position": [0, 1, -3], "look_at": [0, 0, 0],
              "display": {{"shape": "pyramid", "angle": 25}}}},
 "render": {{"size": [64, 48]}},

@@ -42,6 +42,7 @@ Scene bubble(const std::string& surface) {
 "models": {"ball": {"shape": "sphere", "radius": 0.1, "surface": ")" +
                            surface + R"("}},
 "objects": [{"model": "ball", "material": "air", "position": [0.003, -0.004, 0.001]}],
+"lights": [],
 "observer": {"position": [0.1, 0.2, -0.6], "look_at": [0, 0, 0], "display": {"shape": "box", "size": [0.2, 0.2, 3]}},
 "render": {"size": [940, 940]}})",
                        "test.json", {});

@@ -30,6 +30,7 @@ inline Scene leaky_room(const std::string& surface, int depth) {
             {"model": "ring", "material": "glass", "position": [0.4, 0.35, 0.2], "turn": [20, 50, 10]},
             {"model": "ball", "material": "mirror", "position": [0.4, -0.4, 0.3]},
             {"model": "block", "material": "glass", "position": [-0.3, -0.5, 0.2], "turn": [33, 20, 0]}],
+"lights": [],
 "observer": {"position": [0.1, 0.05, -0.8], "look_at": [0, 0, 0.3],
              "display": {"shape": "pyramid", "angle": 90}},
 "render": {"size": [192, 192], "depth": )" +

@@ -116,6 +116,7 @@ TEST(Paths, PanesCoverWhatLiesBehindByTheirOpacity) {
 "objects": [{"model": "pane", "material": "a", "position": [0, 0, -0.5]},
             {"model": "pane", "material": "b", "position": [0, 0, 0]},
             {"model": "pane", "material": "c", "position": [0, 0, 0.5]}],
+"lights": [],
 "observer": {"position": [0, 0, -3], "look_at": [0, 0, 0],
              "display": {"shape": "box", "size": [0.5, 0.5, 5]}},
 "render": {"size": [4, 4]}})";

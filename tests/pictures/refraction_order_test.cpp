@@ -23,6 +23,7 @@ Scene ball_scene(double voxel_size) {
 "materials": {{"glass": {{"diffuse": 0, "refraction": 1, "ior": {}}}}},
 "models": {{"ball": {{"shape": "sphere", "radius": 0.9}}}},
 "objects": [{{"model": "ball", "material": "glass", "position": [0.013, -0.021, 0.017]}}],
+"lights": [],
 "observer": {{"position": [1.9, 1.4, 3.1], "look_at": [0.013, -0.021, 0.017],
              "display": {{"shape": "pyramid", "angle": 15.4}}}},
 "render": {{"size": [{}, {}]}}}})",

@@ -85,6 +85,7 @@ class MirroredObjects : public FileTest, public testing::WithParamInterface<Case
 "materials": {{"m": {}}},
 "models": {{"mesh": {{"mesh": "mesh.obj", "voxel_size": 0.013, "surface": "{}"{}}}}},
 "objects": [{{"model": "mesh", "material": "m", "matrix": [{}], "placement": "{}"}}],
+"lights": [],
 "observer": {{"position": [{}, {}, {}], "look_at": [0, 0, 0],
              "display": {{"shape": "pyramid", "angles": [40, 34]}}}},
 "render": {{"size": [160, 130], "depth": 8}}}})",

@@ -10,65 +10,18 @@
 #include "runtime/scene/scene_affine.hpp"
 #include "runtime/stages/index/index.hpp"
 #include "runtime/stages/place/place.hpp"
+#include "tests/place/field_accuracy.hpp"
 #include "tests/place/placing.hpp"
 #include "tests/place/pyramid_reader.hpp"
 
 namespace voxelume {
 namespace {
 
-constexpr double kBand =
-    2.8;  // voxels; objects' fields are exact within this band, as voxelizers make them
-
-int16_t banded(double voxels) {
-    return std::abs(voxels) <= kBand ? stored_distance(voxels)
-                                     : int16_t(voxels < 0 ? -32767 : 32767);
-}
-
-/// A sphere about the origin of its space, in voxels of `edge`.
-HostBricks sphere_bricks(double radius, double edge) {
-    const int half = int(std::ceil(radius / edge)) + 5;
-    const GridFrame frame = frame_at(glm::dvec3(-half * edge), glm::dvec3(edge),
-                                     {2 * half, 2 * half + 1, 2 * half + 2});
-    return distance_bricks(frame, [&](const glm::ivec3& n) {
-        return banded((glm::length(glm::dvec3(n) * edge + frame.origin) - radius) / edge);
-    });
-}
-
 BrickGrid place_one(const BrickGrid& grid, const glm::dmat4& world_from_object,
                     const GridFrame& world) {
     const std::vector<PlacedObject> objects = {
         {.grid = &grid, .world_from_object = world_from_object, .material_of_group = {0}}};
     return place(shared_device(), objects, world);
-}
-
-/// Calls visit(node, distance in world voxels) for the nodes of the world's voxels.
-template <class Visit>
-void for_each_node(const BrickGrid& world, const Visit& visit) {
-    const ReadBricks bricks(world);
-    for (glm::ivec3 n{0}; n.z <= world.frame.size.z; ++n.z)
-        for (n.y = 0; n.y <= world.frame.size.y; ++n.y)
-            for (n.x = 0; n.x <= world.frame.size.x; ++n.x)
-                visit(n, bricks.distance_at(n) / 8192.0);
-}
-
-struct Accuracy {
-    double near = 0, band = 0;  // maximum errors within 1.75 and `reach` voxels of the surface
-    int wrong_sides = 0;
-};
-
-Accuracy accuracy_of(const BrickGrid& world, const std::function<double(glm::dvec3)>& metres,
-                     double reach = 2.7) {
-    Accuracy accuracy;
-    const GridFrame& frame = world.frame;
-    for_each_node(world, [&](const glm::ivec3& n, double placed) {
-        const double truth = metres(frame.origin + frame.voxel_edge * glm::dvec3(n)) /
-                             std::min({frame.voxel_edge.x, frame.voxel_edge.y, frame.voxel_edge.z});
-        const double error = std::abs(placed - truth);
-        if (std::abs(truth) <= 1.75) accuracy.near = std::max(accuracy.near, error);
-        if (std::abs(truth) <= reach) accuracy.band = std::max(accuracy.band, error);
-        accuracy.wrong_sides += std::abs(truth) > 0.01 && (placed < 0) != (truth < 0);
-    });
-    return accuracy;
 }
 
 TEST(PlaceField, ATurnedMovedAndScaledSphereHasItsAnalyticDistances) {
@@ -202,47 +155,6 @@ TEST(PlaceField, APartOfTheWorldsLatticeIsCopied) {
     EXPECT_GT(copied, 1500);
 }
 
-TEST(PlaceField, UnitesObjectsByTheSmallestDistance) {
-    const Device& device = shared_device();
-    const BrickGrid sphere = sphere_bricks(2.0, 0.1).upload(device);
-    const glm::dvec3 centres[] = {{-1.23, 0.1, 0}, {1.31, 0, 0.17}};
-    std::vector<PlacedObject> objects;
-    for (uint32_t i = 0; i < 2; ++i)
-        objects.push_back(
-            {.grid = &sphere,
-             .world_from_object = affine_from_factors(centres[i], {10, 20, 30}, {1, 1, 1}),
-             .object = i,
-             .material_of_group = {5 + i}});
-    const GridFrame frame = frame_at({-4, -3, -3}, glm::dvec3(0.1), {80, 60, 61});
-    const BrickGrid world = place(device, objects, frame);
-    const Accuracy accuracy = accuracy_of(world, [&](const glm::dvec3& p) {
-        return std::min(glm::length(p - centres[0]), glm::length(p - centres[1])) - 2.0;
-    });
-    EXPECT_LT(accuracy.near, 0.02);
-    EXPECT_EQ(accuracy.wrong_sides, 0);
-
-    const Pyramid pyramid = build_index(device, world);
-    const HostPyramid host(pyramid);
-    int shown[2] = {0, 0};
-    for (glm::ivec3 v{0}; v.z < frame.size.z; ++v.z)
-        for (v.y = 0; v.y < frame.size.y; ++v.y)
-            for (v.x = 0; v.x < frame.size.x; ++v.x) {
-                int log2 = 0;
-                const auto voxel = host.find(v, log2);
-                if (!voxel) continue;
-                const glm::dvec3 p = frame.origin + 0.1 * (glm::dvec3(v) + 0.5);
-                const double d[2] = {glm::length(p - centres[0]), glm::length(p - centres[1])};
-                if (std::abs(d[0] - d[1]) < 0.003) continue;
-                const uint32_t i = d[0] < d[1] ? 0 : 1;
-                ++shown[i];
-                ASSERT_EQ(host.word(*voxel), 0x40000000u | (5 + i) << 16 | i);
-            }
-    EXPECT_GT(shown[0], 5000);
-    EXPECT_GT(shown[1], 5000);
-    std::ranges::reverse(objects);
-    EXPECT_EQ(place(device, objects, frame).distance.read(), world.distance.read());
-}
-
 TEST(PlaceField, TakesTheGroupOfTheCellThatTheSurfaceCrosses) {
     // Group 1 is above the sphere's equator, group 0 below. Only voxels that the surface passes
     // have attributes.
@@ -280,30 +192,6 @@ TEST(PlaceField, TakesTheGroupOfTheCellThatTheSurfaceCrosses) {
                 ASSERT_EQ(host.word(*voxel), 0x40000003u | (y > 0 ? 8u : 7u) << 16);
             }
     EXPECT_GT(shown, 5000);
-}
-
-TEST(PlaceField, ASmoothWinnerTakesItsVoxelsFromCubesAndALoserLeavesThem) {
-    const Device& device = shared_device();
-    const BrickGrid sphere = sphere_bricks(1.0, 0.1).upload(device);
-    VoxelMap slab;
-    for (int z = 0; z < 31; ++z)
-        for (int x = 0; x < 30; ++x) slab[{x, 15, z}] = 0;
-    HostBricks bricks =
-        occupied_bricks(frame_at(glm::dvec3(-1.5), glm::dvec3(0.1), {30, 32, 31}), slab);
-    bricks.attributes.clear();
-    const BrickGrid cubes = bricks.upload(device);
-    for (const int priority : {-1, 1}) {
-        const std::vector<PlacedObject> objects = {
-            {.grid = &cubes, .object = 1, .material_of_group = {10}, .in_world_frame = true},
-            {.grid = &sphere, .object = 2, .priority = priority, .material_of_group = {20}}};
-        const HostPyramid host(build_index(device, place(device, objects, cubes.frame)));
-        int log2 = 0;
-        // The sphere's surface passes through (25,15,15); (2,15,2) is far outside of it.
-        EXPECT_EQ(host.word(host.find({25, 15, 15}, log2).value()),
-                  priority > 0 ? 0x40140002u : 0x000A0001u);
-        EXPECT_EQ(host.word(host.find({2, 15, 2}, log2).value()), 0x000A0001u);
-        EXPECT_EQ(host.word(host.find({15, 25, 15}, log2).value()), 0x40140002u);
-    }
 }
 
 TEST(PlaceField, OneAttributeForAllNeedsNoList) {

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <numeric>
 #include <optional>
 #include <vector>
 
@@ -22,6 +23,16 @@ struct HostPyramid {
           attributes(p.attributes.read()),
           attribute(p.attribute),
           fields(p.fields.read()) {}
+
+    /// The records of the fields in a voxel: its own, or those that it lists.
+    std::vector<uint32_t> fields_in(uint32_t voxel) const {
+        const uint32_t kind = word(voxel) >> 30;
+        if (kind == 1) return {voxel};
+        if (kind == 0 || fields.empty()) return {};
+        std::vector<uint32_t> listed(fields.at(voxel * 8 + 1));
+        std::iota(listed.begin(), listed.end(), fields.at(voxel * 8));
+        return listed;
+    }
 
     /// The voxel's index. Returns nothing for an empty place, and sets `empty_log2` to the log2
     /// edge of the cube that is promised to be empty.

@@ -68,6 +68,37 @@ TEST(SceneErrors, PointAtUnknownKeysThemselves) {
         HasSubstr("unknown key \"angle\"; known are \"name\", \"type\""));
 }
 
+TEST(SceneErrors, KnowTheWordsOfOtherPrograms) {
+    const auto object_with = [](const std::string& key) {
+        return message(
+            scene_with("\"objects\": [{\"model\": \"ball\", \"" + key + "\": [1, 2, 3]}],"));
+    };
+    EXPECT_THAT(object_with("rotation"),
+                EndsWith("objects[0]: unknown key \"rotation\"; did you mean \"turn\"?"));
+    EXPECT_THAT(object_with("translation"), EndsWith("did you mean \"position\"?"));
+    EXPECT_THAT(object_with("to_world"), EndsWith("did you mean \"matrix\"?"));
+    EXPECT_THAT(object_with("positoin"), EndsWith("did you mean \"position\"?"));
+    EXPECT_THAT(message(scene_with(R"("render": {"spp": 4},)")),
+                EndsWith("unknown key \"spp\"; did you mean \"samples\"?"));
+    EXPECT_THAT(message(scene_with(R"("render": {"camera": 4},)")),
+                HasSubstr("unknown key \"camera\"; known are"))
+        << "render has no observer";
+}
+
+TEST(SceneErrors, HaveTheRightArticle) {
+    const auto track = [](const std::string& members) {
+        return message(scene_with(R"("animation": {"tracks": [{)" + members + "}]},"));
+    };
+    EXPECT_THAT(track(""), EndsWith("tracks[0]: needs a \"target\""));
+    const auto observer = [](const std::string& display) {
+        return message(R"({"voxelume": 1, "world": {"bounds": {"min": [0, 0, 0], "max": [1, 2, 3]}},
+"observer": {"position": [0, 0, 0], "display": {)" +
+                       display + "}}}");
+    };
+    EXPECT_THAT(observer(R"("shape": "sector")"), EndsWith("observer.display: needs an \"angle\""));
+    EXPECT_THAT(observer(""), HasSubstr("observer.display: needs a \"shape\"; known are"));
+}
+
 TEST(SceneErrors, CountColumnsInCharactersAndSkipCommentsAndTheByteOrderMark) {
     EXPECT_THAT(message("\xEF\xBB\xBF{ // {\"\n /* \xC3\xA4\xC3\xB6 , */ \"voxelume\": "
                         "\"\xC3\xA9\\\"\", \"worl\": 1}"),

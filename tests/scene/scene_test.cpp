@@ -216,6 +216,26 @@ TEST(SceneModels, HaveTheWorldsVoxelsUnlessTheySayMore) {
     EXPECT_EQ(scene.models[2].set, VoxelSet::thin);
 }
 
+TEST(SceneModels, AMeshIsShadedByItsNormalsUnlessItSaysMore) {
+    const std::filesystem::path folder = std::filesystem::path(VXL_SOURCE_DIR) / "scenes";
+    const auto shading_of = [&](const std::string& keys) {
+        return parse_scene(R"({"voxelume": 1,
+"world": {"voxel_size": 0.5, "bounds": {"min": [0, 0, 0], "max": [1, 2, 3]}},
+"models": {"m": {"mesh": "README.md")" +
+                               keys + R"(}},
+"observer": {"position": [0, 0, -3], "display": {"shape": "pyramid"}}})",
+                           folder / "s.json", {})
+            .models.at(0)
+            .shading;
+    };
+    EXPECT_EQ(shading_of(""), (Shading{ShadingKind::automatic, 30}));
+    EXPECT_EQ(shading_of(R"(, "shading": "flat")"), (Shading{ShadingKind::flat, 30}));
+    EXPECT_EQ(shading_of(R"(, "shading": "smooth", "crease_angle": 44.5)"),
+              (Shading{ShadingKind::smooth, 44.5}));
+    EXPECT_THROW(shading_of(R"(, "crease_angle": 44.5)"), Error);
+    EXPECT_THROW(shading_of(R"(, "shading": "smooth", "crease_angle": 181)"), Error);
+}
+
 TEST(SceneModels, AnInfiniteSolidReachesAsFarAsTheWorldFromAllItsObjects) {
     const Scene scene = parse(scene_with(R"("objects": [{"model": "floor", "position": [0, -1, 0]},
         {"model": "floor", "turn": [0, 0, 90], "scale": 0.5}],)"));

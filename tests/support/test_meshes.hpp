@@ -94,13 +94,21 @@ inline Mesh box(const glm::vec3& low, const glm::vec3& high) {
     return mesh;
 }
 
-/// Writes an OBJ file that gives exactly the same coordinates when it is read.
+/// Writes an OBJ file that gives exactly the same coordinates and normals when it is read.
 inline void write_obj(const std::filesystem::path& path, const Mesh& mesh) {
     std::ofstream file(path);
     for (const glm::vec3& p : mesh.positions)
         file << fmt::format("v {:.9g} {:.9g} {:.9g}\n", p.x, p.y, p.z);
-    for (const glm::uvec3& t : mesh.triangles)
-        file << fmt::format("f {} {} {}\n", t.x + 1, t.y + 1, t.z + 1);
+    for (const glm::vec3& n : mesh.normals)
+        file << fmt::format("vn {:.9g} {:.9g} {:.9g}\n", n.x, n.y, n.z);
+    for (size_t i = 0; i < mesh.triangles.size(); ++i) {
+        const glm::uvec3 t = mesh.triangles[i] + 1u;
+        const glm::uvec3 n = mesh.triangle_normals.empty() ? t : mesh.triangle_normals[i] + 1u;
+        if (mesh.normals.empty())
+            file << fmt::format("f {} {} {}\n", t.x, t.y, t.z);
+        else
+            file << fmt::format("f {}//{} {}//{} {}//{}\n", t.x, n.x, t.y, n.y, t.z, n.z);
+    }
 }
 
 }  // namespace voxelume

@@ -61,7 +61,6 @@ INSTANTIATE_TEST_SUITE_P(Tests, Stress, testing::ValuesIn(names_of_tests()),
 
 // The triangle's snapped corners lie on the other side of the voxel's edge than the corners that
 // the ray meets.
-// ray meets.
 TEST(StressFound, ARayAlongAVoxelsEdgeMeetsTheTriangleBesideIt) {
     const StressResult result = test_named("exact").run({test_device(), kSeed, 6494911, 1, {}});
     EXPECT_EQ(result.cases, 1u);

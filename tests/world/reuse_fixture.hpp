@@ -115,13 +115,18 @@ inline const Kernels kPaths = {
     "append_numbers", "append_primitives", "append_words",  "begin_paths",
     "cast_sight",     "find_surface",      "list_emissive", "pass_layer",
     "resolve_pixels", "shade_surface",     "trace_closest", "trace_shadows"};
-// Builds bricks, the lists of the exact objects in them, and the buffers that rays read of them.
-inline const Kernels kEmpty =
-    all_of({kJoin,
-            {"classify_bricks", "count_primitives", "sum_counts", "start_lists",
-             "set_solid_attributes", "mark_voxels", "write_voxels"}});
-inline const Kernels kCubes = all_of({kEmpty, {"clear_bricks", "close_distances", "paint_cubes"}});
-inline const Kernels kSmooth = all_of({kCubes, {"paint_distances", "paint_smooth_voxels"}});
+// Unites the fields of smooth objects with the other voxels.
+inline const Kernels kUnite =
+    all_of({kJoin, {"append_masks", "unite_marks", "write_fields", "write_united"}});
+// Builds bricks of cubes and exact voxels, and the lists of the exact objects in them.
+inline const Kernels kEmpty = all_of(
+    {kUnite,
+     {"classify_bricks", "count_primitives", "sum_counts", "start_lists", "set_solid_attributes"}});
+inline const Kernels kCubes = all_of({kEmpty, {"clear_bricks", "paint_cubes"}});
+// Builds the field of one object.
+inline const Kernels kSmooth = all_of(
+    {kUnite,
+     {"classify_bricks", "clear_bricks", "close_distances", "mark_voxels", "paint_distances"}});
 inline const Kernels kNewCubes = all_of({kCubes, {"occupy_solid", "mark_near_leaves"}});
 inline const Kernels kNewExact = all_of({kNewCubes, {"count_voxels", "number_voxels"}});
 inline const Kernels kNewSmooth = all_of({kSmooth, {"mark_near_leaves"}});

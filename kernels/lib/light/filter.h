@@ -82,8 +82,7 @@ static inline void add_depth(const WorldView* world, const Surroundings* around,
 static inline lane_int cross_surface(const Surroundings* around, const SurfaceHit* found,
                                      lane_uint packed, lane_uint before, lane_float refraction,
                                      lane_int passing, lane_int* leaving, RayState* ray_state) {
-    const lane_int smooth = is_smooth(packed, found->primitive);
-    *leaving = medium_set_holds(&ray_state->media, packed, smooth);
+    *leaving = medium_set_holds(&ray_state->media, packed);
     lane_int inner = (lane_int)0;
     if (VXL_CUBE_BODIES) {
         const lane_int cube = is_cube(packed, found->primitive);
@@ -91,8 +90,7 @@ static inline lane_int cross_surface(const Surroundings* around, const SurfaceHi
         *leaving = LANES_SELECT(cube, found->exit, *leaving);
     }
     lane_int full;
-    ray_state->media =
-        cross_medium_or_overflow(ray_state->media, packed, smooth, *leaving, passing, &full);
+    ray_state->media = cross_medium_or_overflow(ray_state->media, packed, *leaving, passing, &full);
     if (VXL_MEDIUM_SET_CAPPED && lanes_any(full))
         atomic_add(around->medium_overflows, (uint)lanes_count(full));
     lane_int hidden =
@@ -123,12 +121,13 @@ static inline void tint_light(const WorldView* world, const Surroundings* around
     }
 }
 
-/// Lets the `passing` rays go on from the surface that they have found.
-static inline void go_on(const SurfaceHit* found, lane_int leaving, lane_int passing, Walk* w,
-                         RayState* ray_state) {
+/// Lets the `passing` rays go on from the surface that they have found, of these attributes.
+static inline void go_on(const SurfaceHit* found, lane_uint packed, lane_int leaving,
+                         lane_int passing, Walk* w, RayState* ray_state) {
     ray_state->goes_on |= passing;
     ray_state->on_surface |= passing;
-    ray_state->source = LANES_SELECT(passing, found->primitive, ray_state->source);
+    const lane_uint source = source_of_hit(found->primitive, found->voxel, packed);
+    ray_state->source = LANES_SELECT(passing, source, ray_state->source);
     ray_state->instance = LANES_SELECT(passing, found->instance, ray_state->instance);
     ray_state->within_source = LANES_SELECT(passing, ~leaving, ray_state->within_source);
     ray_state->t_first = LANES_SELECT(passing, found->t, ray_state->t_first);
@@ -166,7 +165,7 @@ static inline lane_int pass_surface(const WorldView* world, const Surroundings* 
     tint_light(world, around, w, found->t, material, voxel, opacity, refraction, passing & ~hidden,
                filter);
     if (!VXL_FILTERED) passing &= hidden | LANE_MASK(1.0f - opacity > 0.0f);
-    go_on(found, leaving, passing, w, ray_state);
+    go_on(found, packed, leaving, passing, w, ray_state);
     filter->t_last = ray_state->t_first;
     return passing;
 }

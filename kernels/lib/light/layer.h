@@ -79,8 +79,7 @@ static inline void go_straight(const Layer* l, const Surroundings* around, const
     on->direction = load_vector(batch->rays + VXL_RAY_DX * stride, stride, first);
     on->t_end = LANES_LOAD(batch->rays, VXL_RAY_END * stride + first);
     on->start = LANES_AS_FLOAT(LANES_LOAD(hits, VXL_HIT_T * stride + first));
-    on->source = (lane_uint)VXL_NO_PRIMITIVE;
-    if (VXL_EXACT) on->source = LANES_LOAD(hits, VXL_HIT_PRIMITIVE * stride + first);
+    on->source = source_of_hits(hits, stride, first, l->packed);
     if (VXL_INSTANCES) on->instance = LANES_LOAD(hits, VXL_HIT_INSTANCE * stride + first);
     on->flags = LANES_SELECT(l->leaving, (lane_uint)0, (lane_uint)VXL_PATH_WITHIN_SOURCE) |
                 (VXL_PATH_ON_SURFACE | VXL_PATH_GOES_ON);
@@ -88,8 +87,7 @@ static inline void go_straight(const Layer* l, const Surroundings* around, const
     on->cell_z = LANES_LOAD(hits, VXL_HIT_FACE * stride + first);
     on->target = l->target;
     on->media = cross_counted(load_medium_set(batch->paths, stride, first, l->valid), l->packed,
-                              is_smooth(l->packed, on->source), l->leaving, goes_on,
-                              around->medium_overflows);
+                              l->leaving, goes_on, around->medium_overflows);
     if (VXL_CUBE_BODIES) on->flags |= joined_flag(&on->media, around->materials);
     on->medium = medium_inside(&on->media, around->ranks);
 }

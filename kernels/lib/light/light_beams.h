@@ -6,7 +6,7 @@
 #include "lib/traverse/walk.h"
 #include "shared/light_beams.h"
 
-/// Component b and c of a vector, those beside the grid's axis.
+/// The components b and c of a vector, across the grid's axis.
 static inline lane_float beside_b(const BeamGrid* g, lane_float x, lane_float y) {
     return g->axis == 0 ? y : x;
 }

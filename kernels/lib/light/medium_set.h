@@ -10,10 +10,10 @@
 #include "shared/trace.h"
 #include "shared/voxel.h"
 
-// The build constant VXL_OTHER_MEDIA is the number of other objects that a scene needs.
-#define VXL_MEDIUM_SET_SIZE (1 + VXL_OTHER_MEDIA)
+// The build constant VXL_MEDIA is the number of objects that a scene needs room for.
+#define VXL_MEDIUM_SET_SIZE (VXL_MEDIA > 0 ? VXL_MEDIA : 1)
 
-/// Packed attributes of the objects, VXL_NO_MEDIUM for none: the smooth body's, then the others'.
+/// Packed attributes of the objects, VXL_NO_MEDIUM for none.
 typedef struct {
     lane_uint members[VXL_MEDIUM_SET_SIZE];
 } MediumSet;
@@ -59,25 +59,21 @@ static inline lane_int is_medium(lane_uint member, lane_uint packed) {
            LANE_MASK(member != VXL_NO_MEDIUM);
 }
 
-/// Mask: the set holds the object of these packed attributes; `smooth` tells the smooth body's.
-static inline lane_int medium_set_holds(const MediumSet* in, lane_uint packed, lane_int smooth) {
-    lane_int other = (lane_int)0;
-    for (int i = 1; i < VXL_MEDIUM_SET_SIZE; ++i) other |= is_medium(in->members[i], packed);
-    return (smooth & LANE_MASK(in->members[0] != VXL_NO_MEDIUM)) | (~smooth & other);
+/// Mask: the set holds the object of these packed attributes.
+static inline lane_int medium_set_holds(const MediumSet* in, lane_uint packed) {
+    lane_int holds = (lane_int)0;
+    for (int i = 0; i < VXL_MEDIUM_SET_SIZE; ++i) holds |= is_medium(in->members[i], packed);
+    return holds;
 }
 
 /// Does what cross_medium does; `overflowed` is the mask of lanes whose sets had no room for the
 /// object that they entered.
-static inline MediumSet cross_medium_or_overflow(MediumSet in, lane_uint packed, lane_int smooth,
-                                                 lane_int leaving, lane_int crossing,
-                                                 lane_int* overflowed) {
+static inline MediumSet cross_medium_or_overflow(MediumSet in, lane_uint packed, lane_int leaving,
+                                                 lane_int crossing, lane_int* overflowed) {
     const lane_uint none = (lane_uint)VXL_NO_MEDIUM;
-    in.members[0] =
-        LANES_SELECT(crossing & smooth, LANES_SELECT(leaving, none, packed), in.members[0]);
-    const lane_int other = crossing & ~smooth;
-    const lane_int out = other & leaving;
-    lane_int into = other & ~leaving & ~medium_set_holds(&in, packed, (lane_int)0);
-    for (int i = 1; i < VXL_MEDIUM_SET_SIZE; ++i) {
+    const lane_int out = crossing & leaving;
+    lane_int into = crossing & ~leaving & ~medium_set_holds(&in, packed);
+    for (int i = 0; i < VXL_MEDIUM_SET_SIZE; ++i) {
         const lane_uint member =
             LANES_SELECT(out & is_medium(in.members[i], packed), none, in.members[i]);
         const lane_int here = into & LANE_MASK(member == VXL_NO_MEDIUM);
@@ -89,10 +85,10 @@ static inline MediumSet cross_medium_or_overflow(MediumSet in, lane_uint packed,
 }
 
 /// The set behind a surface of the object of `packed`, in the lanes that cross it.
-static inline MediumSet cross_medium(MediumSet in, lane_uint packed, lane_int smooth,
-                                     lane_int leaving, lane_int crossing) {
+static inline MediumSet cross_medium(MediumSet in, lane_uint packed, lane_int leaving,
+                                     lane_int crossing) {
     lane_int overflowed;
-    return cross_medium_or_overflow(in, packed, smooth, leaving, crossing, &overflowed);
+    return cross_medium_or_overflow(in, packed, leaving, crossing, &overflowed);
 }
 
 /// `ranks[object]` is the object's place in the order of priorities.
@@ -125,11 +121,11 @@ static inline lane_int same_medium(lane_uint a, lane_uint b) {
 
 /// Mask: a surface is hidden, since the effective medium is the same before and behind it. A ray
 /// that leaves an object that its set doesn't hold began inside that object.
-static inline lane_int hides_surface(const MediumSet* in, lane_uint packed, lane_int smooth,
-                                     lane_int leaving, global const uint* ranks) {
-    const MediumSet before = cross_medium(*in, packed, smooth, (lane_int)0,
-                                          leaving & ~medium_set_holds(in, packed, smooth));
-    const MediumSet behind = cross_medium(before, packed, smooth, leaving, (lane_int)-1);
+static inline lane_int hides_surface(const MediumSet* in, lane_uint packed, lane_int leaving,
+                                     global const uint* ranks) {
+    const MediumSet before =
+        cross_medium(*in, packed, (lane_int)0, leaving & ~medium_set_holds(in, packed));
+    const MediumSet behind = cross_medium(before, packed, leaving, (lane_int)-1);
     return same_medium(effective_medium(&before, ranks), effective_medium(&behind, ranks));
 }
 

@@ -77,10 +77,10 @@ static inline void count_lanes(lane_int mask, global uint* counter) {
 }
 
 /// Does what cross_medium does, and counts the sets without room in `overflows`.
-static inline MediumSet cross_counted(MediumSet in, lane_uint packed, lane_int smooth,
-                                      lane_int leaving, lane_int crossing, global uint* overflows) {
+static inline MediumSet cross_counted(MediumSet in, lane_uint packed, lane_int leaving,
+                                      lane_int crossing, global uint* overflows) {
     lane_int full;
-    in = cross_medium_or_overflow(in, packed, smooth, leaving, crossing, &full);
+    in = cross_medium_or_overflow(in, packed, leaving, crossing, &full);
     if (VXL_MEDIUM_SET_CAPPED) count_lanes(full, overflows);
     return in;
 }

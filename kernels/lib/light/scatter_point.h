@@ -5,6 +5,7 @@
 
 #include "lib/light/optics.h"
 #include "lib/light/paths.h"
+#include "lib/surface/shading_normal.h"
 #include "lib/traverse/hit_attributes.h"
 #include "lib/traverse/ray_batch.h"
 
@@ -19,9 +20,12 @@ typedef struct {
 typedef struct {
     lane_int valid;         // mask: entries of the batch
     lane_int hit, leaving;  // masks: the surface is met; from inside of its object
-    lane_uint packed, material, source;
+    lane_uint packed, material, primitive;
+    lane_uint source;  // of the rays that leave the point
     Vector position, normal, way;
-    lane_float cosine;  // of the angle of incidence
+    Vector shading;     // the normal by which light is reflected and refracted
+    lane_int curved;    // mask: it isn't that of the surface
+    lane_float cosine;  // of the angle of incidence with it
     lane_float eta;     // the index of refraction before the surface over that behind it
     Refraction bend;
     MediumSet before, behind;  // the objects that the ray is inside of
@@ -39,12 +43,20 @@ static inline ScatterPoint load_point(const RayBatch* batch, float4 edge, uint f
     p.leaving = LANE_MASK((side & VXL_SIDE_LEAVING) != 0u);
     p.packed = LANES_LOAD(batch->hit_attributes, first);
     p.material = material_offset(p.packed) & LANES_AS_UINT(p.hit);
-    p.source = (lane_uint)VXL_NO_PRIMITIVE;
-    if (VXL_EXACT) p.source = LANES_LOAD(batch->hits, VXL_HIT_PRIMITIVE * stride + first);
+    p.primitive = (lane_uint)VXL_NO_PRIMITIVE;
+    if (VXL_EXACT) p.primitive = LANES_LOAD(batch->hits, VXL_HIT_PRIMITIVE * stride + first);
+    p.source = source_of_hits(batch->hits, stride, first, p.packed);
     p.way = unit(scaled(load_vector(batch->rays + VXL_RAY_DX * stride, stride, first), edge));
     p.normal = load_vector(batch->normals, stride, first);
     p.position = load_vector(batch->positions, stride, first);
-    p.cosine = clamp(-dot_product(p.way, p.normal), 0.0f, 1.0f);
+    p.shading = p.normal;
+    p.curved = (lane_int)0;
+    if (VXL_SHADING_NORMALS) {
+        const Vector shading = load_vector(batch->shading, stride, first);
+        p.curved = are_different(shading, p.normal);
+        p.shading = select_vector(p.curved, reflecting_normal(p.way, p.normal, shading), p.normal);
+    }
+    p.cosine = clamp(-dot_product(p.way, p.shading), 0.0f, 1.0f);
     p.eta = (lane_float)1.0f;
     const Refraction straight = {(lane_int)0, p.cosine, (lane_float)0.0f, (lane_float)1.0f};
     p.bend = straight;
@@ -58,15 +70,12 @@ static inline ScatterPoint load_point(const RayBatch* batch, float4 edge, uint f
 /// doesn't hold began inside that object. Returns the mask of surfaces of transmitting objects.
 static inline lane_int cross_objects(const Surroundings* around, ScatterPoint* p) {
     global const float* materials = around->materials;
-    const lane_int body = is_smooth(p->packed, p->source);
     const lane_int open =
         p->hit & transmits(materials, p->material,
                            LANES_GATHER_FLOAT(materials, p->material + VXL_MATERIAL_OPACITY));
-    const lane_int began = open & p->leaving & ~medium_set_holds(&p->before, p->packed, body);
-    p->before =
-        cross_counted(p->before, p->packed, body, (lane_int)0, began, around->medium_overflows);
-    p->behind =
-        cross_counted(p->before, p->packed, body, p->leaving, open, around->medium_overflows);
+    const lane_int began = open & p->leaving & ~medium_set_holds(&p->before, p->packed);
+    p->before = cross_counted(p->before, p->packed, (lane_int)0, began, around->medium_overflows);
+    p->behind = cross_counted(p->before, p->packed, p->leaving, open, around->medium_overflows);
     return open;
 }
 
@@ -113,9 +122,20 @@ static inline void scatter_light(const Surroundings* around, ScatterPoint* p, Sc
 
 static inline Vector mirrored_direction(const ScatterPoint* p) {
     const lane_float twice = 2.0f * p->cosine;
-    const Vector v = p->way, n = p->normal;
+    const Vector v = p->way, n = p->shading;
     const Vector mirrored = {fma(twice, n.x, v.x), fma(twice, n.y, v.y), fma(twice, n.z, v.z)};
-    return mirrored;
+    if (!VXL_SHADING_NORMALS) return mirrored;
+    const lane_float above = fmax(-dot_product(v, p->normal), 0.0f);
+    const Vector kept = keep_on_side(mirrored, p->normal, fmin(0.9f * above, 0.005f));
+    return select_vector(p->curved, kept, mirrored);
+}
+
+/// The direction of the refracted rays, which `into` the surface is along.
+static inline Vector bent_direction(const ScatterPoint* p, Vector into) {
+    const Vector bent = refracted_direction(p->way, p->shading, p->eta, p->cosine, &p->bend);
+    if (!VXL_SHADING_NORMALS) return bent;
+    const Vector kept = keep_on_side(bent, into, fmin(0.9f * p->bend.cosine, 0.005f));
+    return select_vector(p->curved, kept, bent);
 }
 
 #endif

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// In which of the objects that have no formula, the smooth body and meshes, rays begin.
+// The objects without a formula in which rays begin: smooth ones and meshes.
 #ifndef VXL_BEGIN_INSIDE_H
 #define VXL_BEGIN_INSIDE_H
 
@@ -8,11 +8,11 @@
 #include "lib/surface/surface_color.h"
 #include "lib/traverse/packet.h"
 
-/// Mask: the surfaces that rays have met are left by them, each as its kind tells.
+/// Mask: rays have met their surfaces from behind, as each kind of surface tells.
 static inline lane_int meets_from_behind(const SurfaceView* s, const Walk* w,
                                          const RayState* ray_state, const SurfaceHit* found,
                                          lane_int smooth, lane_int hit) {
-    lane_int behind = smooth & within_smooth(found, ray_state);
+    lane_int behind = smooth & found->within;
     if (!VXL_EXACT) return behind;
     const lane_int exact = hit & LANE_MASK(found->primitive != VXL_NO_PRIMITIVE);
     const lane_int solid = exact & LANE_MASK((found->primitive & VXL_SOLID_PRIMITIVE) != 0u);
@@ -33,9 +33,9 @@ static inline lane_int meets_from_behind(const SurfaceView* s, const Walk* w,
     return behind;
 }
 
-/// The packed attributes of the objects that the `active` rays of a packet begin in, of those that
-/// `hollow` asks for: of whose surface a ray meets the back first, whatever else is in its way.
-/// Surfaces of `hollow` objects that don't transmit light tell nothing.
+/// The packed attributes of those objects of `hollow` in which the `active` rays of a packet begin.
+/// A ray begins in an object if the first surface of that object on its way is met from behind,
+/// whatever else it meets. Surfaces of `hollow` objects that don't transmit light tell nothing.
 static inline MediumSet find_beginnings(const WorldView* world, const Surroundings* around, Walk* w,
                                         lane_int active, RayState* ray_state,
                                         global const uint* restrict hollow, uint maximum) {
@@ -54,7 +54,7 @@ static inline MediumSet find_beginnings(const WorldView* world, const Surroundin
             attributes_of_hit(s, voxel, found.primitive, searching) & LANES_AS_UINT(searching);
         const lane_int smooth = is_smooth(packed, found.primitive) & searching;
         const lane_int leaving = meets_from_behind(s, w, ray_state, &found, smooth, searching);
-        const lane_int first = searching & ~medium_set_holds(&met, packed, smooth) &
+        const lane_int first = searching & ~medium_set_holds(&met, packed) &
                                LANE_MASK(LANES_GATHER_UINT(hollow, packed & VXL_OBJECT_MASK) != 0u);
         const lane_uint material = material_offset(packed);
         const lane_int inside =
@@ -62,18 +62,16 @@ static inline MediumSet find_beginnings(const WorldView* world, const Surroundin
             transmits(materials, material,
                       LANES_GATHER_FLOAT(materials, material + VXL_MATERIAL_OPACITY));
         lane_int full;
-        began = cross_medium_or_overflow(began, packed, smooth, (lane_int)0, inside, &full);
+        began = cross_medium_or_overflow(began, packed, (lane_int)0, inside, &full);
         if (VXL_MEDIUM_SET_CAPPED && lanes_any(full))
             atomic_add(around->medium_overflows, (uint)lanes_count(full));
-        met = cross_medium(met, packed, smooth, (lane_int)0, first);
+        met = cross_medium(met, packed, (lane_int)0, first);
         count -= first;
         searching &= LANE_MASK(count < (int)maximum);
 
-        ray_state->media =
-            cross_medium(ray_state->media, packed, smooth, leaving, smooth & searching);
-        ray_state->unsure &= ~smooth;
+        ray_state->media = cross_medium(ray_state->media, packed, leaving, smooth & searching);
         ray_state->goes_on = ray_state->on_surface = (lane_int)-1;
-        ray_state->source = found.primitive;
+        ray_state->source = source_of_hit(found.primitive, found.voxel, packed);
         ray_state->within_source = ~leaving;
         ray_state->t_first = LANES_SELECT(searching, found.t, ray_state->t_first);
         w->t = LANES_SELECT(searching, fmax(found.t, w->t), w->t);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Cells of a brick's distance field: which ones its half-Taylor interpolant can cross, and their
-// records. Works on nodes gathered by lib/voxelize/brick_nodes.h.
+// The cells of a brick's distance field whose half-Taylor interpolant can be 0, and their records.
+// Works on nodes gathered by lib/voxelize/brick_nodes.h.
 #ifndef VXL_BRICK_FIELD_H
 #define VXL_BRICK_FIELD_H
 
@@ -13,8 +13,8 @@
 // Records hold D to within |D|/128 + 1/2, or a smaller one; the 1 covers three eighths of that half
 // unit, and the rounding of F.
 
-// Of vectors of shorts: PoCL's min, max and abs_diff of these go lane by lane (107 against 39 ms of
-// CPU time for the bunny at 512 voxels).
+// The minimum and maximum of vectors of shorts. PoCL's min, max and abs_diff of these go lane by
+// lane (107 against 39 ms of CPU time for the bunny at 512 voxels).
 #define SMALLER(a, b) ((a) < (b) ? (a) : (b))
 #define LARGER(a, b) ((a) > (b) ? (a) : (b))
 
@@ -90,8 +90,8 @@ static inline int largest_step(const short* nodes) {
     return (int)largest_lane(largest);
 }
 
-// Sixteen cells along x from the one at `node`: bits of those to keep. `reach` bounds m in the
-// brick.
+// The bits of the cells to keep among sixteen along x from the one at `node`. `reach` bounds m in
+// the brick.
 static inline uint keep_row(const short* node, short reach) {
     short16 low = VXL_SATURATED, high = -VXL_SATURATED;
     for (int corner = 0; corner < 8; ++corner) {
@@ -132,7 +132,8 @@ static inline void keep_smooth_cells(const short* nodes, ulong* kept) {
         }
 }
 
-// The ten bits of an edge in shared/voxel.h from twice D: to the nearest, of two to the even one.
+// The ten bits of an edge in shared/voxel.h from twice D, rounded to the nearest code, ties to
+// even.
 static inline uint curvature_bits(int twice) {
     const int shifted = abs(twice) + 128;  // 2 (|D| + 64), at least 2^7
     const int shift = 25 - clz(shifted);   // e + 1

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Cubes of one object that a ray is inside of, as one body.
+// The cubes of one object that a ray is inside of, as one body.
 //
-// Voxels of such an object don't touch the set of objects that the ray is inside of: entering the
-// first of them does, and leaving the last across the face to a cell that isn't the object's. If
-// the material refracts, that is all there is of its surface; else every voxel entered covers what
-// lies behind by its opacity, and the face where the ray leaves does nothing.
+// The ray's medium set changes when the ray enters the first voxel of the body, and when it leaves
+// the last one to a cell that isn't the object's; voxels between don't change it. If the material
+// refracts, these two faces are all of its surface. Else every voxel entered covers what lies
+// behind by its opacity, and the face where the ray leaves does nothing.
 #ifndef VXL_CUBE_BODY_H
 #define VXL_CUBE_BODY_H
 
@@ -19,11 +19,11 @@ static inline lane_int is_cube(lane_uint packed, lane_uint primitive) {
 }
 
 /// The packed attributes of the body that a ray is inside of, VXL_NO_MEDIUM for none. A voxel shows
-/// one object, so there is one at most.
+/// one object, so there is at most one body.
 static inline lane_uint body_inside(const MediumSet* in) {
     const lane_uint kind = (lane_uint)VXL_KIND_CUBES;
     lane_uint body = (lane_uint)VXL_NO_MEDIUM;
-    for (int i = 1; i < VXL_MEDIUM_SET_SIZE; ++i)
+    for (int i = 0; i < VXL_MEDIUM_SET_SIZE; ++i)
         body = LANES_SELECT(LANE_MASK((in->members[i] >> VXL_KIND_SHIFT) == kind), in->members[i],
                             body);
     return body;

@@ -58,8 +58,8 @@ static inline Field read_field(global const uint* restrict fields, lane_uint vox
     return f;
 }
 
-/// From a at s = 0 to b at s = 1, exactly there: neighbours give the same bits on a face they
-/// share.
+/// The linear interpolation from a at s = 0 to b at s = 1, exact at both ends, so that neighbours
+/// give the same bits on the face they share.
 static inline lane_float blend(lane_float a, lane_float b, lane_float s) {
     return fma(s, b, fma(-s, a, a));
 }

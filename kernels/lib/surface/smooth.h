@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where a ray meets the surface inside a smooth voxel.
+// The point where a ray meets the surface inside a smooth voxel.
 #ifndef VXL_SMOOTH_H
 #define VXL_SMOOTH_H
 
@@ -10,8 +10,8 @@
 // the error, and three from a bracket of half a voxel reach the rounding of t.
 #define VXL_SECANT_STEPS 3
 
-// Bound on the rounding of field_value, in distance units: |F| < 2^15, some sixteen roundings of
-// half a unit in the last place each, 2^-10 (1.2e-7 voxel).
+// A bound on the rounding of field_value, in distance units: |F| < 2^15 and some sixteen roundings
+// of half a unit in the last place each, 2^-10 (1.2e-7 voxel).
 #define VXL_FIELD_ROUNDING 0.015625f
 
 /// A ray inside one voxel: local position s(u) = s0 + d u, u counted from where the ray entered.
@@ -28,7 +28,8 @@ static inline LocalRay local_ray(const Walk* w) {
     return r;
 }
 
-/// The field along the ray, seen from where the ray comes: -1 for `side` looks from the inside.
+/// The field along the ray, with the sign that it has on the ray's side: `side` is -1 for rays that
+/// come from the inside.
 static inline lane_float field_along(const Field* f, const LocalRay* r, lane_float side,
                                      lane_float u) {
     return side * field_value(f, clamp(fma(r->dx, u, r->sx), 0.0f, 1.0f),
@@ -36,28 +37,34 @@ static inline lane_float field_along(const Field* f, const LocalRay* r, lane_flo
                               clamp(fma(r->dz, u, r->sz), 0.0f, 1.0f));
 }
 
-/// Mask: a walk that stands in its first smooth voxel came from inside the surface. From outside, F
-/// is not negative there, but for the rounding of the point: plane_bound along each axis, and F
-/// grows by less than two voxels a voxel.
-static inline lane_int begins_within(const Field* f, const Walk* w, float plane_bound) {
-    const LocalRay ray = local_ray(w);
-    const lane_float entry = field_along(f, &ray, (lane_float)1.0f, (lane_float)0.0f);
-    return LANE_MASK(entry < -(6.0f * VXL_DISTANCE_UNITS * plane_bound + VXL_FIELD_ROUNDING));
-}
+/// How a ray comes to a field, in masks.
+typedef struct {
+    lane_int within;     // it is known to be inside of the surface
+    lane_int unsure;     // it may be there unbeknown
+    lane_int beginning;  // it begins on the surface, in this very voxel
+} FieldApproach;
 
-/// Tests the voxels that the `tested` lanes stand in; the mask of those hit, their t in `t_hit`.
+/// Tests the fields of the voxels that the `tested` lanes stand in; the mask of those hit, their t
+/// in `t_hit`.
 ///
-/// A ray comes from outside the surface, or from inside (`side` -1, F seen with the other sign),
-/// and hits where F turns negative: at the entry point if it is negative there already, so that no
-/// ray slips through between two voxels. A ray that began on the surface in this very voxel
-/// (`beginning`) sees the level of its own origin instead: `level` is set so that F + level is not
-/// negative there, and stays with the ray.
-static inline lane_int hit_smooth(const Field* f, const Walk* w, lane_float side, lane_int tested,
-                                  lane_int beginning, lane_float* level, lane_float* t_hit) {
+/// A ray comes from outside the surface, or from inside (F is seen with the other sign), and hits
+/// where F turns negative: at the entry point if it is negative there already, so that no ray slips
+/// through between two voxels. For a ray that is unsure of its side, F at the entry decides: from
+/// outside it isn't negative there, but for the rounding of the point, which is `plane_bound` along
+/// each axis, while F grows by less than two voxels a voxel. A ray that began on the surface in
+/// this very voxel sees the level of its own origin instead: `level` is set so that F + level is
+/// not negative there, and stays with the ray.
+static inline lane_int hit_smooth(const Field* f, const Walk* w, float plane_bound, lane_int tested,
+                                  FieldApproach* from, lane_float* level, lane_float* t_hit) {
     const LocalRay ray = local_ray(w);
     const lane_float u_exit = fmax(exit_time(w) - w->t, 0.0f);
     lane_float a = (lane_float)0.0f, b = u_exit;
-    const lane_float f_entry = field_along(f, &ray, side, a);
+    const lane_float outside = field_along(f, &ray, (lane_float)1.0f, a);
+    const float bound = 6.0f * VXL_DISTANCE_UNITS * plane_bound + VXL_FIELD_ROUNDING;
+    from->within |= from->unsure & LANE_MASK(outside < -bound);
+    const lane_int beginning = from->beginning;
+    const lane_float side = LANES_SELECT(from->within, (lane_float)-1.0f, (lane_float)1.0f);
+    const lane_float f_entry = side * outside;
     *level = LANES_SELECT(beginning & tested, fmax(-f_entry, 0.0f) + VXL_FIELD_ROUNDING, *level);
     lane_float fa = f_entry + *level;
     lane_float fb = field_along(f, &ray, side, b) + *level;
@@ -89,9 +96,9 @@ static inline lane_int hit_smooth(const Field* f, const Walk* w, lane_float side
     const lane_int crossed = (before | after | entered) & tested;
     const lane_int bracketed = crossed & ~entered;
     if (lanes_any(bracketed)) {
-        // Regula falsi on a bracket with F(a) >= 0 > F(b); an end kept twice has its value halved
-        // (Illinois), so both ends close in. Halved at once it would be as far off on the other
-        // side.
+        // Regula falsi on a bracket with F(a) >= 0 > F(b). The value at an end kept twice is halved
+        // (Illinois), so that both ends close in. Halving it at once would put the estimate as far
+        // off on the other side.
         lane_int kept_a = (lane_int)0, kept_b = (lane_int)0;
         for (int step = 0; step < VXL_SECANT_STEPS; ++step) {
             const lane_float gap = LANES_SELECT(bracketed, fa - fb, (lane_float)1.0f);

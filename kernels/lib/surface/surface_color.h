@@ -14,7 +14,7 @@ static inline lane_float linear_channel(lane_uint color, int shift) {
     return LANES_SELECT(LANE_MASK(s <= 0.04045f), s * 0.0773993808f, curved);
 }
 
-/// Where the record of an packed attributes's material starts, in floats.
+/// The start of a material's record, in floats, for packed attributes.
 static inline lane_uint material_offset(lane_uint packed) {
     return ((packed >> VXL_MATERIAL_SHIFT) & VXL_MATERIAL_MASK) * VXL_MATERIAL_FLOATS;
 }
@@ -29,7 +29,7 @@ static inline lane_int checker_block(global const float* restrict materials, lan
     return LANES_INT(floor(fma(position, scale, shift)));
 }
 
-/// Where a material's colour at a point starts, in floats: its own, or that of its checker.
+/// The start of a material's colour at a point, in floats: its own colour or that of its checker.
 static inline lane_uint color_offset(global const float* restrict materials, lane_uint material,
                                      lane_float x, lane_float y, lane_float z) {
     if (!VXL_CHECKER) return material;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a packet's rays meet inside of the voxels that they come to.
+// The tests of a packet's rays against the surfaces inside of voxels.
 #ifndef VXL_SURFACES_H
 #define VXL_SURFACES_H
 
@@ -17,13 +17,13 @@
 typedef struct {
     lane_int on_surface;     // mask: begins on a surface
     lane_int goes_on;        // mask: continues an earlier ray, whose surface was met at t_first
-    lane_uint source;        // the primitive it begins on
+    lane_uint source;        // the primitive it begins on, or see source_of_hit
     lane_int within_source;  // mask: it travels on inside of that primitive's object
     lane_float t_first;
     MediumSet media;     // of scenes with transmitting objects; empty elsewhere
     lane_uint body;      // the body of cubes in it, VXL_NO_MEDIUM for none
     lane_int joined;     // mask: the body's inner faces are no surfaces
-    lane_int unsure;     // mask: it may begin inside of the smooth body unbeknown
+    lane_int unsure;     // mask: it may begin inside of smooth objects unbeknown
     lane_uint instance;  // whose surface it begins on, VXL_NO_INSTANCE for the world's
     lane_int asks_side;  // mask: within_source isn't known yet, an instance's space will tell
     lane_int on_cube;    // mask: cubes in the cell where it begins are behind it; of scenes with
@@ -37,8 +37,9 @@ typedef struct {
     lane_uint leaf, voxel, primitive;
     lane_uint solid;     // the last one tested
     lane_float level;    // shift of smooth surfaces for rays that began on one, see hit_smooth
-    lane_int asked;      // mask: it is known on which side of the smooth body the ray began ...
-    lane_int within;     // mask: ... inside
+    lane_int within;     // mask: the hit is on a field, met from inside of its object
+    lane_uint inside;    // packed attributes of a smooth object that an unsure ray was found to be
+                         // inside of, VXL_NO_MEDIUM for none
     lane_int in_body;    // mask: the walk has been in a cell of the body that the ray is inside of
     lane_int exit;       // mask: the hit is the face across which it left the body
     lane_uint instance;  // whose surface was hit, VXL_NO_INSTANCE for the world's
@@ -64,9 +65,9 @@ static inline lane_float float_before(lane_float t) {
     return LANES_SELECT(LANE_MASK(t == 0.0f), (lane_float)-FLT_MIN, next);
 }
 
-/// Tests solid `number` of each lane in `tested`: closer hits in the world than *t replace it.
-/// Those at t_first itself count for the lanes of `at_least`.
-/// `entering` lanes look from one unit of t before their origin first.
+/// Tests solid `number` of each lane in `tested`; hits in the world that are closer than *t replace
+/// it. Hits at t_first itself count only for the lanes of `at_least`. Lanes that are `entering`
+/// begin one unit of t before their origin.
 static inline lane_int hit_solids_in_world(const PyramidView* p, const SurfaceView* s,
                                            const Walk* w, lane_uint number,
                                            const RayState* ray_state, lane_int tested,
@@ -95,7 +96,7 @@ static inline lane_int hit_solids_in_world(const PyramidView* p, const SurfaceVi
         if (VXL_TRANSMISSION) {
             t_first = LANES_SELECT(at_least, float_before(t_first), t_first);
             const lane_int holds =
-                medium_set_holds(&ray_state->media, solid_attributes(s->solids, number), nothing);
+                medium_set_holds(&ray_state->media, solid_attributes(s->solids, number));
             known |= holds;
             inside |= holds & ~from_solid;
         }
@@ -106,6 +107,14 @@ static inline lane_int hit_solids_in_world(const PyramidView* p, const SurfaceVi
     return closer | met;
 }
 
+/// Mask: of what a ray meets at the very same t, the primitive comes after its source. Fields come
+/// first, then triangles and solids by their numbers.
+static inline lane_int comes_after(lane_uint primitive, lane_uint source) {
+    lane_int after = LANE_MASK(primitive > source);
+    if (VXL_FIELD_LISTS) after |= LANE_MASK((source >> 30) == 1u);
+    return after;
+}
+
 /// Tests the primitives that the `tested` lanes' voxels list. A primitive may be hit outside of the
 /// voxel that lists it: the hit counts once the walk is that far.
 ///
@@ -113,11 +122,12 @@ static inline lane_int hit_solids_in_world(const PyramidView* p, const SurfaceVi
 /// ray's rounded origin: there, hits count from behind it as well, as far as the world reaches. A
 /// ray that goes on meets what lies at the very t of its last surface in the order of numbers.
 static inline lane_int hit_exact(const PyramidView* p, const SurfaceView* s, const Walk* w,
-                                 lane_int tested, const RayState* ray_state, SurfaceHit* found) {
+                                 lane_uint voxel, lane_int tested, const RayState* ray_state,
+                                 SurfaceHit* found) {
     const lane_int entering = LANE_MASK(w->t == 0.0f) & LANE_MASK(w->axis != 3);
     const lane_float t_min = LANES_SELECT(entering, (lane_float)-INFINITY, ray_state->t_first);
     const RayShear shear = ray_shear(w);
-    const lane_uint voxel = found->voxel & LANES_AS_UINT(tested);
+    voxel &= LANES_AS_UINT(tested);
     lane_uint next = LANES_GATHER_UINT(s->primitive_first, voxel);
     const lane_uint end = LANES_GATHER_UINT(s->primitive_first, voxel + 1u);
     lane_int listing = tested & LANE_MASK(next < end);
@@ -129,7 +139,7 @@ static inline lane_int hit_exact(const PyramidView* p, const SurfaceView* s, con
         const lane_int is_solid = LANE_MASK((primitive & VXL_SOLID_PRIMITIVE) != 0u);
         lane_int closer = (lane_int)0, at_least = (lane_int)0;
         if (VXL_TRANSMISSION)
-            at_least = ray_state->goes_on & LANE_MASK(primitive > ray_state->source);
+            at_least = ray_state->goes_on & comes_after(primitive, ray_state->source);
         if (VXL_TRIANGLES) {
             const lane_int triangle = listing & ~(is_solid | of_source);
             if (!VXL_SOLIDS || lanes_any(triangle)) {
@@ -137,13 +147,12 @@ static inline lane_int hit_exact(const PyramidView* p, const SurfaceView* s, con
                 lane_int within = (lane_int)0;
                 if (VXL_TRANSMISSION)
                     within = medium_set_holds(&ray_state->media,
-                                              LANES_GATHER_UINT(s->triangle_attributes, number),
-                                              (lane_int)0);
+                                              LANES_GATHER_UINT(s->triangle_attributes, number));
                 closer |= hit_triangle(p, t_min, at_least, s->triangles, number, w, &shear, within,
                                        triangle, &found->t);
             }
         }
-        if (VXL_SOLIDS) {  // a solid is met by the whole ray at once: once is enough
+        if (VXL_SOLIDS) {  // one test of a solid covers the whole ray
             const lane_int solid = listing & is_solid & LANE_MASK(primitive != found->solid);
             found->solid = LANES_SELECT(solid, primitive, found->solid);
             if (lanes_any(solid))
@@ -158,13 +167,56 @@ static inline lane_int hit_exact(const PyramidView* p, const SurfaceView* s, con
     return tested & LANE_MASK(found->t <= exit_time(w));
 }
 
-/// Mask: rays that are inside of the smooth body, as far as their walk has found out, or inside of
-/// the instance that they have met.
-static inline lane_int within_smooth(const SurfaceHit* found, const RayState* ray_state) {
-    if (!VXL_TRANSMISSION) return found->within;
-    lane_int in_body = LANE_MASK(ray_state->media.members[0] != VXL_NO_MEDIUM);
-    if (VXL_INSTANCES) in_body &= LANE_MASK(found->instance == VXL_NO_INSTANCE);
-    return found->within | in_body;
+/// Tests field `number` of each lane in `tested`; closer hits than found->t replace it.
+static inline lane_int hit_field(const PyramidView* p, const SurfaceView* s, const Walk* w,
+                                 lane_uint number, lane_int tested, lane_int beginning,
+                                 const RayState* ray_state, SurfaceHit* found) {
+    const Field field = read_field(s->fields, number);
+    FieldApproach from = {(lane_int)0, ray_state->unsure & tested, beginning};
+    const int any_unsure = lanes_any(from.unsure);
+    if (VXL_FIELD_LISTS)
+        from.beginning &= LANE_MASK(ray_state->source == (number | VXL_FIELD_SOURCE));
+    lane_uint packed = (lane_uint)s->constant_attribute;
+    if (VXL_ATTRIBUTES && (VXL_TRANSMISSION || any_unsure))
+        packed = LANES_GATHER_UINT(s->attributes, number);
+    if (VXL_TRANSMISSION) from.within = medium_set_holds(&ray_state->media, packed);
+    if (any_unsure) from.within |= from.unsure & is_medium(found->inside, packed);
+    lane_float t = (lane_float)INFINITY;
+    const lane_int met = hit_smooth(&field, w, p->plane_bound, tested, &from, &found->level, &t);
+    if (any_unsure) found->inside = LANES_SELECT(from.unsure & from.within, packed, found->inside);
+    // A ray that goes straight on has its hits beyond this voxel where any other ray has them.
+    if (VXL_TRANSMISSION)
+        found->level = LANES_SELECT(ray_state->goes_on, (lane_float)0.0f, found->level);
+    const lane_int closer = met & LANE_MASK(t < found->t);
+    found->within = LANES_SELECT(closer, from.within, found->within);
+    if (VXL_FIELD_LISTS) found->voxel = LANES_SELECT(closer, number, found->voxel);
+    take_voxel_hit(found, t, met);
+    return met;
+}
+
+/// Tests the fields of the `tested` lanes' voxels: one, or, in the lanes of `lists`, those that the
+/// voxel's record lists.
+static inline lane_int hit_fields(const PyramidView* p, const SurfaceView* s, const Walk* w,
+                                  lane_uint voxel, lane_int tested, lane_int lists,
+                                  lane_int beginning, const RayState* ray_state,
+                                  SurfaceHit* found) {
+    if (!VXL_FIELD_LISTS || !lanes_any(lists & tested))
+        return hit_field(p, s, w, voxel & LANES_AS_UINT(tested), tested, beginning, ray_state,
+                         found);
+    lists &= tested;
+    const lane_uint record = (voxel & LANES_AS_UINT(lists)) * VXL_FIELD_WORDS;
+    lane_uint number = LANES_SELECT(lists, LANES_GATHER_UINT(s->fields, record), voxel);
+    const lane_uint end =
+        number + LANES_SELECT(lists, LANES_GATHER_UINT(s->fields, record + 1u), (lane_uint)1u);
+    lane_int met = (lane_int)0;
+    tested &= LANE_MASK(number < end);
+    while (lanes_any(tested)) {
+        met |=
+            hit_field(p, s, w, number & LANES_AS_UINT(tested), tested, beginning, ray_state, found);
+        number += 1u;
+        tested &= LANE_MASK(number < end);
+    }
+    return met;
 }
 
 /// Tests the surface inside each `tested` lane's voxel; the mask of lanes whose ray ends there.
@@ -194,24 +246,10 @@ static inline lane_int test_surfaces(const PyramidView* p, const SurfaceView* s,
     const lane_int cubes = kinds.cubes & ~(on_cube | passed);
     lane_int accepted = cubes | left;
     if (VXL_CUBES) take_voxel_hit(found, w->t, cubes);
-    if (VXL_SMOOTH && lanes_any(smooth)) {
-        const Field field = read_field(s->fields, voxel);
-        lane_float t = (lane_float)INFINITY;
-        const lane_int asking = smooth & ~found->asked;
-        if (lanes_any(asking)) {
-            found->within |= asking & begins_within(&field, w, p->plane_bound);
-            found->asked |= asking;
-        }
-        const lane_float side =
-            LANES_SELECT(within_smooth(found, ray_state), (lane_float)-1.0f, (lane_float)1.0f);
-        const lane_int met = hit_smooth(&field, w, side, smooth, beginning, &found->level, &t);
-        // A ray that goes straight on has its hits beyond this voxel where any other ray has them.
-        if (VXL_TRANSMISSION)
-            found->level = LANES_SELECT(ray_state->goes_on, (lane_float)0.0f, found->level);
-        take_voxel_hit(found, t, met);
-        accepted |= met;
-    }
-    if (VXL_EXACT && lanes_any(exact)) accepted |= hit_exact(p, s, w, exact, ray_state, found);
+    if (VXL_SMOOTH && lanes_any(smooth))
+        accepted |= hit_fields(p, s, w, voxel, smooth, kinds.lists, beginning, ray_state, found);
+    if (VXL_EXACT && lanes_any(exact))
+        accepted |= hit_exact(p, s, w, voxel, exact, ray_state, found);
     return accepted;
 }
 

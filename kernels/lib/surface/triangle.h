@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where a ray meets the source triangles that an exact voxel lists.
+// The points where rays meet the source triangles that exact voxels list.
 //
 // The watertight test of Woop, Benthin and Wald 2013: the ray becomes the z axis by a shear, and
 // the signs of three edge functions decide. Two triangles evaluate a shared edge to opposite bits,

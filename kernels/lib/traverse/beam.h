@@ -2,13 +2,13 @@
 // Beams: how far groups of 16 neighbouring rays run through empty space together.
 //
 // A beam is the straight line in the middle of its rays, along the axis that they mostly follow:
-// at every coordinate s of that axis it is less than 4 voxels from each of them. So as long as its
-// own leaf and all leaves around that are empty, which the dilated occupancy
-// (runtime/stages/trace/beam.hpp) knows of one leaf, theirs are. A dilated occupancy of bricks is
-// one of voxels four times as long, and so are the beams' coordinates there: `scale` is 1/4. The
-// slack of a quarter voxel covers the step of 1/64 past the planes at which the line is looked at,
-// and all rounding: places are sums of numbers up to 16 times the world's length
-// (VXL_BEAM_MIN_DIRECTION), six roundings of which are 0.1 voxel for 16384 voxels.
+// at every coordinate s of that axis it is less than 4 voxels from each of them. So the rays'
+// leaves are empty as long as the beam's own leaf and all leaves around it are, which one leaf of
+// the dilated occupancy (runtime/stages/trace/beam.hpp) tells. A dilated occupancy of bricks has
+// voxels four times as long, and so have the beams' coordinates there: `scale` is 1/4. The slack of
+// a quarter voxel covers the step of 1/64 past the planes at which the line is looked at, and all
+// rounding: places are sums of numbers up to 16 times the world's length (VXL_BEAM_MIN_DIRECTION),
+// six roundings of which are 0.1 voxel for 16384 voxels.
 #ifndef VXL_BEAM_H
 #define VXL_BEAM_H
 
@@ -18,21 +18,21 @@
 #include "shared/trace.h"
 
 #define VXL_BEAM_STEP 0.015625f
-// A ray that hardly follows the axis says nothing of where it is at s.
+// A ray that follows the axis less than this has no useful position at s.
 #define VXL_BEAM_MIN_DIRECTION 0.0625f
 
 typedef struct {
     global const float* restrict rays;
     uint stride;
-    float scale;  // the dilated occupancy's coordinates of the rays'
+    float scale;  // from the rays' coordinates to the dilated occupancy's
 } BeamRays;
 
-/// A component of rays along an axis: VXL_RAY_OX + axis and VXL_RAY_DX + axis.
+/// One component of rays, such as VXL_RAY_OX + axis or VXL_RAY_DX + axis.
 static inline lane_float ray_value(const BeamRays* r, lane_int component, lane_uint ray) {
     return LANES_GATHER_FLOAT(r->rays, LANES_AS_UINT(component) * r->stride + ray);
 }
 
-/// Where rays begin along an axis, in the dilated occupancy's coordinates.
+/// The origins of rays along an axis, in the dilated occupancy's coordinates.
 static inline lane_float ray_slot(const BeamRays* r, lane_int axis, lane_uint ray) {
     return r->scale * ray_value(r, (lane_int)VXL_RAY_OX + axis, ray);
 }
@@ -63,7 +63,8 @@ static inline lane_int main_axis(const BeamRays* r, lane_uint first, lane_float*
     return ~is_x & (2 + is_y);
 }
 
-/// What a group's rays span of one axis at the world's near and far side along the main axis.
+/// The range that a group's rays span on one axis, at the world's near and far side along the main
+/// axis.
 typedef struct {
     lane_float min_near, max_near, min_far, max_far;
 } Span;
@@ -86,7 +87,7 @@ typedef struct {
     lane_float b0, m, r0, e;
 } BeamAxis;
 
-/// Zeros but for the `active` lanes.
+/// The line and radius in the middle of a span; zeros in lanes that are not `active`.
 static inline BeamAxis beam_axis(const Span* span, lane_float s_near, lane_float s_far,
                                  lane_int active) {
     const lane_float per_s = exact_reciprocal(s_far - s_near), zero = (lane_float)0.0f;
@@ -105,7 +106,8 @@ static inline BeamAxis beam_axis(const Span* span, lane_float s_near, lane_float
     return axis;
 }
 
-/// How far beams that begin at s are narrow enough; -infinity where they aren't there.
+/// The s up to which beams that begin at `s` are narrow enough; -infinity where they are too wide
+/// there already.
 static inline lane_float narrow_until(const BeamAxis* axis, lane_float s) {
     const lane_int grows = LANE_MASK(axis->e > 0.0f);
     const lane_float widest =
@@ -115,8 +117,8 @@ static inline lane_float narrow_until(const BeamAxis* axis, lane_float s) {
                         (lane_float)-INFINITY);
 }
 
-/// When a line leaves the block of 1 << log2_size around `cell` across a plane of this axis. Cells
-/// at the world's sides reach beyond them without end: lines outside are looked at there.
+/// The s at which a line leaves the block of 1 << log2_size around `cell` across a plane of this
+/// axis. Cells at the world's sides extend beyond it without end, and stand for lines outside.
 static inline lane_float block_exit(const BeamAxis* axis, lane_int cell, lane_int log2_size,
                                     lane_int size) {
     const lane_int edge = (lane_int)1 << log2_size;
@@ -134,9 +136,9 @@ static inline lane_int cell_inside(lane_float position, lane_int size) {
     return LANES_INT(clamp(position, (lane_float)0.0f, LANES_FLOAT(size - 1)));
 }
 
-/// How far the beams of the `active` lanes run from s0 on through the dilated occupancy's empty
-/// space: s_last or more where all is empty till there. s counts along `axis`, against it where
-/// `sign` is negative.
+/// The s up to which the beams of the `active` lanes run from s0 through the dilated occupancy's
+/// empty space: s_last or more where all is empty up to s_last. s counts along `axis`, against it
+/// where `sign` is negative.
 static inline lane_float run_beams(const PyramidView* p, lane_int axis, lane_float sign,
                                    const BeamAxis* b, const BeamAxis* c, lane_float s0,
                                    lane_float s_last, lane_int active) {

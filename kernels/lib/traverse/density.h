@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How much medium a ray goes through: the sum of density times length over the voxels on its way.
+// The amount of medium that a ray goes through: the sum of density times length over its voxels.
 //
 // A length is the difference of two crossing times, each carried in two floats, so that a thin
 // layer far along the ray counts as exactly as a thick one near its start.
@@ -60,7 +60,7 @@ static inline void leave_cells(const PyramidView* p, const DensityView* d, Walk*
                 exit_plane(w->z, w->pz, log2_size + d->shape.shift_z, p->size_z), moving);
 }
 
-/// What the time at which the walk entered its cell, as a float, leaves of the exact one.
+/// The exact time at which the walk entered its cell, minus the float that holds it.
 static inline lane_float time_remainder(const Walk* w) {
     const lane_int x = LANE_MASK(w->axis == 0), y = LANE_MASK(w->axis == 1);
     const lane_float nx = LANES_FLOAT(w->x - ~w->px) - w->ox;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whose surface a ray met: the packed attributes behind a hit.
+// The packed attributes of the surface that a ray met.
 #ifndef VXL_HIT_ATTRIBUTES_H
 #define VXL_HIT_ATTRIBUTES_H
 
@@ -35,10 +35,26 @@ static inline lane_uint attributes_of_hit(const SurfaceView* s, lane_uint voxel,
     return packed;
 }
 
-/// Mask: a hit's surface is that of the smooth body.
+/// Mask: a hit's surface is that of a smooth object.
 static inline lane_int is_smooth(lane_uint packed, lane_uint primitive) {
     return LANE_MASK((packed >> VXL_KIND_SHIFT) != VXL_KIND_CUBES) &
            LANE_MASK(primitive == VXL_NO_PRIMITIVE);
+}
+
+/// RayState::source of rays that begin on a surface: its primitive, or, where voxels may hold
+/// several fields, VXL_FIELD_SOURCE with the field's number. `packed` are the surface's attributes.
+static inline lane_uint source_of_hit(lane_uint primitive, lane_uint number, lane_uint packed) {
+    if (!VXL_FIELD_LISTS) return primitive;
+    return LANES_SELECT(is_smooth(packed, primitive), number | VXL_FIELD_SOURCE, primitive);
+}
+
+/// source_of_hit of a batch's hits from `first` on.
+static inline lane_uint source_of_hits(global const uint* hits, uint stride, uint first,
+                                       lane_uint packed) {
+    lane_uint primitive = (lane_uint)VXL_NO_PRIMITIVE;
+    if (VXL_EXACT) primitive = LANES_LOAD(hits, VXL_HIT_PRIMITIVE * stride + first);
+    if (!VXL_FIELD_LISTS) return primitive;
+    return source_of_hit(primitive, LANES_LOAD(hits, VXL_HIT_VOXEL * stride + first), packed);
 }
 
 #endif

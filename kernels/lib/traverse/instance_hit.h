@@ -1,20 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
-// Hits on instances as they are in the instances' own voxels.
+// Hits on instances in the instances' own voxels.
 #ifndef VXL_INSTANCE_HIT_H
 #define VXL_INSTANCE_HIT_H
 
 #include "lib/traverse/transformed_ray.h"
 
-/// Rays in the voxels that their hits are in, and what carries gradients there to the world's.
+/// Rays in the voxels that their hits are in, and the map of gradients from there to the world's
+/// voxels.
 typedef struct {
     Vector origin, direction;
     lane_float t;
     lane_float map[9];  // object_from_world of the instance; 0 for others
 } HitRay;
 
-/// The ray of each lane of `of_instance` in the space of its instance; others stay as they are,
-/// with a map of zeros: numbers never written may not reach a built-in function, even to be left
-/// out.
+/// The ray of each lane of `of_instance` in the space of its instance. Other rays are unchanged and
+/// have a map of zeros, since numbers never written may not reach a built-in function, even if
+/// their result is not used.
 static inline HitRay transform_hits(global const InstanceRecord* restrict records,
                                     lane_uint instance, lane_int of_instance, HitRay ray) {
     const Vector o = ray.origin, d = ray.direction;
@@ -38,7 +39,7 @@ static inline HitRay transform_hits(global const InstanceRecord* restrict record
     return ray;
 }
 
-/// A gradient in the voxels of a hit, in the world's voxels for the lanes of `of_instance`.
+/// A gradient in the voxels of a hit, turned to the world's voxels for the lanes of `of_instance`.
 static inline Vector world_gradient(const HitRay* ray, Vector g, lane_int of_instance) {
     const lane_float* m = ray->map;
     const Vector transformed = {fma(m[0], g.x, fma(m[3], g.y, m[6] * g.z)),

@@ -2,10 +2,10 @@
 // The nearest surface of a packet's rays among the world's and those of instances.
 //
 // The packet goes through a tree over the instances' boxes, the nearer child first, as far as the
-// best hit. At an instance, lanes that meet its own box are carried into its space and walk there
-// by the same code as in the world. A hit replaces another if its t is smaller, or the same and its
-// instance's number smaller (the world's counts as the smallest), so that neither the order of
-// visits nor what lanes travel together has a say.
+// best hit. At an instance, the rays that meet its own box are transformed into its space and walk
+// there by the same code as in the world. A hit replaces another if its t is smaller, or if the t
+// are equal and its instance's number is smaller (the world's counts as the smallest). So the
+// result depends neither on the order of visits nor on which rays share a packet.
 #ifndef VXL_INSTANCES_H
 #define VXL_INSTANCES_H
 
@@ -26,8 +26,8 @@ static inline SlabRay slab_ray(const Walk* w) {
     return r;
 }
 
-/// Mask: lanes that meet a child's box before t_last, and when. The boxes are large enough for all
-/// rounding (runtime/stages/instance/instance_tree.hpp).
+/// Mask: lanes that meet a child's box before t_last; *t is when. The boxes are large enough for
+/// all rounding (runtime/stages/instance/instance_tree.hpp).
 static inline lane_int meets_child(const SlabRay* r, global const InstanceNode* node, int child,
                                    lane_float t_last, lane_float* t) {
     global const float* low = node->low[child];
@@ -41,8 +41,8 @@ static inline lane_int meets_child(const SlabRay* r, global const InstanceNode* 
     return LANE_MASK(*t <= fmin(leave, t_last));
 }
 
-/// The cell along one axis, of which `nearest` is the plane closest to where the ray is at t_first,
-/// that the ray is in just before.
+/// The coordinate, along one axis, of the cell that the ray is in just before t_first; `nearest` is
+/// the plane closest to its position at t_first.
 static inline lane_int cell_before(lane_int nearest, lane_float o, lane_float inverse,
                                    lane_int positive, lane_int moves, lane_float t_first,
                                    lane_int still) {
@@ -51,8 +51,8 @@ static inline lane_int cell_before(lane_int nearest, lane_float o, lane_float in
 }
 
 /// Brings walks whose origins lie outside of an aligned instance's box to the first cell in it, and
-/// those that go on at t_first to the one that they are in just before: what they come to at
-/// t_first itself is ahead of them.
+/// walks that go on at t_first to the cell that they are in just before, so that surfaces at
+/// t_first itself are ahead of them.
 static inline void enter_box(const PyramidView* p, global const InstanceRecord* r,
                              lane_float t_first, Walk* w) {
     Crossing c;
@@ -99,11 +99,11 @@ static inline PyramidView instance_pyramid(const PyramidView* world,
     return p;
 }
 
-/// How rays set out in the space of instance `number`, or of the world.
+/// The state with which rays begin in the space of instance `number`, or of the world.
 ///
-/// A ray that goes on from a surface at t_first has yet to meet what lies at this very t in the
-/// spaces that come after the surface's: the world's is the first, then instances' by number. The
-/// objects that it is inside of are the world's.
+/// A ray that goes on from a surface at t_first has yet to meet surfaces at this very t in the
+/// spaces that come after that surface's: the world's is the first, then those of instances by
+/// number. The objects of its medium set are in the world.
 static inline RayState ray_state_in(const RayState* ray_state, lane_uint number, lane_int begins) {
     RayState t = *ray_state;
     const lane_int own = LANE_MASK(ray_state->instance == number);
@@ -155,7 +155,8 @@ static inline lane_int meet_instance(const PyramidView* world, const SurfaceView
                           &transformed, asked);
         }
     }
-    // Later than t_last by more than the rounding of its t: what counts is compared in the world.
+    // The walk ends later than t_last by more than the rounding of its t; hits are compared by
+    // their t in the world.
     const lane_float t_end = transformed_t(&c, fma(t_last, 0x1p-20f, t_last));
     const SurfaceHit found = find_first(&p, s, &w, t_end, active, &inside);
     const lane_float t = world_t(&c, fmax(found.t, 0.0f));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Packets of rays that run anywhere, whose lanes take on further rays as theirs end.
+// Packets of incoherent rays, whose lanes take on further rays as theirs end.
 #ifndef VXL_LANE_REFILL_H
 #define VXL_LANE_REFILL_H
 
@@ -19,7 +19,7 @@ static inline void store_hits(const Packet* f, lane_int landing, const RayBatch*
     }
 }
 
-/// Rays that run anywhere: those from `next` to `end` are still to be taken on.
+/// Incoherent rays; those from `next` to `end` - 1 are still to be taken on.
 typedef struct {
     SightRays rays;
     uint next, end;
@@ -31,7 +31,7 @@ typedef struct {
     lane_int held, walking, waiting;
 } LaneRefill;
 
-/// How many lanes at least a packet keeps on their way.
+/// The minimum number of lanes that a packet keeps walking.
 static inline int min_walking(const ScatteredRays* q) {
     return q->next < q->end ? VXL_LANES - VXL_REFILL : 0;
 }
@@ -71,7 +71,7 @@ static inline LaneRefill begin_refill(const PyramidView* p, ScatteredRays* q) {
     return r;
 }
 
-/// Tests the surfaces that lanes wait at; where too few walk on, stores what the others have met
+/// Tests the surfaces that lanes wait at. If too few lanes walk on, stores what the others have met
 /// and gives them further rays.
 static inline void serve(const PyramidView* p, const SurfaceView* s, ScatteredRays* q,
                          LaneRefill* r) {

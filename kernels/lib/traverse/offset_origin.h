@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where rays set out from the surfaces of instances.
+// The origins of rays that leave the surfaces of instances.
 #ifndef VXL_OFFSET_ORIGIN_H
 #define VXL_OFFSET_ORIGIN_H
 
@@ -7,9 +7,9 @@
 #include "shared/instance.h"
 #include "shared/scene.h"
 
-/// Surface points of instances, moved along `normal` (a unit vector in metres' space, to the side
-/// that rays leave on) so that they lie on that side in the instance's own voxels, too. The world's
-/// stay where they are.
+/// Surface points of instances, moved along `normal` (a unit vector in metric space, on the side
+/// that rays leave to) so that they lie on that side in the instance's own voxels, too. Points of
+/// the world's surfaces stay where they are.
 static inline Vector offset_origin(PyramidShape shape, Vector position, Vector normal,
                                    global const uint* restrict hits, uint stride, uint first) {
     if (!VXL_INSTANCES) return position;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Packets of rays on their way to the first surface: how they set out, go on from cell to cell and
+// Packets of rays on their way to the first surface: how they begin, step from cell to cell and
 // end.
 //
 // A packet carries VXL_LANES rays. Lanes that reach an occupied voxel wait for others; then the
@@ -11,16 +11,17 @@
 #include "lib/surface/surfaces.h"
 #include "lib/traverse/ray_batch.h"
 
-// Idle lanes for which a packet takes on further rays.
+// The number of idle lanes from which on a packet takes on further rays.
 #define VXL_REFILL ((VXL_LANES + 3) / 4)
 
-// Values of the rays that a packet's lanes hold: side by side, unless they are taken on one by one.
+// Values of the rays that a packet's lanes hold: neighbours in memory, unless the lanes were given
+// their rays one by one.
 #define VXL_RAY_FLOATS(p, ray, one_by_one) \
     ((one_by_one) ? LANES_GATHER_FLOAT(p, ray) : LANES_LOAD(p, LANES_FIRST(ray)))
 #define VXL_RAY_UINTS(p, ray, one_by_one) \
     ((one_by_one) ? LANES_GATHER_UINT(p, ray) : LANES_LOAD(p, LANES_FIRST(ray)))
 
-/// Before a walk.
+/// What a packet has found before its walk.
 static inline SurfaceHit no_hit_yet(const RayState* ray_state) {
     SurfaceHit found;
     found.hit = (lane_int)0;
@@ -28,8 +29,8 @@ static inline SurfaceHit no_hit_yet(const RayState* ray_state) {
     found.leaf = found.voxel = (lane_uint)0;
     found.primitive = found.solid = (lane_uint)VXL_NO_PRIMITIVE;
     found.level = (lane_float)0.0f;
-    found.asked = ~ray_state->unsure;
     found.within = (lane_int)0;
+    found.inside = (lane_uint)VXL_NO_MEDIUM;
     found.in_body = found.exit = (lane_int)0;
     found.instance = (lane_uint)VXL_NO_INSTANCE;
     return found;
@@ -99,7 +100,8 @@ static inline SurfaceHit find_first(const PyramidView* p, const SurfaceView* s, 
     return found;
 }
 
-/// `one_by_one` says how the lanes were given their rays.
+/// The walks of the rays that a packet's lanes hold; `one_by_one` is true if the lanes were given
+/// their rays one by one.
 static inline Walk walk_of(global const float* restrict rays, uint stride, lane_uint ray,
                            bool one_by_one) {
     return begin_walk(VXL_RAY_FLOATS(rays + VXL_RAY_OX * stride, ray, one_by_one),
@@ -110,7 +112,7 @@ static inline Walk walk_of(global const float* restrict rays, uint stride, lane_
                       VXL_RAY_FLOATS(rays + VXL_RAY_DZ * stride, ray, one_by_one));
 }
 
-/// Rays from the observer.
+/// The state of rays from the observer.
 static inline RayState sight_ray_state(void) {
     const RayState ray_state = {(lane_int)0,
                                 (lane_int)0,
@@ -131,7 +133,7 @@ static inline lane_int has_flag(lane_uint flags, uint flag) {
     return LANE_MASK((flags & flag) != 0u);
 }
 
-/// The paths numbered `ray` of the batch's first `count`, which have these flags.
+/// The state of the paths numbered `ray` among the batch's first `count`, which have these flags.
 static inline RayState load_ray_state(const RayBatch* batch, uint count, lane_uint ray,
                                       lane_uint flags) {
     global const uint* paths = batch->paths;
@@ -139,7 +141,7 @@ static inline RayState load_ray_state(const RayBatch* batch, uint count, lane_ui
     RayState ray_state = sight_ray_state();
     ray_state.on_surface = has_flag(flags, VXL_PATH_ON_SURFACE);
     ray_state.within_source = has_flag(flags, VXL_PATH_WITHIN_SOURCE);
-    if (VXL_EXACT) ray_state.source = LANES_GATHER_UINT(paths + VXL_PATH_SOURCE * stride, ray);
+    if (VXL_SOURCES) ray_state.source = LANES_GATHER_UINT(paths + VXL_PATH_SOURCE * stride, ray);
     if (VXL_INSTANCES)
         ray_state.instance = LANES_GATHER_UINT(paths + VXL_PATH_INSTANCE * stride, ray);
     if (VXL_TRANSMISSION) {
@@ -155,7 +157,7 @@ static inline RayState load_ray_state(const RayBatch* batch, uint count, lane_ui
     return ray_state;
 }
 
-/// When the ray came into the walk's present cell, less than 0 where it began.
+/// The t at which the ray entered the walk's present cell; less than 0 where the ray began in it.
 static inline lane_float entry_time(const Walk* w) {
     const lane_float none = (lane_float)-INFINITY;
     const lane_float tx = (LANES_FLOAT(w->x + w->px + 1) - w->ox) * w->ix;
@@ -173,7 +175,7 @@ static inline void resume_walk(Walk* w, const RayState* ray_state, lane_uint cel
     w->y = LANES_SELECT(on, LANES_AS_INT(cell_xy >> 16), w->y);
     w->z = LANES_SELECT(on, LANES_AS_INT(cell_z & 0xFFFFu), w->z);
     w->axis = LANES_SELECT(on, (lane_int)3, w->axis);
-    if (VXL_CUBE_BODIES) {  // out of a body: what fills the next cell is entered now
+    if (VXL_CUBE_BODIES) {  // a ray that leaves a body enters the next cell now
         const lane_int out = on & is_exit(cell_z);
         const lane_uint axis = (cell_z >> VXL_FACE_AXIS_SHIFT) & VXL_FACE_AXIS_MASK;
         w->axis = LANES_SELECT(out, LANES_AS_INT(axis), w->axis);
@@ -256,15 +258,15 @@ static inline Progress progress_of(const Packet* f) {
     return progress;
 }
 
-/// Lets the `taken` lanes have found what `other` holds.
+/// Replaces what the `taken` lanes have found by `other`.
 static inline void take_hit(const SurfaceHit* other, lane_int taken, SurfaceHit* found) {
     found->hit = LANES_SELECT(taken, other->hit, found->hit);
     found->t = LANES_SELECT(taken, other->t, found->t);
     found->leaf = LANES_SELECT(taken, other->leaf, found->leaf);
     found->voxel = LANES_SELECT(taken, other->voxel, found->voxel);
     if (VXL_SMOOTH) {
-        found->asked = LANES_SELECT(taken, other->asked, found->asked);
         found->within = LANES_SELECT(taken, other->within, found->within);
+        found->inside = LANES_SELECT(taken, other->inside, found->inside);
         found->level = LANES_SELECT(taken, other->level, found->level);
     }
     if (VXL_EXACT) {

@@ -44,7 +44,7 @@ static inline PyramidView grid_view(PyramidShape shape) {
 /// What the pyramid knows of a cell: the empty block around it, or the leaf that holds its voxel.
 typedef struct {
     lane_int occupied;   // mask: the cell's voxel is set
-    lane_int log2_size;  // of the aligned block around the cell that is empty, where it is not
+    lane_int log2_size;  // of the aligned empty block around the cell, where it isn't occupied
     lane_uint leaf;      // number of the cell's leaf, where occupied
 } CellState;
 
@@ -69,8 +69,8 @@ static inline lane_int group_is_empty(lane_uint mask, lane_uint bit) {
     return LANE_MASK(((mask >> (bit & VXL_GROUP_CORNER)) & VXL_GROUP_OF_EIGHT) == 0u);
 }
 
-/// Mask: the cell's leaf holds voxels; the state of the others' cells, and the leaves' numbers.
-/// Lanes that are not `active` read something harmless.
+/// Mask: the cell's leaf holds voxels. Also writes the state of the cells whose leaf holds none,
+/// and the numbers of the leaves that do. Lanes that are not `active` read something harmless.
 static inline lane_int look_up_leaf(const PyramidView* p, lane_int x, lane_int y, lane_int z,
                                     lane_int active, LastSector* last, CellState* state) {
     const lane_int sector = ((z >> 6) * p->sectors_y + (y >> 6)) * p->sectors_x + (x >> 6);

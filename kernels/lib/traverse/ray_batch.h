@@ -12,9 +12,10 @@
     global float *restrict rays, global uint *restrict paths, global float *restrict starts, \
         global uint *restrict inside, uint stride, global uint *restrict beams,              \
         global uint *restrict hits, global float *restrict positions,                        \
-        global float *restrict normals, global uint *restrict hit_attributes,                \
-        global float *restrict radiance, global uint *restrict sides,                        \
-        global float *restrict transmittance, global float *restrict coverage
+        global float *restrict normals, global float *restrict shading,                      \
+        global uint *restrict hit_attributes, global float *restrict radiance,               \
+        global uint *restrict sides, global float *restrict transmittance,                   \
+        global float *restrict coverage
 
 /// Rays and what they met. Arrays that a scene doesn't need are null.
 typedef struct {
@@ -27,6 +28,7 @@ typedef struct {
     global uint* restrict hits;
     global float* restrict positions;
     global float* restrict normals;
+    global float* restrict shading;
     global uint* restrict hit_attributes;
     global float* restrict radiance;
     global uint* restrict sides;
@@ -35,10 +37,10 @@ typedef struct {
 } RayBatch;
 
 /// The value of a RayBatch in a kernel with these parameters.
-#define VXL_BATCH                                                                             \
-    {                                                                                         \
-        rays, paths, starts, inside, stride, beams, hits, positions, normals, hit_attributes, \
-            radiance, sides, transmittance, coverage                                          \
+#define VXL_BATCH                                                                      \
+    {                                                                                  \
+        rays, paths, starts, inside, stride, beams, hits, positions, normals, shading, \
+            hit_attributes, radiance, sides, transmittance, coverage                   \
     }
 
 /// The parameters that `bind` of a ShadowQueue sets, in its order.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rays that are born on surfaces, and the left-packed queues that they wait in.
+// Rays that begin on surfaces, and the left-packed queues that they wait in.
 #ifndef VXL_RAY_QUEUE_H
 #define VXL_RAY_QUEUE_H
 
@@ -26,7 +26,7 @@ typedef struct {
     global float *restrict next_rays, global uint *restrict next_paths, \
         global float *restrict next_starts, global uint *restrict next_inside, uint next_stride
 
-/// Where they go: `stride` places.
+/// A queue of new rays, with `stride` places.
 typedef struct {
     global float* rays;
     global uint* paths;
@@ -39,7 +39,7 @@ typedef struct {
 #define VXL_QUEUE \
     { next_rays, next_paths, next_starts, next_inside, next_stride }
 
-/// The wanted lanes of a packet beside each other, and where in a queue they are put.
+/// The wanted lanes of a packet, left-packed, and their first place in a queue.
 typedef struct {
     uint first, count;
     uint lane[VXL_LANES];
@@ -57,8 +57,8 @@ static inline Slots slots_from(uint first, lane_int wanted) {
     return p;
 }
 
-/// Reserves a place behind `count` for every lane of a mask, all at once. Where the places are does
-/// not matter to any result.
+/// Reserves a place after the `count` places taken for every lane of a mask, all at once. No result
+/// depends on where the places are.
 static inline Slots reserve_slots(lane_int wanted, global uint* count) {
     const uint sum = (uint)lanes_count(wanted);
     return slots_from(sum == 0 ? 0 : atomic_add(count, sum), wanted);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Packets of shadow rays on their way to their light.
 //
-// Where rays run anywhere, lanes take on further rays as theirs end: a ray that has met a
+// Where rays are incoherent, lanes take on further rays as theirs end: a ray that has met a
 // transmitting surface goes on behind it while others walk, and lanes whose rays have ended wait
-// until several have. Else a packet would wait for the ray that meets most surfaces.
+// until several have. Otherwise a packet would wait for the ray that meets most surfaces.
 #ifndef VXL_SHADOW_PACKET_H
 #define VXL_SHADOW_PACKET_H
 
@@ -46,7 +46,8 @@ static inline void send_shadows(const WorldView* world, const Surroundings* arou
     ray_state->on_surface = (lane_int)-1;
     const lane_uint target =
         VXL_RAY_UINTS(q->targets, packet->ray, VXL_REFILLS_SHADOWS) & LANES_AS_UINT(fresh);
-    if (VXL_EXACT) ray_state->source = VXL_RAY_UINTS(q->sources, packet->ray, VXL_REFILLS_SHADOWS);
+    if (VXL_SOURCES)
+        ray_state->source = VXL_RAY_UINTS(q->sources, packet->ray, VXL_REFILLS_SHADOWS);
     if (VXL_INSTANCES)
         ray_state->instance = LANES_GATHER_UINT(batch->hits + VXL_HIT_INSTANCE * stride, target);
     if (VXL_SOLIDS) {
@@ -62,13 +63,14 @@ static inline void send_shadows(const WorldView* world, const Surroundings* arou
     }
     packet->found = no_hit_yet(ray_state);
     if (!VXL_FILTER) return;
-    // The paths are those of the rays that met the surface: on its same side light arrives.
+    // The paths are those of the rays that met the surface: light arrives on the side they came
+    // from.
     ray_state->media = gather_medium_set(batch->paths, stride, target, fresh);
     if (VXL_CUBE_BODIES) find_body(ray_state, around->materials);
     f->filter = begin_filter(world->shape, w, packet->t_end);
 }
 
-/// Puts lanes that are not `fresh` back to what their rays have come to on their way.
+/// Puts lanes that are not `fresh` back to the state that their rays had reached.
 static inline void keep_way(const ShadowPacket* before, lane_int fresh, ShadowPacket* f) {
     const RayState* was = &before->packet.ray_state;
     RayState* ray_state = &f->packet.ray_state;
@@ -77,7 +79,7 @@ static inline void keep_way(const ShadowPacket* before, lane_int fresh, ShadowPa
             LANES_SELECT(fresh, ray_state->within_source, was->within_source);
     if (!VXL_FILTER) return;
     ray_state->goes_on = LANES_SELECT(fresh, ray_state->goes_on, was->goes_on);
-    if (VXL_EXACT) ray_state->source = LANES_SELECT(fresh, ray_state->source, was->source);
+    if (VXL_SOURCES) ray_state->source = LANES_SELECT(fresh, ray_state->source, was->source);
     ray_state->t_first = LANES_SELECT(fresh, ray_state->t_first, was->t_first);
     for (int i = 0; i < VXL_MEDIUM_SET_SIZE; ++i)
         ray_state->media.members[i] =
@@ -97,8 +99,8 @@ static inline void keep_way(const ShadowPacket* before, lane_int fresh, ShadowPa
     f->filter.layers = LANES_SELECT(fresh, f->filter.layers, old->layers);
 }
 
-/// Adds what the `arrived` ones of the `held` rays bring to the radiance of the rays that they were
-/// sent for: all at once where these are in a row.
+/// Adds the light of the `arrived` rays among those `held` to the radiance of the rays that they
+/// were sent for; all at once where these are neighbours in memory.
 static inline void bring_light(const ShadowRays* s, const ShadowPacket* f, lane_int held,
                                lane_int arrived) {
     const uint stride = s->batch.stride;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Packets of rays that run beside each other, and where their hits are stored.
+// Packets of coherent rays, and where their hits are stored.
 #ifndef VXL_SIGHT_RAYS_H
 #define VXL_SIGHT_RAYS_H
 
@@ -14,8 +14,7 @@ static inline Hit hit_of(const Packet* f, lane_int hit) {
     Hit h;
     Walk walk = f->walk;
     lane_uint face = hit_face(&walk, f->found.exit & hit);
-    if (VXL_SMOOTH)
-        face |= LANES_AS_UINT(within_smooth(&f->found, &f->ray_state)) & VXL_FACE_WITHIN;
+    if (VXL_SMOOTH) face |= LANES_AS_UINT(f->found.within) & VXL_FACE_WITHIN;
     h.values[VXL_HIT_T] = LANES_AS_UINT(f->found.t);
     h.values[VXL_HIT_VOXEL] = LANES_SELECT(hit, f->found.voxel, (lane_uint)VXL_NO_VOXEL);
     h.values[VXL_HIT_CELL] = LANES_AS_UINT(walk.x | (walk.y << 16));
@@ -45,7 +44,7 @@ static inline bool beam_is_clear(const RayBatch* batch, uint first) {
     return batch->beams[VXL_BEAM_AXIS * VXL_BEAM_SLOTS(batch->stride) + beam] == VXL_BEAM_CLEAR;
 }
 
-/// Brings walks to where the beam of their rays ended: all on their way there is empty space. The
+/// Brings walks to where the beam of their rays ended, since all space before that is empty. The
 /// cell may be wrong by rounding; the next one is again the walk's own.
 static inline void ride_beam(const RayBatch* batch, uint first, Walk* w) {
     global const uint* beams = batch->beams;
@@ -68,14 +67,14 @@ static inline void ride_beam(const RayBatch* batch, uint first, Walk* w) {
     w->t = LANES_SELECT(later, t, w->t);
 }
 
-/// The first `count` rays of a batch; its beams may be none.
+/// The first `count` rays of a batch, which may have no beams.
 typedef struct {
     RayBatch batch;
     uint count;
 } SightRays;
 
-/// Sets the packet of rays from `first` on on their way. False where there is none, or its beam is
-/// clear, which is stored.
+/// Begins the packet of rays from `first` on. Returns false if there is none, or if its beam is
+/// clear; then its misses are stored.
 static inline bool send_packet(const PyramidView* p, const SightRays* q, uint first, Packet* f) {
     if (first >= q->count) return false;
     if (q->batch.beams && beam_is_clear(&q->batch, first)) {

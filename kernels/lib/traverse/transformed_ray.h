@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Rays transformed into the space of an instance: shared/instance.h.
 //
-// A ray goes to its point closest to the instance's centre first: o - center + t d is rounded only
-// once there, however far away the ray began. From that point the map and the way into the box are
-// short.
+// A ray is first moved to its point closest to the instance's centre: o - center + t d is rounded
+// only once there, however far away the ray began. From that point distances to the centre and into
+// the box are short.
 #ifndef VXL_TRANSFORMED_RAY_H
 #define VXL_TRANSFORMED_RAY_H
 
@@ -13,12 +13,12 @@
 #include "shared/instance.h"
 #include "shared/voxel.h"
 
-/// A ray's way through the box of an instance, in its voxels: point + along * (t - base).
+/// A ray's segment in the box of an instance, in its voxels: point + along * (t - base).
 typedef struct {
     Vector point, along;
     lane_float base, from;  // it comes in, or begins inside, at base + from
     lane_int axis;          // across which it comes in; 3: it begins inside
-    lane_int met;           // mask: there is such a way
+    lane_int met;           // mask: the ray passes through the box
 } BoxPassage;
 
 /// A ray of shared/trace.h in an instance's voxels. Its t is `base` + (`from` + t here * `scale`)
@@ -50,7 +50,7 @@ static inline Vector object_point(global const InstanceRecord* r, Vector v) {
     return result;
 }
 
-/// Where a ray comes in between two planes of one axis, and leaves.
+/// The t at which a ray comes in between two planes of one axis, and leaves.
 static inline void between_planes(lane_float o, lane_float d, float low, float high,
                                   lane_float* enter, lane_float* leave) {
     const lane_float inverse = finite_inverse(d);
@@ -95,10 +95,10 @@ static inline BoxPassage pass_box(global const InstanceRecord* r, Vector o, Vect
     return b;
 }
 
-/// The ray on this way, from where it comes into the box or begins.
+/// The ray in the instance's space, from where it comes into the box or begins.
 ///
-/// Where the map is `aligned` the ray's numbers are the world's but for their axes and signs: its
-/// origin may lie outside of the box, and it is on the walk to come in.
+/// Where the map is `aligned` the ray's numbers are the world's except for their axes and signs.
+/// Its origin may then lie outside of the box, and the walk brings it in.
 static inline TransformedRay transform_ray(global const InstanceRecord* r, const BoxPassage* b) {
     TransformedRay c;
     c.base = b->base;
@@ -134,8 +134,8 @@ static inline lane_float transformed_t(const TransformedRay* c, lane_float t) {
     return exact_divide((t - c->base) - c->from, c->scale);
 }
 
-/// The scene's packed attributes of hits on instances, whose words have the numbers of groups.
-/// Other lanes keep theirs.
+/// The scene's packed attributes of hits on instances, whose own packed attributes hold numbers of
+/// groups. Other lanes keep theirs.
 static inline lane_uint instance_attributes(const InstanceView* v, lane_uint instance,
                                             lane_uint packed, lane_int of_instance) {
     const lane_uint record =

@@ -1,27 +1,30 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which sorts of surface voxels hold.
+// The kinds of surface that voxels hold.
 #ifndef VXL_VOXEL_KINDS_H
 #define VXL_VOXEL_KINDS_H
 
 #include "lib/lanes/lanes.h"
 #include "shared/voxel.h"
 
-/// Masks; an exact voxel may hold the smooth body, too.
+/// A mask for each kind. Smooth voxels hold fields: one, or as many as their list says.
 typedef struct {
     lane_int cubes, smooth, exact;
+    lane_int lists;  // voxels whose record is the list of their fields
 } VoxelKinds;
 
-/// The kinds of the `tested` lanes' voxels. Read only where a world holds several.
+/// The kinds of the `tested` lanes' voxels; they are read only if the world has several.
 static inline VoxelKinds kinds_of(global const uint* restrict attributes, lane_uint voxel,
                                   lane_int tested) {
     const lane_int none = (lane_int)0;
     VoxelKinds k = {VXL_CUBES ? tested : none, VXL_SMOOTH ? tested : none,
-                    VXL_EXACT ? tested : none};
-    if (VXL_CUBES + VXL_SMOOTH + VXL_EXACT > 1) {
+                    VXL_EXACT ? tested : none, none};
+    if (VXL_CUBES + VXL_SMOOTH + VXL_EXACT + VXL_FIELD_LISTS > 1) {
         const lane_uint kind = LANES_GATHER_UINT(attributes, voxel) >> VXL_KIND_SHIFT;
         k.cubes &= LANE_MASK(kind == VXL_KIND_CUBES);
-        k.smooth &= LANE_MASK(kind != VXL_KIND_CUBES);
-        k.exact &= LANE_MASK(kind == VXL_KIND_EXACT);
+        const lane_int exact = LANE_MASK(kind == VXL_KIND_EXACT);
+        if (VXL_FIELD_LISTS) k.lists = tested & exact;
+        k.smooth &= LANE_MASK(kind == VXL_KIND_SMOOTH) | k.lists;
+        k.exact &= exact;
     }
     return k;
 }

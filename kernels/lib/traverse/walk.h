@@ -14,7 +14,7 @@
 #include "lib/traverse/pyramid.h"
 #include "shared/trace.h"
 
-// 0 leaves every crossing to floats: what exactness costs is measured against that.
+// 0 leaves every crossing to floats, to measure what exactness costs.
 #ifndef VXL_ARBITRATE
 #define VXL_ARBITRATE 1
 #endif
@@ -83,8 +83,8 @@ static inline lane_long plane_distance(lane_int plane, lane_float o, lane_int po
     return distance * sign;
 }
 
-/// What one axis contributes to an exact crossing: its exit plane, the plane nearest to the
-/// computed position, both as distances A and B, and the fixed-point direction D. t(A) = A / D.
+/// One axis of an exact crossing: the distances A of its exit plane and B of the plane nearest to
+/// the computed position, and the fixed-point direction D. t(A) = A / D.
 typedef struct {
     lane_long exit, nearest, direction;
 } AxisCrossing;
@@ -121,8 +121,8 @@ static inline void settle_cell(const Walk* w, const AxisCrossing* x, const AxisC
     const lane_long exit = (x->exit & ex) | (y->exit & ey) | (z->exit & ez_long);
     const lane_long direction =
         (x->direction & ex) | (y->direction & ey) | (z->direction & ez_long);
-    // A plane met at the same time as the exit is crossed when its axis comes first, or is the
-    // exit's.
+    // A plane met at the same time as the exit is crossed if its axis comes before the exit's, or
+    // is that axis.
     const lane_long ax = x->nearest * direction, bx = exit * x->direction;
     const lane_long ay = y->nearest * direction, by = exit * y->direction;
     const lane_long az = z->nearest * direction, bz = exit * z->direction;
@@ -155,7 +155,7 @@ static inline lane_int near_plane(lane_int plane, lane_float position, float bou
     return LANE_MASK(fabs(LANES_FLOAT(plane) - position) <= bound);
 }
 
-/// The cell's coordinate, unless that lies behind where the walk is.
+/// The coordinate of `cell`, but of `from` if the cell lies behind that in the ray's direction.
 static inline lane_int not_back(lane_int cell, lane_int from, lane_int positive) {
     return LANES_SELECT(LANE_MASK(((cell - from) ^ ~positive) < 0), from, cell);
 }
@@ -215,7 +215,7 @@ static inline void advance(const PyramidView* p, Walk* w, lane_int log2_size, la
                 (w->z & corner) + (w->pz & size), moving);
 }
 
-/// When the ray leaves the walk's present cell.
+/// The t at which the ray leaves the walk's present cell.
 static inline lane_float exit_time(const Walk* w) {
     const lane_float tx = (LANES_FLOAT(w->x - w->px) - w->ox) * w->ix;
     const lane_float ty = (LANES_FLOAT(w->y - w->py) - w->oy) * w->iy;
@@ -229,7 +229,7 @@ static inline lane_int on_entry_side(lane_float o, lane_float d, int size) {
            (LANE_MASK(o == (float)size) & LANE_MASK(d < 0.0f));
 }
 
-/// Lets `entering` walks that begin on a side of the world have come in across it.
+/// Makes `entering` walks that begin on a side of the world have come in across it.
 static inline void enter_world(const PyramidView* p, Walk* w, lane_int entering) {
     const lane_int x = on_entry_side(w->ox, w->dx, p->size_x) & entering;
     const lane_int y = on_entry_side(w->oy, w->dy, p->size_y) & entering;

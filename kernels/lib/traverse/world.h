@@ -16,7 +16,7 @@
         global const uint *restrict colors, global const uint *restrict fields,                  \
         global const uint *restrict primitive_first, global const uint *restrict primitives,     \
         global const float *restrict triangles, global const uint *restrict triangle_attributes, \
-        global const SolidShape *restrict solids,                                                \
+        global const uint *restrict triangle_normals, global const SolidShape *restrict solids,  \
         global const InstanceRecord *restrict instance_records,                                  \
         global const InstanceNode *restrict instance_nodes,                                      \
         global const uint *restrict group_materials
@@ -31,6 +31,7 @@ typedef struct {
     global const uint* restrict primitives;
     global const float* restrict triangles;
     global const uint* restrict triangle_attributes;
+    global const uint* restrict triangle_normals;
     global const SolidShape* restrict solids;
 } SurfaceView;
 
@@ -41,7 +42,7 @@ typedef struct {
     global const uint* restrict group_materials;
 } InstanceView;
 
-/// All of them; buffers that the world doesn't need are null.
+/// The whole world; buffers that it doesn't need are null.
 typedef struct {
     PyramidShape shape;
     PyramidView pyramid;
@@ -50,14 +51,21 @@ typedef struct {
 } WorldView;
 
 /// The value of a WorldView in a kernel with these parameters.
-#define VXL_WORLD                                                                          \
-    {                                                                                      \
-        shape, pyramid_view(shape, sectors, bricks, leaves, leaf_voxels),                  \
-            {attributes, constant_attribute,  colors, fields, primitive_first, primitives, \
-             triangles,  triangle_attributes, solids},                                     \
-        {                                                                                  \
-            instance_records, instance_nodes, group_materials                              \
-        }                                                                                  \
+#define VXL_WORLD                                                                               \
+    {                                                                                           \
+        shape, pyramid_view(shape, sectors, bricks, leaves, leaf_voxels), {attributes,          \
+                                                                           constant_attribute,  \
+                                                                           colors,              \
+                                                                           fields,              \
+                                                                           primitive_first,     \
+                                                                           primitives,          \
+                                                                           triangles,           \
+                                                                           triangle_attributes, \
+                                                                           triangle_normals,    \
+                                                                           solids},             \
+        {                                                                                       \
+            instance_records, instance_nodes, group_materials                                   \
+        }                                                                                       \
     }
 
 #endif

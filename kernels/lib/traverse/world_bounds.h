@@ -9,7 +9,7 @@ typedef struct {
     int4 size, half_voxel;
 } WorldBounds;
 
-// How deep a point, given in half voxels, lies inside the bounds: distance units to the nearest of
+// The depth of a point, given in half voxels, inside the bounds: distance units to the nearest of
 // their planes, at most 32767; negative outside.
 static inline int depth_in_world(WorldBounds bounds, int4 half_steps) {
     const int4 steps = min(half_steps, bounds.size * 2 - half_steps);
@@ -17,7 +17,7 @@ static inline int depth_in_world(WorldBounds bounds, int4 half_steps) {
     return min(min(depth.x, depth.y), min(depth.z, 32767));
 }
 
-// A block of `edge` voxels from `first` on has a side on the bounds, or lies beyond.
+// True if a block of `edge` voxels from `first` on has a side on the bounds, or lies beyond them.
 static inline bool is_at_bounds(WorldBounds bounds, int4 first, int edge) {
     return any((first <= 0).xyz) || any((first + edge >= bounds.size).xyz);
 }

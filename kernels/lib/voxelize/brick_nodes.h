@@ -8,7 +8,7 @@
 #define VXL_BRICK_VOXELS 4096
 #define VXL_SATURATED 32767
 
-// Nodes -1 .. 17 of a brick along each axis: those of its cells, and one more each way for
+// A brick's nodes -1 .. 17 along each axis: those of its cells, and one more on each side for
 // differences.
 #define VXL_NODES 19
 #define VXL_NODE_ROW VXL_NODES
@@ -32,7 +32,7 @@ static inline bool brick_is_stored(uint slot) {
     return slot < VXL_BRICK_INSIDE;
 }
 
-// Where node (x,y,z) of the brick, each in -1 .. 17, stands in the gathered nodes.
+// The index of node (x,y,z) of the brick, each in -1 .. 17, among the gathered nodes.
 static inline int node_index(int x, int y, int z) {
     return x + 1 + (y + 1) * VXL_NODE_ROW + (z + 1) * VXL_NODE_LAYER;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which voxels of a brick's row a triangle covers, exactly.
+// The exact set of voxels of a brick's row that a triangle covers.
 #ifndef VXL_COVER_H
 #define VXL_COVER_H
 
@@ -32,8 +32,7 @@ static inline CoverBox cover_box(const LatticeTriangle* t, int3 last) {
     return box;
 }
 
-/// The axes along which the triangle's bounding box, as far as it goes, meets more than one voxel,
-/// -1 each.
+/// -1 for each axis along which the triangle's whole bounding box meets more than one voxel.
 static inline int3 long_axes(const LatticeTriangle* t) {
     const int3 first = (lowest_corner(t) - 1 - VXL_MARGIN) >> LATTICE_BITS;
     const int3 last = (highest_corner(t) + VXL_MARGIN) >> LATTICE_BITS;
@@ -48,8 +47,8 @@ static inline uint bits_between(int first, int last) {
 /// A triangle prepared for tests of rows of voxels along x.
 typedef struct {
     CoverBox box;
-    // SUPERCOVER: what is tested. Within one layer of voxels the triangle meets those that its
-    // silhouette seen across the layer does, and in one line of voxels, being connected, all.
+    // SUPERCOVER: the tests that are needed. In one layer of voxels the triangle meets those that
+    // its silhouette seen across the layer meets, and in one line of voxels, being connected, all.
     bool sees_xy, sees_yz, sees_zx, meets_plane;
     long3 n;
     long low, high;  // SUPERCOVER: bounds on n·(v - box.first) for the plane to meet voxel v

@@ -42,8 +42,8 @@ static inline long3 area_vector(const LatticeTriangle* t) {
     return (long3)(u.y * v.z - u.z * v.y, u.z * v.x - u.x * v.z, u.x * v.y - u.y * v.x);
 }
 
-/// Whether the triangle spans at most 128 voxels. From a voxel of its box on, n · p then stays
-/// below 2^61 for its corners.
+/// True if the triangle spans at most 128 voxels. Then n · p of its corners, taken from a voxel of
+/// its box, stays below 2^61.
 static inline bool is_short(const LatticeTriangle* t) {
     const int3 size = highest_corner(t) - lowest_corner(t);
     return max(size.x, max(size.y, size.z)) <= 128 * LATTICE_VOXEL;
@@ -131,13 +131,13 @@ static inline void silhouette_edges(Silhouette* s, const Outline* p) {
 /// `margin` widens the cells on all sides, in lattice units.
 ///
 /// Each edge is tested from both sides (a separating axis), so triangles without area are exact
-/// too. What it lacks of an exact test are the axes of the cell itself: the bounding box.
+/// too. With the axes of the cell itself, which are those of the bounding box, the test is exact.
 static inline Silhouette silhouette_of_cells(int2 a, int2 b, int2 c, long area, int margin) {
     const Outline p = outline_of(a, b, c);
     Silhouette s;
     silhouette_edges(&s, &p);
     const long3 at = s.u * convert_long3(p.u) + s.w * convert_long3(p.w);
-    // oclgrind takes max(v, 0L) of a vector for one of a scalar.
+    // oclgrind mistakes max(v, 0L) of a vector for that of a scalar.
     const long3 positive = max(s.u, (long3)(0)) + max(s.w, (long3)(0));
     const long3 negative = min(s.u, (long3)(0)) + min(s.w, (long3)(0));
     const long3 widened = margin * (positive - negative);
@@ -148,8 +148,8 @@ static inline Silhouette silhouette_of_cells(int2 a, int2 b, int2 c, long area, 
 
 /// The points (U,W) + offset/4096 inside the triangle, which has area.
 ///
-/// A point on an edge is decided as if it were moved by (e, e²) for an infinitesimal e, `u_first`
-/// telling which of u and w moves by more: each point of a closed outline is in exactly one of two
+/// A point on an edge is decided as if it were moved by (e, e²) for an infinitesimal e, by more
+/// along u if `u_first`, else along w. So each point of a closed outline is in exactly one of two
 /// neighbours.
 static inline Silhouette silhouette_of_points(int2 a, int2 b, int2 c, long area, int offset,
                                               bool u_first) {
@@ -183,9 +183,8 @@ static inline uint silhouette_row(const Silhouette* s, int w, int first, int las
     return row;
 }
 
-/// Where lines along an axis cross a triangle's plane: c runs along the line, u and w across it.
-///
-/// Everything is in half voxels, since lines go through voxels' corners or centres.
+/// The crossings of lines along an axis with a triangle's plane; c runs along the line, u and w
+/// across it. Units are half voxels, since lines go through voxels' corners or centres.
 typedef struct {
     long u, w, c;            // the normal, turned so that c > 0
     long floor_at, ceil_at;  // of n·p for the plane's points p, in half voxels
@@ -205,7 +204,7 @@ static inline long crossed_voxel(const Crossing* p, long u, long w) {
     return floor_quotient(p->floor_at - p->u * u - p->w * w, 2 * p->c);
 }
 
-/// How many of the points offset/2 + 0, 1, 2, ... voxels lie before the crossing (not on it).
+/// The number of points offset/2 + 0, 1, 2, ... voxels that lie before the crossing (not on it).
 static inline long points_before(const Crossing* p, long u, long w, long offset) {
     return -floor_quotient(p->u * u + p->w * w - p->ceil_at + offset * p->c, 2 * p->c);
 }

@@ -40,7 +40,7 @@ static inline void store_tile(lane_int values, global short* first) {
 #endif
 }
 
-/// The same for 32-bit words.
+/// Writes a tile's values to 32-bit nodes of a slice, in the order of store_tile.
 static inline void store_tile_words(lane_uint values, global uint* first) {
 #if VXL_LANES == 1
     first[0] = values;

@@ -9,28 +9,26 @@
 #define VXL_PAINTED_PARAMETERS                                                          \
     int4 world_bricks, WorldBounds bounds, global const uint *restrict painted,         \
         global const uint *restrict coordinates, global short *restrict world_distance, \
-        global short *restrict nearest, global ulong *restrict world_occupancy,         \
-        global uint *restrict world_attributes, global uint *restrict world_colors
+        global ulong *restrict world_occupancy, global uint *restrict world_attributes, \
+        global uint *restrict world_colors
 
 // Buffers that the world doesn't need are null.
 typedef struct {
     int4 bricks;  // the world's brick table
     WorldBounds bounds;
-    global const uint* restrict painted;  // two words a brick: see painted_leaf
+    global const uint* restrict painted;  // slots
     global const uint* restrict coordinates;
     global short* restrict distance;
-    global short* restrict nearest;  // 4096 for each painted brick: distance of the nearest smooth
-                                     // surface to each voxel's centre
     global ulong* restrict occupancy;
     global uint* restrict attributes;
     global uint* restrict colors;
 } PaintedWorld;
 
 // The value of a PaintedWorld in a kernel with these parameters.
-#define VXL_PAINTED                                                                           \
-    {                                                                                         \
-        world_bricks, bounds, painted, coordinates, world_distance, nearest, world_occupancy, \
-            world_attributes, world_colors                                                    \
+#define VXL_PAINTED                                                                  \
+    {                                                                                \
+        world_bricks, bounds, painted, coordinates, world_distance, world_occupancy, \
+            world_attributes, world_colors                                           \
     }
 
 #endif

@@ -7,8 +7,8 @@
 
 // The map from world voxels to object voxels: row a holds the three coefficients of object axis a,
 // then its offset, all times 2^fraction_bits. Coefficients are even, so that half steps are exact.
-// Row 3 is the reach: how far along each object axis a world voxel looks around its centre. Sums
-// over the world's voxels stay below 2^62: the host sees to that.
+// Row 3 is the reach: how far along each object axis a world voxel looks around its centre. The
+// host makes sure that sums over the world's voxels stay below 2^62.
 typedef struct {
     constant long* rows;
     int fraction_bits;
@@ -56,7 +56,7 @@ static inline FixedPoint map_half_steps(const PlacedObject* object, int4 half_st
     return p;
 }
 
-// The cell that holds a coordinate; what lies far outside of every grid stays outside.
+// The cell that holds a coordinate, clamped far outside of every grid.
 static inline int cell_of(long coordinate, int fraction_bits) {
     return (int)clamp(coordinate >> fraction_bits, (long)-0x20000000, (long)0x20000000);
 }
@@ -66,12 +66,13 @@ static inline int4 cell_at(FixedPoint p, int fraction_bits) {
                   cell_of(p.z, fraction_bits), 0);
 }
 
-// Cells of the object that hold an image of the world box [low, low + edge] (half steps), widened
-// by the reach where `widened`.
+// A box of an object's cells, both ends included.
 typedef struct {
     int4 first, last;
 } CellBox;
 
+// The cells of the object that hold the image of the world box [low, low + edge] (half steps),
+// extended by the reach if `widened`.
 static inline CellBox map_box(const PlacedObject* object, int4 low, int edge, bool widened) {
     const FixedPoint p = map_half_steps(object, low);
     const long origin[3] = {p.x, p.y, p.z};
@@ -94,7 +95,7 @@ static inline CellBox map_box(const PlacedObject* object, int4 low, int edge, bo
 #define VXL_FULL 1u     // its inside, without surface
 #define VXL_SURFACE 2u  // perhaps its surface
 
-// Looks at the brick table only.
+// What the object has in a box, as far as its brick table alone tells: one of the three above.
 static inline uint state_of_bricks(const PlacedObject* object, CellBox box) {
     const int4 first = max(box.first >> 4, (int4)(-1)), last = min(box.last >> 4, object->bricks);
     bool inside = false, outside = false;
@@ -109,7 +110,7 @@ static inline uint state_of_bricks(const PlacedObject* object, CellBox box) {
     return inside ? (outside ? VXL_SURFACE : VXL_FULL) : VXL_NOTHING;
 }
 
-// Whether one of the box's leaves is marked in `near`, 64 bits of each slot.
+// True if one of the box's leaves is marked in `near`, which has 64 bits for each slot.
 static inline bool touches_near_leaf(const PlacedObject* object, global const ulong* near,
                                      CellBox box) {
     const int4 first = max(box.first >> 2, (int4)(0)),
@@ -128,7 +129,7 @@ static inline bool touches_near_leaf(const PlacedObject* object, global const ul
     return false;
 }
 
-// The nearest node's sign, for a place without surface.
+// True if a place without surface is inside, by the sign of its nearest node.
 static inline bool is_inside_field(const PlacedObject* object, global const short* distance,
                                    int4 node) {
     const uint slot = brick_slot(object->slots, object->bricks, node >> 4);
@@ -137,8 +138,8 @@ static inline bool is_inside_field(const PlacedObject* object, global const shor
                     ((node.z & 15) << 8)] < 0;
 }
 
-// Whether voxel `v` of the object is set; its place in the brick's values, or -1 in `place` for a
-// voxel of a full brick.
+// True if voxel `v` of the object is set. `place` becomes its place in the bricks' values, or -1
+// for a voxel of a brick that isn't stored.
 static inline bool is_occupied(const PlacedObject* object, global const ulong* occupancy, int4 v,
                                long* place) {
     const uint slot = brick_slot(object->slots, object->bricks, v >> 4);
@@ -173,8 +174,8 @@ static inline CellBox cells_around(const PlacedObject* object, FixedPoint p) {
     return box;
 }
 
-// The first occupied voxel in the box, x fastest, as is_occupied says it; whole bricks and leaves
-// without voxels are passed over.
+// Finds the first occupied voxel in the box, x fastest, and its place as is_occupied tells it.
+// Empty bricks and leaves are skipped.
 static inline bool find_in_box(const PlacedObject* object, global const ulong* occupancy,
                                global const ulong* near, CellBox box, long* place) {
     const int4 first = max(box.first, (int4)(0)), last = min(box.last, object->bricks * 16 - 1);

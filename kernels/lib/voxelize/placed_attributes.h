@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a world voxel takes from the object's voxel that it shows, and which voxel that is.
+// The attributes that a world voxel takes from an object's voxel, and which voxel that is.
 #ifndef VXL_PLACED_ATTRIBUTES_H
 #define VXL_PLACED_ATTRIBUTES_H
 
 #include "lib/voxelize/placed_field.h"
 
-// An object's words in the world: the kind bits and object number, the object's own word if it has
-// one for all its voxels, and the length of its list of materials.
-typedef uint4 AttributeMap;  // kind and object, own word, materials, 0
+// An object's packed attributes in the world: its kind bits and object number, its own packed
+// attributes if all its voxels have the same, the length of its list of materials, and 0.
+typedef uint4 AttributeMap;
 
 static inline uint attributes_in_world(AttributeMap map, global const uint* materials, uint own) {
     const uint group = own >> VXL_MATERIAL_SHIFT & VXL_MATERIAL_MASK;
@@ -32,17 +32,12 @@ static inline long index_of_voxel(const PlacedObject* object, int4 v) {
     return (long)slot * VXL_BRICK_VOXELS + ((v.x & 15) | (v.y & 15) << 4 | (v.z & 15) << 8);
 }
 
-// Leaves are painted brick by brick: `painted` lists slots, each with the brick's place among all
-// that are painted.
+// Leaves are painted brick by brick: `painted` lists slots.
 static inline uint painted_leaf(uint item, global const uint* painted) {
-    return painted[item >> 6 << 1] << 6 | (item & 63u);
+    return painted[item >> 6] << 6 | (item & 63u);
 }
 
-static inline uint painted_index(uint item, global const uint* painted) {
-    return painted[(item >> 6 << 1) + 1u];
-}
-
-// Leaf number 64 * slot + bit of the world: its first node in half steps, its place in the brick.
+// The first node, in half steps, of the world's leaf number 64 * slot + bit.
 static inline int4 leaf_in_world(uint leaf, global const uint* coordinates, int4 world_bricks) {
     const int4 brick = brick_at(coordinates[leaf >> 6], world_bricks);
     return (brick * 16 + (int4)(leaf << 2 & 12, leaf & 12, leaf >> 2 & 12, 0)) * 2;
@@ -52,8 +47,8 @@ static inline int leaf_index(uint leaf) {
     return (int)((leaf << 2 & 12) | (leaf & 12) << 4 | (leaf >> 2 & 12) << 8);
 }
 
-// floor(½ - numerator / (2 denominator)), the whole cells between a cell's middle and a point at
-// -numerator / (2 denominator) from there.
+// floor(½ - numerator / (2 denominator)): the number of whole cells between a cell and the one that
+// holds the point at -numerator / (2 denominator) from the cell's middle.
 static inline int cells_back(long numerator, long denominator) {
     const long doubled = denominator - numerator;
     const long low = doubled >= 0 ? doubled : doubled - (2 * denominator - 1);

@@ -129,7 +129,7 @@ static inline float interpolate(const short* node, float4 s) {
         fma(bend.y, between(twice_y, s.x, s.z), fma(bend.z, between(twice_z, s.x, s.y), linear)));
 }
 
-// Where a fixed-point coordinate stands in its cell, 0 <= s < 1, cut to 24 bits.
+// The position of a fixed-point coordinate in its cell, 0 <= s < 1, cut to 24 bits.
 static inline float fraction_of(long coordinate, int fraction_bits) {
     const uint bits = (uint)(coordinate >> (fraction_bits - 24)) & 0xFFFFFFu;
     return convert_float(bits) * 0x1p-24f;

@@ -10,8 +10,8 @@
 #include "lib/lanes/exact_float.h"
 #include "lib/voxelize/lattice.h"
 
-/// floats of `shapes` per triangle: normal, plane scale; 3 x (edge direction, length); 3 x
-/// 1/length.
+/// The number of floats of `shapes` per triangle: normal, plane scale; 3 x (edge direction,
+/// length); 3 x 1/length.
 #define SHAPE_FLOATS 20
 
 static inline float first_lane(lane_float v) {
@@ -60,9 +60,9 @@ static inline float3 any_perpendicular(float3 e) {
     return p * scalar_reciprocal(scalar_root(dot_product(p, p)));
 }
 
-/// Writes what is the same for all bricks: unit vectors, in metric space; `scale` is each voxel
-/// edge in the shortest. The plane scale is 0 for a triangle without area, whose normal is any one
-/// perpendicular to its longest edge.
+/// Writes the part of a triangle's frame that is equal for all bricks: unit vectors, in metric
+/// space; `scale` is each voxel edge in the shortest. The plane scale is 0 for a triangle without
+/// area, whose normal is any one perpendicular to its longest edge.
 static inline void shape_of_triangle(const LatticeTriangle* t, float3 scale, global float* shape) {
     const float to_voxels = 1.0f / LATTICE_VOXEL, shrink = 1.0f / 1048576.0f;
     float longest = -1.0f;

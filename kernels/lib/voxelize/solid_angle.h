@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The part of a point's winding number that the triangles which cap open outlines make, in floats.
+// The part of a point's winding number that comes from the triangles that cap open outlines, in
+// floats.
 #ifndef VXL_SOLID_ANGLE_H
 #define VXL_SOLID_ANGLE_H
 
@@ -70,8 +71,8 @@ static inline lane_float lane_dot(const LaneVector* a, const LaneVector* b) {
     return fma(a->x, b->x, fma(a->y, b->y, a->z * b->z));
 }
 
-/// On which side of the cap's plane each lane's point is, exactly: 1 behind it, -1 in front. Points
-/// on it are moved by (e, e², e³), as those of crossings are.
+/// The exact side of the cap's plane on which each lane's point lies: 1 behind it, -1 in front.
+/// Points on the plane are moved by (e, e², e³), as those of crossings are.
 static inline lane_float exact_sides(const Cap* cap, const LanePoints* p) {
     lane_float sides;
     for (int i = 0; i < VXL_LANES; ++i) {
@@ -100,7 +101,7 @@ typedef struct {
 } HalfAngle;
 
 /// Half the solid angle of the cap seen from each point, positive from behind (van Oosterom and
-/// Strackee 1983). Beside the cap the angle jumps; there its side is decided in integers, so that
+/// Strackee 1983). The angle jumps across the cap, where the side is decided in integers, so that
 /// it agrees with the crossings. Near the cap's edges both legs may vanish, and nothing is known.
 static inline HalfAngle half_solid_angle(const Cap* cap, const LanePoints* p, float3 to_metric) {
     const LaneVector a = vector_to(cap->lattice.corner[0], p, to_metric);
@@ -116,8 +117,8 @@ static inline HalfAngle half_solid_angle(const Cap* cap, const LanePoints* p, fl
     if (lanes_any(LANE_MASK(fabs(height) <= bound) & LANE_MASK(reach <= 0.0f)))
         height = LANES_SELECT(LANE_MASK(fabs(height) <= bound),
                               take_sign(height, exact_sides(cap, p)), height);
-    // The turn that both legs' errors make where the legs are as short as they may be, and as much
-    // again for the rounding of this bound.
+    // The turn that the errors of both legs make if the legs are as short as they may be. It is
+    // doubled for the rounding of this bound.
     const lane_float slack = REACH_ROUNDING * a.length * b.length * c.length;
     const lane_float min_height = fmax(fabs(height) - bound, (lane_float)(0.0f));
     const lane_float min_reach = fmax(fabs(reach) - slack, (lane_float)(0.0f));

@@ -28,8 +28,8 @@ size_t write_exr(const std::filesystem::path& path, const Image& image,
                  ColorDepth color = ColorDepth::float16,
                  const std::map<std::string, std::string>& others = {});
 
-/// Reads every channel of a flat OpenEXR file, scanline or tiled, with its text attributes. Of a
-/// file with several parts it reads the first.
+/// Reads every channel of a flat OpenEXR file, scanline or tiled, with its text attributes.
+/// It reads the first part of a file with several.
 ///
 /// Throws Error::input for a file that is missing, damaged, deep or subsampled, or that declares
 /// more pixels than it can hold.

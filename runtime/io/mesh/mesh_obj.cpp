@@ -16,12 +16,11 @@ namespace {
 /// Statements of the format that say nothing about a triangle mesh. The parser handles v, f, vn and
 /// vt itself.
 constexpr std::string_view kSkippedStatements[] = {
-    "vp",     "deg",        "bmat",      "step",     "cstype", "p",      "l",
-    "fo",     "curv",       "curv2",     "surf",     "parm",   "trim",   "hole",
-    "scrv",   "sp",         "end",       "con",      "g",      "s",      "mg",
-    "o",      "bevel",      "c_interp",  "d_interp", "lod",    "mtllib", "maplib",
-    "usemap", "shadow_obj", "trace_obj", "ctech",    "stech",  "call",   "scmp",
-    "csh",    "bsp",        "bzp",       "cdc",      "cdp",    "res",    "ctexp"};
+    "vp",     "deg",        "bmat",      "step",  "cstype", "p",        "l",        "fo",  "curv",
+    "curv2",  "surf",       "parm",      "trim",  "hole",   "scrv",     "sp",       "end", "con",
+    "g",      "s",          "mg",        "o",     "bevel",  "c_interp", "d_interp", "lod", "maplib",
+    "usemap", "shadow_obj", "trace_obj", "ctech", "stech",  "call",     "scmp",     "csh", "bsp",
+    "bzp",    "cdc",        "cdp",       "res",   "ctexp"};
 
 class ObjParser {
   public:
@@ -38,6 +37,7 @@ class ObjParser {
             source_.fail("the mesh has no triangles: no 'f' statement in the file");
         }
         drop_single_group();
+        settle_normals();
         return std::move(mesh_);
     }
 
@@ -49,7 +49,9 @@ class ObjParser {
             parse_vertex();
         } else if (word[0] == 'f' && is_blank(word[1])) {
             parse_face();
-        } else if (word[0] == 'v' && (word[1] == 'n' || word[1] == 't') && is_blank(word[2])) {
+        } else if (word[0] == 'v' && word[1] == 'n' && is_blank(word[2])) {
+            parse_normal();
+        } else if (word[0] == 'v' && word[1] == 't' && is_blank(word[2])) {
             skip_statement();
         } else if (at_end_of_statement()) {
             skip_line();
@@ -64,7 +66,13 @@ class ObjParser {
             source_.fail_at_line(p_, fmt::format("'{}' without numbers", word));
         }
         if (word == "usemtl") {
-            parse_material();
+            material_ = name_after_word(p_);
+            skip_line();
+            group_known_ = false;
+        } else if (word == "mtllib") {
+            const char* const line = p_;
+            skip_statement();
+            if (mesh_.material_library.empty()) mesh_.material_library = name_after_word(line);
         } else if (word == "vn" || word == "vt" ||
                    std::ranges::find(kSkippedStatements, word) != std::end(kSkippedStatements)) {
             skip_statement();
@@ -111,8 +119,26 @@ class ObjParser {
         mesh_.vertex_colors.push_back(linear_from_srgb(color));
     }
 
+    /// Reads a normal. One that isn't three numbers becomes a vector of length 0.
+    void parse_normal() {
+        glm::vec3 normal(0);
+        const char* number = p_ + 2;
+        for (int i = 0; i < 3; ++i) {
+            const Decimal found = scan_decimal(skip_blanks(number));
+            number = found.end;
+            if (found.status != DecimalStatus::ok) {
+                normal = glm::vec3(0);
+                break;
+            }
+            normal[i] = found.value;
+        }
+        mesh_.normals.push_back(normal);
+        skip_statement();
+    }
+
     void parse_face() {
         corners_.clear();
+        normals_.clear();
         for (++p_, skip_gap(); !at_end_of_statement(); skip_gap()) {
             corners_.push_back(parse_corner());
         }
@@ -120,8 +146,21 @@ class ObjParser {
             source_.fail_at_line(
                 p_, fmt::format("'f' has {} corners; it needs at least three", corners_.size()));
         }
-        cutter_.append(source_, corners_, mesh_);
+        append_polygon();
         mesh_.triangle_group.resize(mesh_.triangles.size(), group());
+    }
+
+    /// Cuts the face into triangles. The list of their normals begins with the first normal.
+    void append_polygon() {
+        const bool has_normals =
+            !mesh_.triangle_normals.empty() ||
+            std::ranges::any_of(normals_, [](uint32_t n) { return n != kNoNormal; });
+        if (!has_normals) {
+            cutter_.append(source_, corners_, mesh_);
+            return;
+        }
+        mesh_.triangle_normals.resize(mesh_.triangles.size(), glm::uvec3(kNoNormal));
+        cutter_.append(source_, corners_, mesh_, normals_);
     }
 
     /// Parses `7`, `7/3`, `7//4` or `7/3/4`. The first number is the vertex; it counts from 1, or
@@ -130,6 +169,7 @@ class ObjParser {
         const Integer vertex = scan_integer(p_);
         const char* end = vertex.end;
         bool valid = end != p_;
+        normals_.push_back(kNoNormal);
         if (*end == '/') {
             const Integer texture = scan_integer(end + 1);
             end = texture.end;
@@ -137,6 +177,7 @@ class ObjParser {
                 const Integer normal = scan_integer(end + 1);
                 valid &= normal.end != end + 1;
                 end = normal.end;
+                normals_.back() = normal_index(normal.value);
             }
         }
         if (!valid || !(ends_token(*end) || *end == '\\')) {
@@ -155,16 +196,39 @@ class ObjParser {
         return static_cast<uint32_t>(index);
     }
 
-    /// Reads the material's name: the rest of the line, with the spaces within it.
-    void parse_material() {
-        const char* const begin = skip_blanks(skip_token(p_));
-        skip_line();
-        const char* end = p_;
+    /// The index of a normal that a corner names; kNoNormal for one that can't be.
+    uint32_t normal_index(int64_t number) const {
+        const auto count = static_cast<int64_t>(mesh_.normals.size());
+        const int64_t index = number < 0 ? count + number : number - 1;
+        return index >= 0 && index < int64_t{kNoNormal} ? static_cast<uint32_t>(index) : kNoNormal;
+    }
+
+    /// Settles what corners name: normals may stand behind the faces. A file whose faces name none
+    /// has none.
+    void settle_normals() {
+        bool found = false;
+        for (glm::uvec3& t : mesh_.triangle_normals) {
+            for (int i = 0; i < 3; ++i) {
+                if (t[i] >= mesh_.normals.size()) {
+                    t[i] = kNoNormal;
+                }
+                found = found || t[i] != kNoNormal;
+            }
+        }
+        if (!found) {
+            mesh_.normals = {};
+            mesh_.triangle_normals = {};
+        }
+    }
+
+    /// What follows the word on the line, with the spaces within it.
+    std::string name_after_word(const char* word) const {
+        const char* const begin = skip_blanks(skip_token(word));
+        const char* end = after_line(word);
         while (end > begin && (is_blank(end[-1]) || end[-1] == '\n')) {
             --end;
         }
-        material_.assign(begin, std::max(begin, end));
-        group_known_ = false;
+        return {begin, std::max(begin, end)};
     }
 
     /// Returns the current material's group. A group begins to exist with its first face.
@@ -234,6 +298,7 @@ class ObjParser {
     Mesh mesh_;
     PolygonCutter cutter_;
     std::vector<uint32_t> corners_;
+    std::vector<uint32_t> normals_;  ///< indices of the face's corners
     std::string material_;
     std::unordered_map<std::string, uint32_t> group_of_name_;
     uint32_t group_ = 0;

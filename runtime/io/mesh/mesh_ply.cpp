@@ -12,10 +12,15 @@
 namespace voxelume {
 namespace {
 
-/// The purpose of a vertex property. The first six are also indices into a row of numbers.
-enum Role : size_t { kX, kY, kZ, kRed, kGreen, kBlue, kRoles, kSkipped = kRoles };
+/// The purpose of a vertex property. All but the last are also indices into a row of numbers.
+enum Role : size_t { kX, kY, kZ, kNx, kNy, kNz, kRed, kGreen, kBlue, kRoles, kSkipped = kRoles };
 
-constexpr std::string_view kRoleNames[kRoles] = {"x", "y", "z", "red", "green", "blue"};
+constexpr std::string_view kRoleNames[kRoles] = {"x",  "y",   "z",     "nx",  "ny",
+                                                 "nz", "red", "green", "blue"};
+
+bool is_normal(Role role) {
+    return role >= kNx && role <= kNz;
+}
 
 Role role_of(const PlyProperty& property) {
     std::string_view name = property.name;
@@ -47,6 +52,7 @@ struct VertexLayout {
     std::vector<Role> roles;  ///< one per property
     std::array<double, kRoles> scale{};
     bool has_color = false;
+    bool has_normal = false;
 };
 
 VertexLayout vertex_layout(const MeshSource& source, const PlyElement& element) {
@@ -72,6 +78,7 @@ VertexLayout vertex_layout(const MeshSource& source, const PlyElement& element) 
             source.fail(fmt::format("the vertices have no property '{}'", kRoleNames[role]));
         }
     }
+    layout.has_normal = found[kNx] != 0 && found[kNy] != 0 && found[kNz] != 0;
     layout.has_color = found[kRed] != 0 && found[kGreen] != 0 && found[kBlue] != 0;
     return layout;
 }
@@ -103,6 +110,7 @@ class BodyParser {
         }
         const VertexLayout layout = vertex_layout(source_, element);
         mesh_.positions.reserve(element.count);
+        mesh_.normals.reserve(layout.has_normal ? element.count : 0);
         mesh_.vertex_colors.reserve(layout.has_color ? element.count : 0);
         for (uint64_t i = 0; i < element.count; ++i) {
             std::array<double, kRoles> values{};
@@ -111,6 +119,8 @@ class BodyParser {
                 const PlyProperty& property = element.properties[k];
                 if (layout.roles[k] == kSkipped) {
                     skip_property(property);
+                } else if (is_normal(layout.roles[k])) {
+                    values[layout.roles[k]] = rows_.number_or_nan(property.type);
                 } else {
                     values[layout.roles[k]] = rows_.number(property.type);
                 }
@@ -132,6 +142,9 @@ class BodyParser {
             position[i] = static_cast<float>(value);
         }
         mesh_.positions.push_back(position);
+        if (layout.has_normal) {
+            append_normal(values);
+        }
         if (!layout.has_color) {
             return;
         }
@@ -145,6 +158,13 @@ class BodyParser {
             color[static_cast<int>(i)] = value;
         }
         mesh_.vertex_colors.push_back(linear_from_srgb(color));
+    }
+
+    /// A normal that isn't three finite numbers becomes a vector of length 0.
+    void append_normal(const std::array<double, kRoles>& values) {
+        const glm::vec3 normal(values[kNx], values[kNy], values[kNz]);
+        const bool is_finite = std::isfinite(normal.x + normal.y + normal.z);
+        mesh_.normals.push_back(is_finite ? normal : glm::vec3(0));
     }
 
     void parse_faces(const PlyElement& element) {
@@ -258,6 +278,7 @@ Mesh parse_ply(const MeshSource& source) {
     if (mesh.triangles.empty()) {
         source.fail("the mesh has no triangles: no element 'face' with corners in the file");
     }
+    mesh.texture = header.texture;
     return mesh;
 }
 

@@ -33,9 +33,9 @@ class HeaderParser {
         if (words_.size() != 1 || words_[0] != "ply") {
             fail("a PLY file begins with the line 'ply'");
         }
-        do {
-            read_line();
-        } while (words_.empty() || words_[0] == "comment");
+        for (read_line(); words_.empty() || words_[0] == "comment"; read_line()) {
+            parse_comment();
+        }
         parse_format();
         for (read_line(); words_.empty() || words_[0] != "end_header"; read_line()) {
             parse_declaration();
@@ -86,9 +86,19 @@ class HeaderParser {
             "or 'format binary_big_endian 1.0'");
     }
 
+    /// Programs that write meshes with a texture name it in a comment, as the format has no other
+    /// place for it.
+    void parse_comment() {
+        if (words_.size() < 3 || words_[1] != "TextureFile" || !header_.texture.empty()) {
+            return;
+        }
+        const std::string_view last = words_.back();
+        header_.texture.assign(words_[2].data(), last.data() + last.size());
+    }
+
     void parse_declaration() {
         if (words_.empty() || words_[0] == "comment" || words_[0] == "obj_info") {
-            return;
+            return parse_comment();
         }
         if (words_[0] == "element" && words_.size() == 3) {
             header_.elements.push_back({std::string(words_[1]), count(words_[2]), {}});

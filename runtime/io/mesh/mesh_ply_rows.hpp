@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstring>
 
 namespace voxelume {
@@ -34,6 +35,15 @@ class PlyAsciiRows {
     double number(PlyType) {
         find_value();
         return static_cast<double>(require_number(source_, p_));
+    }
+
+    /// The value of a number; NaN for another word.
+    double number_or_nan(PlyType) {
+        find_value();
+        const Decimal found = scan_decimal(p_);
+        const bool is_number = found.status == DecimalStatus::ok && ends_token(*found.end);
+        p_ = skip_token(p_);
+        return is_number ? static_cast<double>(found.value) : NAN;
     }
 
     int64_t integer(PlyType) {
@@ -93,6 +103,8 @@ class PlyBinaryRows {
                 return static_cast<double>(integer(type));
         }
     }
+
+    double number_or_nan(PlyType type) { return number(type); }
 
     /// Reads an integer. `type` has to be an integer type.
     int64_t integer(PlyType type) {

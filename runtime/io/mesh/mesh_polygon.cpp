@@ -39,9 +39,21 @@ void require_triangle_count(const MeshSource& source, uint64_t count) {
     }
 }
 
-void PolygonCutter::append(const MeshSource& source, std::span<const uint32_t> corners,
-                           Mesh& mesh) {
+void PolygonCutter::append(const MeshSource& source, std::span<const uint32_t> corners, Mesh& mesh,
+                           std::span<const uint32_t> normals) {
     require_triangle_count(source, mesh.triangles.size() + corners.size() - 2);
+    cut(source, corners, mesh);
+    for (const glm::uvec3& t : cut_)
+        mesh.triangles.emplace_back(corners[t.x], corners[t.y], corners[t.z]);
+    if (normals.empty()) return;
+    for (const glm::uvec3& t : cut_)
+        mesh.triangle_normals.emplace_back(normals[t.x], normals[t.y], normals[t.z]);
+}
+
+/// Cuts the polygon into triangles of its places.
+void PolygonCutter::cut(const MeshSource& source, std::span<const uint32_t> corners,
+                        const Mesh& mesh) {
+    cut_.clear();
     if (corners.size() > 3) {
         project(corners, mesh);
         if (!fan_covers()) {
@@ -51,12 +63,12 @@ void PolygonCutter::append(const MeshSource& source, std::span<const uint32_t> c
                             "into triangles in the program that wrote them",
                             source.name, corners.size(), kMaxConcaveCorners);
             }
-            cut_ears(corners, mesh);
+            cut_ears(corners.size());
             return;
         }
     }
     for (size_t i = 1; i + 1 < corners.size(); ++i) {
-        mesh.triangles.emplace_back(corners[0], corners[i], corners[i + 1]);
+        cut_.emplace_back(0, i, i + 1);
     }
 }
 
@@ -111,8 +123,7 @@ bool PolygonCutter::is_ear(size_t corner) const {
     return true;
 }
 
-void PolygonCutter::cut_ears(std::span<const uint32_t> corners, Mesh& mesh) {
-    const size_t count = corners.size();
+void PolygonCutter::cut_ears(size_t count) {
     before_.resize(count);
     after_.resize(count);
     ear_.resize(count);
@@ -135,7 +146,7 @@ void PolygonCutter::cut_ears(std::span<const uint32_t> corners, Mesh& mesh) {
         }
         const size_t previous = before_[corner];
         const size_t next = after_[corner];
-        mesh.triangles.emplace_back(corners[previous], corners[corner], corners[next]);
+        cut_.emplace_back(previous, corner, next);
         after_[previous] = next;
         before_[next] = previous;
         ear_[previous] = is_ear(previous);
@@ -143,7 +154,7 @@ void PolygonCutter::cut_ears(std::span<const uint32_t> corners, Mesh& mesh) {
         // Skipping the neighbour cuts a strip of ears instead of a fan of slivers.
         corner = after_[next];
     }
-    mesh.triangles.emplace_back(corners[before_[corner]], corners[corner], corners[after_[corner]]);
+    cut_.emplace_back(before_[corner], corner, after_[corner]);
 }
 
 }  // namespace voxelume

@@ -35,17 +35,21 @@ void require_triangle_count(const MeshSource& source, uint64_t count);
 /// n - 2 triangles.
 class PolygonCutter {
   public:
-    /// Appends the triangles of `corners` (at least three, all below `mesh.positions.size()`).
-    /// Throws Error::limit beyond `kMaxTriangles` or `kMaxConcaveCorners`.
-    void append(const MeshSource& source, std::span<const uint32_t> corners, Mesh& mesh);
+    /// Appends the triangles of `corners` (at least three, all below `mesh.positions.size()`), and
+    /// to `mesh.triangle_normals` those of `normals`, one per corner, if there are some. Throws
+    /// Error::limit beyond `kMaxTriangles` or `kMaxConcaveCorners`.
+    void append(const MeshSource& source, std::span<const uint32_t> corners, Mesh& mesh,
+                std::span<const uint32_t> normals = {});
 
   private:
+    void cut(const MeshSource& source, std::span<const uint32_t> corners, const Mesh& mesh);
     void project(std::span<const uint32_t> corners, const Mesh& mesh);
     bool fan_covers() const;
-    void cut_ears(std::span<const uint32_t> corners, Mesh& mesh);
+    void cut_ears(size_t count);
     double turn(size_t corner) const;
     bool is_ear(size_t corner) const;
 
+    std::vector<glm::uvec3> cut_;   ///< triangles of places in the polygon
     std::vector<glm::dvec2> flat_;  ///< the corners, projected so that they run counter-clockwise
     std::vector<size_t> before_;    ///< ring of the corners that remain
     std::vector<size_t> after_;

@@ -6,6 +6,7 @@
 
 #include "runtime/base/atomic_file.hpp"
 #include "runtime/base/error.hpp"
+#include "runtime/base/text.hpp"
 #include "runtime/image/volume_geometry.hpp"
 #include "runtime/io/volume/volume_frame_text.hpp"
 
@@ -29,7 +30,7 @@ bool is_header(const VolumePath& path, VolumeFormat format) {
 
 VolumePath header_path_of(const VolumePath& data) {
     VolumePath header = data;
-    if (data.extension() == ".raw") return header.replace_extension(".json");
+    if (ending_of(data) == ".raw") return header.replace_extension(".json");
     return header += ".json";
 }
 

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "runtime/base/input_file.hpp"
+#include "runtime/base/text.hpp"
 #include "runtime/image/volume_geometry.hpp"
 #include "runtime/io/volume/volume_frame_text.hpp"
 #include "runtime/io/volume/volume_json.hpp"
@@ -114,7 +115,7 @@ void read_voxels(const RawFile& file, Volume& volume) {
 }  // namespace
 
 Volume read_volume_raw(const VolumePath& path) {
-    const VolumePath header_path = path.extension() == ".json" ? path : header_path_of(path);
+    const VolumePath header_path = ending_of(path) == ".json" ? path : header_path_of(path);
     const VolumeJson header = read_header(header_path);
     const auto damaged = [&](const std::string& reason) {
         return Error(ErrorKind::input, "{}: damaged: {}", header_path.string(), reason);

@@ -6,6 +6,7 @@
 #include <array>
 
 #include "runtime/base/atomic_file.hpp"
+#include "runtime/base/text.hpp"
 #include "runtime/image/volume_geometry.hpp"
 #include "runtime/io/volume/volume_json.hpp"
 #include "runtime/io/volume/volume_rows.hpp"
@@ -66,7 +67,7 @@ VolumeJson write_arrays(AtomicFile& file, const Volume& volume) {
 
 void write_volume_raw(const VolumePath& path, const Volume& volume) {
     const VolumePath data =
-        path.extension() == ".json" ? VolumePath(path).replace_extension(".raw") : path;
+        ending_of(path) == ".json" ? VolumePath(path).replace_extension(".raw") : path;
     AtomicFile file(data);
     VolumeJson header = start_header(data, volume, VolumeFormat::raw);
     const glm::ivec3& size = volume.frame.size;

@@ -5,8 +5,10 @@
 #include <cmath>
 #include <sstream>
 
+#include "kernels/shared/normal.h"
 #include "kernels/shared/voxel.h"
 #include "runtime/base/input_file.hpp"
+#include "runtime/geometry/mesh_normals.hpp"
 #include "runtime/io/voxels/model_file.hpp"
 #include "runtime/io/voxels/voxel_limits.hpp"
 
@@ -141,6 +143,11 @@ class ModelReader {
         }
         for (uint32_t i = 0; i < count; ++i)
             mesh.triangles.emplace_back(3 * i, 3 * i + 1, 3 * i + 2);
+        for (const uint32_t code :
+             array<uint32_t>("triangle_normals", size_t(count) * VXL_TRIANGLE_NORMALS, false))
+            mesh.normals.emplace_back(code == VXL_NO_NORMAL
+                                          ? glm::dvec3(0)
+                                          : unpacked_normal(code) / model.frame.voxel_edge);
         mesh.group_names = model.groups;
         if (model.groups.empty()) return;
         for (const uint32_t word : array<uint32_t>("triangle_attributes", count, true))

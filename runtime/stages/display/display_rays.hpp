@@ -44,7 +44,7 @@ struct LayerRecords {
     std::vector<uint32_t> first_step;
 };
 
-/// What the voxels of each sight ray need, `total` values or as many times three.
+/// What the voxels of each sight ray need; an array has `total` places of one or more components.
 struct RayDepths {
     Buffer<uint32_t> steps;    ///< of the surface met, VXL_NO_STEP for none
     Buffer<float> depths;      ///< of the surface, metres

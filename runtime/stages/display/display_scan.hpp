@@ -22,13 +22,13 @@ struct ProbePoints {
 };
 inline constexpr uint32_t kNoView = 0xFFFFFFFFu;
 
-/// Points without a view, of so many; where lines' crossings are kept before, `slots` of each line,
-/// and their counts.
+/// The arrays of `count` points, which have no views yet; and the crossings of `lines` lines, with
+/// `slots` places for each.
 ProbePoints allocate_points(const Device& device, uint32_t count);
 Buffer<float> allocate_crossings(const Device& device, uint32_t lines, uint32_t slots);
 inline constexpr uint32_t kFirstSlots = 64;
 
-/// Lines that are scanned together with a batch of so many rays.
+/// The number of lines that are scanned together with a batch of `rays` rays.
 uint32_t scanned_lines(uint32_t rays);
 
 /// VXL_POINTS_PARAMETERS of kernels.

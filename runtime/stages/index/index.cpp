@@ -4,25 +4,18 @@
 #include <glm/vec4.hpp>
 
 #include <algorithm>
-#include <bit>
 #include <utility>
 
 #include "kernels/shared/voxel.h"
 #include "runtime/base/error.hpp"
 #include "runtime/grid/grid_arguments.hpp"
 #include "runtime/grid/sector_table.hpp"
+#include "runtime/stages/index/index_fields.hpp"
 #include "runtime/stages/index/index_marks.hpp"
+#include "runtime/stages/index/numbering.hpp"
 
 namespace voxelume {
 namespace {
-
-/// The entries of the pyramid's upper levels, and where each slot's leaves, voxels and primitives
-/// start.
-struct Numbering {
-    std::vector<uint32_t> sectors, bricks;
-    std::vector<uint32_t> starts;  ///< 3 per slot: first leaf, voxel, primitive
-    uint32_t leaf_count = 0, voxel_count = 0, primitive_count = 0;
-};
 
 bool has_two_sorts(const BrickGrid& grid) {
     return !grid.occupancy.empty() && !grid.distance.empty();
@@ -38,58 +31,9 @@ Defines features(const BrickGrid& grid) {
 }
 
 Numbering number_voxels(const BrickGrid& grid, const VoxelMarks& marks) {
-    const glm::ivec3 brick_table = grid.frame.bricks(), sector_table = grid.frame.sectors();
     const std::vector<uint32_t> coordinates = grid.coordinates.read();
-    Numbering numbers;
-    numbers.sectors.resize(size_t(sector_table.x) * sector_table.y * sector_table.z);
-    std::vector<bool> occupied(numbers.sectors.size());
-    std::vector<glm::uvec2> places(grid.brick_count);  // sector, bit
-    for (size_t slot = 0; slot < places.size(); ++slot) {
-        if (marks.leaf_mask[slot] == 0) continue;  // such a brick may hold nodes beyond all voxels
-        const int index = int(coordinates[slot]);
-        places[slot] = sector_and_bit({index % brick_table.x, index / brick_table.x % brick_table.y,
-                                       index / (brick_table.x * brick_table.y)},
-                                      sector_table);
-        occupied[places[slot].x] = true;
-    }
-    const uint32_t blocks = number_sectors(sector_table, occupied, numbers.sectors);
-    std::vector<uint32_t> slot_of_record(blocks * kRecordsPerSector, kBrickOutside);
-    for (size_t slot = 0; slot < places.size(); ++slot)
-        if (marks.leaf_mask[slot] != 0)
-            slot_of_record[numbers.sectors[places[slot].x] * kRecordsPerSector + places[slot].y] =
-                uint32_t(slot);
-
-    numbers.starts.resize(size_t(grid.brick_count) * 3);
-    numbers.bricks.resize(slot_of_record.size() * kWordsPerRecord);
-    uint64_t leaves = 0, voxels = 0, primitives = 0;
-    for (size_t record = 0; record < slot_of_record.size(); ++record) {
-        const size_t slot = slot_of_record[record];
-        if (slot == kBrickOutside) continue;
-        const uint64_t mask = marks.leaf_mask[slot];
-        uint32_t* words = &numbers.bricks[record * kWordsPerRecord];
-        words[0] = uint32_t(mask);
-        words[1] = uint32_t(mask >> 32);
-        words[2] = uint32_t(leaves);
-        words[3] = uint32_t(leaves) + uint32_t(std::popcount(words[0]));
-        uint32_t* start = &numbers.starts[slot * 3];
-        start[0] = uint32_t(leaves);
-        start[1] = uint32_t(voxels);
-        start[2] = uint32_t(primitives);
-        leaves += size_t(std::popcount(mask));
-        voxels += marks.counts[slot * 2];
-        primitives += marks.counts[slot * 2 + 1];
-    }
-    write_empty_cubes(numbers.bricks);
-    // Kernels gather by signed indices: two words for each leaf, or eight for each field.
-    const uint64_t maximum = grid.distance.empty() ? uint64_t{1} << 30 : uint64_t{1} << 28;
-    if (std::max(voxels, primitives) > maximum)
-        throw Error(ErrorKind::limit,
-                    "this world has {} surface voxels and {} primitives in them, at most {} can be "
-                    "numbered: use larger voxels",
-                    voxels, primitives, maximum);
-    numbers.leaf_count = uint32_t(leaves);
-    numbers.voxel_count = uint32_t(voxels);
-    numbers.primitive_count = uint32_t(primitives);
+    Numbering numbers = number_bricks(grid.frame, {coordinates, marks.leaf_mask, marks.counts, 2});
+    check_numbers(!grid.distance.empty(), numbers.totals[0], numbers.totals[1]);
     return numbers;
 }
 
@@ -98,10 +42,9 @@ Surface occupied_kind(const BrickGrid& grid) {
 }
 
 Pyramid upload(const Device& device, const BrickGrid& grid, const Numbering& numbers) {
-    Pyramid pyramid =
-        allocate_pyramid(device, grid,
-                         {numbers.bricks.size() / kWordsPerRecord / kRecordsPerSector,
-                          numbers.leaf_count, numbers.voxel_count, numbers.primitive_count});
+    Pyramid pyramid = allocate_pyramid(device, grid,
+                                       {numbers.bricks.size() / kWordsPerRecord / kRecordsPerSector,
+                                        numbers.leaf_count, numbers.totals[0], numbers.totals[1]});
     pyramid.sectors.write(numbers.sectors);
     pyramid.bricks.write(numbers.bricks);
     return pyramid;
@@ -110,35 +53,45 @@ Pyramid upload(const Device& device, const BrickGrid& grid, const Numbering& num
 }  // namespace
 
 Pyramid allocate_pyramid(const Device& device, const BrickGrid& grid, const PyramidCounts& counts) {
-    const size_t voxels = counts.voxels;
-    const bool exact = !grid.primitive_first.empty();
-    const Surface kind = grid.distance.empty() ? occupied_kind(grid) : Surface::smooth;
+    const PyramidParts parts{.attributes = !grid.attributes.empty() || has_two_sorts(grid),
+                             .colors = !grid.colors.empty(),
+                             .fields = !grid.distance.empty(),
+                             .exact = !grid.primitive_first.empty()};
+    return allocate_pyramid(device, grid, parts, counts);
+}
+
+Pyramid allocate_pyramid(const Device& device, const BrickGrid& grid, const PyramidParts& parts,
+                         const PyramidCounts& counts) {
+    const size_t voxels = counts.voxels, records = voxels + parts.listed_fields;
+    const Surface kind = parts.fields ? Surface::smooth : occupied_kind(grid);
     const glm::ivec3 sectors = grid.frame.sectors();
     Pyramid pyramid;
     pyramid.frame = grid.frame;
     pyramid.leaf_count = uint32_t(counts.leaves);
     pyramid.voxel_count = uint32_t(voxels);
+    pyramid.listed_fields = uint32_t(parts.listed_fields);
     pyramid.sectors = Buffer<uint32_t>(device, "sectors",
                                        size_t(sectors.x) * size_t(sectors.y) * size_t(sectors.z));
     pyramid.bricks = Buffer<uint32_t>(device, "brick records",
                                       counts.sectors * kRecordsPerSector * kWordsPerRecord);
     pyramid.leaves = Buffer<uint32_t>(device, "leaves", counts.leaves * 2);
     pyramid.leaf_voxels = Buffer<uint32_t>(device, "leaf voxels", counts.leaves);
-    if (!grid.attributes.empty() || has_two_sorts(grid))
-        pyramid.attributes = Buffer<uint32_t>(device, "voxel attributes", voxels);
+    if (parts.attributes)
+        pyramid.attributes = Buffer<uint32_t>(device, "voxel attributes", records);
     else
         pyramid.attribute = (grid.attribute & ~(~0u << VXL_KIND_SHIFT)) |
                             static_cast<uint32_t>(kind) << VXL_KIND_SHIFT;
     pyramid.transparent = grid.transparent;
-    if (!grid.colors.empty()) pyramid.colors = Buffer<uint32_t>(device, "voxel colors", voxels);
-    if (!grid.distance.empty())
-        pyramid.fields = Buffer<uint32_t>(device, "voxel fields", voxels * VXL_FIELD_WORDS);
-    if (exact) {
+    if (parts.colors) pyramid.colors = Buffer<uint32_t>(device, "voxel colors", records);
+    if (parts.fields)
+        pyramid.fields = Buffer<uint32_t>(device, "voxel fields", records * VXL_FIELD_WORDS);
+    if (parts.exact) {
         pyramid.primitive_first = Buffer<uint32_t>(device, "primitive starts", voxels + 1);
         pyramid.primitives = Buffer<uint32_t>(device, "primitives", counts.primitives);
     }
     pyramid.triangles = grid.triangles;
     pyramid.triangle_attributes = grid.triangle_attributes;
+    pyramid.triangle_normals = grid.triangle_normals;
     pyramid.solids = grid.solids;
     return pyramid;
 }
@@ -157,12 +110,17 @@ Pyramid write_pyramid(const Device& device, const Program& program, const BrickG
         .launch(WorkItem::heavy, grid.brick_count, grid.brick_count, kinds, grid, marks.masks,
                 starts, pyramid.leaves, pyramid.leaf_voxels, pyramid.attributes, pyramid.colors,
                 pyramid.fields, pyramid.primitive_first, pyramid.primitives);
+    const auto end = uint32_t(numbers.totals[1]);
     if (!pyramid.primitive_first.empty())
-        pyramid.primitive_first.write(std::span(&numbers.primitive_count, 1), numbers.voxel_count);
+        pyramid.primitive_first.write(std::span(&end, 1), pyramid.voxel_count);
     return pyramid;
 }
 
 }  // namespace
+
+VoxelMarks mark_grid(const Device& device, const BrickGrid& grid) {
+    return mark_voxels(device, Program(device, "index.cl", features(grid)), grid);
+}
 
 Pyramid build_index(const Device& device, const BrickGrid& grid) {
     const Program program(device, "index.cl", features(grid));
@@ -174,19 +132,28 @@ struct Indexer::Kept {
     Pyramid pyramid;
 };
 
-Indexer::Indexer(const Device& device) : device_(device) {}
+Indexer::Indexer(const Device& device) : device_(device), fields_(device) {}
 Indexer::~Indexer() = default;
 Indexer::Indexer(Indexer&&) noexcept = default;
 Indexer& Indexer::operator=(Indexer&&) noexcept = default;
+
+Pyramid Indexer::index(const PlacedWorld& world, const std::vector<uint32_t>* changed) {
+    if (kept_ && changed && changed->empty()) return kept_->pyramid;
+    if (world.fields.empty()) return index(world.voxels, changed);
+    kept_.reset();
+    kept_ = std::make_unique<Kept>(Kept{{}, fields_.index(world)});
+    return kept_->pyramid;
+}
 
 Pyramid Indexer::index(const BrickGrid& grid, const std::vector<uint32_t>* changed) {
     if (kept_ && changed && changed->empty()) return kept_->pyramid;
     const Program program(device_, "index.cl", features(grid));
     std::unique_ptr<Kept> before = std::move(kept_);
     if (before) before->pyramid = {};
-    VoxelMarks marks = before && changed ? mark_changed_voxels(device_, program, grid, *changed,
-                                                               std::move(before->marks))
-                                         : mark_voxels(device_, program, grid);
+    const bool continues = before && changed && !before->marks.slots.empty();
+    VoxelMarks marks =
+        continues ? mark_changed_voxels(device_, program, grid, *changed, std::move(before->marks))
+                  : mark_voxels(device_, program, grid);
     Pyramid pyramid = write_pyramid(device_, program, grid, marks);
     marks.slots = grid.slots.read();
     kept_ = std::make_unique<Kept>(Kept{std::move(marks), pyramid});

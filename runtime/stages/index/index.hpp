@@ -7,6 +7,7 @@
 
 #include "runtime/grid/grid.hpp"
 #include "runtime/opencl/device.hpp"
+#include "runtime/stages/index/index_fields.hpp"
 
 namespace voxelume {
 
@@ -38,8 +39,16 @@ struct PyramidCounts {
     size_t leaves = 0, voxels = 0, primitives = 0;
 };
 
+/// What a pyramid stores of its voxels.
+struct PyramidParts {
+    bool attributes = false, colors = false, fields = false, exact = false;
+    size_t listed_fields = 0;
+};
+
 /// The buffers of the pyramid of such a grid, whose triangle and solid buffers it shares.
 Pyramid allocate_pyramid(const Device& device, const BrickGrid& grid, const PyramidCounts& counts);
+Pyramid allocate_pyramid(const Device& device, const BrickGrid& grid, const PyramidParts& parts,
+                         const PyramidCounts& counts);
 
 /// Builds the pyramids of one state of a grid after another, and looks for voxels only where the
 /// grid has changed. The result is that of `build_index`.
@@ -55,9 +64,14 @@ class Indexer {
     /// pyramid.
     Pyramid index(const BrickGrid& grid, const std::vector<uint32_t>* changed);
 
+    /// The pyramid of a placed world; `changed` is as above, and only asked whether it is empty if
+    /// the world has fields.
+    Pyramid index(const PlacedWorld& world, const std::vector<uint32_t>* changed);
+
   private:
     struct Kept;
     Device device_;
+    FieldIndexer fields_;
     std::unique_ptr<Kept> kept_;
 };
 

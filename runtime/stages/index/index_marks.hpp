@@ -29,6 +29,9 @@ MarkArrays allocate_marks(const Device& device, size_t bricks);
 /// The marks of all bricks, by the kernels of index.cl that `program` was built from.
 VoxelMarks mark_voxels(const Device& device, const Program& program, const BrickGrid& grid);
 
+/// The marks of all of a grid's bricks, by kernels built for it.
+VoxelMarks mark_grid(const Device& device, const BrickGrid& grid);
+
 /// The marks of all bricks, from the marks `before` the bricks with indices `changed` were changed.
 /// A voxel's mark depends on its own brick and that brick's neighbours only.
 VoxelMarks mark_changed_voxels(const Device& device, const Program& program, const BrickGrid& grid,

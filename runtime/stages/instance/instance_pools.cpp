@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "kernels/shared/normal.h"
 #include "kernels/shared/solid.h"
 #include "kernels/shared/trace.h"
 #include "kernels/shared/voxel.h"
@@ -24,7 +25,7 @@ struct Extent {
         sectors += p.sectors.size();
         records += p.bricks.size() / kWordsPerRecord;
         leaves += p.leaf_count;
-        voxels += p.voxel_count;
+        voxels += p.records();
         primitives += p.primitives.size();
         triangles += p.triangles.size() / kFloatsPerTriangle;
         solids += p.solids.size() / VXL_SOLID_WORDS;
@@ -32,7 +33,7 @@ struct Extent {
 };
 
 struct Parts {
-    bool colors = false, fields = false, exact = false;
+    bool colors = false, fields = false, exact = false, normals = false;
 };
 
 /// What pyramids are joined to.
@@ -63,7 +64,8 @@ class Total {
         joined.frame = frame_;
         joined.transparent = transparent_;
         joined.leaf_count = uint32_t(total_.leaves);
-        joined.voxel_count = uint32_t(total_.voxels);
+        joined.voxel_count = voxel_count_;
+        joined.listed_fields = uint32_t(total_.voxels) - voxel_count_;
         joined.sectors = Buffer<uint32_t>(device, "sectors", total_.sectors);
         joined.bricks = Buffer<uint32_t>(device, "brick records", total_.records * kWordsPerRecord);
         joined.leaves = Buffer<uint32_t>(device, "leaves", total_.leaves * 2);
@@ -80,6 +82,9 @@ class Total {
             Buffer<float>(device, "triangles", total_.triangles * kFloatsPerTriangle);
         joined.triangle_attributes =
             Buffer<uint32_t>(device, "triangle attributes", total_.triangles);
+        if (parts_.normals)
+            joined.triangle_normals = Buffer<uint32_t>(device, "triangle normals",
+                                                       total_.triangles * VXL_TRIANGLE_NORMALS);
         joined.solids = Buffer<uint32_t>(device, "solids", total_.solids * VXL_SOLID_WORDS);
         return joined;
     }
@@ -87,14 +92,17 @@ class Total {
   private:
     void add(const Pyramid& p) {
         total_.add(p);
+        voxel_count_ += p.voxel_count;
         parts_.colors |= !p.colors.empty();
         parts_.fields |= !p.fields.empty();
         parts_.exact |= !p.primitive_first.empty();
+        parts_.normals |= !p.triangle_normals.empty();
         transparent_ |= p.transparent;
     }
 
     GridFrame frame_;
     Extent total_;
+    uint32_t voxel_count_ = 0;
     Parts parts_;
     bool transparent_ = false;
 };
@@ -158,29 +166,29 @@ class Joiner {
 
     void append_voxels(const Pyramid& p) {
         if (p.attributes.empty())
-            copies(p.voxel_count, full_.voxels, p.attribute, joined_.attributes);
+            copies(p.records(), full_.voxels, p.attribute, joined_.attributes);
         else
             words(p.attributes, full_.voxels, joined_.attributes);
         if (!p.colors.empty())
             words(p.colors, full_.voxels, joined_.colors);
         else if (parts_.colors)
-            copies(p.voxel_count, full_.voxels, kWhite, joined_.colors);
-        // An exact voxel has a field, too, if a smooth surface shares it; zeros mean that it has
-        // none.
+            copies(p.records(), full_.voxels, kWhite, joined_.colors);
+        // An exact voxel may list fields; zeros mean that it lists none.
         if (!p.fields.empty())
             words(p.fields, full_.voxels * VXL_FIELD_WORDS, joined_.fields);
         else if (parts_.fields)
-            copies(uint64_t(p.voxel_count) * VXL_FIELD_WORDS, full_.voxels * VXL_FIELD_WORDS, 0,
+            copies(uint64_t(p.records()) * VXL_FIELD_WORDS, full_.voxels * VXL_FIELD_WORDS, 0,
                    joined_.fields);
         if (p.primitive_first.empty()) {
             if (parts_.exact)
-                copies(p.voxel_count, full_.voxels, uint32_t(full_.primitives),
+                copies(p.records(), full_.voxels, uint32_t(full_.primitives),
                        joined_.primitive_first);
             return;
         }
-        // The end of a list is the start of the next one.
+        // The end of a list is the start of the next one, unless listed fields are between.
+        const uint32_t starts = p.voxel_count + (p.listed_fields > 0 ? 1 : 0);
         program_.kernel("append_numbers")
-            .launch(WorkItem::light, p.voxel_count, p.voxel_count, uint32_t(full_.voxels),
+            .launch(WorkItem::light, starts, starts, uint32_t(full_.voxels),
                     uint32_t(full_.primitives), 0u, p.primitive_first, joined_.primitive_first);
     }
 
@@ -196,6 +204,12 @@ class Joiner {
                    VXL_KIND_EXACT << VXL_KIND_SHIFT, joined_.triangle_attributes);
         else
             words(p.triangle_attributes, full_.triangles, joined_.triangle_attributes);
+        const uint64_t normals = full_.triangles * VXL_TRIANGLE_NORMALS;
+        if (!p.triangle_normals.empty())
+            words(p.triangle_normals, normals, joined_.triangle_normals);
+        else if (parts_.normals)
+            copies(p.triangles.size() / kFloatsPerTriangle * VXL_TRIANGLE_NORMALS, normals,
+                   VXL_NO_NORMAL, joined_.triangle_normals);
         words(p.solids, full_.solids * VXL_SOLID_WORDS, joined_.solids);
     }
 

@@ -12,7 +12,8 @@ namespace voxelume {
 /// `maximum` of them would be needed.
 BeamGrid beam_grid(const LightRecord& light, const glm::ivec3& size, float scale, uint32_t maximum);
 
-/// So many lights alone may send as many beams as one may.
+/// The number of lights that may each send the maximum number of beams; more lights share the beams
+/// of this many.
 inline constexpr uint32_t kLightsOfMaxBeams = 4;
 
 /// Whether beams of lights can tell where shadow rays end: not where these gather what they pass.

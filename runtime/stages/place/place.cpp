@@ -6,6 +6,7 @@
 #include <map>
 #include <numeric>
 #include <optional>
+#include <stdexcept>
 
 #include "kernels/shared/voxel.h"
 #include "runtime/base/error.hpp"
@@ -68,7 +69,10 @@ bool is_only_object(std::span<const PlacedObject> objects, const WorldParts& par
 /// The objects placed last, and their world.
 class Placer::State {
   public:
-    State(const Device& device, const GridFrame& frame) : device_(device) { world_.frame = frame; }
+    State(const Device& device, const GridFrame& frame, NearLeaves& near)
+        : device_(device), near_(near) {
+        world_.frame = frame;
+    }
 
     bool continues_with(const GridFrame& frame) const { return bricks_ && frame == world_.frame; }
 
@@ -100,8 +104,7 @@ class Placer::State {
 
   private:
     /// Makes the world store what the objects now need, and nothing else. A part that no object has
-    /// had before has one value in every brick, so no brick is painted for it. same in every brick,
-    /// so none is painted for that.
+    /// had before has one value in every brick, so no brick is painted for it.
     void follow(const WorldParts& parts) {
         const bool is_stored_anew = bricks_ && !parts.is_stored_like(parts_);
         parts_ = parts;
@@ -114,18 +117,14 @@ class Placer::State {
     /// from `left`.
     void take_painters(std::span<const PlacedObject> objects, std::map<uint32_t, Painter>& left,
                        std::vector<Painter*>& changed) {
-        std::map<const BrickGrid*, const Painter*> of_grid;
-        for (const auto& [number, painter] : left) of_grid[painter.object().grid] = &painter;
         for (const PlacedObject& object : objects) {
             const auto before = left.find(object.object);
             if (before != left.end() && before->second.object() == object) {
                 painters_.insert(left.extract(before));
                 continue;
             }
-            const Painter*& same_grid = of_grid[object.grid];
             const auto added = painters_.try_emplace(object.object, device_, object, world_.frame,
-                                                     parts_, same_grid);
-            same_grid = &added.first->second;
+                                                     parts_, near_);
             changed.push_back(&added.first->second);
         }
     }
@@ -170,7 +169,7 @@ class Placer::State {
     }
 
     /// Stores the bricks that the objects need. Returns the bricks to paint: those that a changed
-    /// painter has a part in, or had one in before. changed has a part, or had one.
+    /// painter has a part in, or had one in before.
     std::vector<uint32_t> store_bricks(const std::vector<Painter*>& changed) {
         if (!bricks_) {
             bricks_.emplace(device_, parts_, world_);
@@ -192,21 +191,13 @@ class Placer::State {
         return bricks_->store(*changed_, states(all_painters(), asked));
     }
 
-    /// The index of each of the world's bricks in the list of painted bricks, or kBrickOutside.
-    struct Painting {
-        std::vector<uint32_t> places;
-        Buffer<int16_t> nearest;
-    };
-
-    PaintedBricks painted_bricks(const Painting& painting, const BrickBox& box) {
+    /// The bricks of a box that are among the `painted` ones of the world.
+    PaintedBricks painted_bricks(const std::vector<bool>& painted, const BrickBox& box) {
         std::vector<uint32_t> slots;
         for_each_brick(box, [&](uint32_t brick) {
-            if (painting.places[brick] == kBrickOutside) return;
-            slots.push_back(bricks_->slot(brick));
-            slots.push_back(painting.places[brick]);
+            if (painted[brick]) slots.push_back(bricks_->slot(brick));
         });
-        return {uint32_t(slots.size() / 2), Buffer<uint32_t>(device_, "painted bricks", slots),
-                painting.nearest};
+        return {uint32_t(slots.size()), Buffer<uint32_t>(device_, "painted bricks", slots)};
     }
 
     void paint(std::span<const PlacedObject> objects, const std::vector<uint32_t>& bricks) {
@@ -215,14 +206,9 @@ class Placer::State {
         world_.attribute = parts_.attributes.size() == 1 ? *parts_.attributes.begin() : 0;
         if (bricks.empty()) return;
         bricks_->clear(bricks);
-        Painting painting;
         const glm::ivec3 table = world_.frame.bricks();
-        painting.places.assign(size_t(table.x) * size_t(table.y) * size_t(table.z), kBrickOutside);
-        for (uint32_t place = 0; place < painted_; ++place) painting.places[bricks[place]] = place;
-        if (parts_.measures_nearest()) {
-            painting.nearest = allocate_distances(device_, "nearest surfaces", painted_);
-            painting.nearest.fill(32767);
-        }
+        std::vector<bool> painting(brick_places(world_.frame));
+        for (const uint32_t brick : bricks) painting[brick] = true;
         Painter* smooth = nullptr;
         for (const PlacedObject* object : painting_order(objects)) {
             Painter& painter = painters_.at(object->object);
@@ -234,6 +220,7 @@ class Placer::State {
     }
 
     Device device_;
+    NearLeaves& near_;
     BrickGrid world_;
     WorldParts parts_;
     std::optional<WorldBricks> bricks_;     ///< empty before the first call of `place`
@@ -242,19 +229,26 @@ class Placer::State {
     uint32_t painted_ = 0;
 };
 
-Placer::Placer(const Device& device) : device_(device) {}
+Placer::Placer(const Device& device, std::shared_ptr<NearLeaves> near)
+    : device_(device),
+      owns_near_(!near),
+      near_(near ? std::move(near) : std::make_shared<NearLeaves>()) {}
 Placer::~Placer() = default;
 
 const BrickGrid& Placer::place(std::span<const PlacedObject> objects, const GridFrame& world) {
     for (const PlacedObject& object : objects) check_object(object, world);
+    if (owns_near_) near_->begin_list();
     const WorldParts parts = parts_of(objects);
+    if (parts.smooth && objects.size() > 1)
+        throw std::logic_error(
+            "fields of several objects don't merge: place_world keeps them apart");
     std::unique_ptr<State> state = std::move(state_);
     if (is_only_object(objects, parts)) {
-        state = std::make_unique<State>(device_, world);
+        state = std::make_unique<State>(device_, world, *near_);
         state->share(objects[0], parts);
     } else {
         if (!state || !state->continues_with(world))
-            state = std::make_unique<State>(device_, world);
+            state = std::make_unique<State>(device_, world, *near_);
         state->place(objects, parts);
     }
     state_ = std::move(state);

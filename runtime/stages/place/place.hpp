@@ -63,8 +63,8 @@ struct PlacedObject {
 /// `objects`.
 ///
 /// Overlaps: a voxel shows the object with the larger priority; of two with equal priorities it
-/// shows the one earlier in `objects`. Of smooth surfaces the one nearest to the voxel's centre is
-/// shown, and ties follow the rule above. A smooth object that wins takes the voxels its surface
+/// shows the one earlier in `objects`. Among smooth surfaces it shows the one nearest to its
+/// centre, and ties follow the rule above. A smooth object that wins takes the voxels its surface
 /// passes through away from cubes. An exact and a smooth surface share a voxel: the voxel is exact
 /// and has the smooth surface's packed attributes, since primitives have their own. Between an
 /// exact surface and a cube the cube wins. The result does not depend on the order of work. Solids
@@ -80,11 +80,14 @@ struct PlacedObject {
 BrickGrid place(const Device& device, std::span<const PlacedObject> objects,
                 const GridFrame& world);
 
+class NearLeaves;
+
 /// Places one list of objects after another. It paints only those bricks of the world again that a
 /// changed object had a part in or has one in now. The voxels are those that `place` gives.
 class Placer {
   public:
-    explicit Placer(const Device& device);
+    /// Placers that place objects with the same grids may share their near leaves.
+    explicit Placer(const Device& device, std::shared_ptr<NearLeaves> near = {});
     ~Placer();
     Placer(const Placer&) = delete;
     Placer& operator=(const Placer&) = delete;
@@ -105,6 +108,8 @@ class Placer {
   private:
     class State;
     Device device_;
+    const bool owns_near_;
+    std::shared_ptr<NearLeaves> near_;
     std::unique_ptr<State> state_;
 };
 

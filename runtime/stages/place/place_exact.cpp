@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "runtime/stages/place/place_exact.hpp"
 
+#include "kernels/shared/normal.h"
 #include "kernels/shared/solid.h"
 #include "runtime/base/error.hpp"
 #include "runtime/opencl/program.hpp"
@@ -83,6 +84,9 @@ void append_object(const Device& device, const PlacedObject& object, const Buffe
     program.kernel("append_triangle_attributes")
         .launch(WorkItem::light, triangles, triangles, joined.triangles, packed_attributes.map,
                 packed_attributes.materials, grid.triangle_attributes, world.triangle_attributes);
+    if (!grid.triangle_normals.empty())
+        append(triangles * VXL_TRIANGLE_NORMALS, joined.triangles * VXL_TRIANGLE_NORMALS,
+               grid.triangle_normals, world.triangle_normals);
     append(records * VXL_SOLID_WORDS, joined.solid_records * VXL_SOLID_WORDS, grid.solids,
            world.solids);
     program.kernel("set_solid_attributes")
@@ -94,28 +98,31 @@ void append_object(const Device& device, const PlacedObject& object, const Buffe
 
 }  // namespace
 
-void allocate_sources(const Device& device, size_t floats, size_t solid_words, BrickGrid& world) {
-    world.triangles = Buffer<float>(device, "world triangles", floats);
-    world.triangle_attributes =
-        Buffer<uint32_t>(device, "world triangle attributes", floats / kFloatsPerTriangle);
-    world.solids = Buffer<uint32_t>(device, "world solids", solid_words);
+void allocate_sources(const Device& device, const SourceCounts& counts, BrickGrid& world) {
+    const size_t triangles = counts.floats / kFloatsPerTriangle;
+    world.triangles = Buffer<float>(device, "world triangles", counts.floats);
+    world.triangle_attributes = Buffer<uint32_t>(device, "world triangle attributes", triangles);
+    if (counts.normals)
+        world.triangle_normals =
+            Buffer<uint32_t>(device, "world normals", VXL_TRIANGLE_NORMALS * triangles);
+    world.solids = Buffer<uint32_t>(device, "world solids", counts.solid_words);
 }
 
 void join_exact_surfaces(const Device& device, std::span<const PlacedObject> objects,
                          BrickGrid& world) {
     std::vector<const PlacedObject*> exact;
-    size_t floats = 0, solid_words = 0;
+    SourceCounts sources;
     for (const PlacedObject& object : objects) {
         if (object.grid->primitive_first.empty()) continue;
         exact.push_back(&object);
-        floats += object.grid->triangles.size();
-        solid_words += object.grid->solids.size();
+        sources.add(*object.grid);
     }
     world.primitive_first = world.primitives = {};
     world.triangles = {};
-    world.triangle_attributes = world.solids = {};
+    world.triangle_attributes = world.triangle_normals = world.solids = {};
     if (exact.empty()) return;
-    allocate_sources(device, floats, solid_words, world);
+    allocate_sources(device, sources, world);
+    if (sources.normals) world.triangle_normals.fill(VXL_NO_NORMAL);
     const Program program = program_for(device, *exact.front()->grid);
     const Buffer<uint32_t> counts = count_primitives(device, program, exact, world);
     start_lists(device, program, counts, world);

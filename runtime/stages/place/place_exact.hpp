@@ -8,8 +8,21 @@
 
 namespace voxelume {
 
-/// Makes room in the world for triangles' corners and the words of analytic solids.
-void allocate_sources(const Device& device, size_t floats, size_t solid_words, BrickGrid& world);
+/// The sizes of what the exact surfaces of a world come from.
+struct SourceCounts {
+    size_t floats = 0;  ///< of triangles' corners
+    size_t solid_words = 0;
+    bool normals = false;  ///< some triangle has normals
+
+    void add(const BrickGrid& grid) {
+        floats += grid.triangles.size();
+        solid_words += grid.solids.size();
+        normals |= !grid.triangle_normals.empty();
+    }
+};
+
+/// Makes room in the world for triangles and analytic solids.
+void allocate_sources(const Device& device, const SourceCounts& counts, BrickGrid& world);
 
 /// Gives `world`, whose bricks are numbered, the primitives of all exact objects: per voxel in the
 /// order of `objects`, with triangles and solids renumbered and their words those of the world.

@@ -25,34 +25,6 @@ PlacementMap map_of(const PlacedObject& object, const GridFrame& world, Surface 
                          object.object);
 }
 
-/// The world's bricks that the object's grid, and a margin around it, lie in.
-BrickBox bricks_of(const PlacedObject& object, const GridFrame& world) {
-    const glm::ivec3 last = world.bricks() - 1;
-    if (object.in_world_frame) return {glm::ivec3(0), last};
-    const GridFrame& grid = object.grid->frame;
-    glm::dvec3 low(INFINITY), high(-INFINITY);
-    for (int corner = 0; corner < 8; ++corner) {
-        const glm::dvec3 end(corner & 1 ? grid.size.x : 0, corner & 2 ? grid.size.y : 0,
-                             corner & 4 ? grid.size.z : 0);
-        const glm::dvec3 in_object = grid.origin + grid.voxel_edge * end;
-        const glm::dvec3 in_world(object.world_from_object * glm::dvec4(in_object, 1));
-        const glm::dvec3 voxel = (in_world - world.origin) / world.voxel_edge;
-        low = glm::min(low, voxel), high = glm::max(high, voxel);
-    }
-    // The placement map's reach is at most half an object voxel's diagonal, as the world sees it.
-    // Two world voxels cover that and the rounding if the object's voxels are no larger; the margin
-    // adds one of the object's voxels along each axis for those that are.
-    const glm::dmat3 turn(object.world_from_object);
-    glm::dvec3 margin(2);
-    for (int axis = 0; axis < 3; ++axis)
-        margin += glm::abs(turn[axis]) * grid.voxel_edge[axis] / world.voxel_edge;
-    const glm::dvec3 edge(kBrickSize);
-    const glm::dvec3 first_brick = glm::floor((low - margin) / edge);
-    const glm::dvec3 last_brick = glm::floor((high + margin) / edge);
-    return {glm::ivec3(glm::clamp(first_brick, glm::dvec3(0), glm::dvec3(last + 1))),
-            glm::ivec3(glm::clamp(last_brick, glm::dvec3(-1), glm::dvec3(last)))};
-}
-
 Program program_for(const Device& device, const PlacedObject& object, Surface surface,
                     const PlacementMap& map, const WorldParts& parts) {
     return {device,
@@ -62,8 +34,6 @@ Program program_for(const Device& device, const PlacedObject& object, Surface su
              {"VXL_COLORS", parts.colors},
              {"VXL_OBJECT_ATTRIBUTES", !object.grid->attributes.empty()},
              {"VXL_OBJECT_COLORS", !object.grid->colors.empty()},
-             {"VXL_WORLD_OCCUPANCY", parts.occupancy},
-             {"VXL_AMONG_SMOOTH", lists_primitives(surface) && parts.smooth},
              {"VXL_REACH", map.has_reach},
              {"VXL_KEEPS_INSIDE", object.keeps_inside}}};
 }
@@ -92,6 +62,33 @@ bool WorldParts::is_stored_like(const WorldParts& other) const {
            has_attributes() == other.has_attributes();
 }
 
+BrickBox bricks_of(const PlacedObject& object, const GridFrame& world) {
+    const glm::ivec3 last = world.bricks() - 1;
+    if (object.in_world_frame) return {glm::ivec3(0), last};
+    const GridFrame& grid = object.grid->frame;
+    glm::dvec3 low(INFINITY), high(-INFINITY);
+    for (int corner = 0; corner < 8; ++corner) {
+        const glm::dvec3 end(corner & 1 ? grid.size.x : 0, corner & 2 ? grid.size.y : 0,
+                             corner & 4 ? grid.size.z : 0);
+        const glm::dvec3 in_object = grid.origin + grid.voxel_edge * end;
+        const glm::dvec3 in_world(object.world_from_object * glm::dvec4(in_object, 1));
+        const glm::dvec3 voxel = (in_world - world.origin) / world.voxel_edge;
+        low = glm::min(low, voxel), high = glm::max(high, voxel);
+    }
+    // The placement map's reach is at most half an object voxel's diagonal, as the world sees it.
+    // Two world voxels cover that and the rounding if the object's voxels are no larger; the margin
+    // adds one of the object's voxels along each axis for those that are.
+    const glm::dmat3 turn(object.world_from_object);
+    glm::dvec3 margin(2);
+    for (int axis = 0; axis < 3; ++axis)
+        margin += glm::abs(turn[axis]) * grid.voxel_edge[axis] / world.voxel_edge;
+    const glm::dvec3 edge(kBrickSize);
+    const glm::dvec3 first_brick = glm::floor((low - margin) / edge);
+    const glm::dvec3 last_brick = glm::floor((high + margin) / edge);
+    return {glm::ivec3(glm::clamp(first_brick, glm::dvec3(0), glm::dvec3(last + 1))),
+            glm::ivec3(glm::clamp(last_brick, glm::dvec3(-1), glm::dvec3(last)))};
+}
+
 WorldParts parts_of(std::span<const PlacedObject> objects) {
     WorldParts parts;
     for (const PlacedObject& object : objects) {
@@ -113,7 +110,7 @@ WorldBounds bounds_of(const GridFrame& frame) {
 }
 
 Painter::Painter(const Device& device, const PlacedObject& object, const GridFrame& world,
-                 const WorldParts& parts, const Painter* before)
+                 const WorldParts& parts, NearLeaves& near)
     : object_(object),
       surface_(surface_of(*object.grid)),
       map_(map_of(object, world, surface_)),
@@ -123,14 +120,27 @@ Painter::Painter(const Device& device, const PlacedObject& object, const GridFra
       attribute_map_(attribute_map(device, object, surface_)),
       threshold_(near_threshold(map_)) {
     const BrickGrid& grid = *object.grid;
-    if (before && before->object_.grid == object.grid && before->threshold_ == threshold_) {
-        near_ = before->near_;
-        return;
-    }
-    near_ = Buffer<uint64_t>(device, "near leaves", grid.brick_count);
-    program_.kernel("mark_near_leaves")
-        .launch(WorkItem::heavy, grid.brick_count, grid.brick_count, threshold_, grid.occupancy,
-                grid.distance, near_);
+    near_ = near.of(grid, threshold_, [&] {
+        Buffer<uint64_t> masks(device, "near leaves", grid.brick_count);
+        program_.kernel("mark_near_leaves")
+            .launch(WorkItem::heavy, grid.brick_count, grid.brick_count, threshold_, grid.occupancy,
+                    grid.distance, masks);
+        return masks;
+    });
+}
+
+Buffer<uint64_t> NearLeaves::of(const BrickGrid& grid, int threshold,
+                                const std::function<Buffer<uint64_t>()>& mark) {
+    const auto [found, is_new] = entries_.try_emplace({&grid, threshold});
+    Entry& entry = found->second;
+    if (is_new) entry.masks = mark();
+    entry.is_used = true;
+    return entry.masks;
+}
+
+void NearLeaves::begin_list() {
+    std::erase_if(entries_, [](const auto& entry) { return !entry.second.is_used; });
+    for (auto& [key, entry] : entries_) entry.is_used = false;
 }
 
 void bind(KernelArguments& to, const Painter& painter) {
@@ -144,8 +154,7 @@ void bind(KernelArguments& to, const Painter& painter) {
 void bind(KernelArguments& to, const PaintedWorld& painted) {
     const BrickGrid& world = painted.world;
     to.add(glm::ivec4(world.frame.bricks(), 0), bounds_of(world.frame), painted.painted.slots,
-           world.coordinates, world.distance, painted.painted.nearest, world.occupancy,
-           world.attributes, world.colors);
+           world.coordinates, world.distance, world.occupancy, world.attributes, world.colors);
 }
 
 void Painter::classify(const GridFrame& world, uint32_t count, const Buffer<uint32_t>& listed,
@@ -170,7 +179,7 @@ void Painter::paint_smooth(const PaintedBricks& painted, BrickGrid& world) {
     const uint32_t leaves = painted.count * 64;
     const PaintedWorld to{painted, world};
     program_.kernel("paint_distances").launch(WorkItem::heavy, leaves, leaves, *this, to);
-    if (painted.nearest.empty()) return;
+    if (world.attributes.empty() && world.colors.empty()) return;
     program_.kernel("paint_smooth_voxels")
         .launch(WorkItem::heavy, leaves, leaves, half_diagonal(world.frame), *this, to);
 }

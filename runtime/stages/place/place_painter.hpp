@@ -2,7 +2,10 @@
 // An object on its way into the world: its inverse map, and the kernels that paint its voxels.
 #pragma once
 
+#include <functional>
+#include <map>
 #include <set>
+#include <utility>
 
 #include "runtime/opencl/program.hpp"
 #include "runtime/stages/place/place.hpp"
@@ -19,8 +22,6 @@ struct WorldParts {
     std::set<uint32_t> attributes;  ///< all values that voxels can have
 
     bool has_attributes() const { return attributes.size() > 1; }
-    /// Whether voxels take what they have from the smooth surface that is nearest to them.
-    bool measures_nearest() const { return smooth && (has_attributes() || colors || occupancy); }
     /// Whether bricks of both worlds have the same buffers.
     bool is_stored_like(const WorldParts& other) const;
 };
@@ -41,13 +42,13 @@ struct BrickBox {
     bool is_empty() const { return first.x > last.x || first.y > last.y || first.z > last.z; }
 };
 
+/// The world's bricks that the object's grid, and a margin around it, lie in.
+BrickBox bricks_of(const PlacedObject& object, const GridFrame& world);
+
 /// The bricks of the world that are painted, on the device.
 struct PaintedBricks {
     uint32_t count = 0;
-    Buffer<uint32_t> slots;   ///< 2 for each brick: its slot, its index in `nearest`
-    Buffer<int16_t> nearest;  ///< 4096 for each brick that any object is painted into: the distance
-                              ///< of the nearest smooth surface to each voxel's centre; empty where
-                              ///< it decides nothing
+    Buffer<uint32_t> slots;
 };
 
 /// The bricks of a world, of which some are painted.
@@ -59,13 +60,30 @@ struct PaintedWorld {
 /// VXL_PAINTED_PARAMETERS of kernels.
 void bind(KernelArguments& to, const PaintedWorld& painted);
 
+/// The near leaves of objects' grids, which objects with the same grid share.
+class NearLeaves {
+  public:
+    /// Per slot: a mask of the leaves with voxels, or with distances below `threshold`. `mark`
+    /// makes them if no object had them in this list of objects or the last.
+    Buffer<uint64_t> of(const BrickGrid& grid, int threshold,
+                        const std::function<Buffer<uint64_t>()>& mark);
+
+    /// Begins the next list: forgets what the last one didn't ask for.
+    void begin_list();
+
+  private:
+    struct Entry {
+        Buffer<uint64_t> masks;
+        bool is_used = true;
+    };
+    std::map<std::pair<const BrickGrid*, int>, Entry> entries_;
+};
+
 /// An object ready to be painted into a world. Its grid must outlive it.
 class Painter {
   public:
-    /// `before` may be any object's painter or null; what depends on the same grid is taken from
-    /// it.
     Painter(const Device& device, const PlacedObject& object, const GridFrame& world,
-            const WorldParts& parts, const Painter* before);
+            const WorldParts& parts, NearLeaves& near);
 
     const PlacedObject& object() const { return object_; }
     Surface surface() const { return surface_; }
@@ -101,8 +119,7 @@ class Painter {
     Program program_;
     AttributeMap attribute_map_;
     int threshold_;          ///< leaves with a smaller distance are near
-    Buffer<uint64_t> near_;  ///< per slot: a mask of the leaves with voxels, or with distances in
-                             ///< the band
+    Buffer<uint64_t> near_;
 };
 
 }  // namespace voxelume

@@ -26,8 +26,8 @@ struct DilatedOccupancy {
     std::vector<glm::ivec3> sectors_with_voxels;  ///< those of the pyramid
 };
 
-/// The buffers of a dilated occupancy whose table has so many sectors, and stores some of them; and
-/// of the beams of so many rays.
+/// The buffers of a dilated occupancy whose table has `sectors` entries and `stored` records; and
+/// those of the beams of `rays` rays.
 DilatedOccupancy allocate_dilated_occupancy(const Device& device, size_t sectors, size_t stored);
 Buffer<uint32_t> allocate_beams(const Device& device, uint32_t rays);
 

@@ -10,7 +10,7 @@ namespace {
 constexpr const char* kFewerRays =
     "render a smaller image, or with fewer samples a pixel or less depth";
 
-/// Makes arrays of so many places on a device.
+/// Makes arrays of `slots` places on a device.
 class ArrayMaker {
   public:
     ArrayMaker(const Device& device, uint32_t slots) : device_(device), slots_(slots) {}
@@ -26,7 +26,7 @@ class ArrayMaker {
 };
 
 size_t path_components(const Features& features) {
-    if (features.transmission) return VXL_PATH_INSIDE + 1 + size_t(features.other_media);
+    if (features.transmission) return VXL_PATH_INSIDE + size_t(std::max(features.media, 1));
     return features.instances ? VXL_PATH_INSIDE : VXL_PATH_CELL;
 }
 
@@ -49,6 +49,7 @@ void make_batch(const Features& features, ArrayMaker& maker, RayBatch& batch) {
     maker.make(batch.hits, "hits", hit_components(features));
     if (features.positions) maker.make(batch.positions, "positions", 3);
     if (features.normals) maker.make(batch.normals, "normals", 3);
+    if (features.normals && features.shading_normals) maker.make(batch.shading, "shading", 6);
     if (features.hit_attributes) maker.make(batch.hit_attributes, "hit attributes", 1);
     if (!features.radiance) return;
     maker.make(batch.radiance, "radiance", 3);
@@ -64,7 +65,7 @@ bool has_shadow_queue(const Features& features) {
 void make_shadow_queue(const Features& features, ArrayMaker& maker, ShadowQueue& queue) {
     maker.make(queue.rays, "shadow queue", VXL_RAY_COMPONENTS);
     maker.make(queue.targets, "shadow queue", 1);
-    if (features.exact()) maker.make(queue.sources, "shadow queue", 1);
+    if (features.sources()) maker.make(queue.sources, "shadow queue", 1);
     maker.make(queue.contributions, "shadow queue", 3);
 }
 

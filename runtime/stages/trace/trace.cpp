@@ -12,7 +12,9 @@ Features features_of(const Pyramid& pyramid) {
     features.voxel_opacity = pyramid.transparent;
     features.smooth = !pyramid.fields.empty();
     features.triangles = !pyramid.triangles.empty();
+    features.shading_normals = !pyramid.triangle_normals.empty();
     features.solids = !pyramid.solids.empty();
+    features.field_lists = pyramid.listed_fields > 0;
     const uint32_t kind = pyramid.attribute >> VXL_KIND_SHIFT;
     features.instances = !pyramid.instances.empty();
     features.cubes = features.attributes || kind == VXL_KIND_CUBES;

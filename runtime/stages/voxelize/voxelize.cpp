@@ -3,11 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/gtc/matrix_inverse.hpp>
 #include <glm/matrix.hpp>
 #include <utility>
 
 #include "kernels/shared/voxel.h"
 #include "runtime/base/error.hpp"
+#include "runtime/geometry/mesh_normals.hpp"
 #include "runtime/stages/brick_arrays.hpp"
 #include "runtime/stages/voxelize/mesh_lattice.hpp"
 #include "runtime/stages/voxelize/voxelize_steps.hpp"
@@ -64,6 +66,7 @@ constexpr int kListMargin = 1;
 /// The mesh with its triangles' corners in the opposite order. A map that mirrors turns them back.
 Mesh turned_over(Mesh mesh) {
     for (glm::uvec3& t : mesh.triangles) std::swap(t.y, t.z);
+    for (glm::uvec3& t : mesh.triangle_normals) std::swap(t.y, t.z);
     return mesh;
 }
 
@@ -100,6 +103,18 @@ void keep_triangles(VoxelizeJob& job, const Mesh& mesh, const glm::dmat4& frame_
     words.resize(mesh.triangles.size(), labels.attributes);
     job.grid.triangle_attributes =
         Buffer<uint32_t>(job.device, "source attributes", std::span<const uint32_t>(words));
+}
+
+/// Keeps the normals of the triangles' corners, for light.
+void keep_normals(VoxelizeJob& job, const Mesh& mesh, const glm::dmat4& frame_from_mesh,
+                  const Shading& shading) {
+    const std::vector<glm::vec3> normals = corner_normals(mesh, shading);
+    if (normals.empty()) return;
+    glm::dmat3 map = glm::inverseTranspose(glm::dmat3(frame_from_mesh));
+    for (int column = 0; column < 3; ++column) map[column] *= job.grid.frame.voxel_edge;
+    job.grid.triangle_normals =
+        Buffer<uint32_t>(job.device, "source normals",
+                         std::span<const uint32_t>(packed_normals(mesh, normals, map)));
 }
 
 }  // namespace
@@ -140,6 +155,7 @@ BrickGrid Voxelizer::voxelize_outward(const Mesh& mesh, const glm::dmat4& frame_
         voxelize_cubes(job, VoxelSet::supercover, kListMargin);
         list_primitives(job, program("voxelize_exact.cl", {{"VXL_MARGIN", kListMargin}}));
         keep_triangles(job, mesh, frame_from_mesh, labels);
+        keep_normals(job, mesh, frame_from_mesh, options.shading);
     }
     if (!labels.triangle_attributes.empty() || !labels.vertex_colors.empty())
         label_voxels(job, program("voxelize_label.cl", slice_defines(device_)),

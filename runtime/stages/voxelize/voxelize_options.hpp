@@ -2,7 +2,7 @@
 // The options of voxelization: shared by the stages that voxelize meshes and analytic solids.
 #pragma once
 
-#include "runtime/scene/surface.hpp"
+#include "runtime/scene/object.hpp"
 
 namespace voxelume {
 
@@ -12,6 +12,12 @@ struct VoxelizeOptions {
     double band = 2.8;  ///< for `smooth`: the distance up to which meshes' distances are exact, in
                         ///< shortest voxel edges, at most 4; rays and gradients at a surface read
                         ///< 2.8
+    Shading shading{};  ///< for `exact` meshes
 };
+
+/// The options that a model asks for.
+inline VoxelizeOptions options_of(const Model& model) {
+    return {.surface = model.surface, .set = model.set, .shading = model.shading};
+}
 
 }  // namespace voxelume

@@ -12,8 +12,8 @@ namespace voxelume {
 /// their centre along an axis. Some appear more than once. Bounds are those of exact_row.
 ///
 /// Seen along the line, the triangle is filled row by row between two of its edges. A line that
-/// lies on an edge is moved by (e, e², e³) for an infinitesimal e. Of the two ends of its part of
-/// the line, a voxel contains the lower and not the upper.
+/// lies on an edge is moved by (e, e², e³) for an infinitesimal e. A voxel contains the lower end
+/// of its part of the line, but not the upper.
 std::vector<glm::ivec3> exact_thin(const TriangleOnLattice& triangle, const glm::ivec3& region);
 
 }  // namespace voxelume

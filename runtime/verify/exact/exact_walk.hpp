@@ -59,7 +59,7 @@ enum class Steps {
 int block_log2(const glm::ivec3& cell);
 
 /// The digest of the first `maximum` cells of a ray's walk. A point on a plane belongs to the cell
-/// being entered. Of crossings at one t the lowest axis comes first.
+/// being entered. Crossings at one t are taken in the order of their axes.
 WalkDigest exact_digest(const FixedGrid& grid, const FixedRay& ray, Steps steps, uint32_t maximum);
 
 /// The first `maximum` cells themselves.

@@ -29,8 +29,8 @@ LongGrid long_grid(uint64_t number) {
     return {kLongGrids[number % kLongGrids.size()], int(number % 3)};
 }
 
-/// Makes narrow triangles along x. They meet about as many voxels as their length, or their length
-/// times a small width.
+/// Makes narrow triangles along x. The number of voxels that one meets is about its length, or its
+/// length times a small width.
 class LongTriangle {
   public:
     LongTriangle(StressRandom& random, const TriangleGrid& grid)

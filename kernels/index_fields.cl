@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: Apache-2.0
+// distance fields of several objects, and voxels among them -> Pyramid.
+//
+// Each smooth object has a grid of its own in the world's lattice, and `mark_voxels` (index.cl) has
+// found the voxels that its surface may cross. Here they are united brick by brick: a voxel with
+// one field has its record, one with several lists records behind the voxels' (shared/voxel.h).
+//
+// Build constants: VXL_BASE: there are cubes or exact voxels, too. VXL_BASE_ATTRIBUTES,
+// VXL_PRIMITIVES: these have attributes of their own, primitives. VXL_COLORS: the world has
+// colours. VXL_ATTRIBUTES, VXL_OWN_COLORS: the object whose fields are written has them.
+#include "lib/lanes/work_item.h"
+#include "lib/surface/brick_field.h"
+#include "lib/voxelize/brick_grid.h"
+#include "lib/voxelize/brick_nodes.h"
+#include "lib/voxelize/leaf_voxels.h"
+
+// The fields in the world's bricks that hold any voxels: entries first[b] .. first[b + 1] are those
+// in brick b, the object that comes first in the order of priorities first. An entry is the number
+// of an object's brick among all objects' (x) and the object's rank (y).
+#define VXL_ENTRY_PARAMETERS \
+    global const uint *restrict entry_first, global const uint *restrict entries
+
+// Copies the masks of one object's leaves behind those of others.
+kernel void append_masks(const uint count, const uint first, global const ulong* restrict from,
+                         global ulong* restrict to) {
+    const uint item = work_item();
+    if (item < count) to[(size_t)first * 64 + item] = from[item];
+}
+
+// The kind of an occupied voxel of the grid of cubes and exact voxels.
+static inline uint base_attributes(const BrickGrid* grid, size_t voxel) {
+    return VXL_BASE_ATTRIBUTES ? grid->attributes[voxel] : grid->attribute;
+}
+
+// Decides who gets the voxels that both cubes and fields are in: the first in the order of
+// priorities. Returns the voxels that stay cubes, and clears them in the fields' masks.
+static inline ulong settle_cubes(const BrickGrid* grid, uint slot, int leaf, ulong both,
+                                 global const uint* restrict ranks, uint begin, uint end,
+                                 global const uint* restrict entries, global ulong* masks) {
+    ulong stay = 0;
+    for (; both != 0; both &= both - 1) {
+        const int bit = lowest_bit(both);
+        const uint packed =
+            base_attributes(grid, (size_t)slot * VXL_BRICK_VOXELS + voxel_in_brick(leaf, bit));
+        if (packed >> VXL_KIND_SHIFT != VXL_KIND_CUBES) continue;
+        uint first = 0xFFFFFFFFu;
+        for (uint e = begin; e < end && first == 0xFFFFFFFFu; ++e)
+            if (masks[(size_t)entries[2 * e] * 64 + leaf] >> bit & 1) first = entries[2 * e + 1];
+        if (ranks[packed & VXL_OBJECT_MASK] < first) stay |= 1ul << bit;
+    }
+    for (uint e = begin; stay != 0 && e < end; ++e)
+        masks[(size_t)entries[2 * e] * 64 + leaf] &= ~stay;
+    return stay;
+}
+
+// The occupied voxels of a leaf whose kind is exact.
+static inline ulong exact_among(const BrickGrid* grid, uint slot, int leaf, ulong occupied) {
+    ulong exact = 0;
+    for (; occupied != 0; occupied &= occupied - 1) {
+        const int bit = lowest_bit(occupied);
+        const uint packed =
+            base_attributes(grid, (size_t)slot * VXL_BRICK_VOXELS + voxel_in_brick(leaf, bit));
+        if (packed >> VXL_KIND_SHIFT == VXL_KIND_EXACT) exact |= 1ul << bit;
+    }
+    return exact;
+}
+
+// One brick of the world: the masks of its voxels, of those that list fields, and of those whose
+// attributes are the base grid's; the mask of its leaves; and its counts of voxels, primitives and
+// listed fields. `base_slots` holds the brick's slot in the base grid, or VXL_BRICK_OUTSIDE.
+kernel void unite_marks(const uint count, VXL_BRICK_GRID_PARAMETERS,
+                        global const uint* restrict brick_numbers,
+                        global const uint* restrict base_slots, global const uint* restrict ranks,
+                        VXL_ENTRY_PARAMETERS, global ulong* restrict masks,
+                        global ulong* restrict united, global ulong* restrict listing,
+                        global ulong* restrict of_base, global ulong* restrict leaf_masks,
+                        global uint* restrict counts) {
+    const uint item = work_item();
+    if (item >= count) return;
+    const BrickGrid grid = VXL_BRICK_GRID;
+    const uint slot = VXL_BASE ? base_slots[item] : VXL_BRICK_OUTSIDE;
+    const bool has_base = VXL_BASE && brick_is_stored(slot);
+    const int4 room = grid.size - brick_at(brick_numbers[item], grid.bricks) * 16;
+    const uint begin = entry_first[item], end = entry_first[item + 1];
+    ulong leaf_mask = 0;
+    uint voxels = 0, primitives = 0, fields = 0;
+    for (int leaf = 0; leaf < 64; ++leaf) {
+        ulong some = 0, several = 0;
+        for (uint e = begin; e < end; ++e) {
+            const ulong mask = masks[(size_t)entries[2 * e] * 64 + leaf];
+            several |= some & mask;
+            some |= mask;
+        }
+        ulong base = 0;
+        if (has_base) {
+            const ulong occupied =
+                grid.occupancy[(size_t)slot * 64 + leaf] & mask_within(room - leaf_origin(leaf));
+            const ulong both = occupied & some;
+            const ulong stay =
+                settle_cubes(&grid, slot, leaf, both, ranks, begin, end, entries, masks);
+            const ulong exact = exact_among(&grid, slot, leaf, both);
+            base = (occupied & ~both) | stay | exact;
+            some &= ~stay, several &= ~stay;
+            several |= exact & some;
+        }
+        const ulong all = some | base;
+        united[(size_t)item * 64 + leaf] = all;
+        listing[(size_t)item * 64 + leaf] = several;
+        if (VXL_BASE) of_base[(size_t)item * 64 + leaf] = base;
+        if (all != 0) leaf_mask |= 1ul << leaf;
+        voxels += (uint)popcount(all);
+        for (uint e = begin; several != 0 && e < end; ++e)
+            fields += (uint)popcount(masks[(size_t)entries[2 * e] * 64 + leaf] & several);
+        if (VXL_PRIMITIVES && has_base)
+            for (; base != 0; base &= base - 1) {
+                const size_t voxel =
+                    (size_t)slot * VXL_BRICK_VOXELS + voxel_in_brick(leaf, lowest_bit(base));
+                primitives += grid.primitive_first[voxel + 1] - grid.primitive_first[voxel];
+            }
+    }
+    leaf_masks[item] = leaf_mask;
+    counts[3 * item] = voxels;
+    counts[3 * item + 1] = primitives;
+    counts[3 * item + 2] = fields;
+}
+
+// One brick of the world: its leaves, and all of its voxels but the records of their fields, from
+// the numbers in `starts` (first leaf, voxel, primitive, listed field of each brick) on.
+kernel void write_united(const uint count, VXL_BRICK_GRID_PARAMETERS,
+                         global const uint* restrict base_slots, VXL_ENTRY_PARAMETERS,
+                         global const ulong* restrict masks, global const ulong* restrict united,
+                         global const ulong* restrict listing, global const ulong* restrict of_base,
+                         global const uint* restrict starts, global uint* restrict leaves,
+                         global uint* restrict leaf_voxels, global uint* restrict voxel_attributes,
+                         global uint* restrict voxel_colors, global uint* restrict voxel_fields,
+                         global uint* restrict voxel_primitive_first,
+                         global uint* restrict voxel_primitives) {
+    const uint item = work_item();
+    if (item >= count) return;
+    const BrickGrid grid = VXL_BRICK_GRID;
+    const uint slot = VXL_BASE ? base_slots[item] : VXL_BRICK_OUTSIDE;
+    const uint begin = entry_first[item], end = entry_first[item + 1];
+    const uint4 start = vload4(item, starts);
+    uint leaf_number = start.x, number = start.y, primitive = start.z, field = start.w;
+    for (int leaf = 0; leaf < 64; ++leaf) {
+        ulong mask = united[(size_t)item * 64 + leaf];
+        if (mask == 0) continue;
+        vstore2(as_uint2(mask), leaf_number, leaves);
+        leaf_voxels[leaf_number++] = number;
+        const ulong lists = listing[(size_t)item * 64 + leaf];
+        const ulong base = VXL_BASE ? of_base[(size_t)item * 64 + leaf] : 0;
+        for (; mask != 0; mask &= mask - 1, ++number) {
+            const int bit = lowest_bit(mask);
+            const bool is_base = VXL_BASE && (base >> bit & 1);
+            uint fields = 0;
+            if (lists >> bit & 1)
+                for (uint e = begin; e < end; ++e)
+                    fields += (uint)(masks[(size_t)entries[2 * e] * 64 + leaf] >> bit & 1);
+            if (fields > 0) voxel_attributes[number] = VXL_KIND_EXACT << VXL_KIND_SHIFT;
+            if (fields > 0 || is_base) {
+                vstore8((uint8)(field, fields, 0, 0, 0, 0, 0, 0), number, voxel_fields);
+                if (VXL_COLORS) voxel_colors[number] = 0xFFFFFFu;
+            }
+            field += fields;
+            if (VXL_PRIMITIVES) voxel_primitive_first[number] = primitive;
+            if (!is_base) continue;
+            const size_t voxel = (size_t)slot * VXL_BRICK_VOXELS + voxel_in_brick(leaf, bit);
+            voxel_attributes[number] = base_attributes(&grid, voxel);
+            if (VXL_COLORS && grid.colors) voxel_colors[number] = grid.colors[voxel];
+            if (!VXL_PRIMITIVES) continue;
+            for (uint i = grid.primitive_first[voxel]; i < grid.primitive_first[voxel + 1]; ++i)
+                voxel_primitives[primitive++] = grid.primitives[i];
+        }
+    }
+}
+
+// One brick of an object, number `first` + its slot among all objects': the records of its fields.
+// `bricks_of` holds the brick of the world of each; numbers of voxels are as `write_united` has
+// them.
+kernel void write_fields(const uint count, const uint first, VXL_BRICK_GRID_PARAMETERS,
+                         global const uint* restrict bricks_of, VXL_ENTRY_PARAMETERS,
+                         global const ulong* restrict masks, global const ulong* restrict united,
+                         global const ulong* restrict listing, global const uint* restrict starts,
+                         global uint* voxel_attributes, global uint* restrict voxel_colors,
+                         global uint* voxel_fields) {
+    const uint slot = work_item();
+    if (slot >= count) return;
+    const BrickGrid grid = VXL_BRICK_GRID;
+    const uint own = first + slot, brick = bricks_of[own];
+    if (brick == VXL_BRICK_OUTSIDE) return;
+    uint number = starts[4 * brick + 1];
+    short nodes[VXL_NODE_COUNT];
+    bool gathered = false;
+    for (int leaf = 0; leaf < 64; ++leaf) {
+        const ulong all = united[(size_t)brick * 64 + leaf];
+        ulong mask = masks[(size_t)own * 64 + leaf];
+        const ulong lists = listing[(size_t)brick * 64 + leaf];
+        if (mask != 0 && !gathered) {
+            gather_nodes(grid.slots, grid.bricks, grid.distance,
+                         brick_at(grid.coordinates[slot], grid.bricks), nodes);
+            gathered = true;
+        }
+        for (; mask != 0; mask &= mask - 1) {
+            const int bit = lowest_bit(mask);
+            uint record = number + (uint)popcount(all & ((1ul << bit) - 1));
+            if (lists >> bit & 1) {
+                record = voxel_fields[(size_t)record * VXL_FIELD_WORDS];
+                for (uint e = entry_first[brick]; entries[2 * e] != own; ++e)
+                    record += (uint)(masks[(size_t)entries[2 * e] * 64 + leaf] >> bit & 1);
+            }
+            const int in_brick = voxel_in_brick(leaf, bit);
+            const size_t voxel = (size_t)slot * VXL_BRICK_VOXELS + in_brick;
+            const uint packed = VXL_ATTRIBUTES ? grid.attributes[voxel] : grid.attribute;
+            voxel_attributes[record] = (packed & ~(3u << VXL_KIND_SHIFT)) | VXL_KIND_SMOOTH
+                                                                                << VXL_KIND_SHIFT;
+            if (VXL_COLORS) voxel_colors[record] = VXL_OWN_COLORS ? grid.colors[voxel] : 0xFFFFFFu;
+            const int4 cell = (int4)(in_brick & 15, in_brick >> 4 & 15, in_brick >> 8, 0);
+            vstore8(field_record(nodes, cell), record, voxel_fields);
+        }
+        number += (uint)popcount(all);
+    }
+}

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+// Normals for light: those of a triangle's corners, interpolated where rays meet it.
+//
+// Visibility, sides and the medium behind a surface go by the triangle's own normal.
+#ifndef VXL_SHADING_NORMAL_H
+#define VXL_SHADING_NORMAL_H
+
+#include "lib/lanes/vector.h"
+#include "shared/normal.h"
+
+/// The packed normals as vectors in the voxels of their grid, not of unit length.
+static inline Vector unpack_normal(lane_uint packed) {
+    const float unit_length = 1.0f / VXL_NORMAL_UNITS;
+    const lane_float u = LANES_FLOAT(LANES_AS_INT(packed << 16) >> 16) * unit_length;
+    const lane_float v = LANES_FLOAT(LANES_AS_INT(packed) >> 16) * unit_length;
+    const lane_float z = 1.0f - fabs(u) - fabs(v);
+    const lane_float fold = fmax(-z, 0.0f);
+    const Vector n = {u - LANES_SELECT(LANE_MASK(u >= 0.0f), fold, -fold),
+                      v - LANES_SELECT(LANE_MASK(v >= 0.0f), fold, -fold), z};
+    return n;
+}
+
+/// A triangle's corner in the voxels of its grid.
+static inline Vector triangle_corner(global const float* restrict triangles, lane_uint number,
+                                     uint corner) {
+    const lane_uint first = number * 9u + corner * 3u;
+    const Vector v = {LANES_GATHER_FLOAT(triangles, first),
+                      LANES_GATHER_FLOAT(triangles, first + 1u),
+                      LANES_GATHER_FLOAT(triangles, first + 2u)};
+    return v;
+}
+
+static inline Vector difference(Vector a, Vector b) {
+    const Vector result = {a.x - b.x, a.y - b.y, a.z - b.z};
+    return result;
+}
+
+static inline Vector cross_of(Vector a, Vector b) {
+    const Vector result = {fma(a.y, b.z, -(a.z * b.y)), fma(a.z, b.x, -(a.x * b.z)),
+                           fma(a.x, b.y, -(a.y * b.x))};
+    return result;
+}
+
+/// a + b * s.
+static inline Vector add_scaled(Vector a, Vector b, lane_float s) {
+    const Vector result = {fma(b.x, s, a.x), fma(b.y, s, a.y), fma(b.z, s, a.z)};
+    return result;
+}
+
+/// The shares of a triangle's corners in a point of it, each at least 0; their sum is 1. `from` is
+/// the point seen from each corner.
+static inline void corner_shares(const Vector* from, lane_float* share) {
+    const Vector ab = difference(from[0], from[1]), ac = difference(from[0], from[2]);
+    const Vector n = cross_of(ab, ac);
+    const lane_float squared = dot_product(n, n);
+    const lane_float inverse =
+        exact_reciprocal(LANES_SELECT(LANE_MASK(squared > 0.0f), squared, (lane_float)1.0f));
+    const lane_float zero = (lane_float)0.0f;
+    for (int i = 0; i < 3; ++i) {
+        const Vector opposite_part = cross_of(from[(i + 1) % 3], from[(i + 2) % 3]);
+        share[i] = fmax(dot_product(opposite_part, n) * inverse, zero);
+    }
+    const lane_float sum = share[0] + share[1] + share[2];
+    const lane_int some = LANE_MASK(sum > 0.0f);
+    const lane_float per_sum = exact_reciprocal(LANES_SELECT(some, sum, (lane_float)1.0f));
+    for (int i = 0; i < 3; ++i)
+        share[i] = LANES_SELECT(some, share[i] * per_sum, (lane_float)(1.0f / 3.0f));
+}
+
+/// How a surface point is lit.
+typedef struct {
+    Vector normal;  // a unit vector in metres' space
+    Vector lift;    // metres: how far from the point rays to lights begin, on the side of the
+                    // geometric normal
+} ShadingPoint;
+
+// The batch's `shading` holds six values for each ray, those of ShadingPoint: from 0 on the normal,
+// from here on the lift.
+#define VXL_SHADING_LIFT 3u
+
+/// Mask: lanes whose vectors differ.
+static inline lane_int are_different(Vector a, Vector b) {
+    return LANE_MASK(a.x != b.x) | LANE_MASK(a.y != b.y) | LANE_MASK(a.z != b.z);
+}
+
+/// The direction v, moved along the unit normal n so far that v . n is `least` at least.
+static inline Vector keep_on_side(Vector v, Vector n, lane_float least) {
+    const lane_float below = fmax(least - dot_product(v, n), 0.0f);
+    return add_scaled(v, n, below);
+}
+
+/// The normal by which light that comes along the unit vector `way` is reflected and refracted: the
+/// shading normal, bent towards the geometric one `n` as far as it takes for the reflected ray to
+/// stay above the surface; that itself where the shading normal points behind it. As Keller et al.
+/// 2017 ("The Iray Light Transport Simulation and Rendering System", A.3), it is the half vector of
+/// the corrected reflected ray.
+static inline Vector reflecting_normal(Vector way, Vector n, Vector shading) {
+    const lane_float above = -dot_product(way, n);
+    const lane_float least = fmin(0.9f * fmax(above, 0.0f), 0.01f);
+    const lane_float twice = -2.0f * dot_product(way, shading);
+    const Vector mirrored = add_scaled(way, shading, twice);
+    const lane_int below = LANE_MASK(dot_product(mirrored, n) < least);
+    const Vector kept = unit(keep_on_side(mirrored, n, least));
+    const Vector half_way = unit(difference(kept, way));
+    const Vector used = select_vector(below, half_way, shading);
+    return select_vector(LANE_MASK(dot_product(shading, n) > 0.0f), used, n);
+}
+
+#endif

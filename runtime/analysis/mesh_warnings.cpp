@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "runtime/analysis/mesh_warnings.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "runtime/base/text.hpp"
+#include "runtime/io/mesh/material_library.hpp"
+#include "runtime/scene/predicates.hpp"
+
+namespace voxelume {
+namespace {
+
+/// The share of a mesh's area by which its holes matter. Smaller ones are closed by the winding
+/// number, as the scanned bunny's are.
+constexpr double kOpenShare = 0.03;
+
+bool needs_inside(const Scene& scene, const Object& object) {
+    const Model& model = scene.models[size_t(object.model)];
+    return stores_distances(model.surface) || transmits(scene, object) ||
+           (shows_voxels(model.surface) && model.set == VoxelSet::solid);
+}
+
+void add_topology_warnings(const Model& model, const MeshSummary& mesh,
+                           std::vector<Warning>& warnings) {
+    const std::string file = quote(model.mesh.filename().string());
+    if (mesh.topology.hole_area > kOpenShare * mesh.area.total) {
+        add_once({WarningKind::open_mesh, model.where,
+                  fmt::format("{} is open along {} edges, and its surface needs an inside: close "
+                              "its holes, or give the model \"surface\": \"exact\"{}",
+                              file, mesh.topology.open_edges,
+                              lists_primitives(model.surface) ? " and an opaque material" : "")},
+                 warnings);
+    } else if (mesh.topology.volume < 0) {
+        add_once({WarningKind::inside_out_mesh, model.where,
+                  fmt::format("{} is inside out: its faces turn inwards, so nothing of it is "
+                              "inside; turn them in the program that made it",
+                              file)},
+                 warnings);
+    }
+}
+
+/// What of the material library is missed; empty if nothing is.
+std::string missed_materials(const Object& object, const Model& model, const MeshSummary& mesh) {
+    const std::string library = quote(mesh.material_library);
+    if (names_textures(model.mesh, mesh.material_library))
+        return fmt::format("textures of {} aren't read", library);
+    if (mesh.group_names.size() > 1)
+        return fmt::format("the {} materials of {} aren't read", mesh.group_names.size(), library);
+    return object.material == 0 ? fmt::format("{} isn't read", library) : "";
+}
+
+void add_material_warning(const Object& object, const Model& model, const MeshSummary& mesh,
+                          std::vector<Warning>& warnings) {
+    std::string missed;
+    if (!mesh.texture.empty() && !mesh.has_colors)
+        missed = fmt::format("its texture {} isn't read", quote(mesh.texture));
+    else if (!mesh.material_library.empty() && object.groups.empty())
+        missed = missed_materials(object, model, mesh);
+    if (missed.empty()) return;
+    const std::string advice = mesh.group_names.size() > 1
+                                   ? fmt::format("give the object \"materials\", like {{{}: NAME}}",
+                                                 quote(mesh.group_names.front()))
+                                   : "give the object a \"material\" of the scene";
+    add_once({WarningKind::ignored_materials, object.where,
+              fmt::format("{}: {}; {}", quote(model.mesh.filename().string()), missed, advice)},
+             warnings);
+}
+
+}  // namespace
+
+void add_mesh_warnings(const Scene& scene, const Object& object, AssetStore& meshes,
+                       std::vector<Warning>& warnings) {
+    const Model& model = scene.models[size_t(object.model)];
+    if (!object.visible || model.mesh.empty()) return;
+    const MeshSummary& mesh = *meshes.summary_of(model);
+    if (needs_inside(scene, object)) add_topology_warnings(model, mesh, warnings);
+    add_material_warning(object, model, mesh, warnings);
+}
+
+}  // namespace voxelume

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+// object -> what its mesh file lacks, or says and nobody reads
+#pragma once
+
+#include <vector>
+
+#include "runtime/assets/asset_store.hpp"
+#include "runtime/base/warning.hpp"
+#include "runtime/scene/scene.hpp"
+
+namespace voxelume {
+
+/// Adds what is wrong with the mesh that an object shows: holes and faces that turn inwards, where
+/// a surface or material needs an inside; materials and textures that aren't read.
+void add_mesh_warnings(const Scene& scene, const Object& object, AssetStore& meshes,
+                       std::vector<Warning>& warnings);
+
+}  // namespace voxelume

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "runtime/analysis/scene_warnings.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+
+#include "runtime/analysis/inside_warnings.hpp"
+#include "runtime/analysis/mesh_warnings.hpp"
+#include "runtime/analysis/object_warnings.hpp"
+#include "runtime/scene/predicates.hpp"
+#include "runtime/scene/scene_animation.hpp"
+
+namespace voxelume {
+namespace {
+
+constexpr size_t kMaxFrames = 64;
+
+std::vector<int> some_of(std::span<const int> frames) {
+    if (frames.size() <= kMaxFrames) return {frames.begin(), frames.end()};
+    std::vector<int> some;
+    for (size_t i = 0; i < kMaxFrames; ++i)
+        some.push_back(frames[i * (frames.size() - 1) / (kMaxFrames - 1)]);
+    return some;
+}
+
+/// Whether something in the scene sends light to surfaces, or shows light of its own.
+bool has_any_light(const Scene& scene) {
+    const World& world = scene.world;
+    const bool has_background = world.background != glm::vec3(0);
+    const auto shows_light = [&](const Object& object) {
+        const uint32_t effects = effects_of(scene.materials[size_t(object.material)]);
+        return has_emission(scene, object) ||
+               (has_background && ((effects & kReflects) != 0 || transmits(scene, object)));
+    };
+    return world.ambient != glm::vec3(0) || world.medium.color != glm::vec3(0) ||
+           std::ranges::any_of(scene.lights, shines) ||
+           std::ranges::any_of(scene.objects, shows_light);
+}
+
+void add_light_warning(const Scene& scene, std::vector<Warning>& warnings) {
+    const bool has_objects = std::ranges::any_of(scene.objects, &Object::visible);
+    if (!has_objects || !scene.render.channels.color || has_any_light(scene)) return;
+    add_once({WarningKind::no_light, SourcePlace(scene.file.string()),
+              "nothing in this scene shines, so its objects are black: add one of \"lights\", or "
+              "give the world some \"ambient\" light"},
+             warnings);
+}
+
+void add_cache_warning(const ModelCache& cache, std::vector<Warning>& warnings) {
+    const std::string refusal = cache.refusal();
+    if (refusal.empty()) return;
+    add_once({WarningKind::cache_not_writable, SourcePlace(cache.folder().string()),
+              fmt::format("nothing can be kept in this folder ({}), so each run voxelizes and "
+                          "compiles everything again: name another one with VOXELUME_CACHE_DIR, "
+                          "or use --no-cache",
+                          refusal)},
+             warnings);
+}
+
+/// Whether an object shows the same file, or a solid, as in another frame.
+bool shows_same_file(const Scene& a, const Scene& b, size_t object) {
+    const Model& m = a.models[size_t(a.objects[object].model)];
+    const Model& n = b.models[size_t(b.objects[object].model)];
+    return m.mesh == n.mesh && m.voxels == n.voxels && m.morph == n.morph;
+}
+
+/// The warnings of a later frame that are among `candidates`.
+std::vector<Warning> still_true(const Scene& first, const Scene& now,
+                                const std::vector<Warning>& candidates, AssetStore& meshes) {
+    std::vector<Warning> found;
+    const auto is_doubted = [&](const SourcePlace& where) {
+        return std::ranges::any_of(candidates,
+                                   [&](const Warning& warning) { return warning.where == where; });
+    };
+    for (size_t i = 0; i < now.objects.size(); ++i)
+        if (is_doubted(now.objects[i].where) && shows_same_file(first, now, i))
+            add_object_warnings(now, now.objects[i], meshes, found);
+    const auto is_of_place = [](const Warning& warning) {
+        return warning.kind == WarningKind::light_inside_object ||
+               warning.kind == WarningKind::observer_in_object;
+    };
+    if (std::ranges::any_of(candidates, is_of_place)) add_inside_warnings(now, meshes, found);
+    add_light_warning(now, found);
+    return found;
+}
+
+}  // namespace
+
+std::vector<Warning> scene_warnings(const Scene& scene, std::span<const int> frames,
+                                    AssetStore& meshes) {
+    std::vector<Warning> lasting, warnings;
+    add_cache_warning(meshes.cache(), lasting);
+    std::optional<Scene> first;
+    for (const int frame : some_of(frames)) {
+        if (first && (warnings.empty() || !moves(scene))) break;
+        in_frame(scene, frame, [&] {
+            Scene now = scene_at(scene, frame);
+            if (first) {
+                const std::vector<Warning> found = still_true(*first, now, warnings, meshes);
+                std::erase_if(warnings, [&](const Warning& before) {
+                    return std::ranges::none_of(
+                        found, [&](const Warning& w) { return is_same(w, before); });
+                });
+                return;
+            }
+            for (const Object& object : now.objects) {
+                add_mesh_warnings(now, object, meshes, lasting);
+                add_object_warnings(now, object, meshes, warnings);
+            }
+            add_inside_warnings(now, meshes, warnings);
+            add_light_warning(now, warnings);
+            first = std::move(now);
+        });
+    }
+    for (Warning& warning : warnings) add_once(std::move(warning), lasting);
+    return lasting;
+}
+
+}  // namespace voxelume

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "runtime/batch/run_warnings.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <utility>
+
+#include "runtime/analysis/object_boxes.hpp"
+#include "runtime/grid/world_frame.hpp"
+#include "runtime/scene/scene_animation.hpp"
+
+namespace voxelume {
+namespace {
+
+/// The box around all visible objects in the world, metres; empty (min > max) without any.
+Bounds box_of_objects(Scene scene, AssetStore meshes) {
+    for (Object& object : scene.objects) object.potentially_visible = true;
+    const GridFrame world = world_frame(scene.world);
+    Bounds all{glm::dvec3(INFINITY), glm::dvec3(-INFINITY)};
+    for (const VoxelBox& box : object_boxes(scene, meshes)) {
+        if (is_empty(box)) continue;
+        all.min = glm::min(all.min, world.origin + world.voxel_edge * box.low);
+        all.max = glm::max(all.max, world.origin + world.voxel_edge * box.high);
+    }
+    return all;
+}
+
+/// What an observer who sees nothing should change. The objects' box isn't empty.
+std::string view_advice(const Observer& observer, const Bounds& objects) {
+    const glm::dvec3 middle = (objects.min + objects.max) / 2.0;
+    const double nearest =
+        glm::length(glm::clamp(observer.position, objects.min, objects.max) - observer.position);
+    double farthest = 0;
+    for (int i = 0; i < 8; ++i)
+        farthest = std::max(farthest, glm::length(corner(objects, i) - observer.position));
+    if (observer.display.far < nearest)
+        return fmt::format(
+            "the display ends at {:.3g} m, and the nearest object may be at "
+            "{:.3g} m: change \"far\"",
+            observer.display.far, nearest);
+    if (observer.display.near > farthest)
+        return fmt::format(
+            "the display begins at {:.3g} m, and no object is farther than "
+            "{:.3g} m: change \"near\"",
+            observer.display.near, farthest);
+    return fmt::format(
+        "the objects lie around [{:.3g}, {:.3g}, {:.3g}]: \"look_at\" that place, "
+        "or move the observer",
+        middle.x, middle.y, middle.z);
+}
+
+/// Whether a material returns light of lamps.
+bool returns_light(const Material& material) {
+    const bool is_black = material.color == glm::vec3(0) && !material.checker;
+    return (material.diffuse > 0 && !is_black) || material.specular > 0;
+}
+
+/// Whether objects can be anything but black.
+bool shows_light(const Scene& scene) {
+    const auto returns = [&](int material) {
+        return returns_light(scene.materials[size_t(material)]);
+    };
+    return std::ranges::any_of(scene.objects, [&](const Object& object) {
+        return object.visible &&
+               (returns(object.material) ||
+                std::ranges::any_of(object.groups, returns, &GroupMaterial::material));
+    });
+}
+
+}  // namespace
+
+RunWarnings::RunWarnings(std::vector<Warning> before, ModelCache cache, BatchWarnings warn)
+    : warnings_(std::move(before)),
+      told_(warnings_.size()),
+      cache_(std::move(cache)),
+      warn_(std::move(warn)) {
+    if (!warnings_.empty()) warn_(warnings_);
+}
+
+bool RunWarnings::has(WarningKind kind) const {
+    return std::ranges::find(warnings_, kind, &Warning::kind) != warnings_.end();
+}
+
+void RunWarnings::add(const FrameResult& result) {
+    for (const Warning& warning : result.report.report.world.warnings) {
+        const bool is_explained =
+            warning.kind == WarningKind::no_voxels &&
+            std::ranges::any_of(warnings_, [&](const Warning& known) {
+                return known.where == warning.where && known.kind != WarningKind::no_voxels;
+            });
+        if (!is_explained) add_once(warning, warnings_);
+    }
+    const auto note = [this](const ShownContent& content) {
+        content_.objects |= content.objects;
+        content_.light |= content.objects && content.light;
+    };
+    if (result.image && !content_.light) note(content_of(*result.image));
+    if (result.volume && !content_.light) note(content_of(*result.volume));
+}
+
+void RunWarnings::add_view_warning(const Scene& scene) {
+    const bool has_objects = std::ranges::any_of(scene.objects, &Object::visible);
+    if (!has_objects && scene.world.medium.color != glm::vec3(0)) return;  // a picture of fog
+    const Bounds objects = box_of_objects(scene, AssetStore(cache_));
+    const bool is_in_world = objects.min.x <= objects.max.x;
+    if (has(WarningKind::no_voxels) || (has_objects && !is_in_world)) return;  // known already
+    add_once({WarningKind::nothing_in_view, scene.observer.where,
+              has_objects ? "no sight ray meets an object: " + view_advice(scene.observer, objects)
+                          : "no sight ray meets an object, as the scene has none that is visible: "
+                            "add some to \"objects\""},
+             warnings_);
+}
+
+void RunWarnings::add_light_warning(const Scene& scene) {
+    if (has(WarningKind::light_inside_object) || has(WarningKind::observer_in_object)) return;
+    if (!scene.render.channels.color || !shows_light(scene)) return;
+    add_once({WarningKind::no_light, SourcePlace(scene.file.string()),
+              "no light reaches what is in view, so it is black: move the lights to where nothing "
+              "hides them, or give the world some \"ambient\" light"},
+             warnings_);
+}
+
+void RunWarnings::end(const Scene& scene, std::span<const int> frames) {
+    const Scene first = scene_at(scene, frames.front());
+    if (!content_.objects)
+        add_view_warning(first);
+    else if (!content_.light)
+        add_light_warning(first);
+    const std::span<const Warning> fresh = std::span(warnings_).subspan(told_);
+    if (!fresh.empty()) warn_(fresh);
+    told_ = warnings_.size();
+}
+
+}  // namespace voxelume

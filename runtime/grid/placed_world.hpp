@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+// A world's objects in its lattice, before they are indexed.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "runtime/grid/grid.hpp"
+
+namespace voxelume {
+
+/// The distance field of one smooth object, in a part of the world's lattice that holds the object.
+struct PlacedField {
+    BrickGrid grid;             ///< packed attributes are the world's
+    glm::ivec3 first_brick{0};  ///< of the part, in the world's bricks
+    uint32_t object = 0;        ///< the object's number in the scene
+    uint64_t version = 0;       ///< differs between any two fields that aren't the same
+};
+
+/// What `index` makes a pyramid of.
+struct PlacedWorld {
+    BrickGrid voxels;                 ///< of all objects but those of `fields`
+    std::vector<PlacedField> fields;  ///< fields of several objects never merge; the first in the
+                                      ///< order of priorities comes first
+    std::vector<uint32_t> ranks;      ///< by objects' numbers: places in the order of priorities
+};
+
+}  // namespace voxelume

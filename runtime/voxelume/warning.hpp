@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+// What is probably wrong with a scene or its files, and doesn't stop a call.
+#pragma once
+
+#include <string>
+
+namespace voxelume::v1 {
+
+/// What a warning is about. More may be added at the end.
+enum class WarningKind {
+    outside_world,        ///< nothing of an object can lie in the world
+    no_voxels,            ///< an object became no voxel
+    thinner_than_voxel,   ///< an object, or a part of it, is thinner than the voxels that show it
+    light_inside_object,  ///< an opaque object encloses a light
+    observer_in_object,   ///< an opaque object encloses the observer
+    nothing_in_view,      ///< no sight ray meets an object, in no frame
+    no_light,             ///< what is in view is black, in all frames
+    finer_than_world,     ///< a model's voxels are finer than the world's, by more than 4
+    coarser_than_world,   ///< a model's voxels are coarser than the world's, by more than 4
+    open_mesh,            ///< a mesh has holes, and its surface or material needs an inside
+    inside_out_mesh,      ///< a mesh's faces turn inwards, likewise
+    unlikely_unit,        ///< a mesh is far larger or smaller than the world
+    ignored_materials,    ///< textures or a material library that a mesh's file names aren't read
+    world_not_cached,     ///< the world is too large to be kept on disk
+    cache_not_writable    ///< nothing can be kept on disk
+};
+
+/// The kind's name in JSON: "outside_world".
+const char* name_of(WarningKind kind);
+
+/// A sentence in two parts, which a person reads as "WHERE: TEXT".
+struct Warning {
+    WarningKind kind = WarningKind::outside_world;  ///< for programs
+    std::string where{};  ///< a place in the scene, "room.json:12:9: objects[0]", or a file
+    std::string text{};   ///< what is wrong, and what to do
+};
+
+}  // namespace voxelume::v1

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+// What is said of meshes: their unit, holes, faces, materials; and that it is read once.
+#include "runtime/analysis/mesh_warnings.hpp"
+
+#include "tests/analysis/warned_scene.hpp"
+
+namespace voxelume {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using Kind = WarningKind;
+using MeshWarnings = WarnedScene;
+
+}  // namespace
+
+TEST_F(MeshWarnings, NameAMeshInMillimetresAndNothingElseOfIt) {
+    show_mesh("part.obj", ball({0, 0, 0}, 150, 32, 16));
+    EXPECT_THAT(kinds(), ElementsAre(Kind::unlikely_unit));
+    EXPECT_THAT(warnings()[0].text,
+                HasSubstr("300 m large in a world of 2 m, so its unit is probably wrong: "
+                          "coordinates are metres; if the file is in millimetres, give its model "
+                          "\"unit\": \"mm\""));
+    json["models"]["ball"]["unit"] = "mm";
+    EXPECT_THAT(kinds(), IsEmpty());
+    json["models"]["ball"]["unit"] = "km";
+    EXPECT_THAT(kinds(), ElementsAre(Kind::unlikely_unit));
+    EXPECT_THAT(warnings()[0].text, HasSubstr("change its model's \"unit\""));
+}
+
+TEST_F(MeshWarnings, NameAMeshInMetresInAWorldOfMillimetres) {
+    show_mesh("part.obj", ball({0, 0, 0}, 0.3, 32, 16));
+    json["world"] = {{"voxel_size", 10},
+                     {"bounds", {{"min", {-500, -500, -500}}, {"max", {500, 500, 500}}}}};
+    json["objects"].erase(1);
+    EXPECT_THAT(kinds(), ElementsAre(Kind::unlikely_unit));
+    EXPECT_THAT(warnings()[0].text, HasSubstr("a \"scale\" 1000 times as large"));
+}
+
+TEST_F(MeshWarnings, NameAnOpenMeshWhereAnInsideIsNeeded) {
+    show_mesh("bowl.obj", open_ball(0.3));
+    EXPECT_THAT(kinds(), ElementsAre(Kind::open_mesh));
+    EXPECT_THAT(warnings()[0].where.text(), HasSubstr("models.ball"));
+    EXPECT_THAT(warnings()[0].text, HasSubstr("\"bowl.obj\" is open along 32 edges"));
+    json["models"]["ball"]["surface"] = "exact";
+    EXPECT_THAT(kinds(), IsEmpty());
+    json["objects"][0]["material"] = "glass";
+    EXPECT_THAT(kinds(), ElementsAre(Kind::open_mesh));
+}
+
+TEST_F(MeshWarnings, NameAMeshThatIsInsideOut) {
+    show_mesh("ball.obj", turned(ball({0, 0, 0}, 0.3, 32, 16)));
+    EXPECT_THAT(kinds(), ElementsAre(Kind::inside_out_mesh));
+    json["models"]["ball"]["surface"] = "exact";
+    EXPECT_THAT(kinds(), IsEmpty());
+}
+
+TEST_F(MeshWarnings, SayOfAModelOnceWhatTwoObjectsShow) {
+    show_mesh("ball.obj", turned(ball({0, 0, 0}, 0.3, 32, 16)));
+    json["objects"].push_back({{"model", "ball"}, {"material", "red"}, {"position", {0.5, 0, 0}}});
+    EXPECT_THAT(kinds(), ElementsAre(Kind::inside_out_mesh));
+}
+
+TEST_F(MeshWarnings, NameMaterialsThatAreNotRead) {
+    const std::string faces = "v 0 0 0\nv .5 0 0\nv 0 .5 0\nv 0 0 .5\nusemtl a\nf 1 3 2\nf 1 2 4\n";
+    put_bytes(folder / "m.obj", "mtllib my lib.mtl\n" + faces + "usemtl b\nf 2 3 4\nf 3 1 4\n");
+    json["models"]["ball"] = {{"mesh", "m.obj"}, {"surface", "exact"}};
+    EXPECT_THAT(kinds(), ElementsAre(Kind::ignored_materials));
+    EXPECT_EQ(warnings()[0].text,
+              "\"m.obj\": the 2 materials of \"my lib.mtl\" aren't read; give the object "
+              "\"materials\", like {\"a\": NAME}");
+    json["objects"][0]["materials"] = {{"b", "red"}};
+    EXPECT_THAT(kinds(), IsEmpty());
+    json["objects"][0].erase("materials");
+    put_bytes(folder / "m.obj", "mtllib my lib.mtl\n" + faces + "f 2 3 4\nf 3 1 4\n");
+    EXPECT_THAT(kinds(), IsEmpty());  // one group, which has a material of the scene
+    put_bytes(folder / "my lib.mtl", "newmtl a\nKd 1 0 0\n  map_Kd wood.png\n");
+    EXPECT_THAT(kinds(), ElementsAre(Kind::ignored_materials));
+    EXPECT_THAT(warnings()[0].text, HasSubstr("textures of \"my lib.mtl\" aren't read"));
+}
+
+TEST_F(MeshWarnings, NameATextureOfPly) {
+    put_bytes(folder / "m.ply",
+              "ply\nformat ascii 1.0\ncomment TextureFile my wood.png\nelement vertex 4\n"
+              "property float x\nproperty float y\nproperty float z\nelement face 4\n"
+              "property list uchar int vertex_indices\nend_header\n0 0 0\n.5 0 0\n0 .5 0\n0 0 .5\n"
+              "3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n");
+    json["models"]["ball"] = {{"mesh", "m.ply"}};
+    EXPECT_THAT(kinds(), ElementsAre(Kind::ignored_materials));
+    EXPECT_THAT(warnings()[0].text, HasSubstr("its texture \"my wood.png\" isn't read"));
+}
+
+TEST_F(MeshWarnings, AnswerFromTheCacheWhatNeedsTheMesh) {
+    show_mesh("ball.obj", ball({0, 0, 0}, 0.3, 32, 16));
+    json["lights"][0]["position"] = {0.15, -0.45, 0.05};
+    const Scene scene = parse_scene(json.dump(), folder / "room.json", {});
+    const ModelCache cache(folder / "models", 1 << 20, 0);
+    for (const uint64_t reads : {1, 0}) {
+        AssetStore meshes(cache);
+        const std::vector<Warning> found = scene_warnings(scene, std::vector{1}, meshes);
+        ASSERT_EQ(found.size(), 1u);
+        EXPECT_EQ(found[0].kind, Kind::light_inside_object);
+        EXPECT_EQ(meshes.meshes_read(), reads);
+    }
+}
+
+}  // namespace voxelume

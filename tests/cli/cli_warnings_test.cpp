@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: Apache-2.0
+// Warnings of the commands: a line each on stderr, a list in the statistics, errors if asked for.
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/cli/scene_program.hpp"
+#include "tests/support/setting.hpp"
+
+namespace voxelume {
+
+using testing::AllOf;
+using testing::ContainsRegex;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::MatchesRegex;
+using testing::Not;
+using testing::StartsWith;
+
+class CliWarningsTest : public SceneProgramTest {
+  protected:
+    void SetUp() override {
+        SceneProgramTest::SetUp();
+        move_object_away();
+    }
+    void move_object_away() {
+        write_scene([](Json& scene) { scene["objects"][0]["position"] = {1.5, 9, 0.5}; });
+    }
+    /// The kinds of warnings in the statistics of a run.
+    std::vector<std::string> kinds(const std::string& options) const {
+        const ProgramResult result = run("render scene.json --stats-json stats.json " + options);
+        EXPECT_EQ(result.exit_code, 0) << result.err;
+        std::vector<std::string> found;
+        for (const Json& warning : Json::parse(bytes_of(folder / "stats.json"))["warnings"])
+            found.push_back(warning["kind"]);
+        return found;
+    }
+};
+
+TEST_F(CliWarningsTest, AreALineEachOnStderrAndNoneWithQuiet) {
+    const ProgramResult loud = run("render scene.json -o a.png");
+    EXPECT_EQ(loud.exit_code, 0);
+    EXPECT_THAT(loud.err, StartsWith("warning: scene.json:"));
+    EXPECT_THAT(loud.err, HasSubstr(": objects[0]: \"thing\" lies outside the world, from "));
+    EXPECT_THAT(loud.err, ContainsRegex("\n20x12 in "));
+    EXPECT_THAT(run("render scene.json -o a.png -q").err, IsEmpty());
+    EXPECT_THAT(run("check scene.json").err, MatchesRegex("warning: [^\n]+\n"));
+    EXPECT_THAT(run("check scene.json -q").err, IsEmpty());
+    EXPECT_THAT(run("render scene.json --dry-run").err, MatchesRegex("warning: [^\n]+\n"));
+}
+
+TEST_F(CliWarningsTest, StandInTheStatisticsAlsoWithQuiet) {
+    ASSERT_EQ(run("render scene.json -o a.png -q --stats-json s.json").exit_code, 0);
+    const Json warnings = Json::parse(bytes_of(folder / "s.json"))["warnings"];
+    ASSERT_EQ(warnings.size(), 1u);
+    EXPECT_EQ(warnings[0]["kind"], "outside_world");
+    EXPECT_THAT(std::string(warnings[0]["where"]), MatchesRegex("scene.json:[0-9:]+ objects.0."));
+    EXPECT_THAT(std::string(warnings[0]["text"]), HasSubstr("move the object"));
+    const Json plan = Json::parse(run("check scene.json --json -q").out);
+    EXPECT_EQ(plan["warnings"], warnings);
+}
+
+TEST_F(CliWarningsTest, AreErrorsWithStrictBeforeAnythingIsWritten) {
+    EXPECT_THAT(expect_failure(3, "render scene.json -o a.png --strict"),
+                HasSubstr("\"thing\" lies outside the world"));
+    EXPECT_THAT(expect_failure(3, "render scene.json -o a.png --strict -q"),
+                HasSubstr("\"thing\" lies outside the world"));
+    EXPECT_THAT(expect_failure(3, "check scene.json --strict"),
+                HasSubstr("\"thing\" lies outside the world"));
+    write_scene([](Json&) {});
+    EXPECT_EQ(run("render scene.json -o a.png --strict").exit_code, 0);
+    EXPECT_EQ(run("check scene.json --strict").exit_code, 0);
+}
+
+TEST_F(CliWarningsTest, AreAllSaidWithStrictAndTheErrorCountsThem) {
+    write_scene([](Json& scene) {
+        scene["objects"][0]["position"] = {1.5, 9, 0.5};
+        scene["objects"].push_back({{"model", "thing"}, {"position", {1.5, -9, 0.5}}});
+    });
+    const ProgramResult result = run("check scene.json --strict");
+    EXPECT_EQ(result.exit_code, 3);
+    EXPECT_THAT(result.err, MatchesRegex("warning: [^\n]+objects.1.[^\n]+\n"
+                                         "voxelume: [^\n]+objects.0.[^\n]+the first of 2 "
+                                         "warnings.\n"));
+    EXPECT_EQ(run("render scene.json -o a.png --strict").err, result.err);
+}
+
+TEST_F(CliWarningsTest, SayThatNothingIsInViewAndWhereToLook) {
+    write_scene([](Json& scene) { scene["observer"]["look_at"] = {1.5, 1, 9}; });
+    const ProgramResult result = run("render scene.json -o a.png");
+    EXPECT_THAT(result.err, AllOf(StartsWith("warning: scene.json:"),
+                                  HasSubstr("no sight ray meets an object: the objects lie around "
+                                            "[1.5, 1, 0.5]: \"look_at\" that place")));
+    const ProgramResult strict = run("render scene.json -o b.png --strict");
+    EXPECT_EQ(strict.exit_code, 3);
+    EXPECT_THAT(strict.err, MatchesRegex("voxelume: [^\n]+no sight ray meets an object[^\n]+\n"));
+    EXPECT_TRUE(std::filesystem::exists(folder / "b.png"));  // it shows what is wrong
+}
+
+TEST_F(CliWarningsTest, SayThatTheDisplayEndsBeforeTheObjects) {
+    write_scene([](Json& scene) { scene["observer"]["display"]["far"] = 0.5; });
+    EXPECT_THAT(run("render scene.json -o a.png").err,
+                HasSubstr("the display ends at 0.5 m, and the nearest object may be at "));
+    write_scene([](Json& scene) {
+        scene["observer"]["display"]["near"] = 7;
+        scene["observer"]["display"]["far"] = 8;
+    });
+    EXPECT_THAT(run("render scene.json -o a.png").err, HasSubstr("change \"near\""));
+}
+
+TEST_F(CliWarningsTest, SayThatNothingIsInViewOnlyIfNoFrameShowsAnything) {
+    write_scene([](Json& scene) {
+        scene["animation"] = Json::parse(R"({"frames": 3, "tracks": [{"target": "observer.look_at",
+            "keys": [{"frame": 1, "value": [1.5, 1, 9]}, {"frame": 3, "value": [1.5, 1, 0]}],
+            "interpolation": "step"}]})");
+    });
+    EXPECT_THAT(kinds("-o a.#.png --frames 1-2"), testing::ElementsAre("nothing_in_view"));
+    EXPECT_THAT(kinds("-o a.#.png"), IsEmpty());
+}
+
+TEST_F(CliWarningsTest, SayTheSameOfAVolume) {
+    write_scene([](Json& scene) { scene["observer"]["look_at"] = {1.5, 1, 9}; });
+    EXPECT_THAT(kinds("--volume v.nrrd"), testing::ElementsAre("nothing_in_view"));
+    write_scene([](Json&) {});
+    EXPECT_THAT(kinds("--volume v.nrrd"), IsEmpty());
+}
+
+TEST_F(CliWarningsTest, SayThatNoLightReachesWhatIsInView) {
+    const auto shade = [](Json& scene) {
+        scene["world"]["ambient"] = {0, 0, 0};
+        scene["lights"][0]["direction"] = {0, 0, 1};  // from behind the thing
+    };
+    write_scene(shade);
+    EXPECT_THAT(kinds("-o a.png"), testing::ElementsAre("no_light"));
+    EXPECT_THAT(kinds("-o a.exr --channels Z"), IsEmpty());
+    write_scene([&](Json& scene) {
+        shade(scene);
+        scene["materials"]["brick"]["color"] = {0, 0, 0};  // black on purpose
+        scene["materials"]["default"]["color"] = {0, 0, 0};
+    });
+    EXPECT_THAT(kinds("-o a.png"), IsEmpty());
+}
+
+TEST_F(CliWarningsTest, SayThatAnObjectBecameNoVoxelInEveryRun) {
+    write_scene([](Json& scene) {
+        // The box's corner is in the world, and no part of the ring.
+        scene["models"]["ring"] = {
+            {"shape", "torus"}, {"radius", 3}, {"tube", 0.1}, {"surface", "exact"}};
+        scene["objects"].push_back({{"name", "ring"},
+                                    {"model", "ring"},
+                                    {"turn", {0, 90, 0}},
+                                    {"position", {1.5, 1, 0.5}}});
+    });
+    for (int i = 0; i < 2; ++i)  // the second one finds what the first one kept
+        EXPECT_THAT(kinds("-o a.png"), testing::ElementsAre("no_voxels"));
+}
+
+TEST_F(CliWarningsTest, SayThatTheCacheCannotBeWritten) {
+    write_scene([](Json&) {});
+    put_bytes(folder / "file", "no folder");
+    const Setting setting("VOXELUME_CACHE_DIR", (folder / "file" / "cache").c_str());
+    const std::string line = run("render scene.json -o a.png").err;
+    EXPECT_THAT(line, HasSubstr("/file/cache/models: nothing can be kept in this folder (Not a "
+                                "directory)"));
+    EXPECT_THAT(run("render scene.json -o a.png --no-cache").err, Not(HasSubstr("warning")));
+}
+
+TEST_F(CliWarningsTest, CannotSteerTheTerminal) {
+    put_bytes(folder / "a\x1b[2J.json", bytes_of(folder / "scene.json"));
+    for (const char c : run("check 'a\x1b[2J.json'").err)
+        EXPECT_TRUE(c == '\n' || (c >= 0x20 && c != 0x7f)) << int(c);
+}
+
+}  // namespace voxelume

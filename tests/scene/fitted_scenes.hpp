@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+// Scenes that leave things out, in JSON.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "runtime/base/error.hpp"
+#include "runtime/scene_file/read_scene.hpp"
+#include "tests/support/file_fixture.hpp"
+
+namespace voxelume {
+
+/// A scene of these members alone, on line 2.
+inline std::string scene_with_members(const std::string& members) {
+    return "{\"voxelume\": 1,\n" + members + "}";
+}
+
+inline Scene parse_members(const std::string& members) {
+    return parse_scene(scene_with_members(members), "s.json", {});
+}
+
+inline std::string message_about(const std::string& members) {
+    return error_of([&] { parse_members(members); }).what();
+}
+
+inline constexpr const char* kBall = R"("models": {"ball": {"shape": "sphere", "radius": 0.5}},
+"objects": [{"name": "ball", "model": "ball", "position": [1, -2, 3]}])";
+
+}  // namespace voxelume
