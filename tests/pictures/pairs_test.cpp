@@ -136,7 +136,7 @@ struct Pair {
     const char* name;
     const char *first, *second;        ///< keys of the models
     const char *first_at, *second_at;  ///< keys of the objects
-    bool is_smooth;                      ///< no edges but where they meet
+    bool is_smooth;                    ///< no edges but where they meet
 };
 
 const std::array kPairs = {

@@ -45,7 +45,7 @@ struct Accuracy {
 };
 
 inline Accuracy accuracy_of(const BrickGrid& world, const std::function<double(glm::dvec3)>& metres,
-                     double reach = 2.7) {
+                            double reach = 2.7) {
     Accuracy accuracy;
     const GridFrame& frame = world.frame;
     for_each_node(world, [&](const glm::ivec3& n, double placed) {

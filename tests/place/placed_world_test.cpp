@@ -26,10 +26,11 @@ std::vector<PlacedObject> spheres_at(const BrickGrid& sphere,
                                      std::initializer_list<glm::dvec3> centres) {
     std::vector<PlacedObject> objects;
     for (const glm::dvec3& centre : centres)
-        objects.push_back({.grid = &sphere,
-                           .world_from_object = affine_from_factors(centre, {10, 20, 30}, {1, 1, 1}),
-                           .object = uint32_t(objects.size()),
-                           .material_of_group = {5 + uint32_t(objects.size())}});
+        objects.push_back(
+            {.grid = &sphere,
+             .world_from_object = affine_from_factors(centre, {10, 20, 30}, {1, 1, 1}),
+             .object = uint32_t(objects.size()),
+             .material_of_group = {5 + uint32_t(objects.size())}});
     return objects;
 }
 
@@ -44,8 +45,8 @@ TEST(PlacedWorld, KeepsTheFieldOfEachObject) {
     const BrickGrid sphere = sphere_bricks(kRadius, kEdge).upload(shared_device());
     const std::array centres = {glm::dvec3{-1.23, 0.1, 0}, glm::dvec3{1.31, 0, 0.17}};
     const GridFrame frame = frame_at({-4, -3, -3}, glm::dvec3(kEdge), {80, 60, 61});
-    const PlacedWorld world = place_world(shared_device(),
-                                          spheres_at(sphere, {centres[0], centres[1]}), frame);
+    const PlacedWorld world =
+        place_world(shared_device(), spheres_at(sphere, {centres[0], centres[1]}), frame);
     ASSERT_EQ(world.fields.size(), 2u);
     EXPECT_EQ(world.voxels.brick_count, 0u);
     for (const PlacedField& field : world.fields) {
@@ -64,8 +65,7 @@ TEST(PlacedWorld, VoxelsListTheSurfacesThatPassThem) {
     const std::array centres = {glm::dvec3{-1.23, 0.1, 0}, glm::dvec3{1.31, 0, 0.17},
                                 glm::dvec3{0.1, 1.1, 0.4}};
     const GridFrame frame = frame_at({-4, -3, -3}, glm::dvec3(kEdge), {80, 70, 61});
-    std::vector<PlacedObject> objects =
-        spheres_at(sphere, {centres[0], centres[1], centres[2]});
+    std::vector<PlacedObject> objects = spheres_at(sphere, {centres[0], centres[1], centres[2]});
     const Pyramid pyramid = pyramid_of(objects, frame);
     const HostPyramid host(pyramid);
     std::set<uint32_t> records;
@@ -89,17 +89,19 @@ TEST(PlacedWorld, VoxelsListTheSurfacesThatPassThem) {
                     const glm::dvec2 d = distances_of(low, centres[i]);
                     const double slack = 0.02 * kEdge;
                     if (d.x < kRadius - slack && d.y > kRadius + slack)
-                        ASSERT_TRUE(held.contains(i)) << v.x << " " << v.y << " " << v.z << " of " << i;
+                        ASSERT_TRUE(held.contains(i))
+                            << v.x << " " << v.y << " " << v.z << " of " << i;
                     else if (d.x > kRadius + slack || d.y < kRadius - slack)
                         beyond += held.contains(i);
                 }
             }
     EXPECT_EQ(listed, pyramid.listed_fields);
-    EXPECT_EQ(records.size() + 0u, size_t(pyramid.records()) - [&] {
-        size_t lists = 0;
-        for (uint32_t v = 0; v < pyramid.voxel_count; ++v) lists += host.word(v) >> 30 == 2;
-        return lists;
-    }());
+    EXPECT_EQ(
+        records.size() + 0u, size_t(pyramid.records()) - [&] {
+            size_t lists = 0;
+            for (uint32_t v = 0; v < pyramid.voxel_count; ++v) lists += host.word(v) >> 30 == 2;
+            return lists;
+        }());
     EXPECT_GT(listed, 1000u);
     // The bound that keeps cells is not exact.
     EXPECT_LT(beyond, records.size() / 20);
@@ -142,8 +144,8 @@ TEST(PlacedWorld, AnExactVoxelListsTheFieldsInIt) {
     Solid box;
     box.kind = SolidKind::box;
     box.size = {2.6, 0.4, 2.6};
-    const BrickGrid exact = voxelize_solid(device, box, glm::dmat4(1), frame,
-                                           {Surface::exact, VoxelSet::supercover});
+    const BrickGrid exact =
+        voxelize_solid(device, box, glm::dmat4(1), frame, {Surface::exact, VoxelSet::supercover});
     const std::vector<PlacedObject> objects = {
         {.grid = &sphere, .object = 0, .material_of_group = {1}},
         {.grid = &exact, .object = 1, .material_of_group = {2}, .in_world_frame = true}};

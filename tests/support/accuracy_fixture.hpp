@@ -10,6 +10,7 @@
 
 #include "runtime/geometry/mesh.hpp"
 #include "runtime/render/renderer.hpp"
+#include "runtime/scene/bounds.hpp"
 #include "tests/oracles/mesh_distance.hpp"
 #include "tests/oracles/mesh_ray.hpp"
 
@@ -25,11 +26,6 @@ inline Bounds bounds_of(const Mesh& mesh) {
         }
     }
     return bounds;
-}
-
-inline double longest_side(const Bounds& bounds) {
-    const glm::dvec3 size = bounds.max - bounds.min;
-    return std::max({size.x, size.y, size.z});
 }
 
 inline std::vector<oracle::Triangle> triangles_of(const Mesh& mesh) {

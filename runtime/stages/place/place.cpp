@@ -123,8 +123,8 @@ class Placer::State {
                 painters_.insert(left.extract(before));
                 continue;
             }
-            const auto added = painters_.try_emplace(object.object, device_, object, world_.frame,
-                                                     parts_, near_);
+            const auto added =
+                painters_.try_emplace(object.object, device_, object, world_.frame, parts_, near_);
             changed.push_back(&added.first->second);
         }
     }

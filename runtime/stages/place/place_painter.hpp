@@ -118,7 +118,7 @@ class Painter {
     Buffer<int64_t> rows_;
     Program program_;
     AttributeMap attribute_map_;
-    int threshold_;          ///< leaves with a smaller distance are near
+    int threshold_;  ///< leaves with a smaller distance are near
     Buffer<uint64_t> near_;
 };
 
