@@ -17,8 +17,8 @@
 namespace voxelume {
 namespace {
 
-/// Copies of a model from which on they share a grid.
-/// where making a copy's own grid takes as long as placing N of them.
+/// Copies of a model from which on they share a grid, since each one's own would be kept while all
+/// are placed.
 constexpr uint32_t kManyCopies = 8;
 
 /// Steps of shared voxels' sizes in an octave, so that objects of all scales share few grids.
