@@ -33,7 +33,7 @@ TEST(VoxelWarnings, SayHowLargeACacheAWorldNeeds) {
     ASSERT_EQ(warnings.size(), 1u);
     EXPECT_EQ(warnings[0].kind, WarningKind::world_not_cached);
     EXPECT_EQ(warnings[0].where.text(), "room.json:3:5: world");
-    EXPECT_THAT(warnings[0].text, HasSubstr("its voxels take 5.24 MB"));
+    EXPECT_THAT(warnings[0].text, HasSubstr("its voxels take 5.2 MB"));
     EXPECT_THAT(warnings[0].text, HasSubstr("set VOXELUME_CACHE_MB to 41 or more"));
     add_large_world(world, 5 << 20, 10, cache(), warnings);
     EXPECT_EQ(warnings.size(), 1u);
