@@ -6,7 +6,6 @@
 
 #include "runtime/grid/sector_table.hpp"
 #include "runtime/stages/brick_arrays.hpp"
-#include "runtime/stages/index/index.hpp"
 #include "runtime/stages/index/index_marks.hpp"
 #include "runtime/stages/instance/instance_pools.hpp"
 #include "runtime/stages/place/place_exact.hpp"
@@ -67,22 +66,76 @@ void count_lists(const Device& device, std::span<const PlacedObject> objects, si
 
 }  // namespace
 
+namespace {
+
+bool is_smooth(const PlacedObject& object) {
+    return stores_distances(surface_of(*object.grid));
+}
+
+/// The share of the objects' bricks that are smooth objects'.
+double smooth_share(std::span<const PlacedObject> objects) {
+    double all = 0, smooth = 0;
+    for (const PlacedObject& object : objects) {
+        const double bricks = std::max(object.grid->brick_count, 1u);
+        all += bricks;
+        smooth += is_smooth(object) ? bricks : 0;
+    }
+    return smooth / all;
+}
+
+/// Follows WorldPlacer's fields: makes their grids, and returns the other objects.
+std::vector<PlacedObject> count_fields(const Device& device, std::span<const PlacedObject> objects,
+                                       size_t bricks, CountedWorld& world) {
+    // Bricks that two objects have a part in are stored for both. In the world an object has a part
+    // in more bricks than it has itself, since it stands anywhere among them.
+    constexpr double kShared = 1.15, kAnywhere = 1.35;
+    std::vector<PlacedObject> others, smooth;
+    double own_bricks = 0;
+    for (const PlacedObject& object : objects) {
+        (is_smooth(object) ? smooth : others).push_back(object);
+        own_bricks += is_smooth(object) ? double(object.grid->brick_count) : 0;
+    }
+    const auto own = [](const PlacedObject& object) { return !object.grid->attributes.empty(); };
+    const auto colored = [](const PlacedObject& object) { return !object.grid->colors.empty(); };
+    world.fields.brick_count = uint32_t(std::max(kShared * double(bricks) * smooth_share(objects),
+                                                 kAnywhere * own_bricks)) +
+                               1;
+    const size_t stored = world.fields.brick_count;
+    world.fields.distance = allocate_distances(device, "world distances", stored);
+    if (std::ranges::any_of(smooth, own))
+        world.fields.attributes = allocate_words(device, "world attributes", stored);
+    if (std::ranges::any_of(smooth, colored))
+        world.fields.colors = allocate_words(device, "world colors", stored);
+    world.parts = {
+        .attributes = true, .colors = std::ranges::any_of(objects, colored), .fields = true};
+    return others;
+}
+
+}  // namespace
+
 CountedWorld count_placing(const Device& device, std::span<const PlacedObject> objects,
                            const GridFrame& frame, const WorldCounts& counts) {
-    const WorldParts parts = parts_of(objects);
     CountedWorld world;
-    BrickGrid& grid = world.grid;
-    grid.frame = frame;
-    grid.transparent = parts.transparent;
-    grid.attribute = parts.attributes.size() == 1 ? *parts.attributes.begin() : 0;
     world.painters = count_painters(device, objects);
     {
         const Buffer<uint8_t> states(device, "brick states", brick_places(frame));
         const Buffer<uint32_t> listed(device, "listed bricks", counts.bricks);
     }
-    count_bricks_of(device, parts, counts.bricks, grid);
+    std::vector<PlacedObject> others(objects.begin(), objects.end());
+    size_t bricks = counts.bricks;
+    if (objects.size() > 1 && std::ranges::any_of(objects, is_smooth)) {
+        others = count_fields(device, objects, counts.bricks, world);
+        bricks = size_t(double(counts.bricks) * (1 - smooth_share(objects)) + 0.5);
+    }
+    const WorldParts parts = parts_of(others);
+    BrickGrid& grid = world.grid;
+    grid.frame = frame;
+    grid.transparent = parts.transparent;
+    grid.attribute = parts.attributes.size() == 1 ? *parts.attributes.begin() : 0;
+    count_bricks_of(device, parts, bricks, grid);
     count_painting(device, counts.bricks);
-    count_lists(device, objects, counts.primitives, grid);
+    count_lists(device, others, counts.primitives, grid);
+    world.parts.exact = !grid.primitive_first.empty();
     return world;
 }
 
@@ -91,15 +144,30 @@ void count_repainting(const Device& device, const GridFrame& frame, size_t brick
     count_painting(device, bricks);
 }
 
-Pyramid allocate_indexed(const Device& device, const BrickGrid& grid, const WorldCounts& counts) {
-    const glm::dvec3 sectors(grid.frame.sectors());
+namespace {
+
+PyramidCounts pyramid_counts(const GridFrame& frame, const WorldCounts& counts) {
+    const glm::dvec3 sectors(frame.sectors());
     PyramidCounts found;
     found.sectors = size_t(
         std::min(sectors.x * sectors.y * sectors.z, 8 + double(counts.voxels) / kVoxelsPerSector));
     found.leaves = size_t(double(counts.voxels) / kVoxelsPerLeaf);
     found.voxels = counts.voxels;
     found.primitives = counts.primitives;
-    return allocate_pyramid(device, grid, found);
+    return found;
+}
+
+}  // namespace
+
+Pyramid allocate_indexed(const Device& device, const BrickGrid& grid, const WorldCounts& counts) {
+    return allocate_pyramid(device, grid, pyramid_counts(grid.frame, counts));
+}
+
+Pyramid allocate_indexed(const Device& device, const CountedWorld& world,
+                         const WorldCounts& counts) {
+    if (world.fields.brick_count == 0) return allocate_indexed(device, world.grid, counts);
+    return allocate_pyramid(device, world.grid, world.parts,
+                            pyramid_counts(world.grid.frame, counts));
 }
 
 CountedPyramid count_index(const Device& device, const BrickGrid& grid, const WorldCounts& counts) {
@@ -108,6 +176,23 @@ CountedPyramid count_index(const Device& device, const BrickGrid& grid, const Wo
     { const MarkArrays marks = allocate_marks(device, grid.brick_count); }
     indexed.pyramid = allocate_indexed(device, grid, counts);
     const Buffer<uint32_t> starts(device, "index starts", 3 * size_t(grid.brick_count));
+    return indexed;
+}
+
+CountedPyramid count_index(const Device& device, const CountedWorld& world,
+                           const WorldCounts& counts) {
+    if (world.fields.brick_count == 0) return count_index(device, world.grid, counts);
+    const size_t bricks = world.fields.brick_count;
+    CountedPyramid indexed;
+    indexed.masks = allocate_masks(device, "index masks", bricks);
+    { const MarkArrays marks = allocate_marks(device, bricks); }
+    const Buffer<uint64_t> joined = allocate_masks(device, "field masks", bricks);
+    const Buffer<uint64_t> united = allocate_masks(device, "united masks", counts.bricks);
+    const Buffer<uint64_t> listing = allocate_masks(device, "list masks", counts.bricks);
+    const Buffer<uint64_t> of_base =
+        allocate_masks(device, "base masks", world.grid.brick_count > 0 ? counts.bricks : 0);
+    indexed.pyramid = allocate_indexed(device, world, counts);
+    const Buffer<uint32_t> starts(device, "index starts", 4 * counts.bricks);
     return indexed;
 }
 

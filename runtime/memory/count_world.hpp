@@ -6,6 +6,7 @@
 #include <span>
 
 #include "runtime/analysis/placed_objects.hpp"
+#include "runtime/stages/index/index.hpp"
 #include "runtime/stages/instance/instance_model.hpp"
 #include "runtime/stages/place/place.hpp"
 
@@ -20,8 +21,10 @@ struct WorldCounts {
 
 /// The voxels of a world, and what its objects are painted with.
 struct CountedWorld {
-    BrickGrid grid;
+    BrickGrid grid;  ///< of all objects but those of `fields`
     std::vector<Buffer<uint64_t>> painters;
+    BrickGrid fields;    ///< the grids of smooth objects that are kept apart, as one
+    PyramidParts parts;  ///< of the pyramid, if there are `fields`
 };
 
 /// Follows the first call of Placer::place.
@@ -40,7 +43,12 @@ struct CountedPyramid {
 /// Follows Indexer::index.
 CountedPyramid count_index(const Device& device, const BrickGrid& grid, const WorldCounts& counts);
 
+CountedPyramid count_index(const Device& device, const CountedWorld& world,
+                           const WorldCounts& counts);
+
 /// The pyramid alone.
+Pyramid allocate_indexed(const Device& device, const CountedWorld& world,
+                         const WorldCounts& counts);
 Pyramid allocate_indexed(const Device& device, const BrickGrid& grid, const WorldCounts& counts);
 
 /// Follows InstanceModels::join; `counts` are those of the listed grids, whose pyramids are added

@@ -65,14 +65,14 @@ class FollowingWalk {
         const WorldCounts counts = objects_.world(Estimate::expected);
         const GridFrame frame = world_frame(scene_.world);
         const CountedWorld world = count_placing(device_, placed, frame, counts);
-        const CountedPyramid indexed = count_index(device_, world.grid, counts);
+        const CountedPyramid indexed = count_index(device_, world, counts);
         std::vector<ModelPyramid> kept;
         Pyramid joined = count_joining(device_, listed, indexed.pyramid, models, kept);
         joined.object_boxes = objects_.boxes();
         joined.clear = medium_.is_zero;
         const ImageMemory image = count_image(device_, scene_, joined, medium_, SIZE_MAX);
         const Buffer<uint8_t> hits(device_, "hits", hit_bytes(joined));
-        build_next(world.grid, counts, listed);
+        build_next(world, counts, listed);
         // What two frames have at once depends on which of them is ahead.
         constexpr double kAhead = 1.15;
         return kAhead * double(device_.counters().peak_bytes);
@@ -80,7 +80,7 @@ class FollowingWalk {
 
   private:
     /// Counts what the next frame's world needs in addition to all that is there.
-    void build_next(const BrickGrid& world, const WorldCounts& counts,
+    void build_next(const CountedWorld& world, const WorldCounts& counts,
                     const ListedInstances& listed) {
         std::vector<BrickGrid> made;
         for (const CountedGrid& grid : grids_.all())
@@ -91,7 +91,7 @@ class FollowingWalk {
                                    : count_mesh_grid(device_, grid.counts));
         const auto bricks = size_t(objects_.changed_bricks(changes_.objects));
         if (bricks == 0) return;
-        count_repainting(device_, world.frame, std::min(2 * bricks, counts.bricks));
+        count_repainting(device_, world.grid.frame, std::min(2 * bricks, counts.bricks));
         // The marks stay, and all else of the index is made again.
         const Pyramid before = allocate_indexed(device_, world, counts);
         std::vector<ModelPyramid> kept;

@@ -63,8 +63,9 @@ class FrameWalk {
         memory_.voxelize = height();
         memory_.world = objects_.world(estimate_);
         device_.counters().largest_bytes = 0;
-        const BrickGrid world =
-            count_placing(device_, objects, world_frame(scene_.world), memory_.world).grid;
+        CountedWorld world =
+            count_placing(device_, objects, world_frame(scene_.world), memory_.world);
+        world.painters.clear();
         memory_.place = height();
         memory_.grids = grids_.all();
         for (CountedGrid& grid : memory_.grids) grid.grid.reset();

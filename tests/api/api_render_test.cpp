@@ -223,25 +223,6 @@ TEST_F(ApiRender, TellsOfWarningsOnceAndMakesErrorsOfThemIfAsked) {
     EXPECT_THROW(render_image(scene, *device, 1, options), std::out_of_range);
 }
 
-TEST_F(ApiRender, TellsOfKernelsThatNoEarlierRunCompiled) {
-    const fs::path cache = folder / "cache";
-    const Setting setting("VOXELUME_CACHE_DIR", cache.string());
-    const std::vector<Device> fresh = {Device::open(test_selector())};
-    const Scene scene = Scene::build(rolling_ball());
-    std::vector<std::pair<int, int>> heard;
-    RenderOptions options = quick;
-    options.compiling = [&](int kernel, int known) { heard.emplace_back(kernel, known); };
-    render_image(scene, fresh, 1, options);
-    ASSERT_GT(heard.size(), 3u);
-    for (size_t i = 0; i < heard.size(); ++i) {
-        EXPECT_EQ(heard[i].first, int(i) + 1);
-        EXPECT_LE(heard[i].first, heard[i].second);
-    }
-    heard.clear();
-    render_image(scene, fresh, 1, options);
-    EXPECT_THAT(heard, testing::IsEmpty());
-}
-
 TEST_F(ApiRender, PrintsNothingAndLeavesTheEnvironment) {
     const auto variables = [] {
         std::vector<std::string> list;

@@ -30,8 +30,9 @@ class CliWarningsTest : public SceneProgramTest {
     std::vector<std::string> kinds(const std::string& options) const {
         const ProgramResult result = run("render scene.json --stats-json stats.json " + options);
         EXPECT_EQ(result.exit_code, 0) << result.err;
+        const Json statistics = Json::parse(bytes_of(folder / "stats.json"));
         std::vector<std::string> found;
-        for (const Json& warning : Json::parse(bytes_of(folder / "stats.json"))["warnings"])
+        for (const Json& warning : statistics["warnings"])
             found.push_back(warning["kind"]);
         return found;
     }

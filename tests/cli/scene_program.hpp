@@ -69,12 +69,14 @@ class SceneProgramTest : public ProgramTest {
         return found;
     }
 
-    /// Expects that the command fails with this exit code and one line, and leaves no file behind.
+    /// Expects that the command fails with this exit code and one line, behind those of warnings,
+    /// and leaves no file behind.
     std::string expect_failure(int code, const std::string& arguments) const {
         const std::vector<std::string> before = names();
         const ProgramResult result = run(arguments);
         EXPECT_EQ(result.exit_code, code) << arguments << "\n" << result.err;
-        EXPECT_THAT(result.err, testing::MatchesRegex("voxelume: [^\n]+\n")) << arguments;
+        EXPECT_THAT(result.err, testing::MatchesRegex("(warning: [^\n]+\n)*voxelume: [^\n]+\n"))
+            << arguments;
         EXPECT_THAT(result.out, testing::IsEmpty()) << arguments;
         EXPECT_EQ(names(), before) << arguments;
         return result.err;
