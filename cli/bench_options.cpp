@@ -11,6 +11,7 @@ namespace {
 std::vector<std::string> scenes_named(const std::vector<std::string>& only) {
     const std::vector<BenchScene> scenes = bench_scenes();
     std::vector<std::string_view> names;
+    names.reserve(scenes.size());
     for (const BenchScene& scene : scenes) names.emplace_back(scene.name);
     return chosen_names(only, names, "bench", "scene");
 }

@@ -40,7 +40,7 @@ std::string count_text(uint64_t count) {
 
 /// "640x480", "64x48x256 voxels", or both.
 std::string size_text(const Statistics& statistics) {
-    const std::string image = fmt::format("{}", fmt::join(statistics.size, "x"));
+    std::string image = fmt::format("{}", fmt::join(statistics.size, "x"));
     if (!statistics.volume_size) return image;
     const std::string volume = fmt::format("{} voxels", fmt::join(*statistics.volume_size, "x"));
     return statistics.images ? image + " and " + volume : volume;

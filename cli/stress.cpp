@@ -37,6 +37,7 @@ std::vector<StressTest> chosen_tests(const std::vector<std::string>& only) {
     if (only.empty()) return tests;
     std::vector<StressTest> chosen;
     std::vector<std::string_view> names;
+    names.reserve(tests.size());
     for (const StressTest& test : tests) names.push_back(test.name);
     for (const std::string& name : chosen_names(only, names, "stress", "test"))
         if (std::ranges::find(chosen, name, &StressTest::name) == chosen.end())

@@ -40,6 +40,7 @@ v1::DeviceInfo api::info_for_callers(const DeviceInfo& info) {
 std::vector<Device> api::inside(const std::vector<v1::Device>& devices) {
     if (devices.empty()) throw Error(ErrorKind::usage, "no device is given to render on");
     std::vector<Device> result;
+    result.reserve(devices.size());
     for (const v1::Device& device : devices) result.push_back(inside(device));
     return result;
 }

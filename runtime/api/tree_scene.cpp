@@ -122,6 +122,7 @@ JsonValue tree_of_track(const v1::Track& track) {
 template <class Part>
 JsonValue tree_of_list(const std::vector<Part>& parts) {
     std::vector<JsonValue> items;
+    items.reserve(parts.size());
     for (const Part& part : parts) items.push_back(tree(part));
     return list_of(std::move(items));
 }

@@ -88,7 +88,7 @@ std::vector<PlacedObject> count_fields(const Device& device, std::span<const Pla
                                        size_t bricks, CountedWorld& world) {
     // Bricks that two objects have a part in are stored for both. In the world an object has a part
     // in more bricks than it has itself, since it stands anywhere among them.
-    constexpr double kShared = 1.15, kAnywhere = 1.35;
+    constexpr double kShared = 1.15, kAnywhere = 1.4;
     std::vector<PlacedObject> others, smooth;
     double own_bricks = 0;
     for (const PlacedObject& object : objects) {
@@ -125,7 +125,9 @@ CountedWorld count_placing(const Device& device, std::span<const PlacedObject> o
     size_t bricks = counts.bricks;
     if (objects.size() > 1 && std::ranges::any_of(objects, is_smooth)) {
         others = count_fields(device, objects, counts.bricks, world);
-        bricks = size_t(double(counts.bricks) * (1 - smooth_share(objects)) + 0.5);
+        double own = double(counts.bricks) * (1 - smooth_share(objects)), sum = 0;
+        for (const PlacedObject& object : others) sum += double(object.grid->brick_count);
+        bricks = std::min(counts.bricks, size_t(std::max(own, sum) + 0.5));
     }
     const WorldParts parts = parts_of(others);
     BrickGrid& grid = world.grid;

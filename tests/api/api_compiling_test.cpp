@@ -13,6 +13,20 @@ namespace {
 
 class ApiCompiling : public FileTest {};
 
+/// A mirror, in 40 x 24 pixels.
+SceneDescription mirrored_ball() {
+    SceneDescription scene;
+    scene.name = "mirrored";
+    scene.world = {.voxel_size = uniform(0.05), .min = {-1, -1, -1}, .max = {1, 1, 1}};
+    scene.materials = {{.name = "mirror", .color = {0.2, 0.2, 0.2}, .reflection = 0.5}};
+    scene.models = {{.name = "ball", .source = Sphere{0.3}}};
+    scene.objects = {{.name = "ball", .model = "ball", .material = "mirror"}};
+    scene.lights = {{.source = PointLight{{0.5, 0.9, -0.8}}, .intensity = 2}};
+    scene.observer = {.position = {0.2, 0.5, -3}, .look_at = Vec3{0, 0, 0}};
+    scene.render.size = {40, 24};
+    return scene;
+}
+
 TEST_F(ApiCompiling, IsToldOfKernelsThatNoEarlierRunCompiled) {
     const std::filesystem::path cache = folder / "cache";
     const Setting setting("VOXELUME_CACHE_DIR", cache.string());

@@ -31,6 +31,12 @@ fi
 sed -nE 's#^//     ##p' "$prefix/include/voxelume.hpp" >"$folder/example.cpp"
 grep -q 'int main' "$folder/example.cpp" || fail "the header has no example"
 c++ -std=c++20 -Wall -Wextra -Wpedantic -Werror -fsyntax-only -I"$prefix/include" "$folder/example.cpp"
+for clang in clang++-14 clang++; do # which finds faults in headers that GCC overlooks
+    command -v "$clang" >/dev/null || continue
+    "$clang" -std=c++20 -Wall -Wextra -Wpedantic -Werror -fsyntax-only -I"$prefix/include" \
+        "$folder/example.cpp" "$consumer/consumer.cpp"
+    break
+done
 
 cmake -S "$consumer" -B "$folder/cmake" -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_BUILD_TYPE=Release >"$folder/log" 2>&1 ||
     fail "$(cat "$folder/log")"

@@ -69,7 +69,8 @@ static inline MediumSet find_beginnings(const WorldView* world, const Surroundin
         count -= first;
         searching &= LANE_MASK(count < (int)maximum);
 
-        ray_state->media = cross_medium(ray_state->media, packed, leaving, smooth & searching);
+        // A field's own sign tells where the ray is: sets have room for transmitting objects alone.
+        ray_state->unsure = (lane_int)-1;
         ray_state->goes_on = ray_state->on_surface = (lane_int)-1;
         ray_state->source = source_of_hit(found.primitive, found.voxel, packed);
         ray_state->within_source = ~leaving;

@@ -42,6 +42,7 @@ typedef struct {
     lane_int within;     // it is known to be inside of the surface
     lane_int unsure;     // it may be there unbeknown
     lane_int beginning;  // it begins on the surface, in this very voxel
+    lane_int here;       // it begins on another surface in this voxel
 } FieldApproach;
 
 /// Tests the fields of the voxels that the `tested` lanes stand in; the mask of those hit, their t
@@ -62,9 +63,11 @@ static inline lane_int hit_smooth(const Field* f, const Walk* w, float plane_bou
     const lane_float outside = field_along(f, &ray, (lane_float)1.0f, a);
     const float bound = 6.0f * VXL_DISTANCE_UNITS * plane_bound + VXL_FIELD_ROUNDING;
     from->within |= from->unsure & LANE_MASK(outside < -bound);
-    const lane_int beginning = from->beginning;
     const lane_float side = LANES_SELECT(from->within, (lane_float)-1.0f, (lane_float)1.0f);
     const lane_float f_entry = side * outside;
+    // Where surfaces cross at the ray's origin, rounding doesn't decide on which side it is: else it
+    // would go from one to the other without end.
+    const lane_int beginning = from->beginning | (from->here & LANE_MASK(f_entry < 0.0f));
     *level = LANES_SELECT(beginning & tested, fmax(-f_entry, 0.0f) + VXL_FIELD_ROUNDING, *level);
     lane_float fa = f_entry + *level;
     lane_float fb = field_along(f, &ray, side, b) + *level;

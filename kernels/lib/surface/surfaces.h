@@ -172,15 +172,19 @@ static inline lane_int hit_field(const PyramidView* p, const SurfaceView* s, con
                                  lane_uint number, lane_int tested, lane_int beginning,
                                  const RayState* ray_state, SurfaceHit* found) {
     const Field field = read_field(s->fields, number);
-    FieldApproach from = {(lane_int)0, ray_state->unsure & tested, beginning};
+    FieldApproach from = {(lane_int)0, ray_state->unsure & tested, beginning, (lane_int)0};
     const int any_unsure = lanes_any(from.unsure);
-    if (VXL_FIELD_LISTS)
+    if (VXL_FIELD_LISTS) {
         from.beginning &= LANE_MASK(ray_state->source == (number | VXL_FIELD_SOURCE));
+        from.here = beginning & ~from.beginning;
+    }
     lane_uint packed = (lane_uint)s->constant_attribute;
     if (VXL_ATTRIBUTES && (VXL_TRANSMISSION || any_unsure))
         packed = LANES_GATHER_UINT(s->attributes, number);
     if (VXL_TRANSMISSION) from.within = medium_set_holds(&ray_state->media, packed);
-    if (any_unsure) from.within |= from.unsure & is_medium(found->inside, packed);
+    if (any_unsure)
+        from.within |= from.unsure & (is_medium(found->inside, packed) |
+                                      (from.beginning & ray_state->within_source));
     lane_float t = (lane_float)INFINITY;
     const lane_int met = hit_smooth(&field, w, p->plane_bound, tested, &from, &found->level, &t);
     if (any_unsure) found->inside = LANES_SELECT(from.unsure & from.within, packed, found->inside);

@@ -2,6 +2,7 @@
 // Wavefront OBJ -> Mesh, in one pass over the text.
 #include "runtime/base/decimal.hpp"
 #include "runtime/io/mesh/mesh_color.hpp"
+#include "runtime/io/mesh/mesh_obj_normals.hpp"
 #include "runtime/io/mesh/mesh_polygon.hpp"
 #include "runtime/io/mesh/mesh_reader.hpp"
 
@@ -37,7 +38,7 @@ class ObjParser {
             source_.fail("the mesh has no triangles: no 'f' statement in the file");
         }
         drop_single_group();
-        settle_normals();
+        settle_obj_normals(mesh_);
         return std::move(mesh_);
     }
 
@@ -122,17 +123,16 @@ class ObjParser {
     /// Reads a normal. One that isn't three numbers becomes a vector of length 0.
     void parse_normal() {
         glm::vec3 normal(0);
-        const char* number = p_ + 2;
+        bool is_whole = true;
+        p_ += 2;
         for (int i = 0; i < 3; ++i) {
-            const Decimal found = scan_decimal(skip_blanks(number));
-            number = found.end;
-            if (found.status != DecimalStatus::ok) {
-                normal = glm::vec3(0);
-                break;
-            }
+            skip_gap();
+            const Decimal found = scan_decimal(p_);
+            is_whole = is_whole && found.status == DecimalStatus::ok;
+            p_ = found.end;
             normal[i] = found.value;
         }
-        mesh_.normals.push_back(normal);
+        mesh_.normals.push_back(is_whole ? normal : glm::vec3(0));
         skip_statement();
     }
 
@@ -146,21 +146,13 @@ class ObjParser {
             source_.fail_at_line(
                 p_, fmt::format("'f' has {} corners; it needs at least three", corners_.size()));
         }
-        append_polygon();
-        mesh_.triangle_group.resize(mesh_.triangles.size(), group());
-    }
-
-    /// Cuts the face into triangles. The list of their normals begins with the first normal.
-    void append_polygon() {
-        const bool has_normals =
-            !mesh_.triangle_normals.empty() ||
-            std::ranges::any_of(normals_, [](uint32_t n) { return n != kNoNormal; });
-        if (!has_normals) {
+        if (has_obj_normals(mesh_, normals_)) {
+            mesh_.triangle_normals.resize(mesh_.triangles.size(), glm::uvec3(kNoNormal));
+            cutter_.append(source_, corners_, mesh_, normals_);
+        } else {
             cutter_.append(source_, corners_, mesh_);
-            return;
         }
-        mesh_.triangle_normals.resize(mesh_.triangles.size(), glm::uvec3(kNoNormal));
-        cutter_.append(source_, corners_, mesh_, normals_);
+        mesh_.triangle_group.resize(mesh_.triangles.size(), group());
     }
 
     /// Parses `7`, `7/3`, `7//4` or `7/3/4`. The first number is the vertex; it counts from 1, or
@@ -177,7 +169,7 @@ class ObjParser {
                 const Integer normal = scan_integer(end + 1);
                 valid &= normal.end != end + 1;
                 end = normal.end;
-                normals_.back() = normal_index(normal.value);
+                normals_.back() = obj_normal_index(normal.value, mesh_.normals.size());
             }
         }
         if (!valid || !(ends_token(*end) || *end == '\\')) {
@@ -194,31 +186,6 @@ class ObjParser {
         }
         p_ = end;
         return static_cast<uint32_t>(index);
-    }
-
-    /// The index of a normal that a corner names; kNoNormal for one that can't be.
-    uint32_t normal_index(int64_t number) const {
-        const auto count = static_cast<int64_t>(mesh_.normals.size());
-        const int64_t index = number < 0 ? count + number : number - 1;
-        return index >= 0 && index < int64_t{kNoNormal} ? static_cast<uint32_t>(index) : kNoNormal;
-    }
-
-    /// Settles what corners name: normals may stand behind the faces. A file whose faces name none
-    /// has none.
-    void settle_normals() {
-        bool found = false;
-        for (glm::uvec3& t : mesh_.triangle_normals) {
-            for (int i = 0; i < 3; ++i) {
-                if (t[i] >= mesh_.normals.size()) {
-                    t[i] = kNoNormal;
-                }
-                found = found || t[i] != kNoNormal;
-            }
-        }
-        if (!found) {
-            mesh_.normals = {};
-            mesh_.triangle_normals = {};
-        }
     }
 
     /// What follows the word on the line, with the spaces within it.

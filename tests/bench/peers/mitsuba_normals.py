@@ -51,7 +51,11 @@ def read_obj(path):
 
 
 def angle_weighted(np, positions, triangles):
-    """Normals of vertices: means of the faces around them, weighted by their angles there."""
+    """Normals of vertices: means of the faces around them, weighted by their angles there.
+
+    Vertices at one position are one."""
+    places, joined = np.unique(positions, axis=0, return_inverse=True)
+    positions, triangles = places, joined.reshape(-1)[triangles]
     p = positions[triangles]
     face = np.cross(p[:, 1] - p[:, 0], p[:, 2] - p[:, 0])
     face /= np.maximum(np.linalg.norm(face, axis=1, keepdims=True), 1e-300)
@@ -60,6 +64,7 @@ def angle_weighted(np, positions, triangles):
         u, v = p[:, (i + 1) % 3] - p[:, i], p[:, (i + 2) % 3] - p[:, i]
         angle = np.arctan2(np.linalg.norm(np.cross(u, v), axis=1), np.sum(u * v, axis=1))
         np.add.at(normals, triangles[:, i], face * angle[:, None])
+    normals = normals[joined.reshape(-1)]
     lengths = np.linalg.norm(normals, axis=1, keepdims=True)
     return np.where(lengths > 0, normals / np.maximum(lengths, 1e-300), [0.0, 0.0, 1.0])
 
