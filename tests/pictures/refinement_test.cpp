@@ -110,8 +110,9 @@ TEST(Refinement, OfAWorldLeavesACoarserModelAsAccurateAsItsVoxels) {
 
 TEST(Refinement, LeavesASphereOfAnyResolutionASphere) {
     constexpr double kVoxel = 0.02;
-    for (const char* placement : {"auto", "world"})
-        for (const int resolution : {16, 32, 64, 128, 256, 512}) {
+    for (const char* placement : {"auto", "world"}) {
+        std::optional<SolidErrors> before;
+        for (const int resolution : {16, 32, 64, 128, 256, 512, 1024}) {
             const SolidErrors errors = errors_of(scene_of(
                 fmt::format(R"("shape": "sphere", "radius": 0.16, "resolution": {})", resolution),
                 fmt::format(R"({{"model": "m", "placement": "{}"}})", placement), kVoxel));
@@ -120,7 +121,10 @@ TEST(Refinement, LeavesASphereOfAnyResolutionASphere) {
             EXPECT_LT(errors.depth_max, 0.2 * kVoxel) << resolution;
             EXPECT_LT(errors.normal_rms, 0.3) << resolution;
             EXPECT_LE(errors.silhouette, 3u) << resolution;
+            if (before) expect_no_worse(errors, *before, fmt::format("{}", resolution));
+            before = errors;
         }
+    }
 }
 
 /// Maps of the kinds that scenes can have: each would be wrong in another way.
