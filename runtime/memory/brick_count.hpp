@@ -18,6 +18,7 @@ struct BrickRule {
     bool keeps_inside = false;  ///< bricks inside of the solid are stored, too
     bool fills = false;         ///< all voxels inside of the solid are stored, in bricks that are
     bool closes_ends = false;   ///< where the lattice ends, the solid has a surface
+    double cover = 1e-6;        ///< how far beyond its corners a voxel covers the surface, in edges
 
     friend bool operator==(const BrickRule&, const BrickRule&) = default;
 };
@@ -40,9 +41,15 @@ class TakenBricks {
     std::vector<bool> taken_;  ///< empty before the first
 };
 
-/// Counts the bricks that a solid's surface takes in the `box` of `frame`'s voxels by such a rule
-/// and that aren't taken yet, and its voxels. Large surfaces are counted in coarser lattices.
-SurfaceExtent count_bricks(const SolidField& field, const GridFrame& frame, const VoxelBox& box,
-                           const BrickRule& rule, TakenBricks& taken);
+/// The voxels of a solid's surface and its bricks, and those of them that weren't taken before.
+struct BrickCount {
+    SurfaceExtent extent;
+    double new_bricks = 0;
+};
+
+/// Counts what a solid's surface takes in the `box` of `frame`'s voxels by such a rule. Large
+/// surfaces are counted in coarser lattices.
+BrickCount count_bricks(const SolidField& field, const GridFrame& frame, const VoxelBox& box,
+                        const BrickRule& rule, TakenBricks& taken);
 
 }  // namespace voxelume

@@ -72,40 +72,20 @@ bool is_smooth(const PlacedObject& object) {
     return stores_distances(surface_of(*object.grid));
 }
 
-/// The share of the objects' bricks that are smooth objects'.
-double smooth_share(std::span<const PlacedObject> objects) {
-    double all = 0, smooth = 0;
-    for (const PlacedObject& object : objects) {
-        const double bricks = std::max(object.grid->brick_count, 1u);
-        all += bricks;
-        smooth += is_smooth(object) ? bricks : 0;
-    }
-    return smooth / all;
-}
-
 /// Follows WorldPlacer's fields: makes their grids, and returns the other objects.
 std::vector<PlacedObject> count_fields(const Device& device, std::span<const PlacedObject> objects,
                                        size_t bricks, CountedWorld& world) {
-    // Bricks that two objects have a part in are stored for both. In the world an object has a part
-    // in more bricks than it has itself, since it stands anywhere among them.
-    constexpr double kShared = 1.15, kAnywhere = 1.4;
     std::vector<PlacedObject> others, smooth;
-    double own_bricks = 0;
-    for (const PlacedObject& object : objects) {
+    for (const PlacedObject& object : objects)
         (is_smooth(object) ? smooth : others).push_back(object);
-        own_bricks += is_smooth(object) ? double(object.grid->brick_count) : 0;
-    }
     const auto own = [](const PlacedObject& object) { return !object.grid->attributes.empty(); };
     const auto colored = [](const PlacedObject& object) { return !object.grid->colors.empty(); };
-    world.fields.brick_count = uint32_t(std::max(kShared * double(bricks) * smooth_share(objects),
-                                                 kAnywhere * own_bricks)) +
-                               1;
-    const size_t stored = world.fields.brick_count;
-    world.fields.distance = allocate_distances(device, "world distances", stored);
+    world.fields.brick_count = uint32_t(bricks);
+    world.fields.distance = allocate_distances(device, "world distances", bricks);
     if (std::ranges::any_of(smooth, own))
-        world.fields.attributes = allocate_words(device, "world attributes", stored);
+        world.fields.attributes = allocate_words(device, "world attributes", bricks);
     if (std::ranges::any_of(smooth, colored))
-        world.fields.colors = allocate_words(device, "world colors", stored);
+        world.fields.colors = allocate_words(device, "world colors", bricks);
     world.parts = {
         .attributes = true, .colors = std::ranges::any_of(objects, colored), .fields = true};
     return others;
@@ -124,10 +104,8 @@ CountedWorld count_placing(const Device& device, std::span<const PlacedObject> o
     std::vector<PlacedObject> others(objects.begin(), objects.end());
     size_t bricks = counts.bricks;
     if (objects.size() > 1 && std::ranges::any_of(objects, is_smooth)) {
-        others = count_fields(device, objects, counts.bricks, world);
-        double own = double(counts.bricks) * (1 - smooth_share(objects)), sum = 0;
-        for (const PlacedObject& object : others) sum += double(object.grid->brick_count);
-        bricks = std::min(counts.bricks, size_t(std::max(own, sum) + 0.5));
+        others = count_fields(device, objects, std::max(counts.field_bricks, size_t{1}), world);
+        bricks = counts.other_bricks;
     }
     const WorldParts parts = parts_of(others);
     BrickGrid& grid = world.grid;

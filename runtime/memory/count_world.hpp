@@ -14,9 +14,11 @@ namespace voxelume {
 
 /// What placing objects, or indexing a grid, is expected to find.
 struct WorldCounts {
-    size_t bricks = 0;      ///< stored
-    size_t voxels = 0;      ///< that rays must see
-    size_t primitives = 0;  ///< listed by them
+    size_t bricks = 0;        ///< stored
+    size_t voxels = 0;        ///< that rays must see
+    size_t primitives = 0;    ///< listed by them
+    size_t field_bricks = 0;  ///< of smooth objects' grids, if these are kept apart
+    size_t other_bricks = 0;  ///< of the grid of all other objects
 };
 
 /// The voxels of a world, and what its objects are painted with.

@@ -57,10 +57,6 @@ SurfaceExtent with_margin(const SurfaceExtent& extent) {
     return {kMargin * extent.voxels, kMargin * extent.bricks};
 }
 
-double margin(Estimate estimate) {
-    return estimate == Estimate::expected ? kMargin : 1;
-}
-
 VoxelBox whole_of(const GridFrame& frame) {
     return {glm::dvec3(0), glm::dvec3(frame.size)};
 }
@@ -88,12 +84,21 @@ GridCounts counts_of(const Model& model, const MeshSummary* mesh, const GridFram
     return counts;
 }
 
-WorldCounts sum_of(const WorldExtent& extent, double primitives, Estimate estimate,
-                   const GridFrame& frame) {
-    const glm::dvec3 table(frame.bricks());
-    const double more = margin(estimate);
-    return {size_t(std::clamp(more * extent.bricks, 1.0, table.x * table.y * table.z)),
-            size_t(std::max(more * extent.voxels, 1.0)), size_t(more * primitives)};
+/// Bricks of the smooth objects' grids, and of the grid of all others.
+struct PartBricks {
+    double of_fields = 0, of_others = 0;
+};
+
+WorldCounts sum_of(const WorldExtent& extent, double primitives, const PartBricks& parts,
+                   double margin, const GridFrame& frame) {
+    const double table = brick_table(frame);
+    WorldCounts counts;
+    counts.bricks = size_t(std::clamp(margin * extent.bricks, 1.0, table));
+    counts.voxels = size_t(std::max(margin * extent.voxels, 1.0));
+    counts.primitives = size_t(margin * primitives);
+    counts.field_bricks = size_t(std::ceil(margin * parts.of_fields));
+    counts.other_bricks = size_t(std::ceil(std::min(margin * parts.of_others, table)));
+    return counts;
 }
 
 /// Primitives that a voxel of an exact surface lists.
@@ -116,7 +121,8 @@ GridCounts ObjectCounts::model_grid(const Model& model, const GridFrame& frame, 
         TakenBricks taken(frame);
         const SurfaceExtent counted =
             with_margin(count_bricks(SolidField(*model.solid, kOwnSpace), frame, whole_of(frame),
-                                     model_rule(model.surface, is_solid_set(model)), taken));
+                                     model_rule(model.surface, is_solid_set(model)), taken)
+                            .extent);
         if (is_expected) return counts_of(model, mesh, frame, counted);
         const SurfaceArea area =
             min_solid_area(*model.solid, kOwnSpace, {model.extent.min, model.extent.max});
@@ -140,7 +146,8 @@ GridCounts ObjectCounts::object_grid(const Object& object, const GridFrame& fram
     TakenBricks taken(frame);
     const SurfaceExtent counted =
         with_margin(count_bricks(SolidField(*model.solid, object.world_from_object), frame,
-                                 box_in(frame, object), model_rule(model.surface, false), taken));
+                                 box_in(frame, object), model_rule(model.surface, false), taken)
+                        .extent);
     return counts_of(model, mesh, frame, is_expected ? counted : smaller(counted, minimum));
 }
 
@@ -169,10 +176,13 @@ SurfaceExtent ObjectCounts::voxels_in_world(const Object& object, const VoxelMod
     return {count * std::min(1.0, own), stored * std::min(1.0, own)};
 }
 
-SurfaceExtent ObjectCounts::expected_in_world(const Object& object, TakenBricks& taken) {
+BrickCount ObjectCounts::expected_in_world(const Object& object, TakenBricks& taken) {
+    const auto alone = [](const SurfaceExtent& extent) {
+        return BrickCount{extent, extent.bricks};
+    };
     const Model& model = scene_.models[size_t(object.model)];
     if (!model.voxels.empty() && model.surface != Surface::exact)
-        return voxels_in_world(object, meshes_.voxels(model), false);
+        return alone(voxels_in_world(object, meshes_.voxels(model), false));
     const bool keeps_inside = shows_inside(scene_, object);
     if (model.solid)
         return count_bricks(
@@ -187,7 +197,7 @@ SurfaceExtent ObjectCounts::expected_in_world(const Object& object, TakenBricks&
         extent.voxels += inside;
         extent.bricks += inside / double(kVoxelsPerBrick);
     }
-    return extent;
+    return alone(extent);
 }
 
 WorldExtent ObjectCounts::least_in_world(size_t number) {
@@ -213,34 +223,61 @@ double ObjectCounts::changed_bricks(const std::vector<bool>& objects) {
     return sum;
 }
 
-WorldCounts ObjectCounts::world(Estimate estimate) {
-    const bool is_expected = estimate == Estimate::expected;
-    if (is_expected && expected_) return *expected_;
-    if (!is_expected) world(Estimate::expected);
-    in_world_.resize(scene_.objects.size());
+std::vector<size_t> ObjectCounts::placed_numbers() {
+    std::vector<size_t> numbers;
+    for (size_t number = 0; number < scene_.objects.size(); ++number) {
+        const Object& object = scene_.objects[number];
+        if (!is_instanced(scene_, object) && is_potentially_visible(scene_, object) &&
+            !is_empty(boxes()[number]))
+            numbers.push_back(number);
+    }
+    std::ranges::stable_partition(numbers, [this](size_t number) { return !is_smooth(number); });
+    return numbers;
+}
+
+bool ObjectCounts::is_smooth(size_t number) const {
+    return scene_.models[size_t(scene_.objects[number].model)].surface == Surface::smooth;
+}
+
+WorldCounts ObjectCounts::expected_world() {
     const GridFrame frame = world_frame(scene_.world);
     TakenBricks taken(frame);
     WorldExtent sum;
-    double primitives = 0;
-    std::vector<ObjectExtent> apart;
-    for (size_t number = 0; number < scene_.objects.size(); ++number) {
+    double primitives = 0, of_fields = 0, of_others = 0;
+    for (const size_t number : placed_numbers()) {
         const Object& object = scene_.objects[number];
-        if (is_instanced(scene_, object) || !is_potentially_visible(scene_, object)) continue;
-        const VoxelBox& box = boxes()[number];
-        if (is_empty(box)) continue;
-        if (!is_expected) {
-            apart.push_back({box, least_in_world(number)});
-            continue;
-        }
-        const SurfaceExtent extent = expected_in_world(object, taken);
+        const auto [extent, new_bricks] = expected_in_world(object, taken);
         sum.voxels += extent.voxels;
-        sum.bricks += extent.bricks;
+        sum.bricks += new_bricks;
+        if (is_smooth(number))
+            of_fields += extent.bricks;
+        else
+            of_others += new_bricks;
         in_world_[number] = extent;
         primitives += extent.voxels * listed(scene_.models[size_t(object.model)]);
     }
-    if (is_expected) return *(expected_ = sum_of(sum, primitives, estimate, frame));
-    sum = min_extent(std::move(apart));
-    return sum_of(sum, sum.exact_voxels, estimate, frame);
+    return sum_of(sum, primitives, {of_fields, of_others}, kMargin, frame);
+}
+
+WorldCounts ObjectCounts::least_world() {
+    std::vector<ObjectExtent> others, all;
+    double of_fields = 0;
+    for (const size_t number : placed_numbers()) {
+        all.push_back({boxes()[number], least_in_world(number)});
+        if (is_smooth(number))
+            of_fields += all.back().extent.bricks;
+        else
+            others.push_back(all.back());
+    }
+    const WorldExtent sum = min_extent(std::move(all));
+    const double of_others = min_extent(std::move(others)).bricks;
+    return sum_of(sum, sum.exact_voxels, {of_fields, of_others}, 1, world_frame(scene_.world));
+}
+
+WorldCounts ObjectCounts::world(Estimate estimate) {
+    in_world_.resize(scene_.objects.size());
+    if (!expected_) expected_ = expected_world();
+    return estimate == Estimate::expected ? *expected_ : least_world();
 }
 
 WorldCounts indexed_counts(const GridCounts& grid) {

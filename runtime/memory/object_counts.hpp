@@ -42,7 +42,12 @@ class ObjectCounts {
 
   private:
     VoxelBox box_in(const GridFrame& frame, const Object& object);
-    SurfaceExtent expected_in_world(const Object& object, TakenBricks& taken);
+    /// Of the objects in the world's voxels, smooth ones last.
+    std::vector<size_t> placed_numbers();
+    bool is_smooth(size_t number) const;
+    WorldCounts expected_world();
+    WorldCounts least_world();
+    BrickCount expected_in_world(const Object& object, TakenBricks& taken);
     WorldExtent least_in_world(size_t number);
     SurfaceExtent voxels_in_world(const Object& object, const VoxelModel& voxels, bool at_least);
 

@@ -26,7 +26,8 @@ SurfaceExtent counted(const Solid& solid, const glm::dmat4& map, const GridFrame
                       Surface surface) {
     TakenBricks taken(frame);
     return count_bricks(SolidField(solid, map), frame, {glm::dvec3(0), glm::dvec3(frame.size)},
-                        model_rule(surface, false), taken);
+                        model_rule(surface, false), taken)
+        .extent;
 }
 
 TEST(BrickCount, IsThatOfVoxelizingWithinAFifth) {
@@ -64,8 +65,8 @@ TEST(BrickCount, CountsABrickOfTwoSurfacesOnce) {
     const SolidField ball(solid_of(SolidKind::sphere), glm::dmat4(1));
     TakenBricks taken(frame);
     const BrickRule rule = world_rule(Surface::smooth, false, false);
-    EXPECT_GT(count_bricks(ball, frame, box, rule, taken).bricks, 100);
-    EXPECT_EQ(count_bricks(ball, frame, box, rule, taken).bricks, 0);
+    EXPECT_GT(count_bricks(ball, frame, box, rule, taken).new_bricks, 100);
+    EXPECT_EQ(count_bricks(ball, frame, box, rule, taken).new_bricks, 0);
 }
 
 TEST(BrickCount, TakesAwayWhatADifferenceDoes) {
