@@ -15,22 +15,6 @@ std::string names_of(const Statistics& statistics) {
     return more == 0 ? first : fmt::format("{} and {} more", first, more);
 }
 
-const char* text_of(WorldReuse world) {
-    switch (world) {
-        case WorldReuse::kept:
-            return "kept";
-        case WorldReuse::instances_moved:
-            return "instances moved";
-        case WorldReuse::built:
-            break;
-    }
-    return "formed";
-}
-
-const char* text_of(ImageReuse image) {
-    return image == ImageReuse::kept ? "kept" : image == ImageReuse::shaded ? "shaded" : "traced";
-}
-
 /// "845", "84.5 k", "8.45 M"
 std::string count_text(uint64_t count) {
     const double n = double(count);
@@ -115,8 +99,8 @@ void print_details(const Statistics& statistics) {
             fmt::print(stderr,
                        "  frame {:<5} world {}: {} voxelized, {} bricks painted, {} instances "
                        "moved; image {}\n",
-                       frame.frame, text_of(frame.world), frame.voxelized, frame.painted_bricks,
-                       frame.instances_moved, text_of(frame.image));
+                       frame.frame, name_of(frame.world), frame.voxelized, frame.painted_bricks,
+                       frame.instances_moved, name_of(frame.image));
     for (const auto& [kernel, ms] : statistics.kernel_ms)
         fmt::print(stderr, "  {:<24}{:>10.2f} ms {:>6} launches\n", kernel, ms,
                    statistics.launches.at(kernel));

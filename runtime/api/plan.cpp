@@ -80,7 +80,8 @@ v1::Plan plan_for_callers(const Scene& scene, const FramePlan& planned, size_t f
     result.stages = {{"voxelize", plan.voxelize_bytes},
                      {"place", plan.place_bytes},
                      {"index", plan.index_bytes},
-                     {"image", plan.image_bytes}};
+                     {"image", plan.image_bytes},
+                     {"volume", plan.volume_bytes}};
     return result;
 }
 

@@ -23,18 +23,18 @@ void add(const v1::StageSeconds& seconds, v1::StageSeconds& sum) {
     sum.image += seconds.image;
 }
 
-void add(const RenderReport& report, v1::RayCounts& sum) {
-    sum.sight_rays += report.sight_rays;
-    sum.beams += report.beams;
-    sum.clear_beams += report.clear_beams;
-    sum.display_lines += report.display_lines;
-    sum.clear_display_lines += report.clear_display_lines;
-    sum.shadow_rays += report.shadow_rays;
-    sum.light_beams += report.light_beams;
-    sum.secondary_rays += report.secondary_rays;
-    sum.ended_paths += report.ended_paths;
-    sum.medium_overflows += report.medium_overflows;
-    sum.not_finite += report.not_finite;
+v1::RayCounts rays_of(const RenderReport& report) {
+    return {.sight_rays = report.sight_rays,
+            .beams = report.beams,
+            .clear_beams = report.clear_beams,
+            .display_lines = report.display_lines,
+            .clear_display_lines = report.clear_display_lines,
+            .shadow_rays = report.shadow_rays,
+            .light_beams = report.light_beams,
+            .secondary_rays = report.secondary_rays,
+            .ended_paths = report.ended_paths,
+            .medium_overflows = report.medium_overflows,
+            .not_finite = report.not_finite};
 }
 
 v1::WorldReuse reuse_of(WorldChange change) {
@@ -49,10 +49,9 @@ v1::WorldReuse reuse_of(WorldChange change) {
     return v1::WorldReuse::built;
 }
 
-/// Times and rays of all frames together; of sizes the largest.
+/// Adds a frame's times, and takes its sizes where they are the largest so far.
 void add_report(const RenderReport& report, v1::Statistics& sum) {
     add(seconds_of(report), sum.seconds);
-    add(report, sum.rays);
     sum.voxels = std::max(sum.voxels, report.voxels);
     sum.world_bytes = std::max(sum.world_bytes, report.world_bytes);
     sum.triangles = std::max(sum.triangles, report.world.triangles);
@@ -73,6 +72,22 @@ void add_counters(const DeviceCounters& counters, v1::Statistics& sum) {
 }
 
 }  // namespace
+
+const char* v1::name_of(WorldReuse world) {
+    switch (world) {
+        case WorldReuse::kept:
+            return "kept";
+        case WorldReuse::instances_moved:
+            return "instances moved";
+        case WorldReuse::built:
+            break;
+    }
+    return "formed";
+}
+
+const char* v1::name_of(ImageReuse image) {
+    return image == ImageReuse::kept ? "kept" : image == ImageReuse::shaded ? "shaded" : "traced";
+}
 
 v1::FrameStatistics api::statistics_of(const FrameReport& frame) {
     const RenderReport& report = frame.report;
@@ -98,10 +113,13 @@ v1::FrameStatistics api::statistics_of(const FrameReport& frame) {
 v1::Statistics api::statistics_of(std::span<const FrameReport> frames,
                                   std::span<const Device> devices) {
     v1::Statistics sum;
+    RenderReport counts;
     for (const FrameReport& frame : frames) {
         add_report(frame.report, sum);
+        add_counts(frame.report, counts);
         sum.frames.push_back(statistics_of(frame));
     }
+    sum.rays = rays_of(counts);
     for (const Device& device : devices) {
         const DeviceInfo& info = device.info();
         sum.devices.push_back({info.name, info.driver, info.compute_units, device.lanes()});

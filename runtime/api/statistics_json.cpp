@@ -16,28 +16,12 @@ Json seconds_of(const StageSeconds& seconds) {
             {"index", seconds.index}, {"cache", seconds.cache},       {"image", seconds.image}};
 }
 
-const char* text_of(WorldReuse world) {
-    switch (world) {
-        case WorldReuse::kept:
-            return "kept";
-        case WorldReuse::instances_moved:
-            return "instances moved";
-        case WorldReuse::built:
-            break;
-    }
-    return "formed";
-}
-
-const char* text_of(ImageReuse image) {
-    return image == ImageReuse::kept ? "kept" : image == ImageReuse::shaded ? "shaded" : "traced";
-}
-
 /// What a frame computed, and what it took over from the frame before.
 Json json_of(const FrameStatistics& frame) {
     return {{"frame", frame.frame},
             {"device", frame.device},
-            {"world", text_of(frame.world)},
-            {"image", text_of(frame.image)},
+            {"world", name_of(frame.world)},
+            {"image", name_of(frame.image)},
             {"meshes_read", frame.meshes_read},
             {"voxelized", frame.voxelized},
             {"models_from_cache", frame.models_from_cache},

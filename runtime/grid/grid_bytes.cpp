@@ -1,20 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "runtime/grid/grid_bytes.hpp"
 
-#include <cstring>
-
-#include "runtime/opencl/packed_buffers.hpp"
+#include "runtime/grid/packed_grid.hpp"
 
 namespace voxelume {
 namespace {
-
-struct GridHeader {
-    GridFrame frame;
-    uint32_t brick_count = 0;
-    uint32_t attribute = 0;
-    uint64_t transparent = 0;
-};
-static_assert(std::is_trivially_copyable_v<GridHeader>);
 
 /// Calls `visit` with each buffer of a grid, in the order of their bytes.
 template <class Grid, class Visit>
@@ -33,47 +23,34 @@ void visit_grid(Grid& grid, const Visit& visit) {
     visit("source solids", grid.solids);
 }
 
+/// Calls its argument with each buffer of a grid.
+auto grid_buffers(auto& grid) {
+    return [&grid](const auto& visit) { visit_grid(grid, visit); };
+}
+
 }  // namespace
 
 std::optional<std::string> bytes_of_grid(const BrickGrid& grid, uint64_t max_bytes) {
-    GridHeader header;
-    std::memset(static_cast<void*>(&header), 0, sizeof header);  // the padding is cleared, too
-    header.frame.origin = grid.frame.origin;
-    header.frame.voxel_edge = grid.frame.voxel_edge;
-    header.frame.size = grid.frame.size;
-    header.brick_count = grid.brick_count;
-    header.attribute = grid.attribute;
-    header.transparent = grid.transparent;
-    PackedWriter writer(max_bytes);
-    writer.put(header);
-    visit_grid(grid, [&](const char*, const auto& buffer) { writer.put(buffer); });
-    if (writer.is_too_large()) return std::nullopt;
-    return writer.take();
+    const std::array<uint32_t, 5> counts{grid.brick_count, grid.attribute, grid.transparent};
+    return packed_bytes({grid.frame, counts}, grid_buffers(grid), max_bytes);
 }
 
 std::optional<BrickGrid> grid_of_bytes(const Device& device, std::string_view bytes) {
-    PackedReader reader(bytes);
-    GridHeader header;
-    reader.take(header);
     BrickGrid grid;
-    grid.frame = header.frame;
-    grid.brick_count = header.brick_count;
-    grid.attribute = header.attribute;
-    grid.transparent = header.transparent != 0;
-    visit_grid(grid, [&](const char* name, auto& buffer) { reader.take(device, name, buffer); });
+    const auto header = unpack_bytes(device, bytes, grid_buffers(grid));
+    if (!header) return std::nullopt;
+    grid.frame = header->frame;
+    grid.brick_count = header->counts[0];
+    grid.attribute = header->counts[1];
+    grid.transparent = header->counts[2] != 0;
     const glm::ivec3 bricks = grid.frame.bricks();
     const bool fits = grid.slots.size() == size_t(bricks.x) * bricks.y * bricks.z &&
                       grid.coordinates.size() == grid.brick_count;
-    if (!reader.is_done() || !fits) return std::nullopt;
-    return grid;
+    return fits ? std::optional(std::move(grid)) : std::nullopt;
 }
 
 uint64_t device_bytes(const BrickGrid& grid) {
-    uint64_t sum = 0;
-    visit_grid(grid, [&]<class T>(const char*, const Buffer<T>& buffer) {
-        sum += buffer.size() * sizeof(T);
-    });
-    return sum;
+    return buffer_bytes(grid_buffers(grid));
 }
 
 }  // namespace voxelume

@@ -1,20 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "runtime/grid/pyramid_bytes.hpp"
 
-#include <cstring>
-
-#include "runtime/opencl/packed_buffers.hpp"
+#include "runtime/grid/packed_grid.hpp"
 
 namespace voxelume {
 namespace {
-
-struct PyramidHeader {
-    GridFrame frame;
-    uint32_t leaf_count = 0, voxel_count = 0;
-    uint32_t attribute = 0, transparent = 0;
-    uint32_t listed_fields = 0, reserved = 0;
-};
-static_assert(std::is_trivially_copyable_v<PyramidHeader>);
 
 /// Calls `visit` with the buffers of a pyramid's voxels, in the order of their bytes.
 template <class AnyPyramid, class Visit>
@@ -34,54 +24,41 @@ void visit_pyramid(AnyPyramid& pyramid, const Visit& visit) {
     visit("source solids", pyramid.solids);
 }
 
+/// Calls its argument with each buffer of a pyramid's voxels.
+auto pyramid_buffers(auto& pyramid) {
+    return [&pyramid](const auto& visit) { visit_pyramid(pyramid, visit); };
+}
+
 }  // namespace
 
 uint64_t bytes_of(const Pyramid& pyramid) {
-    uint64_t sum = 0;
-    const auto add = [&]<class T>(const char*, const Buffer<T>& buffer) {
-        sum += uint64_t(buffer.size() * sizeof(T));
-    };
-    visit_pyramid(pyramid, add);
-    add("", pyramid.instances.records);
-    add("", pyramid.instances.nodes);
-    add("", pyramid.instances.materials);
-    return sum;
+    return buffer_bytes([&](const auto& visit) {
+        visit_pyramid(pyramid, visit);
+        visit("", pyramid.instances.records);
+        visit("", pyramid.instances.nodes);
+        visit("", pyramid.instances.materials);
+    });
 }
 
 std::string bytes_of_pyramid(const Pyramid& pyramid) {
-    PyramidHeader header;
-    std::memset(static_cast<void*>(&header), 0, sizeof header);  // the padding is cleared, too
-    header.frame.origin = pyramid.frame.origin;
-    header.frame.voxel_edge = pyramid.frame.voxel_edge;
-    header.frame.size = pyramid.frame.size;
-    header.leaf_count = pyramid.leaf_count;
-    header.voxel_count = pyramid.voxel_count;
-    header.listed_fields = pyramid.listed_fields;
-    header.attribute = pyramid.attribute;
-    header.transparent = pyramid.transparent;
-    PackedWriter writer;
-    writer.put(header);
-    visit_pyramid(pyramid, [&](const char*, const auto& buffer) { writer.put(buffer); });
-    return writer.take();
+    const std::array<uint32_t, 5> counts{pyramid.leaf_count, pyramid.voxel_count, pyramid.attribute,
+                                         pyramid.transparent, pyramid.listed_fields};
+    return *packed_bytes({pyramid.frame, counts}, pyramid_buffers(pyramid));
 }
 
 std::optional<Pyramid> pyramid_of_bytes(const Device& device, std::string_view bytes) {
-    PackedReader reader(bytes);
-    PyramidHeader header;
-    reader.take(header);
     Pyramid pyramid;
-    pyramid.frame = header.frame;
-    pyramid.leaf_count = header.leaf_count;
-    pyramid.voxel_count = header.voxel_count;
-    pyramid.listed_fields = header.listed_fields;
-    pyramid.attribute = header.attribute;
-    pyramid.transparent = header.transparent != 0;
-    visit_pyramid(pyramid,
-                  [&](const char* name, auto& buffer) { reader.take(device, name, buffer); });
+    const auto header = unpack_bytes(device, bytes, pyramid_buffers(pyramid));
+    if (!header) return std::nullopt;
+    pyramid.frame = header->frame;
+    pyramid.leaf_count = header->counts[0];
+    pyramid.voxel_count = header->counts[1];
+    pyramid.attribute = header->counts[2];
+    pyramid.transparent = header->counts[3] != 0;
+    pyramid.listed_fields = header->counts[4];
     const bool fits = pyramid.leaves.size() == size_t(pyramid.leaf_count) * 2 &&
                       pyramid.leaf_voxels.size() == pyramid.leaf_count;
-    if (!reader.is_done() || !fits) return std::nullopt;
-    return pyramid;
+    return fits ? std::optional(std::move(pyramid)) : std::nullopt;
 }
 
 }  // namespace voxelume

@@ -14,9 +14,10 @@ namespace {
 constexpr double kMostMarked = 1 << 28;   ///< bricks of a lattice that are told apart
 constexpr double kMostCounted = 1 << 17;  ///< bricks of a surface: some hundredths of a second
 constexpr size_t kSampledBricks = 256;    ///< whose leaves of 4³ voxels are counted
-constexpr size_t kSampledLeaves = 512;   ///< of these, whose voxels are counted
+constexpr size_t kSampledLeaves = 512;    ///< of these, whose voxels are counted
 
-/// Cubes cover a surface by distances, which tell too much of slanted ones: 6 to 20 % more voxels.
+/// How far outside of a voxel a surface may be that still counts as in it, in edges: 0.18 along the
+/// axes, and 0 at corners, where solids are voxelized.
 constexpr double kCover = 0.1;
 
 constexpr double kLeafEdge = 5.5;  ///< voxels: boxes that aren't divided further
@@ -121,10 +122,10 @@ class BrickCounter {
         new_bricks_ += taken_.take(brick) ? 1 : 0;
     }
 
-    /// The sample of number `i` among `count`. Equal steps might take the same corner of each
-    /// brick; multiples of the golden ratio don't.
-    static size_t nth(size_t i, size_t count) {
-        if (count <= kSampledLeaves) return i;
+    /// The sample of number `i` of `samples` among `count`. Equal steps might take the same corner
+    /// of each block; multiples of the golden ratio don't.
+    static size_t nth(size_t i, size_t samples, size_t count) {
+        if (count <= samples) return i;
         const double turns = double(i) * 0.6180339887498949;
         return std::min(size_t((turns - std::floor(turns)) * double(count)), count - 1);
     }
@@ -136,12 +137,13 @@ class BrickCounter {
         std::vector<Cell> near;
         double inside = 0;
         for (size_t i = 0; i < bricks; ++i) {
-            const glm::dvec3 corner(stored_[i * stored_.size() / bricks] * kBrickSize);
+            const glm::dvec3 corner(stored_[nth(i, bricks, stored_.size())] * kBrickSize);
             inside += find_leaves({corner, corner + double(kBrickSize)}, near);
         }
         const size_t leaves = std::min(near.size(), kSampledLeaves);
         double sum = 0;
-        for (size_t i = 0; i < leaves; ++i) sum += voxels_of_leaf(near[nth(i, near.size())]);
+        for (size_t i = 0; i < leaves; ++i)
+            sum += voxels_of_leaf(near[nth(i, leaves, near.size())]);
         if (leaves > 0) sum *= double(near.size()) / double(leaves);
         return inside_voxels_ + (inside + sum) * double(stored_.size()) / double(bricks);
     }
@@ -166,7 +168,6 @@ class BrickCounter {
     /// those with a corner inside, too.
     double voxels_of_leaf(const Cell& leaf) const {
         constexpr int kNodes = kLeafSize + 1;
-        // At least what rounding leaves of faces between two layers of voxels, which both meet.
         const double zero = rule_.cover * frame_.voxel_edge.x;
         std::array<bool, size_t(kNodes) * kNodes * kNodes> inside, outside;
         for (int i = 0; i < kNodes * kNodes * kNodes; ++i) {
@@ -235,8 +236,9 @@ BrickRule model_rule(Surface surface, bool is_solid_set) {
 BrickRule world_rule(Surface surface, bool is_solid_set, bool keeps_inside, double spread) {
     // A voxel more on each side, and leaves of the object that reach into that.
     const double half = 9 * spread + 1.5;
-    BrickRule rule{8 - half, 8 + half, 3.6, keeps_inside, is_solid_set, true, kCover};
-    if (surface == Surface::smooth) rule.reach = 2.9 + 2.4, rule.cover = BrickRule().cover;
+    BrickRule rule{8 - half, 8 + half, 3.6, keeps_inside, is_solid_set, true};
+    if (surface == Surface::smooth) rule.reach = 2.9 + 2.4;
+    if (surface == Surface::exact) rule.cover = kCover;
     return rule;
 }
 

@@ -18,7 +18,9 @@ struct BrickRule {
     bool keeps_inside = false;  ///< bricks inside of the solid are stored, too
     bool fills = false;         ///< all voxels inside of the solid are stored, in bricks that are
     bool closes_ends = false;   ///< where the lattice ends, the solid has a surface
-    double cover = 1e-6;        ///< how far beyond its corners a voxel covers the surface, in edges
+    /// How far outside of a voxel a surface may be that still counts as in it, in edges: at least
+    /// what rounding leaves of faces between two layers of voxels, which both meet.
+    double cover = 1e-6;
 
     friend bool operator==(const BrickRule&, const BrickRule&) = default;
 };

@@ -46,27 +46,33 @@ void count_painting(const Device& device, size_t bricks) {
     const Buffer<uint32_t> painted(device, "painted bricks", bricks);
 }
 
-/// Follows join_exact_surfaces.
-void count_lists(const Device& device, std::span<const PlacedObject> objects, size_t primitives,
-                 BrickGrid& world) {
+/// The bricks that arrays have room for once they have grown.
+size_t with_more_room(size_t bricks) {
+    return bricks + bricks / 4;
+}
+
+/// Makes the world's triangles and solids; false if no object has any.
+bool count_sources(const Device& device, std::span<const PlacedObject> objects, BrickGrid& world) {
     SourceCounts sources;
     bool is_exact = false;
     for (const PlacedObject& object : objects) {
         is_exact |= !object.grid->primitive_first.empty();
         sources.add(*object.grid);
     }
-    if (!is_exact) return;
-    allocate_sources(device, sources, world);
+    if (is_exact) allocate_sources(device, sources, world);
+    return is_exact;
+}
+
+/// Follows join_exact_surfaces.
+void count_lists(const Device& device, std::span<const PlacedObject> objects, size_t primitives,
+                 BrickGrid& world) {
+    if (!count_sources(device, objects, world)) return;
     const Buffer<uint32_t> counts = allocate_words(device, "primitive counts", world.brick_count);
     world.primitives = Buffer<uint32_t>(device, "world primitives", primitives);
     world.primitive_first =
         allocate_list_starts(device, "world primitive starts", world.brick_count);
     const Buffer<uint32_t> starts(device, "brick starts", world.brick_count);
 }
-
-}  // namespace
-
-namespace {
 
 bool is_smooth(const PlacedObject& object) {
     return stores_distances(surface_of(*object.grid));
@@ -119,9 +125,31 @@ CountedWorld count_placing(const Device& device, std::span<const PlacedObject> o
     return world;
 }
 
-void count_repainting(const Device& device, const GridFrame& frame, size_t bricks) {
-    { const Buffer<uint8_t> states(device, "brick states", brick_places(frame)); }
-    count_painting(device, bricks);
+void count_growth(const Device& device, BrickGrid& world) {
+    const size_t bricks = with_more_room(world.brick_count);
+    if (!world.occupancy.empty())
+        world.occupancy = allocate_masks(device, "world occupancy", bricks);
+    if (!world.distance.empty())
+        world.distance = allocate_distances(device, "world distances", bricks);
+    if (!world.attributes.empty())
+        world.attributes = allocate_words(device, "world attributes", bricks);
+    if (!world.colors.empty()) world.colors = allocate_words(device, "world colors", bricks);
+}
+
+BrickGrid count_repainting(const Device& device, std::span<const PlacedObject> objects,
+                           const CountedWorld& world, const PartBricks& bricks) {
+    { const Buffer<uint8_t> states(device, "brick states", brick_places(world.grid.frame)); }
+    count_painting(device, size_t(std::max(bricks.of_fields, bricks.of_others)));
+    std::vector<PlacedObject> others(objects.begin(), objects.end());
+    CountedWorld changed;  // smooth objects' new grids are there while they take the others' places
+    if (world.fields.brick_count > 0)
+        others = count_fields(device, objects, size_t(bricks.of_fields), changed);
+    // New lists take the place of those before, but pyramids still have the sources of these.
+    BrickGrid sources;
+    if (count_sources(device, others, sources))
+        const Buffer<uint32_t> counts =
+            allocate_words(device, "primitive counts", world.grid.brick_count);
+    return sources;
 }
 
 namespace {
@@ -137,43 +165,52 @@ PyramidCounts pyramid_counts(const GridFrame& frame, const WorldCounts& counts) 
     return found;
 }
 
-}  // namespace
-
-Pyramid allocate_indexed(const Device& device, const BrickGrid& grid, const WorldCounts& counts) {
-    return allocate_pyramid(device, grid, pyramid_counts(grid.frame, counts));
-}
-
-Pyramid allocate_indexed(const Device& device, const CountedWorld& world,
-                         const WorldCounts& counts) {
-    if (world.fields.brick_count == 0) return allocate_indexed(device, world.grid, counts);
-    return allocate_pyramid(device, world.grid, world.parts,
-                            pyramid_counts(world.grid.frame, counts));
-}
-
-CountedPyramid count_index(const Device& device, const BrickGrid& grid, const WorldCounts& counts) {
-    CountedPyramid indexed;
-    indexed.masks = allocate_masks(device, "index masks", grid.brick_count);
+/// Marks and packs the voxels of a grid.
+Pyramid count_packing(const Device& device, const BrickGrid& grid, const WorldCounts& counts) {
     { const MarkArrays marks = allocate_marks(device, grid.brick_count); }
-    indexed.pyramid = allocate_indexed(device, grid, counts);
+    Pyramid pyramid = allocate_pyramid(device, grid, pyramid_counts(grid.frame, counts));
     const Buffer<uint32_t> starts(device, "index starts", 3 * size_t(grid.brick_count));
-    return indexed;
+    return pyramid;
 }
 
-CountedPyramid count_index(const Device& device, const CountedWorld& world,
-                           const WorldCounts& counts) {
-    if (world.fields.brick_count == 0) return count_index(device, world.grid, counts);
+/// Follows FieldIndexer::index, without the marks that stay.
+Pyramid count_uniting(const Device& device, const CountedWorld& world, const WorldCounts& counts) {
     const size_t bricks = world.fields.brick_count;
-    CountedPyramid indexed;
-    indexed.masks = allocate_masks(device, "index masks", bricks);
     { const MarkArrays marks = allocate_marks(device, bricks); }
     const Buffer<uint64_t> joined = allocate_masks(device, "field masks", bricks);
     const Buffer<uint64_t> united = allocate_masks(device, "united masks", counts.bricks);
     const Buffer<uint64_t> listing = allocate_masks(device, "list masks", counts.bricks);
     const Buffer<uint64_t> of_base =
         allocate_masks(device, "base masks", world.grid.brick_count > 0 ? counts.bricks : 0);
-    indexed.pyramid = allocate_indexed(device, world, counts);
+    Pyramid pyramid =
+        allocate_pyramid(device, world.grid, world.parts, pyramid_counts(world.grid.frame, counts));
     const Buffer<uint32_t> starts(device, "index starts", 4 * counts.bricks);
+    return pyramid;
+}
+
+}  // namespace
+
+CountedPyramid count_index(const Device& device, const BrickGrid& grid, const WorldCounts& counts) {
+    CountedPyramid indexed;
+    indexed.masks = allocate_masks(device, "index masks", grid.brick_count);
+    indexed.pyramid = count_packing(device, grid, counts);
     return indexed;
+}
+
+CountedPyramid count_index(const Device& device, const CountedWorld& world,
+                           const WorldCounts& counts) {
+    if (world.fields.brick_count == 0) return count_index(device, world.grid, counts);
+    CountedPyramid indexed;
+    indexed.masks = allocate_masks(device, "index masks", world.fields.brick_count);
+    indexed.pyramid = count_uniting(device, world, counts);
+    return indexed;
+}
+
+Pyramid count_reindexing(const Device& device, const CountedWorld& world, const WorldCounts& counts,
+                         Buffer<uint64_t>& masks) {
+    if (world.fields.brick_count > 0) return count_uniting(device, world, counts);
+    masks = allocate_masks(device, "index masks", with_more_room(world.grid.brick_count));
+    return count_packing(device, world.grid, counts);
 }
 
 Pyramid count_joining(const Device& device, const ListedInstances& listed, const Pyramid& world,

@@ -21,6 +21,11 @@ struct WorldCounts {
     size_t other_bricks = 0;  ///< of the grid of all other objects
 };
 
+/// Bricks of smooth objects' grids that are kept apart, and of the grid that all others share.
+struct PartBricks {
+    double of_fields = 0, of_others = 0;
+};
+
 /// The voxels of a world, and what its objects are painted with.
 struct CountedWorld {
     BrickGrid grid;  ///< of all objects but those of `fields`
@@ -33,8 +38,14 @@ struct CountedWorld {
 CountedWorld count_placing(const Device& device, std::span<const PlacedObject> objects,
                            const GridFrame& frame, const WorldCounts& counts);
 
-/// Follows Placer::place where `bricks` of a world change. All buffers are freed again.
-void count_repainting(const Device& device, const GridFrame& frame, size_t bricks);
+/// Follows WorldBricks where a world comes to have more bricks than it has room for: each array is
+/// copied to a larger one, with room for a quarter more.
+void count_growth(const Device& device, BrickGrid& world);
+
+/// Follows WorldPlacer::place where so many bricks of a world change. Returns the triangles and
+/// solids that the world then has; all other buffers are freed again.
+BrickGrid count_repainting(const Device& device, std::span<const PlacedObject> objects,
+                           const CountedWorld& world, const PartBricks& bricks);
 
 /// A pyramid, and the marks that it was made from.
 struct CountedPyramid {
@@ -48,10 +59,10 @@ CountedPyramid count_index(const Device& device, const BrickGrid& grid, const Wo
 CountedPyramid count_index(const Device& device, const CountedWorld& world,
                            const WorldCounts& counts);
 
-/// The pyramid alone.
-Pyramid allocate_indexed(const Device& device, const CountedWorld& world,
-                         const WorldCounts& counts);
-Pyramid allocate_indexed(const Device& device, const BrickGrid& grid, const WorldCounts& counts);
+/// Follows Indexer::index where it has indexed the world before: `masks` of the grid are copied to
+/// larger ones, for a quarter more bricks.
+Pyramid count_reindexing(const Device& device, const CountedWorld& world, const WorldCounts& counts,
+                         Buffer<uint64_t>& masks);
 
 /// Follows InstanceModels::join; `counts` are those of the listed grids, whose pyramids are added
 /// to `kept`.

@@ -50,6 +50,27 @@ CountedGrid count_mesh(const Device& device, const GridCounts& counts) {
     return counted;
 }
 
+CountedInstances CountedGrids::instances() {
+    CountedInstances result;
+    result.listed = list_instances(
+        scene_, meshes_,
+        [this](const Object& object, const Model& model) { return own_grid(object, model); });
+    for (const SharedGrid& grid : result.listed.grids)
+        result.models.push_back(indexed_counts(counts_of(grid)));
+    return result;
+}
+
+std::vector<PlacedObject> CountedGrids::placed() {
+    std::vector<SharedGrid> shown;  // they stay in grids_, too
+    return placed_objects(
+        scene_, meshes_, objects_.boxes(),
+        [this](const Object& object, const Model& model, const ObjectLattice& lattice) {
+            return world_grid(object, model, lattice);
+        },
+        shown);
+}
+
+/// The grid that shows an object in the world.
 SharedGrid CountedGrids::world_grid(const Object& object, const Model& model,
                                     const ObjectLattice& lattice) {
     if (has_own_voxels(model)) return own_grid(object, model);
@@ -61,6 +82,7 @@ SharedGrid CountedGrids::world_grid(const Object& object, const Model& model,
                 model);
 }
 
+/// The grid of an object's model, whole, in its own space.
 SharedGrid CountedGrids::own_grid(const Object& object, const Model& model) {
     if (has_own_voxels(model)) {
         const VoxelModel& voxels = meshes_.voxels(model);
@@ -81,16 +103,19 @@ SharedGrid CountedGrids::model_grid(const Object& object, const Model& model,
 }
 
 SharedGrid CountedGrids::make(CountedGrid counted, const Model& model) {
-    measure(device_, counted, [&] {
-        if (has_own_voxels(model)) return meshes_.voxels(model).upload(device_);
-        if (model.solid) return count_solid_grid(device_, counted.counts);
-        BrickGrid grid = count_mesh_grid(device_, counted.counts);
-        if (model.cuts.empty()) return grid;
-        bodies_.push_back(std::move(grid));  // kept together with the cut one
-        return count_cut_grid(device_, bodies_.back(), counted.counts);
-    });
+    measure(device_, counted, [&] { return grid_of(counted.counts, model); });
     grids_.push_back(std::move(counted));
     return grids_.back().grid;
+}
+
+/// Follows GridCache.
+BrickGrid CountedGrids::grid_of(const GridCounts& counts, const Model& model) {
+    if (has_own_voxels(model)) return meshes_.voxels(model).upload(device_);
+    if (model.solid) return count_solid_grid(device_, counts);
+    BrickGrid grid = count_mesh_grid(device_, counts);
+    if (model.cuts.empty()) return grid;
+    bodies_.push_back(std::move(grid));  // kept together with the cut one
+    return count_cut_grid(device_, bodies_.back(), counts);
 }
 
 SharedGrid CountedGrids::found(int model, int object, const GridFrame& frame) const {
@@ -104,9 +129,19 @@ const GridCounts& CountedGrids::counts_of(const SharedGrid& grid) const {
     return std::ranges::find(grids_, grid, &CountedGrid::grid)->counts;
 }
 
-void CountedGrids::forget() {
+std::vector<BrickGrid> CountedGrids::make_again(
+    const std::function<bool(const CountedGrid&)>& is_changed) {
+    std::vector<BrickGrid> made;
+    for (const CountedGrid& grid : grids_)
+        if (is_changed(grid))
+            made.push_back(grid_of(grid.counts, scene_.models[size_t(grid.model)]));
+    return made;
+}
+
+void CountedGrids::forget_if(const std::function<bool(const CountedGrid&)>& is_old) {
     bodies_.clear();
-    for (CountedGrid& counted : grids_) counted.grid.reset();
+    for (CountedGrid& counted : grids_)
+        if (is_old(counted)) counted.grid.reset();
 }
 
 }  // namespace voxelume

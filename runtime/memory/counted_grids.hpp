@@ -2,6 +2,7 @@
 // scene -> the grids of its objects on a counting device, each made once, as GridCache does.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <vector>
 
@@ -25,25 +26,41 @@ struct CountedGrid {
 /// A mesh's grid, freed again.
 CountedGrid count_mesh(const Device& device, const GridCounts& counts);
 
+/// The scene's instances, and what the grids of their models hold.
+struct CountedInstances {
+    ListedInstances listed;
+    std::vector<WorldCounts> models;  ///< of each of the listed grids
+};
+
 class CountedGrids {
   public:
     CountedGrids(const Device& device, const Scene& scene, AssetStore& meshes,
                  ObjectCounts& objects, Estimate estimate)
         : device_(device), scene_(scene), meshes_(meshes), objects_(objects), estimate_(estimate) {}
 
-    /// The grid that shows an object in the world, and that of its model, whole, in its own space.
-    SharedGrid world_grid(const Object& object, const Model& model, const ObjectLattice& lattice);
-    SharedGrid own_grid(const Object& object, const Model& model);
+    /// The scene's instances, with the grids of their models. Throws as list_instances does.
+    CountedInstances instances();
+
+    /// The objects that are placed in the world; their grids stay in memory until `forget`. Throws
+    /// as placed_objects does, and Error::limit for an exact mesh in a world that is too large for
+    /// it.
+    std::vector<PlacedObject> placed();
 
     const std::vector<CountedGrid>& all() const { return grids_; }
-    const GridCounts& counts_of(const SharedGrid& grid) const;
 
-    /// Frees the grids; what they take is still known.
-    void forget();
+    /// Makes those grids again for which `is_changed` is true, beside the old ones.
+    std::vector<BrickGrid> make_again(const std::function<bool(const CountedGrid&)>& is_changed);
+
+    /// Frees the grids for which `is_old` is true; what they take is still known.
+    void forget_if(const std::function<bool(const CountedGrid&)>& is_old);
 
   private:
+    SharedGrid world_grid(const Object& object, const Model& model, const ObjectLattice& lattice);
+    SharedGrid own_grid(const Object& object, const Model& model);
     SharedGrid model_grid(const Object& object, const Model& model, const GridFrame& frame);
+    const GridCounts& counts_of(const SharedGrid& grid) const;
     SharedGrid make(CountedGrid counted, const Model& model);
+    BrickGrid grid_of(const GridCounts& counts, const Model& model);
     SharedGrid found(int model, int object, const GridFrame& frame) const;
 
     const Device& device_;

@@ -19,6 +19,10 @@ namespace {
 struct Changes {
     std::vector<bool> models;   ///< of each model, whether its grids do
     std::vector<bool> objects;  ///< of each object in the world's voxels, whether it does
+
+    bool are_of(const CountedGrid& grid) const {
+        return grid.object < 0 ? models[size_t(grid.model)] : objects[size_t(grid.object)];
+    }
 };
 
 Changes changes_of(const Scene& scene) {
@@ -41,61 +45,48 @@ class FollowingWalk {
     FollowingWalk(const Scene& scene, AssetStore& meshes, ObjectCounts& objects,
                   const DensityPlan& medium)
         : scene_(scene),
-          meshes_(meshes),
           objects_(objects),
           medium_(medium),
           changes_(changes_of(scene)),
           grids_(device_, scene, meshes, objects, Estimate::expected) {}
 
     double run() {
-        const ListedInstances listed =
-            list_instances(scene_, meshes_, [this](const Object& object, const Model& model) {
-                return grids_.own_grid(object, model);
-            });
-        std::vector<WorldCounts> models;
-        for (const SharedGrid& grid : listed.grids)
-            models.push_back(indexed_counts(grids_.counts_of(grid)));
-        std::vector<SharedGrid> shown;
-        const std::vector<PlacedObject> placed = placed_objects(
-            scene_, meshes_, objects_.boxes(),
-            [this](const Object& object, const Model& model, const ObjectLattice& lattice) {
-                return grids_.world_grid(object, model, lattice);
-            },
-            shown);
+        const CountedInstances instances = grids_.instances();
+        const std::vector<PlacedObject> placed = grids_.placed();
         const WorldCounts counts = objects_.world(Estimate::expected);
         const GridFrame frame = world_frame(scene_.world);
-        const CountedWorld world = count_placing(device_, placed, frame, counts);
-        const CountedPyramid indexed = count_index(device_, world, counts);
+        CountedWorld world = count_placing(device_, placed, frame, counts);
+        CountedPyramid indexed = count_index(device_, world, counts);
         std::vector<ModelPyramid> kept;
-        Pyramid joined = count_joining(device_, listed, indexed.pyramid, models, kept);
+        Pyramid joined =
+            count_joining(device_, instances.listed, indexed.pyramid, instances.models, kept);
         joined.object_boxes = objects_.boxes();
         joined.clear = medium_.is_zero;
         const ImageMemory image = count_image(device_, scene_, joined, medium_, SIZE_MAX);
         const Buffer<uint8_t> hits(device_, "hits", hit_bytes(joined));
-        build_next(world, counts, listed);
-        // What two frames have at once depends on which of them is ahead.
-        constexpr double kAhead = 1.15;
-        return kAhead * double(device_.counters().peak_bytes);
+        build_next(placed, world, indexed, instances.listed);
+        return double(device_.counters().peak_bytes);
     }
 
   private:
-    /// Counts what the next frame's world needs in addition to all that is there.
-    void build_next(const CountedWorld& world, const WorldCounts& counts,
-                    const ListedInstances& listed) {
-        std::vector<BrickGrid> made;
-        for (const CountedGrid& grid : grids_.all())
-            if (changes_.models[size_t(grid.model)] ||
-                (grid.object >= 0 && changes_.objects[size_t(grid.object)]))
-                made.push_back(scene_.models[size_t(grid.model)].solid
-                                   ? count_solid_grid(device_, grid.counts)
-                                   : count_mesh_grid(device_, grid.counts));
-        const auto bricks = size_t(objects_.changed_bricks(changes_.objects));
-        if (bricks == 0) return;
-        count_repainting(device_, world.grid.frame, std::min(2 * bricks, counts.bricks));
-        // The marks stay, and all else of the index is made again.
-        const Pyramid before = allocate_indexed(device_, world, counts);
+    /// Counts what the next frame's world needs in addition to all that is there. It may be built
+    /// while this frame's image is made, so both are counted together.
+    void build_next(std::span<const PlacedObject> placed, CountedWorld& world,
+                    CountedPyramid& indexed, const ListedInstances& listed) {
+        const WorldCounts counts = objects_.world(Estimate::expected);
+        const auto is_changed = [this](const CountedGrid& grid) { return changes_.are_of(grid); };
+        const std::vector<BrickGrid> made = grids_.make_again(is_changed);
+        PartBricks bricks = objects_.changed_bricks(changes_.objects);
+        if (bricks.of_fields + bricks.of_others == 0) return;
+        // An object that moves changes the bricks that it leaves and those that it comes to.
+        bricks.of_others = std::min(2 * bricks.of_others, double(counts.bricks));
+        if (bricks.of_others > 0) count_growth(device_, world.grid);
+        const BrickGrid sources = count_repainting(device_, placed, world, bricks);
+        grids_.forget_if(is_changed);
+        indexed.pyramid = {};  // the image shows its copy that has the instances
+        const Pyramid next = count_reindexing(device_, world, counts, indexed.masks);
         std::vector<ModelPyramid> kept;
-        if (!listed.list.empty()) count_joining(device_, {{}, listed.list, {}}, before, {}, kept);
+        if (!listed.list.empty()) count_joining(device_, {{}, listed.list, {}}, next, {}, kept);
     }
 
     size_t hit_bytes(const Pyramid& world) const {
@@ -106,7 +97,6 @@ class FollowingWalk {
     }
 
     const Scene& scene_;
-    AssetStore& meshes_;
     ObjectCounts& objects_;
     const DensityPlan& medium_;
     Changes changes_;

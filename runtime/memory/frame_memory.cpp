@@ -17,7 +17,6 @@ class FrameWalk {
     FrameWalk(const Scene& scene, AssetStore& meshes, ObjectCounts& objects,
               const DensityPlan& medium, Estimate estimate)
         : scene_(scene),
-          meshes_(meshes),
           objects_(objects),
           medium_(medium),
           estimate_(estimate),
@@ -35,16 +34,11 @@ class FrameWalk {
   private:
     /// Follows WorldBuilder::form.
     Pyramid form() {
-        const ListedInstances listed =
-            list_instances(scene_, meshes_, [this](const Object& object, const Model& model) {
-                return grids_.own_grid(object, model);
-            });
-        std::vector<WorldCounts> models;
-        for (const SharedGrid& grid : listed.grids)
-            models.push_back(indexed_counts(grids_.counts_of(grid)));
+        const CountedInstances instances = grids_.instances();
         const CountedPyramid placed = form_placed();
         std::vector<ModelPyramid> kept;
-        Pyramid joined = count_joining(device_, listed, placed.pyramid, models, kept);
+        Pyramid joined =
+            count_joining(device_, instances.listed, placed.pyramid, instances.models, kept);
         memory_.index = height();
         memory_.largest_buffer = device_.counters().largest_buffer;
         memory_.largest_bytes = double(device_.counters().largest_bytes);
@@ -53,13 +47,7 @@ class FrameWalk {
 
     /// The world without instances.
     CountedPyramid form_placed() {
-        std::vector<SharedGrid> shown;
-        const std::vector<PlacedObject> objects = placed_objects(
-            scene_, meshes_, objects_.boxes(),
-            [this](const Object& object, const Model& model, const ObjectLattice& lattice) {
-                return grids_.world_grid(object, model, lattice);
-            },
-            shown);
+        const std::vector<PlacedObject> objects = grids_.placed();
         memory_.voxelize = height();
         memory_.world = objects_.world(estimate_);
         device_.counters().largest_bytes = 0;
@@ -69,8 +57,7 @@ class FrameWalk {
         memory_.place = height();
         memory_.grids = grids_.all();
         for (CountedGrid& grid : memory_.grids) grid.grid.reset();
-        shown.clear();
-        grids_.forget();
+        grids_.forget_if([](const CountedGrid&) { return true; });
         return count_index(device_, world, memory_.world);
     }
 
@@ -97,7 +84,6 @@ class FrameWalk {
     }
 
     const Scene& scene_;
-    AssetStore& meshes_;
     ObjectCounts& objects_;
     const DensityPlan& medium_;
     Estimate estimate_;

@@ -20,6 +20,9 @@ constexpr double kPlacedBand = 5;     ///< around cubes: placing looks at whole 
 /// The maximum by which a surface's bricks and voxels exceed what areas and distances tell.
 constexpr double kMargin = 1.12;
 
+/// That of a solid's voxels, which are counted one by one.
+constexpr double kSolidMargin = 1.04;
+
 const glm::dmat4 kOwnSpace(1);
 
 /// Voxels around a surface whose bricks voxelizing stores.
@@ -53,8 +56,8 @@ SurfaceExtent smaller(const SurfaceExtent& a, const SurfaceExtent& b) {
     return {std::min(a.voxels, b.voxels), std::min(a.bricks, b.bricks)};
 }
 
-SurfaceExtent with_margin(const SurfaceExtent& extent) {
-    return {kMargin * extent.voxels, kMargin * extent.bricks};
+SurfaceExtent with_margin(const SurfaceExtent& extent, double voxel_margin = kMargin) {
+    return {voxel_margin * extent.voxels, kMargin * extent.bricks};
 }
 
 VoxelBox whole_of(const GridFrame& frame) {
@@ -84,20 +87,15 @@ GridCounts counts_of(const Model& model, const MeshSummary* mesh, const GridFram
     return counts;
 }
 
-/// Bricks of the smooth objects' grids, and of the grid of all others.
-struct PartBricks {
-    double of_fields = 0, of_others = 0;
-};
-
 WorldCounts sum_of(const WorldExtent& extent, double primitives, const PartBricks& parts,
-                   double margin, const GridFrame& frame) {
+                   const GridFrame& frame) {
     const double table = brick_table(frame);
     WorldCounts counts;
-    counts.bricks = size_t(std::clamp(margin * extent.bricks, 1.0, table));
-    counts.voxels = size_t(std::max(margin * extent.voxels, 1.0));
-    counts.primitives = size_t(margin * primitives);
-    counts.field_bricks = size_t(std::ceil(margin * parts.of_fields));
-    counts.other_bricks = size_t(std::ceil(std::min(margin * parts.of_others, table)));
+    counts.bricks = size_t(std::clamp(extent.bricks, 1.0, table));
+    counts.voxels = size_t(std::max(extent.voxels, 1.0));
+    counts.primitives = size_t(primitives);
+    counts.field_bricks = size_t(std::ceil(parts.of_fields));
+    counts.other_bricks = size_t(std::ceil(std::min(parts.of_others, table)));
     return counts;
 }
 
@@ -114,15 +112,34 @@ GridCounts mesh_grid(const Model& model, const MeshSummary& mesh, const GridFram
                      surface_extent(area, kOwnSpace, frame, stored_band(model)));
 }
 
+/// What a solid's surface takes of a lattice in its own space.
+SurfaceExtent ObjectCounts::solid_extent(const Model& model, const GridFrame& frame) {
+    const auto [entry, added] = of_solids_.try_emplace({&model, frame.voxel_edge.x});
+    if (!added) return entry->second;
+    TakenBricks taken(frame);
+    return entry->second =
+               with_margin(count_bricks(SolidField(*model.solid, kOwnSpace), frame, whole_of(frame),
+                                        model_rule(model.surface, is_solid_set(model)), taken)
+                               .extent);
+}
+
+/// What a solid takes of its part of the world's lattice, where it has a grid of its own.
+SurfaceExtent ObjectCounts::object_extent(const Object& object, const GridFrame& frame) {
+    const auto [entry, added] = of_objects_.try_emplace(&object);
+    if (!added) return entry->second;
+    const Model& model = scene_.models[size_t(object.model)];
+    TakenBricks taken(frame);
+    return entry->second = with_margin(
+               count_bricks(SolidField(*model.solid, object.world_from_object), frame,
+                            box_in(frame, object), model_rule(model.surface, false), taken)
+                   .extent);
+}
+
 GridCounts ObjectCounts::model_grid(const Model& model, const GridFrame& frame, Estimate estimate) {
     const MeshSummary* mesh = meshes_.summary_of(model);
     const bool is_expected = estimate == Estimate::expected;
     if (model.solid) {
-        TakenBricks taken(frame);
-        const SurfaceExtent counted =
-            with_margin(count_bricks(SolidField(*model.solid, kOwnSpace), frame, whole_of(frame),
-                                     model_rule(model.surface, is_solid_set(model)), taken)
-                            .extent);
+        const SurfaceExtent counted = solid_extent(model, frame);
         if (is_expected) return counts_of(model, mesh, frame, counted);
         const SurfaceArea area =
             min_solid_area(*model.solid, kOwnSpace, {model.extent.min, model.extent.max});
@@ -143,11 +160,7 @@ GridCounts ObjectCounts::object_grid(const Object& object, const GridFrame& fram
     if (!model.solid)
         return counts_of(model, mesh, frame,
                          is_expected ? extents_.planned(object, band) : minimum);
-    TakenBricks taken(frame);
-    const SurfaceExtent counted =
-        with_margin(count_bricks(SolidField(*model.solid, object.world_from_object), frame,
-                                 box_in(frame, object), model_rule(model.surface, false), taken)
-                        .extent);
+    const SurfaceExtent counted = object_extent(object, frame);
     return counts_of(model, mesh, frame, is_expected ? counted : smaller(counted, minimum));
 }
 
@@ -215,11 +228,12 @@ WorldExtent ObjectCounts::least_in_world(size_t number) {
     return {extent.voxels, extent.bricks, model.surface == Surface::exact ? extent.voxels : 0};
 }
 
-double ObjectCounts::changed_bricks(const std::vector<bool>& objects) {
+PartBricks ObjectCounts::changed_bricks(const std::vector<bool>& objects) {
     world(Estimate::expected);
-    double sum = 0;
+    PartBricks sum;
     for (size_t number = 0; number < objects.size(); ++number)
-        if (objects[number]) sum += in_world_[number].bricks;
+        if (objects[number])
+            (is_smooth(number) ? sum.of_fields : sum.of_others) += in_world_[number].bricks;
     return sum;
 }
 
@@ -246,17 +260,19 @@ WorldCounts ObjectCounts::expected_world() {
     double primitives = 0, of_fields = 0, of_others = 0;
     for (const size_t number : placed_numbers()) {
         const Object& object = scene_.objects[number];
-        const auto [extent, new_bricks] = expected_in_world(object, taken);
+        const Model& model = scene_.models[size_t(object.model)];
+        const auto [counted, new_bricks] = expected_in_world(object, taken);
+        in_world_[number] = counted;
+        const SurfaceExtent extent = with_margin(counted, model.solid ? kSolidMargin : kMargin);
         sum.voxels += extent.voxels;
-        sum.bricks += new_bricks;
+        sum.bricks += kMargin * new_bricks;
         if (is_smooth(number))
             of_fields += extent.bricks;
         else
-            of_others += new_bricks;
-        in_world_[number] = extent;
-        primitives += extent.voxels * listed(scene_.models[size_t(object.model)]);
+            of_others += kMargin * new_bricks;
+        primitives += extent.voxels * listed(model);
     }
-    return sum_of(sum, primitives, {of_fields, of_others}, kMargin, frame);
+    return sum_of(sum, primitives, {of_fields, of_others}, frame);
 }
 
 WorldCounts ObjectCounts::least_world() {
@@ -271,7 +287,7 @@ WorldCounts ObjectCounts::least_world() {
     }
     const WorldExtent sum = min_extent(std::move(all));
     const double of_others = min_extent(std::move(others)).bricks;
-    return sum_of(sum, sum.exact_voxels, {of_fields, of_others}, 1, world_frame(scene_.world));
+    return sum_of(sum, sum.exact_voxels, {of_fields, of_others}, world_frame(scene_.world));
 }
 
 WorldCounts ObjectCounts::world(Estimate estimate) {

@@ -5,6 +5,7 @@
 
 #include <map>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "runtime/memory/brick_count.hpp"
@@ -33,9 +34,8 @@ class ObjectCounts {
     /// What the objects' voxels take of the world.
     WorldCounts world(Estimate estimate);
 
-    /// The number of the world's bricks that the objects are expected in for which `objects` is
-    /// true.
-    double changed_bricks(const std::vector<bool>& objects);
+    /// The bricks that the objects are expected in for which `objects` is true.
+    PartBricks changed_bricks(const std::vector<bool>& objects);
 
     /// As object_boxes.
     const std::vector<VoxelBox>& boxes() { return extents_.boxes(); }
@@ -47,6 +47,8 @@ class ObjectCounts {
     bool is_smooth(size_t number) const;
     WorldCounts expected_world();
     WorldCounts least_world();
+    SurfaceExtent solid_extent(const Model& model, const GridFrame& frame);
+    SurfaceExtent object_extent(const Object& object, const GridFrame& frame);
     BrickCount expected_in_world(const Object& object, TakenBricks& taken);
     WorldExtent least_in_world(size_t number);
     SurfaceExtent voxels_in_world(const Object& object, const VoxelModel& voxels, bool at_least);
@@ -54,8 +56,11 @@ class ObjectCounts {
     const Scene& scene_;
     AssetStore& meshes_;
     ObjectExtents extents_;
-    std::optional<WorldCounts> expected_;  ///< in the world
-    std::vector<SurfaceExtent> in_world_;  ///< of each object, of these
+    /// In their own spaces, by the edges of voxels.
+    std::map<std::pair<const Model*, double>, SurfaceExtent> of_solids_;
+    std::map<const Object*, SurfaceExtent> of_objects_;  ///< solids' in the world
+    std::optional<WorldCounts> expected_;                ///< in the world
+    std::vector<SurfaceExtent> in_world_;                ///< of each object, of these
 };
 
 /// The grid of a mesh whose surface has such an area.

@@ -16,6 +16,10 @@ namespace {
 // model's lattice while its grid is made, and for a triangle.
 constexpr double kWorldTable = 5, kModelTable = 12, kTriangleBytes = 36;
 
+/// Small buffers, and voxels that estimates miss where all else is counted exactly: at most 1.4 %
+/// in the scenes of scenes/ (glass_bunny).
+constexpr double kUncounted = 1.02;
+
 /// What a grid takes, expected and at least; the largest buffer is that of the minimum.
 GridPlan grid_plan(const CountedGrid& expected, const CountedGrid& minimum) {
     GridPlan grid{.model = expected.model,
@@ -90,18 +94,18 @@ ScenePlan plan_scene(const Scene& scene, AssetStore& meshes) {
         plan.grids.push_back(grid_plan(expected.grids[i], minimum.grids[i]));
     plan.voxels = double(expected.world.voxels);
     plan.bricks = double(expected.world.bricks);
-    plan.voxelize_bytes = expected.voxelize;
-    plan.place_bytes = expected.place;
-    plan.index_bytes = expected.index;
-    plan.image_bytes = expected.image;
-    plan.volume_bytes = expected.volume;
+    plan.voxelize_bytes = kUncounted * expected.voxelize;
+    plan.place_bytes = kUncounted * expected.place;
+    plan.index_bytes = kUncounted * expected.index;
+    plan.image_bytes = kUncounted * expected.image;
+    plan.volume_bytes = kUncounted * expected.volume;
     plan.world_bytes = expected.pyramid;
     plan.dilated_occupancy_bytes = expected.dilated_occupancy;
     plan.rays = expected.rays;
     plan.min_image_bytes = minimum.image;
     plan.min_bytes = std::min(std::max(minimum.built(), minimum.image), plan.peak_bytes());
     plan.min_with_next = minimum.place + minimum.index + minimum.image;
-    plan.following_bytes = walk_following(scene, meshes, objects, plan.medium);
+    plan.following_bytes = kUncounted * walk_following(scene, meshes, objects, plan.medium);
     plan.largest = described_buffer(minimum.largest_buffer, minimum.largest_bytes);
     plan.host_bytes = host_bytes(scene, plan);
     return plan;

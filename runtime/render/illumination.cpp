@@ -120,7 +120,7 @@ void Illumination::light_all(RayBatch& batch, uint32_t count, const LayerSink& s
         if (!hits_are_known) trace_.closest(world_, batch, count);
         return direct(batch, count);
     }
-    reserve_nodes(0, batch.stride);
+    reserve_depth(0, batch.stride);
     follow(0, batch, count, hits_are_known, sink);
     PathDepth& depth = *depths_[0];
     if (!features_.transmission) return;
@@ -174,12 +174,12 @@ void Illumination::follow(size_t number, RayBatch& first, uint32_t count, bool h
     }
 }
 
-/// Follows reflected and refracted rays, at most `max_rays_` entries at a time: blocks 6.1 to 9.
+/// Follows reflected and refracted rays, as many at a time as have room: blocks 6.1 to 9.
 void Illumination::scatter(size_t number, RayBatch& entries, uint32_t count) {
-    const uint32_t branches = branches_of(features_);
-    for (uint32_t begin = 0; begin < count; begin += max_rays_) {
-        const uint32_t end = std::min(count, begin + max_rays_);
-        reserve_nodes(number + 1, branches * (end - begin));
+    const uint32_t together = followed_points(max_rays_, number);
+    reserve_depth(number + 1, depth_slots(features_, max_rays_, number + 1));
+    for (uint32_t begin = 0; begin < count; begin += together) {
+        const uint32_t end = std::min(count, begin + together);
         PathDepth& depth = *depths_[number];
         PathDepth& below = *depths_[number + 1];
         const uint32_t sent =
@@ -191,15 +191,13 @@ void Illumination::scatter(size_t number, RayBatch& entries, uint32_t count) {
     }
 }
 
-/// Makes room for `count` nodes of a depth. The first depth's arrays are exchanged with the
-/// caller's, so they get room for exactly `count`.
-void Illumination::reserve_nodes(size_t number, uint32_t count) {
+/// Makes the arrays of a depth, unless it has them already.
+void Illumination::reserve_depth(size_t number, uint32_t slots) {
     if (depths_.size() <= number) depths_.push_back(std::make_unique<PathDepth>());
     PathDepth& depth = *depths_[number];
-    const bool is_first = number == 0;
-    if (is_first ? count == depth.nodes.stride : count <= depth.nodes.stride) return;
+    if (slots == depth.nodes.stride) return;
     depth = {};  // frees its old arrays
-    depth = allocate_depth(device_, features_, is_first, is_first ? count : depth_slots(count));
+    depth = allocate_depth(device_, features_, number == 0, slots);
 }
 
 uint64_t Illumination::medium_overflows() const {

@@ -79,7 +79,7 @@ class Illumination {
     void follow(size_t depth, RayBatch& first, uint32_t count, bool hits_are_known = false,
                 const LayerSink& sink = {});
     void scatter(size_t depth, RayBatch& entries, uint32_t count);
-    void reserve_nodes(size_t depth, uint32_t count);
+    void reserve_depth(size_t number, uint32_t slots);
 
     Device device_;
     Features features_;
@@ -97,7 +97,7 @@ class Illumination {
     ShadowQueue queue_;
     HollowObjects hollow_;  ///< only for observers inside media
     Buffer<uint32_t> hollow_flags_;
-    std::vector<std::unique_ptr<PathDepth>> depths_;  ///< each as large as was needed so far
+    std::vector<std::unique_ptr<PathDepth>> depths_;  ///< made when rays first come to them
     uint64_t secondary_rays_ = 0, light_beams_ = 0;
 };
 

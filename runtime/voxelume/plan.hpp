@@ -38,9 +38,9 @@ struct GridPlan {
     double kept_bytes = 0;                ///< of the device, afterwards
 };
 
-/// The memory of the device at the height of a stage.
+/// The maximum memory of the device during a stage, with what earlier stages leave there.
 struct StagePlan {
-    std::string name{};  ///< "voxelize", "place", "index" or "image"
+    std::string name{};  ///< "voxelize", "place", "index", "image" or "volume"
     double bytes = 0;    ///< at most
 };
 
@@ -50,12 +50,14 @@ struct Plan {
     std::optional<Error> refusal{};   ///< why it doesn't fit: what is too large, and what to do
     int frame = 1;                    ///< that takes the most memory
     double min_bytes = 0;             ///< of the device, at least
-    double max_bytes = 0;             ///< of the device, at most
+    double max_bytes = 0;             ///< of the device, at most, without the stage "volume"
     double device_bytes = 0;          ///< that can be used
     double largest_buffer_bytes = 0;  ///< of any stage
     double host_bytes = 0;            ///< of main memory
     std::vector<GridPlan> grids{};    ///< the world's is the last
-    std::vector<StagePlan> stages{};  ///< with what each takes
+    /// What each stage takes. The stage "volume" is that of the display's volumetric image, which
+    /// only runs if one is asked for.
+    std::vector<StagePlan> stages{};
     std::vector<Warning> warnings{};  ///< what is probably wrong, as far as it shows unrendered
 };
 

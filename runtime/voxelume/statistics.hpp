@@ -25,6 +25,11 @@ enum class ImageReuse {
     traced
 };
 
+/// The word for it in summaries and in JSON: "kept", "instances moved" or "formed"; "kept",
+/// "shaded" or "traced".
+const char* name_of(WorldReuse world);
+const char* name_of(ImageReuse image);
+
 /// Seconds that each stage took.
 struct StageSeconds {
     double load = 0;      ///< reading files of models

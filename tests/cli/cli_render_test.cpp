@@ -224,7 +224,10 @@ TEST_F(CliRenderTest, CheckAndADryRunSayThePlanAndWriteNothing) {
     const Json plan = Json::parse(run("check --json scene.json").out);
     EXPECT_EQ(plan["grids"][0]["grid"], "model thing");
     EXPECT_EQ(plan["grids"].back()["voxels"], "30x20x10");
-    EXPECT_EQ(plan["stages"].size(), 4u);
+    ASSERT_EQ(plan["stages"].size(), 5u);
+    EXPECT_EQ(plan["stages"][3]["stage"], "image");
+    EXPECT_EQ(plan["stages"][4]["stage"], "volume");
+    EXPECT_GT(plan["stages"][4]["MB"], 0);
 }
 
 TEST_F(CliRenderTest, CheckTellsProgramsWhetherTheSceneFits) {

@@ -22,17 +22,10 @@ namespace voxelume {
 namespace {
 
 // A promise below what is taken is broken; one far above it frightens off what fits.
-constexpr double kMaxRatio = 1.35;
-// Frames that follow each other take what the faster of two threads asks for first.
-constexpr double kMaxOfFrames = 1.7;
-// Rays that are reflected, or go on through surfaces, are promised arrays for every depth.
-constexpr double kMaxOfPaths = 2.5;
-
-bool sends_rays_on(const Scene& scene) {
-    return std::ranges::any_of(scene.materials, [](const Material& m) {
-        return m.reflection > 0 || m.refraction > 0 || m.opacity < 1;
-    });
-}
+constexpr double kMaxOfShipped = 1.3;
+// What frames take depends on how far they overlap: of one scene between 0.66 and 0.9 of a promise.
+constexpr double kMaxOfFrames = 1.6;
+constexpr double kMaxOfBuilt = 1.35;  // exact objects of the world's frame, turned: 1.32
 
 double promised(Scene scene, const std::vector<int>& frames, const Device& device) {
     AssetStore meshes;
@@ -42,8 +35,7 @@ double promised(Scene scene, const std::vector<int>& frames, const Device& devic
     return planned.plan.run_bytes(frames.size(), double(device.info().memory));
 }
 
-void expect_kept(const std::string& name, double promise, const Device& device,
-                 double max_ratio = kMaxRatio) {
+void expect_kept(const std::string& name, double promise, const Device& device, double max_ratio) {
     const auto fact = double(device.counters().peak_bytes);
     fmt::print("{:24} promised {:9.3f} MB, taken {:9.3f} MB, ratio {:.3f}\n", name, promise / 1e6,
                fact / 1e6, promise / fact);
@@ -56,13 +48,13 @@ void expect_kept(const std::string& name, double promise, const Device& device,
 }
 
 /// Renders a single image.
-void expect_image_kept(const std::string& name, const Scene& scene) {
+void expect_image_kept(const std::string& name, const Scene& scene,
+                       double max_ratio = kMaxOfBuilt) {
     const Device device = test_device();
     const double promise = promised(scene, {1}, device);
     RenderReport report;
     render(device, scene, report);
-    expect_kept(name, promise, device,
-                sends_rays_on(scene) || !scene.models[0].voxels.empty() ? kMaxOfPaths : kMaxRatio);
+    expect_kept(name, promise, device, max_ratio);
 }
 
 /// Renders frames as the command line does, each as soon as its world is formed.
@@ -91,7 +83,7 @@ TEST_P(ShippedScene, TakesWhatIsPromised) {
     if (moves(scene))
         expect_frames_kept(GetParam(), scene, {1, 2, 3});
     else
-        expect_image_kept(GetParam(), scene);
+        expect_image_kept(GetParam(), scene, kMaxOfShipped);
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, ShippedScene, testing::ValuesIn(shipped_scenes()),
@@ -151,7 +143,7 @@ TEST(BuiltScene, OfADisplayOfEachShapeAndLayoutTakesWhatIsPromised) {
                 {plan.voxelize_bytes, plan.place_bytes, plan.index_bytes, plan.volume_bytes});
             RenderReport report;
             render_volume(device, scene, report);
-            expect_kept(fmt::format("{} {}", name, layout), promise, device);
+            expect_kept(fmt::format("{} {}", name, layout), promise, device, kMaxOfBuilt);
         }
 }
 

@@ -2,10 +2,14 @@
 #include "runtime/stages/trace/ray_arrays.hpp"
 
 #include <algorithm>
-#include <bit>
 
 namespace voxelume {
 namespace {
+
+/// The maximum number of surface points of a later depth that send on their rays together. With two
+/// rays each and all features, a depth takes about 300 bytes a ray: 10 MB, a quarter of what a
+/// whole batch would need.
+constexpr uint32_t kFollowedPoints = 1u << 14;
 
 constexpr const char* kFewerRays =
     "render a smaller image, or with fewer samples a pixel or less depth";
@@ -81,18 +85,18 @@ void make_depth(const Features& features, bool is_first, ArrayMaker& maker, Path
     maker.make(depth.children.child_weights, "path child weights", branches_of(features));
 }
 
-uint32_t shadow_slots(const Features& features, uint32_t max_rays) {
-    return std::bit_ceil(branches_of(features) * max_rays);
-}
-
 }  // namespace
 
 uint32_t batch_tiles(const Features& features, int samples, uint32_t maximum) {
     return std::clamp(batch_rays(features) / (16 * uint32_t(samples)), 1u, maximum);
 }
 
-uint32_t depth_slots(uint32_t count) {
-    return std::max(std::bit_ceil(count), 16u);
+uint32_t followed_points(uint32_t max_rays, size_t depth) {
+    return depth == 0 ? max_rays : std::min(max_rays, kFollowedPoints);
+}
+
+uint32_t depth_slots(const Features& features, uint32_t max_rays, size_t depth) {
+    return branches_of(features) * followed_points(max_rays, depth - 1);
 }
 
 RayBatch allocate_batch(const Device& device, const Features& features, uint32_t stride) {
@@ -117,7 +121,7 @@ ShadowQueue allocate_shadow_queue(const Device& device, const Features& features
         queue.traced = Buffer<uint32_t>(device, "shadow rays", 2);
         queue.traced.fill(0);
     }
-    ArrayMaker maker(device, shadow_slots(features, max_rays));
+    ArrayMaker maker(device, branches_of(features) * max_rays);
     make_shadow_queue(features, maker, queue);
     return queue;
 }
@@ -137,9 +141,9 @@ RayArrays allocate_rays(const Device& device, const Features& features, const Ra
     if (counts.is_lit) arrays.shadows = allocate_shadow_queue(device, features, counts.rays);
     if (features.paths && features.radiance)
         arrays.depths.push_back(allocate_depth(device, features, true, counts.rays));
-    for (size_t depth = 0; depth < counts.depth; ++depth)
-        arrays.depths.push_back(allocate_depth(device, features, false,
-                                               depth_slots(branches_of(features) * counts.rays)));
+    for (size_t depth = 1; depth <= counts.depth; ++depth)
+        arrays.depths.push_back(
+            allocate_depth(device, features, false, depth_slots(features, counts.rays, depth)));
     return arrays;
 }
 
@@ -152,7 +156,8 @@ RayBytes ray_bytes(const Features& features, const RayCounts& counts) {
     };
     RayBytes bytes;
     bytes.once = bytes_of(0);
-    bytes.per_depth = bytes_of(1) - bytes.once;
+    bytes.first = bytes_of(1) - bytes.once;
+    bytes.per_depth = bytes_of(2) - bytes.once - bytes.first;
     bytes.depth = counts.depth;
     return bytes;
 }

@@ -34,6 +34,11 @@ inline uint32_t branches_of(const Features& features) {
     return features.refracts ? 2 : 1;
 }
 
+/// The maximum number of surface points of depth `depth` whose reflected and refracted rays are
+/// followed together, in batches of at most `max_rays`. Depth 0 is the observer's. Every later
+/// depth has arrays of its own for these rays, so fewer are followed there.
+uint32_t followed_points(uint32_t max_rays, size_t depth);
+
 /// An empty batch for up to `stride` rays, with the arrays that the features need.
 RayBatch allocate_batch(const Device& device, const Features& features, uint32_t stride);
 
@@ -50,18 +55,19 @@ ShadowQueue allocate_shadow_queue(const Device& device, const Features& features
 PathDepth allocate_depth(const Device& device, const Features& features, bool is_first,
                          uint32_t slots);
 
-/// The number of slots of a later depth that holds `count` nodes.
-uint32_t depth_slots(uint32_t count);
+/// The number of slots of a depth from 1 on: those for all rays that are followed together.
+uint32_t depth_slots(const Features& features, uint32_t max_rays, size_t depth);
 
 /// The bytes that rays take on a device.
 struct RayBytes {
     double once = 0;       ///< for the observer's rays and their shadow rays
-    double per_depth = 0;  ///< for the reflected and refracted rays of each depth
-    size_t depth = 0;      ///< maximum number of such depths
+    double first = 0;      ///< for those that these send on, the first depth
+    double per_depth = 0;  ///< for the reflected and refracted rays of each further depth
+    size_t depth = 0;      ///< maximum number of depths, the first included
 
     /// Includes the first depth, whose arrays are made whatever the rays meet.
-    double minimum() const { return once + (depth > 0 ? per_depth : 0); }
-    double maximum() const { return once + per_depth * double(depth); }
+    double minimum() const { return once + (depth > 0 ? first : 0); }
+    double maximum() const { return minimum() + (depth > 1 ? per_depth * double(depth - 1) : 0); }
 };
 
 /// Sight rays that go together, which are reflected or refracted up to `depth` times, in a scene
