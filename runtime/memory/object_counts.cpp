@@ -128,11 +128,13 @@ SurfaceExtent ObjectCounts::object_extent(const Object& object, const GridFrame&
     const auto [entry, added] = of_objects_.try_emplace(&object);
     if (!added) return entry->second;
     const Model& model = scene_.models[size_t(object.model)];
+    const VoxelBox box =
+        in_part(boxes()[size_t(&object - scene_.objects.data())], world_frame(scene_.world), frame);
     TakenBricks taken(frame);
-    return entry->second = with_margin(
-               count_bricks(SolidField(*model.solid, object.world_from_object), frame,
-                            box_in(frame, object), model_rule(model.surface, false), taken)
-                   .extent);
+    return entry->second =
+               with_margin(count_bricks(SolidField(*model.solid, object.world_from_object), frame,
+                                        box, model_rule(model.surface, false), taken)
+                               .extent);
 }
 
 GridCounts ObjectCounts::model_grid(const Model& model, const GridFrame& frame, Estimate estimate) {
@@ -153,22 +155,14 @@ GridCounts ObjectCounts::model_grid(const Model& model, const GridFrame& frame, 
 GridCounts ObjectCounts::object_grid(const Object& object, const GridFrame& frame,
                                      Estimate estimate) {
     const Model& model = scene_.models[size_t(object.model)];
-    const MeshSummary* mesh = meshes_.summary_of(model);
     const double band = stored_band(model);
-    const SurfaceExtent minimum = extents_.minimum(object, band);
-    const bool is_expected = estimate == Estimate::expected;
-    if (!model.solid)
-        return counts_of(model, mesh, frame,
-                         is_expected ? extents_.planned(object, band) : minimum);
-    const SurfaceExtent counted = object_extent(object, frame);
-    return counts_of(model, mesh, frame, is_expected ? counted : smaller(counted, minimum));
-}
-
-/// An object's box in the voxels of a part of the world.
-VoxelBox ObjectCounts::box_in(const GridFrame& frame, const Object& object) {
-    const VoxelBox& box = boxes()[size_t(&object - scene_.objects.data())];
-    const glm::dvec3 first = (frame.origin - scene_.world.bounds.min) / frame.voxel_edge;
-    return {box.low - first, box.high - first};
+    SurfaceExtent extent =
+        model.solid ? object_extent(object, frame) : extents_.planned(object, band);
+    if (estimate == Estimate::minimum) {
+        const SurfaceExtent minimum = extents_.minimum(object, band);
+        extent = model.solid ? smaller(extent, minimum) : minimum;
+    }
+    return counts_of(model, meshes_.summary_of(model), frame, extent);
 }
 
 /// What a file's voxels take of the world: the world's voxels in their volume, and no fewer bricks

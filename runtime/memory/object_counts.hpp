@@ -41,7 +41,6 @@ class ObjectCounts {
     const std::vector<VoxelBox>& boxes() { return extents_.boxes(); }
 
   private:
-    VoxelBox box_in(const GridFrame& frame, const Object& object);
     /// Of the objects in the world's voxels, smooth ones last.
     std::vector<size_t> placed_numbers();
     bool is_smooth(size_t number) const;
