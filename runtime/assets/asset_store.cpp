@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "runtime/assets/asset_store.hpp"
 
-#include <chrono>
-
+#include "runtime/assets/load_timer.hpp"
 #include "runtime/assets/voxel_model_file.hpp"
 #include "runtime/base/error.hpp"
 #include "runtime/geometry/file_map.hpp"
@@ -12,23 +11,6 @@
 
 namespace voxelume {
 namespace {
-
-/// Adds the time from its construction to its destruction to a sum of seconds.
-class LoadTimer {
-  public:
-    explicit LoadTimer(double& sum) : sum_(sum) {}
-    ~LoadTimer() { sum_ += seconds(); }
-    LoadTimer(const LoadTimer&) = delete;
-    LoadTimer& operator=(const LoadTimer&) = delete;
-
-    double seconds() const {
-        return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-    }
-
-  private:
-    double& sum_;
-    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
 
 template <class... Values>
 uint64_t bytes_in(const std::vector<Values>&... arrays) {

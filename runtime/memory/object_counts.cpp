@@ -291,9 +291,8 @@ WorldCounts ObjectCounts::world(Estimate estimate) {
 }
 
 WorldCounts indexed_counts(const GridCounts& grid) {
-    const double each = grid.surface != Surface::exact ? 0
-                        : grid.triangles > 0           ? kTrianglesPerVoxel
-                                                       : 1;
+    const double solid_or_mesh = grid.triangles > 0 ? kTrianglesPerVoxel : 1;
+    const double each = grid.surface == Surface::exact ? solid_or_mesh : 0;
     return {grid.bricks, grid.voxels, size_t(each * double(grid.voxels))};
 }
 
