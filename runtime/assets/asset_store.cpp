@@ -199,7 +199,7 @@ std::string AssetStore::source_of(const Model& model) {
     const auto source = [&](const std::filesystem::path& name) {
         return map.is_identity() ? file(name).source : mapped_source(file(name).source, map);
     };
-    const std::string from = source(model.mesh);
+    std::string from = source(model.mesh);
     if (!model.morph) return from;
     const Morph& morph = *model.morph;
     return morph_source(from, morph.mesh.empty() ? std::string() : source(morph.mesh), morph);

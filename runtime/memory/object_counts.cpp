@@ -239,7 +239,8 @@ std::vector<size_t> ObjectCounts::placed_numbers() {
             !is_empty(boxes()[number]))
             numbers.push_back(number);
     }
-    std::ranges::stable_partition(numbers, [this](size_t number) { return !is_smooth(number); });
+    std::stable_partition(numbers.begin(), numbers.end(),
+                          [this](size_t number) { return !is_smooth(number); });
     return numbers;
 }
 
