@@ -18,9 +18,12 @@ constexpr size_t kMaxSceneBytes = size_t{64} << 20;
 
 std::string read_text(const std::filesystem::path& file) {
     std::error_code error;
-    if (std::filesystem::is_directory(file, error)) {
-        throw Error(ErrorKind::input, "{}: this is a folder, not a scene file",
-                    SourcePlace(file.string()));
+    const std::filesystem::file_status status = std::filesystem::status(file, error);
+    // Opening a pipe would wait for its writer.
+    if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
+        throw Error(ErrorKind::input, "{}: this is a {}, not a scene file",
+                    SourcePlace(file.string()),
+                    std::filesystem::is_directory(status) ? "folder" : "pipe or device");
     }
     std::ifstream stream(file, std::ios::binary);
     if (!stream) {
