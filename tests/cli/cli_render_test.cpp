@@ -113,11 +113,18 @@ TEST_F(CliRenderTest, WhatASceneLeavesOutIsFoundAndToldByCheck) {
     const Json fitted = Json::parse(run("check --json scene.json").out)["fitted"];
     EXPECT_EQ(fitted["world"]["bounds"]["min"][0], -1.031316);
     EXPECT_EQ(fitted["lights"].size(), 1u);
-    ASSERT_EQ(run("render scene.json -o fitted.exr").exit_code, 0);
+    const ProgramResult render = run("render scene.json -o fitted.exr");
+    ASSERT_EQ(render.exit_code, 0) << render.err;
+    EXPECT_THAT(render.err,
+                StartsWith("note: scene.json: has no \"lights\", so one shines from the observer's "
+                           "upper left; \"lights\": [] is dark\n"));
+    EXPECT_EQ(run("render scene.json -q -o fitted.exr").err, "");
     Json copied = Json::parse(bytes_of(folder / "scene.json"));
     copied.update(fitted);
     put_bytes(folder / "scene.json", copied.dump());
-    ASSERT_EQ(run("render scene.json -o copied.exr").exit_code, 0);
+    const ProgramResult of_copy = run("render scene.json -o copied.exr");
+    EXPECT_EQ(of_copy.exit_code, 0) << of_copy.err;
+    EXPECT_THAT(of_copy.err, testing::Not(HasSubstr("note:")));
     EXPECT_EQ(bytes_of(folder / "fitted.exr"), bytes_of(folder / "copied.exr"));
     EXPECT_FALSE(Json::parse(run("check --json scene.json").out).contains("fitted"));
 }
