@@ -24,11 +24,14 @@ std::string host_name() {
 }
 
 /// When a process started, by the 22nd field of its `stat`; the second is a name in parentheses
-/// that may contain anything. Empty if it is gone, or if the system doesn't tell.
+/// that may contain anything, the third its state. Empty if it is gone, or if the system doesn't
+/// tell; "ended" if only its number is left until its parent asks for its end.
 std::string start_of(pid_t process) {
     std::ifstream file(fmt::format("/proc/{}/stat", process));
     const std::string text(std::istreambuf_iterator<char>(file), {});
     size_t at = text.rfind(')');
+    if (at == std::string::npos) return {};
+    if (text.compare(at, 3, ") Z") == 0 || text.compare(at, 3, ") X") == 0) return "ended";
     for (int field = 2; field < 22 && at != std::string::npos; ++field) at = text.find(' ', at + 1);
     if (at == std::string::npos) return {};
     return text.substr(at + 1, text.find(' ', at + 1) - at - 1);
@@ -61,7 +64,7 @@ bool ends_with_dead_tag(std::string_view name) {
     if (number <= 0) return false;
     if (kill(number, 0) != 0) return errno == ESRCH;
     const std::string found = start_of(number);
-    return *start != "0" && !found.empty() && found != *start;
+    return found == "ended" || (*start != "0" && !found.empty() && found != *start);
 }
 
 }  // namespace voxelume

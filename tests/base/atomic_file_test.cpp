@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <sys/file.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <csignal>
@@ -194,6 +195,19 @@ TEST_F(AtomicFileLeftovers, AreRemovedByTheNextWriterOfTheFolder) {
     EXPECT_EQ(files_in_folder(), 2u);
     write_one();
     EXPECT_EQ(files_in_folder(), 1u);
+}
+
+TEST_F(AtomicFileLeftovers, OfProcessesThatNobodyAskedForTheirEndAreRemoved) {
+    const pid_t ended = fork();
+    if (ended == 0) {
+        const AtomicFile file(folder / "a.bin");
+        std::raise(SIGKILL);
+    }
+    siginfo_t info{};
+    ASSERT_EQ(waitid(P_PID, id_t(ended), &info, WEXITED | WNOWAIT), 0);
+    write_one();
+    EXPECT_EQ(files_in_folder(), 1u);
+    waitpid(ended, nullptr, 0);
 }
 
 TEST_F(AtomicFileLeftovers, OfProcessesWhoseNumberIsUsedAgainAreRemoved) {
