@@ -31,10 +31,13 @@ std::string read_text(const std::filesystem::path& file) {
             ErrorKind::input, "{}: the scene can't be opened: {}", SourcePlace(file.string()),
             std::filesystem::exists(file, error) ? "no permission to read it" : "no such file");
     }
+    // Some of the system's files have no size, and wait for more to come.
+    const uintmax_t size = std::filesystem::file_size(file, error);
     std::string text;
     std::vector<char> block(size_t{1} << 16);
-    while (stream.read(block.data(), static_cast<std::streamsize>(block.size())),
-           stream.gcount() > 0) {
+    while (!error && text.size() < size) {
+        stream.read(block.data(), static_cast<std::streamsize>(block.size()));
+        if (stream.gcount() <= 0) break;
         text.append(block.data(), static_cast<size_t>(stream.gcount()));
         if (text.size() > kMaxSceneBytes) {
             throw Error(ErrorKind::limit,

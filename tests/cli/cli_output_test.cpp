@@ -70,6 +70,8 @@ TEST_F(CliOutputTest, AFileThatMeetsItsLimitLeavesNothing) {
     for (const std::string& command : conversions("full")) {
         expect_refused("ulimit -f 1 && ", command, "see `ulimit -f`");  // 512 bytes
         EXPECT_TRUE(std::filesystem::is_empty(folder / "full")) << command;
+        std::filesystem::remove_all(folder / "full");
+        std::filesystem::create_directory(folder / "full");
     }
 }
 
