@@ -8,6 +8,7 @@
 
 #include "runtime/analysis/culling_hull.hpp"
 #include "runtime/analysis/object_boxes.hpp"
+#include "runtime/analysis/scene_choices.hpp"
 #include "runtime/grid/world_frame.hpp"
 #include "runtime/scene/predicates.hpp"
 #include "runtime/scene/scene_animation.hpp"
@@ -180,6 +181,7 @@ void leave_out_culled(const Scene& scene, Pyramid& world) {
 }
 
 Scene with_culling(Scene scene, AssetStore& meshes) {
+    make_choices(scene, meshes);
     std::vector<bool> potentially_visible(scene.objects.size());
     const std::vector<bool> unread = potentially_visible;
     add_potentially_visible(scene, meshes, unread, potentially_visible);

@@ -30,7 +30,8 @@ void find_potentially_visible(Scene& scene, std::span<const int> frames, AssetSt
 /// has.
 void leave_out_culled(const Scene& scene, Pyramid& world);
 
-/// The scene of one frame, with Object::potentially_visible set for this picture alone.
+/// The scene of one frame, with its choices made and Object::potentially_visible set for this
+/// picture alone.
 Scene with_culling(Scene scene, AssetStore& meshes);
 
 }  // namespace voxelume

@@ -4,8 +4,10 @@
 #include <glm/common.hpp>
 #include <glm/vector_relational.hpp>
 
+#include "runtime/analysis/object_lattice.hpp"
 #include "runtime/geometry/solid_bounds.hpp"
 #include "runtime/grid/world_frame.hpp"
+#include "runtime/scene/predicates.hpp"
 
 namespace voxelume {
 namespace {
@@ -33,16 +35,20 @@ VoxelBox mapped(const glm::dvec3& min, const glm::dvec3& max, const glm::dmat4& 
 }
 
 VoxelBox box_of(const Scene& scene, const Object& object, AssetStore& meshes,
-                const GridFrame& world) {
+                ObjectLattices& lattices) {
     const Model& model = scene.models[size_t(object.model)];
+    const GridFrame world = world_frame(scene.world);
+    const bool in_world =
+        lists_primitives(model.surface) ||
+        (!is_instanced(scene, object) && lattices.lattice_of(object) == Lattice::world);
     const glm::dvec3 end = world.origin + world.voxel_edge * glm::dvec3(world.size);
-    if (model.solid && lists_primitives(model.surface)) {
+    if (model.solid && in_world) {
         const SolidBounds box =
             bounds(*model.solid, object.world_from_object, SolidBounds{world.origin, end});
         return box.is_empty() ? VoxelBox{} : in_voxels(box.min, box.max, world);
     }
     const MeshSummary* mesh = meshes.summary_of(model);
-    if (mesh && lists_primitives(model.surface))
+    if (mesh && in_world)
         return mapped(mesh->surface.min, mesh->surface.max, object.world_from_object, world);
     const bool has_voxels = !model.voxels.empty();
     const GridFrame frame = has_voxels ? meshes.voxels(model).frame : model_frame(model, mesh);
@@ -54,11 +60,12 @@ VoxelBox box_of(const Scene& scene, const Object& object, AssetStore& meshes,
 
 std::vector<VoxelBox> object_boxes(const Scene& scene, AssetStore& meshes) {
     const GridFrame world = world_frame(scene.world);
+    ObjectLattices lattices(scene, meshes);
     std::vector<VoxelBox> boxes(scene.objects.size());
     for (size_t i = 0; i < boxes.size(); ++i) {
         const Object& object = scene.objects[i];
         if (!is_potentially_visible(scene, object)) continue;
-        const VoxelBox box = box_of(scene, object, meshes, world);
+        const VoxelBox box = box_of(scene, object, meshes, lattices);
         boxes[i] = {glm::max(box.low, -kMargin),
                     glm::min(box.high, glm::dvec3(world.size) + kMargin)};
     }

@@ -22,8 +22,10 @@ Model whole(Model model) {
 }  // namespace
 
 std::vector<PlacedObject> placed_objects(const Scene& scene, AssetStore& meshes,
-                                         std::span<const VoxelBox> boxes, const GridSource& grid_of,
+                                         std::span<const VoxelBox> boxes,
+                                         const PlacedGridSource& grid_of,
                                          std::vector<SharedGrid>& grids) {
+    ObjectLattices lattices(scene, meshes);
     std::vector<PlacedObject> objects;
     for (uint32_t number = 0; number < scene.objects.size(); ++number) {
         const Object& object = scene.objects[number];
@@ -31,10 +33,11 @@ std::vector<PlacedObject> placed_objects(const Scene& scene, AssetStore& meshes,
         if (!overlap(boxes[number], boxes[number])) continue;  // nothing of it is in the world
         const Model& model = scene.models[size_t(object.model)];
         const bool has_own_voxels = !model.voxels.empty() && !lists_primitives(model.surface);
-        grids.push_back(grid_of(object, model));
+        const ObjectLattice lattice = lattices.of(object, boxes[number]);
+        grids.push_back(grid_of(object, model, lattice));
         PlacedObject placed{.grid = grids.back().get(), .object = number};
         placed.in_world_frame = lists_primitives(model.surface);
-        placed.world_from_object = placed.in_world_frame ? glm::dmat4(1) : object.world_from_object;
+        placed.world_from_object = lattice.world_from_frame;
         placed.priority = object.priority;
         placed.set = has_own_voxels ? meshes.voxels(model).set : model.set;
         placed.keeps_inside =

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "runtime/analysis/object_lattice.hpp"
 #include "runtime/assets/asset_store.hpp"
 #include "runtime/scene/scene.hpp"
 #include "runtime/stages/place/place.hpp"
@@ -16,13 +17,16 @@ namespace voxelume {
 
 using SharedGrid = std::shared_ptr<const BrickGrid>;
 
-/// Gives an object, that shows `model`, its grid.
+/// Gives an object, that shows `model`, its grid: on a lattice, or on its model's own.
+using PlacedGridSource = std::function<SharedGrid(const Object& object, const Model& model,
+                                                  const ObjectLattice& lattice)>;
 using GridSource = std::function<SharedGrid(const Object& object, const Model& model)>;
 
 /// The scene's objects that lie in the world, by their `boxes`, but for instances; `grids` keeps
-/// what they name.
+/// what they name. Throws as ObjectLattices does.
 std::vector<PlacedObject> placed_objects(const Scene& scene, AssetStore& meshes,
-                                         std::span<const VoxelBox> boxes, const GridSource& grid_of,
+                                         std::span<const VoxelBox> boxes,
+                                         const PlacedGridSource& grid_of,
                                          std::vector<SharedGrid>& grids);
 
 /// A scene's instances with the grids of their models.

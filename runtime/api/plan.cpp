@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "runtime/analysis/culling.hpp"
+#include "runtime/analysis/scene_choices.hpp"
 #include "runtime/analysis/scene_warnings.hpp"
 #include "runtime/api/convert.hpp"
 #include "runtime/api/guarded.hpp"
@@ -102,6 +103,7 @@ Plan plan(const Scene& scene, const Device& device, const PlanOptions& options) 
         const voxelume::DeviceInfo& info = api::inside(device).info();
         check_tables(planned, info);
         AssetStore meshes = api::assets_of(scene, options.cache);
+        make_choices(planned, meshes);
         const std::vector<voxelume::Warning> warnings = scene_warnings(planned, frames, meshes);
         find_potentially_visible(planned, frames, meshes);
         Plan result = plan_for_callers(planned, plan_frames(planned, frames, meshes, info),

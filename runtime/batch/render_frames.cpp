@@ -8,6 +8,7 @@
 
 #include "runtime/analysis/culling.hpp"
 #include "runtime/analysis/model_last_uses.hpp"
+#include "runtime/analysis/scene_choices.hpp"
 #include "runtime/analysis/scene_warnings.hpp"
 #include "runtime/base/error.hpp"
 #include "runtime/batch/frame_schedule.hpp"
@@ -65,6 +66,7 @@ class Batch {
 
   private:
     void check() {
+        make_choices(scene_, options_.meshes);
         if (options_.warn)
             warnings_.emplace(scene_warnings(scene_, options_.frames, options_.meshes),
                               options_.meshes.cache(), options_.warn);

@@ -14,14 +14,16 @@ bool has_own_voxels(const Model& model) {
     return !model.voxels.empty() && model.surface != Surface::exact;
 }
 
-/// An exact mesh in the world is voxelized in the world's own lattice.
-void check_lattice(const Object& object, const glm::ivec3& size) {
-    if (std::max({size.x, size.y, size.z}) > kLatticeReach)
-        throw Error(ErrorKind::limit,
-                    "{}: an exact mesh in a world of {} x {} x {} voxels, and {} along an axis "
-                    "are the most for it: give it \"placement\": \"instance\", or the world a "
-                    "larger \"voxel_size\"",
-                    object.where, size.x, size.y, size.z, kLatticeReach);
+/// A mesh that is voxelized in the world's own lattice is limited there.
+void check_lattice(const Object& object, const Model& model, const glm::ivec3& size) {
+    if (std::max({size.x, size.y, size.z}) <= kLatticeReach) return;
+    const bool is_exact = lists_primitives(model.surface);
+    throw Error(ErrorKind::limit,
+                "{}: {} mesh in {} {} x {} x {} voxels, and {} along an axis are the most for it: "
+                "give it \"placement\": \"instance\", or the world a larger \"voxel_size\"",
+                object.where, is_exact ? "an exact" : "a smooth",
+                is_exact ? "a world of" : "the world, where it takes", size.x, size.y, size.z,
+                kLatticeReach);
 }
 
 /// Makes the grid by `make`, and notes what that takes.
@@ -62,18 +64,21 @@ std::vector<PlacedObject> CountedGrids::placed() {
     std::vector<SharedGrid> shown;  // they stay in grids_, too
     return placed_objects(
         scene_, meshes_, objects_.boxes(),
-        [this](const Object& object, const Model& model) { return world_grid(object, model); },
+        [this](const Object& object, const Model& model, const ObjectLattice& lattice) {
+            return world_grid(object, model, lattice);
+        },
         shown);
 }
 
 /// The grid that shows an object in the world.
-SharedGrid CountedGrids::world_grid(const Object& object, const Model& model) {
-    if (model.surface != Surface::exact) return own_grid(object, model);
-    const int number = int(&object - scene_.objects.data());
-    if (!model.solid) check_lattice(object, scene_.world.voxels);
+SharedGrid CountedGrids::world_grid(const Object& object, const Model& model,
+                                    const ObjectLattice& lattice) {
+    if (has_own_voxels(model)) return own_grid(object, model);
+    if (lattice.lattice != Lattice::world) return model_grid(object, model, lattice.frame);
+    if (!model.solid) check_lattice(object, model, lattice.frame.size);
     return make({.model = object.model,
-                 .object = number,
-                 .counts = objects_.object_grid(object, estimate_)},
+                 .object = int(&object - scene_.objects.data()),
+                 .counts = objects_.object_grid(object, lattice.frame, estimate_)},
                 model);
 }
 
@@ -87,9 +92,14 @@ SharedGrid CountedGrids::own_grid(const Object& object, const Model& model) {
         counts.voxels = voxels.voxels();
         return make({.model = object.model, .counts = counts}, model);
     }
-    if (SharedGrid grid = found(object.model, -1, model_frame(model, meshes_.summary_of(model))))
-        return grid;
-    return make({.model = object.model, .counts = objects_.model_grid(model, estimate_)}, model);
+    return model_grid(object, model, model_frame(model, meshes_.summary_of(model)));
+}
+
+SharedGrid CountedGrids::model_grid(const Object& object, const Model& model,
+                                    const GridFrame& frame) {
+    if (SharedGrid grid = found(object.model, -1, frame)) return grid;
+    return make({.model = object.model, .counts = objects_.model_grid(model, frame, estimate_)},
+                model);
 }
 
 SharedGrid CountedGrids::make(CountedGrid counted, const Model& model) {

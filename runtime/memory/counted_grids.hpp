@@ -55,8 +55,9 @@ class CountedGrids {
     void forget_if(const std::function<bool(const CountedGrid&)>& is_old);
 
   private:
-    SharedGrid world_grid(const Object& object, const Model& model);
+    SharedGrid world_grid(const Object& object, const Model& model, const ObjectLattice& lattice);
     SharedGrid own_grid(const Object& object, const Model& model);
+    SharedGrid model_grid(const Object& object, const Model& model, const GridFrame& frame);
     const GridCounts& counts_of(const SharedGrid& grid) const;
     SharedGrid make(CountedGrid counted, const Model& model);
     BrickGrid grid_of(const GridCounts& counts, const Model& model);

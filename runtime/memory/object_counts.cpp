@@ -7,7 +7,6 @@
 #include <glm/matrix.hpp>
 
 #include "runtime/analysis/object_boxes.hpp"
-#include "runtime/assets/model_frame.hpp"
 #include "runtime/grid/world_frame.hpp"
 #include "runtime/scene/predicates.hpp"
 
@@ -106,17 +105,16 @@ double listed(const Model& model) {
 
 }  // namespace
 
-GridCounts mesh_grid(const Model& model, const MeshSummary& mesh, const SurfaceArea& area) {
-    const GridFrame frame = model_frame(model, &mesh);
+GridCounts mesh_grid(const Model& model, const MeshSummary& mesh, const GridFrame& frame,
+                     const SurfaceArea& area) {
     return counts_of(model, &mesh, frame,
                      surface_extent(area, kOwnSpace, frame, stored_band(model)));
 }
 
-/// What a solid's surface takes of its own lattice.
-SurfaceExtent ObjectCounts::solid_extent(const Model& model) {
-    const auto [entry, added] = of_solids_.try_emplace(&model);
+/// What a solid's surface takes of a lattice in its own space.
+SurfaceExtent ObjectCounts::solid_extent(const Model& model, const GridFrame& frame) {
+    const auto [entry, added] = of_solids_.try_emplace({&model, frame.voxel_edge.x});
     if (!added) return entry->second;
-    const GridFrame frame = model_frame(model, nullptr);
     TakenBricks taken(frame);
     return entry->second =
                with_margin(count_bricks(SolidField(*model.solid, kOwnSpace), frame, whole_of(frame),
@@ -124,46 +122,45 @@ SurfaceExtent ObjectCounts::solid_extent(const Model& model) {
                                .extent);
 }
 
-/// What an exact solid takes of the world's lattice, where it has a grid of its own.
-SurfaceExtent ObjectCounts::exact_extent(const Object& object, const Model& model) {
-    const auto [entry, added] = of_exact_solids_.try_emplace(&object);
+/// What a solid takes of its part of the world's lattice, where it has a grid of its own.
+SurfaceExtent ObjectCounts::object_extent(const Object& object, const GridFrame& frame) {
+    const auto [entry, added] = of_objects_.try_emplace(&object);
     if (!added) return entry->second;
-    const GridFrame frame = world_frame(scene_.world);
+    const Model& model = scene_.models[size_t(object.model)];
+    const VoxelBox box = in_part(box_of(object), world_frame(scene_.world), frame);
     TakenBricks taken(frame);
     return entry->second =
                with_margin(count_bricks(SolidField(*model.solid, object.world_from_object), frame,
-                                        boxes()[size_t(&object - scene_.objects.data())],
-                                        model_rule(Surface::exact, false), taken)
+                                        box, model_rule(model.surface, false), taken)
                                .extent);
 }
 
-GridCounts ObjectCounts::model_grid(const Model& model, Estimate estimate) {
+GridCounts ObjectCounts::model_grid(const Model& model, const GridFrame& frame, Estimate estimate) {
     const MeshSummary* mesh = meshes_.summary_of(model);
-    const GridFrame frame = model_frame(model, mesh);
     const bool is_expected = estimate == Estimate::expected;
     if (model.solid) {
-        const SurfaceExtent counted = solid_extent(model);
+        const SurfaceExtent counted = solid_extent(model, frame);
         if (is_expected) return counts_of(model, mesh, frame, counted);
         const SurfaceArea area =
             min_solid_area(*model.solid, kOwnSpace, {model.extent.min, model.extent.max});
         const SurfaceExtent by_area = surface_extent(area, kOwnSpace, frame, stored_band(model));
         return counts_of(model, mesh, frame, smaller(counted, by_area));
     }
-    if (is_expected) return mesh_grid(model, *mesh, mesh->area);
-    return mesh_grid(model, *mesh, model.cuts.empty() ? mesh->min_area : SurfaceArea{});
+    if (is_expected) return mesh_grid(model, *mesh, frame, mesh->area);
+    return mesh_grid(model, *mesh, frame, model.cuts.empty() ? mesh->min_area : SurfaceArea{});
 }
 
-GridCounts ObjectCounts::object_grid(const Object& object, Estimate estimate) {
+GridCounts ObjectCounts::object_grid(const Object& object, const GridFrame& frame,
+                                     Estimate estimate) {
     const Model& model = scene_.models[size_t(object.model)];
-    const MeshSummary* mesh = meshes_.summary_of(model);
-    const GridFrame frame = world_frame(scene_.world);
-    const bool is_expected = estimate == Estimate::expected;
-    if (!model.solid)
-        return counts_of(model, mesh, frame,
-                         is_expected ? extents_.planned(object, 0) : extents_.minimum(object, 0));
-    const SurfaceExtent counted = exact_extent(object, model);
-    return counts_of(model, mesh, frame,
-                     is_expected ? counted : smaller(counted, extents_.minimum(object, 0)));
+    const double band = stored_band(model);
+    SurfaceExtent extent =
+        model.solid ? object_extent(object, frame) : extents_.planned(object, band);
+    if (estimate == Estimate::minimum) {
+        const SurfaceExtent minimum = extents_.minimum(object, band);
+        extent = model.solid ? smaller(extent, minimum) : minimum;
+    }
+    return counts_of(model, meshes_.summary_of(model), frame, extent);
 }
 
 /// What a file's voxels take of the world: the world's voxels in their volume, and no fewer bricks
@@ -192,11 +189,13 @@ BrickCount ObjectCounts::expected_in_world(const Object& object, TakenBricks& ta
     if (!model.voxels.empty() && model.surface != Surface::exact)
         return alone(voxels_in_world(object, meshes_.voxels(model), false));
     const bool keeps_inside = shows_inside(scene_, object);
-    if (model.solid)
-        return count_bricks(
-            SolidField(*model.solid, object.world_from_object), world_frame(scene_.world),
-            boxes()[size_t(&object - scene_.objects.data())],
-            world_rule(model.surface, is_solid_set(model), keeps_inside, spread_of(object)), taken);
+    if (model.solid) {
+        const double spread =
+            lattices_.lattice_of(object) == Lattice::world ? 1 : spread_of(object);
+        const BrickRule rule = world_rule(model.surface, is_solid_set(model), keeps_inside, spread);
+        return count_bricks(SolidField(*model.solid, object.world_from_object),
+                            world_frame(scene_.world), box_of(object), rule, taken);
+    }
     SurfaceExtent extent =
         extents_.planned(object, model.surface == Surface::smooth ? kSurfaceBand : kPlacedBand);
     const double inside = keeps_inside || is_solid_set(model) ? extents_.inside_voxels(object) : 0;

@@ -5,8 +5,10 @@
 
 #include <map>
 #include <optional>
+#include <utility>
 #include <vector>
 
+#include "runtime/analysis/object_lattice.hpp"
 #include "runtime/memory/brick_count.hpp"
 #include "runtime/memory/count_grids.hpp"
 #include "runtime/memory/count_world.hpp"
@@ -24,11 +26,11 @@ enum class Estimate : uint8_t {
 class ObjectCounts {
   public:
     ObjectCounts(const Scene& scene, AssetStore& meshes)
-        : scene_(scene), meshes_(meshes), extents_(scene, meshes) {}
+        : scene_(scene), meshes_(meshes), extents_(scene, meshes), lattices_(scene, meshes) {}
 
-    /// The grid of a model in its own space; of an exact object in the world's frame.
-    GridCounts model_grid(const Model& model, Estimate estimate);
-    GridCounts object_grid(const Object& object, Estimate estimate);
+    /// The grid of a model in its own space; of an object in the world's, or a part of it.
+    GridCounts model_grid(const Model& model, const GridFrame& frame, Estimate estimate);
+    GridCounts object_grid(const Object& object, const GridFrame& frame, Estimate estimate);
 
     /// What the objects' voxels take of the world.
     WorldCounts world(Estimate estimate);
@@ -40,13 +42,16 @@ class ObjectCounts {
     const std::vector<VoxelBox>& boxes() { return extents_.boxes(); }
 
   private:
+    const VoxelBox& box_of(const Object& object) {
+        return boxes()[size_t(&object - scene_.objects.data())];
+    }
     /// Of the objects in the world's voxels, smooth ones last.
     std::vector<size_t> placed_numbers();
     bool is_smooth(size_t number) const;
     WorldCounts expected_world();
     WorldCounts least_world();
-    SurfaceExtent solid_extent(const Model& model);
-    SurfaceExtent exact_extent(const Object& object, const Model& model);
+    SurfaceExtent solid_extent(const Model& model, const GridFrame& frame);
+    SurfaceExtent object_extent(const Object& object, const GridFrame& frame);
     BrickCount expected_in_world(const Object& object, TakenBricks& taken);
     WorldExtent least_in_world(size_t number);
     SurfaceExtent voxels_in_world(const Object& object, const VoxelModel& voxels, bool at_least);
@@ -54,14 +59,17 @@ class ObjectCounts {
     const Scene& scene_;
     AssetStore& meshes_;
     ObjectExtents extents_;
-    std::map<const Model*, SurfaceExtent> of_solids_;         ///< in their own spaces
-    std::map<const Object*, SurfaceExtent> of_exact_solids_;  ///< in the world
-    std::optional<WorldCounts> expected_;                     ///< in the world
-    std::vector<SurfaceExtent> in_world_;                     ///< of each object, of these
+    ObjectLattices lattices_;
+    /// In their own spaces, by the edges of voxels.
+    std::map<std::pair<const Model*, double>, SurfaceExtent> of_solids_;
+    std::map<const Object*, SurfaceExtent> of_objects_;  ///< solids' in the world
+    std::optional<WorldCounts> expected_;                ///< in the world
+    std::vector<SurfaceExtent> in_world_;                ///< of each object, of these
 };
 
 /// The grid of a mesh whose surface has such an area.
-GridCounts mesh_grid(const Model& model, const MeshSummary& mesh, const SurfaceArea& area);
+GridCounts mesh_grid(const Model& model, const MeshSummary& mesh, const GridFrame& frame,
+                     const SurfaceArea& area);
 
 /// The voxels that rays must see of a grid, and the primitives that these list.
 WorldCounts indexed_counts(const GridCounts& grid);

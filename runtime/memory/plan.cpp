@@ -73,9 +73,10 @@ double ScenePlan::peak_bytes() const {
 
 GridPlan plan_model(const Model& model, const Mesh& mesh) {
     const MeshSummary summary = summary_of(mesh);
+    const GridFrame frame = model_frame(model, &summary);
     const Device device = Device::counting({});
     const auto counted = [&](const SurfaceArea& area) {
-        return count_mesh(device, mesh_grid(model, summary, area));
+        return count_mesh(device, mesh_grid(model, summary, frame, area));
     };
     return grid_plan(counted(summary.area), counted(summary.min_area));
 }

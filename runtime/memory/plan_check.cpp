@@ -169,7 +169,9 @@ void check_memory(const Scene& scene, const ScenePlan& plan, const DeviceInfo& d
         if (grid.object < 0)
             check_model(scene.models[size_t(grid.model)], grid, device);
         else
-            check_piece(scene.objects[size_t(grid.object)].where, "an object in a world",
+            check_piece(scene.objects[size_t(grid.object)].where,
+                        grid.frame.size == plan.world.size ? "an object in a world"
+                                                           : "an object's part of the world",
                         grid.frame, grid.largest, device);
     }
     check_medium(scene, plan, device);

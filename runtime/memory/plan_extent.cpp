@@ -47,4 +47,9 @@ WorldExtent min_extent(std::vector<ObjectExtent> objects) {
     return sum;
 }
 
+VoxelBox in_part(const VoxelBox& box, const GridFrame& whole, const GridFrame& part) {
+    const glm::dvec3 first = (part.origin - whole.origin) / part.voxel_edge;
+    return {box.low - first, box.high - first};
+}
+
 }  // namespace voxelume

@@ -25,4 +25,7 @@ struct ObjectExtent {
 /// out.
 WorldExtent min_extent(std::vector<ObjectExtent> objects);
 
+/// A box of a lattice's voxels, in the voxels of a part of the lattice.
+VoxelBox in_part(const VoxelBox& box, const GridFrame& whole, const GridFrame& part);
+
 }  // namespace voxelume

@@ -37,7 +37,7 @@ struct MinGrid {
     double voxels = 0, made_bytes = 0, kept_bytes = 0;
 };
 
-/// One grid that is voxelized: a model's, or an exact object's in the world's lattice.
+/// One grid that is voxelized: a model's, or an object's in the world's lattice.
 struct GridPlan {
     int model = 0;
     int object = -1;  ///< whose grid it is alone; -1 for a model's, which objects share

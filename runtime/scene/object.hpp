@@ -53,6 +53,8 @@ struct Model {
     std::optional<Solid> solid;  ///< has a value exactly when both files are empty
     glm::dvec3 voxel_size{0};    ///< metres in object space, > 0; 0 when `resolution` decides
     int resolution = 0;  ///< voxels along the longest side, 1..65536; 0 when `voxel_size` decides
+    bool is_sized = false;  ///< the scene says one of these two, and may want coarser voxels than
+                            ///< the world's
     Surface surface = Surface::smooth;
     VoxelSet set = VoxelSet::supercover;  ///< for `cubes`
     Shading shading;                      ///< of an exact mesh

@@ -78,9 +78,13 @@ bool shows_inside(const Scene& scene, const Object& object) {
     return shows_voxels(model.surface) && model.set == VoxelSet::solid && transmits(scene, object);
 }
 
+bool can_be_instance(const Scene& scene, const Object& object) {
+    return refusal(scene, object).empty();
+}
+
 bool is_instanced(const Scene& scene, const Object& object) {
     if (object.placement == Placement::automatic)
-        return object.moves && refusal(scene, object).empty();
+        return object.moves && can_be_instance(scene, object);
     return object.placement == Placement::instance;
 }
 

@@ -52,6 +52,7 @@ void read_file_size(const SceneFields& fields, Model& model) {
 /// The pitch, surface and set of a model, whose source is already read.
 void read_lattice(const SceneFields& fields, glm::dvec3 world_voxel_size, Model& model) {
     fields.refuse_both("voxel_size", "resolution");
+    model.is_sized = fields.has("resolution") || fields.has("voxel_size");
     if (const auto resolution = fields.find("resolution")) {
         if (model.solid && is_infinite(*model.solid)) {
             resolution->fail(

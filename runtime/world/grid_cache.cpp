@@ -6,7 +6,6 @@
 
 #include "runtime/base/error.hpp"
 #include "runtime/grid/grid_bytes.hpp"
-#include "runtime/grid/world_frame.hpp"
 #include "runtime/stages/voxelize/cut.hpp"
 #include "runtime/stages/voxelize/voxelize_solid.hpp"
 
@@ -27,6 +26,7 @@ Model source_of(Model model) {
     model.extent = {};
     model.voxel_size = glm::dvec3(0);
     model.resolution = 0;
+    model.is_sized = false;
     return model;
 }
 
@@ -46,10 +46,11 @@ std::vector<VoxelSet> body_sets(const Model& model) {
 
 }  // namespace
 
-SharedGrid GridCache::grid_of(const Scene& scene, const Object& object) {
-    const Model& model = scene.models[size_t(object.model)];
-    if (!lists_primitives(model.surface)) return own_grid_of(model);
-    const Source source{source_of(model), object.world_from_object, world_frame(scene.world)};
+SharedGrid GridCache::grid_of(const Object& object, const Model& model,
+                              const ObjectLattice& lattice) {
+    Source source{source_of(model), lattice.frame_from_object, {}};
+    if (!has_own_voxels(model)) source.frame = lattice.frame;
+    if (lattice.lattice != Lattice::world) return find_or_make(model, source, model.where);
     return find_or_make(model, source, object.where, !object.moves);
 }
 
@@ -129,13 +130,12 @@ void GridCache::use(const Source& source) {
 /// Makes the grid of a model with cuts. The mesh's own grids are kept like any others, so while
 /// cuts move only the cuts are voxelized again.
 BrickGrid GridCache::make_cut(const Model& model, const Source& source, bool keeps) {
-    const Solid rest = rest_of(source.frame, model.cuts);
+    const Solid rest = rest_of(source.frame, source.frame_from_model, model.cuts);
     const auto body = [&](VoxelSet set) {
         return find_or_make(whole_of(model, set), body_source(model, source, set), "", keeps);
     };
     const auto left = [&](VoxelSet set) {
-        return voxelize_solid(device_, rest, source.frame_from_model, source.frame,
-                              {model.surface, set});
+        return voxelize_solid(device_, rest, glm::dmat4(1), source.frame, {model.surface, set});
     };
     ++voxelized_;
     const SharedGrid whole = body(model.set);

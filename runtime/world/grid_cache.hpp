@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// models and exact objects -> brick grids: voxelized once, and kept while frames show them.
+// models and objects -> brick grids: voxelized once, and kept while frames show them.
 #pragma once
 
 #include <memory>
@@ -12,17 +12,18 @@
 
 namespace voxelume {
 
-/// The grids of a scene's objects. A model is voxelized in its own space for all its objects, an
-/// exact one in the world's frame for each object. What the store's cache has of a mesh that an
+/// The grids of a scene's objects. A model is voxelized in its own space for all its objects, or
+/// in the world for each object. What the store's cache has of a mesh that an
 /// earlier run voxelized is taken from there.
 class GridCache {
   public:
     GridCache(const Device& device, AssetStore& meshes)
         : device_(device), meshes_(meshes), voxelizer_(device) {}
 
-    /// The grid that shows `object` of `scene`. Throws Error::input and Error::limit as voxelizing
-    /// does, with messages that begin with the place in the scene.
-    SharedGrid grid_of(const Scene& scene, const Object& object);
+    /// The grid that shows `object`, of which `model` is the model, on a lattice. Throws
+    /// Error::input and Error::limit as voxelizing does, with messages that begin with the place in
+    /// the scene.
+    SharedGrid grid_of(const Object& object, const Model& model, const ObjectLattice& lattice);
 
     /// The grid of a model in its own space, as an instance uses it; of exact models, too.
     SharedGrid own_grid_of(const Model& model);
@@ -55,8 +56,8 @@ class GridCache {
     };
 
     /// `where` begins messages; it is empty if a caller adds the place. `keeps` lets the cache
-    /// store the grid. It is false for an exact object that moves: each frame has another grid, of
-    /// many times its mesh's bytes.
+    /// store the grid. It is false for an object in the world that moves: each frame has another
+    /// grid, of many times its mesh's bytes.
     SharedGrid find_or_make(const Model& model, const Source& source, const SourcePlace& where,
                             bool keeps = true);
     bool is_retained(const Scene& scene, const std::vector<bool>& retained,

@@ -241,8 +241,9 @@ Pyramid WorldBuilder::new_world(const Task& task, Indexer& indexer) {
     std::vector<PlacedObject> objects;
     {
         const VoxelizingReport voxelizing(*grids_, meshes_, report);
-        const GridSource grid_of = [&](const Object& object, const Model&) {
-            return grids_->grid_of(task.scene, object);
+        const PlacedGridSource grid_of = [&](const Object& object, const Model& model,
+                                             const ObjectLattice& lattice) {
+            return grids_->grid_of(object, model, lattice);
         };
         objects =
             placed_objects(task.scene, meshes_, object_boxes(task.scene, meshes_), grid_of, shown);

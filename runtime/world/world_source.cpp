@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "runtime/assets/model_frame.hpp"
+#include "runtime/analysis/object_lattice.hpp"
 #include "runtime/base/cache_key.hpp"
 #include "runtime/grid/world_frame.hpp"
 #include "runtime/scene/predicates.hpp"
@@ -27,8 +27,6 @@ void add_solid(CacheKey& words, const Solid& solid) {
 void add_model(CacheKey& words, const Model& model, AssetStore& meshes) {
     words.add_text(meshes.source_of(model)).add(int(model.surface)).add(int(model.set));
     words.add(int(model.shading.kind)).add(model.shading.crease_angle);
-    if (!lists_primitives(model.surface))
-        add_frame(words, model_frame(model, meshes.summary_of(model)));
     words.add(model.cuts.size());
     for (const Solid& cut : model.cuts) add_solid(words, cut);
     if (model.solid) add_solid(words, *model.solid);
@@ -57,7 +55,9 @@ bool world_moves(const Scene& scene) {
 std::string world_source(const Scene& scene, AssetStore& meshes) {
     if (!meshes.cache().keeps_worlds() || world_moves(scene)) return {};
     CacheKey words;
-    add_frame(words, world_frame(scene.world));
+    const GridFrame world = world_frame(scene.world);
+    add_frame(words, world);
+    ObjectLattices lattices(scene, meshes);
     for (uint32_t number = 0; number < scene.objects.size(); ++number) {
         const Object& object = scene.objects[number];
         if (is_instanced(scene, object) || !is_potentially_visible(scene, object)) continue;
@@ -65,6 +65,10 @@ std::string world_source(const Scene& scene, AssetStore& meshes) {
         if (!model.voxels.empty()) return {};
         words.add(number).add(object.priority).add(shows_inside(scene, object));
         words.add_columns(object.world_from_object);
+        // What is made on the world's own lattice depends on its map alone.
+        const Lattice lattice = lattices.lattice_of(object);
+        words.add(int(lattice));
+        if (lattice != Lattice::world) add_frame(words, lattices.own_frame(object));
         for (const int material : materials_of_groups(object, meshes.groups_of(model)))
             words.add(material);
         add_model(words, model, meshes);

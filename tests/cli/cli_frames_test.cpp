@@ -142,7 +142,8 @@ TEST_F(CliFramesTest, WhatNoFrameReachesNeedNotFit) {
     write_scene([](Json& scene) {
         scene["world"]["voxel_size"] = 0.02;
         scene["models"]["fine"] =
-            Json::parse(R"({"shape": "sphere", "radius": 0.2, "voxel_size": 0.0005})");
+            Json::parse(R"({"shape": "sphere", "radius": 0.2, "voxel_size": 0.0005,
+                            "surface": "cubes"})");
         scene["objects"].push_back({{"model", "fine"}, {"position", {0.3, 0.3, 0.5}}});
         scene["observer"]["display"]["angles"] = {4, 3};
         scene["render"]["shadows"] = false;

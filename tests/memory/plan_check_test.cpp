@@ -27,8 +27,10 @@ TEST_F(PlanCheck, ABufferBeyondOnePieceIsNamedWithItsOwnerAndTheWayOut) {
     DeviceInfo device;
     device.name = "Small One";
     device.memory = 8'000'000'000;
-    const auto refusal = [&](const std::string& model, double maximum) {
-        const Scene scene = scene_of(model, 1.0 / 400);
+    const auto refusal = [&](const std::string& model, double maximum,
+                             Placement placement = Placement::automatic) {
+        Scene scene = scene_of(model, 1.0 / 400);
+        scene.objects[0].placement = placement;
         const ScenePlan plan = plan_of(scene);
         device.max_allocation = uint64_t(maximum * 1e6);
         const Error error = error_of([&] { check_memory(scene, plan, device); });
@@ -39,6 +41,11 @@ TEST_F(PlanCheck, ABufferBeyondOnePieceIsNamedWithItsOwnerAndTheWayOut) {
     // The surface has 369,000 voxels, in three pairs of disks 280 wide and 2.8 around them: 1,780
     // bricks of 8,192 bytes.
     EXPECT_THAT(refusal(ball + "smooth\"}", 12),
+                HasSubstr(": objects[0]: an object's part of the world of 304x320x320 voxels needs "
+                          "a buffer of 14.6 MB for its distances, and \"Small One\" allows 12.0 MB "
+                          "in one piece: use voxels larger than 0.0029 m"));
+    // As an instance it has a lattice of its own.
+    EXPECT_THAT(refusal(ball + "smooth\"}", 12, Placement::instance),
                 HasSubstr(": models.thing: a model of 288x288x288 voxels needs a buffer of "
                           "14.6 MB for its distances, and \"Small One\" allows 12.0 MB in "
                           "one piece: use voxels larger than 0.0029 m"));

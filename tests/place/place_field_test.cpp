@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // The smooth half of `place`: distance fields in the world, and which object each voxel belongs to.
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include <algorithm>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
+#include "runtime/base/error.hpp"
 #include "runtime/scene/scene_affine.hpp"
 #include "runtime/stages/index/index.hpp"
 #include "runtime/stages/place/place.hpp"
@@ -86,9 +87,9 @@ TEST(PlaceField, AnUnevenlyStretchedSphereKeepsItsSurfaceAndNeverOverestimates) 
     });
 }
 
-TEST(PlaceField, WorldVoxelsMuchLargerThanTheObjectsKeepTheRightSides) {
+TEST(PlaceField, WorldVoxelsLargerThanTheObjectsKeepTheRightSides) {
     const BrickGrid sphere = sphere_bricks(2.0, 0.1).upload(shared_device());
-    for (const double edge : {0.2, 0.33, 0.61}) {
+    for (const double edge : {0.11, 0.126, 0.1415}) {
         const BrickGrid world =
             place_one(sphere, affine_from_factors({0, 0, 0}, {10, 20, 30}, {1, 1, 1}),
                       frame_at(glm::dvec3(-3), glm::dvec3(edge), glm::ivec3(int(6 / edge))));
@@ -97,6 +98,84 @@ TEST(PlaceField, WorldVoxelsMuchLargerThanTheObjectsKeepTheRightSides) {
         EXPECT_EQ(accuracy.wrong_sides, 0) << edge;
         EXPECT_GT(build_index(shared_device(), world).voxel_count, 200u) << edge;
     }
+}
+
+TEST(PlaceField, WorldVoxelsMuchSmallerThanTheObjectsFindTheSurfaceInEachOfItsCells) {
+    const BrickGrid sphere = sphere_bricks(2.0, 0.1).upload(shared_device());
+    for (const double scale : {5.0, 17.0, 40.0}) {
+        const glm::dmat4 map = affine_from_factors({0, 0, 0}, {34, -21, 77}, glm::dvec3(scale));
+        const glm::dvec3 middle = 2 * scale * glm::normalize(glm::dvec3(0.6, -0.3, 0.7));
+        const GridFrame frame = frame_at(middle - 5.0, glm::dvec3(0.1), glm::ivec3(100));
+        const BrickGrid world = place_one(sphere, map, frame);
+        size_t near = 0, wrong = 0;
+        for_each_node(world, [&](const glm::ivec3& n, double placed) {
+            const glm::dvec3 p = frame.origin + 0.1 * glm::dvec3(n);
+            const double truth = (glm::length(p) - 2 * scale) / 0.1;
+            // The world's end closes what lies near it.
+            const bool is_inner = glm::all(glm::greaterThan(n, glm::ivec3(4))) &&
+                                  glm::all(glm::lessThan(n, glm::ivec3(96)));
+            if (!is_inner || std::abs(truth) > 2) return;
+            ++near;
+            wrong += std::abs(placed - truth) > 0.25;
+        });
+        EXPECT_GT(near, 20'000u) << scale;
+        EXPECT_EQ(wrong, 0u) << scale;
+    }
+}
+
+/// What `place` says about a sphere of voxels of 0.1 in a world of voxels of `edge`.
+std::string refusal_of(const BrickGrid& sphere, const glm::dvec3& edge, const glm::dvec3& scale) {
+    try {
+        place_one(sphere, affine_from_factors({0, 0, 0}, {10, 20, 30}, scale),
+                  frame_at(glm::dvec3(-3), edge, glm::ivec3(glm::dvec3(6) / edge)));
+    } catch (const Error& error) {
+        EXPECT_EQ(error.kind(), ErrorKind::scene);
+        return error.what();
+    }
+    return "";
+}
+
+TEST(PlaceField, AFieldWhoseBandEndsInsideAWorldVoxelIsRefused) {
+    const BrickGrid sphere = sphere_bricks(2.0, 0.1).upload(shared_device());
+    const glm::dvec3 one(1);
+    EXPECT_EQ(refusal_of(sphere, glm::dvec3(0.1), one), "");
+    EXPECT_EQ(refusal_of(sphere, glm::dvec3(0.1), glm::dvec3(-0.71)), "");
+    EXPECT_EQ(refusal_of(sphere, glm::dvec3(0.05), {0.5, 1, 2}), "");
+    for (const double edge : {0.15, 0.2, 0.33, 0.61})
+        EXPECT_THAT(refusal_of(sphere, glm::dvec3(edge), one),
+                    testing::HasSubstr("object 0: the world's voxels are"))
+            << edge;
+    EXPECT_THAT(refusal_of(sphere, glm::dvec3(0.1), glm::dvec3(0.5)),
+                testing::HasSubstr("are 2 times as large"));
+    EXPECT_THAT(refusal_of(sphere, glm::dvec3(0.1), {1, -0.5, 1}),
+                testing::HasSubstr("are 2 times as large"));
+    EXPECT_THAT(refusal_of(sphere, {0.1, 0.1, 0.2}, one),
+                testing::HasSubstr("are 2 times as large"));
+}
+
+TEST(PlaceField, APartOfTheWorldsLatticeIsCopied) {
+    const GridFrame world = frame_at({-3, -2, -4}, {0.1, 0.15, 0.2}, {60, 50, 45});
+    GridFrame part = world;
+    part.origin = world.origin - glm::dvec3(16, 0, -16) * world.voxel_edge;
+    part.size = {64, 48, 32};
+    const BrickGrid grid = distance_bricks(part, [&](const glm::ivec3& n) {
+                               const glm::dvec3 p = part.origin + part.voxel_edge * glm::dvec3(n);
+                               return banded((glm::length(p - glm::dvec3(-2.5, 0.3, 1)) - 1) / 0.1);
+                           }).upload(shared_device());
+    const ReadBricks source(grid);
+    int copied = 0;
+    for_each_node(place_one(grid, glm::dmat4(1), world), [&](const glm::ivec3& n, double value) {
+        const glm::ivec3 m = n + glm::ivec3(16, 0, -16);
+        const bool in_grid = glm::all(glm::greaterThanEqual(m, glm::ivec3(0))) &&
+                             glm::all(glm::lessThanEqual(m, part.size));
+        const int expected = in_grid ? source.distance_at(m) : 32767;
+        copied += std::abs(expected) < 32767;
+        // The world's end closes what lies near it.
+        if (n.x >= 4) {
+            ASSERT_EQ(value * 8192, expected);
+        }
+    });
+    EXPECT_GT(copied, 1500);
 }
 
 TEST(PlaceField, TakesTheGroupOfTheCellThatTheSurfaceCrosses) {

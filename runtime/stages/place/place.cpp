@@ -2,6 +2,7 @@
 #include "runtime/stages/place/place.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <numeric>
 #include <optional>
@@ -12,10 +13,24 @@
 #include "runtime/stages/brick_arrays.hpp"
 #include "runtime/stages/place/place_exact.hpp"
 #include "runtime/stages/place/place_painter.hpp"
+#include "runtime/stages/place/placement_map.hpp"
 #include "runtime/stages/place/world_bricks.hpp"
 
 namespace voxelume {
 namespace {
+
+/// Refuses a field whose band ends inside of the world's voxels.
+void check_band(const PlacedObject& object, const GridFrame& world) {
+    if (object.in_world_frame || !stores_distances(surface_of(*object.grid))) return;
+    const double ratio =
+        voxels_per_world_voxel(object.grid->frame, world, object.world_from_object);
+    if (!std::isfinite(ratio) || ratio <= kFinestField) return;  // others find a singular map
+    throw Error(ErrorKind::scene,
+                "object {}: the world's voxels are {:.3g} times as large as those of its distance "
+                "field, and at most {} times are possible: voxelize it more coarsely, or place it "
+                "as an instance",
+                object.object, ratio, kFinestField);
+}
 
 void check_object(const PlacedObject& object, const GridFrame& world) {
     if (object.in_world_frame && object.grid->frame != world)
@@ -28,6 +43,7 @@ void check_object(const PlacedObject& object, const GridFrame& world) {
                     "object {}: an exact surface can't be resampled: voxelize it in the world's "
                     "frame",
                     object.object);
+    check_band(object, world);
     if (object.object > VXL_OBJECT_MASK)
         throw Error(ErrorKind::limit, "object {}: a world holds at most {} objects", object.object,
                     VXL_OBJECT_MASK + 1);

@@ -14,6 +14,9 @@
 
 namespace voxelume {
 
+/// How many voxels of a distance field an edge of the world's voxels may span.
+inline constexpr double kFinestField = 1.42;
+
 /// An object's voxels and its placement in the world.
 struct PlacedObject {
     const BrickGrid* grid = nullptr;    ///< in the object's own frame; not owned
@@ -49,10 +52,12 @@ struct PlacedObject {
 /// stretch, so an unevenly stretched field has the right surface and never overestimates. The
 /// distance is right within 2.8 world voxels of the surface as far as the object's own band
 /// extends. In cells at the band's end it is extrapolated linearly; farther out it is saturated
-/// with the right sign. World voxels that are q times as large as the object's, q <= 1.4, need a
-/// band of 2.8 q object voxels for full accuracy: with 2.8, cells keep their corners but some lose
-/// second differences. From q = 2 on the surface is only right to about a voxel: such objects
-/// should be voxelized more coarsely. Several objects are united: the smallest distance counts.
+/// with the right sign. World voxels that are q times as large as the object's need a band of 2.8 q
+/// object voxels for full accuracy: with 2.8 and q <= kFinestField, cells keep their corners but
+/// some lose second differences. Beyond that the band ends inside of world voxels and the surface
+/// would be wrong by up to a voxel, so such a field is refused. In the world's own lattice, or in a
+/// part of it with the identity as map, the distances are copied. Several objects are united: the
+/// smallest distance counts.
 ///
 /// Exact objects must be in the world's frame. Their lists are joined per voxel, in the order of
 /// `objects`.
@@ -70,8 +75,8 @@ struct PlacedObject {
 /// object may have surface. A brick is kBrickInside only if the voxels around it are full, too, and
 /// belong to an object that doesn't keep its inside.
 ///
-/// Throws Error::scene for a placement that can't be inverted, Error::limit if memory doesn't
-/// suffice.
+/// Throws Error::scene for a placement that can't be inverted and for a field that is too fine,
+/// Error::limit if memory doesn't suffice.
 BrickGrid place(const Device& device, std::span<const PlacedObject> objects,
                 const GridFrame& world);
 

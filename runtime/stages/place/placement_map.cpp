@@ -21,28 +21,6 @@ double shortest(const glm::dvec3& edges) {
     return std::min({edges.x, edges.y, edges.z});
 }
 
-void check_invertible(const glm::dmat4& map, uint32_t object) {
-    for (int column = 0; column < 4; ++column)
-        for (int row = 0; row < 3; ++row)
-            if (!std::isfinite(map[column][row]))
-                throw Error(ErrorKind::scene,
-                            "object {}: its placement is not finite: check its position, turn, "
-                            "scale or matrix",
-                            object);
-    const Stretch stretch = stretch_of(glm::dmat3(map));
-    if (stretch.min == 0)
-        throw Error(ErrorKind::scene,
-                    "object {}: its placement flattens it to nothing: give every axis a scale "
-                    "other than 0",
-                    object);
-    if (stretch.max > kWorstCondition * stretch.min)
-        throw Error(ErrorKind::scene,
-                    "object {}: its placement stretches one direction {:.3g} times as much as "
-                    "another, at most {:.0e} can be inverted exactly: make the model closer to its "
-                    "final shape",
-                    object, stretch.max / stretch.min, kWorstCondition);
-}
-
 /// The largest number of fraction bits with which sums over all the world's voxels can't overflow.
 int fraction_bits(const glm::dmat3& linear, const glm::dvec3& offset, const GridFrame& world,
                   uint32_t object) {
@@ -79,20 +57,82 @@ glm::dvec3 reach_of(const glm::dmat3& linear, Reach reach) {
     return (glm::max(longest, glm::dvec3(1)) - 1.0) * 0.5;
 }
 
+/// Steps of the world's voxels, in voxels of the object.
+glm::dmat3 steps_of(const GridFrame& object_frame, const GridFrame& world_frame,
+                    const glm::dmat3& object_from_world) {
+    glm::dmat3 linear;
+    for (int column = 0; column < 3; ++column)
+        linear[column] =
+            object_from_world[column] * world_frame.voxel_edge[column] / object_frame.voxel_edge;
+    return linear;
+}
+
+/// The world's first node, in voxels of the object.
+glm::dvec3 first_node(const GridFrame& object_frame, const GridFrame& world_frame,
+                      const glm::dmat4& world_from_object, const glm::dmat3& object_from_world) {
+    const glm::dvec3 from_object = world_frame.origin - glm::dvec3(world_from_object[3]);
+    return (object_from_world * from_object - object_frame.origin) / object_frame.voxel_edge;
+}
+
 }  // namespace
+
+void check_invertible(const glm::dmat4& map, uint32_t object) {
+    for (int column = 0; column < 4; ++column)
+        for (int row = 0; row < 3; ++row)
+            if (!std::isfinite(map[column][row]))
+                throw Error(ErrorKind::scene,
+                            "object {}: its placement is not finite: check its position, turn, "
+                            "scale or matrix",
+                            object);
+    const Stretch stretch = stretch_of(glm::dmat3(map));
+    if (stretch.min == 0)
+        throw Error(ErrorKind::scene,
+                    "object {}: its placement flattens it to nothing: give every axis a scale "
+                    "other than 0",
+                    object);
+    if (stretch.max > kWorstCondition * stretch.min)
+        throw Error(ErrorKind::scene,
+                    "object {}: its placement stretches one direction {:.3g} times as much as "
+                    "another, at most {:.0e} can be inverted exactly: make the model closer to its "
+                    "final shape",
+                    object, stretch.max / stretch.min, kWorstCondition);
+}
+
+double voxels_per_world_voxel(const GridFrame& object_frame, const GridFrame& world_frame,
+                              const glm::dmat4& world_from_object) {
+    const glm::dmat3 object_from_world = glm::inverse(glm::dmat3(world_from_object));
+    return stretch_of(steps_of(object_frame, world_frame, object_from_world)).max;
+}
+
+bool maps_nodes_to_nodes(const GridFrame& object_frame, const GridFrame& world_frame,
+                         const glm::dmat4& world_from_object) {
+    const glm::dmat3 object_from_world = glm::inverse(glm::dmat3(world_from_object));
+    const glm::dmat3 steps = steps_of(object_frame, world_frame, object_from_world);
+    // What fixed point rounds to whole voxels.
+    const auto is_whole = [](double value, int bits) {
+        return std::abs(value - std::round(value)) < std::ldexp(0.5, -bits);
+    };
+    for (int column = 0; column < 3; ++column) {
+        double sum = 0;
+        for (int axis = 0; axis < 3; ++axis) {
+            if (!is_whole(steps[column][axis], kMaxFractionBits)) return false;
+            sum += std::abs(std::round(steps[column][axis]));
+        }
+        if (sum != 1) return false;
+    }
+    const glm::dvec3 first =
+        first_node(object_frame, world_frame, world_from_object, object_from_world);
+    return is_whole(first.x, kOffsetBits) && is_whole(first.y, kOffsetBits) &&
+           is_whole(first.z, kOffsetBits);
+}
 
 PlacementMap placement_map(const GridFrame& object_frame, const GridFrame& world_frame,
                            const glm::dmat4& world_from_object, Reach reach, uint32_t object) {
     check_invertible(world_from_object, object);
     const glm::dmat3 object_from_world = glm::inverse(glm::dmat3(world_from_object));
-    glm::dmat3 linear;  // in voxels of both grids
-    for (int column = 0; column < 3; ++column)
-        linear[column] =
-            object_from_world[column] * world_frame.voxel_edge[column] / object_frame.voxel_edge;
+    const glm::dmat3 linear = steps_of(object_frame, world_frame, object_from_world);
     const glm::dvec3 offset =
-        (object_from_world * (world_frame.origin - glm::dvec3(world_from_object[3])) -
-         object_frame.origin) /
-        object_frame.voxel_edge;
+        first_node(object_frame, world_frame, world_from_object, object_from_world);
 
     PlacementMap map;
     map.fraction_bits = fraction_bits(linear, offset, world_frame, object);

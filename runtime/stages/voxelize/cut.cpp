@@ -129,7 +129,8 @@ class Joiner {
 
 }  // namespace
 
-Solid rest_of(const GridFrame& frame, const std::vector<Solid>& cuts) {
+Solid rest_of(const GridFrame& frame, const glm::dmat4& frame_from_model,
+              const std::vector<Solid>& cuts) {
     const glm::dvec3 extent = glm::dvec3(frame.bricks() * kBrickSize) * frame.voxel_edge;
     Solid space;
     space.kind = SolidKind::box;
@@ -138,7 +139,10 @@ Solid rest_of(const GridFrame& frame, const std::vector<Solid>& cuts) {
     Solid rest;
     rest.kind = SolidKind::difference_of;
     rest.parts.push_back(space);
-    rest.parts.insert(rest.parts.end(), cuts.begin(), cuts.end());
+    for (const Solid& cut : cuts) {
+        rest.parts.push_back(cut);
+        rest.parts.back().parent_from_solid = frame_from_model * cut.parent_from_solid;
+    }
     return rest;
 }
 

@@ -10,9 +10,10 @@
 
 namespace voxelume {
 
-/// The whole frame without the solids `cuts`, whose parents are the frame's space. It is to be
-/// voxelized in the same way as the body that is cut.
-Solid rest_of(const GridFrame& frame, const std::vector<Solid>& cuts);
+/// The whole frame without the solids `cuts`, which `frame_from_model` maps into the frame's space.
+/// It lies in the frame's space, and is to be voxelized there in the same way as the body.
+Solid rest_of(const GridFrame& frame, const glm::dmat4& frame_from_model,
+              const std::vector<Solid>& cuts);
 
 /// A body, or the rest of space, as `cubes`: two grids of one frame.
 struct CoveredBody {

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+// scene -> the same scene with the choices made that it leaves to the files of its models
+#pragma once
+
+#include "runtime/assets/asset_store.hpp"
+#include "runtime/scene/scene.hpp"
+
+namespace voxelume {
+
+/// Makes the choices of a scene as it is read, once for all of its frames:
+///   placement  an object whose file has a field finer than the world becomes an instance where
+///              `auto` lets it, since there is nothing to make a coarser field from.
+/// Reads these files. Throws as AssetStore does.
+void make_choices(Scene& scene, AssetStore& meshes);
+
+}  // namespace voxelume
