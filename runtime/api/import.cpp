@@ -45,6 +45,11 @@ fs::path find_file(const fs::path& file) {
     if (error)
         throw Error(ErrorKind::input, "{}: {}", file.string(),
                     fs::exists(file, error) ? "can't be opened" : "no such file");
+    if (!is_model_file(found))
+        throw Error(ErrorKind::input,
+                    "{}: leads to {}, whose name doesn't end as a model file's does: give that "
+                    "file such a name",
+                    file.string(), found.string());
     return found;
 }
 
