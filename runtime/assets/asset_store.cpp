@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "runtime/assets/asset_store.hpp"
 
+#include "runtime/assets/asset_bytes.hpp"
 #include "runtime/assets/load_timer.hpp"
 #include "runtime/assets/voxel_model_file.hpp"
 #include "runtime/base/error.hpp"
@@ -10,25 +11,6 @@
 #include "runtime/io/mesh/mesh_reader.hpp"
 
 namespace voxelume {
-namespace {
-
-template <class... Values>
-uint64_t bytes_in(const std::vector<Values>&... arrays) {
-    return (... + (arrays.size() * sizeof(Values)));
-}
-
-uint64_t mesh_bytes(const Mesh& mesh) {
-    return bytes_in(mesh.positions, mesh.triangles, mesh.vertex_colors, mesh.normals,
-                    mesh.triangle_normals, mesh.triangle_group);
-}
-
-uint64_t voxel_bytes(const VoxelModel& voxels) {
-    return mesh_bytes(voxels.mesh) + bytes_in(voxels.slots, voxels.coordinates, voxels.occupancy,
-                                              voxels.distance, voxels.attributes, voxels.colors);
-}
-
-}  // namespace
-
 AssetStore::MeshFile& AssetStore::file(const std::filesystem::path& name) {
     used_.insert(name);
     const auto found = files_.find(name);
