@@ -15,8 +15,8 @@
 
 namespace voxelume {
 
-/// Names the bytes of a mesh file, and so the mesh that they are read as. Only the extension of the
-/// file's name counts.
+/// Names the bytes of a mesh file and of the files that it leads to, and so the mesh that they are
+/// read as. Of the file's own name only the extension counts.
 std::string mesh_source(const std::string& bytes, const std::filesystem::path& name);
 
 /// Names the mesh of a source after a map.

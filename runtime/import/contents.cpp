@@ -30,6 +30,13 @@ glm::dvec3 rounded(const glm::dvec3& v, int digits) {
     return {rounded(v.x, digits), rounded(v.y, digits), rounded(v.z, digits)};
 }
 
+std::string NameList::unique(const std::string& wanted) {
+    std::string name = wanted;
+    for (int number = 2; !names_.insert(name).second; ++number)
+        name = fmt::format("{} {}", wanted, number);
+    return name;
+}
+
 std::string stem_of(const ImportedFile& file) {
     std::string stem = file.path.stem().string();
     return stem == "default" || stem == "ground" ? stem + " model" : stem;

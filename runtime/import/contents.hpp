@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <glm/vec3.hpp>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -27,6 +28,19 @@ struct Contents {
     Bounds box;                ///< around all that is visible, metres
     glm::dvec3 voxel_size{0};  ///< of the world, metres
     glm::dvec3 lattice{0};     ///< a corner of some voxel, metres
+};
+
+/// Names that are taken, so that each new one is another.
+class NameList {
+  public:
+    explicit NameList(const std::vector<std::string>& taken) {
+        for (const std::string& name : taken) names_.insert(name);
+    }
+    /// The name, or with a number behind it if it is taken.
+    std::string unique(const std::string& wanted);
+
+  private:
+    std::set<std::string> names_;
 };
 
 /// A file that becomes a scene.
