@@ -9,8 +9,8 @@ namespace voxelume::cli {
 
 void add_scene_options(CLI::App& app, SceneOptions& options) {
     app.add_option("SCENE", options.scene,
-                   "scene file, JSON (see scenes/README.md), or a model file: .obj .ply .stl .vxm "
-                   ".vdb .vox")
+                   "scene file, JSON (see scenes/README.md), or a model file: .obj .ply .stl "
+                   ".gltf .glb .vxm .vdb .vox")
         ->required();
     app.add_option("--assets", options.assets,
                    "folder to look for the scene's models in; may be given again")

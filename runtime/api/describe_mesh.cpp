@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "runtime/geometry/mesh_topology.hpp"
-#include "runtime/io/mesh/mesh_reader.hpp"
+#include "runtime/io/gltf/gltf_mesh.hpp"
 #include "runtime/memory/plan.hpp"
 
 namespace voxelume::api {
@@ -31,7 +31,7 @@ Report at_resolution(const std::filesystem::path& path, const Mesh& mesh, int re
 }  // namespace
 
 Report describe_mesh(const std::filesystem::path& path) {
-    const Mesh mesh = read_mesh(path);
+    const Mesh mesh = read_mesh_file(path);
     const Bounds box = mesh_bounds(mesh);
     const uint64_t open = mesh_topology(mesh).open_edges;
     Report report = {{"kind", "triangle mesh"},
@@ -43,6 +43,11 @@ Report describe_mesh(const std::filesystem::path& path) {
                      {"open edges", open}};
     report["min"] = {box.min.x, box.min.y, box.min.z};
     report["max"] = {box.max.x, box.max.y, box.max.z};
+    if (!mesh.triangle_colors.empty()) report["face colors"] = true;
+    if (!mesh.textures.empty()) report["textures"] = Report::array();
+    for (const Texture& texture : mesh.textures)
+        report["textures"].push_back({texture.image->width, texture.image->height});
+    if (!mesh.notes.empty()) report["notes"] = mesh.notes;
     if (box.min == box.max) return report;
     report["as voxels"] = Report::array();
     for (const int resolution : {128, 256, 512, 1024})

@@ -8,19 +8,26 @@
 #include "runtime/geometry/file_map.hpp"
 #include "runtime/geometry/mesh_morph.hpp"
 #include "runtime/geometry/winding_number.hpp"
+#include "runtime/io/gltf/gltf_mesh.hpp"
 #include "runtime/io/mesh/mesh_reader.hpp"
 
 namespace voxelume {
-AssetStore::MeshFile& AssetStore::file(const std::filesystem::path& name) {
-    used_.insert(name);
+AssetStore::MeshFile& AssetStore::file(const MeshName& name) {
+    used_.insert(name.first);
     const auto found = files_.find(name);
     if (found != files_.end()) return found->second;
     MeshFile file;
     if (cache_.is_open()) {
         const LoadTimer timer(load_seconds_);
-        file.source = mesh_source(read_mesh_bytes(name), name);
+        file.source = mesh_source(read_mesh_bytes(name.first), name.first, name.second);
     }
     return files_.emplace(name, std::move(file)).first->second;
+}
+
+const GltfFile& AssetStore::gltf_file(const std::filesystem::path& name) {
+    std::shared_ptr<const GltfFile>& file = gltf_files_[name];
+    if (!file) file = std::make_shared<const GltfFile>(read_mesh_bytes(name), name);
+    return *file;
 }
 
 AssetStore::MapKey AssetStore::key_of(const FileMap& map) {
@@ -32,17 +39,20 @@ void AssetStore::MeshFile::forget_meshes() {
     for (auto& [map, mapped_mesh] : mapped) mapped_mesh.mesh.reset();
 }
 
-Mesh AssetStore::read(const std::filesystem::path& name, const MeshFile& file) {
-    const std::string bytes = read_mesh_bytes(name);
-    if (cache_.is_open() && mesh_source(bytes, name) != file.source)
+Mesh AssetStore::read(const MeshName& name, const MeshFile& file) {
+    const auto& [path, part] = name;
+    const bool is_gltf = is_gltf_file(path);
+    const std::string bytes = is_gltf && !cache_.is_open() ? "" : read_mesh_bytes(path);
+    if (cache_.is_open() && mesh_source(bytes, path, part) != file.source)
         throw Error(ErrorKind::input, "{}: the file changed while it was being read: try again",
-                    name.string());
-    Mesh mesh = parse_mesh(bytes, name);
+                    path.string());
+    Mesh mesh = is_gltf ? gltf_mesh(gltf_file(path), part) : parse_mesh(bytes, path);
     ++meshes_read_;
     return mesh;
 }
 
-const Mesh& AssetStore::mesh(const std::filesystem::path& name, const FileMap& map) {
+const Mesh& AssetStore::mesh(const std::filesystem::path& path, const FileMap& map, int part) {
+    const MeshName name(path, part);
     MeshFile& file = this->file(name);
     std::optional<Mesh>& mesh = map.is_identity() ? file.mesh : file.mapped[key_of(map)].mesh;
     if (mesh) return *mesh;
@@ -54,12 +64,11 @@ const Mesh& AssetStore::mesh(const std::filesystem::path& name, const FileMap& m
     } else {
         mesh = read(name, file);
     }
-    if (!map.is_identity()) apply(map, name, *mesh);
+    if (!map.is_identity()) apply(map, path, *mesh);
     return *mesh;
 }
 
-const MeshSummary& AssetStore::summary_of_file(const std::filesystem::path& name,
-                                               const FileMap& map) {
+const MeshSummary& AssetStore::summary_of_file(const MeshName& name, const FileMap& map) {
     MeshFile& file = this->file(name);
     if (!map.is_identity()) {
         std::optional<MeshSummary>& summary = file.mapped[key_of(map)].summary;
@@ -72,7 +81,7 @@ const MeshSummary& AssetStore::summary_of_file(const std::filesystem::path& name
     double seconds = 0;
     {
         const LoadTimer timer(seconds);
-        file.summary = voxelume::summary_of(mesh(name));
+        file.summary = voxelume::summary_of(mesh(name.first, {}, name.second));
     }
     cache_.keep(file.source, *file.summary, seconds);
     return *file.summary;
@@ -125,7 +134,7 @@ const Mesh& AssetStore::morphed_mesh(const Model& model) {
     if (entry.mesh) return *entry.mesh;
     const Morph& morph = *model.morph;
     const FileMap& map = model.object_from_file;
-    const Mesh& from = mesh(model.mesh, map);
+    const Mesh& from = mesh(model.mesh, map, model.part);
     entry.mesh = morph.mesh.empty()
                      ? morphed_to_sphere(from, morph.center, morph.radius, morph.amount)
                      : ::voxelume::morphed(from, mesh(morph.mesh, map), morph.amount, model.where);
@@ -150,7 +159,8 @@ const MeshSummary& AssetStore::morphed_summary(const Model& model) {
 const Mesh* AssetStore::mesh_of(const Model& model) {
     if (model.solid) return nullptr;
     if (model.voxels.empty())
-        return model.morph ? &morphed_mesh(model) : &mesh(model.mesh, model.object_from_file);
+        return model.morph ? &morphed_mesh(model)
+                           : &mesh(model.mesh, model.object_from_file, model.part);
     return lists_primitives(model.surface) ? &voxels(model).mesh : nullptr;
 }
 
@@ -158,7 +168,7 @@ const MeshSummary* AssetStore::summary_of(const Model& model) {
     if (model.solid) return nullptr;
     if (model.voxels.empty())
         return model.morph ? &morphed_summary(model)
-                           : &summary_of_file(model.mesh, model.object_from_file);
+                           : &summary_of_file({model.mesh, model.part}, model.object_from_file);
     return lists_primitives(model.surface) ? &voxel_file(model).summary : nullptr;
 }
 
@@ -186,21 +196,22 @@ const std::vector<std::string>& AssetStore::groups_of(const Model& model) {
 std::string AssetStore::source_of(const Model& model) {
     if (model.mesh.empty() || !cache_.is_open()) return {};
     const FileMap& map = model.object_from_file;
-    const auto source = [&](const std::filesystem::path& name) {
+    const auto source = [&](const MeshName& name) {
         return map.is_identity() ? file(name).source : mapped_source(file(name).source, map);
     };
-    std::string from = source(model.mesh);
+    std::string from = source({model.mesh, model.part});
     if (!model.morph) return from;
     const Morph& morph = *model.morph;
-    return morph_source(from, morph.mesh.empty() ? std::string() : source(morph.mesh), morph);
+    return morph_source(from, morph.mesh.empty() ? std::string() : source({morph.mesh, 0}), morph);
 }
 
 /// The bytes of memory that the loaded contents of a file take.
 uint64_t AssetStore::bytes_of(const std::filesystem::path& name) const {
     uint64_t bytes = 0;
-    if (const auto found = files_.find(name); found != files_.end()) {
-        if (found->second.mesh) bytes += mesh_bytes(*found->second.mesh);
-        for (const auto& [map, mapped] : found->second.mapped)
+    for (const auto& [of, file] : files_) {
+        if (of.first != name) continue;
+        if (file.mesh) bytes += mesh_bytes(*file.mesh);
+        for (const auto& [map, mapped] : file.mapped)
             if (mapped.mesh) bytes += mesh_bytes(*mapped.mesh);
     }
     for (const auto& [key, file] : voxels_)
@@ -210,7 +221,9 @@ uint64_t AssetStore::bytes_of(const std::filesystem::path& name) const {
 
 /// Forgets what is loaded of a file.
 void AssetStore::forget(const std::filesystem::path& name) {
-    if (const auto found = files_.find(name); found != files_.end()) found->second.forget_meshes();
+    for (auto& [of, file] : files_)
+        if (of.first == name) file.forget_meshes();
+    gltf_files_.erase(name);
     std::erase_if(voxels_, [&](const auto& entry) { return std::get<0>(entry.first) == name; });
 }
 
@@ -220,8 +233,8 @@ Bounds AssetStore::box_of_file(const Model& model, bool keeps) {
     plain.object_from_file = {};
     const std::filesystem::path& name = plain.voxels.empty() ? plain.mesh : plain.voxels;
     const bool was_loaded = bytes_of(name) > 0;
-    const Bounds box =
-        plain.voxels.empty() ? summary_of_file(name).surface : occupied_bounds(voxels(plain));
+    const Bounds box = plain.voxels.empty() ? summary_of_file({name, plain.part}).surface
+                                            : occupied_bounds(voxels(plain));
     if (!keeps && !was_loaded) forget(name);
     return box;
 }
@@ -251,7 +264,8 @@ AssetStore AssetStore::recounted() const {
 }
 
 void AssetStore::forget_unused() {
-    std::erase_if(files_, [&](const auto& entry) { return !used_.contains(entry.first); });
+    std::erase_if(files_, [&](const auto& entry) { return !used_.contains(entry.first.first); });
+    std::erase_if(gltf_files_, [&](const auto& entry) { return !used_.contains(entry.first); });
     std::erase_if(vox_files_, [&](const auto& entry) { return !used_.contains(entry.first); });
     std::erase_if(voxels_,
                   [&](const auto& entry) { return !used_.contains(std::get<0>(entry.first)); });
@@ -276,7 +290,7 @@ uint64_t AssetStore::triangles_of(const std::filesystem::path& name, const MeshF
 
 uint64_t AssetStore::triangles() const {
     uint64_t sum = 0;
-    for (const auto& [name, file] : files_) sum += triangles_of(name, file);
+    for (const auto& [name, file] : files_) sum += triangles_of(name.first, file);
     for (const auto& [key, file] : voxels_) sum += file.summary.triangles;
     return sum;
 }

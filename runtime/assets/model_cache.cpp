@@ -15,6 +15,7 @@
 #include "runtime/base/text.hpp"
 #include "runtime/grid/grid_bytes.hpp"
 #include "runtime/grid/pyramid_bytes.hpp"
+#include "runtime/io/gltf/gltf_file.hpp"
 #include "runtime/io/mesh/mesh_reader.hpp"
 #include "runtime/io/mesh/mesh_textures.hpp"
 #include "runtime/opencl/kernel_source.hpp"
@@ -151,10 +152,13 @@ uint64_t megabytes_of_user() {
 
 }  // namespace
 
-std::string mesh_source(const std::string& bytes, const std::filesystem::path& name) {
+std::string mesh_source(const std::string& bytes, const std::filesystem::path& name, int part) {
     std::string of_companions;
-    for (const std::filesystem::path& file : companion_files(bytes, name))
+    const std::vector<std::filesystem::path> companions =
+        is_gltf_file(name) ? gltf_companions(bytes, name) : companion_files(bytes, name);
+    for (const std::filesystem::path& file : companions)
         of_companions += key_of({file.filename().string(), read_mesh_bytes(file)});
+    if (part > 0) of_companions += std::to_string(part);
     if (of_companions.empty()) return key_of({ending_of(name), bytes});
     return key_of({ending_of(name), bytes, of_companions});
 }

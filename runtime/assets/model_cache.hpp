@@ -16,8 +16,8 @@
 namespace voxelume {
 
 /// Names the bytes of a mesh file and of the files that it leads to, and so the mesh that they are
-/// read as. Of the file's own name only the extension counts.
-std::string mesh_source(const std::string& bytes, const std::filesystem::path& name);
+/// read as. Of the file's own name only the extension counts. `part` is that of a glTF file.
+std::string mesh_source(const std::string& bytes, const std::filesystem::path& name, int part = 0);
 
 /// Names the mesh of a source after a map.
 std::string mapped_source(const std::string& source, const FileMap& map);

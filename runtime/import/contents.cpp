@@ -23,7 +23,7 @@ std::string json_size(const glm::dvec3& v) {
 }
 
 double rounded(double x, int digits) {
-    return std::stod(fmt::format("{:.{}g}", x, digits));
+    return std::stod(fmt::format("{:.{}g}", x, digits)) + 0.0;  // -0 becomes 0
 }
 
 glm::dvec3 rounded(const glm::dvec3& v, int digits) {
@@ -44,6 +44,12 @@ std::string stem_of(const ImportedFile& file) {
 
 std::string fit_member(const ImportOptions& options) {
     return options.fit > 0 ? fmt::format(", \"fit\": {}", options.fit) : "";
+}
+
+glm::dvec3 mesh_voxel_size(const Bounds& box, bool is_textured) {
+    const double edge = longest_side(box) / (is_textured ? 512 : 256);
+    // Rounded up, so that there are no more voxels than that.
+    return glm::dvec3(rounded(edge * 1.0005, 4));
 }
 
 Bounds fitted_box(const Bounds& box, const ImportOptions& options) {

@@ -24,10 +24,12 @@ struct Contents {
     std::vector<std::string> tracks;     ///< items; none: nothing moves
     int frames = 1;                      ///< of the animation
     double fps = 24;
-    bool has_glass = false;    ///< shadows are to let light through
-    Bounds box;                ///< around all that is visible, metres
-    glm::dvec3 voxel_size{0};  ///< of the world, metres
-    glm::dvec3 lattice{0};     ///< a corner of some voxel, metres
+    std::string observer;             ///< `"observer": {...}` of the file's camera; empty: none
+    std::vector<std::string> lights;  ///< items; none: those of a studio
+    bool has_glass = false;           ///< shadows are to let light through
+    Bounds box;                       ///< around all that is visible, metres
+    glm::dvec3 voxel_size{0};         ///< of the world, metres
+    glm::dvec3 lattice{0};            ///< a corner of some voxel, metres
 };
 
 /// Names that are taken, so that each new one is another.
@@ -57,6 +59,9 @@ Contents mesh_contents(const ImportedFile& file);
 /// The contents of a file of voxels of one model: .vxm or OpenVDB.
 Contents voxel_contents(const ImportedFile& file);
 
+/// The contents of a glTF file.
+Contents gltf_contents(const ImportedFile& file);
+
 /// The contents of a MagicaVoxel file.
 Contents vox_contents(const ImportedFile& file);
 
@@ -81,6 +86,10 @@ std::string stem_of(const ImportedFile& file);
 
 /// `, "fit": 2` where the options ask for a size.
 std::string fit_member(const ImportOptions& options);
+
+/// The size of a world's voxels for meshes in a box: 256 of them along the longest side, or 512
+/// where there are textures, which show in voxels.
+glm::dvec3 mesh_voxel_size(const Bounds& box, bool is_textured);
 
 /// The box of a file's content after `fit`: around the origin.
 Bounds fitted_box(const Bounds& box, const ImportOptions& options);

@@ -57,8 +57,9 @@ std::vector<KeyTable> make_tables() {
     add_kinds("density", {"kind"}, density_kinds(), {}, tables);
     tables.push_back({"material", keys_of(material_rows()) + Keys{"checker"}});
     tables.push_back({"checker", keys_of(checker_rows())});
-    tables.push_back({"model:mesh", Keys{"mesh", "fit", "unit", "sequence", "morph", "cut"} +
-                                        lattice + Keys{"shading", "crease_angle"}});
+    tables.push_back(
+        {"model:mesh", Keys{"mesh", "part", "fit", "unit", "sequence", "morph", "cut"} + lattice +
+                           Keys{"shading", "crease_angle"}});
     tables.push_back({"model:voxels", {"voxels", "part", "fit", "unit", "sequence", "surface"}});
     tables.push_back({"sequence", {"first", "last", "start", "loop"}});
     tables.push_back({"morph", {"mesh", "center", "radius", "amount"}});

@@ -8,6 +8,7 @@
 #include <glm/matrix.hpp>
 #include <unordered_set>
 
+#include "runtime/base/text.hpp"
 #include "runtime/scene/predicates.hpp"
 #include "runtime/scene/scene_affine.hpp"
 #include "runtime/scene_file/scene_parts.hpp"
@@ -81,6 +82,16 @@ void read_voxels(const SceneFields& fields, const ModelContext& context, Model& 
     read_file_size(fields, model);
     model.surface = Surface::cubes;
     if (const auto surface = fields.find("surface")) model.surface = read_surface(*surface);
+}
+
+/// The number of a mesh in a glTF file.
+void read_mesh_part(const SceneFields& fields, Model& model) {
+    const auto part = fields.find("part");
+    if (!part) return;
+    const std::string ending = ending_of(model.mesh);
+    if (ending != ".gltf" && ending != ".glb")
+        part->fail("only a glTF file has several meshes; leave it out");
+    model.part = part->integer(1, 1'000'000);
 }
 
 Morph read_morph(const SceneValue& value, const AssetSearch& search) {
@@ -166,6 +177,7 @@ Model read_model(const std::string& name, const SceneValue& value, const ModelCo
     } else {
         const SceneFields fields(value, "model:mesh");
         model.mesh = first_file(fields, "mesh", context.search);
+        read_mesh_part(fields, model);
         read_file_size(fields, model);
         if (const auto morph = fields.find("morph"))
             model.morph = read_morph(*morph, context.search);

@@ -12,6 +12,7 @@
 #include "runtime/io/image/picture.hpp"
 #include "runtime/io/mesh/companion_file.hpp"
 #include "runtime/io/mesh/material_library.hpp"
+#include "runtime/io/mesh/mesh_paint.hpp"
 #include "runtime/io/mesh/mesh_reader.hpp"
 #include "runtime/io/mesh/texture_levels.hpp"
 
@@ -39,7 +40,7 @@ void move_uvs(Mesh& mesh, uint32_t group, const MtlTexture& map) {
             const glm::dvec2 old(mesh.uvs[t[k]].x, 1 - double(mesh.uvs[t[k]].y));
             const glm::dvec2 at = map.offset + map.scale * old;
             t[k] = uint32_t(mesh.uvs.size());
-            mesh.uvs.emplace_back(at.x, 1 - at.y);
+            mesh.uvs.push_back(upright_uv(at.x, at.y));
         }
     }
 }
