@@ -8,6 +8,7 @@
 #include "kernels/shared/voxel.h"
 #include "runtime/base/input_file.hpp"
 #include "runtime/io/vdb/vdb_voxels.hpp"
+#include "runtime/io/voxels/model_file.hpp"
 #include "runtime/io/voxels/model_voxels.hpp"
 #include "runtime/io/voxels/voxel_limits.hpp"
 
@@ -134,14 +135,31 @@ VoxelModel model_of(const VdbVoxels& voxels, Surface surface, const InputFile& f
     return model;
 }
 
+std::string first_bytes(const InputFile& file) {
+    std::string start(std::min<uint64_t>(8, file.size()), '\0');
+    file.read(0, start.data(), start.size());
+    return start;
+}
+
+bool is_model_file(const InputFile& file) {
+    return first_bytes(file) == "\x89VXM\r\n\x1a\n";
+}
+
 }  // namespace
+
+std::optional<Surface> surface_of_voxel_model(const std::filesystem::path& path) {
+    if (!is_model_file(InputFile(path))) return std::nullopt;
+    const ModelSummary summary = read_model_summary(path);
+    const auto name = summary.header.find("surface");
+    for (const SurfaceKind& kind : kSurfaceKinds)
+        if (name != summary.header.end() && name->second == kind.name) return kind.surface;
+    return std::nullopt;
+}
 
 VoxelModel read_voxel_model(const std::filesystem::path& path, Surface surface) {
     const InputFile file(path);
-    std::string start(std::min<uint64_t>(8, file.size()), '\0');
-    file.read(0, start.data(), start.size());
-    if (start == "\x89VXM\r\n\x1a\n") return read_model_voxels(path, surface);
-    if (start != std::string(" BDV\0\0\0\0", 8))
+    if (is_model_file(file)) return read_model_voxels(path, surface);
+    if (first_bytes(file) != std::string(" BDV\0\0\0\0", 8))
         file.refuse("is neither a .vxm nor an OpenVDB file");
     if (lists_primitives(surface))
         file.refuse("an OpenVDB file has no exact surface: give it \"cubes\" or \"smooth\"");

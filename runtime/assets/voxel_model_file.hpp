@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 
 #include "runtime/geometry/voxel_model.hpp"
 
@@ -15,5 +16,9 @@ namespace voxelume {
 /// surface is a level set. Throws Error::input for a file that is missing, damaged or has another
 /// surface.
 VoxelModel read_voxel_model(const std::filesystem::path& file, Surface surface);
+
+/// The surface that a .vxm says it has; none for other files. Throws Error::input for a missing or
+/// damaged one.
+std::optional<Surface> surface_of_voxel_model(const std::filesystem::path& file);
 
 }  // namespace voxelume

@@ -18,10 +18,21 @@ namespace {
 
 using Names = std::vector<std::string_view>;
 
-Surface read_surface(const SceneValue& value) {
+/// Reads the surface of a model; `usual` is that of a model which doesn't say any. Where it is left
+/// to files, `usual` stands until they are read.
+void read_surface(const SceneFields& fields, Surface usual, Model& model) {
+    model.surface = usual;
+    const auto value = fields.find("surface");
+    if (!value) return;
     Names names;
     for (const SurfaceKind& kind : kSurfaceKinds) names.push_back(kind.name);
-    return kSurfaceKinds[value.choice(names)].surface;
+    names.push_back("auto");
+    const size_t choice = value->choice(names);
+    model.is_surface_open = choice == kSurfaceKinds.size() && !model.solid;
+    if (choice < kSurfaceKinds.size())
+        model.surface = kSurfaceKinds[choice].surface;
+    else if (model.solid)
+        model.surface = Surface::exact;
 }
 
 /// How many metres a unit of a file has, or its longest side is to have.
@@ -63,9 +74,7 @@ void read_lattice(const SceneFields& fields, glm::dvec3 world_voxel_size, Model&
         const auto size = fields.find("voxel_size");
         model.voxel_size = size ? size->number_or_vector(kLength) : world_voxel_size;
     }
-    if (const auto surface = fields.find("surface")) {
-        model.surface = read_surface(*surface);
-    }
+    read_surface(fields, Surface::smooth, model);
     if (const auto set = fields.find("set")) {
         model.set = static_cast<VoxelSet>(set->choice(Names{"supercover", "thin", "solid"}));
         if (model.surface != Surface::cubes) {
@@ -78,8 +87,7 @@ void read_lattice(const SceneFields& fields, glm::dvec3 world_voxel_size, Model&
 void read_voxels(const SceneFields& fields, const ModelContext& context, Model& model) {
     model.voxels = first_file(fields, "voxels", context.search);
     read_file_size(fields, model);
-    model.surface = Surface::cubes;
-    if (const auto surface = fields.find("surface")) model.surface = read_surface(*surface);
+    read_surface(fields, Surface::cubes, model);
 }
 
 Morph read_morph(const SceneValue& value, const AssetSearch& search) {
