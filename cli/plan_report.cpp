@@ -88,7 +88,7 @@ void print_fitted(const Scene& scene) {
     fmt::print("\n");
 }
 
-/// The same for programs: members of an object.
+/// Returns what was fitted as an object of JSON, for programs.
 Report fitted_report(const Scene& scene) {
     std::string text = scene.fitted();
     if (!text.empty()) text.pop_back();

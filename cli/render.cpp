@@ -89,6 +89,11 @@ int run(const RenderCommand& command) {
                    {.quiet = command.quiet, .strict = command.scene.strict});
         return 0;
     }
+    if (!command.quiet && scene.has_default_light())
+        fmt::print(stderr, "note: {}\n",
+                   harmless_line(fmt::format("{}: has no \"lights\", so one shines from the "
+                                             "observer's upper left; \"lights\": [] is dark",
+                                             scene.file().string())));
     const double open_seconds = seconds();
     Statistics statistics = render_files(scene, devices, std::move(job), command);
     statistics.open_seconds += open_seconds;

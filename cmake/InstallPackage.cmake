@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
-# What `cmake --install` puts where: the program, the library with its header, the module for OpenVDB, and what CMake and
-# pkg-config need to find the library.
+# What `cmake --install` puts where: the program, the library with its header, the module and the reader for OpenVDB,
+# and what CMake and pkg-config need to find the library.
 include(CMakePackageConfigHelpers)
 
 install(TARGETS voxelume)
 install(TARGETS voxelume_vdb LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/voxelume)
+install(TARGETS voxelume_vdb_reader RUNTIME DESTINATION ${CMAKE_INSTALL_LIBDIR}/voxelume) # beside the module
 install(TARGETS voxelume_shared EXPORT voxelumeTargets INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(FILES ${CMAKE_SOURCE_DIR}/runtime/voxelume.hpp DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(DIRECTORY ${CMAKE_SOURCE_DIR}/runtime/voxelume DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}

@@ -67,7 +67,7 @@ kernel void classify_bricks(const uint count, global const uint* restrict listed
             state = VXL_NOTHING;
     }
     if (state == VXL_FULL &&
-        (VXL_KEEPS_INSIDE || is_at_bounds(bounds, brick_at(index, world_bricks) * 16, 16)))
+        (is_at_bounds(bounds, brick_at(index, world_bricks) * 16, 16) || VXL_KEEPS_INSIDE))
         state = VXL_SURFACE;
     states[index] = (uchar)max((uint)states[index], state);
 }
@@ -162,7 +162,7 @@ kernel void paint_smooth_voxels(const uint count, const int crossing, VXL_OBJECT
                                           distance_at(&object, block, gathered.first, centre));
         const int value = max((int)own, -depth_in_world(world.bounds, half_steps));
         // `crossing` is half a voxel's diagonal; the bend of a distance field adds less than that.
-        if (abs(value) > 2 * crossing) continue;
+        if ((int)abs(value) > 2 * crossing) continue;
         const int4 at = cell - gathered.first;
         const int4 source =
             cell_on_surface(block + at.x + at.y * VXL_BLOCK_ROW + at.z * VXL_BLOCK_LAYER, cell);

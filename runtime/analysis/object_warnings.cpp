@@ -23,6 +23,10 @@ namespace {
 /// By how much voxels of a model and the world may differ.
 constexpr double kMaxRatio = 4;
 
+/// How far rounding may take sizes that are meant to be equal apart, as a share of them: turned
+/// maps and a "resolution" round theirs.
+constexpr double kSizeRounding = 1e-9;
+
 /// From where on a mesh is too large for the world it stands in to be meant so, and too small.
 constexpr double kTooLarge = 100, kTooSmall = 1.0 / 500;
 
@@ -192,7 +196,7 @@ void add_thin_warning(const Scene& scene, const Object& object, const PlacedMode
         model.set != VoxelSet::solid)
         return;
     const Thinness thin = thinness_of(scene, object, placed);
-    if (thin.width >= thin.voxel * (1 - 1e-9)) return;  // turns round off
+    if (thin.width >= thin.voxel * (1 - kSizeRounding)) return;
     add_once({WarningKind::thinner_than_voxel, object.where,
               fmt::format("{} is {:.3g} m thin where it is thinnest, and its voxels are {:.3g} m, "
                           "so parts of it get lost or too thick: give its model \"surface\": "
@@ -209,7 +213,7 @@ void add_ratio_warning(const Scene& scene, const Object& object, const PlacedMod
     const std::string sizes =
         fmt::format("voxels of {} are {:.3g} m where it stands, and the world's are {:.3g} m",
                     title_of(object), smallest(placed.voxel), smallest(world));
-    const double slack = 1 + 1e-9;  // "resolution" is rounded
+    const double slack = 1 + kSizeRounding;
     if (smallest(world) > kMaxRatio * slack * largest(placed.voxel))
         add_once({WarningKind::finer_than_world, object.where,
                   fmt::format("{}, which can't show as much: give the model a \"voxel_size\" of "

@@ -87,10 +87,10 @@ Report describe_png(const fs::path& path) {
 
 Report describe_vdb(const fs::path& path) {
     Report report = {{"kind", "OpenVDB volume"}};
-    if (read_vdb_metadata(path).contains(kFrameKey))
-        report = describe_volume(path, "OpenVDB volume");
+    const VdbFileSummary summary = read_vdb_summary(path);
+    if (summary.metadata.contains(kFrameKey)) report = describe_volume(path, "OpenVDB volume");
     report["grids"] = Report::array();
-    for (const VdbSummary& grid : read_vdb_summary(path))
+    for (const VdbSummary& grid : summary.grids)
         report["grids"].push_back({{"grid", grid.name},
                                    {"type", grid.value_type},
                                    {"class", grid.grid_class},

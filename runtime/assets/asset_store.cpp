@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "runtime/assets/asset_store.hpp"
 
-#include <chrono>
-
+#include "runtime/assets/load_timer.hpp"
 #include "runtime/assets/voxel_model_file.hpp"
 #include "runtime/base/error.hpp"
 #include "runtime/geometry/file_map.hpp"
@@ -11,26 +10,6 @@
 #include "runtime/io/mesh/mesh_reader.hpp"
 
 namespace voxelume {
-namespace {
-
-/// Adds the time from its construction to its destruction to a sum of seconds.
-class LoadTimer {
-  public:
-    explicit LoadTimer(double& sum) : sum_(sum) {}
-    ~LoadTimer() { sum_ += seconds(); }
-    LoadTimer(const LoadTimer&) = delete;
-    LoadTimer& operator=(const LoadTimer&) = delete;
-
-    double seconds() const {
-        return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-    }
-
-  private:
-    double& sum_;
-    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
-
-}  // namespace
 
 AssetStore::MeshFile& AssetStore::file(const std::filesystem::path& name) {
     used_.insert(name);
@@ -236,7 +215,7 @@ std::string AssetStore::source_of(const Model& model) {
     const auto source = [&](const std::filesystem::path& name) {
         return map.is_identity() ? file(name).source : mapped_source(file(name).source, map);
     };
-    const std::string from = source(model.mesh);
+    std::string from = source(model.mesh);
     if (!model.morph) return from;
     const Morph& morph = *model.morph;
     return morph_source(from, morph.mesh.empty() ? std::string() : source(morph.mesh), morph);

@@ -1,18 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "runtime/base/disk_cache.hpp"
 
+#include <dirent.h>
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/stat.h>
 #include <unistd.h>
 #include <xxhash.h>
 
 #include <algorithm>
 #include <atomic>
 #include <cerrno>
-#include <chrono>
 #include <cstdlib>
 #include <cstring>
-#include <fstream>
+#include <ctime>
 #include <system_error>
+
+#include "runtime/base/private_folder.hpp"
 
 namespace voxelume {
 namespace {
@@ -35,18 +39,33 @@ Header header_of(const std::string& key, std::string_view bytes) {
     return header;
 }
 
-std::string whole_file(const fs::path& path) {
-    std::ifstream file(path, std::ios::binary | std::ios::ate);
-    if (!file) return {};
-    std::string text(static_cast<size_t>(file.tellg()), '\0');
-    file.seekg(0);
-    file.read(text.data(), static_cast<std::streamsize>(text.size()));
-    text.resize(static_cast<size_t>(file.gcount()));
+/// The whole of a plain file in a folder; empty if there is none.
+std::string whole_file(const PrivateFolder& folder, const std::string& name) {
+    const int file =
+        openat(folder.descriptor(), name.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+    if (file < 0) return {};
+    std::string text;
+    struct stat status {};
+    if (fstat(file, &status) == 0 && S_ISREG(status.st_mode)) text.resize(size_t(status.st_size));
+    size_t size = 0;
+    for (ssize_t got = 1; size < text.size() && got > 0; size += size_t(std::max<ssize_t>(got, 0)))
+        got = pread(file, text.data() + size, text.size() - size, off_t(size));
+    close(file);
+    text.resize(size);
     return text;
 }
 
-bool is_temporary(const fs::path& path) {
-    return path.filename().string().starts_with('.');
+bool write_all(int file, std::string_view bytes) {
+    while (!bytes.empty()) {
+        const ssize_t written = ::write(file, bytes.data(), bytes.size());
+        if (written <= 0) return false;
+        bytes.remove_prefix(size_t(written));
+    }
+    return true;
+}
+
+bool is_temporary(const std::string& name) {
+    return name.starts_with('.');
 }
 
 fs::path environment_path(const char* name) {
@@ -76,20 +95,20 @@ std::string cache_key(std::span<const std::string_view> parts) {
 
 std::optional<std::string> DiskCache::read(const std::string& key) const noexcept try {
     if (folder_.empty()) return std::nullopt;
-    const fs::path path = folder_ / key;
-    std::string entry = whole_file(path);
+    const PrivateFolder folder = PrivateFolder::open(folder_);
+    if (!folder) return std::nullopt;
+    std::string entry = whole_file(folder, key);
     if (entry.empty()) return std::nullopt;
     Header found = {};
     std::memcpy(&found, entry.data(), std::min(entry.size(), sizeof found));
     const std::string_view bytes =
         std::string_view(entry).substr(std::min(entry.size(), sizeof found));
     const Header expected = header_of(key, bytes);
-    std::error_code ignored;
     if (std::memcmp(&found, &expected, sizeof found) != 0) {
-        fs::remove(path, ignored);
+        unlinkat(folder.descriptor(), key.c_str(), 0);
         return std::nullopt;
     }
-    fs::last_write_time(path, fs::file_time_type::clock::now(), ignored);
+    utimensat(folder.descriptor(), key.c_str(), nullptr, AT_SYMLINK_NOFOLLOW);
     entry.erase(0, sizeof found);
     return entry;
 } catch (const std::exception&) {
@@ -99,17 +118,20 @@ std::optional<std::string> DiskCache::read(const std::string& key) const noexcep
 void DiskCache::write(const std::string& key, std::string_view bytes) const noexcept try {
     if (folder_.empty()) return;
     static std::atomic<int> number = 0;
-    fs::create_directories(folder_);
-    const fs::path temporary = folder_ / fmt::format(".{}-{}-{}", key, getpid(), number++);
+    const PrivateFolder folder = PrivateFolder::make(folder_);
+    if (!folder) return;
+    const std::string temporary = fmt::format(".{}-{}-{}", key, getpid(), number++);
+    const int file = openat(folder.descriptor(), temporary.c_str(),
+                            O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
+    if (file < 0) return;
     const Header header = header_of(key, bytes);
-    std::ofstream file(temporary, std::ios::binary);
-    file.write(reinterpret_cast<const char*>(&header), sizeof header);
-    file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-    file.close();
-    std::error_code failed;
-    if (file) fs::rename(temporary, folder_ / key, failed);
-    if (!file || failed) fs::remove(temporary, failed);
-    trim();
+    bool is_whole = write_all(file, {reinterpret_cast<const char*>(&header), sizeof header}) &&
+                    write_all(file, bytes);
+    is_whole = close(file) == 0 && is_whole;
+    if (!is_whole ||
+        renameat(folder.descriptor(), temporary.c_str(), folder.descriptor(), key.c_str()) != 0)
+        unlinkat(folder.descriptor(), temporary.c_str(), 0);
+    trim(folder);
 } catch (const std::exception&) {
     return;  // the next run computes it again
 }
@@ -118,6 +140,8 @@ std::string DiskCache::refusal() const {
     std::error_code error;
     fs::path existing = fs::absolute(folder_, error);
     if (folder_.empty() || error) return {};
+    const PrivateFolder folder = PrivateFolder::open(existing);
+    if (!folder && !folder.is_missing()) return folder.refusal();
     // A folder that doesn't exist is made in the nearest one above it that does.
     while (!fs::exists(existing, error) && !error && existing.has_relative_path())
         existing = existing.parent_path();
@@ -126,33 +150,40 @@ std::string DiskCache::refusal() const {
     return access(existing.c_str(), W_OK | X_OK) == 0 ? "" : std::strerror(errno);
 }
 
-void DiskCache::trim() const {
+void DiskCache::trim(const PrivateFolder& folder) const {
     struct Entry {
-        fs::path path;
-        fs::file_time_type used;
+        std::string name;
+        int64_t used;
         uint64_t bytes;
     };
     std::vector<Entry> entries;
     uint64_t total = 0;
-    std::error_code error;  // another process may remove files at the same time
-    const auto now = fs::file_time_type::clock::now();
-    for (const fs::directory_entry& file : fs::directory_iterator(folder_, error)) {
-        const fs::file_time_type used = file.last_write_time(error);
-        const uintmax_t bytes = error ? 0 : file.file_size(error);
-        if (error) continue;
+    const int descriptor = openat(folder.descriptor(), ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    DIR* const list = descriptor < 0 ? nullptr : fdopendir(descriptor);
+    if (!list) return;
+    const int64_t now = time(nullptr);
+    constexpr int64_t kHour = 3600;
+    while (const dirent* found = readdir(list)) {
+        struct stat status {};  // another process may remove files at the same time
+        if (fstatat(descriptor, found->d_name, &status, AT_SYMLINK_NOFOLLOW) != 0) continue;
+        if (!S_ISREG(status.st_mode)) continue;
+        const std::string name = found->d_name;
+        const auto& [seconds, nanoseconds] = status.st_mtim;
         // Such a file is left from a process that was killed while it wrote.
-        if (is_temporary(file.path()) && now - used > std::chrono::hours(1))
-            fs::remove(file.path(), error);
-        else if (!is_temporary(file.path()))
-            entries.push_back({file.path(), used, bytes});
-        total += bytes;
+        if (is_temporary(name) && now - seconds > kHour)
+            unlinkat(descriptor, name.c_str(), 0);
+        else if (!is_temporary(name))
+            entries.push_back(
+                {name, seconds * 1'000'000'000 + nanoseconds, uint64_t(status.st_size)});
+        total += uint64_t(status.st_size);
     }
     std::ranges::sort(entries, {}, &Entry::used);
     for (const Entry& entry : entries) {
-        if (total <= max_bytes_) return;
-        fs::remove(entry.path, error);
+        if (total <= max_bytes_) break;
+        unlinkat(descriptor, entry.name.c_str(), 0);
         total -= entry.bytes;
     }
+    closedir(list);
 }
 
 }  // namespace voxelume

@@ -21,12 +21,17 @@ std::filesystem::path cache_folder();
 /// A 128-bit hash (XXH3) of all `parts` and their lengths, as 32 hexadecimal digits.
 std::string cache_key(std::span<const std::string_view> parts);
 
+class PrivateFolder;
+
 /// A folder of files named by `cache_key`. Any number of processes may share it.
 ///
 /// An entry is a header with a checksum, then the bytes. It appears by a rename, so it is whole or
 /// absent. An entry that is damaged later fails its checksum, is removed and counts as absent. When
 /// the folder grows past `max_bytes`, the entries used longest ago are removed first. Nothing here
 /// throws: a folder that can't be written keeps nothing.
+///
+/// The checksum tells damage, not malice, so the folder is a PrivateFolder: nothing is read from
+/// one that others may write to.
 class DiskCache {
   public:
     DiskCache(std::filesystem::path folder, uint64_t max_bytes)
@@ -41,7 +46,7 @@ class DiskCache {
     const std::filesystem::path& folder() const { return folder_; }
 
   private:
-    void trim() const;
+    void trim(const PrivateFolder& folder) const;
 
     std::filesystem::path folder_;  ///< empty if nothing is kept
     uint64_t max_bytes_;

@@ -14,6 +14,15 @@ InputFile::InputFile(const std::filesystem::path& path) : path_(path) {
     // Without O_NONBLOCK, opening a pipe would wait for its writer.
     descriptor_ = open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
     if (descriptor_ < 0) refuse(errno == ENOENT ? "no such file" : std::strerror(errno));
+    take_size();
+}
+
+InputFile::InputFile(const std::filesystem::path& path, int descriptor)
+    : path_(path), descriptor_(descriptor) {
+    take_size();
+}
+
+void InputFile::take_size() {
     struct stat status {};
     if (fstat(descriptor_, &status) != 0 || !S_ISREG(status.st_mode)) {
         close(descriptor_);

@@ -14,11 +14,15 @@ class InputFile {
   public:
     /// Opens the file. Throws if it is missing, may not be read or isn't a plain file.
     explicit InputFile(const std::filesystem::path& path);
+    /// Takes a descriptor that is open already, as a helper program does; `path` is for messages.
+    InputFile(const std::filesystem::path& path, int descriptor);
     ~InputFile();
     InputFile(const InputFile&) = delete;
     InputFile& operator=(const InputFile&) = delete;
 
     uint64_t size() const { return size_; }
+    const std::filesystem::path& path() const { return path_; }
+    int descriptor() const { return descriptor_; }
 
     /// Fills `data` from `position`. Throws if the file ends before `size` bytes are read.
     void read(uint64_t position, void* data, size_t size) const;
@@ -27,6 +31,8 @@ class InputFile {
     [[noreturn]] void refuse(const std::string& reason) const;
 
   private:
+    void take_size();
+
     std::filesystem::path path_;
     int descriptor_ = -1;
     uint64_t size_ = 0;

@@ -9,6 +9,7 @@
 #include <glm/matrix.hpp>
 #include <glm/trigonometric.hpp>
 #include <glm/vec2.hpp>
+#include <tuple>
 
 #include "kernels/shared/normal.h"
 
@@ -33,24 +34,24 @@ std::vector<glm::vec3> given_normals(const Mesh& mesh) {
 }
 
 /// A position, as what vertices are compared by.
-struct Place {
+struct CornerPlace {
     std::array<float, 3> position;
     uint32_t corner;  ///< 3 * triangle + its place there
-
-    auto operator<=>(const Place&) const = default;
 };
 
 /// The corners of a mesh in the order of their positions, so that those at one position stand
 /// together.
-std::vector<Place> corners_by_position(const Mesh& mesh) {
-    std::vector<Place> places;
+std::vector<CornerPlace> corners_by_position(const Mesh& mesh) {
+    std::vector<CornerPlace> places;
     places.reserve(3 * mesh.triangles.size());
     for (const glm::uvec3& t : mesh.triangles)
         for (int i = 0; i < 3; ++i) {
             const glm::vec3 p = mesh.positions[t[i]] + 0.0f;  // -0 becomes 0
             places.push_back({{p.x, p.y, p.z}, uint32_t(places.size())});
         }
-    std::ranges::sort(places);
+    std::ranges::sort(places, {}, [](const CornerPlace& place) {
+        return std::tie(place.position, place.corner);
+    });
     return places;
 }
 
@@ -90,7 +91,7 @@ std::vector<glm::vec3> averaged_normals(const Mesh& mesh, double crease_angle) {
     constexpr double kRounding = 1e-9;  // faces of one plane are within an angle of 0
     const double least_cosine = std::cos(glm::radians(crease_angle)) - kRounding;
     std::vector<glm::vec3> normals(3 * mesh.triangles.size());
-    const std::vector<Place> places = corners_by_position(mesh);
+    const std::vector<CornerPlace> places = corners_by_position(mesh);
     std::vector<Wedge> wedges;
     for (size_t i = 0; i < places.size(); ++i) {
         wedges.push_back(wedge_of(mesh, places[i].corner));

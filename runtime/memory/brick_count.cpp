@@ -184,9 +184,9 @@ class BrickCounter {
             for (int corner = 0; corner < 8; ++corner) {
                 const glm::ivec3 node =
                     voxel + glm::ivec3(corner & 1, corner >> 1 & 1, corner >> 2);
-                const auto at = size_t(node.x + kNodes * (node.y + kNodes * node.z));
-                has_inside |= inside[at];
-                has_outside |= outside[at];
+                const int at = node.x + kNodes * (node.y + kNodes * node.z);
+                has_inside |= inside[size_t(at)];
+                has_outside |= outside[size_t(at)];
             }
             count += has_inside && has_outside ? 1 : 0;
         }

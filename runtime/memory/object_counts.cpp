@@ -7,7 +7,6 @@
 #include <glm/matrix.hpp>
 
 #include "runtime/analysis/object_boxes.hpp"
-#include "runtime/assets/model_frame.hpp"
 #include "runtime/grid/world_frame.hpp"
 #include "runtime/scene/predicates.hpp"
 
@@ -128,8 +127,7 @@ SurfaceExtent ObjectCounts::object_extent(const Object& object, const GridFrame&
     const auto [entry, added] = of_objects_.try_emplace(&object);
     if (!added) return entry->second;
     const Model& model = scene_.models[size_t(object.model)];
-    const VoxelBox box =
-        in_part(boxes()[size_t(&object - scene_.objects.data())], world_frame(scene_.world), frame);
+    const VoxelBox box = in_part(box_of(object), world_frame(scene_.world), frame);
     TakenBricks taken(frame);
     return entry->second =
                with_margin(count_bricks(SolidField(*model.solid, object.world_from_object), frame,
@@ -191,11 +189,13 @@ BrickCount ObjectCounts::expected_in_world(const Object& object, TakenBricks& ta
     if (!model.voxels.empty() && model.surface != Surface::exact)
         return alone(voxels_in_world(object, meshes_.voxels(model), false));
     const bool keeps_inside = shows_inside(scene_, object);
-    if (model.solid)
-        return count_bricks(
-            SolidField(*model.solid, object.world_from_object), world_frame(scene_.world),
-            boxes()[size_t(&object - scene_.objects.data())],
-            world_rule(model.surface, is_solid_set(model), keeps_inside, spread_of(object)), taken);
+    if (model.solid) {
+        const double spread =
+            lattices_.lattice_of(object) == Lattice::world ? 1 : spread_of(object);
+        const BrickRule rule = world_rule(model.surface, is_solid_set(model), keeps_inside, spread);
+        return count_bricks(SolidField(*model.solid, object.world_from_object),
+                            world_frame(scene_.world), box_of(object), rule, taken);
+    }
     SurfaceExtent extent =
         extents_.planned(object, model.surface == Surface::smooth ? kSurfaceBand : kPlacedBand);
     const double inside = keeps_inside || is_solid_set(model) ? extents_.inside_voxels(object) : 0;
@@ -239,7 +239,8 @@ std::vector<size_t> ObjectCounts::placed_numbers() {
             !is_empty(boxes()[number]))
             numbers.push_back(number);
     }
-    std::ranges::stable_partition(numbers, [this](size_t number) { return !is_smooth(number); });
+    std::stable_partition(numbers.begin(), numbers.end(),
+                          [this](size_t number) { return !is_smooth(number); });
     return numbers;
 }
 
@@ -291,9 +292,8 @@ WorldCounts ObjectCounts::world(Estimate estimate) {
 }
 
 WorldCounts indexed_counts(const GridCounts& grid) {
-    const double each = grid.surface != Surface::exact ? 0
-                        : grid.triangles > 0           ? kTrianglesPerVoxel
-                                                       : 1;
+    const double solid_or_mesh = grid.triangles > 0 ? kTrianglesPerVoxel : 1;
+    const double each = grid.surface == Surface::exact ? solid_or_mesh : 0;
     return {grid.bricks, grid.voxels, size_t(each * double(grid.voxels))};
 }
 

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "runtime/analysis/object_lattice.hpp"
 #include "runtime/memory/brick_count.hpp"
 #include "runtime/memory/count_grids.hpp"
 #include "runtime/memory/count_world.hpp"
@@ -25,7 +26,7 @@ enum class Estimate : uint8_t {
 class ObjectCounts {
   public:
     ObjectCounts(const Scene& scene, AssetStore& meshes)
-        : scene_(scene), meshes_(meshes), extents_(scene, meshes) {}
+        : scene_(scene), meshes_(meshes), extents_(scene, meshes), lattices_(scene, meshes) {}
 
     /// The grid of a model in its own space; of an object in the world's, or a part of it.
     GridCounts model_grid(const Model& model, const GridFrame& frame, Estimate estimate);
@@ -41,6 +42,9 @@ class ObjectCounts {
     const std::vector<VoxelBox>& boxes() { return extents_.boxes(); }
 
   private:
+    const VoxelBox& box_of(const Object& object) {
+        return boxes()[size_t(&object - scene_.objects.data())];
+    }
     /// Of the objects in the world's voxels, smooth ones last.
     std::vector<size_t> placed_numbers();
     bool is_smooth(size_t number) const;
@@ -55,6 +59,7 @@ class ObjectCounts {
     const Scene& scene_;
     AssetStore& meshes_;
     ObjectExtents extents_;
+    ObjectLattices lattices_;
     /// In their own spaces, by the edges of voxels.
     std::map<std::pair<const Model*, double>, SurfaceExtent> of_solids_;
     std::map<const Object*, SurfaceExtent> of_objects_;  ///< solids' in the world

@@ -10,9 +10,11 @@
 #include <chrono>
 #include <cstdlib>
 #include <fstream>
-#include <iterator>
 #include <set>
 #include <system_error>
+
+#include "runtime/base/private_folder.hpp"
+#include "runtime/opencl/packed_files.hpp"
 
 namespace voxelume {
 namespace {
@@ -25,26 +27,29 @@ constexpr const char* kLock = "lock";
 std::atomic<bool> folder_is_allowed = true;
 
 /// Removes the folders that killed processes left: those whose lock nobody holds. A folder less
-/// than a minute old is left, since its process may not have locked it yet.
+/// than a minute old is left, since its process may not have locked it yet; so are other users'.
 void remove_stale_folders(const fs::path& parent) {
     std::error_code error;
     const auto now = fs::file_time_type::clock::now();
     for (const fs::directory_entry& entry : fs::directory_iterator(parent, error)) {
         if (!entry.path().filename().string().starts_with(kPrefix)) continue;
         if (now - entry.last_write_time(error) < std::chrono::minutes(1) || error) continue;
-        const int lock = open((entry.path() / kLock).c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600);
+        const PrivateFolder folder = PrivateFolder::open(entry.path());
+        if (!folder) continue;
+        const int lock = openat(folder.descriptor(), kLock,
+                                O_RDWR | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, 0600);
         if (lock < 0) continue;
         if (flock(lock, LOCK_EX | LOCK_NB) == 0) fs::remove_all(entry.path(), error);
         close(lock);
     }
 }
 
-/// A new folder in `parent` that only this user can read. Empty if that fails, or if the disk is so
-/// full that PoCL might end the program.
+/// A new folder in `parent` that only this user can read. Empty if that fails, if others could put
+/// another in its place, or if the disk is so full that PoCL might end the program.
 fs::path make_folder(const fs::path& parent) {
     constexpr uintmax_t kRoom = 32u << 20;
     std::error_code error;
-    fs::create_directories(parent, error);
+    if (!make_safe_parent(parent)) return {};
     if (fs::space(parent, error).available < kRoom || error) return {};
     std::string name = (parent / fmt::format("{}{}-XXXXXX", kPrefix, getpid())).string();
     return mkdtemp(name.data()) ? fs::path(name) : fs::path();
@@ -75,16 +80,6 @@ std::vector<fs::path> kernels_of(const fs::path& program, const ProgramPart& par
     return files;
 }
 
-std::string packed(const fs::path& root, const std::vector<fs::path>& files) {
-    std::string bytes;
-    for (const fs::path& path : files) {
-        std::ifstream file(root / path, std::ios::binary);
-        const std::string text(std::istreambuf_iterator<char>(file), {});
-        bytes += fmt::format("{} {}\n{}", text.size(), path.string(), text);
-    }
-    return bytes;
-}
-
 /// Writes a file that appears only when it is whole, since PoCL may look for it meanwhile.
 void write_whole(const fs::path& path, std::string_view text) {
     const fs::path unfinished = path.string() + ".part";
@@ -99,21 +94,18 @@ void write_whole(const fs::path& path, std::string_view text) {
     fs::rename(unfinished, path);
 }
 
-/// Writes the files of `packed` below `root`, except those that exist, since kernels run from them.
-/// Returns the paths of all files relative to `root`.
+/// Writes the files that an entry packs below `root`, except those that exist, since kernels run
+/// from them. Returns the paths of all files relative to `root`. Throws PackedFileError, before
+/// anything is written, for an entry that isn't one of ours.
 std::vector<fs::path> unpack(const fs::path& root, std::string_view bytes) {
-    std::vector<fs::path> files;
-    while (!bytes.empty()) {
-        const size_t space = bytes.find(' ');
-        const size_t end = bytes.find('\n');
-        const size_t size = std::stoull(std::string(bytes.substr(0, space)));
-        files.emplace_back(bytes.substr(space + 1, end - space - 1));
-        const fs::path path = root / files.back();
+    std::vector<fs::path> paths;
+    for (const auto& [name, content] : packed_files(bytes)) {
+        paths.emplace_back(name);
+        const fs::path path = root / name;
         fs::create_directories(path.parent_path());
-        if (!fs::exists(path)) write_whole(path, bytes.substr(end + 1, size));
-        bytes.remove_prefix(end + 1 + size);
+        if (!fs::exists(path)) write_whole(path, content);
     }
-    return files;
+    return paths;
 }
 
 }  // namespace
@@ -223,7 +215,12 @@ void PoclFolder::publish_kernels(const DiskCache& cache, const ProgramFiles& pro
     for (const ProgramPart& part : program.parts) {
         if (kernels_of(own, part).empty()) continue;
         const auto bytes = cache.read(part.key);  // other processes may have added to it since
-        const size_t known = bytes ? unpack(own, *bytes).size() : 0;
+        size_t known = 0;
+        try {
+            if (bytes) known = unpack(own, *bytes).size();
+        } catch (const PackedFileError&) {
+            known = 0;  // it is replaced
+        }
         const std::vector<fs::path> files = kernels_of(own, part);
         if (files.size() > known) cache.write(part.key, packed(own, files));
     }

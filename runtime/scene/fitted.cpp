@@ -71,15 +71,11 @@ glm::dmat3 three_quarter_view() {
     return {x, glm::cross(z, x), z};
 }
 
-/// Where along one axis of the image an observer stands that shows all of a box. A point at `u`
-/// across and `z` ahead is shown where |u - place| <= slope * (z - depth).
-struct Standpoint {
-    double depth;  ///< the largest that shows everything
-    double place;  ///< in the middle of the places from which everything is shown
-};
-
-Standpoint standpoint(const Bounds& box, const glm::dvec3& across, const glm::dvec3& ahead,
-                      double slope) {
+/// How far ahead the observer may stand at most to show all of a box along one axis of the image. A
+/// point at `u` across and `z` ahead is shown where |u - place| <= slope * (z - depth), for some
+/// place.
+double largest_depth(const Bounds& box, const glm::dvec3& across, const glm::dvec3& ahead,
+                     double slope) {
     double left = -INFINITY, right = -INFINITY;
     for (int i = 0; i < 8; ++i) {
         const glm::dvec3 p = corner(box, i);
@@ -87,7 +83,30 @@ Standpoint standpoint(const Bounds& box, const glm::dvec3& across, const glm::dv
         left = std::max(left, -u - z);
         right = std::max(right, u - z);
     }
-    return {-(left + right) / (2 * slope), (right - left) / 2};
+    return -(left + right) / (2 * slope);
+}
+
+/// The place across from which a box, all of which lies beyond `depth`, reaches as far to one side
+/// of the image as to the other.
+double middle_place(const Bounds& box, const glm::dvec3& across, const glm::dvec3& ahead,
+                    double depth) {
+    const auto u = [&](int i) { return glm::dot(across, corner(box, i)); };
+    double low = u(0), high = u(0);
+    for (int i = 1; i < 8; ++i) {
+        low = std::min(low, u(i));
+        high = std::max(high, u(i));
+    }
+    for (int step = 0; step < 60; ++step) {
+        const double middle = (low + high) / 2;
+        double left = -INFINITY, right = -INFINITY;
+        for (int i = 0; i < 8; ++i) {
+            const double z = glm::dot(ahead, corner(box, i)) - depth;
+            left = std::max(left, (middle - u(i)) / z);
+            right = std::max(right, (u(i) - middle) / z);
+        }
+        (right > left ? low : high) = middle;
+    }
+    return (low + high) / 2;
 }
 
 /// "0.5", or "[0.5, 0.25, 1]" where the numbers differ.
@@ -170,9 +189,11 @@ void frame_observer(Scene& scene) {
     const Bounds& box = scene.fitted.shown;
     const glm::dmat3 view = three_quarter_view();
     const glm::dvec2 slopes = kFilled * half_extent(display);
-    const Standpoint u = standpoint(box, view[0], view[2], slopes.x);
-    const Standpoint v = standpoint(box, view[1], view[2], slopes.y);
-    const glm::dvec3 position = view * glm::dvec3(u.place, v.place, std::min(u.depth, v.depth));
+    const double depth = std::min(largest_depth(box, view[0], view[2], slopes.x),
+                                  largest_depth(box, view[1], view[2], slopes.y));
+    const glm::dvec3 position =
+        view * glm::dvec3(middle_place(box, view[0], view[2], depth),
+                          middle_place(box, view[1], view[2], depth), depth);
     const double distance = glm::dot(view[2], (box.min + box.max) / 2.0 - position);
     const double step = last_digit(distance, 4);
     ObserverParameters parameters;

@@ -21,8 +21,8 @@ void fit_models(const FileBoxes& boxes, Scene& scene);
 /// visible in any frame of `motion`; infinite solids don't count. Models without voxels of their
 /// own size get those of the world.
 ///
-/// Of meshes and voxel files the boxes along the axes of their files count, so that a turned mesh
-/// may be given more room than it needs. Throws Error::scene for a world without bounds and without
+/// A mesh or a voxel file counts by its box along the axes of its file, so that a turned mesh may
+/// be given more room than it needs. Throws Error::scene for a world without bounds and without
 /// objects that it can be fitted to, Error::limit for too many voxels, and as `boxes` does.
 void fit_to_objects(const SceneMotion& motion, const FileBoxes& boxes, Scene& scene);
 

@@ -176,7 +176,7 @@ class PathWalker {
     /// name by nothing else.
     static std::string suggest_item(const std::string& section, const std::string& name,
                                     size_t count, const Names& given) {
-        const std::string nearest = suggest(name, given);
+        std::string nearest = suggest(name, given);
         if (given.size() == count || nearest.starts_with("; did you mean")) return nearest;
         if (count == 1)
             return fmt::format("; the only one has no name: give it one, or write \"{}[0]\"",

@@ -21,8 +21,9 @@ struct ProcessOptions {
     /// Without it PoCL keeps kernels where its own rules say, in ~/.cache/pocl.
     bool set_driver_environment = false;
 
-    /// Has a child process read OpenVDB files first that Voxelume didn't write: OpenVDB ends the
-    /// process on some damaged files. Reading takes twice as long.
+    /// Has the program voxelume-vdb-reader, which is installed with the library, read OpenVDB
+    /// files: damaged ones make OpenVDB corrupt the memory of the process that reads them. The
+    /// program is started by posix_spawn, once for each file.
     bool isolate_readers = false;
 
     /// Threads that compress and expand OpenEXR files; 0: none but the caller's.

@@ -2,6 +2,7 @@
 #include "runtime/base/disk_cache.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <fstream>
@@ -94,6 +95,51 @@ TEST_F(DiskCacheFiles, WhatWasUsedLongestAgoGoesFirst) {
     EXPECT_FALSE(cache.read(key_of("b")));
     EXPECT_TRUE(cache.read(key_of("c")));
     EXPECT_TRUE(cache.read(key_of("d")));
+}
+
+TEST_F(DiskCacheFiles, FoldersAndEntriesAreTheUsersAlone) {
+    const DiskCache cache(folder / "new" / "deep", 1000);
+    cache.write(key_of("one"), "bytes");
+    for (const fs::path& path : {folder / "new", folder / "new" / "deep"})
+        EXPECT_EQ(fs::status(path).permissions(), fs::perms::owner_all) << path;
+    EXPECT_EQ(fs::status(folder / "new" / "deep" / key_of("one")).permissions(),
+              fs::perms::owner_read | fs::perms::owner_write);
+}
+
+TEST_F(DiskCacheFiles, AFolderThatOthersMayWriteToKeepsAndGivesNothing) {
+    const DiskCache cache(folder / "cache", 1000);
+    cache.write(key_of("one"), "bytes");
+    for (const fs::perms others : {fs::perms::group_write, fs::perms::others_write}) {
+        fs::permissions(folder / "cache", fs::perms::owner_all | others);
+        EXPECT_EQ(cache.read(key_of("one")), std::nullopt);
+        cache.write(key_of("two"), "bytes");
+        EXPECT_FALSE(fs::exists(folder / "cache" / key_of("two")));
+        EXPECT_EQ(cache.refusal(), "other users may write to it; `chmod go-w` forbids them");
+    }
+    fs::permissions(folder / "cache", fs::perms::owner_all);
+    EXPECT_EQ(cache.read(key_of("one")), "bytes");
+    if (geteuid() != 0) return;  // who alone can give folders away
+    ASSERT_EQ(chown((folder / "cache").c_str(), 1, 1), 0);
+    EXPECT_EQ(cache.read(key_of("one")), std::nullopt);
+    EXPECT_EQ(cache.refusal(), "it belongs to another user");
+}
+
+TEST_F(DiskCacheFiles, LinksAndPipesAreNotFollowed) {
+    const DiskCache real(folder / "real", 1000);
+    real.write(key_of("one"), "bytes");
+    fs::create_directory_symlink(folder / "real", folder / "link");
+    for (const char* name : {"link", "link/"}) {
+        const DiskCache linked(folder / name, 1000);
+        EXPECT_EQ(linked.read(key_of("one")), std::nullopt);
+        EXPECT_EQ(linked.refusal(), "a link in the place of a folder isn't followed");
+        linked.write(key_of("two"), "bytes");
+        EXPECT_FALSE(fs::exists(folder / "real" / key_of("two")));
+    }
+    fs::rename(folder / "real" / key_of("one"), folder / "one");
+    fs::create_symlink(folder / "one", folder / "real" / key_of("one"));
+    EXPECT_EQ(real.read(key_of("one")), std::nullopt);
+    ASSERT_EQ(mkfifo((folder / "real" / key_of("three")).c_str(), 0600), 0);
+    EXPECT_EQ(real.read(key_of("three")), std::nullopt);
 }
 
 TEST_F(DiskCacheFiles, AFolderThatCannotBeMadeKeepsNothing) {

@@ -1,57 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 // A whole run of frames through render_frames(): its results, their order, and how it ends early.
 #include "runtime/batch/render_frames.hpp"
-#include "runtime/scene_file/read_scene.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <atomic>
-#include <map>
 #include <stdexcept>
 #include <thread>
 
 #include "runtime/render/volume_renderer.hpp"
-#include "runtime/scene/scene_animation.hpp"
-#include "tests/oracles/image_hash.hpp"
+#include "tests/batch/moving_frames.hpp"
 #include "tests/support/file_fixture.hpp"
-#include "tests/support/test_device.hpp"
 
 namespace voxelume {
 namespace {
 
 using testing::ElementsAre;
-
-/// A scene of nine frames with a ball that moves until the fifth. The device has memory for much
-/// more.
-Scene moving_scene() {
-    constexpr const char* kText = R"({"voxelume": 1,
-"world": {"voxel_size": 0.05, "bounds": {"min": [-1, -1, -1], "max": [1, 1, 1]}},
-"models": {"ball": {"shape": "sphere", "radius": 0.4, "voxel_size": 0.05}},
-"objects": [{"name": "a", "model": "ball"}, {"name": "b", "model": "ball", "position": [0.5, 0, 0]}],
-"lights": [{"type": "point", "position": [1, 3, -3], "intensity": 20}],
-"observer": {"position": [0, 0.5, -5], "look_at": [0, 0, 0],
-             "display": {"shape": "pyramid", "angles": [50, 40], "near": 0.5, "far": 20,
-                         "voxels": [9, 7, 11]}},
-"render": {"size": [45, 31]},
-"animation": {"frames": 9, "tracks": [{"target": "objects.a.position",
-    "keys": [{"frame": 1, "value": [-0.5, 0, 0]}, {"frame": 5, "value": [-0.1, 0.1, 0]}]}]}})";
-    return parse_scene(kText, "moving.json", {});
-}
-
-std::vector<Device> halves() {
-    const Device whole = test_device();
-    const bool is_cut = whole.is_cpu() && whole.info().compute_units > 1;
-    return is_cut ? Device::open_all("all/2") : std::vector{whole, whole.with_own_queue()};
-}
-
-uint64_t hash_alone(int frame) {
-    static std::map<int, uint64_t> hashes;
-    if (const auto known = hashes.find(frame); known != hashes.end()) return known->second;
-    RenderReport report;
-    const Image image = render(test_device(), scene_at(moving_scene(), frame), report);
-    return hashes[frame] = oracle::image_hash(image);
-}
 
 /// The way of a run: whether two devices take part, and whether their frames overlap.
 struct Way {
@@ -260,70 +225,6 @@ INSTANTIATE_TEST_SUITE_P(Ways, RenderFrames,
                                          Way{"OneByOne", false, false},
                                          Way{"TwoDevices", true, true}),
                          [](const auto& way) { return std::string(way.param.name); });
-
-/// One image that two devices share.
-struct SharedImage {
-    Scene scene = moving_scene();
-    BatchOptions options;
-    int results = 0;
-
-    BatchOutcome run(const std::vector<Device>& devices) {
-        options.frames = {3};
-        return render_frames(devices, scene, options, [&](const FrameResult& result) {
-            ++results;
-            EXPECT_EQ(oracle::image_hash(*result.image), hash_alone(3));
-        });
-    }
-};
-
-TEST(RenderSharedImage, IsOneResultOfAllDevices) {
-    SharedImage image;
-    EXPECT_EQ(image.run(halves()).frames_done, 1u);
-    EXPECT_EQ(image.results, 1);
-}
-
-TEST(RenderSharedImage, CancelledBetweenTilesGivesNothing) {
-    std::stop_source stop;
-    SharedImage image;
-    int calls = 0;
-    image.options.stop = stop.get_token();
-    image.options.progress = [&](double done, int) {
-        EXPECT_LT(done, 1);
-        if (++calls == 3) stop.request_stop();
-    };
-    const BatchOutcome outcome = image.run(halves());
-    EXPECT_TRUE(outcome.is_cancelled);
-    EXPECT_EQ(outcome.frames_done, 0u);
-    EXPECT_EQ(image.results, 0);
-    EXPECT_LE(calls, 4) << "each device ends the tiles that it has";
-}
-
-TEST(RenderSharedImage, AnErrorOfOneDeviceEndsTheOthersTiles) {
-    SharedImage image;
-    int calls = 0;
-    image.options.progress = [&](double, int) {
-        if (++calls == 3) throw Error(ErrorKind::render, "the device was lost");
-    };
-    const Error error = error_of([&] { image.run(halves()); });
-    EXPECT_STREQ(error.what(), "the device was lost (at frame 3)");
-    EXPECT_EQ(image.results, 0);
-    EXPECT_LE(calls, 4);
-}
-
-TEST(RenderSharedImage, ADeviceWithoutTheMemoryIsTheImagesError) {
-    setenv("VOXELUME_MEMORY_MB", "1", 1);
-    const Device small = test_device();
-    unsetenv("VOXELUME_MEMORY_MB");
-    SharedImage image;
-    image.scene.world.voxel_size = glm::dvec3(0.005);
-    image.scene.world.voxels = glm::ivec3(400);
-    for (const bool first : {false, true}) {
-        const std::vector<Device> devices =
-            first ? std::vector{small, test_device()} : std::vector{test_device(), small};
-        EXPECT_EQ(error_of([&] { image.run(devices); }).kind(), ErrorKind::limit) << first;
-    }
-    EXPECT_EQ(image.results, 0);
-}
 
 }  // namespace
 }  // namespace voxelume

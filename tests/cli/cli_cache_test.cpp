@@ -49,6 +49,12 @@ class CliCache : public ProgramTest {
     }
     nlohmann::json frame(const std::string& name) const { return frames(name).at(0); }
 
+    void replace(const std::string& before, const std::string& after) const {
+        std::string text = bytes_of(folder / "s.json");
+        text.replace(text.find(before), before.size(), after);
+        put_bytes(folder / "s.json", text);
+    }
+
     /// Adds tracks that move the observer around in three frames.
     void turn_observer() const {
         std::string text = bytes_of(folder / "s.json");
@@ -102,14 +108,27 @@ TEST_F(CliCache, AMeshIsReadOnceForAllDevices) {
 }
 
 TEST_F(CliCache, AnotherPlaceIsAnotherWorldOfTheSameModel) {
+    replace(R"("ring.obj")", R"("ring.obj", "surface": "cubes")");
     render("first");
-    std::string text = bytes_of(folder / "s.json");
-    text.replace(text.find("\"model\": \"ring\""), 15, "\"model\": \"ring\", \"turn\": [0, 0, 9]");
-    put_bytes(folder / "s.json", text);
+    replace(R"("model": "ring")", R"("model": "ring", "turn": [0, 0, 9])");
     const std::string moved = render("moved"), without = render("without", "--no-cache");
     EXPECT_TRUE(moved == without);
     EXPECT_EQ(frame("moved")["world_from_cache"], false);
     EXPECT_EQ(frame("moved")["models_from_cache"], 1);
+}
+
+TEST_F(CliCache, ASmoothModelIsVoxelizedAtEachPlaceInTheWorld) {
+    render("first");
+    replace(R"("model": "ring")", R"("model": "ring", "turn": [0, 0, 9])");
+    render("moved");
+    EXPECT_EQ(frame("moved")["models_from_cache"], 0);
+    EXPECT_EQ(frame("moved")["voxelized"], 1);
+    replace(R"("bounds": {"min": [-0.6, -0.6, -0.6], "max": [0.6)",
+            R"("bounds": {"min": [-0.6, -0.6, -0.6], "max": [0.64)");
+    const std::string wider = render("wider"), without = render("without", "--no-cache");
+    EXPECT_TRUE(wider == without);
+    EXPECT_EQ(frame("wider")["world_from_cache"], false);
+    EXPECT_EQ(frame("wider")["models_from_cache"], 1) << "its part of the lattice is the same";
 }
 
 TEST_F(CliCache, NoCacheLeavesTheFolderUntouched) {

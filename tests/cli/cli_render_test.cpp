@@ -113,11 +113,18 @@ TEST_F(CliRenderTest, WhatASceneLeavesOutIsFoundAndToldByCheck) {
     const Json fitted = Json::parse(run("check --json scene.json").out)["fitted"];
     EXPECT_EQ(fitted["world"]["bounds"]["min"][0], -1.031316);
     EXPECT_EQ(fitted["lights"].size(), 1u);
-    ASSERT_EQ(run("render scene.json -o fitted.exr").exit_code, 0);
+    const ProgramResult render = run("render scene.json -o fitted.exr");
+    ASSERT_EQ(render.exit_code, 0) << render.err;
+    EXPECT_THAT(render.err,
+                StartsWith("note: scene.json: has no \"lights\", so one shines from the observer's "
+                           "upper left; \"lights\": [] is dark\n"));
+    EXPECT_EQ(run("render scene.json -q -o fitted.exr").err, "");
     Json copied = Json::parse(bytes_of(folder / "scene.json"));
     copied.update(fitted);
     put_bytes(folder / "scene.json", copied.dump());
-    ASSERT_EQ(run("render scene.json -o copied.exr").exit_code, 0);
+    const ProgramResult of_copy = run("render scene.json -o copied.exr");
+    EXPECT_EQ(of_copy.exit_code, 0) << of_copy.err;
+    EXPECT_THAT(of_copy.err, testing::Not(HasSubstr("note:")));
     EXPECT_EQ(bytes_of(folder / "fitted.exr"), bytes_of(folder / "copied.exr"));
     EXPECT_FALSE(Json::parse(run("check --json scene.json").out).contains("fitted"));
 }
@@ -261,7 +268,7 @@ TEST_F(CliRenderTest, AMeshBecomesAModelAndAVolumeAtOnce) {
     ASSERT_EQ(result.exit_code, 0) << result.err;
     EXPECT_THAT(result.err, StartsWith("4 triangles to 48x36x28 voxels of 0.025 m in "));
     EXPECT_THAT(run("info t.vxm").out, HasSubstr("surface         smooth\n"));
-    const std::vector<VdbSummary> grids = read_vdb_summary(folder / "t.vdb");
+    const std::vector<VdbSummary> grids = read_vdb_summary(folder / "t.vdb").grids;
     ASSERT_EQ(grids.size(), 1u);
     EXPECT_EQ(grids[0].name, "surface");
     EXPECT_EQ(grids[0].grid_class, "level set");
@@ -273,7 +280,7 @@ TEST_F(CliRenderTest, SolidCubesFillTheirVolume) {
     ASSERT_EQ(
         run("voxelize t.obj -o t.vdb --voxel-size 0.01 --surface cubes --set solid -q").exit_code,
         0);
-    const std::vector<VdbSummary> grids = read_vdb_summary(folder / "t.vdb");
+    const std::vector<VdbSummary> grids = read_vdb_summary(folder / "t.vdb").grids;
     ASSERT_EQ(grids.size(), 1u);
     EXPECT_EQ(grids[0].name, "density");
     const double volume = 1 * 0.7 * 0.5 / 6 / 1e-6;  // voxels

@@ -32,8 +32,7 @@ class CliWarningsTest : public SceneProgramTest {
         EXPECT_EQ(result.exit_code, 0) << result.err;
         const Json statistics = Json::parse(bytes_of(folder / "stats.json"));
         std::vector<std::string> found;
-        for (const Json& warning : statistics["warnings"])
-            found.push_back(warning["kind"]);
+        for (const Json& warning : statistics["warnings"]) found.push_back(warning["kind"]);
         return found;
     }
 };

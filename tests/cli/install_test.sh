@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Installs the program elsewhere and lets it write and read .vdb files there, by the module that was
-# installed with it. Once the module is removed, both are refused before any work, and commands that
-# need no .vdb still work.
+# Installs the program elsewhere and lets it write and read .vdb files there, by the module and the
+# reader that were installed with it. Without the reader, reading is refused; without the module,
+# both are, before any work, and commands that need no .vdb still work.
 # Usage: install_test.sh BUILD_FOLDER SOURCE_FOLDER
 set -euo pipefail
 build=$1
@@ -29,6 +29,12 @@ expect 0 'OpenVDB volume' info a.vdb
 head -c 1000 a.vdb >cut.vdb
 expect 4 'cut.vdb: not a readable OpenVDB file' info cut.vdb
 
+reader=$(find . -name voxelume-vdb-reader)
+rm "$reader"
+expect 4 "voxelume-vdb-reader can't be started: No such file or directory; install voxelume again" info a.vdb
+printf '#!/bin/sh\nkill -SEGV $$\n' >"$reader"
+chmod +x "$reader"
+expect 4 "a.vdb: not a readable OpenVDB file: its reader ended: Segmentation fault, so it is damaged" info a.vdb
 rm "$(find . -name libvoxelume_vdb.so)"
 gone="the part of voxelume for OpenVDB can't be loaded: libvoxelume_vdb.so:"
 expect 4 "a.vdb: can't be read: $gone" info a.vdb

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Volumetric images by sight rays in scenes with surfaces that let light through: each surface is a
 // voxel with its opacity, and the composited voxels are the flat image.
-#include <ImfDeepFrameBuffer.h>
-#include <ImfDeepScanLineInputFile.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
 #include "runtime/io/volume_file.hpp"
+#include "tests/display/deep_file.hpp"
 #include "tests/support/display_fixture.hpp"
 #include "tests/support/exhaustive.hpp"
 #include "tests/support/file_fixture.hpp"
@@ -242,43 +241,6 @@ TEST(Layers, HaveTheSameBitsForEveryNumberOfLanes) {
         EXPECT_EQ(volume.depths, expected.depths) << lanes;
         EXPECT_EQ(volume.objects, expected.objects) << lanes;
     }
-}
-
-/// R, G, B and A of a deep image's pixels, flattened from what OpenEXR's own reader gives.
-std::vector<glm::dvec4> flattened_file(const std::filesystem::path& path, size_t width,
-                                       size_t height) {
-    Imf::DeepScanLineInputFile file(path.c_str());
-    std::vector<uint32_t> counts(width * height);
-    std::array<std::vector<float*>, 5> pointers;
-    constexpr std::array kChannels = {"R", "G", "B", "A", "Z"};
-    Imf::DeepFrameBuffer buffer;
-    buffer.insertSampleCountSlice(
-        Imf::Slice(Imf::UINT, reinterpret_cast<char*>(counts.data()), 4, 4 * width));
-    for (size_t c = 0; c < kChannels.size(); ++c) {
-        pointers[c].resize(counts.size());
-        buffer.insert(kChannels[c],
-                      Imf::DeepSlice(Imf::FLOAT, reinterpret_cast<char*>(pointers[c].data()),
-                                     sizeof(float*), sizeof(float*) * width, sizeof(float)));
-    }
-    file.setFrameBuffer(buffer);
-    file.readPixelSampleCounts(0, int(height) - 1);
-    std::vector<std::vector<float>> values(counts.size() * kChannels.size());
-    for (size_t p = 0; p < counts.size(); ++p)
-        for (size_t c = 0; c < kChannels.size(); ++c) {
-            values[p * kChannels.size() + c].resize(counts[p] + 1);
-            pointers[c][p] = values[p * kChannels.size() + c].data();
-        }
-    file.readPixels(0, int(height) - 1);
-    std::vector<glm::dvec4> flat(counts.size(), glm::dvec4(0));
-    for (size_t p = 0; p < counts.size(); ++p)
-        for (uint32_t n = 0; n < counts[p]; ++n) {
-            if (n > 0) {
-                EXPECT_GE(pointers[4][p][n], pointers[4][p][n - 1]) << "not front to back";
-            }
-            flat[p] += (1 - flat[p].a) * glm::dvec4(pointers[0][p][n], pointers[1][p][n],
-                                                    pointers[2][p][n], pointers[3][p][n]);
-        }
-    return flat;
 }
 
 class DeepImage : public FileTest {};

@@ -95,7 +95,7 @@ TEST_F(VdbTest, TheSameVolumeGivesTheSameBytesAndAnotherValueAnotherIdentifier) 
 
 TEST_F(VdbTest, TheSummarySaysWhatIsThere) {
     write_vdb(path(), voxels.volume());
-    const std::vector<VdbSummary> grids = read_vdb_summary(path());
+    const std::vector<VdbSummary> grids = read_vdb_summary(path()).grids;
     ASSERT_EQ(grids.size(), 2u);
     const VdbSummary& surface = grids[0].name == "surface" ? grids[0] : grids[1];
     const VdbSummary& colors = grids[0].name == "surface" ? grids[1] : grids[0];

@@ -2,8 +2,10 @@
 // Scenes with an area light or emissive object above a floor.
 #pragma once
 
+#include <cmath>
 #include <filesystem>
 #include <glm/glm.hpp>
+#include <numbers>
 #include <string>
 
 #include "runtime/render/renderer.hpp"
@@ -57,6 +59,16 @@ inline size_t pixel_at(const Image& image, double x, double z) {
         if (distance < minimum) best = i, minimum = distance;
     }
     return best;
+}
+
+inline bool is_floor(const Image& image, size_t pixel) {
+    return std::abs(point_at(image, pixel).y) < 1e-4;
+}
+
+/// The form factor of a rectangle a x b with one corner straight above the point, at height d.
+inline double corner_form_factor(double a, double b, double d) {
+    const double x = a / d, y = b / d, p = std::sqrt(1 + x * x), q = std::sqrt(1 + y * y);
+    return (x / p * std::atan(y / p) + y / q * std::atan(x / q)) / (2 * std::numbers::pi);
 }
 
 }  // namespace voxelume

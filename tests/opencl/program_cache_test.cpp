@@ -176,6 +176,36 @@ TEST_F(ProgramCacheFiles, DamagedEntriesAreCompiledAgain) {
     }
 }
 
+/// An entry with the right checksum, which only its user can make, still writes nowhere else.
+TEST_F(ProgramCacheFiles, EntriesThatNameFilesElsewhereWriteNothingAndAreReplaced) {
+    if (test_device().info().platform != kPoclPlatform) GTEST_SKIP() << "files are PoCL's";
+    const std::string environment = "VOXELUME_CACHE_DIR=" + folder.string();
+    ASSERT_EQ(compiled_by_processes(1, environment), std::vector<int>{2});
+    const DiskCache cache(folder / "programs", 1 << 20);
+    for (const std::string& name :
+         {(folder / "planted.so").string(), std::string("../planted.so"),
+          std::string("AB/../../planted.so"), std::string("AB/CD/planted.sh")}) {
+        for (const fs::directory_entry& entry : fs::directory_iterator(folder / "programs"))
+            cache.write(entry.path().filename(), fmt::format("4 AB/good.so\ntext4 {}\ntext", name));
+        EXPECT_EQ(compiled_by_processes(1, environment), std::vector<int>{2}) << name;
+        for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder))
+            EXPECT_NE(entry.path().stem(), "planted") << entry.path();
+        EXPECT_EQ(compiled_by_processes(1, environment), std::vector<int>{0}) << name;
+    }
+}
+
+/// Others could put kernels of theirs into it.
+TEST_F(ProgramCacheFiles, AFolderThatOthersMayWriteToIsNotUsed) {
+    if (!device_keeps_programs()) GTEST_SKIP() << "this device's programs are not kept";
+    fs::create_directory(folder / "open");
+    fs::permissions(folder / "open", fs::perms::all);
+    const std::string environment =
+        fmt::format("VOXELUME_CACHE_DIR={0}/open TMPDIR={0}/open", folder.string());
+    EXPECT_EQ(compiled_by_processes(1, environment), std::vector<int>{2});
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder / "open"))
+        EXPECT_FALSE(entry.path().filename().string().starts_with("pocl-")) << entry.path();
+}
+
 TEST(ProgramCache, WithoutAFolderEveryRunCompiles) {
     EXPECT_EQ(compiled_by_processes(1, "VOXELUME_CACHE_DIR="), std::vector<int>{2});
     EXPECT_EQ(compiled_by_processes(1, "VOXELUME_CACHE_DIR=/proc/none"), std::vector<int>{2});

@@ -1,69 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "runtime/render/renderer.hpp"
-#include "runtime/scene_file/read_scene.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <set>
 
-#include "runtime/render/illumination.hpp"
-#include "tests/support/interpreted.hpp"
-#include "tests/support/test_device.hpp"
+#include "tests/pictures/box_scene.hpp"
 
 namespace voxelume {
 namespace {
-
-using testing::Contains;
-using testing::ElementsAre;
-using testing::Key;
-using testing::Not;
-
-/// A scene text with one unit-sized box, 7 x 5 x 3 voxels, seen along +Z from in front of it.
-std::string box_scene(const std::string& surface, const std::string& lights,
-                      const std::string& more_world = "") {
-    return R"({"voxelume": 1,
-"world": {"voxel_size": 0.1, "bounds": {"min": [-1, -1, -1], "max": [1, 1, 1]},
-          "background": [0.25, 0.5, 0.75], "ambient": [0.5, 0.25, 0.125])" +
-           more_world + R"(},
-"materials": {"paint": {"color": [0.8, 0.4, 0.2], "diffuse": 0.5, "specular": 0.25, "shininess": 8}},
-"models": {"box": {"shape": "box", "size": [0.7, 0.5, 0.3], "voxel_size": 0.1, "surface": ")" +
-           surface + (surface == "cubes" ? R"(", "set": "solid"}},)" : R"("}},)") + R"(
-"objects": [{"name": "b", "model": "box", "material": "paint", "position": [0.05, -0.05, 0.05]}],
-"lights": [)" +
-           lights + R"(],
-"observer": {"position": [0, 0, -3], "look_at": [0, 0, 0],
-             "display": {"shape": "box", "size": [1.6, 1.2, 4], "near": 0.5, "voxels": [8, 6, 4]}},
-"render": {"size": [16, 12]}})";
-}
-
-Scene scene_of(const std::string& text) {
-    return parse_scene(text, "test.json", {});
-}
-
-/// The number of pixels along an edge.
-int pixels(int count) {
-    return int(full_or(uint32_t(count) / 4, uint32_t(count)));
-}
-
-struct Rendered {
-    Image image;
-    RenderReport report;
-    DeviceCounters counters;
-
-    float at(const char* plane, int x, int y) const {
-        return image.planes.at(plane)[size_t(y * image.width + x)];
-    }
-};
-
-Rendered rendered(const Scene& scene, int lanes = 0) {
-    const Device device = test_device(lanes);
-    Rendered result;
-    result.image = render(device, scene, result.report);
-    result.counters = device.counters();
-    return result;
-}
 
 TEST(Render, GivesDepthPositionNormalAndObjectOfAFace) {
     for (const char* surface : {"cubes", "exact"}) {
@@ -243,64 +189,6 @@ TEST(Render, G8AWorldFarFromTheOriginLooksAsOneAroundIt) {
         for (const char* plane : {"R", "A", "Z", "N.X", "N.Y", "N.Z"})
             EXPECT_EQ(near.image.planes.at(plane), far.image.planes.at(plane)) << surface << plane;
     }
-}
-
-TEST(Render, WhatASceneDoesNotHaveIsNotAllocatedOrLaunched) {
-    const Rendered plain = rendered(scene_of(box_scene("cubes", "")));
-    for (const char* kernel : {"add_light", "trace_shadows", "absorb_sight", "absorb_shadows"})
-        EXPECT_THAT(plain.counters.launches, Not(Contains(Key(std::string(kernel))))) << kernel;
-    EXPECT_THAT(plain.counters.allocated_bytes, Not(Contains(Key(std::string("shadow queue")))));
-
-    std::string unshadowed = box_scene(
-        "cubes",
-        R"({"type": "directional", "direction": [0, 0, 1], "color": [1, 1, 1], "intensity": 1})");
-    unshadowed.replace(unshadowed.find("\"render\": {"), 11, "\"render\": {\"shadows\": false, ");
-    const Rendered lit = rendered(scene_of(unshadowed));
-    EXPECT_THAT(lit.counters.launches, Contains(Key(std::string("add_light"))));
-    EXPECT_THAT(lit.counters.launches, Not(Contains(Key(std::string("trace_shadows")))));
-    EXPECT_THAT(lit.counters.allocated_bytes, Not(Contains(Key(std::string("shadow queue")))));
-}
-
-template <class T>
-std::vector<std::string> names(const std::map<std::string, T>& counters) {
-    std::vector<std::string> all;
-    for (const auto& [name, value] : counters) all.push_back(name);
-    return all;
-}
-
-TEST(Render, ASceneOfPlainCubesHasNothingElseInIt) {
-    // One object of cubes without lights uses only these features, kernels and buffers.
-    const Scene scene = scene_of(box_scene("cubes", ""));
-    const Rendered r = rendered(scene);
-    const Device device = test_device();
-    WorldReport report;
-    const Features features = features_of(scene, build_world(device, scene, report));
-    std::set<std::string> expected = {"VXL_CUBES"};
-    expected.insert(
-        {"VXL_RADIANCE", "VXL_POSITIONS", "VXL_NORMALS", "VXL_HIT_ATTRIBUTES"});  // asked for
-    if (device.is_cpu()) expected.insert("VXL_NATIVE_DIVIDE");
-    for (const auto& [name, value] : features.defines(device))
-        EXPECT_EQ(value != 0, expected.contains(name)) << name;
-    EXPECT_THAT(names(r.counters.launches),
-                ElementsAre("cast_sight", "classify_bricks", "clear_bricks", "mark_near_leaves",
-                            "mark_voxels", "occupy_solid", "paint_cubes", "resolve_pixels",
-                            "shade_surface", "trace_closest", "write_voxels"));
-    EXPECT_THAT(
-        names(r.counters.allocated_bytes),
-        ElementsAre("brick records", "brick states", "cleared bricks", "coordinates",
-                    "hit attributes", "hits", "image", "index counts", "index leaf masks",
-                    "index masks", "index starts", "leaf voxels", "leaves", "materials",
-                    "materials of groups", "near leaves", "normals", "not finite", "object numbers",
-                    "occupancy", "painted bricks", "placement", "positions", "radiance", "rays",
-                    "sample offsets", "sectors", "slots", "solids", "undecided count",
-                    "undecided voxels", "world coordinates", "world occupancy", "world slots"));
-}
-
-TEST(Render, ALightWithoutIntensityIsNotShaded) {
-    const Rendered r = rendered(scene_of(box_scene(
-        "cubes",
-        R"({"type": "point", "position": [0, 0, -2], "color": [1, 1, 1], "intensity": 0})")));
-    EXPECT_THAT(r.counters.launches, Not(Contains(Key(std::string("add_light")))));
 }
 
 TEST(Render, AnEmptyWorldIsItsBackground) {

@@ -100,6 +100,29 @@ TEST(PlaceField, WorldVoxelsLargerThanTheObjectsKeepTheRightSides) {
     }
 }
 
+TEST(PlaceField, WorldVoxelsMuchSmallerThanTheObjectsFindTheSurfaceInEachOfItsCells) {
+    const BrickGrid sphere = sphere_bricks(2.0, 0.1).upload(shared_device());
+    for (const double scale : {5.0, 17.0, 40.0}) {
+        const glm::dmat4 map = affine_from_factors({0, 0, 0}, {34, -21, 77}, glm::dvec3(scale));
+        const glm::dvec3 middle = 2 * scale * glm::normalize(glm::dvec3(0.6, -0.3, 0.7));
+        const GridFrame frame = frame_at(middle - 5.0, glm::dvec3(0.1), glm::ivec3(100));
+        const BrickGrid world = place_one(sphere, map, frame);
+        size_t near = 0, wrong = 0;
+        for_each_node(world, [&](const glm::ivec3& n, double placed) {
+            const glm::dvec3 p = frame.origin + 0.1 * glm::dvec3(n);
+            const double truth = (glm::length(p) - 2 * scale) / 0.1;
+            // The world's end closes what lies near it.
+            const bool is_inner = glm::all(glm::greaterThan(n, glm::ivec3(4))) &&
+                                  glm::all(glm::lessThan(n, glm::ivec3(96)));
+            if (!is_inner || std::abs(truth) > 2) return;
+            ++near;
+            wrong += std::abs(placed - truth) > 0.25;
+        });
+        EXPECT_GT(near, 20'000u) << scale;
+        EXPECT_EQ(wrong, 0u) << scale;
+    }
+}
+
 /// What `place` says about a sphere of voxels of 0.1 in a world of voxels of `edge`.
 std::string refusal_of(const BrickGrid& sphere, const glm::dvec3& edge, const glm::dvec3& scale) {
     try {

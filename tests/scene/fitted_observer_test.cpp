@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 #include <string>
@@ -24,6 +25,17 @@ glm::dvec2 place_in_image(const Observer& observer, const glm::dvec3& p) {
     EXPECT_GT(e.z, 0);
     return {-e.x / e.z / std::tan(observer.display.half_angles.x),
             -e.y / e.z / std::tan(observer.display.half_angles.y)};
+}
+
+/// The middle, in the image, of what all corners of a box reach.
+glm::dvec2 middle_in_image(const Observer& observer, const Bounds& box) {
+    glm::dvec2 low(INFINITY), high(-INFINITY);
+    for (int i = 0; i < 8; ++i) {
+        const glm::dvec2 place = place_in_image(observer, corner(box, i));
+        low = glm::min(low, place);
+        high = glm::max(high, place);
+    }
+    return (low + high) / 2.0;
 }
 
 /// The largest coordinate, in the image, of all corners of a box.
@@ -52,6 +64,9 @@ TEST(FittedObserver, ShowsTheWholeOfTheObjectsInEverySize) {
             const double farthest = farthest_in_image(scene.observer, scene.fitted.shown);
             EXPECT_LT(farthest, 0.94);
             EXPECT_GT(farthest, 0.91);
+            const glm::dvec2 middle = middle_in_image(scene.observer, scene.fitted.shown);
+            EXPECT_LT(std::abs(middle.x), 0.01);
+            EXPECT_LT(std::abs(middle.y), 0.01);
         }
     }
 }

@@ -291,11 +291,9 @@ TEST(SceneText, ADescriptionNamesEverything) {
     const std::string text =
         describe(read_scene(fs::path(VXL_SOURCE_DIR) / "scenes" / "cubes.json", {}));
     EXPECT_THAT(text, StartsWith("world: 40x40x40 voxels of 0.05 0.03 0.04 m\n"));
-    for (const char* part :
-         {"model \"arch\": difference of 3 parts, cubes", "object \"ring\"", "light \"sun\"",
-          "observer: at 0.7 1.3 2.6", "image: 160x120 pixels"}) {
+    for (const char* part : {"model \"arch\": difference of 3 parts, cubes", "object \"ring\"",
+                             "light \"sun\"", "observer: at 0.7 1.3 2.6", "image: 160x120 pixels"})
         EXPECT_THAT(text, HasSubstr(part));
-    }
 }
 
 }  // namespace voxelume

@@ -87,7 +87,8 @@ TEST(Tracks, OnWhatIsNotThereGetTheNearestName) {
         {values("lights.son.color", {"[1, 1, 1]"}),
          "no light named \"son\"; did you mean \"sun\"?"},
         {values("objects.table.position", {"[1, 2, 3]"}),
-         "no object named \"table\"; known are \"b\", \"c\"; 1 of 3 have no name: give them one, or "
+         "no object named \"table\"; known are \"b\", \"c\"; 1 of 3 have no name: give them one, "
+         "or "
          "write places such as \"objects[0]\""},
         {values("objects.b.rotation", {"[1, 2, 3]"}),
          "objects[0] has no value \"rotation\" that can change; did you mean \"turn\"?"},

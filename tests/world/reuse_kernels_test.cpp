@@ -159,7 +159,7 @@ INSTANTIATE_TEST_SUITE_P(
                WorldChange::built, false, 0, 8},
         Change{"SmoothScale", "objects.ball.scale", "1", "0.5",
                all_of({kNewSmooth, {"sample_solid"}}), WorldChange::built, false, 1, 8},
-        Change{"SmoothScaleALittle", "objects.ball.scale", "0.95", "0.9", kNewSmooth,
+        Change{"SmoothScaleALittle", "objects.ball.scale", "0.95", "0.9", kSmooth,
                WorldChange::built, false, 0, 8},
         Change{"Lamp", "objects.lamp.position", "[0.8, 0, -0.8]", "[1.6, 0, -0.8]", kSmooth,
                WorldChange::built, false, 0, 8},

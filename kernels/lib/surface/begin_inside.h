@@ -10,8 +10,7 @@
 
 /// Mask: rays have met their surfaces from behind, as each kind of surface tells.
 static inline lane_int meets_from_behind(const SurfaceView* s, const Walk* w,
-                                         const RayState* ray_state, const SurfaceHit* found,
-                                         lane_int smooth, lane_int hit) {
+                                         const SurfaceHit* found, lane_int smooth, lane_int hit) {
     lane_int behind = smooth & found->within;
     if (!VXL_EXACT) return behind;
     const lane_int exact = hit & LANE_MASK(found->primitive != VXL_NO_PRIMITIVE);
@@ -53,7 +52,7 @@ static inline MediumSet find_beginnings(const WorldView* world, const Surroundin
         const lane_uint packed =
             attributes_of_hit(s, voxel, found.primitive, searching) & LANES_AS_UINT(searching);
         const lane_int smooth = is_smooth(packed, found.primitive) & searching;
-        const lane_int leaving = meets_from_behind(s, w, ray_state, &found, smooth, searching);
+        const lane_int leaving = meets_from_behind(s, w, &found, smooth, searching);
         const lane_int first = searching & ~medium_set_holds(&met, packed) &
                                LANE_MASK(LANES_GATHER_UINT(hollow, packed & VXL_OBJECT_MASK) != 0u);
         const lane_uint material = material_offset(packed);

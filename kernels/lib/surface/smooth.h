@@ -65,8 +65,8 @@ static inline lane_int hit_smooth(const Field* f, const Walk* w, float plane_bou
     from->within |= from->unsure & LANE_MASK(outside < -bound);
     const lane_float side = LANES_SELECT(from->within, (lane_float)-1.0f, (lane_float)1.0f);
     const lane_float f_entry = side * outside;
-    // Where surfaces cross at the ray's origin, rounding doesn't decide on which side it is: else it
-    // would go from one to the other without end.
+    // Where surfaces cross at the ray's origin, rounding doesn't decide on which side it is.
+    // Otherwise the ray would go from one to the other without end.
     const lane_int beginning = from->beginning | (from->here & LANE_MASK(f_entry < 0.0f));
     *level = LANES_SELECT(beginning & tested, fmax(-f_entry, 0.0f) + VXL_FIELD_ROUNDING, *level);
     lane_float fa = f_entry + *level;

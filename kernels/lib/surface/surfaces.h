@@ -179,7 +179,7 @@ static inline lane_int hit_field(const PyramidView* p, const SurfaceView* s, con
         from.here = beginning & ~from.beginning;
     }
     lane_uint packed = (lane_uint)s->constant_attribute;
-    if (VXL_ATTRIBUTES && (VXL_TRANSMISSION || any_unsure))
+    if (VXL_ATTRIBUTES && (any_unsure || VXL_TRANSMISSION))
         packed = LANES_GATHER_UINT(s->attributes, number);
     if (VXL_TRANSMISSION) from.within = medium_set_holds(&ray_state->media, packed);
     if (any_unsure)

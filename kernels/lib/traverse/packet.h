@@ -22,7 +22,7 @@
     ((one_by_one) ? LANES_GATHER_UINT(p, ray) : LANES_LOAD(p, LANES_FIRST(ray)))
 
 /// What a packet has found before its walk.
-static inline SurfaceHit no_hit_yet(const RayState* ray_state) {
+static inline SurfaceHit no_hit_yet(void) {
     SurfaceHit found;
     found.hit = (lane_int)0;
     found.t = (lane_float)INFINITY;
@@ -90,7 +90,7 @@ static inline lane_int is_hit(const SurfaceHit* found, lane_float t_end) {
 /// Walks the `active` lanes to their first surface before t_end.
 static inline SurfaceHit find_first(const PyramidView* p, const SurfaceView* s, Walk* w,
                                     lane_float t_end, lane_int active, const RayState* ray_state) {
-    SurfaceHit found = no_hit_yet(ray_state);
+    SurfaceHit found = no_hit_yet();
     lane_int walking = active & in_grid(p, w), waiting = (lane_int)0;
     while (lanes_any(walking)) {
         while (lanes_any(walking)) walk_on(p, w, t_end, &found, &walking, &waiting);
@@ -221,7 +221,7 @@ static inline void set_out(const PyramidView* p, const RayBatch* batch, uint cou
                     LANES_GATHER_UINT(paths + VXL_PATH_CELL * stride, f->ray),
                     LANES_GATHER_UINT(paths + VXL_PATH_CELL_Z * stride, f->ray), resuming);
     f->t_end = VXL_RAY_FLOATS(batch->rays + VXL_RAY_END * stride, f->ray, VXL_PATHS);
-    f->found = no_hit_yet(&f->ray_state);
+    f->found = no_hit_yet();
 }
 
 #define VXL_PACKETS_INTERLEAVED \

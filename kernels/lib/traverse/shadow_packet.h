@@ -61,7 +61,7 @@ static inline void send_shadows(const WorldView* world, const Surroundings* arou
                 world->surface.solids,
                 ray_state->source & ~VXL_SOLID_PRIMITIVE & LANES_AS_UINT(asked), &ray, asked);
     }
-    packet->found = no_hit_yet(ray_state);
+    packet->found = no_hit_yet();
     if (!VXL_FILTER) return;
     // The paths are those of the rays that met the surface: light arrives on the side they came
     // from.
@@ -160,7 +160,7 @@ static inline void trace_refilled_shadows(const WorldView* world, const Surround
         if (lanes_any(ended & ~hit)) bring_light(q, &f, held, ended & ~hit);
         held &= walking | passing;
         if (VXL_FILTER) {
-            const SurfaceHit nothing = no_hit_yet(&packet->ray_state);
+            const SurfaceHit nothing = no_hit_yet();
             take_hit(&nothing, passing, &packet->found);
             walking |= passing & in_grid(p, &packet->walk);
         }

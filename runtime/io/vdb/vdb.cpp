@@ -5,7 +5,7 @@
 #include <openvdb/tools/SignedFloodFill.h>
 
 #include "runtime/base/atomic_file.hpp"
-#include "runtime/base/input_file.hpp"
+#include "runtime/io/vdb/vdb_read.hpp"
 #include "runtime/io/vdb/vdb_stream.hpp"
 
 namespace voxelume::vdb {
@@ -88,22 +88,6 @@ VdbSummary summarize(const openvdb::GridBase& grid) {
     return summary;
 }
 
-/// Returns what `read` makes of the opened file, and turns OpenVDB's exceptions into Error::input.
-template <class Read>
-auto read_opened(const InputFile& readable, const std::filesystem::path& path, Read read) {
-    try {
-        openvdb::initialize();
-        openvdb::io::File file(path.string());
-        // Reads the file whole: delayed loading would keep it mapped for as long as the grids live.
-        file.open(false);
-        return read(file);
-    } catch (const std::bad_alloc&) {
-        readable.refuse("not a readable OpenVDB file: it declares more than there is memory");
-    } catch (const std::exception& error) {
-        readable.refuse(fmt::format("not a readable OpenVDB file: {}", error.what()));
-    }
-}
-
 }  // namespace
 
 void write_vdb(const std::filesystem::path& path, const VdbVolume& volume) {
@@ -113,25 +97,16 @@ void write_vdb(const std::filesystem::path& path, const VdbVolume& volume) {
     file.commit();
 }
 
-std::map<std::string, std::string> read_vdb_metadata(const std::filesystem::path& path) {
-    const InputFile readable(path);
-    return read_opened(readable, path, [](openvdb::io::File& file) {
-        std::map<std::string, std::string> texts;
-        const openvdb::MetaMap::Ptr metadata = file.getMetadata();
-        for (auto entry = metadata->beginMeta(); entry != metadata->endMeta(); ++entry)
-            if (entry->second->typeName() == "string") texts[entry->first] = entry->second->str();
-        return texts;
-    });
-}
-
-std::vector<VdbSummary> read_vdb_summary(const std::filesystem::path& path) {
-    const InputFile readable(path);
-    return read_opened(readable, path, [](openvdb::io::File& file) {
-        std::vector<VdbSummary> summaries;
-        for (const openvdb::GridBase::Ptr& grid : *file.getGrids())
-            summaries.push_back(summarize(*grid));
-        return summaries;
-    });
+VdbFileSummary summary_in(const InputFile& file) {
+    const VdbContent content = read_vdb_content(file);
+    VdbFileSummary summary;
+    const openvdb::MetaMap& metadata = *content.metadata;
+    for (auto entry = metadata.beginMeta(); entry != metadata.endMeta(); ++entry)
+        if (entry->second->typeName() == "string")
+            summary.metadata[entry->first] = entry->second->str();
+    for (const openvdb::GridBase::Ptr& grid : *content.grids)
+        summary.grids.push_back(summarize(*grid));
+    return summary;
 }
 
 }  // namespace voxelume::vdb

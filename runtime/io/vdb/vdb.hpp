@@ -42,8 +42,8 @@ void write_vdb(const std::filesystem::path& path, const VdbVolume& volume);
 /// OpenVDB can't be loaded.
 void check_vdb_output(const std::filesystem::path& path);
 
-/// Sets whether a child process first reads files that voxelume didn't write, since damaged ones
-/// may end the process that reads them. It does unless this function says otherwise.
+/// Sets whether OpenVDB reads files in a helper program, since damaged ones corrupt the memory of
+/// the process that reads them. It does unless this function says otherwise.
 void isolate_vdb_readers(bool is_isolated);
 
 /// A summary of one grid of a file.
@@ -56,11 +56,14 @@ struct VdbSummary {
     glm::dvec3 voxel_edges{0.0};  ///< metres
 };
 
-/// Reads the file's text metadata. Throws Error::input as read_vdb_summary does.
-std::map<std::string, std::string> read_vdb_metadata(const std::filesystem::path& path);
+/// A summary of a file.
+struct VdbFileSummary {
+    std::map<std::string, std::string> metadata;  ///< text entries alone
+    std::vector<VdbSummary> grids;
+};
 
 /// Reads every grid of a file. Throws Error::input for a file that is missing or that OpenVDB can't
 /// read.
-std::vector<VdbSummary> read_vdb_summary(const std::filesystem::path& path);
+VdbFileSummary read_vdb_summary(const std::filesystem::path& path);
 
 }  // namespace voxelume

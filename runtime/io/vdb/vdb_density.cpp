@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "runtime/io/vdb/vdb_density.hpp"
-
 #include <openvdb/tools/Interpolation.h>
 
 #include <algorithm>
@@ -116,31 +114,30 @@ void check_values(const FloatGrid& grid, const std::string& name, const InputFil
     if (!finite) file.refuse(fmt::format("grid \"{}\" has a value that is no number", name));
 }
 
-FloatGrid::ConstPtr read_grid(const GridDensity& density, const InputFile& readable) {
-    const openvdb::GridPtrVecPtr grids = read_vdb_grids(density.file, readable);
-    for (const openvdb::GridBase::Ptr& grid : *grids) {
-        if (grid->getName() != density.grid) continue;
-        const auto floats = openvdb::gridPtrCast<FloatGrid>(grid);
-        if (!floats)
-            readable.refuse(fmt::format("grid \"{}\" holds {} values; a density is of float values",
-                                        density.grid, grid->valueType()));
-        if (!floats->transform().isLinear())
-            readable.refuse(
-                fmt::format("grid \"{}\" is bent by its transform; only affine ones "
-                            "can be placed",
-                            density.grid));
-        check_values(*floats, density.grid, readable);
-        return floats;
-    }
-    readable.refuse(
-        fmt::format("has no grid \"{}\"; its grids: {}", density.grid, names_of(*grids)));
-}
-
 }  // namespace
 
-std::unique_ptr<DensityField> read_vdb_density(const GridDensity& density) {
-    const InputFile readable(density.file);
-    return std::make_unique<VdbField>(read_grid(density, readable), density.world_from_grid);
+FloatGrid::Ptr density_in(const InputFile& file, const std::string& name) {
+    const openvdb::GridPtrVecPtr grids = read_vdb_content(file).grids;
+    for (const openvdb::GridBase::Ptr& grid : *grids) {
+        if (grid->getName() != name) continue;
+        const auto floats = openvdb::gridPtrCast<FloatGrid>(grid);
+        if (!floats)
+            file.refuse(fmt::format("grid \"{}\" holds {} values; a density is of float values",
+                                    name, grid->valueType()));
+        if (!floats->transform().isLinear())
+            file.refuse(
+                fmt::format("grid \"{}\" is bent by its transform; only affine ones "
+                            "can be placed",
+                            name));
+        check_values(*floats, name, file);
+        return floats;
+    }
+    file.refuse(fmt::format("has no grid \"{}\"; its grids: {}", name, names_of(*grids)));
+}
+
+std::unique_ptr<DensityField> density_field_of(FloatGrid::ConstPtr grid,
+                                               const glm::dmat4& world_from_grid) {
+    return std::make_unique<VdbField>(std::move(grid), world_from_grid);
 }
 
 }  // namespace voxelume::vdb

@@ -67,11 +67,7 @@ void write_vdb(const std::filesystem::path& path, const VdbVolume& volume) {
     writer_of(path).write_vdb(path, volume);
 }
 
-std::map<std::string, std::string> read_vdb_metadata(const std::filesystem::path& path) {
-    return reader_of(path).read_vdb_metadata(path);
-}
-
-std::vector<VdbSummary> read_vdb_summary(const std::filesystem::path& path) {
+VdbFileSummary read_vdb_summary(const std::filesystem::path& path) {
     return reader_of(path).read_vdb_summary(path);
 }
 

@@ -16,7 +16,6 @@ struct VdbFunctions {
     const char* version;  ///< version of the program that the module belongs to
     decltype(voxelume::isolate_vdb_readers)* isolate_vdb_readers;
     decltype(voxelume::write_vdb)* write_vdb;
-    decltype(voxelume::read_vdb_metadata)* read_vdb_metadata;
     decltype(voxelume::read_vdb_summary)* read_vdb_summary;
     decltype(voxelume::read_vdb_density)* read_vdb_density;
     decltype(voxelume::read_vdb_voxels)* read_vdb_voxels;

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "runtime/io/vdb/vdb_voxels.hpp"
+#include "runtime/io/vdb/vdb_read.hpp"
 
 #include <cmath>
-
-#include "runtime/io/vdb/vdb_read.hpp"
 
 namespace voxelume::vdb {
 namespace {
@@ -51,8 +49,7 @@ glm::dvec3 cell_edges(const FloatGrid& grid, const InputFile& readable) {
     return edges;
 }
 
-VdbVoxels take_voxels(const openvdb::GridPtrVec& grids, Surface surface,
-                      const InputFile& readable) {
+VdbModel take_voxels(const openvdb::GridPtrVec& grids, Surface surface, const InputFile& readable) {
     const FloatGrid::Ptr grid = find_grid(grids, surface, readable);
     VdbVoxels voxels;
     voxels.voxel_edges = cell_edges(*grid, readable);
@@ -77,17 +74,13 @@ VdbVoxels take_voxels(const openvdb::GridPtrVec& grids, Surface surface,
         const openvdb::Vec3s color = colors->tree().getValue(cell);
         voxels.colors.emplace_back(color.x(), color.y(), color.z());
     }
-    voxels.value_at = [grid](const glm::ivec3& cell) {
-        return grid->tree().getValue(openvdb::Coord(cell.x, cell.y, cell.z));
-    };
-    return voxels;
+    return {std::move(voxels), grid};
 }
 
 }  // namespace
 
-VdbVoxels read_vdb_voxels(const std::filesystem::path& path, Surface surface) {
-    const InputFile readable(path);
-    return take_voxels(*read_vdb_grids(path, readable), surface, readable);
+VdbModel model_in(const VdbContent& content, const InputFile& file, Surface surface) {
+    return take_voxels(*content.grids, surface, file);
 }
 
 }  // namespace voxelume::vdb

@@ -19,7 +19,8 @@ struct VdbVoxels {
     std::vector<glm::vec3> colors;  ///< linear colours of grid `Cd`; empty without it
     glm::dvec3 voxel_edges{1.0};    ///< metres
     glm::dvec3 origin{0.0};         ///< position of the value of cell (0, 0, 0), metres
-    std::function<float(const glm::ivec3&)> value_at;  ///< the value of any cell, active or not
+    /// The value of any cell, active or not; for level sets alone.
+    std::function<float(const glm::ivec3&)> value_at;
 };
 
 /// The maximum number of active voxels of a model.

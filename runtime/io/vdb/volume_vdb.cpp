@@ -8,6 +8,7 @@
 #include <glm/trigonometric.hpp>
 
 #include "runtime/image/volume_geometry.hpp"
+#include "runtime/io/vdb/vdb_read.hpp"
 #include "runtime/io/vdb/vdb_stream.hpp"
 #include "runtime/io/volume/volume_formats.hpp"
 #include "runtime/io/volume/volume_frame_text.hpp"
@@ -136,13 +137,14 @@ struct VolumeGrids {
     bool complete() const { return alpha && depth && color && object && kind; }
 };
 
-VolumeGrids take_grids(openvdb::io::File& file) {
+VolumeGrids take_grids(const openvdb::GridPtrVec& all) {
+    const auto named = [&all](const char* name) { return openvdb::findGridByName(all, name); };
     VolumeGrids grids;
-    grids.alpha = openvdb::gridPtrCast<openvdb::FloatGrid>(file.readGrid("alpha"));
-    grids.depth = openvdb::gridPtrCast<openvdb::FloatGrid>(file.readGrid("depth"));
-    grids.color = openvdb::gridPtrCast<openvdb::Vec3SGrid>(file.readGrid("Cd"));
-    grids.object = openvdb::gridPtrCast<openvdb::Int32Grid>(file.readGrid("object"));
-    grids.kind = openvdb::gridPtrCast<openvdb::Int32Grid>(file.readGrid("kind"));
+    grids.alpha = openvdb::gridPtrCast<openvdb::FloatGrid>(named("alpha"));
+    grids.depth = openvdb::gridPtrCast<openvdb::FloatGrid>(named("depth"));
+    grids.color = openvdb::gridPtrCast<openvdb::Vec3SGrid>(named("Cd"));
+    grids.object = openvdb::gridPtrCast<openvdb::Int32Grid>(named("object"));
+    grids.kind = openvdb::gridPtrCast<openvdb::Int32Grid>(named("kind"));
     return grids;
 }
 
@@ -178,16 +180,19 @@ std::vector<FoundVoxel> find_voxels(const InputFile& readable, const VolumeFrame
     return voxels;
 }
 
-Volume take_volume(const InputFile& readable, const VolumePath& path, openvdb::io::File& file) {
-    const openvdb::MetaMap::Ptr metadata = file.getMetadata();
+}  // namespace
+
+Volume volume_in(const InputFile& readable) {
+    const VdbContent content = read_vdb_content(readable);
+    const openvdb::MetaMap::Ptr& metadata = content.metadata;
     const auto frame = metadata->getMetadata<openvdb::StringMetadata>(kFrameKey);
     if (!frame) readable.refuse("an OpenVDB file, but not of a display");
     Volume volume;
-    volume.frame = read_frame_text(frame->value(), path.string());
+    volume.frame = read_frame_text(frame->value(), readable.path().string());
     for (auto entry = metadata->beginMeta(); entry != metadata->endMeta(); ++entry)
         if (entry->second->typeName() == "string" && entry->first != kFrameKey)
             volume.attributes[entry->first] = entry->second->str();
-    const VolumeGrids grids = take_grids(file);
+    const VolumeGrids grids = take_grids(*content.grids);
     if (!grids.complete()) readable.refuse("its grids aren't those of a display");
     for (const FoundVoxel& voxel : find_voxels(readable, volume.frame, grids)) {
         volume.indices.push_back(voxel.place);
@@ -200,8 +205,6 @@ Volume take_volume(const InputFile& readable, const VolumePath& path, openvdb::i
     return volume;
 }
 
-}  // namespace
-
 void write_volume_vdb(const VolumePath& path, const Volume& volume) {
     AtomicFile file(path);
     if (volume.indices.size() > UINT32_MAX)
@@ -213,22 +216,6 @@ void write_volume_vdb(const VolumePath& path, const Volume& volume) {
     metadata.insertMeta(kFrameKey, openvdb::StringMetadata(write_frame_text(volume.frame)));
     write_vdb_grids(file, make_grids(volume), metadata);
     file.commit();
-}
-
-Volume read_volume_vdb(const VolumePath& path) {
-    const InputFile readable(path);
-    if (!vdb_identifier_holds(readable))
-        readable.refuse(
-            "not an OpenVDB file of voxelume, or damaged since: its identifier isn't "
-            "the one of its content");
-    try {
-        openvdb::initialize();
-        openvdb::io::File file(path.string());
-        file.open(false);  // delayed loading would map the file for as long as the grids live
-        return take_volume(readable, path, file);
-    } catch (const openvdb::Exception& error) {
-        readable.refuse(fmt::format("not a readable OpenVDB file: {}", error.what()));
-    }
 }
 
 }  // namespace voxelume::vdb

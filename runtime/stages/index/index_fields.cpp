@@ -72,7 +72,8 @@ UnitedBricks unite_bricks(const PlacedWorld& world, const std::map<uint64_t, Vox
     united.numbers.insert(united.numbers.end(), base.begin(),
                           base.begin() + world.voxels.brick_count);
     std::ranges::sort(united.numbers);
-    united.numbers.erase(std::ranges::unique(united.numbers).begin(), united.numbers.end());
+    united.numbers.erase(std::unique(united.numbers.begin(), united.numbers.end()),
+                         united.numbers.end());
     if (!united.numbers.empty() && united.numbers.back() == kBrickOutside)
         united.numbers.pop_back();
     const auto index_of = [&](uint32_t number) {

@@ -38,16 +38,20 @@ Program program_for(const Device& device, const PlacedObject& object, Surface su
              {"VXL_KEEPS_INSIDE", object.keeps_inside}}};
 }
 
-int near_threshold(const PlacementMap& map) {
-    const double band = std::ceil(kBandVoxels * kDistanceUnitsPerVoxel / map.distance_scale);
-    return static_cast<int>(std::min(band, 32767.0));
-}
-
 /// Half a voxel's diagonal, in distance units of the grid, rounded up.
 int half_diagonal(const GridFrame& frame) {
     const glm::dvec3 e = frame.voxel_edge;
     return static_cast<int>(
         std::ceil(glm::length(e) / 2 / std::min({e.x, e.y, e.z}) * kDistanceUnitsPerVoxel));
+}
+
+/// A leaf is near if a node of it has a smaller distance, in the object's units. In cells larger
+/// than the world's, nodes within the band may be half a diagonal from the next corner.
+int near_threshold(const PlacementMap& map, const GridFrame& grid) {
+    constexpr double kMost = kBandVoxels * kDistanceUnitsPerVoxel;
+    const double band = kMost / map.distance_scale;
+    const double in_cell = std::min(kMost, band + half_diagonal(grid));
+    return static_cast<int>(std::min(std::ceil(std::max(band, in_cell)), 32767.0));
 }
 
 }  // namespace
@@ -118,7 +122,7 @@ Painter::Painter(const Device& device, const PlacedObject& object, const GridFra
       rows_(device, "placement", map_.rows),
       program_(program_for(device, object, surface_, map_, parts)),
       attribute_map_(attribute_map(device, object, surface_)),
-      threshold_(near_threshold(map_)) {
+      threshold_(near_threshold(map_, object.grid->frame)) {
     const BrickGrid& grid = *object.grid;
     near_ = near.of(grid, threshold_, [&] {
         Buffer<uint64_t> masks(device, "near leaves", grid.brick_count);

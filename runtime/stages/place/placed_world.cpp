@@ -74,7 +74,9 @@ const PlacedWorld& WorldPlacer::place(std::span<const PlacedObject> objects,
     const bool had_fields = !world_.fields.empty();
     world_.fields.clear();
     world_.ranks = ranks_of(objects);
-    const bool apart = objects.size() > 1 && std::ranges::any_of(objects, is_smooth);
+    // One that is left alone stays apart, since others may come back.
+    const bool apart = (objects.size() > 1 || (had_fields && frame_ == world)) &&
+                       std::ranges::any_of(objects, is_smooth);
     if (!apart || frame_ != world) fields_.clear();
     frame_ = world;
     if (!apart) {

@@ -16,6 +16,7 @@ const StressTest& test_named(const std::string& name) {
     const auto found = std::ranges::find(tests, name, &StressTest::name);
     if (found != tests.end()) return *found;
     std::vector<std::string_view> names;
+    names.reserve(tests.size());
     for (const StressTest& test : tests) names.push_back(test.name);
     throw Error(ErrorKind::usage, "there is no test named {}{}", quote(name), suggest(name, names));
 }

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+// The program voxelume-vdb-reader: reads one OpenVDB file, for vdb_client.cpp, under limits of its
+// own. What a damaged file does to its memory stays here.
+#include <tbb/global_control.h>
+
+#include <cstdlib>
+#include <cstring>
+#include <string_view>
+
+#include "runtime/base/helper_limits.hpp"
+#include "runtime/base/helper_wire.hpp"
+#include "runtime/io/vdb/vdb_client.hpp"
+#include "runtime/io/vdb/vdb_read.hpp"
+#include "runtime/io/vdb/vdb_tree.hpp"
+#include "runtime/io/volume/volume_frame_text.hpp"
+
+namespace voxelume::vdb {
+namespace {
+
+void send_texts(WireSender& sender, const std::map<std::string, std::string>& texts) {
+    sender.value(uint64_t{texts.size()});
+    for (const auto& [key, text] : texts) {
+        sender.text(key);
+        sender.text(text);
+    }
+}
+
+void send_summary(WireSender& sender, const VdbFileSummary& summary) {
+    send_texts(sender, summary.metadata);
+    sender.value(uint64_t{summary.grids.size()});
+    for (const VdbSummary& grid : summary.grids) {
+        sender.text(grid.name);
+        sender.text(grid.value_type);
+        sender.text(grid.grid_class);
+        sender.value(grid.active_voxels);
+        sender.value(grid.min);
+        sender.value(grid.max);
+        sender.value(grid.voxel_edges);
+    }
+}
+
+void send_model(WireSender& sender, const VdbModel& model, Surface surface) {
+    sender.value(model.voxels.voxel_edges);
+    sender.value(model.voxels.origin);
+    sender.values(model.voxels.cells);
+    sender.values(model.voxels.values);
+    sender.values(model.voxels.colors);
+    const bool has_grid = stores_distances(surface);  // whose cells around the surface count, too
+    sender.value(uint32_t{has_grid});
+    if (has_grid) send_grid(sender, *model.grid);
+}
+
+void send_volume(WireSender& sender, const Volume& volume) {
+    sender.text(write_frame_text(volume.frame));
+    send_texts(sender, volume.attributes);
+    sender.values(volume.indices);
+    sender.values(volume.colors);
+    sender.values(volume.opacities);
+    sender.values(volume.depths);
+    sender.values(volume.objects);
+    sender.values(volume.kinds);
+}
+
+/// Sends the answer once it is known whole, so that no refusal comes after its beginning.
+void answer(WireSender& sender, const InputFile& file, std::string_view question,
+            const std::string& detail) {
+    const auto begin = [&] { sender.value(ReaderAnswer::content); };
+    if (question == "summary") {
+        const VdbFileSummary summary = summary_in(file);
+        begin();
+        send_summary(sender, summary);
+    } else if (question == "density") {
+        const openvdb::FloatGrid::Ptr grid = density_in(file, detail);
+        begin();
+        send_grid(sender, *grid);
+    } else if (question == "model") {
+        const auto surface = static_cast<Surface>(std::atoi(detail.c_str()));
+        const VdbContent content = read_vdb_content(file);
+        raise_memory_limit();
+        const VdbModel model = model_in(content, file, surface);
+        begin();
+        send_model(sender, model, surface);
+    } else {
+        const Volume volume = volume_in(file);
+        begin();
+        send_volume(sender, volume);
+    }
+    sender.value(ReaderAnswer::end);
+}
+
+void refuse(WireSender& sender, const std::string& sentence) {
+    sender.value(ReaderAnswer::refusal);
+    sender.text(sentence);
+}
+
+}  // namespace
+}  // namespace voxelume::vdb
+
+int main(int count, char** arguments) {
+    using namespace voxelume;
+    if (count < 4 || std::strcmp(arguments[1], VXL_VERSION) != 0) return 2;
+    const std::string path = arguments[2];
+    WireSender sender(kHelperAnswer);
+    try {
+        const InputFile file(path, kHelperInput);
+        const vdb::ReaderLimits limits = vdb::reader_limits(file.size());
+        if (!limit_helper({limits.reading_bytes, limits.model_bytes, limits.computing_seconds}))
+            return 3;
+        // The stacks and heaps of a large machine's threads would take all of the address space.
+        const tbb::global_control alone(tbb::global_control::max_allowed_parallelism, 1);
+        vdb::answer(sender, file, arguments[3], count > 4 ? arguments[4] : "");
+    } catch (const Error& error) {
+        vdb::refuse(sender, error.what());
+    } catch (const std::bad_alloc&) {
+        vdb::refuse(sender,
+                    path + ": not a readable OpenVDB file: it declares more than there is memory");
+    } catch (const std::exception& error) {
+        vdb::refuse(sender, fmt::format("{}: not a readable OpenVDB file: {}", path,
+                                        std::string(error.what()).substr(0, 400)));
+    }
+    sender.flush();
+    _exit(0);  // a damaged heap needn't be taken down
+}

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+// A float grid on its way from the helper program: background, tiles, leaves and an affine
+// transform as plain numbers. The receiver builds a grid of its own of them, with the same values
+// everywhere.
+#pragma once
+
+#include <openvdb/openvdb.h>
+
+#include "runtime/base/helper_wire.hpp"
+
+namespace voxelume::vdb {
+
+void send_grid(WireSender& sender, const openvdb::FloatGrid& grid);
+
+/// Throws HelperFailure for numbers that no grid has.
+openvdb::FloatGrid::Ptr receive_grid(WireReceiver& receiver);
+
+}  // namespace voxelume::vdb

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+// Files of compiled kernels <-> the bytes of one entry of the cache.
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace voxelume {
+
+/// An entry that isn't one that `packed` made.
+class PackedFileError : public std::runtime_error {
+  public:
+    using std::runtime_error::runtime_error;
+};
+
+/// The files, named by their paths from `root`.
+std::string packed(const std::filesystem::path& root, std::span<const std::filesystem::path> files);
+
+/// The name and the content of each file of an entry, whose bytes they are part of.
+///
+/// All names are checked: they lead nowhere but below the folder that they are meant for, and are
+/// those of files that are kept. Throws PackedFileError otherwise.
+std::vector<std::pair<std::string, std::string_view>> packed_files(std::string_view bytes);
+
+}  // namespace voxelume
