@@ -9,6 +9,7 @@
 #include "runtime/base/input_file.hpp"
 #include "runtime/io/vdb/vdb_voxels.hpp"
 #include "runtime/io/voxels/model_voxels.hpp"
+#include "runtime/io/voxels/vox_voxels.hpp"
 #include "runtime/io/voxels/voxel_limits.hpp"
 
 namespace voxelume {
@@ -134,15 +135,33 @@ VoxelModel model_of(const VdbVoxels& voxels, Surface surface, const InputFile& f
     return model;
 }
 
-}  // namespace
-
-VoxelModel read_voxel_model(const std::filesystem::path& path, Surface surface) {
-    const InputFile file(path);
+/// The first eight bytes, or all of a shorter file.
+std::string start_of(const InputFile& file) {
     std::string start(std::min<uint64_t>(8, file.size()), '\0');
     file.read(0, start.data(), start.size());
+    return start;
+}
+
+}  // namespace
+
+VoxelModel read_vox_model(const VoxFile& vox, Surface surface, int part) {
+    if (surface != Surface::cubes)
+        InputFile(vox.path).refuse("holds voxels alone: give it \"surface\": \"cubes\"");
+    return read_vox_voxels(vox, part);
+}
+
+bool is_vox_file(const std::filesystem::path& path) {
+    return start_of(InputFile(path)).starts_with("VOX ");
+}
+
+VoxelModel read_voxel_model(const std::filesystem::path& path, Surface surface, int part) {
+    const InputFile file(path);
+    const std::string start = start_of(file);
+    if (start.starts_with("VOX ")) return read_vox_model(read_vox_file(path), surface, part);
+    if (part != 0) file.refuse("is one model; only .vox files have parts");
     if (start == "\x89VXM\r\n\x1a\n") return read_model_voxels(path, surface);
     if (start != std::string(" BDV\0\0\0\0", 8))
-        file.refuse("is neither a .vxm nor an OpenVDB file");
+        file.refuse("is neither a .vxm, an OpenVDB nor a .vox file");
     if (lists_primitives(surface))
         file.refuse("an OpenVDB file has no exact surface: give it \"cubes\" or \"smooth\"");
     return model_of(read_vdb_voxels(path, surface), surface, file);

@@ -77,6 +77,7 @@ void read_lattice(const SceneFields& fields, glm::dvec3 world_voxel_size, Model&
 /// A model whose file holds its voxels, with a lattice of their own.
 void read_voxels(const SceneFields& fields, const ModelContext& context, Model& model) {
     model.voxels = first_file(fields, "voxels", context.search);
+    model.part = fields.integer("part", 1, 1'000'000, 0);
     read_file_size(fields, model);
     model.surface = Surface::cubes;
     if (const auto surface = fields.find("surface")) model.surface = read_surface(*surface);
