@@ -34,6 +34,7 @@ Action add_convert(CLI::App& app);
 Action add_devices(CLI::App& app);
 Action add_diff(CLI::App& app);
 Action add_render(CLI::App& app);
+Action add_import(CLI::App& app);
 Action add_info(CLI::App& app);
 Action add_stress(CLI::App& app);
 Action add_view(CLI::App& app);

@@ -44,7 +44,7 @@ Action add_info(CLI::App& app) {
     auto options = std::make_shared<Options>();
     app.add_option("FILE", options->path,
                    "OpenEXR image, PNG, volumetric image (.vdb .exr .nrrd .json .kv6), voxelized "
-                   "model (.vxm) or mesh")
+                   "model (.vxm), MagicaVoxel file (.vox) or mesh")
         ->required();
     app.add_flag("--json", options->json, "print the result as JSON");
     return [options] {

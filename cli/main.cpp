@@ -25,8 +25,10 @@ namespace {
 /// In the order in which a user meets them.
 constexpr std::array kCommands = {
     Command{"devices", "list the devices that can render, and say why others can't", add_devices},
-    Command{"render", "render a scene: images, volumetric images, animations", add_render},
+    Command{"render", "render a scene or a model file: images, volumetric images, animations",
+            add_render},
     Command{"check", "check a scene, and say what rendering it needs", add_check},
+    Command{"import", "write the scene that shows a model file, to be changed", add_import},
     Command{"voxelize", "turn a mesh into voxels: a model file or an OpenVDB volume", add_voxelize},
     Command{"info", "describe a file: image, volume, model or mesh", add_info},
     Command{"convert", "convert a volumetric image to another format", add_convert},

@@ -8,7 +8,10 @@
 namespace voxelume::cli {
 
 void add_scene_options(CLI::App& app, SceneOptions& options) {
-    app.add_option("SCENE", options.scene, "scene file, JSON (see scenes/README.md)")->required();
+    app.add_option("SCENE", options.scene,
+                   "scene file, JSON (see scenes/README.md), or a model file: .obj .ply .stl .vxm "
+                   ".vdb .vox")
+        ->required();
     app.add_option("--assets", options.assets,
                    "folder to look for the scene's models in; may be given again")
         ->allow_extra_args(false);
@@ -22,6 +25,7 @@ void add_scene_options(CLI::App& app, SceneOptions& options) {
     app.add_flag("--no-cache", options.no_cache,
                  "neither read nor write the cache of models and worlds");
     app.add_flag("--strict", options.strict, "take warnings for errors, exit code 3");
+    add_import_options(app, options.import);
 }
 
 CacheOptions cache_options(const SceneOptions& options) {
@@ -30,7 +34,12 @@ CacheOptions cache_options(const SceneOptions& options) {
 
 Scene read_with(const SceneOptions& options, const char* command) {
     const Size size = options.size.empty() ? Size{} : parse_size(options.size, command);
-    Scene scene = Scene::load(options.scene, {options.assets, cache_options(options)});
+    const v1::SceneOptions files{options.assets, cache_options(options)};
+    const bool is_model = is_model_file(options.scene);
+    if (!is_model) refuse_choices(options.import, command);
+    Scene scene =
+        is_model ? scene_of_file(options.scene, options_of(options.import, size, command), files)
+                 : Scene::load(options.scene, files);
     if (size[0] != 0) scene = scene.with_size(size);
     if (options.samples != 0) scene = scene.with_samples(options.samples);
     return scene;

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/import_options.hpp"
 #include "runtime/voxelume.hpp"
 
 // NOLINTNEXTLINE(readability-identifier-naming): the library's own name
@@ -23,6 +24,7 @@ struct SceneOptions {
     std::string device;
     bool no_cache = false;
     bool strict = false;
+    ImportChoices import;  ///< where the scene is a model file
 };
 
 void add_scene_options(CLI::App& app, SceneOptions& options);

@@ -35,6 +35,7 @@
 // | ---------------------------------- | ----------------------------------------- | ----------- |
 // | know what can render here          | list_devices, Device::open                | device.hpp  |
 // | have a scene                       | Scene::load, Scene::parse, Scene::build   | scene.hpp   |
+// | show a model file without a scene  | scene_of_file, import_file                | import.hpp  |
 // | know whether it fits               | plan                                      | plan.hpp    |
 // | have one image or volume in memory | render_image, render_volume               | render.hpp  |
 // | render many frames, or to files    | render_frames                             | render.hpp  |
@@ -73,6 +74,7 @@
 #include "voxelume/error.hpp"
 #include "voxelume/files.hpp"
 #include "voxelume/image.hpp"
+#include "voxelume/import.hpp"
 #include "voxelume/lights.hpp"
 #include "voxelume/objects.hpp"
 #include "voxelume/observer.hpp"

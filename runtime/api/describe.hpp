@@ -21,4 +21,7 @@ Report describe_volume_header(const std::filesystem::path& path);
 /// The header of a KV6 model.
 Report describe_kv6(const std::filesystem::path& path);
 
+/// Models, objects, materials and palette of a MagicaVoxel file, and what of it isn't shown.
+Report describe_vox(const std::filesystem::path& path);
+
 }  // namespace voxelume::api

@@ -122,13 +122,14 @@ using Describe = Report (*)(const fs::path&);
 
 /// By what the file begins with; meshes have no mark of their own, so they are what is left.
 Describe find_description(const fs::path& path) {
-    constexpr std::array<std::pair<std::string_view, Describe>, 6> kKinds = {
+    constexpr std::array<std::pair<std::string_view, Describe>, 7> kKinds = {
         {{{"\x76\x2f\x31\x01", 4}, describe_exr},
          {{"\x89PNG\r\n\x1a\n", 8}, describe_png},
          {{" BDV\0\0\0\0", 8}, describe_vdb},
          {{"\x89VXM\r\n\x1a\n", 8}, describe_model},
          {{"NRRD000", 7}, describe_nrrd},
-         {{"Kvxl", 4}, describe_kv6}}};
+         {{"Kvxl", 4}, describe_kv6},
+         {{"VOX ", 4}, describe_vox}}};
     const InputFile file(path);
     std::string start(std::min<uint64_t>(8, file.size()), '\0');
     file.read(0, start.data(), start.size());

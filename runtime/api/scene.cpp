@@ -6,6 +6,7 @@
 #include "runtime/api/guarded.hpp"
 #include "runtime/api/handles.hpp"
 #include "runtime/api/process.hpp"
+#include "runtime/api/read_handle.hpp"
 #include "runtime/api/tree.hpp"
 #include "runtime/scene/scene_animation.hpp"
 #include "runtime/scene_file/read_scene.hpp"
@@ -30,50 +31,46 @@ AssetStore api::assets_of(const v1::Scene& scene, const v1::CacheOptions& cache)
     return store ? std::move(*store) : AssetStore(model_cache(cache));
 }
 
-namespace {
-
-/// A handle of the scene that `read` makes with the boxes of files. Those are read only where the
-/// scene is fitted to them; what was read is kept until the scene is rendered.
-template <class Read>
-v1::Scene fitted_handle(const v1::SceneOptions& options, const Read& read) {
-    return api::guarded([&] {
-        api::apply_process_options();
+v1::Scene api::read_handle(const v1::SceneOptions& options, const ReadScene& read) {
+    return guarded([&] {
+        apply_process_options();
         std::optional<AssetStore> store;
+        const auto store_now = [&]() -> AssetStore& {
+            if (!store) store.emplace(model_cache(options.cache));
+            return *store;
+        };
         const FileBoxes boxes = [&](const Model& model, bool is_first) {
-            if (!store) store.emplace(api::model_cache(options.cache));
             try {
-                return store->box_of_file(model, is_first);
+                return store_now().box_of_file(model, is_first);
             } catch (const Error& error) {
                 throw Error(error.kind(), "{}: {}", model.where, error.what());
             }
         };
-        Scene scene = read(asset_folders(options.assets), boxes);
-        std::shared_ptr<api::ReadAssets> assets;
-        if (store) assets = std::make_shared<api::ReadAssets>(std::move(*store), options.cache);
-        return api::handle_of(std::move(scene), std::move(assets));
+        Scene scene = read({asset_folders(options.assets), boxes, store_now});
+        std::shared_ptr<ReadAssets> assets;
+        if (store) assets = std::make_shared<ReadAssets>(std::move(*store), options.cache);
+        return handle_of(std::move(scene), std::move(assets));
     });
 }
-
-}  // namespace
 
 namespace v1 {
 
 Scene Scene::load(const std::filesystem::path& file, const SceneOptions& options) {
-    return fitted_handle(options, [&](const AssetFolders& assets, const FileBoxes& boxes) {
-        return read_scene(file, assets, boxes);
+    return api::read_handle(options, [&](const api::SceneFiles& files) {
+        return read_scene(file, files.assets, files.boxes);
     });
 }
 
 Scene Scene::parse(std::string_view text, const std::filesystem::path& file,
                    const SceneOptions& options) {
-    return fitted_handle(options, [&](const AssetFolders& assets, const FileBoxes& boxes) {
-        return parse_scene(text, file, assets, boxes);
+    return api::read_handle(options, [&](const api::SceneFiles& files) {
+        return parse_scene(text, file, files.assets, files.boxes);
     });
 }
 
 Scene Scene::build(const SceneDescription& description, const SceneOptions& options) {
-    return fitted_handle(options, [&](const AssetFolders& assets, const FileBoxes& boxes) {
-        return read_scene(api::tree(description), description.name, assets, boxes);
+    return api::read_handle(options, [&](const api::SceneFiles& files) {
+        return read_scene(api::tree(description), description.name, files.assets, files.boxes);
     });
 }
 

@@ -83,7 +83,7 @@ void add_mesh(const v1::MeshFile& mesh, ObjectTree& object) {
 }
 
 void add_voxels(const v1::VoxelFile& voxels, ObjectTree& object) {
-    object.add("voxels", voxels.file.string());
+    object.add("voxels", voxels.file.string()).add("part", voxels.part);
     add_file_size(voxels.fit, voxels.unit, object);
     if (voxels.sequence) object.put("sequence", tree(*voxels.sequence));
 }

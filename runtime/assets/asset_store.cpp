@@ -115,20 +115,28 @@ SurfaceChoice AssetStore::surface_of_voxels(Model model) {
 const AssetStore::VoxelFile& AssetStore::voxel_file(const Model& model) {
     used_.insert(model.voxels);
     const FileMap& map = model.object_from_file;
-    const VoxelKey key(model.voxels, model.surface, key_of(map));
+    const VoxelKey key(model.voxels, model.surface, key_of(map), model.part);
     const auto found = voxels_.find(key);
     if (found != voxels_.end()) return found->second;
     const LoadTimer timer(load_seconds_);
     VoxelFile file;
-    if (auto plain = voxels_.extract({model.voxels, model.surface, key_of({})})) {
+    if (auto plain = voxels_.extract({model.voxels, model.surface, key_of({}), model.part})) {
         file = std::move(plain.mapped());
     } else {
-        file.voxels = read_voxel_model(model.voxels, model.surface);
+        file.voxels = model.part > 0 && is_vox_file(model.voxels)
+                          ? read_vox_model(vox_file(model.voxels), model.surface, model.part)
+                          : read_voxel_model(model.voxels, model.surface, model.part);
         ++meshes_read_;
     }
     if (!map.is_identity()) apply(map, model.voxels, file.voxels);
     if (lists_primitives(model.surface)) file.summary = voxelume::summary_of(file.voxels.mesh);
     return voxels_.emplace(key, std::move(file)).first->second;
+}
+
+const VoxFile& AssetStore::vox_file(const std::filesystem::path& file) {
+    const auto found = vox_files_.find(file);
+    if (found != vox_files_.end()) return found->second;
+    return vox_files_.emplace(file, read_vox_file(file)).first->second;
 }
 
 const VoxelModel& AssetStore::voxels(const Model& model) {

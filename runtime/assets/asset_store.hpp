@@ -16,6 +16,7 @@
 #include "runtime/geometry/mesh_shape.hpp"
 #include "runtime/geometry/mesh_summary.hpp"
 #include "runtime/geometry/voxel_model.hpp"
+#include "runtime/io/voxels/vox_file.hpp"
 #include "runtime/scene/scene.hpp"
 
 namespace voxelume {
@@ -31,6 +32,8 @@ class AssetStore {
     const Mesh& mesh(const std::filesystem::path& file, const FileMap& map = {});
     /// The voxels of a model that has a file of them. Throws Error::input as read_voxel_model does.
     const VoxelModel& voxels(const Model& model);
+    /// What a MagicaVoxel file holds besides its voxels. Throws Error::input as read_vox_file does.
+    const VoxFile& vox_file(const std::filesystem::path& file);
     /// The mesh that is voxelized for a model: its own, or the triangles of a file of exact voxels.
     /// Null for other models.
     const Mesh* mesh_of(const Model& model);
@@ -111,9 +114,10 @@ class AssetStore {
     ModelCache cache_;
     std::map<std::filesystem::path, MeshFile> files_;
     std::map<std::string, Morphed> morphed_;  ///< by the model's name, as last used
-    /// Keyed by the file, the surface that it is read as, and its map.
-    using VoxelKey = std::tuple<std::filesystem::path, Surface, MapKey>;
+    /// Keyed by the file, the surface that it is read as, its map, and the part.
+    using VoxelKey = std::tuple<std::filesystem::path, Surface, MapKey, int>;
     std::map<VoxelKey, VoxelFile> voxels_;
+    std::map<std::filesystem::path, VoxFile> vox_files_;
     std::set<std::filesystem::path> used_;
     std::set<std::string> used_morphs_;  ///< names of models
     double load_seconds_ = 0;

@@ -65,6 +65,7 @@ void AssetStore::retain(const Model& model, uint64_t& room) {
 
 void AssetStore::forget_unused() {
     std::erase_if(files_, [&](const auto& entry) { return !used_.contains(entry.first); });
+    std::erase_if(vox_files_, [&](const auto& entry) { return !used_.contains(entry.first); });
     std::erase_if(voxels_,
                   [&](const auto& entry) { return !used_.contains(std::get<0>(entry.first)); });
     for (auto& [model, morphed] : morphed_)

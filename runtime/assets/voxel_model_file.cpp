@@ -4,12 +4,14 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
+#include <string_view>
 
 #include "kernels/shared/voxel.h"
 #include "runtime/base/input_file.hpp"
 #include "runtime/io/vdb/vdb_voxels.hpp"
 #include "runtime/io/voxels/model_file.hpp"
 #include "runtime/io/voxels/model_voxels.hpp"
+#include "runtime/io/voxels/vox_voxels.hpp"
 #include "runtime/io/voxels/voxel_limits.hpp"
 
 namespace voxelume {
@@ -135,20 +137,31 @@ VoxelModel model_of(const VdbVoxels& voxels, Surface surface, const InputFile& f
     return model;
 }
 
-std::string first_bytes(const InputFile& file) {
+/// The first eight bytes, or all of a shorter file.
+std::string start_of(const InputFile& file) {
     std::string start(std::min<uint64_t>(8, file.size()), '\0');
     file.read(0, start.data(), start.size());
     return start;
 }
 
-bool is_model_file(const InputFile& file) {
-    return first_bytes(file) == "\x89VXM\r\n\x1a\n";
-}
+constexpr std::string_view kModelStart = "\x89VXM\r\n\x1a\n";
 
 }  // namespace
 
+VoxelModel read_vox_model(const VoxFile& vox, Surface surface, int part) {
+    if (surface != Surface::cubes)
+        InputFile(vox.path).refuse("holds voxels alone: give it \"surface\": \"cubes\"");
+    return read_vox_voxels(vox, part);
+}
+
+bool is_vox_file(const std::filesystem::path& path) {
+    return start_of(InputFile(path)).starts_with("VOX ");
+}
+
 std::optional<Surface> surface_of_voxel_model(const std::filesystem::path& path) {
-    if (!is_model_file(InputFile(path))) return std::nullopt;
+    const std::string start = start_of(InputFile(path));
+    if (start.starts_with("VOX ")) return Surface::cubes;
+    if (start != kModelStart) return std::nullopt;
     const ModelSummary summary = read_model_summary(path);
     const auto name = summary.header.find("surface");
     for (const SurfaceKind& kind : kSurfaceKinds)
@@ -156,11 +169,14 @@ std::optional<Surface> surface_of_voxel_model(const std::filesystem::path& path)
     return std::nullopt;
 }
 
-VoxelModel read_voxel_model(const std::filesystem::path& path, Surface surface) {
+VoxelModel read_voxel_model(const std::filesystem::path& path, Surface surface, int part) {
     const InputFile file(path);
-    if (is_model_file(file)) return read_model_voxels(path, surface);
-    if (first_bytes(file) != std::string(" BDV\0\0\0\0", 8))
-        file.refuse("is neither a .vxm nor an OpenVDB file");
+    const std::string start = start_of(file);
+    if (start.starts_with("VOX ")) return read_vox_model(read_vox_file(path), surface, part);
+    if (part != 0) file.refuse("is one model; only .vox files have parts");
+    if (start == kModelStart) return read_model_voxels(path, surface);
+    if (start != std::string(" BDV\0\0\0\0", 8))
+        file.refuse("is neither a .vxm, an OpenVDB nor a .vox file");
     if (lists_primitives(surface))
         file.refuse("an OpenVDB file has no exact surface: give it \"cubes\" or \"smooth\"");
     return model_of(read_vdb_voxels(path, surface), surface, file);

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Files of voxels (.vxm, OpenVDB) -> models that need no voxelizing.
+// Files of voxels (.vxm, OpenVDB, .vox) -> models that need no voxelizing.
 #pragma once
 
 #include <filesystem>
 #include <optional>
 
 #include "runtime/geometry/voxel_model.hpp"
+#include "runtime/io/voxels/vox_file.hpp"
 
 namespace voxelume {
 
@@ -13,9 +14,16 @@ namespace voxelume {
 ///
 /// A .vxm has to have the surface `surface`. From OpenVDB, cubes are the voxels of a fog whose
 /// value is above 0; the value, at most 1, is their coverage, and `Cd` their colour. A smooth
-/// surface is a level set. Throws Error::input for a file that is missing, damaged or has another
-/// surface.
-VoxelModel read_voxel_model(const std::filesystem::path& file, Surface surface);
+/// surface is a level set. A .vox has cubes alone, and `part` says which of its models, as
+/// read_vox_voxels has it. Throws Error::input for a file that is missing, damaged or has another
+/// surface, and for a part of other files.
+VoxelModel read_voxel_model(const std::filesystem::path& file, Surface surface, int part = 0);
+
+/// True if a file begins as those of MagicaVoxel do.
+bool is_vox_file(const std::filesystem::path& file);
+
+/// The part of a .vox file whose structure has been read.
+VoxelModel read_vox_model(const VoxFile& vox, Surface surface, int part);
 
 /// The surface that a .vxm says it has; none for other files. Throws Error::input for a missing or
 /// damaged one.

@@ -7,19 +7,17 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <glm/trigonometric.hpp>
 #include <stdexcept>
 #include <vector>
 
 #include "runtime/base/error.hpp"
+#include "runtime/scene/framing.hpp"
 #include "runtime/scene/scene.hpp"
 
 namespace voxelume {
 namespace {
 
 constexpr int kMaxVoxelsPerAxis = 65536;
-constexpr double kAzimuth = 35, kElevation = 25;  // degrees, of the observer from the box's middle
-constexpr double kFilled = 0.92;  // the largest share of the image's width or height
 constexpr glm::dvec3 kToLight{0.5, 0.65, -0.75};  // in the observer's coordinates
 
 /// The number without the digits that binary fractions add: it is written with ten at most.
@@ -60,53 +58,6 @@ double voxels_above(double x, double voxel) {
 /// Refuses what no lattice can hold, at the world's place.
 void refuse(const World& world, const std::string& sentence) {
     throw Error(ErrorKind::scene, "{}: {}", world.where, sentence);
-}
-
-/// The axes X_E, Y_E and Z_E of a view from the right of the front and from above.
-glm::dmat3 three_quarter_view() {
-    const double azimuth = glm::radians(kAzimuth), elevation = glm::radians(kElevation);
-    const glm::dvec3 z(-std::sin(azimuth) * std::cos(elevation), -std::sin(elevation),
-                       -std::cos(azimuth) * std::cos(elevation));
-    const glm::dvec3 x = glm::normalize(glm::cross(glm::dvec3(0, 1, 0), z));
-    return {x, glm::cross(z, x), z};
-}
-
-/// How far ahead the observer may stand at most to show all of a box along one axis of the image. A
-/// point at `u` across and `z` ahead is shown where |u - place| <= slope * (z - depth), for some
-/// place.
-double largest_depth(const Bounds& box, const glm::dvec3& across, const glm::dvec3& ahead,
-                     double slope) {
-    double left = -INFINITY, right = -INFINITY;
-    for (int i = 0; i < 8; ++i) {
-        const glm::dvec3 p = corner(box, i);
-        const double u = glm::dot(across, p), z = slope * glm::dot(ahead, p);
-        left = std::max(left, -u - z);
-        right = std::max(right, u - z);
-    }
-    return -(left + right) / (2 * slope);
-}
-
-/// The place across from which a box, all of which lies beyond `depth`, reaches as far to one side
-/// of the image as to the other.
-double middle_place(const Bounds& box, const glm::dvec3& across, const glm::dvec3& ahead,
-                    double depth) {
-    const auto u = [&](int i) { return glm::dot(across, corner(box, i)); };
-    double low = u(0), high = u(0);
-    for (int i = 1; i < 8; ++i) {
-        low = std::min(low, u(i));
-        high = std::max(high, u(i));
-    }
-    for (int step = 0; step < 60; ++step) {
-        const double middle = (low + high) / 2;
-        double left = -INFINITY, right = -INFINITY;
-        for (int i = 0; i < 8; ++i) {
-            const double z = glm::dot(ahead, corner(box, i)) - depth;
-            left = std::max(left, (middle - u(i)) / z);
-            right = std::max(right, (u(i) - middle) / z);
-        }
-        (right > left ? low : high) = middle;
-    }
-    return (low + high) / 2;
 }
 
 /// "0.5", or "[0.5, 0.25, 1]" where the numbers differ.
@@ -187,13 +138,8 @@ void frame_observer(Scene& scene) {
     shape.measure({}, setting, refused, display);
 
     const Bounds& box = scene.fitted.shown;
-    const glm::dmat3 view = three_quarter_view();
-    const glm::dvec2 slopes = kFilled * half_extent(display);
-    const double depth = std::min(largest_depth(box, view[0], view[2], slopes.x),
-                                  largest_depth(box, view[1], view[2], slopes.y));
-    const glm::dvec3 position =
-        view * glm::dvec3(middle_place(box, view[0], view[2], depth),
-                          middle_place(box, view[1], view[2], depth), depth);
+    const glm::dmat3 view = view_axes({});
+    const glm::dvec3 position = framing_position(box, view, kFilled * half_extent(display));
     const double distance = glm::dot(view[2], (box.min + box.max) / 2.0 - position);
     const double step = last_digit(distance, 4);
     ObserverParameters parameters;

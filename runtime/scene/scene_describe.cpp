@@ -36,7 +36,8 @@ std::string model_text(const Model& model) {
     const FileMap& map = model.object_from_file;
     const std::string scaled = map.scale == 1 ? "" : fmt::format(" scaled by {:.6g}", map.scale);
     if (!model.voxels.empty())
-        return fmt::format("model \"{}\": {}{}, {}", model.name, source, scaled,
+        return fmt::format("model \"{}\": {}{}{}, {}", model.name, source,
+                           model.part > 0 ? fmt::format(" part {}", model.part) : "", scaled,
                            surface_text(model));
     const std::string cut =
         model.cuts.empty() ? "" : fmt::format(", cut by {} solids", model.cuts.size());

@@ -110,17 +110,17 @@ class ObjectsBox {
     }
 
     const Bounds& file_box(const Model& model, bool is_first) {
-        const std::filesystem::path& file = model.voxels.empty() ? model.mesh : model.voxels;
-        const auto found = known_.find(file);
+        const std::pair source(model.voxels.empty() ? model.mesh : model.voxels, model.part);
+        const auto found = known_.find(source);
         if (found != known_.end()) return found->second;
-        return known_.emplace(file, file_boxes_(model, is_first)).first->second;
+        return known_.emplace(source, file_boxes_(model, is_first)).first->second;
     }
 
     Scene now_;
     const SceneMotion& motion_;
     const FileBoxes& file_boxes_;
     std::vector<bool> object_moves_, model_moves_;
-    std::map<std::filesystem::path, Bounds> known_;
+    std::map<std::pair<std::filesystem::path, int>, Bounds> known_;  ///< by file and part
     Bounds box_ = kNothing;
     bool saw_infinite_ = false;
 };

@@ -59,7 +59,7 @@ std::vector<KeyTable> make_tables() {
     tables.push_back({"checker", keys_of(checker_rows())});
     tables.push_back({"model:mesh", Keys{"mesh", "fit", "unit", "sequence", "morph", "cut"} +
                                         lattice + Keys{"shading", "crease_angle"}});
-    tables.push_back({"model:voxels", {"voxels", "fit", "unit", "sequence", "surface"}});
+    tables.push_back({"model:voxels", {"voxels", "part", "fit", "unit", "sequence", "surface"}});
     tables.push_back({"sequence", {"first", "last", "start", "loop"}});
     tables.push_back({"morph", {"mesh", "center", "radius", "amount"}});
     add_kinds("model", {"shape"}, solid_types(), lattice, tables);

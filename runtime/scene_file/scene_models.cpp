@@ -86,6 +86,7 @@ void read_lattice(const SceneFields& fields, glm::dvec3 world_voxel_size, Model&
 /// A model whose file holds its voxels, with a lattice of their own.
 void read_voxels(const SceneFields& fields, const ModelContext& context, Model& model) {
     model.voxels = first_file(fields, "voxels", context.search);
+    model.part = fields.integer("part", 1, 1'000'000, 0);
     read_file_size(fields, model);
     read_surface(fields, Surface::cubes, model);
 }

@@ -124,9 +124,10 @@ struct MeshFile {
     std::optional<double> crease_angle{};  ///< degrees, of Shading::smooth; without it 30
 };
 
-/// Voxels that are there already: a .vxm of `voxelize`, or an OpenVDB file.
+/// Voxels that are there already: a .vxm of `voxelize`, an OpenVDB or a MagicaVoxel file.
 struct VoxelFile {
-    std::filesystem::path file{};        ///< .vxm or .vdb
+    std::filesystem::path file{};  ///< .vxm, .vdb or .vox
+    std::optional<int> part{};     ///< number of the model in a .vox, from 1 on; without it all
     std::optional<Sequence> sequence{};  ///< makes it a file for each frame
     std::optional<double> fit{};         ///< as of a mesh
     std::optional<Unit> unit{};          ///< likewise

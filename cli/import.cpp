@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+// voxelume import FILE: the scene that `render` would show of a model file, to be changed.
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "cli/checks.hpp"
+#include "cli/commands.hpp"
+#include "cli/import_options.hpp"
+
+namespace voxelume::cli {
+namespace {
+
+struct ImportCommand {
+    std::string file, output, size;
+    ImportChoices choices;
+    bool quiet = false;
+};
+
+int run(const ImportCommand& command) {
+    const Size size = command.size.empty() ? Size{} : parse_size(command.size, "import");
+    if (!command.output.empty()) check_output(command.output, {".json"}, "import");
+    if (!is_model_file(command.file))
+        fail_usage("import: {} isn't the name of a model file, such as .obj, .ply, .stl or .vdb",
+                   quote(command.file));
+    const std::filesystem::path folder = std::filesystem::path(command.output).parent_path();
+    const std::string text =
+        import_file(command.file, folder, options_of(command.choices, size, "import"));
+    if (command.output.empty()) {
+        fmt::print("{}", text);
+        return 0;
+    }
+    write_file(command.output, text);
+    const auto home = std::filesystem::canonical(command.file).parent_path();
+    const auto inside =
+        home.lexically_relative(std::filesystem::weakly_canonical(folder.empty() ? "." : folder));
+    if (!command.quiet && (inside.empty() || *inside.begin() == ".."))
+        fmt::print(stderr, "the file lies elsewhere: render the scene with --assets {}\n",
+                   quote(home.string()));
+    return 0;
+}
+
+}  // namespace
+
+Action add_import(CLI::App& app) {
+    const auto command = std::make_shared<ImportCommand>();
+    app.add_option("FILE", command->file, "model file: .obj .ply .stl .vxm .vdb .vox")->required();
+    app.add_option("-o,--output", command->output,
+                   "scene to write, .json; printed if this is left out");
+    app.add_option("--size", command->size,
+                   "image size, WIDTHxHEIGHT in pixels; 800x600 by default");
+    add_import_options(app, command->choices);
+    app.add_flag("-q,--quiet", command->quiet, "print errors only");
+    return [command] { return run(*command); };
+}
+
+}  // namespace voxelume::cli

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+// Model files as scenes, for callers.
+#include "runtime/voxelume/import.hpp"
+
+#include <algorithm>
+
+#include "runtime/api/convert.hpp"
+#include "runtime/api/guarded.hpp"
+#include "runtime/api/process.hpp"
+#include "runtime/api/read_handle.hpp"
+#include "runtime/base/error.hpp"
+#include "runtime/base/text.hpp"
+#include "runtime/import/scene_of_file.hpp"
+#include "runtime/scene_file/read_scene.hpp"
+
+namespace voxelume {
+namespace {
+
+namespace fs = std::filesystem;
+
+glm::dvec3 color_of(const v1::Color& color) {
+    return {color[0], color[1], color[2]};
+}
+
+ImportOptions options_of(const v1::ImportOptions& options) {
+    ImportOptions inside;
+    inside.from = {options.longitude, options.latitude};
+    inside.is_parallel = options.parallel;
+    inside.angle = options.angle;
+    inside.has_ground = options.ground;
+    if (options.background) inside.background = color_of(*options.background);
+    inside.fit = options.fit;
+    inside.up = static_cast<UpAxis>(options.up);
+    inside.size = api::vector_of(options.size);
+    return inside;
+}
+
+/// The file itself, where a link leads to it: scenes name files below their own folder only.
+fs::path find_file(const fs::path& file) {
+    if (!is_model_file(file))
+        throw Error(ErrorKind::usage, "{} isn't the name of a model file", quote(file.string()));
+    std::error_code error;
+    const fs::path found = fs::canonical(file, error);
+    if (error)
+        throw Error(ErrorKind::input, "{}: {}", file.string(),
+                    fs::exists(file, error) ? "can't be opened" : "no such file");
+    return found;
+}
+
+/// The file's name as a scene in `folder` has it.
+std::string name_from(const fs::path& folder, const fs::path& file) {
+    std::error_code error;
+    const fs::path root = fs::weakly_canonical(folder.empty() ? fs::path(".") : folder, error);
+    const fs::path name = error ? fs::path() : file.lexically_relative(root);
+    const bool is_below = !name.empty() && *name.begin() != "..";
+    return (is_below ? name : file.filename()).generic_string();
+}
+
+}  // namespace
+
+namespace v1 {
+
+bool is_model_file(const fs::path& file) {
+    return voxelume::is_model_file(file);
+}
+
+std::string import_file(const fs::path& file, const fs::path& folder, const ImportOptions& options,
+                        const CacheOptions& cache) {
+    return api::guarded([&] {
+        api::apply_process_options();
+        const fs::path found = find_file(file);
+        AssetStore store(api::model_cache(cache));
+        return voxelume::scene_of_file(found, name_from(folder, found), options_of(options), store);
+    });
+}
+
+Scene scene_of_file(const fs::path& file, const ImportOptions& options,
+                    const SceneOptions& scene_options) {
+    return api::read_handle(scene_options, [&](const api::SceneFiles& files) {
+        const fs::path found = find_file(file);
+        const std::string text = voxelume::scene_of_file(found, found.filename().string(),
+                                                         options_of(options), files.store());
+        return parse_scene(text, found, files.assets, files.boxes);
+    });
+}
+
+}  // namespace v1
+}  // namespace voxelume

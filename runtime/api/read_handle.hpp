@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+// A scene's text, structs or model file -> a handle, with what had to be read on the way.
+#pragma once
+
+#include <functional>
+
+#include "runtime/assets/asset_store.hpp"
+#include "runtime/scene_file/assets.hpp"
+#include "runtime/scene_file/fit_scene.hpp"
+#include "runtime/voxelume/scene.hpp"
+
+namespace voxelume::api {
+
+/// How a reader of scenes gets at files.
+struct SceneFiles {
+    AssetFolders assets;
+    const FileBoxes& boxes;
+    const std::function<AssetStore&()> store;  ///< made when it is first asked for
+};
+
+using ReadScene = std::function<Scene(const SceneFiles& files)>;
+
+/// A handle of the scene that `read` makes. Files are read only where the scene is fitted to them;
+/// what was read is kept until the scene is rendered.
+v1::Scene read_handle(const v1::SceneOptions& options, const ReadScene& read);
+
+}  // namespace voxelume::api

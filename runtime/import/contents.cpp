@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "runtime/import/contents.hpp"
+
+#include <cmath>
+
+namespace voxelume {
+
+std::string json_text(std::string_view text) {
+    std::string out = "\"";
+    for (const char c : text) {
+        if (c == '"' || c == '\\')
+            out += {'\\', c};
+        else if (static_cast<unsigned char>(c) < 0x20)
+            out += fmt::format("\\u{:04x}", int(c));
+        else
+            out += c;
+    }
+    return out + '"';
+}
+
+std::string json_size(const glm::dvec3& v) {
+    return v.x == v.y && v.y == v.z ? fmt::format("{}", v.x) : json_list(v);
+}
+
+double rounded(double x, int digits) {
+    return std::stod(fmt::format("{:.{}g}", x, digits));
+}
+
+glm::dvec3 rounded(const glm::dvec3& v, int digits) {
+    return {rounded(v.x, digits), rounded(v.y, digits), rounded(v.z, digits)};
+}
+
+std::string stem_of(const ImportedFile& file) {
+    std::string stem = file.path.stem().string();
+    return stem == "default" || stem == "ground" ? stem + " model" : stem;
+}
+
+std::string fit_member(const ImportOptions& options) {
+    return options.fit > 0 ? fmt::format(", \"fit\": {}", options.fit) : "";
+}
+
+Bounds fitted_box(const Bounds& box, const ImportOptions& options) {
+    if (options.fit == 0) return box;
+    const glm::dvec3 half = (box.max - box.min) * (options.fit / longest_side(box) / 2);
+    return {-half, half};
+}
+
+}  // namespace voxelume

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a file holds, as parts of a scene's text: the files' readers fill it, scene_of_file frames
+// it.
+#pragma once
+
+#include <fmt/format.h>
+#include <filesystem>
+#include <glm/vec3.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "runtime/assets/asset_store.hpp"
+#include "runtime/import/import_options.hpp"
+
+namespace voxelume {
+
+struct Contents {
+    std::vector<std::string> materials;  ///< members: `"name": {...}`
+    std::vector<std::string> models;     ///< members
+    std::vector<std::string> objects;    ///< items: `{...}`
+    std::vector<std::string> tracks;     ///< items; none: nothing moves
+    int frames = 1;                      ///< of the animation
+    double fps = 24;
+    bool has_glass = false;    ///< shadows are to let light through
+    Bounds box;                ///< around all that is visible, metres
+    glm::dvec3 voxel_size{0};  ///< of the world, metres
+    glm::dvec3 lattice{0};     ///< a corner of some voxel, metres
+};
+
+/// A file that becomes a scene.
+struct ImportedFile {
+    const std::filesystem::path& path;
+    std::string name;  ///< in the scene's text
+    const ImportOptions& options;
+    AssetStore& assets;
+};
+
+/// The contents of a triangle mesh.
+Contents mesh_contents(const ImportedFile& file);
+
+/// The contents of a file of voxels of one model: .vxm or OpenVDB.
+Contents voxel_contents(const ImportedFile& file);
+
+/// The contents of a MagicaVoxel file.
+Contents vox_contents(const ImportedFile& file);
+
+/// A text in quotes, as JSON has it.
+std::string json_text(std::string_view text);
+
+/// "[1, 2.5, 3]".
+template <class Vector>
+std::string json_list(const Vector& v) {
+    return fmt::format("[{}, {}, {}]", v.x, v.y, v.z);
+}
+
+/// "2", or a list where the numbers differ.
+std::string json_size(const glm::dvec3& v);
+
+/// A number with at most this many digits, without those that binary fractions add.
+double rounded(double x, int digits);
+glm::dvec3 rounded(const glm::dvec3& v, int digits);
+
+/// The file's name without folder and ending, which names what it holds.
+std::string stem_of(const ImportedFile& file);
+
+/// `, "fit": 2` where the options ask for a size.
+std::string fit_member(const ImportOptions& options);
+
+/// The box of a file's content after `fit`: around the origin.
+Bounds fitted_box(const Bounds& box, const ImportOptions& options);
+
+}  // namespace voxelume

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+// What can be asked of the scene that is made for a file.
+#pragma once
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <optional>
+
+#include "runtime/scene/framing.hpp"
+
+namespace voxelume {
+
+/// Which axis of a file's coordinates is up.
+enum class UpAxis : uint8_t { automatic, y, z };
+
+struct ImportOptions {
+    ViewFrom from;
+    bool is_parallel = false;  ///< the observer's rays are parallel, as in isometric drawings
+    double angle = 40;         ///< degrees, horizontal opening of the observer's pyramid
+    bool has_ground = true;
+    std::optional<glm::vec3> background;  ///< linear Rec. 709; the ground shows the same colour
+    double fit = 0;                       ///< metres of the longest side; 0: the file's own size
+    UpAxis up = UpAxis::automatic;        ///< Z for STL, Y for other meshes and voxels
+    glm::ivec2 size{800, 600};            ///< pixels
+};
+
+}  // namespace voxelume

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "runtime/import/scene_of_file.hpp"
+
+#include <array>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+
+#include "runtime/base/text.hpp"
+#include "runtime/import/contents.hpp"
+#include "runtime/import/studio.hpp"
+#include "runtime/scene/fitted.hpp"
+
+namespace voxelume {
+namespace {
+
+constexpr double kFilledShare = 0.92;  // of the image's width or height: shadows need room, too
+constexpr int kSamples = 4;
+
+struct ModelFormat {
+    std::string_view ending;
+    Contents (*read)(const ImportedFile& file);
+};
+
+constexpr std::array<ModelFormat, 6> kFormats = {{
+    {".obj", mesh_contents},
+    {".ply", mesh_contents},
+    {".stl", mesh_contents},
+    {".vxm", voxel_contents},
+    {".vdb", voxel_contents},
+    {".vox", vox_contents},
+}};
+
+const ModelFormat* format_of(const std::filesystem::path& file) {
+    const std::string ending = ending_of(file);
+    for (const ModelFormat& format : kFormats)
+        if (ending == format.ending) return &format;
+    return nullptr;
+}
+
+/// A list of a scene's members or items, a line each; empty where there are none.
+std::string part(std::string_view name, char open, const std::vector<std::string>& entries,
+                 char close) {
+    if (entries.empty()) return {};
+    return fmt::format("  \"{}\": {}\n    {}\n  {},\n", name, open, fmt::join(entries, ",\n    "),
+                       close);
+}
+
+/// The digits that are worth writing of a position seen from a distance.
+glm::dvec3 seen_from(const glm::dvec3& p, double distance) {
+    const double step = std::pow(10.0, std::floor(std::log10(distance)) - 3);
+    return rounded(glm::round(p / step) * step, 10);
+}
+
+std::string observer_text(const glm::dvec3& position, const glm::dvec3& look_at,
+                          const glm::dmat3& axes, const std::string& display) {
+    // Views along Y have no up of their own.
+    const bool is_upright = std::abs(axes[2].y) > 0.999;
+    return fmt::format(
+        "  \"observer\": {{\"position\": {}, \"look_at\": {},{}\n"
+        "               \"display\": {{{}}}}},\n",
+        json_list(position), json_list(look_at),
+        is_upright ? fmt::format(" \"up\": {},", json_list(rounded(axes[1], 6))) : "", display);
+}
+
+/// An observer with a pyramid who sees all of the box.
+std::string pyramid_observer(const Bounds& box, const ImportOptions& options) {
+    const glm::dmat3 axes = view_axes(options.from);
+    const double slope = std::tan(glm::radians(options.angle / 2)) * kFilledShare;
+    const glm::dvec2 slopes(slope, slope * options.size.y / options.size.x);
+    const glm::dvec3 position = framing_position(box, axes, slopes);
+    const double distance = glm::dot(axes[2], (box.min + box.max) / 2.0 - position);
+    return observer_text(seen_from(position, distance),
+                         seen_from(position + distance * axes[2], distance), axes,
+                         fmt::format("\"shape\": \"pyramid\", \"angle\": {}", options.angle));
+}
+
+/// An observer with parallel rays who sees all of the box. His display reaches through all of
+/// `around`.
+std::string parallel_observer(const Bounds& box, const Bounds& around,
+                              const ImportOptions& options) {
+    const glm::dmat3 axes = view_axes(options.from);
+    const Bounds seen = extent_along(box, axes), all = extent_along(around, axes);
+    const glm::dvec3 side = (seen.max - seen.min) / kFilledShare;
+    const double aspect = double(options.size.x) / options.size.y;
+    const double width = rounded(std::max(side.x, side.y * aspect), 6);
+    const double depth = rounded(1.1 * (all.max.z - all.min.z), 4);
+    const glm::dvec3 middle = axes * ((seen.min + seen.max) / 2.0);
+    const double back = glm::dot(axes[2], middle) - all.min.z + 0.05 * depth;
+    return observer_text(seen_from(middle - back * axes[2], depth), seen_from(middle, depth), axes,
+                         fmt::format("\"shape\": \"box\", \"size\": [{}, {}, {}]", width,
+                                     rounded(width / aspect, 6), depth));
+}
+
+/// `, "bounds": {...}` where the voxels of the file don't lie on multiples of their size, as those
+/// of fitted worlds do.
+std::string bounds_member(const Contents& contents, const Bounds& box) {
+    const glm::dvec3 offset = contents.lattice / contents.voxel_size;
+    if (glm::round(offset) == offset) return {};
+    const glm::dvec3 edge = contents.voxel_size;
+    const glm::dvec3 low = glm::floor((box.min - contents.lattice) / edge) - double(kFittedMargin);
+    const glm::dvec3 high = glm::ceil((box.max - contents.lattice) / edge) + double(kFittedMargin);
+    return fmt::format(",\n            \"bounds\": {{\"min\": {}, \"max\": {}}}",
+                       json_list(contents.lattice + low * edge),
+                       json_list(contents.lattice + high * edge));
+}
+
+std::vector<std::string> joined(std::vector<std::string> a, const std::vector<std::string>& b) {
+    a.insert(a.end(), b.begin(), b.end());
+    return a;
+}
+
+}  // namespace
+
+bool is_model_file(const std::filesystem::path& file) {
+    return format_of(file) != nullptr;
+}
+
+std::string scene_of_file(const std::filesystem::path& file, const std::string& name,
+                          const ImportOptions& options, AssetStore& assets) {
+    const Contents contents = format_of(file)->read({file, name, options, assets});
+    const Studio studio = make_studio(contents.box, options);
+    std::string text = "{\n  \"voxelume\": 1,\n";
+    text +=
+        fmt::format("  \"world\": {{\"voxel_size\": {}, \"background\": {}, \"ambient\": {}{}}},\n",
+                    json_size(contents.voxel_size), json_list(studio.background),
+                    json_list(studio.ambient), bounds_member(contents, studio.box));
+    text += part("materials", '{', joined(contents.materials, studio.materials), '}');
+    text += part("models", '{', joined(contents.models, studio.models), '}');
+    text += part("objects", '[', joined(contents.objects, studio.objects), ']');
+    text += part("lights", '[', studio.lights, ']');
+    if (!contents.tracks.empty())
+        text += fmt::format(
+            "  \"animation\": {{\"frames\": {}, \"fps\": {}, \"tracks\": [\n    {}\n  ]}},\n",
+            contents.frames, contents.fps, fmt::join(contents.tracks, ",\n    "));
+    text += options.is_parallel ? parallel_observer(contents.box, studio.box, options)
+                                : pyramid_observer(contents.box, options);
+    return text + fmt::format("  \"render\": {{\"size\": [{}, {}], \"samples\": {}{}}}\n}}\n",
+                              options.size.x, options.size.y, kSamples,
+                              contents.has_glass ? ", \"shadow\": \"filtered\"" : "");
+}
+
+}  // namespace voxelume

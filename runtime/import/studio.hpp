@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+// The room in which a file's content is shown: a ground without a visible end, a sun and a sky.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "runtime/import/import_options.hpp"
+
+namespace voxelume {
+
+struct Studio {
+    std::vector<std::string> materials, models, objects, lights;  ///< members and items of a scene
+    glm::dvec3 ambient{0};
+    glm::dvec3 background{0};
+    Bounds box;  ///< around what is shown and the ground
+};
+
+/// A room for what fills `box`. The sun comes from over the observer's left shoulder. Where light
+/// falls on the ground without hindrance, the ground has the radiance of the background, so that
+/// only shadows tell them apart.
+Studio make_studio(const Bounds& box, const ImportOptions& options);
+
+}  // namespace voxelume

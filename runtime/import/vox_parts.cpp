@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "runtime/import/vox_parts.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+#include "runtime/io/voxels/vox_voxels.hpp"
+
+namespace voxelume {
+namespace {
+
+double linear_of(uint32_t level) {
+    const double srgb = level / 255.0;
+    return srgb <= 0.04045 ? srgb / 12.92 : std::pow((srgb + 0.055) / 1.055, 2.4);
+}
+
+glm::dvec3 linear_color(uint32_t color) {
+    return {linear_of(color & 255), linear_of(color >> 8 & 255), linear_of(color >> 16 & 255)};
+}
+
+/// The exponent of a highlight as wide as that of a rough surface.
+double shininess_of(double rough) {
+    const double squared = std::max(rough * rough, 0.04);
+    return rounded(std::clamp(2 / (squared * squared) - 2, 2.0, 1000.0), 3);
+}
+
+/// The number in a group's name: "glass 12".
+int entry_of(const std::string& group) {
+    return std::atoi(group.c_str() + group.rfind(' ') + 1);
+}
+
+std::string metal_values(double metal, const VoxMaterial& m) {
+    const double smooth = (1.0 - m.rough) * (1.0 - m.rough);
+    return fmt::format(
+        "\"color\": [1, 1, 1], \"diffuse\": {}, \"specular\": {}, \"shininess\": {}, "
+        "\"reflection\": {}",
+        rounded(1 - 0.5 * metal * smooth, 3), rounded(0.6 * metal, 3), shininess_of(m.rough),
+        rounded(0.65 * metal * smooth, 3));
+}
+
+/// `, "materials": {...}` that gives each group but the first the material of its own name.
+std::string members_of(const std::vector<std::string>& groups) {
+    std::vector<std::string> members;
+    for (size_t i = 1; i < groups.size(); ++i)
+        members.push_back(fmt::format("{0}: {0}", json_text(groups[i])));
+    return members.empty() ? "" : fmt::format(", \"materials\": {{{}}}", fmt::join(members, ", "));
+}
+
+}  // namespace
+
+Model vox_model(const ImportedFile& file, int part) {
+    Model model;
+    model.voxels = file.path;
+    model.part = part;
+    model.surface = Surface::cubes;
+    return model;
+}
+
+std::string material_values(const VoxMaterial& m, uint32_t color) {
+    // Light through eight voxels of coloured glass has its colour.
+    constexpr double kTint = 0.125, kDarkest = 0.02;
+    const glm::dvec3 linear = linear_color(color);
+    switch (m.kind) {
+        case VoxMaterialKind::metal:
+            return metal_values(m.weight, m);
+        case VoxMaterialKind::blend:
+            return metal_values(m.metal, m);
+        case VoxMaterialKind::glass: {
+            glm::dvec3 absorption;
+            for (int c = 0; c < 3; ++c)
+                absorption[c] =
+                    std::log(1 / std::max(linear[c], kDarkest)) * (kTint * m.weight + m.density);
+            return fmt::format(
+                "\"color\": [1, 1, 1], \"diffuse\": {}, \"specular\": 0.5, \"shininess\": {}, "
+                "\"reflection\": 1, \"refraction\": {}, \"fresnel\": true, \"ior\": {}, "
+                "\"absorption\": {}",
+                rounded(1 - m.weight, 3), shininess_of(m.rough), rounded(m.weight, 3),
+                rounded(m.ior, 4), json_list(rounded(absorption, 3)));
+        }
+        case VoxMaterialKind::emit:
+            return fmt::format(
+                "\"color\": [1, 1, 1], \"emission\": {}",
+                json_list(
+                    rounded(linear * double(m.weight) * double((1 + m.flux) * (1 + m.flux)), 3)));
+        case VoxMaterialKind::media:
+            return fmt::format("\"color\": [1, 1, 1], \"opacity\": {}",
+                               rounded(0.2 + 0.8 * m.density, 3));
+        case VoxMaterialKind::diffuse:
+            break;
+    }
+    return "\"color\": [1, 1, 1]";
+}
+
+bool VoxParts::has_glass() const {
+    return std::ranges::any_of(entries_, [&](int entry) {
+        return vox_.materials[size_t(entry)].kind == VoxMaterialKind::glass;
+    });
+}
+
+bool VoxParts::has_voxels(int model) {
+    const VoxModel& from = vox_.models[size_t(model)];
+    return from.voxels > 0 && std::min({from.size.x, from.size.y, from.size.z}) > 0;
+}
+
+std::string VoxParts::name_of(int model) {
+    const auto found = names_.find(model);
+    if (found != names_.end()) return found->second;
+    return names_[model] =
+               vox_.models.size() == 1 ? stem_of(file_) : fmt::format("part {}", model + 1);
+}
+
+std::string VoxParts::group_members(int model) {
+    const std::vector<std::string>& groups = file_.assets.groups_of(vox_model(file_, model + 1));
+    for (size_t i = 1; i < groups.size(); ++i) entries_.insert(entry_of(groups[i]));
+    return members_of(groups);
+}
+
+Bounds VoxParts::box_of(int model) {
+    return file_.assets.box_of_file(vox_model(file_, model + 1), true);
+}
+
+std::vector<std::string> VoxParts::models() const {
+    std::vector<std::string> members;
+    for (const auto& [model, name] : names_)
+        members.push_back(fmt::format("{}: {{\"voxels\": {}, \"part\": {}}}", json_text(name),
+                                      json_text(file_.name), model + 1));
+    return members;
+}
+
+std::vector<std::string> VoxParts::materials() const {
+    std::vector<std::string> members = {
+        fmt::format("{}: {{\"color\": [1, 1, 1]}}", json_text(material()))};
+    for (const int entry : entries_)
+        members.push_back(fmt::format(
+            "{}: {{{}}}", json_text(material_name(vox_, entry)),
+            material_values(vox_.materials[size_t(entry)], vox_.palette[size_t(entry)])));
+    return members;
+}
+
+Contents whole_vox_contents(const ImportedFile& file) {
+    Contents contents = voxel_contents(file);
+    const VoxFile& vox = file.assets.vox_file(file.path);
+    const std::vector<std::string>& groups = file.assets.groups_of(vox_model(file, 0));
+    for (size_t i = 1; i < groups.size(); ++i) {
+        const size_t entry = size_t(entry_of(groups[i]));
+        contents.has_glass |= vox.materials[entry].kind == VoxMaterialKind::glass;
+        contents.materials.push_back(
+            fmt::format("{}: {{{}}}", json_text(groups[i]),
+                        material_values(vox.materials[entry], vox.palette[entry])));
+    }
+    contents.objects.front().pop_back();
+    contents.objects.front() += members_of(groups) + "}";
+    return contents;
+}
+
+}  // namespace voxelume

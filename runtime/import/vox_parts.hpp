@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+// The models of a MagicaVoxel file and the materials of its palette, as members of a scene.
+#pragma once
+
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "runtime/import/contents.hpp"
+#include "runtime/io/voxels/vox_file.hpp"
+
+namespace voxelume {
+
+class VoxParts {
+  public:
+    VoxParts(const ImportedFile& file, const VoxFile& vox) : file_(file), vox_(vox) {}
+
+    /// False for models without a voxel, of which scenes can have no models.
+    bool has_voxels(int model);
+    /// The model's name in the scene, which has the model then.
+    std::string name_of(int model);
+    /// The name of the material that voxels have unless their palette entry says otherwise.
+    std::string material() const { return stem_of(file_); }
+    /// `, "materials": {...}` for the model's voxels that have a material of their own.
+    std::string group_members(int model);
+    /// The box around the model's voxels.
+    Bounds box_of(int model);
+
+    /// Whether light goes through a material that is needed.
+    bool has_glass() const;
+
+    std::vector<std::string> models() const;     ///< members of those that were named
+    std::vector<std::string> materials() const;  ///< and of the materials that they have
+
+  private:
+    const ImportedFile& file_;
+    const VoxFile& vox_;
+    std::map<int, std::string> names_;
+    std::set<int> entries_;  ///< of the palette whose materials are needed
+};
+
+/// The model that stands for a file's model: its voxels are those of a part.
+Model vox_model(const ImportedFile& file, int part);
+
+/// A material of a scene that looks like a palette entry's: its values without braces.
+std::string material_values(const VoxMaterial& material, uint32_t color);
+
+/// All objects of the file as one model, which has the size of the options.
+Contents whole_vox_contents(const ImportedFile& file);
+
+}  // namespace voxelume

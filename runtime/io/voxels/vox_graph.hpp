@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// Nodes of a .vox file's scene graph -> objects in their places.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <set>
+
+#include "runtime/io/voxels/vox_chunks.hpp"
+#include "runtime/io/voxels/vox_file.hpp"
+
+namespace voxelume {
+
+enum class VoxNodeKind : uint8_t { transform, group, shape };
+
+struct VoxNode {
+    VoxNodeKind kind = VoxNodeKind::group;
+    std::string name;
+    bool hidden = false;
+    int layer = -1;
+    std::vector<int> children;    ///< numbers of nodes
+    std::vector<VoxPose> poses;   ///< of a transform
+    std::vector<VoxShown> shown;  ///< of a shape
+};
+
+struct VoxGraph {
+    std::map<int, VoxNode> nodes;  ///< by their numbers; 0 is the root
+    std::set<int> hidden_layers;
+};
+
+/// Takes a node of the kind with its number from a chunk.
+void take_node(VoxNodeKind kind, VoxContent& content, VoxGraph& graph);
+
+/// The objects of the graph, in its order; without nodes, one object for each model, which stands
+/// on the ground. Throws Error::input for nodes and models that there aren't, and for circles.
+std::vector<VoxObject> objects_of(const VoxGraph& graph, const VoxFile& vox, const InputFile& file);
+
+/// The rotation that a byte of the file stands for: bits 0-1 and 2-3 are the axes of the first two
+/// rows, bits 4, 5 and 6 the signs of all three. Throws Error::input for a byte that is none.
+VoxRotation vox_rotation(int byte, const VoxContent& content);
+
+}  // namespace voxelume

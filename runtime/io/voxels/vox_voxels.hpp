@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+// Models of a .vox file -> voxels, with Y up.
+#pragma once
+
+#include <glm/mat4x4.hpp>
+#include <span>
+
+#include "runtime/geometry/voxel_model.hpp"
+#include "runtime/io/voxels/vox_file.hpp"
+
+namespace voxelume {
+
+/// The cubes of a file, a voxel 1 long, with its colours. `part` is the number of a model, from 1
+/// on, which lies around the corner that its objects stand on; 0: all objects that frame 0 shows,
+/// in their places, of which earlier ones cover later ones.
+///
+/// Palette entries whose material isn't diffuse are groups by the name of that material, after a
+/// group "diffuse"; without such voxels there are no groups. Throws Error::input for a part that
+/// there isn't, for voxels outside of their model, and for more bricks than a model may have.
+VoxelModel read_vox_voxels(const VoxFile& vox, int part);
+
+/// The map from a model's voxels, Y up, to an object's place among them.
+glm::dmat4 placement_of(const VoxPose& pose);
+
+/// The number of voxels with each palette index, over all models.
+std::array<uint64_t, 256> count_palette(const VoxFile& vox);
+
+}  // namespace voxelume

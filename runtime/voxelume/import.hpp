@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+// Model files in place of scenes: a good picture of a mesh or of voxels, without writing a scene.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "scene.hpp"
+#include "values.hpp"
+
+namespace voxelume::v1 {
+
+/// Which axis of a file is up.
+enum class UpAxis {
+    automatic,  ///< Z for STL, Y for all others whose format doesn't say
+    y,
+    z
+};
+
+/// What the scene of a model file is like. By default it stands on a ground without a visible end,
+/// in soft light that comes from the observer's left, seen from the right of its front and from
+/// above.
+struct ImportOptions {
+    double longitude = 35;  ///< where the observer is: degrees to the right of the front
+    double latitude = 25;   ///< degrees above the horizon, -90..90
+    bool parallel = false;  ///< parallel rays, as in isometric drawings, instead of a pyramid
+    double angle = 40;      ///< degrees, horizontal opening of the observer's pyramid
+    bool ground = true;     ///< a ground that shadows fall on, where the observer is above it
+    /// Radiance of the background and of the ground; grey by default.
+    std::optional<Color> background{};
+    double fit = 0;                 ///< metres of the longest side; 0: the file's own size
+    UpAxis up = UpAxis::automatic;  ///< of the file's coordinates
+    Size size{800, 600};            ///< of the image, pixels
+};
+
+/// Whether a file's name ends as those of the model files that `import_file` reads.
+bool is_model_file(const std::filesystem::path& file);
+
+/// The text of a scene that shows what a model file (.obj, .ply, .stl, .vxm, .vdb, .vox) holds. It names
+/// the file as seen from `folder`, which is the folder that the text is to be saved in, if it lies
+/// there or below, or else by its name alone. Throws Error::input for a file that can't be read or
+/// has nothing to show, Error::usage for another ending.
+std::string import_file(const std::filesystem::path& file, const std::filesystem::path& folder,
+                        const ImportOptions& options = {}, const CacheOptions& cache = {});
+
+/// That scene, ready to be rendered. Throws as `import_file` and `Scene::load` do.
+Scene scene_of_file(const std::filesystem::path& file, const ImportOptions& options = {},
+                    const SceneOptions& scene_options = {});
+
+}  // namespace voxelume::v1

@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: Apache-2.0
+// Model files in place of scenes: what the made scene shows, from where, and how it names files.
+#include <gmock/gmock.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include "tests/api/api_environment.hpp"
+
+namespace voxelume::v1 {
+namespace {
+
+namespace fs = std::filesystem;
+
+using testing::HasSubstr;
+using testing::Not;
+
+/// A box of 7 x 5 x 3 with a corner cut off, far from the origin.
+constexpr const char* kBlock =
+    "v 10 20 30\nv 17 20 30\nv 17 25 30\nv 10 25 30\nv 10 20 33\nv 17 20 33\nv 17 25 33\n"
+    "f 1 3 2\nf 1 4 3\nf 5 6 7\nf 1 2 6\nf 1 6 5\nf 2 3 7\nf 2 7 6\nf 4 1 5\nf 3 4 7\nf 4 5 7\n";
+
+class ApiImport : public testing::Test {
+  protected:
+    static void SetUpTestSuite() { device = new std::vector{Device::open(test_selector())}; }
+    static void TearDownTestSuite() { delete device; }
+    void SetUp() override {
+        std::string name = (fs::temp_directory_path() / "voxelume-XXXXXX").string();
+        ASSERT_NE(mkdtemp(name.data()), nullptr);
+        folder = name;
+        std::ofstream(folder / "block.obj") << kBlock;
+    }
+    void TearDown() override { fs::remove_all(folder); }
+
+    Image picture(const ImportOptions& options) const {
+        const Scene scene = scene_of_file(folder / "block.obj", options, {.cache = no_cache});
+        return render_image(scene, *device, 1, {.cache = no_cache});
+    }
+
+    inline static std::vector<Device>* device = nullptr;
+    const CacheOptions no_cache{.enabled = false};
+    fs::path folder;
+};
+
+/// The columns and rows that an object takes: first and last of each.
+struct Taken {
+    int left = 1 << 20, right = -1, top = 1 << 20, bottom = -1;
+};
+
+Taken pixels_of(const Image& image, uint32_t object) {
+    Taken taken;
+    const auto ids = image.object_ids();
+    const int width = image.width();
+    for (size_t i = 0; i < ids.size(); ++i) {
+        if (ids[i] != object) continue;
+        const int x = int(i) % width, y = int(i) / width;
+        taken = {std::min(taken.left, x), std::max(taken.right, x), std::min(taken.top, y),
+                 std::max(taken.bottom, y)};
+    }
+    return taken;
+}
+
+TEST_F(ApiImport, AMeshFillsThePictureFromEverySideWithoutBeingCut) {
+    for (const auto& [longitude, latitude] : {std::pair{35.0, 25.0},
+                                              {0.0, 0.0},
+                                              {90.0, 0.0},
+                                              {-140.0, 60.0},
+                                              {0.0, 90.0},
+                                              {20.0, -35.0}})
+        for (const bool parallel : {false, true})
+            for (const Size size : {Size{96, 72}, Size{72, 96}, Size{128, 48}}) {
+                SCOPED_TRACE(testing::Message() << longitude << " " << latitude << " " << parallel
+                                                << " " << size[0] << "x" << size[1]);
+                const Image image = picture({.longitude = longitude,
+                                             .latitude = latitude,
+                                             .parallel = parallel,
+                                             .size = size});
+                const Taken taken = pixels_of(image, 1);
+                EXPECT_GT(taken.left, 0);
+                EXPECT_GT(taken.top, 0);
+                EXPECT_LT(taken.right, size[0] - 1);
+                EXPECT_LT(taken.bottom, size[1] - 1);
+                const double across = double(taken.right - taken.left + 1) / size[0];
+                const double down = double(taken.bottom - taken.top + 1) / size[1];
+                EXPECT_GT(std::max(across, down), 0.7);
+            }
+}
+
+TEST_F(ApiImport, NamedSidesAreThoseOfTheFile) {
+    const auto sides = [&](double longitude, double latitude) {
+        const Taken taken = pixels_of(picture({.longitude = longitude,
+                                               .latitude = latitude,
+                                               .parallel = true,
+                                               .size = {200, 200}}),
+                                      1);
+        return double(taken.right - taken.left + 1) / (taken.bottom - taken.top + 1);
+    };
+    EXPECT_NEAR(sides(0, 0), 7.0 / 5, 0.03);
+    EXPECT_NEAR(sides(90, 0), 3.0 / 5, 0.03);
+    EXPECT_NEAR(sides(0, 90), 7.0 / 3, 0.05);
+    // The corner that is missing is at the top left of the front.
+    const Image front = picture({.longitude = 0, .latitude = 0, .parallel = true});
+    const Taken taken = pixels_of(front, 1);
+    const auto at = [&](int x, int y) {
+        return front.object_ids()[size_t(y) * size_t(front.width()) + size_t(x)];
+    };
+    const auto normal = [&](int x, int y) {
+        return front.plane("N.Z")[size_t(y) * size_t(front.width()) + size_t(x)];
+    };
+    EXPECT_EQ(at(taken.left + 5, taken.top + 5), 1u);
+    EXPECT_LT(normal(taken.left + 5, taken.top + 5), 0.9f);
+    EXPECT_GT(normal(taken.right - 5, taken.bottom - 5), 0.99f);
+}
+
+TEST_F(ApiImport, TheGroundWithoutShadowHasTheRadianceOfTheBackground) {
+    for (const std::optional<Color> background :
+         {std::optional<Color>{}, std::optional<Color>{Color{0.1, 0.4, 0.6}}}) {
+        const Image image = picture({.background = background, .size = {160, 120}});
+        const auto ids = image.object_ids();
+        const size_t corner = 0;  // top left
+        ASSERT_EQ(ids[corner], 0u);
+        const auto level = [](float linear) { return 255 * std::pow(linear, 1 / 2.4f); };
+        for (const char* channel : {"R", "G", "B"}) {
+            const auto plane = image.plane(channel);
+            float brightest = 0, at_edge = 1;  // on the ground; where it meets the background
+            for (size_t i = 160; i < ids.size(); ++i) {
+                if (ids[i] != 2) continue;
+                brightest = std::max(brightest, plane[i]);
+                if (ids[i - 160] == 0) at_edge = std::min(at_edge, plane[i]);
+            }
+            EXPECT_NEAR(level(brightest), level(plane[corner]), 0.6) << channel;
+            EXPECT_NEAR(level(at_edge), level(plane[corner]), 2.5) << channel;
+        }
+        if (background) {
+            EXPECT_NEAR(image.plane("G")[corner], 0.4f, 1e-3);
+        }
+        // Some of the ground lies in shadow.
+        float darkest = 1;
+        for (size_t i = 0; i < ids.size(); ++i)
+            if (ids[i] == 2) darkest = std::min(darkest, image.plane("G")[i]);
+        EXPECT_LT(darkest, 0.7f * image.plane("G")[corner]);
+    }
+}
+
+TEST_F(ApiImport, AGroundIsThereOnRequestAndForObserversAboveIt) {
+    const auto has_ground = [&](const ImportOptions& options) {
+        return import_file(folder / "block.obj", folder, options).find("\"ground\":") !=
+               std::string::npos;
+    };
+    EXPECT_TRUE(has_ground({}));
+    EXPECT_FALSE(has_ground({.ground = false}));
+    EXPECT_FALSE(has_ground({.latitude = -10}));
+}
+
+TEST_F(ApiImport, TheTextIsTheSceneThatIsShown) {
+    const ImportOptions options{.fit = 2, .size = {40, 30}};
+    const std::string text = import_file(folder / "block.obj", folder, options);
+    EXPECT_THAT(text, HasSubstr("\"fit\": 2"));
+    const Scene parsed = Scene::parse(text, folder / "scene.json");
+    const Image a = render_image(parsed, *device, 1, {.cache = no_cache});
+    const Image b = picture(options);
+    for (const std::string& name : a.channels())
+        EXPECT_TRUE(std::ranges::equal(a.plane(name), b.plane(name))) << name;
+    EXPECT_EQ(parsed.size(), (Size{40, 30}));
+    EXPECT_EQ(parsed.object_names(), (std::vector<std::string>{"block", "ground"}));
+    EXPECT_EQ(parsed.fitted().find("observer"), std::string::npos);
+}
+
+TEST_F(ApiImport, FilesAreNamedAsSeenFromTheScenesFolder) {
+    fs::create_directory(folder / "parts");
+    fs::rename(folder / "block.obj", folder / "parts" / "my \"block\".obj");
+    const fs::path file = folder / "parts" / "my \"block\".obj";
+    EXPECT_THAT(import_file(file, folder), HasSubstr(R"("mesh": "parts/my \"block\".obj")"));
+    EXPECT_THAT(import_file(file, folder / "elsewhere"),
+                HasSubstr(R"("mesh": "my \"block\".obj")"));
+    fs::create_symlink(file, folder / "link.obj");
+    const Scene scene = scene_of_file(folder / "link.obj", {}, {.cache = no_cache});
+    EXPECT_EQ(scene.object_names().front(), "my \"block\"");
+}
+
+TEST_F(ApiImport, StlFilesStandOnTheirLowestZ) {
+    std::ofstream(folder / "a.stl") << "solid a\nfacet normal 0 0 0\nouter loop\nvertex 0 0 4\n"
+                                       "vertex 2 0 4\nvertex 0 3 9\nendloop\nendfacet\nendsolid\n";
+    EXPECT_THAT(import_file(folder / "a.stl", folder), HasSubstr("\"turn\": [0, -90, 0]"));
+    EXPECT_THAT(import_file(folder / "a.stl", folder, {.up = UpAxis::y}), Not(HasSubstr("turn")));
+    EXPECT_THAT(import_file(folder / "block.obj", folder, {.up = UpAxis::z}), HasSubstr("turn"));
+    const Scene scene = scene_of_file(folder / "a.stl", {}, {.cache = no_cache});
+    EXPECT_THAT(scene.fitted(), HasSubstr("bounds"));
+}
+
+TEST_F(ApiImport, WhatCantBeShownIsRefusedWithASentence) {
+    const auto message = [&](const fs::path& file) -> std::string {
+        try {
+            (void)import_file(file, folder);
+        } catch (const Error& error) {
+            return error.what();
+        }
+        return "nothing was refused";
+    };
+    EXPECT_THAT(message(folder / "none.obj"), HasSubstr("no such file"));
+    EXPECT_THAT(message(folder / "scene.json"), HasSubstr("isn't the name of a model file"));
+    std::ofstream(folder / "point.obj") << "v 1 2 3\nf 1 1 1\n";
+    EXPECT_THAT(message(folder / "point.obj"), HasSubstr("one point"));
+    std::ofstream(folder / "text.obj") << "hello\n";
+    EXPECT_THAT(message(folder / "text.obj"), HasSubstr("text.obj"));
+    std::ofstream(folder / "short.vxm") << "\x89VXM";
+    EXPECT_THAT(message(folder / "short.vxm"), HasSubstr("short.vxm"));
+}
+
+}  // namespace
+}  // namespace voxelume::v1

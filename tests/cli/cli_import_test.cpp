@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+// Model files on the command line: render, check and import.
+#include <gmock/gmock.h>
+
+#include "runtime/io/image/exr.hpp"
+#include "tests/support/program_runner.hpp"
+
+namespace voxelume {
+
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+class CliImportTest : public ProgramTest {
+  protected:
+    void SetUp() override {
+        ProgramTest::SetUp();
+        put_bytes(folder / "wedge.obj",
+                  "v 0 0 0\nv 3 0 0\nv 0 2 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\n"
+                  "f 2 3 4\nf 3 1 4\n");
+        put_bytes(folder / "scene.json",
+                  R"({"voxelume": 1, "models": {"m": {"shape": "sphere", "radius": 1}},
+                      "objects": [{"model": "m"}]})");
+    }
+};
+
+TEST_F(CliImportTest, AMeshRendersWithoutAScene) {
+    const ProgramResult result =
+        run("render wedge.obj -o a.exr --size 32x24 --samples 1 --view 10,20 --background 0,0.5,0");
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    const Image image = read_exr(folder / "a.exr");
+    EXPECT_EQ(image.width, 32);
+    EXPECT_EQ(image.height, 24);
+    EXPECT_EQ(image.id_planes.at("objectId")[12 * 32 + 16], 1u);
+    EXPECT_NEAR(image.planes.at("G")[0], 0.5f, 0.01f);
+    EXPECT_EQ(image.planes.at("R")[0], 0.0f);
+    EXPECT_EQ(run("check wedge.obj").exit_code, 0);
+}
+
+TEST_F(CliImportTest, ImportWritesWhatRenderShows) {
+    ASSERT_EQ(run("render wedge.obj -o a.exr --size 32x24 --view iso").exit_code, 0);
+    const ProgramResult result = run("import wedge.obj -o wedge.json --size 32x24 --view iso");
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_THAT(result.err, IsEmpty());
+    ASSERT_EQ(run("render wedge.json -o b.exr").exit_code, 0);
+    EXPECT_EQ(read_exr(folder / "a.exr").planes, read_exr(folder / "b.exr").planes);
+    EXPECT_EQ(run("import wedge.obj --size 32x24 --view iso").out, bytes_of(folder / "wedge.json"));
+    std::filesystem::create_directory(folder / "scenes");
+    EXPECT_THAT(run("import wedge.obj -o scenes/wedge.json").err, HasSubstr("--assets"));
+}
+
+TEST_F(CliImportTest, ChoicesThatMakeNoSenseAreUsageErrors) {
+    const auto refused = [&](const char* arguments) {
+        const ProgramResult result = run(arguments);
+        EXPECT_EQ(result.exit_code, 2) << arguments;
+        return result.err;
+    };
+    EXPECT_THAT(refused("render scene.json -o a.png --view top"), HasSubstr("for model files"));
+    EXPECT_THAT(refused("check scene.json --no-ground"), HasSubstr("--ground"));
+    EXPECT_THAT(refused("render wedge.obj -o a.png --view fornt"),
+                HasSubstr("did you mean \"front\"?"));
+    EXPECT_THAT(refused("render wedge.obj -o a.png --view 10"), HasSubstr("LONGITUDE,LATITUDE"));
+    EXPECT_THAT(refused("render wedge.obj -o a.png --view 0,91"), HasSubstr("-90..90"));
+    EXPECT_THAT(refused("render wedge.obj -o a.png --view iso --fov 30"), HasSubstr("parallel"));
+    EXPECT_THAT(refused("render wedge.obj -o a.png --background red"), HasSubstr("#rrggbb"));
+    EXPECT_THAT(refused("render wedge.obj -o a.png --up x"), HasSubstr("--up"));
+    EXPECT_THAT(refused("import scene.json -o b.json"), HasSubstr("model file"));
+    EXPECT_EQ(run("render none.obj -o a.png").exit_code, 4);
+}
+
+}  // namespace voxelume
