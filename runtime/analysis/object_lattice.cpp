@@ -116,6 +116,8 @@ ObjectLattice ObjectLattices::of(const Object& object, const VoxelBox& box) {
         return {lattice, own_frame(object), glm::dmat4(1), object.world_from_object};
     const GridFrame world = world_frame(scene_.world);
     const bool is_whole = lists_primitives(scene_.models[size_t(object.model)].surface);
+    if (!is_whole)
+        check_invertible(object.world_from_object, uint32_t(&object - scene_.objects.data()));
     return {lattice, is_whole ? world : part_around(box, world), object.world_from_object,
             glm::dmat4(1)};
 }

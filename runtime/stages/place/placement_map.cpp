@@ -21,28 +21,6 @@ double shortest(const glm::dvec3& edges) {
     return std::min({edges.x, edges.y, edges.z});
 }
 
-void check_invertible(const glm::dmat4& map, uint32_t object) {
-    for (int column = 0; column < 4; ++column)
-        for (int row = 0; row < 3; ++row)
-            if (!std::isfinite(map[column][row]))
-                throw Error(ErrorKind::scene,
-                            "object {}: its placement is not finite: check its position, turn, "
-                            "scale or matrix",
-                            object);
-    const Stretch stretch = stretch_of(glm::dmat3(map));
-    if (stretch.min == 0)
-        throw Error(ErrorKind::scene,
-                    "object {}: its placement flattens it to nothing: give every axis a scale "
-                    "other than 0",
-                    object);
-    if (stretch.max > kWorstCondition * stretch.min)
-        throw Error(ErrorKind::scene,
-                    "object {}: its placement stretches one direction {:.3g} times as much as "
-                    "another, at most {:.0e} can be inverted exactly: make the model closer to its "
-                    "final shape",
-                    object, stretch.max / stretch.min, kWorstCondition);
-}
-
 /// The largest number of fraction bits with which sums over all the world's voxels can't overflow.
 int fraction_bits(const glm::dmat3& linear, const glm::dvec3& offset, const GridFrame& world,
                   uint32_t object) {
@@ -97,6 +75,28 @@ glm::dvec3 first_node(const GridFrame& object_frame, const GridFrame& world_fram
 }
 
 }  // namespace
+
+void check_invertible(const glm::dmat4& map, uint32_t object) {
+    for (int column = 0; column < 4; ++column)
+        for (int row = 0; row < 3; ++row)
+            if (!std::isfinite(map[column][row]))
+                throw Error(ErrorKind::scene,
+                            "object {}: its placement is not finite: check its position, turn, "
+                            "scale or matrix",
+                            object);
+    const Stretch stretch = stretch_of(glm::dmat3(map));
+    if (stretch.min == 0)
+        throw Error(ErrorKind::scene,
+                    "object {}: its placement flattens it to nothing: give every axis a scale "
+                    "other than 0",
+                    object);
+    if (stretch.max > kWorstCondition * stretch.min)
+        throw Error(ErrorKind::scene,
+                    "object {}: its placement stretches one direction {:.3g} times as much as "
+                    "another, at most {:.0e} can be inverted exactly: make the model closer to its "
+                    "final shape",
+                    object, stretch.max / stretch.min, kWorstCondition);
+}
 
 double voxels_per_world_voxel(const GridFrame& object_frame, const GridFrame& world_frame,
                               const glm::dmat4& world_from_object) {

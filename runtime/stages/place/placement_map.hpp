@@ -40,13 +40,16 @@ double voxels_per_world_voxel(const GridFrame& object_frame, const GridFrame& wo
 bool maps_nodes_to_nodes(const GridFrame& object_frame, const GridFrame& world_frame,
                          const glm::dmat4& world_from_object);
 
+/// Refuses a map that is singular, has a condition number above 10^5 or holds an infinity by
+/// Error::scene. `object` is the object's number in messages.
+void check_invertible(const glm::dmat4& map, uint32_t object);
+
 /// Inverts `world_from_object` in double precision and rounds the result to fixed point.
 ///
 /// Offsets are rounded to 2^-24 object voxels and coefficients to 2^-24 or finer. So decimal voxel
 /// edges and positions that are whole or half voxels in the scene are so here, too, and moving an
-/// object by whole voxels moves its image exactly. `object` is the object's number in messages.
-/// Throws Error::scene if the map is singular, has a condition number above 10^5, holds an
-/// infinity, or puts the object too far away to be exact.
+/// object by whole voxels moves its image exactly. Throws Error::scene as check_invertible does,
+/// and if the map puts the object too far away to be exact.
 PlacementMap placement_map(const GridFrame& object_frame, const GridFrame& world_frame,
                            const glm::dmat4& world_from_object, Reach reach, uint32_t object);
 
