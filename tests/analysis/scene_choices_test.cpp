@@ -37,7 +37,10 @@ class SceneChoices : public FileTest {
              "display": {{"shape": "pyramid", "angle": 40}}}},
 "render": {{"size": [48, 36]}}}})",
                                              model, keys, tracks);
-        return parse_scene(text, folder / "test.json", {});
+        AssetStore files;
+        return parse_scene(text, folder / "test.json", {}, [&](const Model& of, bool is_first) {
+            return files.box_of_file(of, is_first);
+        });
     }
 
     /// The model after the choices are made; its surface is `auto` unless `model` says it.
