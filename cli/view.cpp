@@ -14,11 +14,20 @@ namespace {
 constexpr int kMinSide = 64;
 
 struct ViewCommand {
-    std::string from, size = "1280x1000";
+    std::string from, size = "1280x1000", device;
     std::vector<std::string> outputs;
     double around = 35, above = 25;
     double exposure = 0;
 };
+
+/// The volumetric image of a file, or of what a model file holds. OpenVDB files are the former.
+Volume volume_of(const ViewCommand& command) {
+    if (ending_of(command.from) == ".vdb" || !is_model_file(command.from))
+        return Volume::read(command.from);
+    ImportOptions options;
+    options.lattice = true;
+    return render_volume(scene_of_file(command.from, options), {Device::open(command.device)});
+}
 
 int run(const ViewCommand& command) {
     const Size size = parse_size(command.size, "view");
@@ -27,7 +36,7 @@ int run(const ViewCommand& command) {
                    kMinSide);
     for (const std::string& output : command.outputs)
         check_output(output, {".png", ".html"}, "view");
-    const Volume volume = Volume::read(command.from);
+    const Volume volume = volume_of(command);
     const ViewPoint view{command.around, command.above};
     for (const std::string& output : command.outputs) {
         if (ending_of(output) == ".html")
@@ -43,7 +52,8 @@ int run(const ViewCommand& command) {
 Action add_view(CLI::App& app) {
     const auto command = std::make_shared<ViewCommand>();
     app.add_option("VOLUME", command->from,
-                   "volumetric image to read: .vdb .exr .nrrd .raw or .json")
+                   "volumetric image to read: .vdb .exr .nrrd .raw or .json; or a model file: .obj "
+                   ".ply .stl .vxm .vox")
         ->required();
     app.add_option("-o,--output", command->outputs,
                    ".png: views from the front and from a side, and slices from near to far; "
@@ -58,6 +68,8 @@ Action add_view(CLI::App& app) {
         ->check(in_range(-90, 90));
     app.add_option("--size", command->size,
                    "size of the .png, WIDTHxHEIGHT in pixels; 1280x1000 by default");
+    app.add_option("--device", command->device,
+                   "device for model files: auto, cpu, gpu, a number, or part of a name");
     app.add_option("--exposure", command->exposure, "exposure in stops, 0 by default")
         ->check(in_range(-64, 64));
     return [command] { return run(*command); };

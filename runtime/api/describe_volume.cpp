@@ -8,6 +8,7 @@
 #include "runtime/base/input_file.hpp"
 #include "runtime/image/volume_geometry.hpp"
 #include "runtime/io/volume/volume_frame_text.hpp"
+#include "runtime/io/volume/volume_kv6_read.hpp"
 #include "runtime/io/volume_file.hpp"
 
 namespace voxelume::api {
@@ -73,12 +74,10 @@ Report describe_volume_header(const fs::path& path) {
 }
 
 Report describe_kv6(const fs::path& path) {
-    const InputFile file(path);
-    std::array<int32_t, 8> start{};  // magic, sizes, pivot, voxels
-    file.read(0, start.data(), sizeof start);
-    return {{"kind", "KV6 voxel model"},
-            {"size", {start[1], start[2], start[3]}},
-            {"voxels", start[7]}};
+    const Kv6Summary kv6 = read_kv6_summary(path);
+    Report report = {{"kind", "KV6 voxel model"}, {"size", kv6.size}, {"voxels", kv6.voxels}};
+    if (kv6.has_palette) report["palette"] = true;
+    return report;
 }
 
 }  // namespace voxelume::api

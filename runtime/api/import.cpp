@@ -26,6 +26,7 @@ ImportOptions options_of(const v1::ImportOptions& options) {
     ImportOptions inside;
     inside.from = {options.longitude, options.latitude};
     inside.is_parallel = options.parallel;
+    inside.is_lattice = options.lattice;
     inside.angle = options.angle;
     inside.has_ground = options.ground;
     if (options.background) inside.background = color_of(*options.background);

@@ -2,13 +2,18 @@
 #include "runtime/base/atomic_file.hpp"
 
 #include <fcntl.h>
-#include <limits.h>
+#include <sys/file.h>
 #include <unistd.h>
 
-#include <array>
 #include <cerrno>
 #include <cstring>
+#include <mutex>
+#include <set>
 #include <string>
+#include <string_view>
+#include <utility>
+
+#include "runtime/base/process_tag.hpp"
 
 namespace voxelume {
 
@@ -16,11 +21,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-std::string host_name() {
-    std::array<char, HOST_NAME_MAX + 1> name{};
-    if (gethostname(name.data(), name.size() - 1) != 0 || name[0] == '\0') return "localhost";
-    return name.data();
-}
+constexpr const char* kEnding = ".tmp";
 
 fs::path folder_of(const fs::path& file) {
     return file.has_parent_path() ? file.parent_path() : fs::path(".");
@@ -34,6 +35,42 @@ fs::path follow_links(const fs::path& target) {
     for (int depth = 0; depth < 40 && fs::is_symlink(file, ignored); ++depth)
         file = folder_of(file) / fs::read_symlink(file, ignored);
     return file;
+}
+
+/// Whether a writer holds the file, as far as the file system knows of locks.
+bool is_locked(const fs::path& path) {
+    const int file = open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+    if (file < 0) return true;
+    const bool is_held = flock(file, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+    close(file);
+    return is_held;
+}
+
+/// `.name.TAG.tmp` or `.name.TAG-2.tmp` without the dot, the ending and the number.
+std::string_view without_number(std::string_view name) {
+    name.remove_suffix(std::string_view(kEnding).size());
+    const size_t digits = name.find_last_not_of("0123456789");
+    if (digits != std::string_view::npos && name[digits] == '-') name = name.substr(0, digits);
+    return name;
+}
+
+/// Removes the temporary files that killed processes left in a folder. Looks through each folder
+/// once, as it may hold a million frames.
+void remove_leftovers(const fs::path& folder) {
+    static std::mutex mutex;
+    static std::set<fs::path> seen;
+    std::error_code error;
+    const fs::path absolute = fs::absolute(folder, error);
+    const std::lock_guard guard(mutex);
+    if (error || !seen.insert(absolute).second) return;
+    fs::directory_iterator file(absolute, error);
+    for (; !error && file != fs::directory_iterator(); file.increment(error)) {
+        const std::string name = file->path().filename().string();
+        if (!name.starts_with('.') || !name.ends_with(kEnding)) continue;
+        if (ends_with_dead_tag(without_number(name)) && file->is_regular_file(error) &&
+            !is_locked(file->path()))
+            unlink(file->path().c_str());
+    }
 }
 
 std::string reason_for(int code, const fs::path& folder) {
@@ -77,22 +114,26 @@ AtomicFile::AtomicFile(const fs::path& target) : target_(target), final_(follow_
 
 AtomicFile::~AtomicFile() {
     if (descriptor_ >= 0) close(descriptor_);
+    if (lock_ >= 0) close(lock_);
     if (!temporary_.empty()) unlink(temporary_.c_str());
 }
 
 void AtomicFile::create_temporary() {
     const fs::path folder = folder_of(final_);
+    remove_leftovers(folder);
     // The longer temporary name has to stay within the file system's limit on names, too.
-    const std::string stem = fmt::format(".{}.{}.{}", final_.filename().string().substr(0, 150),
-                                         host_name().substr(0, 64), getpid());
-    // The first name is taken by a second writer in this process, or by a file that a killed
-    // process with the same number left.
+    const std::string stem =
+        fmt::format(".{}.{}", final_.filename().string().substr(0, 130), process_tag());
+    // The first name is taken by a second writer in this process.
     for (int attempt = 1; attempt <= 1000; ++attempt) {
-        const std::string ending = attempt == 1 ? ".tmp" : fmt::format("-{}.tmp", attempt);
+        const std::string ending = attempt == 1 ? kEnding : fmt::format("-{}{}", attempt, kEnding);
         const fs::path candidate = folder / (stem + ending);
         descriptor_ = open(candidate.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
         if (descriptor_ >= 0) {
             temporary_ = candidate;
+            // Tells processes that can't see this one, in other containers, that it lives.
+            lock_ = fcntl(descriptor_, F_DUPFD_CLOEXEC, 0);
+            flock(lock_, LOCK_EX | LOCK_NB);
             return;
         }
         if (errno != EEXIST) fail_with_errno(errno);
@@ -121,6 +162,7 @@ void AtomicFile::commit() {
     if (close(closing) != 0) fail_with_errno(errno);
     if (rename(temporary_.c_str(), final_.c_str()) != 0) fail_with_errno(errno);
     temporary_.clear();
+    close(std::exchange(lock_, -1));
     sync_folder();
 }
 

@@ -10,8 +10,9 @@
 
 namespace voxelume {
 
-/// Writes to `.name.<host>.<pid>.tmp` in the target's folder. commit() renames that file onto the
-/// target.
+/// Writes to `.name.<host>.<pid>.<start>.tmp` in the target's folder. commit() renames that file
+/// onto the target. Those that killed processes left in the folder are removed by the next process
+/// that writes there.
 ///
 /// Until commit() returns, a file that already has the name is untouched. Without commit() the
 /// destructor removes the temporary file. A link is followed: the file that it points to is
@@ -49,6 +50,7 @@ class AtomicFile {
     std::filesystem::path final_;   ///< path after links
     std::filesystem::path temporary_;
     int descriptor_ = -1;
+    int lock_ = -1;  ///< the same file, locked until it has its name
     uint64_t position_ = 0;
     std::optional<Error> failure_;
 };

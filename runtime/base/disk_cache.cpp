@@ -17,6 +17,7 @@
 #include <system_error>
 
 #include "runtime/base/private_folder.hpp"
+#include "runtime/base/process_tag.hpp"
 
 namespace voxelume {
 namespace {
@@ -120,7 +121,7 @@ void DiskCache::write(const std::string& key, std::string_view bytes) const noex
     static std::atomic<int> number = 0;
     const PrivateFolder folder = PrivateFolder::make(folder_);
     if (!folder) return;
-    const std::string temporary = fmt::format(".{}-{}-{}", key, getpid(), number++);
+    const std::string temporary = fmt::format(".{}.{}.{}", key, number++, process_tag());
     const int file = openat(folder.descriptor(), temporary.c_str(),
                             O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
     if (file < 0) return;
@@ -169,8 +170,8 @@ void DiskCache::trim(const PrivateFolder& folder) const {
         if (!S_ISREG(status.st_mode)) continue;
         const std::string name = found->d_name;
         const auto& [seconds, nanoseconds] = status.st_mtim;
-        // Such a file is left from a process that was killed while it wrote.
-        if (is_temporary(name) && now - seconds > kHour)
+        // Such a file is left from a process that was killed while it wrote, maybe on another host.
+        if (is_temporary(name) && (ends_with_dead_tag(name) || now - seconds > kHour))
             unlinkat(descriptor, name.c_str(), 0);
         else if (!is_temporary(name))
             entries.push_back(

@@ -16,7 +16,10 @@ enum class UpAxis : uint8_t { automatic, y, z };
 struct ImportOptions {
     ViewFrom from;
     bool is_parallel = false;  ///< the observer's rays are parallel, as in isometric drawings
-    double angle = 40;         ///< degrees, horizontal opening of the observer's pyramid
+    /// The observer's display is a lattice around all that is shown, for a volumetric image, and
+    /// there is no ground.
+    bool is_lattice = false;
+    double angle = 40;  ///< degrees, horizontal opening of the observer's pyramid
     bool has_ground = true;
     std::optional<glm::vec3> background;  ///< linear Rec. 709; the ground shows the same colour
     double fit = 0;                       ///< metres of the longest side; 0: the file's own size

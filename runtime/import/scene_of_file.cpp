@@ -93,6 +93,29 @@ std::string parallel_observer(const Bounds& box, const Bounds& around,
                                      rounded(width / aspect, 6), depth));
 }
 
+/// An observer before the front whose display is a box of voxels around what is shown.
+std::string lattice_observer(const Bounds& box) {
+    constexpr int kDisplayVoxels = 200;  // the longest side; pages of more turn slowly
+    const double edge = rounded(longest_side(box) / kDisplayVoxels, 6);
+    // A voxel more on every side holds surfaces that lie on the box.
+    const glm::dvec3 voxels = glm::ceil((box.max - box.min) / edge) + 2.0;
+    const glm::dvec3 size = rounded(voxels * edge, 8);
+    const glm::dvec3 middle = rounded((box.min + box.max) / 2.0, 8);
+    return observer_text(
+        middle + glm::dvec3(0, 0, size.z / 2), middle, view_axes({0, 0}),
+        fmt::format("\"shape\": \"box\", \"size\": {}, \"voxels\": {},\n"
+                    "                           \"layout\": \"lattice\", \"visibility\": "
+                    "\"outside\"",
+                    json_list(size), json_list(voxels)));
+}
+
+/// The observer that the options ask for.
+std::string observer_of(const Bounds& box, const Bounds& around, const ImportOptions& options) {
+    if (options.is_lattice) return lattice_observer(box);
+    return options.is_parallel ? parallel_observer(box, around, options)
+                               : pyramid_observer(box, options);
+}
+
 /// `, "bounds": {...}` where the voxels of the file don't lie on multiples of their size, as those
 /// of fitted worlds do.
 std::string bounds_member(const Contents& contents, const Bounds& box) {
@@ -120,7 +143,7 @@ bool is_model_file(const std::filesystem::path& file) {
 std::string scene_of_file(const std::filesystem::path& file, const std::string& name,
                           const ImportOptions& options, AssetStore& assets) {
     const Contents contents = format_of(file)->read({file, name, options, assets});
-    const Studio studio = make_studio(contents.box, options);
+    const Studio studio = make_studio(contents.box, contents.voxel_size, options);
     std::string text = "{\n  \"voxelume\": 1,\n";
     text +=
         fmt::format("  \"world\": {{\"voxel_size\": {}, \"background\": {}, \"ambient\": {}{}}},\n",
@@ -134,8 +157,7 @@ std::string scene_of_file(const std::filesystem::path& file, const std::string& 
         text += fmt::format(
             "  \"animation\": {{\"frames\": {}, \"fps\": {}, \"tracks\": [\n    {}\n  ]}},\n",
             contents.frames, contents.fps, fmt::join(contents.tracks, ",\n    "));
-    text += options.is_parallel ? parallel_observer(contents.box, studio.box, options)
-                                : pyramid_observer(contents.box, options);
+    text += observer_of(contents.box, studio.box, options);
     return text + fmt::format("  \"render\": {{\"size\": [{}, {}], \"samples\": {}{}}}\n}}\n",
                               options.size.x, options.size.y, kSamples,
                               contents.has_glass ? ", \"shadow\": \"filtered\"" : "");

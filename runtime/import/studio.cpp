@@ -24,7 +24,7 @@ constexpr double kAmbient = 0.2;
 constexpr glm::vec3 kBackground{0.8f, 0.8f, 0.8f};
 // So far away, in longest sides, that the light on the ground is even to half of a grey level.
 constexpr double kDistance = 1000;
-constexpr double kFarthest = 9e8;   // metres
+constexpr double kFarthest = 4e8;   // metres
 constexpr double kBrightest = 5e8;  // the colour has what is more, as intensities end at 1e9
 
 /// A round light far away in a direction.
@@ -86,11 +86,21 @@ glm::dvec3 direction_of(double longitude, double latitude) {
     return -view_axes({longitude, latitude})[2];
 }
 
-/// A disk under the box, as large as the shadows on it.
+/// The radius of a disk under the box that is as large as the shadows on it.
+double ground_radius(const Bounds& box) {
+    const glm::dvec3 size = box.max - box.min;
+    return rounded(std::hypot(size.x, size.z) / 2 + 1.6 * size.y + longest_side(box) / 8, 3);
+}
+
+/// Whether a world of such voxels has room for the ground.
+bool has_room(const Bounds& box, const glm::dvec3& voxel_size) {
+    constexpr double kMaxVoxels = 16000;  // of its radius
+    return ground_radius(box) <= kMaxVoxels * std::min(voxel_size.x, voxel_size.z);
+}
+
 void add_ground(const Bounds& box, const glm::dvec3& color, Studio& studio) {
-    const glm::dvec3 size = box.max - box.min, middle = (box.min + box.max) / 2.0;
-    const double radius =
-        rounded(std::hypot(size.x, size.z) / 2 + 1.6 * size.y + longest_side(box) / 8, 3);
+    const glm::dvec3 middle = (box.min + box.max) / 2.0;
+    const double radius = ground_radius(box);
     const double height = rounded(longest_side(box) / 32, 3);
     const glm::dvec3 position(rounded(middle.x, 6), box.min.y - height / 2, rounded(middle.z, 6));
     studio.materials.push_back(fmt::format("\"ground\": {{\"color\": {}}}", json_list(color)));
@@ -108,7 +118,7 @@ void add_ground(const Bounds& box, const glm::dvec3& color, Studio& studio) {
 
 }  // namespace
 
-Studio make_studio(const Bounds& box, const ImportOptions& options) {
+Studio make_studio(const Bounds& box, const glm::dvec3& voxel_size, const ImportOptions& options) {
     Studio studio;
     studio.box = box;
     studio.ambient = glm::dvec3(kAmbient);
@@ -119,7 +129,8 @@ Studio make_studio(const Bounds& box, const ImportOptions& options) {
     add_light({"sky", {0, 1, 0}, kSkyColor, kSky, kSkySpread, kSkySpots}, box, studio, on_ground);
     studio.background = options.background.value_or(kBackground);
     studio.background = rounded(studio.background, 4);
-    if (options.has_ground && options.from.latitude >= 0)
+    if (options.has_ground && !options.is_lattice && options.from.latitude >= 0 &&
+        has_room(box, voxel_size))
         add_ground(box, rounded(glm::min(studio.background / on_ground, glm::dvec3(1)), 4), studio);
     return studio;
 }

@@ -16,9 +16,10 @@ struct Studio {
     Bounds box;  ///< around what is shown and the ground
 };
 
-/// A room for what fills `box`. The sun comes from over the observer's left shoulder. Where light
+/// A room for what fills `box` in a world of such voxels, without a ground where that would be too
+/// large for the world. The sun comes from over the observer's left shoulder. Where light
 /// falls on the ground without hindrance, the ground has the radiance of the background, so that
 /// only shadows tell them apart.
-Studio make_studio(const Bounds& box, const ImportOptions& options);
+Studio make_studio(const Bounds& box, const glm::dvec3& voxel_size, const ImportOptions& options);
 
 }  // namespace voxelume

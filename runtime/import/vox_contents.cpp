@@ -108,9 +108,8 @@ class VoxContents {
             if (other.frame <= first) pose = &other;
         const std::string name = unique_name(object.name, model);
         const bool is_always = first == 0 && last == vox_.frames;
-        std::string text =
-            fmt::format("{{\"name\": {}, \"model\": {}, \"material\": {}", json_text(name),
-                        json_text(parts_.name_of(model)), json_text(parts_.material()));
+        std::string text = fmt::format("{{\"name\": {}, \"model\": {}", json_text(name),
+                                       json_text(parts_.name_of(model)));
         text += parts_.group_members(model);
         text += fmt::format(", \"position\": {}", json_list(position_of(*pose)));
         const QuarterTurns turns = turns_of(placement_of(*pose));
@@ -185,7 +184,7 @@ class VoxContents {
     const VoxFile& vox_;
     VoxParts parts_;
     Contents contents_;
-    std::map<std::string, int> names_;
+    std::map<std::string, int> names_ = {{"ground", 1}};  ///< how many objects have each
 };
 
 }  // namespace

@@ -129,8 +129,7 @@ std::vector<std::string> VoxParts::models() const {
 }
 
 std::vector<std::string> VoxParts::materials() const {
-    std::vector<std::string> members = {
-        fmt::format("{}: {{\"color\": [1, 1, 1]}}", json_text(material()))};
+    std::vector<std::string> members = {"\"default\": {\"color\": [1, 1, 1]}"};
     for (const int entry : entries_)
         members.push_back(fmt::format(
             "{}: {{{}}}", json_text(material_name(vox_, entry)),

@@ -20,8 +20,6 @@ class VoxParts {
     bool has_voxels(int model);
     /// The model's name in the scene, which has the model then.
     std::string name_of(int model);
-    /// The name of the material that voxels have unless their palette entry says otherwise.
-    std::string material() const { return stem_of(file_); }
     /// `, "materials": {...}` for the model's voxels that have a material of their own.
     std::string group_members(int model);
     /// The box around the model's voxels.

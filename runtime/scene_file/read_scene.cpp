@@ -18,9 +18,12 @@ constexpr size_t kMaxSceneBytes = size_t{64} << 20;
 
 std::string read_text(const std::filesystem::path& file) {
     std::error_code error;
-    if (std::filesystem::is_directory(file, error)) {
-        throw Error(ErrorKind::input, "{}: this is a folder, not a scene file",
-                    SourcePlace(file.string()));
+    const std::filesystem::file_status status = std::filesystem::status(file, error);
+    // Opening a pipe would wait for its writer.
+    if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
+        throw Error(ErrorKind::input, "{}: this is a {}, not a scene file",
+                    SourcePlace(file.string()),
+                    std::filesystem::is_directory(status) ? "folder" : "pipe or device");
     }
     std::ifstream stream(file, std::ios::binary);
     if (!stream) {
@@ -28,10 +31,13 @@ std::string read_text(const std::filesystem::path& file) {
             ErrorKind::input, "{}: the scene can't be opened: {}", SourcePlace(file.string()),
             std::filesystem::exists(file, error) ? "no permission to read it" : "no such file");
     }
+    // Some of the system's files have no size, and wait for more to come.
+    const uintmax_t size = std::filesystem::file_size(file, error);
     std::string text;
     std::vector<char> block(size_t{1} << 16);
-    while (stream.read(block.data(), static_cast<std::streamsize>(block.size())),
-           stream.gcount() > 0) {
+    while (!error && text.size() < size) {
+        stream.read(block.data(), static_cast<std::streamsize>(block.size()));
+        if (stream.gcount() <= 0) break;
         text.append(block.data(), static_cast<size_t>(stream.gcount()));
         if (text.size() > kMaxSceneBytes) {
             throw Error(ErrorKind::limit,

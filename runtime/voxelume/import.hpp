@@ -25,8 +25,11 @@ struct ImportOptions {
     double longitude = 35;  ///< where the observer is: degrees to the right of the front
     double latitude = 25;   ///< degrees above the horizon, -90..90
     bool parallel = false;  ///< parallel rays, as in isometric drawings, instead of a pyramid
-    double angle = 40;      ///< degrees, horizontal opening of the observer's pyramid
-    bool ground = true;     ///< a ground that shadows fall on, where the observer is above it
+    /// The display is a lattice of voxels around all that is shown, for render_volume. The observer
+    /// is before the front then, and there is no ground.
+    bool lattice = false;
+    double angle = 40;   ///< degrees, horizontal opening of the observer's pyramid
+    bool ground = true;  ///< a ground that shadows fall on, where the observer is above it
     /// Radiance of the background and of the ground; grey by default.
     std::optional<Color> background{};
     double fit = 0;                 ///< metres of the longest side; 0: the file's own size
@@ -37,10 +40,10 @@ struct ImportOptions {
 /// Whether a file's name ends as those of the model files that `import_file` reads.
 bool is_model_file(const std::filesystem::path& file);
 
-/// The text of a scene that shows what a model file (.obj, .ply, .stl, .vxm, .vdb, .vox) holds. It names
-/// the file as seen from `folder`, which is the folder that the text is to be saved in, if it lies
-/// there or below, or else by its name alone. Throws Error::input for a file that can't be read or
-/// has nothing to show, Error::usage for another ending.
+/// The text of a scene that shows what a model file (.obj, .ply, .stl, .vxm, .vdb, .vox) holds. It
+/// names the file as seen from `folder`, which is the folder that the text is to be saved in, if it
+/// lies there or below, or else by its name alone. Throws Error::input for a file that can't be
+/// read or has nothing to show, Error::usage for another ending.
 std::string import_file(const std::filesystem::path& file, const std::filesystem::path& folder,
                         const ImportOptions& options = {}, const CacheOptions& cache = {});
 

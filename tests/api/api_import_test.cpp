@@ -36,7 +36,9 @@ class ApiImport : public testing::Test {
     void TearDown() override { fs::remove_all(folder); }
 
     Image picture(const ImportOptions& options) const {
-        const Scene scene = scene_of_file(folder / "block.obj", options, {.cache = no_cache});
+        // One sample a pixel, so that no pixel mixes objects.
+        const Scene scene =
+            scene_of_file(folder / "block.obj", options, {.cache = no_cache}).with_samples(1);
         return render_image(scene, *device, 1, {.cache = no_cache});
     }
 
@@ -160,7 +162,7 @@ TEST_F(ApiImport, TheTextIsTheSceneThatIsShown) {
     const std::string text = import_file(folder / "block.obj", folder, options);
     EXPECT_THAT(text, HasSubstr("\"fit\": 2"));
     const Scene parsed = Scene::parse(text, folder / "scene.json");
-    const Image a = render_image(parsed, *device, 1, {.cache = no_cache});
+    const Image a = render_image(parsed.with_samples(1), *device, 1, {.cache = no_cache});
     const Image b = picture(options);
     for (const std::string& name : a.channels())
         EXPECT_TRUE(std::ranges::equal(a.plane(name), b.plane(name))) << name;

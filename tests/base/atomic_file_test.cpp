@@ -1,9 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "runtime/base/atomic_file.hpp"
 
+#include <fcntl.h>
 #include <gmock/gmock.h>
+#include <sys/file.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
+#include <csignal>
+
+#include "runtime/base/process_tag.hpp"
 #include "tests/support/file_fixture.hpp"
 
 namespace voxelume {
@@ -154,6 +161,91 @@ TEST_F(AtomicFileTest, ALongNameIsWritten) {
     AtomicFile file(folder / name);
     file.commit();
     EXPECT_TRUE(fs::exists(folder / name));
+}
+
+/// Tests of what killed processes leave.
+class AtomicFileLeftovers : public AtomicFileTest {
+  protected:
+    /// Has another process begin to write two files of one name, and kills it.
+    void kill_a_writer() const {
+        GTEST_FLAG_SET(death_test_style, "fast");
+        EXPECT_EXIT(
+            {
+                AtomicFile first(folder / "a.bin");
+                const AtomicFile second(folder / "a.bin");
+                first.write("voxel", 5);
+                std::raise(SIGKILL);
+            },
+            testing::KilledBySignal(SIGKILL), "");
+    }
+    /// Makes a temporary file with the tag of some process.
+    fs::path put_temporary(const std::string& tag) const {
+        const fs::path path = folder / (".b.bin." + tag + ".tmp");
+        put_bytes(path, "half");
+        return path;
+    }
+    void write_one() const { AtomicFile(folder / "c.bin").commit(); }
+
+    const std::string own = process_tag();
+    const std::string host = own.substr(0, own.rfind('.', own.rfind('.') - 1));
+};
+
+TEST_F(AtomicFileLeftovers, AreRemovedByTheNextWriterOfTheFolder) {
+    kill_a_writer();
+    EXPECT_EQ(files_in_folder(), 2u);
+    write_one();
+    EXPECT_EQ(files_in_folder(), 1u);
+}
+
+TEST_F(AtomicFileLeftovers, OfProcessesThatNobodyAskedForTheirEndAreRemoved) {
+    const pid_t ended = fork();
+    if (ended == 0) {
+        const AtomicFile file(folder / "a.bin");
+        std::raise(SIGKILL);
+    }
+    siginfo_t info{};
+    ASSERT_EQ(waitid(P_PID, id_t(ended), &info, WEXITED | WNOWAIT), 0);
+    write_one();
+    EXPECT_EQ(files_in_folder(), 1u);
+    waitpid(ended, nullptr, 0);
+}
+
+TEST_F(AtomicFileLeftovers, OfProcessesWhoseNumberIsUsedAgainAreRemoved) {
+    put_temporary(fmt::format("{}.{}.12345", host, getpid()));
+    put_temporary(fmt::format("{}.{}.12345-17", host, getpid()));
+    put_temporary(host + ".4194305.12345");  // above all numbers of processes
+    write_one();
+    EXPECT_EQ(files_in_folder(), 1u);
+}
+
+TEST_F(AtomicFileLeftovers, ThatMayBeAnothersWorkStay) {
+    const fs::path kept[] = {put_temporary(own),
+                             put_temporary(own + "-2"),
+                             put_temporary("x" + host + ".4194305.12345"),
+                             put_temporary(host + ".4194305"),
+                             put_temporary(host + ".0.1"),
+                             put_temporary("4194305.12345")};
+    write_one();
+    for (const fs::path& path : kept) EXPECT_TRUE(fs::exists(path)) << path;
+}
+
+TEST_F(AtomicFileLeftovers, StayWhileTheirWriterHoldsThem) {
+    // As in another container of this name, whose processes can't be seen.
+    const fs::path path = put_temporary(host + ".4194305.12345");
+    const int held = open(path.c_str(), O_RDWR | O_CLOEXEC);
+    ASSERT_EQ(flock(held, LOCK_EX), 0);
+    write_one();
+    EXPECT_TRUE(fs::exists(path));
+    close(held);
+}
+
+TEST_F(AtomicFileLeftovers, AWriterHoldsItsFileUntilItHasItsName) {
+    AtomicFile file(folder / "a.bin");
+    const int other = open(file.temporary().c_str(), O_RDONLY | O_CLOEXEC);
+    EXPECT_NE(flock(other, LOCK_EX | LOCK_NB), 0);
+    file.commit();
+    EXPECT_EQ(flock(other, LOCK_EX | LOCK_NB), 0);
+    close(other);
 }
 
 }  // namespace voxelume

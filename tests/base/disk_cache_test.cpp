@@ -7,6 +7,7 @@
 
 #include <fstream>
 
+#include "runtime/base/process_tag.hpp"
 #include "tests/support/file_fixture.hpp"
 #include "tests/support/setting.hpp"
 
@@ -140,6 +141,17 @@ TEST_F(DiskCacheFiles, LinksAndPipesAreNotFollowed) {
     EXPECT_EQ(real.read(key_of("one")), std::nullopt);
     ASSERT_EQ(mkfifo((folder / "real" / key_of("three")).c_str(), 0600), 0);
     EXPECT_EQ(real.read(key_of("three")), std::nullopt);
+}
+
+TEST_F(DiskCacheFiles, WhatAKilledProcessLeftIsRemoved) {
+    const DiskCache cache(folder, 1000);
+    const std::string tag = process_tag();
+    const std::string host = tag.substr(0, tag.rfind('.', tag.rfind('.') - 1));
+    put_bytes(folder / (".a.0." + host + ".4194305.1"), "half");
+    put_bytes(folder / (".b.0." + tag), "half");
+    cache.write(key_of("one"), "bytes");
+    EXPECT_EQ(files_in_folder(), 2u);
+    EXPECT_TRUE(fs::exists(folder / (".b.0." + tag)));
 }
 
 TEST_F(DiskCacheFiles, AFolderThatCannotBeMadeKeepsNothing) {

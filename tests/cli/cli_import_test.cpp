@@ -2,6 +2,8 @@
 // Model files on the command line: render, check and import.
 #include <gmock/gmock.h>
 
+#include <nlohmann/json.hpp>
+
 #include "runtime/io/image/exr.hpp"
 #include "tests/support/program_runner.hpp"
 
@@ -46,6 +48,32 @@ TEST_F(CliImportTest, ImportWritesWhatRenderShows) {
     EXPECT_EQ(run("import wedge.obj --size 32x24 --view iso").out, bytes_of(folder / "wedge.json"));
     std::filesystem::create_directory(folder / "scenes");
     EXPECT_THAT(run("import wedge.obj -o scenes/wedge.json").err, HasSubstr("--assets"));
+}
+
+TEST_F(CliImportTest, AModelFileIsViewedAsAVolumetricImage) {
+    const ProgramResult result = run("view wedge.obj -o a.html -o a.png --size 200x160");
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_THAT(bytes_of(folder / "a.html"), HasSubstr("<html"));
+    EXPECT_GT(bytes_of(folder / "a.png").size(), 1000u);
+}
+
+TEST_F(CliImportTest, InfoListsWhatAMagicaVoxelFileHolds) {
+    const ProgramResult result = run("info --json '" VXL_SOURCE_DIR "/scenes/lighthouse.vox'");
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    const auto report = nlohmann::json::parse(result.out);
+    EXPECT_EQ(report["kind"], "MagicaVoxel file");
+    EXPECT_EQ(report["version"], 200);
+    EXPECT_EQ(report["models"], 4);
+    EXPECT_EQ(report["objects"], 11);
+    EXPECT_EQ(report["layers"], 1);
+    EXPECT_EQ(report["colors used"], 12);
+    EXPECT_EQ(report["model list"][2]["size"], nlohmann::json({12, 3, 2}));
+    EXPECT_EQ(report["model list"][2]["objects"], 8);
+    EXPECT_EQ(report["object list"][2]["object"], "tower");
+    EXPECT_EQ(report["object list"][2]["at"], nlohmann::json({5, 6, 34}));
+    EXPECT_EQ(report["object list"][5]["mirrored"], true);
+    EXPECT_EQ(report["material list"][0]["material"], "glass 7");
+    EXPECT_FALSE(report.contains("not shown"));
 }
 
 TEST_F(CliImportTest, ChoicesThatMakeNoSenseAreUsageErrors) {

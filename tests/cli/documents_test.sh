@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Checks the documents: no line of more than 100 columns, no relative link that leads nowhere, and
-# a README of at most 60 lines in each folder of code.
+# Checks the documents: no line of more than 100 columns, no relative link that leads nowhere, a
+# README of at most 60 lines in each folder of code, and tests for what SECURITY.md promises.
 # Usage: documents_test.sh SOURCE_FOLDER
 set -euo pipefail
 export LC_ALL=C.UTF-8
@@ -22,6 +22,11 @@ while read -r page; do
     done < <(sed '/^```/,/^```/d' "$page" | tr '\n' ' ' | grep -oE '\]\([^)# ]+[^) ]*\)' |
         sed -E 's/^\]\((.*)\)$/\1/' | grep -vE '^[a-z]+:' || true)
 done <<<"$pages"
+
+# What SECURITY.md promises is tested by files that exist.
+while read -r name; do
+    [ -n "$(find tests -name "$name.cpp")" ] || complain "SECURITY.md names $name, which is no test"
+done < <(grep -oE '`[a-z0-9_]+_test`' SECURITY.md | tr -d '`' | sort -u)
 
 while read -r folder; do
     readme=$folder/README.md

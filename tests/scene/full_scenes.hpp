@@ -70,7 +70,7 @@ inline std::vector<nlohmann::json> full_scenes() {
             "models": {"m": {"mesh": "m.obj", "fit": 2, "morph": {"mesh": "m.obj", "amount": 0.5}},
                        "b": {"mesh": "m.obj", "morph": {"center": [1, 2, 3], "radius": 1}, "surface": "smooth",
                              "cut": [{"shape": "sphere", "radius": 1, "position": [1, 2, 3]}]},
-                       "s": {"voxels": "s.#.vdb", "unit": "mm", "sequence": {"first": 1, "last": 2, "start": 3, "loop": true}},
+                       "s": {"voxels": "s.#.vdb", "part": 7, "unit": "mm", "sequence": {"first": 1, "last": 2, "start": 3, "loop": true}},
                        "ball": {"shape": "sphere", "radius": 1}},
             "objects": [{"name": "o", "model": "m", "visible": true}],
             "lights": [{"type": "point", "position": [1, 2, 3]}],

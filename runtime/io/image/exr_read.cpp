@@ -7,9 +7,12 @@
 #include <ImfStringAttribute.h>
 #include <openexr.h>
 
+#include <algorithm>
+
 #include "runtime/base/error.hpp"
 #include "runtime/base/input_file.hpp"
 #include "runtime/io/image/exr.hpp"
+#include "runtime/io/image/exr_header_check.hpp"
 
 namespace voxelume {
 
@@ -44,6 +47,9 @@ class HeaderReader {
     HeaderReader& operator=(const HeaderReader&) = delete;
 
     ExrHeader read() const;
+
+    /// Refuses parts with more chunks than the file has room for in its table of them.
+    void check_chunks(const InputFile& file) const;
 
   private:
     void check(exr_result_t result) const {
@@ -81,6 +87,21 @@ ExrHeader HeaderReader::read() const {
     }
     read_attributes(header);
     return header;
+}
+
+void HeaderReader::check_chunks(const InputFile& file) const {
+    int parts = 0;
+    check(exr_get_count(context_, &parts));
+    uint64_t chunks = 0;
+    for (int part = 0; part < parts; ++part) {
+        int32_t count = 0;
+        check(exr_get_chunk_count(context_, part, &count));
+        chunks += uint64_t(std::max(count, 0));
+    }
+    if (chunks > file.size() / sizeof(uint64_t))
+        file.refuse(fmt::format(
+            "not a readable OpenEXR file: it declares {} chunks and is far too small for them",
+            chunks));
 }
 
 void HeaderReader::read_attributes(ExrHeader& header) const {
@@ -141,13 +162,17 @@ Imf::FrameBuffer attach_planes(const InputFile& file, const Imf::InputFile& inpu
 
 ExrHeader read_exr_header(const std::filesystem::path& path) {
     const InputFile file(path);  // reports what is wrong with the file itself
+    check_exr_header(file);
     return HeaderReader(path).read();
 }
 
 Image read_exr(const std::filesystem::path& path) {
     const InputFile file(path);
-    const ExrHeader header = HeaderReader(path).read();
+    check_exr_header(file);
+    const HeaderReader reader(path);
+    const ExrHeader header = reader.read();
     check_size(file, header);
+    reader.check_chunks(file);
     try {
         Imf::InputFile input(path.c_str());
         if (!input.isComplete()) file.refuse("rows are missing; the file is truncated");

@@ -11,6 +11,7 @@
 #include <cmath>
 
 #include "runtime/image/volume_geometry.hpp"
+#include "runtime/io/image/exr_header_check.hpp"
 #include "runtime/io/volume/volume_exr.hpp"
 #include "runtime/io/volume/volume_formats.hpp"
 #include "runtime/io/volume/volume_frame_text.hpp"
@@ -164,6 +165,7 @@ Volume read_volume_exr(const VolumePath& path) {
     readable.read(place, checksum.data(), checksum.size());
     if (checksum != volume_exr::compute_checksum(readable, place))
         readable.refuse("damaged, or changed by another program: its checksum differs");
+    check_exr_header(readable);
     try {
         return take_volume(readable, path);
     } catch (const Iex::BaseExc& error) {

@@ -34,6 +34,24 @@ Image make_slice(const Volume& volume, VolumeRows& rows) {
     return image;
 }
 
+/// The slices that were written, which go again if the stack isn't completed.
+class WrittenSlices {
+  public:
+    WrittenSlices() = default;
+    ~WrittenSlices() {
+        std::error_code ignored;
+        for (const VolumePath& slice : slices_) std::filesystem::remove(slice, ignored);
+    }
+    WrittenSlices(const WrittenSlices&) = delete;
+    WrittenSlices& operator=(const WrittenSlices&) = delete;
+
+    void add(const VolumePath& slice) { slices_.push_back(slice); }
+    void keep() { slices_.clear(); }
+
+  private:
+    std::vector<VolumePath> slices_;
+};
+
 }  // namespace
 
 VolumePath slices_header_of(const VolumePath& pattern) {
@@ -49,8 +67,12 @@ void write_volume_slices(const VolumePath& pattern, const Volume& volume) {
     PngOptions options;
     options.keep_alpha = true;
     VolumeRows rows(volume);
-    for (int k = 0; k < size.z; ++k)
-        write_png(frame_path(pattern.string(), k, true), make_slice(volume, rows), options);
+    WrittenSlices written;
+    for (int k = 0; k < size.z; ++k) {
+        const VolumePath slice = frame_path(pattern.string(), k, true);
+        write_png(slice, make_slice(volume, rows), options);
+        written.add(slice);
+    }
     VolumeJson header = start_header(pattern, volume, VolumeFormat::slices);
     header["shape"] = {size.x, size.y, size.z};
     header["axes"] = volume.frame.layout == VolumeLayout::rays ? VolumeJson{"u", "v", "k"}
@@ -58,6 +80,7 @@ void write_volume_slices(const VolumePath& pattern, const Volume& volume) {
     header["axis_order"] = "columns, rows from the top, slices";
     header["bits"] = "8 each of red, green, blue (sRGB, not multiplied by alpha) and alpha";
     write_json(slices_header_of(pattern), header);
+    written.keep();
 }
 
 }  // namespace voxelume

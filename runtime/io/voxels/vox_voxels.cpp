@@ -14,7 +14,7 @@
 namespace voxelume {
 namespace {
 
-constexpr int kMargin = 4;  // voxels around a model, as around other models
+constexpr int kVoxMargin = 4;  // voxels around a model, as around other models
 constexpr uint32_t kNoBrick = 0xFFFFFFFF;
 constexpr uint32_t kNoColor = 0xFFFFFF;  // of cells without a voxel
 
@@ -59,10 +59,10 @@ CellBox box_of(const Standing& standing) {
 class Cells {
   public:
     Cells(const CellBox& box, const InputFile& file) : file_(file) {
-        const glm::dvec3 size = glm::dvec3(box.high - box.low) + 2.0 * kMargin;
+        const glm::dvec3 size = glm::dvec3(box.high - box.low) + 2.0 * kVoxMargin;
         check_voxel_span(size, file);
         frame_.size = glm::ivec3(size);
-        first_ = box.low - kMargin;
+        first_ = box.low - kVoxMargin;
         frame_.origin = glm::dvec3(first_);
         numbers_.assign(bricks_of(frame_), kNoBrick);
     }
@@ -178,13 +178,20 @@ void Cells::fill(const std::array<uint32_t, 256>& colors, const std::array<uint3
         sources.push_back(numbers_[brick]);
     }
     model.occupancy.assign(sources.size() * kLeavesPerBrick, 0);
-    model.colors.resize(sources.size() * kVoxelsPerBrick);
-    if (has_groups) model.attributes.resize(sources.size() * kVoxelsPerBrick);
+    model.colors.reserve(sources.size() * kVoxelsPerBrick);
+    if (has_groups) model.attributes.reserve(sources.size() * kVoxelsPerBrick);
+    std::array<uint32_t, kVoxelsPerBrick> words;
+    const auto append = [&](const std::array<uint32_t, 256>& values, const uint8_t* cells,
+                            std::vector<uint32_t>& to) {
+        // By way of a brick in the cache: memory is touched once.
+        for (size_t i = 0; i < kVoxelsPerBrick; ++i) words[i] = values[cells[i]];
+        to.insert(to.end(), words.begin(), words.end());
+    };
     for (size_t slot = 0; slot < sources.size(); ++slot) {
         const uint8_t* cells = cells_.data() + size_t(sources[slot]) * kVoxelsPerBrick;
-        uint32_t* color = model.colors.data() + slot * kVoxelsPerBrick;
         uint64_t* leaves = model.occupancy.data() + slot * kLeavesPerBrick;
-        for (size_t i = 0; i < kVoxelsPerBrick; ++i) color[i] = colors[cells[i]];
+        append(colors, cells, model.colors);
+        if (has_groups) append(groups, cells, model.attributes);
         for (size_t row = 0; row < kVoxelsPerBrick / 4; ++row) {
             // Four cells along x share a leaf: bits 0-1 of `row` are its x, 2-5 y, 6-9 z.
             uint32_t four = 0;
@@ -196,9 +203,6 @@ void Cells::fill(const std::array<uint32_t, 256>& colors, const std::array<uint3
             leaves[(row & 3) | (y >> 2) << 2 | (z >> 2) << 4] |= bits
                                                                  << ((y & 3) << 2 | (z & 3) << 4);
         }
-        if (!has_groups) continue;
-        uint32_t* attribute = model.attributes.data() + slot * kVoxelsPerBrick;
-        for (size_t i = 0; i < kVoxelsPerBrick; ++i) attribute[i] = groups[cells[i]];
     }
 }
 
