@@ -41,10 +41,15 @@ fs::path find_file(const fs::path& file) {
     if (!is_model_file(file))
         throw Error(ErrorKind::usage, "{} isn't the name of a model file", quote(file.string()));
     std::error_code error;
-    const fs::path found = fs::canonical(file, error);
+    fs::path found = fs::canonical(file, error);
     if (error)
         throw Error(ErrorKind::input, "{}: {}", file.string(),
                     fs::exists(file, error) ? "can't be opened" : "no such file");
+    if (!is_model_file(found))
+        throw Error(ErrorKind::input,
+                    "{}: leads to {}, whose name doesn't end as a model file's does: give that "
+                    "file such a name",
+                    file.string(), found.string());
     return found;
 }
 

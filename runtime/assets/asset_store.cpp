@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "runtime/assets/asset_store.hpp"
 
+#include "runtime/assets/asset_bytes.hpp"
 #include "runtime/assets/load_timer.hpp"
 #include "runtime/assets/voxel_model_file.hpp"
 #include "runtime/base/error.hpp"
@@ -10,7 +11,6 @@
 #include "runtime/io/mesh/mesh_reader.hpp"
 
 namespace voxelume {
-
 AssetStore::MeshFile& AssetStore::file(const std::filesystem::path& name) {
     used_.insert(name);
     const auto found = files_.find(name);

@@ -9,8 +9,6 @@
 namespace voxelume {
 namespace {
 
-const Bounds kNothing{glm::dvec3(INFINITY), glm::dvec3(-INFINITY)};
-
 void add(Bounds& box, const glm::dvec3& p) {
     box.min = glm::min(box.min, p);
     box.max = glm::max(box.max, p);
@@ -31,7 +29,7 @@ double longest_edge(const Mesh& mesh) {
 }  // namespace
 
 Bounds mesh_bounds(const Mesh& mesh) {
-    Bounds box = kNothing;
+    Bounds box = kEmptyBounds;
     for (const glm::uvec3& triangle : mesh.triangles)
         for (int corner = 0; corner < 3; ++corner)
             add(box, glm::dvec3(mesh.positions[triangle[corner]]));
@@ -47,7 +45,7 @@ MeshSummary summary_of(const Mesh& mesh) {
     summary.triangles = mesh.triangles.size();
     summary.corners = mesh.positions.size();
     summary.surface = mesh_bounds(mesh);
-    summary.vertices = kNothing;
+    summary.vertices = kEmptyBounds;
     for (const glm::vec3& p : mesh.positions) add(summary.vertices, glm::dvec3(p));
     summary.area = mesh_area(mesh);
     summary.min_area = min_mesh_area(mesh);

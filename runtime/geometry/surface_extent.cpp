@@ -48,22 +48,22 @@ SurfaceArea box_area(const SolidBounds& box, const SolidBounds& clip) {
 
 /// The minimum shadows of a shape along its own axes, as parts of its box' shadows.
 glm::dvec3 own_shadows(const Solid& solid) {
-    constexpr double kDisk = glm::pi<double>() / 4;
+    constexpr double kDiskShare = glm::pi<double>() / 4;
     switch (solid.kind) {
         case SolidKind::box:
         case SolidKind::slab:
             return glm::dvec3(1);
         case SolidKind::cylinder:
-            return {1, kDisk, 1};
+            return {1, kDiskShare, 1};
         case SolidKind::cone:
-            return {0.5, kDisk, 0.5};
+            return {0.5, kDiskShare, 0.5};
         case SolidKind::torus: {
             const double ring = solid.radius, tube = solid.tube, reach = ring + tube;
-            const double side = (ring + kDisk * tube) / reach;
+            const double side = (ring + kDiskShare * tube) / reach;
             return {side, glm::pi<double>() * ring * tube / (reach * reach), side};
         }
         default:
-            return glm::dvec3(kDisk);
+            return glm::dvec3(kDiskShare);
     }
 }
 

@@ -134,7 +134,7 @@ class VoxContents {
 
     /// The name, numbered if another object has it already.
     std::string unique_name(const std::string& wanted, int model) {
-        const std::string base = wanted.empty() ? parts_.name_of(model) : wanted;
+        std::string base = wanted.empty() ? parts_.name_of(model) : wanted;
         const int number = ++names_[base];
         if (number == 1) return base;
         return unique_name(fmt::format("{} {}", base, number), model);

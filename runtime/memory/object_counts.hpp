@@ -45,7 +45,7 @@ class ObjectCounts {
     const VoxelBox& box_of(const Object& object) {
         return boxes()[size_t(&object - scene_.objects.data())];
     }
-    /// Of the objects in the world's voxels, smooth ones last.
+    /// The numbers of the objects in the world's voxels; those of smooth objects come last.
     std::vector<size_t> placed_numbers();
     bool is_smooth(size_t number) const;
     WorldCounts expected_world();

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <glm/vec3.hpp>
 
 namespace voxelume {
@@ -14,6 +15,9 @@ struct Bounds {
 
     friend bool operator==(const Bounds&, const Bounds&) = default;
 };
+
+/// The box of nothing: min > max, and each point that it is widened to becomes its first corner.
+inline const Bounds kEmptyBounds{glm::dvec3(INFINITY), glm::dvec3(-INFINITY)};
 
 /// The length of the box's longest side.
 inline double longest_side(const Bounds& bounds) {

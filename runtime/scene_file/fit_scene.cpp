@@ -16,8 +16,6 @@
 namespace voxelume {
 namespace {
 
-const Bounds kNothing{glm::dvec3(INFINITY), glm::dvec3(-INFINITY)};
-
 bool is_empty(const Bounds& box) {
     return !(box.min.x <= box.max.x && box.min.y <= box.max.y && box.min.z <= box.max.z);
 }
@@ -28,7 +26,7 @@ void add(const Bounds& more, Bounds& box) {
 
 /// The box around another one after a map.
 Bounds mapped(const glm::dmat4& map, const Bounds& box) {
-    Bounds result = kNothing;
+    Bounds result = kEmptyBounds;
     for (int i = 0; i < 8; ++i) {
         const glm::dvec3 p(map * glm::dvec4(corner(box, i), 1));
         add({p, p}, result);
@@ -121,7 +119,7 @@ class ObjectsBox {
     const FileBoxes& file_boxes_;
     std::vector<bool> object_moves_, model_moves_;
     std::map<std::pair<std::filesystem::path, int>, Bounds> known_;  ///< by file and part
-    Bounds box_ = kNothing;
+    Bounds box_ = kEmptyBounds;
     bool saw_infinite_ = false;
 };
 

@@ -57,9 +57,9 @@ struct Facts {
 };
 
 /// What is in a file, by what it begins with: an OpenEXR or PNG image, a volumetric image, an
-/// OpenVDB volume, a voxelized model, a MagicaVoxel file, or else a mesh, and how many voxels a mesh would become.
-/// Returns an object whose members stand in the order in which people read them. Throws
-/// Error::input.
+/// OpenVDB volume, a voxelized model, a MagicaVoxel file, or else a mesh, and how many voxels a
+/// mesh would become. Returns an object whose members stand in the order in which people read them.
+/// Throws Error::input.
 Facts describe_file(const std::filesystem::path& file);
 
 /// The frames of a list like "1-10,20,30-60x5", in its order. Throws Error::usage.

@@ -25,9 +25,10 @@ enum class ImageReuse {
     traced
 };
 
-/// The word for it in summaries and in JSON: "kept", "instances moved" or "formed"; "kept",
-/// "shaded" or "traced".
+/// The word for it in summaries and in JSON: "kept", "instances moved" or "formed".
 const char* name_of(WorldReuse world);
+
+/// The word for it in summaries and in JSON: "kept", "shaded" or "traced".
 const char* name_of(ImageReuse image);
 
 /// Seconds that each stage took.

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Model files in place of scenes: what the made scene shows, from where, and how it names files.
 #include <gmock/gmock.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
 
-#include "tests/api/api_environment.hpp"
+#include "tests/api/api_fixture.hpp"
 
 namespace voxelume::v1 {
 namespace {
@@ -23,17 +22,12 @@ constexpr const char* kBlock =
     "v 10 20 30\nv 17 20 30\nv 17 25 30\nv 10 25 30\nv 10 20 33\nv 17 20 33\nv 17 25 33\n"
     "f 1 3 2\nf 1 4 3\nf 5 6 7\nf 1 2 6\nf 1 6 5\nf 2 3 7\nf 2 7 6\nf 4 1 5\nf 3 4 7\nf 4 5 7\n";
 
-class ApiImport : public testing::Test {
+class ApiImport : public ApiTest {
   protected:
-    static void SetUpTestSuite() { device = new std::vector{Device::open(test_selector())}; }
-    static void TearDownTestSuite() { delete device; }
     void SetUp() override {
-        std::string name = (fs::temp_directory_path() / "voxelume-XXXXXX").string();
-        ASSERT_NE(mkdtemp(name.data()), nullptr);
-        folder = name;
+        ApiTest::SetUp();
         std::ofstream(folder / "block.obj") << kBlock;
     }
-    void TearDown() override { fs::remove_all(folder); }
 
     Image picture(const ImportOptions& options) const {
         // One sample a pixel, so that no pixel mixes objects.
@@ -42,9 +36,7 @@ class ApiImport : public testing::Test {
         return render_image(scene, *device, 1, {.cache = no_cache});
     }
 
-    inline static std::vector<Device>* device = nullptr;
     const CacheOptions no_cache{.enabled = false};
-    fs::path folder;
 };
 
 /// The columns and rows that an object takes: first and last of each.

@@ -2,14 +2,13 @@
 // Images and volumetric images that callers get: they are equal in memory and in files, callers
 // learn of them while they are rendered, and rendering ends once nobody wants them.
 #include <gmock/gmock.h>
-#include <unistd.h>
 
 #include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 
-#include "tests/api/api_environment.hpp"
+#include "tests/api/api_fixture.hpp"
 #include "tests/support/setting.hpp"
 
 extern char** environ;
@@ -22,20 +21,8 @@ namespace fs = std::filesystem;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-/// One device for all tests, and one folder for each test.
-class ApiRender : public testing::Test {
+class ApiRender : public ApiTest {
   protected:
-    static void SetUpTestSuite() { device = new std::vector{Device::open(test_selector())}; }
-    static void TearDownTestSuite() { delete device; }
-    void SetUp() override {
-        std::string name = (fs::temp_directory_path() / "voxelume-XXXXXX").string();
-        ASSERT_NE(mkdtemp(name.data()), nullptr);
-        folder = name;
-    }
-    void TearDown() override { fs::remove_all(folder); }
-
-    inline static std::vector<Device>* device = nullptr;
-    fs::path folder;
     RenderOptions quick{.cache = {.enabled = false}};
 };
 

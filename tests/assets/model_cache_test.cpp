@@ -132,7 +132,7 @@ TEST_F(ModelCacheFiles, OtherParametersAreOtherEntries) {
     std::set<uint64_t> hashes;
     const std::string models[] = {
         R"("voxel_size": 0.04)",
-        R"("voxel_size": 0.045)",
+        R"("voxel_size": 0.06)",  // finer than the world's, they would all be the world's
         R"("resolution": 20)",
         R"("voxel_size": 0.04, "surface": "cubes")",
         R"("voxel_size": 0.04, "surface": "cubes", "set": "thin")",

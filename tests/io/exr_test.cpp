@@ -183,7 +183,9 @@ TEST_F(ExrTest, WhatAHeaderDeclaresBeyondTheFileIsRefusedBeforeMemoryIsTaken) {
     put_bytes(path(), preview);
     EXPECT_THAT(error_of([&] { read_exr(path()); }).what(), HasSubstr("attribute p declares"));
     std::string texts = bytes;
-    texts.insert(8, "s\0stringvector\0\x06\0\0\0\xff\xff\xff\x7f"s + "ab");
+    texts.insert(8,
+                 "s\0stringvector\0\x06\0\0\0\xff\xff\xff\x7f"
+                 "ab"s);
     put_bytes(path(), texts);
     EXPECT_THAT(error_of([&] { read_exr(path()); }).what(), HasSubstr("attribute s declares"));
 }

@@ -120,7 +120,7 @@ FloatGrid::Ptr density_in(const InputFile& file, const std::string& name) {
     const openvdb::GridPtrVecPtr grids = read_vdb_content(file).grids;
     for (const openvdb::GridBase::Ptr& grid : *grids) {
         if (grid->getName() != name) continue;
-        const auto floats = openvdb::gridPtrCast<FloatGrid>(grid);
+        auto floats = openvdb::gridPtrCast<FloatGrid>(grid);
         if (!floats)
             file.refuse(fmt::format("grid \"{}\" holds {} values; a density is of float values",
                                     name, grid->valueType()));

@@ -93,31 +93,36 @@ void refuse(WireSender& sender, const std::string& sentence) {
     sender.text(sentence);
 }
 
-}  // namespace
-}  // namespace voxelume::vdb
-
-int main(int count, char** arguments) {
-    using namespace voxelume;
+/// Answers the question in the arguments and ends the process. Returns an exit code if there is no
+/// question that this version understands, or if the limits can't be set.
+int serve(int count, char** arguments) {
     if (count < 4 || std::strcmp(arguments[1], VXL_VERSION) != 0) return 2;
     const std::string path = arguments[2];
     WireSender sender(kHelperAnswer);
     try {
         const InputFile file(path, kHelperInput);
-        const vdb::ReaderLimits limits = vdb::reader_limits(file.size());
+        const ReaderLimits limits = reader_limits(file.size());
         if (!limit_helper({limits.reading_bytes, limits.model_bytes, limits.computing_seconds}))
             return 3;
         // The stacks and heaps of a large machine's threads would take all of the address space.
         const tbb::global_control alone(tbb::global_control::max_allowed_parallelism, 1);
-        vdb::answer(sender, file, arguments[3], count > 4 ? arguments[4] : "");
+        answer(sender, file, arguments[3], count > 4 ? arguments[4] : "");
     } catch (const Error& error) {
-        vdb::refuse(sender, error.what());
+        refuse(sender, error.what());
     } catch (const std::bad_alloc&) {
-        vdb::refuse(sender,
-                    path + ": not a readable OpenVDB file: it declares more than there is memory");
+        refuse(sender,
+               path + ": not a readable OpenVDB file: it declares more than there is memory");
     } catch (const std::exception& error) {
-        vdb::refuse(sender, fmt::format("{}: not a readable OpenVDB file: {}", path,
-                                        std::string(error.what()).substr(0, 400)));
+        refuse(sender, fmt::format("{}: not a readable OpenVDB file: {}", path,
+                                   std::string(error.what()).substr(0, 400)));
     }
     sender.flush();
     _exit(0);  // a damaged heap needn't be taken down
+}
+
+}  // namespace
+}  // namespace voxelume::vdb
+
+int main(int count, char** arguments) {
+    return voxelume::vdb::serve(count, arguments);
 }

@@ -42,12 +42,12 @@ struct LeafNumbers {
 };
 
 MapType type_of(const openvdb::math::MapBase& map) {
-    using namespace openvdb::math;
-    if (map.isType<UniformScaleMap>()) return MapType::uniform;
-    if (map.isType<ScaleMap>()) return MapType::scale;
-    if (map.isType<TranslationMap>()) return MapType::shift;
-    if (map.isType<UniformScaleTranslateMap>()) return MapType::uniform_shifted;
-    if (map.isType<ScaleTranslateMap>()) return MapType::scale_shifted;
+    namespace math = openvdb::math;
+    if (map.isType<math::UniformScaleMap>()) return MapType::uniform;
+    if (map.isType<math::ScaleMap>()) return MapType::scale;
+    if (map.isType<math::TranslationMap>()) return MapType::shift;
+    if (map.isType<math::UniformScaleTranslateMap>()) return MapType::uniform_shifted;
+    if (map.isType<math::ScaleTranslateMap>()) return MapType::scale_shifted;
     return MapType::affine;
 }
 
@@ -60,23 +60,23 @@ MapNumbers numbers_of(const openvdb::math::MapBase& map) {
 }
 
 Map map_of(const MapNumbers& numbers) {
-    using namespace openvdb::math;
+    namespace math = openvdb::math;
     const openvdb::Mat4d matrix(numbers.matrix.data());
-    const Vec3d scale(matrix(0, 0), matrix(1, 1), matrix(2, 2));
-    const Vec3d shift = matrix.getTranslation();
+    const openvdb::Vec3d scale(matrix(0, 0), matrix(1, 1), matrix(2, 2));
+    const openvdb::Vec3d shift = matrix.getTranslation();
     switch (numbers.type) {
         case MapType::uniform:
-            return std::make_shared<UniformScaleMap>(scale.x());
+            return std::make_shared<math::UniformScaleMap>(scale.x());
         case MapType::scale:
-            return std::make_shared<ScaleMap>(scale);
+            return std::make_shared<math::ScaleMap>(scale);
         case MapType::shift:
-            return std::make_shared<TranslationMap>(shift);
+            return std::make_shared<math::TranslationMap>(shift);
         case MapType::uniform_shifted:
-            return std::make_shared<UniformScaleTranslateMap>(scale.x(), shift);
+            return std::make_shared<math::UniformScaleTranslateMap>(scale.x(), shift);
         case MapType::scale_shifted:
-            return std::make_shared<ScaleTranslateMap>(scale, shift);
+            return std::make_shared<math::ScaleTranslateMap>(scale, shift);
         case MapType::affine:
-            return std::make_shared<AffineMap>(matrix);
+            return std::make_shared<math::AffineMap>(matrix);
     }
     WireReceiver::fail();
 }
@@ -137,7 +137,7 @@ void send_grid(WireSender& sender, const FloatGrid& grid) {
 
 FloatGrid::Ptr receive_grid(WireReceiver& receiver) {
     constexpr uint64_t kMost = uint64_t{1} << 32;
-    const FloatGrid::Ptr grid = FloatGrid::create(receiver.value<float>());
+    FloatGrid::Ptr grid = FloatGrid::create(receiver.value<float>());
     grid->setTransform(std::make_shared<openvdb::math::Transform>(receive_map(receiver)));
     for (const TileNumbers& tile : receiver.values<TileNumbers>(kMost)) {
         if (tile.level < 1 || tile.level > Tree::RootNodeType::LEVEL) WireReceiver::fail();

@@ -239,7 +239,7 @@ VoxelModel read_vox_voxels(const VoxFile& vox, int part) {
     Cells cells(box, file);
     for (const Standing& standing : all) cells.add_box(box_of(standing));
     cells.allocate();
-    // Of objects that overlap the earlier one is seen, as in scenes.
+    // Where objects overlap, the earlier one is seen, as in scenes.
     for (auto standing = all.rbegin(); standing != all.rend(); ++standing)
         cells.add_voxels(*standing);
 

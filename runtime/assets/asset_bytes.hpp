@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+// The bytes of main memory that what was read of a file takes.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "runtime/geometry/mesh.hpp"
+#include "runtime/geometry/voxel_model.hpp"
+
+namespace voxelume {
+
+template <class... Values>
+inline uint64_t bytes_in(const std::vector<Values>&... arrays) {
+    return (... + (arrays.size() * sizeof(Values)));
+}
+
+inline uint64_t mesh_bytes(const Mesh& mesh) {
+    return bytes_in(mesh.positions, mesh.triangles, mesh.vertex_colors, mesh.normals,
+                    mesh.triangle_normals, mesh.triangle_group);
+}
+
+inline uint64_t voxel_bytes(const VoxelModel& voxels) {
+    return mesh_bytes(voxels.mesh) + bytes_in(voxels.slots, voxels.coordinates, voxels.occupancy,
+                                              voxels.distance, voxels.attributes, voxels.colors);
+}
+
+}  // namespace voxelume
