@@ -1,27 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a store's meshes and voxels take of memory, and which of them are forgotten.
+#include "runtime/assets/asset_bytes.hpp"
 #include "runtime/assets/asset_store.hpp"
 
 namespace voxelume {
-namespace {
-
-template <class... Values>
-uint64_t bytes_in(const std::vector<Values>&... arrays) {
-    return (... + (arrays.size() * sizeof(Values)));
-}
-
-uint64_t mesh_bytes(const Mesh& mesh) {
-    return bytes_in(mesh.positions, mesh.triangles, mesh.vertex_colors, mesh.normals,
-                    mesh.triangle_normals, mesh.triangle_group);
-}
-
-uint64_t voxel_bytes(const VoxelModel& voxels) {
-    return mesh_bytes(voxels.mesh) + bytes_in(voxels.slots, voxels.coordinates, voxels.occupancy,
-                                              voxels.distance, voxels.attributes, voxels.colors);
-}
-
-}  // namespace
-
 void AssetStore::MeshFile::forget_meshes() {
     mesh.reset();
     for (auto& [map, mapped_mesh] : mapped) mapped_mesh.mesh.reset();

@@ -11,9 +11,10 @@
 
 namespace voxelume {
 
-/// Sharp edges make a mesh sharp-edged that together are longer than this many times the side of a
-/// square with the mesh's area. A box has 4.9, and scanned meshes up to 3.7 by their noise.
-inline constexpr double kSharpShare = 0.5;
+/// Creases make a mesh sharp-edged that together are longer than this many times the side of a
+/// square with the mesh's area. A cube has 4.9, a cone 2, and scanned meshes up to 0.4 by their
+/// noise.
+inline constexpr double kSharpShare = 0.7;
 
 /// Parts of a body are thin below this many voxels.
 inline constexpr double kThinVoxels = 2;

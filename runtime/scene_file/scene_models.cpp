@@ -18,21 +18,19 @@ namespace {
 
 using Names = std::vector<std::string_view>;
 
-/// Reads the surface of a model; `usual` is that of a model which doesn't say any. Where it is left
-/// to files, `usual` stands until they are read.
+/// Reads the surface of a model. One that doesn't say any, or `auto`, leaves it to its files, and
+/// `usual` stands until they are read; solids are exact.
 void read_surface(const SceneFields& fields, Surface usual, Model& model) {
-    model.surface = usual;
-    const auto value = fields.find("surface");
-    if (!value) return;
     Names names;
     for (const SurfaceKind& kind : kSurfaceKinds) names.push_back(kind.name);
     names.push_back("auto");
-    const size_t choice = value->choice(names);
+    const auto value = fields.find("surface");
+    const size_t choice = value ? value->choice(names) : kSurfaceKinds.size();
     model.is_surface_open = choice == kSurfaceKinds.size() && !model.solid;
     if (choice < kSurfaceKinds.size())
         model.surface = kSurfaceKinds[choice].surface;
-    else if (model.solid)
-        model.surface = Surface::exact;
+    else
+        model.surface = model.solid ? Surface::exact : usual;
 }
 
 /// How many metres a unit of a file has, or its longest side is to have.

@@ -4,6 +4,9 @@
 
 #include <gmock/gmock.h>
 
+#include <numbers>
+#include <random>
+
 #include "runtime/scene/scene_affine.hpp"
 #include "tests/support/test_meshes.hpp"
 
@@ -41,10 +44,10 @@ Mesh open_tube(double radius, int around) {
 
 const Mesh kPlate = box({-0.7f, 0.1f, -0.4f}, {0.9f, 0.15f, 0.8f});
 
-TEST(MeshShape, OfABoxHasItsEdgesAndThickness) {
+TEST(MeshShape, OfAPlateHasItsLongEdgesAndThickness) {
     for (const glm::dvec3& turn : {glm::dvec3(0), glm::dvec3(25, 11, 40)}) {
         const MeshShape shape = shape_of(turned(kPlate, turn));
-        EXPECT_NEAR(shape.sharp_length, 4 * (1.6 + 0.05 + 1.2), 1e-5);
+        EXPECT_NEAR(shape.sharp_length, 4 * (1.6 + 1.2), 1e-5);
         if (turn == glm::dvec3(0)) {
             EXPECT_NEAR(shape.thickness, 0.05, 1e-6);
         } else {  // lines that enter near an edge leave through the side
@@ -123,11 +126,41 @@ TEST(SurfaceFor, ThinDependsOnTheVoxels) {
     EXPECT_EQ(surface_for(plate, round_plate, 0.026).surface, Surface::exact);
 }
 
-TEST(SurfaceFor, AFewSharpEdgesOfNoiseDontMakeAMeshSharp) {
-    Mesh mesh = wavy_ring(160, 72);
-    mesh.positions[1000] *= 1.15f;  // a spike
-    EXPECT_GT(shape_of(mesh).sharp_length, 0);
-    EXPECT_EQ(choice(mesh, 0.01).surface, Surface::smooth);
+TEST(SurfaceFor, NoiseDoesntMakeAMeshSharp) {
+    constexpr unsigned kSeed = 20261123;
+    std::mt19937 random(kSeed);
+    std::uniform_real_distribution<float> off(-1, 1);
+    for (const float noise : {0.001f, 0.002f}) {
+        Mesh mesh = wavy_ring(160, 72);
+        for (glm::vec3& p : mesh.positions)
+            p += noise * glm::vec3(off(random), off(random), off(random));
+        EXPECT_EQ(choice(mesh, 0.01).surface, Surface::smooth) << noise << ", seed " << kSeed;
+    }
+    Mesh spike = wavy_ring(160, 72);
+    spike.positions[1000] *= 1.15f;
+    EXPECT_EQ(shape_of(spike).sharp_length, 0);
+}
+
+/// A prism with flat ends, its corners on a circle of radius 1.
+Mesh prism(int corners) {
+    Mesh mesh = open_tube(1, corners);
+    for (const uint32_t end : {0u, 1u})
+        for (uint32_t i = 1; i + 1 < uint32_t(corners); ++i) {
+            glm::uvec3 triangle(end, 2 * i + end, 2 * i + 2 + end);
+            if (end == 0) std::swap(triangle.y, triangle.z);
+            mesh.triangles.push_back(triangle);
+        }
+    return mesh;
+}
+
+TEST(MeshShape, OfACylinderHasItsTwoRims) {
+    for (const int corners : {6, 12, 60}) {
+        const double side = 2 * std::sin(std::numbers::pi / corners);
+        const double along = corners < 9 ? corners * 2.0 : 0;  // where its sides meet sharply
+        EXPECT_NEAR(shape_of(prism(corners)).sharp_length, 2 * corners * side + along, 1e-5)
+            << corners;
+        expect_choice(prism(corners), 0.02, Surface::exact, "turn by 40 degrees");
+    }
 }
 
 }  // namespace
