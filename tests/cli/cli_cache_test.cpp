@@ -125,7 +125,7 @@ TEST_F(CliCache, AMeshIsReadOnceForAllDevices) {
 }
 
 TEST_F(CliCache, AnotherPlaceIsAnotherWorldOfTheSameModel) {
-    replace(R"("ring.obj")", R"("ring.obj", "surface": "cubes")");
+    replace(R"("surface": "smooth")", R"("surface": "cubes")");
     render("first");
     replace(R"("model": "ring")", R"("model": "ring", "turn": [0, 0, 9])");
     const std::string moved = render("moved"), without = render("without", "--no-cache");
