@@ -139,9 +139,9 @@ class Creases {
         const glm::dvec3 onward = direction(other_end(edge, place), place);
         std::optional<uint32_t> best;
         double straightest = kStraight;
-        const auto here =
-            std::ranges::equal_range(at_, place, {}, &std::pair<uint32_t, uint32_t>::first);
-        for (const auto& [end, candidate] : here) {
+        auto here = std::ranges::lower_bound(at_, std::pair(place, 0u));
+        for (; here != at_.end() && here->first == place; ++here) {
+            const uint32_t candidate = here->second;
             if (is_used_[candidate]) continue;
             const double cosine = glm::dot(onward, direction(place, other_end(candidate, place)));
             if (cosine < straightest) continue;
