@@ -48,6 +48,10 @@ MeshPaint paint_of(const Mesh& mesh) {
     return paint;
 }
 
+bool is_open(const MeshSummary& mesh) {
+    return mesh.topology.hole_area > kOpenShare * mesh.area.total;
+}
+
 MeshSummary summary_of(const Mesh& mesh) {
     MeshSummary summary;
     summary.triangles = mesh.triangles.size();
