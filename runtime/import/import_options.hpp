@@ -21,7 +21,8 @@ struct ImportOptions {
     bool is_lattice = false;
     /// The file's own camera, where it has one, is the observer.
     bool has_own_camera = true;
-    double angle = 40;  ///< degrees, horizontal opening of the observer's pyramid
+    bool turns = false;  ///< all directions around show it from one distance, at one height
+    double angle = 40;   ///< degrees, horizontal opening of the observer's pyramid
     bool has_ground = true;
     std::optional<glm::vec3> background;  ///< linear Rec. 709; the ground shows the same colour
     double fit = 0;                       ///< metres of the longest side; 0: the file's own size

@@ -31,6 +31,8 @@ struct ImportOptions {
     /// The file's own camera, where it has one (glTF), is the observer, and longitude, latitude,
     /// parallel and angle don't count.
     bool own_camera = true;
+    /// The model has room to turn: pictures of all longitudes show it from one distance.
+    bool turns = false;
     double angle = 40;   ///< degrees, horizontal opening of the observer's pyramid
     bool ground = true;  ///< a ground that shadows fall on, where the observer is above it
     /// Radiance of the background and of the ground; grey by default.
