@@ -200,6 +200,8 @@ JsonValue tree(const v1::RenderSettings& render) {
     object.add("size", render.size).add("samples", render.samples).add("depth", render.depth);
     object.add("shadows", render.shadows);
     object.add("shadow", render.filtered_shadows ? "filtered" : "opaque");
+    object.add("light", render.light == v1::LightMode::global ? "global" : "local");
+    object.add("bounces", render.bounces);
     return object.add("least_weight", render.min_weight).take();
 }
 

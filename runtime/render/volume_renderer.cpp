@@ -19,8 +19,9 @@
 namespace voxelume {
 namespace {
 
-/// The scene with the default channels; those that it asks for are a flat image's.
+/// The scene with the default channels and in local light; what it asks for are a flat image's.
 Scene with_all_channels(Scene scene) {
+    scene.render.light = LightMode::local;
     scene.render.channels = {};
     return scene;
 }

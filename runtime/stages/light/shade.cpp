@@ -79,6 +79,7 @@ ShadeStage::ShadeStage(const Device& device, const Features& features, const Sce
                  std::span<const MaterialRecord>(material_records(scene, world))),
       program_(device, "shade.cl", features.defines(device)),
       surface_(program_.kernel("shade_surface")) {
+    if (features.global) environment_.ambient = {};  // it stands for light that paths find
     if (features.paths)
         ranks_ = Buffer<uint32_t>(device, "ranks",
                                   std::span<const uint32_t>(object_ranks(scene.objects)));
