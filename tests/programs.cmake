@@ -12,6 +12,9 @@ function(add_test_program name)
     target_link_libraries(${name} PRIVATE voxelume_runtime voxelume_oracles GTest::gmock_main)
     target_compile_definitions(${name} PRIVATE VXL_SOURCE_DIR="${CMAKE_SOURCE_DIR}"
                                VXL_BINARY="$<TARGET_FILE:voxelume>")
+    if(CMAKE_UNITY_BUILD) # A unit includes test files, whose anonymous types are their own.
+        target_compile_options(${name} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
+    endif()
     set(stems "")
     foreach(file IN LISTS ARGN)
         get_filename_component(stem ${file} NAME_WE)

@@ -28,6 +28,9 @@ struct DeviceInfo {
     uint64_t memory = 0;          ///< bytes
     uint64_t max_allocation = 0;  ///< bytes in one buffer
     int compute_units = 0;
+    int clock = 0;               ///< MHz; 0 where the driver doesn't say
+    bool shares_memory = false;  ///< with the host, as GPUs inside of processors do
+    std::string card;    ///< the PCI place of its card, equal for all drivers; empty where unknown
     int lanes = 1;       ///< number of rays that one work-item of a packet kernel handles
     int work_group = 0;  ///< number of work-items in every group; 0: chosen by kernel and kind of
                          ///< device
@@ -69,12 +72,12 @@ class Device {
     /// part of the name of a device or its platform. An empty selector (no --device was given)
     /// means VOXELUME_DEVICE, or auto if that isn't set.
     ///
-    /// If several devices match, a GPU goes before a CPU, then the most compute units, then the
-    /// lowest index. `lanes` overrides the lanes per work-item (1, 4, 8 or 16); 0 means
-    /// VOXELUME_LANES, else the device's own. Uses at most VOXELUME_MEMORY_MB megabytes of the
-    /// device's memory, and at most VOXELUME_BUFFER_MB in one buffer. For the search of drivers'
-    /// faults, VOXELUME_WORK_GROUP sets the size of every work-group, VOXELUME_UNITS limits the
-    /// compute units (a sub-device), and VOXELUME_BUILD_OPTIONS is added to the compiler's options.
+    /// If several devices match, the best of them by is_better() of ranking.hpp is opened. `lanes`
+    /// overrides the lanes per work-item (1, 4, 8 or 16); 0 means VOXELUME_LANES, else the device's
+    /// own. Uses at most VOXELUME_MEMORY_MB megabytes of the device's memory, and at most
+    /// VOXELUME_BUFFER_MB in one buffer. For the search of drivers' faults, VOXELUME_WORK_GROUP
+    /// sets the size of every work-group, VOXELUME_UNITS limits the compute units (a sub-device),
+    /// and VOXELUME_BUILD_OPTIONS is added to the compiler's options.
     ///
     /// If the device is that of `beside`, both share an OpenCL context: PoCL reads its library of
     /// functions, 0.7 s, once for each context. Throws Error::device if nothing matches; the

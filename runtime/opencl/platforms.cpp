@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "runtime/opencl/platforms.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "runtime/base/error.hpp"
 #include "runtime/opencl/pocl_folder.hpp"
+#include "runtime/opencl/ranking.hpp"
 #include "runtime/opencl/selector.hpp"
 #include "runtime/opencl/status.hpp"
 
@@ -39,6 +42,20 @@ std::string reason_unusable(const cl::Device& device) {
     return {};
 }
 
+/// The PCI place of a card, by the extension cl_khr_pci_bus_info.
+std::string card_of(const cl::Device& device) {
+    constexpr cl_device_info kPciBusInfo = 0x410F;
+    struct {
+        cl_uint domain, bus, device, function;
+    } place{};
+    size_t bytes = 0;
+    if (clGetDeviceInfo(device(), kPciBusInfo, sizeof place, &place, &bytes) != CL_SUCCESS ||
+        bytes != sizeof place)
+        return {};
+    return fmt::format("{:04x}:{:02x}:{:02x}.{:x}", place.domain, place.bus, place.device,
+                       place.function);
+}
+
 /// PoCL names a CPU "pthread-<processor as LLVM knows it>-<processor>".
 std::string note_on(const DeviceInfo& info) {
     if (info.platform == kPoclPlatform && info.name.find("-generic-") != std::string::npos)
@@ -59,6 +76,9 @@ DeviceInfo describe(const cl::Platform& platform, const cl::Device& device) {
     info.memory = device.getInfo<CL_DEVICE_GLOBAL_MEM_SIZE>();
     info.max_allocation = device.getInfo<CL_DEVICE_MAX_MEM_ALLOC_SIZE>();
     info.compute_units = static_cast<int>(device.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>());
+    info.clock = static_cast<int>(device.getInfo<CL_DEVICE_MAX_CLOCK_FREQUENCY>());
+    info.shares_memory = device.getInfo<CL_DEVICE_HOST_UNIFIED_MEMORY>() != 0;
+    info.card = card_of(device);
     info.lanes = lanes_of(device, info.kind);
     info.unusable = reason_unusable(device);
     info.note = note_on(info);
@@ -129,13 +149,6 @@ std::vector<Candidate> parts_of(const Candidate& whole, int parts) {
     return found;
 }
 
-/// True if `a` most likely renders faster than `b`: GPUs go before CPUs, then more compute units.
-bool better(const DeviceInfo& a, const DeviceInfo& b) {
-    if ((a.kind == DeviceKind::gpu) != (b.kind == DeviceKind::gpu))
-        return a.kind == DeviceKind::gpu;
-    return a.compute_units > b.compute_units;
-}
-
 [[noreturn]] void throw_no_match(const std::vector<Candidate>& candidates,
                                  std::string_view selector) {
     if (candidates.empty())
@@ -148,6 +161,8 @@ bool better(const DeviceInfo& a, const DeviceInfo& b) {
                              candidate.info.name);
         if (!candidate.info.unusable.empty())
             names += fmt::format(" (not usable: {})", candidate.info.unusable);
+        else if (is_software(candidate.info))
+            names += " (a software rasterizer, used only if it is named)";
     }
     throw Error(ErrorKind::device, "no usable device matches \"{}\"; there are: {}", selector,
                 names);
@@ -166,7 +181,8 @@ const Candidate& choose(const std::vector<Candidate>& candidates, std::string_vi
     const Candidate* best = nullptr;
     for (const Candidate& candidate : candidates) {
         if (!candidate.info.unusable.empty() || !names_device(selector, candidate.info)) continue;
-        if (!best || better(candidate.info, best->info)) best = &candidate;
+        if (is_software(candidate.info) && !names_one_device(selector)) continue;
+        if (!best || is_better(candidate.info, best->info)) best = &candidate;
     }
     if (!best) throw_no_match(candidates, selector);
     return *best;
@@ -174,12 +190,19 @@ const Candidate& choose(const std::vector<Candidate>& candidates, std::string_vi
 
 std::vector<Candidate> choose_all(const std::vector<Candidate>& candidates, int cpu_parts) {
     std::vector<Candidate> chosen;
-    for (const Candidate& candidate : candidates)
-        if (candidate.info.unusable.empty() && candidate.info.kind == DeviceKind::gpu)
+    bool has_cpu = false;
+    for (const Candidate& candidate : candidates) {
+        const DeviceInfo& info = candidate.info;
+        if (!info.unusable.empty() || is_software(info)) continue;
+        has_cpu |= info.kind == DeviceKind::cpu;
+        if (info.kind != DeviceKind::gpu) continue;
+        const auto same = std::ranges::find_if(
+            chosen, [&](const Candidate& other) { return are_one_card(info, other.info); });
+        if (same == chosen.end())
             chosen.push_back(candidate);
-    const bool has_cpu = std::ranges::any_of(candidates, [](const Candidate& candidate) {
-        return candidate.info.unusable.empty() && candidate.info.kind == DeviceKind::cpu;
-    });
+        else if (is_better(info, same->info))
+            *same = candidate;
+    }
     // Two platforms' devices of one CPU would compete for its time.
     if (has_cpu) {
         const Candidate& cpu = choose(candidates, "cpu");

@@ -34,6 +34,11 @@ int parts_of_all(std::string_view selector) {
     return parts;
 }
 
+bool names_one_device(std::string_view selector) {
+    const std::string wanted = lower(selector);
+    return wanted != "auto" && wanted != "cpu" && wanted != "gpu" && parts_of_all(wanted) == 0;
+}
+
 bool names_device(std::string_view selector, const DeviceInfo& info) {
     const std::string wanted = lower(selector);
     if (wanted == "auto" || parts_of_all(wanted) > 0) return true;

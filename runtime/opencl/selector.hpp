@@ -16,4 +16,7 @@ int parts_of_all(std::string_view selector);
 /// True if `selector` names the device; "all" and "auto" name every device.
 bool names_device(std::string_view selector, const DeviceInfo& info);
 
+/// True if `selector` is an index or part of a name: it means that device and no other.
+bool names_one_device(std::string_view selector);
+
 }  // namespace voxelume

@@ -16,7 +16,7 @@
 namespace voxelume {
 namespace {
 
-constexpr uint32_t kSeed = 20261123;
+constexpr uint32_t kHullSeed = 20261123;
 
 /// A world of 70 x 37 x 130 voxels of 0.1 x 0.2 x 0.05 m.
 const GridFrame kWorld = {{-3, -4, -2}, {0.1, 0.2, 0.05}, {70, 37, 130}};
@@ -32,7 +32,7 @@ class Random {
     glm::dvec3 direction() { return glm::normalize(in(glm::dvec3(-1), glm::dvec3(1)) + 1e-3); }
 
   private:
-    std::mt19937 random_{kSeed};
+    std::mt19937 random_{kHullSeed};
 };
 
 VoxelBox around(const glm::dvec3& point, double radius) {
@@ -93,7 +93,7 @@ TEST(CullingHull, HoldsWhatSightRaysPassOfTheWorld) {
                     const glm::dvec3 p = o + d * std::min(end, 300.0) * share;
                     if (p != glm::clamp(p, glm::dvec3(0), glm::dvec3(kWorld.size))) continue;
                     ASSERT_FALSE(are_apart(hull, around(p, 0), 0.1))
-                        << "seed " << kSeed << ", trial " << trial << ", shape " << int(shape)
+                        << "seed " << kHullSeed << ", trial " << trial << ", shape " << int(shape)
                         << ", ray " << i;
                 }
             }
@@ -174,7 +174,7 @@ TEST(CullingHull, IsNeverSaidToBeApartFromABoxThatHoldsAPointOfIt) {
                 p += share * corner, sum += share;
             }
             p /= sum;
-            ASSERT_NE(p, glm::clamp(p, box.low, box.high)) << "seed " << kSeed << ", " << trial;
+            ASSERT_NE(p, glm::clamp(p, box.low, box.high)) << "seed " << kHullSeed << ", " << trial;
         }
     }
     EXPECT_GT(apart, 8000);

@@ -16,7 +16,7 @@
 namespace voxelume {
 namespace {
 
-constexpr const char* kColors[] = {"R", "G", "B"};
+constexpr const char* kPlanes[] = {"R", "G", "B"};
 
 /// A stack of plates along Z, each of 12 x 9 voxels, as a fog that gives each plate its opacity and
 /// colour.
@@ -97,7 +97,7 @@ class StackedVoxels : public FileTest {
 
     static void expect_seen(const Image& image, const Laid& laid) {
         for (int c = 0; c < 3; ++c)
-            for (const float value : image.planes.at(kColors[c]))
+            for (const float value : image.planes.at(kPlanes[c]))
                 EXPECT_NEAR(value, laid.light[c] + laid.left * kBackground[c], 2e-6) << c;
     }
 };
@@ -193,9 +193,9 @@ TEST_F(StackedVoxels, TintTheLightThatPassesThem) {
             transmittance *= (1 - a) * ((1 - a) + a * color);
         }
         for (size_t i = 0; i < 36; ++i) {
-            ASSERT_GT(bare.planes.at(kColors[c])[i], 0.1f);
-            EXPECT_NEAR(tinted.planes.at(kColors[c])[i],
-                        transmittance * bare.planes.at(kColors[c])[i], 1e-6);
+            ASSERT_GT(bare.planes.at(kPlanes[c])[i], 0.1f);
+            EXPECT_NEAR(tinted.planes.at(kPlanes[c])[i],
+                        transmittance * bare.planes.at(kPlanes[c])[i], 1e-6);
         }
     }
 }

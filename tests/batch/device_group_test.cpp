@@ -43,7 +43,7 @@ std::vector<Device> halves() {
     return is_cut ? Device::open_all("all/2") : std::vector{whole};
 }
 
-uint64_t hash_alone(const Scene& scene) {
+uint64_t hash_of_scene(const Scene& scene) {
     RenderReport report;
     return oracle::image_hash(render(test_device(), scene, report));
 }
@@ -81,14 +81,14 @@ TEST(DeviceGroup, OneDeviceMakesTheImageInParts) {
     const Image image =
         Renderer(test_device(), false).part_of_image(scene, world, report, {share, tiles});
     EXPECT_EQ(tiles.size(), 16u);
-    EXPECT_EQ(oracle::image_hash(image), hash_alone(scene));
+    EXPECT_EQ(oracle::image_hash(image), hash_of_scene(scene));
 }
 
 TEST(DeviceGroup, DevicesWithOtherLanesMakeTheSameImage) {
     const Scene scene = scene_with(0.1);
     RenderReport report;
     EXPECT_EQ(oracle::image_hash(*image_by({test_device(), test_device(1)}, scene, report)),
-              hash_alone(scene));
+              hash_of_scene(scene));
 }
 
 TEST(DeviceGroup, AnErrorOfOneDeviceIsTheImagesError) {
@@ -140,7 +140,7 @@ TEST(DeviceGroup, FramesOfTwoDevicesAreThoseOfOneInOrder) {
     EXPECT_EQ(one.hashes, two.hashes);
     EXPECT_EQ(two.hashes.size(), 9u);
     for (size_t frame = 0; frame < 9; ++frame)
-        EXPECT_EQ(two.hashes[frame], hash_alone(scene_with(0.05 * double(frame / 2) - 0.4)));
+        EXPECT_EQ(two.hashes[frame], hash_of_scene(scene_with(0.05 * double(frame / 2) - 0.4)));
 }
 
 TEST(DeviceGroup, TheFirstErrorInOrderEndsTheRunAfterTheFramesBeforeIt) {

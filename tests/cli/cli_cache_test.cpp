@@ -27,12 +27,29 @@ class CliCache : public ProgramTest {
 "observer": {"position": [0.5, 1, -2], "look_at": [0, 0, 0],
              "display": {"shape": "pyramid", "angle": 30}},
 "render": {"size": [40, 30]}})");
+        const fs::path shared = cache_folder();
         cache_ = folder / "cache";
-        fs::create_directory(cache_);
-        if (cache_folder().empty()) return;
-        // Kernels come from the folder that all tests share.
-        fs::create_directories(cache_folder() / "programs");
-        fs::create_directory_symlink(cache_folder() / "programs", cache_ / "programs");
+        if (!shared.empty()) cache_ = shared.string() + "." + folder.filename().string();
+        fs::create_directories(cache_);
+        if (!shared.empty()) link_files(shared / "programs", cache_ / "programs");
+    }
+
+    /// Other tests take the kernels that this one compiled.
+    void TearDown() override {
+        if (!cache_folder().empty()) link_files(cache_ / "programs", cache_folder() / "programs");
+        fs::remove_all(cache_);
+        ProgramTest::TearDown();
+    }
+
+    /// Kernels come from the folder that all tests share: their files have a second name in the
+    /// test's own folder beside it, for the program follows no link to a folder.
+    static void link_files(const fs::path& from, const fs::path& to) {
+        std::error_code exists;
+        fs::create_directories(from);
+        fs::create_directories(to);
+        for (const fs::directory_entry& entry : fs::directory_iterator(from))
+            if (entry.is_regular_file() && !entry.path().filename().string().starts_with('.'))
+                fs::create_hard_link(entry.path(), to / entry.path().filename(), exists);
     }
 
     std::string render(const std::string& name, const std::string& options = "") const {

@@ -11,7 +11,7 @@ namespace {
 
 using testing::HasSubstr;
 
-Mesh tetrahedron() {
+Mesh irregular_tetrahedron() {
     Mesh mesh;
     mesh.positions = {{1, 0, 0}, {0, 2, 0}, {0, 0, 3}, {-1, -1, -1}};
     mesh.triangles = {{0, 1, 2}, {0, 3, 1}, {0, 2, 3}, {1, 3, 2}};
@@ -31,7 +31,7 @@ std::string refusal(const Mesh& from, const Mesh& to) {
 }  // namespace
 
 TEST(Morph, MovesVerticesAlongStraightWaysAndEndsExactly) {
-    const Mesh from = tetrahedron();
+    const Mesh from = irregular_tetrahedron();
     Mesh to = from;
     for (glm::vec3& p : to.positions) p = glm::vec3(p.y + 0.1f, p.z - 0.3f, p.x * 5);
     EXPECT_EQ(morphed(from, to, 0, "").positions, from.positions);
@@ -44,7 +44,7 @@ TEST(Morph, MovesVerticesAlongStraightWaysAndEndsExactly) {
 }
 
 TEST(Morph, LerpsColorsWhereBothEndsHaveThem) {
-    Mesh from = tetrahedron(), to = from;
+    Mesh from = irregular_tetrahedron(), to = from;
     from.vertex_colors.assign(4, {1, 0, 0.5f});
     EXPECT_EQ(morphed(from, to, 0.5, "").vertex_colors, from.vertex_colors);
     to.vertex_colors.assign(4, {0, 1, 0.5f});
@@ -52,18 +52,19 @@ TEST(Morph, LerpsColorsWhereBothEndsHaveThem) {
 }
 
 TEST(Morph, RefusesOtherTopologyWithCounts) {
-    Mesh more = tetrahedron();
+    Mesh more = irregular_tetrahedron();
     more.positions.push_back({5, 5, 5});
-    EXPECT_THAT(refusal(tetrahedron(), more),
+    EXPECT_THAT(refusal(irregular_tetrahedron(), more),
                 HasSubstr("s.json:3:4: models.m: the two meshes don't match: 4 vertices and 4 "
                           "triangles here, 5 and 4 there"));
-    Mesh other = tetrahedron();
+    Mesh other = irregular_tetrahedron();
     std::swap(other.triangles[2].x, other.triangles[2].y);
-    EXPECT_THAT(refusal(tetrahedron(), other), HasSubstr("of 4 triangles each, number 3 joins"));
+    EXPECT_THAT(refusal(irregular_tetrahedron(), other),
+                HasSubstr("of 4 triangles each, number 3 joins"));
 }
 
 TEST(Morph, PutsVerticesOnASphereAlongTheirRays) {
-    const Mesh from = tetrahedron();
+    const Mesh from = irregular_tetrahedron();
     const Mesh ball = morphed_to_sphere(from, {0, 0, 1}, 0.5, 1);
     const glm::vec3 expected[] = {
         {0.35355339f, 0, 1 - 0.35355339f},

@@ -11,7 +11,7 @@
 namespace voxelume {
 namespace {
 
-constexpr unsigned kSeed = 20261121;
+constexpr unsigned kOracleSeed = 20261121;
 
 /// Random triangles of very different sizes; a tenth of them have no area.
 std::vector<oracle::Triangle> random_triangles(int count, std::mt19937& random) {
@@ -47,7 +47,7 @@ double brute_force_hit(const std::vector<oracle::Triangle>& triangles, const glm
 }
 
 TEST(MeshDistance, IsTheSmallestDistanceToAnyTriangle) {
-    std::mt19937 random(kSeed);
+    std::mt19937 random(kOracleSeed);
     const std::vector<oracle::Triangle> triangles = random_triangles(397, random);
     const oracle::MeshTree tree(triangles);
     std::uniform_real_distribution<double> place(-8, 9);
@@ -57,12 +57,12 @@ TEST(MeshDistance, IsTheSmallestDistanceToAnyTriangle) {
         for (const oracle::Triangle& t : triangles)
             nearest = std::min(nearest, oracle::distance_to_triangle(p, t[0], t[1], t[2]));
         ASSERT_NEAR(oracle::distance_to_mesh(tree, p), nearest, 1e-12 * (1 + nearest))
-            << "seed " << kSeed << " point " << i;
+            << "seed " << kOracleSeed << " point " << i;
     }
 }
 
 TEST(MeshRay, FindsTheNearestTriangleOfAll) {
-    std::mt19937 random(kSeed);
+    std::mt19937 random(kOracleSeed);
     const std::vector<oracle::Triangle> triangles = random_triangles(611, random);
     const oracle::MeshTree tree(triangles);
     std::uniform_real_distribution<double> place(-8, 9);
@@ -73,9 +73,10 @@ TEST(MeshRay, FindsTheNearestTriangleOfAll) {
         const glm::dvec3 d = (aim[0] + aim[1] + aim[2]) / 3.0 - o;
         const auto found = oracle::first_hit(tree, o, d);
         const double expected = brute_force_hit(triangles, o, d);
-        ASSERT_EQ(found.has_value(), !std::isinf(expected)) << "seed " << kSeed << " ray " << i;
+        ASSERT_EQ(found.has_value(), !std::isinf(expected))
+            << "seed " << kOracleSeed << " ray " << i;
         if (!found) continue;
-        ASSERT_NEAR(*found, expected, 1e-9) << "seed " << kSeed << " ray " << i;
+        ASSERT_NEAR(*found, expected, 1e-9) << "seed " << kOracleSeed << " ray " << i;
         ++hits;
     }
     EXPECT_GT(hits, 1700);
@@ -89,12 +90,12 @@ TEST(MeshRay, CannotPassBetweenTwoTrianglesOfAFan) {
         rim.emplace_back(2 * std::cos(i * 2 * M_PI / 29), 3 * std::sin(i * 2 * M_PI / 29), 2.9);
     for (size_t i = 0; i < 29; ++i) fan.push_back({hub, rim[i], rim[(i + 1) % 29]});
     const oracle::MeshTree tree(fan);
-    std::mt19937 random(kSeed);
+    std::mt19937 random(kOracleSeed);
     std::uniform_real_distribution<double> part(0, 0.999);
     for (int i = 0; i < 5000; ++i) {
         const glm::dvec3 o(part(random), -part(random), -5 * part(random));
         const glm::dvec3 at = glm::mix(hub, rim[size_t(i) % 29], i % 7 ? part(random) : 0.0);
-        EXPECT_TRUE(oracle::first_hit(tree, o, at - o)) << "seed " << kSeed << " ray " << i;
+        EXPECT_TRUE(oracle::first_hit(tree, o, at - o)) << "seed " << kOracleSeed << " ray " << i;
     }
 }
 

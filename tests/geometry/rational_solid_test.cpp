@@ -17,7 +17,7 @@ namespace {
 
 using glm::dvec3;
 
-constexpr uint64_t kSeed = 20261122;
+constexpr uint64_t kRationalSeed = 20261122;
 
 TEST(RationalSolid, SidesAreThoseWorkedOutByHand) {
     Solid torus, cone, ellipsoid, capsule;
@@ -149,7 +149,7 @@ class TouchingSolids {
 
 TEST(RationalSolid, S9SidesOfAMillionPlacesAreExactOnTheBoundaryToo) {
     constexpr int kSolids = 10'000, kPoints = 100;
-    TouchingSolids random(kSeed);
+    TouchingSolids random(kRationalSeed);
     int inside = 0, touching = 0;
     for (int number = 0; number < kSolids; ++number) {
         const Solid solid = random.solid();
@@ -167,7 +167,7 @@ TEST(RationalSolid, S9SidesOfAMillionPlacesAreExactOnTheBoundaryToo) {
             inside += side < 0;
             touching += side == 0;
             ASSERT_EQ(exact_side(program, at), side)
-                << "seed " << kSeed << ", solid " << number << ", point " << i;
+                << "seed " << kRationalSeed << ", solid " << number << ", point " << i;
         }
     }
     EXPECT_GT(inside, kSolids * kPoints / 10);
@@ -175,7 +175,7 @@ TEST(RationalSolid, S9SidesOfAMillionPlacesAreExactOnTheBoundaryToo) {
 }
 
 TEST(RationalSolid, S9VoxelsOfSolidsThatTouchCentresAreExact) {
-    TouchingSolids random(kSeed + 1);
+    TouchingSolids random(kRationalSeed + 1);
     size_t inside = 0;
     for (int number = 0; number < 200; ++number) {
         const Solid solid = random.solid();
@@ -185,7 +185,7 @@ TEST(RationalSolid, S9VoxelsOfSolidsThatTouchCentresAreExact) {
         frame.origin = dvec3(-9.5, -8.5, -10) - frame.voxel_edge / 2.0 * double(random.whole(0, 1));
         frame.size = {19, 18, 17};
         const Compared counts = compare_solid(solid, map, oracle::rational_map(map), frame);
-        ASSERT_EQ(counts.different, 0u) << "seed " << kSeed + 1 << ", solid " << number;
+        ASSERT_EQ(counts.different, 0u) << "seed " << kRationalSeed + 1 << ", solid " << number;
         inside += counts.inside;
     }
     EXPECT_GT(inside, 50000u);

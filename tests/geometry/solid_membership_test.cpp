@@ -15,7 +15,7 @@
 namespace voxelume {
 namespace {
 
-constexpr uint64_t kSeed = 20261121;
+constexpr uint64_t kMembershipSeed = 20261121;
 
 class RandomSolids {
   public:
@@ -52,7 +52,7 @@ class RandomSolids {
 
   private:
     double length() { return whole(1, 160) / 16.0; }
-    std::mt19937_64 random_{kSeed};
+    std::mt19937_64 random_{kMembershipSeed};
 };
 
 TEST(SolidMembership, S9OfRandomSolidsUnderRationalMapsIsExact) {
@@ -80,7 +80,7 @@ TEST(SolidMembership, S9OfRandomSolidsUnderRationalMapsIsExact) {
             }
             inside += distance < 0;
             ASSERT_EQ(exact_side(program, at), distance > 0 ? 1 : -1)
-                << "seed " << kSeed << ", solid " << number << ", point " << i;
+                << "seed " << kMembershipSeed << ", solid " << number << ", point " << i;
         }
     }
     EXPECT_LT(undecided, kSolids * kPoints / 100);

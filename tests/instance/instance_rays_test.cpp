@@ -63,9 +63,9 @@ TEST_P(InstanceRays, LitSidesOfConvexObjectsAreLit) {
         scene.lights[1].direction = -glm::normalize(glm::dvec3(0.8, height, -0.6));
         scene.lights.erase(scene.lights.begin());
         scene.render.shadows = false;
-        const Image bare = rendered(scene);
+        const Image bare = image_of_scene(scene);
         scene.render.shadows = true;
-        const Image shadowed = rendered(scene);
+        const Image shadowed = image_of_scene(scene);
         for (size_t i = 0; i < bare.planes.at("R").size(); ++i) {
             if (bare.id_planes.at("objectId")[i] == 0) continue;
             const double cosine = -glm::dot(vector_at(bare, "N", i), scene.lights[0].direction);

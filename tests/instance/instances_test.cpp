@@ -41,7 +41,7 @@ TEST_P(Instances, WholeVoxelPlacementsShowTheWorldsImage) {
             scene->render.shadows = has_light_rays;
             scene->render.depth = has_light_rays ? 2 : 0;
         }
-        const Image world = rendered(baked), own = rendered(instanced);
+        const Image world = image_of_scene(baked), own = image_of_scene(instanced);
         EXPECT_EQ(own.id_planes.at("objectId"), world.id_planes.at("objectId"));
         EXPECT_EQ(own.planes.at("A"), world.planes.at("A"));
         size_t seen = 0;
@@ -77,7 +77,7 @@ TEST_P(InstancesOfAMesh, WholeVoxelPlacementsShowTheWorldsImage) {
                               R"("position": [0.1, 0.1, 0.05], "turn": [90, 0, 0])",
                               R"("position": [0.1, 0.1, 0.05], "scale": [-1, 1, 1])"}) {
         const auto image = [&](const char* placement) {
-            return rendered(
+            return image_of_scene(
                 parse_scene(fmt::format(R"({{"voxelume": 1,
 "world": {{"voxel_size": 0.05, "bounds": {{"min": [-1.8, -1.8, -1.8], "max": [1.8, 1.8, 1.8]}},
           "ambient": [0.3, 0.3, 0.3]}},
@@ -108,7 +108,7 @@ TEST_P(InstancesOfAMesh, WholeVoxelPlacementsShowTheWorldsImage) {
 TEST(Instance, TurnedAndShearedBallsLieWhereTheirMapsPutThem) {
     for (const auto& [surface, bound] : {std::pair{"exact", 2e-6}, std::pair{"smooth", 1.5e-4}}) {
         const Scene scene = instance_scene(surface, "instance", turned_objects());
-        const Image image = rendered(scene);
+        const Image image = image_of_scene(scene);
         size_t seen = 0;
         for (size_t i = 0; i < image.planes.at("Z").size(); ++i) {
             const uint32_t object = image.id_planes.at("objectId")[i];
@@ -136,7 +136,7 @@ TEST(Instance, TheNearestOfManyIsSeen) {
             place(random), place(random), place(random), turn(random), turn(random), turn(random),
             size(random), size(random), size(random)));
     const Scene scene = instance_scene("exact", "instance", objects);
-    const Image image = rendered(scene);
+    const Image image = image_of_scene(scene);
     const glm::dvec3 eye = scene.observer.position;
     size_t seen = 0;
     for (size_t i = 0; i < image.planes.at("Z").size(); ++i) {
@@ -167,11 +167,11 @@ TEST_P(Instances, LanesDoNotChangeABit) {
     const std::vector<std::string> whole = whole_voxel_objects();
     objects.insert(objects.end(), whole.begin(), whole.end());
     const Scene scene = instance_scene(GetParam(), "instance", objects);
-    const Image own = rendered(scene);
+    const Image own = image_of_scene(scene);
     const std::string surface = GetParam();
     const size_t turn = surface == "cubes" ? 0 : surface == "smooth" ? 1 : 2;
     for (const int lanes : in_turn<int>({1, 4, 8, 16}, turn)) {
-        const Image other = rendered(scene, test_device(lanes));
+        const Image other = image_of_scene(scene, test_device(lanes));
         EXPECT_EQ(other.id_planes, own.id_planes) << lanes;
         for (const auto& [name, plane] : own.planes)
             EXPECT_TRUE(other.planes.at(name) == plane) << name << " with " << lanes;
@@ -196,7 +196,7 @@ TEST(Instance, MovedInstancesAreSeenWhereTheyAre) {
 
 std::string refusal(Scene scene) {
     try {
-        rendered(scene);
+        image_of_scene(scene);
     } catch (const Error& error) {
         EXPECT_EQ(error.kind(), ErrorKind::scene);
         return error.what();

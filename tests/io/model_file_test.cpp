@@ -8,6 +8,7 @@
 #include <cstring>
 #include <random>
 
+#include "tests/io/little_endian.hpp"
 #include "tests/support/file_fixture.hpp"
 
 namespace voxelume {
@@ -32,12 +33,6 @@ ModelFile small_model() {
     model.arrays["triangles"] = std::vector<uint32_t>{0, 1, 4294967295u};
     model.arrays["nothing"] = std::vector<float>{};
     return model;
-}
-
-uint32_t u32_at(const std::string& bytes, size_t position) {
-    uint32_t value = 0;
-    std::memcpy(&value, bytes.data() + position, sizeof value);
-    return value;
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "runtime/io/volume/volume_dither.hpp"
+#include "tests/io/little_endian.hpp"
 #include "tests/io/volume_damage.hpp"
 #include "tests/support/volume_samples.hpp"
 
@@ -15,12 +16,6 @@ namespace voxelume {
 namespace {
 
 using Json = nlohmann::json;
-
-uint32_t u32_at(const std::string& bytes, size_t at) {
-    uint32_t value = 0;
-    std::memcpy(&value, bytes.data() + at, sizeof value);
-    return value;
-}
 
 uint32_t u16_at(const std::string& bytes, size_t at) {
     return uint32_t(uint8_t(bytes[at])) | uint32_t(uint8_t(bytes[at + 1])) << 8;

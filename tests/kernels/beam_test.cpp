@@ -16,7 +16,7 @@
 namespace voxelume {
 namespace {
 
-constexpr uint32_t kSeed = 20261122;
+constexpr uint32_t kBeamSeed = 20261122;
 constexpr uint32_t kTiles = 1501;  // odd: the last packet has none to interleave with
 
 /// Rays in groups of 16 that run next to each other, snapped as in shared/trace.h.
@@ -51,7 +51,7 @@ struct RayList {
 
 /// Tiles of rays from random points through random points, narrow and wide; some slots are idle.
 RayList random_tiles(const Pyramid& pyramid, uint32_t tiles) {
-    std::mt19937 random(kSeed);
+    std::mt19937 random(kBeamSeed);
     const auto uniform = [&] { return double(random()) / 4294967296.0; };
     const glm::dvec3 size(pyramid.frame.size);
     RayList rays(tiles * VXL_BEAM_RAYS);
@@ -75,7 +75,7 @@ RayList random_tiles(const Pyramid& pyramid, uint32_t tiles) {
 }
 
 HostBricks scattered_cubes(const glm::ivec3& size, int count) {
-    std::mt19937 random(kSeed);
+    std::mt19937 random(kBeamSeed);
     std::vector<glm::ivec3> voxels;
     for (int i = 0; i < count; ++i)
         voxels.push_back({int(random() % unsigned(size.x)), int(random() % unsigned(size.y)),
@@ -119,8 +119,8 @@ TEST_P(BeamLanes, LeaveTheHitsAsTheyAre) {
         for (uint32_t i = 0; i < batch.stride; ++i)
             for (uint32_t c = 0; c < VXL_HIT_PRIMITIVE; ++c)
                 ASSERT_EQ(hits[c * batch.stride + i], expected[c * batch.stride + i])
-                    << "seed " << kSeed << ", " << voxels << " voxels, halo " << int(of) << ", ray "
-                    << i << ", component " << c;
+                    << "seed " << kBeamSeed << ", " << voxels << " voxels, halo " << int(of)
+                    << ", ray " << i << ", component " << c;
         const std::vector<uint32_t> words = batch.beams.read();
         const auto axes = words.begin() + VXL_BEAM_AXIS * VXL_BEAM_SLOTS(batch.stride);
         EXPECT_EQ(beams.sent(), kTiles);

@@ -13,10 +13,10 @@
 namespace voxelume {
 namespace {
 
-constexpr unsigned kSeed = 20261121;
-constexpr uint32_t kCount = 1u << 20;
+constexpr unsigned kFloatSeed = 20261121;
+constexpr uint32_t kFloats = 1u << 20;
 
-constexpr const char* kSource = R"(
+constexpr const char* kFloatSource = R"(
 #include "lib/lanes/exact_exp.h"
 #include "lib/lanes/work_item.h"
 kernel void evaluate(uint count, global const float* a, global const float* b, global float* results) {
@@ -33,7 +33,7 @@ kernel void evaluate(uint count, global const float* a, global const float* b, g
 std::vector<float> evaluate(const std::string& expression, const std::vector<float>& x,
                             const std::vector<float>& y, bool native, int lanes) {
     const Device device = test_device(lanes);
-    std::string source = kSource;
+    std::string source = kFloatSource;
     source.replace(source.find("RESULT"), 6, expression);
     const auto count = uint32_t(x.size());
     Buffer<float> results(device, "results", count);
@@ -82,17 +82,17 @@ class ExactFloat : public testing::TestWithParam<Way> {
 };
 
 TEST_P(ExactFloat, DividesAndTakesRootsToTheBitsOfIeee) {
-    auto x = spread_numbers(kCount, -24, 24, true, kSeed);
-    for (uint32_t i = 0; i < kCount; i += 4093) x[i] = i % 2 ? 0.0f : -0.0f;
-    const auto y = spread_numbers(kCount, -24, 24, true, kSeed + 1);
-    const auto positive = spread_numbers(kCount, -60, 60, false, kSeed + 2);
+    auto x = spread_numbers(kFloats, -24, 24, true, kFloatSeed);
+    for (uint32_t i = 0; i < kFloats; i += 4093) x[i] = i % 2 ? 0.0f : -0.0f;
+    const auto y = spread_numbers(kFloats, -24, 24, true, kFloatSeed + 1);
+    const auto positive = spread_numbers(kFloats, -60, 60, false, kFloatSeed + 2);
     const auto inverse = results("exact_reciprocal(x)", x, y);
     const auto quotient = results("exact_divide(x, y)", x, y);
     const auto root = results("exact_sqrt(x)", positive, y);
     const auto bits = [](float v) { return std::bit_cast<uint32_t>(v); };
-    for (uint32_t i = 0; i < kCount; ++i) {
+    for (uint32_t i = 0; i < kFloats; ++i) {
         ASSERT_EQ(bits(inverse[i]), bits(1.0f / x[i]))
-            << std::hexfloat << x[i] << " seed " << kSeed;
+            << std::hexfloat << x[i] << " seed " << kFloatSeed;
         ASSERT_EQ(bits(quotient[i]), bits(x[i] / y[i])) << std::hexfloat << x[i] << " / " << y[i];
         ASSERT_EQ(bits(root[i]), bits(std::sqrt(positive[i]))) << std::hexfloat << positive[i];
     }
@@ -126,7 +126,7 @@ INSTANTIATE_TEST_SUITE_P(Ways, ExactFloat,
 std::vector<float> between(float low, float high, unsigned seed) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<float> place(low, high);
-    std::vector<float> numbers(kCount);
+    std::vector<float> numbers(kFloats);
     for (float& v : numbers) v = place(random);
     numbers[0] = low, numbers[1] = high;
     return numbers;
@@ -144,7 +144,7 @@ class ExactFunctions : public testing::TestWithParam<int> {
                       const Function& expected) const {
         const auto values = results(expression, x, x);
         double worst = 0;
-        for (uint32_t i = 0; i < kCount; ++i)
+        for (uint32_t i = 0; i < kFloats; ++i)
             worst = std::max(worst, ulps(values[i], expected(double(x[i]))));
         return worst;
     }
@@ -153,11 +153,12 @@ class ExactFunctions : public testing::TestWithParam<int> {
 TEST_P(ExactFunctions, ExponentialAndLogarithmAreRightWithinUnitsInTheLastPlace) {
     const auto exp = [](double v) { return std::exp(v); };
     const auto log = [](double v) { return std::log(v); };
-    EXPECT_LT(worst_ulps("exact_exp(x)", between(-87, 88, kSeed), exp), 1.5);
-    EXPECT_LT(worst_ulps("exact_exp(x)", between(-1, 1, kSeed), exp), 1.5);
-    EXPECT_LT(worst_ulps("exact_log(x)", between(0.5f, 2, kSeed), log), 2.5);
-    EXPECT_LT(worst_ulps("exact_log(x)", spread_numbers(kCount, -126, 127, false, kSeed), log),
-              2.5);
+    EXPECT_LT(worst_ulps("exact_exp(x)", between(-87, 88, kFloatSeed), exp), 1.5);
+    EXPECT_LT(worst_ulps("exact_exp(x)", between(-1, 1, kFloatSeed), exp), 1.5);
+    EXPECT_LT(worst_ulps("exact_log(x)", between(0.5f, 2, kFloatSeed), log), 2.5);
+    EXPECT_LT(
+        worst_ulps("exact_log(x)", spread_numbers(kFloats, -126, 127, false, kFloatSeed), log),
+        2.5);
 }
 
 TEST_P(ExactFunctions, ExponentialVanishesBelowTheNormalNumbers) {
@@ -170,10 +171,10 @@ TEST_P(ExactFunctions, ExponentialVanishesBelowTheNormalNumbers) {
 }
 
 TEST_P(ExactFunctions, PowersLoseAsManyUnitsAsTheirExponentIsLarge) {
-    const auto x = between(0, 1, kSeed);
-    const auto y = between(0.01f, 1000, kSeed + 1);
+    const auto x = between(0, 1, kFloatSeed);
+    const auto y = between(0.01f, 1000, kFloatSeed + 1);
     const auto values = results("exact_power(x, y)", x, y);
-    for (uint32_t i = 0; i < kCount; ++i) {
+    for (uint32_t i = 0; i < kFloats; ++i) {
         const double expected = std::pow(double(x[i]), double(y[i]));
         if (expected < 0x1p-125) {
             ASSERT_LT(values[i], 0x1p-124) << x[i] << " to the " << y[i];
@@ -188,9 +189,9 @@ TEST_P(ExactFunctions, PowersLoseAsManyUnitsAsTheirExponentIsLarge) {
 }
 
 TEST_P(ExactFunctions, SineAndCosineAreRightWithinTwoUnitsOfOne) {
-    const auto angles = between(-6.2831853f, 6.2831853f, kSeed);
+    const auto angles = between(-6.2831853f, 6.2831853f, kFloatSeed);
     const auto sine = results("sine", angles, angles), cosine = results("cosine", angles, angles);
-    for (uint32_t i = 0; i < kCount; ++i) {
+    for (uint32_t i = 0; i < kFloats; ++i) {
         ASSERT_NEAR(sine[i], std::sin(double(angles[i])), 0x1p-23) << angles[i];
         ASSERT_NEAR(cosine[i], std::cos(double(angles[i])), 0x1p-23) << angles[i];
     }

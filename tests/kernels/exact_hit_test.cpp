@@ -19,8 +19,8 @@ namespace {
 using glm::dvec3;
 using Corners = std::array<oracle::RationalPoint, 3>;
 
-constexpr uint64_t kSeed = 20261122;
-const glm::ivec3 kSize(43, 37, 29);
+constexpr uint64_t kHitSeed = 20261122;
+const glm::ivec3 kHitGrid(43, 37, 29);
 constexpr int64_t kOne = int64_t{1} << 22;  // direction 1
 
 TEST(RationalTriangle, IsMetOnItsCornersAndEdgesAndNotBeside) {
@@ -140,7 +140,7 @@ AimedRay ray_towards(const FixedGrid& grid, const dvec3& target, std::mt19937_64
 }
 
 std::vector<AimedRay> rays_at_edges(const Mesh& mesh, const FixedGrid& grid) {
-    std::mt19937_64 random(kSeed);
+    std::mt19937_64 random(kHitSeed);
     std::vector<AimedRay> rays;
     while (rays.size() < 3000) {
         const glm::uvec3 t = mesh.triangles[random() % mesh.triangles.size()];
@@ -185,9 +185,9 @@ constexpr double kAside = 1e-3, kOtherPlace = 0.05;
 TEST(ExactHit, IsTheRationalOneAtEdgesAndCorners) {
     const Mesh mesh = ring_on_quarters();
     const RationalMesh exact(mesh);
-    const FixedGrid grid = fixed_grid(kSize);
+    const FixedGrid grid = fixed_grid(kHitGrid);
     GridFrame frame;
-    frame.size = kSize;
+    frame.size = kHitGrid;
     VoxelizeOptions options;
     options.surface = Surface::exact;
     const Pyramid pyramid = build_index(
@@ -213,11 +213,11 @@ TEST(ExactHit, IsTheRationalOneAtEdgesAndCorners) {
         }
         if (outline) continue;
         ++compared;
-        ASSERT_TRUE(hits[i]) << "seed " << kSeed << ", ray " << i;
+        ASSERT_TRUE(hits[i]) << "seed " << kHitSeed << ", ray " << i;
         const dvec3 way(d[0].get_d(), d[1].get_d(), d[2].get_d());
         const double off = mpq_class(truth->t - mpq_class(double(hits[i]->t))).get_d() *
                            glm::dot(way, truth->normal);
-        EXPECT_LT(std::abs(off), kMaxOffPlane) << "seed " << kSeed << ", ray " << i;
+        EXPECT_LT(std::abs(off), kMaxOffPlane) << "seed " << kHitSeed << ", ray " << i;
     }
     EXPECT_GT(compared, 2400);
 }

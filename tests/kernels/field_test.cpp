@@ -14,7 +14,7 @@
 namespace voxelume {
 namespace {
 
-constexpr unsigned kSeed = 20261121;
+constexpr unsigned kFieldSeed = 20261121;
 
 /// A decoded record: distances at corners and second differences along edges, in 1/8192 voxel.
 struct Record {
@@ -126,7 +126,7 @@ int random_edge(std::mt19937& random) {
 class FieldLanes : public testing::TestWithParam<int> {};
 
 TEST_P(FieldLanes, AgreesWithTheFormulaInDouble) {
-    std::mt19937 random(kSeed);
+    std::mt19937 random(kFieldSeed);
     std::vector<Record> records(4096);
     for (Record& r : records) {
         for (int& f : r.f) f = int(random() % 65535) - 32767;
@@ -140,10 +140,10 @@ TEST_P(FieldLanes, AgreesWithTheFormulaInDouble) {
         // The tolerance: |F| < 2^15, and each of about sixteen roundings is half a unit in the last
         // place, 2^-10.
         ASSERT_NEAR(results[i][0], interpolant(records[i], s), 1.0 / 64)
-            << "seed " << kSeed << " point " << i;
+            << "seed " << kFieldSeed << " point " << i;
         for (size_t axis = 0; axis < 3; ++axis)
             ASSERT_NEAR(results[i][1 + axis], slope(records[i], s, axis), 1.0 / 16)
-                << "seed " << kSeed << " point " << i << " axis " << axis;
+                << "seed " << kFieldSeed << " point " << i << " axis " << axis;
     }
 }
 
@@ -183,7 +183,7 @@ Record sampled(const Quadratic& q) {
 
 TEST_P(FieldLanes, ReproducesPlanesAndQuadraticsExactly) {
     // Points are multiples of 1/4 and coefficients small, so no operation rounds.
-    std::mt19937 random(kSeed);
+    std::mt19937 random(kFieldSeed);
     const auto small = [&](int reach) { return int(random() % uint32_t(2 * reach + 1)) - reach; };
     std::vector<Quadratic> quadratics(2048);
     std::vector<Record> records;
@@ -203,19 +203,19 @@ TEST_P(FieldLanes, ReproducesPlanesAndQuadraticsExactly) {
     const auto results = evaluate(test_device(GetParam()), records, points);
     for (size_t i = 0; i < records.size(); ++i) {
         const std::array<double, 3> s = {points[i][0], points[i][1], points[i][2]};
-        ASSERT_EQ(results[i][0], quadratics[i](s)) << "seed " << kSeed << " quadratic " << i;
+        ASSERT_EQ(results[i][0], quadratics[i](s)) << "seed " << kFieldSeed << " quadratic " << i;
         for (size_t axis = 0; axis < 3; ++axis) {
             auto above = s, below = s;
             above[axis] += 0.5, below[axis] -= 0.5;
             ASSERT_EQ(results[i][1 + axis], quadratics[i](above) - quadratics[i](below))
-                << "seed " << kSeed << " quadratic " << i << " axis " << axis;
+                << "seed " << kFieldSeed << " quadratic " << i << " axis " << axis;
         }
     }
 }
 
 TEST_P(FieldLanes, HoldsTheSameBitsOnBothSidesOfASharedFace) {
     // Two neighbouring voxels along each axis share four distances and the edges of their face.
-    std::mt19937 random(kSeed);
+    std::mt19937 random(kFieldSeed);
     std::vector<Record> low(1536), high(1536);
     auto points = random_points(1536, random), high_points = points;
     for (size_t i = 0; i < low.size(); ++i) {
@@ -240,7 +240,7 @@ TEST_P(FieldLanes, HoldsTheSameBitsOnBothSidesOfASharedFace) {
     const auto below = evaluate(device, low, points);
     const auto above = evaluate(device, high, high_points);
     for (size_t i = 0; i < low.size(); ++i)
-        ASSERT_EQ(below[i][0], above[i][0]) << "seed " << kSeed << " face " << i;
+        ASSERT_EQ(below[i][0], above[i][0]) << "seed " << kFieldSeed << " face " << i;
 }
 
 INSTANTIATE_TEST_SUITE_P(Lanes, FieldLanes, testing::Values(1, 4, 8, 16));

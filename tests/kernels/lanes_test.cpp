@@ -13,12 +13,12 @@
 namespace voxelume {
 namespace {
 
-constexpr uint32_t kCount = 64;  // a multiple of every number of lanes
+constexpr uint32_t kLaneCount = 64;  // a multiple of every number of lanes
 
 const std::vector<float>& floats() {
     static const std::vector<float> values = [] {
         std::vector<float> v;
-        for (uint32_t i = 0; i < kCount; ++i) v.push_back((float(i) - 20.25f) * 1.75f);
+        for (uint32_t i = 0; i < kLaneCount; ++i) v.push_back((float(i) - 20.25f) * 1.75f);
         return v;
     }();
     return values;
@@ -27,7 +27,7 @@ const std::vector<float>& floats() {
 const std::vector<int32_t>& integers() {
     static const std::vector<int32_t> values = [] {
         std::vector<int32_t> v;
-        for (uint32_t i = 0; i < kCount; ++i) v.push_back((int32_t(i * 2654435761u) >> 3) - 77);
+        for (uint32_t i = 0; i < kLaneCount; ++i) v.push_back((int32_t(i * 2654435761u) >> 3) - 77);
         v[0] = INT32_MIN, v[1] = INT32_MAX, v[2] = 0, v[3] = -1;
         return v;
     }();
@@ -36,7 +36,7 @@ const std::vector<int32_t>& integers() {
 
 /// Indices into the arrays in no order; some occur twice.
 uint32_t shuffled(uint32_t i) {
-    return (i * 37 + i / 7) % kCount;
+    return (i * 37 + i / 7) % kLaneCount;
 }
 
 /// An expression of a 32-bit lane type, and its expected bits at an index.
@@ -106,7 +106,7 @@ std::vector<Case> cases_of(uint32_t lanes) {
     return cases;
 }
 
-/// The source of one kernel that writes the bits of every expression, kCount apart.
+/// The source of one kernel that writes the bits of every expression, kLaneCount apart.
 std::string source_of(const std::vector<Case>& cases) {
     std::string source = R"(
 #include "lib/lanes/lanes.h"
@@ -131,18 +131,18 @@ TEST_P(Lanes, EveryMacroMeansTheSame) {
     const Device device = test_device(GetParam());
     const std::vector<Case> cases = cases_of(uint32_t(device.lanes()));
     std::vector<uint32_t> indices;
-    for (uint32_t i = 0; i < kCount; ++i) indices.push_back(shuffled(i));
-    Buffer<uint32_t> buffer(device, "results", kCount * cases.size());
+    for (uint32_t i = 0; i < kLaneCount; ++i) indices.push_back(shuffled(i));
+    Buffer<uint32_t> buffer(device, "results", kLaneCount * cases.size());
     Program::from_text(device, source_of(cases))
         .kernel("evaluate")
-        .launch_packets(kCount, kCount, Buffer<float>(device, "floats", std::span(floats())),
-                        Buffer<int32_t>(device, "integers", std::span(integers())),
-                        Buffer<uint32_t>(device, "indices", std::span<const uint32_t>(indices)),
-                        buffer);
+        .launch_packets(
+            kLaneCount, kLaneCount, Buffer<float>(device, "floats", std::span(floats())),
+            Buffer<int32_t>(device, "integers", std::span(integers())),
+            Buffer<uint32_t>(device, "indices", std::span<const uint32_t>(indices)), buffer);
     const std::vector<uint32_t> results = buffer.read();
     for (size_t c = 0; c < cases.size(); ++c)
-        for (uint32_t i = 0; i < kCount; ++i)
-            ASSERT_EQ(results[c * kCount + i], cases[c].bits(i))
+        for (uint32_t i = 0; i < kLaneCount; ++i)
+            ASSERT_EQ(results[c * kLaneCount + i], cases[c].bits(i))
                 << cases[c].expression << " at " << i;
 }
 

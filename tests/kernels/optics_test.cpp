@@ -16,7 +16,7 @@
 namespace voxelume {
 namespace {
 
-constexpr unsigned kSeed = 31417;
+constexpr unsigned kOpticsSeed = 31417;
 constexpr double kDegree = std::numbers::pi / 180;
 constexpr float kUlpOfOne = 0x1p-23f;
 
@@ -128,7 +128,7 @@ TEST(Optics, O3PrismDeviatesTheLeastOnTheSymmetricPath) {
 }
 
 TEST(Optics, O4TotalReflectionBeginsAtTheCriticalAngleOfTheFloatsThemselves) {
-    std::mt19937 random(kSeed);
+    std::mt19937 random(kOpticsSeed);
     std::vector<float> etas, cosines;
     for (int i = 0; i < 20000; ++i) {
         const float eta =
@@ -149,8 +149,8 @@ TEST(Optics, O4TotalReflectionBeginsAtTheCriticalAngleOfTheFloatsThemselves) {
     for (size_t i = 0; i < all.size(); ++i) {
         const std::optional<long double> expected = cosine_behind(etas[i], cosines[i]);
         const auto where = [&] {
-            return testing::Message() << std::hexfloat << "seed " << kSeed << ", eta " << etas[i]
-                                      << ", cosine " << cosines[i];
+            return testing::Message() << std::hexfloat << "seed " << kOpticsSeed << ", eta "
+                                      << etas[i] << ", cosine " << cosines[i];
         };
         ASSERT_EQ(all[i].total, !expected.has_value()) << where();
         ASSERT_NEAR(all[i].cosine, double(expected.value_or(0)), 1e-7) << where();
@@ -165,7 +165,7 @@ TEST(Optics, O4TotalReflectionBeginsAtTheCriticalAngleOfTheFloatsThemselves) {
 
 /// Ratios of indices from 0.1 to 10, and cosines from grazing to normal incidence.
 std::pair<std::vector<float>, std::vector<float>> all_sorts(uint32_t count) {
-    std::mt19937 random(kSeed + 1);
+    std::mt19937 random(kOpticsSeed + 1);
     std::uniform_real_distribution<float> unit(0, 1);
     std::vector<float> etas(count), cosines(count);
     for (uint32_t i = 0; i < count; ++i) {

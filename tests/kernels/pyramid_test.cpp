@@ -15,7 +15,7 @@ namespace voxelume {
 namespace {
 
 // The kernel writes for each cell the log2 of the empty block around it, or -1 for a voxel.
-constexpr const char* kSource = R"(
+constexpr const char* kPyramidSource = R"(
 #include "lib/traverse/pyramid.h"
 #include "lib/lanes/work_item.h"
 kernel void look_at_cells(PyramidShape shape, global const uint* restrict sectors,
@@ -38,7 +38,7 @@ std::vector<int> sizes_of(const Device& device, const Pyramid& pyramid) {
     const glm::ivec3 size = pyramid.frame.size;
     const auto count = uint32_t(size.x * size.y * size.z);
     Buffer<int> sizes(device, "sizes", (count + 15) / 16 * 16);
-    Program::from_text(device, kSource, {})
+    Program::from_text(device, kPyramidSource, {})
         .kernel("look_at_cells")
         .launch_packets(count, shape_of(pyramid), pyramid.sectors, pyramid.bricks, pyramid.leaves,
                         pyramid.leaf_voxels, count, sizes);

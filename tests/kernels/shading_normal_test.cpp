@@ -16,9 +16,9 @@
 namespace voxelume {
 namespace {
 
-constexpr uint32_t kCount = 4096;
+constexpr uint32_t kNormals = 4096;
 
-constexpr const char* kSource = R"(
+constexpr const char* kNormalSource = R"(
 #include "lib/lanes/work_item.h"
 #include "lib/surface/shading_normal.h"
 kernel void unpack(uint count, global const uint* codes, global float* normals) {
@@ -45,14 +45,14 @@ glm::dvec3 random_direction(std::mt19937& random) {
 /// Vectors as kernels read them.
 class Vectors {
   public:
-    Vectors() : values_(3 * kCount) {}
+    Vectors() : values_(3 * kNormals) {}
     explicit Vectors(const Buffer<float>& buffer) : values_(buffer.read()) {}
 
     void set(uint32_t i, const glm::dvec3& v) {
-        for (uint32_t a = 0; a < 3; ++a) values_[a * kCount + i] = float(v[int(a)]);
+        for (uint32_t a = 0; a < 3; ++a) values_[a * kNormals + i] = float(v[int(a)]);
     }
     glm::dvec3 operator[](uint32_t i) const {
-        return {values_[i], values_[kCount + i], values_[2 * kCount + i]};
+        return {values_[i], values_[kNormals + i], values_[2 * kNormals + i]};
     }
     Buffer<float> upload(const Device& device) const {
         return {device, "vectors", std::span<const float>(values_)};
@@ -68,14 +68,14 @@ TEST(ShadingNormal, OfACodeIsThatOfTheHost) {
     std::vector<uint32_t> codes = {packed_normal({0, 0, 1}),  packed_normal({0, 0, -1}),
                                    packed_normal({-1, 0, 0}), packed_normal({0, 1, 0}),
                                    packed_normal({1, -2, 0}), packed_normal({-1, -1, -1})};
-    while (codes.size() < kCount) codes.push_back(packed_normal(random_direction(random)));
-    const Buffer<float> out(device, "normals", 3 * kCount);
-    Program::from_text(device, kSource, {})
+    while (codes.size() < kNormals) codes.push_back(packed_normal(random_direction(random)));
+    const Buffer<float> out(device, "normals", 3 * kNormals);
+    Program::from_text(device, kNormalSource, {})
         .kernel("unpack")
-        .launch_packets(kCount, kCount,
+        .launch_packets(kNormals, kNormals,
                         Buffer<uint32_t>(device, "codes", std::span<const uint32_t>(codes)), out);
     const Vectors normals(out);
-    for (uint32_t i = 0; i < kCount; ++i)
+    for (uint32_t i = 0; i < kNormals; ++i)
         ASSERT_LT(glm::distance(normals[i], unpacked_normal(codes[i])), 3e-7) << i;
 }
 
@@ -83,7 +83,7 @@ TEST(ShadingNormal, ReflectsToTheSideOfTheSurfaceThatTheRayComesFrom) {
     const Device device = test_device();
     std::mt19937 random(12);
     Vectors ways, faces, normals;
-    for (uint32_t i = 0; i < kCount; ++i) {
+    for (uint32_t i = 0; i < kNormals; ++i) {
         const glm::dvec3 face = random_direction(random);
         glm::dvec3 way = random_direction(random), normal = random_direction(random);
         if (glm::dot(way, face) > 0) way = -way;
@@ -91,14 +91,14 @@ TEST(ShadingNormal, ReflectsToTheSideOfTheSurfaceThatTheRayComesFrom) {
         if (i % 2 == 0) normal = glm::normalize(face + 0.2 * normal);
         ways.set(i, way), faces.set(i, face), normals.set(i, normal);
     }
-    const Buffer<float> out(device, "normals", 3 * kCount);
-    Program::from_text(device, kSource, {})
+    const Buffer<float> out(device, "normals", 3 * kNormals);
+    Program::from_text(device, kNormalSource, {})
         .kernel("reflect")
-        .launch_packets(kCount, kCount, ways.upload(device), faces.upload(device),
+        .launch_packets(kNormals, kNormals, ways.upload(device), faces.upload(device),
                         normals.upload(device), out);
     const Vectors used(out);
     int bent = 0;
-    for (uint32_t i = 0; i < kCount; ++i) {
+    for (uint32_t i = 0; i < kNormals; ++i) {
         const glm::dvec3 way = ways[i], n = used[i], face = faces[i];
         const double above = -glm::dot(way, face);
         const auto mirrored = [&](const glm::dvec3& by) { return glm::reflect(way, by); };

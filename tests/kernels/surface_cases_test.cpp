@@ -16,7 +16,7 @@
 namespace voxelume {
 namespace {
 
-constexpr uint64_t kSeed = 20261121;
+constexpr uint64_t kCaseSeed = 20261121;
 
 /// A ray in doubles, which hold it exactly.
 struct Ray {
@@ -64,7 +64,7 @@ double depth_error(const Device& device, int n) {
     std::vector<FixedRay> rays;
     std::vector<double> expected;
     for (uint64_t number = 0; expected.size() < 20000; ++number) {
-        const FixedRay fixed = ray_of_class(RayClass::faces, grid, kSeed, number);
+        const FixedRay fixed = ray_of_class(RayClass::faces, grid, kCaseSeed, number);
         const Ray ray(grid, fixed);
         const Chord chord = chord_of(ray, center, radius);
         const double t = chord.middle - chord.half;

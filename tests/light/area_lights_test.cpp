@@ -12,7 +12,7 @@
 namespace voxelume {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
 TEST(AreaLights, ADiskGivesThePointBelowItsMiddleWhatItsSolidAngleHolds) {
     // The radiance is pi intensity / area; a Lambertian surface returns color R^2 / (R^2 + d^2) of
@@ -53,7 +53,7 @@ TEST(AreaLights, ARectangleGivesItsFormFactor) {
     const Image image = image_of(floor_scene("", "", R"({"type": "rectangle",
         "position": [0.15, 0.3, 0.3], "look_at": [0.15, 0, 0.3], "up": [1, 0, 0],
         "size": [0.4, 0.2], "intensity": 0.5, "spots": 256})"));
-    const double radiance = kPi * 0.5 / (0.4 * 0.2);
+    const double radiance = pi * 0.5 / (0.4 * 0.2);
     const double expected = radiance * corner_form_factor(0.4, 0.2, 0.3);
     EXPECT_NEAR(image.planes.at("R")[pixel_at(image, 0.05, 0.1)], expected, 2e-3 * expected);
 }
@@ -77,7 +77,7 @@ TEST(AreaLights, DivideARectangleAndADiskEvenly) {
     ASSERT_EQ(light_samples.size(), 7u);
     glm::dvec2 sum(0);
     for (const LightRecord& light_sample : light_samples) {
-        EXPECT_NEAR(light_sample.spread, 3.0 / 7 / kPi, 1e-6);
+        EXPECT_NEAR(light_sample.spread, 3.0 / 7 / pi, 1e-6);
         EXPECT_NEAR(light_sample.intensity.y, 2, 1e-6);
         EXPECT_LE(std::abs(light_sample.position.x), 1.5);
         EXPECT_LE(std::abs(light_sample.position.y), 0.5);

@@ -15,7 +15,7 @@
 namespace voxelume {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
 double area_of(const std::vector<EmissivePiece>& pieces) {
     double sum = 0;
@@ -58,8 +58,7 @@ TEST(EmissivePieces, OfABallHaveItsAreaAndLieOnIt) {
         const std::vector<EmissivePiece> pieces = pieces_of(emissive_scene(
             std::string(R"({"shape": "sphere", "radius": 0.15, "voxel_size": 0.01, "surface": ")") +
             surface + "\"}"));
-        EXPECT_NEAR(area_of(pieces), 4 * kPi * 0.15 * 0.15, 0.01 * 4 * kPi * 0.15 * 0.15)
-            << surface;
+        EXPECT_NEAR(area_of(pieces), 4 * pi * 0.15 * 0.15, 0.01 * 4 * pi * 0.15 * 0.15) << surface;
         for (const EmissivePiece& piece : pieces) {
             if (!piece.is_exact) continue;
             const glm::dvec3 from_middle = piece.position - glm::dvec3(0.55, 0.5, 0.5);

@@ -15,12 +15,12 @@
 namespace voxelume {
 namespace {
 
-constexpr uint32_t kSeed = 20261123;
+constexpr uint32_t kImageSeed = 20261123;
 
 /// A scene of balls of one surface above a floor, some of which are mirrors, with two lights
 /// outside the world.
 Scene balls(const std::string& surface, double reflection, const std::string& light) {
-    std::mt19937 random(kSeed);
+    std::mt19937 random(kImageSeed);
     const auto uniform = [&] { return double(random()) / 0x1p32; };
     std::string objects;
     for (int i = 0; i < 30; ++i) {

@@ -17,7 +17,7 @@ using testing::Contains;
 using testing::Key;
 using testing::Not;
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
 std::string ball_model(const std::string& surface) {
     return R"("lamp": {"shape": "sphere", "radius": 0.1, "voxel_size": 0.01, "surface": ")" +

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdint>
 
-namespace oracle {
+namespace voxelume::oracle {
 namespace {
 
 __extension__ using Wide = __int128;
@@ -90,4 +90,4 @@ std::vector<CrossedCell> cells_crossed(const glm::dvec3& o, const glm::dvec3& d,
     return cells;
 }
 
-}  // namespace oracle
+}  // namespace voxelume::oracle

@@ -8,7 +8,7 @@
 #include <tuple>
 #include <vector>
 
-namespace oracle {
+namespace voxelume::oracle {
 
 struct CellOrder {
     bool operator()(const glm::ivec3& a, const glm::ivec3& b) const {
@@ -40,4 +40,4 @@ struct CrossedCell {
 std::vector<CrossedCell> cells_crossed(const glm::dvec3& o, const glm::dvec3& d,
                                        const glm::ivec3& size, int fraction_bits);
 
-}  // namespace oracle
+}  // namespace voxelume::oracle

@@ -3,7 +3,7 @@
 
 #include "tests/oracles/fnv.hpp"
 
-namespace oracle {
+namespace voxelume::oracle {
 
 using voxelume::oracle::Fnv;
 
@@ -28,4 +28,4 @@ uint64_t image_hash(const voxelume::Image& image) {
     return hash.value();
 }
 
-}  // namespace oracle
+}  // namespace voxelume::oracle

@@ -6,9 +6,9 @@
 
 #include "runtime/image/image.hpp"
 
-namespace oracle {
+namespace voxelume::oracle {
 
 /// FNV-1a over the size and every plane's name and bits, in the order of names.
 uint64_t image_hash(const voxelume::Image& image);
 
-}  // namespace oracle
+}  // namespace voxelume::oracle

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/oracles/rational_walk.hpp"
 
-namespace oracle {
+namespace voxelume::oracle {
 namespace {
 
 mpz_class floor_of(const mpq_class& q) {
@@ -96,4 +96,4 @@ std::vector<RationalCell> rational_walk(const Rational3& o, const Rational3& d,
     return cells;
 }
 
-}  // namespace oracle
+}  // namespace voxelume::oracle

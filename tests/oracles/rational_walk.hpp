@@ -9,7 +9,7 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
-namespace oracle {
+namespace voxelume::oracle {
 
 using Rational3 = std::array<mpq_class, 3>;
 
@@ -29,4 +29,4 @@ Rational3 rationals(double x, double y, double z);
 std::vector<RationalCell> rational_walk(const Rational3& o, const Rational3& d,
                                         const glm::ivec3& size, size_t maximum = 1 << 20);
 
-}  // namespace oracle
+}  // namespace voxelume::oracle

@@ -18,7 +18,7 @@ namespace {
 
 constexpr const char* kColors[] = {"R", "G", "B"};
 
-Image rendered(const std::string& text, int lanes = 0, uint64_t* secondary_rays = nullptr) {
+Image picture_of(const std::string& text, int lanes = 0, uint64_t* secondary_rays = nullptr) {
     RenderReport report;
     Image image = render(test_device(lanes), parse_scene(text, "test.json", {}), report);
     EXPECT_EQ(report.not_finite, 0u);
@@ -112,7 +112,7 @@ TEST(GlassCubes, AreMetByAnObserverInsideOnlyWhereTheyEnd) {
     constexpr const char* kFromInside =
         R"("position": [0.2, 0.07, 0.03], "look_at": [5, 0.07, 0.03],
               "display": {"shape": "box", "size": [0.4, 0.3, 12]})";
-    const Image image = rendered(
+    const Image image = picture_of(
         block_scene(R"({"diffuse": 0, "refraction": 0.75, "ior": 1.5})", -20, kFromInside));
     const float background[3] = {0.25f, 0.5f, 0.75f};
     for (int c = 0; c < 3; ++c)
@@ -122,8 +122,8 @@ TEST(GlassCubes, AreMetByAnObserverInsideOnlyWhereTheyEnd) {
 
 TEST(GlassCubes, OfTheSpacesOwnIndexAreInvisibleToTheBit) {
     uint64_t secondary_rays = 0;
-    const Image with = rendered(block_scene(kGhost), 0, &secondary_rays);
-    const Image without = rendered(block_scene(kGhost, -2, kFromAbove, ""));
+    const Image with = picture_of(block_scene(kGhost), 0, &secondary_rays);
+    const Image without = picture_of(block_scene(kGhost, -2, kFromAbove, ""));
     EXPECT_GT(secondary_rays, 300u);
     for (const char* color : kColors)
         EXPECT_EQ(with.planes.at(color), without.planes.at(color)) << color;
@@ -133,15 +133,15 @@ TEST(GlassCubes, TouchingAnotherObjectAreLeftWhereItBegins) {
     // The floor touches the block's lower face.
     const char* observer = R"("position": [4, 3, -5], "look_at": [0, -0.5, 0],
               "display": {"shape": "pyramid", "angle": 25})";
-    const Image with = rendered(block_scene(kGhost, -0.6, observer));
-    const Image without = rendered(block_scene(kGhost, -0.6, observer, ""));
+    const Image with = picture_of(block_scene(kGhost, -0.6, observer));
+    const Image without = picture_of(block_scene(kGhost, -0.6, observer, ""));
     for (const char* color : kColors)
         EXPECT_EQ(with.planes.at(color), without.planes.at(color)) << color;
 }
 
 TEST(GlassCubes, SolidOnesAbsorbAlongTheWholeWay) {
     // Bricks inside the block must count, too.
-    const Image image = rendered(block_scene(
+    const Image image = picture_of(block_scene(
         R"({"diffuse": 0, "refraction": 1, "ior": 1, "absorption": [0.3, 0.7, 0]})", -2, kThrough));
     const double expected[] = {0.25 * std::exp(-0.3 * 3.75), 0.5 * std::exp(-0.7 * 3.75), 0.75};
     for (int c = 0; c < 3; ++c)
@@ -155,7 +155,7 @@ TEST(GlassCubes, EveryVoxelOfLittleOpacityCoversOnce) {
         block_scene(R"({"color": [1, 1, 1], "diffuse": 1, "opacity": 0.07})", -2, kThrough);
     const std::string light = "[0.3, 2.2, -2.1]";
     scene.replace(scene.find(light), light.size(), "[2.7, 0.1, 0]");
-    const Image image = rendered(scene);
+    const Image image = picture_of(scene);
     const double ambient[] = {0.1, 0.2, 0.3}, background[] = {0.25, 0.5, 0.75};
     const double left = std::pow(0.93, 30);
     for (int c = 0; c < 3; ++c)
@@ -202,7 +202,7 @@ std::string leaky_room(int depth, int pixels) {
 
 TEST(GlassCubes, NoRayLeavesAClosedRoom) {
     uint64_t secondary_rays = 0;
-    const Image image = rendered(leaky_room(9, 28), 0, &secondary_rays);
+    const Image image = picture_of(leaky_room(9, 28), 0, &secondary_rays);
     EXPECT_GT(secondary_rays, 10'000u);
     size_t leaks = 0;
     for (const float value : image.planes.at("R")) leaks += value > 2;
@@ -212,7 +212,7 @@ TEST(GlassCubes, NoRayLeavesAClosedRoom) {
 // CTest runs this program with 1, 4, 8 and 16 lanes. A change that intends to change the image
 // replaces the hash by the one that this prints.
 TEST(GlassCubes, AreTheSameToTheBitHoweverManyRaysAreTracedAtOnce) {
-    EXPECT_EQ(fmt::format("{:016x}", oracle::image_hash(rendered(leaky_room(3, 40)))),
+    EXPECT_EQ(fmt::format("{:016x}", oracle::image_hash(picture_of(leaky_room(3, 40)))),
               "ec6c338e304da3e1");
 }
 

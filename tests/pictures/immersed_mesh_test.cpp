@@ -37,7 +37,8 @@ std::string block_scene(const std::string& block, const std::string& observer) {
  "render": {"size": [172, 133], "depth": 2, "shadow": "filtered"}})";
 }
 
-constexpr const char* kBlock = R"({"shape": "box", "size": [1.6, 1.2, 1.4], "surface": "exact"})";
+constexpr const char* kExactBlock =
+    R"({"shape": "box", "size": [1.6, 1.2, 1.4], "surface": "exact"})";
 /// An observer whose rays first meet the ring, the drop or the block's walls.
 constexpr const char* kInTheMiddle =
     R"({"position": [0.3, 0.2, 0.55], "look_at": [0.1, 0.05, -0.2], "display": {"shape": "pyramid", "angle": 80}})";
@@ -62,7 +63,7 @@ class ObserverInMediumMesh : public FileTest {
 TEST_F(ObserverInMediumMesh, AbsorbsFromTheObserverOnWhateverIsMetFirst) {
     for (const char* observer : {kInTheMiddle, kInFront})
         expect_image(scene(R"({"mesh": "block.obj", "surface": "exact"})", observer),
-                     oracle::analytic_image(scene(kBlock, observer)), 1e-5, 1e-3);
+                     oracle::analytic_image(scene(kExactBlock, observer)), 1e-5, 1e-3);
 }
 
 TEST_F(ObserverInMediumMesh, ASmoothBodyAbsorbsFromTheObserverOnWhateverIsMetFirst) {

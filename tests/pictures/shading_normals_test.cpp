@@ -100,7 +100,7 @@ TEST_F(ShadingNormals, AreTheOraclesUnderAnyMapInTheWorldAndAsInstances) {
               R"("matrix": [[1, 0.4, 0, 0.1], [0, 1, -0.3, 0], [0.2, 0, 0.8, 0]])"}) {
             const Scene scene = scene_of(
                 "", fmt::format(R"({{"model": "mesh", "placement": "{}", {}}})", placement, map));
-            const Compared compared = compare(rendered(scene), scene, mesh);
+            const Compared compared = compare(image_of_scene(scene), scene, mesh);
             EXPECT_GT(compared.pixels, 2000u) << placement << map;
             EXPECT_LT(std::sqrt(compared.squares / double(compared.pixels)), 0.01)
                 << placement << map;
@@ -116,7 +116,7 @@ TEST_F(ShadingNormals, OfABallAreThoseOfTheSphere) {
         if (!has_normals) mesh.normals.clear(), mesh.triangle_normals.clear();
         write_obj(folder / "mesh.obj", mesh);
         const std::string model = has_normals ? "" : R"(, "shading": "smooth")";
-        const Image image = rendered(scene_of(model, R"({"model": "mesh"})"));
+        const Image image = image_of_scene(scene_of(model, R"({"model": "mesh"})"));
         double squares = 0;
         size_t pixels = 0;
         for (size_t i = 0; i < image.planes.at("Z").size(); ++i) {
@@ -139,7 +139,7 @@ TEST_F(ShadingNormals, LightFadesToTheTerminatorWithoutTheFacesShadows) {
     mesh.triangle_normals = mesh.triangles;
     write_obj(folder / "mesh.obj", mesh);
     for (const char* placement : {"world", "instance"}) {
-        const Image image = rendered(
+        const Image image = image_of_scene(
             scene_of("", fmt::format(R"({{"model": "mesh", "placement": "{}"}})", placement)));
         size_t lit = 0, dark = 0;
         for (size_t i = 0; i < image.planes.at("Z").size(); ++i) {
@@ -162,8 +162,8 @@ TEST_F(ShadingNormals, LightFadesToTheTerminatorWithoutTheFacesShadows) {
 TEST_F(ShadingNormals, ChangeNeitherWhatIsSeenNorWhere) {
     write_obj(folder / "mesh.obj", ring_with_normals());
     const std::string object = R"({"model": "mesh", "turn": [33, 11, 7]})";
-    const Image smooth = rendered(scene_of("", object));
-    const Image flat = rendered(scene_of(R"(, "shading": "flat")", object));
+    const Image smooth = image_of_scene(scene_of("", object));
+    const Image flat = image_of_scene(scene_of(R"(, "shading": "flat")", object));
     for (const char* plane : {"P.X", "P.Y", "P.Z", "Z", "A"})
         EXPECT_EQ(smooth.planes.at(plane), flat.planes.at(plane)) << plane;
     EXPECT_EQ(smooth.id_planes, flat.id_planes);
@@ -189,7 +189,7 @@ TEST_F(ShadingNormals, OfOneObjectChangeNoBitOfAnother) {
                     fmt::format(R"({{"model": "mesh", "material": "{0}", "placement": "{1}"}},
                                    {{"model": "far", "position": [-1.4, -1.4, 1.4], "placement": "{1}"}})",
                                 material, placement));
-                return rendered(scene);
+                return image_of_scene(scene);
             };
             const Image with = image("auto"), without = image("flat");
             for (const char* plane : {"R", "G", "B", "N.X", "N.Y", "N.Z"}) {
@@ -213,7 +213,7 @@ TEST_F(ShadingNormals, MirrorsShowNothingFromBehindTheirSurface) {
     scene.world.background = {1, 1, 1};
     scene.world.ambient = {0, 0, 0};
     scene.lights.clear();
-    const Image image = rendered(scene);
+    const Image image = image_of_scene(scene);
     for (size_t i = 0; i < image.planes.at("R").size(); ++i) {
         if (image.id_planes.at("objectId")[i] == 0) continue;
         EXPECT_NEAR(image.planes.at("R")[i], 0.9, 1e-6) << i;

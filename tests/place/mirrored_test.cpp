@@ -91,7 +91,7 @@ class MirroredObjects : public FileTest, public testing::WithParamInterface<Case
 "render": {{"size": [160, 130], "depth": 8}}}})",
                               material, surface, surface == "cubes" ? R"(, "set": "solid")" : "",
                               matrix, std::get<1>(GetParam()), kEye.x, kEye.y, kEye.z));
-        return rendered(read_scene(folder / "scene.json", {}));
+        return image_of_scene(read_scene(folder / "scene.json", {}));
     }
 
     /// Calls `check(place, normal, way)` for every hit, and checks that normals have length 1 and

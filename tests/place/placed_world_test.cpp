@@ -15,7 +15,7 @@
 namespace voxelume {
 namespace {
 
-constexpr double kEdge = 0.1, kRadius = 2.0;
+constexpr double kVoxelEdge = 0.1, kRadius = 2.0;
 
 Pyramid pyramid_of(const std::vector<PlacedObject>& objects, const GridFrame& frame) {
     const Device& device = shared_device();
@@ -36,15 +36,15 @@ std::vector<PlacedObject> spheres_at(const BrickGrid& sphere,
 
 /// The least and largest distance of a voxel's points from a point, in metres.
 glm::dvec2 distances_of(const glm::dvec3& low, const glm::dvec3& centre) {
-    const glm::dvec3 closest = glm::clamp(centre, low, low + kEdge);
-    const glm::dvec3 away = glm::max(glm::abs(low - centre), glm::abs(low + kEdge - centre));
+    const glm::dvec3 closest = glm::clamp(centre, low, low + kVoxelEdge);
+    const glm::dvec3 away = glm::max(glm::abs(low - centre), glm::abs(low + kVoxelEdge - centre));
     return {glm::length(closest - centre), glm::length(away)};
 }
 
 TEST(PlacedWorld, KeepsTheFieldOfEachObject) {
-    const BrickGrid sphere = sphere_bricks(kRadius, kEdge).upload(shared_device());
+    const BrickGrid sphere = sphere_bricks(kRadius, kVoxelEdge).upload(shared_device());
     const std::array centres = {glm::dvec3{-1.23, 0.1, 0}, glm::dvec3{1.31, 0, 0.17}};
-    const GridFrame frame = frame_at({-4, -3, -3}, glm::dvec3(kEdge), {80, 60, 61});
+    const GridFrame frame = frame_at({-4, -3, -3}, glm::dvec3(kVoxelEdge), {80, 60, 61});
     const PlacedWorld world =
         place_world(shared_device(), spheres_at(sphere, {centres[0], centres[1]}), frame);
     ASSERT_EQ(world.fields.size(), 2u);
@@ -61,10 +61,10 @@ TEST(PlacedWorld, KeepsTheFieldOfEachObject) {
 // Three spheres pass through each other: every voxel holds the fields of the spheres whose surfaces
 // pass it, and of others only where a surface is within a hundredth of a voxel.
 TEST(PlacedWorld, VoxelsListTheSurfacesThatPassThem) {
-    const BrickGrid sphere = sphere_bricks(kRadius, kEdge).upload(shared_device());
+    const BrickGrid sphere = sphere_bricks(kRadius, kVoxelEdge).upload(shared_device());
     const std::array centres = {glm::dvec3{-1.23, 0.1, 0}, glm::dvec3{1.31, 0, 0.17},
                                 glm::dvec3{0.1, 1.1, 0.4}};
-    const GridFrame frame = frame_at({-4, -3, -3}, glm::dvec3(kEdge), {80, 70, 61});
+    const GridFrame frame = frame_at({-4, -3, -3}, glm::dvec3(kVoxelEdge), {80, 70, 61});
     std::vector<PlacedObject> objects = spheres_at(sphere, {centres[0], centres[1], centres[2]});
     const Pyramid pyramid = pyramid_of(objects, frame);
     const HostPyramid host(pyramid);
@@ -84,10 +84,10 @@ TEST(PlacedWorld, VoxelsListTheSurfacesThatPassThem) {
                         ASSERT_TRUE(records.insert(record).second) << "of two voxels";
                     }
                 listed += held.size() > 1 ? held.size() : 0;
-                const glm::dvec3 low = frame.origin + kEdge * glm::dvec3(v);
+                const glm::dvec3 low = frame.origin + kVoxelEdge * glm::dvec3(v);
                 for (uint32_t i = 0; i < 3; ++i) {
                     const glm::dvec2 d = distances_of(low, centres[i]);
-                    const double slack = 0.02 * kEdge;
+                    const double slack = 0.02 * kVoxelEdge;
                     if (d.x < kRadius - slack && d.y > kRadius + slack)
                         ASSERT_TRUE(held.contains(i))
                             << v.x << " " << v.y << " " << v.z << " of " << i;
@@ -115,12 +115,12 @@ TEST(PlacedWorld, VoxelsListTheSurfacesThatPassThem) {
 
 TEST(PlacedWorld, BetweenCubesAndFieldsPrioritiesDecide) {
     const Device& device = shared_device();
-    const BrickGrid sphere = sphere_bricks(1.0, kEdge).upload(device);
+    const BrickGrid sphere = sphere_bricks(1.0, kVoxelEdge).upload(device);
     VoxelMap slab;
     for (int z = 0; z < 31; ++z)
         for (int x = 0; x < 30; ++x) slab[{x, 15, z}] = 0;
     HostBricks bricks =
-        occupied_bricks(frame_at(glm::dvec3(-1.5), glm::dvec3(kEdge), {30, 32, 31}), slab);
+        occupied_bricks(frame_at(glm::dvec3(-1.5), glm::dvec3(kVoxelEdge), {30, 32, 31}), slab);
     bricks.attributes.clear();
     const BrickGrid cubes = bricks.upload(device);
     for (const int priority : {-1, 1}) {
@@ -139,8 +139,8 @@ TEST(PlacedWorld, BetweenCubesAndFieldsPrioritiesDecide) {
 
 TEST(PlacedWorld, AnExactVoxelListsTheFieldsInIt) {
     const Device& device = shared_device();
-    const BrickGrid sphere = sphere_bricks(1.0, kEdge).upload(device);
-    const GridFrame frame = frame_at(glm::dvec3(-1.5), glm::dvec3(kEdge), {30, 32, 31});
+    const BrickGrid sphere = sphere_bricks(1.0, kVoxelEdge).upload(device);
+    const GridFrame frame = frame_at(glm::dvec3(-1.5), glm::dvec3(kVoxelEdge), {30, 32, 31});
     Solid box;
     box.kind = SolidKind::box;
     box.size = {2.6, 0.4, 2.6};

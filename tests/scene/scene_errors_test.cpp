@@ -10,6 +10,7 @@
 #include "runtime/scene/scene.hpp"
 #include "runtime/scene/scene_animation.hpp"
 #include "runtime/scene_file/read_scene.hpp"
+#include "tests/scene/small_scene.hpp"
 
 namespace voxelume {
 namespace {
@@ -18,17 +19,6 @@ using testing::AllOf;
 using testing::EndsWith;
 using testing::HasSubstr;
 using testing::StartsWith;
-
-/// A scene with the given members, on lines of their own from line 5 on.
-std::string scene_with(const std::string& members) {
-    return R"({"voxelume": 1,
-"world": {"voxel_size": 0.5, "bounds": {"min": [-1, -2, -3], "max": [1, 2, 3]}},
-"models": {"ball": {"shape": "sphere", "radius": 1}, "floor": {"shape": "slab", "thickness": 0.1}},
-"materials": {"brick": {"color": [1, 0, 0]}, "glass": {"ior": 1.33}},
-)" + members +
-           R"(
-"observer": {"position": [0, 0, -3], "display": {"shape": "pyramid"}}})";
-}
 
 Scene parse(const std::string& text) {
     return parse_scene(text, "room.json", {});

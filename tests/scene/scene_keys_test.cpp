@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "tests/scene/small_scene.hpp"
 #include "tests/support/file_fixture.hpp"
 
 namespace voxelume {
@@ -16,8 +17,6 @@ namespace {
 
 using nlohmann::json;
 using KeySet = std::set<std::string>;
-
-const std::filesystem::path kScenes = std::filesystem::path(VXL_SOURCE_DIR) / "scenes";
 
 /// Adds the keys that a definition of the schema allows, by kind where it has kinds.
 void collect_keys(const std::string& name, const json& definition,

@@ -14,14 +14,13 @@
 #include "runtime/scene/scene_affine.hpp"
 #include "runtime/scene/solid.hpp"
 #include "runtime/scene/world.hpp"
+#include "tests/scene/small_scene.hpp"
 #include "tests/support/file_fixture.hpp"
 
 namespace voxelume {
 namespace {
 
 using nlohmann::json;
-
-const std::filesystem::path kScenes = std::filesystem::path(VXL_SOURCE_DIR) / "scenes";
 
 class SceneRows : public testing::Test {
   protected:

@@ -20,6 +20,7 @@
 #include "runtime/scene_file/read_scene.hpp"
 #include "runtime/scene_file/scene_keys.hpp"
 #include "tests/scene/full_scenes.hpp"
+#include "tests/scene/small_scene.hpp"
 #include "tests/support/file_fixture.hpp"
 
 namespace voxelume {
@@ -27,8 +28,6 @@ namespace {
 
 using nlohmann::json;
 using KeySet = std::set<std::string>;
-
-const std::filesystem::path kScenes = std::filesystem::path(VXL_SOURCE_DIR) / "scenes";
 
 json read_file(const std::filesystem::path& file) {
     std::ifstream stream(file);

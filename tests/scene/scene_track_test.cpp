@@ -16,7 +16,7 @@ using testing::HasSubstr;
 using testing::StartsWith;
 
 /// A scene with tracks, the first of which begins on line 13.
-std::string scene_with(const std::string& tracks) {
+std::string scene_with_tracks(const std::string& tracks) {
     return R"({"voxelume": 1,
 "world": {"voxel_size": 0.5, "bounds": {"min": [-1, -2, -3], "max": [1, 2, 3]}},
 "materials": {"brick": {"color": [1, 0, 0]}, "my.glass": {"ior": 1.33}},
@@ -50,7 +50,7 @@ std::string values(const std::string& target, const std::vector<std::string>& va
 
 std::string message(const std::string& tracks) {
     try {
-        parse_scene(scene_with(tracks), "s.json", {});
+        parse_scene(scene_with_tracks(tracks), "s.json", {});
     } catch (const Error& error) {
         EXPECT_EQ(error.kind(), ErrorKind::scene) << error.what();
         return error.what();
@@ -183,7 +183,7 @@ TEST(Tracks, WithValuesThatTheirTargetRefusesPointAtTheKey) {
 
 TEST(Tracks, ThatGoWrongBetweenKeysSayWhereWhenTheFrameIsMade) {
     const Scene scene =
-        parse_scene(scene_with(track("objects.b.scale", R"({"frame": 1, "value": -1},
+        parse_scene(scene_with_tracks(track("objects.b.scale", R"({"frame": 1, "value": -1},
             {"frame": 9, "value": 1})")),
                     "s.json", {});
     EXPECT_NO_THROW(scene_at(scene, 4));

@@ -59,7 +59,7 @@ inline std::vector<std::string> turned_objects() {
         R"("model": "ball", "matrix": [[1, 0.4, 0, 0.2], [0, 1, -0.3, -0.13], [0.2, 0, 0.8, -0.3]])"};
 }
 
-inline Image rendered(const Scene& scene, const Device& device = shared_device()) {
+inline Image image_of_scene(const Scene& scene, const Device& device = shared_device()) {
     RenderReport report;
     Image image = render(device, scene, report);
     EXPECT_EQ(report.not_finite, 0u);

@@ -13,7 +13,7 @@
 namespace voxelume {
 namespace {
 
-constexpr uint64_t kSeed = 20261121;
+constexpr uint64_t kWalkSeed = 20261121;
 
 oracle::Rational3 in_voxels(const std::array<int64_t, 3>& values, int bits) {
     oracle::Rational3 result;
@@ -52,7 +52,7 @@ TEST_P(ExactWalk, EntersTheCellsThatRationalsEnter) {
                                   glm::ivec3(65536, 65536, 65536), glm::ivec3(23, 65535, 40001)})
         for (uint64_t number = 0; number < 150; ++number) {
             const FixedGrid grid = fixed_grid(size);
-            const FixedRay ray = ray_of_class(GetParam().kind, grid, kSeed, number);
+            const FixedRay ray = ray_of_class(GetParam().kind, grid, kWalkSeed, number);
             const auto expected = expected_cells(grid, ray, 300);
             const auto cells = exact_cells(grid, ray, Steps::cells, 300);
             ASSERT_EQ(cells.size(), expected.size()) << size.x << " ray " << number;
@@ -69,7 +69,7 @@ TEST_P(ExactWalk, LeavesBlocksWhereTheirLastCellIsLeft) {
          {glm::ivec3(33, 64, 50), glm::ivec3(600, 300, 400), glm::ivec3(65536, 40001, 65536)})
         for (uint64_t number = 0; number < 150; ++number) {
             const FixedGrid grid = fixed_grid(size);
-            const FixedRay ray = ray_of_class(GetParam().kind, grid, kSeed, number);
+            const FixedRay ray = ray_of_class(GetParam().kind, grid, kWalkSeed, number);
             const auto all = expected_cells(grid, ray, kMaxCells);
             const auto expected = first_of_blocks(all);
             const size_t maximum = all.size() < kMaxCells ? 1 << 20 : expected.size();
@@ -86,7 +86,7 @@ TEST_P(ExactWalk, LeavesBlocksWhereTheirLastCellIsLeft) {
 void expect_walks_of_128_bits(RayClass kind, const glm::ivec3& size, uint64_t count) {
     const FixedGrid grid = fixed_grid(size);
     for (uint64_t number = 0; number < count; ++number) {
-        const FixedRay ray = ray_of_class(kind, grid, kSeed, number);
+        const FixedRay ray = ray_of_class(kind, grid, kWalkSeed, number);
         glm::dvec3 o, d;
         for (int a = 0; a < 3; ++a) {
             o[a] = std::ldexp(double(ray.origin[size_t(a)]), -grid.fraction_bits);
@@ -113,7 +113,7 @@ TEST_P(ExactWalk, AgreesWithTheWalkIn128BitsThroughTheLargestWorld) {
 TEST_P(ExactWalk, HasRaysInTheirFixedPoint) {
     for (uint64_t number = 0; number < 5000; ++number) {
         const FixedGrid grid = fixed_grid(number % 2 ? glm::ivec3(64, 61, 37) : glm::ivec3(65536));
-        const FixedRay ray = ray_of_class(GetParam().kind, grid, kSeed, number);
+        const FixedRay ray = ray_of_class(GetParam().kind, grid, kWalkSeed, number);
         int64_t longest = 0;
         for (size_t a = 0; a < 3; ++a) {
             ASSERT_GE(ray.origin[a], 0);

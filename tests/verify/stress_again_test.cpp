@@ -13,7 +13,7 @@
 namespace voxelume {
 namespace {
 
-constexpr uint64_t kSeed = 20261122;
+constexpr uint64_t kAgainSeed = 20261122;
 
 /// Floats alone decide where a ray leaves a voxel.
 constexpr const char* kNotArbitrated = "-DVXL_ARBITRATE=0";
@@ -76,13 +76,13 @@ TEST_P(StressAgain, EveryMismatchIsFoundAloneAsAmongOthers) {
     const Device device = test_device();
     for (const StressTest& test : stress_tests()) {
         if (test.name != fault.test) continue;
-        const StressResult among = test.run({device, kSeed, fault.first, fault.count, {}});
+        const StressResult among = test.run({device, kAgainSeed, fault.first, fault.count, {}});
         EXPECT_EQ(among.cases, fault.count);
         ASSERT_GT(among.mismatches, 0u);
         for (const StressExample& example : among.examples) {
             EXPECT_GE(example.number, fault.first);
             EXPECT_LT(example.number, fault.first + fault.count);
-            const StressResult alone = test.run({device, kSeed, example.number, 1, {}});
+            const StressResult alone = test.run({device, kAgainSeed, example.number, 1, {}});
             EXPECT_EQ(alone.cases, 1u);
             EXPECT_EQ(alone.mismatches, 1u) << example.number;
             ASSERT_EQ(alone.examples.size(), 1u);

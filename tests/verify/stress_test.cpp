@@ -23,7 +23,7 @@
 namespace voxelume {
 namespace {
 
-constexpr uint64_t kSeed = 20261121;
+constexpr uint64_t kStressSeed = 20261121;
 
 const StressTest& test_named(const std::string& name) {
     for (const StressTest& test : stress_tests())
@@ -44,10 +44,11 @@ TEST_P(Stress, FindsNothing) {
     const uint64_t cases = has_triangles ? kTriangleClasses * kTrianglesOfOneGrid : count;
     uint64_t told = 0;
     const StressResult result =
-        test.run({device, kSeed, 0, cases, [&told](uint64_t tried) { told += tried; }});
+        test.run({device, kStressSeed, 0, cases, [&told](uint64_t tried) { told += tried; }});
     EXPECT_EQ(result.cases, cases);
     EXPECT_EQ(told, cases);
-    EXPECT_EQ(result.mismatches, 0u) << "seed " << kSeed << ", " << result.examples.front().text;
+    EXPECT_EQ(result.mismatches, 0u)
+        << "seed " << kStressSeed << ", " << result.examples.front().text;
 }
 
 std::vector<std::string> names_of_tests() {
@@ -62,7 +63,8 @@ INSTANTIATE_TEST_SUITE_P(Tests, Stress, testing::ValuesIn(names_of_tests()),
 // The triangle's snapped corners lie on the other side of the voxel's edge than the corners that
 // the ray meets.
 TEST(StressFound, ARayAlongAVoxelsEdgeMeetsTheTriangleBesideIt) {
-    const StressResult result = test_named("exact").run({test_device(), kSeed, 6494911, 1, {}});
+    const StressResult result =
+        test_named("exact").run({test_device(), kStressSeed, 6494911, 1, {}});
     EXPECT_EQ(result.cases, 1u);
     EXPECT_EQ(result.mismatches, 0u);
 }
@@ -71,7 +73,7 @@ std::vector<FixedRay> rays_of_all_classes(const FixedGrid& grid, uint64_t of_eac
     std::vector<FixedRay> rays;
     for (const RayClassName& named : kRayClasses)
         for (uint64_t i = 0; i < of_each; ++i)
-            rays.push_back(ray_of_class(named.kind, grid, kSeed, i));
+            rays.push_back(ray_of_class(named.kind, grid, kStressSeed, i));
     return rays;
 }
 
@@ -146,7 +148,7 @@ glm::ivec3 middle_of(const TriangleOnLattice& t, const TriangleGrid& grid) {
 TEST(ExactRow, HasTheVoxelsThatSeparatingAxesFind) {
     for (uint64_t number = 0; number < kTriangleClasses * kTrianglesOfOneGrid;
          number += kTrianglesOfOneGrid / 12) {
-        const TriangleOnLattice t = stress_triangle(kSeed, number);
+        const TriangleOnLattice t = stress_triangle(kStressSeed, number);
         const glm::ivec3 middle = middle_of(t, grid_of_triangle(number));
         const glm::ivec3 lowest = glm::min(glm::min(t[0], t[1]), t[2]) / 4096 - 1;
         const glm::ivec3 highest = glm::max(glm::max(t[0], t[1]), t[2]) / 4096 + 1;
@@ -171,7 +173,7 @@ TEST(ExactThin, HasTheVoxelsWhoseCrosshairsRationalsMeet) {
     uint64_t count = 0;
     for (uint64_t number = 0; number < kTriangleClasses * kTrianglesOfOneGrid;
          number += kTrianglesOfOneGrid / 16) {
-        const TriangleOnLattice t = stress_triangle(kSeed, number);
+        const TriangleOnLattice t = stress_triangle(kStressSeed, number);
         const glm::ivec3 region = grid_of_triangle(number).region;
         const glm::ivec3 middle = middle_of(t, grid_of_triangle(number));
         const glm::ivec3 first = glm::max(middle - 6, 0), last = glm::min(middle + 6, region - 1);
@@ -200,7 +202,7 @@ double largest_plane_term(const TriangleOnLattice& t) {
 TEST(StressTriangles, NeedMoreThan64BitsAndLieWhereFloatsHoldThem) {
     int wide = 0;
     for (uint64_t number = 0; number < 12 * kTriangleClasses * kTrianglesOfOneGrid; number += 7) {
-        const TriangleOnLattice t = stress_triangle(kSeed, number);
+        const TriangleOnLattice t = stress_triangle(kStressSeed, number);
         const glm::ivec3 start = grid_of_triangle(number).start(number % kTrianglesOfOneGrid);
         wide += largest_plane_term(t) > 0x1p63;
         for (const glm::ivec3& corner : t)

@@ -14,7 +14,7 @@ namespace {
 using glm::dvec3;
 using glm::ivec3;
 
-constexpr ivec3 kSize(37, 34, 26);
+constexpr ivec3 kOpenSize(37, 34, 26);
 
 /// The mesh's solid angle in turns, summed triangle by triangle.
 double winding_of_angles(const dvec3& p, const std::vector<oracle::LatticeCorners>& mesh,
@@ -40,12 +40,12 @@ Mesh without_triangles(Mesh mesh, size_t first, size_t count) {
 /// Compares SOLID with the sum of angles wherever that isn't near 1/2; returns the number of voxels
 /// inside.
 size_t expect_solid(const Mesh& mesh, Voxelizer& voxelizer = shared_voxelizer()) {
-    const VoxelSetOf voxels = voxels_of(mesh, kSize, VoxelSet::solid, voxelizer);
+    const VoxelSetOf voxels = voxels_of(mesh, kOpenSize, VoxelSet::solid, voxelizer);
     const auto triangles = lattice_mesh(mesh);
     size_t wrong = 0, unclear = 0;
-    for (int z = 0; z < kSize.z; ++z)
-        for (int y = 0; y < kSize.y; ++y)
-            for (int x = 0; x < kSize.x; ++x) {
+    for (int z = 0; z < kOpenSize.z; ++z)
+        for (int y = 0; y < kOpenSize.y; ++y)
+            for (int x = 0; x < kOpenSize.x; ++x) {
                 const double w = winding_of_angles(dvec3(x, y, z) + 0.5, triangles, dvec3(1));
                 if (std::abs(w - 0.5) < 1e-5)
                     ++unclear;
@@ -184,7 +184,7 @@ TEST(OpenMesh, CentresOnTheEdgesOfALidAreOnTheSideOfTheSum) {
 
 TEST(OpenMesh, SmoothSignsAreThoseOfTheSum) {
     const Mesh mesh = without_triangles(ball_mesh({18.3f, 17.1f, 13.2f}, 9.7f, 24, 14), 300, 60);
-    GridFrame frame = unit_frame(kSize);
+    GridFrame frame = unit_frame(kOpenSize);
     VoxelizeOptions options;
     options.surface = Surface::smooth;
     const BrickGrid grid = shared_voxelizer().voxelize(mesh, glm::dmat4(1), frame, options);
@@ -192,9 +192,9 @@ TEST(OpenMesh, SmoothSignsAreThoseOfTheSum) {
     const std::vector<int16_t> distance = grid.distance.read();
     const auto triangles = lattice_mesh(mesh);
     size_t wrong = 0;
-    for (int z = 0; z <= kSize.z; ++z)
-        for (int y = 0; y <= kSize.y; ++y)
-            for (int x = 0; x <= kSize.x; ++x) {
+    for (int z = 0; z <= kOpenSize.z; ++z)
+        for (int y = 0; y <= kOpenSize.y; ++y)
+            for (int x = 0; x <= kOpenSize.x; ++x) {
                 const GridPlace place = place_in(grid, slots, {x, y, z});
                 const int units = place.slot == kBrickInside ? -32767
                                   : place.slot == kBrickOutside
@@ -211,7 +211,7 @@ TEST(OpenMesh, IsTheSameForEveryNumberOfLanes) {
     VoxelSetOf expected;
     for (const int lanes : {16, 8, 4, 1}) {
         Voxelizer voxelizer(test_device(lanes));
-        const VoxelSetOf voxels = voxels_of(mesh, kSize, VoxelSet::solid, voxelizer);
+        const VoxelSetOf voxels = voxels_of(mesh, kOpenSize, VoxelSet::solid, voxelizer);
         if (expected.empty()) expected = voxels;
         EXPECT_EQ(difference(voxels, expected), "") << lanes << " lanes";
     }

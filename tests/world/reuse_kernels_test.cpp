@@ -31,7 +31,7 @@ std::string text_of(const Kernels& kernels) {
     return text;
 }
 
-uint64_t hash_alone(const Scene& scene) {
+uint64_t hash_of_render(const Scene& scene) {
     RenderReport report;
     return oracle::image_hash(render(shared_device(), scene, report));
 }
@@ -63,7 +63,7 @@ TEST_P(ReuseKernels, AreThoseThatTheChangeReaches) {
         const uint64_t hash = oracle::image_hash(*renderer.image(now, world, report));
         Kernels kernels;
         for (const auto& [name, count] : launches) kernels.insert(name);
-        EXPECT_EQ(hash, hash_alone(now)) << "frame " << frame;
+        EXPECT_EQ(hash, hash_of_render(now)) << "frame " << frame;
         if (frame == 1) continue;
         EXPECT_EQ(text_of(kernels), text_of(change.kernels));
         EXPECT_EQ(int(report.world.change), int(change.world));

@@ -17,7 +17,7 @@ namespace {
 
 // Bricks are 0.8 m. The object `thing` stands where eight of them meet, the objects that stay stand
 // elsewhere.
-constexpr const char* kScene = R"({{"voxelume": 1,
+constexpr const char* kRetainedScene = R"({{"voxelume": 1,
 "world": {{"voxel_size": 0.05, "bounds": {{"min": [-3.2, -0.8, -3.2], "max": [3.2, 0.8, 3.2]}},
           "ambient": [0.1, 0.2, 0.3]}},
 "materials": {{"red": {{"color": [0.8, 0.2, 0.2]}}, "blue": {{"color": [0.2, 0.2, 0.8]}}}},
@@ -58,7 +58,7 @@ class Retained : public FileTest, public testing::WithParamInterface<Toggled> {
                   "v 0 0 0.22 0 1 1\nv 0 0 -0.18 1 0 1\n"
                   "f 1 3 5\nf 3 2 5\nf 2 4 5\nf 4 1 5\nf 3 1 6\nf 2 3 6\nf 4 2 6\nf 1 4 6\n");
         const Toggled& toggled = GetParam();
-        return parse_scene(fmt::format(kScene, toggled.thing, toggled.stayer_surface,
+        return parse_scene(fmt::format(kRetainedScene, toggled.thing, toggled.stayer_surface,
                                        toggled.stayer, toggled.placement),
                            folder / "scene.json", {});
     }

@@ -17,7 +17,7 @@ namespace voxelume {
 namespace {
 
 /// A scene of a floor in a medium, with a mirroring ball and a mesh above it.
-constexpr const char* kScene = R"({"voxelume": 1,
+constexpr const char* kSkippingScene = R"({"voxelume": 1,
 "world": {"voxel_size": 0.05, "bounds": {"min": [-1, -1, -1], "max": [1, 1.2, 1.4]},
           "ambient": [0.1, 0.2, 0.3], "medium": {"absorption": [0.1, 0.2, 0.3]}},
 "materials": {"clay": {"color": [0.8, 0.6, 0.4], "diffuse": 0.9, "specular": 0},
@@ -144,12 +144,12 @@ const Row kRows[] = {
      {"kernel add_light", "kernel trace_shadows", "buffer shadow queue", "report voxelized",
       "report voxels", "report shadow_rays"}},
     {"a mesh outside the world",
-     kScene,
+     kSkippingScene,
      "[-0.7, -0.5, 0]",
      "[-0.7, -5, 0]",
      {"kernel measure_distances", "kernel pass_layer", "buffer coverage", "buffer path media"}},
     {"a mirror outside the world",
-     kScene,
+     kSkippingScene,
      "[0.1, -0.2, 0.2]",
      "[0.1, -9, 0.2]",
      {"kernel scatter_rays", "kernel gather_light"}},
@@ -160,27 +160,27 @@ const Row kRows[] = {
      {"kernel find_surface", "kernel list_emissive", "kernel add_light", "kernel trace_shadows",
       "buffer shadow queue"}},
     {"a mesh that isn't shown",
-     kScene,
+     kSkippingScene,
      "\"model\": \"thing\"",
      "\"model\": \"thing\", \"visible\": false",
      {"report meshes_read", "kernel measure_distances", "kernel pass_layer"}},
     {"nothing transparent",
-     kScene,
+     kSkippingScene,
      "\"opacity\": 0.5",
      "\"opacity\": 1",
      {"kernel pass_layer", "buffer coverage", "buffer path media", "buffer node coverage"}},
     {"no reflection",
-     kScene,
+     kSkippingScene,
      "\"reflection\": 0.5",
      "\"reflection\": 0",
      {"kernel scatter_rays", "kernel gather_light"}},
     {"a depth of 0",
-     kScene,
+     kSkippingScene,
      "\"depth\": 2",
      "\"depth\": 0",
      {"kernel scatter_rays", "kernel gather_light"}},
     {"no medium",
-     kScene,
+     kSkippingScene,
      "\"absorption\": [0.1, 0.2, 0.3]",
      "\"absorption\": [0, 0, 0]",
      {"kernel absorb_sight", "buffer transmittance"}},
@@ -188,7 +188,7 @@ const Row kRows[] = {
 
 TEST_F(SkippingFiles, WhatAChangeMakesNeedlessIsNotDone) {
     std::map<const char*, Counters> all;
-    for (const char* scene : {kScene, kFloor, kLamp}) all[scene] = show(scene_of(scene));
+    for (const char* scene : {kSkippingScene, kFloor, kLamp}) all[scene] = show(scene_of(scene));
     for (const Row& row : kRows) {
         const Counters& before = all.at(row.scene);
         Counters after = show(scene_of(replaced(row.scene, row.from, row.to)));
@@ -250,8 +250,8 @@ TEST_F(SkippingFiles, TilesThatSeeNothingEndAtOnce) {
 }
 
 TEST_F(SkippingFiles, EmptySpaceTakesNoVoxelsLeavesOrFields) {
-    Counters small = show(scene_of(kScene));
-    Counters large = show(scene_of(replaced(kScene, "[1, 1.2, 1.4]", "[7.4, 7.6, 7.8]")));
+    Counters small = show(scene_of(kSkippingScene));
+    Counters large = show(scene_of(replaced(kSkippingScene, "[1, 1.2, 1.4]", "[7.4, 7.6, 7.8]")));
     EXPECT_EQ(large["report voxels"], small["report voxels"]);
     for (const char* name : {"buffer leaves", "buffer leaf voxels", "buffer voxel fields"})
         EXPECT_EQ(large[name], small[name]) << name;

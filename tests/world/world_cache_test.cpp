@@ -16,7 +16,7 @@
 namespace voxelume {
 namespace {
 
-constexpr const char* kScene = R"({"voxelume": 1,
+constexpr const char* kCachedScene = R"({"voxelume": 1,
 "world": {"voxel_size": 0.05, "bounds": {"min": [-0.5, -0.5, -0.5], "max": [1.5, 1, 1]},
           "ambient": [0.1, 0.2, 0.3]},
 "materials": {"m": {}, "n": {"color": [0.2, 0.9, 0.3]}},
@@ -59,7 +59,7 @@ class WorldCacheFiles : public FileTest {
     }
 
     Scene scene(const std::string& surface, const Change& change = {}) const {
-        const std::string text = replaced(kScene, "SURFACE", surface);
+        const std::string text = replaced(kCachedScene, "SURFACE", surface);
         const std::string changed = replaced(text, change.from, change.to);
         EXPECT_TRUE(*change.from == 0 || changed != text) << change.from;
         return parse_scene(changed, folder / "s.json", {});
@@ -150,7 +150,7 @@ struct Motion {
 class MovingWorldFiles : public WorldCacheFiles {
   protected:
     Scene moving_scene(const Motion& motion) const {
-        std::string text = replaced(kScene, "SURFACE", "smooth");
+        std::string text = replaced(kCachedScene, "SURFACE", "smooth");
         text = replaced(text, "\"name\": \"b\"",
                         fmt::format(R"("name": "b", "placement": "{}")", motion.placement));
         const std::string animation = fmt::format(

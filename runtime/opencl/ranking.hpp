@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which of several devices most likely renders faster.
+#pragma once
+
+#include "runtime/opencl/device.hpp"
+
+namespace voxelume {
+
+/// True for a driver that computes on the CPU what is meant for a graphics card: Mesa's llvmpipe
+/// and softpipe. Such a device is used only where a user names it.
+bool is_software(const DeviceInfo& info);
+
+/// True for two drivers' views of one card.
+bool are_one_card(const DeviceInfo& a, const DeviceInfo& b);
+
+/// True if `a` most likely renders faster than `b`. GPUs go before other devices, those with memory
+/// of their own before those that share the host's, and then more arithmetic a second: compute
+/// units x floats that a unit handles at once x clock.
+bool is_better(const DeviceInfo& a, const DeviceInfo& b);
+
+}  // namespace voxelume

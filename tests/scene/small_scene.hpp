@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace voxelume {
+
+/// The folder with the shipped scenes, their schema and their manual.
+inline const std::filesystem::path kScenes = std::filesystem::path(VXL_SOURCE_DIR) / "scenes";
+
+/// A scene with the given members, on lines of their own from line 5 on.
+inline std::string scene_with(const std::string& members) {
+    return R"({"voxelume": 1,
+"world": {"voxel_size": 0.5, "bounds": {"min": [-1, -2, -3], "max": [1, 2, 3]}},
+"models": {"ball": {"shape": "sphere", "radius": 1}, "floor": {"shape": "slab", "thickness": 0.1}},
+"materials": {"brick": {"color": [1, 0, 0]}, "glass": {"ior": 1.33}},
+)" + members +
+           R"(
+"observer": {"position": [0, 0, -3], "display": {"shape": "pyramid"}}})";
+}
+
+}  // namespace voxelume
