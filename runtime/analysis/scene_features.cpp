@@ -11,6 +11,7 @@
 #include "runtime/scene/predicates.hpp"
 #include "runtime/stages/light/light.hpp"
 #include "runtime/stages/light/light_samples.hpp"
+#include "runtime/stages/light/sky_light.hpp"
 #include "runtime/stages/trace/sight.hpp"
 
 namespace voxelume {
@@ -89,7 +90,8 @@ bool has_emissive_samples(const Scene& scene, const Pyramid& world) {
 /// True if a light or an emissive object shines on something that isn't black.
 bool lights_surfaces(const Scene& scene, const Pyramid& world) {
     return std::ranges::any_of(shown_materials(scene, world), is_lit) &&
-           (std::ranges::any_of(scene.lights, shines) || has_emissive_samples(scene, world));
+           (std::ranges::any_of(scene.lights, shines) || has_sun(scene.world) ||
+            has_sky_samples(scene) || has_emissive_samples(scene, world));
 }
 
 /// Adds the features that depend on light, and on where rays continue.
@@ -97,10 +99,12 @@ void add_light(const Scene& scene, const Pyramid& world, Features& features) {
     const bool lit = lights_surfaces(scene, world);
     features.shadows = scene.render.shadows && lit;
     features.global = scene.render.light == LightMode::global;
-    features.area_samples = lit && (has_emissive_samples(scene, world) ||
-                                    std::ranges::any_of(scene.lights, [](const Light& light) {
-                                        return shines(light) && has_area(light);
-                                    }));
+    features.sky = scene.world.sky ? sky_feature(*scene.world.sky) : VXL_SKY_NONE;
+    features.area_samples =
+        lit && (has_emissive_samples(scene, world) || (features.global && has_sun(scene.world)) ||
+                std::ranges::any_of(scene.lights, [](const Light& light) {
+                    return shines(light) && has_area(light);
+                }));
     features.medium = scene.world.medium.absorption != glm::vec3(0) && !world.clear;
     features.medium_grid = features.medium && has_density(scene.world.medium);
     add_paths(scene, world, features);
@@ -146,8 +150,14 @@ size_t reserved_depth(const Features& features, const Scene& scene, const Pyrami
 
 }  // namespace
 
+bool has_sky_samples(const Scene& scene) {
+    return scene.render.light == LightMode::local && scene.world.sky &&
+           scene.world.sky->samples > 0;
+}
+
 std::vector<LightRecord> given_lights(const Scene& scene, const GridFrame& world) {
     std::vector<LightRecord> records;
+    if (has_sun(scene.world)) records.push_back(sun_light_record(*scene.world.sky, world));
     for (const Light& light : scene.lights) {
         if (!shines(light)) continue;
         if (has_area(light))
@@ -160,6 +170,10 @@ std::vector<LightRecord> given_lights(const Scene& scene, const GridFrame& world
 
 std::vector<PathLight> path_lights(const Scene& scene, const GridFrame& world) {
     std::vector<PathLight> lights;
+    if (has_sun(scene.world)) {
+        const Sky& sky = *scene.world.sky;
+        lights.push_back({sun_light_record(sky, world), sun_area_record(sky, world)});
+    }
     for (const Light& light : scene.lights) {
         if (!shines(light)) continue;
         PathLight& added = lights.emplace_back(PathLight{light_record(light, world), {}});

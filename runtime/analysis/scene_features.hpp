@@ -21,7 +21,10 @@ Features features_of(const Scene& scene, const Pyramid& world);
 /// objects are, but no voxels.
 void add_scene(const Scene& scene, const Pyramid& world, Features& features);
 
-/// The lights that a scene lists, those with an area by their samples.
+/// True if surfaces in local light look to the sky in some directions.
+bool has_sky_samples(const Scene& scene);
+
+/// The lights that a scene lists, those with an area by their samples, and its sun.
 std::vector<LightRecord> given_lights(const Scene& scene, const GridFrame& world);
 
 /// A light that a scene lists, and its area if it has one.
@@ -30,7 +33,7 @@ struct PathLight {
     std::optional<LightAreaRecord> area;
 };
 
-/// The lights that a scene lists, as global light samples them.
+/// The lights that a scene lists and its sun, as global light samples them.
 std::vector<PathLight> path_lights(const Scene& scene, const GridFrame& world);
 
 /// True if some object that the world may show is an emissive object.

@@ -36,6 +36,11 @@ std::vector<PathLight> lights_of(const Device& device, const Features& features,
     return lights;
 }
 
+/// True if surface points send shadow rays to the sky.
+bool looks_to_sky(const Features& features, const Scene& scene, const Pyramid& world) {
+    return features.sky != VXL_SKY_NONE && has_sky_samples(scene) && has_light(scene, world);
+}
+
 /// Allocates Surroundings::medium_overflows, set to 0; empty if the features don't need it.
 Buffer<uint32_t> allocate_medium_overflows(const Device& device, const Features& features) {
     if (!features.medium_set_capped) return {};
@@ -64,6 +69,7 @@ void build_programs(const Device& device, const Features& features, const Scene&
                     const Pyramid& world, bool makes_image, bool has_dilated_occupancy) {
     std::vector<const char*> files = {"sight.cl", "trace.cl", "shade.cl"};
     if (has_light(scene, world)) files.push_back("light.cl");
+    if (has_light(scene, world) && has_sky_samples(scene)) files.push_back("sky_light.cl");
     if (has_dilated_occupancy && lights_send_beams(features)) files.push_back("light_beams.cl");
     if (features.absorbs) files.push_back("medium.cl");
     if (features.paths) files.push_back("scatter.cl");
@@ -86,8 +92,12 @@ Illumination::Illumination(const Device& device, const Features& features, const
       shade_(device, features, scene, world.frame),
       surroundings_{shade_.materials(), shade_.ranks(),
                     allocate_medium_overflows(device, features)},
-      queue_(lights_.empty() ? ShadowQueue{} : allocate_shadow_queue(device, features, max_rays)) {
+      sky_samples_(looks_to_sky(features, scene, world) ? uint32_t(scene.world.sky->samples) : 0),
+      queue_(lights_.empty() && sky_samples_ == 0
+                 ? ShadowQueue{}
+                 : allocate_shadow_queue(device, features, max_rays)) {
     if (!lights_.empty()) lighting_.emplace(device, features, shade_.materials());
+    if (sky_samples_ > 0) sky_lighting_.emplace(device, features, shade_.materials(), shade_.sky());
     if (features.absorbs)
         medium_.emplace(device, features, scene.world, shade_.environment(), shade_.materials());
     if (features.medium) {
@@ -168,10 +178,20 @@ void Illumination::direct(RayBatch& entries, uint32_t count) {
         else
             lighting_->add(world_, light.record, entries, count, queue_);
         if (!beams_.empty()) queue_.beams = beams_[i];
-        if (features_.medium && !features_.filter) medium_->shadows(world_, queue_, count, entries);
-        if (features_.shadows) trace_.shadows(world_, surroundings_, queue_, count, entries);
+        bring_light(entries, count);
+    }
+    if (!beams_.empty()) queue_.beams = {};
+    for (uint32_t i = 0; i < sky_samples_; ++i) {
+        sky_lighting_->add(world_, i, sky_samples_, entries, count, queue_);
+        bring_light(entries, count);
     }
     if (medium_) medium_->sight(world_, entries, count);
+}
+
+/// Adds the light of the queued shadow rays that reach their light.
+void Illumination::bring_light(RayBatch& entries, uint32_t count) {
+    if (features_.medium && !features_.filter) medium_->shadows(world_, queue_, count, entries);
+    if (features_.shadows) trace_.shadows(world_, surroundings_, queue_, count, entries);
 }
 
 /// Follows the paths that the batch's rays begin, from surface to surface, all together, and fills

@@ -15,6 +15,7 @@
 #include "runtime/stages/light/light.hpp"
 #include "runtime/stages/light/light_beams.hpp"
 #include "runtime/stages/light/shade.hpp"
+#include "runtime/stages/light/sky_light.hpp"
 #include "runtime/stages/medium/medium.hpp"
 #include "runtime/stages/trace/extend.hpp"
 #include "runtime/stages/trace/ray_arrays.hpp"
@@ -83,6 +84,7 @@ class Illumination {
     void light_all(RayBatch& batch, uint32_t count, const LayerSink& sink, bool hits_are_known);
     void begin_paths(RayBatch& batch, uint32_t count);
     void direct(RayBatch& entries, uint32_t count);
+    void bring_light(RayBatch& entries, uint32_t count);
     void trace_paths(RayBatch& batch, uint32_t count, bool hits_are_known);
     void follow(size_t depth, RayBatch& first, uint32_t count, bool hits_are_known = false,
                 const LayerSink& sink = {});
@@ -102,9 +104,11 @@ class Illumination {
     Surroundings surroundings_;
     std::optional<LightStage> lighting_;           ///< not compiled in a scene without lights
     std::optional<AreaLightStage> area_lighting_;  ///< only for areas in global light
+    std::optional<SkyLightStage> sky_lighting_;    ///< only for a sky in local light
     std::optional<MediumStage> medium_;            ///< not compiled if nothing absorbs
     std::optional<ScatterStage> scatter_;          ///< not compiled without paths
     std::optional<ExtendStage> extend_;            ///< only in global light
+    uint32_t sky_samples_;                         ///< directions that a surface point looks to
     ShadowQueue queue_;
     HollowObjects hollow_;  ///< only for observers inside media
     Buffer<uint32_t> hollow_flags_;

@@ -50,6 +50,7 @@ Features without_varying_medium(Features features) {
 Scene without_light(Scene scene) {
     scene.lights.clear();
     scene.world.medium = {};
+    scene.world.sky.reset();
     scene.render.depth = 0;
     for (Material& material : scene.materials) material.emission = glm::vec3(0);
     return scene;

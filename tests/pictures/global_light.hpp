@@ -34,10 +34,12 @@ inline std::vector<double> channel_of(const std::vector<SensedRay>& rays, int ch
     return values;
 }
 
-/// Fails if a mean isn't within three standard errors and a rounding of the expected value.
-inline void expect_mean(const Estimate& e, double expected, const std::string& what = {}) {
+/// Fails if a mean isn't within three standard errors and a relative `rounding` of the expected
+/// value.
+inline void expect_mean(const Estimate& e, double expected, const std::string& what,
+                        double rounding = 2e-6) {
     fmt::print("{}: {:.6f} +- {:.6f}, expected {:.6f}\n", what, e.mean, e.error, expected);
-    EXPECT_NEAR(e.mean, expected, 3 * e.error + 2e-6 * std::abs(expected)) << what;
+    EXPECT_NEAR(e.mean, expected, 3 * e.error + rounding * std::abs(expected)) << what;
 }
 
 /// An empty world under a white sky of radiance 1, in global light.

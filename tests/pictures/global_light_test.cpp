@@ -82,6 +82,8 @@ TEST(GlobalLight, ALightInAClosedSphereIsTheGeometricSeries) {
     }
 }
 
+constexpr double kWidth = 2e-5;  ///< how far off the middle pixels change the light at most
+
 /// A white floor at y = 0 and what lights it, seen from above in its middle 2 mm.
 Json lit_floor(int samples) {
     Json scene = open_furnace(samples);
@@ -103,7 +105,8 @@ TEST(GlobalLight, AGlowingDiskLightsTheFloorBelowByItsFormFactor) {
     add_thing(scene,
               {{"shape", "cylinder"}, {"radius", 0.2}, {"height", 0.1}, {"surface", "exact"}},
               "lamp", {0, 0.35, 0});
-    expect_mean(estimate_of(channel_of(sense(scene), 0)), 3 * 0.04 / (0.04 + 0.09), "emission");
+    expect_mean(estimate_of(channel_of(sense(scene), 0)), 3 * 0.04 / (0.04 + 0.09), "emission",
+                kWidth);
     // A disk light of the same power that isn't seen, at the height of the lamp's underside.
     scene["materials"]["lamp"]["emission"] = {0, 0, 0};
     scene["objects"][1]["visible"] = false;
@@ -113,7 +116,8 @@ TEST(GlobalLight, AGlowingDiskLightsTheFloorBelowByItsFormFactor) {
                         {"direction", {0, -1, 0}},
                         {"radius", 0.2},
                         {"intensity", 3 * area / std::numbers::pi}}};
-    expect_mean(estimate_of(channel_of(sense(scene), 0)), 3 * 0.04 / (0.04 + 0.09), "disk light");
+    expect_mean(estimate_of(channel_of(sense(scene), 0)), 3 * 0.04 / (0.04 + 0.09), "disk light",
+                kWidth);
 }
 
 TEST(GlobalLight, ARectangleLightsTheFloorBelowByItsFormFactor) {
@@ -130,7 +134,8 @@ TEST(GlobalLight, ARectangleLightsTheFloorBelowByItsFormFactor) {
     const double quarter =
         (a / root_a * std::atan(b / root_a) + b / root_b * std::atan(a / root_b)) /
         (2 * std::numbers::pi);
-    expect_mean(estimate_of(channel_of(sense(scene), 0)), 3 * 4 * quarter, "rectangle light");
+    expect_mean(estimate_of(channel_of(sense(scene), 0)), 3 * 4 * quarter, "rectangle light",
+                kWidth);
 }
 
 /// The error of a pixel with so many samples of a floor that a big lamp lights, by root mean
