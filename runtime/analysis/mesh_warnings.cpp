@@ -13,10 +13,6 @@
 namespace voxelume {
 namespace {
 
-/// The share of a mesh's area by which its holes matter. Smaller ones are closed by the winding
-/// number, as the scanned bunny's are.
-constexpr double kOpenShare = 0.03;
-
 bool needs_inside(const Scene& scene, const Object& object) {
     const Model& model = scene.models[size_t(object.model)];
     return stores_distances(model.surface) || transmits(scene, object) ||
@@ -26,7 +22,7 @@ bool needs_inside(const Scene& scene, const Object& object) {
 void add_topology_warnings(const Model& model, const MeshSummary& mesh,
                            std::vector<Warning>& warnings) {
     const std::string file = quote(model.mesh.filename().string());
-    if (mesh.topology.hole_area > kOpenShare * mesh.area.total) {
+    if (is_open(mesh)) {
         add_once({WarningKind::open_mesh, model.where,
                   fmt::format("{} is open along {} edges, and its surface needs an inside: close "
                               "its holes, or give the model \"surface\": \"exact\"{}",

@@ -27,11 +27,6 @@ AssetStore::MapKey AssetStore::key_of(const FileMap& map) {
     return {map.scale, map.shift.x, map.shift.y, map.shift.z};
 }
 
-void AssetStore::MeshFile::forget_meshes() {
-    mesh.reset();
-    for (auto& [map, mapped_mesh] : mapped) mapped_mesh.mesh.reset();
-}
-
 Mesh AssetStore::read(const std::filesystem::path& name, const MeshFile& file) {
     const std::string bytes = read_mesh_bytes(name);
     if (cache_.is_open() && mesh_source(bytes, name) != file.source)
@@ -76,6 +71,45 @@ const MeshSummary& AssetStore::summary_of_file(const std::filesystem::path& name
     }
     cache_.keep(file.source, *file.summary, seconds);
     return *file.summary;
+}
+
+const MeshShape& AssetStore::shape_of_file(const std::filesystem::path& name) {
+    MeshFile& file = this->file(name);
+    if (file.shape) return *file.shape;
+    file.shape = cache_.shape(file.source);
+    if (file.shape) return *file.shape;
+    double seconds = 0;
+    {
+        const LoadTimer timer(seconds);
+        file.shape = voxelume::shape_of(mesh(name));
+    }
+    cache_.keep(file.source, *file.shape, seconds);
+    return *file.shape;
+}
+
+MeshShape AssetStore::shape_of(const Model& model) {
+    const MeshShape& shape = shape_of_file(model.mesh);
+    const double scale = model.object_from_file.scale;
+    return {scale * shape.sharp_length, scale * shape.thickness};
+}
+
+SurfaceChoice AssetStore::surface_of_voxels(Model model) {
+    if (const auto surface = surface_of_voxel_model(model.voxels))
+        return {*surface, "its file says so"};
+    model.surface = Surface::cubes;
+    try {
+        voxels(model);
+        return {Surface::cubes, "its file has densities"};
+    } catch (const Error& error) {
+        if (error.kind() != ErrorKind::input) throw;
+        try {
+            model.surface = Surface::smooth;
+            voxels(model);
+            return {Surface::smooth, "its file has a level set"};
+        } catch (const Error&) {
+            throw error;
+        }
+    }
 }
 
 const AssetStore::VoxelFile& AssetStore::voxel_file(const Model& model) {
@@ -195,52 +229,18 @@ std::string AssetStore::source_of(const Model& model) {
     return morph_source(from, morph.mesh.empty() ? std::string() : source(morph.mesh), morph);
 }
 
-/// The bytes of memory that the loaded contents of a file take.
-uint64_t AssetStore::bytes_of(const std::filesystem::path& name) const {
-    uint64_t bytes = 0;
-    if (const auto found = files_.find(name); found != files_.end()) {
-        if (found->second.mesh) bytes += mesh_bytes(*found->second.mesh);
-        for (const auto& [map, mapped] : found->second.mapped)
-            if (mapped.mesh) bytes += mesh_bytes(*mapped.mesh);
-    }
-    for (const auto& [key, file] : voxels_)
-        if (std::get<0>(key) == name) bytes += voxel_bytes(file.voxels);
-    return bytes;
-}
-
-/// Forgets what is loaded of a file.
-void AssetStore::forget(const std::filesystem::path& name) {
-    if (const auto found = files_.find(name); found != files_.end()) found->second.forget_meshes();
-    std::erase_if(voxels_, [&](const auto& entry) { return std::get<0>(entry.first) == name; });
-}
-
 Bounds AssetStore::box_of_file(const Model& model, bool keeps) {
     Model plain = model;
     plain.morph.reset();
     plain.object_from_file = {};
     const std::filesystem::path& name = plain.voxels.empty() ? plain.mesh : plain.voxels;
     const bool was_loaded = bytes_of(name) > 0;
+    if (plain.is_surface_open && !plain.voxels.empty())
+        plain.surface = surface_of_voxels(plain).surface;
     const Bounds box =
         plain.voxels.empty() ? summary_of_file(name).surface : occupied_bounds(voxels(plain));
     if (!keeps && !was_loaded) forget(name);
     return box;
-}
-
-void AssetStore::retain(const Model& model, uint64_t& room) {
-    std::set<std::filesystem::path> files = {model.mesh, model.voxels};
-    if (model.morph) files.insert(model.morph->mesh);
-    uint64_t bytes = 0;
-    for (const auto& name : files)
-        if (!used_.contains(name)) bytes += bytes_of(name);
-    if (bytes <= room) {
-        room -= bytes;
-    } else {
-        for (const auto& name : files) {
-            if (used_.contains(name)) continue;
-            forget(name);
-        }
-    }
-    used_.merge(files);
 }
 
 AssetStore AssetStore::recounted() const {
@@ -248,17 +248,6 @@ AssetStore AssetStore::recounted() const {
     store.load_seconds_ = 0;
     store.meshes_read_ = 0;
     return store;
-}
-
-void AssetStore::forget_unused() {
-    std::erase_if(files_, [&](const auto& entry) { return !used_.contains(entry.first); });
-    std::erase_if(vox_files_, [&](const auto& entry) { return !used_.contains(entry.first); });
-    std::erase_if(voxels_,
-                  [&](const auto& entry) { return !used_.contains(std::get<0>(entry.first)); });
-    for (auto& [model, morphed] : morphed_)
-        if (!used_morphs_.contains(model)) morphed.mesh.reset();
-    used_.clear();
-    used_morphs_.clear();
 }
 
 /// The number of a file's triangles. Where only a morphed mesh's summary is known, it is that of

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "runtime/assets/model_cache.hpp"
+#include "runtime/geometry/mesh_shape.hpp"
 #include "runtime/geometry/mesh_summary.hpp"
 #include "runtime/geometry/voxel_model.hpp"
 #include "runtime/io/voxels/vox_file.hpp"
@@ -41,6 +42,11 @@ class AssetStore {
     /// The winding number around a point, in object space, of the mesh that mesh_of() returns: how
     /// far it encloses the point. 0 for other models. Reads the mesh unless the cache knows.
     double winding_of(const Model& model, const glm::dvec3& point);
+    /// What the surface that suits a model's mesh file depends on; a morph doesn't count.
+    MeshShape shape_of(const Model& model);
+    /// The surface that a model's file of voxels holds, with the reason. An OpenVDB file has cubes,
+    /// and without those a level set. Throws as voxels() does.
+    SurfaceChoice surface_of_voxels(Model model);
     /// The names of a model's groups of faces or voxels.
     const std::vector<std::string>& groups_of(const Model& model);
     /// The box around the surface in a model's file, in the file's own coordinates. Contents that
@@ -75,6 +81,7 @@ class AssetStore {
         std::string source;  ///< hash of the file's bytes; empty without a cache
         std::optional<Mesh> mesh;
         std::optional<MeshSummary> summary;
+        std::optional<MeshShape> shape;
         std::map<MapKey, MappedMesh> mapped;
 
         void forget_meshes();
@@ -98,6 +105,7 @@ class AssetStore {
     uint64_t bytes_of(const std::filesystem::path& name) const;
     void forget(const std::filesystem::path& name);
     const MeshSummary& summary_of_file(const std::filesystem::path& name, const FileMap& map = {});
+    const MeshShape& shape_of_file(const std::filesystem::path& name);
     const VoxelFile& voxel_file(const Model& model);
     Morphed& morphed(const Model& model);
     const Mesh& morphed_mesh(const Model& model);

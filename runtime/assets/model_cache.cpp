@@ -110,6 +110,21 @@ MeshSummary summary_of_bytes(const std::string& bytes) {
     return summary;
 }
 
+std::string bytes_of(const MeshShape& shape) {
+    const std::vector<uint8_t> bytes =
+        nlohmann::json::to_cbor({shape.sharp_length, shape.thickness});
+    return {bytes.begin(), bytes.end()};
+}
+
+MeshShape shape_of_bytes(const std::string& bytes) {
+    const nlohmann::json json = nlohmann::json::from_cbor(bytes);
+    return {json.at(0).get<double>(), json.at(1).get<double>()};
+}
+
+std::string shape_key(const std::string& source) {
+    return key_of({producers(), "shape", source});
+}
+
 std::string summary_key(const std::string& source) {
     return key_of({producers(), "summary", source});
 }
@@ -191,6 +206,21 @@ std::optional<MeshSummary> ModelCache::summary(const std::string& source) const 
 
 void ModelCache::keep(const std::string& source, const MeshSummary& summary, double seconds) const {
     if (is_open_ && seconds >= min_seconds_) store_.write(summary_key(source), bytes_of(summary));
+}
+
+std::optional<MeshShape> ModelCache::shape(const std::string& source) const {
+    if (!is_open_) return std::nullopt;
+    const auto bytes = store_.read(shape_key(source));
+    if (!bytes) return std::nullopt;
+    try {
+        return shape_of_bytes(*bytes);
+    } catch (const nlohmann::json::exception&) {
+        return std::nullopt;
+    }
+}
+
+void ModelCache::keep(const std::string& source, const MeshShape& shape, double seconds) const {
+    if (is_open_ && seconds >= min_seconds_) store_.write(shape_key(source), bytes_of(shape));
 }
 
 std::optional<BrickGrid> ModelCache::grid(const Device& device, const std::string& key) const {

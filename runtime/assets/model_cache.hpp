@@ -9,6 +9,7 @@
 #include <string>
 
 #include "runtime/base/disk_cache.hpp"
+#include "runtime/geometry/mesh_shape.hpp"
 #include "runtime/geometry/mesh_summary.hpp"
 #include "runtime/grid/grid.hpp"
 #include "runtime/stages/voxelize/voxelize_options.hpp"
@@ -74,6 +75,10 @@ class ModelCache {
 
     std::optional<MeshSummary> summary(const std::string& source) const;
     void keep(const std::string& source, const MeshSummary& summary, double seconds) const;
+
+    /// These do the same for what a mesh's surface depends on.
+    std::optional<MeshShape> shape(const std::string& source) const;
+    void keep(const std::string& source, const MeshShape& shape, double seconds) const;
 
     /// The grid on a device; empty if the cache doesn't have it. Throws Error::limit if the device
     /// has too little memory.

@@ -36,6 +36,10 @@ Bounds mesh_bounds(const Mesh& mesh) {
     return box;
 }
 
+bool is_open(const MeshSummary& mesh) {
+    return mesh.topology.hole_area > kOpenShare * mesh.area.total;
+}
+
 MeshSummary summary_of(const Mesh& mesh) {
     MeshSummary summary;
     summary.triangles = mesh.triangles.size();

@@ -31,6 +31,13 @@ struct MeshSummary {
 
 MeshSummary summary_of(const Mesh& mesh);
 
+/// The share of a mesh's area by which its holes matter. Smaller ones are closed by the winding
+/// number, as the scanned bunny's are.
+inline constexpr double kOpenShare = 0.03;
+
+/// Whether a mesh's holes are so large that nothing is inside of it.
+bool is_open(const MeshSummary& mesh);
+
 /// The box around the triangles of a mesh.
 Bounds mesh_bounds(const Mesh& mesh);
 

@@ -23,6 +23,12 @@ std::string solid_text(const Solid& solid) {
     return text;
 }
 
+/// A surface that depends on files which aren't read yet is `auto`.
+std::string_view surface_text(const Model& model) {
+    const bool is_unknown = model.is_surface_open && model.surface_reason.empty();
+    return is_unknown ? "auto" : kind_of(model.surface).name;
+}
+
 std::string model_text(const Model& model) {
     const std::string source =
         model.solid ? solid_text(*model.solid)
@@ -32,14 +38,14 @@ std::string model_text(const Model& model) {
     if (!model.voxels.empty())
         return fmt::format("model \"{}\": {}{}{}, {}", model.name, source,
                            model.part > 0 ? fmt::format(" part {}", model.part) : "", scaled,
-                           kind_of(model.surface).name);
+                           surface_text(model));
     const std::string cut =
         model.cuts.empty() ? "" : fmt::format(", cut by {} solids", model.cuts.size());
     const std::string pitch =
         model.resolution > 0 ? fmt::format("{} voxels along the longest side", model.resolution)
                              : fmt::format("voxels of {} m", vector_text(model.voxel_size));
     return fmt::format("model \"{}\": {}{}{}, {}, {}", model.name, source, scaled, cut,
-                       kind_of(model.surface).name, pitch);
+                       surface_text(model), pitch);
 }
 
 std::string light_text(const Light& light) {
