@@ -14,6 +14,10 @@ Action add_check(CLI::App& app) {
         bool json = false, quiet = false;
     };
     const auto options = std::make_shared<Options>();
+    app.add_option("SCENE", options->scene.scene,
+                   "scene file, JSON (see scenes/README.md), or a model file: .obj .ply .stl .vxm "
+                   ".vdb .vox")
+        ->required();
     add_scene_options(app, options->scene);
     app.add_flag("--json", options->json, "print the plan as JSON");
     app.add_flag("-q,--quiet", options->quiet, "print no warnings");

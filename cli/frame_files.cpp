@@ -53,8 +53,13 @@ std::vector<int> frames_of(const RenderCommand& options, const Scene& scene) {
 }  // namespace
 
 const CLI::Option* add_render_options(CLI::App& app, RenderCommand& command) {
+    app.add_option("SCENE", command.inputs,
+                   "scene files, JSON (see scenes/README.md), or model files: .obj .ply .stl .vxm "
+                   ".vdb .vox")
+        ->required();
     add_scene_options(app, command.scene);
-    app.add_option("-o,--output", command.outputs, "image file, .exr or .png; may be given again")
+    app.add_option("-o,--output", command.outputs,
+                   "image file, .exr or .png; may be given again; {name} in it is the input's name")
         ->allow_extra_args(false);
     app.add_option("--volume", command.volumes,
                    "volumetric image of the scene's display: .vdb .exr .nrrd .raw, name.####.png "
@@ -63,6 +68,16 @@ const CLI::Option* add_render_options(CLI::App& app, RenderCommand& command) {
     const CLI::Option* frames = app.add_option(
         "--frames", command.frames,
         "frames to render, like 1-10,20,30-60x5; #### in an output's name becomes the number");
+    app.add_option("--views", command.views,
+                   "render so many views around the scene; {view} in an output's name becomes the "
+                   "number")
+        ->check(in_range(1, 10000, Number::whole));
+    app.add_option("--sweep", command.sweeps,
+                   "render the scene with each of the values, PATH=V1,V2 or PATH=[1,2],[3,4]; the "
+                   "path's last key in braces, or {sweep}, in an output's name becomes the value "
+                   "or its number; may be given again, for all combinations")
+        ->type_name("PATH=V1,V2")
+        ->allow_extra_args(false);
     app.add_option("--exposure", command.exposure, "exposure of .png files, in stops")
         ->check(in_range(-64, 64));
     app.add_flag("--float", command.float_color,

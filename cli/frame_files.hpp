@@ -15,7 +15,10 @@ class Option;
 namespace voxelume::cli {
 
 struct RenderCommand {
-    SceneOptions scene;
+    SceneOptions scene;  ///< whose own input is one of `inputs`, while that is rendered
+    std::vector<std::string> inputs;
+    std::vector<std::string> sweeps;  ///< PATH=V1,V2
+    int views = 0;                    ///< around the scene; 0: the scene's own alone
     std::vector<std::string> outputs, volumes;
     std::string frames;
     double exposure = 0;

@@ -16,7 +16,7 @@
 
 #include "cli/checks.hpp"
 #include "cli/commands.hpp"
-#include "cli/warnings.hpp"
+#include "cli/complaint.hpp"
 
 namespace voxelume::cli {
 
@@ -114,15 +114,6 @@ void flush_stdout() {
     if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
         throw Error(ErrorKind::output,
                     fmt::format("can't write to standard output: {}", std::strerror(errno)));
-}
-
-/// A line; a compiler's log has more.
-int complain(const std::string& sentence, ErrorKind kind) {
-    std::vector<std::string> lines = {sentence};
-    if (kind == ErrorKind::build) lines = CLI::detail::split(sentence, '\n');
-    for (std::string& line : lines) line = harmless_line(std::move(line));
-    fmt::print(stderr, "voxelume: {}\n", fmt::join(lines, "\n"));
-    return static_cast<int>(kind);
 }
 
 }  // namespace

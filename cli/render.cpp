@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// voxelume render: the image of a scene.
+// voxelume render: images of scenes.
 #include <CLI/CLI.hpp>
 #include <chrono>
 #include <memory>
@@ -8,100 +8,67 @@
 
 #include "cli/checks.hpp"
 #include "cli/commands.hpp"
-#include "cli/frame_files.hpp"
-#include "cli/progress.hpp"
-#include "cli/render_report.hpp"
+#include "cli/complaint.hpp"
+#include "cli/render_job.hpp"
+#include "cli/render_jobs.hpp"
 #include "cli/warnings.hpp"
 
 namespace voxelume::cli {
 namespace {
 
-/// The channels of OpenEXR files that `--channels` names.
-Channels listed_channels(const RenderCommand& command) {
-    Channels channels{false, false, false, false, false};
-    for (const std::string& name : CLI::detail::split(command.channels, ',')) {
-        if (name == "RGBA")
-            channels.color = true;
-        else if (name == "Z")
-            channels.depth = true;
-        else if (name == "P")
-            channels.position = true;
-        else if (name == "N")
-            channels.normal = true;
-        else if (name == "objectId")
-            channels.object = true;
-        else
-            fail_usage("render: --channels: \"{}\" is none of Z, P, N, objectId and RGBA", name);
+/// What became of several jobs.
+struct Tally {
+    size_t done = 0;
+    std::vector<std::string> failed;  ///< their names
+    ErrorKind kind = ErrorKind::render;
+
+    /// Failures of one kind have its exit code.
+    void add(const std::string& name, ErrorKind failure) {
+        kind = failed.empty() || kind == failure ? failure : ErrorKind::render;
+        failed.push_back(name);
     }
-    return channels;
+};
+
+void print_tally(const Tally& tally, double seconds) {
+    constexpr size_t kMaxNames = 20;
+    std::string names;
+    for (size_t i = 0; i < tally.failed.size() && i < kMaxNames; ++i)
+        names += (i == 0 ? "; failed: " : ", ") + tally.failed[i];
+    if (tally.failed.size() > kMaxNames)
+        names += fmt::format(" and {} more", tally.failed.size() - kMaxNames);
+    fmt::print(stderr, "{} of {} rendered in {:.1f} s{}\n", tally.done,
+               tally.done + tally.failed.size(), seconds, harmless_line(names));
 }
 
-/// A line for logs, by which a farm follows an animation; a bar shows people as much.
-void tell_written(const FrameFiles& files) {
-    for (const auto* paths : {&files.images, &files.volumes})
-        for (const std::filesystem::path& path : *paths)
-            fmt::print(stderr, "frame {}: {}\n", files.frame, path.string());
-}
-
-/// Renders the files of a job, and tells of them while it does.
-Statistics render_files(const Scene& scene, const std::vector<Device>& devices, FrameJob job,
-                        const RenderCommand& command) {
-    Progress bar("rendering", 100 * job.frames.size(), stderr, command.quiet);
-    uint64_t shown = 0;
-    RenderOptions render;
-    render.cache = cache_options(command.scene);
-    render.overlap = !command.one_by_one;
-    render.time_kernels = command.verbose || !command.stats.empty();
-    render.progress = [&](double done, int) {
-        const auto now = uint64_t(done * 100 * double(job.frames.size()));
-        bar.advance(now - shown);
-        shown = now;
-    };
-    render.compiling = [&bar](int kernel, int known) {
-        bar.say(fmt::format("compiling kernels: {} of {}", kernel, known));
-    };
-    render.strict = command.scene.strict;
-    if (!command.quiet) render.warn = warning_printer(render.strict, [&bar] { bar.clear(); });
-    const bool tells =
-        !command.quiet && job.frames.size() > 1 && !describe_terminal(stderr).draws_bars;
-    if (tells)
-        job.deliver = [files = job.frames.begin()](const RenderedFrame&) mutable {
-            tell_written(*files++);
-        };
-    return render_frames(scene, devices, job, render);
+/// Renders one job after the other. A job that fails doesn't stop those after it.
+int run_all(const std::vector<RenderJob>& jobs, LazyDevices& devices) {
+    const auto start = std::chrono::steady_clock::now();
+    const bool is_quiet = jobs.front().command.quiet;
+    Tally tally;
+    for (size_t i = 0; i < jobs.size(); ++i) {
+        const std::string label = fmt::format("{} of {}", i + 1, jobs.size());
+        if (!is_quiet) fmt::print(stderr, "{}: {}\n", label, harmless_line(jobs[i].name));
+        try {
+            render_job(jobs[i].command, devices, label);
+            ++tally.done;
+        } catch (const Error& error) {
+            if (error.kind() == ErrorKind::cancelled || error.kind() == ErrorKind::device) throw;
+            complain(error.what(), error.kind());
+            tally.add(jobs[i].name, error.kind());
+        }
+    }
+    const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start;
+    if (!is_quiet) print_tally(tally, passed.count());
+    return tally.failed.empty() ? 0 : static_cast<int>(tally.kind);
 }
 
 int run(const RenderCommand& command) {
-    const auto start = std::chrono::steady_clock::now();
-    const auto seconds = [start] {
-        return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    };
-    check_options(command);
-    FrameJob job;
-    job.image_files = {command.exposure, command.float_color, listed_channels(command)};
-    const Scene scene = read_with(command.scene, "render");
-    job.frames = frame_files(command, scene);
-    check_files(job.frames, scene, command);
-    const std::vector<Device> devices = Device::open_all(command.scene.device);
-    if (command.plan_only) {
-        print_plan(scene, devices[0],
-                   {numbers_of(job.frames), needed_channels(job), cache_options(command.scene)},
-                   {.quiet = command.quiet, .strict = command.scene.strict});
-        return 0;
-    }
-    if (!command.quiet && scene.has_default_light())
-        fmt::print(stderr, "note: {}\n",
-                   harmless_line(fmt::format("{}: has no \"lights\", so one shines from the "
-                                             "observer's upper left; \"lights\": [] is dark",
-                                             scene.file().string())));
-    const double open_seconds = seconds();
-    Statistics statistics = render_files(scene, devices, std::move(job), command);
-    statistics.open_seconds += open_seconds;
-    statistics.total_seconds = seconds();
-    if (!command.stats.empty()) write_file(command.stats, to_json(statistics));
-    if (command.quiet) return 0;
-    print_summary(statistics);
-    if (command.verbose) print_details(statistics);
+    if (!command.scene.size.empty()) parse_size(command.scene.size, "render");
+    const std::vector<RenderJob> jobs = render_jobs(command);
+    for (const RenderJob& job : jobs) check_options(job.command);
+    LazyDevices devices(command.scene.device);
+    if (jobs.size() > 1) return run_all(jobs, devices);
+    render_job(jobs.front().command, devices, "rendering");
     return 0;
 }
 

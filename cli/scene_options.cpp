@@ -8,10 +8,6 @@
 namespace voxelume::cli {
 
 void add_scene_options(CLI::App& app, SceneOptions& options) {
-    app.add_option("SCENE", options.scene,
-                   "scene file, JSON (see scenes/README.md), or a model file: .obj .ply .stl .vxm "
-                   ".vdb .vox")
-        ->required();
     app.add_option("--assets", options.assets,
                    "folder to look for the scene's models in; may be given again")
         ->allow_extra_args(false);
@@ -30,21 +26,63 @@ void add_scene_options(CLI::App& app, SceneOptions& options) {
     app.add_flag("--no-cache", options.no_cache,
                  "neither read nor write the cache of models and worlds");
     app.add_flag("--strict", options.strict, "take warnings for errors, exit code 3");
+    app.add_option("--set", options.settings,
+                   "change a value of the scene: PATH=VALUE, like objects.ball.position=0,1,0; may "
+                   "be given again")
+        ->type_name("PATH=VALUE")
+        ->allow_extra_args(false);
     add_import_options(app, options.import);
+}
+
+SceneChange setting_of(const std::string& text, const char* option, const char* command) {
+    bool is_quoted = false;
+    for (size_t i = 0; i < text.size(); ++i) {
+        if (text[i] == '"') is_quoted = !is_quoted;
+        if (text[i] != '=' || is_quoted) continue;
+        if (i == 0) break;
+        return {text.substr(0, i), text.substr(i + 1),
+                fmt::format("{}: {} {}", command, option, text)};
+    }
+    fail_usage("{}: {} {}: give PATH=VALUE, like objects.ball.position=0,1,0", command, option,
+               text);
 }
 
 CacheOptions cache_options(const SceneOptions& options) {
     return {.enabled = !options.no_cache};
 }
 
+namespace {
+
+v1::SceneOptions files_of(const SceneOptions& options, Size size, const char* command) {
+    v1::SceneOptions files{options.assets, cache_options(options), {}, 0};
+    if (!is_model_file(options.scene)) files.orbit = options.orbit;
+    for (const std::string& text : options.settings)
+        files.changes.push_back(setting_of(text, "--set", command));
+    for (const std::string& text : options.swept)
+        files.changes.push_back(setting_of(text, "--sweep", command));
+    // Views from around are framed for the size that they will have.
+    if (options.has_views && size[0] != 0)
+        files.changes.push_back({"render.size", fmt::format("{},{}", size[0], size[1]), "--size"});
+    return files;
+}
+
+/// A model file turns in a light that stays.
+ImportOptions import_of(const SceneOptions& options, Size size, const char* command) {
+    ImportOptions import = options_of(options.import, size, command);
+    import.turns = options.has_views;
+    import.longitude += options.orbit;
+    return import;
+}
+
+}  // namespace
+
 Scene read_with(const SceneOptions& options, const char* command) {
     const Size size = options.size.empty() ? Size{} : parse_size(options.size, command);
-    const v1::SceneOptions files{options.assets, cache_options(options)};
     const bool is_model = is_model_file(options.scene);
     if (!is_model) refuse_choices(options.import, command);
-    Scene scene =
-        is_model ? scene_of_file(options.scene, options_of(options.import, size, command), files)
-                 : Scene::load(options.scene, files);
+    const v1::SceneOptions files = files_of(options, size, command);
+    Scene scene = is_model ? scene_of_file(options.scene, import_of(options, size, command), files)
+                           : Scene::load(options.scene, files);
     if (size[0] != 0) scene = scene.with_size(size);
     if (options.samples != 0) scene = scene.with_samples(options.samples);
     if (!options.light.empty())

@@ -25,10 +25,18 @@ struct SceneOptions {
     std::string device;
     bool no_cache = false;
     bool strict = false;
-    ImportChoices import;  ///< where the scene is a model file
+    std::vector<std::string> settings;  ///< PATH=VALUE, of --set
+    std::vector<std::string> swept;     ///< likewise, of --sweep
+    bool has_views = false;             ///< whether it is seen from all around
+    double orbit = 0;                   ///< degrees of this view
+    ImportChoices import;               ///< where the scene is a model file
 };
 
+/// Declares the options, but not the scene itself.
 void add_scene_options(CLI::App& app, SceneOptions& options);
+
+/// Reads "PATH=VALUE". Throws Error::usage; `command` and `option` open messages.
+SceneChange setting_of(const std::string& text, const char* option, const char* command);
 
 /// The scene with the options applied. `command` opens the messages about options.
 Scene read_with(const SceneOptions& options, const char* command);

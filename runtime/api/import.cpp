@@ -27,6 +27,7 @@ ImportOptions options_of(const v1::ImportOptions& options) {
     inside.from = {options.longitude, options.latitude};
     inside.is_parallel = options.parallel;
     inside.is_lattice = options.lattice;
+    inside.turns = options.turns;
     inside.angle = options.angle;
     inside.has_ground = options.ground;
     if (options.background) inside.background = color_of(*options.background);
@@ -86,7 +87,7 @@ Scene scene_of_file(const fs::path& file, const ImportOptions& options,
         const fs::path found = find_file(file);
         const std::string text = voxelume::scene_of_file(found, found.filename().string(),
                                                          options_of(options), files.store());
-        return parse_scene(text, found, files.assets, files.boxes);
+        return api::read_with_changes(parse_json(text, found.string()), found, files);
     });
 }
 

@@ -9,6 +9,7 @@
 #include "runtime/api/read_handle.hpp"
 #include "runtime/api/tree.hpp"
 #include "runtime/scene/scene_animation.hpp"
+#include "runtime/scene_file/orbit.hpp"
 #include "runtime/scene_file/read_scene.hpp"
 
 namespace voxelume {
@@ -46,10 +47,24 @@ v1::Scene api::read_handle(const v1::SceneOptions& options, const ReadScene& rea
                 throw Error(error.kind(), "{}: {}", model.where, error.what());
             }
         };
-        Scene scene = read({asset_folders(options.assets), boxes, store_now});
+        std::vector<SceneChange> changes;
+        for (const v1::SceneChange& change : options.changes)
+            changes.push_back(
+                {change.path, change.value, change.origin.empty() ? change.path : change.origin});
+        Scene scene = read(
+            {asset_folders(options.assets), boxes, store_now, std::move(changes), options.orbit});
         std::shared_ptr<ReadAssets> assets;
         if (store) assets = std::make_shared<ReadAssets>(std::move(*store), options.cache);
         return handle_of(std::move(scene), std::move(assets));
+    });
+}
+
+Scene api::read_with_changes(const JsonValue& document, const std::filesystem::path& file,
+                             const SceneFiles& files) {
+    return read_changed(document, files.changes, [&](const JsonValue& changed) {
+        Scene scene = read_scene(changed, file, files.assets, files.boxes);
+        if (files.orbit == 0) return scene;
+        return read_scene(orbited(changed, scene, files.orbit), file, files.assets, files.boxes);
     });
 }
 
@@ -57,20 +72,20 @@ namespace v1 {
 
 Scene Scene::load(const std::filesystem::path& file, const SceneOptions& options) {
     return api::read_handle(options, [&](const api::SceneFiles& files) {
-        return read_scene(file, files.assets, files.boxes);
+        return api::read_with_changes(read_document(file), file, files);
     });
 }
 
 Scene Scene::parse(std::string_view text, const std::filesystem::path& file,
                    const SceneOptions& options) {
     return api::read_handle(options, [&](const api::SceneFiles& files) {
-        return parse_scene(text, file, files.assets, files.boxes);
+        return api::read_with_changes(parse_json(text, file.string()), file, files);
     });
 }
 
 Scene Scene::build(const SceneDescription& description, const SceneOptions& options) {
     return api::read_handle(options, [&](const api::SceneFiles& files) {
-        return read_scene(api::tree(description), description.name, files.assets, files.boxes);
+        return api::read_with_changes(api::tree(description), description.name, files);
     });
 }
 

@@ -19,7 +19,8 @@ struct ImportOptions {
     /// The observer's display is a lattice around all that is shown, for a volumetric image, and
     /// there is no ground.
     bool is_lattice = false;
-    double angle = 40;  ///< degrees, horizontal opening of the observer's pyramid
+    bool turns = false;  ///< all directions around show it from one distance, at one height
+    double angle = 40;   ///< degrees, horizontal opening of the observer's pyramid
     bool has_ground = true;
     std::optional<glm::vec3> background;  ///< linear Rec. 709; the ground shows the same colour
     double fit = 0;                       ///< metres of the longest side; 0: the file's own size

@@ -109,8 +109,18 @@ std::string lattice_observer(const Bounds& box) {
                     json_list(size), json_list(voxels)));
 }
 
+/// The box that is as large as seen from every side.
+Bounds turned_box(const Bounds& box) {
+    const glm::dvec3 middle = (box.min + box.max) / 2.0, half = (box.max - box.min) / 2.0;
+    const double radius = std::hypot(half.x, half.z);
+    const glm::dvec3 reach(radius, half.y, radius);
+    return {middle - reach, middle + reach};
+}
+
 /// The observer that the options ask for.
-std::string observer_of(const Bounds& box, const Bounds& around, const ImportOptions& options) {
+std::string observer_of(const Bounds& contents, const Bounds& around,
+                        const ImportOptions& options) {
+    const Bounds box = options.turns ? turned_box(contents) : contents;
     if (options.is_lattice) return lattice_observer(box);
     return options.is_parallel ? parallel_observer(box, around, options)
                                : pyramid_observer(box, options);

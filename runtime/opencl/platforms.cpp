@@ -150,8 +150,8 @@ std::vector<Candidate> parts_of(const Candidate& whole, int parts) {
 }
 
 std::vector<DeviceInfo> infos_of(const std::vector<Candidate>& candidates) {
-    std::vector<DeviceInfo> infos;
-    for (const Candidate& candidate : candidates) infos.push_back(candidate.info);
+    std::vector<DeviceInfo> infos(candidates.size());
+    std::ranges::transform(candidates, infos.begin(), &Candidate::info);
     return infos;
 }
 

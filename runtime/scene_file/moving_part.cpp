@@ -10,11 +10,11 @@
 namespace voxelume {
 namespace {
 
-using Steps = std::span<const TargetStep>;
+using Steps = std::span<const PathStep>;
 
 std::string path_of(Steps steps) {
     std::string path;
-    for (const TargetStep& step : steps)
+    for (const PathStep& step : steps)
         path += step.key.empty() ? fmt::format("[{}]", step.item)
                                  : (path.empty() ? "" : ".") + step.key;
     return path;
@@ -23,7 +23,7 @@ std::string path_of(Steps steps) {
 /// The value inside of a part to which steps lead.
 const JsonValue& value_of(const JsonValue& part, Steps steps) {
     const JsonValue* at = &part;
-    for (const TargetStep& step : steps)
+    for (const PathStep& step : steps)
         at = step.key.empty() ? &at->items[step.item]
                               : &std::ranges::find(at->members, step.key, &JsonMember::key)->value;
     return *at;
@@ -104,7 +104,7 @@ class PartMaker {
     static SolidPath solid_of(Steps steps) {
         SolidPath path;
         path.is_cut = steps.front().key == "cut";
-        for (const TargetStep& step : steps)
+        for (const PathStep& step : steps)
             if (step.key.empty()) path.parts.push_back(step.item);
         return path;
     }

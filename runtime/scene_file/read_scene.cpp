@@ -172,9 +172,13 @@ Scene parse_scene(std::string_view text, const std::filesystem::path& file,
     return read_scene(parse_json(text, file.string()), file, assets, boxes);
 }
 
+JsonValue read_document(const std::filesystem::path& file) {
+    return parse_json(read_text(file), file.string());
+}
+
 Scene read_scene(const std::filesystem::path& file, const AssetFolders& assets,
                  const FileBoxes& boxes) {
-    return parse_scene(read_text(file), file, assets, boxes);
+    return read_scene(read_document(file), file, assets, boxes);
 }
 
 }  // namespace voxelume

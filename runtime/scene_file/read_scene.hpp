@@ -26,6 +26,10 @@ Scene read_scene(const std::filesystem::path& file, const AssetFolders& assets,
 Scene parse_scene(std::string_view text, const std::filesystem::path& file,
                   const AssetFolders& assets, const FileBoxes& boxes = {});
 
+/// Reads a scene's text as a tree of values. Throws as `parse_json` does, Error::input for a file
+/// that is missing, Error::limit for one of more than 64 MiB.
+JsonValue read_document(const std::filesystem::path& file);
+
 /// The same for a tree of values, whichever way it was made: all scenes are checked here. Nothing
 /// of the tree is kept.
 Scene read_scene(const JsonValue& root, const std::filesystem::path& file,

@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
+#include <optional>
 
 #include "runtime/scene/solid.hpp"
 
@@ -54,11 +54,17 @@ const Place& place_named(std::string_view name) {
     return *std::ranges::find(places, name, &Place::name);
 }
 
+std::vector<PathStep> read_path(const SceneValue& path) {
+    std::optional<std::vector<PathStep>> steps = parse_path(path.text());
+    if (!steps) path.fail(kPathAdvice);
+    return std::move(*steps);
+}
+
 /// Follows a path through the document.
 class PathWalker {
   public:
     PathWalker(const SceneValue& path, const JsonValue& document)
-        : path_(path), steps_(parse()), root_(document) {}
+        : path_(path), steps_(read_path(path)), root_(document) {}
 
     TrackTarget walk() {
         const std::string& start = steps_.front().key;
@@ -78,39 +84,6 @@ class PathWalker {
     }
 
   private:
-    [[noreturn]] void fail_to_read() const {
-        path_.fail(
-            "can't be read; write keys with dots between and places in lists in brackets, as in "
-            "\"objects.ball.position\" or \"models.block.parts[1].height\"");
-    }
-
-    /// Keys end at a dot or bracket, and may be put in quotes if they hold one.
-    std::vector<TargetStep> parse() const {
-        const std::string& text = path_.text();
-        std::vector<TargetStep> steps;
-        for (size_t i = 0; i < text.size();) {
-            const bool is_item = text[i] == '[';
-            if (!steps.empty() && !is_item && text[i++] != '.') fail_to_read();
-            const bool is_quoted = i < text.size() && text[i] == '"';
-            i += is_item || is_quoted ? 1 : 0;
-            const size_t end = text.find_first_of(is_item ? "]" : is_quoted ? "\"" : ".[", i);
-            if ((is_item || is_quoted) && end == text.npos) fail_to_read();
-            const std::string word = text.substr(i, end - i);
-            if (word.empty()) fail_to_read();
-            TargetStep& step = steps.emplace_back();
-            if (is_item) {
-                const char* last = word.data() + word.size();
-                const auto [end_of_number, error] = std::from_chars(word.data(), last, step.item);
-                if (end_of_number != last || error != std::errc()) fail_to_read();
-            } else {
-                step.key = word;
-            }
-            i = end == text.npos ? text.size() : end + (is_item || is_quoted ? 1 : 0);
-        }
-        if (steps.front().key.empty()) fail_to_read();
-        return steps;
-    }
-
     bool is_at_end() const { return next_ == steps_.size(); }
 
     const std::string& next_key(const std::string& of, const Names& known) {
@@ -249,13 +222,13 @@ class PathWalker {
 
     std::string path_so_far() const {
         std::string path = target_.path;
-        for (const TargetStep& step : target_.steps)
+        for (const PathStep& step : target_.steps)
             path += step.key.empty() ? fmt::format("[{}]", step.item) : "." + step.key;
         return path;
     }
 
     const SceneValue& path_;
-    std::vector<TargetStep> steps_;
+    std::vector<PathStep> steps_;
     const JsonValue& root_;
     size_t next_ = 0;
     TrackTarget target_;
@@ -265,21 +238,6 @@ class PathWalker {
 
 TrackTarget find_target(const SceneValue& path, const JsonValue& document) {
     return PathWalker(path, document).walk();
-}
-
-void put_value(JsonValue& part, const std::vector<TargetStep>& steps, JsonValue value) {
-    JsonValue* at = &part;
-    for (const TargetStep& step : steps) {
-        if (step.key.empty()) {
-            at = &at->items[step.item];
-            continue;
-        }
-        const auto found = std::ranges::find(at->members, step.key, &JsonMember::key);
-        at = found != at->members.end()
-                 ? &found->value
-                 : &at->members.emplace_back(JsonMember{step.key, value.at, {}}).value;
-    }
-    *at = std::move(value);
 }
 
 }  // namespace voxelume

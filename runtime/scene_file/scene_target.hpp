@@ -7,15 +7,9 @@
 
 #include "runtime/scene/scene_motion.hpp"
 #include "runtime/scene_file/scene_fields.hpp"
+#include "runtime/scene_file/scene_path.hpp"
 
 namespace voxelume {
-
-/// A step from a value to one inside of it: a key, or a place in a list where the key is empty.
-struct TargetStep {
-    std::string key;
-    size_t item = 0;
-    bool operator==(const TargetStep&) const = default;
-};
 
 /// A value that a track may change.
 struct TrackTarget {
@@ -24,7 +18,7 @@ struct TrackTarget {
     std::string name;                  ///< of a material or model
     std::string path;                  ///< of the part, as messages have it
     const JsonValue* value = nullptr;  ///< the part in the document
-    std::vector<TargetStep> steps;     ///< from the part to the value; a last key may be missing
+    std::vector<PathStep> steps;       ///< from the part to the value; a last key may be missing
 };
 
 /// Finds what a path names in a document.
@@ -32,8 +26,5 @@ struct TrackTarget {
 /// Throws Error::scene with the nearest name when there is no such part or value, or none that can
 /// change.
 TrackTarget find_target(const SceneValue& path, const JsonValue& document);
-
-/// Puts a value into a part in the place that `steps` lead to; a missing last key is added.
-void put_value(JsonValue& part, const std::vector<TargetStep>& steps, JsonValue value);
 
 }  // namespace voxelume

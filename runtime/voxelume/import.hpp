@@ -28,6 +28,8 @@ struct ImportOptions {
     /// The display is a lattice of voxels around all that is shown, for render_volume. The observer
     /// is before the front then, and there is no ground.
     bool lattice = false;
+    /// The model has room to turn: pictures of all longitudes show it from one distance.
+    bool turns = false;
     double angle = 40;   ///< degrees, horizontal opening of the observer's pyramid
     bool ground = true;  ///< a ground that shadows fall on, where the observer is above it
     /// Radiance of the background and of the ground; grey by default.

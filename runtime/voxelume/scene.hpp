@@ -36,7 +36,20 @@ struct SceneDescription {
     RenderSettings render{};  ///< the flat image
 };
 
-/// Where a scene's files are, and what replaces its settings.
+/// A value that replaces one of a scene's, or is added to it, before the scene is read and checked.
+struct SceneChange {
+    /// The path to the value by the keys of the scene format, as tracks have it:
+    /// "objects.ball.position". Items of lists go by their names or by their places, "lights[0]" or
+    /// "lights.0". Keys that the scene lacks are added; names of models and materials with them if
+    /// the path ends there.
+    std::string path{};
+    /// JSON; or numbers with commas between, which are a list; or a text without quotes.
+    std::string value{};
+    /// What messages call the change: "--set objects.ball.position=0,1,0"; empty: its path.
+    std::string origin{};
+};
+
+/// Where a scene's files are, and what replaces its values.
 struct SceneOptions {
     /// Folders in which files that the scene names are looked for, after the scene's own and before
     /// those of the environment variable VOXELUME_ASSETS. Files must lie below these folders.
@@ -44,6 +57,13 @@ struct SceneOptions {
     /// What is known of models that the scene is fitted to. Rendering with the same options uses
     /// what was read for that, once.
     CacheOptions cache{};
+    /// Values to be changed, one after the other. What is wrong with one is Error::usage, whose
+    /// sentence begins with the change's origin.
+    std::vector<SceneChange> changes{};
+    /// Degrees by which the observer goes to his right, around a vertical axis through what he
+    /// looks at, or through the middle of the world if he looks at nothing. Throws Error::usage for
+    /// an observer that moves.
+    double orbit = 0;
 };
 
 /// A scene that was checked. Copies share their values and are cheap; any number of threads may use

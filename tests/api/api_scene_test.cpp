@@ -2,6 +2,8 @@
 // Scenes built from plain structs equal those that files describe.
 #include <gmock/gmock.h>
 
+#include <glm/geometric.hpp>
+
 #include "runtime/api/handles.hpp"
 #include "runtime/scene/scene_animation.hpp"
 #include "tests/api/api_environment.hpp"
@@ -270,6 +272,31 @@ TEST(ApiScene, ChangesItsLightInACopy) {
     EXPECT_EQ(api::inside(scene).render.light, LightMode::local);
     EXPECT_EQ(api::inside(global).render.light, LightMode::global);
     EXPECT_EQ(api::inside(global.with_light(v1::LightMode::local)).render.light, LightMode::local);
+}
+
+TEST(ApiScene, ValuesAreChangedBeforeItIsChecked) {
+    v1::SceneOptions options;
+    options.changes = {{"render.samples", "9"}, {"world.ambient", "0.5,0.25,0"}};
+    const Scene changed = api::inside(v1::Scene::build(empty_scene(), options));
+    EXPECT_EQ(changed.render.samples, 9);
+    EXPECT_EQ(changed.world.ambient, glm::vec3(0.5f, 0.25f, 0));
+    options.changes.push_back({"render.sample", "1", "the third change"});
+    try {
+        v1::Scene::build(empty_scene(), options);
+        FAIL() << "an unknown key was taken";
+    } catch (const v1::Error& error) {
+        EXPECT_EQ(error.kind(), v1::ErrorKind::usage);
+        EXPECT_STREQ(error.what(),
+                     "the third change: render: unknown key \"sample\"; did you mean \"samples\"?");
+        EXPECT_EQ(error.key(), "render");
+    }
+}
+
+TEST(ApiScene, ItsObserverGoesRoundByDegrees) {
+    // He looks along +Z at nothing, so he goes round the middle of the world.
+    const Scene turned = api::inside(v1::Scene::build(empty_scene(), {.orbit = 180}));
+    EXPECT_LT(glm::distance(turned.observer.position, glm::dvec3(1.5, 1, 4)), 1e-12);
+    EXPECT_LT(glm::distance(turned.observer.world_from_observer[2], glm::dvec3(0, 0, -1)), 1e-12);
 }
 
 TEST(ApiScene, ChangesItsSizeAndSamplesInCopies) {

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+// `--sweep PATH=V1,V2`: the combinations of values that a scene is rendered with.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace voxelume::cli {
+
+/// A value of the scene, and what it is to be, one after the other.
+struct Sweep {
+    std::string path;  ///< "lights.key.intensity"
+    std::vector<std::string> values;
+};
+
+/// Reads "PATH=V1,V2"; lists, objects and texts in quotes may hold commas. Throws Error::usage.
+Sweep parse_sweep(const std::string& text, const char* command);
+
+/// A value for each of the sweeps, in their order: the last one's changes first. A single empty
+/// combination for no sweep. Throws Error::usage for more than a million.
+std::vector<std::vector<std::string>> combinations(const std::vector<Sweep>& sweeps,
+                                                   const char* command);
+
+/// The last key of a path: "intensity".
+std::string last_key(const std::string& path);
+
+/// A value as a part of a file's name: "0,1,0" of "[0, 1, 0]".
+std::string file_part(const std::string& value);
+
+}  // namespace voxelume::cli
