@@ -101,9 +101,12 @@ std::string describe(const Scene& scene) {
         text +=
             fmt::format("animation: {} frames, {:.6g} a second, {} moving parts\n",
                         scene.animation.frames, scene.animation.fps, scene.motion->parts.size());
-    text += fmt::format("image: {}x{} pixels, {} samples each, depth {}, shadows {}\n",
-                        scene.render.size.x, scene.render.size.y, scene.render.samples,
-                        scene.render.depth, scene.render.shadows ? "on" : "off");
+    const RenderSettings& render = scene.render;
+    const std::string light = render.light == LightMode::global
+                                  ? fmt::format("global light of {} bounces", render.bounces)
+                                  : fmt::format("depth {}", render.depth);
+    text += fmt::format("image: {}x{} pixels, {} samples each, {}, shadows {}\n", render.size.x,
+                        render.size.y, render.samples, light, render.shadows ? "on" : "off");
     return text;
 }
 
