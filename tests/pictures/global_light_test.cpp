@@ -11,7 +11,7 @@
 namespace voxelume {
 namespace {
 
-Json ball(double radius, const char* surface) {
+Json json_ball(double radius, const char* surface) {
     Json model = {{"shape", "sphere"}, {"radius", radius}, {"surface", surface}};
     if (std::string(surface) == "cubes") model["set"] = "solid";
     return model;
@@ -22,12 +22,12 @@ INSTANTIATE_TEST_SUITE_P(GlobalLight, EverySurface, testing::Values("cubes", "sm
 
 TEST_P(EverySurface, WhatReturnsAllLightIsInvisibleUnderAWhiteSky) {
     Json scene = open_furnace(16);
-    add_thing(scene, ball(0.2, GetParam()), "chalk", {0.25, 0.25, 0.1});
-    add_thing(scene, ball(0.2, GetParam()), "mirror", {-0.25, 0.25, 0.1});
-    add_thing(scene, ball(0.2, GetParam()), "lacquer", {0.25, -0.25, 0.1});
+    add_thing(scene, json_ball(0.2, GetParam()), "chalk", {0.25, 0.25, 0.1});
+    add_thing(scene, json_ball(0.2, GetParam()), "mirror", {-0.25, 0.25, 0.1});
+    add_thing(scene, json_ball(0.2, GetParam()), "lacquer", {0.25, -0.25, 0.1});
     // A path inside of veiled cubes is scattered more often than paths are followed.
     if (std::string(GetParam()) != "cubes")
-        add_thing(scene, ball(0.2, GetParam()), "veil", {-0.25, -0.25, 0.1});
+        add_thing(scene, json_ball(0.2, GetParam()), "veil", {-0.25, -0.25, 0.1});
     send_rays(scene, {0, 0, -0.55}, {0, 0, 1}, 1, 48);
     const std::vector<SensedRay> rays = sense(scene);
     for (int c = 0; c < 3; ++c)
@@ -37,8 +37,8 @@ TEST_P(EverySurface, WhatReturnsAllLightIsInvisibleUnderAWhiteSky) {
 
 TEST_P(EverySurface, GlassIsInvisibleUnderAWhiteSky) {
     Json scene = open_furnace(64);
-    add_thing(scene, ball(0.3, GetParam()), "glass", {0.1, 0.05, 0.1});
-    add_thing(scene, ball(0.1, GetParam()), "chalk", {-0.35, -0.3, 0.1});
+    add_thing(scene, json_ball(0.3, GetParam()), "glass", {0.1, 0.05, 0.1});
+    add_thing(scene, json_ball(0.1, GetParam()), "chalk", {-0.35, -0.3, 0.1});
     send_rays(scene, {0, 0, -0.55}, {0, 0, 1}, 1, 32);
     const Estimate e = estimate_of(channel_of(sense(scene), 1));
     // Cubes reflect some light totally within for ever, which the limit of bounces takes.
@@ -54,8 +54,8 @@ TEST_P(EverySurface, AClosedRoomThatGivesHalfAndReturnsHalfIsWhite) {
     Json scene = open_furnace(64);
     scene["world"]["background"] = {1e6, 1e6, 1e6};
     scene["materials"]["half"] = {{"color", {0.5, 0.5, 0.5}}, {"emission", {0.5, 0.5, 0.5}}};
-    add_thing(scene, ball(0.2, GetParam()), "half", {0.1, 0.05, 0.1});
-    add_thing(scene, ball(0.1, GetParam()), "chalk", {-0.2, -0.15, 0});
+    add_thing(scene, json_ball(0.2, GetParam()), "half", {0.1, 0.05, 0.1});
+    add_thing(scene, json_ball(0.1, GetParam()), "chalk", {-0.2, -0.15, 0});
     Json room = hollow_sphere(GetParam());
     if (std::string(GetParam()) == "cubes") room["set"] = "solid";
     add_thing(scene, room, "half", {0, 0, 0});
@@ -170,8 +170,8 @@ TEST(GlobalLight, WithoutBouncesIsTheDirectLightOfLocalLight) {
     scene["lights"].push_back(
         {{"type", "directional"}, {"direction", {0.3, -1, 0.2}}, {"intensity", 0.5}});
     scene["render"]["shadows"] = true;
-    add_thing(scene, ball(0.2, "smooth"), "wall", {0.1, 0.05, 0.1});
-    add_thing(scene, ball(0.15, "cubes"), "wall", {-0.2, 0.05, 0.1});
+    add_thing(scene, json_ball(0.2, "smooth"), "wall", {0.1, 0.05, 0.1});
+    add_thing(scene, json_ball(0.15, "cubes"), "wall", {-0.2, 0.05, 0.1});
     send_rays(scene, {0, 0, -0.47}, {0, 0, 1}, 0.9, 32);
     const std::vector<SensedRay> local = sense(scene);
     scene["render"]["light"] = "global";
@@ -192,10 +192,11 @@ Json mixed_scene() {
     scene["render"]["shadow"] = "filtered";
     add_thing(scene, {{"shape", "box"}, {"size", {1.1, 0.1, 1.1}}, {"surface", "exact"}}, "lacquer",
               {0, -0.4, 0});
-    add_thing(scene, ball(0.2, "smooth"), "glass", {0.25, 0.05, 0.1});
-    add_thing(scene, ball(0.15, "cubes"), "veil", {-0.2, 0, 0});
-    add_thing(scene, ball(0.1, "exact"), "lamp", {-0.2, 0.35, 0.1});
-    add_thing(scene, ball(0.12, "exact"), "chalk", {0, -0.2, -0.2}, {{"placement", "instance"}});
+    add_thing(scene, json_ball(0.2, "smooth"), "glass", {0.25, 0.05, 0.1});
+    add_thing(scene, json_ball(0.15, "cubes"), "veil", {-0.2, 0, 0});
+    add_thing(scene, json_ball(0.1, "exact"), "lamp", {-0.2, 0.35, 0.1});
+    add_thing(scene, json_ball(0.12, "exact"), "chalk", {0, -0.2, -0.2},
+              {{"placement", "instance"}});
     scene["lights"] = {{{"type", "rectangle"},
                         {"position", {0.2, 0.5, -0.3}},
                         {"direction", {0, -1, 0.3}},
