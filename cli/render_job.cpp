@@ -21,6 +21,8 @@ Channels listed_channels(const RenderCommand& command) {
             channels.color = true;
         else if (name == "Z")
             channels.depth = true;
+        else if (name == "distance")
+            channels.distance = true;
         else if (name == "P")
             channels.position = true;
         else if (name == "N")
@@ -28,7 +30,8 @@ Channels listed_channels(const RenderCommand& command) {
         else if (name == "objectId")
             channels.object = true;
         else
-            fail_usage("render: --channels: \"{}\" is none of Z, P, N, objectId and RGBA", name);
+            fail_usage("render: --channels: \"{}\" is none of RGBA, Z, distance, P, N and objectId",
+                       name);
     }
     return channels;
 }

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // samples -> pixels: the mean of a pixel's samples, and the geometry of its first sample that hit.
 //
-// The build constants VXL_SHOWS_COLOR, VXL_SHOWS_DEPTH, VXL_SHOWS_POSITION, VXL_SHOWS_NORMAL and
-// VXL_SHOWS_OBJECT, in addition to the features', are the channels asked for.
+// The build constants VXL_SHOWS_COLOR, VXL_SHOWS_DEPTH, VXL_SHOWS_DISTANCE, VXL_SHOWS_POSITION,
+// VXL_SHOWS_NORMAL and VXL_SHOWS_OBJECT, in addition to the features', are the channels asked for.
+#include "lib/lanes/exact_float.h"
 #include "lib/lanes/lanes.h"
 #include "lib/lanes/work_item.h"
+#include "lib/traverse/display_shape.h"
 #include "lib/traverse/ray_batch.h"
 #include "shared/scene.h"
 #include "shared/trace.h"
@@ -81,14 +83,22 @@ static inline void store_color(lane_float value, const Pixels* at, global float*
     store_pixels(LANES_SELECT(finite, value, (lane_float)0.0f), at, plane);
 }
 
-/// Stores depth, position and normal of the `hit` pixels' rays; the normal is that of their light.
+/// The distances of points in metres along their sight rays. `depth` is that along Z_E, and
+/// `square` the square of the distance from E.
+static inline lane_float distance_of(const Camera* camera, lane_float depth, lane_float square) {
+    return camera->shape == VXL_SHAPE_BOX ? depth : exact_sqrt(square);
+}
+
+/// Stores depth, distance, position and normal of the `hit` pixels' rays; the normal is that of
+/// their light.
 static inline void store_geometry(const Camera* camera, float4 voxel_edge, float4 world_origin,
                                   const RayBatch* batch, lane_uint ray, lane_int hit,
                                   const Pixels* at, size_t pixels, global float* restrict image) {
     const float edge[3] = {voxel_edge.x, voxel_edge.y, voxel_edge.z};
     const float origin[3] = {world_origin.x, world_origin.y, world_origin.z};
     const uint depth_plane = 4 * VXL_SHOWS_COLOR;
-    const uint position_plane = depth_plane + VXL_SHOWS_DEPTH;
+    const uint distance_plane = depth_plane + VXL_SHOWS_DEPTH;
+    const uint position_plane = distance_plane + VXL_SHOWS_DISTANCE;
     const uint normal_plane = position_plane + 3 * VXL_SHOWS_POSITION;
     const float eye[3] = {camera->origin.x, camera->origin.y, camera->origin.z};
     const float eye_low[3] = {camera->origin_low.x, camera->origin_low.y, camera->origin_low.z};
@@ -97,13 +107,16 @@ static inline void store_geometry(const Camera* camera, float4 voxel_edge, float
     const float ahead[3] = {camera->axis_z.x, camera->axis_z.y, camera->axis_z.z};
     global const float* normals = VXL_SHADING_NORMALS ? batch->shading : batch->normals;
     const lane_float nothing = (lane_float)0.0f;
-    lane_float depth = (lane_float)camera->lead;
+    lane_float depth = (lane_float)camera->lead, square = nothing;
     for (uint a = 0; a < 3; ++a) {
         lane_float p = nothing;
-        if (VXL_SHOWS_DEPTH || VXL_SHOWS_POSITION)
+        if (VXL_SHOWS_DEPTH || VXL_SHOWS_DISTANCE || VXL_SHOWS_POSITION)
             p = LANES_GATHER_FLOAT(batch->positions + a * batch->stride, ray);
         const lane_float from_eye = (p - eye[a] - eye_low[a]) * edge[a];
-        depth = fma(from_eye, (lane_float)(ahead[a] * edge[a]), depth);
+        const float along = ahead[a] * edge[a];
+        depth = fma(from_eye, (lane_float)along, depth);
+        const lane_float from_observer = fma((lane_float)along, (lane_float)camera->lead, from_eye);
+        square = fma(from_observer, from_observer, square);
         if (VXL_SHOWS_POSITION)
             store_pixels(
                 LANES_SELECT(hit, fma(p, (lane_float)edge[a], (lane_float)origin[a]), nothing), at,
@@ -113,14 +126,19 @@ static inline void store_geometry(const Camera* camera, float4 voxel_edge, float
                 LANES_SELECT(hit, LANES_GATHER_FLOAT(normals + a * batch->stride, ray), nothing),
                 at, image + (normal_plane + a) * pixels);
     }
+    const lane_float distance = distance_of(camera, depth, square);
     if (VXL_SHOWS_DEPTH)
-        store_pixels(LANES_SELECT(hit, depth, (lane_float)INFINITY), at,
-                     image + depth_plane * pixels);
+        store_pixels(
+            LANES_SELECT(hit, looks_ahead(camera) ? depth : distance, (lane_float)INFINITY), at,
+            image + depth_plane * pixels);
+    if (VXL_SHOWS_DISTANCE)
+        store_pixels(LANES_SELECT(hit, distance, (lane_float)INFINITY), at,
+                     image + distance_plane * pixels);
 }
 
-/// One work-item makes VXL_LANES pixels. `image` holds those of the planes R G B A Z P.X P.Y P.Z
-/// N.X N.Y N.Z that are asked for, `pixels` apart; `objects` holds the number of the object plus 1,
-/// 0 for none.
+/// One work-item makes VXL_LANES pixels. `image` holds those of the planes R G B A Z distance
+/// P.X P.Y P.Z N.X N.Y N.Z that are asked for, `pixels` apart; `objects` holds the number of the
+/// object plus 1, 0 for none.
 kernel void resolve_pixels(Camera camera, PyramidShape shape, float4 world_origin,
                            VXL_BATCH_PARAMETERS, uint first_tile, uint tile_count,
                            global float* restrict image, global uint* restrict objects,

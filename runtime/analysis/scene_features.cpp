@@ -130,7 +130,7 @@ Features without_light(Features voxels, const Scene& scene, const Pyramid& world
 void add_points(const Scene& scene, const Pyramid& world, Features& features) {
     const ImageChannels& channels = scene.render.channels;
     const bool all = features.radiance && (features.paths || has_light(scene, world));
-    features.positions = all || channels.depth || channels.position;
+    features.positions = all || channels.depth || channels.distance || channels.position;
     features.normals = all || channels.normal;
     features.hit_attributes = all || channels.object;
 }

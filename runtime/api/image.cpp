@@ -83,6 +83,7 @@ std::vector<const char*> left_out(const v1::Channels& channels) {
     leave_out(channels.position, {"P.X", "P.Y", "P.Z"});
     leave_out(channels.normal, {"N.X", "N.Y", "N.Z"});
     leave_out(channels.object, {"objectId"});
+    leave_out(channels.distance, {"distance"});
     return names;
 }
 

@@ -49,6 +49,7 @@ void add(const v1::Channels& more, v1::Channels& channels) {
     channels.position |= more.position;
     channels.normal |= more.normal;
     channels.object |= more.object;
+    channels.distance |= more.distance;
 }
 
 /// PNG files and volumetric images show colour, OpenEXR files and memory what their options say.

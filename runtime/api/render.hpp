@@ -13,7 +13,8 @@
 namespace voxelume::api {
 
 inline ImageChannels inside(const v1::Channels& channels) {
-    return {channels.color, channels.depth, channels.position, channels.normal, channels.object};
+    return {channels.color,  channels.depth,  channels.position,
+            channels.normal, channels.object, channels.distance};
 }
 
 /// What one frame took.

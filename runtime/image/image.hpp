@@ -13,9 +13,9 @@ namespace voxelume {
 
 /// Planes of `width` x `height` values, row 0 at the top, x fastest.
 ///
-/// Float planes have their names in the file: R G B A Z P.X P.Y P.Z N.X N.Y N.Z. Colour is linear
-/// Rec. 709. Pixels without a hit have Z = +infinity, P = N = 0 and objectId 0; objects count from
-/// 1.
+/// Float planes have their names in the file: R G B A Z distance P.X P.Y P.Z N.X N.Y N.Z. Colour is
+/// linear Rec. 709. Pixels without a hit have Z = distance = +infinity, P = N = 0 and objectId 0;
+/// objects count from 1.
 struct Image {
     int width = 0;
     int height = 0;

@@ -71,6 +71,15 @@ glm::dvec3 point_on_ray(const VolumeFrame& frame, glm::dvec2 uv, double depth) {
     return shape_row(frame.display).point_on_ray(frame.display, signed_uv, depth);
 }
 
+DepthScales depth_scales(const VolumeFrame& frame, glm::dvec2 uv) {
+    const DisplayShapeRow& shape = shape_row(frame.display);
+    const glm::dvec3 point = point_on_ray(frame, uv, 1.0);
+    DepthScales scales;
+    if (shape.projection == SightProjection::perspective) scales.distance = glm::length(point);
+    if (!shape.depth_is_along_z && shape.looks_ahead(frame.display)) scales.z = point.z;
+    return scales;
+}
+
 glm::dvec3 voxel_center(const VolumeFrame& frame, glm::ivec3 cell) {
     const glm::dvec3 middle = glm::dvec3(cell) + 0.5;
     const glm::dvec3 p_observer =

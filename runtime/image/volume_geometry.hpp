@@ -32,6 +32,15 @@ std::optional<glm::dmat4> world_from_voxels(const VolumeFrame& frame);
 /// coordinates. `uv` = (i, j) + 0.5 is the middle of column i, row j. Only for layout `rays`.
 glm::dvec3 point_on_ray(const VolumeFrame& frame, glm::dvec2 uv, double depth);
 
+/// What the depth of a point on a sight ray is multiplied by for what image files say of it.
+struct DepthScales {
+    double z = 1;         ///< for Z: along Z_E, or the distance where the display looks backwards
+    double distance = 1;  ///< along the ray, from the observer or in a box from its plane
+};
+
+/// The scales of the sight ray through pixel coordinates `uv`. Only for layout `rays`.
+DepthScales depth_scales(const VolumeFrame& frame, glm::dvec2 uv);
+
 /// The middle of a voxel in the world, metres. For layout `rays` it is the middle of the step.
 glm::dvec3 voxel_center(const VolumeFrame& frame, glm::ivec3 cell);
 

@@ -53,8 +53,8 @@ double host_bytes(const Scene& scene, const ScenePlan& plan) {
 }  // namespace
 
 double pixel_bytes(const ImageChannels& channels) {
-    return 4.0 * (4 * int(channels.color) + int(channels.depth) + 3 * int(channels.position) +
-                  3 * int(channels.normal));
+    return 4.0 * (4 * int(channels.color) + int(channels.depth) + int(channels.distance) +
+                  3 * int(channels.position) + 3 * int(channels.normal));
 }
 
 double image_bytes(const RenderSettings& render) {

@@ -32,6 +32,10 @@ glm::dvec2 no_slopes(const Display&) {
     return glm::dvec2(0);
 }
 
+bool always_looks_ahead(const Display&) {
+    return true;
+}
+
 double near_surface(const Display& display) {
     return display.near;
 }
@@ -86,6 +90,7 @@ constexpr DisplayShapeRow kPyramid = {.shape = DisplayShape::pyramid,
                                       .half_extent = pyramid_half_extent,
                                       .bounds = pyramid_bounds,
                                       .point_on_ray = point_on_pyramid_ray,
+                                      .looks_ahead = always_looks_ahead,
                                       .start_radius = pyramid_start_radius,
                                       .clip_slopes = pyramid_half_extent,
                                       .flat_sides = pyramid_sides};
@@ -120,6 +125,10 @@ glm::dvec2 sector_slopes(const Display& display) {
     return {std::cos(display.half_angles.x), 0};
 }
 
+bool sector_looks_ahead(const Display& display) {
+    return display.half_angles.x <= std::numbers::pi / 2;
+}
+
 std::optional<FlatSides> sector_sides(const Display& display) {
     const double angle = display.half_angles.x;
     if (angle > kWidestSector) return std::nullopt;
@@ -139,6 +148,7 @@ constexpr DisplayShapeRow kSector = {.shape = DisplayShape::sector,
                                      .half_extent = sector_half_extent,
                                      .bounds = sector_bounds,
                                      .point_on_ray = point_on_sector_ray,
+                                     .looks_ahead = sector_looks_ahead,
                                      .start_radius = near_surface,
                                      .clip_slopes = sector_slopes,
                                      .flat_sides = sector_sides};
@@ -165,6 +175,10 @@ glm::dvec3 point_on_ball_ray(const Display& display, glm::dvec2 uv, double depth
            depth;
 }
 
+bool ball_looks_ahead(const Display&) {
+    return false;
+}
+
 std::optional<FlatSides> ball_sides(const Display&) {
     return std::nullopt;
 }
@@ -182,6 +196,7 @@ constexpr DisplayShapeRow kBall = {.shape = DisplayShape::ball,
                                    .half_extent = ball_half_extent,
                                    .bounds = ball_bounds,
                                    .point_on_ray = point_on_ball_ray,
+                                   .looks_ahead = ball_looks_ahead,
                                    .start_radius = near_surface,
                                    .clip_slopes = no_slopes,
                                    .flat_sides = ball_sides};
@@ -230,6 +245,7 @@ constexpr DisplayShapeRow kBox = {.shape = DisplayShape::box,
                                   .half_extent = box_half_extent,
                                   .bounds = box_bounds,
                                   .point_on_ray = point_on_box_ray,
+                                  .looks_ahead = always_looks_ahead,
                                   .start_radius = box_start_radius,
                                   .clip_slopes = no_slopes,
                                   .flat_sides = box_sides};

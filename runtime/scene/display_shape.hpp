@@ -104,6 +104,8 @@ struct DisplayShapeRow {
     /// The point at `depth` of the sight ray at (u, v) in [-1, 1], u to the right (-X_E) and v down
     /// (-Y_E).
     glm::dvec3 (*point_on_ray)(const Display& display, glm::dvec2 uv, double depth);
+    /// True if every sight ray leads ahead, so that Z in image files can be the depth along Z_E.
+    bool (*looks_ahead)(const Display& display);
     /// The distance from the observer within which sight rays begin.
     double (*start_radius)(const Display& display);
     /// The slopes of DisplayLattice, by which kernels clip a lattice to the shape.

@@ -30,11 +30,12 @@ inline constexpr int kMaxImageSide = 65536;
 
 /// What a flat image shows of a pixel. What none of it needs isn't computed.
 struct ImageChannels {
-    bool color = true;     ///< R G B A
-    bool depth = true;     ///< Z
-    bool position = true;  ///< P.X P.Y P.Z
-    bool normal = true;    ///< N.X N.Y N.Z
-    bool object = true;    ///< objectId
+    bool color = true;      ///< R G B A
+    bool depth = true;      ///< Z
+    bool position = true;   ///< P.X P.Y P.Z
+    bool normal = true;     ///< N.X N.Y N.Z
+    bool object = true;     ///< objectId
+    bool distance = false;  ///< distance
 
     friend bool operator==(const ImageChannels&, const ImageChannels&) = default;
 };

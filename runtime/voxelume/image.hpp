@@ -18,11 +18,12 @@ namespace voxelume::v1 {
 
 /// What an image shows of a pixel. What isn't asked for isn't computed.
 struct Channels {
-    bool color = true;     ///< R G B A
-    bool depth = true;     ///< Z
-    bool position = true;  ///< P.X P.Y P.Z
-    bool normal = true;    ///< N.X N.Y N.Z
-    bool object = true;    ///< objectId
+    bool color = true;      ///< R G B A
+    bool depth = true;      ///< Z
+    bool position = true;   ///< P.X P.Y P.Z
+    bool normal = true;     ///< N.X N.Y N.Z
+    bool object = true;     ///< objectId
+    bool distance = false;  ///< distance
 };
 
 /// Colour alone: what a picture shows.
@@ -38,9 +39,10 @@ struct ImageFileOptions {
 /// An image: planes of width x height values, row 0 at the top, x fastest. Copies share the planes,
 /// which never change.
 ///
-/// Colour is linear Rec. 709 and multiplied by A. Z is the distance along the observer's axis or
-/// sight ray in metres, P the point and N the normal in the world. Pixels that show no object have
-/// Z = +infinity, P = N = 0 and objectId 0; objects count from 1 in the order of the scene.
+/// Colour is linear Rec. 709 and multiplied by A. Z is the depth along the observer's axis in
+/// metres, and for displays that look backwards, too, the distance. `distance` counts along the
+/// sight ray, P is the point and N the normal in the world. Pixels that show no object have Z =
+/// distance = +infinity, P = N = 0 and objectId 0; objects count from 1 in the order of the scene.
 class Image {
   public:
     /// Reads an OpenEXR file with all of its channels, or a PNG file, whose R G B A become codes

@@ -81,7 +81,7 @@ void expect_same(const Image& some, const Image& all) {
 
 void expect_planes(const Picture& shown, const ImageChannels& asked) {
     const uint64_t planes =
-        4u * asked.color + asked.depth + 3u * asked.position + 3u * asked.normal;
+        4u * asked.color + asked.depth + asked.distance + 3u * asked.position + 3u * asked.normal;
     const auto bytes = [&](const char* name) {
         return shown.bytes.contains(name) ? shown.bytes.at(name) : 0;
     };
@@ -92,17 +92,18 @@ void expect_planes(const Picture& shown, const ImageChannels& asked) {
 }
 
 TEST_F(Channels, NotAskedForAreNeitherMadeNorStored) {
-    const Picture all = show(glass(), {});
-    for (int bits = 0; bits < 16; ++bits) {
+    const Picture all = show(glass(), {.distance = true});
+    for (int bits = 0; bits < 32; ++bits) {
         const ImageChannels asked{true, bool(bits & 1), bool(bits & 2), bool(bits & 4),
-                                  bool(bits & 8)};
+                                  bool(bits & 8), bool(bits & 16)};
         const Picture shown = show(glass(), asked);
         expect_planes(shown, asked);
         expect_same(shown.image, all.image);
     }
     for (const ImageChannels& asked : {ImageChannels{false, true, false, false, false},
                                        ImageChannels{false, false, false, true, false},
-                                       ImageChannels{false, false, false, false, true}}) {
+                                       ImageChannels{false, false, false, false, true},
+                                       ImageChannels{false, false, false, false, false, true}}) {
         const Picture shown = show(glass(), asked);
         expect_planes(shown, asked);
         expect_same(shown.image, all.image);

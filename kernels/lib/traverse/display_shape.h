@@ -50,6 +50,12 @@ static inline bool depth_is_along_z(const Camera* camera) {
     return camera->shape == VXL_SHAPE_PYRAMID || camera->shape == VXL_SHAPE_BOX;
 }
 
+/// True if every sight ray leads ahead, so that Z grows along it.
+static inline bool looks_ahead(const Camera* camera) {
+    if (camera->shape == VXL_SHAPE_SECTOR) return camera->half_x <= 1.57079637f;  // a quarter turn
+    return camera->shape != VXL_SHAPE_BALL;
+}
+
 /// The vector along a sight ray from its start to a point, in voxels. `eye` leads from E's
 /// `lead` to the point, which is `depth` metres along Z_E from there. Where depths count along Z_E,
 /// they take the place of `length`, the point's distance in metres.

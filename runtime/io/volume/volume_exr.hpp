@@ -2,7 +2,8 @@
 // The conventions that the writer and the reader of deep images share.
 //
 // Each pixel (u, v) is a sight ray, each sample a display voxel; samples are sorted and don't
-// overlap. Z is metres from the observer, along Z_E or along the ray as the frame's shape has it.
+// overlap. Z is metres along Z_E, or along the ray where the display looks backwards, too; distance
+// is that of Z along the ray.
 // A voxel of space fills its step, Z < ZBack; a voxel of a hit stands at its depth, Z = ZBack.
 // R G B are multiplied by A.
 #pragma once
@@ -15,9 +16,11 @@
 
 namespace voxelume::volume_exr {
 
-/// The channels of four-byte floats, in the order of a sample's values.
-inline constexpr std::array<const char*, 7> kFloatChannels = {"R", "G",     "B",    "A",
-                                                              "Z", "ZBack", "depth"};
+/// The channels of four-byte floats that are read back, in the order of a sample's values.
+inline constexpr std::array<const char*, 5> kReadChannels = {"R", "G", "B", "A", "depth"};
+/// Those that are written: the ones that other programs want follow.
+inline constexpr std::array<const char*, 8> kFloatChannels = {"R",     "G", "B",     "A",
+                                                              "depth", "Z", "ZBack", "distance"};
 /// The channels of ids: the object's number plus 1 or 0 for none, the VoxelKind, and k.
 inline constexpr std::array<const char*, 3> kIdChannels = {"objectId", "voxelKind", "voxel.K"};
 

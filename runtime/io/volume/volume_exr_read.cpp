@@ -20,8 +20,8 @@ namespace voxelume {
 
 namespace {
 
-using volume_exr::kFloatChannels;
 using volume_exr::kIdChannels;
+using volume_exr::kReadChannels;
 
 /// A sample before the voxels are sorted by their place.
 struct Sample {
@@ -53,9 +53,9 @@ struct DeepRow {
     }
 
     std::vector<uint32_t> counts;
-    std::array<std::vector<float>, kFloatChannels.size()> floats;
+    std::array<std::vector<float>, kReadChannels.size()> floats;
     std::array<std::vector<uint32_t>, kIdChannels.size()> ids;
-    std::array<std::vector<float*>, kFloatChannels.size()> float_pointers;
+    std::array<std::vector<float*>, kReadChannels.size()> float_pointers;
     std::array<std::vector<uint32_t*>, kIdChannels.size()> id_pointers;
 };
 
@@ -63,9 +63,9 @@ Imf::DeepFrameBuffer frame_buffer(DeepRow& row) {
     Imf::DeepFrameBuffer buffer;
     buffer.insertSampleCountSlice(
         Imf::Slice(Imf::UINT, reinterpret_cast<char*>(row.counts.data()), sizeof(uint32_t), 0));
-    for (size_t c = 0; c < kFloatChannels.size(); ++c)
+    for (size_t c = 0; c < kReadChannels.size(); ++c)
         buffer.insert(
-            kFloatChannels[c],
+            kReadChannels[c],
             Imf::DeepSlice(Imf::FLOAT, reinterpret_cast<char*>(row.float_pointers[c].data()),
                            sizeof(float*), 0, sizeof(float)));
     for (size_t c = 0; c < kIdChannels.size(); ++c)
@@ -86,7 +86,7 @@ Sample take_sample(const InputFile& readable, const VolumeFrame& frame, const De
     sample.opacity = row.floats[3][i];
     sample.color = {row.floats[0][i], row.floats[1][i], row.floats[2][i]};
     if (sample.opacity > 0) sample.color /= sample.opacity;
-    sample.depth = row.floats[6][i];
+    sample.depth = row.floats[4][i];
     sample.object = row.ids[0][i];
     sample.kind = static_cast<VoxelKind>(kind);
     return sample;
@@ -123,7 +123,7 @@ VolumeFrame take_frame(const InputFile& readable, const VolumePath& path,
     if (window.min != Imath::V2i(0) || window.max.x != frame.size.x - 1 ||
         window.max.y != frame.size.y - 1)
         readable.refuse("its size isn't the display's");
-    for (const char* name : kFloatChannels)
+    for (const char* name : kReadChannels)
         if (header.channels().findChannel(name) == nullptr)
             readable.refuse(fmt::format("it has no channel {}", name));
     return frame;

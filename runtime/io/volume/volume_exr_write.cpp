@@ -45,12 +45,14 @@ PixelOrder order_by_pixel(const Volume& volume) {
     return order;
 }
 
-/// The boundaries of the steps. Two neighbouring steps share the same float.
+/// The boundaries of the steps, which still differ when they are scaled. Two neighbouring steps
+/// share the same float.
 std::vector<float> step_bounds(AtomicFile& file, const VolumeFrame& frame) {
     std::vector<float> bounds;
     for (int k = 0; k <= frame.size.z; ++k)
         bounds.push_back(static_cast<float>(frame.display.near + frame.step * k));
-    if (std::ranges::adjacent_find(bounds, std::greater_equal<>()) != bounds.end())
+    const auto is_short = [](float near, float far) { return far - near < far * 0x1p-22f; };
+    if (std::ranges::adjacent_find(bounds, is_short) != bounds.end())
         file.fail("the steps are too short for a deep image's depths, which are float32");
     return bounds;
 }
@@ -83,10 +85,12 @@ class DeepRowWriter {
         const uint64_t begin = order.first[row * pixels_], end = order.first[(row + 1) * pixels_];
         for (auto& samples : floats_) samples.resize(end - begin);
         for (auto& samples : ids_) samples.resize(end - begin);
-        for (uint64_t i = begin; i < end; ++i) put_sample(i - begin, order.voxels[i]);
         for (uint64_t pixel = 0; pixel < pixels_; ++pixel) {
             const uint64_t first = order.first[row * pixels_ + pixel];
             counts_[pixel] = static_cast<uint32_t>(order.first[row * pixels_ + pixel + 1] - first);
+            const DepthScales scales = depth_scales(volume_.frame, glm::dvec2(pixel, row) + 0.5);
+            for (uint64_t i = first; i < order.first[row * pixels_ + pixel + 1]; ++i)
+                put_sample(i - begin, order.voxels[i], scales);
             for (size_t c = 0; c < floats_.size(); ++c)
                 float_pointers_[c][pixel] = floats_[c].data() + (first - begin);
             for (size_t c = 0; c < ids_.size(); ++c)
@@ -101,20 +105,22 @@ class DeepRowWriter {
                               sizeof(Value));
     }
 
-    void put_sample(uint64_t at, uint32_t voxel) {
+    void put_sample(uint64_t at, uint32_t voxel, const DepthScales& scales) {
         const glm::ivec3 cell = cell_of(volume_.frame, volume_.indices[voxel]);
         const float near = bounds_[size_t(cell.z)], far = bounds_[size_t(cell.z) + 1];
         const float opacity = volume_.opacities[voxel], depth = volume_.depths[voxel];
         const bool is_surface = volume_.kinds[voxel] == VoxelKind::object;
         const float surface = std::isfinite(depth) ? std::clamp(depth, near, far) : near;
         const glm::vec3 color = volume_.colors[voxel] * opacity;
-        const std::array<float, 7> values = {color.r,
+        const double front = is_surface ? surface : near, back = is_surface ? surface : far;
+        const std::array<float, 8> values = {color.r,
                                              color.g,
                                              color.b,
                                              opacity,
-                                             is_surface ? surface : near,
-                                             is_surface ? surface : far,
-                                             depth};
+                                             depth,
+                                             float(front * scales.z),
+                                             float(back * scales.z),
+                                             float(front * scales.distance)};
         for (size_t c = 0; c < values.size(); ++c) floats_[c][at] = values[c];
         ids_[0][at] = volume_.objects[voxel];
         ids_[1][at] = static_cast<uint32_t>(volume_.kinds[voxel]);

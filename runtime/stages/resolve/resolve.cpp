@@ -14,6 +14,7 @@ std::vector<const char*> plane_names(const ImageChannels& channels) {
     std::vector<const char*> names;
     if (channels.color) names = {"R", "G", "B", "A"};
     if (channels.depth) names.push_back("Z");
+    if (channels.distance) names.push_back("distance");
     if (channels.position) names.insert(names.end(), {"P.X", "P.Y", "P.Z"});
     if (channels.normal) names.insert(names.end(), {"N.X", "N.Y", "N.Z"});
     return names;
@@ -30,6 +31,7 @@ Defines resolve_defines(const Device& device, const Features& features,
     Defines defines = features.defines(device);
     defines.insert(defines.end(), {{"VXL_SHOWS_COLOR", channels.color},
                                    {"VXL_SHOWS_DEPTH", channels.depth},
+                                   {"VXL_SHOWS_DISTANCE", channels.distance},
                                    {"VXL_SHOWS_POSITION", channels.position},
                                    {"VXL_SHOWS_NORMAL", channels.normal},
                                    {"VXL_SHOWS_OBJECT", channels.object}});
