@@ -26,11 +26,12 @@ typedef struct {
     uint first, stride, slots;
     global float* restrict crossings;
     lane_uint count;  // crossings found, including those without a slot
+    uint covers;      // 1: what sight rays count of them is looked for, see scan_lines
 } ScanResult;
 
 /// Keeps the `crossed` lanes' crossings at t. A face between two voxels of the display belongs to
 /// the one that its object is in: ahead where `inward` is 1, behind where it is -1, not known where
-/// 0.
+/// 0. It is 2 where lines for covers enter a cube.
 static inline void keep_crossings(ScanResult* r, const Walk* w, lane_int crossed, lane_float t,
                                   lane_float inward) {
     if (!lanes_any(crossed)) return;
@@ -39,6 +40,13 @@ static inline void keep_crossings(ScanResult* r, const Walk* w, lane_int crossed
     const lane_float side = rint(s);
     const lane_int on_side = LANE_MASK(fabs(s - side) < VXL_INWARD) & LANE_MASK(inward != 0.0f);
     s = LANES_SELECT(on_side, fma(inward, (lane_float)VXL_INWARD, side), s);
+    if (r->covers) {
+        const lane_uint sense =
+            LANES_SELECT(LANE_MASK(inward > 1.0f), (lane_uint)VXL_CROSSES_CUBE,
+                         LANES_SELECT(LANE_MASK(inward > 0.0f), (lane_uint)VXL_CROSSES_IN,
+                                      (lane_uint)VXL_CROSSES_OUT));
+        s = LANES_AS_FLOAT((LANES_AS_UINT(s) & ~VXL_CROSSES_SENSES) | sense);
+    }
     float value[VXL_LANES];
     int kept[VXL_LANES];
     uint slot[VXL_LANES];
@@ -135,6 +143,15 @@ static inline void scan_solid(const PyramidView* p, const SurfaceView* s, const 
     }
 }
 
+/// 1 where the line meets the front of the triangle, -1 where it meets its back.
+static inline lane_float triangle_inward(global const float* restrict triangles, lane_uint number,
+                                         const Walk* w) {
+    const float4 edge = (float4)(1.0f, 1.0f, 1.0f, 0.0f);
+    const Vector n = triangle_normal(triangles, number, edge);
+    const lane_float along = fma(n.x, w->dx, fma(n.y, w->dy, n.z * w->dz));
+    return LANES_SELECT(LANE_MASK(along < 0.0f), (lane_float)1.0f, (lane_float)-1.0f);
+}
+
 /// Keeps the crossings with the primitives that the voxel lists. What lies on a voxel's side may be
 /// kept for both voxels.
 static inline void scan_primitives(const PyramidView* p, const SurfaceView* s, const Walk* w,
@@ -155,7 +172,10 @@ static inline void scan_primitives(const PyramidView* p, const SurfaceView* s, c
             const lane_int crossed = hit_triangle(p, t_first, (lane_int)-1, s->triangles,
                                                   primitive & LANES_AS_UINT(triangle), w, &shear,
                                                   (lane_int)0, triangle, &t);
-            keep_crossings(r, w, crossed, t, (lane_float)0.0f);
+            lane_float inward = (lane_float)0.0f;
+            if (r->covers)
+                inward = triangle_inward(s->triangles, primitive & LANES_AS_UINT(triangle), w);
+            keep_crossings(r, w, crossed, t, inward);
         }
         if (VXL_SOLIDS)
             scan_solid(p, s, w, primitive & ~VXL_SOLID_PRIMITIVE, listing & is_solid, t_first,
@@ -180,16 +200,18 @@ static inline lane_int scan_voxels(const PyramidView* p, const SurfaceView* s, c
 
 /// Finds the crossings of lines 0 .. count-1 with surfaces, in their order along each line:
 /// `counts` says how many there are, `crossings` has the lattice coordinate along the line of the
-/// first `slots`, `line_stride` apart. Arrays hold a multiple of 16 lines.
+/// first `slots`, `line_stride` apart. Arrays hold a multiple of 16 lines. With `covers` they
+/// are where a line enters each cube, otherwise where it enters or leaves a row of them, and their
+/// lowest bits are a VXL_CROSSES_*.
 kernel void scan_lines(VXL_WORLD_PARAMETERS, float4 row, global const float* restrict rays,
-                       uint count, uint stride, uint slots, uint line_stride,
+                       uint count, uint stride, uint slots, uint line_stride, uint covers,
                        global uint* restrict counts, global float* restrict crossings) {
     const uint first = work_item() * VXL_LANES;
     if (first >= count) return;
     const WorldView world = VXL_WORLD;
     const PyramidView p = world.pyramid;
     const SurfaceView s = world.surface;
-    ScanResult r = {row, first, line_stride, slots, crossings, (lane_uint)0u};
+    ScanResult r = {row, first, line_stride, slots, crossings, (lane_uint)0u, covers};
     Walk w = load_walk(rays, stride, first);
     const lane_float t_end = LANES_LOAD(rays, VXL_RAY_END * stride + first);
     // A line that begins among cubes has not crossed their surface, unless it comes into the world.
@@ -212,7 +234,7 @@ kernel void scan_lines(VXL_WORLD_PARAMETERS, float4 row, global const float* res
             walking &= ~arrived;
             beginning &= ~walking;
             if (VXL_CUBES) {
-                keep_crossings(&r, &w, walking & in_cube, w.t, (lane_float)-1.0f);
+                if (!covers) keep_crossings(&r, &w, walking & in_cube, w.t, (lane_float)-1.0f);
                 in_cube &= ~walking;
             }
             advance(&p, &w, state.log2_size, walking);
@@ -220,8 +242,10 @@ kernel void scan_lines(VXL_WORLD_PARAMETERS, float4 row, global const float* res
         }
         const lane_int cubes = scan_voxels(&p, &s, &w, leaf, waiting, &r);
         if (VXL_CUBES) {
-            keep_crossings(&r, &w, waiting & (cubes ^ in_cube) & ~(beginning & cubes), w.t,
-                           LANES_SELECT(cubes, (lane_float)1.0f, (lane_float)-1.0f));
+            const lane_int counted = covers ? cubes : cubes ^ in_cube;
+            keep_crossings(
+                &r, &w, waiting & counted & ~(beginning & cubes), w.t,
+                LANES_SELECT(cubes, (lane_float)(covers ? 2.0f : 1.0f), (lane_float)-1.0f));
             in_cube = LANES_SELECT(waiting, cubes, in_cube);
         }
         beginning &= ~waiting;
@@ -229,7 +253,7 @@ kernel void scan_lines(VXL_WORLD_PARAMETERS, float4 row, global const float* res
         advance(&p, &w, (lane_int)0, walking);
         const lane_int going_on = LANE_MASK(w.t <= t_end);
         const lane_int inside = in_grid(&p, &w);
-        if (VXL_CUBES)
+        if (VXL_CUBES && !covers)
             keep_crossings(&r, &w, walking & going_on & ~inside & in_cube, w.t, (lane_float)-1.0f);
         walking &= inside & going_on;
     }
@@ -238,10 +262,10 @@ kernel void scan_lines(VXL_WORLD_PARAMETERS, float4 row, global const float* res
 
 /// Puts the crossings of lines first_line .. first_line+count-1 one after another: line n's from
 /// starts[n] on. Lines run along `axis` (0, 1, 2) in the order of sight.cl; those of column c and
-/// row r lie at (last_a - c) / parts_a along the next axis and (last_b - r) / parts_b along the one
-/// after it.
+/// row r lie at (last_a - c + offset) / parts_a along the next axis and (last_b - r + offset) /
+/// parts_b along the one after it.
 kernel void pack_points(int axis, uint columns, int last_a, int last_b, float parts_a,
-                        float parts_b, global const uint* restrict counts,
+                        float parts_b, float offset, global const uint* restrict counts,
                         global const uint* restrict starts, global const float* restrict crossings,
                         uint first_line, uint count, uint stride, uint total,
                         global float* restrict points) {
@@ -249,8 +273,8 @@ kernel void pack_points(int axis, uint columns, int last_a, int last_b, float pa
     if (n >= count) return;
     const uint tiles_x = (columns + 3u) / 4u, tile = (first_line + n) / 16u;
     const uint column = tile % tiles_x * 4u + (n & 3u), row = tile / tiles_x * 4u + ((n >> 2) & 3u);
-    const float a = (float)(last_a - (int)column) / parts_a;
-    const float b = (float)(last_b - (int)row) / parts_b;
+    const float a = ((float)(last_a - (int)column) + offset) / parts_a;
+    const float b = ((float)(last_b - (int)row) + offset) / parts_b;
     for (uint i = 0; i < counts[n]; ++i) {
         const uint point = starts[n] + i;
         points[(uint)axis * total + point] = crossings[i * stride + n];

@@ -34,6 +34,12 @@ VXL_SIZE_IS(DisplaySteps, 16);
     12  // 3 floats: the part of the light that comes from the way's begin to E
 #define VXL_LAYER_WORDS 15
 
+// How a line along a lattice's axis crosses a surface: the lowest two bits of its coordinate.
+#define VXL_CROSSES_OUT 0u
+#define VXL_CROSSES_IN 1u
+#define VXL_CROSSES_CUBE 2u
+#define VXL_CROSSES_SENSES 3u
+
 // A display of layout `lattice`. A coordinate (x,y,z) in lattice voxels is origin + x axis_x + y
 // axis_y + z axis_z in voxels of the world.
 typedef struct DisplayLattice {

@@ -114,11 +114,13 @@ void add_shape(const v1::BoxDisplay& display, ObjectTree& object) {
 
 JsonValue tree_of_display(const v1::Display& display) {
     constexpr std::array kLayouts = {"rays", "lattice"};
+    constexpr std::array kSeenAlong = {"observer", "facing", "x", "y", "z"};
     constexpr std::array kVisibilities = {"observer", "outside", "all"};
     ObjectTree object;
     std::visit([&object](const auto& shape) { add_shape(shape, object); }, display.shape);
     object.add("voxels", display.voxels).add("layout", kLayouts.at(size_t(display.layout)));
     if (display.visibility) object.add("visibility", kVisibilities.at(size_t(*display.visibility)));
+    if (display.seen_along) object.add("seen_along", kSeenAlong.at(size_t(*display.seen_along)));
     return object.add("clip", display.cylinder ? "cylinder" : "shape").take();
 }
 

@@ -6,6 +6,7 @@
 
 #include "runtime/analysis/medium_set.hpp"
 #include "runtime/analysis/scene_features.hpp"
+#include "runtime/stages/display/display_cover.hpp"
 #include "runtime/stages/display/display_frame.hpp"
 #include "runtime/stages/display/display_lattice.hpp"
 #include "runtime/stages/display/display_rays.hpp"
@@ -118,6 +119,8 @@ class DisplayCounter {
         const ProbePoints chosen = allocate_points(device_, shown);
         const Buffer<uint32_t> distances(device_, "display distances", shown);
         const Buffer<uint32_t> numbers(device_, "display numbers", shown);
+        if (!features_.transmission) return;
+        const Buffer<uint32_t> covers = allocate_covers(device_, shown);
     }
 
     RayCounts counts_of(uint32_t rays) const {

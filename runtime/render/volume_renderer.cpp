@@ -11,6 +11,7 @@
 #include "runtime/analysis/medium_set.hpp"
 #include "runtime/base/error.hpp"
 #include "runtime/render/illumination.hpp"
+#include "runtime/stages/display/display_cover.hpp"
 #include "runtime/stages/display/display_lattice.hpp"
 #include "runtime/stages/display/display_rays.hpp"
 #include "runtime/stages/trace/beam.hpp"
@@ -170,6 +171,13 @@ void render_lattice(Work& work, Volume& volume) {
     ShownVoxels shown = display.choose(pieces);
     report_progress(2);
     pieces.clear();
+    std::optional<DisplayCoverStage> cover;
+    if (work.features.transmission && shown.voxels.count > 0) {
+        cover.emplace(work.device, geometry, work.frame, work.world.frame, shown);
+        scan.scan_covers(work.world, batch, [&](int axis, const ProbePoints& points) {
+            cover->count(axis, points, display.mask());
+        });
+    }
     const LightRays light_rays = [&](RayBatch& rays, uint32_t count, const LayerSink& sink) {
         illumination.light(rays, count, sink);
     };
@@ -180,6 +188,8 @@ void render_lattice(Work& work, Volume& volume) {
     work.report.sight_rays += scan.lines() + display.rays();
     count_rays(illumination, work.report);
     read_voxels(shown.voxels, volume);
+    if (cover)
+        cover->adjust({scan.cover_lines(0), scan.cover_lines(1), scan.cover_lines(2)}, volume);
 }
 
 uint32_t count_not_finite(const Volume& volume) {

@@ -31,6 +31,16 @@ enum class Visibility : uint8_t {
     all        ///< all
 };
 
+/// The sight lines along which the voxels of a lattice together cover what lies behind them as much
+/// as the surfaces do that they show.
+enum class SeenAlong : uint8_t {
+    observer,  ///< those of E
+    facing,    ///< those along the axis that the surface faces most, voxel by voxel
+    x,         ///< those along X_E
+    y,
+    z
+};
+
 /// VD_E, in the observer's coordinates. A ball is centred at the observer, the others lie around
 /// Z_E.
 struct Display {
@@ -45,6 +55,7 @@ struct Display {
         false;  ///< pyramid given by one angle: the vertical one follows the image's size
     VolumeLayout layout = VolumeLayout::rays;
     Visibility visibility = Visibility::observer;  ///< always `observer` for rays
+    SeenAlong seen_along = SeenAlong::observer;    ///< lattice
     bool cylinder = false;  ///< lattice: clipped by the upright cylinder that it circumscribes, too
 
     friend bool operator==(const Display&, const Display&) = default;

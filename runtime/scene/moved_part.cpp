@@ -83,6 +83,7 @@ void MovedPart::form_display(Observer& observer) {
     display.voxels = observer.display.voxels;
     display.layout = observer.display.layout;
     display.visibility = observer.display.visibility;
+    display.seen_along = observer.display.seen_along;
     display.cylinder = observer.display.cylinder;
     observer.display = display;
 }

@@ -71,8 +71,8 @@ std::vector<KeyTable> make_tables() {
                                     placement});
     add_kinds("light", {"name", "type", "color", "intensity"}, light_types(), {}, tables);
     tables.push_back({"observer", keys_of(observer_rows()) + Keys{"display"}});
-    add_kinds("display", {"shape", "voxels", "layout", "visibility", "clip"}, display_shapes(), {},
-              tables);
+    add_kinds("display", {"shape", "voxels", "layout", "visibility", "seen_along", "clip"},
+              display_shapes(), {}, tables);
     tables.push_back({"animation", {"frames", "fps", "tracks"}});
     tables.push_back({"track", {"target", "keys", "interpolation"}});
     tables.push_back({"key", {"frame", "time", "value"}});

@@ -24,6 +24,8 @@ DisplayParameters read_display_parameters(const SceneValue& value) {
     return parameters;
 }
 
+constexpr std::array<std::string_view, 5> kSeenAlong = {"observer", "facing", "x", "y", "z"};
+
 /// How the display's voxels are ordered, and which of them it has.
 void read_volume(const SceneFields& fields, Display& display) {
     using Pair = std::array<std::string_view, 2>;
@@ -37,6 +39,12 @@ void read_volume(const SceneFields& fields, Display& display) {
             static_cast<Visibility>(visibility->choice(Sights{"observer", "outside", "all"}));
     if (display.visibility != Visibility::observer && !is_lattice)
         visibility->fail("needs \"layout\": \"lattice\": rays show what their observer sees");
+    if (display.visibility != Visibility::observer) display.seen_along = SeenAlong::facing;
+    if (const auto along = fields.find("seen_along")) {
+        display.seen_along = static_cast<SeenAlong>(along->choice(kSeenAlong));
+        if (!is_lattice)
+            along->fail("needs \"layout\": \"lattice\": rays are seen along themselves");
+    }
     const auto clip = fields.find("clip");
     if (clip) display.cylinder = clip->choice(Pair{"shape", "cylinder"}) == 1;
     if (display.cylinder && !is_lattice)

@@ -50,6 +50,16 @@ enum class Visibility {
     all        ///< all
 };
 
+/// The sight lines along which the voxels of a lattice together cover what lies behind them as much
+/// as the surfaces do that they show.
+enum class SeenAlong {
+    observer,  ///< those of the observer
+    facing,    ///< those along the axis that the surface faces most, voxel by voxel
+    x,         ///< those along X_E
+    y,         ///< those along Y_E
+    z          ///< those along Z_E
+};
+
 /// The space that the observer sees, VS_E, and the voxels of a volumetric image of it.
 struct Display {
     std::variant<PyramidDisplay, SectorDisplay, BallDisplay, BoxDisplay>
@@ -58,6 +68,8 @@ struct Display {
         voxels{};                              ///< u, v, k, or x, y, z; without it image size, 256
     VolumeLayout layout = VolumeLayout::rays;  ///< how the voxels of a volumetric image lie
     std::optional<Visibility> visibility{};    ///< of a lattice; without it `observer`
+    std::optional<SeenAlong> seen_along{};  ///< of a lattice; without it `facing`, and `observer`
+                                            ///< for what the observer sees
     bool cylinder = false;  ///< of a lattice: the upright cylinder inside clips it, too
 };
 

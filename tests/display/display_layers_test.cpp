@@ -212,11 +212,16 @@ TEST(Layers, ALatticeShowsWhatIsSeenThroughPanes) {
         scene.observer.display.visibility = visibility;
         const Volume volume = volume_of(scene);
         std::map<uint32_t, int> counts;
+        std::map<uint32_t, std::array<double, 24>> clear;  // of objects' columns along the view
+        for (const uint32_t object : {1u, 2u}) clear[object].fill(1);
         for (size_t i = 0; i < volume.indices.size(); ++i) {
             const uint32_t object = volume.objects[i];
             ASSERT_TRUE(object >= 1 && object <= 3);
             ++counts[object];
-            EXPECT_NEAR(volume.opacities[i], object == 1 ? 0.25f : object == 2 ? 0.5f : 1.0f, 1e-6);
+            if (object == 3)
+                EXPECT_EQ(volume.opacities[i], 1.0f);
+            else
+                clear[object][volume.indices[i] % 24] *= 1 - double(volume.opacities[i]);
             constexpr std::array kGreen = {0.2f, 0.6f, 0.3f};
             EXPECT_NEAR(volume.colors[i].g, kGreen[object - 1], 1e-5) << i;
         }
@@ -224,6 +229,12 @@ TEST(Layers, ALatticeShowsWhatIsSeenThroughPanes) {
         EXPECT_GE(counts[3], 24) << int(visibility);
         EXPECT_GE(counts[1], 16);
         EXPECT_GE(counts[2], 16);
+        // Both surfaces of a pane cover what is behind them, wherever its voxels are.
+        for (size_t column = 0; column < 24; ++column) {
+            const size_t x = column % 6;
+            EXPECT_NEAR(clear[1][column], x < 4 ? 0.75 * 0.75 : 1, 1e-6) << column;
+            EXPECT_NEAR(clear[2][column], x >= 2 ? 0.5 * 0.5 : 1, 1e-6) << column;
+        }
     }
 }
 

@@ -85,7 +85,7 @@ inline std::vector<nlohmann::json> full_scenes() {
             "sky": {"kind": "constant", "color": [1, 2, 3], "strength": 2, "samples": 4},
             "medium": {"density": {"kind": "ball", "center": [1, 2, 3], "radius": 2, "falloff": 1}}},
             "observer": {"position": [0, 0, 0], "display": {"shape": "ball", "radius": 2, "voxels": [5, 6, 7],
-                                                                   "layout": "lattice", "visibility": "all",
+                                                                   "layout": "lattice", "visibility": "all", "seen_along": "z",
                                                                    "clip": "cylinder"}}})",
         R"({"voxelume": 1, "world": {"voxel_size": 0.5, "bounds": {"min": [0, 0, 0], "max": [1, 2, 3]},
             "sky": {"kind": "gradient", "zenith": [1, 2, 3], "horizon": [3, 2, 1], "ground": [0, 0, 0], "strength": 2, "samples": 4},

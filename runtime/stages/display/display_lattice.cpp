@@ -146,6 +146,7 @@ ShownVoxels DisplayLatticeStage::choose(const std::vector<ProbePoints>& pieces) 
                      chosen.total, chosen.coordinates, chosen.views);
         first_number += points.count;
     }
+    shown.starts = std::move(starts);
     return shown;
 }
 

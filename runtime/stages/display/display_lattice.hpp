@@ -11,8 +11,9 @@ namespace voxelume {
 
 /// The voxels that a lattice shows, each with the probe point that gives it its light.
 struct ShownVoxels {
-    VoxelArrays voxels;  ///< only `indices` are filled
-    ProbePoints points;  ///< one for each voxel
+    VoxelArrays voxels;       ///< only `indices` are filled
+    ProbePoints points;       ///< one for each voxel
+    Buffer<uint32_t> starts;  ///< the number of voxels before each group of the mask
 };
 
 /// One bit for every voxel of a lattice. Throws Error::limit where it has no room.
@@ -43,6 +44,9 @@ class DisplayLatticeStage {
     /// Lights the voxels, batch by batch.
     void light(const LookAhead& look, const LightRays& light_rays, const Environment& environment,
                RayBatch& batch, ShownVoxels& shown);
+
+    /// One bit for every voxel of the lattice, 1 for those that are shown.
+    const Buffer<uint32_t>& mask() const { return mask_; }
 
     uint64_t rays() const { return rays_; }  ///< number of rays aimed so far
 

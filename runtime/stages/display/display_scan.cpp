@@ -100,14 +100,18 @@ DisplayScanStage::DisplayScanStage(const Device& device, const Features& feature
                                    const VolumeFrame& frame, const GridFrame& world)
     : device_(device),
       lattice_(display_lattice(frame, world)),
-      families_{family(0, frame, world), family(1, frame, world), family(2, frame, world)},
+      families_{family(0, frame, world, 1, 0), family(1, frame, world, 1, 0),
+                family(2, frame, world, 1, 0)},
+      cover_families_{family(0, frame, world, 2, 0.5f), family(1, frame, world, 2, 0.5f),
+                      family(2, frame, world, 2, 0.5f)},
       camera_(device, features, families_.front().camera),
       program_(device, "display_scan.cl", features.defines(device)),
       scan_(program_.kernel("scan_lines")),
       pack_(program_.kernel("pack_points")) {}
 
 DisplayScanStage::Family DisplayScanStage::family(int axis, const VolumeFrame& frame,
-                                                  const GridFrame& world) const {
+                                                  const GridFrame& world, int min_parts,
+                                                  float offset) const {
     const int a = (axis + 1) % 3, b = (axis + 2) % 3;
     const glm::dmat4& map = frame.world_from_observer;
     const auto direction = [&](int i) {
@@ -115,7 +119,9 @@ DisplayScanStage::Family DisplayScanStage::family(int axis, const VolumeFrame& f
     };
     Family result{};
     result.axis = axis;
-    result.parts = {parts_of(frame.edge[a], world), parts_of(frame.edge[b], world)};
+    result.offset = offset;
+    result.parts = glm::max(
+        glm::ivec2(parts_of(frame.edge[a], world), parts_of(frame.edge[b], world)), min_parts);
     const std::array rows = {lattice_.row_x, lattice_.row_y, lattice_.row_z};
     result.row_second = rows[size_t(b)];
     result.count = frame.size[b] * result.parts.y;
@@ -125,8 +131,10 @@ DisplayScanStage::Family DisplayScanStage::family(int axis, const VolumeFrame& f
     const LineRange across_b = lines_across(result.row_second, result.parts.y, result.count, all);
     result.last = {across_a.last, across_b.last};
     glm::dvec3 corner = frame.origin;
-    corner[a] += 0.5 * (across_a.first + across_a.last) / result.parts.x * frame.edge[a];
-    corner[b] += 0.5 * (across_b.first + across_b.last) / result.parts.y * frame.edge[b];
+    corner[a] +=
+        (0.5 * (across_a.first + across_a.last) + double(offset)) / result.parts.x * frame.edge[a];
+    corner[b] +=
+        (0.5 * (across_b.first + across_b.last) + double(offset)) / result.parts.y * frame.edge[b];
     const glm::dvec3 origin =
         (glm::dvec3(map * glm::dvec4(corner, 1)) - world.origin) / world.voxel_edge;
     // A box of parallel rays. Its unit of length is a part across them, and a lattice voxel along
@@ -170,7 +178,7 @@ ProbePoints DisplayScanStage::scan_batch(const Pyramid& world, const Family& fam
             crossings_ = allocate_crossings(device_, stride, slots_);
         if (counts_.size() < stride) counts_ = Buffer<uint32_t>(device_, "probe counts", stride);
         scan_.launch_packets(count, world, family.row, batch.rays, count, batch.stride, slots_,
-                             stride, counts_, crossings_);
+                             stride, uint32_t(covers_), counts_, crossings_);
         counts = counts_.read(0, count);
         const uint32_t maximum = *std::ranges::max_element(counts);
         if (maximum <= slots_) break;
@@ -183,16 +191,18 @@ ProbePoints DisplayScanStage::scan_batch(const Pyramid& world, const Family& fam
     points.views.fill(kNoView);
     const Buffer<uint32_t> places(device_, "probe starts", std::span<const uint32_t>(starts));
     pack_.launch(WorkItem::light, count, family.axis, uint32_t(family.camera.width), family.last.x,
-                 family.last.y, float(family.parts.x), float(family.parts.y), counts_, places,
-                 crossings_, first_line, count, stride, points.total, points.coordinates);
+                 family.last.y, float(family.parts.x), float(family.parts.y), family.offset,
+                 counts_, places, crossings_, first_line, count, stride, points.total,
+                 points.coordinates);
     return points;
 }
 
-std::vector<ProbePoints> DisplayScanStage::scan(const Pyramid& world, RayBatch& batch) {
-    std::vector<ProbePoints> pieces;
+void DisplayScanStage::scan_families(
+    const Pyramid& world, const std::vector<Family>& families, RayBatch& batch,
+    const std::function<void(int axis, ProbePoints points)>& sink) {
     const VoxelBox shown = world.voxel_count == 0 ? VoxelBox{} : box_of_objects(world);
     const uint32_t batch_tiles = scanned_lines(batch.stride) / 16;
-    for (const Family& family : families_) {
+    for (const Family& family : families) {
         const Camera& camera = family.camera;
         if (camera.width == 0 || camera.height == 0) continue;
         camera_.look(camera);
@@ -205,10 +215,29 @@ std::vector<ProbePoints> DisplayScanStage::scan(const Pyramid& world, RayBatch& 
             const uint32_t count = camera_.cast(shape_of(world), first, now, batch);
             lines_ += count;
             ProbePoints points = scan_batch(world, family, first * 16, count, batch);
-            if (points.count > 0) pieces.push_back(std::move(points));
+            if (points.count > 0) sink(family.axis, std::move(points));
         }
     }
+}
+
+std::vector<ProbePoints> DisplayScanStage::scan(const Pyramid& world, RayBatch& batch) {
+    std::vector<ProbePoints> pieces;
+    scan_families(world, families_, batch,
+                  [&pieces](int, ProbePoints points) { pieces.push_back(std::move(points)); });
     return pieces;
+}
+
+void DisplayScanStage::scan_covers(const Pyramid& world, RayBatch& batch, const PointSink& sink) {
+    const uint64_t lines = lines_, clear_lines = clear_lines_;
+    covers_ = true;
+    scan_families(world, cover_families_, batch, sink);
+    covers_ = false;
+    lines_ = lines, clear_lines_ = clear_lines;  // those of the scan itself
+}
+
+uint32_t DisplayScanStage::cover_lines(int axis) const {
+    const glm::ivec2& parts = cover_families_[size_t(axis)].parts;
+    return uint32_t(parts.x * parts.y);
 }
 
 }  // namespace voxelume

@@ -2,6 +2,7 @@
 // world + lattice of a display -> probe points: the points where its probe lines cross surfaces.
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "runtime/grid/grid.hpp"
@@ -49,6 +50,16 @@ class DisplayScanStage {
     /// meanwhile.
     std::vector<ProbePoints> scan(const Pyramid& world, RayBatch& batch);
 
+    /// The points of a part of the lines along `axis`.
+    using PointSink = std::function<void(int axis, const ProbePoints& points)>;
+
+    /// Gives `sink` the points where lines cross surfaces, or enter a cube: what sight rays count
+    /// of them, too. These lines lie inside the voxels, at least 2 x 2 in each.
+    void scan_covers(const Pyramid& world, RayBatch& batch, const PointSink& sink);
+
+    /// The number of lines in a voxel that lead along `axis` for that.
+    uint32_t cover_lines(int axis) const;
+
     uint64_t lines() const { return lines_; }              ///< number of lines cast so far
     uint64_t clear_lines() const { return clear_lines_; }  ///< number of lines left out so far
 
@@ -63,19 +74,25 @@ class DisplayScanStage {
         Camera camera;
         float4 row;         ///< row of the lattice coordinate along the lines
         float4 row_second;  ///< row of the second coordinate across them
+        /// In parts, of the lines from the edges of voxels: 0, or 1/2 so that none lies on an edge.
+        float offset;
     };
-    Family family(int axis, const VolumeFrame& frame, const GridFrame& world) const;
+    Family family(int axis, const VolumeFrame& frame, const GridFrame& world, int min_parts,
+                  float offset) const;
     /// The rows of tiles with the lines that meet `box`: the first, and one beyond the last.
     static glm::uvec2 rows_across(const Family& family, const VoxelBox& box);
     ProbePoints scan_batch(const Pyramid& world, const Family& family, uint32_t first_line,
                            uint32_t count, RayBatch& batch);
+    void scan_families(const Pyramid& world, const std::vector<Family>& families, RayBatch& batch,
+                       const std::function<void(int axis, ProbePoints points)>& sink);
 
     Device device_;
     DisplayLattice lattice_;
-    std::vector<Family> families_;
+    std::vector<Family> families_, cover_families_;
     SightStage camera_;
     Program program_;
     Kernel scan_, pack_;
+    bool covers_ = false;           ///< see scan_lines
     uint32_t slots_ = kFirstSlots;  ///< number of crossings that a line has room for; it grows
     Buffer<float> crossings_;
     Buffer<uint32_t> counts_;
