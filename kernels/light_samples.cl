@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// world -> the pieces of surface of its emissive objects.
+// world, or the model of an instance -> the pieces of surface of its emissive objects.
 #include "lib/lanes/vector.h"
 #include "lib/lanes/work_item.h"
 #include "lib/solid/solid.h"
@@ -26,10 +26,10 @@ static inline uint attributes_of_voxel(const SurfaceView* s, uint voxel) {
 }
 
 /// True if a cube fills the cell, or if the cell is outside of the world.
-static inline bool is_covered(const WorldView* world, int x, int y, int z) {
+static inline bool is_covered(const WorldView* world, bool is_model, int x, int y, int z) {
     const PyramidView* p = &world->pyramid;
-    if (x < 0 || y < 0 || z < 0) return true;
-    if (x >= p->size_x || y >= p->size_y || z >= p->size_z) return true;
+    if (x < 0 || y < 0 || z < 0) return !is_model;
+    if (x >= p->size_x || y >= p->size_y || z >= p->size_z) return !is_model;
     const uint entry = p->sectors[((z >> 6) * p->sectors_y + (y >> 6)) * p->sectors_x + (x >> 6)];
     if ((int)entry < 0) return false;
     const uint brick = (uint)((x >> 4 & 3) | (y >> 4 & 3) << 2 | (z >> 4 & 3) << 4);
@@ -50,6 +50,7 @@ typedef struct {
     global const uint* restrict emissive_objects;
     global const uint* restrict emissive_materials;
     uint capacity;
+    bool is_model;  // the voxels are those of an instance's model, and not the world's
     global uint* restrict found;
     global uint4* restrict pieces;
 } EmissivePieces;
@@ -73,7 +74,7 @@ static inline void list_faces(const WorldView* world, const EmissivePieces* g, i
                               uint voxel, uint packed) {
     for (int face = 0; face < 6; ++face) {
         const int axis = face >> 1, step = (face & 1) * 2 - 1;
-        if (!is_covered(world, x + (axis == 0 ? step : 0), y + (axis == 1 ? step : 0),
+        if (!is_covered(world, g->is_model, x + (axis == 0 ? step : 0), y + (axis == 1 ? step : 0),
                         z + (axis == 2 ? step : 0)))
             list_piece(g, x, y, z, (uint)face, voxel, packed);
     }
@@ -105,17 +106,20 @@ static inline void list_voxel(const WorldView* world, const EmissivePieces* g, i
 }
 
 /// Lists the emissive surfaces in one brick: the open faces of cubes, smooth voxels, and solids in
-/// the voxels that list them. One work-item takes one of each sector's 64 bricks.
-kernel void list_emissive(const uint count, VXL_WORLD_PARAMETERS,
+/// the voxels that list them. One work-item takes one of each sector's 64 bricks. The table of
+/// sectors begins at `first_sector`, which is 0 for the world's and more for a model's.
+kernel void list_emissive(const uint count, VXL_WORLD_PARAMETERS, const uint first_sector,
                           global const uint* restrict emissive_objects,
                           global const uint* restrict emissive_materials, const uint capacity,
                           global uint* restrict found, global uint4* restrict pieces) {
     const uint item = work_item();
     if (item >= count) return;
-    const WorldView world = VXL_WORLD;
-    const EmissivePieces asked = {emissive_objects, emissive_materials, capacity, found, pieces};
+    WorldView world = VXL_WORLD;
+    world.pyramid.sectors += first_sector;
+    const EmissivePieces asked = {
+        emissive_objects, emissive_materials, capacity, first_sector > 0u, found, pieces};
     const int sector = (int)(item >> 6), brick = (int)(item & 63u);
-    const uint entry = sectors[sector];
+    const uint entry = world.pyramid.sectors[sector];
     if ((int)entry < 0) return;
     global const uint* record = bricks + ((size_t)entry * 64 + brick) * 4;
     const int row = sector / shape.sectors_x;

@@ -62,7 +62,8 @@ struct BrickGrid {
 /// A model that instances share, and the place of its voxels in a pyramid's buffers.
 struct InstanceModel {
     GridFrame frame;
-    uint32_t first_sector = 0;   ///< start of its table in Pyramid::sectors
+    uint32_t first_sector = 0;  ///< start of its table in Pyramid::sectors
+    uint32_t first_triangle = 0, triangle_count = 0;
     glm::ivec3 low{0}, high{0};  ///< the box of its voxels; empty for a model without voxels
 };
 

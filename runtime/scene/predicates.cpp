@@ -13,8 +13,6 @@ namespace {
 
 /// Why an object can't be an instance; empty if it can.
 std::string refusal(const Scene& scene, const Object& object) {
-    if (is_emissive(scene, object))
-        return "its emission lights the world, and lamps are found in the world's voxels";
     if (transmits(scene, object))
         return "a material of it lets light through, and rays go through objects in the world's "
                "voxels only";

@@ -19,7 +19,7 @@ namespace voxelume {
 namespace {
 
 constexpr uint32_t kSeed = 20261123;
-constexpr uint32_t kRays = 16 * 301;  // odd: the last packet has none to interleave with
+constexpr uint32_t kBeamRays = 16 * 301;  // odd: the last packet has none to interleave with
 constexpr glm::ivec3 kSize{230, 137,
                            301};  // a dilated occupancy of bricks ends beyond it on all axes
 
@@ -42,7 +42,7 @@ std::vector<glm::ivec3> scattered_voxels(int count) {
     return voxels;
 }
 
-Light point_light(const glm::dvec3& position) {
+Light beam_light(const glm::dvec3& position) {
     Light light;
     light.position = position;
     return light;
@@ -65,7 +65,7 @@ std::vector<Light> lights_outside() {
             for (const double distance : {0.15, 0.3, 1.0, 1000.0}) {
                 glm::dvec3 at = random.point(size);
                 at[axis] = middle[axis] + side * (0.5 + distance) * size[axis];
-                lights.push_back(point_light(at));
+                lights.push_back(beam_light(at));
             }
             glm::dvec3 direction = random.point({1, 1, 1}) - 0.5;
             direction[axis] = -side;
@@ -85,11 +85,11 @@ class ShadowedCubes {
           pyramid_(build_index(device, bare_bricks(frame_of(kSize), voxels_).upload(device))),
           features_(features_of(pyramid_)) {
         features_.shadows = true;
-        batch_ = allocate_batch(device, features_, kRays);
-        queue_ = allocate_shadow_queue(device, features_, kRays);
-        queue_.count.fill(kRays);
+        batch_ = allocate_batch(device, features_, kBeamRays);
+        queue_ = allocate_shadow_queue(device, features_, kBeamRays);
+        queue_.count.fill(kBeamRays);
         queue_.traced.fill(0);
-        std::vector<uint32_t> targets(kRays);
+        std::vector<uint32_t> targets(kBeamRays);
         std::iota(targets.begin(), targets.end(), 0u);
         queue_.targets.write(std::span<const uint32_t>(targets));
         queue_.contributions.fill(1.0f);
@@ -106,8 +106,8 @@ class ShadowedCubes {
         const glm::dvec3 at(record.position.x, record.position.y, record.position.z);
         const double unit = double(shape_of(pyramid_).fixed_point);
         const double step = std::ldexp(1.0, -VXL_DIRECTION_BITS);
-        std::vector<float> values(size_t(kRays) * VXL_RAY_COMPONENTS);
-        for (uint32_t i = 0; i < kRays; ++i) {
+        std::vector<float> values(size_t(kBeamRays) * VXL_RAY_COMPONENTS);
+        for (uint32_t i = 0; i < kBeamRays; ++i) {
             const glm::dvec3 voxel(voxels_[i % voxels_.size()]), aside = random.point({60, 60, 60});
             const glm::dvec3 place = glm::clamp(voxel + aside - 30.0, {0, 0, 0}, glm::dvec3(kSize));
             const glm::dvec3 from = glm::round(place * unit) / unit;
@@ -117,11 +117,11 @@ class ShadowedCubes {
             std::frexp(std::max({std::abs(to_light.x), std::abs(to_light.y), std::abs(to_light.z)}),
                        &exponent);
             for (uint32_t a = 0; a < 3; ++a) {
-                values[(VXL_RAY_OX + a) * kRays + i] = float(from[int(a)]);
-                values[(VXL_RAY_DX + a) * kRays + i] =
+                values[(VXL_RAY_OX + a) * kBeamRays + i] = float(from[int(a)]);
+                values[(VXL_RAY_DX + a) * kBeamRays + i] =
                     float(std::round(std::ldexp(to_light[int(a)], -exponent) / step) * step);
             }
-            values[VXL_RAY_END * kRays + i] = distant ? INFINITY : std::ldexp(1.0f, exponent);
+            values[VXL_RAY_END * kBeamRays + i] = distant ? INFINITY : std::ldexp(1.0f, exponent);
         }
         queue_.rays.write(std::span<const float>(values));
     }
@@ -134,8 +134,8 @@ class ShadowedCubes {
         const Surroundings surroundings{
             Buffer<MaterialRecord>(device_, "materials", std::vector<MaterialRecord>(1)),
             Buffer<uint32_t>(device_, "ranks", std::vector<uint32_t>(1))};
-        trace.shadows(pyramid_, surroundings, queue_, kRays, batch_);
-        return batch_.radiance.read(0, kRays);
+        trace.shadows(pyramid_, surroundings, queue_, kBeamRays, batch_);
+        return batch_.radiance.read(0, kBeamRays);
     }
 
     LightBeams send(const BeamGrid& grid, DilationLevel of) {
@@ -206,7 +206,7 @@ TEST(LightBeams, OfSquaresTooWideLetLightThroughVoxels) {
         const LightBeams beams = world.send(grid, DilationLevel::leaves);
         world.aim(light);
         const std::vector<float> expected = world.reached(), found = world.reached(beams);
-        for (uint32_t i = 0; i < kRays; ++i) wrong += expected[i] != found[i];
+        for (uint32_t i = 0; i < kBeamRays; ++i) wrong += expected[i] != found[i];
     }
     EXPECT_GT(wrong, 100);
 }
@@ -264,14 +264,14 @@ TEST(LightBeams, AreNotSentFromLightsInTheWorldOrTooNear) {
         return beam_grid(light_record(light, frame), kSize, 1.0f, maximum);
     };
     constexpr uint32_t kMany = 1u << 30;
-    EXPECT_EQ(grid_of(point_light({100, 100, 100}), kMany).columns, 0) << "inside";
-    EXPECT_EQ(grid_of(point_light({100, 137, 100}), kMany).columns, 0) << "on a side";
-    EXPECT_EQ(grid_of(point_light({100, 138, 100}), kMany).columns, 0) << "beams too oblique";
-    const BeamGrid grid = grid_of(point_light({100, 300, 100}), kMany);
+    EXPECT_EQ(grid_of(beam_light({100, 100, 100}), kMany).columns, 0) << "inside";
+    EXPECT_EQ(grid_of(beam_light({100, 137, 100}), kMany).columns, 0) << "on a side";
+    EXPECT_EQ(grid_of(beam_light({100, 138, 100}), kMany).columns, 0) << "beams too oblique";
+    const BeamGrid grid = grid_of(beam_light({100, 300, 100}), kMany);
     const auto count = uint32_t(grid.columns * grid.rows);
     EXPECT_GT(count, 0u);
-    EXPECT_EQ(grid_of(point_light({100, 300, 100}), count).columns, grid.columns);
-    EXPECT_EQ(grid_of(point_light({100, 300, 100}), count - 1).columns, 0);
+    EXPECT_EQ(grid_of(beam_light({100, 300, 100}), count).columns, grid.columns);
+    EXPECT_EQ(grid_of(beam_light({100, 300, 100}), count - 1).columns, 0);
     EXPECT_EQ(grid_of(distant_light({0, 0, 0}), kMany).columns, 0) << "no direction";
 }
 

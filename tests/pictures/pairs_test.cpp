@@ -257,5 +257,38 @@ TEST(Pairs, RandomOnesShowTheObjectThatIsThere) {
     fmt::print("{} pairs, rms at most {:.2e} voxel\n", pairs, worst);
 }
 
+/// How far a surface may be from where its solid is.
+struct SurfaceSlack {
+    const char* name;
+    double border, rms;  ///< voxels
+};
+
+// Cubes stand out by up to a voxel's diagonal.
+constexpr std::array kSurfaceSlacks = {SurfaceSlack{"smooth", 0.5, 0.1},
+                                       SurfaceSlack{"exact", 0.5, 1e-4},
+                                       SurfaceSlack{"cubes", 1.8, 1.0}};
+
+TEST(Pairs, RandomOnesOfEverySurfaceWithEveryOtherShowTheObjectThatIsThere) {
+    constexpr uint32_t kSeed = 21;
+    std::mt19937 random(kSeed);
+    const int pairs = is_exhaustive() ? 100 : 1;
+    for (const SurfaceSlack& a : kSurfaceSlacks)
+        for (const SurfaceSlack& b : kSurfaceSlacks)
+            for (int i = 0; i < pairs; ++i) {
+                const auto first = random_solid(random, a.name);
+                const auto second = random_solid(random, b.name);
+                const PairErrors e =
+                    errors_of(1 / 32.0, fmt::format(R"("a": {}, "b": {})", first[0], second[0]),
+                              fmt::format(R"({{"model": "a", "placement": "world", {}}},
+                                             {{"model": "b", "placement": "world", {}}})",
+                                          first[1], second[1]),
+                              std::max(a.border, b.border));
+                const std::string what = fmt::format("seed {}, {} and {}, pair {}: rms {:.2e}",
+                                                     kSeed, a.name, b.name, i, e.rms);
+                EXPECT_EQ(e.wrong, 0u) << what;
+                EXPECT_LT(e.rms, std::max(a.rms, b.rms)) << what;
+            }
+}
+
 }  // namespace
 }  // namespace voxelume

@@ -129,8 +129,11 @@ class Joiner {
     }
 
     void append_model(const ModelPyramid& model) {
+        const size_t triangles = model.pyramid.triangles.size() / kFloatsPerTriangle;
         joined_.instances.models.push_back({.frame = model.pyramid.frame,
                                             .first_sector = uint32_t(full_.sectors),
+                                            .first_triangle = uint32_t(full_.triangles),
+                                            .triangle_count = uint32_t(triangles),
                                             .low = model.low,
                                             .high = model.high});
         append(model.pyramid);

@@ -11,6 +11,7 @@
 #include "kernels/shared/voxel.h"
 #include "runtime/grid/grid_arguments.hpp"
 #include "runtime/opencl/program.hpp"
+#include "runtime/scene/predicates.hpp"
 
 namespace voxelume {
 namespace {
@@ -21,10 +22,10 @@ constexpr double kOnSurface = 1.0 / 256;
 /// A piece as kernels list it, see shared/light_samples.h.
 using ListedPiece = std::array<uint32_t, 4>;
 
-std::vector<uint32_t> emissive_materials_of(const Scene& scene) {
+std::vector<uint32_t> emissive_materials_of(const EmissiveSource& source) {
     std::vector<uint32_t> emissive_materials;
-    for (const Material& material : scene.materials)
-        emissive_materials.push_back(material.emission != glm::vec3(0));
+    for (const glm::vec3& emission : source.emission)
+        emissive_materials.push_back(emission != glm::vec3(0));
     return emissive_materials;
 }
 
@@ -34,18 +35,17 @@ struct VoxelSurface {
     double left = 0;                   ///< distance from the point to the surface, voxels
 };
 
-/// The kernels of light_samples.cl for one world.
+/// The kernels of light_samples.cl.
 class PieceFinder {
   public:
-    PieceFinder(const Device& device, const Features& features, const Scene& scene,
-                const Pyramid& world, const std::vector<uint32_t>& is_emissive)
+    PieceFinder(const Device& device, const Features& features, const EmissiveSource& source)
         : device_(device),
-          world_(world),
+          source_(source),
           program_(device, "light_samples.cl", features.defines(device)),
           list_(program_.kernel("list_emissive")),
           surface_(program_.kernel("find_surface")),
-          emissive_objects_(device, "emissive objects", std::span(is_emissive)),
-          emissive_materials_(device, "emissive materials", emissive_materials_of(scene)) {}
+          emissive_objects_(device, "emissive objects", std::span(source.is_emissive)),
+          emissive_materials_(device, "emissive materials", emissive_materials_of(source)) {}
 
     /// The pieces, sorted by form, z, y and x.
     std::vector<ListedPiece> pieces() {
@@ -65,8 +65,8 @@ class PieceFinder {
         const uint32_t stride = (count + 15) / 16 * 16;
         const Buffer<ListedPiece> places(device_, "emissive surface", std::span(pieces));
         const Buffer<float> found(device_, "emissive surface", size_t(stride) * 7);
-        surface_.launch_packets(count, shape_of(world_), count, stride, places, world_.fields,
-                                world_.solids, found);
+        surface_.launch_packets(count, shape_of(source_.pyramid), count, stride, places,
+                                source_.pyramid.fields, source_.pyramid.solids, found);
         const std::vector<float> values = found.read();
         std::vector<VoxelSurface> surfaces(count);
         for (uint32_t i = 0; i < count; ++i) {
@@ -82,17 +82,17 @@ class PieceFinder {
   private:
     /// Counts the pieces, and lists the first `capacity` of them. Returns their number.
     uint32_t list(uint32_t capacity, const Buffer<ListedPiece>& places) {
-        const glm::ivec3 sectors = world_.frame.sectors();
+        const glm::ivec3 sectors = source_.pyramid.frame.sectors();
         const uint32_t bricks = uint32_t(sectors.x * sectors.y * sectors.z) * 64;
         Buffer<uint32_t> found(device_, "emissive surface", 1);
         found.fill(0);
-        list_.launch(WorkItem::light, bricks, bricks, world_, emissive_objects_,
-                     emissive_materials_, capacity, found, places);
+        list_.launch(WorkItem::light, bricks, bricks, source_.pyramid, source_.first_sector,
+                     emissive_objects_, emissive_materials_, capacity, found, places);
         return found.read_one(0);
     }
 
     Device device_;
-    const Pyramid& world_;
+    const EmissiveSource& source_;
     Program program_;
     Kernel list_, surface_;
     Buffer<uint32_t> emissive_objects_, emissive_materials_;
@@ -157,26 +157,49 @@ double area_in_voxel(const glm::dvec3& point, const glm::dvec3& gradient, const 
     return glm::length(twice) / 2;
 }
 
-std::map<uint32_t, std::vector<EmissivePiece>> emissive_pieces(
-    const Device& device, const Features& features, const Scene& scene, const Pyramid& world,
-    const std::vector<uint32_t>& is_emissive) {
-    std::map<uint32_t, std::vector<EmissivePiece>> found;
-    if (world.voxel_count == 0) return found;
-    PieceFinder finder(device, features, scene, world, is_emissive);
+PiecesOfObjects pieces_of_source(const Device& device, const Features& features,
+                                 const EmissiveSource& source) {
+    PiecesOfObjects found;
+    PieceFinder finder(device, features, source);
     const std::vector<ListedPiece> listed = finder.pieces();
     const std::vector<VoxelSurface> surfaces =
         listed.empty() ? std::vector<VoxelSurface>() : finder.surfaces(listed);
-    const glm::dvec3& edge = world.frame.voxel_edge;
+    const glm::dvec3& edge = source.pyramid.frame.voxel_edge;
     for (size_t i = 0; i < listed.size(); ++i) {
         const auto& [xy, z_form, number, packed] = listed[i];
         const glm::dvec3 cell(xy & 0xFFFFu, xy >> 16, z_form & 0xFFFFu);
         const uint32_t form = z_form >> 16;
         EmissivePiece piece = form < VXL_PIECE_FIELD ? face_piece(cell, form, edge)
                                                      : voxel_piece(cell, surfaces[i], edge);
-        piece.emission = scene.materials[packed >> VXL_MATERIAL_SHIFT & VXL_MATERIAL_MASK].emission;
+        piece.emission = source.emission[packed >> VXL_MATERIAL_SHIFT & VXL_MATERIAL_MASK];
         if (piece.area > 0) found[packed & VXL_OBJECT_MASK].push_back(piece);
     }
-    if (!world.triangles.empty()) add_emissive_triangles(scene, world, is_emissive, found);
+    if (source.triangle_count > 0) add_emissive_triangles(source, found);
+    return found;
+}
+
+PiecesOfObjects emissive_pieces(const Device& device, const Features& features, const Scene& scene,
+                                const Pyramid& world, const std::vector<uint32_t>& is_emissive) {
+    PiecesOfObjects found;
+    if (world.voxel_count == 0) return found;
+    const InstanceSet& instances = world.instances;
+    EmissiveSource source{.pyramid = world, .is_emissive = is_emissive};
+    bool has_placed = false;
+    for (size_t i = 0; i < scene.objects.size(); ++i) {
+        const Object& object = scene.objects[i];
+        if (is_instanced(scene, object)) source.is_emissive[i] = 0;
+        has_placed |= source.is_emissive[i] != 0;
+        source.light_samples.push_back(object.light_samples);
+    }
+    for (const Material& material : scene.materials) source.emission.push_back(material.emission);
+    // The models of instances come after the world.
+    source.triangle_count = instances.models.empty()
+                                ? uint32_t(world.triangles.size() / kFloatsPerTriangle)
+                                : instances.models.front().first_triangle;
+    if (has_placed) found = pieces_of_source(device, features, source);
+    for (const Instance& instance : instances.list)
+        if (is_emissive[instance.object] != 0)
+            found[instance.object] = instance_pieces(device, features, scene, world, instance);
     return found;
 }
 

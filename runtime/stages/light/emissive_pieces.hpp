@@ -3,6 +3,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <vector>
 
 #include "runtime/grid/grid.hpp"
@@ -17,19 +18,39 @@ namespace voxelume {
 /// voxel whose edges are `edge` metres. `point` and `gradient` are in voxels.
 double area_in_voxel(const glm::dvec3& point, const glm::dvec3& gradient, const glm::dvec3& edge);
 
+/// Voxels with surfaces that may emit light: the world's, or those of an instance's model.
+struct EmissiveSource {
+    Pyramid pyramid;            ///< its frame is that of these voxels
+    uint32_t first_sector = 0;  ///< start of their table in the pyramid's sectors; 0: the world's
+    uint32_t first_triangle = 0, triangle_count = 0;
+    /// By objects' numbers in packed attributes; a model's are 0.
+    std::vector<uint32_t> is_emissive{};
+    std::vector<std::optional<int>> light_samples{};
+    std::vector<glm::vec3> emission{};  ///< by materials' numbers in packed attributes
+};
+
+/// By objects' numbers.
+using PiecesOfObjects = std::map<uint32_t, std::vector<EmissivePiece>>;
+
 /// The pieces of each emissive object: an open face of a cube, the part of a smooth surface or an
 /// exact solid in a voxel, a triangle or its parts. A closed mesh emits outwards, an open one to
 /// both sides.
 ///
 /// `is_emissive` has a value per object. Pieces of cubes and voxels come first, in the order of
 /// their places, then those of triangles, in the order of the mesh.
-std::map<uint32_t, std::vector<EmissivePiece>> emissive_pieces(
-    const Device& device, const Features& features, const Scene& scene, const Pyramid& world,
-    const std::vector<uint32_t>& is_emissive);
+PiecesOfObjects emissive_pieces(const Device& device, const Features& features, const Scene& scene,
+                                const Pyramid& world, const std::vector<uint32_t>& is_emissive);
+
+/// The pieces of one source. Positions are metres from its frame's first corner.
+PiecesOfObjects pieces_of_source(const Device& device, const Features& features,
+                                 const EmissiveSource& source);
+
+/// The pieces of one instance, in the world.
+std::vector<EmissivePiece> instance_pieces(const Device& device, const Features& features,
+                                           const Scene& scene, const Pyramid& world,
+                                           const Instance& instance);
 
 /// Adds only the triangles of the emissive objects.
-void add_emissive_triangles(const Scene& scene, const Pyramid& world,
-                            const std::vector<uint32_t>& is_emissive,
-                            std::map<uint32_t, std::vector<EmissivePiece>>& pieces);
+void add_emissive_triangles(const EmissiveSource& source, PiecesOfObjects& pieces);
 
 }  // namespace voxelume

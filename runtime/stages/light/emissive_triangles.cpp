@@ -25,15 +25,17 @@ struct EmissiveMesh {
     std::vector<uint32_t> materials;
 };
 
-std::map<uint32_t, EmissiveMesh> emissive_meshes(const Pyramid& world,
-                                                 const std::vector<uint32_t>& is_emissive) {
-    const std::vector<uint32_t> attributes = world.triangle_attributes.read();
-    const std::vector<float> corners = world.triangles.read();
+std::map<uint32_t, EmissiveMesh> emissive_meshes(const EmissiveSource& source) {
+    const std::vector<uint32_t> attributes =
+        source.pyramid.triangle_attributes.read(source.first_triangle, source.triangle_count);
+    const std::vector<float> corners =
+        source.pyramid.triangles.read(size_t(source.first_triangle) * kFloatsPerTriangle,
+                                      size_t(source.triangle_count) * kFloatsPerTriangle);
     std::map<uint32_t, EmissiveMesh> meshes;
     for (size_t i = 0; i < attributes.size(); ++i) {
         const uint32_t object = attributes[i] & VXL_OBJECT_MASK;
-        if (!is_emissive[object]) continue;
-        const float* c = &corners[9 * i];
+        if (!source.is_emissive[object]) continue;
+        const float* c = &corners[kFloatsPerTriangle * i];
         EmissiveMesh& mesh = meshes[object];
         mesh.triangles.push_back(
             {Corner{c[0], c[1], c[2]}, Corner{c[3], c[4], c[5]}, Corner{c[6], c[7], c[8]}});
@@ -93,8 +95,9 @@ void add_parts(const Triangle& t, double largest, const EmissivePiece& whole,
     add_parts({middle, b, c}, largest, whole, pieces);
 }
 
-void add_mesh(const Scene& scene, const EmissiveMesh& mesh, int light_samples,
-              const glm::dvec3& edge, std::vector<EmissivePiece>& pieces) {
+void add_mesh(const EmissiveSource& source, const EmissiveMesh& mesh, int light_samples,
+              std::vector<EmissivePiece>& pieces) {
+    const glm::dvec3& edge = source.pyramid.frame.voxel_edge;
     const bool closed = is_closed(mesh.triangles);
     const double outwards = closed && signed_volume(mesh.triangles) < 0 ? -1 : 1;
     std::vector<Triangle> triangles;
@@ -107,7 +110,7 @@ void add_mesh(const Scene& scene, const EmissiveMesh& mesh, int light_samples,
     for (size_t i = 0; i < triangles.size(); ++i) {
         const glm::dvec3 facing = area_vector(triangles[i]);
         EmissivePiece whole;
-        whole.emission = scene.materials[mesh.materials[i]].emission;
+        whole.emission = source.emission[mesh.materials[i]];
         if (!(glm::length(facing) > 0) || whole.emission == glm::dvec3(0)) continue;
         whole.normal = glm::normalize(facing) * outwards;
         const double largest = area / (kPartsPerLightSample * light_samples);
@@ -120,12 +123,10 @@ void add_mesh(const Scene& scene, const EmissiveMesh& mesh, int light_samples,
 
 }  // namespace
 
-void add_emissive_triangles(const Scene& scene, const Pyramid& world,
-                            const std::vector<uint32_t>& is_emissive,
-                            std::map<uint32_t, std::vector<EmissivePiece>>& pieces) {
-    for (const auto& [object, mesh] : emissive_meshes(world, is_emissive))
-        add_mesh(scene, mesh, scene.objects[object].light_samples.value_or(kAssumedLightSamples),
-                 world.frame.voxel_edge, pieces[object]);
+void add_emissive_triangles(const EmissiveSource& source, PiecesOfObjects& pieces) {
+    for (const auto& [object, mesh] : emissive_meshes(source))
+        add_mesh(source, mesh, source.light_samples[object].value_or(kAssumedLightSamples),
+                 pieces[object]);
 }
 
 }  // namespace voxelume

@@ -93,10 +93,14 @@ std::vector<LightRecord> emissive_light_samples(const Device& device, const Feat
     for (const Object& object : scene.objects)
         emissive_objects.push_back(is_emissive(scene, object));
     const glm::dvec3& edge = world.frame.voxel_edge;
-    const double origin_offset = light_sample_offset(world) * std::max({edge.x, edge.y, edge.z});
+    const double longest = std::max({edge.x, edge.y, edge.z});
     std::vector<LightRecord> records;
     for (const auto& [object, all] :
          emissive_pieces(device, features, scene, world, emissive_objects)) {
+        const bool is_instance = is_instanced(scene, scene.objects[object]);
+        const double origin_offset =
+            longest * (light_sample_offset(world) +
+                       (is_instance ? double(world.instances.origin_offset) : 0.0));
         std::vector<EmissivePiece> pieces = pieces_in_world(all, origin_offset, world.frame);
         const int count = scene.objects[object].light_samples.value_or(
             default_light_samples(area_of(pieces), edge));
