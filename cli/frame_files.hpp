@@ -29,6 +29,9 @@ struct RenderCommand {
     bool one_by_one = false;
     bool verbose = false;
     bool quiet = false;
+    std::string progress = "auto";
+    std::string overwrite;  ///< empty: always
+    bool resume = false;
 };
 
 /// Declares the options on `app`; returns that of --frames.

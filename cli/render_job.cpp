@@ -6,7 +6,10 @@
 #include <chrono>
 
 #include "cli/checks.hpp"
-#include "cli/progress.hpp"
+#include "cli/finished_files.hpp"
+#include "cli/interrupt.hpp"
+#include "cli/output_stream.hpp"
+#include "cli/render_progress.hpp"
 #include "cli/render_report.hpp"
 #include "cli/warnings.hpp"
 
@@ -33,38 +36,46 @@ Channels listed_channels(const RenderCommand& command) {
     return channels;
 }
 
-/// A line for logs, by which a farm follows an animation; a bar shows people as much.
-void tell_written(const FrameFiles& files) {
-    for (const auto* paths : {&files.images, &files.volumes})
-        for (const std::filesystem::path& path : *paths)
-            fmt::print(stderr, "frame {}: {}\n", files.frame, path.string());
+/// `-q` silences what nobody asked for by name.
+ProgressStyle style_of(const RenderCommand& command) {
+    const ProgressStyle style = progress_style(command.progress);
+    return command.quiet && style == ProgressStyle::automatic ? ProgressStyle::none : style;
+}
+
+/// Leaves the frames that have to be rendered, and says how many have not. Returns whether any are
+/// left.
+bool remove_finished(const Scene& scene, const RenderCommand& command, FrameJob& job) {
+    if (OutputStream(command.outputs).is_wanted()) return true;
+    const size_t count = job.frames.size();
+    const size_t skipped = skip_finished(scene, job.image_files, overwrite_of(command), job.frames);
+    if (skipped > 0 && !command.quiet)
+        fmt::print(stderr, "{} of {} frames are there already\n", skipped, count);
+    return !job.frames.empty();
 }
 
 /// Renders the files of a job, and tells of them while it does.
 Statistics render_files(const Scene& scene, const std::vector<Device>& devices, FrameJob job,
                         const RenderCommand& command, const std::string& label) {
-    Progress bar(label, 100 * job.frames.size(), stderr, command.quiet);
-    uint64_t shown = 0;
+    RenderProgress progress(label, job.frames.size(), style_of(command));
+    const Interruptible interruptible;
     RenderOptions render;
+    render.stop = interruptible.stop();
     render.cache = cache_options(command.scene);
     render.overlap = !command.one_by_one;
     render.time_kernels = command.verbose || !command.stats.empty();
-    render.progress = [&](double done, int) {
-        const auto now = uint64_t(done * 100 * double(job.frames.size()));
-        bar.advance(now - shown);
-        shown = now;
-    };
-    render.compiling = [&bar](int kernel, int known) {
-        bar.say(fmt::format("compiling kernels: {} of {}", kernel, known));
-    };
+    render.progress = [&](double done, int frame) { progress.advance(done, frame); };
+    render.compiling = [&](int kernel, int known) { progress.compiling(kernel, known); };
     render.strict = command.scene.strict;
-    if (!command.quiet) render.warn = warning_printer(render.strict, [&bar] { bar.clear(); });
-    const bool tells =
-        !command.quiet && job.frames.size() > 1 && !describe_terminal(stderr).draws_bars;
-    if (tells)
-        job.deliver = [files = job.frames.begin()](const RenderedFrame&) mutable {
-            tell_written(*files++);
-        };
+    if (!command.quiet) render.warn = warning_printer(render.strict, [&] { progress.clear(); });
+    const OutputStream stream(command.outputs);
+    if (stream.is_wanted()) {
+        job.deliver_images = true;
+        render.channels = stream.channels(job.image_files);
+    }
+    job.deliver = [&, files = job.frames.begin()](const RenderedFrame& frame) mutable {
+        if (stream.is_wanted()) stream.write(*frame.image, job.image_files);
+        progress.written(*files++);
+    };
     return render_frames(scene, devices, job, render);
 }
 
@@ -85,6 +96,7 @@ void render_job(const RenderCommand& command, LazyDevices& lazy_devices, const s
     const Scene scene = read_with(command.scene, "render");
     job.frames = frame_files(command, scene);
     check_files(job.frames, scene, command);
+    if (!command.plan_only && !remove_finished(scene, command, job)) return;
     const std::vector<Device>& devices = lazy_devices.open();
     if (command.plan_only) {
         print_plan(scene, devices[0],

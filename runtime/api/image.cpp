@@ -86,35 +86,56 @@ std::vector<const char*> left_out(const v1::Channels& channels) {
     return names;
 }
 
-void write_channels(const std::filesystem::path& file, const v1::Image::Implementation& image,
-                    const v1::ImageFileOptions& options) {
+PngOptions png_options(const v1::Image::Implementation& image,
+                       const v1::ImageFileOptions& options) {
+    PngOptions png;
+    if (const auto stamp = image.attributes.find(api::kStamp); stamp != image.attributes.end())
+        png.stamp = stamp->second;
+    png.exposure = float(options.exposure);
+    return png;
+}
+
+/// Calls `write` with the image that has the channels asked for, and how its colours are stored.
+template <class Write>
+auto with_channels(const v1::Image::Implementation& image, const v1::ImageFileOptions& options,
+                   const Write& write) {
     const ColorDepth depth = options.float_color ? ColorDepth::float32 : ColorDepth::float16;
     std::vector<const char*> names = left_out(options.channels);
     std::erase_if(names, [&](const char* name) {
         return !image.image->planes.contains(name) && !image.image->id_planes.contains(name);
     });
-    if (names.empty()) {
-        write_exr(file, *image.image, depth, image.attributes);
-        return;
-    }
+    if (names.empty()) return write(*image.image, depth);
     Image shown = *image.image;
     for (const char* name : names) shown.planes.erase(name), shown.id_planes.erase(name);
-    write_exr(file, shown, depth, image.attributes);
+    return write(shown, depth);
+}
+
+[[noreturn]] void refuse_ending(const std::string& name) {
+    throw Error(ErrorKind::usage, "{}: the name of an image ends in .exr or .png",
+                SourcePlace(name));
 }
 
 void write(const std::filesystem::path& file, const v1::Image::Implementation& image,
            const v1::ImageFileOptions& options) {
     const std::string extension = ending_of(file);
     if (extension == ".png") {
-        PngOptions png;
-        png.exposure = float(options.exposure);
-        write_png(file, *image.image, png);
+        write_png(file, *image.image, png_options(image, options));
     } else if (extension == ".exr") {
-        write_channels(file, image, options);
+        with_channels(image, options, [&](const Image& shown, ColorDepth depth) {
+            return write_exr(file, shown, depth, image.attributes);
+        });
     } else {
-        throw Error(ErrorKind::usage, "{}: the name of an image ends in .exr or .png",
-                    SourcePlace(file.string()));
+        refuse_ending(file.string());
     }
+}
+
+std::string encoded(std::string_view extension, const v1::Image::Implementation& image,
+                    const v1::ImageFileOptions& options) {
+    if (extension == ".png") return png_bytes(*image.image, png_options(image, options));
+    if (extension != ".exr") refuse_ending(std::string(extension));
+    return with_channels(image, options, [&](const Image& shown, ColorDepth depth) {
+        return exr_bytes(shown, depth, image.attributes);
+    });
 }
 
 v1::ImageDifference difference_for_callers(const ImageDifference& difference) {
@@ -192,6 +213,10 @@ void Image::copy(std::string_view channel, std::span<float> to) const {
 
 void Image::write(const std::filesystem::path& file, const ImageFileOptions& options) const {
     api::guarded([&] { voxelume::write(file, *implementation_, options); });
+}
+
+std::string Image::encode(std::string_view ending, const ImageFileOptions& options) const {
+    return api::guarded([&] { return encoded(ending, *implementation_, options); });
 }
 
 ImageDifference compare(const Image& a, const Image& b) {

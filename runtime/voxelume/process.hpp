@@ -34,6 +34,15 @@ struct ProcessOptions {
 /// once.
 void configure(const ProcessOptions& options);
 
+/// Deletes what the process has begun to write and not finished: the hidden files beside outputs
+/// and the folder of its kernels. For a program that has to end while calls of the library still
+/// run; those fail, if they go on. Any thread may call it.
+void remove_unfinished_files();
+
+/// The user's folder for compiled kernels, models and worlds: VOXELUME_CACHE_DIR, or else
+/// XDG_CACHE_HOME/voxelume, or else ~/.cache/voxelume. Empty if nothing is kept.
+std::filesystem::path user_cache_folder();
+
 /// What a run keeps on disk of voxelized models and of worlds, to be found again by the bytes of
 /// their sources.
 struct CacheOptions {

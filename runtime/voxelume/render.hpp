@@ -6,6 +6,8 @@
 #include <functional>
 #include <optional>
 #include <stop_token>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "device.hpp"
@@ -87,6 +89,24 @@ struct FrameJob {
 /// The channels of images that render_frames computes for a job: those that some file or `deliver`
 /// shows. A job without either stands for the OpenEXR files of its options.
 Channels needed_channels(const FrameJob& job, const RenderOptions& options = {});
+
+/// What frames' files are made from: 32 hexadecimal digits each, a hash of the library's version,
+/// of the scene with its size and samples, of the options of image files, and of the bytes of
+/// all files that the frame shows. render_frames writes it into the files of formats that have room
+/// for a text in their headers (.exr, .png, .nrrd, .vdb), with a hash of all their bytes.
+std::vector<std::string> frame_hashes(const Scene& scene, const std::vector<int>& frames,
+                                      const ImageFileOptions& options = {});
+
+/// What is known of a frame's file that was written before.
+enum class FrameFileState {
+    missing,  ///< there is none
+    damaged,  ///< it isn't as it was written, or its format has no room for a hash
+    stale,    ///< it was made from something else
+    current   ///< it is whole, and what would be rendered
+};
+
+/// Reads a file and compares it with the hash of its frame.
+FrameFileState check_frame_file(const std::filesystem::path& file, std::string_view hash);
 
 /// Renders frames of a scene. What a frame shows doesn't depend on the frames before it, nor on the
 /// number of devices: several devices take a frame each, or the tiles of a job's only image.

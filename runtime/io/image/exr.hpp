@@ -28,6 +28,10 @@ size_t write_exr(const std::filesystem::path& path, const Image& image,
                  ColorDepth color = ColorDepth::float16,
                  const std::map<std::string, std::string>& others = {});
 
+/// The bytes of the file that `write_exr` writes.
+std::string exr_bytes(const Image& image, ColorDepth color = ColorDepth::float16,
+                      const std::map<std::string, std::string>& others = {});
+
 /// Reads every channel of a flat OpenEXR file, scanline or tiled, with its text attributes.
 /// It reads the first part of a file with several.
 ///

@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "runtime/base/atomic_file.hpp"
+#include "runtime/base/stamp.hpp"
 #include "runtime/io/image/exr.hpp"
 #include "runtime/io/image/exr_chunks.hpp"
 
@@ -34,7 +35,7 @@ std::vector<ExrPlane> planes_of(const Image& image, ColorDepth color) {
     return planes;
 }
 
-void check_image(AtomicFile& file, const Image& image) {
+void check_image(ByteSink& file, const Image& image) {
     if (image.width <= 0 || image.height <= 0) file.fail("the image has no pixels");
     const size_t pixels = static_cast<size_t>(image.width) * static_cast<size_t>(image.height);
     for (const auto& [name, plane] : image.planes)
@@ -43,11 +44,11 @@ void check_image(AtomicFile& file, const Image& image) {
         if (plane.size() != pixels) file.fail("plane " + name + " hasn't the image's size");
 }
 
-/// OpenEXR's writer of headers and chunks, onto an AtomicFile. OpenEXR 3.1.5's own stream truncates
+/// OpenEXR's writer of headers and chunks, onto a ByteSink. OpenEXR 3.1.5's own stream truncates
 /// small files silently on a full disk.
 class ExrWriter {
   public:
-    ExrWriter(AtomicFile& file, const std::filesystem::path& path) : file_(file) {
+    ExrWriter(ByteSink& file, const std::filesystem::path& path) : file_(file) {
         exr_context_initializer_t setup = EXR_DEFAULT_CONTEXT_INITIALIZER;
         setup.user_data = this;
         setup.error_handler_fn = [](exr_const_context_t, exr_result_t, const char*) {};
@@ -98,14 +99,14 @@ class ExrWriter {
         file_.write(bytes, size);
         return int64_t(size);
     } catch (const Error&) {
-        return -1;  // the AtomicFile keeps the error, and check() reports OpenEXR's
+        return -1;  // the sink keeps the error, and check() reports OpenEXR's
     }
 
     void check(exr_result_t result) {
         if (result != EXR_ERR_SUCCESS) file_.fail(exr_get_default_error_message(result));
     }
 
-    AtomicFile& file_;
+    ByteSink& file_;
     exr_context_t context_ = nullptr;
     int part_ = 0;
 };
@@ -116,22 +117,31 @@ void set_exr_threads(int threads) {
     Imf::setGlobalThreadCount(threads);
 }
 
+namespace {
+
+/// Returns how many values weren't finite.
+size_t encode(ByteSink& sink, const std::filesystem::path& name, const Image& image,
+              ColorDepth color, const std::map<std::string, std::string>& others) {
+    check_image(sink, image);
+    const std::vector<ExrPlane> planes = planes_of(image, color);
+    size_t replaced = 0;
+    ExrWriter writer(sink, name);
+    writer.header(image, others, planes);
+    compress_chunks(planes, image.width, image.height, Imf::globalThreadCount(),
+                    [&](const ExrChunk& chunk) {
+                        writer.chunk(chunk);
+                        replaced += chunk.replaced;
+                    });
+    writer.finish();
+    return replaced;
+}
+
+}  // namespace
+
 size_t write_exr(const std::filesystem::path& path, const Image& image, ColorDepth color,
                  const std::map<std::string, std::string>& others) {
     AtomicFile file(path);
-    check_image(file, image);
-    const std::vector<ExrPlane> planes = planes_of(image, color);
-    size_t replaced = 0;
-    {
-        ExrWriter writer(file, path);
-        writer.header(image, others, planes);
-        compress_chunks(planes, image.width, image.height, Imf::globalThreadCount(),
-                        [&](const ExrChunk& chunk) {
-                            writer.chunk(chunk);
-                            replaced += chunk.replaced;
-                        });
-        writer.finish();
-    }
+    const size_t replaced = encode(file, path, image, color, others);
     try {
         if (!Imf::InputFile(file.temporary().c_str()).isComplete())
             file.fail("rows are missing when it is read back");
@@ -140,6 +150,15 @@ size_t write_exr(const std::filesystem::path& path, const Image& image, ColorDep
     }
     file.commit();
     return replaced;
+}
+
+std::string exr_bytes(const Image& image, ColorDepth color,
+                      const std::map<std::string, std::string>& others) {
+    MemorySink sink("OpenEXR");
+    encode(sink, "image.exr", image, color, others);
+    std::string bytes = sink.take();
+    seal(bytes);
+    return bytes;
 }
 
 }  // namespace voxelume
