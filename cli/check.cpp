@@ -15,8 +15,8 @@ Action add_check(CLI::App& app) {
     };
     const auto options = std::make_shared<Options>();
     app.add_option("SCENE", options->scene.scene,
-                   "scene file, JSON (see scenes/README.md), or a model file: .obj .ply .stl .vxm "
-                   ".vdb .vox")
+                   "scene file, JSON (see scenes/README.md), or a model file: .obj .ply .stl "
+                   ".gltf .glb .vxm .vdb .vox")
         ->required();
     add_scene_options(app, options->scene);
     app.add_flag("--json", options->json, "print the plan as JSON");

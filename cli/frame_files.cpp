@@ -74,8 +74,8 @@ void check_stream(const RenderCommand& options) {
 
 const CLI::Option* add_render_options(CLI::App& app, RenderCommand& command) {
     app.add_option("SCENE", command.inputs,
-                   "scene files, JSON (see scenes/README.md), or model files: .obj .ply .stl .vxm "
-                   ".vdb .vox")
+                   "scene files, JSON (see scenes/README.md), or model files: .obj .ply .stl "
+                   ".gltf .glb .vxm .vdb .vox")
         ->required();
     add_scene_options(app, command.scene);
     app.add_option("-o,--output", command.outputs,

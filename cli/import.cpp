@@ -45,7 +45,8 @@ int run(const ImportCommand& command) {
 
 Action add_import(CLI::App& app) {
     const auto command = std::make_shared<ImportCommand>();
-    app.add_option("FILE", command->file, "model file: .obj .ply .stl .vxm .vdb .vox")->required();
+    app.add_option("FILE", command->file, "model file: .obj .ply .stl .gltf .glb .vxm .vdb .vox")
+        ->required();
     app.add_option("-o,--output", command->output,
                    "scene to write, .json; printed if this is left out");
     app.add_option("--size", command->size,

@@ -116,6 +116,7 @@ ImportOptions options_of(const ImportChoices& choices, Size size, const char* co
         fail_usage("{}: --fov: the rays of --view iso are parallel; leave one of them out",
                    command);
     options.angle = choices.angle.value_or(options.angle);
+    options.own_camera = choices.view.empty() && !choices.angle;
     options.ground = choices.ground.value_or(true);
     if (!choices.background.empty()) options.background = color_of(choices.background, command);
     options.fit = choices.fit.value_or(0);

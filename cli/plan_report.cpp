@@ -39,8 +39,17 @@ Report grid_row(const GridPlan& grid) {
     return row;
 }
 
+Report surface_rows(const Plan& plan) {
+    Report rows = Report::array();
+    for (const SurfacePlan& surface : plan.surfaces)
+        rows.push_back(
+            {{"model", surface.model}, {"surface", surface.surface}, {"because", surface.reason}});
+    return rows;
+}
+
 Report plan_report(const Plan& plan, const Device& device) {
     Report report;
+    if (!plan.surfaces.empty()) report["surfaces"] = surface_rows(plan);
     report["grids"] = Report::array();
     for (const GridPlan& grid : plan.grids) report["grids"].push_back(grid_row(grid));
     report["device"] = device.info().name;

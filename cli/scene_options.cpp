@@ -21,6 +21,11 @@ void add_scene_options(CLI::App& app, SceneOptions& options) {
     app.add_option("--samples", options.samples, "samples per pixel; replaces the scene's")
         ->check(in_range(1, 4096, Number::whole));
     app.add_option(
+           "--light", options.light,
+           "light of flat images: local, or global with all that surfaces reflect; replaces "
+           "the scene's")
+        ->check(one_of({"local", "global"}));
+    app.add_option(
         "--device", options.device,
         "device: auto, cpu, gpu, a number, part of a name, or all to share frames and tiles");
     app.add_flag("--no-cache", options.no_cache,
@@ -111,6 +116,8 @@ Scene read_with(const SceneOptions& options, const char* command) {
                            : load_scene(options.scene, files);
     if (size[0] != 0) scene = scene.with_size(size);
     if (options.samples != 0) scene = scene.with_samples(options.samples);
+    if (!options.light.empty())
+        scene = scene.with_light(options.light == "global" ? LightMode::global : LightMode::local);
     return scene;
 }
 

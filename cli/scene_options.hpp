@@ -20,7 +20,8 @@ struct SceneOptions {
     std::string scene;
     std::vector<std::filesystem::path> assets;
     std::string size;
-    int samples = 0;  ///< 0: the scene's
+    int samples = 0;    ///< 0: the scene's
+    std::string light;  ///< empty: the scene's
     std::string device;
     bool no_cache = false;
     bool strict = false;

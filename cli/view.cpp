@@ -53,7 +53,7 @@ Action add_view(CLI::App& app) {
     const auto command = std::make_shared<ViewCommand>();
     app.add_option("VOLUME", command->from,
                    "volumetric image to read: .vdb .exr .nrrd .raw or .json; or a model file: .obj "
-                   ".ply .stl .vxm .vox")
+                   ".ply .stl .gltf .glb .vxm .vox")
         ->required();
     app.add_option("-o,--output", command->outputs,
                    ".png: views from the front and from a side, and slices from near to far; "

@@ -61,7 +61,8 @@ int run(const VoxelizeCommand& command) {
 
 Action add_voxelize(CLI::App& app) {
     const auto command = std::make_shared<VoxelizeCommand>();
-    app.add_option("MESH", command->mesh, "triangle mesh: .obj, .ply or .stl")->required();
+    app.add_option("MESH", command->mesh, "triangle mesh: .obj, .ply, .stl, .gltf or .glb")
+        ->required();
     app.add_option("-o,--output", command->outputs,
                    "output: model .vxm or OpenVDB volume .vdb; may be given again")
         ->allow_extra_args(false);

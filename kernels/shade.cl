@@ -4,6 +4,7 @@
 #include "lib/lanes/vector.h"
 #include "lib/lanes/work_item.h"
 #include "lib/light/medium_set.h"
+#include "lib/light/sky.h"
 #include "lib/solid/solid_surface.h"
 #include "lib/surface/cube_body.h"
 #include "lib/surface/field.h"
@@ -240,31 +241,32 @@ static inline lane_uint side_of(const ShadedHit* h, const MediumSet* before, lan
     return (LANES_AS_UINT(leaving) & VXL_SIDE_LEAVING) | (LANES_AS_UINT(hidden) & VXL_SIDE_HIDDEN);
 }
 
-/// Starts the radiance of the rays: ambient light and emission, or the background.
+/// Starts the radiance of the rays.
 static inline void store_own_light(const WorldView* world, const ShadedHit* h,
-                                   Environment environment, Vector position, lane_float opacity,
-                                   lane_uint material, global const float* restrict materials,
-                                   const RayBatch* batch, uint first) {
+                                   Environment environment, global const SkyRecord* restrict sky,
+                                   Vector position, lane_float opacity, lane_uint material,
+                                   global const float* restrict materials, const RayBatch* batch,
+                                   uint first) {
     const lane_float diffuse = LANES_GATHER_FLOAT(materials, material + VXL_MATERIAL_DIFFUSE);
     const lane_uint place = color_offset(materials, material, position.x, position.y, position.z);
+    lane_float around[3];
+    light_around(h->hit, h->world_way, world->shape.edge, environment, sky, batch, first, around);
     const float ambient[3] = {environment.ambient.x, environment.ambient.y, environment.ambient.z};
-    const float background[3] = {environment.background.x, environment.background.y,
-                                 environment.background.z};
     for (int channel = 0; channel < 3; ++channel) {
         const lane_float color =
             surface_color(materials, place, world->surface.colors, h->voxel, channel);
         const lane_float emission =
             LANES_GATHER_FLOAT(materials, material + (uint)(VXL_MATERIAL_EMISSION + channel));
         const lane_float own = fma(color * diffuse, ambient[channel], emission) * opacity;
-        LANES_STORE(LANES_SELECT(h->hit, own, (lane_float)background[channel]), batch->radiance,
+        LANES_STORE(LANES_SELECT(h->hit, own, around[channel]), batch->radiance,
                     (uint)channel * batch->stride + first);
     }
 }
 
-/// Writes what is asked for of every hit: its point, normal and packed attributes, and its ambient
-/// light and emission, which begin the ray's radiance. Rays that hit nothing take the background.
-/// In scenes with transmitting objects or mirrors the batch's `sides` say how the surface was met.
+/// Writes what is asked for of every hit: its point, normal, packed attributes and `sides`, and in
+/// `radiance` its ambient light and emission, or what is around the world.
 kernel void shade_surface(VXL_WORLD_PARAMETERS, Environment environment,
+                          global const SkyRecord* restrict sky,
                           global const float* restrict materials, global const uint* restrict ranks,
                           VXL_BATCH_PARAMETERS, uint count) {
     const uint first = work_item() * VXL_LANES;
@@ -285,7 +287,6 @@ kernel void shade_surface(VXL_WORLD_PARAMETERS, Environment environment,
     }
     if (VXL_HIT_ATTRIBUTES) LANES_STORE(h.packed, hit_attributes, first);
     if (!VXL_RADIANCE) return;
-
     const lane_uint material = material_offset(h.packed) & LANES_AS_UINT(h.hit);
     lane_float opacity = surface_opacity(materials, material, colors, h.voxel);
     lane_uint side = LANES_AS_UINT(behind) & VXL_SIDE_LEAVING;
@@ -294,5 +295,6 @@ kernel void shade_surface(VXL_WORLD_PARAMETERS, Environment environment,
         side = side_of(&h, &before, behind, material, materials, ranks, &opacity);
     }
     if (VXL_PATHS) LANES_STORE(side, sides, first);
-    store_own_light(&world, &h, environment, position, opacity, material, materials, &batch, first);
+    store_own_light(&world, &h, environment, sky, position, opacity, material, materials, &batch,
+                    first);
 }

@@ -7,10 +7,19 @@
 #include "lib/voxelize/cover.h"
 #include "lib/voxelize/node_tile.h"
 #include "lib/voxelize/point_triangle.h"
+#include "lib/voxelize/texture.h"
+#include "shared/texture.h"
 #include "shared/voxel.h"
 
 #ifndef VXL_SLICES
 #define VXL_SLICES 16
+#endif
+/// Whether the mesh has colours of its vertices, and textures.
+#ifndef VXL_VERTEX_COLORS
+#define VXL_VERTEX_COLORS 1
+#endif
+#ifndef VXL_TEXTURES
+#define VXL_TEXTURES 0
 #endif
 #define TILE_COLUMNS (TILES_X * TILES_Y)
 #define BRICK_CENTER (LATTICE_BRICK / 2)
@@ -134,13 +143,28 @@ static inline uint encode(float value, global const float* thresholds) {
     return code;
 }
 
+/// The mean of the values of a triangle's corners.
+static inline float3 mean_color(uint3 numbers, global const float* colors, float3 weights) {
+    return vload3(numbers.x, colors) * weights.x + vload3(numbers.y, colors) * weights.y +
+           vload3(numbers.z, colors) * weights.z;
+}
+
+static inline float2 mean_uv(uint3 numbers, global const float* uvs, float3 weights) {
+    return vload2(numbers.x, uvs) * weights.x + vload2(numbers.y, uvs) * weights.y +
+           vload2(numbers.z, uvs) * weights.z;
+}
+
 /// One work-item: one voxel. Its colour is its closest triangle's at the point closest to the
-/// centre.
-kernel void color_voxels(uint count, int4 bricks, float4 scale, VXL_MESH_PARAMETERS,
-                         global const uint* restrict coordinates,
-                         global const uint* restrict nearest,
-                         global const float* restrict vertex_colors,
-                         global const float* restrict thresholds, global uint* restrict colors) {
+/// centre: that between the corners' colours, times that of the texture there, in linear light.
+/// `thresholds` and `linear_levels` are the sRGB curve from and to linear values.
+kernel void color_voxels(
+    uint count, int4 bricks, float4 scale, VXL_MESH_PARAMETERS,
+    global const uint* restrict coordinates, global const uint* restrict nearest,
+    global const uint* restrict color_indices, global const float* restrict vertex_colors,
+    global const float* restrict thresholds, global const float* restrict linear_levels,
+    global const uint* restrict texture_words, global const uint* restrict textures,
+    global const uint* restrict texels, global const uint* restrict uv_indices,
+    global const float* restrict uvs, global uint* restrict colors) {
     const uint number = work_item();
     if (number >= count) return;
     const LatticeMesh mesh = VXL_MESH;
@@ -158,9 +182,15 @@ kernel void color_voxels(uint count, int4 bricks, float4 scale, VXL_MESH_PARAMET
     const float3 weights = closest_weights(convert_float3(t.corner[0]) * to_metric,
                                            convert_float3(t.corner[1]) * to_metric,
                                            convert_float3(t.corner[2]) * to_metric);
-    const float3 color = vload3(mesh.triangles[3u * triangle], vertex_colors) * weights.x +
-                         vload3(mesh.triangles[3u * triangle + 1u], vertex_colors) * weights.y +
-                         vload3(mesh.triangles[3u * triangle + 2u], vertex_colors) * weights.z;
+    float3 color = (float3)(1.0f);
+    if (VXL_VERTEX_COLORS)
+        color = mean_color(vload3(triangle, color_indices), vertex_colors, weights);
+    if (VXL_TEXTURES && texture_words[triangle] != VXL_NO_TEXTURE) {
+        const uint word = texture_words[triangle];
+        const float2 uv = mean_uv(vload3(triangle, uv_indices), uvs, weights);
+        color *= texture_color(vload4(word & VXL_TEXTURE_MASK, textures),
+                               word >> VXL_TEXTURE_LEVEL_SHIFT, texels, linear_levels, uv);
+    }
     colors[number] = encode(color.x, thresholds) | encode(color.y, thresholds) << 8 |
                      encode(color.z, thresholds) << 16;
 }

@@ -83,7 +83,9 @@
 //                    or VXL_NO_PRIMITIVE for other surfaces
 //   VXL_PATH_FLAGS   VXL_PATH_* bits
 //   VXL_PATH_WEIGHT  float: the share of a pixel that the ray's node may add
-// The others exist in scenes with transmitting objects only:
+//                    (in global light VXL_PATH_STATE, see shared/paths.h)
+// The others exist in scenes with transmitting objects only, the target and the throughput also in
+// global light:
 //   VXL_PATH_CELL    the cell in which the ray goes on: x | y << 16
 //   VXL_PATH_CELL_Z  z; or with VXL_FACE_EXIT all of VXL_HIT_FACE: it goes on in the next cell
 //   VXL_PATH_TARGET  the node that the ray's light goes to

@@ -24,6 +24,8 @@ constexpr double kRounding = 0x1p-17;
 /// false) count as if rays continued from them.
 bool sends_rays_on(const Scene& scene, const Object& object, AssetStore& meshes, bool reads) {
     if (!scene.render.channels.color) return false;
+    if (scene.render.light == LightMode::global && scene.render.bounces > 0) return true;
+    if (scene.world.sky && scene.render.shadows) return true;  // on any way to the sky
     const Model& model = scene.models[size_t(object.model)];
     if (!model.voxels.empty() && (!reads || meshes.voxels(model).transparent)) return true;
     const auto sends = [&](int number) {

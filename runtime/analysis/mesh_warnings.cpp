@@ -7,15 +7,10 @@
 #include <cmath>
 
 #include "runtime/base/text.hpp"
-#include "runtime/io/mesh/material_library.hpp"
 #include "runtime/scene/predicates.hpp"
 
 namespace voxelume {
 namespace {
-
-/// The share of a mesh's area by which its holes matter. Smaller ones are closed by the winding
-/// number, as the scanned bunny's are.
-constexpr double kOpenShare = 0.03;
 
 bool needs_inside(const Scene& scene, const Object& object) {
     const Model& model = scene.models[size_t(object.model)];
@@ -26,7 +21,7 @@ bool needs_inside(const Scene& scene, const Object& object) {
 void add_topology_warnings(const Model& model, const MeshSummary& mesh,
                            std::vector<Warning>& warnings) {
     const std::string file = quote(model.mesh.filename().string());
-    if (mesh.topology.hole_area > kOpenShare * mesh.area.total) {
+    if (is_open(mesh)) {
         add_once({WarningKind::open_mesh, model.where,
                   fmt::format("{} is open along {} edges, and its surface needs an inside: close "
                               "its holes, or give the model \"surface\": \"exact\"{}",
@@ -43,10 +38,8 @@ void add_topology_warnings(const Model& model, const MeshSummary& mesh,
 }
 
 /// What of the material library is missed; empty if nothing is.
-std::string missed_materials(const Object& object, const Model& model, const MeshSummary& mesh) {
+std::string missed_materials(const Object& object, const MeshSummary& mesh) {
     const std::string library = quote(mesh.material_library);
-    if (names_textures(model.mesh, mesh.material_library))
-        return fmt::format("textures of {} aren't read", library);
     if (mesh.group_names.size() > 1)
         return fmt::format("the {} materials of {} aren't read", mesh.group_names.size(), library);
     return object.material == 0 ? fmt::format("{} isn't read", library) : "";
@@ -54,18 +47,20 @@ std::string missed_materials(const Object& object, const Model& model, const Mes
 
 void add_material_warning(const Object& object, const Model& model, const MeshSummary& mesh,
                           std::vector<Warning>& warnings) {
+    const std::string file = quote(model.mesh.filename().string());
+    for (const std::string& note : mesh.notes)
+        add_once({WarningKind::ignored_materials, object.where, fmt::format("{}: {}", file, note)},
+                 warnings);
     std::string missed;
-    if (!mesh.texture.empty() && !mesh.has_colors)
-        missed = fmt::format("its texture {} isn't read", quote(mesh.texture));
-    else if (!mesh.material_library.empty() && object.groups.empty())
-        missed = missed_materials(object, model, mesh);
+    if (!mesh.material_library.empty() && object.groups.empty())
+        missed = missed_materials(object, mesh);
     if (missed.empty()) return;
     const std::string advice = mesh.group_names.size() > 1
                                    ? fmt::format("give the object \"materials\", like {{{}: NAME}}",
                                                  quote(mesh.group_names.front()))
                                    : "give the object a \"material\" of the scene";
     add_once({WarningKind::ignored_materials, object.where,
-              fmt::format("{}: {}; {}", quote(model.mesh.filename().string()), missed, advice)},
+              fmt::format("{}: {}; {}", file, missed, advice)},
              warnings);
 }
 

@@ -1,13 +1,62 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "runtime/analysis/scene_choices.hpp"
 
+#include <algorithm>
+
 #include "runtime/analysis/object_lattice.hpp"
+#include "runtime/assets/model_frame.hpp"
 #include "runtime/scene/predicates.hpp"
+#include "runtime/scene/scene_affine.hpp"
 #include "runtime/scene/scene_animation.hpp"
 
 namespace voxelume {
+namespace {
 
-void make_choices(Scene& scene, AssetStore& meshes) {
+double longest(const glm::dvec3& edges) {
+    return std::max({edges.x, edges.y, edges.z});
+}
+
+/// The edge, in metres of the model's space, of the largest voxels that would hold its distances.
+double largest_voxel(const Scene& scene, size_t number, AssetStore& meshes) {
+    const Model& model = scene.models[number];
+    const double own = longest(model_frame(model, meshes.summary_of(model)).voxel_edge);
+    double largest = 0;
+    for (const Object& object : scene.objects) {
+        if (size_t(object.model) != number) continue;
+        const double scale = stretch_of(glm::dmat3(object.world_from_object)).min;
+        const double world = longest(scene.world.voxel_size) / scale;
+        const double placed = model.is_sized ? std::max(own, world) : world;
+        largest = std::max(largest, is_instanced(scene, object) ? own : placed);
+    }
+    return largest > 0 ? largest : own;
+}
+
+SurfaceChoice chosen_surface(const Scene& scene, size_t number, AssetStore& meshes) {
+    const Model& model = scene.models[number];
+    if (!model.voxels.empty()) return meshes.surface_of_voxels(model);
+    if (!model.cuts.empty()) return {Surface::smooth, "it is cut"};
+    Model file = model;
+    file.morph.reset();
+    return surface_for(*meshes.summary_of(file), meshes.shape_of(file),
+                       largest_voxel(scene, number, meshes));
+}
+
+void choose_surfaces(Scene& scene, AssetStore& meshes) {
+    const bool may_appear = moves(scene);
+    for (size_t number = 0; number < scene.models.size(); ++number) {
+        Model& model = scene.models[number];
+        const bool is_shown = std::ranges::any_of(scene.objects, [&](const Object& object) {
+            return object.visible && size_t(object.model) == number;
+        });
+        if (!model.is_surface_open || !model.surface_reason.empty()) continue;
+        if (!is_shown && !may_appear) continue;
+        const SurfaceChoice choice = chosen_surface(scene, number, meshes);
+        model.surface = choice.surface;
+        model.surface_reason = choice.reason;
+    }
+}
+
+void choose_placements(Scene& scene, AssetStore& meshes) {
     const bool may_appear = moves(scene);
     bool has_instances = false;
     for (Object& object : scene.objects) {
@@ -19,6 +68,13 @@ void make_choices(Scene& scene, AssetStore& meshes) {
         has_instances = true;
     }
     if (has_instances) find_extents(scene);
+}
+
+}  // namespace
+
+void make_choices(Scene& scene, AssetStore& meshes) {
+    choose_surfaces(scene, meshes);
+    choose_placements(scene, meshes);
 }
 
 }  // namespace voxelume

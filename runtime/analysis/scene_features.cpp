@@ -11,6 +11,7 @@
 #include "runtime/scene/predicates.hpp"
 #include "runtime/stages/light/light.hpp"
 #include "runtime/stages/light/light_samples.hpp"
+#include "runtime/stages/light/sky_light.hpp"
 #include "runtime/stages/trace/sight.hpp"
 
 namespace voxelume {
@@ -52,7 +53,7 @@ bool is_lit(const Material* m) {
 
 /// Adds the features that the materials decide.
 void add_paths(const Scene& scene, const Pyramid& world, Features& features) {
-    const bool follows = scene.render.depth > 0;
+    const bool follows = (features.global ? scene.render.bounces : scene.render.depth) > 0;
     bool refraction = false, opacity = features.voxel_opacity, reflection = false, fresnel = false;
     bool absorption = false;
     for (const Material* m : shown_materials(scene, world)) {
@@ -68,7 +69,7 @@ void add_paths(const Scene& scene, const Pyramid& world, Features& features) {
         opacity || (refraction && (follows || (features.shadows && scene.render.filtered_shadows)));
     const bool filters = features.shadows && features.transmission;
     features.refracts = follows && (refraction || fresnel);
-    features.paths = features.transmission || (follows && reflection);
+    features.paths = features.global || features.transmission || (follows && reflection);
     features.absorbs = features.medium || (features.transmission && absorption);
     features.filter = filters;
     features.filtered_refraction = filters && scene.render.filtered_shadows;
@@ -80,20 +81,30 @@ void add_paths(const Scene& scene, const Pyramid& world, Features& features) {
         });
 }
 
+/// True if emissive objects light the world from samples of their surfaces. In global light their
+/// emission is what paths run into.
+bool has_emissive_samples(const Scene& scene, const Pyramid& world) {
+    return scene.render.light == LightMode::local && has_emissive_object(scene, world);
+}
+
 /// True if a light or an emissive object shines on something that isn't black.
 bool lights_surfaces(const Scene& scene, const Pyramid& world) {
     return std::ranges::any_of(shown_materials(scene, world), is_lit) &&
-           (std::ranges::any_of(scene.lights, shines) || has_emissive_object(scene, world));
+           (std::ranges::any_of(scene.lights, shines) || has_sun(scene.world) ||
+            has_sky_samples(scene) || has_emissive_samples(scene, world));
 }
 
 /// Adds the features that depend on light, and on where rays continue.
 void add_light(const Scene& scene, const Pyramid& world, Features& features) {
     const bool lit = lights_surfaces(scene, world);
     features.shadows = scene.render.shadows && lit;
-    features.area_samples = lit && (has_emissive_object(scene, world) ||
-                                    std::ranges::any_of(scene.lights, [](const Light& light) {
-                                        return shines(light) && has_area(light);
-                                    }));
+    features.global = scene.render.light == LightMode::global;
+    features.sky = scene.world.sky ? sky_feature(*scene.world.sky) : VXL_SKY_NONE;
+    features.area_samples =
+        lit && (has_emissive_samples(scene, world) || (features.global && has_sun(scene.world)) ||
+                std::ranges::any_of(scene.lights, [](const Light& light) {
+                    return shines(light) && has_area(light);
+                }));
     features.medium = scene.world.medium.absorption != glm::vec3(0) && !world.clear;
     features.medium_grid = features.medium && has_density(scene.world.medium);
     add_paths(scene, world, features);
@@ -139,8 +150,14 @@ size_t reserved_depth(const Features& features, const Scene& scene, const Pyrami
 
 }  // namespace
 
+bool has_sky_samples(const Scene& scene) {
+    return scene.render.light == LightMode::local && scene.world.sky &&
+           scene.world.sky->samples > 0;
+}
+
 std::vector<LightRecord> given_lights(const Scene& scene, const GridFrame& world) {
     std::vector<LightRecord> records;
+    if (has_sun(scene.world)) records.push_back(sun_light_record(*scene.world.sky, world));
     for (const Light& light : scene.lights) {
         if (!shines(light)) continue;
         if (has_area(light))
@@ -149,6 +166,20 @@ std::vector<LightRecord> given_lights(const Scene& scene, const GridFrame& world
             records.push_back(light_record(light, world));
     }
     return records;
+}
+
+std::vector<PathLight> path_lights(const Scene& scene, const GridFrame& world) {
+    std::vector<PathLight> lights;
+    if (has_sun(scene.world)) {
+        const Sky& sky = *scene.world.sky;
+        lights.push_back({sun_light_record(sky, world), sun_area_record(sky, world)});
+    }
+    for (const Light& light : scene.lights) {
+        if (!shines(light)) continue;
+        PathLight& added = lights.emplace_back(PathLight{light_record(light, world), {}});
+        if (has_area(light)) added.area = light_area_record(light, world);
+    }
+    return lights;
 }
 
 bool has_emissive_object(const Scene& scene, const Pyramid& world) {
@@ -165,7 +196,8 @@ size_t max_depth(const Features& features, const Scene& scene, const Pyramid& wo
                           std::ranges::any_of(shown_materials(scene, world), [](const Material* m) {
                               return (effects_of(*m) & kReflects) != 0;
                           });
-    return features.radiance && scatters ? size_t(scene.render.depth) : 0;
+    const bool follows = features.radiance && !features.global && scatters;
+    return follows ? size_t(scene.render.depth) : 0;
 }
 
 Features features_of(const Scene& scene, const Pyramid& world) {

@@ -2,6 +2,10 @@
 // scene and world -> the features its kernels are compiled for, and the memory its rays take
 #pragma once
 
+#include <optional>
+#include <vector>
+
+#include "kernels/shared/paths.h"
 #include "runtime/grid/grid.hpp"
 #include "runtime/scene/scene.hpp"
 #include "runtime/stages/features.hpp"
@@ -17,18 +21,30 @@ Features features_of(const Scene& scene, const Pyramid& world);
 /// objects are, but no voxels.
 void add_scene(const Scene& scene, const Pyramid& world, Features& features);
 
-/// The lights that a scene lists, those with an area by their samples.
+/// True if surfaces in local light look to the sky in some directions.
+bool has_sky_samples(const Scene& scene);
+
+/// The lights that a scene lists, those with an area by their samples, and its sun.
 std::vector<LightRecord> given_lights(const Scene& scene, const GridFrame& world);
+
+/// A light that a scene lists, and its area if it has one.
+struct PathLight {
+    LightRecord record;
+    std::optional<LightAreaRecord> area;
+};
+
+/// The lights that a scene lists and its sun, as global light samples them.
+std::vector<PathLight> path_lights(const Scene& scene, const GridFrame& world);
 
 /// True if some object that the world may show is an emissive object.
 bool has_emissive_object(const Scene& scene, const Pyramid& world);
 
-/// True if the image has colour, a light or an emissive object shines, and something that the world
-/// may show isn't black.
+/// True if the image has colour, a light shines (or in local light an emissive object), and
+/// something that the world may show isn't black.
 bool has_light(const Scene& scene, const Pyramid& world);
 
-/// The maximum number of reflections and refractions in a row. It is 0 where no surface that may be
-/// shown sends rays on in a new direction.
+/// The maximum number of reflections and refractions in a row of local light. It is 0 where no
+/// surface that may be shown sends rays on in a new direction.
 size_t max_depth(const Features& features, const Scene& scene, const Pyramid& world);
 
 /// The rays of the scene's flat image that go together.

@@ -28,14 +28,16 @@ std::vector<int> some_of(std::span<const int> frames) {
 /// Whether something in the scene sends light to surfaces, or shows light of its own.
 bool has_any_light(const Scene& scene) {
     const World& world = scene.world;
-    const bool has_background = world.background != glm::vec3(0);
+    const bool has_background = world.background != glm::vec3(0) || world.sky;
     const auto shows_light = [&](const Object& object) {
         const uint32_t effects = effects_of(scene.materials[size_t(object.material)]);
         return has_emission(scene, object) ||
                (has_background && ((effects & kReflects) != 0 || transmits(scene, object)));
     };
-    return world.ambient != glm::vec3(0) || world.medium.color != glm::vec3(0) ||
-           std::ranges::any_of(scene.lights, shines) ||
+    const bool is_global = scene.render.light == LightMode::global && scene.render.bounces > 0;
+    const bool has_sky = has_sun(world) || (world.sky && world.sky->samples > 0);
+    return world.ambient != glm::vec3(0) || has_sky || (is_global && has_background) ||
+           world.medium.color != glm::vec3(0) || std::ranges::any_of(scene.lights, shines) ||
            std::ranges::any_of(scene.objects, shows_light);
 }
 

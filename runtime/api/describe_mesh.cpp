@@ -6,47 +6,60 @@
 
 #include <cmath>
 
-#include "runtime/geometry/mesh_topology.hpp"
-#include "runtime/io/mesh/mesh_reader.hpp"
+#include "runtime/geometry/mesh_shape.hpp"
+#include "runtime/io/gltf/gltf_mesh.hpp"
 #include "runtime/memory/plan.hpp"
 
 namespace voxelume::api {
 namespace {
 
 /// What the mesh becomes as a smooth model.
-Report at_resolution(const std::filesystem::path& path, const Mesh& mesh, int resolution) {
+Report at_resolution(const std::filesystem::path& path, const Mesh& mesh,
+                     const MeshSummary& summary, const MeshShape& shape, int resolution) {
     Model model;
     model.mesh = path;
     model.where = path.string();
     model.resolution = resolution;
     const GridPlan plan = plan_model(model, mesh);
     const glm::ivec3 size = plan.frame.size - 2 * kModelMargin;
+    const SurfaceChoice choice = surface_for(summary, shape, plan.frame.voxel_edge.x);
     return {{"resolution", resolution},
             {"voxel edge", plan.frame.voxel_edge.x},
             {"voxels", fmt::format("{}x{}x{}", size.x, size.y, size.z)},
             {"surface voxels, about", uint64_t(std::llround(plan.voxels))},
-            {"MB smooth, about", std::stod(fmt::format("{:.3g}", plan.kept_bytes / 1e6))}};
+            {"MB smooth, about", std::stod(fmt::format("{:.3g}", plan.kept_bytes / 1e6))},
+            {"surface", kind_of(choice.surface).name},
+            {"because", choice.reason}};
 }
 
 }  // namespace
 
 Report describe_mesh(const std::filesystem::path& path) {
-    const Mesh mesh = read_mesh(path);
-    const Bounds box = mesh_bounds(mesh);
-    const uint64_t open = mesh_topology(mesh).open_edges;
+    const Mesh mesh = read_mesh_file(path);
+    const MeshSummary summary = summary_of(mesh);
+    const Bounds& box = summary.surface;
+    const uint64_t open = summary.topology.open_edges;
+    const MeshShape shape = shape_of(mesh);
     Report report = {{"kind", "triangle mesh"},
                      {"triangles", mesh.triangles.size()},
                      {"vertices", mesh.positions.size()},
                      {"vertex colors", !mesh.vertex_colors.empty()},
                      {"groups", mesh.group_names},
                      {"closed", open == 0},
-                     {"open edges", open}};
+                     {"open edges", open},
+                     {"sharp edges, m", shape.sharp_length},
+                     {"thickness, m", shape.thickness}};
     report["min"] = {box.min.x, box.min.y, box.min.z};
     report["max"] = {box.max.x, box.max.y, box.max.z};
+    if (!mesh.triangle_colors.empty()) report["face colors"] = true;
+    if (!mesh.textures.empty()) report["textures"] = Report::array();
+    for (const Texture& texture : mesh.textures)
+        report["textures"].push_back({texture.image->width, texture.image->height});
+    if (!mesh.notes.empty()) report["notes"] = mesh.notes;
     if (box.min == box.max) return report;
     report["as voxels"] = Report::array();
     for (const int resolution : {128, 256, 512, 1024})
-        report["as voxels"].push_back(at_resolution(path, mesh, resolution));
+        report["as voxels"].push_back(at_resolution(path, mesh, summary, shape, resolution));
     return report;
 }
 

@@ -12,7 +12,7 @@
 #include "runtime/base/frame_list.hpp"
 #include "runtime/base/frame_path.hpp"
 #include "runtime/base/text.hpp"
-#include "runtime/io/mesh/mesh_reader.hpp"
+#include "runtime/io/gltf/gltf_mesh.hpp"
 #include "runtime/io/vdb/vdb.hpp"
 #include "runtime/memory/plan.hpp"
 #include "runtime/scene_file/scene_fields.hpp"
@@ -47,7 +47,7 @@ v1::VoxelizeReport voxelize_to_files(const fs::path& path, const std::vector<fs:
                                      const Device& device, const v1::VoxelizeOptions& options) {
     check_endings(outputs);
     const Model model = model_of(path, options);
-    const Mesh mesh = read_mesh(path);
+    const Mesh mesh = read_mesh_file(path);
     const GridPlan plan = plan_model(model, mesh);
     check_model(model, plan, device.info());
     const auto start = std::chrono::steady_clock::now();

@@ -77,6 +77,10 @@ v1::Plan plan_for_callers(const Scene& scene, const FramePlan& planned, size_t f
                             plan.world_bytes});
     result.largest_buffer_bytes = largest.bytes;
     result.host_bytes = plan.host_bytes;
+    for (const Model& model : planned.scene.models)
+        if (!model.surface_reason.empty())
+            result.surfaces.push_back(
+                {model.name, std::string(kind_of(model.surface).name), model.surface_reason});
     result.stages = {{"voxelize", plan.voxelize_bytes},
                      {"place", plan.place_bytes},
                      {"index", plan.index_bytes},

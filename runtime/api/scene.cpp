@@ -113,6 +113,15 @@ Scene Scene::with_samples(int samples) const {
     });
 }
 
+Scene Scene::with_light(LightMode light) const {
+    return api::guarded([&] {
+        voxelume::Scene scene = api::inside(*this);
+        scene.render.light =
+            light == LightMode::global ? voxelume::LightMode::global : voxelume::LightMode::local;
+        return api::handle_of(std::move(scene), implementation().read);
+    });
+}
+
 const std::filesystem::path& Scene::file() const {
     return api::inside(*this).file;
 }

@@ -43,6 +43,27 @@ JsonValue tree_of_medium(const v1::Medium& medium) {
     return object.take();
 }
 
+void add_kind(const v1::ConstantSky& sky, ObjectTree& object) {
+    object.add("kind", "constant").add("color", sky.color);
+}
+
+void add_kind(const v1::GradientSky& sky, ObjectTree& object) {
+    object.add("kind", "gradient").add("zenith", sky.zenith);
+    object.add("horizon", sky.horizon).add("ground", sky.ground);
+}
+
+void add_kind(const v1::SunSky& sky, ObjectTree& object) {
+    object.add("kind", "sun").add("direction", sky.direction).add("angle", sky.angle);
+    object.add("color", sky.color).add("intensity", sky.intensity);
+    object.add("turbidity", sky.turbidity).add("ground", sky.ground);
+}
+
+JsonValue tree_of_sky(const v1::Sky& sky) {
+    ObjectTree object;
+    std::visit([&object](const auto& kind) { add_kind(kind, object); }, sky.kind);
+    return object.add("strength", sky.strength).add("samples", sky.samples).take();
+}
+
 void add_source(const v1::PointLight& light, ObjectTree& object) {
     object.add("type", "point").add("position", light.position);
 }
@@ -154,6 +175,7 @@ JsonValue tree(const v1::World& world) {
     object.add("background", world.background);
     if (world.ambient != kNone) object.add("ambient", world.ambient);
     if (world.medium) object.put("medium", tree_of_medium(*world.medium));
+    if (world.sky) object.put("sky", tree_of_sky(*world.sky));
     return object.take();
 }
 
@@ -200,6 +222,8 @@ JsonValue tree(const v1::RenderSettings& render) {
     object.add("size", render.size).add("samples", render.samples).add("depth", render.depth);
     object.add("shadows", render.shadows);
     object.add("shadow", render.filtered_shadows ? "filtered" : "opaque");
+    object.add("light", render.light == v1::LightMode::global ? "global" : "local");
+    object.add("bounces", render.bounces);
     return object.add("least_weight", render.min_weight).take();
 }
 

@@ -16,8 +16,11 @@ inline uint64_t bytes_in(const std::vector<Values>&... arrays) {
 }
 
 inline uint64_t mesh_bytes(const Mesh& mesh) {
-    return bytes_in(mesh.positions, mesh.triangles, mesh.vertex_colors, mesh.normals,
-                    mesh.triangle_normals, mesh.triangle_group);
+    uint64_t texels = 0;
+    for (const Texture& texture : mesh.textures) texels += texture.image->texels.size();
+    return 4 * texels + bytes_in(mesh.positions, mesh.triangles, mesh.vertex_colors,
+                                 mesh.triangle_colors, mesh.uvs, mesh.triangle_uvs, mesh.normals,
+                                 mesh.triangle_normals, mesh.triangle_group);
 }
 
 inline uint64_t voxel_bytes(const VoxelModel& voxels) {

@@ -8,41 +8,46 @@
 #include "runtime/geometry/file_map.hpp"
 #include "runtime/geometry/mesh_morph.hpp"
 #include "runtime/geometry/winding_number.hpp"
+#include "runtime/io/gltf/gltf_mesh.hpp"
 #include "runtime/io/mesh/mesh_reader.hpp"
 
 namespace voxelume {
-AssetStore::MeshFile& AssetStore::file(const std::filesystem::path& name) {
-    used_.insert(name);
+AssetStore::MeshFile& AssetStore::file(const MeshName& name) {
+    used_.insert(name.first);
     const auto found = files_.find(name);
     if (found != files_.end()) return found->second;
     MeshFile file;
     if (cache_.is_open()) {
         const LoadTimer timer(load_seconds_);
-        file.source = mesh_source(read_mesh_bytes(name), name);
+        file.source = mesh_source(read_mesh_bytes(name.first), name.first, name.second);
     }
     return files_.emplace(name, std::move(file)).first->second;
+}
+
+const GltfFile& AssetStore::gltf_file(const std::filesystem::path& name) {
+    std::shared_ptr<const GltfFile>& file = gltf_files_[name];
+    if (!file) file = std::make_shared<const GltfFile>(read_mesh_bytes(name), name);
+    return *file;
 }
 
 AssetStore::MapKey AssetStore::key_of(const FileMap& map) {
     return {map.scale, map.shift.x, map.shift.y, map.shift.z};
 }
 
-void AssetStore::MeshFile::forget_meshes() {
-    mesh.reset();
-    for (auto& [map, mapped_mesh] : mapped) mapped_mesh.mesh.reset();
-}
-
-Mesh AssetStore::read(const std::filesystem::path& name, const MeshFile& file) {
-    const std::string bytes = read_mesh_bytes(name);
-    if (cache_.is_open() && mesh_source(bytes, name) != file.source)
+Mesh AssetStore::read(const MeshName& name, const MeshFile& file) {
+    const auto& [path, part] = name;
+    const bool is_gltf = is_gltf_file(path);
+    const std::string bytes = is_gltf && !cache_.is_open() ? "" : read_mesh_bytes(path);
+    if (cache_.is_open() && mesh_source(bytes, path, part) != file.source)
         throw Error(ErrorKind::input, "{}: the file changed while it was being read: try again",
-                    name.string());
-    Mesh mesh = parse_mesh(bytes, name);
+                    path.string());
+    Mesh mesh = is_gltf ? gltf_mesh(gltf_file(path), part) : parse_mesh(bytes, path);
     ++meshes_read_;
     return mesh;
 }
 
-const Mesh& AssetStore::mesh(const std::filesystem::path& name, const FileMap& map) {
+const Mesh& AssetStore::mesh(const std::filesystem::path& path, const FileMap& map, int part) {
+    const MeshName name(path, part);
     MeshFile& file = this->file(name);
     std::optional<Mesh>& mesh = map.is_identity() ? file.mesh : file.mapped[key_of(map)].mesh;
     if (mesh) return *mesh;
@@ -54,12 +59,11 @@ const Mesh& AssetStore::mesh(const std::filesystem::path& name, const FileMap& m
     } else {
         mesh = read(name, file);
     }
-    if (!map.is_identity()) apply(map, name, *mesh);
+    if (!map.is_identity()) apply(map, path, *mesh);
     return *mesh;
 }
 
-const MeshSummary& AssetStore::summary_of_file(const std::filesystem::path& name,
-                                               const FileMap& map) {
+const MeshSummary& AssetStore::summary_of_file(const MeshName& name, const FileMap& map) {
     MeshFile& file = this->file(name);
     if (!map.is_identity()) {
         std::optional<MeshSummary>& summary = file.mapped[key_of(map)].summary;
@@ -72,10 +76,49 @@ const MeshSummary& AssetStore::summary_of_file(const std::filesystem::path& name
     double seconds = 0;
     {
         const LoadTimer timer(seconds);
-        file.summary = voxelume::summary_of(mesh(name));
+        file.summary = voxelume::summary_of(mesh(name.first, {}, name.second));
     }
     cache_.keep(file.source, *file.summary, seconds);
     return *file.summary;
+}
+
+const MeshShape& AssetStore::shape_of_file(const MeshName& name) {
+    MeshFile& file = this->file(name);
+    if (file.shape) return *file.shape;
+    file.shape = cache_.shape(file.source);
+    if (file.shape) return *file.shape;
+    double seconds = 0;
+    {
+        const LoadTimer timer(seconds);
+        file.shape = voxelume::shape_of(mesh(name.first, {}, name.second));
+    }
+    cache_.keep(file.source, *file.shape, seconds);
+    return *file.shape;
+}
+
+MeshShape AssetStore::shape_of(const Model& model) {
+    const MeshShape& shape = shape_of_file({model.mesh, model.part});
+    const double scale = model.object_from_file.scale;
+    return {scale * shape.sharp_length, scale * shape.thickness};
+}
+
+SurfaceChoice AssetStore::surface_of_voxels(Model model) {
+    if (const auto surface = surface_of_voxel_model(model.voxels))
+        return {*surface, "its file says so"};
+    model.surface = Surface::cubes;
+    try {
+        voxels(model);
+        return {Surface::cubes, "its file has densities"};
+    } catch (const Error& error) {
+        if (error.kind() != ErrorKind::input) throw;
+        try {
+            model.surface = Surface::smooth;
+            voxels(model);
+            return {Surface::smooth, "its file has a level set"};
+        } catch (const Error&) {
+            throw error;
+        }
+    }
 }
 
 const AssetStore::VoxelFile& AssetStore::voxel_file(const Model& model) {
@@ -125,7 +168,7 @@ const Mesh& AssetStore::morphed_mesh(const Model& model) {
     if (entry.mesh) return *entry.mesh;
     const Morph& morph = *model.morph;
     const FileMap& map = model.object_from_file;
-    const Mesh& from = mesh(model.mesh, map);
+    const Mesh& from = mesh(model.mesh, map, model.part);
     entry.mesh = morph.mesh.empty()
                      ? morphed_to_sphere(from, morph.center, morph.radius, morph.amount)
                      : ::voxelume::morphed(from, mesh(morph.mesh, map), morph.amount, model.where);
@@ -150,7 +193,8 @@ const MeshSummary& AssetStore::morphed_summary(const Model& model) {
 const Mesh* AssetStore::mesh_of(const Model& model) {
     if (model.solid) return nullptr;
     if (model.voxels.empty())
-        return model.morph ? &morphed_mesh(model) : &mesh(model.mesh, model.object_from_file);
+        return model.morph ? &morphed_mesh(model)
+                           : &mesh(model.mesh, model.object_from_file, model.part);
     return lists_primitives(model.surface) ? &voxels(model).mesh : nullptr;
 }
 
@@ -158,7 +202,7 @@ const MeshSummary* AssetStore::summary_of(const Model& model) {
     if (model.solid) return nullptr;
     if (model.voxels.empty())
         return model.morph ? &morphed_summary(model)
-                           : &summary_of_file(model.mesh, model.object_from_file);
+                           : &summary_of_file({model.mesh, model.part}, model.object_from_file);
     return lists_primitives(model.surface) ? &voxel_file(model).summary : nullptr;
 }
 
@@ -186,32 +230,13 @@ const std::vector<std::string>& AssetStore::groups_of(const Model& model) {
 std::string AssetStore::source_of(const Model& model) {
     if (model.mesh.empty() || !cache_.is_open()) return {};
     const FileMap& map = model.object_from_file;
-    const auto source = [&](const std::filesystem::path& name) {
+    const auto source = [&](const MeshName& name) {
         return map.is_identity() ? file(name).source : mapped_source(file(name).source, map);
     };
-    std::string from = source(model.mesh);
+    std::string from = source({model.mesh, model.part});
     if (!model.morph) return from;
     const Morph& morph = *model.morph;
-    return morph_source(from, morph.mesh.empty() ? std::string() : source(morph.mesh), morph);
-}
-
-/// The bytes of memory that the loaded contents of a file take.
-uint64_t AssetStore::bytes_of(const std::filesystem::path& name) const {
-    uint64_t bytes = 0;
-    if (const auto found = files_.find(name); found != files_.end()) {
-        if (found->second.mesh) bytes += mesh_bytes(*found->second.mesh);
-        for (const auto& [map, mapped] : found->second.mapped)
-            if (mapped.mesh) bytes += mesh_bytes(*mapped.mesh);
-    }
-    for (const auto& [key, file] : voxels_)
-        if (std::get<0>(key) == name) bytes += voxel_bytes(file.voxels);
-    return bytes;
-}
-
-/// Forgets what is loaded of a file.
-void AssetStore::forget(const std::filesystem::path& name) {
-    if (const auto found = files_.find(name); found != files_.end()) found->second.forget_meshes();
-    std::erase_if(voxels_, [&](const auto& entry) { return std::get<0>(entry.first) == name; });
+    return morph_source(from, morph.mesh.empty() ? std::string() : source({morph.mesh, 0}), morph);
 }
 
 Bounds AssetStore::box_of_file(const Model& model, bool keeps) {
@@ -220,27 +245,12 @@ Bounds AssetStore::box_of_file(const Model& model, bool keeps) {
     plain.object_from_file = {};
     const std::filesystem::path& name = plain.voxels.empty() ? plain.mesh : plain.voxels;
     const bool was_loaded = bytes_of(name) > 0;
-    const Bounds box =
-        plain.voxels.empty() ? summary_of_file(name).surface : occupied_bounds(voxels(plain));
+    if (plain.is_surface_open && !plain.voxels.empty())
+        plain.surface = surface_of_voxels(plain).surface;
+    const Bounds box = plain.voxels.empty() ? summary_of_file({name, plain.part}).surface
+                                            : occupied_bounds(voxels(plain));
     if (!keeps && !was_loaded) forget(name);
     return box;
-}
-
-void AssetStore::retain(const Model& model, uint64_t& room) {
-    std::set<std::filesystem::path> files = {model.mesh, model.voxels};
-    if (model.morph) files.insert(model.morph->mesh);
-    uint64_t bytes = 0;
-    for (const auto& name : files)
-        if (!used_.contains(name)) bytes += bytes_of(name);
-    if (bytes <= room) {
-        room -= bytes;
-    } else {
-        for (const auto& name : files) {
-            if (used_.contains(name)) continue;
-            forget(name);
-        }
-    }
-    used_.merge(files);
 }
 
 AssetStore AssetStore::recounted() const {
@@ -248,17 +258,6 @@ AssetStore AssetStore::recounted() const {
     store.load_seconds_ = 0;
     store.meshes_read_ = 0;
     return store;
-}
-
-void AssetStore::forget_unused() {
-    std::erase_if(files_, [&](const auto& entry) { return !used_.contains(entry.first); });
-    std::erase_if(vox_files_, [&](const auto& entry) { return !used_.contains(entry.first); });
-    std::erase_if(voxels_,
-                  [&](const auto& entry) { return !used_.contains(std::get<0>(entry.first)); });
-    for (auto& [model, morphed] : morphed_)
-        if (!used_morphs_.contains(model)) morphed.mesh.reset();
-    used_.clear();
-    used_morphs_.clear();
 }
 
 /// The number of a file's triangles. Where only a morphed mesh's summary is known, it is that of
@@ -276,7 +275,7 @@ uint64_t AssetStore::triangles_of(const std::filesystem::path& name, const MeshF
 
 uint64_t AssetStore::triangles() const {
     uint64_t sum = 0;
-    for (const auto& [name, file] : files_) sum += triangles_of(name, file);
+    for (const auto& [name, file] : files_) sum += triangles_of(name.first, file);
     for (const auto& [key, file] : voxels_) sum += file.summary.triangles;
     return sum;
 }

@@ -5,6 +5,7 @@
 #include <array>
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <optional>
 #include <set>
 #include <string>
@@ -13,8 +14,10 @@
 #include <vector>
 
 #include "runtime/assets/model_cache.hpp"
+#include "runtime/geometry/mesh_shape.hpp"
 #include "runtime/geometry/mesh_summary.hpp"
 #include "runtime/geometry/voxel_model.hpp"
+#include "runtime/io/gltf/gltf_file.hpp"
 #include "runtime/io/voxels/vox_file.hpp"
 #include "runtime/scene/scene.hpp"
 
@@ -26,9 +29,11 @@ class AssetStore {
   public:
     explicit AssetStore(ModelCache cache = {}) : cache_(std::move(cache)) {}
 
-    /// The mesh of a file after a map. Throws Error::input as read_mesh does, and for a file that
-    /// changed since it was first read.
-    const Mesh& mesh(const std::filesystem::path& file, const FileMap& map = {});
+    /// The mesh of a file, or a part of a glTF file, after a map. Throws Error::input as read_mesh
+    /// and gltf_mesh do, and for a file that changed since it was first read.
+    const Mesh& mesh(const std::filesystem::path& file, const FileMap& map = {}, int part = 0);
+    /// A glTF file, which is kept while its meshes are used. Throws Error::input as GltfFile does.
+    const GltfFile& gltf_file(const std::filesystem::path& file);
     /// The voxels of a model that has a file of them. Throws Error::input as read_voxel_model does.
     const VoxelModel& voxels(const Model& model);
     /// What a MagicaVoxel file holds besides its voxels. Throws Error::input as read_vox_file does.
@@ -41,6 +46,11 @@ class AssetStore {
     /// The winding number around a point, in object space, of the mesh that mesh_of() returns: how
     /// far it encloses the point. 0 for other models. Reads the mesh unless the cache knows.
     double winding_of(const Model& model, const glm::dvec3& point);
+    /// What the surface that suits a model's mesh file depends on; a morph doesn't count.
+    MeshShape shape_of(const Model& model);
+    /// The surface that a model's file of voxels holds, with the reason. An OpenVDB file has cubes,
+    /// and without those a level set. Throws as voxels() does.
+    SurfaceChoice surface_of_voxels(Model model);
     /// The names of a model's groups of faces or voxels.
     const std::vector<std::string>& groups_of(const Model& model);
     /// The box around the surface in a model's file, in the file's own coordinates. Contents that
@@ -75,6 +85,7 @@ class AssetStore {
         std::string source;  ///< hash of the file's bytes; empty without a cache
         std::optional<Mesh> mesh;
         std::optional<MeshSummary> summary;
+        std::optional<MeshShape> shape;
         std::map<MapKey, MappedMesh> mapped;
 
         void forget_meshes();
@@ -92,19 +103,24 @@ class AssetStore {
     };
 
     static MapKey key_of(const FileMap& map);
-    MeshFile& file(const std::filesystem::path& name);
-    Mesh read(const std::filesystem::path& name, const MeshFile& file);
+    /// A file, and the part of it that is meant; 0: all of it.
+    using MeshName = std::pair<std::filesystem::path, int>;
+
+    MeshFile& file(const MeshName& name);
+    Mesh read(const MeshName& name, const MeshFile& file);
     uint64_t triangles_of(const std::filesystem::path& name, const MeshFile& file) const;
     uint64_t bytes_of(const std::filesystem::path& name) const;
     void forget(const std::filesystem::path& name);
-    const MeshSummary& summary_of_file(const std::filesystem::path& name, const FileMap& map = {});
+    const MeshSummary& summary_of_file(const MeshName& name, const FileMap& map = {});
+    const MeshShape& shape_of_file(const MeshName& name);
     const VoxelFile& voxel_file(const Model& model);
     Morphed& morphed(const Model& model);
     const Mesh& morphed_mesh(const Model& model);
     const MeshSummary& morphed_summary(const Model& model);
 
     ModelCache cache_;
-    std::map<std::filesystem::path, MeshFile> files_;
+    std::map<MeshName, MeshFile> files_;
+    std::map<std::filesystem::path, std::shared_ptr<const GltfFile>> gltf_files_;
     std::map<std::string, Morphed> morphed_;  ///< by the model's name, as last used
     /// Keyed by the file, the surface that it is read as, its map, and the part.
     using VoxelKey = std::tuple<std::filesystem::path, Surface, MapKey, int>;

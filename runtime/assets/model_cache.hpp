@@ -9,15 +9,16 @@
 #include <string>
 
 #include "runtime/base/disk_cache.hpp"
+#include "runtime/geometry/mesh_shape.hpp"
 #include "runtime/geometry/mesh_summary.hpp"
 #include "runtime/grid/grid.hpp"
 #include "runtime/stages/voxelize/voxelize_options.hpp"
 
 namespace voxelume {
 
-/// Names the bytes of a mesh file, and so the mesh that they are read as. Only the extension of the
-/// file's name counts.
-std::string mesh_source(const std::string& bytes, const std::filesystem::path& name);
+/// Names the bytes of a mesh file and of the files that it leads to, and so the mesh that they are
+/// read as. Of the file's own name only the extension counts. `part` is that of a glTF file.
+std::string mesh_source(const std::string& bytes, const std::filesystem::path& name, int part = 0);
 
 /// Names the mesh of a source after a map.
 std::string mapped_source(const std::string& source, const FileMap& map);
@@ -74,6 +75,10 @@ class ModelCache {
 
     std::optional<MeshSummary> summary(const std::string& source) const;
     void keep(const std::string& source, const MeshSummary& summary, double seconds) const;
+
+    /// These do the same for what a mesh's surface depends on.
+    std::optional<MeshShape> shape(const std::string& source) const;
+    void keep(const std::string& source, const MeshShape& shape, double seconds) const;
 
     /// The grid on a device; empty if the cache doesn't have it. Throws Error::limit if the device
     /// has too little memory.

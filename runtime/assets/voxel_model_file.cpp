@@ -4,10 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
+#include <string_view>
 
 #include "kernels/shared/voxel.h"
 #include "runtime/base/input_file.hpp"
 #include "runtime/io/vdb/vdb_voxels.hpp"
+#include "runtime/io/voxels/model_file.hpp"
 #include "runtime/io/voxels/model_voxels.hpp"
 #include "runtime/io/voxels/vox_voxels.hpp"
 #include "runtime/io/voxels/voxel_limits.hpp"
@@ -142,6 +144,8 @@ std::string start_of(const InputFile& file) {
     return start;
 }
 
+constexpr std::string_view kModelStart = "\x89VXM\r\n\x1a\n";
+
 }  // namespace
 
 VoxelModel read_vox_model(const VoxFile& vox, Surface surface, int part) {
@@ -154,12 +158,23 @@ bool is_vox_file(const std::filesystem::path& path) {
     return start_of(InputFile(path)).starts_with("VOX ");
 }
 
+std::optional<Surface> surface_of_voxel_model(const std::filesystem::path& path) {
+    const std::string start = start_of(InputFile(path));
+    if (start.starts_with("VOX ")) return Surface::cubes;
+    if (start != kModelStart) return std::nullopt;
+    const ModelSummary summary = read_model_summary(path);
+    const auto name = summary.header.find("surface");
+    for (const SurfaceKind& kind : kSurfaceKinds)
+        if (name != summary.header.end() && name->second == kind.name) return kind.surface;
+    return std::nullopt;
+}
+
 VoxelModel read_voxel_model(const std::filesystem::path& path, Surface surface, int part) {
     const InputFile file(path);
     const std::string start = start_of(file);
     if (start.starts_with("VOX ")) return read_vox_model(read_vox_file(path), surface, part);
     if (part != 0) file.refuse("is one model; only .vox files have parts");
-    if (start == "\x89VXM\r\n\x1a\n") return read_model_voxels(path, surface);
+    if (start == kModelStart) return read_model_voxels(path, surface);
     if (start != std::string(" BDV\0\0\0\0", 8))
         file.refuse("is neither a .vxm, an OpenVDB nor a .vox file");
     if (lists_primitives(surface))

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 
 #include "runtime/geometry/voxel_model.hpp"
 #include "runtime/io/voxels/vox_file.hpp"
@@ -23,5 +24,9 @@ bool is_vox_file(const std::filesystem::path& file);
 
 /// The part of a .vox file whose structure has been read.
 VoxelModel read_vox_model(const VoxFile& vox, Surface surface, int part);
+
+/// The surface that a .vxm says it has; none for other files. Throws Error::input for a missing or
+/// damaged one.
+std::optional<Surface> surface_of_voxel_model(const std::filesystem::path& file);
 
 }  // namespace voxelume

@@ -31,7 +31,11 @@ Bounds box_of_objects(Scene scene, AssetStore meshes) {
 
 /// What an observer who sees nothing should change. The objects' box isn't empty.
 std::string view_advice(const Observer& observer, const Bounds& objects) {
-    const glm::dvec3 middle = (objects.min + objects.max) / 2.0;
+    // To a hundredth or thousandth of the objects' size, as a person would write it; -0 is 0.
+    const double size = glm::length(objects.max - objects.min);
+    const double step = std::pow(10.0, std::floor(std::log10(std::max(size, 1e-9))) - 3);
+    const glm::dvec3 middle =
+        glm::round((objects.min + objects.max) / (2 * step)) * step + glm::dvec3(0);
     const double nearest =
         glm::length(glm::clamp(observer.position, objects.min, objects.max) - observer.position);
     double farthest = 0;
@@ -48,7 +52,7 @@ std::string view_advice(const Observer& observer, const Bounds& objects) {
             "{:.3g} m: change \"near\"",
             observer.display.near, farthest);
     return fmt::format(
-        "the objects lie around [{:.3g}, {:.3g}, {:.3g}]: \"look_at\" that place, "
+        "the objects lie around [{:.4g}, {:.4g}, {:.4g}]: \"look_at\" that place, "
         "or move the observer",
         middle.x, middle.y, middle.z);
 }

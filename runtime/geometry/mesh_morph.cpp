@@ -72,7 +72,9 @@ Mesh morphed(const Mesh& from, const Mesh& to, double amount, const SourcePlace&
     for (size_t i = 0; i < mesh.positions.size(); ++i)
         mesh.positions[i] = between(from.positions[i], to.positions[i], amount);
     turn_normals(from, to, amount, mesh);
-    if (to.vertex_colors.empty()) return mesh;
+    if (to.vertex_colors.size() != from.vertex_colors.size() ||
+        to.triangle_colors != from.triangle_colors)
+        return mesh;
     for (size_t i = 0; i < mesh.vertex_colors.size(); ++i)
         mesh.vertex_colors[i] = between(from.vertex_colors[i], to.vertex_colors[i], amount);
     return mesh;

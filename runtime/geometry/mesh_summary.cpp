@@ -36,6 +36,22 @@ Bounds mesh_bounds(const Mesh& mesh) {
     return box;
 }
 
+MeshPaint paint_of(const Mesh& mesh) {
+    MeshPaint paint;
+    paint.colors = mesh.vertex_colors.size();
+    paint.has_corner_colors = !mesh.triangle_colors.empty();
+    if (mesh.textures.empty()) return paint;
+    for (const Texture& texture : mesh.textures) paint.texels += texel_count(*texture.image);
+    paint.textures = mesh.textures.size();
+    paint.uvs = mesh.uvs.size();
+    paint.has_corner_uvs = !mesh.triangle_uvs.empty();
+    return paint;
+}
+
+bool is_open(const MeshSummary& mesh) {
+    return mesh.topology.hole_area > kOpenShare * mesh.area.total;
+}
+
 MeshSummary summary_of(const Mesh& mesh) {
     MeshSummary summary;
     summary.triangles = mesh.triangles.size();
@@ -45,13 +61,14 @@ MeshSummary summary_of(const Mesh& mesh) {
     for (const glm::vec3& p : mesh.positions) add(summary.vertices, glm::dvec3(p));
     summary.area = mesh_area(mesh);
     summary.min_area = min_mesh_area(mesh);
-    summary.has_colors = !mesh.vertex_colors.empty();
+    summary.paint = paint_of(mesh);
     summary.has_normals = !mesh.normals.empty();
     summary.longest_edge = longest_edge(mesh);
     summary.group_names = mesh.group_names;
     summary.topology = mesh_topology(mesh);
     summary.material_library = mesh.material_library;
     summary.texture = mesh.texture;
+    summary.notes = mesh.notes;
     return summary;
 }
 

@@ -13,23 +13,44 @@
 
 namespace voxelume {
 
+/// How much a mesh has of what colours its voxels.
+struct MeshPaint {
+    uint64_t colors = 0;             ///< linear ones
+    bool has_corner_colors = false;  ///< corners name them; otherwise vertices have one each
+    uint64_t texels = 0;             ///< of all levels of all textures
+    uint64_t textures = 0;
+    uint64_t uvs = 0;             ///< places on textures, if there are textures
+    bool has_corner_uvs = false;  ///< corners name them
+
+    bool is_there() const { return colors > 0 || texels > 0; }
+};
+
 struct MeshSummary {
     uint64_t triangles = 0;
     Bounds surface;        ///< the box around the triangles, metres
     Bounds vertices;       ///< box around all positions, those that no triangle uses included
     SurfaceArea area;      ///< in the mesh's own space
     SurfaceArea min_area;  ///< area with coinciding triangles counted once
-    bool has_colors = false;
+    MeshPaint paint;
     bool has_normals = false;
     double longest_edge = 0;  ///< metres
     std::vector<std::string> group_names;
     uint64_t corners = 0;  ///< positions that triangles share
     MeshTopology topology;
-    std::string material_library;  ///< as in Mesh
-    std::string texture;           ///< likewise
+    std::string material_library;    ///< as in Mesh
+    std::string texture;             ///< likewise
+    std::vector<std::string> notes;  ///< likewise
 };
 
 MeshSummary summary_of(const Mesh& mesh);
+
+MeshPaint paint_of(const Mesh& mesh);
+/// The share of a mesh's area by which its holes matter. Smaller ones are closed by the winding
+/// number, as the scanned bunny's are.
+inline constexpr double kOpenShare = 0.03;
+
+/// Whether a mesh's holes are so large that nothing is inside of it.
+bool is_open(const MeshSummary& mesh);
 
 /// The box around the triangles of a mesh.
 Bounds mesh_bounds(const Mesh& mesh);

@@ -23,11 +23,18 @@ std::string json_size(const glm::dvec3& v) {
 }
 
 double rounded(double x, int digits) {
-    return std::stod(fmt::format("{:.{}g}", x, digits));
+    return std::stod(fmt::format("{:.{}g}", x, digits)) + 0.0;  // -0 becomes 0
 }
 
 glm::dvec3 rounded(const glm::dvec3& v, int digits) {
     return {rounded(v.x, digits), rounded(v.y, digits), rounded(v.z, digits)};
+}
+
+std::string NameList::unique(const std::string& wanted) {
+    std::string name = wanted;
+    for (int number = 2; !names_.insert(name).second; ++number)
+        name = fmt::format("{} {}", wanted, number);
+    return name;
 }
 
 std::string stem_of(const ImportedFile& file) {
@@ -37,6 +44,12 @@ std::string stem_of(const ImportedFile& file) {
 
 std::string fit_member(const ImportOptions& options) {
     return options.fit > 0 ? fmt::format(", \"fit\": {}", options.fit) : "";
+}
+
+glm::dvec3 mesh_voxel_size(const Bounds& box, bool is_textured) {
+    const double edge = longest_side(box) / (is_textured ? 512 : 256);
+    // Rounded up, so that there are no more voxels than that.
+    return glm::dvec3(rounded(edge * 1.0005, 4));
 }
 
 Bounds fitted_box(const Bounds& box, const ImportOptions& options) {

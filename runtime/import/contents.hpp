@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <glm/vec3.hpp>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -23,10 +24,25 @@ struct Contents {
     std::vector<std::string> tracks;     ///< items; none: nothing moves
     int frames = 1;                      ///< of the animation
     double fps = 24;
-    bool has_glass = false;    ///< shadows are to let light through
-    Bounds box;                ///< around all that is visible, metres
-    glm::dvec3 voxel_size{0};  ///< of the world, metres
-    glm::dvec3 lattice{0};     ///< a corner of some voxel, metres
+    std::string observer;             ///< `"observer": {...}` of the file's camera; empty: none
+    std::vector<std::string> lights;  ///< items; none: those of a studio
+    bool has_glass = false;           ///< shadows are to let light through
+    Bounds box;                       ///< around all that is visible, metres
+    glm::dvec3 voxel_size{0};         ///< of the world, metres
+    glm::dvec3 lattice{0};            ///< a corner of some voxel, metres
+};
+
+/// Names that are taken, so that each new one is another.
+class NameList {
+  public:
+    explicit NameList(const std::vector<std::string>& taken) {
+        for (const std::string& name : taken) names_.insert(name);
+    }
+    /// The name, or with a number behind it if it is taken.
+    std::string unique(const std::string& wanted);
+
+  private:
+    std::set<std::string> names_;
 };
 
 /// A file that becomes a scene.
@@ -42,6 +58,9 @@ Contents mesh_contents(const ImportedFile& file);
 
 /// The contents of a file of voxels of one model: .vxm or OpenVDB.
 Contents voxel_contents(const ImportedFile& file);
+
+/// The contents of a glTF file.
+Contents gltf_contents(const ImportedFile& file);
 
 /// The contents of a MagicaVoxel file.
 Contents vox_contents(const ImportedFile& file);
@@ -67,6 +86,10 @@ std::string stem_of(const ImportedFile& file);
 
 /// `, "fit": 2` where the options ask for a size.
 std::string fit_member(const ImportOptions& options);
+
+/// The size of a world's voxels for meshes in a box: 256 of them along the longest side, or 512
+/// where there are textures, which show in voxels.
+glm::dvec3 mesh_voxel_size(const Bounds& box, bool is_textured);
 
 /// The box of a file's content after `fit`: around the origin.
 Bounds fitted_box(const Bounds& box, const ImportOptions& options);

@@ -19,6 +19,8 @@ struct ImportOptions {
     /// The observer's display is a lattice around all that is shown, for a volumetric image, and
     /// there is no ground.
     bool is_lattice = false;
+    /// The file's own camera, where it has one, is the observer.
+    bool has_own_camera = true;
     bool turns = false;  ///< all directions around show it from one distance, at one height
     double angle = 40;   ///< degrees, horizontal opening of the observer's pyramid
     bool has_ground = true;

@@ -1,19 +1,76 @@
 // SPDX-License-Identifier: Apache-2.0
 // mesh file -> contents of a scene
+#include <algorithm>
 #include <cmath>
 
 #include "runtime/base/error.hpp"
 #include "runtime/base/text.hpp"
 #include "runtime/import/contents.hpp"
+#include "runtime/import/gltf_values.hpp"
+#include "runtime/import/mtl_values.hpp"
+#include "runtime/io/gltf/gltf_mesh.hpp"
 
 namespace voxelume {
 namespace {
 
-constexpr int kVoxelsAlong = 256;  // the longest side
-
 /// The box after a quarter turn that brings Z up.
 Bounds z_up(const Bounds& box) {
     return {{box.min.x, box.min.z, -box.max.y}, {box.max.x, box.max.z, -box.min.y}};
+}
+
+/// A material of what has none in the file.
+std::string plain_values(const MeshSummary& mesh) {
+    return fmt::format("\"color\": {}, \"specular\": 0.1",
+                       mesh.paint.is_there() ? "[1, 1, 1]" : "[0.72, 0.7, 0.68]");
+}
+
+/// A material that a group of faces has in the file.
+struct FileMaterial {
+    std::string group, values;
+    bool transmits = false;
+};
+
+/// The materials of an OBJ file's library, or of a glTF file.
+std::vector<FileMaterial> materials_of(const ImportedFile& file, const MeshSummary& mesh) {
+    std::vector<FileMaterial> materials;
+    if (is_gltf_file(file.path)) {
+        const GltfFile& gltf = file.assets.gltf_file(file.path);
+        for (size_t i = 0; i < gltf.root().size("materials"); ++i) {
+            const GltfValue material = gltf.root().item("materials", i);
+            materials.push_back({gltf_material_name(gltf, int(i)), gltf_values(material),
+                                 gltf_transmits(material)});
+        }
+        return materials;
+    }
+    for (const MtlMaterial& material : read_material_library(file.path, mesh.material_library))
+        materials.push_back({material.name, mtl_values(material), mtl_transmits(material)});
+    return materials;
+}
+
+/// Adds the materials that the mesh's groups have in the file. Returns the members of the object
+/// that name them, and the material of all other groups, which is named as the model.
+std::string add_materials(const ImportedFile& file, const MeshSummary& mesh,
+                          const std::string& name, Contents& contents) {
+    const std::vector<FileMaterial> materials = materials_of(file, mesh);
+    std::vector<std::string> members;
+    NameList names({"default", "ground", name});
+    for (const std::string& group : mesh.group_names) {
+        const auto found = std::ranges::find(materials, group, &FileMaterial::group);
+        if (found == materials.end()) continue;
+        const std::string material = names.unique(group);
+        contents.has_glass |= found->transmits;
+        contents.materials.push_back(fmt::format("{}: {{{}}}", json_text(material), found->values));
+        members.push_back(fmt::format("{}: {}", json_text(group), json_text(material)));
+    }
+    std::string text;
+    if (members.empty() || members.size() < mesh.group_names.size()) {
+        contents.materials.push_back(
+            fmt::format("{}: {{{}}}", json_text(name), plain_values(mesh)));
+        text = fmt::format(", \"material\": {}", json_text(name));
+    }
+    if (!members.empty())
+        text += fmt::format(",\n     \"materials\": {{{}}}", fmt::join(members, ",\n       "));
+    return text;
 }
 
 }  // namespace
@@ -28,22 +85,18 @@ Contents mesh_contents(const ImportedFile& file) {
     const bool turns = file.options.up == UpAxis::z ||
                        (file.options.up == UpAxis::automatic && ending_of(file.path) == ".stl");
     const std::string name = stem_of(file);
-    const bool has_colors = !file.assets.mesh(file.path).vertex_colors.empty();
     Contents contents;
     contents.box = fitted_box(box, file.options);
     if (turns) contents.box = z_up(contents.box);
-    // Rounded up, so that there are no more voxels than that.
-    const double edge = longest_side(contents.box) / kVoxelsAlong;
-    contents.voxel_size = glm::dvec3(rounded(edge * 1.0005, 4));
-    contents.materials.push_back(fmt::format("{}: {{\"color\": {}, \"specular\": 0.1}}",
-                                             json_text(name),
-                                             has_colors ? "[1, 1, 1]" : "[0.72, 0.7, 0.68]"));
+    contents.voxel_size =
+        mesh_voxel_size(contents.box, file.assets.summary_of(model)->paint.textures > 0);
     contents.models.push_back(
         fmt::format("{}: {{\"mesh\": {}, \"surface\": \"exact\", \"shading\": \"smooth\"{}}}",
                     json_text(name), json_text(file.name), fit_member(file.options)));
-    contents.objects.push_back(
-        fmt::format("{{\"name\": {0}, \"model\": {0}, \"material\": {0}{1}}}", json_text(name),
-                    turns ? ", \"turn\": [0, -90, 0]" : ""));
+    const std::string members = add_materials(file, *file.assets.summary_of(model), name, contents);
+    contents.objects.push_back(fmt::format("{{\"name\": {0}, \"model\": {0}{1}{2}}}",
+                                           json_text(name), members,
+                                           turns ? ", \"turn\": [0, -90, 0]" : ""));
     return contents;
 }
 

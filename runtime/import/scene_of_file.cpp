@@ -23,10 +23,12 @@ struct ModelFormat {
     Contents (*read)(const ImportedFile& file);
 };
 
-constexpr std::array<ModelFormat, 6> kFormats = {{
+constexpr std::array<ModelFormat, 8> kFormats = {{
     {".obj", mesh_contents},
     {".ply", mesh_contents},
     {".stl", mesh_contents},
+    {".glb", gltf_contents},
+    {".gltf", gltf_contents},
     {".vxm", voxel_contents},
     {".vdb", voxel_contents},
     {".vox", vox_contents},
@@ -162,12 +164,14 @@ std::string scene_of_file(const std::filesystem::path& file, const std::string& 
     text += part("materials", '{', joined(contents.materials, studio.materials), '}');
     text += part("models", '{', joined(contents.models, studio.models), '}');
     text += part("objects", '[', joined(contents.objects, studio.objects), ']');
-    text += part("lights", '[', studio.lights, ']');
+    text += part("lights", '[', contents.lights.empty() ? studio.lights : contents.lights, ']');
     if (!contents.tracks.empty())
         text += fmt::format(
             "  \"animation\": {{\"frames\": {}, \"fps\": {}, \"tracks\": [\n    {}\n  ]}},\n",
             contents.frames, contents.fps, fmt::join(contents.tracks, ",\n    "));
-    text += observer_of(contents.box, studio.box, options);
+    const bool is_own = options.has_own_camera && !options.is_lattice;
+    text += is_own && !contents.observer.empty() ? contents.observer
+                                                 : observer_of(contents.box, studio.box, options);
     return text + fmt::format("  \"render\": {{\"size\": [{}, {}], \"samples\": {}{}}}\n}}\n",
                               options.size.x, options.size.y, kSamples,
                               contents.has_glass ? ", \"shadow\": \"filtered\"" : "");

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "runtime/import/gloss.hpp"
 #include "runtime/io/voxels/vox_voxels.hpp"
 
 namespace voxelume {
@@ -19,24 +20,9 @@ glm::dvec3 linear_color(uint32_t color) {
     return {linear_of(color & 255), linear_of(color >> 8 & 255), linear_of(color >> 16 & 255)};
 }
 
-/// The exponent of a highlight as wide as that of a rough surface.
-double shininess_of(double rough) {
-    const double squared = std::max(rough * rough, 0.04);
-    return rounded(std::clamp(2 / (squared * squared) - 2, 2.0, 1000.0), 3);
-}
-
 /// The number in a group's name: "glass 12".
 int entry_of(const std::string& group) {
     return std::atoi(group.c_str() + group.rfind(' ') + 1);
-}
-
-std::string metal_values(double metal, const VoxMaterial& m) {
-    const double smooth = (1.0 - m.rough) * (1.0 - m.rough);
-    return fmt::format(
-        "\"color\": [1, 1, 1], \"diffuse\": {}, \"specular\": {}, \"shininess\": {}, "
-        "\"reflection\": {}",
-        rounded(1 - 0.5 * metal * smooth, 3), rounded(0.6 * metal, 3), shininess_of(m.rough),
-        rounded(0.65 * metal * smooth, 3));
 }
 
 /// `, "materials": {...}` that gives each group but the first the material of its own name.
@@ -63,9 +49,9 @@ std::string material_values(const VoxMaterial& m, uint32_t color) {
     const glm::dvec3 linear = linear_color(color);
     switch (m.kind) {
         case VoxMaterialKind::metal:
-            return metal_values(m.weight, m);
+            return "\"color\": [1, 1, 1], " + metal_members(m.weight, m.rough);
         case VoxMaterialKind::blend:
-            return metal_values(m.metal, m);
+            return "\"color\": [1, 1, 1], " + metal_members(m.metal, m.rough);
         case VoxMaterialKind::glass: {
             glm::dvec3 absorption;
             for (int c = 0; c < 3; ++c)

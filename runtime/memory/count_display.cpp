@@ -149,6 +149,7 @@ void count_volume(const Device& device, const Scene& scene, const Pyramid& world
                   const DensityPlan& medium, Estimate estimate) {
     Scene all_channels = scene;
     all_channels.render.channels = {};
+    all_channels.render.light = LightMode::local;
     DisplayCounter(device, all_channels, world, medium, estimate).run();
 }
 

@@ -5,6 +5,7 @@
 #include "kernels/shared/solid.h"
 #include "runtime/stages/brick_arrays.hpp"
 #include "runtime/stages/voxelize/voxelize_steps.hpp"
+#include "runtime/stages/voxelize/voxelize_textures.hpp"
 
 namespace voxelume {
 namespace {
@@ -37,8 +38,17 @@ void count_labels(const Device& device, const GridCounts& counts, BrickGrid& gri
         const Buffer<uint32_t> words(device, "triangle attributes", counts.triangles);
         grid.attributes = allocate_words(device, "voxel attributes", counts.bricks);
     }
-    if (counts.colors) {
-        const Buffer<float> colors(device, "vertex colors", 3 * counts.vertices);
+    if (counts.paint.is_there()) {
+        const MeshPaint& paint = counts.paint;
+        const Buffer<float> colors(device, "vertex colors", 3 * paint.colors);
+        const Buffer<uint32_t> indices(device, "corner colors",
+                                       paint.has_corner_colors ? 3 * counts.triangles : 0);
+        const Buffer<uint32_t> texels(device, kTexels, paint.texels);
+        const Buffer<float> uvs(device, kUvs, 2 * paint.uvs);
+        const Buffer<uint32_t> corners(device, kCornerUvs,
+                                       paint.has_corner_uvs ? 3 * counts.triangles : 0);
+        const Buffer<uint32_t> words(device, kTextureWords,
+                                     paint.texels > 0 ? counts.triangles : 0);
         grid.colors = allocate_words(device, "voxel colors", counts.bricks);
     }
 }
@@ -86,7 +96,7 @@ BrickGrid count_mesh_grid(const Device& device, const GridCounts& counts) {
     grid.slots = allocate_slots(device, "brick slots", counts.frame);
     count_surface(device, counts, grid);
     if (counts.surface == Surface::exact) count_triangles(device, counts, grid);
-    if (counts.words || counts.colors) count_labels(device, counts, grid);
+    if (counts.words || counts.paint.is_there()) count_labels(device, counts, grid);
     return grid;
 }
 
@@ -116,7 +126,8 @@ BrickGrid count_solid_grid(const Device& device, const GridCounts& counts) {
 
 BrickGrid count_cut_grid(const Device& device, const BrickGrid& whole, const GridCounts& counts) {
     GridCounts space = counts;
-    space.words = space.colors = false;
+    space.words = false;
+    space.paint = {};
     const bool is_shell = counts.surface != Surface::smooth && counts.set != VoxelSet::solid;
     const BrickGrid rest = count_solid_grid(device, space);
     const BrickGrid body = is_shell ? count_mesh_grid(device, space) : BrickGrid();

@@ -3,6 +3,7 @@
 // it.
 #pragma once
 
+#include "runtime/geometry/mesh_summary.hpp"
 #include "runtime/grid/grid.hpp"
 #include "runtime/scene/scene.hpp"
 
@@ -13,7 +14,8 @@ struct GridCounts {
     GridFrame frame;
     Surface surface = Surface::cubes;
     VoxelSet set = VoxelSet::supercover;
-    bool words = false, colors = false;  ///< voxels have them
+    bool words = false;                  ///< voxels have some
+    MeshPaint paint = {};                ///< what gives voxels colours
     bool normals = false;                ///< triangles of an exact mesh have them
     size_t bricks = 0;                   ///< stored
     size_t voxels = 0;                   ///< that the surface passes through

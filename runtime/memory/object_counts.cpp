@@ -79,7 +79,7 @@ GridCounts counts_of(const Model& model, const MeshSummary* mesh, const GridFram
     if (model.solid) counts.shapes = count_shapes(*model.solid);
     if (!mesh) return counts;
     counts.words = mesh->group_names.size() > 1;
-    counts.colors = mesh->has_colors;
+    counts.paint = mesh->paint;
     counts.normals = has_shading_normals(model.shading, mesh->has_normals);
     counts.vertices = mesh->corners;
     counts.triangles = mesh->triangles;

@@ -27,6 +27,8 @@ constexpr std::array kWords = {
     BufferWords{"undecided voxels", "its voxels"},
     BufferWords{"masks", "its voxels"},
     BufferWords{"voxel fields", "its voxels' fields"},
+    BufferWords{"texture", "its textures", BufferGrowth::triangles},
+    BufferWords{"corner colors", "its faces' colors", BufferGrowth::triangles},
     BufferWords{"attributes of", "its triangles", BufferGrowth::triangles},
     BufferWords{"triangle", "its triangles", BufferGrowth::triangles},
     BufferWords{"source normals", "its triangles' normals", BufferGrowth::triangles},

@@ -149,23 +149,10 @@ std::vector<Candidate> parts_of(const Candidate& whole, int parts) {
     return found;
 }
 
-[[noreturn]] void throw_no_match(const std::vector<Candidate>& candidates,
-                                 std::string_view selector) {
-    if (candidates.empty())
-        throw Error(ErrorKind::device,
-                    "no OpenCL device found: install a driver, for a CPU the package "
-                    "pocl-opencl-icd, or set OCL_ICD_VENDORS to the folder that names yours");
-    std::string names;
-    for (const Candidate& candidate : candidates) {
-        names += fmt::format("{}[{}] {}", names.empty() ? "" : ", ", candidate.info.index,
-                             candidate.info.name);
-        if (!candidate.info.unusable.empty())
-            names += fmt::format(" (not usable: {})", candidate.info.unusable);
-        else if (is_software(candidate.info))
-            names += " (a software rasterizer, used only if it is named)";
-    }
-    throw Error(ErrorKind::device, "no usable device matches \"{}\"; there are: {}", selector,
-                names);
+std::vector<DeviceInfo> infos_of(const std::vector<Candidate>& candidates) {
+    std::vector<DeviceInfo> infos(candidates.size());
+    std::ranges::transform(candidates, infos.begin(), &Candidate::info);
+    return infos;
 }
 
 }  // namespace
@@ -178,31 +165,16 @@ std::vector<Candidate> find_candidates() {
 }
 
 const Candidate& choose(const std::vector<Candidate>& candidates, std::string_view selector) {
-    const Candidate* best = nullptr;
-    for (const Candidate& candidate : candidates) {
-        if (!candidate.info.unusable.empty() || !names_device(selector, candidate.info)) continue;
-        if (is_software(candidate.info) && !names_one_device(selector)) continue;
-        if (!best || is_better(candidate.info, best->info)) best = &candidate;
-    }
-    if (!best) throw_no_match(candidates, selector);
-    return *best;
+    return candidates[best_device(infos_of(candidates), selector)];
 }
 
 std::vector<Candidate> choose_all(const std::vector<Candidate>& candidates, int cpu_parts) {
     std::vector<Candidate> chosen;
     bool has_cpu = false;
-    for (const Candidate& candidate : candidates) {
-        const DeviceInfo& info = candidate.info;
-        if (!info.unusable.empty() || is_software(info)) continue;
-        has_cpu |= info.kind == DeviceKind::cpu;
-        if (info.kind != DeviceKind::gpu) continue;
-        const auto same = std::ranges::find_if(
-            chosen, [&](const Candidate& other) { return are_one_card(info, other.info); });
-        if (same == chosen.end())
-            chosen.push_back(candidate);
-        else if (is_better(info, same->info))
-            *same = candidate;
-    }
+    for (const Candidate& candidate : candidates)
+        has_cpu |= candidate.info.kind == DeviceKind::cpu && is_usable(candidate.info);
+    for (const size_t card : distinct_gpus(infos_of(candidates)))
+        chosen.push_back(candidates[card]);
     // Two platforms' devices of one CPU would compete for its time.
     if (has_cpu) {
         const Candidate& cpu = choose(candidates, "cpu");

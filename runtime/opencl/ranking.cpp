@@ -1,8 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "runtime/opencl/ranking.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <optional>
 #include <tuple>
+
+#include "runtime/base/error.hpp"
+#include "runtime/opencl/selector.hpp"
 
 namespace voxelume {
 namespace {
@@ -32,6 +38,24 @@ double arithmetic(const DeviceInfo& info) {
            (info.clock > 0 ? info.clock : 1000);
 }
 
+[[noreturn]] void throw_no_match(const std::vector<DeviceInfo>& devices,
+                                 std::string_view selector) {
+    if (devices.empty())
+        throw Error(ErrorKind::device,
+                    "no OpenCL device found: install a driver, for a CPU the package "
+                    "pocl-opencl-icd, or set OCL_ICD_VENDORS to the folder that names yours");
+    std::string names;
+    for (const DeviceInfo& info : devices) {
+        names += fmt::format("{}[{}] {}", names.empty() ? "" : ", ", info.index, info.name);
+        if (!info.unusable.empty())
+            names += fmt::format(" (not usable: {})", info.unusable);
+        else if (is_software(info))
+            names += " (a software rasterizer, used only if it is named)";
+    }
+    throw Error(ErrorKind::device, "no usable device matches \"{}\"; there are: {}", selector,
+                names);
+}
+
 }  // namespace
 
 bool is_software(const DeviceInfo& info) {
@@ -49,6 +73,37 @@ bool is_better(const DeviceInfo& a, const DeviceInfo& b) {
         return std::tuple(is_gpu, is_gpu && !info.shares_memory, arithmetic(info));
     };
     return rank(a) > rank(b);
+}
+
+bool is_usable(const DeviceInfo& info) {
+    return info.unusable.empty() && !is_software(info);
+}
+
+size_t best_device(const std::vector<DeviceInfo>& devices, std::string_view selector) {
+    const bool is_named = names_one_device(selector);
+    std::optional<size_t> best;
+    for (size_t i = 0; i < devices.size(); ++i) {
+        const DeviceInfo& info = devices[i];
+        if (!(is_named ? info.unusable.empty() : is_usable(info))) continue;
+        if (!names_device(selector, info)) continue;
+        if (!best || is_better(info, devices[*best])) best = i;
+    }
+    if (!best) throw_no_match(devices, selector);
+    return *best;
+}
+
+std::vector<size_t> distinct_gpus(const std::vector<DeviceInfo>& devices) {
+    std::vector<size_t> gpus;
+    for (size_t i = 0; i < devices.size(); ++i) {
+        if (devices[i].kind != DeviceKind::gpu || !is_usable(devices[i])) continue;
+        const auto same = std::ranges::find_if(
+            gpus, [&](size_t other) { return are_one_card(devices[i], devices[other]); });
+        if (same == gpus.end())
+            gpus.push_back(i);
+        else if (is_better(devices[i], devices[*same]))
+            *same = i;
+    }
+    return gpus;
 }
 
 }  // namespace voxelume

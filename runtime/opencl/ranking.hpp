@@ -18,4 +18,15 @@ bool are_one_card(const DeviceInfo& a, const DeviceInfo& b);
 /// units x floats that a unit handles at once x clock.
 bool is_better(const DeviceInfo& a, const DeviceInfo& b);
 
+/// True for a device that can render and that nobody needs to name.
+bool is_usable(const DeviceInfo& info);
+
+/// The number of the best usable device that `selector` (auto, cpu, gpu, an index, part of a name)
+/// names. Throws Error::device if there is none; the message names the devices that exist or the
+/// package to install.
+size_t best_device(const std::vector<DeviceInfo>& devices, std::string_view selector);
+
+/// The numbers of the usable GPUs, each card once.
+std::vector<size_t> distinct_gpus(const std::vector<DeviceInfo>& devices);
+
 }  // namespace voxelume

@@ -13,17 +13,32 @@
 namespace voxelume {
 namespace {
 
-std::vector<LightRecord> light_records(const Device& device, const Features& features,
-                                       const Scene& scene, const Pyramid& world) {
-    std::vector<LightRecord> records;
-    if (!has_light(scene, world)) return records;
-    records = given_lights(scene, world.frame);
+/// All lights as points and directions, those with an area by their samples.
+std::vector<PathLight> lights_by_samples(const Device& device, const Features& features,
+                                         const Scene& scene, const Pyramid& world) {
+    std::vector<LightRecord> records = given_lights(scene, world.frame);
     if (has_emissive_object(scene, world))
         std::ranges::copy(emissive_light_samples(device, features, scene, world),
                           std::back_inserter(records));
-    std::erase_if(records,
-                  [&](const LightRecord& light) { return !may_light(light, world.frame); });
-    return records;
+    std::vector<PathLight> lights;
+    for (const LightRecord& record : records) lights.push_back({record, {}});
+    return lights;
+}
+
+std::vector<PathLight> lights_of(const Device& device, const Features& features, const Scene& scene,
+                                 const Pyramid& world) {
+    if (!has_light(scene, world)) return {};
+    std::vector<PathLight> lights = features.global
+                                        ? path_lights(scene, world.frame)
+                                        : lights_by_samples(device, features, scene, world);
+    std::erase_if(lights,
+                  [&](const PathLight& light) { return !may_light(light.record, world.frame); });
+    return lights;
+}
+
+/// True if surface points send shadow rays to the sky.
+bool looks_to_sky(const Features& features, const Scene& scene, const Pyramid& world) {
+    return features.sky != VXL_SKY_NONE && has_sky_samples(scene) && has_light(scene, world);
 }
 
 /// Allocates Surroundings::medium_overflows, set to 0; empty if the features don't need it.
@@ -54,9 +69,12 @@ void build_programs(const Device& device, const Features& features, const Scene&
                     const Pyramid& world, bool makes_image, bool has_dilated_occupancy) {
     std::vector<const char*> files = {"sight.cl", "trace.cl", "shade.cl"};
     if (has_light(scene, world)) files.push_back("light.cl");
+    if (has_light(scene, world) && has_sky_samples(scene)) files.push_back("sky_light.cl");
     if (has_dilated_occupancy && lights_send_beams(features)) files.push_back("light_beams.cl");
     if (features.absorbs) files.push_back("medium.cl");
     if (features.paths) files.push_back("scatter.cl");
+    if (features.global) files.push_back("extend.cl");
+    if (features.global && features.area_samples) files.push_back("area_light.cl");
     if (makes_image) files.push_back("resolve.cl");
     Program::build_together(device, files,
                             resolve_defines(device, features, scene.render.channels));
@@ -67,15 +85,19 @@ Illumination::Illumination(const Device& device, const Features& features, const
     : device_(device),
       features_(features),
       world_(world),
-      lights_(light_records(device, features, scene, world)),
+      lights_(lights_of(device, features, scene, world)),
       max_rays_(max_rays),
       max_depth_(max_depth(features, scene, world)),
       trace_(device, features),
       shade_(device, features, scene, world.frame),
       surroundings_{shade_.materials(), shade_.ranks(),
                     allocate_medium_overflows(device, features)},
-      queue_(lights_.empty() ? ShadowQueue{} : allocate_shadow_queue(device, features, max_rays)) {
+      sky_samples_(looks_to_sky(features, scene, world) ? uint32_t(scene.world.sky->samples) : 0),
+      queue_(lights_.empty() && sky_samples_ == 0
+                 ? ShadowQueue{}
+                 : allocate_shadow_queue(device, features, max_rays)) {
     if (!lights_.empty()) lighting_.emplace(device, features, shade_.materials());
+    if (sky_samples_ > 0) sky_lighting_.emplace(device, features, shade_.materials(), shade_.sky());
     if (features.absorbs)
         medium_.emplace(device, features, scene.world, shade_.environment(), shade_.materials());
     if (features.medium) {
@@ -84,6 +106,9 @@ Illumination::Illumination(const Device& device, const Features& features, const
     }
     if (features.paths)
         scatter_.emplace(device, features, surroundings_, float(scene.render.min_weight), compact);
+    if (features.global) extend_.emplace(device, features, surroundings_);
+    if (features.global && features.area_samples && !lights_.empty())
+        area_lighting_.emplace(device, features, shade_.materials());
     if (features.observer_in_medium) {
         hollow_ = hollow_objects(scene);
         hollow_flags_ =
@@ -95,8 +120,10 @@ Illumination::Illumination(const Device& device, const Features& features, const
 
 void Illumination::send_beams(const DilatedOccupancy& dilated_occupancy, uint32_t maximum,
                               std::vector<LightBeams>& sent) {
+    std::vector<LightRecord> records;
+    for (const PathLight& light : lights_) records.push_back(light.record);
     for (const BeamGrid& grid :
-         beam_grids(lights_, world_.frame.size, scale_of(dilated_occupancy.of), maximum,
+         beam_grids(records, world_.frame.size, scale_of(dilated_occupancy.of), maximum,
                     kLightsOfMaxBeams * maximum)) {
         const auto known = std::ranges::find_if(
             sent, [&](const LightBeams& kept) { return same_beams(kept.grid, grid); });
@@ -116,6 +143,7 @@ void Illumination::send_beams(const DilatedOccupancy& dilated_occupancy, uint32_
 void Illumination::light_all(RayBatch& batch, uint32_t count, const LayerSink& sink,
                              bool hits_are_known) {
     if (features_.paths) begin_paths(batch, count);
+    if (features_.global && features_.radiance) return trace_paths(batch, count, hits_are_known);
     if (!features_.paths || !features_.radiance) {
         if (!hits_are_known) trace_.closest(world_, batch, count);
         return direct(batch, count);
@@ -143,12 +171,46 @@ void Illumination::begin_paths(RayBatch& batch, uint32_t count) {
 void Illumination::direct(RayBatch& entries, uint32_t count) {
     shade_.surface(world_, entries, count);
     for (size_t i = 0; i < lights_.size(); ++i) {
-        lighting_->add(world_, lights_[i], entries, count, queue_);
+        const PathLight& light = lights_[i];
+        if (light.area)
+            area_lighting_->add(world_, light.record, *light.area, sampling_, uint32_t(i), entries,
+                                count, queue_);
+        else
+            lighting_->add(world_, light.record, entries, count, queue_);
         if (!beams_.empty()) queue_.beams = beams_[i];
-        if (features_.medium && !features_.filter) medium_->shadows(world_, queue_, count, entries);
-        if (features_.shadows) trace_.shadows(world_, surroundings_, queue_, count, entries);
+        bring_light(entries, count);
+    }
+    if (!beams_.empty()) queue_.beams = {};
+    for (uint32_t i = 0; i < sky_samples_; ++i) {
+        sky_lighting_->add(world_, i, sky_samples_, entries, count, queue_);
+        bring_light(entries, count);
     }
     if (medium_) medium_->sight(world_, entries, count);
+}
+
+/// Adds the light of the queued shadow rays that reach their light.
+void Illumination::bring_light(RayBatch& entries, uint32_t count) {
+    if (features_.medium && !features_.filter) medium_->shadows(world_, queue_, count, entries);
+    if (features_.shadows) trace_.shadows(world_, surroundings_, queue_, count, entries);
+}
+
+/// Follows the paths that the batch's rays begin, from surface to surface, all together, and fills
+/// their radiance and coverage.
+void Illumination::trace_paths(RayBatch& batch, uint32_t count, bool hits_are_known) {
+    reserve_depth(0, batch.stride);
+    PathDepth& depth = *depths_[0];
+    RayBatch* entries = &batch;
+    for (bool is_first = true; count > 0; is_first = false) {
+        if (!is_first || !hits_are_known) trace_.closest(world_, *entries, count, !is_first);
+        direct(*entries, count);
+        count =
+            extend_->paths(world_, sampling_, *entries, count, is_first, depth.nodes, depth.next);
+        if (count > 0) std::swap(static_cast<RayQueue&>(depth.entries), depth.next);
+        entries = &depth.entries;
+        secondary_rays_ += count;
+    }
+    std::swap(batch.radiance, depth.nodes.radiance);
+    if (features_.transmission) std::swap(batch.coverage, depth.nodes.coverage);
 }
 
 /// Fills the nodes of a depth with the light of its rays, which are in `first`.

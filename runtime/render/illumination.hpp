@@ -11,10 +11,13 @@
 #include "runtime/grid/grid.hpp"
 #include "runtime/scene/predicates.hpp"
 #include "runtime/scene/scene.hpp"
+#include "runtime/stages/light/area_light.hpp"
 #include "runtime/stages/light/light.hpp"
 #include "runtime/stages/light/light_beams.hpp"
 #include "runtime/stages/light/shade.hpp"
+#include "runtime/stages/light/sky_light.hpp"
 #include "runtime/stages/medium/medium.hpp"
+#include "runtime/stages/trace/extend.hpp"
 #include "runtime/stages/trace/ray_arrays.hpp"
 #include "runtime/stages/trace/scatter.hpp"
 #include "runtime/stages/trace/trace.hpp"
@@ -29,9 +32,10 @@ void build_programs(const Device& device, const Features& features, const Scene&
 
 /// Traces and lights batches of rays. Flat and volumetric images share it.
 ///
-/// Reflected and refracted rays are followed depth by depth, as the tree of Whitted 1980, each
-/// depth as one dense batch. Rays that continue straight through surfaces are further layers of
-/// their depth.
+/// In global light each sight ray begins one path, whose rays follow each other in dense batches.
+/// In local light reflected and refracted rays are followed depth by depth, as the tree of Whitted
+/// 1980, each depth as one dense batch. Rays that continue straight through surfaces are further
+/// layers of their depth.
 class Illumination {
   public:
     /// Prepares for batches of at most `max_rays` rays, a multiple of 16. The world must outlive
@@ -45,6 +49,10 @@ class Illumination {
     /// features with `lights_send_beams`.
     void send_beams(const DilatedOccupancy& dilated_occupancy, uint32_t maximum,
                     std::vector<LightBeams>& sent);
+
+    /// Says which pixels and samples the next batches' rays belong to. Needed for global light
+    /// only.
+    void set_sampling(const PathSampling& sampling) { sampling_ = sampling; }
 
     /// Fills the hits of rays 0 .. count-1, which come from an observer, and those of their
     /// positions, normals, packed attributes and radiance that the features ask for. `sink` is
@@ -76,6 +84,8 @@ class Illumination {
     void light_all(RayBatch& batch, uint32_t count, const LayerSink& sink, bool hits_are_known);
     void begin_paths(RayBatch& batch, uint32_t count);
     void direct(RayBatch& entries, uint32_t count);
+    void bring_light(RayBatch& entries, uint32_t count);
+    void trace_paths(RayBatch& batch, uint32_t count, bool hits_are_known);
     void follow(size_t depth, RayBatch& first, uint32_t count, bool hits_are_known = false,
                 const LayerSink& sink = {});
     void scatter(size_t depth, RayBatch& entries, uint32_t count);
@@ -84,16 +94,21 @@ class Illumination {
     Device device_;
     Features features_;
     const Pyramid& world_;
-    std::vector<LightRecord> lights_;
+    std::vector<PathLight> lights_;
+    PathSampling sampling_{};
     std::vector<LightBeams> beams_;  ///< those of each light; empty if no beams are sent
     uint32_t max_rays_;
     size_t max_depth_;
     TraceStage trace_;
     ShadeStage shade_;
     Surroundings surroundings_;
-    std::optional<LightStage> lighting_;   ///< not compiled in a scene without lights
-    std::optional<MediumStage> medium_;    ///< not compiled if nothing absorbs
-    std::optional<ScatterStage> scatter_;  ///< not compiled without paths
+    std::optional<LightStage> lighting_;           ///< not compiled in a scene without lights
+    std::optional<AreaLightStage> area_lighting_;  ///< only for areas in global light
+    std::optional<SkyLightStage> sky_lighting_;    ///< only for a sky in local light
+    std::optional<MediumStage> medium_;            ///< not compiled if nothing absorbs
+    std::optional<ScatterStage> scatter_;          ///< not compiled without paths
+    std::optional<ExtendStage> extend_;            ///< only in global light
+    uint32_t sky_samples_;                         ///< directions that a surface point looks to
     ShadowQueue queue_;
     HollowObjects hollow_;  ///< only for observers inside media
     Buffer<uint32_t> hollow_flags_;

@@ -37,7 +37,14 @@ Features without_light(Features features) {
     features.shadows = features.area_samples = features.checker = false;
     features.medium = features.medium_grid = features.absorbs = false;
     features.filter = features.filtered_refraction = false;
+    features.sky = 0;
     return features;
+}
+
+/// The pixels and samples of the tiles from `first` on.
+PathSampling path_sampling(const Scene& scene, const Camera& camera, uint32_t first) {
+    return {first, uint32_t(camera.width + 3) / 4, uint32_t(camera.samples),
+            uint32_t(scene.render.bounces)};
 }
 
 /// Notes what an image's rays came to in a world.
@@ -171,6 +178,7 @@ Image Renderer::image_of_tiles(const Scene& scene, const BuiltWorld& built, Rend
     ResolveStage resolve(device_, features, observer, scene.render.channels);
     while (const std::optional<TileRange> range = tiles.share.take(in_batch)) {
         const uint32_t first = range->first, now = range->count;
+        illumination.set_sampling(path_sampling(scene, observer, first));
         if (report.hits_are_kept) {
             batch.rays = hits_[first / in_batch].rays;
             batch.hits = hits_[first / in_batch].hits;

@@ -19,8 +19,9 @@
 namespace voxelume {
 namespace {
 
-/// The scene with the default channels; those that it asks for are a flat image's.
+/// The scene with the default channels and in local light; what it asks for are a flat image's.
 Scene with_all_channels(Scene scene) {
+    scene.render.light = LightMode::local;
     scene.render.channels = {};
     return scene;
 }
@@ -49,6 +50,7 @@ Features without_varying_medium(Features features) {
 Scene without_light(Scene scene) {
     scene.lights.clear();
     scene.world.medium = {};
+    scene.world.sky.reset();
     scene.render.depth = 0;
     for (Material& material : scene.materials) material.emission = glm::vec3(0);
     return scene;

@@ -102,11 +102,13 @@ void place_rectangle(const LightParameters& p, const Refuse& refuse, Light& ligh
 constexpr LightArea kDisk = {
     [](const Light& light) { return std::numbers::pi * light.radius * light.radius; },
     [](const Light& light) { return light.radius; },
+    [](const Light& light) { return glm::dvec2(light.radius); }, true,
     [](const Light& light) { return points_of_disk(light.radius, light.light_samples); }};
 
 constexpr LightArea kRectangle = {
     [](const Light& light) { return light.size.x * light.size.y; },
     [](const Light& light) { return glm::length(light.size) / 2; },
+    [](const Light& light) { return light.size / 2.0; }, false,
     [](const Light& light) { return points_of_rectangle(light.size, light.light_samples); }};
 
 constexpr KindKey kPointKeys[] = {{"position", true}};

@@ -63,8 +63,10 @@ std::span<const ValueRow<LightParameters>> light_rows();
 
 /// The part of a light that shines by an area.
 struct LightArea {
-    double (*area)(const Light&);    ///< square metres
-    double (*radius)(const Light&);  ///< metres: no point lies farther from `position`
+    double (*area)(const Light&);           ///< square metres
+    double (*radius)(const Light&);         ///< metres: no point lies farther from `position`
+    glm::dvec2 (*half_axes)(const Light&);  ///< metres: half its extent along axis_x and across it
+    bool is_round;                          ///< an ellipse of these half axes, not a rectangle
     /// Points that share the area evenly, `light_samples` of them: metres along axis_x and across
     /// it.
     std::vector<glm::dvec2> (*points)(const Light&);

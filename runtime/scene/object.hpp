@@ -56,6 +56,9 @@ struct Model {
     bool is_sized = false;  ///< the scene says one of these two, and may want coarser voxels than
                             ///< the world's
     Surface surface = Surface::smooth;
+    bool is_surface_open = false;  ///< the scene leaves the surface to its files; until they are
+                                   ///< read, `surface` is that of most files of the kind
+    std::string surface_reason;    ///< why make_choices() chose it, as half a sentence
     VoxelSet set = VoxelSet::supercover;  ///< for `cubes`
     Shading shading;                      ///< of an exact mesh
     /// Box in object space outside of which no object shows the model: the world's bounds as seen

@@ -39,6 +39,12 @@ struct ImageChannels {
     friend bool operator==(const ImageChannels&, const ImageChannels&) = default;
 };
 
+/// The light that reaches surfaces.
+enum class LightMode : uint8_t {
+    local,   ///< that of lights, and along mirrored and refracted rays: Whitted 1980
+    global,  ///< all of it, along random paths from surface to surface: Kajiya 1986
+};
+
 struct RenderSettings {
     glm::ivec2 size{640, 480};  ///< pixels
     int samples = 1;            ///< per pixel, 1..4096
@@ -46,7 +52,9 @@ struct RenderSettings {
     bool shadows = true;
     bool filtered_shadows = false;   ///< refracting objects tint and dim light instead of hiding it
     double min_weight = 1.0 / 4096;  ///< paths that would add less than this share of a pixel end
-    ImageChannels channels;          ///< not in scene files: what the outputs have
+    LightMode light = LightMode::local;
+    int bounces = 8;         ///< global light: times that a path is scattered, 0..64
+    ImageChannels channels;  ///< not in scene files: what the outputs have
 
     friend bool operator==(const RenderSettings&, const RenderSettings&) = default;
 };

@@ -23,6 +23,12 @@ std::string solid_text(const Solid& solid) {
     return text;
 }
 
+/// A surface that depends on files which aren't read yet is `auto`.
+std::string_view surface_text(const Model& model) {
+    const bool is_unknown = model.is_surface_open && model.surface_reason.empty();
+    return is_unknown ? "auto" : kind_of(model.surface).name;
+}
+
 std::string model_text(const Model& model) {
     const std::string source =
         model.solid ? solid_text(*model.solid)
@@ -32,14 +38,14 @@ std::string model_text(const Model& model) {
     if (!model.voxels.empty())
         return fmt::format("model \"{}\": {}{}{}, {}", model.name, source,
                            model.part > 0 ? fmt::format(" part {}", model.part) : "", scaled,
-                           kind_of(model.surface).name);
+                           surface_text(model));
     const std::string cut =
         model.cuts.empty() ? "" : fmt::format(", cut by {} solids", model.cuts.size());
     const std::string pitch =
         model.resolution > 0 ? fmt::format("{} voxels along the longest side", model.resolution)
                              : fmt::format("voxels of {} m", vector_text(model.voxel_size));
     return fmt::format("model \"{}\": {}{}{}, {}, {}", model.name, source, scaled, cut,
-                       kind_of(model.surface).name, pitch);
+                       surface_text(model), pitch);
 }
 
 std::string light_text(const Light& light) {
@@ -95,9 +101,12 @@ std::string describe(const Scene& scene) {
         text +=
             fmt::format("animation: {} frames, {:.6g} a second, {} moving parts\n",
                         scene.animation.frames, scene.animation.fps, scene.motion->parts.size());
-    text += fmt::format("image: {}x{} pixels, {} samples each, depth {}, shadows {}\n",
-                        scene.render.size.x, scene.render.size.y, scene.render.samples,
-                        scene.render.depth, scene.render.shadows ? "on" : "off");
+    const RenderSettings& render = scene.render;
+    const std::string light = render.light == LightMode::global
+                                  ? fmt::format("global light of {} bounces", render.bounces)
+                                  : fmt::format("depth {}", render.depth);
+    text += fmt::format("image: {}x{} pixels, {} samples each, {}, shadows {}\n", render.size.x,
+                        render.size.y, render.samples, light, render.shadows ? "on" : "off");
     return text;
 }
 

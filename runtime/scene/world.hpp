@@ -6,12 +6,14 @@
 #include <filesystem>
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
+#include <optional>
 #include <span>
 #include <string>
 #include <variant>
 
 #include "runtime/base/source_place.hpp"
 #include "runtime/scene/bounds.hpp"
+#include "runtime/scene/sky.hpp"
 #include "runtime/scene/value_row.hpp"
 
 namespace voxelume {
@@ -69,7 +71,8 @@ struct World {
     glm::vec3 background{0};   ///< radiance where a ray leaves the world
     glm::vec3 ambient{0};      ///< light that reaches every surface
     Medium medium;
-    SourcePlace where;  ///< "file:line:column: world", to open a message with
+    std::optional<Sky> sky;  ///< in place of the background
+    SourcePlace where;       ///< "file:line:column: world", to open a message with
 
     friend bool operator==(const World&, const World&) = default;
 };
@@ -77,6 +80,11 @@ struct World {
 /// The box that the world's whole voxels fill.
 inline Bounds lattice_bounds(const World& world) {
     return {world.bounds.min, world.bounds.min + glm::dvec3(world.voxels) * world.voxel_size};
+}
+
+/// Whether the sky has a sun that shines.
+inline bool has_sun(const World& world) {
+    return world.sky && world.sky->kind == SkyKind::sun && world.sky->intensity > 0;
 }
 
 /// A kind of density, in the order of the alternatives of `Density` after the first.

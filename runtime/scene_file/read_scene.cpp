@@ -157,7 +157,8 @@ Scene read_scene(const JsonValue& document, const std::filesystem::path& file,
     read_or_frame_observer(fields, scene);
     for (const DocumentPart& part : parts)
         if (is_observer(part)) add_part(part, search, scene, motion);
-    if (!fields.has("lights") && !has_emission(scene, parts)) add_default_light(fields, scene);
+    if (!fields.has("lights") && !scene.world.sky && !has_emission(scene, parts))
+        add_default_light(fields, scene);
     if (!parts.empty()) {
         scene.motion = std::make_shared<const SceneMotion>(std::move(motion));
         return scene_at(scene, 1);

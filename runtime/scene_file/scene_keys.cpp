@@ -49,16 +49,18 @@ std::vector<KeyTable> make_tables() {
         {"scene",
          {"$schema", "voxelume", "world", "materials", "models", "objects", "lights", "observer",
           "animation", "render"}},
-        {"world",
-         Keys{"voxel_size", "resolution", "bounds"} + keys_of(world_rows()) + Keys{"medium"}},
+        {"world", Keys{"voxel_size", "resolution", "bounds"} + keys_of(world_rows()) +
+                      Keys{"medium", "sky"}},
         {"bounds", {"min", "max"}},
         {"medium", keys_of(medium_rows()) + Keys{"density"}},
     };
     add_kinds("density", {"kind"}, density_kinds(), {}, tables);
+    add_kinds("sky", {"kind"}, sky_types(), {}, tables);
     tables.push_back({"material", keys_of(material_rows()) + Keys{"checker"}});
     tables.push_back({"checker", keys_of(checker_rows())});
-    tables.push_back({"model:mesh", Keys{"mesh", "fit", "unit", "sequence", "morph", "cut"} +
-                                        lattice + Keys{"shading", "crease_angle"}});
+    tables.push_back(
+        {"model:mesh", Keys{"mesh", "part", "fit", "unit", "sequence", "morph", "cut"} + lattice +
+                           Keys{"shading", "crease_angle"}});
     tables.push_back({"model:voxels", {"voxels", "part", "fit", "unit", "sequence", "surface"}});
     tables.push_back({"sequence", {"first", "last", "start", "loop"}});
     tables.push_back({"morph", {"mesh", "center", "radius", "amount"}});
@@ -74,7 +76,9 @@ std::vector<KeyTable> make_tables() {
     tables.push_back({"animation", {"frames", "fps", "tracks"}});
     tables.push_back({"track", {"target", "keys", "interpolation"}});
     tables.push_back({"key", {"frame", "time", "value"}});
-    tables.push_back({"render", {"size", "samples", "depth", "shadows", "shadow", "least_weight"}});
+    tables.push_back(
+        {"render",
+         {"size", "samples", "depth", "shadows", "shadow", "least_weight", "light", "bounces"}});
     return tables;
 }
 

@@ -8,6 +8,7 @@
 #include <glm/matrix.hpp>
 #include <unordered_set>
 
+#include "runtime/base/text.hpp"
 #include "runtime/scene/predicates.hpp"
 #include "runtime/scene/scene_affine.hpp"
 #include "runtime/scene_file/scene_parts.hpp"
@@ -18,10 +19,19 @@ namespace {
 
 using Names = std::vector<std::string_view>;
 
-Surface read_surface(const SceneValue& value) {
+/// Reads the surface of a model. One that doesn't say any, or `auto`, leaves it to its files, and
+/// `usual` stands until they are read; solids are exact.
+void read_surface(const SceneFields& fields, Surface usual, Model& model) {
     Names names;
     for (const SurfaceKind& kind : kSurfaceKinds) names.push_back(kind.name);
-    return kSurfaceKinds[value.choice(names)].surface;
+    names.push_back("auto");
+    const auto value = fields.find("surface");
+    const size_t choice = value ? value->choice(names) : kSurfaceKinds.size();
+    model.is_surface_open = choice == kSurfaceKinds.size() && !model.solid;
+    if (choice < kSurfaceKinds.size())
+        model.surface = kSurfaceKinds[choice].surface;
+    else
+        model.surface = model.solid ? Surface::exact : usual;
 }
 
 /// How many metres a unit of a file has, or its longest side is to have.
@@ -63,9 +73,7 @@ void read_lattice(const SceneFields& fields, glm::dvec3 world_voxel_size, Model&
         const auto size = fields.find("voxel_size");
         model.voxel_size = size ? size->number_or_vector(kLength) : world_voxel_size;
     }
-    if (const auto surface = fields.find("surface")) {
-        model.surface = read_surface(*surface);
-    }
+    read_surface(fields, Surface::smooth, model);
     if (const auto set = fields.find("set")) {
         model.set = static_cast<VoxelSet>(set->choice(Names{"supercover", "thin", "solid"}));
         if (model.surface != Surface::cubes) {
@@ -79,8 +87,17 @@ void read_voxels(const SceneFields& fields, const ModelContext& context, Model& 
     model.voxels = first_file(fields, "voxels", context.search);
     model.part = fields.integer("part", 1, 1'000'000, 0);
     read_file_size(fields, model);
-    model.surface = Surface::cubes;
-    if (const auto surface = fields.find("surface")) model.surface = read_surface(*surface);
+    read_surface(fields, Surface::cubes, model);
+}
+
+/// The number of a mesh in a glTF file.
+void read_mesh_part(const SceneFields& fields, Model& model) {
+    const auto part = fields.find("part");
+    if (!part) return;
+    const std::string ending = ending_of(model.mesh);
+    if (ending != ".gltf" && ending != ".glb")
+        part->fail("only a glTF file has several meshes; leave it out");
+    model.part = part->integer(1, 1'000'000);
 }
 
 Morph read_morph(const SceneValue& value, const AssetSearch& search) {
@@ -166,6 +183,7 @@ Model read_model(const std::string& name, const SceneValue& value, const ModelCo
     } else {
         const SceneFields fields(value, "model:mesh");
         model.mesh = first_file(fields, "mesh", context.search);
+        read_mesh_part(fields, model);
         read_file_size(fields, model);
         if (const auto morph = fields.find("morph"))
             model.morph = read_morph(*morph, context.search);

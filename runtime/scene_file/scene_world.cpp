@@ -11,6 +11,7 @@ namespace voxelume {
 namespace {
 
 constexpr std::array<std::string_view, 2> kShadowNames = {"opaque", "filtered"};
+constexpr std::array<std::string_view, 2> kLightModes = {"local", "global"};
 
 Bounds read_bounds(const SceneValue& value) {
     const SceneFields fields(value, "bounds");
@@ -60,6 +61,7 @@ World read_world(const SceneValue& value, const AssetSearch& search) {
         count_voxels(world);
     }
     fields.read_rows(world_rows(), world);
+    if (const auto sky = fields.find("sky")) world.sky = read_sky(*sky);
     if (const auto medium = fields.find("medium")) world.medium = read_medium(*medium, search);
     return world;
 }
@@ -98,6 +100,9 @@ RenderSettings read_render(const SceneValue& value) {
     if (const auto shadows = fields.find("shadows")) render.shadows = shadows->boolean();
     if (const auto shadow = fields.find("shadow"))
         render.filtered_shadows = shadow->choice(kShadowNames) == 1;
+    if (const auto light = fields.find("light"))
+        render.light = LightMode(light->choice(kLightModes));
+    render.bounces = fields.integer("bounces", 0, 64, render.bounces);
     render.min_weight = fields.number("least_weight", kRatio, render.min_weight);
     return render;
 }

@@ -32,6 +32,8 @@ struct Features {
     bool voxel_opacity = false;        ///< voxels have opacities of their own
     bool observer_in_medium = false;   ///< observers' rays may begin inside a transmitting mesh or
                                        ///< smooth object
+    bool global = false;               ///< light is followed along paths
+    int sky = 0;                       ///< VXL_SKY_*: what is around the world
     int media = 0;                     ///< size of the sets of transmitting objects that rays are
                                        ///< inside of
     bool medium_set_capped = false;    ///< ... and this size may not be enough
@@ -73,6 +75,8 @@ struct Features {
                 {"VXL_CUBE_BODIES", cube_bodies},
                 {"VXL_VOXEL_OPACITY", voxel_opacity},
                 {"VXL_OBSERVER_IN_MEDIUM", observer_in_medium},
+                {"VXL_GLOBAL", global},
+                {"VXL_SKY", sky},
                 {"VXL_MEDIA", media},
                 {"VXL_MEDIUM_SET_CAPPED", medium_set_capped},
                 {"VXL_INSTANCES", instances},

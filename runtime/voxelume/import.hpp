@@ -28,6 +28,9 @@ struct ImportOptions {
     /// The display is a lattice of voxels around all that is shown, for render_volume. The observer
     /// is before the front then, and there is no ground.
     bool lattice = false;
+    /// The file's own camera, where it has one (glTF), is the observer, and longitude, latitude,
+    /// parallel and angle don't count.
+    bool own_camera = true;
     /// The model has room to turn: pictures of all longitudes show it from one distance.
     bool turns = false;
     double angle = 40;   ///< degrees, horizontal opening of the observer's pyramid
@@ -42,10 +45,10 @@ struct ImportOptions {
 /// Whether a file's name ends as those of the model files that `import_file` reads.
 bool is_model_file(const std::filesystem::path& file);
 
-/// The text of a scene that shows what a model file (.obj, .ply, .stl, .vxm, .vdb, .vox) holds. It
-/// names the file as seen from `folder`, which is the folder that the text is to be saved in, if it
-/// lies there or below, or else by its name alone. Throws Error::input for a file that can't be
-/// read or has nothing to show, Error::usage for another ending.
+/// The text of a scene that shows what a model file (.obj, .ply, .stl, .gltf, .glb, .vxm, .vdb,
+/// .vox) holds. It names the file as seen from `folder`, which is the folder that the text is to be
+/// saved in, if it lies there or below, or else by its name alone. Throws Error::input for a file
+/// that can't be read or has nothing to show, Error::usage for another ending.
 std::string import_file(const std::filesystem::path& file, const std::filesystem::path& folder,
                         const ImportOptions& options = {}, const CacheOptions& cache = {});
 

@@ -153,7 +153,7 @@ struct Model {
     std::variant<Solid, MeshFile, VoxelFile> source{};  ///< a mesh, voxels or a solid
     std::optional<Vec3> voxel_size{};  ///< metres in object space; without it the world's
     std::optional<int> resolution{};   ///< instead: voxels along the longest side, 1..65536
-    std::optional<Surface> surface{};  ///< without it smooth, or cubes of a VoxelFile
+    std::optional<Surface> surface{};  ///< without it what suits the model, as plan() says
     std::optional<VoxelSet> set{};     ///< of cubes; without it supercover
 };
 

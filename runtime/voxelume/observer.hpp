@@ -70,14 +70,22 @@ struct Observer {
     Display display{};              ///< what is seen, and how display voxels lie
 };
 
+/// The light that reaches surfaces of a flat image.
+enum class LightMode {
+    local,  ///< that of lights, and along mirrored and refracted rays
+    global  ///< all that arrives from surfaces, too
+};
+
 /// The flat image.
 struct RenderSettings {
-    Size size{640, 480};             ///< pixels, 1..kMaxImageSide each
-    int samples = 1;                 ///< sight rays a pixel, 1..4096
-    int depth = 5;                   ///< reflections and refractions in a row, 0..64
-    bool shadows = true;             ///< whether lights cast shadows
-    bool filtered_shadows = false;   ///< refracting objects tint light instead of hiding it
-    double min_weight = 1.0 / 4096;  ///< paths that would add less of a pixel end
+    Size size{640, 480};                 ///< pixels, 1..kMaxImageSide each
+    int samples = 1;                     ///< sight rays a pixel, 1..4096
+    int depth = 5;                       ///< reflections and refractions in a row, 0..64
+    bool shadows = true;                 ///< whether lights cast shadows
+    bool filtered_shadows = false;       ///< refracting objects tint light instead of hiding it
+    double min_weight = 1.0 / 4096;      ///< paths that would add less of a pixel end
+    LightMode light = LightMode::local;  ///< what light reaches surfaces
+    int bounces = 8;                     ///< times that a path of global light is scattered, 0..64
 };
 
 }  // namespace voxelume::v1

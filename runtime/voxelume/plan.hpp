@@ -44,6 +44,13 @@ struct StagePlan {
     double bytes = 0;    ///< at most
 };
 
+/// What `auto` makes of a model's surface.
+struct SurfacePlan {
+    std::string model{};    ///< its name
+    std::string surface{};  ///< "cubes", "smooth" or "exact"
+    std::string reason{};   ///< half a sentence: "it is open at 12 edges"
+};
+
 /// Estimates for the frame that takes the most memory, or the first one that doesn't fit.
 struct Plan {
     Verdict verdict = Verdict::fits;  ///< of the frame that takes the most
@@ -59,6 +66,8 @@ struct Plan {
     /// only runs if one is asked for.
     std::vector<StagePlan> stages{};
     std::vector<Warning> warnings{};  ///< what is probably wrong, as far as it shows unrendered
+    /// The surfaces of models that leave theirs to their files.
+    std::vector<SurfacePlan> surfaces{};
 };
 
 /// What planning assumes.

@@ -92,6 +92,9 @@ class Scene {
     /// Returns the scene with another number of sight rays a pixel, 1..4096.
     Scene with_samples(int samples) const;
 
+    /// Returns the scene in another light.
+    Scene with_light(LightMode light) const;
+
     /// The file that it was read from; empty for a scene that was built.
     const std::filesystem::path& file() const;
     /// Width and height of its image, pixels.

@@ -51,6 +51,35 @@ struct Medium {
     std::variant<std::monostate, HeightDensity, BallDensity, GridDensity> density{};
 };
 
+/// A sky of one colour.
+struct ConstantSky {
+    Color color{1, 1, 1};  ///< radiance
+};
+
+/// A sky that changes from the horizon to the zenith, by the sine of the height.
+struct GradientSky {
+    Color zenith{0.25, 0.45, 0.9};   ///< radiance from above
+    Color horizon{0.8, 0.9, 1};      ///< radiance from the side
+    Color ground{0.25, 0.23, 0.21};  ///< radiance from below the horizon
+};
+
+/// A clear sky with a sun in it (Preetham, Shirley and Smits 1999).
+struct SunSky {
+    Vec3 direction{0, -1, 0};        ///< where the sun's light travels; downwards
+    double angle = 0.53;             ///< degrees that the disc fills, up to 90
+    Color color{1, 0.95, 0.88};      ///< of the disc's light
+    double intensity = 1;            ///< what arrives from the disc
+    double turbidity = 3;            ///< haze, 2 clear to 10 thick
+    Color ground{0.25, 0.23, 0.21};  ///< radiance from below the horizon
+};
+
+/// What rays see that leave the world, and what lights surfaces from there.
+struct Sky {
+    std::variant<ConstantSky, GradientSky, SunSky> kind{};  ///< what it looks like
+    double strength = 1;  ///< multiplies its radiance, but for the sun's disc
+    int samples = 16;     ///< directions that a point in local light looks to, 0..1024
+};
+
 /// The lattice S that all objects are placed in, and the space around it.
 struct World {
     Vec3 voxel_size{};                ///< metres along each axis; 0: by `resolution`
@@ -62,6 +91,7 @@ struct World {
     Color background{};  ///< radiance where a ray leaves the world
     Color ambient{};     ///< light that reaches every surface; black: none, or the default light's
     std::optional<Medium> medium{};  ///< what fills the space between objects
+    std::optional<Sky> sky{};        ///< instead of the background
 };
 
 /// A second colour in every other block of a lattice that stands still in the world.

@@ -27,6 +27,8 @@ Model source_of(Model model) {
     model.voxel_size = glm::dvec3(0);
     model.resolution = 0;
     model.is_sized = false;
+    model.is_surface_open = false;
+    model.surface_reason.clear();
     return model;
 }
 

@@ -39,6 +39,19 @@ WorldReport expect_same_bits(const Scene& scene) {
     return report.world;
 }
 
+TEST(Culling, DoesNotHappenWhereRaysGoInAllDirections) {
+    Scene scene = scene_of(kPointLight);
+    scene.render.light = LightMode::global;
+    EXPECT_EQ(visible_names(scene), "seen left right behind beyond ");
+    scene.render.bounces = 0;
+    EXPECT_EQ(visible_names(scene), visible_names(scene_of(kPointLight)));
+    scene = scene_of();
+    scene.world.sky.emplace();
+    EXPECT_EQ(visible_names(scene), "seen left right behind beyond ");
+    scene.render.shadows = false;
+    EXPECT_EQ(visible_names(scene), "seen ");
+}
+
 TEST(Culling, WithoutShadowsIsWhatTheDisplaySees) {
     for (const bool lit : {false, true}) {
         Scene scene = scene_of(lit ? kPointLight : "");

@@ -77,7 +77,16 @@ TEST_F(MeshWarnings, NameMaterialsThatAreNotRead) {
     EXPECT_THAT(kinds(), IsEmpty());  // one group, which has a material of the scene
     put_bytes(folder / "my lib.mtl", "newmtl a\nKd 1 0 0\n  map_Kd wood.png\n");
     EXPECT_THAT(kinds(), ElementsAre(Kind::ignored_materials));
-    EXPECT_THAT(warnings()[0].text, HasSubstr("textures of \"my lib.mtl\" aren't read"));
+    EXPECT_EQ(
+        warnings()[0].text,
+        "\"m.obj\": its texture \"wood.png\" isn't shown: no face says which part of it is its "
+        "own");
+    const std::string places = "vt 0 0\nvt 1 0\nvt 0 1\nmtllib my lib.mtl\n";
+    put_bytes(folder / "m.obj", places + faces + "f 2/1 3/2 4/3\nf 3/1 1/2 4/3\n");
+    EXPECT_THAT(kinds(), ElementsAre(Kind::ignored_materials));
+    EXPECT_EQ(warnings()[0].text, "\"m.obj\": its texture \"wood.png\" isn't in its folder");
+    put_bytes(folder / "wood.png", "no picture");
+    EXPECT_THAT(warnings()[0].text, HasSubstr("neither PNG nor JPEG"));
 }
 
 TEST_F(MeshWarnings, NameATextureOfPly) {
@@ -88,7 +97,7 @@ TEST_F(MeshWarnings, NameATextureOfPly) {
               "3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n");
     json["models"]["ball"] = {{"mesh", "m.ply"}};
     EXPECT_THAT(kinds(), ElementsAre(Kind::ignored_materials));
-    EXPECT_THAT(warnings()[0].text, HasSubstr("its texture \"my wood.png\" isn't read"));
+    EXPECT_THAT(warnings()[0].text, HasSubstr("its texture \"my wood.png\" isn't shown"));
 }
 
 TEST_F(MeshWarnings, AnswerFromTheCacheWhatNeedsTheMesh) {

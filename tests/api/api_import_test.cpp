@@ -204,5 +204,29 @@ TEST_F(ApiImport, WhatCantBeShownIsRefusedWithASentence) {
     EXPECT_THAT(message(folder / "short.vxm"), HasSubstr("short.vxm"));
 }
 
+TEST_F(ApiImport, TheGroupsOfAnObjFileHaveTheMaterialsOfItsLibrary) {
+    std::ofstream(folder / "room.mtl")
+        << "newmtl oak\nKd 0.5 0 1\nKs 1 1 1\nNs 60\nnewmtl pane\nd 0.25\nillum 6\nNi 1.5\n"
+           "newmtl lamp\nKe 1 0.5 0\nnewmtl mist\nTr 0.5\nnewmtl unused\n";
+    std::string text = "mtllib room.mtl\n" + std::string(kBlock);
+    const char* const groups[] = {"oak", "pane", "lamp", "mist", "nothing", "room"};
+    for (const char* const group : groups) text += "usemtl " + std::string(group) + "\nf 1 2 3\n";
+    std::ofstream(folder / "room.obj") << text;
+    const std::string scene = import_file(folder / "room.obj", folder, {}, no_cache);
+    EXPECT_THAT(scene, HasSubstr("\"oak\": {\"color\": [0.214, 0, 1], \"specular\": 1, "
+                                 "\"shininess\": 60}"));
+    EXPECT_THAT(scene, HasSubstr("\"diffuse\": 0.25, \"reflection\": 1, \"refraction\": 0.75, "
+                                 "\"ior\": 1.5, \"fresnel\": true}"));
+    EXPECT_THAT(scene, HasSubstr("\"emission\": [1, 0.214, 0]"));
+    EXPECT_THAT(scene, HasSubstr("\"opacity\": 0.5"));
+    EXPECT_THAT(scene, HasSubstr("\"material\": \"room\",\n     \"materials\": {\"oak\": "
+                                 "\"oak\","))
+        << "the faces before the first group have none";
+    EXPECT_THAT(scene, HasSubstr("\"shadow\": \"filtered\""));
+    EXPECT_THAT(scene, Not(HasSubstr("unused")));
+    EXPECT_THAT(scene, Not(HasSubstr("nothing")));
+    EXPECT_NO_THROW(scene_of_file(folder / "room.obj"));
+}
+
 }  // namespace
 }  // namespace voxelume::v1

@@ -246,6 +246,34 @@ TEST(ApiScene, HasTracksOfEveryType) {
                                      "display": {"shape": "pyramid", "angles": [50, 40]}})"));
 }
 
+TEST(ApiScene, HasEverySkyAndGlobalLight) {
+    const auto lit = [](const v1::Sky& sky, const char* text) {
+        v1::SceneDescription scene = empty_scene();
+        scene.world.sky = sky;
+        scene.render.light = v1::LightMode::global;
+        scene.render.bounces = 3;
+        expect_same(scene,
+                    text_with(R"("render": {"light": "global", "bounces": 3})",
+                              R"({"position": [0.5, 1, -6], "display": {"shape": "pyramid"}})",
+                              R"(, "sky": )" + std::string(text)));
+    };
+    lit({v1::ConstantSky{{1, 2, 3}}, 2, 5},
+        R"({"kind": "constant", "color": [1, 2, 3], "strength": 2, "samples": 5})");
+    lit({v1::GradientSky{{1, 2, 3}, {4, 5, 6}, {7, 8, 9}}},
+        R"({"kind": "gradient", "zenith": [1, 2, 3], "horizon": [4, 5, 6], "ground": [7, 8, 9]})");
+    lit({v1::SunSky{{1, -2, 3}, 2, {1, 0.5, 0.25}, 3, 4, {5, 6, 7}}},
+        R"({"kind": "sun", "direction": [1, -2, 3], "angle": 2, "color": [1, 0.5, 0.25],
+            "intensity": 3, "turbidity": 4, "ground": [5, 6, 7]})");
+}
+
+TEST(ApiScene, ChangesItsLightInACopy) {
+    const v1::Scene scene = v1::Scene::build(empty_scene());
+    const v1::Scene global = scene.with_light(v1::LightMode::global);
+    EXPECT_EQ(api::inside(scene).render.light, LightMode::local);
+    EXPECT_EQ(api::inside(global).render.light, LightMode::global);
+    EXPECT_EQ(api::inside(global.with_light(v1::LightMode::local)).render.light, LightMode::local);
+}
+
 TEST(ApiScene, ValuesAreChangedBeforeItIsChecked) {
     v1::SceneOptions options;
     options.changes = {{"render.samples", "9"}, {"world.ambient", "0.5,0.25,0"}};

@@ -22,7 +22,7 @@ Scene scene_with(double x, int samples = 1) {
 "world": {"voxel_size": 0.05, "bounds": {"min": [-1, -1, -1], "max": [1, 1, 1]},
           "background": [0.2, 0.3, 0.5]},
 "materials": {"mirror": {"reflection": 0.6, "diffuse": 0.3}},
-"models": {"ball": {"shape": "sphere", "radius": 0.4, "voxel_size": 0.05}},
+"models": {"ball": {"shape": "sphere", "radius": 0.4, "voxel_size": 0.05, "surface": "smooth"}},
 "objects": [{"name": "a", "model": "ball", "material": "mirror"},
             {"name": "b", "model": "ball", "position": [0.5, 0.2, 0.1]}],
 "lights": [{"type": "point", "position": [1, 3, -3], "intensity": 20}],

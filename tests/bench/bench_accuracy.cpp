@@ -13,11 +13,11 @@
 namespace voxelume {
 namespace {
 
-constexpr SurfaceChoice kChoices[] = {{"cubes, supercover", Surface::cubes, VoxelSet::supercover},
-                                      {"cubes, thin", Surface::cubes, VoxelSet::thin},
-                                      {"cubes, solid", Surface::cubes, VoxelSet::solid},
-                                      {"smooth", Surface::smooth},
-                                      {"exact", Surface::exact}};
+constexpr ShownSurface kChoices[] = {{"cubes, supercover", Surface::cubes, VoxelSet::supercover},
+                                     {"cubes, thin", Surface::cubes, VoxelSet::thin},
+                                     {"cubes, solid", Surface::cubes, VoxelSet::solid},
+                                     {"smooth", Surface::smooth},
+                                     {"exact", Surface::exact}};
 
 struct Arguments {
     std::filesystem::path file = "/usr/share/glmark2/models/bunny.obj";
@@ -53,7 +53,7 @@ void measure(const Arguments& a) {
         a.file.filename().string(), mesh.triangles.size(), a.resolution, a.size.x, a.size.y,
         device.lanes(), device.info().name, "surface", "rms", "max", "median", "99 %", "max",
         "mask", "share", "holes", "clear");
-    for (const SurfaceChoice& choice : kChoices) {
+    for (const ShownSurface& choice : kChoices) {
         const Scene scene = mesh_scene(a.file, mesh, choice, a.resolution, a.size);
         RenderReport report;
         print(choice.name, measure_surface(scene, render(device, scene, report), tree));

@@ -49,7 +49,8 @@ TEST_F(CliBadInputTest, WorldsBeyondMemoryAreRefusedBeforeItIsTaken) {
         write_scene([&](Json& scene) {
             scene["world"]["bounds"] = {{"min", {0, 0, 0}}, {"max", {1, 1, 1}}};
             scene["world"]["voxel_size"] = 1.0 / voxels;
-            scene["models"]["thing"] = {{"shape", "sphere"}, {"radius", 0.49}};
+            scene["models"]["thing"] = {
+                {"shape", "sphere"}, {"radius", 0.49}, {"surface", "smooth"}};
             scene["objects"][0]["position"] = {0.5, 0.5, 0.5};
         });
     };

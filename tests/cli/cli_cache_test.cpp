@@ -21,7 +21,7 @@ class CliCache : public ProgramTest {
         write_obj(folder / "ring.obj", wavy_ring(150, 80));
         put_bytes(folder / "s.json", R"({"voxelume": 1,
 "world": {"voxel_size": 0.02, "bounds": {"min": [-0.6, -0.6, -0.6], "max": [0.6, 0.6, 0.6]}},
-"models": {"ring": {"mesh": "ring.obj"}},
+"models": {"ring": {"mesh": "ring.obj", "surface": "smooth"}},
 "objects": [{"model": "ring"}],
 "lights": [{"type": "directional", "direction": [0.3, -1, 0.4]}],
 "observer": {"position": [0.5, 1, -2], "look_at": [0, 0, 0],
@@ -125,7 +125,7 @@ TEST_F(CliCache, AMeshIsReadOnceForAllDevices) {
 }
 
 TEST_F(CliCache, AnotherPlaceIsAnotherWorldOfTheSameModel) {
-    replace(R"("ring.obj")", R"("ring.obj", "surface": "cubes")");
+    replace(R"("surface": "smooth")", R"("surface": "cubes")");
     render("first");
     replace(R"("model": "ring")", R"("model": "ring", "turn": [0, 0, 9])");
     const std::string moved = render("moved"), without = render("without", "--no-cache");

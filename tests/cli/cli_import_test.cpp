@@ -19,8 +19,9 @@ class CliImportTest : public ProgramTest {
         put_bytes(folder / "wedge.obj",
                   "v 0 0 0\nv 3 0 0\nv 0 2 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\n"
                   "f 2 3 4\nf 3 1 4\n");
-        put_bytes(folder / "scene.json",
-                  R"({"voxelume": 1, "models": {"m": {"shape": "sphere", "radius": 1}},
+        put_bytes(
+            folder / "scene.json",
+            R"({"voxelume": 1, "models": {"m": {"shape": "sphere", "radius": 1, "surface": "smooth"}},
                       "objects": [{"model": "m"}]})");
     }
 };

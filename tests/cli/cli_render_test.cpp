@@ -101,7 +101,7 @@ TEST_F(CliRenderTest, WhatASceneLeavesOutIsFoundAndToldByCheck) {
     put_bytes(folder / "m.obj", kTetrahedron);
     put_bytes(folder / "scene.json", R"({
   "voxelume": 1, "render": {"size": [64, 48]},
-  "models": {"thing": {"mesh": "m.obj", "fit": 2}}, "objects": [{"model": "thing"}]
+  "models": {"thing": {"mesh": "m.obj", "fit": 2, "surface": "smooth"}}, "objects": [{"model": "thing"}]
 })");
     const ProgramResult check = run("check scene.json");
     EXPECT_EQ(check.exit_code, 0) << check.err;
@@ -132,7 +132,7 @@ TEST_F(CliRenderTest, WhatASceneLeavesOutIsFoundAndToldByCheck) {
 TEST_F(CliRenderTest, AMeshThatASceneIsFittedToIsReadOnce) {
     put_bytes(folder / "m.obj", kTetrahedron);
     put_bytes(folder / "scene.json", R"({"voxelume": 1, "render": {"size": [16, 12]},
-        "models": {"thing": {"mesh": "m.obj", "unit": "cm"}}, "objects": [{"model": "thing"}]})");
+        "models": {"thing": {"mesh": "m.obj", "unit": "cm", "surface": "smooth"}}, "objects": [{"model": "thing"}]})");
     for (const char* option : {"", " --no-cache"}) {
         ASSERT_EQ(
             run(fmt::format("render scene.json -o a.png --stats-json s.json{}", option)).exit_code,

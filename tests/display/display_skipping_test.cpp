@@ -13,7 +13,7 @@ namespace {
 /// A scene of a small ball off the middle of a large display.
 constexpr const char* kScene = R"({"voxelume": 1,
 "world": {"voxel_size": 0.025, "bounds": {"min": [-2, -2, -2], "max": [2, 2.2, 2.4]}},
-"models": {"ball": {"shape": "sphere", "radius": 0.3}},
+"models": {"ball": {"shape": "sphere", "radius": 0.3, "surface": "smooth"}},
 "objects": [{"model": "ball", "position": [0.5, 0.6, 0.2]}],
 "lights": [{"type": "point", "position": [0.5, 3, -1], "intensity": 9}],
 "observer": {"position": [0.2, 0.7, -4], "look_at": [0, 0, 0],

@@ -2,17 +2,28 @@
 // A libFuzzer target: any bytes under a mesh's name give a valid Mesh or an error's sentence. It is
 // built once per format.
 #include "runtime/base/error.hpp"
+#include "runtime/io/gltf/gltf_mesh.hpp"
 #include "runtime/io/mesh/mesh_reader.hpp"
 #include "tests/support/mesh_invariants.hpp"
 
 #include <cstdio>
 #include <cstdlib>
 
+namespace {
+
+voxelume::Mesh mesh_of(const std::string& bytes) {
+    using namespace voxelume;
+    return is_gltf_file(VXL_FUZZ_NAME) ? gltf_mesh(GltfFile(bytes, VXL_FUZZ_NAME), 0)
+                                       : parse_mesh(bytes, VXL_FUZZ_NAME);
+}
+
+}  // namespace
+
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     using namespace voxelume;
     const std::string bytes(reinterpret_cast<const char*>(data), size);
     try {
-        const std::string broken = broken_invariant(parse_mesh(bytes, VXL_FUZZ_NAME));
+        const std::string broken = broken_invariant(mesh_of(bytes));
         if (!broken.empty()) {
             std::fprintf(stderr, "invalid mesh: %s\n", broken.c_str());
             std::abort();

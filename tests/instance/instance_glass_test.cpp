@@ -54,8 +54,8 @@ class InstanceInGlass : public FileTest {
            "cubes": {{"shape": "box", "size": [1, 1.5, 2], "surface": "cubes", "set": "solid"}},
            "solid": {{"shape": "box", "size": [1, 1.5, 2], "surface": "exact"}},
            "mesh": {{"mesh": "body.obj", "surface": "exact"}},
-           "ball": {{"shape": "sphere", "radius": 1}},
-           "glass ball": {{"shape": "sphere", "radius": 2}}}},
+           "ball": {{"shape": "sphere", "radius": 1, "surface": "smooth"}},
+           "glass ball": {{"shape": "sphere", "radius": 2, "surface": "smooth"}}}},
 "objects": [{{"model": "{}", "material": "glass"}}, {}{}
             {{"model": "cubes", "placement": "instance", "position": [0, 40, 0]}},
             {{"model": "solid", "placement": "instance", "position": [0, 40, 0]}},

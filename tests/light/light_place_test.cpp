@@ -26,7 +26,7 @@ Json lamp_scene(const std::string& surface, const glm::dvec3& lamp) {
     Json scene = Json::parse(R"({"voxelume": 1,
 "world": {"voxel_size": 0.02, "bounds": {"min": [-0.8, -0.2, -0.7], "max": [0.8, 0.9, 0.7]}},
 "materials": {"white": {"color": [1, 1, 1]}},
-"models": {"floor": {"shape": "box", "size": [1.2, 0.1, 1]}, "ball": {"shape": "sphere", "radius": 0.3}},
+"models": {"floor": {"shape": "box", "size": [1.2, 0.1, 1], "surface": "smooth"}, "ball": {"shape": "sphere", "radius": 0.3, "surface": "smooth"}},
 "objects": [{"model": "floor", "material": "white", "position": [0, -0.05, 0]},
             {"model": "ball", "material": "white", "position": [0.013, 0.327, -0.021]}],
 "lights": [{"type": "point"}],

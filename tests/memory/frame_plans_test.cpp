@@ -22,7 +22,8 @@ constexpr const char* kGrowth = R"("animation": {"frames": 5, "tracks": [
                                                {"frame": 5, "value": 0.1}]}]},)";
 
 TEST_F(FramePlans, OfFramesTheLargestCountsAndTheFirstThatDoesNotFitIsNamed) {
-    const Scene scene = scene_of(R"({"shape": "sphere", "radius": 0.1})", 1.0 / 200, kGrowth);
+    const Scene scene =
+        scene_of(R"({"shape": "sphere", "radius": 0.1, "surface": "smooth"})", 1.0 / 200, kGrowth);
     DeviceInfo device;
     device.name = "Small One";
     device.memory = device.max_allocation = 8'000'000'000;
@@ -50,7 +51,7 @@ FramePlan largest_of_three(const Scene& scene) {
 }
 
 TEST_F(FramePlans, ALampThatIsSwitchedOnTakesItsShadowRays) {
-    Scene scene = scene_of(R"({"shape": "sphere", "radius": 0.1})", 1.0 / 50,
+    Scene scene = scene_of(R"({"shape": "sphere", "radius": 0.1, "surface": "smooth"})", 1.0 / 50,
                            R"("animation": {"frames": 3, "tracks": [
     {"target": "lights.lamp.intensity", "interpolation": "step",
      "keys": [{"frame": 1, "value": 0}, {"frame": 3, "value": 9}]}]},
@@ -99,7 +100,7 @@ TEST_F(FramePlans, AGroupThatAMeshDoesNotHaveIsNamedBeforeAnyFrameIsRendered) {
               "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nusemtl near\nf 1 2 3\nusemtl far\nf 2 4 3\n");
     constexpr const char* kText = R"({{"voxelume": 1,
         "world": {{"voxel_size": 0.1, "bounds": {{"min": [0,0,0], "max": [1,0.9,0.8]}}}},
-        "materials": {{"red": {{}}}}, "models": {{"plate": {{"mesh": "plate.obj"}}}},
+        "materials": {{"red": {{}}}}, "models": {{"plate": {{"mesh": "plate.obj", "surface": "smooth"}}}},
         "objects": [{{"name": "plate", "model": "plate", "placement": "{}",
                      "materials": {{"{}": "red"}}}}],
         "observer": {{"position": [0.5,0.4,3], "look_at": [0.5,0.4,0.4],

@@ -15,7 +15,8 @@ TEST_F(PlanCheck, APlanBeyondADevicesMemoryNamesBothAndTheWayOut) {
     DeviceInfo device;
     device.name = "Small One";
     device.memory = device.max_allocation = 20'000'000;
-    const Scene scene = scene_of(R"({"shape": "sphere", "radius": 0.35})", 1.0 / 400);
+    const Scene scene =
+        scene_of(R"({"shape": "sphere", "radius": 0.35, "surface": "smooth"})", 1.0 / 400);
     const Error error = error_of([&] { check_memory(scene, plan_of(scene), device); });
     EXPECT_EQ(error.kind(), ErrorKind::limit);
     EXPECT_THAT(error.what(), HasSubstr("on \"Small One\", which has 20.0 MB: use voxels larger"));
@@ -65,7 +66,8 @@ TEST_F(PlanCheck, ABufferOfTrianglesAsksForFewerOfThem) {
     device.name = "Small One";
     device.memory = 8'000'000'000;
     device.max_allocation = 2'400'000;
-    const Scene scene = scene_of(R"({"mesh": "ring.obj", "voxel_size": 0.2})", 0.05);
+    const Scene scene =
+        scene_of(R"({"mesh": "ring.obj", "voxel_size": 0.2, "surface": "smooth"})", 0.05);
     const Error error = error_of([&] { check_memory(scene, plan_of(scene), device); });
     // 120,000 triangles take 80 bytes each.
     EXPECT_THAT(error.what(), HasSubstr("needs a buffer of 9.6 MB for its triangles"));
@@ -77,7 +79,7 @@ TEST_F(PlanCheck, AnImageBeyondOneBufferIsToBeSmaller) {
     device.name = "Small One";
     device.memory = 8'000'000'000;
     device.max_allocation = 40'000'000;
-    Scene scene = scene_of(R"({"shape": "sphere", "radius": 0.35})", 1.0 / 50);
+    Scene scene = scene_of(R"({"shape": "sphere", "radius": 0.35, "surface": "smooth"})", 1.0 / 50);
     scene.render.size = {1000, 900};
     EXPECT_NO_THROW(check_memory(scene, plan_of(scene), device));
     scene.render.size = {1000, 1000};
@@ -90,13 +92,15 @@ TEST_F(PlanCheck, TablesAreCheckedBeforeAnyMeshIsRead) {
     DeviceInfo device;
     device.name = "Small One";
     device.memory = device.max_allocation = 1'000'000;
-    const Scene scene = scene_of(R"({"shape": "sphere", "radius": 0.35})", 1.0 / 2000);
+    const Scene scene =
+        scene_of(R"({"shape": "sphere", "radius": 0.35, "surface": "smooth"})", 1.0 / 2000);
     const Error error = error_of([&] { check_tables(scene, device); });
     EXPECT_EQ(error.kind(), ErrorKind::limit);
     // The table has 126 x 113 x 101 bricks of 4 bytes.
     EXPECT_THAT(error.what(), HasSubstr("a table of 5.8 MB, and \"Small One\" allows 1.0 MB"));
     device.memory = device.max_allocation = uint64_t{1} << 60;
-    const Scene largest = scene_of(R"({"shape": "sphere", "radius": 0.35})", 1.0 / 65536);
+    const Scene largest =
+        scene_of(R"({"shape": "sphere", "radius": 0.35, "surface": "smooth"})", 1.0 / 65536);
     EXPECT_THAT(error_of([&] { check_tables(largest, device); }).what(), HasSubstr("2^31 bricks"));
 }
 

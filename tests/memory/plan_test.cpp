@@ -15,9 +15,9 @@ namespace voxelume {
 
 TEST_F(PlanTest, EstimatesAreWithinAHalfOfWhatFormingTheWorldTakes) {
     for (const char* model :
-         {R"({"shape": "sphere", "radius": 0.35})",
+         {R"({"shape": "sphere", "radius": 0.35, "surface": "smooth"})",
           R"({"shape": "box", "size": [0.803,0.302,0.507], "surface": "cubes"})",
-          R"({"shape": "torus", "radius": 0.3, "tube": 0.09})",
+          R"({"shape": "torus", "radius": 0.3, "tube": 0.09, "surface": "smooth"})",
           R"({"shape": "ellipsoid", "radii": [0.3, 0.2, 0.25], "surface": "exact"})"}) {
         const Scene scene = scene_of(model, 1.0 / 200);
         const ScenePlan plan = plan_of(scene);
@@ -72,7 +72,8 @@ TEST_F(PlanTest, ObjectsInEachOthersBricksPlanNoLargerBuffersThanAreMade) {
 }
 
 TEST_F(PlanTest, ObjectsApartAreAllRefusedWithTheirMemory) {
-    Scene scene = scene_of(R"({"shape": "box", "size": [0.1, 0.1, 0.1]})", 1.0 / 200);
+    Scene scene =
+        scene_of(R"({"shape": "box", "size": [0.1, 0.1, 0.1], "surface": "smooth"})", 1.0 / 200);
     const Object ball = scene.objects[0];
     for (const glm::dvec3 step : {glm::dvec3(0.25, 0, 0), glm::dvec3(-0.25, 0, 0),
                                   glm::dvec3(0, 0.25, 0), glm::dvec3(0, 0, -0.25)}) {
@@ -163,7 +164,8 @@ TEST_F(PlanTest, NormalsTakeTwelveBytesATriangle) {
 
 TEST_F(PlanTest, TheImagesBytesAreThoseOfItsChannelsRaysAndDilatedOccupancy) {
     for (const double voxel : {1.0 / 120, 1.0 / 400}) {
-        Scene scene = scene_of(R"({"shape": "sphere", "radius": 0.35})", voxel);
+        Scene scene =
+            scene_of(R"({"shape": "sphere", "radius": 0.35, "surface": "smooth"})", voxel);
         scene.render.size = {320, 240};  // enough rays for beams
         scene.render.channels = {true, true, false, true, false};
         const ScenePlan plan = plan_of(scene);

@@ -27,8 +27,8 @@ std::string scene_text(const std::string& placement) {
         const char* comma = i == 0 ? "" : ", ";
         if (i < kModels)
             models += fmt::format(
-                R"({}"s{}": {{"shape": "sphere", "radius": {}, "voxel_size": 0.00667}})", comma, i,
-                0.35 - 0.002 * i);
+                R"({}"s{}": {{"shape": "sphere", "radius": {}, "voxel_size": 0.00667, "surface": "smooth"}})",
+                comma, i, 0.35 - 0.002 * i);
         keys += fmt::format(R"({}{{"frame": {}, "value": "s{}"}})", comma, i + 1, i % kModels);
     }
     return fmt::format(R"({{"voxelume": 1,

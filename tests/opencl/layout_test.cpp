@@ -10,7 +10,9 @@
 #include "kernels/shared/display.h"
 #include "kernels/shared/instance.h"
 #include "kernels/shared/medium.h"
+#include "kernels/shared/paths.h"
 #include "kernels/shared/scene.h"
+#include "kernels/shared/sky.h"
 #include "kernels/shared/solid.h"
 #include "runtime/opencl/program.hpp"
 #include "tests/support/test_device.hpp"
@@ -39,6 +41,11 @@
 #define SOLID_SHAPE_FIELDS \
     I(kind) I(operations) I(shape_count) I(attribute) IA(cell, 3) FA(fraction, 3) \
     FA(shape_from_grid, 9) FA(size, 4) FA(rounding, 2) FA(derived, 5) FA(unused, 2)
+#define PATH_SAMPLING_FIELDS I(first_tile) I(tiles_x) I(samples) I(bounces)
+#define LIGHT_AREA_RECORD_FIELDS V(axis_x) V(axis_y)
+#define SKY_RECORD_FIELDS \
+    V(zenith) V(horizon) V(ground) V(sun_direction) V(sun_radiance) V(luminance) \
+    V(chromaticity_x) V(chromaticity_y) V(last) V(base)
 #define DENSITY_SHAPE_FIELDS \
     I(bricks_x) I(bricks_y) I(shift_x) I(shift_y) I(shift_z) IA(unused, 3)
 #define INSTANCE_RECORD_FIELDS \
@@ -66,6 +73,9 @@ constexpr const char* kDisplayLatticeText = TEXT_OF(DISPLAY_LATTICE_FIELDS);
 constexpr const char* kSolidShapeText = TEXT_OF(SOLID_SHAPE_FIELDS);
 constexpr const char* kDensityShapeText = TEXT_OF(DENSITY_SHAPE_FIELDS);
 
+constexpr const char* kPathSamplingText = TEXT_OF(PATH_SAMPLING_FIELDS);
+constexpr const char* kLightAreaRecordText = TEXT_OF(LIGHT_AREA_RECORD_FIELDS);
+constexpr const char* kSkyRecordText = TEXT_OF(SKY_RECORD_FIELDS);
 constexpr const char* kInstanceRecordText = TEXT_OF(INSTANCE_RECORD_FIELDS);
 constexpr const char* kInstanceNodeText = TEXT_OF(INSTANCE_NODE_FIELDS);
 
@@ -89,6 +99,8 @@ Words read_by_kernel(const T& value, const std::string& type, const std::string&
 #include "shared/scene.h"
 #include "shared/display.h"
 #include "shared/instance.h"
+#include "shared/paths.h"
+#include "shared/sky.h"
 #include "shared/solid.h"
 #define F(n) *words++ = as_uint(value.n);
 #define V(n) F(n.x) F(n.y) F(n.z) F(n.w)
@@ -136,6 +148,9 @@ CROSSES(Environment, ENVIRONMENT_FIELDS, kEnvironmentText)
 CROSSES(DisplaySteps, DISPLAY_STEPS_FIELDS, kDisplayStepsText)
 CROSSES(DisplayLattice, DISPLAY_LATTICE_FIELDS, kDisplayLatticeText)
 CROSSES(SolidShape, SOLID_SHAPE_FIELDS, kSolidShapeText)
+CROSSES(PathSampling, PATH_SAMPLING_FIELDS, kPathSamplingText)
+CROSSES(LightAreaRecord, LIGHT_AREA_RECORD_FIELDS, kLightAreaRecordText)
+CROSSES(SkyRecord, SKY_RECORD_FIELDS, kSkyRecordText)
 CROSSES(InstanceRecord, INSTANCE_RECORD_FIELDS, kInstanceRecordText)
 CROSSES(InstanceNode, INSTANCE_NODE_FIELDS, kInstanceNodeText)
 CROSSES(DensityShape, DENSITY_SHAPE_FIELDS, kDensityShapeText)

@@ -4,8 +4,6 @@
 #include <gmock/gmock.h>
 
 #include "runtime/base/error.hpp"
-#include "runtime/opencl/platforms.hpp"
-#include "runtime/opencl/selector.hpp"
 
 namespace voxelume {
 namespace {
@@ -34,12 +32,8 @@ DeviceInfo gpu(const char* vendor, int units, int clock, bool shares_memory = fa
 
 /// What `selector` chooses of devices without a driver.
 std::string chosen(std::vector<DeviceInfo> devices, std::string_view selector = "auto") {
-    std::vector<Candidate> candidates;
-    for (DeviceInfo& info : devices) {
-        info.index = int(candidates.size());
-        candidates.push_back({{}, info});
-    }
-    return choose(candidates, selector).info.name;
+    for (size_t i = 0; i < devices.size(); ++i) devices[i].index = int(i);
+    return devices[best_device(devices, selector)].name;
 }
 
 const DeviceInfo kPocl = cpu("pthread-znver3", 2, 8, 3000);
@@ -79,17 +73,11 @@ TEST(Ranking, SoftwareRasterizersAreUsedOnlyByName) {
 }
 
 TEST(Ranking, ACardOfTwoDriversSharesWorkOnce) {
-    std::vector<Candidate> candidates = {{{}, gpu("Mesa", 68, 0)},
-                                         {{}, gpu("NVIDIA Corporation", 68, 1700)},
-                                         {{}, gpu("Mesa", 68, 0)},
-                                         {{}, kRasterizer},
-                                         {{}, kPocl}};
-    for (const size_t one_card : {0, 1}) candidates[one_card].info.card = "0000:01:00.0";
-    candidates[2].info.card = "0000:02:00.0";
-    std::vector<std::string> names;
-    for (const Candidate& candidate : choose_all(candidates, 1))
-        names.push_back(candidate.info.name);
-    EXPECT_EQ(names, (std::vector<std::string>{"NVIDIA Corporation", "Mesa", kPocl.name}));
+    std::vector<DeviceInfo> devices = {gpu("Mesa", 68, 0), gpu("NVIDIA Corporation", 68, 1700),
+                                       gpu("Mesa", 68, 0), kRasterizer, kPocl};
+    for (const size_t one_card : {0, 1}) devices[one_card].card = "0000:01:00.0";
+    devices[2].card = "0000:02:00.0";
+    EXPECT_EQ(distinct_gpus(devices), (std::vector<size_t>{1, 2}));
 }
 
 }  // namespace

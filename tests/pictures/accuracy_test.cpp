@@ -22,7 +22,7 @@ class Accuracy : public FileTest {
         write_obj(file, mesh);
     }
 
-    SurfaceErrors errors_of(const SurfaceChoice& choice, int lanes = 0) const {
+    SurfaceErrors errors_of(const ShownSurface& choice, int lanes = 0) const {
         const Scene scene = mesh_scene(file, mesh, choice, kResolution, kImage);
         RenderReport report;
         const Image image = render(test_device(lanes), scene, report);

@@ -3,6 +3,7 @@
 // overlaps its frames gives the bits of each frame rendered from nothing.
 #include <gtest/gtest.h>
 
+#include "runtime/analysis/scene_choices.hpp"
 #include "runtime/batch/frame_schedule.hpp"
 #include "runtime/render/volume_renderer.hpp"
 #include "runtime/scene/scene_animation.hpp"
@@ -75,6 +76,8 @@ std::vector<Frame> frames_in_a_run(const Scene& scene, bool is_volume) {
 
 TEST_P(AnimationFrames, HaveTheBitsOfEachAlone) {
     Scene scene = small_scene(GetParam().name, GetParam().size, GetParam().voxels);
+    AssetStore meshes;
+    make_choices(scene, meshes);  // once for all frames
     if (GetParam().is_volume) scene.observer.display.voxels = {13, 9, 13};
     const std::vector<Frame> run = frames_in_a_run(scene, GetParam().is_volume);
     ASSERT_GE(run.size(), 48u);

@@ -40,7 +40,7 @@ std::string ring_text() {
 
 constexpr const char* kRings = R"({"voxelume": 1,
 "world": {"voxel_size": 0.03, "bounds": {"min": [-0.7, -0.9, -0.7], "max": [0.7, 0.9, 0.7]}},
-"models": {"smooth": {"mesh": "ring.obj"},
+"models": {"smooth": {"mesh": "ring.obj", "surface": "smooth"},
            "solid": {"mesh": "ring.obj", "surface": "cubes", "set": "solid"},
            "exact": {"mesh": "ring.obj", "surface": "exact"}},
 "objects": [{"model": "smooth", "turn": [11, 20, 5]},

@@ -32,7 +32,7 @@ constexpr const char* kMaterials =
     R"("all": {"refraction": 1, "opacity": 0.5, "absorption": [1, 1, 1], "checker": {"size": 0.3}})";
 constexpr const char* kModels =
     R"("far cube": {"shape": "box", "size": [0.4, 0.4, 0.4], "surface": "cubes", "set": "solid"},
-           "far ball": {"shape": "sphere", "radius": 0.3})";
+           "far ball": {"shape": "sphere", "radius": 0.3, "surface": "smooth"})";
 
 constexpr const char* kFromAbove = R"("position": [0.9, 5, -1.7], "look_at": [0, 0.5, 0],
               "display": {"shape": "pyramid", "angle": 20})";
@@ -179,7 +179,7 @@ std::string leaky_room(int depth, int pixels) {
               {"shape": "box", "size": [2.1, 2.1, 2.1]}, {"shape": "box", "size": [1.9, 1.9, 1.9]}]},
            "ball": {"shape": "sphere", "radius": 0.35, "surface": "cubes", "set": "solid"},
            "shell": {"shape": "sphere", "radius": 0.3, "surface": "cubes"},
-           "smooth ball": {"shape": "sphere", "radius": 0.3},
+           "smooth ball": {"shape": "sphere", "radius": 0.3, "surface": "smooth"},
            "block": {"shape": "box", "size": [0.5, 0.4, 0.3], "surface": "cubes", "set": "solid"},
            )" +
            kModels + R"(},

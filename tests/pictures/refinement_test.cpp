@@ -19,8 +19,8 @@ namespace voxelume {
 namespace {
 
 /// A scene with one model and `objects`, in a world of such voxels.
-Scene scene_of(const std::string& model, const std::string& objects, double voxel,
-               glm::ivec2 size = {240, 180}, const std::filesystem::path& folder = {}) {
+Scene refined_scene(const std::string& model, const std::string& objects, double voxel,
+                    glm::ivec2 size = {240, 180}, const std::filesystem::path& folder = {}) {
     const std::string text = fmt::format(R"({{"voxelume": 1,
 "world": {{"voxel_size": {}, "bounds": {{"min": [-0.41, -0.4, -0.42], "max": [0.4, 0.41, 0.4]}}}},
 "models": {{"m": {{{}, "surface": "smooth"}}}},
@@ -72,8 +72,8 @@ TEST(Refinement, OfAModelInAFixedWorldMakesNoPictureWorse) {
     for (const char* solid : kSolids) {
         std::optional<SolidErrors> before;
         for (const int resolution : doubled_up_to(8, 128, 1024)) {
-            const SolidErrors now = errors_of(
-                scene_of(fmt::format(R"({}, "resolution": {})", solid, resolution), kPlaced, 0.02));
+            const SolidErrors now = errors_of(refined_scene(
+                fmt::format(R"({}, "resolution": {})", solid, resolution), kPlaced, 0.02));
             if (before) expect_no_worse(now, *before, fmt::format("{} at {}", solid, resolution));
             before = now;
         }
@@ -86,7 +86,7 @@ TEST(Refinement, OfAWorldMakesNoPictureOfAModelWorse) {
             std::optional<SolidErrors> before;
             for (const int voxels : doubled_up_to(16, 128, 512)) {
                 const SolidErrors now =
-                    errors_of(scene_of(std::string(solid) + size, kPlaced, 0.32 / voxels));
+                    errors_of(refined_scene(std::string(solid) + size, kPlaced, 0.32 / voxels));
                 if (before)
                     expect_no_worse(now, *before, fmt::format("{}{} at {}", solid, size, voxels));
                 before = now;
@@ -99,9 +99,9 @@ TEST(Refinement, OfAWorldLeavesACoarserModelAsAccurateAsItsVoxels) {
     const std::array<double, 2> voxels = {0.32 / kResolution, 0.5 / kResolution};
     for (size_t i = 0; i < kSolids.size(); ++i)
         for (const int world : doubled_up_to(64, 128, 512)) {
-            const SolidErrors errors =
-                errors_of(scene_of(fmt::format(R"({}, "resolution": {})", kSolids[i], kResolution),
-                                   kPlaced, 0.32 / world));
+            const SolidErrors errors = errors_of(
+                refined_scene(fmt::format(R"({}, "resolution": {})", kSolids[i], kResolution),
+                              kPlaced, 0.32 / world));
             EXPECT_LT(errors.depth_rms, 0.001 * voxels[i]) << kSolids[i] << " at " << world;
             EXPECT_LT(errors.normal_rms, 0.06) << kSolids[i] << " at " << world;
             EXPECT_LE(errors.silhouette, 3u) << kSolids[i] << " at " << world;
@@ -113,7 +113,7 @@ TEST(Refinement, LeavesASphereOfAnyResolutionASphere) {
     for (const char* placement : {"auto", "world"}) {
         std::optional<SolidErrors> before;
         for (const int resolution : {16, 32, 64, 128, 256, 512, 1024}) {
-            const SolidErrors errors = errors_of(scene_of(
+            const SolidErrors errors = errors_of(refined_scene(
                 fmt::format(R"("shape": "sphere", "radius": 0.16, "resolution": {})", resolution),
                 fmt::format(R"({{"model": "m", "placement": "{}"}})", placement), kVoxel));
             EXPECT_GT(errors.both, 7000u) << resolution;
@@ -143,7 +143,7 @@ TEST(Refinement, IsNotNeededByAnyMapOfASolid) {
     for (const auto& [name, map] : kMaps)
         for (const char* solid : kSolids) {
             const SolidErrors errors =
-                errors_of(scene_of(solid, R"({"model": "m", )" + map + "}", kVoxel));
+                errors_of(refined_scene(solid, R"({"model": "m", )" + map + "}", kVoxel));
             const std::string what = fmt::format("{}, {}", name, solid);
             EXPECT_GT(errors.both, 1000u) << what;
             EXPECT_LT(errors.depth_rms, 0.05 * kVoxel) << what;
@@ -171,7 +171,7 @@ class MappedMeshes : public FileTest {
 
     SurfaceErrors errors_of(const std::string& keys, const std::string& objects, double voxel) {
         const Scene scene =
-            scene_of(R"("mesh": "ring.obj")" + keys, objects, voxel, {160, 120}, folder);
+            refined_scene(R"("mesh": "ring.obj")" + keys, objects, voxel, {160, 120}, folder);
         return measure_surface(scene, image_of(scene), mapped(scene.objects[0].world_from_object));
     }
 
@@ -239,10 +239,10 @@ std::vector<size_t> component_sizes(const HostPyramid& host) {
 
 TEST_F(MappedMeshes, OfAFineResolutionMadeSmallHaveNoCrumbs) {
     for (const char* scale : {"0.5", "[0.5, -0.4, 0.45]"}) {
-        const Scene scene =
-            scene_of(R"("mesh": "ring.obj", "resolution": 256)",
-                     fmt::format(R"({{"model": "m", "turn": [17, 31, 8], "scale": {}}})", scale),
-                     0.005, {8, 8}, folder);
+        const Scene scene = refined_scene(
+            R"("mesh": "ring.obj", "resolution": 256)",
+            fmt::format(R"({{"model": "m", "turn": [17, 31, 8], "scale": {}}})", scale), 0.005,
+            {8, 8}, folder);
         WorldReport report;
         const HostPyramid host(build_world(shared_device(), scene, report));
         EXPECT_EQ(component_sizes(host).size(), 1u) << scale << ": the ring is in one piece";

@@ -21,7 +21,7 @@ Scene ball_scene(double voxel_size) {
     return parse_scene(fmt::format(R"({{"voxelume": 1,
 "world": {{"voxel_size": {}, "bounds": {{"min": [-1, -1, -1], "max": [1, 1, 1]}}}},
 "materials": {{"glass": {{"diffuse": 0, "refraction": 1, "ior": {}}}}},
-"models": {{"ball": {{"shape": "sphere", "radius": 0.9}}}},
+"models": {{"ball": {{"shape": "sphere", "radius": 0.9, "surface": "smooth"}}}},
 "objects": [{{"model": "ball", "material": "glass", "position": [0.013, -0.021, 0.017]}}],
 "lights": [],
 "observer": {{"position": [1.9, 1.4, 3.1], "look_at": [0.013, -0.021, 0.017],

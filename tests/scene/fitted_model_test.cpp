@@ -87,7 +87,7 @@ TEST_F(FittedModel, RefusesSizesThatMeanNothing) {
     EXPECT_THAT(message(R"("mesh": "m.obj", "fit": 1)"),
                 HasSubstr("models.m: all of the file is one point, which can't be fitted"));
     const Error point = error_of([&] {
-        parse_scene(R"({"voxelume": 1, "models": {"m": {"mesh": "m.obj"}},
+        parse_scene(R"({"voxelume": 1, "models": {"m": {"mesh": "m.obj", "surface": "smooth"}},
                         "objects": [{"model": "m"}]})",
                     folder / "s.json", {}, [&](const Model&, bool) { return boxes["m.obj"]; });
     });
@@ -116,10 +116,11 @@ TEST_F(FittedModel, MorphsBetweenTwoBoxes) {
 }
 
 TEST_F(FittedModel, IsReadOnlyWhereSomethingIsFitted) {
-    const Scene scene = parse_scene(R"({"voxelume": 1, "models": {"m": {"mesh": "m.obj"}},
+    const Scene scene =
+        parse_scene(R"({"voxelume": 1, "models": {"m": {"mesh": "m.obj", "surface": "smooth"}},
         "objects": [{"model": "m"}], "world": {"bounds": {"min": [0, 0, 0], "max": [1, 2, 3]}},
         "observer": {"position": [0, 0, 0], "display": {"shape": "ball", "radius": 2}}})",
-                                    folder / "s.json", {});
+                    folder / "s.json", {});
     EXPECT_TRUE(scene.models[0].object_from_file.is_identity());
 }
 

@@ -54,7 +54,7 @@ TEST(FittedObserver, ShowsTheWholeOfTheObjectsInEverySize) {
     for (const char* radii :
          {"[1, 2, 3]", "[0.01, 4, 0.02]", "[5, 0.1, 5]", "[1e-3, 1e-3, 2e-3]", "[1e6, 2e6, 1e6]"}) {
         Scene scene = parse_members(fmt::format(
-            R"("models": {{"egg": {{"shape": "ellipsoid", "radii": {}}}}},
+            R"("models": {{"egg": {{"shape": "ellipsoid", "radii": {}, "surface": "smooth"}}}},
                "objects": [{{"model": "egg", "position": [7, -5, 3]}}])",
             radii));
         for (const glm::ivec2 size : {glm::ivec2(640, 480), glm::ivec2(100, 900),
@@ -84,7 +84,8 @@ TEST(FittedObserver, LooksFromTheRightOfTheFrontAndFromAbove) {
 }
 
 TEST(FittedObserver, ShowsTheObjectsOfAllFramesThatLieInTheWorld) {
-    const Scene scene = parse_members(R"("models": {"ball": {"shape": "sphere", "radius": 0.5}},
+    const Scene scene = parse_members(
+        R"("models": {"ball": {"shape": "sphere", "radius": 0.5, "surface": "smooth"}},
 "objects": [{"name": "a", "model": "ball"}], "animation": {"frames": 3, "tracks": [
   {"target": "objects.a.position", "keys": [{"frame": 1, "value": [0, 0, 0]},
                                             {"frame": 3, "value": [4, 0, 0]}]}]},

@@ -25,7 +25,8 @@ inline std::string message_about(const std::string& members) {
     return error_of([&] { parse_members(members); }).what();
 }
 
-inline constexpr const char* kBall = R"("models": {"ball": {"shape": "sphere", "radius": 0.5}},
+inline constexpr const char* kBall =
+    R"("models": {"ball": {"shape": "sphere", "radius": 0.5, "surface": "smooth"}},
 "objects": [{"name": "ball", "model": "ball", "position": [1, -2, 3]}])";
 
 }  // namespace voxelume

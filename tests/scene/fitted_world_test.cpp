@@ -147,8 +147,9 @@ TEST(FittedWorld, FitsSolidsUnderAffineMapsExactly) {
 }
 
 TEST(FittedWorld, HoldsTheObjectsOfAllFrames) {
-    constexpr const char* kMoving = R"("models": {{"ball": {{"shape": "sphere", "radius": 0.5}},
-"egg": {{"shape": "ellipsoid", "radii": [1, 2, 1]}}}},
+    constexpr const char* kMoving =
+        R"("models": {{"ball": {{"shape": "sphere", "radius": 0.5, "surface": "smooth"}},
+"egg": {{"shape": "ellipsoid", "radii": [1, 2, 1], "surface": "smooth"}}}},
 "objects": [{{"name": "a", "model": "ball"}}, {{"name": "b", "model": "ball", "visible": false}}],
 "world": {{"voxel_size": 0.0625}}, "animation": {{"frames": {}, "tracks": [
  {{"target": "objects.a.position", "keys": [{{"frame": 1, "value": [0, 0, 0]}},
@@ -179,10 +180,11 @@ TEST(FittedWorld, LeavesOutWhatIsInfiniteOrInvisible) {
     std::string more = alone;
     more.insert(more.find("\"objects\": [") + 12,
                 R"({"model": "floor"}, {"model": "far", "visible": false}, {"model": "none"}, )");
-    more.insert(more.find("\"models\": {") + 11, R"("floor": {"shape": "slab", "thickness": 0.1},
-        "far": {"shape": "sphere", "radius": 100},
+    more.insert(more.find("\"models\": {") + 11,
+                R"("floor": {"shape": "slab", "thickness": 0.1, "surface": "smooth"},
+        "far": {"shape": "sphere", "radius": 100, "surface": "smooth"},
         "none": {"shape": "intersection", "parts": [{"shape": "sphere", "radius": 1},
-            {"shape": "sphere", "radius": 1, "position": [5, 0, 0]}]}, )");
+            {"shape": "sphere", "radius": 1, "position": [5, 0, 0]}], "surface": "smooth"}, )");
     EXPECT_EQ(parse_members(alone).world.bounds, parse_members(more).world.bounds);
 }
 
@@ -194,14 +196,15 @@ TEST(FittedWorld, SaysWhatToDoWhereNothingCanBeFitted) {
               "s.json:1:1: world: there are no objects, " + advice);
     EXPECT_EQ(message_about("\"world\": {\"voxel_size\": 1}"),
               "s.json:2:10: world: there are no objects, " + advice);
-    const std::string floor = R"("models": {"floor": {"shape": "slab", "thickness": 0.1}},
+    const std::string floor =
+        R"("models": {"floor": {"shape": "slab", "thickness": 0.1, "surface": "smooth"}},
 "objects": [{"model": "floor")";
     EXPECT_EQ(message_about(floor + "}]"),
               "s.json:1:1: world: all visible objects are infinite, such as a slab, " + advice);
     EXPECT_EQ(message_about(floor + R"(, "visible": false}])"),
               "s.json:1:1: world: no object is visible in any frame, " + advice);
     EXPECT_THAT(
-        message_about(R"("models": {"b": {"shape": "sphere", "radius": 9e8}},
+        message_about(R"("models": {"b": {"shape": "sphere", "radius": 9e8, "surface": "smooth"}},
 "objects": [{"model": "b", "position": [0, 5e8, 0]}])"),
         HasSubstr("its objects reach 1.43e+09 m from the origin along y, farther than 1e+09 m"));
     const Error many = error_of(
@@ -223,8 +226,8 @@ TEST(FittedWorld, NeedsNoBoundsOfObjectsWhereItsOwnAreGiven) {
 
 TEST(FittedWorld, GivesModelsItsVoxelSize) {
     const Scene scene = parse_members(R"("world": {"resolution": 10}, "models": {
- "a": {"shape": "sphere", "radius": 1}, "b": {"shape": "sphere", "radius": 1, "voxel_size": 0.3},
- "c": {"shape": "sphere", "radius": 1, "resolution": 7}}, "objects": [{"model": "a"}])");
+ "a": {"shape": "sphere", "radius": 1, "surface": "smooth"}, "b": {"shape": "sphere", "radius": 1, "voxel_size": 0.3, "surface": "smooth"},
+ "c": {"shape": "sphere", "radius": 1, "resolution": 7, "surface": "smooth"}}, "objects": [{"model": "a"}])");
     EXPECT_EQ(scene.models[0].voxel_size, glm::dvec3(0.2));
     EXPECT_EQ(scene.models[1].voxel_size, glm::dvec3(0.3));
     EXPECT_EQ(scene.models[2].voxel_size, glm::dvec3(0));

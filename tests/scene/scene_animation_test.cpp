@@ -31,7 +31,7 @@ json still_scene() {
         "models": {"block": {"shape": "difference", "surface": "exact", "parts": [
                        {"shape": "box", "size": [0.9, 0.5, 0.7]},
                        {"shape": "cylinder", "radius": 0.15, "height": 0.6, "position": [0.2, 0.3, 0]}]},
-                   "egg": {"shape": "ellipsoid", "radii": [0.2, 0.3, 0.25]}},
+                   "egg": {"shape": "ellipsoid", "radii": [0.2, 0.3, 0.25], "surface": "smooth"}},
         "objects": [{"name": "block", "model": "block", "material": "red", "placement": "world"},
                     {"name": "egg", "model": "egg", "position": [0.5, 0.3, -0.4], "placement": "world"}],
         "lights": [{"name": "key", "type": "spot", "position": [-1, 2, -3], "look_at": [0, 0, 0], "angle": 50,

@@ -21,7 +21,8 @@ using KeySet = std::set<std::string>;
 /// Adds the keys that a definition of the schema allows, by kind where it has kinds.
 void collect_keys(const std::string& name, const json& definition,
                   std::map<std::string, KeySet>& tables) {
-    const std::set<std::string> selected_by_kind = {"model", "part", "light", "display", "density"};
+    const std::set<std::string> selected_by_kind = {"model",   "part",    "light",
+                                                    "display", "density", "sky"};
     if (!selected_by_kind.contains(name)) {
         for (const auto& [key, value] : definition["properties"].items()) tables[name].insert(key);
         return;

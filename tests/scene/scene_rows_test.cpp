@@ -125,6 +125,7 @@ std::vector<ValueRow<DisplayParameters>> display_rows_alike() {
 TEST_F(SceneRows, HaveTheLimitsAndDefaultsOfTheSchema) {
     expect_rows("world", world_rows());
     expect_rows("medium", medium_rows());
+    expect_rows("sky", sky_rows());
     expect_rows("density", height_density_rows());
     expect_rows("density", ball_density_rows());
     expect_rows("density", factor_rows());
@@ -146,6 +147,7 @@ TEST_F(SceneRows, OfEachKindAreThoseThatTheSchemaRequires) {
     expect_kinds("display", display_shapes(), display_rows());
     expect_kinds("part", solid_types(), solid_rows());
     expect_kinds("density", density_kinds(), height_density_rows());
+    expect_kinds("sky", sky_types(), sky_rows());
 }
 
 TEST_F(SceneRows, OfKindsHaveTheOrderOfTheirEnumerators) {

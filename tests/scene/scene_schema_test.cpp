@@ -103,6 +103,7 @@ bool is_beyond_a_schema(const std::string& objection) {
                              "singular",
                              "parallel to",
                              "must not be zero",
+                             "travels downwards",
                              "the position itself",
                              "nothing lies between",
                              "not be larger than",

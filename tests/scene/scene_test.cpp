@@ -197,7 +197,7 @@ TEST(SceneModels, HaveTheWorldsVoxelsUnlessTheySayMore) {
               models + R"(, "observer": {"position": [0, 0, 0],
         "display": {"shape": "pyramid"}}})");
     EXPECT_EQ(scene.models[0].voxel_size, glm::dvec3(0.5));
-    EXPECT_EQ(scene.models[0].surface, Surface::smooth);
+    EXPECT_EQ(scene.models[0].surface, Surface::exact);
     EXPECT_EQ(scene.models[1].resolution, 70);
     EXPECT_EQ(scene.models[1].voxel_size, glm::dvec3(0));
     EXPECT_EQ(scene.models[1].solid->size, glm::dvec3(7, 5, 3));

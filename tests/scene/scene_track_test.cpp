@@ -20,9 +20,9 @@ std::string scene_with_tracks(const std::string& tracks) {
     return R"({"voxelume": 1,
 "world": {"voxel_size": 0.5, "bounds": {"min": [-1, -2, -3], "max": [1, 2, 3]}},
 "materials": {"brick": {"color": [1, 0, 0]}, "my.glass": {"ior": 1.33}},
-"models": {"ball": {"shape": "sphere", "radius": 1},
+"models": {"ball": {"shape": "sphere", "radius": 1, "surface": "smooth"},
            "block": {"shape": "difference", "parts": [
-             {"shape": "box", "size": [1, 2, 3]}, {"shape": "sphere", "radius": 1}]}},
+             {"shape": "box", "size": [1, 2, 3]}, {"shape": "sphere", "radius": 1}], "surface": "smooth"}},
 "objects": [{"name": "b", "model": "ball"},
             {"model": "block", "matrix": [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0]]}, {"name": "c", "model": "ball", "scale": 2}],
 "lights": [{"name": "sun", "type": "directional", "direction": [0, -1, 0]},

@@ -13,7 +13,7 @@ inline const std::filesystem::path kScenes = std::filesystem::path(VXL_SOURCE_DI
 inline std::string scene_with(const std::string& members) {
     return R"({"voxelume": 1,
 "world": {"voxel_size": 0.5, "bounds": {"min": [-1, -2, -3], "max": [1, 2, 3]}},
-"models": {"ball": {"shape": "sphere", "radius": 1}, "floor": {"shape": "slab", "thickness": 0.1}},
+"models": {"ball": {"shape": "sphere", "radius": 1, "surface": "smooth"}, "floor": {"shape": "slab", "thickness": 0.1, "surface": "smooth"}},
 "materials": {"brick": {"color": [1, 0, 0]}, "glass": {"ior": 1.33}},
 )" + members +
            R"(

@@ -52,7 +52,7 @@ inline Observer observer_at(const glm::dvec3& position, const glm::dvec3& target
 }
 
 /// The surface and the voxel set with which a mesh is shown.
-struct SurfaceChoice {
+struct ShownSurface {
     const char* name;
     Surface surface;
     VoxelSet set = VoxelSet::supercover;  ///< for cubes
@@ -61,7 +61,7 @@ struct SurfaceChoice {
 /// A scene of the mesh in `file` at its own place, `resolution` voxels along its longest side, and
 /// of an observer 1.8 longest sides from its centre. There are no lights.
 inline Scene mesh_scene(const std::filesystem::path& file, const Mesh& mesh,
-                        const SurfaceChoice& choice, int resolution, const glm::ivec2& size) {
+                        const ShownSurface& choice, int resolution, const glm::ivec2& size) {
     constexpr int kMargin = 8;  // voxels of air around the mesh
     const Bounds bounds = bounds_of(mesh);
     const double longest = longest_side(bounds), edge = longest / resolution;

@@ -6,8 +6,39 @@
 
 #include <cmath>
 #include <string>
+#include <vector>
 
 namespace voxelume {
+
+/// What is wrong with a list of indices, one of which a corner has; empty if nothing is. `none`
+/// stands for a corner without.
+inline std::string broken_indices(const std::vector<glm::uvec3>& indices, size_t triangles,
+                                  size_t count, uint32_t none) {
+    if (!indices.empty() && indices.size() != triangles) return "not one per triangle";
+    for (const glm::uvec3& triangle : indices)
+        for (int i = 0; i < 3; ++i)
+            if (triangle[i] >= count && triangle[i] != none) return "an index is out of range";
+    return {};
+}
+
+/// What is wrong with the colours of corners and their places on textures.
+inline std::string broken_paint(const Mesh& mesh) {
+    const size_t triangles = mesh.triangles.size();
+    std::string broken = broken_indices(mesh.triangle_colors, triangles, mesh.vertex_colors.size(),
+                                        uint32_t(mesh.vertex_colors.size()) - 1);
+    if (!broken.empty()) return "colours of corners: " + broken;
+    broken = broken_indices(mesh.triangle_uvs, triangles, mesh.uvs.size(), kNoUv);
+    if (!broken.empty()) return "places on textures: " + broken;
+    if (mesh.textures.empty() != mesh.uvs.empty())
+        return "textures without places, or places alone";
+    if (mesh.triangle_uvs.empty() && !mesh.uvs.empty() && mesh.uvs.size() != mesh.positions.size())
+        return "not one place on a texture per vertex";
+    for (const uint32_t texture : mesh.group_textures)
+        if (texture >= mesh.textures.size() && texture != kNoTexture) return "no such texture";
+    for (const glm::vec2& uv : mesh.uvs)
+        if (!std::isfinite(uv.x) || !std::isfinite(uv.y)) return "a place is not finite";
+    return {};
+}
 
 /// The first invariant of struct Mesh that `mesh` breaks; empty if it keeps all.
 inline std::string broken_invariant(const Mesh& mesh) {
@@ -27,7 +58,8 @@ inline std::string broken_invariant(const Mesh& mesh) {
             }
         }
     }
-    if (!mesh.vertex_colors.empty() && mesh.vertex_colors.size() != mesh.positions.size()) {
+    if (!mesh.vertex_colors.empty() && mesh.triangle_colors.empty() &&
+        mesh.vertex_colors.size() != mesh.positions.size()) {
         return "not one colour per vertex";
     }
     for (const glm::vec3& color : mesh.vertex_colors) {
@@ -45,7 +77,7 @@ inline std::string broken_invariant(const Mesh& mesh) {
             return "a group has no name";
         }
     }
-    return {};
+    return broken_paint(mesh);
 }
 
 }  // namespace voxelume

@@ -11,7 +11,7 @@ namespace voxelume {
 inline Scene scene_with(double x) {
     constexpr const char* kText = R"({"voxelume": 1,
 "world": {"voxel_size": 0.05, "bounds": {"min": [-1, -1, -1], "max": [1, 1, 1]}},
-"models": {"ball": {"shape": "sphere", "radius": 0.4, "voxel_size": 0.05}},
+"models": {"ball": {"shape": "sphere", "radius": 0.4, "voxel_size": 0.05, "surface": "smooth"}},
 "objects": [{"name": "a", "model": "ball"}, {"name": "b", "model": "ball", "position": [0.5, 0, 0]}],
 "lights": [{"type": "point", "position": [1, 3, -3], "intensity": 20}],
 "observer": {"position": [0, 0.5, -5], "look_at": [0, 0, 0],

@@ -148,6 +148,30 @@ TEST(Labels, ColorsAreTheClosestPointsInSrgb) {
     EXPECT_TRUE(grid.attributes.empty());
 }
 
+TEST(Labels, ColorsOfCornersGoBeforeTheOrderOfVertices) {
+    Mesh mesh = single_triangle({0.5f, 0.5f, 2.5f}, {20.5f, 0.5f, 2.5f}, {0.5f, 20.5f, 2.5f});
+    add_triangle(mesh, {0.5f, 0.5f, 9.5f}, {20.5f, 0.5f, 9.5f}, {0.5f, 20.5f, 9.5f});
+    mesh.vertex_colors = {{1, 0, 0}, {0, 1, 0}};
+    mesh.triangle_colors = {{1, 1, 1}, {0, 1, 0}};
+    for (const bool mirrored : {false, true}) {
+        const BrickGrid grid = shared_voxelizer().voxelize(
+            mesh,
+            mirrored ? glm::dmat4({1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, -1, 0}, {0, 0, 12, 1})
+                     : glm::dmat4(1),
+            unit_frame(kSize), surface(Surface::cubes));
+        const std::vector<uint32_t> slots = grid.slots.read(), colors = grid.colors.read();
+        const auto color = [&](int x, int y, int z) {
+            const GridPlace place = place_in(grid, slots, {x, y, z});
+            return colors.at(size_t(place.slot) * 4096 + place.number);
+        };
+        const int of_first = mirrored ? 9 : 2, of_second = mirrored ? 2 : 9;
+        EXPECT_EQ(color(5, 5, of_first), 0x00FF00u);
+        EXPECT_EQ(color(0, 0, of_second), 0x0000FFu);
+        EXPECT_EQ(color(20, 0, of_second), 0x00FF00u);
+        EXPECT_EQ(color(0, 20, of_second), 0x0000FFu);
+    }
+}
+
 TEST(Labels, AreTheSameForEveryNumberOfLanes) {
     Mesh mesh = grouped_torus(2);
     for (size_t i = 0; i < mesh.positions.size(); ++i)

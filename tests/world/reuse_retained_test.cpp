@@ -110,7 +110,7 @@ TEST_P(Retained, IsKnownFromTheFramesOfARun) {
     EXPECT_EQ(last_uses(moving, std::vector<int>{4, 3, 2, 1})[1], 4u);
 }
 
-constexpr const char* kMesh = R"("mesh": "gem.obj", "voxel_size": 0.05)";
+constexpr const char* kMesh = R"("mesh": "gem.obj", "voxel_size": 0.05, "surface": "smooth")";
 
 INSTANTIATE_TEST_SUITE_P(
     Things, Retained,

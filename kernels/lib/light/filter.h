@@ -113,9 +113,11 @@ static inline void tint_light(const WorldView* world, const Surroundings* around
                                          fma(w->dy, t, w->oy), fma(w->dz, t, w->oz));
     const lane_float clear = 1.0f - opacity;
     for (int channel = 0; channel < 3; ++channel) {
-        const lane_float tint = fma(
-            opacity, surface_color(materials, color, world->surface.colors, voxel, channel), clear);
-        lane_float part = clear * tint;
+        lane_float part = clear;
+        if (!VXL_GLOBAL)  // paths that go straight on aren't tinted
+            part *=
+                fma(opacity, surface_color(materials, color, world->surface.colors, voxel, channel),
+                    clear);
         if (VXL_FILTERED) part = fma(opacity, refraction, part);
         filter->throughput[channel] *= LANES_SELECT(tinted, part, (lane_float)1.0f);
     }

@@ -13,11 +13,14 @@ typedef struct {
     lane_float t_end;
     lane_uint source, flags;
     lane_uint instance;  // of scenes with instances
-    lane_float weight;
-    // of scenes with transmitting objects
-    lane_uint cell_xy, cell_z, target, medium;  // medium: RayBatch::inside
-    lane_float start, clear;
+    lane_float weight;   // not in global light
+    lane_uint state;     // of paths in global light: VXL_PATH_STATE
+    // of scenes with transmitting objects or in global light
+    lane_uint target;
     lane_float throughput[3];
+    // of scenes with transmitting objects
+    lane_uint cell_xy, cell_z, medium;  // medium: RayBatch::inside
+    lane_float start, clear;
     MediumSet media;
 } NewRays;
 
@@ -85,15 +88,17 @@ static inline void put_rays(const RayQueue* q, const NewRays* r, const Slots* sl
     put_float(q->rays + VXL_RAY_END * n, r->t_end, slots);
     put_uint(q->paths + VXL_PATH_SOURCE * n, r->source, slots);
     put_uint(q->paths + VXL_PATH_FLAGS * n, r->flags, slots);
-    put_uint(q->paths + VXL_PATH_WEIGHT * n, LANES_AS_UINT(r->weight), slots);
+    put_uint(q->paths + VXL_PATH_WEIGHT * n, VXL_GLOBAL ? r->state : LANES_AS_UINT(r->weight),
+             slots);
     if (VXL_INSTANCES) put_uint(q->paths + VXL_PATH_INSTANCE * n, r->instance, slots);
+    if (!(VXL_TRANSMISSION | VXL_GLOBAL)) return;
+    put_uint(q->paths + VXL_PATH_TARGET * n, r->target, slots);
+    for (uint c = 0; c < 3; ++c)
+        put_uint(q->paths + (VXL_PATH_THROUGHPUT + c) * n, LANES_AS_UINT(r->throughput[c]), slots);
     if (!VXL_TRANSMISSION) return;
     put_uint(q->paths + VXL_PATH_CELL * n, r->cell_xy, slots);
     put_uint(q->paths + VXL_PATH_CELL_Z * n, r->cell_z, slots);
-    put_uint(q->paths + VXL_PATH_TARGET * n, r->target, slots);
     put_uint(q->paths + VXL_PATH_CLEAR * n, LANES_AS_UINT(r->clear), slots);
-    for (uint c = 0; c < 3; ++c)
-        put_uint(q->paths + (VXL_PATH_THROUGHPUT + c) * n, LANES_AS_UINT(r->throughput[c]), slots);
     for (uint i = 0; i < VXL_MEDIUM_SET_SIZE; ++i)
         put_uint(q->paths + (VXL_PATH_INSIDE + i) * n, r->media.members[i], slots);
     put_float(q->starts, r->start, slots);

@@ -159,22 +159,19 @@ std::string png_bytes(const Image& image, const PngOptions& options) {
     return bytes;
 }
 
-Picture read_png(const std::filesystem::path& path) {
-    constexpr uint64_t kMaxPixels = uint64_t{1} << 28;
-    const InputFile file(path);
-    const auto check = [&file](int code) {
-        if (code != 0) file.refuse(fmt::format("not a readable PNG: {}", spng_strerror(code)));
+Picture parse_png(std::span<const uint8_t> bytes, const std::filesystem::path& name,
+                  uint64_t max_pixels) {
+    const auto refuse = [&](const std::string& reason) {
+        throw Error(ErrorKind::input, "{}: {}", SourcePlace(name.string()), reason);
     };
-    // An 8-bit RGBA pixel takes at most 8 bytes as 16-bit samples, so a larger file can't be within
-    // the limit.
-    if (file.size() > 9 * kMaxPixels) file.refuse("is too large for a PNG that voxelume reads");
-    std::vector<uint8_t> bytes(file.size());
-    file.read(0, bytes.data(), bytes.size());
+    const auto check = [&](int code) {
+        if (code != 0) refuse(fmt::format("not a readable PNG: {}", spng_strerror(code)));
+    };
     // libspng accepts a file once it has the pixels. Only the last chunk shows that nothing is
     // missing.
     constexpr std::array<uint8_t, 8> kEnd = {'I', 'E', 'N', 'D', 0xae, 0x42, 0x60, 0x82};
     if (std::search(bytes.begin(), bytes.end(), kEnd.begin(), kEnd.end()) == bytes.end())
-        file.refuse("not a whole PNG: its end is missing");
+        refuse("not a whole PNG: its end is missing");
 
     const Context context(spng_ctx_new(0), spng_ctx_free);
     check(spng_set_chunk_limits(context.get(), size_t{1} << 26, size_t{1} << 26));
@@ -183,15 +180,25 @@ Picture read_png(const std::filesystem::path& path) {
     check(spng_get_ihdr(context.get(), &header));
     const uint64_t pixels = uint64_t{header.width} * header.height;
     // Deflate compresses at most 1032:1, and a pixel takes at least an eighth of a byte.
-    if (pixels > kMaxPixels || pixels / 8 / 1032 > file.size())
-        file.refuse(
-            fmt::format("declares {} x {} pixels, which it can't hold or which are above 2^28",
-                        header.width, header.height));
+    if (pixels > max_pixels || pixels / 8 / 1032 > bytes.size())
+        refuse(fmt::format("declares {} x {} pixels, which it can't hold or which are above {}",
+                           header.width, header.height, max_pixels));
     Picture picture{static_cast<int>(header.width), static_cast<int>(header.height), {}};
     picture.pixels.resize(pixels);
     check(spng_decode_image(context.get(), picture.pixels.data(), pixels * 4, SPNG_FMT_RGBA8,
                             SPNG_DECODE_TRNS));
     return picture;
+}
+
+Picture read_png(const std::filesystem::path& path) {
+    constexpr uint64_t kMaxPixels = uint64_t{1} << 28;
+    const InputFile file(path);
+    // An 8-bit RGBA pixel takes at most 8 bytes as 16-bit samples, so a larger file can't be within
+    // the limit.
+    if (file.size() > 9 * kMaxPixels) file.refuse("is too large for a PNG that voxelume reads");
+    std::vector<uint8_t> bytes(file.size());
+    file.read(0, bytes.data(), bytes.size());
+    return parse_png(bytes, path, kMaxPixels);
 }
 
 }  // namespace voxelume

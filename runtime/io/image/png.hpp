@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <glm/vec3.hpp>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -46,5 +47,9 @@ std::string png_bytes(const Image& image, const PngOptions& options = {});
 /// Reads any PNG as 8-bit RGBA. Throws Error::input for a file that is missing, damaged or above
 /// 2^28 pixels.
 Picture read_png(const std::filesystem::path& path);
+
+/// Decodes the bytes of a PNG likewise, with at most `max_pixels`; `name` opens the messages.
+Picture parse_png(std::span<const uint8_t> bytes, const std::filesystem::path& name,
+                  uint64_t max_pixels);
 
 }  // namespace voxelume

@@ -2,29 +2,180 @@
 #include "runtime/io/mesh/material_library.hpp"
 
 #include <algorithm>
-#include <fstream>
+#include <array>
+#include <cmath>
+#include <sstream>
+
+#include "runtime/base/decimal.hpp"
+#include "runtime/base/input_file.hpp"
+#include "runtime/base/utf8.hpp"
+#include "runtime/io/mesh/companion_file.hpp"
 
 namespace voxelume {
 namespace {
 
-constexpr int kMaxLines = 100000;
+constexpr size_t kMaxMaterials = 16384;
+constexpr uint64_t kMaxBytes = uint64_t{64} << 20;
+
+/// A statement: its words, and where each begins, as names may have spaces in them.
+struct Statement {
+    std::string line;
+    std::vector<size_t> starts;
+
+    explicit Statement(std::string_view text) : line(text) {
+        constexpr const char* kBlanks = " \t\r\v\f";
+        line.erase(line.find_last_not_of(kBlanks) + 1);
+        for (size_t at = line.find_first_not_of(kBlanks); at != std::string::npos;
+             at = line.find_first_not_of(kBlanks, line.find_first_of(kBlanks, at)))
+            starts.push_back(at);
+    }
+
+    size_t words() const { return starts.size(); }
+    std::string word(size_t i) const {
+        const std::string rest = this->rest(i);
+        return rest.substr(0, rest.find_first_of(" \t\r\v\f"));
+    }
+    /// The line from word number `i` on.
+    std::string rest(size_t i) const { return i < words() ? line.substr(starts[i]) : ""; }
+    std::optional<double> number(size_t i) const {
+        const std::string text = word(i);
+        const Decimal found = scan_decimal(text.c_str());
+        const bool is_number = found.status == DecimalStatus::ok && *found.end == '\0';
+        return is_number ? std::optional<double>(found.value) : std::nullopt;
+    }
+};
+
+/// A colour of three numbers, or of one for all channels. Spectral curves and CIE colours are left
+/// out.
+void read_color(const Statement& statement, glm::dvec3& color) {
+    const auto red = statement.number(1);
+    if (!red) return;
+    const double green = statement.number(2).value_or(*red);
+    color = {*red, green, statement.number(3).value_or(green)};
+}
+
+void read_number(const Statement& statement, double& value) {
+    if (const auto number = statement.number(1)) value = *number;
+}
+
+/// How many words of values an option of a texture has at most; those of numbers may have fewer.
+struct TextureOption {
+    std::string_view name;
+    size_t values;
+};
+
+constexpr std::array<TextureOption, 14> kOptions = {{{"-blendu", 1},
+                                                     {"-blendv", 1},
+                                                     {"-cc", 1},
+                                                     {"-clamp", 1},
+                                                     {"-texres", 1},
+                                                     {"-mm", 2},
+                                                     {"-o", 3},
+                                                     {"-s", 3},
+                                                     {"-t", 3},
+                                                     {"-bm", 1},
+                                                     {"-boost", 1},
+                                                     {"-imfchan", 1},
+                                                     {"-type", 1},
+                                                     {"-colorspace", 1}}};
+
+/// The numbers after an option, at most three.
+void read_pair(const Statement& statement, size_t option, glm::dvec2& pair) {
+    for (int i = 0; i < 2; ++i)
+        if (const auto number = statement.number(option + 1 + size_t(i))) pair[i] = *number;
+}
+
+MtlTexture texture_of(const Statement& statement) {
+    MtlTexture texture;
+    size_t at = 1;
+    while (at < statement.words()) {
+        const std::string word = statement.word(at);
+        const auto* const option = std::ranges::find(kOptions, word, &TextureOption::name);
+        if (option == kOptions.end()) break;
+        if (word == "-clamp") texture.clamps = statement.word(at + 1) == "on";
+        if (word == "-o") read_pair(statement, at, texture.offset);
+        if (word == "-s") read_pair(statement, at, texture.scale);
+        size_t end = at + 1 + option->values;
+        if (option->values == 3)
+            for (end = at + 1; end < at + 4 && statement.number(end);) ++end;
+        at = end;
+    }
+    texture.file = statement.rest(at);
+    return texture;
+}
+
+void read_statement(const Statement& statement, MtlMaterial& m) {
+    const std::string word = statement.word(0);
+    if (word == "Kd") {
+        read_color(statement, m.diffuse);
+    } else if (word == "Ks") {
+        read_color(statement, m.specular);
+    } else if (word == "Ke") {
+        read_color(statement, m.emission);
+    } else if (word == "Ns") {
+        read_number(statement, m.exponent);
+    } else if (word == "Ni") {
+        read_number(statement, m.ior);
+    } else if (word == "d") {
+        read_number(statement, m.opacity);
+    } else if (word == "Tr") {
+        double transparency = 1 - m.opacity;
+        read_number(statement, transparency);
+        m.opacity = 1 - transparency;
+    } else if (word == "illum") {
+        double model = m.illumination;
+        read_number(statement, model);
+        m.illumination = model >= 0 && model <= 10 ? int(model) : 2;
+    } else if (word == "map_Kd") {
+        m.diffuse_map = texture_of(statement);
+    }
+}
+
+std::string bytes_of(const std::filesystem::path& path) {
+    const InputFile file(path);
+    if (file.size() > kMaxBytes) return {};
+    std::string bytes(file.size(), '\0');
+    file.read(0, bytes.data(), bytes.size());
+    return bytes;
+}
 
 }  // namespace
 
-bool names_textures(const std::filesystem::path& mesh, const std::string& name) {
-    const std::filesystem::path relative(name);
-    const bool leads_out = std::ranges::find(relative, "..") != relative.end();
-    const std::filesystem::path file = mesh.parent_path() / relative;
-    std::error_code error;
-    if (relative.is_absolute() || leads_out || !std::filesystem::is_regular_file(file, error))
-        return false;
-    std::ifstream stream(file);
-    std::string word, rest;
-    for (int line = 0; line < kMaxLines && stream >> word; ++line) {
-        if (word.starts_with("map_")) return true;
-        std::getline(stream, rest);
+std::vector<MtlMaterial> parse_material_library(std::string_view text) {
+    std::vector<MtlMaterial> materials;
+    while (!text.empty()) {
+        const size_t end = std::min(text.find('\n'), text.size());
+        const Statement statement(text.substr(0, end));
+        text.remove_prefix(std::min(end + 1, text.size()));
+        if (statement.word(0) == "newmtl") {
+            if (materials.size() == kMaxMaterials) break;
+            materials.emplace_back().name = utf8_text(statement.rest(1));
+        } else if (!materials.empty()) {
+            read_statement(statement, materials.back());
+        }
     }
-    return false;
+    return materials;
+}
+
+std::vector<std::filesystem::path> material_library_files(const std::filesystem::path& mesh,
+                                                          const std::string& name) {
+    if (name.empty()) return {};
+    if (const auto file = companion_file(mesh, name)) return {*file};
+    std::vector<std::filesystem::path> files;
+    std::istringstream words(name);
+    for (std::string word; words >> word;)
+        if (const auto file = companion_file(mesh, word)) files.push_back(*file);
+    return files;
+}
+
+std::vector<MtlMaterial> read_material_library(const std::filesystem::path& mesh,
+                                               const std::string& name) {
+    std::vector<MtlMaterial> materials;
+    for (const std::filesystem::path& file : material_library_files(mesh, name)) {
+        const std::vector<MtlMaterial> more = parse_material_library(bytes_of(file));
+        materials.insert(materials.end(), more.begin(), more.end());
+    }
+    return materials;
 }
 
 }  // namespace voxelume

@@ -1,14 +1,46 @@
 // SPDX-License-Identifier: Apache-2.0
-// The material library that an OBJ file names. Nothing of it is read but whether it has textures.
+// The material library that an OBJ file names (Wavefront MTL).
 #pragma once
 
 #include <filesystem>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <optional>
 #include <string>
+#include <string_view>
+#include <vector>
 
 namespace voxelume {
 
-/// Whether the library `name`, which the OBJ file `mesh` names, is there and has a texture. False
-/// for a name that leads out of the mesh's folder.
-bool names_textures(const std::filesystem::path& mesh, const std::string& name);
+/// A texture that a material names, with the options of the statement that count here.
+struct MtlTexture {
+    std::string file;  ///< as the library has it; empty: none
+    bool clamps = false;
+    glm::dvec2 offset{0}, scale{1};  ///< a place on the texture is `offset` + `scale` · (u, v)
+};
+
+/// A material, with the values of the format, which has colours as screens show them (sRGB).
+struct MtlMaterial {
+    std::string name;
+    glm::dvec3 diffuse{0.8}, specular{0}, emission{0};  ///< Kd, Ks, Ke
+    double exponent = 0;                                ///< Ns
+    double opacity = 1;                                 ///< d, or 1 - Tr
+    double ior = 1;                                     ///< Ni
+    int illumination = 2;                               ///< illum
+    MtlTexture diffuse_map;                             ///< map_Kd
+};
+
+/// Reads the statements that MtlMaterial has. Others are skipped, and so are values that are no
+/// numbers: a library never keeps a mesh from being read. At most 16,384 materials are read.
+std::vector<MtlMaterial> parse_material_library(std::string_view text);
+
+/// The materials of the library `name` that the OBJ file `mesh` names; empty where companion_file()
+/// finds none, or one above 64 MiB. A name with spaces that is no file is taken for several.
+std::vector<MtlMaterial> read_material_library(const std::filesystem::path& mesh,
+                                               const std::string& name);
+
+/// The files that read_material_library() reads.
+std::vector<std::filesystem::path> material_library_files(const std::filesystem::path& mesh,
+                                                          const std::string& name);
 
 }  // namespace voxelume

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Wavefront OBJ -> Mesh, in one pass over the text.
 #include "runtime/base/decimal.hpp"
+#include "runtime/base/utf8.hpp"
 #include "runtime/io/mesh/mesh_color.hpp"
 #include "runtime/io/mesh/mesh_obj_normals.hpp"
+#include "runtime/io/mesh/mesh_obj_uvs.hpp"
+#include "runtime/io/mesh/mesh_obj_words.hpp"
+#include "runtime/io/mesh/mesh_paint.hpp"
 #include "runtime/io/mesh/mesh_polygon.hpp"
 #include "runtime/io/mesh/mesh_reader.hpp"
 
@@ -13,15 +17,6 @@
 
 namespace voxelume {
 namespace {
-
-/// Statements of the format that say nothing about a triangle mesh. The parser handles v, f, vn and
-/// vt itself.
-constexpr std::string_view kSkippedStatements[] = {
-    "vp",     "deg",        "bmat",      "step",  "cstype", "p",        "l",        "fo",  "curv",
-    "curv2",  "surf",       "parm",      "trim",  "hole",   "scrv",     "sp",       "end", "con",
-    "g",      "s",          "mg",        "o",     "bevel",  "c_interp", "d_interp", "lod", "maplib",
-    "usemap", "shadow_obj", "trace_obj", "ctech", "stech",  "call",     "scmp",     "csh", "bsp",
-    "bzp",    "cdc",        "cdp",       "res",   "ctexp"};
 
 class ObjParser {
   public:
@@ -39,6 +34,7 @@ class ObjParser {
         }
         drop_single_group();
         settle_obj_normals(mesh_);
+        settle_obj_uvs(mesh_);
         return std::move(mesh_);
     }
 
@@ -53,7 +49,7 @@ class ObjParser {
         } else if (word[0] == 'v' && word[1] == 'n' && is_blank(word[2])) {
             parse_normal();
         } else if (word[0] == 'v' && word[1] == 't' && is_blank(word[2])) {
-            skip_statement();
+            parse_uv();
         } else if (at_end_of_statement()) {
             skip_line();
         } else {
@@ -67,7 +63,7 @@ class ObjParser {
             source_.fail_at_line(p_, fmt::format("'{}' without numbers", word));
         }
         if (word == "usemtl") {
-            material_ = name_after_word(p_);
+            material_ = utf8_text(name_after_word(p_));
             skip_line();
             group_known_ = false;
         } else if (word == "mtllib") {
@@ -136,9 +132,24 @@ class ObjParser {
         skip_statement();
     }
 
+    /// Reads a place on a texture, whose v may be missing.
+    void parse_uv() {
+        double uv[2] = {0, 0};
+        p_ += 2;
+        for (double& value : uv) {
+            skip_gap();
+            const Decimal found = scan_decimal(p_);
+            p_ = found.end;
+            if (found.status == DecimalStatus::ok) value = double(found.value);
+        }
+        mesh_.uvs.push_back(upright_uv(uv[0], uv[1]));
+        skip_statement();
+    }
+
     void parse_face() {
         corners_.clear();
         normals_.clear();
+        uvs_.clear();
         for (++p_, skip_gap(); !at_end_of_statement(); skip_gap()) {
             corners_.push_back(parse_corner());
         }
@@ -152,7 +163,15 @@ class ObjParser {
         } else {
             cutter_.append(source_, corners_, mesh_);
         }
+        if (has_obj_uvs(mesh_, uvs_)) append_corner_uvs();
         mesh_.triangle_group.resize(mesh_.triangles.size(), group());
+    }
+
+    void append_corner_uvs() {
+        const size_t before = mesh_.triangles.size() - cutter_.places().size();
+        mesh_.triangle_uvs.resize(before, glm::uvec3(kNoUv));
+        for (const glm::uvec3& t : cutter_.places())
+            mesh_.triangle_uvs.emplace_back(uvs_[t.x], uvs_[t.y], uvs_[t.z]);
     }
 
     /// Parses `7`, `7/3`, `7//4` or `7/3/4`. The first number is the vertex; it counts from 1, or
@@ -162,8 +181,10 @@ class ObjParser {
         const char* end = vertex.end;
         bool valid = end != p_;
         normals_.push_back(kNoNormal);
+        uvs_.push_back(kNoUv);
         if (*end == '/') {
             const Integer texture = scan_integer(end + 1);
+            uvs_.back() = obj_uv_index(end + 1, texture, mesh_.uvs.size());
             end = texture.end;
             if (*end == '/') {
                 const Integer normal = scan_integer(end + 1);
@@ -224,14 +245,9 @@ class ObjParser {
     /// Skips blanks, and a backslash that joins the next line to this one.
     void skip_gap() {
         p_ = skip_blanks(p_);
-        while (*p_ == '\\' && continues(p_)) {
+        while (*p_ == '\\' && ends_line(p_)) {
             p_ = skip_blanks(after_line(p_));
         }
-    }
-
-    static bool continues(const char* backslash) {
-        const char* const p = skip_blanks(backslash + 1);
-        return *p == '\n' || *p == '\0';
     }
 
     /// The position after the end of the line that holds `p`.
@@ -249,15 +265,7 @@ class ObjParser {
         do {
             line = p_;
             skip_line();
-        } while (p_ != source_.end() && joins_next(line, p_));
-    }
-
-    /// True if the line [begin, end) ends in a backslash.
-    static bool joins_next(const char* begin, const char* end) {
-        while (end > begin && (is_blank(end[-1]) || end[-1] == '\n')) {
-            --end;
-        }
-        return end > begin && end[-1] == '\\';
+        } while (p_ != source_.end() && ends_in_backslash(line, p_));
     }
 
     const MeshSource& source_;
@@ -265,7 +273,7 @@ class ObjParser {
     Mesh mesh_;
     PolygonCutter cutter_;
     std::vector<uint32_t> corners_;
-    std::vector<uint32_t> normals_;  ///< indices of the face's corners
+    std::vector<uint32_t> normals_, uvs_;  ///< indices of the face's corners
     std::string material_;
     std::unordered_map<std::string, uint32_t> group_of_name_;
     uint32_t group_ = 0;

@@ -1,87 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // PLY -> Mesh.
 #include "runtime/io/mesh/mesh_color.hpp"
+#include "runtime/io/mesh/mesh_paint.hpp"
+#include "runtime/io/mesh/mesh_ply_layout.hpp"
 #include "runtime/io/mesh/mesh_ply_rows.hpp"
 #include "runtime/io/mesh/mesh_polygon.hpp"
 #include "runtime/io/mesh/mesh_reader.hpp"
 
-#include <array>
 #include <cmath>
 #include <limits>
 
 namespace voxelume {
 namespace {
-
-/// The purpose of a vertex property. All but the last are also indices into a row of numbers.
-enum Role : size_t { kX, kY, kZ, kNx, kNy, kNz, kRed, kGreen, kBlue, kRoles, kSkipped = kRoles };
-
-constexpr std::string_view kRoleNames[kRoles] = {"x",  "y",   "z",     "nx",  "ny",
-                                                 "nz", "red", "green", "blue"};
-
-bool is_normal(Role role) {
-    return role >= kNx && role <= kNz;
-}
-
-Role role_of(const PlyProperty& property) {
-    std::string_view name = property.name;
-    if (name.starts_with("diffuse_")) {
-        name.remove_prefix(8);
-    }
-    const auto* const found = std::ranges::find(kRoleNames, name);
-    return property.is_list ? kSkipped : static_cast<Role>(found - kRoleNames);
-}
-
-/// The largest value of a colour's type, which stands for full intensity; 0 if colours can't have
-/// the type.
-double color_scale(PlyType type) {
-    switch (type) {
-        case PlyType::uint8:
-            return 255.0;
-        case PlyType::uint16:
-            return 65535.0;
-        case PlyType::float32:
-        case PlyType::float64:
-            return 1.0;
-        default:
-            return 0.0;
-    }
-}
-
-/// The properties of a vertex, classified once before the rows are read.
-struct VertexLayout {
-    std::vector<Role> roles;  ///< one per property
-    std::array<double, kRoles> scale{};
-    bool has_color = false;
-    bool has_normal = false;
-};
-
-VertexLayout vertex_layout(const MeshSource& source, const PlyElement& element) {
-    VertexLayout layout;
-    std::array<int, kRoles> found{};
-    for (const PlyProperty& property : element.properties) {
-        const Role role = role_of(property);
-        layout.roles.push_back(role);
-        if (role == kSkipped) {
-            continue;
-        }
-        layout.scale[role] = role >= kRed ? color_scale(property.type) : 1.0;
-        if (++found[role] > 1) {
-            source.fail(fmt::format("the vertices have two properties '{}'", property.name));
-        }
-        if (layout.scale[role] == 0.0) {
-            source.fail(fmt::format("the vertices' '{}' must be uchar, ushort, float or double",
-                                    property.name));
-        }
-    }
-    for (const Role role : {kX, kY, kZ}) {
-        if (found[role] == 0) {
-            source.fail(fmt::format("the vertices have no property '{}'", kRoleNames[role]));
-        }
-    }
-    layout.has_normal = found[kNx] != 0 && found[kNy] != 0 && found[kNz] != 0;
-    layout.has_color = found[kRed] != 0 && found[kGreen] != 0 && found[kBlue] != 0;
-    return layout;
-}
 
 template <class Rows>
 class BodyParser {
@@ -95,11 +25,14 @@ class BodyParser {
                 parse_vertices(element);
             } else if (element.name == "face") {
                 parse_faces(element);
+            } else if (element.name == "tristrips") {
+                parse_strips(element);
             } else {
                 skip_element(element);
             }
         }
         require_end();
+        fill_corner_lists(mesh_);
         return std::move(mesh_);
     }
 
@@ -108,32 +41,36 @@ class BodyParser {
         if (!mesh_.positions.empty()) {
             source_.fail("the PLY header has two elements 'vertex'");
         }
-        const VertexLayout layout = vertex_layout(source_, element);
+        const PlyLayout layout = ply_vertex_layout(source_, element);
         mesh_.positions.reserve(element.count);
         mesh_.normals.reserve(layout.has_normal ? element.count : 0);
         mesh_.vertex_colors.reserve(layout.has_color ? element.count : 0);
+        mesh_.uvs.reserve(layout.has_uv ? element.count : 0);
         for (uint64_t i = 0; i < element.count; ++i) {
-            std::array<double, kRoles> values{};
             rows_.begin_row();
             for (size_t k = 0; k < layout.roles.size(); ++k) {
-                const PlyProperty& property = element.properties[k];
-                if (layout.roles[k] == kSkipped) {
-                    skip_property(property);
-                } else if (is_normal(layout.roles[k])) {
-                    values[layout.roles[k]] = rows_.number_or_nan(property.type);
-                } else {
-                    values[layout.roles[k]] = rows_.number(property.type);
-                }
+                read_property(element.properties[k], layout.roles[k]);
             }
-            append_vertex(values, layout);
+            append_vertex(layout);
             rows_.end_row();
         }
     }
 
-    void append_vertex(const std::array<double, kRoles>& values, const VertexLayout& layout) {
+    /// Reads a number of the row, or skips it.
+    void read_property(const PlyProperty& property, PlyRole role) {
+        if (role == kPlySkipped) {
+            skip_property(property);
+        } else {
+            const bool may_be_any = is_ply_normal(role) || role == kPlyU || role == kPlyV;
+            row_[role] =
+                may_be_any ? rows_.number_or_nan(property.type) : rows_.number(property.type);
+        }
+    }
+
+    void append_vertex(const PlyLayout& layout) {
         glm::vec3 position;
         for (int i = 0; i < 3; ++i) {
-            const double value = values[static_cast<size_t>(i)];
+            const double value = row_[static_cast<size_t>(i)];
             if (!(std::abs(value) <= std::numeric_limits<float>::max())) {
                 rows_.fail(
                     fmt::format("vertex {} has the coordinate {}; it must be finite as float",
@@ -142,53 +79,64 @@ class BodyParser {
             position[i] = static_cast<float>(value);
         }
         mesh_.positions.push_back(position);
-        if (layout.has_normal) {
-            append_normal(values);
+        if (layout.has_normal) append_normal();
+        if (layout.has_uv) mesh_.uvs.push_back(upright_uv(row_[kPlyU], row_[kPlyV]));
+        if (layout.has_color) mesh_.vertex_colors.push_back(color_of_row(layout, "vertex"));
+    }
+
+    glm::vec3 color_of_row(const PlyLayout& layout, const char* what) const {
+        const glm::dvec3 color = ply_color(row_, layout);
+        if (color.x < 0) {
+            rows_.fail(fmt::format("the {}'s colour has a {}; colours are from 0 to {}", what,
+                                   color.y, color.z));
         }
-        if (!layout.has_color) {
-            return;
-        }
-        glm::dvec3 color;
-        for (size_t i = 0; i < 3; ++i) {
-            const double value = values[kRed + i] / layout.scale[kRed + i];
-            if (!(value >= 0.0 && value <= 1.0)) {
-                rows_.fail(fmt::format("the vertex's colour has a {}; colours are from 0 to {}",
-                                       values[kRed + i], layout.scale[kRed + i]));
-            }
-            color[static_cast<int>(i)] = value;
-        }
-        mesh_.vertex_colors.push_back(linear_from_srgb(color));
+        return linear_from_srgb(color);
     }
 
     /// A normal that isn't three finite numbers becomes a vector of length 0.
-    void append_normal(const std::array<double, kRoles>& values) {
-        const glm::vec3 normal(values[kNx], values[kNy], values[kNz]);
+    void append_normal() {
+        const glm::vec3 normal(row_[kPlyNx], row_[kPlyNy], row_[kPlyNz]);
         const bool is_finite = std::isfinite(normal.x + normal.y + normal.z);
         mesh_.normals.push_back(is_finite ? normal : glm::vec3(0));
     }
 
     void parse_faces(const PlyElement& element) {
-        const auto is_corners = [](const PlyProperty& property) {
-            return property.is_list &&
-                   (property.name == "vertex_indices" || property.name == "vertex_index");
-        };
-        const auto corners = std::ranges::find_if(element.properties, is_corners);
-        if (corners == element.properties.end() || !is_integer(corners->type)) {
-            source_.fail("the faces have no list of whole numbers 'vertex_indices'");
-        }
+        const PlyProperty& corners = corners_of(element, "faces");
+        PlyLayout layout = ply_face_layout(element);
+        const bool have_vertices = !mesh_.vertex_colors.empty() && mesh_.triangle_colors.empty();
+        layout.has_color = layout.has_color && !have_vertices;
+        if (!layout.has_color) std::ranges::fill(layout.roles, kPlySkipped);
         require_triangle_count(source_, element.count);
         mesh_.triangles.reserve(mesh_.triangles.size() + element.count);
         for (uint64_t i = 0; i < element.count; ++i) {
             rows_.begin_row();
-            for (const PlyProperty& property : element.properties) {
-                if (&property == &*corners) {
+            corner_uvs_.clear();
+            for (size_t k = 0; k < layout.roles.size(); ++k) {
+                const PlyProperty& property = element.properties[k];
+                if (&property == &corners) {
                     parse_corners(property);
+                } else if (property.is_list && property.name == "texcoord") {
+                    parse_corner_uvs(property);
                 } else {
-                    skip_property(property);
+                    read_property(property, layout.roles[k]);
                 }
             }
+            append_face(layout);
             rows_.end_row();
         }
+    }
+
+    const PlyProperty& corners_of(const PlyElement& element, const char* what) const {
+        const auto corners =
+            std::ranges::find_if(element.properties, [](const PlyProperty& property) {
+                return property.is_list &&
+                       (property.name == "vertex_indices" || property.name == "vertex_index");
+            });
+        if (corners == element.properties.end() || !is_integer(corners->type)) {
+            source_.fail(
+                fmt::format("the {} have no list of whole numbers 'vertex_indices'", what));
+        }
+        return *corners;
     }
 
     void parse_corners(const PlyProperty& property) {
@@ -198,15 +146,67 @@ class BodyParser {
         }
         corners_.resize(count);
         for (uint32_t& corner : corners_) {
-            const int64_t index = rows_.integer(property.type);
-            if (index < 0 || static_cast<uint64_t>(index) >= mesh_.positions.size()) {
-                rows_.fail(
-                    fmt::format("a face names vertex {}, and {} vertices (from 0) precede it",
-                                index, mesh_.positions.size()));
-            }
-            corner = static_cast<uint32_t>(index);
+            corner = vertex_index(rows_.integer(property.type), "a face");
         }
+    }
+
+    uint32_t vertex_index(int64_t index, const char* what) const {
+        if (index < 0 || static_cast<uint64_t>(index) >= mesh_.positions.size()) {
+            rows_.fail(fmt::format("{} names vertex {}, and {} vertices (from 0) precede it", what,
+                                   index, mesh_.positions.size()));
+        }
+        return static_cast<uint32_t>(index);
+    }
+
+    void parse_corner_uvs(const PlyProperty& property) {
+        const uint64_t count = list_count(property);
+        for (uint64_t i = 0; i < count; ++i)
+            corner_uvs_.push_back(rows_.number_or_nan(property.type));
+    }
+
+    /// Appends the face's triangles, its colour, and what its corners have of a texture.
+    void append_face(const PlyLayout& layout) {
+        const size_t before = mesh_.triangles.size();
         cutter_.append(source_, corners_, mesh_);
+        if (layout.has_color) {
+            append_face_color(mesh_, color_of_row(layout, "face"), before);
+        }
+        if (corner_uvs_.size() != 2 * corners_.size()) return;
+        mesh_.triangle_uvs.resize(before, glm::uvec3(kNoUv));
+        const auto first = static_cast<uint32_t>(mesh_.uvs.size());
+        for (size_t i = 0; i < corners_.size(); ++i)
+            mesh_.uvs.push_back(upright_uv(corner_uvs_[2 * i], corner_uvs_[2 * i + 1]));
+        for (const glm::uvec3& places : cutter_.places())
+            mesh_.triangle_uvs.push_back(places + first);
+    }
+
+    /// Triangles in strips: each index makes one with the two before it, and -1 begins anew.
+    void parse_strips(const PlyElement& element) {
+        const PlyProperty& corners = corners_of(element, "tristrips");
+        for (uint64_t i = 0; i < element.count; ++i) {
+            rows_.begin_row();
+            for (const PlyProperty& property : element.properties) {
+                if (&property == &corners) {
+                    parse_strip(property);
+                } else {
+                    skip_property(property);
+                }
+            }
+            rows_.end_row();
+        }
+    }
+
+    void parse_strip(const PlyProperty& property) {
+        const uint64_t count = list_count(property);
+        require_triangle_count(source_, mesh_.triangles.size() + count);
+        PlyStrip strip;
+        for (uint64_t i = 0; i < count; ++i) {
+            const int64_t index = rows_.integer(property.type);
+            if (index == -1)
+                strip = {};
+            else
+                strip.add(vertex_index(index, "a strip"), mesh_.triangles);
+        }
     }
 
     /// The count of a list. Fails where the list's values don't fit into the rest of the file.
@@ -251,6 +251,8 @@ class BodyParser {
     Mesh mesh_;
     PolygonCutter cutter_;
     std::vector<uint32_t> corners_;
+    std::vector<double> corner_uvs_;  ///< u and v of the face's corners, if it has them
+    PlyRow row_{};
 };
 
 template <class Rows>

@@ -41,6 +41,9 @@ class PolygonCutter {
     void append(const MeshSource& source, std::span<const uint32_t> corners, Mesh& mesh,
                 std::span<const uint32_t> normals = {});
 
+    /// The triangles of the last polygon, as places of its corners.
+    const std::vector<glm::uvec3>& places() const { return cut_; }
+
   private:
     void cut(const MeshSource& source, std::span<const uint32_t> corners, const Mesh& mesh);
     void project(std::span<const uint32_t> corners, const Mesh& mesh);

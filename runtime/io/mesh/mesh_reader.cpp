@@ -3,6 +3,7 @@
 #include "runtime/io/mesh/mesh_reader.hpp"
 
 #include "runtime/io/mesh/mesh_source.hpp"
+#include "runtime/io/mesh/mesh_textures.hpp"
 
 #include <algorithm>
 #include <array>
@@ -98,7 +99,9 @@ Mesh parse_mesh(const std::string& bytes, const fs::path& name) {
     }
     try {
         if (const MeshFormat* format = format_of(bytes, extension)) {
-            return format->parse(source);
+            Mesh mesh = format->parse(source);
+            read_textures(name, mesh);
+            return mesh;
         }
     } catch (const std::bad_alloc&) {
         throw Error(ErrorKind::limit, "{}: not enough memory to read this mesh of {} bytes",

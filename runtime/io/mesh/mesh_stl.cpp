@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // STL -> Mesh: triangles that each have their own corners become triangles that share vertices.
+#include "runtime/io/mesh/mesh_paint.hpp"
 #include "runtime/io/mesh/mesh_polygon.hpp"
 #include "runtime/io/mesh/mesh_reader.hpp"
+#include "runtime/io/mesh/mesh_stl_color.hpp"
 
 #include <bit>
 #include <cmath>
@@ -88,6 +90,7 @@ Mesh parse_binary(const MeshSource& source) {
     Mesh mesh;
     mesh.triangles.reserve(facets);
     VertexMerger merger(mesh.positions);
+    StlColors colors(source.bytes);
     const char* p = source.begin() + kHeaderBytes;
     for (uint32_t facet = 0; facet < facets; ++facet, p += kFacetBytes) {
         glm::uvec3 triangle;
@@ -104,7 +107,9 @@ Mesh parse_binary(const MeshSource& source) {
             triangle[corner] = merger.index_of(position);
         }
         mesh.triangles.push_back(triangle);
+        colors.add(p + 48, mesh);
     }
+    fill_corner_lists(mesh);
     return mesh;
 }
 

@@ -16,9 +16,10 @@ BeamGrid beam_grid(const LightRecord& light, const glm::ivec3& size, float scale
 /// of this many.
 inline constexpr uint32_t kLightsOfMaxBeams = 4;
 
-/// Whether beams of lights can tell where shadow rays end: not where these gather what they pass.
+/// Whether beams of lights can tell where shadow rays end: not where these gather what they pass,
+/// nor where most of them begin on surfaces that no sight ray meets.
 inline bool lights_send_beams(const Features& features) {
-    return features.shadows && !features.filter;
+    return features.shadows && !features.filter && !features.global;
 }
 
 /// The grids of several lights, which have `together` beams at most.

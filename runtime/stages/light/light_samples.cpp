@@ -76,6 +76,17 @@ std::vector<LightRecord> area_light_samples(const Light& light, const GridFrame&
     return records;
 }
 
+LightAreaRecord light_area_record(const Light& light, const GridFrame& world) {
+    const LightArea& shape = *type_of(light).area;
+    const glm::dvec2 half = shape.half_axes(light);
+    LightAreaRecord record{};
+    record.axis_x = to_float4(light.axis_x * half.x / world.voxel_edge);
+    record.axis_y =
+        to_float4(glm::cross(light.direction, light.axis_x) * half.y / world.voxel_edge);
+    record.axis_x.w = shape.is_round ? 1.0f : 0.0f;
+    return record;
+}
+
 std::vector<LightRecord> emissive_light_samples(const Device& device, const Features& features,
                                                 const Scene& scene, const Pyramid& world) {
     std::vector<uint32_t> emissive_objects;

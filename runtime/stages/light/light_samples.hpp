@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "kernels/shared/paths.h"
 #include "kernels/shared/scene.h"
 #include "runtime/grid/grid.hpp"
 #include "runtime/opencl/device.hpp"
@@ -20,6 +21,9 @@ int default_light_samples(double area, const glm::dvec3& voxel_edge);
 /// intensity. A disk's samples lie on Vogel's spiral, a rectangle's in the middles of boxes that
 /// divide it evenly.
 std::vector<LightRecord> area_light_samples(const Light& light, const GridFrame& world);
+
+/// The area of a disk or rectangle, from all of which it shines.
+LightAreaRecord light_area_record(const Light& light, const GridFrame& world);
 
 /// The light samples of all emissive objects, in the order of the objects. Each object's surface in
 /// the world is found voxel by voxel and divided into parts that lie together and face the same

@@ -7,6 +7,7 @@
 
 #include "runtime/grid/grid_arguments.hpp"
 #include "runtime/opencl/float4.hpp"
+#include "runtime/stages/light/sky_light.hpp"
 
 namespace voxelume {
 namespace {
@@ -79,13 +80,18 @@ ShadeStage::ShadeStage(const Device& device, const Features& features, const Sce
                  std::span<const MaterialRecord>(material_records(scene, world))),
       program_(device, "shade.cl", features.defines(device)),
       surface_(program_.kernel("shade_surface")) {
+    if (features.sky != VXL_SKY_NONE) {
+        const SkyRecord record = sky_record(*scene.world.sky);
+        sky_ = Buffer<SkyRecord>(device, "sky", std::span<const SkyRecord>(&record, 1));
+    }
+    if (features.global) environment_.ambient = {};  // it stands for light that paths find
     if (features.paths)
         ranks_ = Buffer<uint32_t>(device, "ranks",
                                   std::span<const uint32_t>(object_ranks(scene.objects)));
 }
 
 void ShadeStage::surface(const Pyramid& pyramid, RayBatch& batch, uint32_t count) {
-    surface_.launch_packets(count, pyramid, environment_, materials_, ranks_, batch, count);
+    surface_.launch_packets(count, pyramid, environment_, sky_, materials_, ranks_, batch, count);
 }
 
 }  // namespace voxelume

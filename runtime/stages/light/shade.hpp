@@ -3,6 +3,7 @@
 #pragma once
 
 #include "kernels/shared/scene.h"
+#include "kernels/shared/sky.h"
 #include "runtime/grid/grid.hpp"
 #include "runtime/opencl/program.hpp"
 #include "runtime/scene/scene.hpp"
@@ -29,6 +30,8 @@ class ShadeStage {
 
     const Environment& environment() const { return environment_; }
     const Buffer<MaterialRecord>& materials() const { return materials_; }
+    /// One record; empty in a world without a sky.
+    const Buffer<SkyRecord>& sky() const { return sky_; }
     /// Each object's rank by priority; empty in scenes without paths.
     const Buffer<uint32_t>& ranks() const { return ranks_; }
 
@@ -36,6 +39,7 @@ class ShadeStage {
     Environment environment_;
     Buffer<MaterialRecord> materials_;
     Buffer<uint32_t> ranks_;
+    Buffer<SkyRecord> sky_;
     Program program_;
     Kernel surface_;
 };

@@ -31,7 +31,7 @@ class ArrayMaker {
 
 size_t path_components(const Features& features) {
     if (features.transmission) return VXL_PATH_INSIDE + size_t(std::max(features.media, 1));
-    return features.instances ? VXL_PATH_INSIDE : VXL_PATH_CELL;
+    return features.instances || features.global ? VXL_PATH_INSIDE : VXL_PATH_CELL;
 }
 
 size_t hit_components(const Features& features) {
@@ -74,13 +74,15 @@ void make_shadow_queue(const Features& features, ArrayMaker& maker, ShadowQueue&
 }
 
 void make_depth(const Features& features, bool is_first, ArrayMaker& maker, PathDepth& depth) {
-    if (features.transmission || !is_first) make_batch(features, maker, depth.entries);
-    if (features.transmission) {
+    const bool has_nodes = features.transmission || features.global;
+    if (has_nodes || !is_first) make_batch(features, maker, depth.entries);
+    if (has_nodes) {
         make_queue(features, maker, depth.next);
         maker.make(depth.nodes.radiance, "node light", 3);
-        if (is_first) maker.make(depth.nodes.coverage, "node coverage", 1);
-        maker.make(depth.children.node_weights, "path node weights", 3);
     }
+    if (features.transmission && is_first) maker.make(depth.nodes.coverage, "node coverage", 1);
+    if (features.global) return;
+    if (features.transmission) maker.make(depth.children.node_weights, "path node weights", 3);
     maker.make(depth.children.nodes, "path children", branches_of(features));
     maker.make(depth.children.child_weights, "path child weights", branches_of(features));
 }

@@ -2,13 +2,6 @@
 #include "runtime/stages/trace/scatter.hpp"
 
 namespace voxelume {
-namespace {
-
-// The indices in `counters`, as in scatter.cl.
-constexpr uint32_t kCountLayer = 0, kCountChildren = 1, kCountEnded = 2;
-
-}  // namespace
-
 void bind(KernelArguments& to, const Children& children) {
     to.add(children.nodes, children.child_weights, children.node_weights);
 }
@@ -23,7 +16,7 @@ ScatterStage::ScatterStage(const Device& device, const Features& features,
       min_weight_(min_weight),
       compact_(compact),
       branches_(features.refracts ? 2 : 1),
-      counters_(device, "path counters", 3),
+      counters_(device, "path counters", kPathCounters),
       program_(device, "scatter.cl", features.defines(device)),
       begin_(program_.kernel("begin_paths")),
       layer_(program_.kernel("pass_layer")),

@@ -13,6 +13,9 @@
 
 namespace voxelume {
 
+/// The counters of kernels that send rays on, as in kernels/lib/light/paths.h.
+inline constexpr uint32_t kCountLayer = 0, kCountChildren = 1, kCountEnded = 2, kPathCounters = 3;
+
 /// The reflected and refracted rays of a batch: their node numbers in the next depth.
 struct Children {
     Buffer<uint32_t> nodes;  ///< node of each entry's reflected ray; `stride` later that of its

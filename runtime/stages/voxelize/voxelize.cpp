@@ -67,6 +67,8 @@ constexpr int kListMargin = 1;
 Mesh turned_over(Mesh mesh) {
     for (glm::uvec3& t : mesh.triangles) std::swap(t.y, t.z);
     for (glm::uvec3& t : mesh.triangle_normals) std::swap(t.y, t.z);
+    for (glm::uvec3& t : mesh.triangle_colors) std::swap(t.y, t.z);
+    for (glm::uvec3& t : mesh.triangle_uvs) std::swap(t.y, t.z);
     return mesh;
 }
 
@@ -75,7 +77,7 @@ Mesh turned_over(Mesh mesh) {
 MeshLabels labels_of(const Mesh& mesh, Surface surface) {
     MeshLabels labels;
     labels.attributes = static_cast<uint32_t>(surface) << VXL_KIND_SHIFT;
-    labels.vertex_colors = mesh.vertex_colors;
+    labels.mesh = &mesh;
     const std::vector<uint32_t>& groups = mesh.triangle_group;
     if (std::all_of(groups.begin(), groups.end(), [](uint32_t g) { return g == 0; })) return labels;
     if (*std::max_element(groups.begin(), groups.end()) > VXL_MATERIAL_MASK)
@@ -157,8 +159,8 @@ BrickGrid Voxelizer::voxelize_outward(const Mesh& mesh, const glm::dmat4& frame_
         keep_triangles(job, mesh, frame_from_mesh, labels);
         keep_normals(job, mesh, frame_from_mesh, options.shading);
     }
-    if (!labels.triangle_attributes.empty() || !labels.vertex_colors.empty())
-        label_voxels(job, program("voxelize_label.cl", slice_defines(device_)),
+    if (!labels.triangle_attributes.empty() || has_paint(mesh))
+        label_voxels(job, program("voxelize_label.cl", label_defines(device_, mesh)),
                      program("voxelize_distance.cl", slice_defines(device_)),
                      bin(job, job.triangles, label_reach(frame), kLatticePerBrick), labels);
     return job.grid;

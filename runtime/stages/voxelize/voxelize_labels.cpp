@@ -5,17 +5,28 @@
 
 #include "runtime/stages/brick_arrays.hpp"
 #include "runtime/stages/voxelize/voxelize_steps.hpp"
+#include "runtime/stages/voxelize/voxelize_textures.hpp"
 
 namespace voxelume {
 namespace {
+
+double linear_from_srgb(double value) {
+    return value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4);
+}
+
+/// The linear value of each sRGB code.
+std::vector<float> linear_levels() {
+    std::vector<float> levels;
+    for (int code = 0; code <= 255; ++code)
+        levels.push_back(static_cast<float>(linear_from_srgb(code / 255.0)));
+    return levels;
+}
 
 /// For each sRGB code above 0, the smallest linear value that rounds to it.
 std::vector<float> srgb_thresholds() {
     std::vector<float> thresholds;
     for (int code = 1; code <= 255; ++code) {
-        const double value = (code - 0.5) / 255;
-        thresholds.push_back(static_cast<float>(
-            value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4)));
+        thresholds.push_back(static_cast<float>(linear_from_srgb((code - 0.5) / 255)));
     }
     return thresholds;
 }
@@ -27,7 +38,53 @@ double label_band(const GridFrame& frame) {
     return 0.35 + 0.5 * double(glm::length(glm::vec3(edge_scale(frame))));
 }
 
+/// The numbers of what triangles' corners have: their own, or those of their vertices.
+Buffer<uint32_t> corner_indices(const VoxelizeJob& job, const char* name,
+                                const std::vector<glm::uvec3>& indices) {
+    if (indices.empty()) return job.triangles.triangles;
+    return {job.device, name, std::span(&indices.front().x, 3 * indices.size())};
+}
+
+template <class Vector>
+Buffer<float> floats_of(const Device& device, const char* name,
+                        const std::vector<Vector>& vectors) {
+    if (vectors.empty()) return {};
+    return {device, name, std::span(&vectors.front().x, vectors.size() * size_t(Vector::length()))};
+}
+
+void color_voxels(VoxelizeJob& job, const Program& label, const Mesh& mesh,
+                  const Buffer<uint32_t>& nearest) {
+    const size_t voxels = size_t(4096) * job.bins.stored;
+    const std::vector<float> thresholds = srgb_thresholds(), levels = linear_levels();
+    const Buffer<float> codes(job.device, "sRGB thresholds", std::span(thresholds)),
+        linear(job.device, "linear levels", std::span(levels));
+    const DeviceTextures textures = upload_textures(job, mesh);
+    const bool has_textures = !mesh.textures.empty();
+    job.grid.colors = allocate_words(job.device, "voxel colors", job.bins.stored);
+    label.kernel("color_voxels")
+        .launch(WorkItem::light, voxels, static_cast<uint32_t>(voxels), job.bricks,
+                edge_scale(job.grid.frame), job.triangles, job.bins.coordinates, nearest,
+                corner_indices(job, "corner colors", mesh.triangle_colors),
+                floats_of(job.device, "vertex colors", mesh.vertex_colors), codes, linear,
+                textures.words, textures.records, textures.texels,
+                corner_indices(job, kCornerUvs,
+                               has_textures ? mesh.triangle_uvs : std::vector<glm::uvec3>()),
+                floats_of(job.device, kUvs, has_textures ? mesh.uvs : std::vector<glm::vec2>()),
+                job.grid.colors);
+}
+
 }  // namespace
+
+bool has_paint(const Mesh& mesh) {
+    return !mesh.vertex_colors.empty() || !mesh.textures.empty();
+}
+
+Defines label_defines(const Device& device, const Mesh& mesh) {
+    Defines defines = slice_defines(device);
+    defines.emplace_back("VXL_VERTEX_COLORS", !mesh.vertex_colors.empty());
+    defines.emplace_back("VXL_TEXTURES", !mesh.textures.empty());
+    return defines;
+}
 
 glm::ivec3 label_reach(const GridFrame& frame) {
     return band_reach(frame, label_band(frame));
@@ -43,26 +100,15 @@ void label_voxels(VoxelizeJob& job, const Program& label, const Program& distanc
                 glm::ivec4(label_reach(job.grid.frame), 0), scale,
                 static_cast<float>(label_band(job.grid.frame)), job.triangles, lists,
                 job.bins.coordinates, shape_triangles(job, distance), nearest);
-    const auto count = static_cast<uint32_t>(voxels);
     if (!labels.triangle_attributes.empty()) {
         const Buffer<uint32_t> words(job.device, "triangle attributes",
                                      std::span<const uint32_t>(labels.triangle_attributes));
         job.grid.attributes = allocate_words(job.device, "voxel attributes", job.bins.stored);
         label.kernel("label_voxels")
-            .launch(WorkItem::light, voxels, count, labels.attributes, nearest, words,
-                    job.grid.attributes);
+            .launch(WorkItem::light, voxels, static_cast<uint32_t>(voxels), labels.attributes,
+                    nearest, words, job.grid.attributes);
     }
-    if (!labels.vertex_colors.empty()) {
-        const Buffer<float> colors(
-            job.device, "vertex colors",
-            std::span(&labels.vertex_colors.front().x, 3 * labels.vertex_colors.size()));
-        const std::vector<float> thresholds = srgb_thresholds();
-        const Buffer<float> codes(job.device, "sRGB thresholds", std::span(thresholds));
-        job.grid.colors = allocate_words(job.device, "voxel colors", job.bins.stored);
-        label.kernel("color_voxels")
-            .launch(WorkItem::light, voxels, count, job.bricks, scale, job.triangles,
-                    job.bins.coordinates, nearest, colors, codes, job.grid.colors);
-    }
+    if (has_paint(*labels.mesh)) color_voxels(job, label, *labels.mesh, nearest);
 }
 
 }  // namespace voxelume

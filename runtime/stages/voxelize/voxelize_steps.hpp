@@ -80,8 +80,14 @@ void list_primitives(VoxelizeJob& job, const Program& exact);
 struct MeshLabels {
     uint32_t attributes = 0;                    ///< of a voxel without a triangle
     std::vector<uint32_t> triangle_attributes;  ///< empty: one value for all
-    std::vector<glm::vec3> vertex_colors;       ///< linear; empty: no colours
+    const Mesh* mesh = nullptr;                 ///< what has the colours
 };
+
+/// True for a mesh that gives its voxels colours.
+bool has_paint(const Mesh& mesh);
+
+/// The build constants of the kernels that label voxels.
+Defines label_defines(const Device& device, const Mesh& mesh);
 
 /// Gives each voxel the packed attributes and the colour of its closest triangle. `lists` holds the
 /// triangles within `label_reach` of each brick.

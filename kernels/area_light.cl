@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// surface points of paths + a light with an area -> a queue of shadow rays to points of it.
+#include "lib/lanes/work_item.h"
+#include "lib/light/direct_light.h"
+#include "lib/light/directions.h"
+#include "lib/light/path_samples.h"
+
+/// Adds light number `number`: each surface point sends a shadow ray to a point of the light that
+/// the path's sample chooses, all of which are equally probable.
+kernel void add_area_light(VXL_WORLD_PARAMETERS, LightRecord light, LightAreaRecord area,
+                           PathSampling sampling, uint number,
+                           global const float* restrict materials, VXL_SHADOW_QUEUE_PARAMETERS,
+                           VXL_BATCH_PARAMETERS, uint count) {
+    const uint first = work_item() * VXL_LANES;
+    if (first >= count) return;
+    const WorldView world = VXL_WORLD;
+    const RayBatch batch = VXL_BATCH;
+    const ShadowQueue queue = VXL_SHADOW_QUEUE;
+    const lane_uint target = LANES_LOAD(paths, VXL_PATH_TARGET * stride + first);
+    const lane_uint state = LANES_LOAD(paths, VXL_PATH_STATE * stride + first);
+    const PathSamples samples = path_samples(&sampling, target, state);
+    SquarePoint p = path_point(&samples, VXL_DECISION_LIGHT + number);
+    if (area.axis_x.w != 0.0f) {
+        p = disk_point(p);
+    } else {
+        p.x = fma(p.x, 2.0f, -1.0f);
+        p.y = fma(p.y, 2.0f, -1.0f);
+    }
+    const Vector from = {fma(p.x, area.axis_x.x, fma(p.y, area.axis_y.x, light.position.x)),
+                         fma(p.x, area.axis_x.y, fma(p.y, area.axis_y.y, light.position.y)),
+                         fma(p.x, area.axis_x.z, fma(p.y, area.axis_y.z, light.position.z))};
+    shine_from(&world, light, from, materials, &queue, &batch, first);
+}

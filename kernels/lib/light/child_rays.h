@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+// The rays that leave surface points: where they begin, and in which state.
+#ifndef VXL_CHILD_RAYS_H
+#define VXL_CHILD_RAYS_H
+
+#include "lib/lanes/fixed_point.h"
+#include "lib/light/scatter_point.h"
+#include "lib/traverse/offset_origin.h"
+#include "lib/traverse/ray_queue.h"
+
+/// A ray from a surface point along `direction` in metres, on the `side` that a vector points to.
+static inline void set_out_child(NewRays* r, PyramidShape shape, Vector position, Vector side,
+                                 Vector direction) {
+    const lane_float x = direction.x * shape.inverse_edge.x;
+    const lane_float y = direction.y * shape.inverse_edge.y;
+    const lane_float z = direction.z * shape.inverse_edge.z;
+    const lane_float scale = power_of_two_scale(x, y, z);
+    r->direction.x = snap_direction(x * scale);
+    r->direction.y = snap_direction(y * scale);
+    r->direction.z = snap_direction(z * scale);
+    const float one = shape.fixed_point;
+    r->origin.x = clamp(snap_position(position.x, side.x, one), 0.0f, (float)shape.size_x);
+    r->origin.y = clamp(snap_position(position.y, side.y, one), 0.0f, (float)shape.size_y);
+    r->origin.z = clamp(snap_position(position.z, side.z, one), 0.0f, (float)shape.size_z);
+    r->t_end = (lane_float)INFINITY;
+}
+
+/// What all rays that leave the points have in common. Each begins a node of its own.
+static inline NewRays begin_node(const ScatterPoint* p, const RayBatch* batch, uint first) {
+    const lane_float one = (lane_float)1.0f;
+    NewRays r;
+    r.source = p->source;
+    if (VXL_INSTANCES)
+        r.instance = LANES_LOAD(batch->hits, VXL_HIT_INSTANCE * batch->stride + first);
+    r.clear = r.throughput[0] = r.throughput[1] = r.throughput[2] = one;
+    r.start = (lane_float)0.0f;
+    r.cell_xy = r.cell_z = (lane_uint)0;
+    return r;
+}
+
+/// Sets what all rays have in common that stay on the side of the surfaces from which they were
+/// met.
+static inline void stay_on_side(const Surroundings* around, const ScatterPoint* p,
+                                const RayBatch* batch, uint first, NewRays* r) {
+    const uint stride = batch->stride;
+    r->flags = LANES_SELECT(p->leaving, (lane_uint)VXL_PATH_WITHIN_SOURCE, (lane_uint)0) |
+               VXL_PATH_ON_SURFACE;
+    r->media = p->before;
+    r->medium = (lane_uint)0;
+    if (VXL_TRANSMISSION) r->medium = medium_inside(&p->before, around->ranks);
+    if (!VXL_CUBE_BODIES) return;
+    // On a cube's side towards its inside, rays begin in a known cell.
+    const lane_int cube = is_cube(p->packed, p->primitive);
+    r->flags |= joined_flag(&p->before, around->materials) |
+                (LANES_AS_UINT(cube & p->leaving) & VXL_PATH_FROM_CELL);
+    r->cell_xy = LANES_LOAD(batch->hits, VXL_HIT_CELL * stride + first);
+    r->cell_z = LANES_LOAD(batch->hits, VXL_HIT_FACE * stride + first) & 0xFFFFu;
+}
+
+/// Turns `r` into the rays that the surfaces reflect.
+static inline void reflect_rays(PyramidShape shape, const Surroundings* around,
+                                const ScatterPoint* p, const RayBatch* batch, uint first,
+                                NewRays* r) {
+    stay_on_side(around, p, batch, first, r);
+    const Vector n = p->normal;
+    set_out_child(r, shape, offset_origin(shape, p->position, n, batch->hits, batch->stride, first),
+                  n, mirrored_direction(p));
+}
+
+/// Turns `r` into the rays that the surfaces refract. Between equal media the ray goes on
+/// unchanged.
+static inline void refract_rays(PyramidShape shape, const Surroundings* around,
+                                const ScatterPoint* p, const RayBatch* batch, uint first,
+                                NewRays* r) {
+    global const uint* hits = batch->hits;
+    const uint stride = batch->stride;
+    r->flags = LANES_SELECT(p->leaving, (lane_uint)0, (lane_uint)VXL_PATH_WITHIN_SOURCE) |
+               VXL_PATH_ON_SURFACE;
+    r->media = p->behind;
+    r->medium = medium_inside(&p->behind, around->ranks);
+    const Vector into = opposite(p->normal);
+    const Vector bent = bent_direction(p, into);
+    set_out_child(r, shape, offset_origin(shape, p->position, into, hits, stride, first), into,
+                  bent);
+    const lane_int same = LANE_MASK(p->eta == 1.0f);
+    const Vector o = load_vector(batch->rays, stride, first);
+    const Vector d = load_vector(batch->rays + VXL_RAY_DX * stride, stride, first);
+    const lane_float t_end = LANES_LOAD(batch->rays, VXL_RAY_END * stride + first);
+    const lane_float t = LANES_AS_FLOAT(LANES_LOAD(hits, VXL_HIT_T * stride + first));
+    r->origin = select_vector(same, o, r->origin);
+    r->direction = select_vector(same, d, r->direction);
+    r->t_end = LANES_SELECT(same, t_end, r->t_end);
+    r->start = LANES_SELECT(same, t, (lane_float)0.0f);
+    r->flags |= LANES_AS_UINT(same) & VXL_PATH_GOES_ON;
+    if (VXL_CUBE_BODIES)
+        r->flags |= joined_flag(&p->behind, around->materials) |
+                    (LANES_AS_UINT(is_cube(p->packed, p->primitive)) & VXL_PATH_FROM_CELL);
+    r->cell_xy = LANES_LOAD(hits, VXL_HIT_CELL * stride + first);
+    r->cell_z = LANES_LOAD(hits, VXL_HIT_FACE * stride + first);
+}
+
+#endif

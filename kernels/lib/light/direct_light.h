@@ -1,0 +1,272 @@
+// SPDX-License-Identifier: Apache-2.0
+// The light that a source sends to surface points, and the shadow rays that it waits for.
+//
+// Whitted 1980: ambient, Lambert's cosine, and the highlight of Blinn's half vector.
+#ifndef VXL_DIRECT_LIGHT_H
+#define VXL_DIRECT_LIGHT_H
+
+#include "lib/lanes/vector.h"
+#include "lib/surface/shading_normal.h"
+#include "lib/surface/surface_color.h"
+#include "lib/traverse/hit_attributes.h"
+#include "lib/traverse/offset_origin.h"
+#include "lib/traverse/ray_batch.h"
+#include "lib/traverse/world.h"
+#include "shared/scene.h"
+#include "shared/trace.h"
+
+/// The part of a spot light's intensity along the unit vector `to_surface`: smoothstep of the
+/// cosine.
+static inline lane_float spot_falloff(LightRecord light, Vector to_surface) {
+    const Vector along = {(lane_float)light.direction.x, (lane_float)light.direction.y,
+                          (lane_float)light.direction.z};
+    const lane_float cosine = dot_product(along, to_surface);
+    const float width = fmax(light.inner_cosine - light.outer_cosine, 1.17549435e-38f);
+    const lane_float s =
+        clamp(exact_divide(cosine - light.outer_cosine, (lane_float)width), 0.0f, 1.0f);
+    return s * s * fma(-2.0f, s, 3.0f);
+}
+
+/// The falloff of a small part of an emissive surface at a point at distance d, from which it is
+/// seen at an angle with this cosine: cosine / (d^2 + A/pi). Over a disk's middle this is exact;
+/// far away it is the cosine over d^2; and however near, it never exceeds the light that a surface
+/// can receive (Wallace, Elmquist and Haines 1989).
+static inline lane_float area_sample_falloff(LightRecord light, Vector to_surface,
+                                             lane_float squared) {
+    const Vector normal = {(lane_float)light.direction.x, (lane_float)light.direction.y,
+                           (lane_float)light.direction.z};
+    const lane_float cosine = dot_product(normal, to_surface);
+    const lane_int faces = LANE_MASK(cosine > 0.0f);
+    const lane_float sum = LANES_SELECT(faces, squared + light.spread, (lane_float)1.0f);
+    return LANES_SELECT(faces, cosine * exact_reciprocal(sum), (lane_float)0.0f);
+}
+
+/// The light as a packet of surface points sees it.
+typedef struct {
+    lane_int lit;       // mask: the light may contribute to the point
+    Vector to_light;    // in voxels: to the light; directional light: towards it
+    Vector l;           // the unit vector to it, in metres' space
+    lane_float cosine;  // between it and the shading normal
+    lane_float falloff;
+} Incidence;
+
+/// The light's falloff at the `lit` points, whose squared distance to it is `squared` metres.
+static inline lane_float falloff_of(LightRecord light, Vector l, lane_float squared, lane_int lit) {
+    lane_float falloff = (lane_float)1.0f;
+    if (light.kind != VXL_LIGHT_DIRECTIONAL)
+        falloff = exact_reciprocal(LANES_SELECT(lit, squared, (lane_float)1.0f));
+    if (light.kind == VXL_LIGHT_SPOT) falloff *= spot_falloff(light, opposite(l));
+    if (VXL_AREA_SAMPLES && light.kind == VXL_LIGHT_AREA_SAMPLE)
+        falloff = area_sample_falloff(light, opposite(l), squared);
+    return falloff;
+}
+
+/// The light as surface points see it that it shines on from the points `from`, or for a
+/// directional light along the ways that lead there.
+static inline Incidence incidence_of(LightRecord light, Vector from, float4 edge, Vector position,
+                                     Vector normal, lane_int lit) {
+    Incidence i;
+    i.to_light = from;
+    if (light.kind != VXL_LIGHT_DIRECTIONAL) i.to_light = difference(from, position);
+    const Vector metric = scaled(i.to_light, edge);
+    const lane_float squared = dot_product(metric, metric);
+    i.lit = lit & LANE_MASK(squared > 0.0f);
+    i.l = unit(metric);
+    i.cosine = dot_product(normal, i.l);
+    i.lit &= LANE_MASK(i.cosine > 0.0f);
+    i.falloff = falloff_of(light, i.l, squared, i.lit);
+    i.lit &= LANE_MASK(i.falloff > 0.0f);
+    return i;
+}
+
+/// Blinn-Phong: the cosine between the normal and the half vector between the light's direction and
+/// the viewer's, who looks along `d`.
+static inline lane_float highlight_of(Vector normal, Vector l, Vector d, float4 edge) {
+    const Vector view = unit(scaled(opposite(d), edge));
+    const Vector between = {l.x + view.x, l.y + view.y, l.z + view.z};
+    return clamp(dot_product(normal, unit(between)), 0.0f, 1.0f);
+}
+
+/// Shadow rays from surface points to the light, and the light that each would bring.
+typedef struct {
+    Vector origin, direction;
+    lane_float t_end;
+    lane_float contribution[3];
+} LitRays;
+
+/// Aims rays at the light from `start`, which is on the side of the surface that `normal` points
+/// to.
+static inline void aim_at_light(PyramidShape shape, LightRecord light, const Incidence* i,
+                                Vector start, Vector normal, LitRays* r) {
+    const Vector to = i->to_light;
+    const lane_float scale =
+        power_of_two_scale(LANES_SELECT(i->lit, to.x, (lane_float)1.0f), to.y, to.z);
+    r->direction.x = snap_direction(to.x * scale);
+    r->direction.y = snap_direction(to.y * scale);
+    r->direction.z = snap_direction(to.z * scale);
+    const float one = shape.fixed_point;
+    r->origin.x = clamp(snap_position(start.x, normal.x, one), 0.0f, (float)shape.size_x);
+    r->origin.y = clamp(snap_position(start.y, normal.y, one), 0.0f, (float)shape.size_y);
+    r->origin.z = clamp(snap_position(start.z, normal.z, one), 0.0f, (float)shape.size_z);
+    r->t_end = (lane_float)INFINITY;
+    if (light.kind != VXL_LIGHT_DIRECTIONAL) r->t_end = exact_reciprocal(scale);
+}
+
+/// The light that surfaces of `material` at `position` return towards the viewer. Returns a mask of
+/// the points that return any.
+static inline lane_int find_shares(LightRecord light, const Incidence* i, lane_float highlight,
+                                   Vector position, lane_uint material, lane_uint voxel,
+                                   global const float* restrict materials,
+                                   global const uint* restrict colors, lane_float* contribution) {
+    const lane_float diffuse =
+        LANES_GATHER_FLOAT(materials, material + VXL_MATERIAL_DIFFUSE) * i->cosine;
+    const lane_float specular =
+        LANES_GATHER_FLOAT(materials, material + VXL_MATERIAL_SPECULAR) *
+        exact_power(highlight, LANES_GATHER_FLOAT(materials, material + VXL_MATERIAL_SHININESS));
+    const float intensity[3] = {light.intensity.x, light.intensity.y, light.intensity.z};
+    const lane_float falloff = i->falloff * surface_opacity(materials, material, colors, voxel);
+    const lane_uint color_at =
+        color_offset(materials, material, position.x, position.y, position.z);
+    lane_int any_contribution = (lane_int)0;
+    for (int channel = 0; channel < 3; ++channel) {
+        const lane_float color = surface_color(materials, color_at, colors, voxel, channel);
+        contribution[channel] = fma(color, diffuse, specular) * falloff * intensity[channel];
+        any_contribution |= LANE_MASK(contribution[channel] > 0.0f);
+    }
+    return any_contribution;
+}
+
+/// Adds the `lit` lanes' shares to the radiance of the rays from `first` on.
+static inline void add_shares(const lane_float* contribution, lane_int lit, const RayBatch* batch,
+                              uint first) {
+    for (int channel = 0; channel < 3; ++channel) {
+        const uint place = (uint)channel * batch->stride + first;
+        const lane_float sum = LANES_LOAD(batch->radiance, place) + contribution[channel];
+        LANES_STORE(LANES_SELECT(lit, sum, LANES_LOAD(batch->radiance, place)), batch->radiance,
+                    place);
+    }
+}
+
+/// The primitives that rays to the light begin on, and don't meet. A ray that begins above its
+/// triangle, towards a light behind it, may meet it.
+static inline lane_uint sources_of(const RayBatch* batch, uint first, lane_int behind) {
+    const lane_uint packed = LANES_LOAD(batch->hit_attributes, first);
+    const lane_uint source = source_of_hits(batch->hits, batch->stride, first, packed);
+    if (!VXL_SHADING_NORMALS) return source;
+    return LANES_SELECT(behind, (lane_uint)VXL_NO_PRIMITIVE, source);
+}
+
+/// Writes the `lit` lanes' rays to slots of the queue, which are all reserved at once. Their light
+/// is `behind` the triangles that they begin above.
+static inline void queue_rays(const ShadowQueue* queue, const LitRays* r, lane_int lit,
+                              lane_int behind, const RayBatch* batch, uint first) {
+    const uint stride = batch->stride;
+    int lit_lane[VXL_LANES];
+    LANES_STORE(lit, lit_lane, 0);
+    uint wanted = 0;
+    for (int lane = 0; lane < VXL_LANES; ++lane) wanted += (uint)(lit_lane[lane] & 1);
+    if (wanted == 0) return;
+    uint place = atomic_add(queue->count, wanted);
+    float queued[10 * VXL_LANES];
+    uint source[VXL_LANES];
+    LANES_STORE(r->origin.x, queued, 0 * VXL_LANES);
+    LANES_STORE(r->origin.y, queued, 1 * VXL_LANES);
+    LANES_STORE(r->origin.z, queued, 2 * VXL_LANES);
+    LANES_STORE(r->direction.x, queued, 3 * VXL_LANES);
+    LANES_STORE(r->direction.y, queued, 4 * VXL_LANES);
+    LANES_STORE(r->direction.z, queued, 5 * VXL_LANES);
+    LANES_STORE(r->t_end, queued, 6 * VXL_LANES);
+    LANES_STORE(r->contribution[0], queued, 7 * VXL_LANES);
+    LANES_STORE(r->contribution[1], queued, 8 * VXL_LANES);
+    LANES_STORE(r->contribution[2], queued, 9 * VXL_LANES);
+    if (VXL_SOURCES) LANES_STORE(sources_of(batch, first, behind), source, 0);
+    for (int lane = 0; lane < VXL_LANES; ++lane) {
+        if (!lit_lane[lane]) continue;
+        for (uint c = 0; c < VXL_RAY_COMPONENTS; ++c)
+            queue->rays[c * stride + place] = queued[c * VXL_LANES + (uint)lane];
+        for (uint c = 0; c < 3; ++c)
+            queue->contributions[c * stride + place] =
+                queued[(VXL_RAY_COMPONENTS + c) * VXL_LANES + (uint)lane];
+        queue->targets[place] = first + (uint)lane;
+        if (VXL_SOURCES) queue->sources[place] = source[lane];
+        ++place;
+    }
+}
+
+/// Surface points that light may reach. Their shadow rays begin at `start`.
+typedef struct {
+    lane_int lit;  // mask
+    lane_uint voxel, material;
+    Vector position, normal, shading_normal, start;
+} LitPoints;
+
+/// Loads the points of hits. Returns false if none can be lit.
+static inline bool load_lit_points(const RayBatch* batch, uint first, LitPoints* p) {
+    const uint stride = batch->stride;
+    const lane_uint number = LANES_LOAD(batch->hits, VXL_HIT_VOXEL * stride + first);
+    p->lit = LANE_MASK(number != VXL_NO_VOXEL);
+    if (VXL_TRANSMISSION)
+        p->lit &= LANE_MASK((LANES_LOAD(batch->sides, first) & VXL_SIDE_HIDDEN) == 0u);
+    if (!lanes_any(p->lit)) return false;
+    p->voxel = number & LANES_AS_UINT(p->lit);
+    p->material = material_offset(LANES_LOAD(batch->hit_attributes, first)) & LANES_AS_UINT(p->lit);
+    p->position = load_vector(batch->positions, stride, first);
+    p->normal = load_vector(batch->normals, stride, first);
+    p->shading_normal = p->normal;
+    if (VXL_SHADING_NORMALS) p->shading_normal = load_vector(batch->shading, stride, first);
+    p->start = p->position;
+    return true;
+}
+
+/// Lifts the starts of rays off the surfaces, and unlights points that the light falls on from
+/// behind. Returns the mask of rays that leave a triangle, above which they begin, on its back.
+static inline lane_int start_off_surface(const WorldView* world, const RayBatch* batch, uint first,
+                                         LightRecord light, Incidence* incidence, LitPoints* p) {
+    const uint stride = batch->stride;
+    lane_int behind = (lane_int)0;
+    if (VXL_SHADING_NORMALS) {
+        behind = LANE_MASK(dot_product(p->normal, incidence->l) <= 0.0f);
+        const Vector lift = load_vector(batch->shading + VXL_SHADING_LIFT * stride, stride, first);
+        p->lit &= ~behind | LANE_MASK(dot_product(lift, p->normal) > 0.0f);
+        const Vector up = scaled(lift, world->shape.inverse_edge);
+        p->start = add_scaled(p->start, up, (lane_float)1.0f);
+        if (light.kind != VXL_LIGHT_DIRECTIONAL)
+            incidence->to_light = difference(incidence->to_light, up);
+    }
+    p->start = offset_origin(world->shape, p->start, p->normal, batch->hits, stride, first);
+    return behind;
+}
+
+/// Queues the `lit` lanes' rays, or adds their light at once if nothing can come between.
+static inline void send_or_add(const ShadowQueue* queue, const LitRays* r, lane_int lit,
+                               lane_int behind, const RayBatch* batch, uint first) {
+    if (VXL_SHADOWS | VXL_MEDIUM)
+        queue_rays(queue, r, lit, behind, batch, first);
+    else
+        add_shares(r->contribution, lit, batch, first);
+}
+
+/// Adds a light that shines from the points `from`: every surface point that faces it and to which
+/// it contributes gets a slot in the queue of shadow rays with the light's contribution. If neither
+/// an object nor the medium can come between, the contribution is added at once.
+static inline void shine_from(const WorldView* world, LightRecord light, Vector from,
+                              global const float* restrict materials, const ShadowQueue* queue,
+                              const RayBatch* batch, uint first) {
+    const float4 edge = world->shape.edge;
+    LitPoints p;
+    if (!load_lit_points(batch, first, &p)) return;
+    Incidence incidence = incidence_of(light, from, edge, p.position, p.shading_normal, p.lit);
+    p.lit = incidence.lit;
+    const lane_int behind = start_off_surface(world, batch, first, light, &incidence, &p);
+    if (!lanes_any(p.lit)) return;
+    p.material &= LANES_AS_UINT(p.lit);
+    const Vector d = load_vector(batch->rays + VXL_RAY_DX * batch->stride, batch->stride, first);
+    const lane_float highlight = highlight_of(p.shading_normal, incidence.l, d, edge);
+    LitRays r;
+    aim_at_light(world->shape, light, &incidence, p.start, p.normal, &r);
+    const lane_int some = find_shares(light, &incidence, highlight, p.position, p.material, p.voxel,
+                                      materials, world->surface.colors, r.contribution);
+    send_or_add(queue, &r, p.lit & some, behind, batch, first);
+}
+
+#endif

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// The points of the unit square by which paths decide. They depend on the pixel, the sample and the
+// decision alone, so no order of rays, tiles or batches changes an image.
+#ifndef VXL_PATH_SAMPLES_H
+#define VXL_PATH_SAMPLES_H
+
+#include "lib/light/sobol.h"
+#include "shared/paths.h"
+#include "shared/trace.h"
+
+/// The pixels and samples of a packet's paths, and the surfaces that these have met.
+typedef struct {
+    lane_uint pixel, sample, met;
+} PathSamples;
+
+/// `target` numbers the paths' sight rays in their batch.
+static inline PathSamples path_samples(const PathSampling* of, lane_uint target, lane_uint state) {
+    const uint tiles_x = of->tiles_x;
+    const lane_uint group = target / 16u;
+    const lane_uint tile = group / of->samples + of->first_tile;
+    const lane_uint row = tile / tiles_x;
+    const lane_uint x = (tile - row * tiles_x) * 4u + (target & 3u);
+    const lane_uint y = row * 4u + ((target >> 2) & 3u);
+    const PathSamples s = {x | (y << 16), group % of->samples, state & VXL_STATE_MET};
+    return s;
+}
+
+/// The paths' points for a decision, one of VXL_DECISION_*.
+static inline SquarePoint path_point(const PathSamples* s, uint decision) {
+    return sobol_point(s->sample, decision_seed(s->pixel, (s->met << 16) | decision));
+}
+
+#endif

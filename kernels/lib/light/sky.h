@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+// The radiance of the sky along directions, which are unit vectors in metres' space.
+#ifndef VXL_SKY_H
+#define VXL_SKY_H
+
+#include "lib/lanes/exact_exp.h"
+#include "lib/lanes/vector.h"
+#include "lib/traverse/ray_batch.h"
+#include "shared/paths.h"
+#include "shared/sky.h"
+
+/// The angle whose cosine is x, in [0, pi], within 3e-8 (Abramowitz & Stegun 1964, 4.4.46).
+static inline lane_float angle_of_cosine(lane_float x) {
+    const lane_float a = fmin(fabs(x), 1.0f);
+    lane_float p = fma(a, -0.0012624911f, 0.0066700901f);
+    p = fma(a, p, -0.0170881256f);
+    p = fma(a, p, 0.0308918810f);
+    p = fma(a, p, -0.0501743046f);
+    p = fma(a, p, 0.0889789874f);
+    p = fma(a, p, -0.2145988016f);
+    p = fma(a, p, 1.5707963050f);
+    const lane_float angle = exact_sqrt(1.0f - a) * p;
+    return LANES_SELECT(LANE_MASK(x < 0.0f), 3.14159265f - angle, angle);
+}
+
+/// Perez' formula of 1993: how bright a direction is at `height`, its cosine with the zenith, and
+/// at an angle from the sun of this cosine.
+static inline lane_float perez(float4 abcd, float e, lane_float height, lane_float angle,
+                               lane_float cosine) {
+    const lane_float dim = exact_exp(exact_divide((lane_float)abcd.y, height));
+    const lane_float glow = fma((lane_float)abcd.z, exact_exp(abcd.w * angle),
+                                fma(e * cosine, cosine, (lane_float)1.0f));
+    return fma((lane_float)abcd.x, dim, (lane_float)1.0f) * glow;
+}
+
+/// The clear sky of Preetham, Shirley and Smits 1999, "A Practical Analytic Model for Daylight".
+static inline void daylight(global const SkyRecord* sky, Vector way, lane_float* light) {
+    const float4 sun = sky->sun_direction, last = sky->last, base = sky->base;
+    const lane_float cosine = fma(way.x, sun.x, fma(way.y, sun.y, way.z * sun.z));
+    const lane_float angle = angle_of_cosine(cosine);
+    const lane_float height = fmax(way.y, 0.0009765625f);  // at the horizon the formula has a pole
+    const lane_float luminance = base.x * perez(sky->luminance, last.x, height, angle, cosine);
+    const lane_float x = base.y * perez(sky->chromaticity_x, last.y, height, angle, cosine);
+    const lane_float y = base.z * perez(sky->chromaticity_y, last.z, height, angle, cosine);
+    const lane_float per_y = exact_divide(luminance, fmax(y, 0.001f));
+    const lane_float cie_x = x * per_y, cie_z = (1.0f - x - y) * per_y;
+    const lane_float red = fma(cie_x, 3.2404542f, fma(luminance, -1.5371385f, cie_z * -0.4985314f));
+    const lane_float green =
+        fma(cie_x, -0.9692660f, fma(luminance, 1.8760108f, cie_z * 0.0415560f));
+    const lane_float blue = fma(cie_x, 0.0556434f, fma(luminance, -0.2040259f, cie_z * 1.0572252f));
+    light[0] = fmax(red, 0.0f), light[1] = fmax(green, 0.0f), light[2] = fmax(blue, 0.0f);
+}
+
+/// The radiance of the sky along `way`, without the sun's disc.
+static inline void sky_light(global const SkyRecord* sky, Vector way, lane_float* light) {
+    const float zenith[3] = {sky->zenith.x, sky->zenith.y, sky->zenith.z};
+    const float horizon[3] = {sky->horizon.x, sky->horizon.y, sky->horizon.z};
+    const float ground[3] = {sky->ground.x, sky->ground.y, sky->ground.z};
+    const lane_int below = LANE_MASK(way.y < 0.0f);
+    if (VXL_SKY == VXL_SKY_SUN) daylight(sky, way, light);
+    for (int c = 0; c < 3; ++c) {
+        if (VXL_SKY != VXL_SKY_SUN)
+            light[c] = fma(way.y, (lane_float)(zenith[c] - horizon[c]), (lane_float)horizon[c]);
+        light[c] = LANES_SELECT(below, (lane_float)ground[c], light[c]);
+    }
+}
+
+/// Adds the sun's disc, whose light is even over a disk in front of the viewer, to the `seeing`
+/// lanes.
+static inline void add_sun_disc(global const SkyRecord* sky, Vector way, lane_int seeing,
+                                lane_float* light) {
+    const float4 sun = sky->sun_direction;
+    const float radiance[3] = {sky->sun_radiance.x, sky->sun_radiance.y, sky->sun_radiance.z};
+    const lane_float cosine = fma(way.x, sun.x, fma(way.y, sun.y, way.z * sun.z));
+    const lane_int inside = seeing & LANE_MASK(cosine >= sun.w);
+    if (!lanes_any(inside)) return;
+    const lane_float cube = LANES_SELECT(inside, cosine * cosine * cosine, (lane_float)1.0f);
+    const lane_float scale = LANES_SELECT(inside, exact_reciprocal(cube), (lane_float)0.0f);
+    for (int c = 0; c < 3; ++c) light[c] = fma((lane_float)radiance[c], scale, light[c]);
+}
+
+/// The radiance that rays along `way`, in voxels with this edge, see where they leave the world.
+/// The sun's disc is seen by those that no matt surface has scattered, which samples it as a light.
+static inline void light_around(lane_int hit, Vector way, float4 edge, Environment environment,
+                                global const SkyRecord* sky, const RayBatch* batch, uint first,
+                                lane_float* light) {
+    light[0] = (lane_float)environment.background.x;
+    light[1] = (lane_float)environment.background.y;
+    light[2] = (lane_float)environment.background.z;
+    if (VXL_SKY == VXL_SKY_NONE || !lanes_any(~hit)) return;
+    way = unit(scaled(way, edge));
+    sky_light(sky, way, light);
+    if (VXL_SKY != VXL_SKY_SUN) return;
+    lane_int sees = ~hit;
+    if (VXL_GLOBAL) {
+        const lane_uint state = LANES_LOAD(batch->paths, VXL_PATH_STATE * batch->stride + first);
+        sees &= LANE_MASK((state & VXL_STATE_DIFFUSE) == 0u);
+    }
+    add_sun_disc(sky, way, sees, light);
+}
+
+#endif

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+// Points of the unit square for the decisions of paths: Sobol's sequence, scrambled and shuffled as
+// Owen 1995 describes, by hashes (Burley 2020, "Practical Hash-based Owen Scrambling", JCGT 9(4)).
+//
+// Of 2^k successive samples, one falls into each of 2^k boxes that divide the square evenly,
+// whatever their shape: the points are a (0,2)-sequence. Points of different seeds are independent.
+// All is computed in integers, so all devices have the same points.
+#ifndef VXL_SOBOL_H
+#define VXL_SOBOL_H
+
+#include "lib/lanes/lanes.h"
+
+/// A point of the square [0, 1) x [0, 1).
+typedef struct {
+    lane_float x, y;
+} SquarePoint;
+
+static inline lane_uint reversed_bits(lane_uint v) {
+    v = (v >> 16) | (v << 16);
+    v = ((v >> 8) & 0x00FF00FFu) | ((v & 0x00FF00FFu) << 8);
+    v = ((v >> 4) & 0x0F0F0F0Fu) | ((v & 0x0F0F0F0Fu) << 4);
+    v = ((v >> 2) & 0x33333333u) | ((v & 0x33333333u) << 2);
+    return ((v >> 1) & 0x55555555u) | ((v & 0x55555555u) << 1);
+}
+
+/// A bijection of 32-bit numbers whose every output bit depends on every input bit; the finalizer
+/// of MurmurHash3 (Appleby 2011).
+static inline lane_uint mixed_bits(lane_uint v) {
+    v = (v ^ (v >> 16)) * 0x85EBCA6Bu;
+    v = (v ^ (v >> 13)) * 0xC2B2AE35u;
+    return v ^ (v >> 16);
+}
+
+/// Flips each bit by a hash of the seed and of the bits below it. Laine & Karras 2011, with
+/// Burley's constants: an even factor carries bits upwards only.
+static inline lane_uint flipped_from_below(lane_uint v, lane_uint seed) {
+    v += seed;
+    v ^= v * 0x6C50B47Cu;
+    v ^= v * 0xB82F1E52u;
+    v ^= v * 0xC7AFE638u;
+    return v ^ (v * 0x8D22F6E6u);
+}
+
+/// The second Sobol coordinate of a number, its bits in reverse order.
+///
+/// Read as a polynomial over two elements, the number is taken at 1 + x, because the direction
+/// numbers are the rows of Pascal's triangle: (1 + x)^(2^j) = 1 + x^(2^j) adds, for each j, the
+/// terms with bit j in their exponent to those without.
+static inline lane_uint shifted_polynomial(lane_uint v) {
+    v ^= (v & 0xAAAAAAAAu) >> 1;
+    v ^= (v & 0xCCCCCCCCu) >> 2;
+    v ^= (v & 0xF0F0F0F0u) >> 4;
+    v ^= (v & 0xFF00FF00u) >> 8;
+    return v ^ (v >> 16);
+}
+
+/// The upper 24 bits as a number in [0, 1).
+static inline lane_float unit_interval(lane_uint v) {
+    return LANES_FLOAT(v >> 8) * (1.0f / 16777216.0f);
+}
+
+/// The seed of one decision on the paths of a pixel, or of another thing with a number.
+static inline lane_uint decision_seed(lane_uint pixel, lane_uint decision) {
+    return mixed_bits(mixed_bits(pixel + 0x9E3779B9u) + decision);
+}
+
+/// The point of sample number `sample` in the sequence of a seed.
+static inline SquarePoint sobol_point(lane_uint sample, lane_uint seed) {
+    const lane_uint shuffled = reversed_bits(flipped_from_below(reversed_bits(sample), seed));
+    const lane_uint seed_x = mixed_bits(seed ^ 0xA511E9B3u), seed_y = mixed_bits(seed_x);
+    const lane_uint x = reversed_bits(flipped_from_below(shuffled, seed_x));
+    const lane_uint y = reversed_bits(flipped_from_below(shifted_polynomial(shuffled), seed_y));
+    const SquarePoint p = {unit_interval(x), unit_interval(y)};
+    return p;
+}
+
+#endif

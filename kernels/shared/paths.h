@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+// Global light: what the kernels that follow light paths need to know of the image and its lights.
+#ifndef VXL_SHARED_PATHS_H
+#define VXL_SHARED_PATHS_H
+
+#ifdef __cplusplus
+#include <kernels/shared/scene.h>
+namespace voxelume {
+#else
+#include "shared/scene.h"
+#endif
+
+// The pixels and samples of a batch of sight rays, which come in tiles of 4 x 4 pixels as sight.cl
+// has them, and the length of their paths.
+typedef struct PathSampling {
+    unsigned int first_tile;  // of the batch
+    unsigned int tiles_x;     // tiles side by side in the image
+    unsigned int samples;     // per pixel
+    unsigned int bounces;     // the maximum number of times that a path is scattered
+} PathSampling;
+VXL_SIZE_IS(PathSampling, 16);
+
+// The area of a light around LightRecord::position, in voxels: its points are
+// position + a * axis_x + b * axis_y.
+typedef struct LightAreaRecord {
+    float4 axis_x;  // w: 1 for a disk, where a^2 + b^2 <= 1; 0 for a rectangle, |a|, |b| <= 1
+    float4 axis_y;  // w unused
+} LightAreaRecord;
+VXL_SIZE_IS(LightAreaRecord, 32);
+
+#ifdef __cplusplus
+}  // namespace voxelume
+#endif
+
+// In global light VXL_PATH_WEIGHT is this state of the path:
+//   bits 0..15   surfaces that the path has met, also those that it went straight through
+//   bits 16..23  times that it was scattered
+//   bit 24       the last time was a diffuse one
+#define VXL_PATH_STATE VXL_PATH_WEIGHT
+#define VXL_STATE_MET 0xFFFFu
+#define VXL_STATE_BOUNCE_SHIFT 16
+#define VXL_STATE_BOUNCES 0xFFu
+#define VXL_STATE_DIFFUSE 0x1000000u
+
+// The decisions at a surface that a path meets, each with a point of the unit square.
+#define VXL_DECISION_LOBE 0u       // how the path goes on, and whether roulette ends it
+#define VXL_DECISION_DIRECTION 1u  // of diffuse light
+#define VXL_DECISION_LIGHT 2u      // and after it one for each light: where on it
+
+// The number of scatterings after which roulette may end a path.
+#define VXL_ROULETTE_BOUNCES 2u
+
+#endif

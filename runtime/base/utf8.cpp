@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "runtime/base/utf8.hpp"
+
+#include <algorithm>
+#include <cstdint>
+
+namespace voxelume {
+namespace {
+
+/// How many bytes continue a character that begins with `first`; -1 for a byte that begins none.
+int bytes_after(uint8_t first) {
+    if (first < 0x80) return 0;
+    if (first >= 0xC2 && first < 0xE0) return 1;
+    if (first >= 0xE0 && first < 0xF0) return 2;
+    return first >= 0xF0 && first < 0xF5 ? 3 : -1;
+}
+
+/// The least and the greatest code of characters of so many further bytes.
+bool is_code(uint32_t code, int further) {
+    constexpr uint32_t kLeast[] = {0, 0x80, 0x800, 0x10000};
+    return code >= kLeast[further] && code <= 0x10FFFF && (code < 0xD800 || code > 0xDFFF);
+}
+
+bool is_utf8(const std::string& text) {
+    for (size_t i = 0; i < text.size();) {
+        const auto first = static_cast<uint8_t>(text[i]);
+        const int further = bytes_after(first);
+        if (further < 0 || text.size() - i <= size_t(further)) return false;
+        uint32_t code = further == 0 ? first : first & (0x3Fu >> further);
+        for (int k = 1; k <= further; ++k) {
+            const auto byte = static_cast<uint8_t>(text[i + size_t(k)]);
+            if ((byte & 0xC0) != 0x80) return false;
+            code = code << 6 | (byte & 0x3Fu);
+        }
+        if (!is_code(code, further)) return false;
+        i += size_t(further) + 1;
+    }
+    return true;
+}
+
+}  // namespace
+
+std::string utf8_text(const std::string& text) {
+    if (is_utf8(text)) return text;
+    std::string out;
+    for (const char c : text) {
+        const auto byte = static_cast<uint8_t>(c);
+        if (byte < 0x80) {
+            out += c;
+        } else {
+            out += static_cast<char>(0xC0 | byte >> 6);
+            out += static_cast<char>(0x80 | (byte & 0x3F));
+        }
+    }
+    return out;
+}
+
+}  // namespace voxelume

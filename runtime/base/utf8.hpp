@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+// Text of unknown encoding, as old files have it -> UTF-8.
+#pragma once
+
+#include <string>
+
+namespace voxelume {
+
+/// The text itself where it is valid UTF-8; otherwise its bytes are taken for Latin-1, so that the
+/// result always is.
+std::string utf8_text(const std::string& text);
+
+}  // namespace voxelume

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "runtime/geometry/mesh_shape.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace voxelume {
+
+MeshShape shape_of(const Mesh& mesh) {
+    return {sharp_length_of(mesh), thickness_of(mesh)};
+}
+
+SurfaceChoice surface_for(const MeshSummary& mesh, const MeshShape& shape, double voxel_edge) {
+    if (is_open(mesh))
+        return {Surface::exact, fmt::format("it is open at {} edges", mesh.topology.open_edges)};
+    if (!(mesh.topology.volume > 0))
+        return {Surface::exact, "it has no volume, or its faces look inwards"};
+    if (shape.sharp_length > kSharpShare * std::sqrt(mesh.area.total))
+        return {Surface::exact, fmt::format("it has {:.3g} m of edges that turn by {} degrees or "
+                                            "more",
+                                            shape.sharp_length, kSharpAngle)};
+    const double thickness = shape.thickness / voxel_edge;
+    if (thickness < kThinVoxels)
+        return {Surface::exact, fmt::format("parts of it are only {:.2g} voxels thick", thickness)};
+    return {Surface::smooth,
+            fmt::format("it is {}, without sharp edges, and {:.3g} voxels thick",
+                        mesh.topology.open_edges > 0 ? "closed but for small holes" : "closed",
+                        thickness)};
+}
+
+}  // namespace voxelume

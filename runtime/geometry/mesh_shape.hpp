@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// mesh -> whether a distance field shows it rightly, and why not: what `"surface": "auto"` asks.
+#pragma once
+
+#include <string>
+
+#include "runtime/geometry/mesh_creases.hpp"
+#include "runtime/geometry/mesh_summary.hpp"
+#include "runtime/geometry/mesh_thickness.hpp"
+#include "runtime/scene/surface.hpp"
+
+namespace voxelume {
+
+/// Creases make a mesh sharp-edged that together are longer than this many times the side of a
+/// square with the mesh's area. A cube has 4.9, a cone 2, and scanned meshes up to 0.4 by their
+/// noise.
+inline constexpr double kSharpShare = 0.7;
+
+/// Parts of a body are thin below this many voxels.
+inline constexpr double kThinVoxels = 2;
+
+/// What is asked of a mesh besides its summary.
+struct MeshShape {
+    double sharp_length = 0;  ///< metres, of sharp_length_of()
+    double thickness = 0;     ///< metres, of thickness_of()
+};
+
+MeshShape shape_of(const Mesh& mesh);
+
+/// A surface with the reason for it, as the second half of a sentence.
+struct SurfaceChoice {
+    Surface surface = Surface::smooth;
+    std::string reason;
+};
+
+/// `smooth` for a mesh with an inside and without sharp edges that is at least kThinVoxels thick,
+/// else `exact`. `voxel_edge` is that of the voxels that would hold its distances, metres in the
+/// space of the mesh.
+SurfaceChoice surface_for(const MeshSummary& mesh, const MeshShape& shape, double voxel_edge);
+
+}  // namespace voxelume

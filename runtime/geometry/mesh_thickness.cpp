@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "runtime/geometry/mesh_thickness.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <vector>
+
+#include "runtime/geometry/mesh_summary.hpp"
+
+namespace voxelume {
+namespace {
+
+constexpr int kLines = 64;
+
+/// Lines lie off the middles of their squares, where few meshes have edges.
+constexpr double kOffset = 0.4142135623730950;
+
+struct Crossing {
+    double at = 0;            ///< along the axis
+    double normal = 0;        ///< the face's normal along the axis, 1 if it looks forwards
+    bool turns_here = false;  ///< its normal is more along this axis than along the others
+};
+
+/// A chord of the body, with the area of the face that it stands for.
+struct Chord {
+    double thickness, area;
+};
+
+/// The lines along one axis.
+class AxisLines {
+  public:
+    AxisLines(const Bounds& box, int axis) : axis_(axis), u_((axis + 1) % 3), v_((axis + 2) % 3) {
+        low_ = {box.min[u_], box.min[v_]};
+        step_ = glm::dvec2(box.max[u_] - low_.x, box.max[v_] - low_.y) / double(kLines);
+    }
+
+    void cross(const std::array<glm::dvec3, 3>& corners) {
+        const glm::dvec3 normal = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
+        const double length = glm::length(normal);
+        if (normal[axis_] == 0 || step_.x <= 0 || step_.y <= 0) return;
+        std::array<glm::dvec2, 3> p;
+        for (size_t i = 0; i < 3; ++i)
+            p[i] = (glm::dvec2(corners[i][u_], corners[i][v_]) - low_) / step_ - kOffset;
+        const glm::dvec2 first = glm::ceil(glm::min(glm::min(p[0], p[1]), p[2]));
+        const glm::dvec2 last = glm::floor(glm::max(glm::max(p[0], p[1]), p[2]));
+        const glm::dvec3 size = glm::abs(normal);
+        const Crossing crossing{0, normal[axis_] / length,
+                                size[axis_] >= size[u_] && size[axis_] >= size[v_]};
+        for (double y = std::max(first.y, 0.0); y <= std::min(last.y, kLines - 1.0); ++y)
+            for (double x = std::max(first.x, 0.0); x <= std::min(last.x, kLines - 1.0); ++x)
+                cross(corners, p, {x, y}, crossing);
+    }
+
+    void add_chords(std::vector<Chord>& chords) {
+        const double square = step_.x * step_.y;
+        for (std::vector<Crossing>& line : lines_) {
+            std::ranges::stable_sort(line, {}, &Crossing::at);
+            int depth = 0;
+            const Crossing* entry = nullptr;
+            for (const Crossing& crossing : line) {
+                if (crossing.normal < 0 && depth++ == 0) entry = &crossing;
+                if (crossing.normal > 0 && --depth == 0 && entry && entry->turns_here)
+                    chords.push_back(
+                        {(crossing.at - entry->at) * -entry->normal, square / -entry->normal});
+            }
+        }
+    }
+
+  private:
+    void cross(const std::array<glm::dvec3, 3>& corners, const std::array<glm::dvec2, 3>& p,
+               const glm::dvec2& line, Crossing crossing) {
+        const auto area = [](const glm::dvec2& a, const glm::dvec2& b) {
+            return a.x * b.y - a.y * b.x;
+        };
+        const std::array<glm::dvec2, 3> q = {p[0] - line, p[1] - line, p[2] - line};
+        const glm::dvec3 weights(area(q[1], q[2]), area(q[2], q[0]), area(q[0], q[1]));
+        const double sum = weights.x + weights.y + weights.z;
+        if (sum == 0 || weights.x * sum < 0 || weights.y * sum < 0 || weights.z * sum < 0) return;
+        for (int i = 0; i < 3; ++i) crossing.at += weights[i] / sum * corners[size_t(i)][axis_];
+        lines_[size_t(line.x) + kLines * size_t(line.y)].push_back(crossing);
+    }
+
+    int axis_, u_, v_;
+    glm::dvec2 low_, step_;
+    std::vector<std::vector<Crossing>> lines_ =
+        std::vector<std::vector<Crossing>>(size_t(kLines) * kLines);
+};
+
+/// The thickness that kThinShare of the area doesn't reach.
+double quantile(std::vector<Chord>& chords) {
+    std::ranges::stable_sort(chords, {}, &Chord::thickness);
+    double sum = 0;
+    for (const Chord& chord : chords) sum += chord.area;
+    double so_far = 0;
+    for (const Chord& chord : chords)
+        if ((so_far += chord.area) >= kThinShare * sum) return chord.thickness;
+    return 0;
+}
+
+}  // namespace
+
+double thickness_of(const Mesh& mesh) {
+    const Bounds box = mesh_bounds(mesh);
+    std::vector<Chord> chords;
+    for (int axis = 0; axis < 3; ++axis) {
+        AxisLines lines(box, axis);
+        for (const glm::uvec3& t : mesh.triangles)
+            lines.cross({glm::dvec3(mesh.positions[t.x]), glm::dvec3(mesh.positions[t.y]),
+                         glm::dvec3(mesh.positions[t.z])});
+        lines.add_chords(chords);
+    }
+    return quantile(chords);
+}
+
+}  // namespace voxelume

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+// The images that meshes wear.
+#pragma once
+
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace voxelume {
+
+/// An entry of Mesh::group_textures for a group without a texture.
+inline constexpr uint32_t kNoTexture = 0xFFFFFFFFu;
+
+/// What lies beside a texture; the numbers are those of the kernel.
+enum class TextureWrap : uint8_t { repeat, mirror, clamp };
+
+/// An image and its levels for distant looks, each of half the size of the one before.
+struct TextureImage {
+    int width = 0, height = 0;
+    /// Level after level, each in rows from its upper left texel: 0xAABBGGRR, colours in sRGB.
+    std::vector<uint32_t> texels;
+};
+
+/// The size of a level of an image along one axis: level 0 is the image, and each further one has
+/// half of the texels, rounded down, but never fewer than 1.
+inline int level_size(int size, int level) {
+    return std::max(size >> level, 1);
+}
+
+/// How many levels an image has: the last one is of one texel.
+inline int level_count(const TextureImage& image) {
+    return std::bit_width(unsigned(std::max(image.width, image.height)));
+}
+
+/// The texels of all levels.
+inline uint64_t texel_count(const TextureImage& image) {
+    uint64_t count = 0;
+    for (int level = 0; level < level_count(image); ++level)
+        count +=
+            uint64_t(level_size(image.width, level)) * uint64_t(level_size(image.height, level));
+    return count;
+}
+
+struct Texture {
+    std::shared_ptr<const TextureImage> image;  ///< never null
+    TextureWrap wrap_u = TextureWrap::repeat, wrap_v = TextureWrap::repeat;
+};
+
+}  // namespace voxelume

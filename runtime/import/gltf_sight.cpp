@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "runtime/import/gltf_sight.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+
+#include "runtime/import/contents.hpp"
+
+namespace voxelume {
+namespace {
+
+glm::dvec3 unit(const glm::dvec4& v) {
+    const double length = glm::length(glm::dvec3(v));
+    return length > 0 ? glm::dvec3(v) / length : glm::dvec3(0, 0, 1);
+}
+
+glm::dvec3 position_of(const GltfNode& node) {
+    return glm::dvec3(node.world_from_node[3]);
+}
+
+/// Cameras and lights look along -Z.
+glm::dvec3 direction_of(const GltfNode& node) {
+    return -unit(node.world_from_node[2]);
+}
+
+std::string perspective_display(const GltfValue& camera, const glm::ivec2& size) {
+    const double height = std::tan(std::clamp(camera.number("yfov", 0.8), 0.01, 3.1) / 2);
+    const double angle = 2 * glm::degrees(std::atan(height * size.x / size.y));
+    return fmt::format("\"shape\": \"pyramid\", \"angle\": {}",
+                       rounded(std::clamp(angle, 1.0, 170.0), 8));
+}
+
+/// A box as deep as what the camera shows, behind its near plane.
+std::string parallel_display(const GltfValue& camera, const glm::ivec2& size, double depth) {
+    const double height = 2 * std::max(std::abs(camera.number("ymag", 1)), 1e-6);
+    return fmt::format("\"shape\": \"box\", \"size\": [{}, {}, {}]",
+                       rounded(height * size.x / size.y, 8), rounded(height, 8), rounded(depth, 8));
+}
+
+/// A light's luminous intensity or illuminance, in its colour.
+double brightness(const GltfValue& light) {
+    return std::clamp(light.number("intensity", 1), 0.0, 1e9);
+}
+
+double irradiance_at(const glm::dvec3& p, const GltfNode& node, const GltfValue& light,
+                     double nearest) {
+    if (light.text("type") == "directional") return brightness(light);
+    const double distance = std::max(glm::length(p - position_of(node)), nearest);
+    return brightness(light) / (distance * distance);
+}
+
+/// The opening of a whole cone in degrees, for half of it in radians.
+double opening(double half) {
+    return std::clamp(2 * glm::degrees(half), 0.01, 179.9);
+}
+
+std::string light_item(const GltfNode& node, const GltfValue& light, const std::string& name,
+                       double scale) {
+    const std::string type = light.text("type");
+    std::string text =
+        fmt::format("{{\"name\": {}, \"type\": {}", json_text(name), json_text(type));
+    if (type != "directional")
+        text += fmt::format(", \"position\": {}", json_list(rounded(position_of(node), 9)));
+    if (type != "point")
+        text += fmt::format(", \"direction\": {}", json_list(rounded(direction_of(node), 9)));
+    if (type == "spot") {
+        const GltfValue spot = light.at("spot");
+        const double outer = opening(spot.number("outerConeAngle", 0.7853981633974483));
+        const double inner = std::min(opening(spot.number("innerConeAngle", 0)), outer);
+        text += fmt::format(", \"angle\": {}, \"inner_angle\": {}", rounded(outer, 9),
+                            rounded(inner, 9));
+    }
+    const std::vector<double> color = light.numbers("color", 3);
+    if (!color.empty())
+        text += fmt::format(", \"color\": [{}, {}, {}]", std::max(color[0], 0.0),
+                            std::max(color[1], 0.0), std::max(color[2], 0.0));
+    return text + fmt::format(", \"intensity\": {}}}", rounded(brightness(light) * scale, 6));
+}
+
+bool is_shown(const GltfValue& light) {
+    const std::string type = light.text("type");
+    return (type == "point" || type == "spot" || type == "directional") && brightness(light) > 0;
+}
+
+}  // namespace
+
+std::string gltf_observer(const GltfFile& file, const std::vector<GltfNode>& nodes,
+                          const Bounds& box, const glm::ivec2& size) {
+    const auto node = std::ranges::find_if(nodes, [](const GltfNode& n) { return n.camera >= 0; });
+    if (node == nodes.end()) return {};
+    const GltfValue camera = file.root().item("cameras", size_t(node->camera));
+    const glm::dvec3 towards = direction_of(*node), up = unit(node->world_from_node[1]);
+    glm::dvec3 position = position_of(*node);
+    double depth = 0;
+    for (int i = 0; i < 8; ++i)
+        depth = std::max(depth, glm::dot(corner(box, i) - position, towards));
+    std::string display;
+    if (camera.text("type") == "orthographic") {
+        const GltfValue values = camera.at("orthographic");
+        const double near = std::max(values.number("znear", 0), 0.0);
+        position += near * towards;
+        const double far = values.number("zfar", near + depth) - near;
+        depth = std::max(std::min(far, 1.01 * depth), 1e-3);
+        display = parallel_display(values, size, depth);
+    } else {
+        display = perspective_display(camera.at("perspective"), size);
+    }
+    const double distance = depth > 0 ? depth / 2 : 1;
+    return fmt::format(
+        "  \"observer\": {{\"position\": {}, \"look_at\": {}, \"up\": {},\n"
+        "               \"display\": {{{}}}}},\n",
+        json_list(rounded(position, 9)), json_list(rounded(position + distance * towards, 9)),
+        json_list(rounded(up, 9)), display);
+}
+
+std::vector<std::string> gltf_light_items(const GltfFile& file, const std::vector<GltfNode>& nodes,
+                                          const Bounds& box) {
+    const std::vector<GltfValue> lights = gltf_lights(file);
+    const glm::dvec3 middle = (box.min + box.max) / 2.0;
+    double sum = 0;
+    for (const GltfNode& node : nodes)
+        if (node.light >= 0 && is_shown(lights[size_t(node.light)]))
+            sum += irradiance_at(middle, node, lights[size_t(node.light)], longest_side(box) / 8);
+    std::vector<std::string> items;
+    NameList names({});
+    for (const GltfNode& node : nodes) {
+        if (node.light < 0 || !is_shown(lights[size_t(node.light)])) continue;
+        const std::string name = node.name.empty() ? "light" : node.name;
+        items.push_back(light_item(node, lights[size_t(node.light)], names.unique(name), 1 / sum));
+    }
+    return items;
+}
+
+}  // namespace voxelume

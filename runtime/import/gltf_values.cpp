@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "runtime/import/gltf_values.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/exponential.hpp>
+
+#include "runtime/import/contents.hpp"
+#include "runtime/import/gloss.hpp"
+
+namespace voxelume {
+namespace {
+
+constexpr double kDielectric = 0.04;  // what glass reflects straight on
+
+glm::dvec3 color_of(const GltfValue& value, const char* key, size_t count) {
+    const std::vector<double> numbers = value.numbers(key, count);
+    if (numbers.empty()) return glm::dvec3(1);
+    return glm::clamp(glm::dvec3(numbers[0], numbers[1], numbers[2]), 0.0, 1.0);
+}
+
+/// What the keys of either way of describing a material mean.
+struct Looks {
+    glm::dvec3 color{1};
+    double opacity = 1, metal = 1, rough = 1;
+};
+
+Looks looks_of(const GltfValue& material) {
+    Looks s;
+    const char* const kOld = "KHR_materials_pbrSpecularGlossiness";
+    const bool is_old = material.has_extension(kOld) &&
+                        !material.at("pbrMetallicRoughness").has("baseColorFactor") &&
+                        !material.at("pbrMetallicRoughness").has("baseColorTexture");
+    const GltfValue from = is_old ? material.extension(kOld) : material.at("pbrMetallicRoughness");
+    const char* const color = is_old ? "diffuseFactor" : "baseColorFactor";
+    s.color = color_of(from, color, 4);
+    const std::vector<double> numbers = from.numbers(color, 4);
+    if (!numbers.empty()) s.opacity = std::clamp(numbers[3], 0.0, 1.0);
+    if (is_old) {
+        s.metal = 0;
+        s.rough = 1 - std::clamp(from.number("glossinessFactor", 1), 0.0, 1.0);
+    } else {
+        // Where a texture decides how much is metal, its factor says nothing of most of it.
+        const bool has_map = from.has("metallicRoughnessTexture");
+        s.metal = has_map ? 0 : std::clamp(from.number("metallicFactor", 1), 0.0, 1.0);
+        s.rough = has_map ? 0.7 : std::clamp(from.number("roughnessFactor", 1), 0.0, 1.0);
+    }
+    if (material.text("alphaMode", "OPAQUE") != "BLEND") s.opacity = 1;
+    return s;
+}
+
+double transmission_of(const GltfValue& material) {
+    return std::clamp(
+        material.extension("KHR_materials_transmission").number("transmissionFactor", 0), 0.0, 1.0);
+}
+
+bool has_volume(const GltfValue& material) {
+    return material.extension("KHR_materials_volume").number("thicknessFactor", 0) > 0;
+}
+
+/// Members of a body of glass. What has no volume is a pane, through which light goes straight on.
+std::string glass_members(const GltfValue& material, double transmission) {
+    if (!has_volume(material))
+        return fmt::format(", \"opacity\": {}", rounded(std::max(1 - transmission, 0.05), 3));
+    const double ior = material.extension("KHR_materials_ior").number("ior", 1.5);
+    std::string text = fmt::format(
+        ", \"diffuse\": {}, \"specular\": 0.5, \"reflection\": 1, \"refraction\": {}, \"fresnel\": "
+        "true, \"ior\": {}",
+        rounded(1 - transmission, 3), rounded(transmission, 3),
+        rounded(std::clamp(ior, 1.0, 10.0), 4));
+    const GltfValue volume = material.extension("KHR_materials_volume");
+    const double distance = volume.number("attenuationDistance", 0);
+    if (!volume.has("attenuationColor") || !(distance > 0)) return text;
+    constexpr double kDarkest = 1e-3;
+    const glm::dvec3 left = glm::max(color_of(volume, "attenuationColor", 3), glm::dvec3(kDarkest));
+    return text +
+           fmt::format(", \"absorption\": {}", json_list(rounded(-glm::log(left) / distance, 4)));
+}
+
+glm::dvec3 emission_of(const GltfValue& material) {
+    // A texture says where it glows; the factor alone would have all of the surface do so.
+    if (material.has("emissiveTexture") || !material.has("emissiveFactor")) return glm::dvec3(0);
+    const double strength =
+        material.extension("KHR_materials_emissive_strength").number("emissiveStrength", 1);
+    return color_of(material, "emissiveFactor", 3) * std::clamp(strength, 0.0, 1e6);
+}
+
+}  // namespace
+
+bool gltf_transmits(const GltfValue& material) {
+    return looks_of(material).opacity < 1 || transmission_of(material) > 0;
+}
+
+std::string gltf_values(const GltfValue& material) {
+    const Looks s = looks_of(material);
+    const double transmission = transmission_of(material);
+    std::string text = fmt::format("\"color\": {}", json_list(rounded(s.color, 4)));
+    if (transmission > 0) {
+        text += glass_members(material, transmission);
+    } else if (material.has_extension("KHR_materials_unlit")) {
+        // It shows its colour in whatever light.
+    } else if (s.metal > 0.01) {
+        text += ", " + metal_members(s.metal, s.rough);
+    } else if (s.rough < 0.9) {
+        text +=
+            fmt::format(", \"specular\": {}, \"shininess\": {}",
+                        rounded(std::sqrt(kDielectric) * (1 - s.rough), 3), shininess_of(s.rough));
+    }
+    if (transmission == 0 && s.opacity < 1)
+        text += fmt::format(", \"opacity\": {}", rounded(std::max(s.opacity, 0.01), 3));
+    const glm::dvec3 emission = emission_of(material);
+    if (emission != glm::dvec3(0))
+        text += fmt::format(", \"emission\": {}", json_list(rounded(emission, 4)));
+    return text;
+}
+
+}  // namespace voxelume

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+// A material of a glTF file -> the keys of a scene's material.
+#pragma once
+
+#include <string>
+
+#include "runtime/io/gltf/gltf_file.hpp"
+
+namespace voxelume {
+
+/// The members of the scene's material, without braces.
+std::string gltf_values(const GltfValue& material);
+
+/// Whether light goes through what has the material.
+bool gltf_transmits(const GltfValue& material);
+
+}  // namespace voxelume

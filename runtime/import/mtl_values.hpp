@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+// A material of an OBJ file's library -> the keys of a scene's material.
+#pragma once
+
+#include <string>
+
+#include "runtime/io/mesh/material_library.hpp"
+
+namespace voxelume {
+
+/// The members of the scene's material, without braces. A texture gives the mesh's voxels their
+/// colours, which the material's colour multiplies.
+std::string mtl_values(const MtlMaterial& material);
+
+/// Whether light goes through what has the material.
+bool mtl_transmits(const MtlMaterial& material);
+
+}  // namespace voxelume

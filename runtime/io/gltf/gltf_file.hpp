@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+// glTF 2.0 file (.gltf, .glb) -> its JSON and the bytes of its buffers.
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace voxelume {
+
+/// A part of a glTF file's JSON, with its place for messages: "meshes[3].primitives[0]".
+///
+/// Members are checked as they are read: each function throws Error::input with the file and the
+/// place for a value of another type.
+class GltfValue {
+  public:
+    GltfValue(const std::string& file, const nlohmann::json& json, std::string place)
+        : file_(&file), json_(&json), place_(std::move(place)) {}
+
+    const nlohmann::json& json() const { return *json_; }
+    const std::string& place() const { return place_; }
+    [[noreturn]] void fail(std::string_view sentence) const;
+
+    bool has(const char* key) const;
+    /// A member that is an object or list; an empty one where there is none.
+    GltfValue at(const char* key) const;
+    GltfValue extension(const char* name) const;
+    bool has_extension(const char* name) const;
+    /// How many items a list has, which may be missing, and one of them.
+    size_t size(const char* key) const;
+    GltfValue item(const char* key, size_t number) const;
+    /// The items of a list, which may be missing.
+    std::vector<GltfValue> items(const char* key) const;
+
+    double number(const char* key, double otherwise) const;
+    bool boolean(const char* key, bool otherwise) const;
+    std::string text(const char* key, const std::string& otherwise = {}) const;
+    /// A list of exactly that many finite numbers; empty where there is none.
+    std::vector<double> numbers(const char* key, size_t count) const;
+    /// A whole number of at least 0 and at most 2^53.
+    uint64_t count(const char* key, uint64_t otherwise) const;
+    /// The index of one of `size` things; -1 where there is none.
+    int index(const char* key, size_t size) const;
+
+  private:
+    const nlohmann::json* find(const char* key) const;
+    GltfValue member(const char* key, const nlohmann::json& json) const;
+
+    const std::string* file_;
+    const nlohmann::json* json_;
+    std::string place_;
+};
+
+/// A glTF file in memory. Nothing in it is known to be right but its JSON's syntax.
+class GltfFile {
+  public:
+    /// Takes the file's bytes. `path` opens messages; buffers and images lie in its folder. Throws
+    /// Error::input for what is no glTF 2.0, for a required extension that isn't known, and for
+    /// buffers that are missing or too short; Error::limit for more than 64 MiB of JSON, 64 levels
+    /// or 16 GiB of buffers.
+    GltfFile(std::string bytes, const std::filesystem::path& path);
+
+    GltfFile(const GltfFile&) = delete;  // views of its bytes are kept
+    GltfFile& operator=(const GltfFile&) = delete;
+
+    const std::filesystem::path& path() const { return path_; }
+    GltfValue root() const { return {name_, json_, ""}; }
+    /// The bytes of a buffer view. `which` names it.
+    std::span<const uint8_t> view(const GltfValue& which, const char* key) const;
+    std::span<const uint8_t> buffer(size_t number) const { return buffers_[number]; }
+    size_t buffer_count() const { return buffers_.size(); }
+    /// The bytes of an image: its file's, a data URI's or a buffer view's.
+    std::vector<uint8_t> image(const GltfValue& image) const;
+    /// Extensions that the file uses and that aren't known, as sentences.
+    std::vector<std::string> notes() const;
+
+  private:
+    std::string_view take_chunks();
+    void parse_json(std::string_view text);
+    void check_json() const;
+    void read_buffers();
+    std::string bytes_of_uri(const GltfValue& from, const std::string& uri) const;
+
+    std::string bytes_;
+    std::filesystem::path path_;
+    std::string name_;
+    nlohmann::json json_;
+    std::string_view chunk_;         ///< of a .glb, its binary chunk
+    std::vector<std::string> read_;  ///< buffers from elsewhere
+    std::vector<std::span<const uint8_t>> buffers_;
+};
+
+/// True for names that end in .gltf or .glb.
+bool is_gltf_file(const std::filesystem::path& file);
+
+/// The files that a glTF file's buffers and images lie in.
+std::vector<std::filesystem::path> gltf_companions(const std::string& bytes,
+                                                   const std::filesystem::path& path);
+
+}  // namespace voxelume

@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "runtime/io/gltf/gltf_mesh.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/gtc/matrix_inverse.hpp>
+#include <glm/matrix.hpp>
+#include <map>
+
+#include "runtime/base/error.hpp"
+#include "runtime/io/gltf/gltf_accessor.hpp"
+#include "runtime/io/gltf/gltf_nodes.hpp"
+#include "runtime/io/gltf/gltf_textures.hpp"
+#include "runtime/io/mesh/mesh_polygon.hpp"
+#include "runtime/io/mesh/mesh_reader.hpp"
+
+namespace voxelume {
+namespace {
+
+enum Mode : uint64_t { kTriangles = 4, kStrip, kFan };
+
+/// Appends the triangles that vertices make in one of the modes.
+void append_triangles(const std::vector<uint32_t>& order, uint64_t mode, uint32_t base,
+                      bool is_mirrored, Mesh& mesh) {
+    const auto add = [&](size_t a, size_t b, size_t c) {
+        glm::uvec3 t(order[a], order[b], order[c]);
+        if (is_mirrored) std::swap(t.y, t.z);
+        mesh.triangles.push_back(t + base);
+    };
+    const size_t count = order.size();
+    if (mode == kTriangles)
+        for (size_t i = 0; i + 3 <= count; i += 3) add(i, i + 1, i + 2);
+    else if (mode == kStrip)
+        for (size_t i = 0; i + 3 <= count; ++i) add(i, i + 1 + i % 2, i + 2 - i % 2);
+    else
+        for (size_t i = 1; i + 2 <= count; ++i) add(i, i + 1, 0);
+}
+
+class MeshBuilder {
+  public:
+    explicit MeshBuilder(const GltfFile& file) : file_(file), textures_(file) {}
+
+    void add_mesh(int number, const glm::dmat4& map) {
+        for (const GltfValue& primitive :
+             file_.root().item("meshes", size_t(number)).items("primitives"))
+            add_primitive(primitive, map);
+    }
+
+    Mesh mesh() {
+        if (mesh_.triangles.empty())
+            throw Error(ErrorKind::input, "{}: has no triangles to show",
+                        SourcePlace(file_.path().string()));
+        fill(mesh_.positions.size());
+        if (mesh_.textures.empty()) {
+            mesh_.uvs = {};
+            mesh_.group_textures = {};
+        }
+        for (const std::string& note : file_.notes()) mesh_.notes.push_back(note);
+        if (skipped_ > 0)
+            mesh_.notes.push_back(fmt::format(
+                "{} of its primitives are points or lines, which aren't shown", skipped_));
+        return std::move(mesh_);
+    }
+
+  private:
+    void add_primitive(const GltfValue& primitive, const glm::dmat4& map) {
+        const uint64_t mode = primitive.count("mode", kTriangles);
+        if (mode < kTriangles) {
+            ++skipped_;
+            return;
+        }
+        if (mode > kFan) primitive.fail(fmt::format("{} is no mode", mode));
+        const GltfValue attributes = primitive.at("attributes");
+        if (!attributes.has("POSITION")) return;  // nothing is drawn, says the format
+        const GltfValues positions = gltf_values(file_, attributes, "POSITION", {3});
+        const size_t base = mesh_.positions.size();
+        if (base + positions.count >= kMaxGltfElements) fail_size();
+        add_positions(positions, map);
+        add_normals(attributes, positions.count, base, map);
+        add_colors(attributes, positions.count, base);
+        const int material = primitive.index("material", file_.root().size("materials"));
+        add_uvs(attributes, material, positions.count, base);
+        add_faces(primitive, mode, positions.count, base, glm::determinant(glm::dmat3(map)) < 0);
+        mesh_.triangle_group.resize(mesh_.triangles.size(), group_of(material));
+    }
+
+    [[noreturn]] void fail_size() const {
+        throw Error(ErrorKind::limit, "{}: its scene has more than 2^31 vertices or {} triangles",
+                    SourcePlace(file_.path().string()), kMaxTriangles);
+    }
+
+    void add_positions(const GltfValues& positions, const glm::dmat4& map) {
+        for (size_t i = 0; i < positions.count; ++i) {
+            const float* const p = &positions.values[3 * i];
+            const glm::vec3 at(map * glm::dvec4(p[0], p[1], p[2], 1));
+            if (!std::isfinite(at.x + at.y + at.z))
+                throw Error(ErrorKind::input, "{}: a vertex isn't finite",
+                            SourcePlace(file_.path().string()));
+            mesh_.positions.push_back(at);
+        }
+    }
+
+    /// Reads values of as many vertices as the primitive has.
+    GltfValues values(const GltfValue& attributes, const char* key, size_t vertices,
+                      std::initializer_list<int> components) const {
+        GltfValues found = gltf_values(file_, attributes, key, components);
+        if (found.count != vertices)
+            attributes.fail(fmt::format("{} vertices, and {} of {}", vertices, found.count, key));
+        return found;
+    }
+
+    void add_normals(const GltfValue& attributes, size_t vertices, size_t base,
+                     const glm::dmat4& map) {
+        if (!attributes.has("NORMAL")) return;
+        const GltfValues normals = values(attributes, "NORMAL", vertices, {3});
+        const glm::dmat3 turn = glm::inverseTranspose(glm::dmat3(map));
+        mesh_.normals.resize(base, glm::vec3(0));
+        for (size_t i = 0; i < vertices; ++i) {
+            const float* const n = &normals.values[3 * i];
+            const glm::vec3 normal(turn * glm::dvec3(n[0], n[1], n[2]));
+            mesh_.normals.push_back(std::isfinite(normal.x + normal.y + normal.z) ? normal
+                                                                                  : glm::vec3(0));
+        }
+    }
+
+    /// Colours of glTF are linear already.
+    void add_colors(const GltfValue& attributes, size_t vertices, size_t base) {
+        if (!attributes.has("COLOR_0")) return;
+        const GltfValues colors = values(attributes, "COLOR_0", vertices, {3, 4});
+        mesh_.vertex_colors.resize(base, glm::vec3(1));
+        for (size_t i = 0; i < vertices; ++i) {
+            const float* const c = &colors.values[size_t(colors.components) * i];
+            const glm::vec3 color(c[0], c[1], c[2]);
+            const bool is_color = std::isfinite(color.x + color.y + color.z);
+            mesh_.vertex_colors.push_back(is_color ? glm::clamp(color, glm::vec3(0), glm::vec3(1))
+                                                   : glm::vec3(1));
+        }
+    }
+
+    void add_uvs(const GltfValue& attributes, int material, size_t vertices, size_t base) {
+        const GltfTextureUse use = textures_.of_material(material);
+        const std::string key = fmt::format("TEXCOORD_{}", use.set);
+        if (use.texture < 0 || !attributes.has(key.c_str())) return;
+        const GltfValues uvs = values(attributes, key.c_str(), vertices, {2});
+        mesh_.uvs.resize(base, glm::vec2(0));
+        for (size_t i = 0; i < vertices; ++i)
+            mesh_.uvs.push_back(use.moved({uvs.values[2 * i], uvs.values[2 * i + 1]}));
+    }
+
+    void add_faces(const GltfValue& primitive, uint64_t mode, size_t vertices, size_t base,
+                   bool is_mirrored) {
+        std::vector<uint32_t> order;
+        if (primitive.has("indices")) {
+            order = gltf_indices(file_, primitive, "indices", vertices);
+        } else {
+            order.resize(vertices);
+            for (size_t i = 0; i < vertices; ++i) order[i] = uint32_t(i);
+        }
+        if (mesh_.triangles.size() + order.size() > kMaxTriangles) fail_size();
+        append_triangles(order, mode, uint32_t(base), is_mirrored, mesh_);
+    }
+
+    /// The group of a material, which begins to exist with its first primitive.
+    uint32_t group_of(int material) {
+        const auto [entry, is_new] =
+            groups_.try_emplace(material, uint32_t(mesh_.group_names.size()));
+        if (is_new) {
+            mesh_.group_names.push_back(gltf_material_name(file_, material));
+            mesh_.group_textures.push_back(textures_.append(material, mesh_));
+        }
+        return entry->second;
+    }
+
+    /// Gives the vertices behind the last that have colours and the like what says nothing.
+    void fill(size_t vertices) {
+        if (!mesh_.vertex_colors.empty()) mesh_.vertex_colors.resize(vertices, glm::vec3(1));
+        if (!mesh_.normals.empty()) mesh_.normals.resize(vertices, glm::vec3(0));
+        if (!mesh_.uvs.empty() || !mesh_.textures.empty()) mesh_.uvs.resize(vertices, glm::vec2(0));
+    }
+
+    const GltfFile& file_;
+    GltfTextures textures_;
+    Mesh mesh_;
+    std::map<int, uint32_t> groups_;
+    size_t skipped_ = 0;
+};
+
+}  // namespace
+
+std::string gltf_material_name(const GltfFile& file, int material) {
+    if (material < 0) return "";
+    const GltfValue root = file.root();
+    const std::string name = root.item("materials", size_t(material)).text("name");
+    if (name.empty()) return fmt::format("material {}", material);
+    for (int i = 0; i < material; ++i)
+        if (root.item("materials", size_t(i)).text("name") == name)
+            return fmt::format("{} {}", name, material);
+    return name;
+}
+
+Mesh read_mesh_file(const std::filesystem::path& path) {
+    return is_gltf_file(path) ? gltf_mesh(GltfFile(read_mesh_bytes(path), path), 0)
+                              : read_mesh(path);
+}
+
+Mesh gltf_mesh(const GltfFile& file, int part) {
+    MeshBuilder builder(file);
+    const size_t meshes = file.root().size("meshes");
+    if (size_t(part) > meshes)
+        throw Error(ErrorKind::input, "{}: has {} meshes, and none of number {}",
+                    SourcePlace(file.path().string()), meshes, part);
+    if (part > 0) {
+        builder.add_mesh(part - 1, glm::dmat4(1));
+        return builder.mesh();
+    }
+    for (const GltfNode& node : gltf_nodes(file))
+        if (node.mesh >= 0) builder.add_mesh(node.mesh, node.world_from_node);
+    return builder.mesh();
+}
+
+}  // namespace voxelume

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// A file with an image that a mesh wears -> 8-bit picture.
+#pragma once
+
+#include <filesystem>
+#include <span>
+
+#include "runtime/io/image/png.hpp"
+
+namespace voxelume {
+
+/// The most pixels of a picture that a mesh wears: 8192 x 8192.
+inline constexpr uint64_t kMaxTexturePixels = uint64_t{1} << 26;
+
+/// Decodes a JPEG, of grey or YCbCr; alpha is 255. The rotation that a camera noted isn't applied,
+/// as places on textures are those of the stored rows. Throws Error::input, which begins with
+/// `name`, for bytes that are damaged or cut off, and above kMaxTexturePixels.
+Picture parse_jpeg(std::span<const uint8_t> bytes, const std::filesystem::path& name);
+
+/// Decodes a PNG or JPEG, as its first bytes tell. Throws Error::input likewise.
+Picture parse_picture(std::span<const uint8_t> bytes, const std::filesystem::path& name);
+
+/// Reads a picture's file. Throws Error::input likewise.
+Picture read_picture(const std::filesystem::path& path);
+
+}  // namespace voxelume

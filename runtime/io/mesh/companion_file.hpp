@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+// Files that a mesh's file names: material libraries, textures, buffers.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+namespace voxelume {
+
+/// The canonical path of a regular file that the file `of` names, in its folder or below it.
+///
+/// Backslashes count as slashes. Of a name that leads elsewhere, as those of the computer that
+/// wrote the file do, only the last part counts. Empty where there is no such file, and for links
+/// that lead out of the folder.
+std::optional<std::filesystem::path> companion_file(const std::filesystem::path& of,
+                                                    std::string name);
+
+}  // namespace voxelume

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "runtime/io/mesh/mesh_textures.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <string_view>
+
+#include "runtime/base/error.hpp"
+#include "runtime/base/text.hpp"
+#include "runtime/io/image/picture.hpp"
+#include "runtime/io/mesh/companion_file.hpp"
+#include "runtime/io/mesh/material_library.hpp"
+#include "runtime/io/mesh/mesh_paint.hpp"
+#include "runtime/io/mesh/mesh_reader.hpp"
+#include "runtime/io/mesh/texture_levels.hpp"
+
+namespace voxelume {
+namespace {
+
+namespace fs = std::filesystem;
+
+uint64_t first_level_texels(const Mesh& mesh) {
+    uint64_t count = 0;
+    for (const Texture& texture : mesh.textures)
+        count += uint64_t(texture.image->width) * uint64_t(texture.image->height);
+    return count;
+}
+
+/// Gives the corners of a group's triangles places of their own: `offset` + `scale` · the old ones,
+/// whose v counts upwards.
+void move_uvs(Mesh& mesh, uint32_t group, const MtlTexture& map) {
+    if (map.offset == glm::dvec2(0) && map.scale == glm::dvec2(1)) return;
+    for (size_t i = 0; i < mesh.triangle_uvs.size(); ++i) {
+        if ((mesh.triangle_group.empty() ? 0 : mesh.triangle_group[i]) != group) continue;
+        glm::uvec3& t = mesh.triangle_uvs[i];
+        for (int k = 0; k < 3; ++k) {
+            if (t[k] >= mesh.uvs.size()) continue;
+            const glm::dvec2 old(mesh.uvs[t[k]].x, 1 - double(mesh.uvs[t[k]].y));
+            const glm::dvec2 at = map.offset + map.scale * old;
+            t[k] = uint32_t(mesh.uvs.size());
+            mesh.uvs.push_back(upright_uv(at.x, at.y));
+        }
+    }
+}
+
+std::string without_places(const std::string& texture) {
+    return fmt::format("its texture {} isn't shown: no face says which part of it is its own",
+                       quote(texture));
+}
+
+void read_library_textures(const fs::path& name, Mesh& mesh) {
+    const std::vector<MtlMaterial> library = read_material_library(name, mesh.material_library);
+    const size_t groups = std::max<size_t>(mesh.group_names.size(), 1);
+    std::map<std::pair<std::string, bool>, uint32_t> known;
+    for (uint32_t group = 0; group < groups && group < mesh.group_names.size(); ++group) {
+        const auto material =
+            std::ranges::find(library, mesh.group_names[group], &MtlMaterial::name);
+        if (material == library.end() || material->diffuse_map.file.empty()) continue;
+        const MtlTexture& map = material->diffuse_map;
+        if (mesh.uvs.empty()) {
+            mesh.notes.push_back(without_places(map.file));
+            continue;
+        }
+        const auto [entry, is_new] = known.try_emplace({map.file, map.clamps}, kNoTexture);
+        if (is_new)
+            entry->second = append_texture(
+                name, map.file, map.clamps ? TextureWrap::clamp : TextureWrap::repeat, mesh);
+        mesh.group_textures.resize(groups, kNoTexture);
+        mesh.group_textures[group] = entry->second;
+        if (entry->second != kNoTexture) move_uvs(mesh, group, map);
+    }
+}
+
+void read_ply_texture(const fs::path& name, Mesh& mesh) {
+    if (mesh.uvs.empty()) {
+        if (mesh.vertex_colors.empty()) mesh.notes.push_back(without_places(mesh.texture));
+        return;
+    }
+    mesh.group_textures = {append_texture(name, mesh.texture, TextureWrap::repeat, mesh)};
+    if (mesh.textures.empty()) return;
+    // Programs write into vertices what the texture has more of.
+    mesh.vertex_colors = {};
+    mesh.triangle_colors = {};
+}
+
+/// The name that the first statement mtllib of an OBJ file has.
+std::string library_name(const std::string& bytes) {
+    constexpr std::string_view kWord = "mtllib";
+    for (size_t at = bytes.find(kWord); at != std::string::npos; at = bytes.find(kWord, at + 1)) {
+        const size_t line = at == 0 ? 0 : bytes.find_last_of('\n', at) + 1;
+        if (bytes.find_first_not_of(" \t", line) != at) continue;
+        const size_t begin = bytes.find_first_not_of(" \t", at + kWord.size());
+        const size_t end = std::min(bytes.find('\n', at), bytes.size());
+        if (begin == std::string::npos || begin >= end || begin == at + kWord.size()) continue;
+        const std::string name = bytes.substr(begin, end - begin);
+        return name.substr(0, name.find_last_not_of(" \t\r") + 1);
+    }
+    return {};
+}
+
+/// The name after the first "comment TextureFile" of a PLY file's header.
+std::string ply_texture_name(const std::string& bytes) {
+    constexpr std::string_view kMark = "comment TextureFile ";
+    const size_t at = std::min(bytes.find(kMark), bytes.size());
+    if (at >= std::min(bytes.find("end_header"), bytes.size())) return {};
+    const size_t begin = at + kMark.size(), end = bytes.find_first_of("\r\n", begin);
+    return bytes.substr(begin, end == std::string::npos ? end : end - begin);
+}
+
+}  // namespace
+
+uint32_t append_texture(const fs::path& mesh_file, const std::string& texture_file,
+                        TextureWrap wrap, Mesh& mesh) {
+    const auto file = companion_file(mesh_file, texture_file);
+    if (!file) {
+        mesh.notes.push_back(
+            fmt::format("its texture {} isn't in its folder", quote(texture_file)));
+        return kNoTexture;
+    }
+    try {
+        const Picture picture = read_picture(*file);
+        const uint64_t texels = uint64_t(picture.width) * uint64_t(picture.height);
+        if (first_level_texels(mesh) + texels > kMaxMeshTexels) {
+            mesh.notes.push_back(
+                fmt::format("its texture {} isn't read: all textures of a mesh have at most 2^28 "
+                            "texels",
+                            quote(texture_file)));
+            return kNoTexture;
+        }
+        mesh.textures.push_back(
+            {std::make_shared<const TextureImage>(with_levels(picture)), wrap, wrap});
+        return uint32_t(mesh.textures.size() - 1);
+    } catch (const Error& error) {
+        if (error.kind() != ErrorKind::input) throw;
+        mesh.notes.push_back(fmt::format("its texture isn't read: {}", error.what()));
+        return kNoTexture;
+    }
+}
+
+void read_textures(const fs::path& name, Mesh& mesh) {
+    if (!mesh.texture.empty())
+        read_ply_texture(name, mesh);
+    else if (!mesh.material_library.empty())
+        read_library_textures(name, mesh);
+    if (!mesh.textures.empty()) return;
+    mesh.uvs = {};
+    mesh.triangle_uvs = {};
+    mesh.group_textures = {};
+}
+
+std::vector<fs::path> companion_files(const std::string& bytes, const fs::path& name) {
+    std::vector<fs::path> files;
+    const auto add = [&](const std::string& named) {
+        if (const auto file = companion_file(name, named)) files.push_back(*file);
+    };
+    if (looks_like_ply(bytes)) {
+        const std::string texture = ply_texture_name(bytes);
+        if (!texture.empty()) add(texture);
+    } else if (ending_of(name) == ".obj") {
+        const std::string library = library_name(bytes);
+        files = material_library_files(name, library);
+        for (const MtlMaterial& material : read_material_library(name, library))
+            if (!material.diffuse_map.file.empty()) add(material.diffuse_map.file);
+    }
+    return files;
+}
+
+}  // namespace voxelume

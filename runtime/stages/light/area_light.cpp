@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "runtime/stages/light/area_light.hpp"
+
+#include "runtime/grid/grid_arguments.hpp"
+
+namespace voxelume {
+
+AreaLightStage::AreaLightStage(const Device& device, const Features& features,
+                               const Buffer<MaterialRecord>& materials)
+    : materials_(materials),
+      program_(device, "area_light.cl", features.defines(device)),
+      add_(program_.kernel("add_area_light")) {}
+
+void AreaLightStage::add(const Pyramid& pyramid, const LightRecord& light,
+                         const LightAreaRecord& area, const PathSampling& sampling, uint32_t number,
+                         RayBatch& batch, uint32_t count, ShadowQueue& queue) {
+    if (!queue.count.empty()) queue.count.fill(0);
+    add_.launch_packets(count, pyramid, light, area, sampling, number, materials_, queue, batch,
+                        count);
+}
+
+}  // namespace voxelume

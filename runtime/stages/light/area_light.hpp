@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+// surface points of light paths + a light with an area -> radiance, through a queue of shadow rays.
+#pragma once
+
+#include "kernels/shared/paths.h"
+#include "kernels/shared/scene.h"
+#include "runtime/grid/grid.hpp"
+#include "runtime/opencl/program.hpp"
+#include "runtime/stages/features.hpp"
+#include "runtime/stages/ray_batch.hpp"
+
+namespace voxelume {
+
+/// The kernel of area_light.cl for one feature set: global light of disks and rectangles.
+class AreaLightStage {
+  public:
+    AreaLightStage(const Device& device, const Features& features,
+                   const Buffer<MaterialRecord>& materials);
+
+    /// Adds the light to surface points 0 .. count-1, as LightStage does, but each point sees a
+    /// point of the light of its own. `number` tells lights apart.
+    void add(const Pyramid& pyramid, const LightRecord& light, const LightAreaRecord& area,
+             const PathSampling& sampling, uint32_t number, RayBatch& batch, uint32_t count,
+             ShadowQueue& queue);
+
+  private:
+    Buffer<MaterialRecord> materials_;
+    Program program_;
+    Kernel add_;
+};
+
+}  // namespace voxelume

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "runtime/stages/trace/extend.hpp"
+
+#include "runtime/grid/grid_arguments.hpp"
+
+namespace voxelume {
+
+ExtendStage::ExtendStage(const Device& device, const Features& features, Surroundings surroundings)
+    : surroundings_(std::move(surroundings)),
+      counters_(device, "path counters", kPathCounters),
+      program_(device, "extend.cl", features.defines(device)),
+      extend_(program_.kernel("extend_paths")) {}
+
+uint32_t ExtendStage::paths(const Pyramid& pyramid, const PathSampling& sampling, RayBatch& entries,
+                            uint32_t count, bool is_first, NodeLight& nodes, RayQueue& next) {
+    counters_.fill(0);
+    extend_.launch_packets(count, shape_of(pyramid), surroundings_, pyramid.colors, sampling,
+                           uint32_t(is_first), entries, count, nodes, counters_, next);
+    return counters_.read()[kCountChildren];
+}
+
+}  // namespace voxelume

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// Textures of a mesh on a device, and the level that each triangle's voxels see.
+#pragma once
+
+#include "runtime/stages/voxelize/voxelize_steps.hpp"
+
+namespace voxelume {
+
+// The names of buffers, by which a plan describes them.
+inline constexpr const char* kTexels = "texture texels";
+inline constexpr const char* kTextureWords = "texture words";
+inline constexpr const char* kUvs = "texture places";
+inline constexpr const char* kCornerUvs = "texture corners";
+
+/// Everything empty for a mesh without textures.
+struct DeviceTextures {
+    Buffer<uint32_t> texels;   ///< of all textures and levels
+    Buffer<uint32_t> records;  ///< four a texture; shared/texture.h
+    Buffer<uint32_t> words;    ///< one a triangle; shared/texture.h
+};
+
+/// The level of a texture on which a triangle's texels are closest in size to voxels: the area of
+/// the triangle is `texels` on the first level, and `voxels` squares of the shortest edge.
+uint32_t texture_level(double texels, double voxels, int levels);
+
+/// Throws Error::limit for more texels than a device's buffer holds.
+DeviceTextures upload_textures(const VoxelizeJob& job, const Mesh& mesh);
+
+}  // namespace voxelume

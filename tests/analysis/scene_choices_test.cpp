@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: Apache-2.0
+// What scenes leave to the files of their models: `"surface": "auto"`.
+#include "runtime/analysis/scene_choices.hpp"
+
+#include <gmock/gmock.h>
+
+#include "runtime/assets/voxel_export.hpp"
+#include "runtime/render/renderer.hpp"
+#include "runtime/scene/scene_animation.hpp"
+#include "runtime/scene_file/read_scene.hpp"
+#include "runtime/stages/voxelize/voxelize.hpp"
+#include "tests/oracles/image_hash.hpp"
+#include "tests/support/file_fixture.hpp"
+#include "tests/support/shared_device.hpp"
+#include "tests/support/test_meshes.hpp"
+
+namespace voxelume {
+namespace {
+
+class SceneChoices : public FileTest {
+  protected:
+    void SetUp() override {
+        FileTest::SetUp();
+        write_obj(folder / "ring.obj", wavy_ring(40, 20));
+        write_obj(folder / "box.obj", box({-0.3f, -0.2f, -0.1f}, {0.3f, 0.25f, 0.2f}));
+    }
+
+    Scene scene_of(const std::string& model, const std::string& keys = "",
+                   const std::string& tracks = "") const {
+        const std::string text = fmt::format(R"({{"voxelume": 1,
+"world": {{"voxel_size": 0.02, "bounds": {{"min": [-0.6, -0.5, -0.55], "max": [0.6, 0.5, 0.55]}},
+          "ambient": [0.4, 0.4, 0.4]}},
+"models": {{"m": {{{}}}}},
+"objects": [{{"model": "m"{}}}],
+"animation": {{"frames": 4, "tracks": [{}]}},
+"observer": {{"position": [0.7, 0.9, -2], "look_at": [0, 0, 0],
+             "display": {{"shape": "pyramid", "angle": 40}}}},
+"render": {{"size": [48, 36]}}}})",
+                                             model, keys, tracks);
+        AssetStore files;
+        return parse_scene(text, folder / "test.json", {}, [&](const Model& of, bool is_first) {
+            return files.box_of_file(of, is_first);
+        });
+    }
+
+    /// The model after the choices are made; its surface is `auto` unless `model` says it.
+    Model chosen(std::string model, const std::string& keys = "",
+                 const std::string& tracks = "") const {
+        if (model.find("\"surface\"") == std::string::npos) model += R"(, "surface": "auto")";
+        Scene scene = scene_of(model, keys, tracks);
+        AssetStore meshes;
+        make_choices(scene, meshes);
+        return scene.models[0];
+    }
+
+    void voxelize(const char* name, Surface surface) const {
+        const Mesh mesh = wavy_ring(40, 20);
+        const BrickGrid grid =
+            voxelize_mesh(shared_device(), mesh, glm::dmat4(1),
+                          frame_around(mesh, glm::dvec3(0.02)), {.surface = surface});
+        const VoxelExport voxels(grid, mesh, surface, VoxelSet::supercover);
+        const std::filesystem::path file = folder / name;
+        file.extension() == ".vxm" ? voxels.write_model(file) : voxels.write_vdb(file);
+    }
+};
+
+TEST_F(SceneChoices, GiveMeshesTheSurfaceThatSuitsThem) {
+    EXPECT_EQ(chosen(R"("mesh": "ring.obj")").surface, Surface::smooth);
+    const Model box = chosen(R"("mesh": "box.obj")");
+    EXPECT_EQ(box.surface, Surface::exact);
+    EXPECT_THAT(box.surface_reason, testing::HasSubstr("edges"));
+}
+
+TEST_F(SceneChoices, GiveSolidsTheirExactSurface) {
+    const Scene scene = scene_of(R"("shape": "sphere", "radius": 0.3, "surface": "auto")");
+    EXPECT_EQ(scene.models[0].surface, Surface::exact) << "without reading files";
+    EXPECT_EQ(chosen(R"("shape": "sphere", "radius": 0.3)").surface, Surface::exact);
+}
+
+TEST_F(SceneChoices, LeaveWhatTheSceneSays) {
+    for (const SurfaceKind& kind : kSurfaceKinds)
+        for (const char* model : {R"("mesh": "box.obj")", R"("mesh": "ring.obj")",
+                                  R"("shape": "sphere", "radius": 0.3)"}) {
+            const Model left = chosen(fmt::format(R"({}, "surface": "{}")", model, kind.name));
+            EXPECT_EQ(left.surface, kind.surface) << model;
+            EXPECT_EQ(left.surface_reason, "");
+        }
+}
+
+TEST_F(SceneChoices, MakeACutMeshSmooth) {
+    EXPECT_EQ(chosen(R"("mesh": "box.obj", "cut": [{"shape": "sphere", "radius": 0.2}])").surface,
+              Surface::smooth);
+}
+
+TEST_F(SceneChoices, CountTheLargestVoxelsOfAllObjects) {
+    // The ring's tube is 0.28 thick: 14 voxels, 7 at half the size, and 1.4 at a tenth.
+    EXPECT_EQ(chosen(R"("mesh": "ring.obj")", R"(, "scale": 0.5)").surface, Surface::smooth);
+    EXPECT_EQ(chosen(R"("mesh": "ring.obj")", R"(, "scale": 0.08)").surface, Surface::exact);
+    EXPECT_EQ(chosen(R"("mesh": "ring.obj")", R"(}, {"model": "m", "scale": 0.08)").surface,
+              Surface::exact);
+    EXPECT_EQ(chosen(R"("mesh": "ring.obj", "voxel_size": 0.25)").surface, Surface::exact);
+    EXPECT_EQ(chosen(R"("mesh": "ring.obj", "resolution": 500)").surface, Surface::smooth);
+}
+
+TEST_F(SceneChoices, CountTheSizeThatTheMeshIsGiven) {
+    // The file's longest side is about 1.6.
+    EXPECT_EQ(chosen(R"("mesh": "ring.obj", "unit": "dm")").surface, Surface::exact);
+    EXPECT_EQ(chosen(R"("mesh": "ring.obj", "fit": 0.1)").surface, Surface::exact);
+    EXPECT_EQ(chosen(R"("mesh": "ring.obj", "fit": 1)").surface, Surface::smooth);
+}
+
+TEST_F(SceneChoices, AreKnownToTheCacheWithoutTheMesh) {
+    const ModelCache cache(folder / "cache", 1 << 20, 0);
+    for (const bool is_known : {false, true}) {
+        Scene scene = scene_of(R"("mesh": "box.obj", "surface": "auto")");
+        AssetStore meshes(cache);
+        make_choices(scene, meshes);
+        EXPECT_EQ(scene.models[0].surface, Surface::exact);
+        EXPECT_EQ(meshes.meshes_read(), is_known ? 0u : 1u);
+    }
+}
+
+TEST_F(SceneChoices, GiveFilesOfVoxelsWhatTheyHold) {
+    voxelize("cubes.vxm", Surface::cubes);
+    voxelize("smooth.vxm", Surface::smooth);
+    voxelize("exact.vxm", Surface::exact);
+    EXPECT_EQ(chosen(R"("voxels": "cubes.vxm")").surface, Surface::cubes);
+    EXPECT_EQ(chosen(R"("voxels": "smooth.vxm")").surface, Surface::smooth);
+    EXPECT_EQ(chosen(R"("voxels": "exact.vxm")").surface, Surface::exact);
+    voxelize("smooth.vdb", Surface::smooth);
+    voxelize("cubes.vdb", Surface::cubes);
+    EXPECT_EQ(chosen(R"("voxels": "smooth.vdb")").surface, Surface::smooth);
+    EXPECT_EQ(chosen(R"("voxels": "cubes.vdb")").surface, Surface::cubes);
+    for (const char* file : {"smooth.vxm", "exact.vxm", "smooth.vdb"})
+        EXPECT_GT(chosen(fmt::format(R"("voxels": "{}", "fit": 0.8)", file)).object_from_file.scale,
+                  0.1)
+            << "is measured as what it holds";
+}
+
+TEST_F(SceneChoices, AreTheSameInAllFrames) {
+    const std::string tracks =
+        R"({"target": "objects[0].scale", "keys": [{"frame": 1, "value": 1}, {"frame": 4, "value": 0.02}]})";
+    Scene scene =
+        scene_of(R"("mesh": "ring.obj", "surface": "auto")", R"(, "placement": "world")", tracks);
+    AssetStore meshes;
+    make_choices(scene, meshes);
+    for (int frame = 1; frame <= 4; ++frame)
+        EXPECT_EQ(scene_at(scene, frame).models[0].surface, Surface::smooth) << frame;
+}
+
+TEST_F(SceneChoices, AreMadeBeforeAPictureIs) {
+    const auto hash = [&](const char* surface) {
+        RenderReport report;
+        return oracle::image_hash(render(
+            shared_device(), scene_of(std::string(R"("mesh": "box.obj")") + surface), report));
+    };
+    const uint64_t chosen_hash = hash(R"(, "surface": "auto")");
+    EXPECT_EQ(chosen_hash, hash(R"(, "surface": "exact")"));
+    EXPECT_NE(chosen_hash, hash(R"(, "surface": "smooth")"));
+}
+
+}  // namespace
+}  // namespace voxelume

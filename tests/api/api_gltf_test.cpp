@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+// glTF files in place of scenes: materials, camera and lights of the scene that is made of them.
+#include <gmock/gmock.h>
+
+#include <fstream>
+
+#include "tests/api/api_fixture.hpp"
+#include "tests/support/gltf_writer.hpp"
+
+namespace voxelume::v1 {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+using Json = nlohmann::json;
+
+class ApiGltf : public ApiTest {
+  protected:
+    std::string scene_of(const GltfWriter& writer, const ImportOptions& options = {}) const {
+        std::ofstream(folder / "a.glb", std::ios::binary) << writer.glb();
+        return import_file(folder / "a.glb", folder, options, {.enabled = false});
+    }
+
+    std::string with_material(const Json& material) const {
+        GltfWriter writer = triangle_gltf();
+        writer.json["materials"] = {material};
+        writer.json["materials"][0]["name"] = "m";
+        writer.json["meshes"][0]["primitives"][0]["material"] = 0;
+        return scene_of(writer);
+    }
+};
+
+TEST_F(ApiGltf, EachNodeIsAnObjectOfTheModelOfItsMesh) {
+    GltfWriter writer = triangle_gltf();
+    writer.json["meshes"][0]["name"] = "wedge";
+    writer.json["nodes"] = {{{"mesh", 0}, {"name", "a"}},
+                            {{"mesh", 0}, {"name", "a"}, {"translation", {1, 2, 3}}},
+                            {{"mesh", 0}, {"scale", {1, 0, 1}}}};
+    writer.json["scenes"][0]["nodes"] = {0, 1, 2};
+    const std::string scene = scene_of(writer);
+    EXPECT_THAT(scene,
+                HasSubstr("\"wedge\": {\"mesh\": \"a.glb\", \"part\": 1, \"surface\": \"exact\"}"));
+    EXPECT_THAT(scene, HasSubstr("{\"name\": \"a\", \"model\": \"wedge\"}"));
+    EXPECT_THAT(scene, HasSubstr("\"name\": \"a 2\""));
+    EXPECT_THAT(scene, HasSubstr("\"matrix\": [[1, 0, 0, 1], [0, 1, 0, 2], [0, 0, 1, 3]]"));
+    EXPECT_THAT(scene, Not(HasSubstr("\"name\": \"wedge\""))) << "a flat node can't be placed";
+    const Scene read = scene_of_file(folder / "a.glb");
+    const std::string whole = scene_of(writer, {.fit = 2});
+    EXPECT_THAT(whole, HasSubstr("\"fit\": 2"));
+    EXPECT_THAT(whole, Not(HasSubstr("\"part\"")));
+}
+
+TEST_F(ApiGltf, MaterialsAreOursAsFarAsTheyGo) {
+    EXPECT_THAT(
+        with_material({{"pbrMetallicRoughness",
+                        {{"baseColorFactor", {0.5, 0.25, 1, 0.5}},
+                         {"metallicFactor", 0},
+                         {"roughnessFactor", 0.5}}}}),
+        HasSubstr("\"m\": {\"color\": [0.5, 0.25, 1], \"specular\": 0.1, \"shininess\": 30}"));
+    EXPECT_THAT(with_material({{"pbrMetallicRoughness", {{"roughnessFactor", 0}}}}),
+                HasSubstr("\"diffuse\": 0.5, \"specular\": 0.6, \"shininess\": 1000, "
+                          "\"reflection\": 0.65"));
+    EXPECT_THAT(with_material({{"alphaMode", "BLEND"},
+                               {"pbrMetallicRoughness",
+                                {{"baseColorFactor", {1, 1, 1, 0.25}}, {"metallicFactor", 0}}}}),
+                HasSubstr("\"opacity\": 0.25"));
+    const Json transmission = {{"transmissionFactor", 1}};
+    EXPECT_THAT(with_material({{"extensions", {{"KHR_materials_transmission", transmission}}}}),
+                HasSubstr("\"opacity\": 0.05"));
+    const std::string glass =
+        with_material({{"extensions",
+                        {{"KHR_materials_transmission", transmission},
+                         {"KHR_materials_ior", {{"ior", 1.75}}},
+                         {"KHR_materials_volume",
+                          {{"thicknessFactor", 1},
+                           {"attenuationDistance", 2},
+                           {"attenuationColor", {1, 0.36787944117144233, 0.1353352832366127}}}}}}});
+    EXPECT_THAT(glass, HasSubstr("\"refraction\": 1, \"fresnel\": true, \"ior\": 1.75, "
+                                 "\"absorption\": [0, 0.5, 1]"));
+    EXPECT_THAT(glass, HasSubstr("\"shadow\": \"filtered\""));
+    const Json strength = {{"KHR_materials_emissive_strength", {{"emissiveStrength", 8}}}};
+    EXPECT_THAT(with_material({{"emissiveFactor", {1, 0.5, 0}}, {"extensions", strength}}),
+                HasSubstr("\"emission\": [8, 4, 0]"));
+}
+
+TEST_F(ApiGltf, TheFilesCameraAndLightsGoBeforeThoseOfAStudio) {
+    GltfWriter writer = triangle_gltf();
+    writer.json["cameras"] = {
+        {{"type", "perspective"}, {"perspective", {{"yfov", 0.6}, {"znear", 1}}}}};
+    writer.json["extensions"]["KHR_lights_punctual"]["lights"] = {
+        {{"type", "directional"}, {"intensity", 3}}, {{"type", "point"}, {"intensity", 0}}};
+    writer.json["nodes"].push_back({{"camera", 0}, {"translation", {3, 2, 20}}});
+    for (const int light : {0, 1})
+        writer.json["nodes"].push_back(
+            {{"name", "sol"}, {"extensions", {{"KHR_lights_punctual", {{"light", light}}}}}});
+    writer.json["scenes"][0]["nodes"] = {0, 1, 2, 3};
+    const std::string scene = scene_of(writer, {.size = {400, 400}});
+    EXPECT_THAT(scene,
+                HasSubstr("\"observer\": {\"position\": [3, 2, 20], \"look_at\": [3, 2, 10], "
+                          "\"up\": [0, 1, 0]"));
+    EXPECT_THAT(scene, HasSubstr("\"angle\": 34.377468"));  // 0.6 rad of a square picture
+    EXPECT_THAT(scene,
+                HasSubstr("{\"name\": \"sol\", \"type\": \"directional\", \"direction\": [0, 0, "
+                          "-1], \"intensity\": 1}"));
+    EXPECT_THAT(scene, Not(HasSubstr("sun")));
+    EXPECT_THAT(scene_of(writer, {.own_camera = false}), Not(HasSubstr("[3, 2, 20]")));
+    EXPECT_NO_THROW(scene_of_file(folder / "a.glb"));
+}
+
+}  // namespace
+}  // namespace voxelume::v1
