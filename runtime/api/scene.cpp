@@ -118,7 +118,7 @@ Scene Scene::with_light(LightMode light) const {
         voxelume::Scene scene = api::inside(*this);
         scene.render.light =
             light == LightMode::global ? voxelume::LightMode::global : voxelume::LightMode::local;
-        return api::handle_of(std::move(scene), implementation().read);
+        return api::handle_of(std::move(scene), implementation().hash, implementation().read);
     });
 }
 
